@@ -1,0 +1,17 @@
+#pragma once
+#include <stdexcept>
+#include <string>
+
+namespace starbow {
+
+/// Something that the user can mend: a file or an argument is wrong, a package is missing. what() is the one line
+/// that the program prints before it exits with 2: where, what is wrong, what would be right.
+struct InputError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+    InputError(const std::string& file, const std::string& place, const std::string& problem)
+        : std::runtime_error(file + (place.empty() ? "" : ": " + place) + ": " + problem)
+    {
+    }
+};
+
+} // namespace starbow

@@ -1,0 +1,48 @@
+#pragma once
+#include "shot.h"
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace starbow {
+
+/// Light from one side, everywhere the same. `towards` points from the world to the light, unit length.
+struct DirectionalLight {
+    glm::dvec3 towards;
+    glm::dvec3 radiance; ///< Rec. 709 linear; a white surface facing it gets this colour
+};
+
+/// Light from a place; a white surface facing it at `distance` (scene units) gets the colour `radiance`, falling as 1/r^2.
+struct PointLight {
+    glm::dvec3 position;
+    double distance;
+    glm::dvec3 radiance;
+};
+
+using Light = std::variant<DirectionalLight, PointLight>;
+
+/// The sky behind everything: a colour at the zenith (+y), at the horizon and at the nadir, blended smoothly between.
+struct Sky {
+    glm::dvec3 zenith{0}, horizon{0}, nadir{0}; ///< Rec. 709 linear
+};
+
+struct SceneFile {
+    std::string name;
+    std::filesystem::path gltf;
+    double unit_m = 299792458;          ///< one scene unit in metres
+    double light_speed_m_s = 299792458; ///< real, or slow as in Gamow's tales
+    Sky sky;
+    glm::dvec3 ambient{0}; ///< Rec. 709 linear, what a white surface gives back without any light
+    std::vector<Light> lights;
+    Shot start; ///< where a visitor starts; its `scene` is this file's name
+
+    /// Scene times (unit / c) to seconds.
+    double seconds_per_time_unit() const { return unit_m / light_speed_m_s; }
+};
+
+/// Reads and checks a scene file; the glTF it names is not opened here. Throws InputError.
+SceneFile load_scene_file(const std::filesystem::path& file);
+
+} // namespace starbow

@@ -1,0 +1,22 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace starbow {
+
+/// Writes RGBA8 rows from the top as PNG, alpha dropped. Written beside and renamed: a failure leaves no half file.
+/// Throws InputError where the place can't be written.
+void write_png(const std::filesystem::path& file, glm::ivec2 size, const std::vector<std::uint8_t>& rgba);
+
+/// Named planes of 32-bit floats, rows from the top; any order.
+using Channels = std::vector<std::pair<std::string, std::vector<float>>>;
+void write_exr(const std::filesystem::path& file, glm::ivec2 size, const Channels& channels);
+
+/// Reads such a file back (for tests and tools). Throws InputError.
+std::pair<glm::ivec2, Channels> read_exr(const std::filesystem::path& file);
+
+} // namespace starbow

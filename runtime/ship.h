@@ -1,0 +1,39 @@
+#pragma once
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace starbow {
+
+/// A sum that keeps what rounding would lose (Neumaier), so that a month of frames adds up like one long step.
+struct Sum {
+    double value = 0, carry = 0;
+    void add(double x);
+    double total() const { return value + carry; }
+};
+struct Sum3 {
+    Sum x, y, z;
+    Sum3() = default;
+    explicit Sum3(const glm::dvec3& v) { x.value = v.x, y.value = v.y, z.value = v.z; }
+    void add(const glm::dvec3& v);
+    glm::dvec3 total() const { return {x.total(), y.total(), z.total()}; }
+};
+
+/// The traveller's state. Scene units, c = 1; times in unit / c.
+struct Ship {
+    Sum3 position;                               ///< world frame
+    Sum time;                                    ///< world time
+    Sum3 u;                                      ///< proper velocity, gamma beta, world frame
+    glm::dquat ship_from_cockpit{1, 0, 0, 0};    ///< cockpit axes in the ship frame: the world's axes carried by the pure boost
+    Sum proper_time;                             ///< on board, since the start
+    Sum distance;                                ///< flown in the world, since the start
+};
+
+/// One step of proper time dtau (>= 0) under a proper acceleration that is constant in the ship (cockpit axes, rapidity per
+/// unit of proper time), followed by a turn of `turn` (rotation vector, radians, cockpit axes). Closed form in dtau: any
+/// cutting into steps gives the same flight. The cockpit is carried along by the boost (Thomas-Wigner).
+Ship fly(Ship ship, const glm::dvec3& acceleration, const glm::dvec3& turn, double dtau);
+
+/// At rest in the world at once, where and when it is; cockpit axes among the ship's axes stay.
+Ship stopped(Ship ship);
+
+} // namespace starbow

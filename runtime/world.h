@@ -1,0 +1,71 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+namespace starbow {
+
+/// What the device draws, as plain arrays. Everything is at rest in the world's frame, lengths in scene units.
+struct Vertex {
+    glm::vec3 position;
+    glm::vec3 normal; ///< unit
+    glm::vec2 uv;
+    std::uint32_t colour; ///< RGBA8, linear, red in the low byte
+};
+static_assert(sizeof(Vertex) == 36);
+
+enum class Wrap { repeat, mirror, clamp };
+struct Sampler {
+    Wrap u = Wrap::repeat, v = Wrap::repeat;
+    bool magnify_linear = true, minify_linear = true, mipmaps = true, mip_linear = true;
+    bool operator==(const Sampler&) const = default;
+};
+
+/// sRGB-encoded colours with linear alpha, rows from the top.
+struct Texture {
+    glm::ivec2 size;
+    std::vector<std::uint8_t> rgba;
+    Sampler sampler;
+};
+
+struct Material {
+    std::string name;
+    glm::vec4 base_colour{1}; ///< Rec. 709 linear, alpha
+    glm::vec3 emissive{0};    ///< Rec. 709 linear radiance
+    int base_texture = -1, emissive_texture = -1;
+    float alpha_cutoff = 0; ///< above 0: a masked material; what is below is not there
+    bool double_sided = false;
+    bool unlit = false; ///< KHR_materials_unlit: the base colour is the radiance
+};
+
+/// A run of triangles (always a list) with one material and a bounding sphere in its own frame.
+struct Primitive {
+    std::uint32_t first_index, index_count;
+    std::int32_t vertex_offset;
+    int material;
+    glm::dvec3 centre;
+    double radius;
+};
+
+struct Instance {
+    glm::dmat4 world_from_local;
+    std::uint32_t primitive;
+};
+
+struct World {
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices;
+    std::vector<Texture> textures;
+    std::vector<Material> materials; ///< never empty: glTF's default material stands in where none is named
+    std::vector<Primitive> primitives;
+    std::vector<Instance> instances;
+    std::vector<std::string> notes; ///< optional things in the file that are not supported, each once
+};
+
+/// Reads glTF 2.0 (.glb or .gltf). Reads nothing outside the file's own folder. Throws InputError in one line for whatever
+/// is broken, required but unsupported, or absurdly large.
+World load_world(const std::filesystem::path& file);
+
+} // namespace starbow

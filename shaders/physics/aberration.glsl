@@ -1,0 +1,52 @@
+// Aberration and the Doppler factor of one line of sight, in axes whose z is the direction of motion.
+// n: unit direction from the observer towards the source. D = f_camera / f_world, above 1 is blue.
+
+struct Sight {
+    rvec3 n; // unit direction towards the source in the other frame
+    real D;  // Doppler factor
+};
+
+// cos^2 (x) and sin^2 (y) of half the angle between n and the z axis, each without cancellation.
+FN rvec2 half_angle_squares(rvec3 n)
+{
+    real across = n.x * n.x + n.y * n.y;
+    real large = real(0.5) * (real(1.0) + abs(n.z));
+    real small = real(0.25) * across / large;
+    return n.z >= real(0.0) ? rvec2(large, small) : rvec2(small, large);
+}
+
+// What the camera's direction n shows: the world's direction and D. E = e^rapidity >= 1 and inverse_E = 1/E.
+// tan(theta_w / 2) = E tan(theta_c / 2), written in the half angles' squares: no acos, no gamma, and the result
+// is unit by construction. At rest (E = 1) it is the identity to the bit.
+FN Sight world_from_camera(rvec3 n, real E, real inverse_E)
+{
+    Sight sight;
+    sight.n = n;
+    sight.D = real(1.0);
+    if (E != real(1.0)) {
+        rvec2 h = half_angle_squares(n);
+        real A = h.x * inverse_E;
+        real B = h.y * E;
+        sight.D = real(1.0) / (A + B);
+        sight.n = rvec3(n.x * sight.D, n.y * sight.D, (A - B) * sight.D);
+    }
+    return sight;
+}
+
+// Where the camera sees what lies at the world's direction n: the same formula with E and 1/E exchanged.
+FN Sight camera_from_world(rvec3 n, real E, real inverse_E)
+{
+    Sight sight = world_from_camera(n, inverse_E, E);
+    if (E != real(1.0)) {
+        rvec2 h = half_angle_squares(n);
+        sight.D = h.x * E + h.y * inverse_E;
+    }
+    return sight;
+}
+
+// Cosine of the camera's angle from the motion at which nothing is shifted (D = 1): (gamma - 1) / (gamma beta),
+// the paper's theta_0, which is tanh(rapidity / 2). 90 degrees in the limit of rest.
+FN real unshifted_cosine(real E) { return (E - real(1.0)) / (E + real(1.0)); }
+
+// The headlight effect of the paper: photon radiance, and spectral radiance per frequency, grow as D^3.
+FN real headlight(real D) { return D * D * D; }

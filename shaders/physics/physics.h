@@ -1,0 +1,32 @@
+#pragma once
+// The formulas of this folder compiled as C++: once as float (what a shader computes), once as double (what is true).
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#define FN inline
+namespace starbow::physics_double {
+using namespace glm;
+using real = double;
+using rvec2 = glm::dvec2;
+using rvec3 = glm::dvec3;
+using rvec4 = glm::dvec4;
+#include "boost.glsl"
+#include "aberration.glsl"
+#include "motion.glsl"
+} // namespace starbow::physics_double
+
+namespace starbow::physics_float {
+using namespace glm;
+using real = float;
+using rvec2 = glm::vec2;
+using rvec3 = glm::vec3;
+using rvec4 = glm::vec4;
+#include "boost.glsl"
+#include "aberration.glsl"
+#include "motion.glsl"
+} // namespace starbow::physics_float
+#undef FN
+
+namespace starbow {
+namespace physics = physics_double;
+}
