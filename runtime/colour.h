@@ -1,0 +1,21 @@
+#pragma once
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace starbow {
+
+/// CIE 1931 2-degree colour matching functions at a wavelength in nm. From the analytic fit of Wyman, Sloan and Shirley,
+/// "Simple Analytic Approximations to the CIE XYZ Color Matching Functions", JCGT 2 (2013).
+glm::dvec3 xyz_response(double wavelength_nm);
+
+/// CIE XYZ to linear Rec. 709 primaries with a D65 white.
+glm::dvec3 rec709_linear_from_xyz(const glm::dvec3& xyz);
+
+/// Spectral radiance of a black body per wavelength, up to a constant: Planck's law. nm, K.
+double planck(double wavelength_nm, double temperature_K);
+
+/// The table of seen.glsl's doppler_shifted: per step of log2 D (-COLOUR_RANGE to COLOUR_RANGE) three rows, whose x, y, z take
+/// the chromatic part of a colour and w the achromatic one. Shift alone: L'(l) = D^2 L(D l) per wavelength l.
+std::vector<glm::vec4> doppler_table();
+
+} // namespace starbow

@@ -1,0 +1,53 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+#include <vulkan/vulkan_raii.hpp>
+
+namespace starbow {
+
+/// The instance, one device and its one queue. Everything else of Vulkan hangs below it.
+class Device {
+public:
+    struct Options {
+        bool windows = false;     ///< ask GLFW which instance extensions its windows need, and for swapchains
+        bool validation = false;  ///< the validation layers, synchronization included; see complaints()
+        std::string name;         ///< part of a GPU's name, empty: the fastest kind there is
+    };
+
+    /// Throws InputError where there is no Vulkan, no device, or none with what is needed: says what to install.
+    explicit Device(const Options& options);
+
+    vk::raii::Context context;
+    std::vector<std::string> complaints; ///< what the validation layers said so far
+    vk::raii::Instance instance = nullptr;
+    vk::raii::DebugUtilsMessengerEXT messenger = nullptr;
+    vk::raii::PhysicalDevice physical = nullptr;
+    vk::raii::Device device = nullptr;
+    std::uint32_t family = 0;
+    vk::raii::Queue queue = nullptr;
+    vk::raii::CommandPool pool = nullptr;
+    vk::raii::PipelineCache cache = nullptr;
+    vk::PhysicalDeviceProperties properties;
+    vk::PhysicalDeviceMemoryProperties memory;
+
+    bool on_processor() const { return properties.deviceType == vk::PhysicalDeviceType::eCpu; }
+
+    /// Records, submits and waits: for loading, measuring and stills.
+    template <class Record> void now(Record&& record)
+    {
+        vk::raii::CommandBuffer commands = begin();
+        record(*commands);
+        finish(commands);
+    }
+
+private:
+    vk::raii::CommandBuffer begin();
+    void finish(vk::raii::CommandBuffer& commands);
+};
+
+/// The GPUs that Vulkan shows, by name: for messages.
+std::vector<std::string> device_names(const vk::raii::Instance& instance);
+
+} // namespace starbow

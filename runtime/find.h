@@ -1,0 +1,15 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace starbow {
+
+/// The folder that holds config/ and scenes/: the nearest above the program, or else above the current folder.
+/// Throws InputError.
+std::filesystem::path home();
+
+/// A config file by path, or by the name of a shipped one: find("layouts", "dome") is config/layouts/dome.json.
+/// Throws InputError that lists the shipped names.
+std::filesystem::path find(const std::string& kind, const std::string& name);
+
+} // namespace starbow

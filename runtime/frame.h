@@ -1,0 +1,120 @@
+#pragma once
+#include "config/layout.h"
+#include "cull.h"
+#include "gpu_world.h"
+#include "hud.h"
+#include "plan.h"
+#include <optional>
+
+namespace starbow {
+
+/// A picture that a frame is drawn into: a swapchain's image or one of our own. In eColorAttachmentOptimal during the frame.
+struct Target {
+    vk::Image image;
+    vk::ImageView view;
+    vk::Extent2D extent;
+    vk::Format format;
+};
+
+/// The three pictures of numbers that `measure` fills instead: light and depth, camera and D, world.
+struct MeasureTarget {
+    Image light_and_depth, camera, world;
+};
+
+/// Draws a layout's outputs for a shot. Holds the device's memory that frames share; no frame depends on an earlier one.
+/// One frame at a time: the caller waits for the device before the next prepare().
+class Frame {
+public:
+    Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality,
+        bool keeps_depth = false);
+
+    /// The size in pixels of an output, when it is not the layout's.
+    void resize(std::size_t output, glm::ivec2 size);
+
+    /// All that the processor does for a frame: eyes, plans, culling, uploads.
+    void prepare(const Shot& shot, const Panel* hud);
+
+    /// All that the device does, in order: for each eye the images of its plan; for each output its viewports, then the
+    /// head-up display. targets: one for each output.
+    void record(vk::CommandBuffer commands, std::span<const Target> targets);
+
+    /// The same for one output with numbers instead of a picture.
+    void record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target);
+
+    // The stages of record(), one by one, for those who time them.
+    void draw_cubes(vk::CommandBuffer commands);
+    void warp_output(vk::CommandBuffer commands, std::size_t output, const Target& target);
+    void draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& target);
+
+    /// The first viewport of the first output drawn straight in perspective, without relativity, into the target: what any
+    /// other program would do. For comparison.
+    void prepare_plain(const Shot& shot);
+    void draw_plain(vk::CommandBuffer commands, const Target& target);
+
+    /// What the head-up display's panel would need across to be sharp in the finest viewport, pixels.
+    int hud_width() const;
+    const std::vector<Plan>& plans() const { return plans_; }
+    const Quality& quality() const { return quality_; }
+    std::size_t triangles() const { return triangles_; } ///< sent to the device for the last frame, all images
+    vk::DeviceSize memory() const;                       ///< of the images this object holds
+
+    Quality quality_;
+
+private:
+    /// What the cube pass of one eye needs on the device.
+    struct Eye {
+        glm::dvec3 offset_m;
+        Buffer constants, instances, visible, slots;
+        Image atlas, depth, atlas_samples, depth_samples;
+        vk::raii::DescriptorSet set = nullptr;
+        DrawList list;
+    };
+    struct ViewState {
+        std::size_t output, eye;
+        glm::ivec2 corner, size; ///< pixels in the output
+        Projection projection;
+        Image map; ///< of directions; empty for planar views
+        glm::dmat3 cockpit_from_pixel{1};
+        vk::raii::DescriptorSet warp_set = nullptr, hud_set = nullptr;
+        glm::dmat3 motion_from_cockpit{1};
+        vk::Rect2D hud_box;
+        bool planar() const { return !*map.view; }
+    };
+
+    void fit(Eye& eye, glm::ivec2 atlas_size, int levels);
+    void fit_buffer(Buffer& buffer, vk::DeviceSize size, vk::BufferUsageFlags usage);
+    void place_view(ViewState& view, glm::ivec2 output_size);
+    void write_sets();
+    void upload_eye(Eye& eye, const Shot& shot, const glm::dmat3& motion_from_world, const glm::dvec3& place);
+    void draw_images(vk::CommandBuffer commands, const Eye& eye, std::span<const PlanImage> images, const TargetKind& kind);
+    void draw_eye(vk::CommandBuffer commands, Eye& eye, const Plan& plan);
+    void make_mips(vk::CommandBuffer commands, Eye& eye, const Plan& plan);
+    void warp_view(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline);
+    WarpVariant variant(const ViewState& view) const;
+    shared::ViewPush push(const ViewState& view, const glm::dmat3& axes_from_cockpit) const;
+
+    Device& device_;
+    Pipelines& pipelines_;
+    const GpuWorld& world_;
+    Layout layout_;
+    bool keeps_depth_;
+    vk::raii::DescriptorPool pool_ = nullptr;
+    vk::raii::Sampler linear_ = nullptr, nearest_ = nullptr;
+    Buffer colours_;
+    Image nothing_; ///< stands in for a map that a planar view has not
+    std::vector<Eye> eyes_;
+    std::vector<ViewState> views_;
+    std::vector<Plan> plans_;
+    Shot shot_;
+    double E_ = 1;
+    bool sky_;
+    Image panel_, plain_depth_;
+    Buffer panel_pixels_;
+    bool panel_new_ = false, hud_on_ = false;
+    glm::dvec2 panel_half_{1};
+    std::optional<PlanImage> plain_;
+    std::size_t triangles_ = 0;
+    std::vector<glm::ivec2> sizes_;
+};
+
+} // namespace starbow

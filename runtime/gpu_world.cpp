@@ -1,0 +1,88 @@
+#include "gpu_world.h"
+#include "cull.h"
+#include <algorithm>
+
+namespace starbow {
+namespace {
+
+vk::raii::Sampler make_sampler(const Device& device, const Sampler& s)
+{
+    auto wrap = [](Wrap w) {
+        return w == Wrap::repeat ? vk::SamplerAddressMode::eRepeat
+            : w == Wrap::mirror  ? vk::SamplerAddressMode::eMirroredRepeat
+                                 : vk::SamplerAddressMode::eClampToEdge;
+    };
+    auto filter = [](bool linear) { return linear ? vk::Filter::eLinear : vk::Filter::eNearest; };
+    vk::SamplerCreateInfo info({}, filter(s.magnify_linear), filter(s.minify_linear),
+        s.mip_linear ? vk::SamplerMipmapMode::eLinear : vk::SamplerMipmapMode::eNearest, wrap(s.u), wrap(s.v),
+        vk::SamplerAddressMode::eRepeat);
+    info.maxLod = s.mipmaps ? VK_LOD_CLAMP_NONE : 0;
+    // Surfaces stand at every angle to the eye; software pays too much for it.
+    if (s.mipmaps && s.mip_linear && !device.on_processor() && device.physical.getFeatures().samplerAnisotropy) {
+        info.anisotropyEnable = true;
+        info.maxAnisotropy = std::min(8.0f, device.properties.limits.maxSamplerAnisotropy);
+    }
+    return device.device.createSampler(info);
+}
+
+/// The greatest radiance that a surface of this world can send, before any lamp comes closer than its distance.
+double brightest(const World& world, const SceneFile& scene)
+{
+    auto peak = [](const glm::dvec3& c) { return std::max({c.x, c.y, c.z}); };
+    double light = peak(scene.ambient);
+    for (const Light& lamp : scene.lights)
+        light += std::visit([&](const auto& l) { return peak(l.radiance); }, lamp);
+    double most = std::max({light, peak(scene.sky.zenith), peak(scene.sky.horizon), peak(scene.sky.nadir)});
+    for (const Material& material : world.materials)
+        most = std::max(most, peak(glm::dvec3(material.emissive)) + peak(glm::dvec3(material.base_colour)) * std::max(light, 1.0));
+    return most;
+}
+
+} // namespace
+
+SurfaceVariant GpuWorld::variant(int material) const
+{
+    const Material& m = world.materials[material];
+    return {m.base_texture >= 0, m.emissive_texture >= 0, m.alpha_cutoff > 0, m.unlit, m.unlit ? 0 : int(scene.lights.size())};
+}
+
+GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const SceneFile& scene)
+{
+    GpuWorld gpu;
+    sort_instances(world);
+    gpu.scene = scene;
+    gpu.pre_exposure = std::min(1.0, 16384 / std::max(brightest(world, scene), 1e-30));
+    gpu.vertices = make_static_buffer(device, std::as_bytes(std::span(world.vertices)), vk::BufferUsageFlagBits::eVertexBuffer);
+    gpu.indices = make_static_buffer(device, std::as_bytes(std::span(world.indices)), vk::BufferUsageFlagBits::eIndexBuffer);
+    const std::uint32_t white = 0xffffffff;
+    gpu.white = make_texture(device, vk::Format::eR8G8B8A8Unorm, {1, 1}, std::as_bytes(std::span(&white, 1)), false);
+    gpu.samplers.push_back(make_sampler(device, {}));
+    for (const Texture& texture : world.textures) {
+        gpu.textures.push_back(make_texture(
+            device, vk::Format::eR8G8B8A8Srgb, texture.size, std::as_bytes(std::span(texture.rgba)), texture.sampler.mipmaps));
+        gpu.samplers.push_back(make_sampler(device, texture.sampler));
+    }
+    auto count = std::uint32_t(world.materials.size());
+    vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 2 * count);
+    gpu.pool = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, size});
+    std::vector<vk::DescriptorSetLayout> layouts(count, *pipelines.material_set);
+    gpu.materials = device.device.allocateDescriptorSets({*gpu.pool, layouts});
+    for (std::uint32_t i = 0; i < count; ++i) {
+        auto picture = [&](int texture) {
+            return vk::DescriptorImageInfo(*gpu.samplers[texture + 1], *(texture < 0 ? gpu.white : gpu.textures[texture]).view,
+                vk::ImageLayout::eShaderReadOnlyOptimal);
+        };
+        vk::DescriptorImageInfo base = picture(world.materials[i].base_texture), emissive = picture(world.materials[i].emissive_texture);
+        device.device.updateDescriptorSets(
+            {vk::WriteDescriptorSet(*gpu.materials[i], 0, 0, vk::DescriptorType::eCombinedImageSampler, base),
+                vk::WriteDescriptorSet(*gpu.materials[i], 1, 0, vk::DescriptorType::eCombinedImageSampler, emissive)},
+            {});
+    }
+    world.vertices = {}, world.indices = {};
+    for (Texture& texture : world.textures)
+        texture.rgba = {};
+    gpu.world = std::move(world);
+    return gpu;
+}
+
+} // namespace starbow

@@ -1,0 +1,49 @@
+#pragma once
+#include "config/shot.h"
+#include "ship.h"
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace starbow {
+
+/// A picture of text: two bytes per pixel, how much letter and how much plate, rows from the top.
+struct Panel {
+    glm::ivec2 size{0};
+    std::vector<std::uint8_t> texels;
+};
+
+/// Height of the panel over its width.
+constexpr double panel_aspect = 0.2;
+
+/// What the head-up display tells.
+struct Readings {
+    double beta_deficit; ///< 1 - v/c, without cancellation
+    double gamma, doppler_ahead;
+    double ship_s, world_s, distance_m;
+    double light_speed_m_s;
+    double frames_per_s;
+    Effects effects;
+    std::string notice; ///< one line for the visitor, or empty
+};
+Readings readings(const Ship& ship, double seconds_per_time_unit, double unit_m, const Effects& effects);
+
+/// The lines as text, for the log and for tests: label and value in turn.
+std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& readings);
+
+/// The display's letters (DejaVu Sans), ready to draw.
+class Typesetter {
+public:
+    /// Throws InputError if the font is not installed.
+    Typesetter();
+    ~Typesetter();
+    Panel draw(const Readings& readings, int width) const;
+
+private:
+    struct Font;
+    std::unique_ptr<Font> font_;
+};
+
+} // namespace starbow

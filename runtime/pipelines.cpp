@@ -1,0 +1,177 @@
+#include "pipelines.h"
+#include "runtime/shared.h"
+#include "runtime/world.h"
+#include "spirv/cube_frag.h"
+#include "spirv/cube_vert.h"
+#include "spirv/hud_frag.h"
+#include "spirv/lookup_frag.h"
+#include "spirv/measure_frag.h"
+#include "spirv/screen_vert.h"
+#include "spirv/sky_frag.h"
+#include "spirv/sky_vert.h"
+#include "spirv/warp_frag.h"
+#include <cstddef>
+
+namespace starbow {
+namespace {
+
+using Words = std::span<const std::uint32_t>;
+
+struct Pass {
+    Words vertex, fragment;
+    vk::PipelineLayout layout;
+    std::vector<vk::Format> targets;
+    std::vector<std::uint32_t> constants; ///< constant_id = index, fragment stage
+    bool depth = false, vertices = false, blend = false;
+    vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
+};
+
+vk::raii::Pipeline make_pipeline(const Device& device, const Pass& pass)
+{
+    auto module = [&](Words words) { return device.device.createShaderModule({{}, words.size_bytes(), words.data()}); };
+    vk::raii::ShaderModule vertex = module(pass.vertex), fragment = module(pass.fragment);
+    std::vector<vk::SpecializationMapEntry> entries;
+    for (std::uint32_t i = 0; i < pass.constants.size(); ++i)
+        entries.push_back({i, i * 4, 4});
+    vk::SpecializationInfo constants(
+        std::uint32_t(entries.size()), entries.data(), pass.constants.size() * 4, pass.constants.data());
+    vk::PipelineShaderStageCreateInfo stages[] = {{{}, vk::ShaderStageFlagBits::eVertex, *vertex, "main"},
+        {{}, vk::ShaderStageFlagBits::eFragment, *fragment, "main", &constants}};
+
+    vk::VertexInputBindingDescription binding(0, sizeof(Vertex));
+    vk::VertexInputAttributeDescription attributes[] = {{0, 0, vk::Format::eR32G32B32Sfloat, offsetof(Vertex, position)},
+        {1, 0, vk::Format::eR32G32B32Sfloat, offsetof(Vertex, normal)}, {2, 0, vk::Format::eR32G32Sfloat, offsetof(Vertex, uv)},
+        {3, 0, vk::Format::eR8G8B8A8Unorm, offsetof(Vertex, colour)}};
+    vk::PipelineVertexInputStateCreateInfo vertices;
+    if (pass.vertices)
+        vertices = vk::PipelineVertexInputStateCreateInfo({}, binding, attributes);
+
+    vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
+    vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
+    vk::PipelineRasterizationStateCreateInfo raster;
+    raster.lineWidth = 1;
+    vk::PipelineMultisampleStateCreateInfo samples({}, pass.samples);
+    vk::PipelineDepthStencilStateCreateInfo depth;
+    depth.depthTestEnable = pass.depth;
+    depth.depthWriteEnable = pass.depth && pass.vertices;
+    depth.depthCompareOp = vk::CompareOp::eGreaterOrEqual;
+    vk::PipelineColorBlendAttachmentState blend;
+    blend.colorWriteMask = vk::FlagTraits<vk::ColorComponentFlagBits>::allFlags;
+    if (pass.blend) {
+        blend.blendEnable = true;
+        blend.srcColorBlendFactor = blend.srcAlphaBlendFactor = vk::BlendFactor::eOne;
+        blend.dstColorBlendFactor = blend.dstAlphaBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha;
+    }
+    std::vector<vk::PipelineColorBlendAttachmentState> blends(pass.targets.size(), blend);
+    vk::PipelineColorBlendStateCreateInfo blending({}, false, {}, blends);
+    std::vector<vk::DynamicState> dynamic = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
+    if (pass.vertices)
+        dynamic.insert(dynamic.end(), {vk::DynamicState::eCullMode, vk::DynamicState::eFrontFace});
+    vk::PipelineDynamicStateCreateInfo dynamics({}, dynamic);
+    vk::PipelineRenderingCreateInfo rendering(
+        0, pass.targets, pass.depth ? depth_format : vk::Format::eUndefined, vk::Format::eUndefined);
+    vk::GraphicsPipelineCreateInfo info({}, stages, &vertices, &assembly, nullptr, &viewport, &raster, &samples, &depth, &blending,
+        &dynamics, pass.layout);
+    info.pNext = &rendering;
+    return device.device.createGraphicsPipeline(device.cache, info);
+}
+
+vk::raii::DescriptorSetLayout make_set_layout(
+    const Device& device, vk::ShaderStageFlags stages, std::initializer_list<vk::DescriptorType> types)
+{
+    std::vector<vk::DescriptorSetLayoutBinding> bindings;
+    for (vk::DescriptorType type : types)
+        bindings.push_back({std::uint32_t(bindings.size()), type, 1, stages});
+    return device.device.createDescriptorSetLayout({{}, bindings});
+}
+
+vk::raii::PipelineLayout make_layout(const Device& device, std::initializer_list<vk::DescriptorSetLayout> sets,
+    vk::ShaderStageFlags stages, std::uint32_t push_bytes)
+{
+    vk::PushConstantRange push(stages, 0, push_bytes);
+    return device.device.createPipelineLayout({{}, sets, push});
+}
+
+std::vector<std::uint32_t> constants(const WarpVariant& v) { return {v.map, v.aberration, v.doppler, v.headlight, v.mips}; }
+
+/// The pipeline of a key, made by `make` if it is new.
+template <class Key, class Make> vk::Pipeline find(std::map<Key, vk::raii::Pipeline>& made, const Key& key, Make&& make)
+{
+    auto at = made.find(key);
+    if (at == made.end())
+        at = made.emplace(key, make()).first;
+    return *at->second;
+}
+
+} // namespace
+
+Pipelines::Pipelines(Device& device)
+    : device_(device)
+{
+    using Type = vk::DescriptorType;
+    constexpr auto fragment = vk::ShaderStageFlagBits::eFragment;
+    constexpr auto both = fragment | vk::ShaderStageFlagBits::eVertex;
+    constexpr Type picture = Type::eCombinedImageSampler;
+    eye_set = make_set_layout(device, both, {Type::eUniformBuffer, Type::eStorageBuffer, Type::eStorageBuffer});
+    material_set = make_set_layout(device, fragment, {picture, picture});
+    warp_set = make_set_layout(device, fragment, {picture, picture, Type::eUniformBuffer, Type::eUniformBuffer, picture});
+    picture_set = make_set_layout(device, fragment, {picture, picture});
+    surface_layout = make_layout(device, {*eye_set, *material_set}, both, sizeof(shared::CubePush));
+    warp_layout = make_layout(device, {*warp_set}, fragment, sizeof(shared::ViewPush));
+    picture_layout = make_layout(device, {*picture_set}, fragment, sizeof(shared::ViewPush));
+}
+
+vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& target)
+{
+    return find(surfaces_, std::pair(v, target), [&] {
+        return make_pipeline(device_,
+            {.vertex = cube_vert, .fragment = cube_frag, .layout = *surface_layout, .targets = {target.colour},
+                .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights)}, .depth = true,
+                .vertices = true, .samples = target.samples});
+    });
+}
+
+vk::Pipeline Pipelines::sky(const TargetKind& target)
+{
+    return find(skies_, target, [&] {
+        return make_pipeline(device_,
+            {.vertex = sky_vert, .fragment = sky_frag, .layout = *surface_layout, .targets = {target.colour}, .depth = true,
+                .samples = target.samples});
+    });
+}
+
+vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
+{
+    return find(warps_, std::pair(v, target), [&] {
+        return make_pipeline(device_,
+            {.vertex = screen_vert, .fragment = warp_frag, .layout = *warp_layout, .targets = {target}, .constants = constants(v)});
+    });
+}
+
+vk::Pipeline Pipelines::measure(const WarpVariant& v)
+{
+    return find(measures_, v, [&] {
+        return make_pipeline(device_,
+            {.vertex = screen_vert, .fragment = measure_frag, .layout = *warp_layout,
+                .targets = {exact_format, exact_format, exact_format}, .constants = constants(v)});
+    });
+}
+
+vk::Pipeline Pipelines::hud(bool map, vk::Format target)
+{
+    return find(huds_, std::pair(map, target), [&] {
+        return make_pipeline(device_,
+            {.vertex = screen_vert, .fragment = hud_frag, .layout = *picture_layout, .targets = {target}, .constants = {map},
+                .blend = true});
+    });
+}
+
+vk::Pipeline Pipelines::lookup(vk::Format target)
+{
+    return find(lookups_, target, [&] {
+        return make_pipeline(device_,
+            {.vertex = screen_vert, .fragment = lookup_frag, .layout = *picture_layout, .targets = {target}, .constants = {false}});
+    });
+}
+
+} // namespace starbow

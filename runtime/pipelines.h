@@ -1,0 +1,60 @@
+#pragma once
+#include "resources.h"
+#include <array>
+#include <map>
+
+namespace starbow {
+
+/// Formats of the images between the passes.
+constexpr vk::Format light_format = vk::Format::eR16G16B16A16Sfloat;
+constexpr vk::Format depth_format = vk::Format::eD32Sfloat;
+constexpr vk::Format exact_format = vk::Format::eR32G32B32A32Sfloat;
+
+/// What a material needs of the cube pass: constant_ids of cube.frag.
+struct SurfaceVariant {
+    bool base_texture, emissive_texture, masked, unlit;
+    int lights;
+    auto operator<=>(const SurfaceVariant&) const = default;
+};
+/// What a viewport needs of the warp pass: constant_ids of view.glsl and seen.glsl.
+struct WarpVariant {
+    bool map, aberration, doppler, headlight, mips;
+    auto operator<=>(const WarpVariant&) const = default;
+};
+
+/// Where a pass draws.
+struct TargetKind {
+    vk::Format colour;
+    vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
+    auto operator<=>(const TargetKind&) const = default;
+};
+
+/// Every pipeline of the program, made when first asked for.
+class Pipelines {
+public:
+    explicit Pipelines(Device& device);
+
+    vk::Pipeline surface(const SurfaceVariant& variant, const TargetKind& target);
+    vk::Pipeline sky(const TargetKind& target);
+    vk::Pipeline warp(const WarpVariant& variant, vk::Format target);
+    vk::Pipeline measure(const WarpVariant& variant);
+    vk::Pipeline hud(bool map, vk::Format target);
+    vk::Pipeline lookup(vk::Format target);
+
+    vk::raii::DescriptorSetLayout eye_set = nullptr;      ///< 0 constants, 1 instances, 2 visible
+    vk::raii::DescriptorSetLayout material_set = nullptr; ///< 0 base, 1 emissive texture
+    vk::raii::DescriptorSetLayout warp_set = nullptr;     ///< 0 direction map, 1 atlas, 2 slots, 3 colours, 4 depth atlas
+    vk::raii::DescriptorSetLayout picture_set = nullptr;  ///< 0 direction map, 1 panel or cube
+    vk::raii::PipelineLayout surface_layout = nullptr, warp_layout = nullptr, picture_layout = nullptr;
+
+private:
+    Device& device_;
+    std::map<std::pair<SurfaceVariant, TargetKind>, vk::raii::Pipeline> surfaces_;
+    std::map<TargetKind, vk::raii::Pipeline> skies_;
+    std::map<std::pair<WarpVariant, vk::Format>, vk::raii::Pipeline> warps_;
+    std::map<WarpVariant, vk::raii::Pipeline> measures_;
+    std::map<std::pair<bool, vk::Format>, vk::raii::Pipeline> huds_;
+    std::map<vk::Format, vk::raii::Pipeline> lookups_;
+};
+
+} // namespace starbow

@@ -1,0 +1,73 @@
+#pragma once
+#include "config/layout.h"
+#include "runtime/shared.h"
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace starbow {
+
+/// What one eye's viewport asks of the cube map.
+struct View {
+    Projection projection;
+    glm::ivec2 size;                 ///< pixels
+    glm::dmat3 motion_from_cockpit;  ///< turn into the axes whose z is the direction of motion
+};
+
+/// The trade of speed for accuracy.
+struct Quality {
+    double texels_per_pixel = 1;     ///< linear density of the cube map where it is looked at
+    double max_texels_per_pixel = 6; ///< area: where the whole plan would hold more, all of it is drawn coarser
+    int samples = 1;                 ///< of the cube pass, per texel, for edges
+};
+
+/// One picture to draw: a rectangle of one face of the cube around the eye, at one resolution, and its place in the atlas.
+/// Faces are numbered +z (ahead), -z (behind), +x, -x, +y, -y of the motion axes; a face's coordinates (a, b) are the two
+/// other components (x before y before z) over the distance along its normal.
+struct PlanImage {
+    int slot;
+    int face;
+    glm::dvec2 low, high;  ///< face coordinates of the picture's edges, gutter included
+    glm::ivec2 size;       ///< texels
+    glm::ivec2 atlas;      ///< top left texel
+    double texels_per_unit; ///< of face coordinate
+    int levels;            ///< mip levels the warp pass reads
+};
+
+/// What the cube map of one eye must hold for one frame.
+struct Plan {
+    std::vector<PlanImage> images;
+    glm::ivec2 atlas_size{0};
+    int rear_last = 0;         ///< the finest nested image behind that differs from the one before
+    int levels = 1;            ///< of the atlas: the most that any image needs
+    double texels = 0;         ///< drawn, all images
+    double pixels = 0;         ///< served
+};
+
+/// Decides which faces are looked at, in which rectangle and how finely. Pure; E = e^rapidity, 1 where directions are not
+/// aberrated. Every texel that a pixel of the views reads, the neighbours of its filter included, lies inside an image.
+///
+/// The cut: one image ahead; each side in three bands across the motion, so that D varies less than twofold in each; behind,
+/// nested squares shrinking by sqrt 2 (D varies as the square of the angle there). A slot that nobody looks at is left out.
+Plan make_plan(const std::vector<View>& views, double E, const Quality& quality);
+
+/// The slot that shows the unit direction n (motion axes) and n's face coordinates there: what the warp shader does.
+struct SlotPlace {
+    int slot, face;
+    glm::dvec2 at;
+};
+SlotPlace slot_of(const glm::dvec3& n, int rear_last);
+
+/// Unit direction (not normalised: length of the face's plane) of a face coordinate.
+glm::dvec3 face_direction(int face, const glm::dvec2& at);
+
+/// clip_from_motion of an image: reversed z, infinite far plane, near plane at `near_distance` along the face's normal.
+glm::dmat4 clip_from_motion(const PlanImage& image, double near_distance);
+
+/// The table that the warp shader reads: one entry per slot. atlas_extent: the texture's size, at least the plan's.
+std::vector<shared::SlotEntry> slot_table(const Plan& plan, glm::ivec2 atlas_extent);
+
+/// Turn from world axes to motion axes: z along u, y as near as possible to the cockpit's up; at rest z is the cockpit's
+/// straight ahead. The same turn leads from the ship's axes to the motion axes in the ship's frame.
+glm::dmat3 motion_from_world(const glm::dvec3& u, const glm::dquat& ship_from_cockpit);
+
+} // namespace starbow

@@ -1,0 +1,54 @@
+#pragma once
+#include "device.h"
+#include <glm/glm.hpp>
+#include <span>
+
+namespace starbow {
+
+struct Buffer {
+    vk::raii::DeviceMemory memory = nullptr;
+    vk::raii::Buffer buffer = nullptr;
+    vk::DeviceSize size = 0;
+    void* mapped = nullptr; ///< null for device-local ones
+};
+
+struct Image {
+    vk::raii::DeviceMemory memory = nullptr;
+    vk::raii::Image image = nullptr;
+    vk::raii::ImageView view = nullptr; ///< all levels and layers
+    vk::Format format = vk::Format::eUndefined;
+    vk::Extent2D extent;
+    std::uint32_t levels = 1, layers = 1;
+    vk::DeviceSize bytes = 0; ///< of device memory
+};
+
+/// Host-visible and mapped: what the processor writes each frame, or reads back.
+Buffer make_mapped_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage);
+/// Filled once.
+Buffer make_static_buffer(Device& device, std::span<const std::byte> data, vk::BufferUsageFlags usage);
+
+struct ImageSpec {
+    vk::Format format;
+    vk::Extent2D extent;
+    vk::ImageUsageFlags usage;
+    std::uint32_t levels = 1;
+    std::uint32_t layers = 1;
+    vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
+    bool cube = false;
+};
+/// Throws InputError if the device can't hold it.
+Image make_image(const Device& device, const ImageSpec& spec);
+
+vk::ImageAspectFlags aspect_of(vk::Format format);
+
+/// A picture for sampling, with mips made by halving.
+Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::span<const std::byte> pixels, bool mips);
+
+/// One image barrier, whole image.
+void transition(vk::CommandBuffer commands, const Image& image, vk::ImageLayout from, vk::PipelineStageFlags2 from_stage,
+    vk::AccessFlags2 from_access, vk::ImageLayout to, vk::PipelineStageFlags2 to_stage, vk::AccessFlags2 to_access);
+
+/// Rows from the top, tightly packed; the image must be in eTransferSrcOptimal.
+std::vector<std::byte> read_back(Device& device, const Image& image, std::uint32_t bytes_per_texel);
+
+} // namespace starbow

@@ -1,0 +1,14 @@
+#pragma once
+// shaders/shared.h as C++.
+#include <glm/glm.hpp>
+
+namespace starbow::shared {
+using glm::vec4;
+#include "shaders/shared.h"
+static_assert(sizeof(SlotEntry) == 32);
+static_assert(sizeof(LightEntry) == 32);
+static_assert(sizeof(CubeConstants) == 5 * 16 + MAX_LIGHTS * 32);
+static_assert(sizeof(InstanceEntry) == 48);
+static_assert(sizeof(CubePush) == 96);
+static_assert(sizeof(ViewPush) == 80);
+} // namespace starbow::shared

@@ -1,0 +1,110 @@
+#include "still.h"
+#include "config/error.h"
+#include <cstring>
+
+namespace starbow {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+
+constexpr vk::Format picture_format = vk::Format::eR8G8B8A8Srgb;
+
+vk::Extent2D extent_of(glm::ivec2 size) { return {std::uint32_t(size.x), std::uint32_t(size.y)}; }
+
+} // namespace
+
+Studio::Studio(
+    Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality, bool measured)
+    : device_(device)
+    , layout_(layout)
+{
+    for (const Output& output : layout.outputs)
+        images_.push_back(make_image(device,
+            {picture_format, extent_of(output.size), vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc}));
+    frame_ = std::make_unique<Frame>(device, pipelines, world, layout, quality);
+    if (measured)
+        measured_ = std::make_unique<Frame>(device, pipelines, world, layout, quality, true);
+}
+
+Target Studio::target(std::size_t output) const
+{
+    const Image& image = images_[output];
+    return {*image.image, *image.view, image.extent, image.format};
+}
+
+std::vector<std::vector<std::uint8_t>> Studio::picture(const Shot& shot, const Panel* hud)
+{
+    frame_->prepare(shot, hud);
+    std::vector<Target> targets;
+    for (std::size_t i = 0; i < images_.size(); ++i)
+        targets.push_back(target(i));
+    device_.now([&](vk::CommandBuffer commands) {
+        for (const Image& image : images_)
+            transition(commands, image, vk::ImageLayout::eUndefined, Stage::eNone, {}, vk::ImageLayout::eColorAttachmentOptimal,
+                Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+        frame_->record(commands, targets);
+        for (const Image& image : images_)
+            transition(commands, image, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+                Access::eColorAttachmentWrite, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+    });
+    std::vector<std::vector<std::uint8_t>> pictures;
+    for (const Image& image : images_) {
+        std::vector<std::byte> bytes = read_back(device_, image, 4);
+        auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data());
+        pictures.emplace_back(first, first + bytes.size());
+    }
+    return pictures;
+}
+
+Channels Studio::numbers(const Shot& shot, std::size_t output)
+{
+    MeasureTarget target;
+    for (Image* image : {&target.light_and_depth, &target.camera, &target.world})
+        *image = make_image(device_,
+            {exact_format, images_[output].extent, vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
+    measured_->prepare(shot, nullptr);
+    device_.now([&](vk::CommandBuffer commands) { measured_->record_measured(commands, output, target); });
+
+    std::size_t count = std::size_t(images_[output].extent.width) * images_[output].extent.height;
+    auto texels = [&](const Image& image) {
+        std::vector<glm::vec4> values(count);
+        std::vector<std::byte> bytes = read_back(device_, image, sizeof(glm::vec4));
+        std::memcpy(values.data(), bytes.data(), bytes.size());
+        return values;
+    };
+    std::vector<glm::vec4> light = texels(target.light_and_depth), camera = texels(target.camera), world = texels(target.world);
+    glm::dmat3 from_motion = glm::transpose(motion_from_world(shot.u, shot.ship_from_cockpit));
+    const char* names[] = {"R", "G", "B", "cameraDirection.X", "cameraDirection.Y", "cameraDirection.Z", "worldDirection.X",
+        "worldDirection.Y", "worldDirection.Z", "doppler", "depth"};
+    Channels channels;
+    for (const char* name : names)
+        channels.emplace_back(name, std::vector<float>(count));
+    for (std::size_t i = 0; i < count; ++i) {
+        glm::vec3 c = from_motion * glm::dvec3(camera[i]), w = from_motion * glm::dvec3(world[i]);
+        float values[] = {light[i].r, light[i].g, light[i].b, c.x, c.y, c.z, w.x, w.y, w.z, camera[i].w, light[i].w};
+        for (int k = 0; k < 11; ++k)
+            channels[k].second[i] = values[k];
+    }
+    return channels;
+}
+
+void render_still(const std::filesystem::path& directory, Studio& studio, const Shot& shot, bool exr, const Panel* hud)
+{
+    auto pictures = studio.picture(shot, hud);
+    std::vector<Channels> numbers;
+    const auto& outputs = studio.layout().outputs;
+    for (std::size_t i = 0; exr && i < outputs.size(); ++i)
+        numbers.push_back(studio.numbers(shot, i));
+    std::error_code error;
+    std::filesystem::create_directories(directory, error);
+    if (error)
+        throw InputError(directory.string(), "", "can't be made (" + error.message() + "); give a folder that can be written");
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        write_png(directory / (outputs[i].name + ".png"), outputs[i].size, pictures[i]);
+        if (exr)
+            write_exr(directory / (outputs[i].name + ".exr"), outputs[i].size, numbers[i]);
+    }
+}
+
+} // namespace starbow

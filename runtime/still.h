@@ -1,0 +1,36 @@
+#pragma once
+#include "capture.h"
+#include "frame.h"
+#include <filesystem>
+#include <memory>
+
+namespace starbow {
+
+/// Off-screen pictures of one layout in one world.
+class Studio {
+public:
+    /// sizes: replaces every output's where set. Numbers as well as pictures if `measured`.
+    Studio(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality, bool measured);
+
+    /// Each output as RGBA8, rows from the top.
+    std::vector<std::vector<std::uint8_t>> picture(const Shot& shot, const Panel* hud = nullptr);
+
+    /// One output's numbers: the EXR's channels. Shared by all who check the picture.
+    Channels numbers(const Shot& shot, std::size_t output);
+
+    const Layout& layout() const { return layout_; }
+    Frame& frame() { return *frame_; }
+    Target target(std::size_t output) const;
+
+private:
+    Device& device_;
+    Layout layout_;
+    std::unique_ptr<Frame> frame_, measured_;
+    std::vector<Image> images_;
+};
+
+/// What `starbow render` does: draws all outputs, then writes DIR/<output>.png (and .exr). Writes nothing if anything fails
+/// before the first file is complete in memory.
+void render_still(const std::filesystem::path& directory, Studio& studio, const Shot& shot, bool exr, const Panel* hud = nullptr);
+
+} // namespace starbow

@@ -1,0 +1,20 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
+#include "view.glsl"
+// The head-up display: a panel at infinity in the cockpit, seen through the same directions as the world.
+
+layout(set = 0, binding = 1) uniform sampler2D panel; // r: letters, g: the dark plate behind them
+layout(location = 0) out vec4 shown;
+
+void main()
+{
+    float pixel_angle;
+    vec3 n = look(pixel_angle); // panel axes: z towards the panel's middle
+    vec2 at = n.xy / (n.z * view.boost.xy) * 0.5 + 0.5;
+    if (n.z <= 0.0 || (MAP && pixel_angle == 0.0) || any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0))))
+        discard;
+    vec2 covered = textureLod(panel, vec2(at.x, 1.0 - at.y), 0.0).rg;
+    float plate = covered.g * 0.62;
+    shown = vec4(vec3(0.92, 0.96, 1.0) * covered.r, covered.r + plate * (1.0 - covered.r)); // premultiplied
+}

@@ -1,0 +1,14 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
+#include "view.glsl"
+// The least that any cube map display can cost: one look-up per pixel. The measure of the warp pass, nothing else.
+
+layout(set = 0, binding = 1) uniform samplerCube cube_texture;
+layout(location = 0) out vec4 shown;
+
+void main()
+{
+    float pixel_angle;
+    shown = textureLod(cube_texture, look(pixel_angle), 0.0);
+}

@@ -1,0 +1,82 @@
+// What light a direction of the ship brings: aberration, the cube map's look-up, Doppler and headlight.
+
+layout(constant_id = 1) const bool ABERRATION = true;
+layout(constant_id = 2) const bool DOPPLER = true;
+layout(constant_id = 3) const bool HEADLIGHT = true;
+layout(constant_id = 4) const bool MIPS = false;
+
+layout(set = 0, binding = 1) uniform sampler2D atlas;
+layout(set = 0, binding = 2) uniform Slots { SlotEntry slots[SLOT_COUNT]; };
+layout(set = 0, binding = 3) uniform Colours { vec4 colours[COLOUR_STEPS * 3]; };
+
+struct Place {
+    vec2 face;  // face coordinates
+    vec2 atlas; // normalised
+    vec4 detail;
+};
+
+// The image of the plan that holds the world's direction n: plan.cpp's slot_of, in float.
+Place place_of(vec3 n)
+{
+    vec3 m = abs(n);
+    bool x_greater = m.x >= m.y;
+    float across = max(m.x, m.y);
+    Place place;
+    int slot;
+    if (m.z >= across) {
+        place.face = n.xy / m.z;
+        float larger = across / m.z;
+        // floor(-log2(larger^2)) from the exponent's bits; 126: an exact power of two goes to the coarser image.
+        int level = 126 - (floatBitsToInt(larger * larger) >> 23);
+        slot = n.z >= 0.0 ? SLOT_FRONT : SLOT_REAR + clamp(level, 0, int(view.row1.w));
+    } else {
+        place.face = vec2(x_greater ? n.y : n.x, n.z) / across;
+        int side = x_greater ? (n.x >= 0.0 ? 0 : 1) : (n.y >= 0.0 ? 2 : 3);
+        slot = SLOT_SIDES + side * SIDE_BANDS + int(place.face.y > -0.5) + int(place.face.y > 0.0);
+    }
+    vec4 to_atlas = slots[slot].atlas_from_face;
+    place.atlas = place.face * to_atlas.xy + to_atlas.zw;
+    place.detail = MIPS ? slots[slot].detail : vec4(0.0);
+    return place;
+}
+
+// Aberration is conformal: the pixel's footprint stays round, so one number is its exact level of detail.
+vec3 cube_map(Place place, float world_angle)
+{
+    if (!MIPS)
+        return textureLod(atlas, place.atlas, 0.0).rgb;
+    float distance_square = 1.0 + dot(place.face, place.face);
+    float texels = world_angle * place.detail.x * pow(distance_square, 0.75);
+    return textureLod(atlas, place.atlas, clamp(log2(texels), 0.0, place.detail.y)).rgb;
+}
+
+// A colour whose light is shifted by D. The achromatic part is a sunlit grey, which stays a black body; what is left over is
+// three bands around the primaries that slide along the spectrum. The table holds, per step of ln D, the colours of both.
+vec3 doppler_shifted(vec3 rgb, float D)
+{
+    float grey = min(rgb.r, min(rgb.g, rgb.b));
+    vec4 parts = vec4(rgb - grey, grey);
+    float at = (log2(D) + COLOUR_RANGE) * ((COLOUR_STEPS - 1) / (2.0 * COLOUR_RANGE));
+    float inside = clamp(at, 0.0, float(COLOUR_STEPS - 1) - 0.001);
+    int i = int(inside) * 3;
+    float f = inside - floor(inside);
+    vec3 shifted = vec3(dot(mix(colours[i], colours[i + 3], f), parts), dot(mix(colours[i + 1], colours[i + 4], f), parts),
+        dot(mix(colours[i + 2], colours[i + 5], f), parts));
+    // Above the table a hot body's visible light grows as D, so without the headlight's D^3 it falls as 1 / D^2.
+    if (at > float(COLOUR_STEPS - 1)) {
+        float beyond = exp2(COLOUR_RANGE) / D;
+        shifted *= beyond * beyond;
+    }
+    return max(shifted, vec3(0.0));
+}
+
+// Scene-linear light, pre-exposed by the cube map's factor.
+vec3 light_seen(Place place, float D, float pixel_angle)
+{
+    vec3 light = cube_map(place, ABERRATION ? D * pixel_angle : pixel_angle);
+    if (DOPPLER)
+        light = doppler_shifted(light, D);
+    if (HEADLIGHT)
+        light *= headlight(D);
+    return light;
+}

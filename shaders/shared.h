@@ -1,0 +1,55 @@
+// What the processor writes and the shaders read: one text for both. C++ sees it through runtime/shared.h, which asserts
+// the sizes. Only 16-byte aligned members, so that std140, std430 and C++ agree.
+
+// Images of one plan, at most. Slots are the places of the cut (see plan.h); every slot has an entry, drawn or not.
+#define SLOT_FRONT 0
+#define SLOT_SIDES 1
+#define SIDE_BANDS 3
+#define SLOT_REAR 13
+#define REAR_LEVELS 43
+#define SLOT_COUNT 56
+
+#define MAX_LIGHTS 8
+#define COLOUR_STEPS 192 // over log2 D from -COLOUR_RANGE to COLOUR_RANGE
+#define COLOUR_RANGE 6.0
+
+// One image of the plan, as the warp pass reads it: atlas coordinate = face coordinate * scale + offset.
+struct SlotEntry {
+    vec4 atlas_from_face; // scale x, y; offset x, y (normalised atlas coordinates)
+    vec4 detail;          // x: texels per unit of face coordinate, y: coarsest mip level, z, w: unused
+};
+
+struct LightEntry {
+    vec4 place;    // w = 0: unit direction towards the light; w = 1: its place from the eye. Motion axes.
+    vec4 radiance; // Rec. 709 linear, pre-exposed; w: square of the distance at which it holds, 0 for a direction
+};
+
+// The cube pass, one per eye and frame.
+struct CubeConstants {
+    vec4 ambient;     // Rec. 709 linear, w: pre-exposure
+    vec4 sky_zenith;  // Rec. 709 linear, pre-exposed
+    vec4 sky_horizon;
+    vec4 sky_nadir;
+    vec4 world_up;    // motion axes
+    LightEntry lights[MAX_LIGHTS];
+};
+
+// One instance in front of one eye: rows of motion_from_local.
+struct InstanceEntry {
+    vec4 row0, row1, row2;
+};
+
+// Push constants of the cube pass.
+struct CubePush {
+    vec4 clip_row0, clip_row1, clip_row2, clip_row3; // rows of clip_from_motion
+    vec4 base_colour;
+    vec4 emissive; // pre-exposed; w: alpha cut-off
+};
+
+// Push constants of the passes that run once per output pixel.
+struct ViewPush {
+    vec4 row0, row1, row2; // planar: rows of direction_from_pixel; map: of the turn from the map's axes. w of row0: map's
+                           // pixel angle (planar: face units per pixel)
+    vec4 boost;            // E, 1/E, exposure gain / pre-exposure, D^3 clamp (unused)
+    vec4 origin;           // viewport's top left corner in the target, pixels; z, w: atlas size in texels
+};

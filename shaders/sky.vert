@@ -1,0 +1,14 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
+// Where no surface was drawn, at infinity: a triangle over the image, behind everything.
+
+layout(push_constant) uniform Push { CubePush push; };
+layout(location = 0) out vec3 way;
+
+void main()
+{
+    vec2 corner = vec2(gl_VertexIndex == 1 ? 2.0 : 0.0, gl_VertexIndex == 2 ? 2.0 : 0.0);
+    way = push.clip_row0.xyz + corner.x * push.clip_row1.xyz + corner.y * push.clip_row2.xyz;
+    gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
+}
