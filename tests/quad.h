@@ -10,7 +10,7 @@ extern "C" {
 namespace quad {
 
 using Q = __float128;
-inline const Q pi = M_PIq;
+inline const Q pi = 4 * atanq(1);
 
 struct V3 {
     Q x, y, z;
