@@ -49,6 +49,9 @@ struct Layout {
     std::vector<Output> outputs;
 };
 
+/// The pixels of a viewport in an output of `size`: x, y, width, height. Its edges are rounded, so that neighbours meet.
+glm::ivec4 pixel_rect(const Viewport& viewport, glm::ivec2 size);
+
 /// Reads and checks a layout. Throws InputError with file, JSON pointer, value and what would be right.
 Layout load_layout(const std::filesystem::path& file);
 

@@ -1,0 +1,66 @@
+#pragma once
+#include "error.h"
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace starbow {
+
+/// A parsed file. Places point into it: it must outlive them and stay where it is.
+struct Document {
+    std::string file; ///< as messages show it
+    nlohmann::json root;
+};
+
+/// A value in a document and the JSON pointer that leads to it.
+struct Place {
+    const Document* document;
+    const nlohmann::json* json;
+    std::string pointer;
+};
+
+/// The numbers from low to high; with low_open, low itself does not belong to them.
+struct Range {
+    double low, high;
+    bool low_open = false;
+};
+
+/// Reads JSON with // and /* */ comments. Throws InputError for a file that can't be read, is larger than 16 MiB, is not
+/// JSON (with line and column), nests deeper than 64, repeats a member, or holds a number that a double can't.
+Document read_document(const std::filesystem::path& file);
+Place root(const Document& document);
+
+/// Throws "FILE: POINTER: VALUE problem". By custom the problem reads "is wrong in this way; what would be right".
+[[noreturn]] void complain(const Place& place, const std::string& problem);
+
+/// Each of these returns the value at a place or complains about it.
+double number(const Place& place, Range range);
+int integer(const Place& place, int low, int high);
+bool boolean(const Place& place);
+std::string text(const Place& place); ///< neither empty nor with control characters
+std::string one_of(const Place& place, std::initializer_list<std::string_view> choices);
+glm::dvec3 vec3(const Place& place, Range range); ///< every component in range
+glm::dvec4 vec4(const Place& place, Range range);
+
+/// The places in an array of `least` to `most` of the things that `what` names in the plural.
+std::vector<Place> items(const Place& place, std::size_t least, std::size_t most, const std::string& what);
+
+/// Complains unless the place is an object whose members are all known.
+void only(const Place& place, const std::vector<std::string_view>& known);
+/// The member of an object, or nothing; the object was checked with only().
+std::optional<Place> find(const Place& place, const std::string& name);
+/// The member of an object; complains where it is missing.
+Place member(const Place& place, const std::string& name);
+
+/// The shortest usual text of a number, for messages.
+std::string shown(double number);
+
+/// Text from elsewhere as it may stand in a one-line message: control characters replaced, cut off at `most` bytes.
+std::string one_line(std::string text, std::size_t most = 400);
+
+} // namespace starbow

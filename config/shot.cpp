@@ -1,0 +1,126 @@
+#include "shot.h"
+#include "shot_reader.h"
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+/// Large enough for any world, small enough that squares and sums stay far from overflow.
+constexpr double farthest = 1e15;
+constexpr double most_gamma = 1e9;
+
+/// Unit length, also where the squares of the components overflow or vanish. Zero stays zero.
+glm::dvec3 unit(const glm::dvec3& v)
+{
+    const glm::dvec3 size = glm::abs(v);
+    const double largest = std::max(size.x, std::max(size.y, size.z));
+    return largest > 0 ? glm::normalize(v / largest) : glm::dvec3(0);
+}
+
+glm::dvec3 read_direction(const Place& place)
+{
+    const glm::dvec3 direction = unit(vec3(place, { -1e300, 1e300 }));
+    if (direction == glm::dvec3(0))
+        complain(place, "points nowhere; a direction of any length above 0 is right");
+    return direction;
+}
+
+/// gamma beta, from whichever of the three the file gives; each form without cancellation.
+double read_proper_speed(const Place& place)
+{
+    const auto gamma = find(place, "gamma"), beta = find(place, "beta"), rapidity = find(place, "rapidity");
+    if (gamma.has_value() + beta.has_value() + rapidity.has_value() != 1)
+        complain(place, std::string(gamma || beta || rapidity ? "has more than one speed" : "has no speed")
+                + "; exactly one of \"gamma\", \"beta\" and \"rapidity\" is right");
+    if (gamma) {
+        const double g = number(*gamma, { -1e308, 1e308 });
+        if (g < 1)
+            complain(*gamma, "is less than gamma ever is; 1 at rest and up to 1e9 is right");
+        if (g > most_gamma)
+            complain(*gamma, "is beyond any flight here; a gamma from 1 to 1e9 is right");
+        return std::sqrt((g - 1) * (g + 1));
+    }
+    if (beta) {
+        const double b = number(*beta, { -1e308, 1e308 });
+        if (b >= 1)
+            complain(*beta, "can't be flown, nothing reaches the speed of light; a beta from 0 to below 1 is right");
+        if (b < 0)
+            complain(*beta, "is negative; a beta from 0 to below 1, and the way in \"direction\", is right");
+        return b / std::sqrt((1 - b) * (1 + b));
+    }
+    return std::sinh(number(*rapidity, { 0, std::acosh(most_gamma) }));
+}
+
+glm::dvec3 read_velocity(const Place& place)
+{
+    only(place, { "direction", "gamma", "beta", "rapidity" });
+    const glm::dvec3 direction = read_direction(member(place, "direction"));
+    return direction * read_proper_speed(place);
+}
+
+glm::dquat read_orientation(const Place& place)
+{
+    glm::dvec3 look { 0, 0, -1 }, up { 0, 1, 0 };
+    const auto look_at = find(place, "look"), up_at = find(place, "up");
+    if (look_at)
+        look = read_direction(*look_at);
+    if (up_at)
+        up = read_direction(*up_at);
+    if (glm::length(glm::cross(look, up)) < 1e-6)
+        complain(up_at ? *up_at : *look_at,
+            std::string("is parallel to \"") + (up_at ? "look" : "up") + "\"; a direction aside of it is right");
+    return orientation(look, up);
+}
+
+Effects read_effects(const Place& place)
+{
+    only(place, { "aberration", "doppler", "headlight" });
+    Effects effects;
+    if (auto p = find(place, "aberration"))
+        effects.aberration = boolean(*p);
+    if (auto p = find(place, "doppler"))
+        effects.doppler = boolean(*p);
+    if (auto p = find(place, "headlight"))
+        effects.headlight = boolean(*p);
+    return effects;
+}
+
+} // namespace
+
+glm::dquat orientation(const glm::dvec3& look, const glm::dvec3& up)
+{
+    const glm::dvec3 ahead = unit(look);
+    const glm::dvec3 right = glm::normalize(glm::cross(ahead, unit(up)));
+    return glm::normalize(glm::quat_cast(glm::dmat3(right, glm::cross(right, ahead), -ahead)));
+}
+
+Shot read_shot(const Place& place, bool with_scene)
+{
+    std::vector<std::string_view> known { "time", "position", "velocity", "look", "up", "effects", "exposure_ev" };
+    if (with_scene)
+        known.push_back("scene");
+    only(place, known);
+    Shot shot;
+    if (with_scene)
+        shot.scene = text(member(place, "scene"));
+    if (auto p = find(place, "time"))
+        shot.time = number(*p, { -farthest, farthest });
+    if (auto p = find(place, "position"))
+        shot.position = vec3(*p, { -farthest, farthest });
+    if (auto p = find(place, "velocity"))
+        shot.u = read_velocity(*p);
+    shot.ship_from_cockpit = read_orientation(place);
+    if (auto p = find(place, "effects"))
+        shot.effects = read_effects(*p);
+    if (auto p = find(place, "exposure_ev"))
+        shot.exposure_ev = number(*p, { -60, 60 });
+    return shot;
+}
+
+Shot load_shot(const std::filesystem::path& file)
+{
+    const Document document = read_document(file);
+    return read_shot(root(document), true);
+}
+
+} // namespace starbow

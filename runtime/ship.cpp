@@ -1,0 +1,61 @@
+#include "runtime/ship.h"
+
+#include "physics/physics.h"
+
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+glm::dquat quaternion_of(const glm::dvec3& rotation_vector_rad)
+{
+    const double half = 0.5 * glm::length(rotation_vector_rad);
+    const glm::dvec3 v = rotation_vector_rad * (half > 0 ? 0.5 * std::sin(half) / half : 0.5);
+    return {std::cos(half), v.x, v.y, v.z};
+}
+
+} // namespace
+
+void Sum::add(double x)
+{
+    const double sum = value + x;
+    carry += std::abs(value) >= std::abs(x) ? (value - sum) + x : (x - sum) + value;
+    value = sum;
+}
+
+void Sum3::add(const glm::dvec3& v)
+{
+    x.add(v.x);
+    y.add(v.y);
+    z.add(v.z);
+}
+
+Ship fly(Ship ship, const glm::dvec3& acceleration, const glm::dvec3& turn, double dtau)
+{
+    // Thrust in the mean direction of the step: half of the turn before it and half behind leaves no error of first order.
+    const glm::dquat half_turn = quaternion_of(0.5 * turn);
+    const glm::dquat ship_from_thruster = ship.ship_from_cockpit * half_turn;
+
+    const double strength = glm::length(acceleration);
+    const glm::dvec3 way = strength > 0 ? ship_from_thruster * (acceleration / strength) : glm::dvec3(0);
+    const glm::dvec3 u = ship.u.total();
+    const physics::Leg leg = physics::thrust_leg(u, way, strength, dtau);
+    const glm::dvec4 wigner = physics::wigner_turn(u, way * std::sinh(strength * dtau));
+
+    ship.u.add(leg.du);
+    ship.position.add(leg.dx);
+    ship.time.add(leg.dt);
+    ship.proper_time.add(dtau);
+    ship.distance.add(glm::length(leg.dx));
+    ship.ship_from_cockpit =
+        glm::normalize(glm::dquat(wigner.w, wigner.x, wigner.y, wigner.z) * ship_from_thruster * half_turn);
+    return ship;
+}
+
+Ship stopped(Ship ship)
+{
+    ship.u = Sum3();
+    return ship;
+}
+
+} // namespace starbow
