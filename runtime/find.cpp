@@ -5,6 +5,11 @@
 
 namespace starbow {
 namespace fs = std::filesystem;
+namespace {
+
+bool is_path(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(".json"); }
+
+} // namespace
 
 fs::path home()
 {
@@ -23,8 +28,7 @@ fs::path home()
 fs::path find(const std::string& kind, const std::string& name)
 {
     std::error_code error;
-    // A path, by its looks, or a file that is there; otherwise a name.
-    if (name.find('/') != std::string::npos || name.ends_with(".json"))
+    if (is_path(name))
         return name;
     fs::path folder = home() / "config" / kind, file = folder / (name + ".json");
     if (fs::is_regular_file(file, error))
@@ -38,6 +42,11 @@ fs::path find(const std::string& kind, const std::string& name)
     for (const std::string& known : names)
         list += (list.empty() ? "" : ", ") + known;
     throw InputError("There is no " + name + ".json in config/" + kind + "; there are: " + list + "; or give the path of a file");
+}
+
+fs::path scene_of(const Shot& shot, const fs::path& shot_file)
+{
+    return is_path(shot.scene) ? shot_file.parent_path() / shot.scene : find("scenes", shot.scene);
 }
 
 } // namespace starbow

@@ -1,4 +1,5 @@
 #pragma once
+#include "config/shot.h"
 #include <filesystem>
 #include <string>
 
@@ -11,5 +12,8 @@ std::filesystem::path home();
 /// A config file by path, or by the name of a shipped one: find("layouts", "dome") is config/layouts/dome.json.
 /// Throws InputError that lists the shipped names.
 std::filesystem::path find(const std::string& kind, const std::string& name);
+
+/// The scene file that a shot names: a shipped one, or a path from the shot's own folder.
+std::filesystem::path scene_of(const Shot& shot, const std::filesystem::path& shot_file);
 
 } // namespace starbow

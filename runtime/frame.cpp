@@ -27,12 +27,18 @@ vk::SampleCountFlagBits sample_bits(int samples)
 glm::vec4 row(const glm::dmat3& m, int i, double w = 0) { return glm::vec4(m[0][i], m[1][i], m[2][i], w); }
 glm::vec4 row(const glm::dmat4& m, int i) { return glm::vec4(m[0][i], m[1][i], m[2][i], m[3][i]); }
 
-/// Panel axes from the cockpit's: z towards the panel's middle, y up, x right.
-glm::dmat3 panel_from_cockpit(const HudPlacement& hud)
+/// Panel axes from the cockpit's: x right and y up on the panel, z = 1 on its plane, the origin at its middle. Flat screens get
+/// a panel parallel to them, so that its lines stay level; everywhere else it faces the visitor.
+glm::dmat3 panel_from_cockpit(const HudPlacement& hud, bool flat)
 {
     double a = hud.azimuth_deg * degree, e = hud.elevation_deg * degree;
-    glm::dvec3 z(std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e)), x(std::cos(a), 0, std::sin(a));
-    return glm::transpose(glm::dmat3(x, glm::cross(-z, x), z));
+    glm::dvec3 middle(std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e));
+    if (flat && middle.z < -0.2) {
+        glm::dvec2 at = glm::dvec2(middle) / -middle.z;
+        return glm::transpose(glm::dmat3(glm::dvec3(1, 0, at.x), glm::dvec3(0, 1, at.y), glm::dvec3(0, 0, -1)));
+    }
+    glm::dvec3 x(std::cos(a), 0, std::sin(a));
+    return glm::transpose(glm::dmat3(x, glm::cross(-middle, x), middle));
 }
 
 vk::Rect2D rect_of(glm::ivec2 corner, glm::ivec2 size)
@@ -62,7 +68,8 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
         {{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eLinear, vk::SamplerAddressMode::eClampToEdge,
             vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, 0, false, 1, false, {}, 0, VK_LOD_CLAMP_NONE});
     nearest_ = device.device.createSampler({});
-    colours_ = make_static_buffer(device, std::as_bytes(std::span(doppler_table())), vk::BufferUsageFlagBits::eUniformBuffer);
+    const std::vector<glm::vec4> table = doppler_table();
+    colours_ = make_static_buffer(device, std::as_bytes(std::span(table)), vk::BufferUsageFlagBits::eUniformBuffer);
     const float zeros[4] = {};
     nothing_ = make_texture(device, exact_format, {1, 1}, std::as_bytes(std::span(zeros)), false);
 
@@ -101,6 +108,8 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
         }
     }
     plans_.resize(eyes_.size());
+    bool flat = std::all_of(views_.begin(), views_.end(), [](auto& v) { return std::holds_alternative<Planar>(v.projection); });
+    panel_from_cockpit_ = panel_from_cockpit(layout.hud, flat);
     for (std::size_t output = 0; output < layout.outputs.size(); ++output)
         resize(output, layout.outputs[output].size);
 }
@@ -131,7 +140,7 @@ void Frame::place_view(ViewState& view, glm::ivec2 size)
         view.map = make_texture(device_, exact_format, size, std::as_bytes(std::span(map.texels)), false);
     }
     // The panel's rim, projected, bounds it: its inside is nowhere outside its rim in any continuous view.
-    glm::dmat3 cockpit_from_panel = glm::transpose(panel_from_cockpit(layout_.hud));
+    glm::dmat3 cockpit_from_panel = glm::inverse(panel_from_cockpit_);
     panel_half_ = std::tan(0.5 * layout_.hud.width_deg * degree) * glm::dvec2(1, panel_aspect);
     glm::dvec2 low(1e9), high(-1e9);
     for (int i = 0; i <= 16; ++i)
@@ -148,8 +157,8 @@ int Frame::hud_width() const
 {
     double finest = 1;
     for (const ViewState& view : views_) {
-        glm::dvec3 middle = glm::transpose(panel_from_cockpit(layout_.hud)) * glm::dvec3(0, 0, 1);
-        if (auto p = pixel(view.projection, view.size, middle))
+        glm::dvec3 middle = glm::inverse(panel_from_cockpit_) * glm::dvec3(0, 0, 1);
+        if (auto p = pixel(view.projection, view.size, glm::normalize(middle)))
             finest = std::min(finest, pixel_angle(view.projection, view.size, *p));
     }
     return std::clamp(int(2 * panel_half_.x / finest), 160, 4096);
@@ -520,7 +529,7 @@ void Frame::draw_hud(vk::CommandBuffer commands, std::size_t output, const Targe
     for (const ViewState& view : views_) {
         if (view.output != output || view.hud_box.extent.width == 0 || view.hud_box.extent.height == 0)
             continue;
-        shared::ViewPush constants = push(view, panel_from_cockpit(layout_.hud));
+        shared::ViewPush constants = push(view, panel_from_cockpit_);
         constants.boost = glm::vec4(panel_half_, 0, 0);
         set_area(commands, view.corner, view.size);
         commands.setScissor(0, view.hud_box);

@@ -111,6 +111,7 @@ private:
     Image panel_, plain_depth_;
     Buffer panel_pixels_;
     bool panel_new_ = false, hud_on_ = false;
+    glm::dmat3 panel_from_cockpit_{1};
     glm::dvec2 panel_half_{1};
     std::optional<PlanImage> plain_;
     std::size_t triangles_ = 0;

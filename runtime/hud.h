@@ -1,5 +1,5 @@
 #pragma once
-#include "config/shot.h"
+#include "config/scene_file.h"
 #include "ship.h"
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -28,7 +28,7 @@ struct Readings {
     Effects effects;
     std::string notice; ///< one line for the visitor, or empty
 };
-Readings readings(const Ship& ship, double seconds_per_time_unit, double unit_m, const Effects& effects);
+Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effects);
 
 /// The lines as text, for the log and for tests: label and value in turn.
 std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& readings);

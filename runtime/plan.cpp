@@ -124,9 +124,9 @@ struct Walk {
     int rear_last;
     Demands& demands;
 
-    std::optional<glm::dvec3> look(double x, double y) const
+    std::optional<glm::dvec3> look(glm::dvec2 pixel) const
     {
-        auto n = direction(view.projection, view.size, {x, y});
+        auto n = direction(view.projection, view.size, pixel);
         if (!n)
             return {};
         return view.motion_from_cockpit * *n;
@@ -136,8 +136,11 @@ struct Walk {
     {
         double width = std::max(x1 - x0, y1 - y0);
         glm::dvec2 middle(0.5 * (x0 + x1), 0.5 * (y0 + y1));
-        auto centre = look(middle.x, middle.y);
-        std::optional<glm::dvec3> corners[4] = {look(x0, y0), look(x1, y0), look(x0, y1), look(x1, y1)};
+        const glm::dvec2 corner_at[4] = {{x0, y0}, {x1, y0}, {x0, y1}, {x1, y1}};
+        auto centre = look(middle);
+        std::optional<glm::dvec3> corners[4];
+        for (int i = 0; i < 4; ++i)
+            corners[i] = look(corner_at[i]);
         int seen = centre.has_value();
         for (auto& corner : corners)
             seen += corner.has_value();
@@ -147,9 +150,9 @@ struct Walk {
         if (seen == 0 && width <= 1)
             return;
         if (rim && !centre) {
-            for (auto& corner : corners)
-                if (corner)
-                    centre = corner;
+            for (int i = 0; i < 4; ++i)
+                if (corners[i])
+                    centre = corners[i], middle = corner_at[i];
             if (!centre)
                 return;
         }
@@ -327,7 +330,7 @@ std::vector<shared::SlotEntry> slot_table(const Plan& plan, glm::ivec2 atlas_ext
     std::vector<shared::SlotEntry> table(SLOT_COUNT, shared::SlotEntry{glm::vec4(0), glm::vec4(0)});
     for (const PlanImage& image : plan.images) {
         glm::dvec2 scale = glm::dvec2(image.size) / (image.high - image.low) / glm::dvec2(atlas_extent);
-        glm::dvec2 offset = glm::dvec2(image.atlas) / glm::dvec2(plan.atlas_size) - image.low * scale;
+        glm::dvec2 offset = glm::dvec2(image.atlas) / glm::dvec2(atlas_extent) - image.low * scale;
         table[image.slot] = {glm::vec4(scale, offset), glm::vec4(image.texels_per_unit, image.levels - 1, 0, 0)};
     }
     return table;

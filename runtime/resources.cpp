@@ -142,9 +142,9 @@ std::vector<std::byte> read_back(Device& device, const Image& image, std::uint32
     device.now([&](vk::CommandBuffer commands) {
         commands.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, *staging.buffer,
             vk::BufferImageCopy(0, 0, 0, {aspect_of(image.format), 0, 0, 1}, {}, {image.extent.width, image.extent.height, 1}));
-        commands.pipelineBarrier2(vk::DependencyInfo({},
-            vk::MemoryBarrier2(vk::PipelineStageFlagBits2::eTransfer, vk::AccessFlagBits2::eTransferWrite,
-                vk::PipelineStageFlagBits2::eHost, vk::AccessFlagBits2::eHostRead)));
+        vk::MemoryBarrier2 to_host(vk::PipelineStageFlagBits2::eTransfer, vk::AccessFlagBits2::eTransferWrite,
+            vk::PipelineStageFlagBits2::eHost, vk::AccessFlagBits2::eHostRead);
+        commands.pipelineBarrier2(vk::DependencyInfo({}, to_host));
     });
     std::vector<std::byte> data(size);
     std::memcpy(data.data(), staging.mapped, size);

@@ -30,6 +30,26 @@ void Sum3::add(const glm::dvec3& v)
     z.add(v.z);
 }
 
+Ship ship_at(const Shot& shot)
+{
+    Ship ship;
+    ship.position = Sum3(shot.position);
+    ship.time.value = shot.time;
+    ship.u = Sum3(shot.u);
+    ship.ship_from_cockpit = shot.ship_from_cockpit;
+    return ship;
+}
+
+Shot shot_of(const Ship& ship)
+{
+    Shot shot;
+    shot.position = ship.position.total();
+    shot.time = ship.time.total();
+    shot.u = ship.u.total();
+    shot.ship_from_cockpit = ship.ship_from_cockpit;
+    return shot;
+}
+
 Ship fly(Ship ship, const glm::dvec3& acceleration, const glm::dvec3& turn, double dtau)
 {
     // Thrust in the mean direction of the step: half of the turn before it and half behind leaves no error of first order.

@@ -1,4 +1,5 @@
 #pragma once
+#include "config/shot.h"
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -28,6 +29,12 @@ struct Ship {
     Sum proper_time;                             ///< on board, since the start
     Sum distance;                                ///< flown in the world, since the start
 };
+
+/// A ship at a shot's instant, its clocks and its log at zero.
+Ship ship_at(const Shot& shot);
+
+/// The ship's instant as a shot: the picture is a function of this.
+Shot shot_of(const Ship& ship);
 
 /// One step of proper time dtau (>= 0) under a proper acceleration that is constant in the cockpit (cockpit axes, rapidity
 /// per unit of proper time) while the cockpit turns by `turn` (rotation vector, radians, cockpit axes). The cockpit is

@@ -1,0 +1,2 @@
+#include "commands.h"
+namespace starbow { void add_bench(CLI::App&, std::function<int()>&) {} }

@@ -1,0 +1,224 @@
+#include "hud.h"
+#include "config/error.h"
+#include "physics/physics.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <stb/stb_truetype.h>
+
+namespace starbow {
+namespace {
+
+constexpr double light_speed_m_s = 299792458; // exact, SI
+constexpr double julian_year_s = 365.25 * 86400;
+
+template <class... Values> std::string text(const char* format, Values... values)
+{
+    std::array<char, 96> buffer;
+    std::snprintf(buffer.data(), buffer.size(), format, values...);
+    return buffer.data();
+}
+
+/// 3 or 4 figures: 0.25, 12.3, 4567; beyond a million as 1.23×10⁷.
+std::string number(double x)
+{
+    double size = std::abs(x);
+    if (size != 0 && (size >= 1e6 || size < 1e-3)) {
+        int exponent = int(std::floor(std::log10(size)));
+        double mantissa = x / std::pow(10.0, exponent);
+        if (std::abs(mantissa) >= 9.95)
+            mantissa /= 10, ++exponent;
+        static const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+        std::string power = exponent < 0 ? "⁻" : "";
+        for (char c : std::to_string(std::abs(exponent)))
+            power += digits[c - '0'];
+        return text("%.1f×10", mantissa) + power;
+    }
+    return text(size >= 1000 ? "%.0f" : size >= 100 ? "%.1f" : size >= 10 ? "%.2f" : "%.3f", x);
+}
+
+std::string duration(double s)
+{
+    double size = std::abs(s);
+    return size < 600 ? text("%.1f s", s)
+        : size < 36000 ? text("%.1f min", s / 60)
+        : size < 10 * 86400.0 ? text("%.1f h", s / 3600)
+        : size < 2 * julian_year_s ? text("%.1f days", s / 86400)
+                                   : number(s / julian_year_s) + " years";
+}
+
+std::string length(double m, double scene_light_speed_m_s)
+{
+    if (scene_light_speed_m_s == light_speed_m_s && m > 1e6) {
+        double s = m / light_speed_m_s;
+        return s < 600 ? text("%.2f light-s", s)
+            : s < 36000 ? text("%.1f light-min", s / 60)
+            : s < julian_year_s / 10 ? text("%.1f light-h", s / 3600)
+                                     : number(s / julian_year_s) + " light-years";
+    }
+    return m < 1000 ? text("%.1f m", m) : number(m / 1000) + " km";
+}
+
+} // namespace
+
+Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effects)
+{
+    double seconds_per_time_unit = scene.seconds_per_time_unit(), unit_m = scene.unit_m;
+    glm::dvec3 u = ship.u.total();
+    double speed = glm::length(u), gamma = physics::gamma_of(u), E = physics::exp_rapidity(speed);
+    glm::dvec3 ahead = ship.ship_from_cockpit * glm::dvec3(0, 0, -1);
+    double cosine = speed > 0 ? std::clamp(glm::dot(ahead, u) / speed, -1.0, 1.0) : 1;
+    double sine = speed > 0 ? glm::length(glm::cross(ahead, u)) / speed : 0;
+    return {.beta_deficit = 1 / (gamma * (gamma + speed)),
+        .gamma = gamma,
+        .doppler_ahead = physics::world_from_camera({sine, 0, cosine}, E, 1 / E).D,
+        .ship_s = ship.proper_time.total() * seconds_per_time_unit,
+        .world_s = ship.time.total() * seconds_per_time_unit,
+        .distance_m = ship.distance.total() * unit_m,
+        .light_speed_m_s = scene.light_speed_m_s,
+        .frames_per_s = 0,
+        .effects = effects,
+        .notice = {}};
+}
+
+std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r)
+{
+    bool close = r.beta_deficit < 1e-3;
+    auto on = [](bool is) { return std::string(is ? "on" : "off"); };
+    std::vector<std::pair<std::string, std::string>> fields = {
+        {close ? "1 − v/c" : "v/c", close ? number(r.beta_deficit) : text("%.4f", 1 - r.beta_deficit)},
+        {"γ", number(r.gamma)},
+        {"D ahead", number(r.doppler_ahead)},
+        {"ship", duration(r.ship_s)},
+        {"world", duration(r.world_s)},
+        {"flown", length(r.distance_m, r.light_speed_m_s)},
+        {"aberration", on(r.effects.aberration)},
+        {"Doppler", on(r.effects.doppler)},
+        {"headlight", on(r.effects.headlight)},
+    };
+    if (r.frames_per_s > 0)
+        fields.push_back({"frames/s", text("%.0f", r.frames_per_s)});
+    return fields;
+}
+
+struct Typesetter::Font {
+    std::vector<unsigned char> file;
+    stbtt_fontinfo info{};
+
+    struct Glyph {
+        std::vector<std::uint8_t> coverage;
+        int width = 0, height = 0, left = 0, top = 0;
+        float advance = 0;
+    };
+    mutable std::map<std::pair<int, int>, Glyph> glyphs; ///< by size in pixels and code point
+
+    const Glyph& glyph(int size, int code) const
+    {
+        auto [at, is_new] = glyphs.try_emplace({size, code});
+        Glyph& g = at->second;
+        if (is_new) {
+            float scale = stbtt_ScaleForPixelHeight(&info, float(size));
+            int advance, bearing;
+            stbtt_GetCodepointHMetrics(&info, code, &advance, &bearing);
+            g.advance = advance * scale;
+            if (unsigned char* bitmap = stbtt_GetCodepointBitmap(&info, scale, scale, code, &g.width, &g.height, &g.left, &g.top)) {
+                g.coverage.assign(bitmap, bitmap + g.width * g.height);
+                stbtt_FreeBitmap(bitmap, nullptr);
+            }
+        }
+        return g;
+    }
+};
+
+namespace {
+
+/// The code points of UTF-8 text that we wrote ourselves.
+std::vector<int> code_points(const std::string& utf8)
+{
+    std::vector<int> codes;
+    for (std::size_t i = 0; i < utf8.size();) {
+        auto lead = static_cast<unsigned char>(utf8[i]);
+        int more = lead >= 0xf0 ? 3 : lead >= 0xe0 ? 2 : lead >= 0xc0 ? 1 : 0;
+        int code = more == 0 ? lead : lead & (0x3f >> more);
+        for (++i; more > 0 && i < utf8.size(); --more, ++i)
+            code = code << 6 | (utf8[i] & 0x3f);
+        codes.push_back(code);
+    }
+    return codes;
+}
+
+} // namespace
+
+Typesetter::Typesetter()
+    : font_(std::make_unique<Font>())
+{
+    const char* path = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+    std::ifstream stream(path, std::ios::binary);
+    font_->file.assign(std::istreambuf_iterator<char>(stream), {});
+    if (font_->file.empty() || !stbtt_InitFont(&font_->info, font_->file.data(), stbtt_GetFontOffsetForIndex(font_->file.data(), 0)))
+        throw InputError(path, "", "is not there or no font; install fonts-dejavu-core");
+}
+
+Typesetter::~Typesetter() = default;
+
+Panel Typesetter::draw(const Readings& readings, int width) const
+{
+    Panel panel;
+    panel.size = {width, int(width * panel_aspect)};
+    panel.texels.assign(std::size_t(panel.size.x) * panel.size.y * 2, 0);
+    // The plate, its corners rounded and its edge soft.
+    double corner = panel.size.y * 0.12;
+    for (int y = 0; y < panel.size.y; ++y)
+        for (int x = 0; x < panel.size.x; ++x) {
+            glm::dvec2 half = 0.5 * glm::dvec2(panel.size);
+            glm::dvec2 out = glm::max(glm::abs(glm::dvec2(x + 0.5, y + 0.5) - half) - (half - corner), 0.0);
+            panel.texels[2 * (std::size_t(y) * panel.size.x + x) + 1]
+                = std::uint8_t(255 * std::clamp(corner - glm::length(out) + 0.5, 0.0, 1.0));
+        }
+
+    auto advance = [&](const std::string& line, int size) {
+        double x = 0;
+        for (int code : code_points(line))
+            x += font_->glyph(size, code).advance;
+        return x;
+    };
+    auto write = [&](const std::string& line, double x, double baseline, int size, double strength) {
+        for (int code : code_points(line)) {
+            const Font::Glyph& glyph = font_->glyph(size, code);
+            for (int j = 0; j < glyph.height; ++j)
+                for (int i = 0; i < glyph.width; ++i) {
+                    int px = int(std::lround(x)) + glyph.left + i, py = int(std::lround(baseline)) + glyph.top + j;
+                    if (px < 0 || py < 0 || px >= panel.size.x || py >= panel.size.y)
+                        continue;
+                    std::uint8_t& letter = panel.texels[2 * (std::size_t(py) * panel.size.x + px)];
+                    letter = std::max(letter, std::uint8_t(strength * glyph.coverage[std::size_t(j) * glyph.width + i]));
+                }
+            x += glyph.advance;
+        }
+    };
+
+    // Three rows of three, the speed row greater; beneath them whatever else there is to say.
+    auto fields = hud_fields(readings);
+    double unit = panel.size.y;
+    const double rows[] = {0.27, 0.53, 0.76};
+    const double columns[] = {0.03, 0.40, 0.70};
+    const double sizes[] = {0.26, 0.20, 0.20};
+    for (int i = 0; i < 9; ++i) {
+        int size = int(sizes[i / 3] * unit), label = int(0.7 * sizes[i / 3] * unit);
+        double x = panel.size.x * columns[i % 3];
+        write(fields[i].first, x, rows[i / 3] * unit, label, 0.72);
+        write(fields[i].second, x + advance(fields[i].first, label) + 0.3 * size, rows[i / 3] * unit, size, 1);
+    }
+    int small = int(0.15 * unit);
+    if (fields.size() > 9) {
+        std::string rate = fields[9].second + " " + fields[9].first;
+        write(rate, panel.size.x * 0.97 - advance(rate, small), 0.93 * unit, small, 0.72);
+    }
+    write(readings.notice, panel.size.x * 0.03, 0.93 * unit, small, 1);
+    return panel;
+}
+
+} // namespace starbow

@@ -1,0 +1,46 @@
+#include "theatre.h"
+#include <cstdlib>
+
+namespace starbow {
+
+struct LoadedScene {
+    SceneFile scene;
+    World world;
+};
+
+static LoadedScene load(const std::filesystem::path& file)
+{
+    SceneFile scene = load_scene_file(file);
+    World world = load_world(scene.gltf);
+    return {std::move(scene), std::move(world)};
+}
+
+Theatre::Theatre(const std::filesystem::path& scene, const Device::Options& options)
+    : Theatre(load(scene), options)
+{
+}
+
+Theatre::Theatre(LoadedScene&& loaded, const Device::Options& options)
+    : device(options)
+    , pipelines(device)
+    , world(upload(device, pipelines, std::move(loaded.world), loaded.scene))
+{
+}
+
+Device::Options device_options(bool windows)
+{
+    const char* validation = std::getenv("STARBOW_VALIDATION");
+    const char* name = std::getenv("STARBOW_GPU");
+    return {.windows = windows, .validation = validation && *validation == '1', .name = name ? name : ""};
+}
+
+Quality default_quality(const Device& device, bool still)
+{
+    if (still)
+        return {.texels_per_pixel = 1.5, .max_texels_per_pixel = 24, .samples = 4};
+    if (device.on_processor())
+        return {.texels_per_pixel = 0.8, .max_texels_per_pixel = 2, .samples = 1};
+    return {.texels_per_pixel = 1.25, .max_texels_per_pixel = 16, .samples = 4};
+}
+
+} // namespace starbow

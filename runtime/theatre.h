@@ -1,0 +1,30 @@
+#pragma once
+#include "device.h"
+#include "gpu_world.h"
+#include "pipelines.h"
+#include "plan.h"
+#include <filesystem>
+#include <string>
+
+namespace starbow {
+
+/// What every command opens first: the device and one world on it.
+struct Theatre {
+    Device device;
+    Pipelines pipelines;
+    GpuWorld world;
+
+    /// Reads scene and world before it touches the device, so that a wrong file is told first.
+    Theatre(const std::filesystem::path& scene, const Device::Options& options);
+
+private:
+    Theatre(struct LoadedScene&& loaded, const Device::Options& options);
+};
+
+/// Device options as the environment asks: STARBOW_VALIDATION=1, STARBOW_GPU=part of a name.
+Device::Options device_options(bool windows);
+
+/// The quality that a device affords without measuring: more on a GPU than in software, most for stills.
+Quality default_quality(const Device& device, bool still);
+
+} // namespace starbow

@@ -1,0 +1,165 @@
+// The plan by itself: whatever a pixel reads of the atlas was drawn, at the density that was asked for.
+#include "displays/direction_map.h"
+#include "physics/physics.h"
+#include "runtime/plan.h"
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace starbow;
+
+namespace {
+
+struct Case {
+    const char* name;
+    Projection projection;
+    glm::ivec2 size;
+};
+
+const Case cases[] = {
+    {"window", Planar{60}, {800, 600}},
+    {"narrow window", Planar{5}, {301, 97}},
+    {"wide window", Planar{150}, {640, 200}},
+    {"dome", Fisheye{180, 30}, {256, 256}},
+    {"whole sky", Fisheye{360, 0}, {255, 255}},
+    {"pixel", Planar{60}, {1, 1}},
+};
+const double gammas[] = {1, 1 + 1e-7, 1.5, 4, 10, 100, 1e4, 1e6};
+
+glm::dquat turn(int i)
+{
+    if (i == 0)
+        return {1, 0, 0, 0};
+    if (i == 1)
+        return glm::angleAxis(3.14159265358979, glm::dvec3(0, 1, 0)); // straight back
+    std::mt19937 random(unsigned(i) * 77);
+    std::normal_distribution<double> normal;
+    return glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random)));
+}
+
+/// Calls check(slot place, world angle of the pixel, image or null) for every pixel centre.
+template <class Check> void each_pixel(const Case& c, double gamma, int turned, const Quality& quality, Check&& check)
+{
+    glm::dvec3 u(0, 0, -std::sqrt((gamma - 1) * (gamma + 1)));
+    double E = physics::exp_rapidity(glm::length(u));
+    glm::dquat ship_from_cockpit = turn(turned);
+    glm::dmat3 motion_from_cockpit = motion_from_world(u, ship_from_cockpit) * glm::dmat3(glm::mat3_cast(ship_from_cockpit));
+    Plan plan = make_plan({{c.projection, c.size, motion_from_cockpit}}, E, quality);
+    std::vector<const PlanImage*> by_slot(SLOT_COUNT, nullptr);
+    for (const PlanImage& image : plan.images)
+        by_slot[image.slot] = &image;
+    for (int y = 0; y < c.size.y; ++y)
+        for (int x = 0; x < c.size.x; ++x) {
+            glm::dvec2 pixel(x + 0.5, y + 0.5);
+            auto n = direction(c.projection, c.size, pixel);
+            if (!n)
+                continue;
+            auto sight = physics::world_from_camera(motion_from_cockpit * *n, E, 1 / E);
+            SlotPlace place = slot_of(sight.n, plan.rear_last);
+            check(plan, place, sight.D * pixel_angle(c.projection, c.size, pixel), by_slot[place.slot]);
+        }
+}
+
+} // namespace
+
+TEST(Plan, EveryTexelThatAnyPixelReadsWasDrawn)
+{
+    for (const Case& c : cases)
+        for (double gamma : gammas)
+            for (int turned = 0; turned < 5; ++turned) {
+                long missing = 0, outside = 0, pixels = 0;
+                each_pixel(c, gamma, turned, {.texels_per_pixel = 1, .max_texels_per_pixel = 6},
+                    [&](const Plan&, const SlotPlace& place, double world_angle, const PlanImage* image) {
+                        ++pixels;
+                        if (!image)
+                            return void(++missing);
+                        // The level read, and the two by two texels of it around the point; half a texel is for the
+                        // shader's float arithmetic.
+                        double texels = world_angle * image->texels_per_unit * std::pow(1 + glm::dot(place.at, place.at), 0.75);
+                        int level = std::clamp(int(std::ceil(std::log2(std::max(texels, 1e-9)))), 0, image->levels - 1);
+                        double texel = std::exp2(level);
+                        glm::dvec2 at = (place.at - image->low) * image->texels_per_unit / texel;
+                        glm::dvec2 last = glm::dvec2(image->size) / texel;
+                        if (std::min(at.x, at.y) < 0.5 || at.x > last.x - 0.5 || at.y > last.y - 0.5)
+                            ++outside;
+                    });
+                EXPECT_EQ(missing, 0) << c.name << ", gamma " << gamma << ", turn " << turned << " of " << pixels;
+                EXPECT_EQ(outside, 0) << c.name << ", gamma " << gamma << ", turn " << turned << " of " << pixels;
+            }
+}
+
+TEST(Plan, ImagesLieApartInTheAtlas)
+{
+    for (const Case& c : cases)
+        for (double gamma : gammas)
+            for (int turned = 0; turned < 3; ++turned)
+                each_pixel({c.name, c.projection, glm::min(c.size, glm::ivec2(64))}, gamma, turned, {},
+                    [&, once = false](const Plan& plan, auto&&...) mutable {
+                        if (std::exchange(once, true))
+                            return;
+                        for (const PlanImage& a : plan.images) {
+                            EXPECT_GE(std::min(a.atlas.x, a.atlas.y), 0);
+                            EXPECT_LE(a.atlas.x + a.size.x, plan.atlas_size.x);
+                            EXPECT_LE(a.atlas.y + a.size.y, plan.atlas_size.y);
+                            EXPECT_NEAR(a.size.x, (a.high.x - a.low.x) * a.texels_per_unit, 1e-6);
+                            EXPECT_EQ((a.atlas.x | a.atlas.y | a.size.x | a.size.y) & ((1 << a.levels) - 1), 0);
+                            for (const PlanImage& b : plan.images)
+                                if (&a != &b)
+                                    EXPECT_TRUE(a.atlas.x + a.size.x <= b.atlas.x || b.atlas.x + b.size.x <= a.atlas.x
+                                        || a.atlas.y + a.size.y <= b.atlas.y || b.atlas.y + b.size.y <= a.atlas.y)
+                                        << c.name << " " << gamma;
+                        }
+                    });
+}
+
+TEST(Plan, HoldsTheDensityThatWasAskedFor)
+{
+    // Without a ceiling on texels no pixel is served by less than one texel, but for the difference between a disc's middle and
+    // its edge (cells of 24 pixels: 15 %), nor, mips counted, by more than about two across.
+    for (double gamma : {1.0, 4.0, 100.0}) {
+        double least = 1e9, most = 0;
+        each_pixel(cases[0], gamma, 0, {.texels_per_pixel = 1, .max_texels_per_pixel = 1e9},
+            [&](const Plan&, const SlotPlace& place, double world_angle, const PlanImage* image) {
+                double texels = world_angle * image->texels_per_unit * std::pow(1 + glm::dot(place.at, place.at), 0.75);
+                least = std::min(least, texels);
+                most = std::max(most, texels / std::exp2(image->levels - 1));
+            });
+        EXPECT_GT(least, 0.85) << gamma;
+        EXPECT_LT(most, 2.6) << gamma;
+    }
+}
+
+TEST(Plan, StaysUnderTheCeiling)
+{
+    for (double gamma : {1.0, 4.0, 10.0, 100.0, 1e4})
+        for (int turned = 0; turned < 5; ++turned)
+            each_pixel(cases[0], gamma, turned, {.texels_per_pixel = 1, .max_texels_per_pixel = 2},
+                [&, once = false](const Plan& plan, auto&&...) mutable {
+                    if (!std::exchange(once, true))
+                        EXPECT_LT(plan.texels / plan.pixels, 2.3) << gamma << " " << turned;
+                });
+}
+
+TEST(Plan, AtRestLookingAheadIsOneImage)
+{
+    Plan plan = make_plan({{Planar{60}, {800, 600}, motion_from_world({}, glm::dquat(1, 0, 0, 0))}}, 1, {});
+    ASSERT_EQ(plan.images.size(), 1u);
+    EXPECT_EQ(plan.images[0].slot, SLOT_FRONT);
+    EXPECT_EQ(plan.levels, 1);
+    // The corners' texels are twice the middle's share of sky, and 4 texels of gutter all round.
+    EXPECT_LT(plan.texels / plan.pixels, 1.3);
+}
+
+TEST(Plan, ClipMapsTheRectangleToTheSquare)
+{
+    for (int face = 0; face < 6; ++face) {
+        PlanImage image{0, face, {-0.3, 0.1}, {0.8, 0.9}, {64, 64}, {0, 0}, 1, 1};
+        glm::dmat4 clip = clip_from_motion(image, 1e-6);
+        glm::dvec4 low = clip * glm::dvec4(7.0 * face_direction(face, image.low), 1);
+        glm::dvec4 high = clip * glm::dvec4(7.0 * face_direction(face, image.high), 1);
+        EXPECT_NEAR(low.x / low.w, -1, 1e-12);
+        EXPECT_NEAR(low.y / low.w, -1, 1e-12);
+        EXPECT_NEAR(high.x / high.w, 1, 1e-12);
+        EXPECT_NEAR(high.y / high.w, 1, 1e-12);
+        EXPECT_NEAR(low.z / low.w, 1e-6 / 7, 1e-18); // reversed z: near over distance
+    }
+}
