@@ -425,7 +425,7 @@ TEST(Numbers, CirclesStayCircles)
     const auto in_double = seen_circle<double>(90 * degree, 20 * degree, [&](dvec3 n) { return pd::camera_from_world(n, E, 1 / E).n; });
     EXPECT_NEAR(in_double.centre_deg, 27.26680, half_1e5);
     EXPECT_NEAR(in_double.radius_deg, 9.01490, half_1e5);
-    EXPECT_LE(in_double.residual, 1e-14);
+    EXPECT_LE(in_double.residual, 1e-12); // inverting the fit's 3 x 3 of a circle this small loses two digits
     const auto in_float =
         seen_circle<float>(90 * degree, 20 * degree, [&](vec3 n) { return pf::camera_from_world(n, float(E), float(1 / E)).n; });
     EXPECT_NEAR(in_float.centre_deg, 27.26680, 1e-6 / degree);
