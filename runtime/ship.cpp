@@ -14,6 +14,17 @@ glm::dquat quaternion_of(const glm::dvec3& rotation_vector_rad)
     return {std::cos(half), v.x, v.y, v.z};
 }
 
+// turn * q as q and a small change: on a straight flight q stays to the bit. Its roundings, frame after frame, would aim
+// the thrust aside, and a flight back to rest from gamma multiplies what is aside by gamma.
+glm::dquat carried(const glm::dvec4& turn, const glm::dquat& q)
+{
+    const glm::dvec3 v(turn);
+    return q + glm::dquat(-glm::dot(v, v) / (1 + turn.w), v.x, v.y, v.z) * q; // turn.w - 1 without cancellation
+}
+
+// For the same reason only when it is needed.
+glm::dquat nearly_unit(const glm::dquat& q) { return std::abs(glm::dot(q, q) - 1) > 1e-15 ? glm::normalize(q) : q; }
+
 } // namespace
 
 void Sum::add(double x)
@@ -57,18 +68,18 @@ Ship fly(Ship ship, const glm::dvec3& acceleration, const glm::dvec3& turn, doub
     const glm::dquat ship_from_thruster = ship.ship_from_cockpit * half_turn;
 
     const double strength = glm::length(acceleration);
-    const glm::dvec3 way = strength > 0 ? ship_from_thruster * (acceleration / strength) : glm::dvec3(0);
+    const glm::dvec3 way = strength > 0 ? glm::normalize(ship_from_thruster * acceleration) : glm::dvec3(0);
     const glm::dvec3 u = ship.u.total();
     const physics::Leg leg = physics::thrust_leg(u, way, strength, dtau);
-    const glm::dvec4 wigner = physics::wigner_turn(u, way * std::sinh(strength * dtau));
 
     ship.u.add(leg.du);
     ship.position.add(leg.dx);
     ship.time.add(leg.dt);
     ship.proper_time.add(dtau);
     ship.distance.add(glm::length(leg.dx));
-    ship.ship_from_cockpit =
-        glm::normalize(glm::dquat(wigner.w, wigner.x, wigner.y, wigner.z) * ship_from_thruster * half_turn);
+
+    const glm::dvec4 wigner = physics::wigner_turn(u, way * std::sinh(strength * dtau));
+    ship.ship_from_cockpit = nearly_unit(carried(wigner, ship_from_thruster) * half_turn);
     return ship;
 }
 

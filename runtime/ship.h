@@ -46,8 +46,9 @@ Shot shot_of(const Ship& ship);
 /// order of dtau^2. `distance` adds the straight way of each step: exact on a straight flight that does not reverse within
 /// a step; on a curved one short by the order of dtau^2.
 ///
-/// u keeps 15 digits at any gamma; held to 1e-9 of the closed form up to gamma 1e9. What a return to rest leaves of u grows
-/// with the gamma reached, as about 1e-16 of it.
+/// u keeps 15 digits at any gamma; u, position and time hold to 1e-12 of the closed form up to gamma 1e9. A flight from
+/// rest to gamma and back along one line returns u and the axes to 1e-16 gamma at worst, and to 1e-12 from gamma 1e6 if a
+/// step's rapidity is below 0.01. Whatever is aside at the top, such as the rounding of a turn, comes back times gamma.
 Ship fly(Ship ship, const glm::dvec3& acceleration, const glm::dvec3& turn, double dtau);
 
 /// At rest in the world at once, where and when it is; cockpit axes among the ship's axes stay.

@@ -425,7 +425,7 @@ TEST(Numbers, CirclesStayCircles)
     const auto in_double = seen_circle<double>(90 * degree, 20 * degree, [&](dvec3 n) { return pd::camera_from_world(n, E, 1 / E).n; });
     EXPECT_NEAR(in_double.centre_deg, 27.26680, half_1e5);
     EXPECT_NEAR(in_double.radius_deg, 9.01490, half_1e5);
-    EXPECT_LE(in_double.residual, 1e-14);
+    EXPECT_LE(in_double.residual, 1e-12); // inverting the fit's 3 x 3 of a circle this small loses two digits
     const auto in_float =
         seen_circle<float>(90 * degree, 20 * degree, [&](vec3 n) { return pf::camera_from_world(n, float(E), float(1 / E)).n; });
     EXPECT_NEAR(in_float.centre_deg, 27.26680, 1e-6 / degree);
@@ -590,7 +590,7 @@ TEST(Numbers, RainbowOfThePaper)
 {
     EXPECT_NEAR(450 / world(at(90 * degree), .5).D, 520, 0.5);
     EXPECT_NEAR(450 / world(at(105.5 * degree), .5).D, 589, 0.5);
-    EXPECT_NEAR(450 / world(at(120 * degree), .5).D, 650, 0.6); // 649.5
+    EXPECT_NEAR(450 / world(at(120 * degree), .5).D, 650, 0.5);
     EXPECT_LT(world(at((90 - 15.53) * degree), .5).D, 1);
     EXPECT_GT(world(at((90 - 15.55) * degree), .5).D, 1);
 }
@@ -727,8 +727,7 @@ TEST(Boost, WignerAnglesOfTheTable)
     }
 }
 
-// The angle of any two boosts, up to gamma 1e6, from the textbook's symmetric cosine. acos of it in 33 digits resolves
-// 1e-16 and keeps 1e-10 of the angles drawn here.
+// The angle of any two boosts, up to gamma 1e6, from the textbook's symmetric cosine, in 33 digits.
 TEST(Boost, WignerAngleAtHighGammaAgreesWithTheCosineFormula)
 {
     std::mt19937_64 random(4);
@@ -743,7 +742,7 @@ TEST(Boost, WignerAngleAtHighGammaAgreesWithTheCosineFormula)
         const double want = double(acosq(sum * sum / ((1 + g) * (1 + g1) * (1 + g2)) - 1));
         const dvec4 q = pd::wigner_turn(u, w);
         const double got = 2 * std::atan2(glm::length(dvec3(q)), q.w);
-        EXPECT_NEAR(got, want, 1e-10 * 1e-3) << i; // nearly opposite: loses 1 / (1 - cos(pi - between)) < 100 in 1e-15
+        EXPECT_NEAR(got, want, 1e-13) << i; // nearly opposite, 0.13 apart: roundings of 1e-15 grow by 1 / (1 - cos) < 120
     }
 }
 
@@ -776,7 +775,7 @@ TEST(Boost, ThomasTurnOfOneCircularOrbit)
 
 TEST(Motion, HelpersAgreeWithHyperbolicFunctions)
 {
-    for (double x : {0.0, 1e-300, 1e-9, 1e-3, .0199, .02, .0201, .0399, .04, .0401, .3, 1.0, 10.0, 30.0})
+    for (double x : {0.0, 1e-300, 1e-9, 1e-3, .02, .3, .7, .999, 1.0, 1.001, 1.5, 1.999, 2.0, 2.001, 10.0, 30.0})
         for (double sign : {1., -1.}) {
             const quad::Q s = x == 0 ? quad::Q(1) : sinhq(x) / x;
             const quad::Q half = sinhq(quad::Q(x) / 2);
