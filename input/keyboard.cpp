@@ -1,0 +1,110 @@
+#include "keyboard.h"
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+constexpr double look_rad_per_pixel = 0.003;
+constexpr double pad_look_rad_per_read = 0.03;
+
+/// Sticks never rest at 0 exactly; beyond the dead zone the way grows from 0.
+double stick(float value)
+{
+    constexpr double dead = 0.15;
+    double size = std::abs(value);
+    return size < dead ? 0 : std::copysign(std::min(1.0, (size - dead) / (1 - dead)), double(value));
+}
+
+} // namespace
+
+const char* keyboard_help()
+{
+    return "W, S            faster, slower: equal steps of rapidity (Shift: four times as fast)\n"
+           "arrows, A, D    turn the ship; Q, E roll it\n"
+           "mouse drag      look around; C looks ahead again\n"
+           "Space           stop at once, relative to the world\n"
+           "R               back to the start\n"
+           "1, 2, 3         aberration, Doppler effect, headlight effect on and off\n"
+           "+, -            brighter, darker\n"
+           "H               head-up display; F11 full screen; Esc leave\n"
+           "gamepad         triggers: slower, faster; left stick: turn; right stick: look; A stop; B back to the start;\n"
+           "                X, Y, right bumper: the effects; left bumper: look ahead";
+}
+
+void Keyboard::begin()
+{
+    before_ = now_;
+    now_.fill(false);
+    drag_ = {0, 0};
+    held_ = false;
+}
+
+void Keyboard::collect(GLFWwindow* window)
+{
+    for (int key = GLFW_KEY_SPACE; key < keys && key <= GLFW_KEY_LAST; ++key)
+        now_[key] = now_[key] || glfwGetKey(window, key) == GLFW_PRESS;
+    if (glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS) {
+        glm::dvec2 at;
+        glfwGetCursorPos(window, &at.x, &at.y);
+        if (dragging_ == window)
+            drag_ += at - pointer_;
+        dragging_ = window;
+        pointer_ = at;
+        held_ = true;
+    }
+}
+
+void Keyboard::finish(Controls& controls)
+{
+    if (!held_)
+        dragging_ = nullptr;
+    auto axis = [&](int less, int more) { return double(down(more)) - double(down(less)); };
+    controls.faster = axis(GLFW_KEY_S, GLFW_KEY_W);
+    if (down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT))
+        controls.faster *= 4;
+    controls.turn = {axis(GLFW_KEY_DOWN, GLFW_KEY_UP), axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT) + axis(GLFW_KEY_D, GLFW_KEY_A),
+        axis(GLFW_KEY_E, GLFW_KEY_Q)};
+    controls.look_rad = look_rad_per_pixel * drag_; // the pointer holds the world: dragging it right looks left
+    controls.exposure = std::max(double(down(GLFW_KEY_EQUAL)), double(down(GLFW_KEY_KP_ADD)))
+        - std::max(double(down(GLFW_KEY_MINUS)), double(down(GLFW_KEY_KP_SUBTRACT)));
+    controls.look_ahead = pressed(GLFW_KEY_C);
+    controls.stop = pressed(GLFW_KEY_SPACE);
+    controls.reset = pressed(GLFW_KEY_R);
+    controls.aberration = pressed(GLFW_KEY_1);
+    controls.doppler = pressed(GLFW_KEY_2);
+    controls.headlight = pressed(GLFW_KEY_3);
+    controls.hud = pressed(GLFW_KEY_H);
+    controls.full_screen = pressed(GLFW_KEY_F11);
+    controls.quit = pressed(GLFW_KEY_ESCAPE);
+
+    pad_before_ = pad_;
+    pad_.fill(false);
+    for (int joystick = GLFW_JOYSTICK_1; joystick <= GLFW_JOYSTICK_LAST; ++joystick) {
+        GLFWgamepadstate state;
+        if (!glfwJoystickIsGamepad(joystick) || !glfwGetGamepadState(joystick, &state))
+            continue;
+        // Triggers rest at -1.
+        controls.faster += 0.5 * (state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] - state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER]);
+        controls.turn.y -= stick(state.axes[GLFW_GAMEPAD_AXIS_LEFT_X]);
+        controls.turn.x -= stick(state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y]);
+        controls.look_rad.x -= pad_look_rad_per_read * stick(state.axes[GLFW_GAMEPAD_AXIS_RIGHT_X]);
+        controls.look_rad.y -= pad_look_rad_per_read * stick(state.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y]);
+        for (int button = 0; button <= GLFW_GAMEPAD_BUTTON_LAST; ++button)
+            pad_[button] = pad_[button] || state.buttons[button] == GLFW_PRESS;
+    }
+    auto tapped = [&](int button) { return pad_[button] && !pad_before_[button]; };
+    controls.stop |= tapped(GLFW_GAMEPAD_BUTTON_A);
+    controls.reset |= tapped(GLFW_GAMEPAD_BUTTON_B);
+    controls.aberration |= tapped(GLFW_GAMEPAD_BUTTON_X);
+    controls.doppler |= tapped(GLFW_GAMEPAD_BUTTON_Y);
+    controls.headlight |= tapped(GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER);
+    controls.look_ahead |= tapped(GLFW_GAMEPAD_BUTTON_LEFT_BUMPER);
+    controls.hud |= tapped(GLFW_GAMEPAD_BUTTON_BACK);
+    controls.exposure += double(pad_[GLFW_GAMEPAD_BUTTON_DPAD_UP]) - double(pad_[GLFW_GAMEPAD_BUTTON_DPAD_DOWN]);
+    controls.turn = glm::clamp(controls.turn, -1.0, 1.0);
+}
+
+} // namespace starbow

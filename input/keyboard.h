@@ -1,0 +1,42 @@
+#pragma once
+#include "controls.h"
+#include <array>
+
+struct GLFWwindow;
+
+namespace starbow {
+
+/// Keyboard, mouse and any gamepad that GLFW knows, over all windows of the exhibit. Remembers only what was down before.
+class Keyboard {
+public:
+    /// Reads what is down now (after glfwPollEvents). windows: those whose keys and pointer count.
+    template <class Windows> Controls read(const Windows& windows, std::int64_t time_ns)
+    {
+        Controls controls;
+        controls.time_ns = time_ns;
+        begin();
+        for (GLFWwindow* window : windows)
+            collect(window);
+        finish(controls);
+        return controls;
+    }
+
+private:
+    static constexpr int keys = 512, buttons = 32;
+    void begin();
+    void collect(GLFWwindow* window);
+    void finish(Controls& controls);
+    bool down(int key) const { return now_[key]; }
+    bool pressed(int key) const { return now_[key] && !before_[key]; }
+
+    std::array<bool, keys> now_{}, before_{};
+    std::array<bool, buttons> pad_{}, pad_before_{};
+    glm::dvec2 pointer_{0}, drag_{0};
+    GLFWwindow* dragging_ = nullptr;
+    bool held_ = false;
+};
+
+/// For people: what each key and button does, a line each.
+const char* keyboard_help();
+
+} // namespace starbow
