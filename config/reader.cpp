@@ -52,16 +52,29 @@ std::string contents(const std::filesystem::path& path, const std::string& file)
     return text;
 }
 
+/// Of the last of the first `read` bytes, counted from 1 in letters.
+std::string line_and_column(const std::string& content, std::size_t read)
+{
+    const std::string_view before = std::string_view(content).substr(0, read > 0 ? read - 1 : 0);
+    const std::size_t line_start = before.rfind('\n') + 1; // npos + 1 is 0
+    const auto letters = std::count_if(before.begin() + std::ptrdiff_t(line_start), before.end(),
+        [](unsigned char c) { return (c & 0xc0) != 0x80; });
+    return "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) + ", column "
+        + std::to_string(1 + letters);
+}
+
 /// Builds the document as the parser goes, because only here are a repeated member, the depth and the place of a number
 /// that overflows still known. The parser does not recurse, so depth costs no stack.
 struct Builder : json::json_sax_t {
     const std::string& file;
+    const std::string& content;
     json root;
     std::vector<json*> open;       // containers from the root inwards; an outer one does not grow while an inner is open
     std::vector<std::string> keys; // beside each open container: the member being read, where it is an object
 
-    explicit Builder(const std::string& name)
+    Builder(const std::string& name, const std::string& text)
         : file(name)
+        , content(text)
     {
     }
 
@@ -117,13 +130,14 @@ struct Builder : json::json_sax_t {
             throw InputError(file, pointer(), "\"" + one_line(name, 60) + "\" is given twice; one of the two is right");
         return true;
     }
-    bool parse_error(std::size_t, const std::string& token, const nlohmann::detail::exception& error) override
+    bool parse_error(std::size_t read, const std::string& token, const nlohmann::detail::exception& error) override
     {
         if (error.id == 406)
             throw InputError(file, pointer(), one_line(token, 60) + " is too large for a number; up to 1.79e308 is right");
-        const std::string what = error.what(), start = "parse error at ";
-        const std::size_t at = what.find(start);
-        throw InputError(file, "", one_line(at == std::string::npos ? what : what.substr(at + start.size())));
+        // "[...] parse error at line L, column C: ..." with a column in bytes, and 0 for the end of the line before.
+        const std::string what = error.what();
+        const std::size_t column = what.find(", column "), start = what.find(": ", column);
+        throw InputError(file, line_and_column(content, read), one_line(what.substr(start == what.npos ? 0 : start + 2)));
     }
 };
 
@@ -168,7 +182,7 @@ Document read_document(const std::filesystem::path& path)
 {
     Document document { one_line(path.string()), nullptr };
     const std::string content = contents(path, document.file);
-    Builder builder(document.file);
+    Builder builder(document.file, content);
     json::sax_parse(content, &builder, json::input_format_t::json, true, true);
     document.root = std::move(builder.root);
     return document;
@@ -237,7 +251,7 @@ std::vector<Place> items(const Place& place, std::size_t least, std::size_t most
         complain(place, "is not a list; " + right);
     const std::size_t count = place.json->size();
     if (count < least || count > most)
-        complain(place, "has " + std::to_string(count) + " " + what + "; " + right);
+        complain(place, "has length " + std::to_string(count) + "; " + right);
     std::vector<Place> places;
     for (std::size_t i = 0; i < count; ++i)
         places.push_back({ place.document, &(*place.json)[i], place.pointer + "/" + std::to_string(i) });
