@@ -20,7 +20,8 @@ using Stream = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 [[noreturn]] void refuse_writing(const std::filesystem::path& file, int why)
 {
-    throw InputError(file.string(), "", std::string("can't be written (") + std::strerror(why) + "); a place for a file is right");
+    throw InputError(
+        file.string(), "", std::string("can't be written (") + std::strerror(why) + "); a place for a file is right");
 }
 
 /// The whole file or nothing: a reader of the folder never meets half a picture.
@@ -68,13 +69,15 @@ Bytes read_whole(const std::filesystem::path& file)
 {
     const Stream stream(std::fopen(file.c_str(), "rb"), std::fclose);
     if (!stream)
-        throw InputError(file.string(), "", std::string("can't be opened (") + std::strerror(errno) + "); an EXR file is right");
+        throw InputError(
+            file.string(), "", std::string("can't be opened (") + std::strerror(errno) + "); an EXR file is right");
     Bytes bytes;
     unsigned char piece[65536];
     while (const std::size_t got = std::fread(piece, 1, sizeof piece, stream.get()))
         bytes.insert(bytes.end(), piece, piece + got);
     if (std::ferror(stream.get()))
-        throw InputError(file.string(), "", std::string("can't be read (") + std::strerror(errno) + "); an EXR file is right");
+        throw InputError(
+            file.string(), "", std::string("can't be read (") + std::strerror(errno) + "); an EXR file is right");
     return bytes;
 }
 
@@ -101,8 +104,10 @@ void write_exr(const std::filesystem::path& file, glm::ivec2 size, const Channel
 {
     std::vector<const Channels::value_type*> sorted; // the format wants them in the order of their names
     for (const auto& channel : channels) {
-        require(channel.second.size() == pixels(size), "write_exr: samples of " + channel.first, channel.second.size(), pixels(size));
-        require(!channel.first.empty() && channel.first.size() <= 255, "write_exr: letters of a name", channel.first.size(), 255);
+        require(channel.second.size() == pixels(size), "write_exr: samples of " + channel.first, channel.second.size(),
+            pixels(size));
+        require(!channel.first.empty() && channel.first.size() <= 255, "write_exr: letters of a name", channel.first.size(),
+            255);
         sorted.push_back(&channel);
     }
     require(!channels.empty(), "write_exr: channels", 0, 1);

@@ -125,8 +125,9 @@ std::string exr_fault(const std::vector<unsigned char>& bytes)
         const auto size = block.take<std::int32_t>();
         const std::int64_t full = row_bytes * std::min(rows_per_block, header.height - row);
         // Deflate packs at most 1032 to 1: whoever claims more would have us reserve memory for nothing.
-        const bool fits = header.compression == zip_compression ? size > 0 && size <= full && full <= size * std::int64_t(1100)
-                                                                : size == full;
+        const bool fits = header.compression == zip_compression
+            ? size > 0 && size <= full && full <= size * std::int64_t(1100)
+            : size == full;
         if (block.broken || number != row || !fits || std::uint64_t(size) > block.end - block.at)
             return "is broken at row " + std::to_string(row) + "; a whole file is right";
     }

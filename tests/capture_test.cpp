@@ -1,5 +1,5 @@
-#include "runtime/capture.h"
 #include "files.h"
+#include "runtime/capture.h"
 #include <cmath>
 #include <csignal>
 #include <cstring>
@@ -109,11 +109,15 @@ TEST(CaptureTest, PlacesThatCantBeWritten)
 {
     const std::vector<std::uint8_t> pixel { 1, 2, 3, 4 };
     const auto missing = scratch("no/such/folder/a.png");
-    EXPECT_EQ(complaint([&] { write_png(missing, { 1, 1 }, pixel); }),
+    EXPECT_EQ(complaint([&] {
+        write_png(missing, { 1, 1 }, pixel);
+    }),
         missing.string() + ": can't be written (No such file or directory); a place for a file is right");
     const auto taken = folder("taken");
     EXPECT_NE(complaint([&] { write_png(taken, { 1, 1 }, pixel); }).find("is there and is not a file"), std::string::npos);
-    EXPECT_NE(complaint([&] { write_exr("/dev/null", { 1, 1 }, { { "Y", { 1.f } } }); }).find("is not a file"),
+    EXPECT_NE(complaint([&] {
+        write_exr("/dev/null", { 1, 1 }, { { "Y", { 1.f } } });
+    }).find("is not a file"),
         std::string::npos);
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
     EXPECT_NE(complaint([&] { write_png("/proc/a.png", { 1, 1 }, pixel); }).find("can't be written"), std::string::npos);
@@ -168,7 +172,8 @@ TEST(CaptureTest, BrokenExrFilesAreRefused)
     EXPECT_NE(complaint([] { read_exr("no/such.exr"); }).find("no/such.exr: can't be opened"), std::string::npos);
     EXPECT_NE(complaint([] { read_exr("/usr"); }).find("can't be read"), std::string::npos);
     EXPECT_NE(complaint([] { read_exr(write_text("a.exr", "")); }).find("is not an EXR file"), std::string::npos);
-    EXPECT_NE(complaint([] { read_exr(write_text("a.exr", "{ \"no\": 1 }")); }).find("is not an EXR file"), std::string::npos);
+    EXPECT_NE(
+        complaint([] { read_exr(write_text("a.exr", "{ \"no\": 1 }")); }).find("is not an EXR file"), std::string::npos);
 
     write_exr(scratch("whole.exr"), { 7, 40 }, planes({ 7, 40 }, { "R", "a.X" }, true));
     const std::string whole = read_text(scratch("whole.exr"));

@@ -12,8 +12,7 @@ constexpr double pi = glm::pi<double>();
 void expect_near(const std::optional<glm::dvec3>& seen, const glm::dvec3& expected, double tolerance = 1e-14)
 {
     ASSERT_TRUE(seen);
-    EXPECT_NEAR(glm::distance(*seen, glm::normalize(expected)), 0, tolerance)
-        << seen->x << " " << seen->y << " " << seen->z;
+    EXPECT_NEAR(glm::distance(*seen, glm::normalize(expected)), 0, tolerance) << seen->x << " " << seen->y << " " << seen->z;
 }
 
 struct Case {
@@ -55,7 +54,8 @@ double pixel_area(const Case& c, glm::dvec2 centre)
     for (int side = 0; side < 4; ++side)
         for (int i = 0; i < n; ++i) {
             const auto at = [&](int k) {
-                return direction(c.projection, c.size, centre + glm::mix(corners[side], corners[(side + 1) % 4], k / double(n)));
+                return direction(
+                    c.projection, c.size, centre + glm::mix(corners[side], corners[(side + 1) % 4], k / double(n)));
             };
             sum += triangle_area(middle, at(i).value(), at(i + 1).value());
         }
@@ -96,8 +96,8 @@ TEST(DirectionMapTest, LevelDome)
     const glm::ivec2 size(1000, 1000);
     expect_near(direction(dome, size, { 500, 500 }), { 0, 1, 0 });
     expect_near(direction(dome, size, { 500, 1000 }), { 0, 0, -1 }); // bottom: straight ahead
-    expect_near(direction(dome, size, { 1000, 500 }), { 1, 0, 0 });  // right
-    expect_near(direction(dome, size, { 500, 0 }), { 0, 0, 1 });     // top: behind
+    expect_near(direction(dome, size, { 1000, 500 }), { 1, 0, 0 }); // right
+    expect_near(direction(dome, size, { 500, 0 }), { 0, 0, 1 }); // top: behind
     expect_near(direction(dome, size, { 0, 500 }), { -1, 0, 0 });
     expect_near(direction(dome, size, { 500, 750 }), { 0, 1, -1 }); // half the radius is half the angle
     EXPECT_FALSE(direction(dome, size, { 0, 0 }));
@@ -279,8 +279,8 @@ TEST(DirectionMapTest, CompiledMapsAreTheFunctions)
                 const glm::dvec2 centre(x + 0.5, y + 0.5);
                 const auto seen = direction(c.projection, c.size, centre);
                 const glm::vec4 texel = map.texels[std::size_t(y) * c.size.x + x];
-                ASSERT_EQ(texel,
-                    seen ? glm::vec4(glm::dvec4(*seen, pixel_angle(c.projection, c.size, centre))) : glm::vec4(0));
+                ASSERT_EQ(
+                    texel, seen ? glm::vec4(glm::dvec4(*seen, pixel_angle(c.projection, c.size, centre))) : glm::vec4(0));
                 ASSERT_TRUE(!seen || texel.w > 0);
             }
     }

@@ -71,7 +71,8 @@ template <class Act> std::string complaint(Act act)
     return "";
 }
 
-/// A wrong file: its text, where the complaint points ("" for the whole file), the value it shows and a part of what it says.
+/// A wrong file: its text, where the complaint points ("" for the whole file), the value it shows and a part of what it
+/// says.
 struct Wrong {
     std::string text, pointer, value, says;
 };
@@ -82,7 +83,8 @@ template <class Load> void expect_wrong(Load load, const std::vector<Wrong>& cas
         SCOPED_TRACE(wrong.text.substr(0, 300));
         const std::filesystem::path file = write_text("wrong.json", wrong.text);
         const std::string message = complaint([&] { load(file); });
-        const std::string start = file.string() + ": " + (wrong.pointer.empty() ? "" : wrong.pointer + ": ") + wrong.value + " ";
+        const std::string start
+            = file.string() + ": " + (wrong.pointer.empty() ? "" : wrong.pointer + ": ") + wrong.value + " ";
         EXPECT_EQ(message.substr(0, start.size()), start);
         EXPECT_NE(message.find(wrong.says), std::string::npos) << message;
         EXPECT_TRUE(message.ends_with(" is right")) << message;
@@ -92,17 +94,29 @@ template <class Load> void expect_wrong(Load load, const std::vector<Wrong>& cas
 /// A text with a few random faults of the kinds that hands and disks make.
 inline std::string mutated(std::string text, std::mt19937& random)
 {
-    static const std::vector<std::string> pieces { "1e999", "-1", "0", "1e308", "1e-320", "null", "true", "\"\"", "[]", "{}", "[",
-        "]", "{", "}", ",", ":", "\"", "NaN", "\\u0000", "\xff", "//", "/*", "99999999999999999999", "0.5", "\"gamma\":2," };
+    static const std::vector<std::string> pieces { "1e999", "-1", "0", "1e308", "1e-320", "null", "true", "\"\"", "[]", "{}",
+        "[", "]", "{", "}", ",", ":", "\"", "NaN", "\\u0000", "\xff", "//", "/*", "99999999999999999999", "0.5",
+        "\"gamma\":2," };
     for (unsigned faults = 1 + random() % 4; faults > 0; --faults) {
         const std::size_t at = random() % (text.size() + 1);
         const std::size_t length = std::min<std::size_t>(random() % 12, text.size() - at);
         switch (random() % 6) {
-        case 0: text.erase(at, length); break;
-        case 1: text.insert(at, text.substr(at, length)); break;
-        case 2: text.insert(at, pieces[random() % pieces.size()]); break;
-        case 3: text.replace(at, length, pieces[random() % pieces.size()]); break;
-        case 4: if (at < text.size()) text[at] = char(random()); break;
+        case 0:
+            text.erase(at, length);
+            break;
+        case 1:
+            text.insert(at, text.substr(at, length));
+            break;
+        case 2:
+            text.insert(at, pieces[random() % pieces.size()]);
+            break;
+        case 3:
+            text.replace(at, length, pieces[random() % pieces.size()]);
+            break;
+        case 4:
+            if (at < text.size())
+                text[at] = char(random());
+            break;
         default: { // a number in place of a number, which most often still is JSON
             const std::size_t digit = text.find_first_of("0123456789", at);
             if (digit != std::string::npos)

@@ -31,7 +31,8 @@ std::string named(const std::string& name)
 std::string tiled(const std::string& a, const std::string& b)
 {
     const std::string planar = R"(, "projection": { "type": "planar" } })";
-    return R"({ "outputs": [{ "name": "a", "viewports": [{ "rect": )" + a + planar + R"(, { "rect": )" + b + planar + "] }] }";
+    return R"({ "outputs": [{ "name": "a", "viewports": [{ "rect": )" + a + planar + R"(, { "rect": )" + b + planar
+        + "] }] }";
 }
 
 } // namespace
@@ -68,13 +69,14 @@ TEST(LayoutTest, ShippedLayouts)
 
 TEST(LayoutTest, LimitsThemselvesAreRight)
 {
-    for (const std::string& text : { projection(R"({ "type": "planar", "fov_y_deg": 0.1 })"),
-             projection(R"({ "type": "planar", "fov_y_deg": 179 })"),
-             projection(R"({ "type": "fisheye", "aperture_deg": 360, "tilt_deg": -180 })"), output(R"("size": [16384, 16384])"),
-             output(R"("size": [1.0, 1])"), viewport(R"("rect": [0.3333, 0, 0.6667, 1])"), viewport(R"("rect": [0.1, 0.2, 0.9, 0.8])"),
-             viewport(R"("eye_m": [1000, -1000, 0])"), top(R"("hyper_stereo": 1e12)"), top(R"("hud": {})"),
-             tiled("[0, 0, 0.5, 1]", "[0.5, 0, 0.5, 1]"), tiled("[0, 0, 0.3333333, 1]", "[0.3333333, 0, 0.6666667, 1]"),
-             tiled("[0, 0, 0.5, 0.5]", "[0.5, 0.5, 0.5, 0.5]"), named("\"A-z_09\"") }) {
+    for (const std::string& text :
+        { projection(R"({ "type": "planar", "fov_y_deg": 0.1 })"), projection(R"({ "type": "planar", "fov_y_deg": 179 })"),
+            projection(R"({ "type": "fisheye", "aperture_deg": 360, "tilt_deg": -180 })"),
+            output(R"("size": [16384, 16384])"), output(R"("size": [1.0, 1])"),
+            viewport(R"("rect": [0.3333, 0, 0.6667, 1])"), viewport(R"("rect": [0.1, 0.2, 0.9, 0.8])"),
+            viewport(R"("eye_m": [1000, -1000, 0])"), top(R"("hyper_stereo": 1e12)"), top(R"("hud": {})"),
+            tiled("[0, 0, 0.5, 1]", "[0.5, 0, 0.5, 1]"), tiled("[0, 0, 0.3333333, 1]", "[0.3333333, 0, 0.6666667, 1]"),
+            tiled("[0, 0, 0.5, 0.5]", "[0.5, 0.5, 0.5, 0.5]"), named("\"A-z_09\"") }) {
         SCOPED_TRACE(text);
         EXPECT_NO_THROW(load_layout(write_text("right.json", text)));
     }
@@ -111,7 +113,8 @@ TEST(LayoutTest, WrongLayouts)
             { named("\"../a\""), "/outputs/0/name", "\"../a\"", "can't be part of a file's name" },
             { named("\"ä\""), "/outputs/0/name", "\"ä\"", "can't be part of a file's name" },
             { named("\"a\\n\""), "/outputs/0/name", "\"a\\n\"", "holds a control character" },
-            { named("\"" + std::string(65, 'x') + "\""), "/outputs/0/name", "\"" + std::string(59, 'x') + "...", "up to 64" },
+            { named("\"" + std::string(65, 'x') + "\""), "/outputs/0/name", "\"" + std::string(59, 'x') + "...",
+                "up to 64" },
             { named("5"), "/outputs/0/name", "5", "is not a text" },
             { R"({ "outputs": [{ "name": "a", "viewports": [{ "projection": { "type": "planar" } }] },
                 { "name": "a", "viewports": [{ "projection": { "type": "planar" } }] }] })",
@@ -125,7 +128,8 @@ TEST(LayoutTest, WrongLayouts)
             { output(R"("fullscreen": true)"), "/outputs/0/fullscreen", "true", "unknown name" },
             { projection("60"), vp + "/projection", "60", "is not an object" },
             { projection("{}"), vp + "/projection", "{}", "lacks \"type\"" },
-            { projection(R"({ "type": "dome" })"), vp + "/projection/type", "\"dome\"", "\"planar\" or \"fisheye\" is right" },
+            { projection(R"({ "type": "dome" })"), vp + "/projection/type", "\"dome\"",
+                "\"planar\" or \"fisheye\" is right" },
             { projection(R"({ "type": "planar", "fov_y_deg": 0 })"), vp + "/projection/fov_y_deg", "0", "is too small" },
             { projection(R"({ "type": "planar", "fov_y_deg": 180 })"), vp + "/projection/fov_y_deg", "180",
                 "is too large; a number from 0.1 to 179" },

@@ -23,7 +23,8 @@ TEST(ReaderTest, CommentsAreAllowed)
 
 TEST(ReaderTest, FilesThatAreNone)
 {
-    EXPECT_EQ(complaint([] { read_document("no/such.json"); }), "no/such.json: does not exist; the name of a JSON file is right");
+    EXPECT_EQ(
+        complaint([] { read_document("no/such.json"); }), "no/such.json: does not exist; the name of a JSON file is right");
     EXPECT_EQ(complaint([] { read_document("/usr"); }), "/usr: is a folder; a JSON file is right");
     EXPECT_NE(refusal("").find("is empty; "), std::string::npos);
     // Opens for its own process but refuses to be read at address 0, for root too.
@@ -38,7 +39,8 @@ TEST(ReaderTest, FilesOfSixteenMebibytesAreRead)
 {
     const std::string start = "{ \"a\": 1 }";
     EXPECT_NO_THROW(document(start + std::string((16 << 20) - start.size(), ' ')));
-    EXPECT_NE(refusal(start + std::string((16 << 20) + 1 - start.size(), ' ')).find("larger than 16 MiB"), std::string::npos);
+    EXPECT_NE(
+        refusal(start + std::string((16 << 20) + 1 - start.size(), ' ')).find("larger than 16 MiB"), std::string::npos);
 }
 
 TEST(ReaderTest, SyntaxErrorsTellLineAndColumn)
@@ -102,7 +104,9 @@ TEST(ReaderTest, Depth)
 TEST(ReaderTest, UnknownMembersNameTheNearest)
 {
     const Document d = document("{ \"gama\": 4 }");
-    EXPECT_EQ(complaint([&] { only(root(d), { "rapidity", "direction", "beta", "gamma" }); }),
+    EXPECT_EQ(complaint([&] {
+        only(root(d), { "rapidity", "direction", "beta", "gamma" });
+    }),
         at_file("/gama: 4 stands under an unknown name; \"gamma\", \"beta\" or \"rapidity\" is right"));
     const Document long_name = document("{ \"" + std::string(100000, 'x') + "\": 1 }");
     EXPECT_LT(complaint([&] { only(root(long_name), { "a" }); }).size(), 700u);
@@ -114,20 +118,44 @@ TEST(ReaderTest, ValuesOfTheWrongKind)
         "e": "", "c": "a\u0000b", "long": "ääääääääääääääääääääääääääääääääääääääääää" })");
     const auto at = [&](const char* name) { return member(root(d), name); };
     const std::vector<std::pair<std::string, std::string>> cases {
-        { complaint([&] { number(at("s"), { 0, 1 }); }), "/s: \"text\" is not a number; a number from 0 to 1 is right" },
-        { complaint([&] { number(at("z"), { 0, 1 }); }), "/z: null is not a number; a number from 0 to 1 is right" },
-        { complaint([&] { number(at("n"), { 0, 1 }); }), "/n: 5 is too large; a number from 0 to 1 is right" },
-        { complaint([&] { number(at("n"), { 5, 1e12, true }); }), "/n: 5 is too small; a number above 5 up to 1e+12 is right" },
+        { complaint([&] {
+             number(at("s"), { 0, 1 });
+         }),
+            "/s: \"text\" is not a number; a number from 0 to 1 is right" },
+        { complaint([&] {
+             number(at("z"), { 0, 1 });
+         }),
+            "/z: null is not a number; a number from 0 to 1 is right" },
+        { complaint([&] {
+             number(at("n"), { 0, 1 });
+         }),
+            "/n: 5 is too large; a number from 0 to 1 is right" },
+        { complaint([&] {
+             number(at("n"), { 5, 1e12, true });
+         }),
+            "/n: 5 is too small; a number above 5 up to 1e+12 is right" },
         { complaint([&] { integer(at("f"), 1, 9); }), "/f: 1.5 is not a whole number; one from 1 to 9 is right" },
         { complaint([&] { boolean(at("n")); }), "/n: 5 is neither true nor false; one of these is right" },
         { complaint([&] { text(at("b")); }), "/b: true is not a text; a text in double quotes is right" },
         { complaint([&] { text(at("e")); }), "/e: \"\" is empty; a text with at least one letter is right" },
         { complaint([&] { text(at("c")); }), "/c: \"a\\u0000b\" holds a control character; a text without them is right" },
-        { complaint([&] { one_of(at("s"), { "one", "two" }); }), "/s: \"text\" is not known here; \"one\" or \"two\" is right" },
+        { complaint([&] {
+             one_of(at("s"), { "one", "two" });
+         }),
+            "/s: \"text\" is not known here; \"one\" or \"two\" is right" },
         { complaint([&] { one_of(at("n"), { "one" }); }), "/n: 5 is not known here; \"one\" is right" },
-        { complaint([&] { vec3(at("v"), { 0, 9 }); }), "/v/1: \"x\" is not a number; a number from 0 to 9 is right" },
-        { complaint([&] { vec4(at("v"), { 0, 9 }); }), "/v: [1,\"x\",3] has length 3; a list of 4 numbers in [ ] is right" },
-        { complaint([&] { vec3(at("n"), { 0, 9 }); }), "/n: 5 is not a list; a list of 3 numbers in [ ] is right" },
+        { complaint([&] {
+             vec3(at("v"), { 0, 9 });
+         }),
+            "/v/1: \"x\" is not a number; a number from 0 to 9 is right" },
+        { complaint([&] {
+             vec4(at("v"), { 0, 9 });
+         }),
+            "/v: [1,\"x\",3] has length 3; a list of 4 numbers in [ ] is right" },
+        { complaint([&] {
+             vec3(at("n"), { 0, 9 });
+         }),
+            "/n: 5 is not a list; a list of 3 numbers in [ ] is right" },
         { complaint([&] { only(at("v"), {}); }), "/v: [1,\"x\",3] is not an object; an object in { } is right" },
         { complaint([&] { member(at("o"), "a"); }), "/o: {} lacks \"a\"; an object with this member is right" },
     };
