@@ -44,7 +44,8 @@ Viewport read_viewport(const Place& place, glm::ivec2 size)
             complain(*p, "reaches beyond the output; x + width and y + height up to 1 is right");
         const glm::ivec4 pixels = pixel_rect(viewport, size);
         if (pixels.z < 1 || pixels.w < 1)
-            complain(*p, "is smaller than a pixel of the " + std::to_string(size.x) + " x " + std::to_string(size.y)
+            complain(*p,
+                "is smaller than a pixel of the " + std::to_string(size.x) + " x " + std::to_string(size.y)
                     + " output; at least one pixel each way is right");
     }
     viewport.projection = read_projection(member(place, "projection"));
@@ -129,7 +130,8 @@ Layout load_layout(const std::filesystem::path& file)
         const Output output = read_output(at);
         for (std::size_t i = 0; i < layout.outputs.size(); ++i)
             if (output.name == layout.outputs[i].name)
-                complain(member(at, "name"), "is the name of output " + std::to_string(i) + " too; a name of its own is right");
+                complain(
+                    member(at, "name"), "is the name of output " + std::to_string(i) + " too; a name of its own is right");
         layout.outputs.push_back(output);
     }
     return layout;

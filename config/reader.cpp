@@ -1,131 +1,13 @@
 #include "reader.h"
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
-#include <memory>
 #include <numeric>
 
 namespace starbow {
 using nlohmann::json;
 
 namespace {
-
-constexpr std::size_t most_bytes = std::size_t(16) << 20;
-constexpr std::size_t most_depth = 64;
-
-std::string escaped(const std::string& key)
-{
-    std::string out;
-    for (char c : key)
-        out += c == '~' ? std::string("~0") : c == '/' ? std::string("~1") : std::string(1, c);
-    return out;
-}
-
-std::string contents(const std::filesystem::path& path, const std::string& file)
-{
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored))
-        throw InputError(file, "", "is a folder; a JSON file is right");
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(path.c_str(), "rb"), std::fclose);
-    if (!stream && errno == ENOENT)
-        throw InputError(file, "", "does not exist; the name of a JSON file is right");
-    if (!stream)
-        throw InputError(file, "", std::string("can't be opened (") + std::strerror(errno) + "); a readable file is right");
-
-    // Read in pieces rather than asked for its size: a pipe has none.
-    std::string text;
-    std::size_t got = 1;
-    while (got > 0 && text.size() <= most_bytes) {
-        const std::size_t before = text.size();
-        text.resize(before + 65536);
-        got = std::fread(text.data() + before, 1, 65536, stream.get());
-        text.resize(before + got);
-    }
-    if (std::ferror(stream.get()))
-        throw InputError(file, "", std::string("can't be read (") + std::strerror(errno) + "); a readable file is right");
-    if (text.size() > most_bytes)
-        throw InputError(file, "", "is larger than 16 MiB; a smaller file is right");
-    if (text.empty())
-        throw InputError(file, "", "is empty; a JSON object in { } is right");
-    return text;
-}
-
-/// Builds the document as the parser goes, because only here are a repeated member, the depth and the place of a number
-/// that overflows still known. The parser does not recurse, so depth costs no stack.
-struct Builder : json::json_sax_t {
-    const std::string& file;
-    json root;
-    std::vector<json*> open;       // containers from the root inwards; an outer one does not grow while an inner is open
-    std::vector<std::string> keys; // beside each open container: the member being read, where it is an object
-
-    explicit Builder(const std::string& name)
-        : file(name)
-    {
-    }
-
-    std::string pointer() const // of the value that comes next
-    {
-        std::string path;
-        for (std::size_t i = 0; i < open.size(); ++i) {
-            const std::size_t index = open[i]->size() - (i + 1 < open.size() ? 1 : 0);
-            path += "/" + (open[i]->is_array() ? std::to_string(index) : escaped(keys[i]));
-        }
-        return one_line(path);
-    }
-    json* add(json value)
-    {
-        if (open.empty())
-            return &(root = std::move(value));
-        json& parent = *open.back();
-        if (!parent.is_array())
-            return &(parent[keys.back()] = std::move(value));
-        parent.push_back(std::move(value));
-        return &parent.back();
-    }
-    bool start(json container)
-    {
-        if (open.size() == most_depth)
-            throw InputError(file, pointer(), "is nested too deeply; at most 64 levels are right");
-        open.push_back(add(std::move(container)));
-        keys.emplace_back();
-        return true;
-    }
-    bool end()
-    {
-        open.pop_back();
-        keys.pop_back();
-        return true;
-    }
-
-    bool null() override { return add(nullptr); }
-    bool boolean(bool value) override { return add(value); }
-    bool number_integer(json::number_integer_t value) override { return add(value); }
-    bool number_unsigned(json::number_unsigned_t value) override { return add(value); }
-    bool number_float(json::number_float_t value, const std::string&) override { return add(value); }
-    bool string(std::string& value) override { return add(value); }
-    bool binary(json::binary_t&) override { return false; }
-    bool start_object(std::size_t) override { return start(json::object()); }
-    bool end_object() override { return end(); }
-    bool start_array(std::size_t) override { return start(json::array()); }
-    bool end_array() override { return end(); }
-    bool key(std::string& name) override
-    {
-        keys.back() = name;
-        if (open.back()->contains(name))
-            throw InputError(file, pointer(), "\"" + one_line(name, 60) + "\" is given twice; one of the two is right");
-        return true;
-    }
-    bool parse_error(std::size_t, const std::string& token, const nlohmann::detail::exception& error) override
-    {
-        if (error.id == 406)
-            throw InputError(file, pointer(), one_line(token, 60) + " is too large for a number; up to 1.79e308 is right");
-        const std::string what = error.what(), start = "parse error at ";
-        const std::size_t at = what.find(start);
-        throw InputError(file, "", one_line(at == std::string::npos ? what : what.substr(at + start.size())));
-    }
-};
 
 std::string value_text(const json& value)
 {
@@ -164,16 +46,6 @@ std::size_t distance(std::string_view a, std::string_view b)
 
 } // namespace
 
-Document read_document(const std::filesystem::path& path)
-{
-    Document document { one_line(path.string()), nullptr };
-    const std::string content = contents(path, document.file);
-    Builder builder(document.file);
-    json::sax_parse(content, &builder, json::input_format_t::json, true, true);
-    document.root = std::move(builder.root);
-    return document;
-}
-
 Place root(const Document& document) { return { &document, &document.root, "" }; }
 
 void complain(const Place& place, const std::string& problem)
@@ -197,7 +69,8 @@ int integer(const Place& place, int low, int high)
 {
     const double value = number(place, { double(low), double(high) });
     if (value != std::floor(value))
-        complain(place, "is not a whole number; one from " + std::to_string(low) + " to " + std::to_string(high) + " is right");
+        complain(
+            place, "is not a whole number; one from " + std::to_string(low) + " to " + std::to_string(high) + " is right");
     return int(value);
 }
 
@@ -231,13 +104,13 @@ std::string one_of(const Place& place, std::initializer_list<std::string_view> c
 
 std::vector<Place> items(const Place& place, std::size_t least, std::size_t most, const std::string& what)
 {
-    const std::string right = "a list of " + (least == most ? "" : std::to_string(least) + " to ") + std::to_string(most) + " "
-        + what + " in [ ] is right";
+    const std::string right = "a list of " + (least == most ? "" : std::to_string(least) + " to ") + std::to_string(most)
+        + " " + what + " in [ ] is right";
     if (!place.json->is_array())
         complain(place, "is not a list; " + right);
     const std::size_t count = place.json->size();
     if (count < least || count > most)
-        complain(place, "has " + std::to_string(count) + " " + what + "; " + right);
+        complain(place, "has length " + std::to_string(count) + "; " + right);
     std::vector<Place> places;
     for (std::size_t i = 0; i < count; ++i)
         places.push_back({ place.document, &(*place.json)[i], place.pointer + "/" + std::to_string(i) });
@@ -286,6 +159,14 @@ Place member(const Place& place, const std::string& name)
     if (auto found = find(place, name))
         return *found;
     complain(place, "lacks \"" + name + "\"; an object with this member is right");
+}
+
+std::string escaped(const std::string& name)
+{
+    std::string out;
+    for (char c : name)
+        out += c == '~' ? std::string("~0") : c == '/' ? std::string("~1") : std::string(1, c);
+    return out;
 }
 
 std::string shown(double number)

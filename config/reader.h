@@ -57,6 +57,9 @@ std::optional<Place> find(const Place& place, const std::string& name);
 /// The member of an object; complains where it is missing.
 Place member(const Place& place, const std::string& name);
 
+/// A member's name as a step of a JSON pointer.
+std::string escaped(const std::string& name);
+
 /// The shortest usual text of a number, for messages.
 std::string shown(double number);
 

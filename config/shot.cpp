@@ -30,7 +30,8 @@ double read_proper_speed(const Place& place)
 {
     const auto gamma = find(place, "gamma"), beta = find(place, "beta"), rapidity = find(place, "rapidity");
     if (gamma.has_value() + beta.has_value() + rapidity.has_value() != 1)
-        complain(place, std::string(gamma || beta || rapidity ? "has more than one speed" : "has no speed")
+        complain(place,
+            std::string(gamma || beta || rapidity ? "has more than one speed" : "has no speed")
                 + "; exactly one of \"gamma\", \"beta\" and \"rapidity\" is right");
     if (gamma) {
         const double g = number(*gamma, { -1e308, 1e308 });

@@ -4,7 +4,8 @@
 
 namespace starbow {
 
-/// The part of a shot that its file and a scene's start share. `with_scene`: also the member "scene", which then is required.
+/// The part of a shot that its file and a scene's start share. `with_scene`: also the member "scene", which then is
+/// required.
 Shot read_shot(const Place& place, bool with_scene);
 
 } // namespace starbow

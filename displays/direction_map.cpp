@@ -56,8 +56,8 @@ DirectionMap compile(const Projection& projection, glm::ivec2 size)
     std::vector<std::jthread> threads;
     for (int band = 1; band < bands; ++band)
         threads.emplace_back([&, band] {
-            compile_rows(projection, map, int(std::int64_t(size.y) * band / bands),
-                int(std::int64_t(size.y) * (band + 1) / bands));
+            compile_rows(
+                projection, map, int(std::int64_t(size.y) * band / bands), int(std::int64_t(size.y) * (band + 1) / bands));
         });
     compile_rows(projection, map, 0, size.y / bands);
     threads.clear();

@@ -11,8 +11,9 @@ namespace starbow {
 std::optional<glm::dvec3> dome_direction(const Fisheye& dome, glm::ivec2 size, glm::dvec2 pixel);
 std::optional<glm::dvec2> dome_pixel(const Fisheye& dome, glm::ivec2 size, const glm::dvec3& direction);
 
-/// 0 where the dome shows nothing. Taken at the point `pixel`; over the whole pixel the solid angle differs from that by
-/// less than (pixel angle)² / 10 of itself, but within a few pixels of the point opposite to the zenith.
+/// 0 where the dome shows nothing. Taken at the point `pixel`; up to 170 degrees from the zenith the solid angle over the
+/// whole pixel differs from its square by less than a tenth of step² of itself, step being the angle from one pixel to the
+/// next along the radius: 5e-6 in a domemaster of 1024 pixels.
 double dome_pixel_angle(const Fisheye& dome, glm::ivec2 size, glm::dvec2 pixel);
 
 } // namespace starbow

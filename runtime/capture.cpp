@@ -20,7 +20,8 @@ using Stream = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 [[noreturn]] void refuse_writing(const std::filesystem::path& file, int why)
 {
-    throw InputError(file.string(), "", std::string("can't be written (") + std::strerror(why) + "); a place for a file is right");
+    throw InputError(
+        file.string(), "", std::string("can't be written (") + std::strerror(why) + "); a place for a file is right");
 }
 
 /// The whole file or nothing: a reader of the folder never meets half a picture.
@@ -35,7 +36,7 @@ void write_whole(const std::filesystem::path& file, const Bytes& bytes)
         throw InputError(file.string(), "", "is there and is not a file; a new name or that of a file is right");
 
     std::filesystem::path part = target;
-    part += "." + std::to_string(getpid()) + ".part";
+    part += '.' + std::to_string(getpid()) + ".part";
     Stream stream(std::fopen(part.c_str(), "wb"), std::fclose);
     if (!stream)
         refuse_writing(file, errno);
@@ -68,13 +69,15 @@ Bytes read_whole(const std::filesystem::path& file)
 {
     const Stream stream(std::fopen(file.c_str(), "rb"), std::fclose);
     if (!stream)
-        throw InputError(file.string(), "", std::string("can't be opened (") + std::strerror(errno) + "); an EXR file is right");
+        throw InputError(
+            file.string(), "", std::string("can't be opened (") + std::strerror(errno) + "); an EXR file is right");
     Bytes bytes;
     unsigned char piece[65536];
     while (const std::size_t got = std::fread(piece, 1, sizeof piece, stream.get()))
         bytes.insert(bytes.end(), piece, piece + got);
     if (std::ferror(stream.get()))
-        throw InputError(file.string(), "", std::string("can't be read (") + std::strerror(errno) + "); an EXR file is right");
+        throw InputError(
+            file.string(), "", std::string("can't be read (") + std::strerror(errno) + "); an EXR file is right");
     return bytes;
 }
 
@@ -101,12 +104,16 @@ void write_exr(const std::filesystem::path& file, glm::ivec2 size, const Channel
 {
     std::vector<const Channels::value_type*> sorted; // the format wants them in the order of their names
     for (const auto& channel : channels) {
-        require(channel.second.size() == pixels(size), "write_exr: samples of " + channel.first, channel.second.size(), pixels(size));
-        require(!channel.first.empty() && channel.first.size() <= 255, "write_exr: letters of a name", channel.first.size(), 255);
+        require(channel.second.size() == pixels(size), "write_exr: samples of " + channel.first, channel.second.size(),
+            pixels(size));
+        require(!channel.first.empty() && channel.first.size() <= 255, "write_exr: letters of a name", channel.first.size(),
+            255);
         sorted.push_back(&channel);
     }
     require(!channels.empty(), "write_exr: channels", 0, 1);
     std::sort(sorted.begin(), sorted.end(), [](auto* a, auto* b) { return a->first < b->first; });
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+        require(sorted[i - 1]->first != sorted[i]->first, "write_exr: channels named " + sorted[i]->first, 2, 1);
 
     // Plain memory of ours: tinyexr only reads it, and its Free functions must not see it.
     std::vector<EXRChannelInfo> infos(sorted.size());
@@ -155,17 +162,20 @@ std::pair<glm::ivec2, Channels> read_exr(const std::filesystem::path& file)
     EXRImage image;
     InitEXRImage(&image);
     const std::unique_ptr<EXRHeader, int (*)(EXRHeader*)> header_owner(&header, FreeEXRHeader);
-    const std::unique_ptr<EXRImage, int (*)(EXRImage*)> image_owner(&image, FreeEXRImage);
     EXRVersion version;
     const char* why = nullptr;
-    if (ParseEXRVersionFromMemory(&version, bytes.data(), bytes.size()) != TINYEXR_SUCCESS
-        || ParseEXRHeaderFromMemory(&header, &version, bytes.data(), bytes.size(), &why) != TINYEXR_SUCCESS
-        || LoadEXRImageFromMemory(&image, &header, bytes.data(), bytes.size(), &why) != TINYEXR_SUCCESS) {
+    bool loaded = ParseEXRVersionFromMemory(&version, bytes.data(), bytes.size()) == TINYEXR_SUCCESS
+        && ParseEXRHeaderFromMemory(&header, &version, bytes.data(), bytes.size(), &why) == TINYEXR_SUCCESS;
+    // Where loading fails, tinyexr frees the image itself, and as many planes as the image already says it has.
+    image.num_channels = header.num_channels;
+    loaded = loaded && LoadEXRImageFromMemory(&image, &header, bytes.data(), bytes.size(), &why) == TINYEXR_SUCCESS;
+    if (!loaded) {
         std::string reason = why ? why : "no reason given";
         FreeEXRErrorMessage(why);
         std::replace(reason.begin(), reason.end(), '\n', ' ');
         throw InputError(file.string(), "", "can't be read (" + reason + "); an EXR file that Starbow wrote is right");
     }
+    const std::unique_ptr<EXRImage, int (*)(EXRImage*)> image_owner(&image, FreeEXRImage);
     const glm::ivec2 size(image.width, image.height);
     Channels channels;
     for (int i = 0; i < header.num_channels; ++i) {

@@ -44,6 +44,14 @@ struct Header {
     std::int64_t width = 0, height = 0;
 };
 
+std::string printable(std::string text)
+{
+    for (char& c : text)
+        if (c < 0x20 || c == 0x7f)
+            c = '?';
+    return text;
+}
+
 bool read_channels(Cursor in, Header& header)
 {
     for (std::string name = in.name(); !name.empty(); name = in.name()) {
@@ -71,7 +79,13 @@ bool read_attribute(const std::string& name, Cursor in, Header& header)
         return size == 16 && x0 == 0 && y0 == 0 && header.width >= 1 && header.width <= most_across && header.height >= 1
             && header.height <= most_across;
     }
-    return name != "chunkCount" && name != "tiles" && size > 0;
+    if (name == "lineOrder") // tinyexr would turn the others' pictures upside down
+        return size == 1 && in.take<unsigned char>() == 0;
+    if (name == "displayWindow")
+        return size == 16;
+    if (name == "screenWindowCenter")
+        return size == 8;
+    return (name == "pixelAspectRatio" || name == "screenWindowWidth") && size == 4;
 }
 
 } // namespace
@@ -81,7 +95,7 @@ std::string exr_fault(const std::vector<unsigned char>& bytes)
     Cursor in { bytes, 0, bytes.size() };
     constexpr std::uint32_t long_names = 0x400;
     if (in.take<std::uint32_t>() != 20000630)
-        return "is not an EXR file; one that Starbow wrote is right";
+        return "is not an EXR file; a file that Starbow wrote is right";
     if ((in.take<std::uint32_t>() & ~long_names) != 2)
         return "is an EXR file of another kind; a plain image in rows, version 2, is right";
 
@@ -92,11 +106,11 @@ std::string exr_fault(const std::vector<unsigned char>& bytes)
         if (in.broken || size > in.end - in.at)
             return "breaks off inside its header; a whole file is right";
         if (!header.attributes.insert(name).second || !read_attribute(name, { bytes, in.at, in.at + size }, header))
-            return "has a header \"" + name + "\" that can't be read here; float channels, no or ZIP compression and up to "
-                + std::to_string(most_across) + " pixels each way is right";
+            return "has a header \"" + printable(name) + "\" that can't be read here; a file that Starbow wrote is right";
         in.at += size;
     }
-    for (const char* name : { "channels", "compression", "dataWindow" })
+    for (const char* name : { "channels", "compression", "dataWindow", "displayWindow", "lineOrder", "pixelAspectRatio",
+             "screenWindowCenter", "screenWindowWidth" })
         if (in.broken || !header.attributes.count(name))
             return std::string("lacks the header \"") + name + "\"; a whole file is right";
 
@@ -110,7 +124,10 @@ std::string exr_fault(const std::vector<unsigned char>& bytes)
         const auto number = block.take<std::int32_t>();
         const auto size = block.take<std::int32_t>();
         const std::int64_t full = row_bytes * std::min(rows_per_block, header.height - row);
-        const bool fits = header.compression == zip_compression ? size > 0 && size <= full : size == full;
+        // Deflate packs at most 1032 to 1: whoever claims more would have us reserve memory for nothing.
+        const bool fits = header.compression == zip_compression
+            ? size > 0 && size <= full && full <= size * std::int64_t(1100)
+            : size == full;
         if (block.broken || number != row || !fits || std::uint64_t(size) > block.end - block.at)
             return "is broken at row " + std::to_string(row) + "; a whole file is right";
     }
