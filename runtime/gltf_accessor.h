@@ -24,7 +24,7 @@ struct Elements {
 
 /// `sparse_bytes_left` bounds the copies that sparse accessors need. Returns false when it is used up, or when a sparse
 /// index is out of range or order; `problem` then says which. The model must have passed the guard.
-bool open_accessor(const tinygltf::Model& model, int accessor, std::size_t& sparse_bytes_left, Elements& out,
-    const char*& problem);
+bool open_accessor(
+    const tinygltf::Model& model, int accessor, std::size_t& sparse_bytes_left, Elements& out, const char*& problem);
 
 } // namespace starbow

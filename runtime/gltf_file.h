@@ -15,15 +15,16 @@ struct GltfLimits {
     static constexpr std::size_t vertices = 16'000'000;
     static constexpr std::size_t indices = 48'000'000;
     static constexpr std::size_t instances = 1'000'000;
+    static constexpr std::size_t zeros = 1'000'000; ///< elements of an accessor that takes no room in the file
     static constexpr std::size_t sparse_bytes = std::size_t(256) << 20;
     static constexpr int texture_side = 16384;
     static constexpr std::size_t texture_pixels = std::size_t(128) << 20; ///< of one image
-    static constexpr std::size_t texture_bytes = std::size_t(1) << 30;    ///< of all, as RGBA
+    static constexpr std::size_t texture_bytes = std::size_t(1) << 30; ///< of all, as RGBA
 };
 
 /// A .gltf or .glb taken apart, nothing inside it checked yet but that its JSON is JSON.
 struct GltfFile {
-    std::string name;             ///< as the user wrote it, for messages
+    std::string name; ///< as the user wrote it, for messages
     std::filesystem::path folder; ///< the file's own, symbolic links resolved
     Json json;
     bool is_glb = false, has_bin = false;

@@ -5,48 +5,49 @@
 namespace starbow {
 namespace {
 
-constexpr std::array supported_extensions = { "KHR_materials_unlit", "KHR_materials_emissive_strength",
-    "KHR_texture_transform", "KHR_mesh_quantization" };
+    constexpr std::array supported_extensions
+        = { "KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_texture_transform", "KHR_mesh_quantization" };
 
-void guard_asset(const Spot& root, GuardedGltf& out)
-{
-    Spot asset = root["asset"];
-    Spot version = object(asset)["version"];
-    if (!text(version).starts_with("2."))
-        version.fail("is " + in_quotes(text(version)) + "; should be \"2.0\"");
-    if (asset.has("minVersion") && text(asset["minVersion"]) != "2.0")
-        asset["minVersion"].fail("is " + in_quotes(text(asset["minVersion"])) + "; 2.0 is supported");
-    out.json["asset"] = { { "version", "2.0" } };
-}
+    void guard_asset(const Spot& root, GuardedGltf& out)
+    {
+        Spot asset = root["asset"];
+        Spot version = object(asset)["version"];
+        if (!text(version).starts_with("2."))
+            version.fail("is " + in_quotes(text(version)) + "; should be \"2.0\"");
+        if (asset.has("minVersion") && text(asset["minVersion"]) != "2.0")
+            asset["minVersion"].fail("is " + in_quotes(text(asset["minVersion"])) + "; 2.0 is supported");
+        out.json["asset"] = { { "version", "2.0" } };
+    }
 
-void guard_extensions(const Spot& root, GuardedGltf& out)
-{
-    auto each = [&](const char* key, auto unsupported) {
-        if (!root.has(key))
-            return;
-        Spot all = root[key];
-        list(all, 0);
-        for (std::size_t i = 0; i < all.size(); ++i)
-            if (std::string name = text(all[i]); std::ranges::find(supported_extensions, name) == supported_extensions.end())
-                unsupported(all[i], in_quotes(name));
-    };
-    each("extensionsRequired", [](const Spot& spot, const std::string& name) {
-        spot.fail("requires the extension " + name + ", which is not supported; export the world without it");
-    });
-    each("extensionsUsed", [&](const Spot&, const std::string& name) {
-        if (out.notes.size() < 100)
-            note_once(out.notes, "extension " + name + " is not supported");
-    });
-}
+    void guard_extensions(const Spot& root, GuardedGltf& out)
+    {
+        auto each = [&](const char* key, auto unsupported) {
+            if (!root.has(key))
+                return;
+            Spot all = root[key];
+            list(all, 0);
+            for (std::size_t i = 0; i < all.size(); ++i)
+                if (std::string name = text(all[i]);
+                    std::ranges::find(supported_extensions, name) == supported_extensions.end())
+                    unsupported(all[i], in_quotes(name));
+        };
+        each("extensionsRequired", [](const Spot& spot, const std::string& name) {
+            spot.fail("requires the extension " + name + ", which is not supported; export the world without it");
+        });
+        each("extensionsUsed", [&](const Spot&, const std::string& name) {
+            if (out.notes.size() < 100)
+                note_once(out.notes, "extension " + name + " is not supported");
+        });
+    }
 
-/// Whole lists that a world at rest, seen by the ship's own eye, has no use for.
-void note_unused_lists(const Spot& root, GuardedGltf& out)
-{
-    for (auto [key, what] : { std::pair { "animations", "animations: the world is at rest" },
-             { "skins", "skins: meshes are drawn as they are stored" }, { "cameras", "cameras" } })
-        if (count_of(root, key) > 0)
-            note_once(out.notes, std::string(what) + (key == std::string("cameras") ? " are not used" : ""));
-}
+    /// Whole lists that a world at rest, seen by the ship's own eye, has no use for.
+    void note_unused_lists(const Spot& root, GuardedGltf& out)
+    {
+        for (auto [key, what] : { std::pair { "animations", "animations: the world is at rest" },
+                 { "skins", "skins: meshes are drawn as they are stored" }, { "cameras", "cameras" } })
+            if (count_of(root, key) > 0)
+                note_once(out.notes, std::string(what) + (key == std::string("cameras") ? " are not used" : ""));
+    }
 
 } // namespace
 
@@ -56,10 +57,7 @@ void note_once(std::vector<std::string>& notes, const std::string& note)
         notes.push_back(note);
 }
 
-std::size_t count_of(const Spot& root, const char* key)
-{
-    return root.has(key) ? list(root[key], 0).size() : 0;
-}
+std::size_t count_of(const Spot& root, const char* key) { return root.has(key) ? list(root[key], 0).size() : 0; }
 
 void guard_buffers(GltfFile& file, const Spot& root, GuardedGltf& out)
 {

@@ -33,8 +33,7 @@ void note_once(std::vector<std::string>& notes, const std::string& note);
 std::size_t count_of(const Spot& root, const char* key);
 
 /// Calls `each(spot, written)` for every object of the document's list `key`; `written` ends up in the list of `out`.
-template <typename Each>
-void guard_list(const Spot& root, const char* key, Json& out, Each each)
+template <typename Each> void guard_list(const Spot& root, const char* key, Json& out, Each each)
 {
     if (!root.has(key))
         return;

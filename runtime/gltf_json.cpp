@@ -3,21 +3,18 @@
 namespace starbow {
 namespace {
 
-std::string shown(const Json& json)
-{
-    if (json.is_object())
-        return "an object";
-    if (json.is_array())
-        return "a list of " + std::to_string(json.size());
-    if (json.is_string())
-        return in_quotes(json.get_ref<const std::string&>());
-    return json.dump();
-}
+    std::string shown(const Json& json)
+    {
+        if (json.is_object())
+            return "an object";
+        if (json.is_array())
+            return "a list of " + std::to_string(json.size());
+        if (json.is_string())
+            return in_quotes(json.get_ref<const std::string&>());
+        return json.dump();
+    }
 
-std::string plain(double value)
-{
-    return Json(value).dump();
-}
+    std::string plain(double value) { return Json(value).dump(); }
 
 } // namespace
 

@@ -6,7 +6,8 @@
 
 namespace starbow {
 
-/// Where a material's texture coordinates come from: a TEXCOORD set, then KHR_texture_transform as uv' = rotate_scale uv + offset.
+/// Where a material's texture coordinates come from: a TEXCOORD set, then KHR_texture_transform as uv' = rotate_scale uv +
+/// offset.
 struct UvSource {
     int set = 0;
     glm::dmat2 rotate_scale { 1 };
