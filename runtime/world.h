@@ -49,6 +49,8 @@ struct Primitive {
     double radius;
 };
 
+/// Triangles are counter-clockwise from outside in the world, also where `world_from_local` mirrors: its primitive's are turned
+/// beforehand. Normals go by the inverse transpose; the transform has an inverse.
 struct Instance {
     glm::dmat4 world_from_local;
     std::uint32_t primitive;

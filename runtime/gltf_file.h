@@ -1,0 +1,41 @@
+#pragma once
+#include "gltf_json.h"
+#include <filesystem>
+
+namespace starbow {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Far above any world that a visitor could see drawn, far below what would hurt the machine.
+struct GltfLimits {
+    static constexpr std::size_t file_bytes = std::size_t(1) << 30; ///< the file and all that it names, together
+    static constexpr std::size_t json_bytes = std::size_t(256) << 20;
+    static constexpr std::size_t json_values = 2'000'000;
+    static constexpr std::size_t json_depth = 100;
+    static constexpr std::size_t vertices = 16'000'000;
+    static constexpr std::size_t indices = 48'000'000;
+    static constexpr std::size_t instances = 1'000'000;
+    static constexpr std::size_t zeros = 1'000'000; ///< elements of an accessor that takes no room in the file
+    static constexpr std::size_t sparse_bytes = std::size_t(256) << 20;
+    static constexpr int texture_side = 16384;
+    static constexpr std::size_t texture_pixels = std::size_t(128) << 20; ///< of one image
+    static constexpr std::size_t texture_bytes = std::size_t(1) << 30; ///< of all, as RGBA
+};
+
+/// A .gltf or .glb taken apart, nothing inside it checked yet but that its JSON is JSON.
+struct GltfFile {
+    std::string name; ///< as the user wrote it, for messages
+    std::filesystem::path folder; ///< the file's own, symbolic links resolved
+    Json json;
+    bool is_glb = false, has_bin = false;
+    Bytes bin;
+    std::size_t bytes_left = GltfLimits::file_bytes;
+};
+
+/// Which of the two it is tells the content, not the file's name. Throws InputError.
+GltfFile read_gltf_file(const std::filesystem::path& file);
+
+/// The bytes behind a URI: base64 `data:`, or a path that stays inside the file's folder. Throws InputError at `spot`.
+Bytes read_uri(GltfFile& file, const Spot& spot);
+
+} // namespace starbow

@@ -1,0 +1,117 @@
+#include "gltf_guard.h"
+#include <algorithm>
+#include <array>
+
+namespace starbow {
+namespace {
+
+    constexpr std::array supported_extensions
+        = { "KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_texture_transform", "KHR_mesh_quantization" };
+
+    void guard_asset(const Spot& root, GuardedGltf& out)
+    {
+        Spot asset = root["asset"];
+        Spot version = object(asset)["version"];
+        if (!text(version).starts_with("2."))
+            version.fail("is " + in_quotes(text(version)) + "; should be \"2.0\"");
+        if (asset.has("minVersion") && text(asset["minVersion"]) != "2.0")
+            asset["minVersion"].fail("is " + in_quotes(text(asset["minVersion"])) + "; 2.0 is supported");
+        out.json["asset"] = { { "version", "2.0" } };
+    }
+
+    void guard_extensions(const Spot& root, GuardedGltf& out)
+    {
+        auto each = [&](const char* key, auto unsupported) {
+            if (!root.has(key))
+                return;
+            Spot all = root[key];
+            list(all, 0);
+            for (std::size_t i = 0; i < all.size(); ++i)
+                if (std::string name = text(all[i]);
+                    std::ranges::find(supported_extensions, name) == supported_extensions.end())
+                    unsupported(all[i], in_quotes(name));
+        };
+        each("extensionsRequired", [](const Spot& spot, const std::string& name) {
+            spot.fail("requires the extension " + name + ", which is not supported; export the world without it");
+        });
+        each("extensionsUsed", [&](const Spot&, const std::string& name) {
+            if (out.notes.size() < 100)
+                note_once(out.notes, "extension " + name + " is not supported");
+        });
+    }
+
+    /// Whole lists that a world at rest, seen by the ship's own eye, has no use for.
+    void note_unused_lists(const Spot& root, GuardedGltf& out)
+    {
+        for (auto [key, what] : { std::pair { "animations", "animations: the world is at rest" },
+                 { "skins", "skins: meshes are drawn as they are stored" }, { "cameras", "cameras" } })
+            if (count_of(root, key) > 0)
+                note_once(out.notes, std::string(what) + (key == std::string("cameras") ? " are not used" : ""));
+    }
+
+} // namespace
+
+void note_once(std::vector<std::string>& notes, const std::string& note)
+{
+    if (std::ranges::find(notes, note) == notes.end())
+        notes.push_back(note);
+}
+
+std::size_t count_of(const Spot& root, const char* key) { return root.has(key) ? list(root[key], 0).size() : 0; }
+
+void guard_buffers(GltfFile& file, const Spot& root, GuardedGltf& out)
+{
+    constexpr auto most = std::int64_t(GltfLimits::file_bytes);
+    guard_list(root, "buffers", out.json, [&](const Spot& buffer, Json& written) {
+        auto length = std::size_t(integer(buffer["byteLength"], 1, most));
+        Bytes bytes;
+        if (buffer.has("uri"))
+            bytes = read_uri(file, buffer["uri"]);
+        else if (file.has_bin && out.buffers.empty())
+            bytes = std::move(file.bin);
+        else
+            buffer.fail("has no uri; only the first buffer of a GLB with a BIN chunk can do without");
+        if (bytes.size() < length)
+            buffer["byteLength"].fail("is " + std::to_string(length) + "; the buffer has " + std::to_string(bytes.size()));
+        bytes.resize(length);
+        out.buffers.push_back(std::move(bytes));
+        // tinygltf demands some content; it is replaced by the real one once the model is read.
+        written = { { "byteLength", 1 }, { "uri", "data:application/octet-stream;base64,AA==" } };
+    });
+    guard_list(root, "bufferViews", out.json, [&](const Spot& view, Json& written) {
+        auto buffer = index_into(view["buffer"], "buffer", out.buffers.size());
+        auto offset = integer_or(view, "byteOffset", 0, 0, most);
+        auto length = integer(view["byteLength"], 1, most);
+        auto held = std::int64_t(out.buffers[std::size_t(buffer)].size());
+        if (offset + length > held)
+            view.fail("ends at byte " + std::to_string(offset + length) + "; its buffer has " + std::to_string(held));
+        written = { { "buffer", buffer }, { "byteOffset", offset }, { "byteLength", length } };
+        if (view.has("byteStride")) {
+            auto stride = integer(view["byteStride"], 4, 252);
+            if (stride % 4 != 0)
+                view["byteStride"].fail("is " + std::to_string(stride) + "; should be a multiple of 4");
+            written["byteStride"] = stride;
+        }
+    });
+}
+
+GuardedGltf guard_gltf(const std::filesystem::path& path)
+{
+    GltfFile file = read_gltf_file(path);
+    GuardedGltf out;
+    out.name = file.name;
+    out.json = Json::object();
+    Spot root { file.json, "", out.name };
+    object(root);
+    guard_asset(root, out);
+    guard_extensions(root, out);
+    guard_buffers(file, root, out);
+    guard_accessors(root, out);
+    guard_materials(file, root, out);
+    guard_meshes(root, out);
+    guard_nodes(root, out);
+    note_unused_lists(root, out);
+    return out;
+}
+
+} // namespace starbow

@@ -1,0 +1,51 @@
+#pragma once
+#include "gltf_file.h"
+#include <span>
+
+namespace starbow {
+
+/// A glTF file in which every reference, range, type and path has been checked.
+///
+/// tinygltf is built for files that keep the rules: it opens whatever a URI names and trusts indices. So it never sees the
+/// file. It sees `json`, written anew from the members that were checked and without any URI; the bytes stay here.
+struct GuardedGltf {
+    std::string name;
+    Json json;
+    std::vector<Bytes> buffers; ///< one for each in the file
+    std::vector<Bytes> image_files;
+    std::vector<std::span<const std::uint8_t>> images; ///< as stored, in the two above; empty where no colour comes from it
+    std::vector<std::string> notes; ///< what is left out, each once
+};
+
+/// Reads and checks. Throws InputError.
+GuardedGltf guard_gltf(const std::filesystem::path& file);
+
+/// The parts of the check. Each takes the file's document and writes what passed into `out.json`.
+void guard_buffers(GltfFile& file, const Spot& root, GuardedGltf& out);
+void guard_accessors(const Spot& root, GuardedGltf& out);
+void guard_materials(GltfFile& file, const Spot& root, GuardedGltf& out);
+void guard_meshes(const Spot& root, GuardedGltf& out);
+void guard_nodes(const Spot& root, GuardedGltf& out);
+
+void note_once(std::vector<std::string>& notes, const std::string& note);
+
+/// How many things the document's list `key` holds; 0 when there is none.
+std::size_t count_of(const Spot& root, const char* key);
+
+/// Calls `each(spot, written)` for every object of the document's list `key`; `written` ends up in the list of `out`.
+template <typename Each> void guard_list(const Spot& root, const char* key, Json& out, Each each)
+{
+    if (!root.has(key))
+        return;
+    Spot all = root[key];
+    list(all, 0);
+    Json written = Json::array();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        Json one = Json::object();
+        each(object(all[i]), one);
+        written.push_back(std::move(one));
+    }
+    out[key] = std::move(written);
+}
+
+} // namespace starbow

@@ -1,0 +1,48 @@
+#pragma once
+#include "gltf_guard.h"
+#include "world.h"
+#include <map>
+#include <tiny_gltf.h>
+
+namespace starbow {
+
+/// Where a material's texture coordinates come from: a TEXCOORD set, then KHR_texture_transform as uv' = rotate_scale uv +
+/// offset.
+struct UvSource {
+    int set = 0;
+    glm::dmat2 rotate_scale { 1 };
+    glm::dvec2 offset { 0 };
+    bool operator==(const UvSource&) const = default;
+};
+
+/// What is at hand while a world is put together.
+struct WorldBuild {
+    const GuardedGltf& file;
+    const tinygltf::Model& model;
+    World& world;
+    std::vector<UvSource> uv; ///< one for each of the world's materials
+    int default_material = -1;
+    std::size_t sparse_bytes_left = GltfLimits::sparse_bytes;
+    std::vector<std::uint32_t> placed; ///< add_primitive's: where a vertex went, reset after each
+    std::map<std::uint32_t, std::uint32_t> turned; ///< primitives and their mirror-side doubles
+
+    [[noreturn]] void fail(const std::string& place, const std::string& problem) const
+    {
+        throw InputError(file.name, place, problem);
+    }
+};
+
+/// Decodes a PNG or JPEG after a look at the size it claims.
+Texture decode_image(const std::string& file, const std::string& place, std::span<const std::uint8_t> bytes);
+
+/// The materials, in the file's order, and the textures that they use.
+void add_materials(WorldBuild& build);
+int material_of(WorldBuild& build, int gltf_material);
+
+/// Turns one glTF primitive into vertices and a list of triangles; false when it is no surface.
+bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::Primitive& primitive);
+
+/// The same triangles with their corners in the other order.
+std::uint32_t turned_primitive(WorldBuild& build, std::uint32_t primitive);
+
+} // namespace starbow

@@ -1,0 +1,156 @@
+"""Shapes as lists of vertices and triangles, counter-clockwise from outside. Heights are y; angles start at +z, towards +x."""
+from math import cos, pi, sin, sqrt
+
+
+class Shape:
+    def __init__(self):
+        self.positions, self.normals, self.uvs, self.indices = [], [], [], []
+
+    def vertex(self, position, normal, uv):
+        self.positions.append(position)
+        self.normals.append(normal)
+        self.uvs.append(uv)
+        return len(self.positions) - 1
+
+    def add(self, other):
+        first = len(self.positions)
+        self.positions += other.positions
+        self.normals += other.normals
+        self.uvs += other.uvs
+        self.indices += [first + i for i in other.indices]
+
+
+def unit(v):
+    length = sqrt(sum(x * x for x in v))
+    return tuple(x / length for x in v)
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def grid(columns, rows, at, cut_first=False, cut_last=False):
+    """A patch: at(u, v) gives position, normal and texture coordinates, u to the right and v up seen from outside.
+    A row that is one point (a pole) is cut: its triangles without area are left out."""
+    shape = Shape()
+    for j in range(rows + 1):
+        for i in range(columns + 1):
+            shape.vertex(*at(i / columns, j / rows))
+    for j in range(rows):
+        for i in range(columns):
+            a = j * (columns + 1) + i
+            c = a + columns + 1
+            if not (cut_first and j == 0):
+                shape.indices += [a, a + 1, c + 1]
+            if not (cut_last and j == rows - 1):
+                shape.indices += [a, c + 1, c]
+    return shape
+
+
+def smooth(surface):
+    """A function for grid() from one that gives position and texture coordinates only; the normal by differences."""
+    def at(u, v):
+        step = 1e-5
+        position, uv = surface(u, v)
+        along, up = ([(q - p) for p, q in zip(surface(*a)[0], surface(*b)[0])]
+                     for a, b in (((u - step, v), (u + step, v)), ((u, v - step), (u, v + step))))
+        return position, unit(cross(along, up)), uv
+    return at
+
+
+def revolved(columns, rows, profile, scale):
+    """profile(t), from below to above, gives radius and height; texture coordinates are lengths divided by scale."""
+    def surface(u, v):
+        radius, y = profile(v)
+        angle = 2 * pi * u
+        return (radius * sin(angle), y, radius * cos(angle)), (u, -y / scale)
+    return grid(columns, rows, smooth(surface))
+
+
+def moulding(columns, radius, y, bulge, scale):
+    """A half-round ring around a column."""
+    return revolved(columns, 8, lambda t: (radius + bulge * cos(pi * (t - 0.5)), y + bulge * sin(pi * (t - 0.5))), scale)
+
+
+def box(half, centre=(0, 0, 0), uv=lambda face, s, t: (s, t)):
+    """Faces +x -x +y -y +z -z; uv(face, s, t) from the face's own 0..1, t downwards."""
+    shape = Shape()
+    frames = [((0, 0, -1), (0, 1, 0)), ((0, 0, 1), (0, 1, 0)), ((1, 0, 0), (0, 0, -1)), ((1, 0, 0), (0, 0, 1)),
+              ((1, 0, 0), (0, 1, 0)), ((-1, 0, 0), (0, 1, 0))]
+    for face, (right, up) in enumerate(frames):
+        out = cross(right, up)
+        first = len(shape.positions)
+        for s, t in ((0, 1), (1, 1), (1, 0), (0, 0)):
+            position = tuple(c + h * (o + r * (2 * s - 1) + w * (1 - 2 * t))
+                             for c, h, o, r, w in zip(centre, half, out, right, up))
+            shape.vertex(position, out, uv(face, s, t))
+        shape.indices += [first + i for i in (0, 1, 2, 0, 2, 3)]
+    return shape
+
+
+def sphere(columns, rows, radius):
+    """Texture coordinates of a map of the whole globe: longitude 0 at +z and at u = 1/2, north up."""
+    def at(u, v):
+        longitude, latitude = 2 * pi * (u - 0.5), pi * (v - 0.5)
+        ring = cos(latitude) if 0 < v < 1 else 0.0
+        normal = (ring * sin(longitude), sin(latitude), ring * cos(longitude))
+        return tuple(radius * x for x in normal), normal, (u, 1 - v)
+    return grid(columns, rows, at, True, True)
+
+
+def torus(columns, rows, radius, tube):
+    """Around the z axis."""
+    def at(u, v):
+        a, b = 2 * pi * u, 2 * pi * v
+        normal = (cos(b) * cos(a), cos(b) * sin(a), sin(b))
+        ring = radius + tube * cos(b)
+        return (ring * cos(a), ring * sin(a), tube * sin(b)), normal, (u, v)
+    return grid(columns, rows, at)
+
+
+def cylinder_along_x(columns, rows, length, radius, uv):
+    """Closed. uv(along, around) from lengths along the axis and along the rim."""
+    def side(u, v):
+        angle = 2 * pi * v
+        normal = (0.0, cos(angle), -sin(angle))
+        along = length * (u - 0.5)
+        return (along, radius * normal[1], radius * normal[2]), normal, uv(along, radius * angle)
+    shape = grid(columns, rows, lambda u, v: side(u, v))
+    for end in (-1, 1):
+        middle = shape.vertex((end * length / 2, 0.0, 0.0), (float(end), 0.0, 0.0), uv(0, 0))
+        rim = []
+        for j in range(rows + 1):
+            angle = 2 * pi * j / rows
+            y, z = radius * cos(angle), -radius * sin(angle)
+            rim.append(shape.vertex((end * length / 2, y, z), (float(end), 0.0, 0.0), uv(z, y)))
+        for a, b in zip(rim, rim[1:]):
+            shape.indices += [middle, b, a] if end > 0 else [middle, a, b]
+    return shape
+
+
+def disc_towards_origin(direction, distance, angular_radius, corners, uv, shape):
+    """Adds a small polygon seen from the origin face on."""
+    helper = (0, 1, 0) if abs(direction[1]) < 0.9 else (1, 0, 0)
+    right = unit(cross(direction, helper))
+    up = cross(right, direction)
+    size = distance * angular_radius
+    first = len(shape.positions)
+    for i in range(corners):
+        a = 2 * pi * i / corners
+        position = tuple(distance * d + size * (cos(a) * r + sin(a) * w) for d, r, w in zip(direction, right, up))
+        shape.vertex(position, tuple(-d for d in direction), uv)
+    for i in range(1, corners - 1):
+        shape.indices += [first, first + i, first + i + 1]
+
+
+def quaternion(axis, angle):
+    s = sin(angle / 2)
+    return (axis[0] * s, axis[1] * s, axis[2] * s, cos(angle / 2))
+
+
+def then(first, second):
+    """The rotation that does `first` and after it `second`."""
+    ax, ay, az, aw = second
+    bx, by, bz, bw = first
+    return (aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx,
+            aw * bz + ax * by - ay * bx + az * bw, aw * bw - ax * bx - ay * by - az * bz)
