@@ -85,7 +85,7 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
     };
 
     for (std::size_t output = 0; output < layout.outputs.size(); ++output) {
-        sizes_.push_back(layout.outputs[output].size);
+        sizes_.push_back({0, 0});
         for (const Viewport& viewport : layout.outputs[output].viewports) {
             auto same = std::find_if(eyes_.begin(), eyes_.end(), [&](const Eye& e) { return e.offset_m == viewport.eye_m; });
             if (same == eyes_.end()) {
@@ -116,22 +116,20 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
 
 void Frame::resize(std::size_t output, glm::ivec2 size)
 {
+    if (sizes_[output] == size)
+        return;
     sizes_[output] = size;
     const Viewport* viewport = layout_.outputs[output].viewports.data();
     for (ViewState& view : views_)
         if (view.output == output) {
-            glm::dvec4 r = (viewport++)->rect;
-            glm::ivec2 low = glm::round(glm::dvec2(r.x, r.y) * glm::dvec2(size));
-            glm::ivec2 high = glm::round(glm::dvec2(r.x + r.z, r.y + r.w) * glm::dvec2(size));
-            view.corner = low;
-            place_view(view, glm::max(high - low, 1));
+            glm::ivec4 rect = pixel_rect(*viewport++, size);
+            view.corner = {rect.x, rect.y};
+            place_view(view, glm::max(glm::ivec2(rect.z, rect.w), 1));
         }
 }
 
 void Frame::place_view(ViewState& view, glm::ivec2 size)
 {
-    if (view.size == size)
-        return;
     view.size = size;
     if (auto planar = planar_matrix(view.projection, size)) {
         view.cockpit_from_pixel = *planar;
@@ -297,6 +295,8 @@ void Frame::record(vk::CommandBuffer commands, std::span<const Target> targets)
 {
     draw_cubes(commands);
     for (std::size_t output = 0; output < targets.size(); ++output) {
+        if (!targets[output].view)
+            continue; // minimised
         warp_output(commands, output, targets[output]);
         draw_hud(commands, output, targets[output]);
     }

@@ -164,6 +164,30 @@ Typesetter::Typesetter()
 
 Typesetter::~Typesetter() = default;
 
+double Typesetter::width_of(const std::string& line, int size) const
+{
+    double x = 0;
+    for (int code : code_points(line))
+        x += font_->glyph(size, code).advance;
+    return x;
+}
+
+void Typesetter::write(Panel& panel, const std::string& line, double x, double baseline, int size, double strength) const
+{
+    for (int code : code_points(line)) {
+        const Font::Glyph& glyph = font_->glyph(size, code);
+        for (int j = 0; j < glyph.height; ++j)
+            for (int i = 0; i < glyph.width; ++i) {
+                int px = int(std::lround(x)) + glyph.left + i, py = int(std::lround(baseline)) + glyph.top + j;
+                if (px < 0 || py < 0 || px >= panel.size.x || py >= panel.size.y)
+                    continue;
+                std::uint8_t& letter = panel.texels[2 * (std::size_t(py) * panel.size.x + px)];
+                letter = std::max(letter, std::uint8_t(strength * glyph.coverage[std::size_t(j) * glyph.width + i]));
+            }
+        x += glyph.advance;
+    }
+}
+
 Panel Typesetter::draw(const Readings& readings, int width) const
 {
     Panel panel;
@@ -179,27 +203,6 @@ Panel Typesetter::draw(const Readings& readings, int width) const
                 = std::uint8_t(255 * std::clamp(corner - glm::length(out) + 0.5, 0.0, 1.0));
         }
 
-    auto advance = [&](const std::string& line, int size) {
-        double x = 0;
-        for (int code : code_points(line))
-            x += font_->glyph(size, code).advance;
-        return x;
-    };
-    auto write = [&](const std::string& line, double x, double baseline, int size, double strength) {
-        for (int code : code_points(line)) {
-            const Font::Glyph& glyph = font_->glyph(size, code);
-            for (int j = 0; j < glyph.height; ++j)
-                for (int i = 0; i < glyph.width; ++i) {
-                    int px = int(std::lround(x)) + glyph.left + i, py = int(std::lround(baseline)) + glyph.top + j;
-                    if (px < 0 || py < 0 || px >= panel.size.x || py >= panel.size.y)
-                        continue;
-                    std::uint8_t& letter = panel.texels[2 * (std::size_t(py) * panel.size.x + px)];
-                    letter = std::max(letter, std::uint8_t(strength * glyph.coverage[std::size_t(j) * glyph.width + i]));
-                }
-            x += glyph.advance;
-        }
-    };
-
     // Three rows of three, the speed row greater; beneath them whatever else there is to say.
     auto fields = hud_fields(readings);
     double unit = panel.size.y;
@@ -209,15 +212,15 @@ Panel Typesetter::draw(const Readings& readings, int width) const
     for (int i = 0; i < 9; ++i) {
         int size = int(sizes[i / 3] * unit), label = int(0.7 * sizes[i / 3] * unit);
         double x = panel.size.x * columns[i % 3];
-        write(fields[i].first, x, rows[i / 3] * unit, label, 0.72);
-        write(fields[i].second, x + advance(fields[i].first, label) + 0.3 * size, rows[i / 3] * unit, size, 1);
+        write(panel, fields[i].first, x, rows[i / 3] * unit, label, 0.72);
+        write(panel, fields[i].second, x + width_of(fields[i].first, label) + 0.3 * size, rows[i / 3] * unit, size, 1);
     }
     int small = int(0.15 * unit);
     if (fields.size() > 9) {
         std::string rate = fields[9].second + " " + fields[9].first;
-        write(rate, panel.size.x * 0.97 - advance(rate, small), 0.93 * unit, small, 0.72);
+        write(panel, rate, panel.size.x * 0.97 - width_of(rate, small), 0.93 * unit, small, 0.72);
     }
-    write(readings.notice, panel.size.x * 0.03, 0.93 * unit, small, 1);
+    write(panel, readings.notice, panel.size.x * 0.03, 0.93 * unit, small, 1);
     return panel;
 }
 

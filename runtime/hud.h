@@ -41,6 +41,10 @@ public:
     ~Typesetter();
     Panel draw(const Readings& readings, int width) const;
 
+    /// Adds a line (UTF-8) from x on its baseline, `size` pixels high, at `strength` of full white.
+    void write(Panel& panel, const std::string& line, double x, double baseline, int size, double strength) const;
+    double width_of(const std::string& line, int size) const;
+
 private:
     struct Font;
     std::unique_ptr<Font> font_;

@@ -89,7 +89,7 @@ Channels Studio::numbers(const Shot& shot, std::size_t output)
     return channels;
 }
 
-void render_still(const std::filesystem::path& directory, Studio& studio, const Shot& shot, bool exr, const Panel* hud)
+std::vector<std::vector<std::uint8_t>> render_still(const std::filesystem::path& directory, Studio& studio, const Shot& shot, bool exr, const Panel* hud)
 {
     auto pictures = studio.picture(shot, hud);
     std::vector<Channels> numbers;
@@ -105,6 +105,7 @@ void render_still(const std::filesystem::path& directory, Studio& studio, const 
         if (exr)
             write_exr(directory / (outputs[i].name + ".exr"), outputs[i].size, numbers[i]);
     }
+    return pictures;
 }
 
 } // namespace starbow

@@ -30,7 +30,7 @@ private:
 };
 
 /// What `starbow render` does: draws all outputs, then writes DIR/<output>.png (and .exr). Writes nothing if anything fails
-/// before the first file is complete in memory.
-void render_still(const std::filesystem::path& directory, Studio& studio, const Shot& shot, bool exr, const Panel* hud = nullptr);
+/// before all are complete in memory. Returns the pictures.
+std::vector<std::vector<std::uint8_t>> render_still(const std::filesystem::path& directory, Studio& studio, const Shot& shot, bool exr, const Panel* hud = nullptr);
 
 } // namespace starbow
