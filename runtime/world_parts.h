@@ -23,6 +23,7 @@ struct WorldBuild {
     std::vector<UvSource> uv; ///< one for each of the world's materials
     int default_material = -1;
     std::size_t sparse_bytes_left = GltfLimits::sparse_bytes;
+    std::size_t corners_left = GltfLimits::indices; ///< to be looked at, also those that turn out to cover nothing
     std::vector<std::uint32_t> placed; ///< add_primitive's: where a vertex went, reset after each
     std::map<std::uint32_t, std::uint32_t> turned; ///< primitives and their mirror-side doubles
 
