@@ -33,8 +33,9 @@ struct WorldBuild {
     }
 };
 
-/// Decodes a PNG or JPEG after a look at the size it claims.
-Texture decode_image(const std::string& file, const std::string& place, std::span<const std::uint8_t> bytes);
+/// Decodes a PNG or JPEG after a look at the size it claims, which must fit `bytes_left` as RGBA.
+Texture decode_image(
+    const std::string& file, const std::string& place, std::span<const std::uint8_t> bytes, std::size_t bytes_left);
 
 /// The materials, in the file's order, and the textures that they use.
 void add_materials(WorldBuild& build);
