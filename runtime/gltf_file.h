@@ -12,6 +12,7 @@ struct GltfLimits {
     static constexpr std::size_t json_bytes = std::size_t(256) << 20;
     static constexpr std::size_t json_values = 2'000'000;
     static constexpr std::size_t json_depth = 100;
+    static constexpr std::size_t looks = 65'536; ///< materials, and so textures, images and samplers
     static constexpr std::size_t vertices = 16'000'000;
     static constexpr std::size_t indices = 48'000'000;
     static constexpr std::size_t instances = 1'000'000;

@@ -160,6 +160,10 @@ namespace {
 
 void guard_materials(GltfFile& file, const Spot& root, GuardedGltf& out)
 {
+    for (const char* key : { "materials", "textures", "images", "samplers" })
+        if (count_of(root, key) > GltfLimits::looks)
+            root[key].fail("has " + std::to_string(count_of(root, key)) + " entries; at most "
+                + std::to_string(GltfLimits::looks) + " are allowed");
     guard_samplers(root, out);
     guard_textures(root, out);
     guard_list(root, "materials", out.json,

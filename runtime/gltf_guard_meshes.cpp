@@ -164,6 +164,8 @@ namespace {
             note_once(out.notes, "morph targets: meshes are drawn as they are stored");
         if (primitive.has("indices")) {
             Spot spot = primitive["indices"];
+            if (!checked_accessor(spot, accessors, indices).contains("bufferView"))
+                spot.fail("names accessor " + spot.json.dump() + ", which has no bufferView; indices need one");
             check_count(spot, mode, checked_accessor(spot, accessors, indices)["count"].get<std::size_t>());
             written["indices"] = spot.json.get<std::int64_t>();
         } else if (written["attributes"].contains("POSITION"))

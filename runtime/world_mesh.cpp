@@ -156,6 +156,9 @@ bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::
 
     std::size_t run = from.indices >= 0 ? indices.count : attributes.position.count;
     std::size_t triangles = from.mode == TINYGLTF_MODE_TRIANGLES ? run / 3 : run - 2;
+    if (3 * triangles > build.corners_left)
+        build.fail(place, "brings the world above " + std::to_string(GltfLimits::indices / 3) + " triangles; use fewer");
+    build.corners_left -= 3 * triangles;
     // Corners of flat triangles are never shared.
     make_room(build, place, attributes.has_normal ? 0 : 3 * triangles, 3 * triangles);
 

@@ -23,6 +23,7 @@ struct WorldBuild {
     std::vector<UvSource> uv; ///< one for each of the world's materials
     int default_material = -1;
     std::size_t sparse_bytes_left = GltfLimits::sparse_bytes;
+    std::size_t corners_left = GltfLimits::indices; ///< to be looked at, also those that turn out to cover nothing
     std::vector<std::uint32_t> placed; ///< add_primitive's: where a vertex went, reset after each
     std::map<std::uint32_t, std::uint32_t> turned; ///< primitives and their mirror-side doubles
 
@@ -32,8 +33,9 @@ struct WorldBuild {
     }
 };
 
-/// Decodes a PNG or JPEG after a look at the size it claims.
-Texture decode_image(const std::string& file, const std::string& place, std::span<const std::uint8_t> bytes);
+/// Decodes a PNG or JPEG after a look at the size it claims, which must fit `bytes_left` as RGBA.
+Texture decode_image(
+    const std::string& file, const std::string& place, std::span<const std::uint8_t> bytes, std::size_t bytes_left);
 
 /// The materials, in the file's order, and the textures that they use.
 void add_materials(WorldBuild& build);

@@ -106,13 +106,8 @@ namespace {
                 if (textures[std::size_t(sibling)].sampler == sampler)
                     return sibling;
             std::string at = "/images/" + std::to_string(texture.source);
-            Texture made = siblings.empty()
-                ? decode_image(build.file.name, at, build.file.images[std::size_t(texture.source)])
-                : textures[std::size_t(siblings[0])];
-            if (made.rgba.size() > bytes_left)
-                build.fail(at,
-                    "brings the textures above the " + std::to_string(GltfLimits::texture_bytes >> 20)
-                        + " MiB that are allowed, uncompressed; use fewer or smaller images");
+            // One image behind two samplers is rare enough to be decoded twice.
+            Texture made = decode_image(build.file.name, at, build.file.images[std::size_t(texture.source)], bytes_left);
             bytes_left -= made.rgba.size();
             made.sampler = sampler;
             textures.push_back(std::move(made));
@@ -148,18 +143,24 @@ namespace {
 
 } // namespace
 
-Texture decode_image(const std::string& file, const std::string& place, std::span<const std::uint8_t> bytes)
+Texture decode_image(
+    const std::string& file, const std::string& place, std::span<const std::uint8_t> bytes, std::size_t bytes_left)
 {
     int width = 0, height = 0, channels = 0;
     if (std::string problem = suspicion(bytes, width, height); !problem.empty())
         throw InputError(file, place, problem);
+    std::size_t size = std::size_t(width) * std::size_t(height) * 4;
+    if (size > bytes_left)
+        throw InputError(file, place,
+            "brings the textures above the " + std::to_string(GltfLimits::texture_bytes >> 20)
+                + " MiB that are allowed, uncompressed; use fewer or smaller images");
     std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
         stbi_load_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels, 4), &stbi_image_free);
     if (!pixels)
         throw InputError(file, place, "cannot be decoded: " + std::string(stbi_failure_reason()));
     Texture out;
     out.size = { width, height };
-    out.rgba.assign(pixels.get(), pixels.get() + std::size_t(width) * std::size_t(height) * 4);
+    out.rgba.assign(pixels.get(), pixels.get() + size);
     return out;
 }
 

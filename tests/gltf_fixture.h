@@ -123,15 +123,24 @@ inline Doc triangle_doc()
     return doc;
 }
 
+inline void append_to_bytes(void* to, void* data, int size)
+{
+    auto* from = static_cast<std::uint8_t*>(data);
+    static_cast<Bytes*>(to)->insert(static_cast<Bytes*>(to)->end(), from, from + size);
+}
+
 inline Bytes png(int width, int height, const Bytes& rgba)
 {
     Bytes out;
-    stbi_write_png_to_func(
-        [](void* to, void* data, int size) {
-            auto* from = static_cast<std::uint8_t*>(data);
-            static_cast<Bytes*>(to)->insert(static_cast<Bytes*>(to)->end(), from, from + size);
-        },
-        &out, width, height, 4, rgba.data(), 4 * width);
+    stbi_write_png_to_func(append_to_bytes, &out, width, height, 4, rgba.data(), 4 * width);
+    return out;
+}
+
+/// 16 x 8 pixels, all of the level 100.
+inline Bytes grey_jpeg()
+{
+    Bytes out, grey(16 * 8 * 3, 100);
+    stbi_write_jpg_to_func(append_to_bytes, &out, 16, 8, 3, grey.data(), 90);
     return out;
 }
 

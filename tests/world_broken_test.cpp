@@ -115,6 +115,7 @@ namespace {
             { "/meshes/0/primitives/0/attributes/JOINTS_0", "70",
                 "/meshes/0/primitives/0/attributes/JOINTS_0: names accessor 70" },
             { "/meshes/0/primitives/0/indices", "0", "/meshes/0/primitives/0/indices: names accessor 0 of type VEC3" },
+            { "/accessors/3/bufferView", "", "/meshes/0/primitives/0/indices: names accessor 3, which has no bufferView" },
             { "/meshes/0/primitives/0/mode", "7", "/meshes/0/primitives/0/mode: is 7" },
             { "/meshes/0/primitives/0/material", "1",
                 "/meshes/0/primitives/0/material: names material 1; the file has 0 to 0" },
@@ -291,6 +292,17 @@ namespace {
         for (int i = 0; i < 100; ++i)
             doc.show({ { "attributes", { { "POSITION", doc.put("accessors", accessor) } } }, { "indices", last } });
         EXPECT_NE(complaint(doc).find("sparse accessors unfold to more bytes than are allowed"), std::string::npos);
+
+        // Long runs of triangles that cover nothing.
+        doc = triangle_doc();
+        int same = doc.accessor(Bytes(999'999, 0), "SCALAR");
+        for (int i = 0; i < 100; ++i)
+            doc.show({ { "attributes", { { "POSITION", 0 } } }, { "indices", same } });
+        EXPECT_NE(complaint(doc).find("brings the world above 16000000 triangles"), std::string::npos);
+
+        doc = triangle_doc();
+        doc.json["materials"] = std::vector<Json>(70'000, Json::object());
+        EXPECT_TRUE(complaint(doc).starts_with("/materials: has 70000 entries; at most 65536"));
 
         // One long list of triangles, shown by ever more meshes.
         doc = triangle_doc();

@@ -41,7 +41,7 @@ namespace {
         doc.json["scenes"][0]["nodes"] = { 3, 1, 2 };
         doc.json["scene"] = 0;
         doc.json["images"]
-            = { { { "uri", png_uri() } }, { { "bufferView", doc.view(small_png()) }, { "mimeType", "image/png" } } };
+            = { { { "uri", png_uri() } }, { { "bufferView", doc.view(grey_jpeg()) }, { "mimeType", "image/jpeg" } } };
         doc.json["samplers"] = { { { "minFilter", 9985 }, { "wrapS", 33071 } } };
         doc.json["textures"] = { { { "source", 0 }, { "sampler", 0 } }, { { "source", 1 } } };
         doc.json["materials"]

@@ -49,15 +49,7 @@ namespace {
         Doc doc = painted(textured);
         doc.json["images"][0] = { { "bufferView", doc.view(small_png()) }, { "mimeType", "image/png" } };
         EXPECT_EQ(load(doc).textures.at(0).rgba.size(), 8u);
-        Bytes jpeg;
-        Bytes grey(16 * 8 * 3, 100);
-        stbi_write_jpg_to_func(
-            [](void* to, void* data, int size) {
-                auto* from = static_cast<std::uint8_t*>(data);
-                static_cast<Bytes*>(to)->insert(static_cast<Bytes*>(to)->end(), from, from + size);
-            },
-            &jpeg, 16, 8, 3, grey.data(), 90);
-        write("grey.jpg", jpeg);
+        write("grey.jpg", grey_jpeg());
         doc.json["images"][0] = { { "uri", "grey.jpg" } };
         World world = load(doc);
         EXPECT_EQ(world.textures.at(0).size, glm::ivec2(16, 8));

@@ -75,13 +75,12 @@ def add_cubes(glb):
     meshes = [glb.mesh(f"{name} cube", geometry, glb.material(f"{name} cube", colour, texture))
               for name, colour in colours.items()]
     rng = random.Random(2)
-    z, i = 12.0, 0
-    while z >= -40:
+    for i in range(21):
+        z = round(12 - 2.6 * i, 3)
         for x in ((-2.4, 3.4) if i % 2 == 0 else (-3.4, 2.4)):
             turn = shapes.then(shapes.quaternion((0, 1, 0), rng.uniform(0, 2 * pi)),
                                shapes.quaternion((1, 0, 0), rng.uniform(-0.5, 0.5)))
             glb.node("cube", meshes[rng.randrange(len(meshes))], (x, round(rng.uniform(-0.9, 0.9), 3), z), turn)
-        z, i = z - 2.6, i + 1
 
 
 def add_earth(glb):
