@@ -1,2 +1,233 @@
 #include "commands.h"
-namespace starbow { void add_bench(CLI::App&, std::function<int()>&) {} }
+#include "config/error.h"
+#include "find.h"
+#include "still.h"
+#include "theatre.h"
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace starbow {
+namespace {
+
+struct Options {
+    int rounds = 25;
+    std::string json;
+};
+
+using Clock = std::chrono::steady_clock;
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+
+template <class Work> double milliseconds(Work&& work)
+{
+    Clock::time_point began = Clock::now();
+    work();
+    return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
+}
+
+double median(std::vector<double> values)
+{
+    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+    return values[values.size() / 2];
+}
+
+/// A bare cube map of 512 texels a side, its look-up pass, and the set that both need.
+struct Lookup {
+    Image cube, no_map;
+    vk::raii::DescriptorPool pool = nullptr;
+    vk::raii::DescriptorSet set = nullptr;
+    vk::raii::Sampler sampler = nullptr;
+
+    Lookup(Device& device, Pipelines& pipelines)
+    {
+        cube = make_image(device,
+            {light_format, {512, 512}, vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst, 1, 6,
+                vk::SampleCountFlagBits::e1, true});
+        device.now([&](vk::CommandBuffer commands) {
+            transition(commands, cube, vk::ImageLayout::eUndefined, Stage::eNone, {}, vk::ImageLayout::eTransferDstOptimal,
+                Stage::eTransfer, Access::eTransferWrite);
+            commands.clearColorImage(*cube.image, vk::ImageLayout::eTransferDstOptimal,
+                vk::ClearColorValue(std::array<float, 4>{0.2f, 0.3f, 0.5f, 1}),
+                vk::ImageSubresourceRange(vk::ImageAspectFlagBits::eColor, 0, 1, 0, 6));
+            transition(commands, cube, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
+                vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
+        });
+        vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 2);
+        pool = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size});
+        set = std::move(device.device.allocateDescriptorSets({*pool, *pipelines.picture_set}).front());
+        sampler = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear});
+        const float zeros[4] = {};
+        no_map = make_texture(device, exact_format, {1, 1}, std::as_bytes(std::span(zeros)), false);
+        vk::DescriptorImageInfo map(*sampler, *no_map.view, vk::ImageLayout::eShaderReadOnlyOptimal);
+        vk::DescriptorImageInfo info(*sampler, *cube.view, vk::ImageLayout::eShaderReadOnlyOptimal);
+        device.device.updateDescriptorSets({vk::WriteDescriptorSet(*set, 0, 0, vk::DescriptorType::eCombinedImageSampler, map),
+                                               vk::WriteDescriptorSet(*set, 1, 0, vk::DescriptorType::eCombinedImageSampler, info)},
+            {});
+    }
+};
+
+const char* const stage_names[] = {"plan and cull", "cube pass", "warp pass", "head-up display", "whole frame", "plain frame", "look-up pass"};
+constexpr int stage_count = 7;
+
+struct Result {
+    std::string name;
+    double ms[stage_count];
+    double texels_per_pixel;
+    std::size_t images, triangles;
+    double megabytes;
+    double frame_over_plain() const { return ms[4] / ms[5]; }
+    double warp_over_lookup() const { return ms[2] / ms[6]; }
+};
+
+Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Shot& shot, const std::string& name, int rounds)
+{
+    Device& device = theatre.device;
+    Studio studio(device, theatre.pipelines, theatre.world, layout, default_quality(device, false), false);
+    Studio plain(device, theatre.pipelines, theatre.world, layout, default_quality(device, false), false);
+    Panel panel = Typesetter().draw(readings(ship_at(shot), theatre.world.scene, shot.effects), studio.frame().hud_width());
+    Target target = studio.target(0), plain_target = plain.target(0);
+    studio.picture(shot, &panel); // warms every cache and leaves the target in a known layout
+    plain.picture(shot);
+    plain.frame().prepare_plain(shot);
+    auto writable = [](vk::CommandBuffer commands, const Target& t) {
+        vk::ImageMemoryBarrier2 barrier(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput,
+            Access::eColorAttachmentWrite | Access::eColorAttachmentRead, vk::ImageLayout::eUndefined,
+            vk::ImageLayout::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, t.image,
+            {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
+        commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
+    };
+    vk::Pipeline lookup_pipeline = theatre.pipelines.lookup(target.format);
+
+    // Every stage in turn within each round, so that whatever else the machine does falls on all alike.
+    std::vector<double> times[stage_count];
+    for (int round = -2; round < rounds; ++round) {
+        double ms[stage_count];
+        ms[0] = milliseconds([&] { studio.frame().prepare(shot, &panel); });
+        ms[1] = milliseconds([&] { device.now([&](vk::CommandBuffer c) { studio.frame().draw_cubes(c); }); });
+        ms[2] = milliseconds([&] {
+            device.now([&](vk::CommandBuffer c) {
+                writable(c, target);
+                studio.frame().warp_output(c, 0, target);
+            });
+        });
+        ms[6] = milliseconds([&] {
+            device.now([&](vk::CommandBuffer c) {
+                writable(c, target);
+                studio.frame().look_up(c, target, lookup_pipeline, *lookup.set);
+            });
+        });
+        ms[3] = milliseconds([&] {
+            device.now([&](vk::CommandBuffer c) {
+                writable(c, target);
+                studio.frame().draw_hud(c, 0, target);
+            });
+        });
+        ms[4] = milliseconds([&] {
+            studio.frame().prepare(shot, &panel);
+            device.now([&](vk::CommandBuffer c) {
+                writable(c, target);
+                studio.frame().record(c, std::span(&target, 1));
+            });
+        });
+        ms[5] = milliseconds([&] {
+            plain.frame().prepare_plain(shot);
+            device.now([&](vk::CommandBuffer c) {
+                writable(c, plain_target);
+                plain.frame().draw_plain(c, plain_target);
+            });
+        });
+        for (int i = 0; round >= 0 && i < stage_count; ++i)
+            times[i].push_back(ms[i]);
+    }
+    Result result{name, {}, 0, 0, studio.frame().triangles(), double(studio.frame().memory()) / (1 << 20)};
+    for (int i = 0; i < stage_count; ++i)
+        result.ms[i] = median(times[i]);
+    for (const Plan& plan : studio.frame().plans()) {
+        result.texels_per_pixel += plan.texels / plan.pixels;
+        result.images += plan.images.size();
+    }
+    return result;
+}
+
+int bench(const Options& options)
+{
+    Layout layout = load_layout(find("layouts", "desk"));
+    layout.outputs[0].size = {800, 600};
+    Theatre theatre(find("scenes", "avenue"), device_options(false));
+    Lookup lookup(theatre.device, theatre.pipelines);
+    std::printf("%s; avenue at 800x600, all effects on; medians of %d rounds, milliseconds\n\n",
+        theatre.device.properties.deviceName.data(), options.rounds);
+    std::vector<Result> results;
+    struct Case {
+        const char* name;
+        double gamma;
+    };
+    for (Case c : {Case{"rest", 1}, Case{"gamma4", 4}, Case{"gamma100", 100}}) {
+        Shot shot = theatre.world.scene.start;
+        if (c.gamma > 1) {
+            shot.position.z = -8;
+            shot.u = {0, 0, -std::sqrt((c.gamma - 1) * (c.gamma + 1))};
+        }
+        shot.exposure_ev = c.gamma > 1 ? -3 : 0;
+        results.push_back(measure(theatre, lookup, layout, shot, c.name, options.rounds));
+        std::fprintf(stderr, "%s measured\n", c.name);
+    }
+    std::printf("%-22s", "");
+    for (const Result& r : results)
+        std::printf("%12s", r.name.c_str());
+    for (int i = 0; i < stage_count; ++i) {
+        std::printf("\n%-22s", stage_names[i]);
+        for (const Result& r : results)
+            std::printf("%12.2f", r.ms[i]);
+    }
+    auto line = [&](const char* name, const char* format, auto value) {
+        std::printf("\n%-22s", name);
+        for (const Result& r : results)
+            std::printf(format, value(r));
+    };
+    line("frame / plain", "%12.2f", [](const Result& r) { return r.frame_over_plain(); });
+    line("warp / look-up", "%12.2f", [](const Result& r) { return r.warp_over_lookup(); });
+    line("warp, Mpixel/s", "%12.1f", [](const Result& r) { return 0.48e3 / r.ms[2]; });
+    line("frames/s", "%12.1f", [](const Result& r) { return 1e3 / r.ms[4]; });
+    line("texels per pixel", "%12.2f", [](const Result& r) { return r.texels_per_pixel; });
+    line("images", "%12zu", [](const Result& r) { return r.images; });
+    line("triangles sent", "%12zu", [](const Result& r) { return r.triangles; });
+    line("device images, MiB", "%12.1f", [](const Result& r) { return r.megabytes; });
+    std::printf("\n");
+
+    if (!options.json.empty()) {
+        nlohmann::ordered_json json;
+        json["device"] = theatre.device.properties.deviceName.data();
+        for (const Result& r : results) {
+            for (int i = 0; i < stage_count; ++i)
+                json["milliseconds"][r.name][stage_names[i]] = r.ms[i];
+            json["texels_per_pixel"][r.name] = r.texels_per_pixel;
+            json["ratios"]["frame_over_plain"][r.name] = r.frame_over_plain();
+        }
+        json["ratios"]["warp_over_lookup"] = results[1].warp_over_lookup();
+        std::ofstream stream(options.json);
+        stream << json.dump(2) << "\n";
+        if (!stream.flush())
+            throw InputError(options.json, "", "can't be written; give a file in a folder that can be");
+    }
+    return 0;
+}
+
+} // namespace
+
+void add_bench(CLI::App& app, std::function<int()>& chosen)
+{
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("bench", "Times the stages of a frame, and two ratios measured in turn in the same run.");
+    command->add_option("--rounds", options->rounds, "How often each stage is timed")->check(CLI::Range(3, 10000))->capture_default_str();
+    command->add_option("--json", options->json, "Also write the figures to this file");
+    command->footer("Example:\n  starbow bench --json out/bench.json");
+    command->callback([options, &chosen] { chosen = [options] { return bench(*options); }; });
+}
+
+} // namespace starbow

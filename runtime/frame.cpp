@@ -229,7 +229,7 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
 void Frame::upload_eye(Eye& eye, const Shot&, const glm::dmat3& to_motion, const glm::dvec3& place)
 {
     for (const Draw& draw : eye.list.draws)
-        triangles_ += std::size_t(draw.count) * world_.world.primitives[draw.primitive].index_count / 3;
+        triangles_ += std::size_t(draw.count) * draw.index_count / 3;
     auto put = [&](Buffer& buffer, const auto& data) {
         fit_buffer(buffer, data.size() * sizeof(data[0]), vk::BufferUsageFlagBits::eStorageBuffer);
         if (!data.empty())
@@ -375,6 +375,15 @@ void Frame::draw_images(vk::CommandBuffer commands, const Eye& eye, std::span<co
         glm::dvec3 b = face_direction(image.face, {0, 1}) - face_direction(image.face, {0, 0});
         bool mirrored = glm::dot(glm::cross(a, b), face_direction(image.face, {0, 0})) < 0;
         commands.setFrontFace(mirrored ? vk::FrontFace::eCounterClockwise : vk::FrontFace::eClockwise);
+        if (image.hole > 0) {
+            // Nothing is nearer than the near plane: what falls into the hole fails the depth test before it is shaded.
+            glm::dvec2 low = glm::ceil((-glm::dvec2(image.hole) - image.low) * image.texels_per_unit);
+            glm::dvec2 high = glm::floor((glm::dvec2(image.hole) - image.low) * image.texels_per_unit);
+            glm::ivec2 first = glm::clamp(glm::ivec2(low), glm::ivec2(0), image.size), last = glm::clamp(glm::ivec2(high), first, image.size);
+            if (last.x > first.x && last.y > first.y)
+                commands.clearAttachments(vk::ClearAttachment(vk::ImageAspectFlagBits::eDepth, 0, vk::ClearDepthStencilValue(1, 0)),
+                    vk::ClearRect(rect_of(image.atlas + first, last - first), 0, 1));
+        }
         int material = -1;
         for (; draw != eye.list.draws.end() && draw->image == i; ++draw) {
             const Primitive& primitive = world.primitives[draw->primitive];
@@ -390,7 +399,7 @@ void Frame::draw_images(vk::CommandBuffer commands, const Eye& eye, std::span<co
                 push.emissive = glm::vec4(m.emissive * float(world_.pre_exposure), m.alpha_cutoff);
                 commands.pushConstants<shared::CubePush>(*pipelines_.surface_layout, stages, 0, push);
             }
-            commands.drawIndexed(primitive.index_count, draw->count, primitive.first_index, primitive.vertex_offset, draw->first);
+            commands.drawIndexed(draw->index_count, draw->count, draw->first_index, primitive.vertex_offset, draw->first);
         }
         if (sky_) {
             commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipelines_.sky(kind));
@@ -572,6 +581,21 @@ void Frame::draw_plain(vk::CommandBuffer commands, const Target& target)
         vk::AttachmentStoreOp::eDontCare, vk::ClearDepthStencilValue(0, 0));
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour, &depth});
     draw_images(commands, eyes_[0], std::span(&*plain_, 1), {target.format});
+    commands.endRendering();
+}
+
+void Frame::look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeline pipeline, vk::DescriptorSet set)
+{
+    const ViewState& view = views_.front();
+    shared::ViewPush constants = push(view, view.motion_from_cockpit);
+    vk::RenderingAttachmentInfo colour(
+        target.view, Layout_::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore);
+    commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
+    set_area(commands, view.corner, view.size);
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, set, {});
+    commands.pushConstants<shared::ViewPush>(*pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
+    commands.draw(3, 1, 0, 0);
     commands.endRendering();
 }
 

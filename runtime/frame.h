@@ -50,6 +50,8 @@ public:
     /// other program would do. For comparison.
     void prepare_plain(const Shot& shot);
     void draw_plain(vk::CommandBuffer commands, const Target& target);
+    /// The first viewport through Pipelines::lookup: the bare cost of a cube map's look-up.
+    void look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeline pipeline, vk::DescriptorSet set);
 
     /// What the head-up display's panel would need across to be sharp in the finest viewport, pixels.
     int hud_width() const;

@@ -296,6 +296,8 @@ Plan make_plan(const std::vector<View>& views, double E, const Quality& quality)
                 image.high[i] = last * unit;
                 image.size[i] = int(last - first);
             }
+            if (slot >= SLOT_REAR && slot < SLOT_REAR + plan.rear_last)
+                image.hole = std::max(0.0, std::exp2(-0.5 * (slot + 1 - SLOT_REAR)) - (gutter + 1) * unit);
             plan.levels = std::max(plan.levels, image.levels);
             plan.texels += double(image.size.x) * image.size.y;
             plan.images.push_back(image);

@@ -31,6 +31,7 @@ struct PlanImage {
     glm::ivec2 atlas;      ///< top left texel
     double texels_per_unit; ///< of face coordinate
     int levels;            ///< mip levels the warp pass reads
+    double hole = 0;       ///< half the side of the square in the middle that no pixel reads: a finer image holds it
 };
 
 /// What the cube map of one eye must hold for one frame.

@@ -1,4 +1,5 @@
 #include "theatre.h"
+#include "detail.h"
 #include <cstdlib>
 
 namespace starbow {
@@ -12,6 +13,7 @@ static LoadedScene load(const std::filesystem::path& file)
 {
     SceneFile scene = load_scene_file(file);
     World world = load_world(scene.gltf);
+    add_detail_levels(world);
     return {std::move(scene), std::move(world)};
 }
 

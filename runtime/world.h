@@ -40,6 +40,12 @@ struct Material {
     bool unlit = false; ///< KHR_materials_unlit: the base colour is the radiance
 };
 
+/// The same surface in fewer triangles.
+struct DetailLevel {
+    std::uint32_t first_index, index_count;
+    double error; ///< how far it strays from the full surface, local units
+};
+
 /// A run of triangles (always a list) with one material and a bounding sphere in its own frame.
 struct Primitive {
     std::uint32_t first_index, index_count;
@@ -47,6 +53,7 @@ struct Primitive {
     int material;
     glm::dvec3 centre;
     double radius;
+    std::vector<DetailLevel> coarser; ///< finest first; empty until add_detail_levels
 };
 
 /// Triangles are counter-clockwise from outside in the world, also where `world_from_local` mirrors: its primitive's are turned
