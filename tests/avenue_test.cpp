@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <iterator>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <unistd.h>
 
@@ -185,6 +186,20 @@ namespace {
                         EXPECT_FALSE(stands_before(thing, rim)) << material.name;
                     }
         }
+    }
+
+    TEST(AvenueTest, TheSceneFileMeansThisWorldAndItsSun)
+    {
+        std::filesystem::path file = avenue.parent_path().parent_path() / "config/scenes/avenue.json";
+        nlohmann::json scene = nlohmann::json::parse(content(file), nullptr, true, true);
+        EXPECT_TRUE(
+            std::filesystem::equivalent(file.parent_path() / scene.at("gltf").get<std::string>(), avenue / "avenue.glb"));
+        EXPECT_EQ(scene.at("unit_m"), 299792458);
+        const auto& lamp = scene.at("lights").at(1);
+        glm::dvec3 position(lamp.at("position").at(0), lamp.at("position").at(1), lamp.at("position").at(2));
+        EXPECT_NEAR(glm::distance(position, shown("Sun").at(0).position), 0, 0.001);
+        const auto& key = scene.at("lights").at(0).at("towards");
+        EXPECT_NEAR(glm::length(glm::dvec3(key.at(0), key.at(1), key.at(2))), 1, 1e-6);
     }
 
     TEST(AvenueTest, StippledCylinder)

@@ -171,6 +171,7 @@ namespace {
             ASSERT_EQ(t.rgba.size(), std::size_t(t.size.x) * std::size_t(t.size.y) * 4);
     }
 
+    /// STARBOW_FUZZ_COUNT asks for a longer run; the first mutations stay the same.
     TEST_F(WorldFuzzTest, DamagedFilesLoadOrAreRefused)
     {
         const char* wanted = std::getenv("STARBOW_FUZZ_COUNT");
