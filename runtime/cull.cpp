@@ -60,7 +60,7 @@ bool in_hole(const PlanImage& image, const Box& box)
 int level_of(const Primitive& primitive, const Box& box, double texels_per_unit)
 {
     int level = -1;
-    constexpr double texels = 0.5;
+    constexpr double texels = 1;
     while (level + 1 < int(primitive.coarser.size())
         && primitive.coarser[level + 1].error * box.scale * texels_per_unit <= texels * box.distance)
         ++level;

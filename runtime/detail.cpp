@@ -54,6 +54,7 @@ void add_detail_levels(World& world)
             if (count == 0 || count > from.size() * 4 / 5)
                 break;
             level.resize(count);
+            meshopt_optimizeVertexCache(level.data(), level.data(), count, vertex_count);
             // Each step is measured against the one before it, so the errors add up at worst.
             error += added * extent;
             primitive.coarser.push_back({std::uint32_t(world.indices.size()), std::uint32_t(count), error});
