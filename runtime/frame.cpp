@@ -374,7 +374,7 @@ void Frame::draw_images(vk::CommandBuffer commands, const Eye& eye, std::span<co
         glm::dvec3 a = face_direction(image.face, {1, 0}) - face_direction(image.face, {0, 0});
         glm::dvec3 b = face_direction(image.face, {0, 1}) - face_direction(image.face, {0, 0});
         bool mirrored = glm::dot(glm::cross(a, b), face_direction(image.face, {0, 0})) < 0;
-        commands.setFrontFace(mirrored ? vk::FrontFace::eCounterClockwise : vk::FrontFace::eClockwise);
+        commands.setFrontFace(mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
         if (image.hole > 0) {
             // Nothing is nearer than the near plane: what falls into the hole fails the depth test before it is shaded.
             glm::dvec2 low = glm::ceil((-glm::dvec2(image.hole) - image.low) * image.texels_per_unit);
