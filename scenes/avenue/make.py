@@ -125,7 +125,7 @@ def add_stars(glb):
         level = round(rank * (textures.STAR_LEVELS - 1))
         tint = min(textures.STAR_TINTS - 1, int(textures.STAR_TINTS * rng.betavariate(2.2, 2.2)))
         uv = ((tint + 0.5) / textures.STAR_TINTS, (level + 0.5) / textures.STAR_LEVELS)
-        patch = patches.setdefault((int(4 * (1 + y)), int(12 * a / (2 * pi))), shapes.Shape())
+        patch = patches.setdefault((int(1.5 * (1 + y)), int(6 * a / (2 * pi))), shapes.Shape())
         shapes.disc_towards_origin((ring * sin(a), y, ring * cos(a)), rng.uniform(1, 10),
                                    radians(0.03 + 0.07 * rank), 6, uv, patch)
     exact = {"magFilter": 9728, "minFilter": 9728, "wrapS": 33071, "wrapT": 33071}
