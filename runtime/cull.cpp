@@ -115,6 +115,8 @@ DrawList cull(const World& world, const glm::dvec3& eye, const glm::dmat3& motio
                 std::vector<std::uint32_t>& seen = by_level[level];
                 if (seen.empty())
                     continue;
+                // Nearest first: what stands behind fails the depth test before it is shaded.
+                std::sort(seen.begin(), seen.end(), [&](auto a, auto b) { return boxes[a].distance < boxes[b].distance; });
                 DetailLevel detail = level == 0 ? DetailLevel{primitive.first_index, primitive.index_count, 0} : primitive.coarser[level - 1];
                 list.draws.push_back({i, index, std::uint32_t(list.visible.size()), std::uint32_t(seen.size()), detail.first_index, detail.index_count});
                 list.visible.insert(list.visible.end(), seen.begin(), seen.end());

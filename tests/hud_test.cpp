@@ -1,0 +1,67 @@
+#include "runtime/hud.h"
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace starbow;
+
+namespace {
+
+std::string field(const Readings& readings, const std::string& label)
+{
+    for (const auto& [name, value] : hud_fields(readings))
+        if (name == label)
+            return value;
+    return "none";
+}
+
+Readings at_gamma(double gamma, const glm::dvec3& way = {0, 0, -1})
+{
+    Shot shot;
+    shot.u = way * std::sqrt((gamma - 1) * (gamma + 1));
+    return readings(ship_at(shot), SceneFile{}, {});
+}
+
+} // namespace
+
+TEST(Hud, TellsTheSpeedWithoutCancellation)
+{
+    EXPECT_EQ(field(at_gamma(1), "v/c"), "0.0000");
+    EXPECT_EQ(field(at_gamma(4), "v/c"), "0.9682");
+    EXPECT_EQ(field(at_gamma(4), "γ"), "4.000");
+    EXPECT_EQ(field(at_gamma(4), "D ahead"), "7.873");
+    EXPECT_EQ(field(at_gamma(1e6), "1 − v/c"), "5.0×10⁻¹³"); // 1/(2 gamma^2)
+    EXPECT_EQ(field(at_gamma(1e6), "D ahead"), "2.0×10⁶");
+}
+
+TEST(Hud, StraightAheadIsTheNose)
+{
+    EXPECT_NEAR(at_gamma(4, {1, 0, 0}).doppler_ahead, 0.25, 1e-12); // across the motion D = 1/gamma
+    EXPECT_NEAR(at_gamma(4, {0, 0, 1}).doppler_ahead, 4 - std::sqrt(15.0), 1e-12);
+}
+
+TEST(Hud, UnitsSuitTheSize)
+{
+    Readings r = at_gamma(1);
+    r.ship_s = 12.34, r.world_s = 5 * 365.25 * 86400, r.distance_m = 3 * 299792458.0;
+    EXPECT_EQ(field(r, "ship"), "12.3 s");
+    EXPECT_EQ(field(r, "world"), "5.000 years");
+    EXPECT_EQ(field(r, "flown"), "3.00 light-s");
+    r.light_speed_m_s = 5, r.distance_m = 12;
+    EXPECT_EQ(field(r, "flown"), "12.0 m");
+}
+
+TEST(Hud, EveryPanelHasLettersInsideItsPlate)
+{
+    Typesetter typesetter;
+    for (int width : {160, 400, 1200}) {
+        Panel panel = typesetter.draw(at_gamma(1e6), width);
+        ASSERT_EQ(panel.texels.size(), std::size_t(panel.size.x) * panel.size.y * 2);
+        long letters = 0, outside = 0;
+        for (std::size_t i = 0; i < panel.texels.size(); i += 2) {
+            letters += panel.texels[i] > 128;
+            outside += panel.texels[i] > 128 && panel.texels[i + 1] < 255;
+        }
+        EXPECT_GT(letters, width * panel.size.y / 60) << width;
+        EXPECT_EQ(outside, 0) << width;
+    }
+}
