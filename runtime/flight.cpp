@@ -46,11 +46,14 @@ Flight step(Flight flight, const Controls& controls, double dt_s, double seconds
     if (controls.stop) {
         flight.ship = stopped(flight.ship);
         flight.faster = 0;
+        flight.held_back = true;
     }
+    flight.held_back = flight.held_back && controls.faster != 0;
 
     double follow = 1 - std::exp(-dt_s / ease_s);
-    flight.faster += follow * (controls.faster * rapidity_per_s - flight.faster);
-    if (controls.faster == 0 && std::abs(flight.faster) < 1e-3)
+    double wanted = flight.held_back ? 0 : controls.faster * rapidity_per_s;
+    flight.faster += follow * (wanted - flight.faster);
+    if (wanted == 0 && std::abs(flight.faster) < 1e-3)
         flight.faster = 0;
     flight.turn_rad_s += follow * (controls.turn * turn_rad_per_s - flight.turn_rad_s);
 

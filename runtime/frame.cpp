@@ -558,10 +558,11 @@ void Frame::prepare_plain(const Shot& shot)
     glm::dmat3 straight = motion_from_world({0, 0, 0}, shot.ship_from_cockpit);
     glm::dmat3 m = straight * glm::dmat3(glm::mat3_cast(shot.ship_from_cockpit)) * view.cockpit_from_pixel;
     glm::dvec3 low = m * glm::dvec3(0, 0, 1), high = m * glm::dvec3(view.size, 1);
-    plain_ = PlanImage{SLOT_FRONT, 0, glm::dvec2(low) / low.z, glm::dvec2(high) / high.z, view.size, {0, 0}, 1, 1};
     // The view's x may run against the face's a: the picture is then mirrored, at the same cost.
-    plain_->low = glm::min(glm::dvec2(low) / low.z, glm::dvec2(high) / high.z);
-    plain_->high = glm::max(glm::dvec2(low) / low.z, glm::dvec2(high) / high.z);
+    glm::dvec2 one = glm::dvec2(low) / low.z, other = glm::dvec2(high) / high.z;
+    PlanImage image{SLOT_FRONT, 0, glm::min(one, other), glm::max(one, other), view.size, {0, 0}, 0, 1};
+    image.texels_per_unit = image.size.y / (image.high.y - image.low.y);
+    plain_ = image;
     eyes_[0].list = cull(world_.world, shot.position, straight, {*plain_});
     upload_eye(eyes_[0], shot, straight, shot.position);
     fit(eyes_[0], view.size, 1);

@@ -1,6 +1,9 @@
 #include "gpu_world.h"
 #include "cull.h"
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
 
 namespace starbow {
 namespace {
@@ -23,6 +26,24 @@ vk::raii::Sampler make_sampler(const Device& device, const Sampler& s)
         info.maxAnisotropy = std::min(8.0f, device.properties.limits.maxSamplerAnisotropy);
     }
     return device.device.createSampler(info);
+}
+
+/// In software the decoding of sRGB costs more than the memory of linear fp16; everywhere else the hardware does it for nothing.
+Image make_colour_texture(Device& device, const Texture& texture)
+{
+    bool mips = texture.sampler.mipmaps;
+    if (!device.on_processor())
+        return make_texture(device, vk::Format::eR8G8B8A8Srgb, texture.size, std::as_bytes(std::span(texture.rgba)), mips);
+    std::array<std::uint16_t, 256> linear, alpha;
+    for (int i = 0; i < 256; ++i) {
+        double x = i / 255.0;
+        linear[i] = glm::packHalf1x16(float(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4))); // IEC 61966-2-1
+        alpha[i] = glm::packHalf1x16(float(x));
+    }
+    std::vector<std::uint16_t> texels(texture.rgba.size());
+    for (std::size_t i = 0; i < texels.size(); ++i)
+        texels[i] = (i % 4 == 3 ? alpha : linear)[texture.rgba[i]];
+    return make_texture(device, vk::Format::eR16G16B16A16Sfloat, texture.size, std::as_bytes(std::span(texels)), mips);
 }
 
 /// The greatest radiance that a surface of this world can send, before any lamp comes closer than its distance.
@@ -58,8 +79,7 @@ GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const S
     gpu.white = make_texture(device, vk::Format::eR8G8B8A8Unorm, {1, 1}, std::as_bytes(std::span(&white, 1)), false);
     gpu.samplers.push_back(make_sampler(device, {}));
     for (const Texture& texture : world.textures) {
-        gpu.textures.push_back(make_texture(
-            device, vk::Format::eR8G8B8A8Srgb, texture.size, std::as_bytes(std::span(texture.rgba)), texture.sampler.mipmaps));
+        gpu.textures.push_back(make_colour_texture(device, texture));
         gpu.samplers.push_back(make_sampler(device, texture.sampler));
     }
     auto count = std::uint32_t(world.materials.size());

@@ -42,6 +42,7 @@ Window::Window(Device& device, const Output& output)
     window_ = glfwCreateWindow(output.size.x, output.size.y, ("Starbow " + output.name).c_str(), nullptr, nullptr);
     if (!window_)
         throw InputError("The window '" + output.name + "' can't be opened: " + glfw_says());
+    glfwSetInputMode(window_, GLFW_STICKY_KEYS, GLFW_TRUE); // a tap shorter than a frame counts too
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     if (glfwCreateWindowSurface(*device.instance, window_, nullptr, &surface) != VK_SUCCESS)
         throw InputError("The window '" + output.name + "' has no Vulkan surface: " + glfw_says());

@@ -46,11 +46,12 @@ struct DetailLevel {
     double error; ///< how far it strays from the full surface, local units
 };
 
-/// A run of triangles (always a list) with one material and a bounding sphere in its own frame.
+/// A run of triangles (always a list) with one material, a bounding box and a bounding sphere in its own frame.
 struct Primitive {
     std::uint32_t first_index, index_count;
     std::int32_t vertex_offset;
     int material;
+    glm::dvec3 low, high;
     glm::dvec3 centre;
     double radius;
     std::vector<DetailLevel> coarser; ///< finest first; empty until add_detail_levels

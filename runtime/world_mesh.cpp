@@ -91,6 +91,7 @@ namespace {
             low = glm::min(low, glm::dvec3(v->position));
             high = glm::max(high, glm::dvec3(v->position));
         }
+        primitive.low = low, primitive.high = high;
         primitive.centre = (low + high) / 2.0;
         primitive.radius = 0;
         for (auto v = begin; v != world.vertices.end(); ++v)

@@ -113,9 +113,10 @@ def add_cylinder(glb):
 
 
 def add_stars(glb):
-    """Small discs all around, 1e8 to 1e9 units away. They only glow, so that no lamp of the scene reaches them."""
+    """Small discs all around, 1e8 to 1e9 units away. They only glow, so that no lamp of the scene reaches them. By patches of
+    the sky, so that a view that sees little of it draws few."""
     rng = random.Random(3)
-    shape = shapes.Shape()
+    patches = {}
     for _ in range(2500):
         y, a = rng.uniform(-1, 1), rng.uniform(0, 2 * pi)
         ring = sqrt(1 - y * y)
@@ -124,11 +125,13 @@ def add_stars(glb):
         level = round(rank * (textures.STAR_LEVELS - 1))
         tint = min(textures.STAR_TINTS - 1, int(textures.STAR_TINTS * rng.betavariate(2.2, 2.2)))
         uv = ((tint + 0.5) / textures.STAR_TINTS, (level + 0.5) / textures.STAR_LEVELS)
+        patch = patches.setdefault((int(1.5 * (1 + y)), int(6 * a / (2 * pi))), shapes.Shape())
         shapes.disc_towards_origin((ring * sin(a), y, ring * cos(a)), rng.uniform(1, 10),
-                                   radians(0.03 + 0.07 * rank), 6, uv, shape)
+                                   radians(0.03 + 0.07 * rank), 6, uv, patch)
     exact = {"magFilter": 9728, "minFilter": 9728, "wrapS": 33071, "wrapT": 33071}
     glow = glb.material("stars", (0, 0, 0), emissive=(8, 8, 8), emissive_texture=glb.texture(textures.star_palette(), exact))
-    glb.node("stars", glb.mesh("stars", glb.geometry(shape), glow), scale=(1e8, 1e8, 1e8))
+    for _, patch in sorted(patches.items()):
+        glb.node("stars", glb.mesh("stars", glb.geometry(patch), glow), scale=(1e8, 1e8, 1e8))
 
 
 def main():

@@ -1,0 +1,101 @@
+#!/usr/bin/env bash
+# Wrong input at the command line: exit 2, one line, nothing written. Usage: cli_test.sh PROGRAM
+set -u
+program=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+passed=0 failed=0
+
+fail() {
+    failed=$((failed + 1))
+    echo "FAILED: $*"
+}
+
+# refused TEXT ARGUMENTS...: the program says one line that holds TEXT, exits with 2 and writes nothing.
+refused() {
+    local text=$1 said status
+    shift
+    said=$("$program" "$@" --out "$folder/out" 2>&1 >/dev/null)
+    status=$?
+    if [ $status != 2 ]; then
+        fail "$*: exit $status, not 2: $said"
+    elif [ "$(printf '%s\n' "$said" | wc -l)" != 1 ]; then
+        fail "$*: more than one line: $said"
+    elif [[ $said != *"$text"* ]]; then
+        fail "$*: '$text' is not in: $said"
+    elif [ -e "$folder/out" ]; then
+        fail "$*: wrote something"
+        rm -rf "$folder/out"
+    else
+        passed=$((passed + 1))
+    fi
+}
+
+# A shot of our own with one member replaced.
+shot() { # FILE VELOCITY [MORE]
+    printf '{ "scene": "avenue", "velocity": %s %s }\n' "$2" "${3:-}" > "$folder/$1.json"
+}
+
+refused 'there are:' render --shot no-such-shot
+refused 'there are:' render --shot start --layout no-such-layout
+refused 'no-such.json' render --shot "$folder/no-such.json"
+refused '--size' render --shot start --size 800
+refused '--size' render --shot start --size 0x600
+refused '--size' render --shot start --size 800x600x2
+refused '--size' render --shot start --size 99999x99999
+refused '--size' render --shot start --size -800x600
+shot fast '{ "direction": [0, 0, -1], "beta": 1 }'
+refused '/velocity/beta' render --shot "$folder/fast.json"
+shot slow '{ "direction": [0, 0, -1], "gamma": 0.5 }'
+refused '/velocity/gamma' render --shot "$folder/slow.json"
+shot nowhere '{ "direction": [0, 0, 0], "gamma": 2 }'
+refused '/velocity/direction' render --shot "$folder/nowhere.json"
+shot blind '{ "direction": [0, 0, -1], "gamma": 2 }' ', "look": [0, 0, 0]'
+refused '/look' render --shot "$folder/blind.json"
+shot nan '{ "direction": [0, 0, -1], "gamma": NaN }'
+refused 'line 1' render --shot "$folder/nan.json"
+shot huge '{ "direction": [0, 0, -1], "gamma": 1e999 }'
+refused 'huge.json' render --shot "$folder/huge.json"
+shot word '{ "direction": [0, 0, -1], "gamma": "four" }'
+refused '/velocity/gamma' render --shot "$folder/word.json"
+mkdir "$folder/folder.json"
+refused 'folder' render --shot "$folder/folder.json"
+: > "$folder/empty.json"
+refused 'empty.json' render --shot "$folder/empty.json"
+echo '{ "scene": "atlantis" }' > "$folder/scene.json"
+refused 'atlantis' render --shot "$folder/scene.json"
+echo '{ "gltf": "missing.glb" }' > "$folder/world.json"
+echo '{ "scene": "./world.json" }' > "$folder/world-shot.json"
+refused 'missing.glb' render --shot "$folder/world-shot.json"
+printf 'glTF\2\0\0\0\20\0\0\0' > "$folder/missing.glb"
+refused 'missing.glb' render --shot "$folder/world-shot.json"
+echo '{ "outputs": [ { "name": "a", "viewports": [ { "projection": { "type": "planar", "fov_y_deg": 190 } } ] } ] }' > "$folder/wide.json"
+refused '/outputs/0/viewports/0/projection/fov_y_deg' render --shot start --layout "$folder/wide.json"
+VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent refused 'install' render --shot start
+STARBOW_GPU=Voodoo refused 'Voodoo' render --shot start
+echo in the way > "$folder/out"
+said=$("$program" render --shot start --size 8x8 --out "$folder/out" 2>&1 >/dev/null)
+if [ $? != 2 ] || [ "$(cat "$folder/out")" != 'in the way' ]; then fail "a file in the way: $said"; else passed=$((passed + 1)); fi
+rm "$folder/out"
+
+# Unknown options and missing ones are told by the option parser, also with exit 2.
+for arguments in '' 'fly' 'render' 'render --shot' 'bench --rounds 0' 'run --frames -1' 'render --shot start --out x --colour'; do
+    # shellcheck disable=SC2086
+    "$program" $arguments >/dev/null 2>&1
+    if [ $? = 2 ]; then passed=$((passed + 1)); else fail "'$arguments' is not refused with 2"; fi
+done
+
+# Every subcommand's help ends with an example.
+for command in run render bench; do
+    if "$program" $command --help | grep -q "starbow $command "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
+done
+
+# The same bytes twice, and the numbers beside the picture.
+"$program" render --shot starbow --size 160x120 --out "$folder/once" --exr >/dev/null || fail "a good shot is refused"
+"$program" render --shot starbow --size 160x120 --out "$folder/twice" --exr >/dev/null
+for file in desk.png desk.exr; do
+    if cmp -s "$folder/once/$file" "$folder/twice/$file"; then passed=$((passed + 1)); else fail "$file differs the second time"; fi
+done
+
+echo "$passed passed, $failed failed"
+[ $failed = 0 ]

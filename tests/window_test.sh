@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# The exhibit in a real window under Xvfb, the validation layers listening: flown by the keyboard, resized, left.
+# Usage: window_test.sh PROGRAM
+set -u
+program=$1 passed=0
+folder=$(mktemp -d)
+number=90
+while [ -e /tmp/.X11-unix/X$number ]; do number=$((number + 1)); done
+Xvfb :$number -screen 0 1280x800x24 >/dev/null 2>&1 &
+server=$!
+trap 'kill $server 2>/dev/null; rm -rf "$folder"' EXIT
+export DISPLAY=:$number STARBOW_VALIDATION=1
+for _ in $(seq 100); do xdotool getmouselocation >/dev/null 2>&1 && break; sleep 0.05; done
+
+ok() { passed=$((passed + 1)); }
+fail() {
+    echo "FAILED: $*"
+    cat "$folder/log"
+    exit 1
+}
+
+fly() { # LAYOUT
+    timeout 60 "$program" run --layout "$1" >"$folder/log" 2>&1 &
+    exhibit=$!
+    window=
+    for _ in $(seq 200); do
+        window=$(xdotool search --name '^Starbow' 2>/dev/null | head -n 1)
+        [ -n "$window" ] && break
+        kill -0 $exhibit 2>/dev/null || fail "$1: left before its window opened"
+        sleep 0.1
+    done
+    [ -n "$window" ] || fail "$1: no window"
+    xdotool windowfocus "$window"
+    sleep 2
+}
+
+# Speed up, turn, resize, switch an effect off, leave. The last line tells the state.
+fly desk
+xdotool keydown w
+sleep 3
+xdotool keyup w
+xdotool key 2
+xdotool windowsize "$window" 500 300
+sleep 1
+xdotool windowsize "$window" 900 700
+sleep 1
+xdotool key Escape
+wait $exhibit || fail "desk: exit $? (validation speaks, or worse)"
+ok
+grep -q 'validation' "$folder/log" && fail "desk: the validation layers spoke"
+ok
+gamma=$(sed -n 's/.*γ \([0-9.]*\).*/\1/p' "$folder/log")
+awk "BEGIN { exit !($gamma > 1.05) }" || fail "desk: W did not speed up: gamma $gamma"
+ok
+grep -q 'Doppler off' "$folder/log" || fail "desk: 2 did not switch the Doppler effect off"
+ok
+
+# Stop is at once.
+fly stereo
+xdotool keydown w
+sleep 2
+xdotool keyup w
+xdotool key space
+sleep 1
+xdotool key Escape
+wait $exhibit || fail "stereo: exit $?"
+ok
+grep -q 'γ 1.000' "$folder/log" || fail "stereo: Space did not stop the ship"
+ok
+
+# Without a display it says so and draws (the first shot is enough here).
+(unset DISPLAY; cd "$folder" && timeout 5 "$program" run >"$folder/log" 2>&1)
+grep -q 'no display server' "$folder/log" || fail "no word of the missing display"
+ok
+echo "$passed passed, 0 failed"
