@@ -421,7 +421,9 @@ void Frame::make_mips(vk::CommandBuffer commands, Eye& eye, const Plan& plan)
             VK_QUEUE_FAMILY_IGNORED, *eye.atlas.image, {vk::ImageAspectFlagBits::eColor, first, count, 0, 1});
         commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
     };
-    auto levels = std::uint32_t(plan.levels);
+    // One level more than is asked for: at its coarsest level an image is sampled together with the next, at weight nought, and
+    // nought times what was never written may be NaN.
+    std::uint32_t levels = std::min(std::uint32_t(plan.levels) + 1, eye.atlas.levels);
     level_barrier(0, 1, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
         Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
     level_barrier(1, eye.atlas.levels - 1, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, {},
@@ -429,7 +431,7 @@ void Frame::make_mips(vk::CommandBuffer commands, Eye& eye, const Plan& plan)
     for (std::uint32_t level = 1; level < levels; ++level) {
         std::vector<vk::ImageBlit> blits;
         for (const PlanImage& image : plan.images)
-            if (image.levels > int(level)) {
+            if (image.levels >= int(level)) {
                 auto box = [&](std::uint32_t l) {
                     glm::ivec2 low = image.atlas >> glm::ivec2(l), high = (image.atlas + image.size) >> glm::ivec2(l);
                     return std::array<vk::Offset3D, 2>{vk::Offset3D(low.x, low.y, 0), vk::Offset3D(high.x, high.y, 1)};

@@ -9,6 +9,9 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace starbow::gpu_test {
 
@@ -22,6 +25,12 @@ class Stage : public ::testing::Environment {
 public:
     void SetUp() override
     {
+#ifdef __GLIBC__
+        // A device in software has its memory from malloc. Filled with 0x7e it is NaN to fp16 and 8e37 to float: what is read
+        // without having been written shows.
+        mallopt(M_MMAP_MAX, 0);
+        mallopt(M_PERTURB, 0x81);
+#endif
         theatre = std::make_unique<Theatre>(testing::source_dir() / "config/scenes/avenue.json",
             Device::Options{.validation = true, .name = device_options(false).name});
     }
