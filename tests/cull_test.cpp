@@ -1,6 +1,7 @@
 // Culling and detail by themselves: nothing that a pixel could see is left out, and coarser surfaces stay close.
 #include "runtime/cull.h"
 #include "runtime/detail.h"
+#include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 #include <random>
 

@@ -1,4 +1,4 @@
-#include "gltf_file.h"
+#include "file.h"
 #include <algorithm>
 #include <array>
 #include <cstring>

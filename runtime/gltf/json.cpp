@@ -1,4 +1,4 @@
-#include "gltf_json.h"
+#include "json.h"
 
 namespace starbow {
 namespace {

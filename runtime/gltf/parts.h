@@ -1,6 +1,6 @@
 #pragma once
-#include "gltf_guard.h"
-#include "world.h"
+#include "guard.h"
+#include "runtime/world.h"
 #include <map>
 #include <tiny_gltf.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "gltf_file.h"
+#include "file.h"
 #include <span>
 
 namespace starbow {

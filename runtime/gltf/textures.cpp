@@ -1,4 +1,4 @@
-#include "world_parts.h"
+#include "parts.h"
 #include <algorithm>
 #include <cstring>
 #include <memory>

@@ -1,5 +1,5 @@
-#include "gltf_accessor.h"
-#include "world_parts.h"
+#include "accessor.h"
+#include "parts.h"
 #include <algorithm>
 #include <array>
 

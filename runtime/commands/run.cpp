@@ -1,9 +1,9 @@
 #include "commands.h"
 #include "contact_sheet.h"
-#include "exhibit.h"
-#include "find.h"
+#include "runtime/exhibit.h"
+#include "runtime/find.h"
 #include "input/keyboard.h"
-#include "outputs.h"
+#include "runtime/outputs.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "gltf_accessor.h"
+#include "accessor.h"
 #include <algorithm>
 #include <cstring>
 #include <tiny_gltf.h>

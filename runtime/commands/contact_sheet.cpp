@@ -1,7 +1,7 @@
 #include "contact_sheet.h"
-#include "find.h"
-#include "still.h"
-#include "theatre.h"
+#include "runtime/find.h"
+#include "runtime/still.h"
+#include "runtime/theatre.h"
 #include <algorithm>
 #include <chrono>
 #include <cmath>

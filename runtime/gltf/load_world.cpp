@@ -1,4 +1,4 @@
-#include "world_parts.h"
+#include "parts.h"
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "gltf_json.h"
+#include "json.h"
 #include <filesystem>
 
 namespace starbow {

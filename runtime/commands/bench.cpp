@@ -1,8 +1,8 @@
 #include "commands.h"
 #include "config/error.h"
-#include "find.h"
-#include "still.h"
-#include "theatre.h"
+#include "runtime/find.h"
+#include "runtime/still.h"
+#include "runtime/theatre.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>

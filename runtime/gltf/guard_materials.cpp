@@ -1,4 +1,4 @@
-#include "gltf_guard.h"
+#include "guard.h"
 #include <algorithm>
 
 namespace starbow {
