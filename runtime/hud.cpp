@@ -207,7 +207,7 @@ Panel Typesetter::draw(const Readings& readings, int width) const
     auto fields = hud_fields(readings);
     double unit = panel.size.y;
     const double rows[] = {0.27, 0.53, 0.76};
-    const double columns[] = {0.03, 0.40, 0.70};
+    const double columns[] = {0.04, 0.415, 0.64};
     const double sizes[] = {0.26, 0.20, 0.20};
     for (int i = 0; i < 9; ++i) {
         int size = int(sizes[i / 3] * unit), label = int(0.7 * sizes[i / 3] * unit);
@@ -218,9 +218,9 @@ Panel Typesetter::draw(const Readings& readings, int width) const
     int small = int(0.15 * unit);
     if (fields.size() > 9) {
         std::string rate = fields[9].second + " " + fields[9].first;
-        write(panel, rate, panel.size.x * 0.97 - width_of(rate, small), 0.93 * unit, small, 0.72);
+        write(panel, rate, panel.size.x * 0.96 - width_of(rate, small), 0.93 * unit, small, 0.72);
     }
-    write(panel, readings.notice, panel.size.x * 0.03, 0.93 * unit, small, 1);
+    write(panel, readings.notice, panel.size.x * 0.04, 0.93 * unit, small, 1);
     return panel;
 }
 

@@ -10,7 +10,7 @@
 #define SLOT_COUNT 56
 
 #define MAX_LIGHTS 8
-#define COLOUR_STEPS 192 // over log2 D from -COLOUR_RANGE to COLOUR_RANGE
+#define COLOUR_STEPS 769 // over log2 D from -COLOUR_RANGE to COLOUR_RANGE
 #define COLOUR_RANGE 6.0
 
 // One image of the plan, as the warp pass reads it: atlas coordinate = face coordinate * scale + offset.
