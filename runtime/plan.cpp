@@ -117,12 +117,21 @@ void ask(Demands& demands, const Disc& disc, int rear_last)
     }
 }
 
+/// Towards the rim of a fisheye that shows all the sky a pixel becomes a sliver that covers next to nothing, but stays as long
+/// as any other: texels finer than half its length would use up the budget of the whole plan for nothing.
+double least_angle(const View& view)
+{
+    auto* fisheye = std::get_if<Fisheye>(&view.projection);
+    return fisheye ? 0.5 * fisheye->aperture_deg * pi / 180 / std::min(view.size.x, view.size.y) : 0;
+}
+
 /// Walks a view's pixels in cells, cut finer where the boost spreads a cell over much of the sky.
 struct Walk {
     const View& view;
     double E;
     int rear_last;
     Demands& demands;
+    double least_angle; ///< of a pixel, radians
 
     std::optional<glm::dvec3> look(glm::dvec2 pixel) const
     {
@@ -156,7 +165,7 @@ struct Walk {
             if (!centre)
                 return;
         }
-        double angle = pixel_angle(view.projection, view.size, middle);
+        double angle = std::max(pixel_angle(view.projection, view.size, middle), least_angle);
         double radius = angle; // a pixel's own extent, and some for a map that bends inside the cell
         if (rim)
             radius += 1.5 * width * angle;
@@ -257,7 +266,7 @@ Plan make_plan(const std::vector<View>& views, double E, const Quality& quality)
     plan.rear_last = std::clamp(int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0, REAR_LEVELS - 1);
     for (const View& view : views) {
         plan.pixels += double(view.size.x) * view.size.y;
-        Walk walk{view, E, plan.rear_last, demands};
+        Walk walk{view, E, plan.rear_last, demands, least_angle(view)};
         // Cells of equal size, about 24 pixels, and no fewer than 16 across.
         double cell = std::min(24.0, std::max(view.size.x, view.size.y) / 16.0);
         int columns = std::max(1, int(std::ceil(view.size.x / cell))), rows = std::max(1, int(std::ceil(view.size.y / cell)));

@@ -18,8 +18,6 @@ constexpr double degree = pi / 180;
 
 // ---------------------------------------------------------------- small worlds
 
-Json list(const dvec3& v) { return {v.x, v.y, v.z}; }
-
 /// A colour that shines as it is, without lamps.
 int unlit(Doc& doc, const dvec3& colour)
 {
@@ -168,10 +166,10 @@ TEST(Picture, PixelsAreTheNumbersEncoded)
         const auto picture = stage.picture(shot).front();
         const Numbers numbers(stage, shot);
         const double gain = std::exp2(shot.exposure_ev);
-        int straight = 0, white = 0;
+        int straight = 0;
         for (int i = 0; i < numbers.count(); ++i) {
             const dvec3 light = numbers.light(i) * gain;
-            const double peak = std::max({light.r, light.g, light.b}), least = std::min({light.r, light.g, light.b});
+            const double peak = std::max({light.r, light.g, light.b});
             for (int k = 0; k < 3; ++k) {
                 const int byte = picture[4 * i + k];
                 if (peak < 0.75)
@@ -179,12 +177,10 @@ TEST(Picture, PixelsAreTheNumbersEncoded)
                     ASSERT_NEAR(byte, 255 * srgb(light[k]), 1) << name << " pixel " << i;
                 else
                     ASSERT_GE(byte, int(255 * srgb(0.7 * light[k] / peak))) << name << " pixel " << i;
-                white += least > 1e4 && byte == 255;
             }
             straight += peak < 0.75;
         }
         EXPECT_GT(straight, 1000) << name;
-        (void)white;
     }
 }
 
@@ -211,8 +207,19 @@ TEST(Picture, NoSeamsInASmoothSky)
         {"180", one_view(Fisheye{180, 30}, {160, 160})}, {"360", one_view(Fisheye{360, 90}, {200, 200})}};
     const dvec3 way = glm::normalize(dvec3(0.3, 0.45, -0.84)); // the sky's bands cross the cube's faces aslant
     const dvec3 aside = glm::normalize(glm::cross(way, dvec3(0, 1, 0)));
+    // A pixel that covers an angle f of the world shows the sky filtered: texels of about f, each the mean over itself (variance
+    // f^2/12 along a line) and between them straight lines (f^2/4 at most); in a face's corner texels are 1.3 times as long one
+    // way. Half the variance times the sky's greatest curvature, 6 x 0.45 at the horizon, is 0.8 f^2, with the two levels that
+    // are mixed 0.9 f^2. fp16 steps by 2^-11 below 1, a device may cut off instead of rounding, and up to the coarsest level
+    // light is stored five times: 0.6/255.
+    auto filtered = [](double f) { return 0.9 * f * f + 5 * 0x1p-11; };
+    constexpr double fine = 0.04; // up to here that is less than 1/255
     for (const auto& [name, layout] : layouts) {
         Studio stage = studio(world, layout);
+        const Projection& projection = layout.outputs[0].viewports[0].projection;
+        // Along the radius a fisheye's pixel is one step long, however narrow it is near the rim.
+        const auto* fisheye = std::get_if<Fisheye>(&projection);
+        const double length = fisheye ? fisheye->aperture_deg * degree / layout.outputs[0].size.x : 0;
         for (double gamma : {1.0, 1.5, 4.0, 10.0, 100.0}) {
             double worst = 0, step = 0, coarse = 0;
             for (const dvec3& look : {way, aside, -way}) {
@@ -223,15 +230,17 @@ TEST(Picture, NoSeamsInASmoothSky)
                 for (int i = 0; i < numbers.count(); ++i) {
                     if (!numbers.shown(i))
                         continue;
-                    footprint[i] = numbers.D(i)
-                        * pixel_angle(layout.outputs[0].viewports[0].projection, numbers.size, numbers.centre(i));
+                    footprint[i] = numbers.D(i) * std::max(length, pixel_angle(projection, numbers.size, numbers.centre(i)));
                     error[i] = numbers.light(i) - sky_colour(numbers.world(i));
                     ASSERT_TRUE(std::isinf(numbers.depth(i)));
                     const double off = std::max({std::abs(error[i].r), std::abs(error[i].g), std::abs(error[i].b)});
-                    (footprint[i] <= 0.1 ? worst : coarse) = std::max(footprint[i] <= 0.1 ? worst : coarse, off);
+                    worst = std::max(worst, footprint[i] <= fine ? off : 0);
+                    if (footprint[i] <= 0.3)
+                        coarse = std::max(coarse, off / filtered(footprint[i]));
+                    ASSERT_LE(off, 0.55); // and a pixel that covers much of the sky still has one of its colours
                 }
                 auto pair = [&](int i, int j) {
-                    if (std::max(footprint[i], footprint[j]) <= 0.1)
+                    if (std::max(footprint[i], footprint[j]) <= fine)
                         for (int k = 0; k < 3; ++k)
                             step = std::max(step, std::abs(error[i][k] - error[j][k]));
                 };
@@ -242,11 +251,11 @@ TEST(Picture, NoSeamsInASmoothSky)
                         pair(i, i - numbers.size.x);
                     }
             }
-            std::printf("  %-6s gamma %5g: off the sky's formula by %.2f/255 at most, by %.2f/255 from a pixel to the next; where "
-                        "pixels cover over 0.1 rad %.1f/255\n", name.c_str(), gamma, 255 * worst, 255 * step, 255 * coarse);
+            std::printf("  %-6s gamma %5g: off the sky's formula by %.2f/255 at most, from a pixel to the next %.2f/255; coarse pixels "
+                        "%.2f of what filtering may\n", name.c_str(), gamma, 255 * worst, 255 * step, coarse);
             EXPECT_LT(worst, 1.0 / 255) << name << ' ' << gamma;
             EXPECT_LT(step, 1.0 / 255) << name << ' ' << gamma;
-            EXPECT_LT(coarse, 0.6) << name << ' ' << gamma; // a pixel that covers much of the sky still has one of its colours
+            EXPECT_LT(coarse, 1) << name << ' ' << gamma;
         }
     }
 }
@@ -298,9 +307,9 @@ TEST(Picture, EveryFaceShowsThingsInTheirPlaceUnmirroredAndFromOutside)
 {
     Doc doc;
     std::vector<Marker> markers;
-    const dvec3 hidden(0.2, 0.9, 0.9);
+    const dvec3 hidden(0.9, 0.9, 0.9);
     auto next_colour = [&, k = 0]() mutable {
-        // The greatest part is always 0.9 and no other mix is like it: a blend with the black around is none of them.
+        // The greatest part is always 0.9, so no two are the same hue, however dark.
         const double steps[] = {0, 0.15, 0.3, 0.45, 0.6, 0.75};
         dvec3 colour(0.9, steps[k / 3 % 6], steps[k / 18 % 6]);
         colour = k % 3 == 0 ? colour : k % 3 == 1 ? dvec3(colour.y, 0.9, colour.z) : dvec3(colour.y, colour.z, 0.9);
@@ -322,16 +331,16 @@ TEST(Picture, EveryFaceShowsThingsInTheirPlaceUnmirroredAndFromOutside)
                     markers.push_back({5.0 * d + aside * right + above * up, half * right, half * up, next_colour()});
                     return markers.back();
                 };
-                const Marker m = marker(0, 0, 0.25), r = marker(0.6, 0, 0.2), u = marker(0, 0.6, 0.2), l = marker(-0.6, 0, 0.2);
+                const Marker m = marker(0, 0, 0.4), r = marker(1.1, 0, 0.3), u = marker(0, 1.1, 0.3), l = marker(-1.1, 0, 0.3);
                 for (const Marker& front : {m, r, u})
                     quad(doc, front.centre, front.right, front.up, unlit(doc, front.colour));
                 // Its node mirrors: the front of what is drawn the other way round.
                 quad(doc, mirrored(l.centre), -mirrored(l.right), mirrored(l.up), unlit(doc, l.colour), mirror);
                 // Backs, which must not show: turned round, and mirrored.
-                const dvec3 below = 5.0 * d - 0.6 * up;
-                quad(doc, below, -0.1 * right, 0.2 * up, of_hidden);
-                const dvec3 corner = 5.0 * d - 0.6 * up + 0.5 * right;
-                quad(doc, mirrored(corner), mirrored(0.2 * right), mirrored(0.2 * up), of_hidden, mirror);
+                const dvec3 below = 5.0 * d - 1.1 * up;
+                quad(doc, below, -0.3 * right, 0.3 * up, of_hidden);
+                const dvec3 corner = 5.0 * d - 1.1 * up + 0.9 * right;
+                quad(doc, mirrored(corner), mirrored(0.3 * right), mirrored(0.3 * up), of_hidden, mirror);
             }
     const GpuWorld world = open_world("markers", doc);
     const Projection window = Planar{90}, whole = Fisheye{360, 90};
@@ -343,35 +352,38 @@ TEST(Picture, EveryFaceShowsThingsInTheirPlaceUnmirroredAndFromOutside)
             const Shot shot = shot_at({0, 0, 0}, u, look, up);
             const Numbers numbers(stage, shot);
             std::vector<dvec2> sums(markers.size(), dvec2(0));
-            std::vector<int> counts(markers.size());
+            std::vector<double> covered(markers.size());
             for (int i = 0; i < numbers.count(); ++i) {
                 if (!numbers.shown(i))
                     continue;
                 const dvec3 light = numbers.light(i);
-                EXPECT_FALSE(near_colour(light, hidden, 0.2)) << "a back at pixel " << i;
+                EXPECT_FALSE(near_colour(light, hidden, 0.1)) << "a back at pixel " << i;
+                // At its edge a marker fades into black without changing its hue.
+                const double part = std::max({light.r, light.g, light.b}) / 0.9;
+                if (part < 0.01)
+                    continue;
                 for (std::size_t k = 0; k < markers.size(); ++k)
-                    if (near_colour(light, markers[k].colour, 0.01))
-                        sums[k] += numbers.centre(i), ++counts[k];
+                    if (near_colour(light / part, markers[k].colour, 0.02))
+                        sums[k] += part * numbers.centre(i), covered[k] += part;
             }
             for (std::size_t k = 0; k < markers.size(); ++k) {
                 const auto [middle, area] = expected(markers[k], shot, projection, size);
-                if (area < 25) // not here, or too small to have an inside
+                if (area < 9) // not here, or too small to measure
                     continue;
                 ++found[k];
-                // Of a square of n pixels a rim of one and a half on each side is blended.
-                const double inside = std::pow(std::max(0.0, std::sqrt(area) - 3), 2);
-                EXPECT_GE(counts[k], 0.7 * inside) << k;
-                EXPECT_LE(counts[k], 1.1 * area) << k;
-                if (counts[k] > 0) {
-                    worst = std::max(worst, glm::length(sums[k] / double(counts[k]) - middle));
-                    EXPECT_LT(glm::length(sums[k] / double(counts[k]) - middle), 1.0) << "marker " << k << " of area " << area;
+                // The filter spreads light but keeps its sum where a pixel's angle changes little from one to the next.
+                EXPECT_NEAR(covered[k], area, 0.1 * area + 2) << k;
+                if (covered[k] > 0) {
+                    const double off = glm::length(sums[k] / covered[k] - middle);
+                    worst = std::max(worst, off);
+                    EXPECT_LT(off, 0.5) << "marker " << k << " of area " << area;
                 }
             }
         };
         for (const dvec3& look : {dvec3(1, 0, 0), dvec3(-1, 0, 0), dvec3(0, 0, 1), dvec3(0, 0, -1), dvec3(0, 1, 0.1), dvec3(0.1, -1, 0)})
-            look_around(window, {300, 300}, look, {0, 1, 0});
-        look_around(whole, {400, 400}, {0, 0, -1}, {0, 1, 0});
-        look_around(whole, {400, 400}, {0.2, 0.3, 0.9}, {0.5, 1, 0});
+            look_around(window, {500, 500}, look, {0, 1, 0});
+        look_around(whole, {500, 500}, {0, 0, -1}, {0, 1, 0});
+        look_around(whole, {500, 500}, {0.2, 0.3, 0.9}, {0.5, 1, 0});
         for (std::size_t k = 0; k < markers.size(); ++k)
             EXPECT_GT(found[k], 0) << "marker " << k << " was in no picture";
     }
@@ -495,7 +507,7 @@ TEST(Picture, EachEyeSeesFromItsOwnEvent)
             // The same work from the same place but for its last bit, which may move an edge across a sample.
             EXPECT_LE(different, 4) << "eye " << eye << " at gamma " << gamma;
         }
-        EXPECT_GT(apart, 300) << "the eyes see alike"; // else the comparison says nothing
+        EXPECT_GT(apart, 100) << "the eyes see alike"; // else the comparison says nothing
     }
 }
 
