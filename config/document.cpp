@@ -135,7 +135,7 @@ struct Builder : json::json_sax_t {
 
 Document read_document(const std::filesystem::path& path)
 {
-    Document document { one_line(path.string()), nullptr };
+    Document document{one_line(path.string()), nullptr};
     const std::string content = contents(path, document.file);
     Builder builder(document.file, content);
     json::sax_parse(content, &builder, json::input_format_t::json, true, true);

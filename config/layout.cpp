@@ -14,29 +14,29 @@ constexpr double slack = 1e-6;
 
 Projection read_projection(const Place& place)
 {
-    only(place, { "type", "fov_y_deg", "aperture_deg", "tilt_deg" });
-    if (one_of(member(place, "type"), { "planar", "fisheye" }) == "planar") {
-        only(place, { "type", "fov_y_deg" });
+    only(place, {"type", "fov_y_deg", "aperture_deg", "tilt_deg"});
+    if (one_of(member(place, "type"), {"planar", "fisheye"}) == "planar") {
+        only(place, {"type", "fov_y_deg"});
         Planar planar;
         if (auto p = find(place, "fov_y_deg"))
-            planar.fov_y_deg = number(*p, { 0.1, 179 });
+            planar.fov_y_deg = number(*p, {0.1, 179});
         return planar;
     }
-    only(place, { "type", "aperture_deg", "tilt_deg" });
+    only(place, {"type", "aperture_deg", "tilt_deg"});
     Fisheye fisheye;
     if (auto p = find(place, "aperture_deg"))
-        fisheye.aperture_deg = number(*p, { 1, 360 });
+        fisheye.aperture_deg = number(*p, {1, 360});
     if (auto p = find(place, "tilt_deg"))
-        fisheye.tilt_deg = number(*p, { -180, 180 });
+        fisheye.tilt_deg = number(*p, {-180, 180});
     return fisheye;
 }
 
 Viewport read_viewport(const Place& place, glm::ivec2 size)
 {
-    only(place, { "rect", "projection", "eye_m" });
+    only(place, {"rect", "projection", "eye_m"});
     Viewport viewport;
     if (auto p = find(place, "rect")) {
-        viewport.rect = vec4(*p, { 0, 1 });
+        viewport.rect = vec4(*p, {0, 1});
         const glm::dvec4& r = viewport.rect;
         if (r.z <= 0 || r.w <= 0)
             complain(*p, "is empty; x, y, width and height in fractions of the output, the last two above 0, is right");
@@ -50,7 +50,7 @@ Viewport read_viewport(const Place& place, glm::ivec2 size)
     }
     viewport.projection = read_projection(member(place, "projection"));
     if (auto p = find(place, "eye_m"))
-        viewport.eye_m = vec3(*p, { -1e3, 1e3 });
+        viewport.eye_m = vec3(*p, {-1e3, 1e3});
     return viewport;
 }
 
@@ -72,12 +72,12 @@ std::string read_name(const Place& place)
 
 Output read_output(const Place& place)
 {
-    only(place, { "name", "size", "resizable", "viewports" });
+    only(place, {"name", "size", "resizable", "viewports"});
     Output output;
     output.name = read_name(member(place, "name"));
     if (auto p = find(place, "size")) {
         const std::vector<Place> at = items(*p, 2, 2, "whole numbers");
-        output.size = { integer(at[0], 1, most_pixels_across), integer(at[1], 1, most_pixels_across) };
+        output.size = {integer(at[0], 1, most_pixels_across), integer(at[1], 1, most_pixels_across)};
     }
     if (auto p = find(place, "resizable"))
         output.resizable = boolean(*p);
@@ -94,14 +94,14 @@ Output read_output(const Place& place)
 
 HudPlacement read_hud(const Place& place)
 {
-    only(place, { "azimuth_deg", "elevation_deg", "width_deg" });
+    only(place, {"azimuth_deg", "elevation_deg", "width_deg"});
     HudPlacement hud;
     if (auto p = find(place, "azimuth_deg"))
-        hud.azimuth_deg = number(*p, { -180, 180 });
+        hud.azimuth_deg = number(*p, {-180, 180});
     if (auto p = find(place, "elevation_deg"))
-        hud.elevation_deg = number(*p, { -90, 90 });
+        hud.elevation_deg = number(*p, {-90, 90});
     if (auto p = find(place, "width_deg"))
-        hud.width_deg = number(*p, { 1, 120 });
+        hud.width_deg = number(*p, {1, 120});
     return hud;
 }
 
@@ -112,18 +112,18 @@ glm::ivec4 pixel_rect(const Viewport& viewport, glm::ivec2 size)
     const glm::dvec4& r = viewport.rect;
     const glm::ivec2 from = glm::round(glm::dvec2(r.x, r.y) * glm::dvec2(size));
     const glm::ivec2 to = glm::min(glm::ivec2(glm::round(glm::dvec2(r.x + r.z, r.y + r.w) * glm::dvec2(size))), size);
-    return { from, to - from };
+    return {from, to - from};
 }
 
 Layout load_layout(const std::filesystem::path& file)
 {
     const Document document = read_document(file);
     const Place top = root(document);
-    only(top, { "hyper_stereo", "hud", "outputs" });
+    only(top, {"hyper_stereo", "hud", "outputs"});
     Layout layout;
     layout.name = file.stem().string();
     if (auto p = find(top, "hyper_stereo"))
-        layout.hyper_stereo = number(*p, { 0, 1e12, true });
+        layout.hyper_stereo = number(*p, {0, 1e12, true});
     if (auto p = find(top, "hud"))
         layout.hud = read_hud(*p);
     for (const Place& at : items(member(top, "outputs"), 1, 64, "outputs")) {

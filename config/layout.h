@@ -13,7 +13,8 @@ struct Planar {
 };
 
 /// An equidistant fisheye inscribed in the viewport's rectangle: a domemaster. Its zenith (the centre) is the cockpit's up
-/// tilted forward: tilt_deg 0 looks straight up, 90 straight ahead; the bottom of the picture is towards the visitor's front.
+/// tilted forward: tilt_deg 0 looks straight up, 90 straight ahead; the bottom of the picture is towards the visitor's
+/// front.
 struct Fisheye {
     double aperture_deg = 180;
     double tilt_deg = 0;
@@ -36,7 +37,7 @@ struct Output {
 
 /// Where the head-up display floats in the cockpit: its centre's direction and its width as seen.
 struct HudPlacement {
-    double azimuth_deg = 0;   ///< to the right of straight ahead
+    double azimuth_deg = 0; ///< to the right of straight ahead
     double elevation_deg = 0; ///< above straight ahead
     double width_deg = 40;
 };

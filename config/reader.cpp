@@ -38,7 +38,7 @@ std::size_t distance(std::string_view a, std::string_view b)
         for (std::size_t j = 1; j <= b.size(); ++j) {
             const std::size_t changed = diagonal + (a[i - 1] != b[j - 1]);
             diagonal = row[j];
-            row[j] = std::min({ changed, row[j] + 1, row[j - 1] + 1 });
+            row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
         }
     }
     return row.back();
@@ -46,7 +46,7 @@ std::size_t distance(std::string_view a, std::string_view b)
 
 } // namespace
 
-Place root(const Document& document) { return { &document, &document.root, "" }; }
+Place root(const Document& document) { return {&document, &document.root, ""}; }
 
 void complain(const Place& place, const std::string& problem)
 {
@@ -67,7 +67,7 @@ double number(const Place& place, Range range)
 
 int integer(const Place& place, int low, int high)
 {
-    const double value = number(place, { double(low), double(high) });
+    const double value = number(place, {double(low), double(high)});
     if (value != std::floor(value))
         complain(
             place, "is not a whole number; one from " + std::to_string(low) + " to " + std::to_string(high) + " is right");
@@ -113,20 +113,20 @@ std::vector<Place> items(const Place& place, std::size_t least, std::size_t most
         complain(place, "has length " + std::to_string(count) + "; " + right);
     std::vector<Place> places;
     for (std::size_t i = 0; i < count; ++i)
-        places.push_back({ place.document, &(*place.json)[i], place.pointer + "/" + std::to_string(i) });
+        places.push_back({place.document, &(*place.json)[i], place.pointer + "/" + std::to_string(i)});
     return places;
 }
 
 glm::dvec3 vec3(const Place& place, Range range)
 {
     const std::vector<Place> at = items(place, 3, 3, "numbers");
-    return { number(at[0], range), number(at[1], range), number(at[2], range) };
+    return {number(at[0], range), number(at[1], range), number(at[2], range)};
 }
 
 glm::dvec4 vec4(const Place& place, Range range)
 {
     const std::vector<Place> at = items(place, 4, 4, "numbers");
-    return { number(at[0], range), number(at[1], range), number(at[2], range), number(at[3], range) };
+    return {number(at[0], range), number(at[1], range), number(at[2], range), number(at[3], range)};
 }
 
 void only(const Place& place, const std::vector<std::string_view>& known)
@@ -141,7 +141,7 @@ void only(const Place& place, const std::vector<std::string_view>& known)
         std::stable_sort(nearest.begin(), nearest.end(),
             [&](std::string_view a, std::string_view b) { return distance(word, a) < distance(word, b); });
         nearest.resize(std::min<std::size_t>(nearest.size(), 3));
-        complain({ place.document, &value, place.pointer + "/" + escaped(name) },
+        complain({place.document, &value, place.pointer + "/" + escaped(name)},
             "stands under an unknown name; " + choice(nearest) + " is right");
     }
 }
@@ -151,7 +151,7 @@ std::optional<Place> find(const Place& place, const std::string& name)
     const auto found = place.json->find(name);
     if (found == place.json->end())
         return {};
-    return Place { place.document, &*found, place.pointer + "/" + escaped(name) };
+    return Place{place.document, &*found, place.pointer + "/" + escaped(name)};
 }
 
 Place member(const Place& place, const std::string& name)

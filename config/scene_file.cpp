@@ -6,14 +6,14 @@ namespace starbow {
 namespace {
 
 /// From far below a nucleus to far beyond the horizon of the universe, and ratios of two of them are still doubles.
-constexpr Range measure { 1e-30, 1e30 };
+constexpr Range measure{1e-30, 1e30};
 constexpr double farthest = 1e15;
 
-glm::dvec3 read_colour(const Place& place) { return vec3(place, { 0, 1e6 }); }
+glm::dvec3 read_colour(const Place& place) { return vec3(place, {0, 1e6}); }
 
 Sky read_sky(const Place& place)
 {
-    only(place, { "zenith", "horizon", "nadir" });
+    only(place, {"zenith", "horizon", "nadir"});
     Sky sky;
     if (auto p = find(place, "zenith"))
         sky.zenith = read_colour(*p);
@@ -26,20 +26,20 @@ Sky read_sky(const Place& place)
 
 Light read_light(const Place& place)
 {
-    only(place, { "type", "towards", "position", "distance", "radiance" });
-    if (one_of(member(place, "type"), { "directional", "point" }) == "directional") {
-        only(place, { "type", "towards", "radiance" });
+    only(place, {"type", "towards", "position", "distance", "radiance"});
+    if (one_of(member(place, "type"), {"directional", "point"}) == "directional") {
+        only(place, {"type", "towards", "radiance"});
         const Place towards = member(place, "towards");
-        const glm::dvec3 direction = vec3(towards, { -farthest, farthest });
+        const glm::dvec3 direction = vec3(towards, {-farthest, farthest});
         const double length = glm::length(direction);
         if (!(length > 1e-100))
             complain(towards, "points nowhere; a direction of any length above 0 is right");
-        return DirectionalLight { direction / length, read_colour(member(place, "radiance")) };
+        return DirectionalLight{direction / length, read_colour(member(place, "radiance"))};
     }
-    only(place, { "type", "position", "distance", "radiance" });
+    only(place, {"type", "position", "distance", "radiance"});
     PointLight light;
-    light.position = vec3(member(place, "position"), { -farthest, farthest });
-    light.distance = number(member(place, "distance"), { 0, farthest, true });
+    light.position = vec3(member(place, "position"), {-farthest, farthest});
+    light.distance = number(member(place, "distance"), {0, farthest, true});
     light.radiance = read_colour(member(place, "radiance"));
     return light;
 }
@@ -50,7 +50,7 @@ SceneFile load_scene_file(const std::filesystem::path& file)
 {
     const Document document = read_document(file);
     const Place top = root(document);
-    only(top, { "gltf", "unit_m", "light_speed_m_s", "sky", "ambient", "lights", "start" });
+    only(top, {"gltf", "unit_m", "light_speed_m_s", "sky", "ambient", "lights", "start"});
     SceneFile scene;
     scene.name = file.stem().string();
     scene.gltf = file.parent_path() / text(member(top, "gltf"));

@@ -31,7 +31,7 @@ struct Sky {
 struct SceneFile {
     std::string name;
     std::filesystem::path gltf;
-    double unit_m = 299792458;          ///< one scene unit in metres
+    double unit_m = 299792458; ///< one scene unit in metres
     double light_speed_m_s = 299792458; ///< real, or slow as in Gamow's tales
     Sky sky;
     glm::dvec3 ambient{0}; ///< Rec. 709 linear, what a white surface gives back without any light

@@ -19,7 +19,7 @@ glm::dvec3 unit(const glm::dvec3& v)
 
 glm::dvec3 read_direction(const Place& place)
 {
-    const glm::dvec3 direction = unit(vec3(place, { -1e300, 1e300 }));
+    const glm::dvec3 direction = unit(vec3(place, {-1e300, 1e300}));
     if (direction == glm::dvec3(0))
         complain(place, "points nowhere; a direction of any length above 0 is right");
     return direction;
@@ -34,7 +34,7 @@ double read_proper_speed(const Place& place)
             std::string(gamma || beta || rapidity ? "has more than one speed" : "has no speed")
                 + "; exactly one of \"gamma\", \"beta\" and \"rapidity\" is right");
     if (gamma) {
-        const double g = number(*gamma, { -1e308, 1e308 });
+        const double g = number(*gamma, {-1e308, 1e308});
         if (g < 1)
             complain(*gamma, "is less than gamma ever is; 1 at rest and up to 1e9 is right");
         if (g > most_gamma)
@@ -42,26 +42,26 @@ double read_proper_speed(const Place& place)
         return std::sqrt((g - 1) * (g + 1));
     }
     if (beta) {
-        const double b = number(*beta, { -1e308, 1e308 });
+        const double b = number(*beta, {-1e308, 1e308});
         if (b >= 1)
             complain(*beta, "can't be flown, nothing reaches the speed of light; a beta from 0 to below 1 is right");
         if (b < 0)
             complain(*beta, "is negative; a beta from 0 to below 1, and the way in \"direction\", is right");
         return b / std::sqrt((1 - b) * (1 + b));
     }
-    return std::sinh(number(*rapidity, { 0, std::acosh(most_gamma) }));
+    return std::sinh(number(*rapidity, {0, std::acosh(most_gamma)}));
 }
 
 glm::dvec3 read_velocity(const Place& place)
 {
-    only(place, { "direction", "gamma", "beta", "rapidity" });
+    only(place, {"direction", "gamma", "beta", "rapidity"});
     const glm::dvec3 direction = read_direction(member(place, "direction"));
     return direction * read_proper_speed(place);
 }
 
 glm::dquat read_orientation(const Place& place)
 {
-    glm::dvec3 look { 0, 0, -1 }, up { 0, 1, 0 };
+    glm::dvec3 look{0, 0, -1}, up{0, 1, 0};
     const auto look_at = find(place, "look"), up_at = find(place, "up");
     if (look_at)
         look = read_direction(*look_at);
@@ -75,7 +75,7 @@ glm::dquat read_orientation(const Place& place)
 
 Effects read_effects(const Place& place)
 {
-    only(place, { "aberration", "doppler", "headlight" });
+    only(place, {"aberration", "doppler", "headlight"});
     Effects effects;
     if (auto p = find(place, "aberration"))
         effects.aberration = boolean(*p);
@@ -97,7 +97,7 @@ glm::dquat orientation(const glm::dvec3& look, const glm::dvec3& up)
 
 Shot read_shot(const Place& place, bool with_scene)
 {
-    std::vector<std::string_view> known { "time", "position", "velocity", "look", "up", "effects", "exposure_ev" };
+    std::vector<std::string_view> known{"time", "position", "velocity", "look", "up", "effects", "exposure_ev"};
     if (with_scene)
         known.push_back("scene");
     only(place, known);
@@ -105,16 +105,16 @@ Shot read_shot(const Place& place, bool with_scene)
     if (with_scene)
         shot.scene = text(member(place, "scene"));
     if (auto p = find(place, "time"))
-        shot.time = number(*p, { -farthest, farthest });
+        shot.time = number(*p, {-farthest, farthest});
     if (auto p = find(place, "position"))
-        shot.position = vec3(*p, { -farthest, farthest });
+        shot.position = vec3(*p, {-farthest, farthest});
     if (auto p = find(place, "velocity"))
         shot.u = read_velocity(*p);
     shot.ship_from_cockpit = read_orientation(place);
     if (auto p = find(place, "effects"))
         shot.effects = read_effects(*p);
     if (auto p = find(place, "exposure_ev"))
-        shot.exposure_ev = number(*p, { -60, 60 });
+        shot.exposure_ev = number(*p, {-60, 60});
     return shot;
 }
 

@@ -18,8 +18,8 @@ struct Shot {
     std::string scene; ///< name or path of a scene file
     double time = 0;
     glm::dvec3 position{0};
-    glm::dvec3 u{0};                              ///< proper velocity, gamma beta, world frame
-    glm::dquat ship_from_cockpit{1, 0, 0, 0};     ///< from `look` and `up`; ship frame: the world's axes carried by a pure boost
+    glm::dvec3 u{0}; ///< proper velocity, gamma beta, world frame
+    glm::dquat ship_from_cockpit{1, 0, 0, 0}; ///< from `look` and `up`; ship frame: the world's axes carried by a pure boost
     Effects effects;
     double exposure_ev = 0;
 };

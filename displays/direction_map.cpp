@@ -48,9 +48,16 @@ double pixel_angle(const Projection& projection, glm::ivec2 size, glm::dvec2 pix
     return dome_pixel_angle(std::get<Fisheye>(projection), size, pixel);
 }
 
+double pixel_length(const Projection& projection, glm::ivec2 size)
+{
+    if (const Fisheye* dome = std::get_if<Fisheye>(&projection))
+        return glm::radians(dome->aperture_deg) / std::min(size.x, size.y);
+    return 0;
+}
+
 DirectionMap compile(const Projection& projection, glm::ivec2 size)
 {
-    DirectionMap map { size, std::vector<glm::vec4>(std::size_t(size.x) * size.y, glm::vec4(0)) };
+    DirectionMap map{size, std::vector<glm::vec4>(std::size_t(size.x) * size.y, glm::vec4(0))};
     // Bands of whole rows: no texel depends on another, so the result does not depend on the number of threads.
     const int bands = std::clamp(int(std::thread::hardware_concurrency()), 1, std::max(size.y, 1));
     std::vector<std::jthread> threads;

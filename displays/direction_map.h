@@ -20,6 +20,10 @@ std::optional<glm::dmat3> planar_matrix(const Projection& projection, glm::ivec2
 /// Angle that one pixel covers around `pixel`, radians: the square root of its solid angle.
 double pixel_angle(const Projection& projection, glm::ivec2 size, glm::dvec2 pixel);
 
+/// The length in radians that a pixel keeps in one direction wherever it is, 0 where none does. Towards the rim of a fisheye
+/// that shows the whole sky a pixel becomes a sliver: its solid angle goes to nothing, this length stays.
+double pixel_length(const Projection& projection, glm::ivec2 size);
+
 /// Rows from the top; xyz: unit direction of the pixel's centre, w: pixel angle in radians, or all 0 where nothing is shown.
 struct DirectionMap {
     glm::ivec2 size;

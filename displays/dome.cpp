@@ -16,7 +16,7 @@ struct Axes {
 Axes axes(const Fisheye& dome)
 {
     const double tilt = glm::radians(dome.tilt_deg), c = std::cos(tilt), s = std::sin(tilt);
-    return { { 0, c, -s }, { 0, -s, -c }, { 1, 0, 0 } };
+    return {{0, c, -s}, {0, -s, -c}, {1, 0, 0}};
 }
 
 double radius_px(glm::ivec2 size) { return std::min(size.x, size.y) * 0.5; }

@@ -14,7 +14,7 @@ double pixel_size(const Planar& planar, glm::ivec2 size)
 glm::dvec3 in_plane(const Planar& planar, glm::ivec2 size, glm::dvec2 pixel)
 {
     const double step = pixel_size(planar, size);
-    return { (pixel.x - size.x * 0.5) * step, (size.y * 0.5 - pixel.y) * step, -1 };
+    return {(pixel.x - size.x * 0.5) * step, (size.y * 0.5 - pixel.y) * step, -1};
 }
 
 /// Solid angle of a triangle of that plane with twice the area `area2` (van Oosterom and Strackee 1983). For a plane at
@@ -30,7 +30,7 @@ double triangle_solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm:
 glm::dmat3 planar_direction_matrix(const Planar& planar, glm::ivec2 size)
 {
     const double step = pixel_size(planar, size);
-    return { { step, 0, 0 }, { 0, -step, 0 }, { -size.x * 0.5 * step, size.y * 0.5 * step, -1 } };
+    return {{step, 0, 0}, {0, -step, 0}, {-size.x * 0.5 * step, size.y * 0.5 * step, -1}};
 }
 
 glm::dvec3 planar_direction(const Planar& planar, glm::ivec2 size, glm::dvec2 pixel)

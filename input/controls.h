@@ -4,14 +4,14 @@
 
 namespace starbow {
 
-/// What the visitor wants, at a time. Rates run from -1 to 1 of what the exhibit allows; switches are true in the one frame in
-/// which they are pressed.
+/// What the visitor wants, at a time. Rates run from -1 to 1 of what the exhibit allows; switches are true in the one frame
+/// in which they are pressed.
 struct Controls {
     std::int64_t time_ns = 0;
-    double faster = 0;     ///< rapidity: above 0 speeds up along the nose, below 0 slows down
-    glm::dvec3 turn{0};    ///< pitch up, yaw left, roll left: right-handed about the cockpit's x, y, z
+    double faster = 0; ///< rapidity: above 0 speeds up along the nose, below 0 slows down
+    glm::dvec3 turn{0}; ///< pitch up, yaw left, roll left: right-handed about the cockpit's x, y, z
     glm::dvec2 look_rad{0}; ///< how much further to look to the left and up, since the last frame
-    double exposure = 0;   ///< brighter or darker
+    double exposure = 0; ///< brighter or darker
     bool look_ahead = false, stop = false, reset = false;
     bool aberration = false, doppler = false, headlight = false; ///< effects to switch over
     bool hud = false, full_screen = false, quit = false;

@@ -89,7 +89,7 @@ void write_png(const std::filesystem::path& file, glm::ivec2 size, const std::ve
     Bytes rgb;
     rgb.reserve(pixels(size) * 3);
     for (std::size_t i = 0; i < rgba.size(); i += 4)
-        rgb.insert(rgb.end(), { rgba[i], rgba[i + 1], rgba[i + 2] });
+        rgb.insert(rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
     Bytes bytes;
     const auto append = [](void* to, void* data, int count) {
         const auto* from = static_cast<const unsigned char*>(data);
@@ -182,7 +182,7 @@ std::pair<glm::ivec2, Channels> read_exr(const std::filesystem::path& file)
         const float* plane = reinterpret_cast<const float*>(image.images[i]);
         channels.emplace_back(header.channels[i].name, std::vector<float>(plane, plane + pixels(size)));
     }
-    return { size, channels };
+    return {size, channels};
 }
 
 } // namespace starbow

@@ -21,8 +21,8 @@ double band(int i, double wavelength_nm)
     return std::exp(-0.5 * t * t);
 }
 
-/// Colour of a spectral radiance per frequency, f(wavelength in nm), whose light is shifted by D, intensity per frequency kept:
-/// the sum of f(D l) / l^2 dl over the eye's response.
+/// Colour of a spectral radiance per frequency, f(wavelength in nm), whose light is shifted by D, intensity per frequency
+/// kept: the sum of f(D l) / l^2 dl over the eye's response.
 template <class Spectrum> glm::dvec3 shifted_colour(Spectrum&& f, double D)
 {
     glm::dvec3 xyz(0);
@@ -44,7 +44,8 @@ glm::dvec3 xyz_response(double nm)
 
 glm::dvec3 rec709_linear_from_xyz(const glm::dvec3& xyz)
 {
-    return {3.2404542 * xyz.x - 1.5371385 * xyz.y - 0.4985314 * xyz.z, -0.9692660 * xyz.x + 1.8760108 * xyz.y + 0.0415560 * xyz.z,
+    return {3.2404542 * xyz.x - 1.5371385 * xyz.y - 0.4985314 * xyz.z,
+        -0.9692660 * xyz.x + 1.8760108 * xyz.y + 0.0415560 * xyz.z,
         0.0556434 * xyz.x - 0.2040259 * xyz.y + 1.0572252 * xyz.z};
 }
 

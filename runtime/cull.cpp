@@ -8,7 +8,7 @@ namespace {
 /// An instance's bounding box around the eye, motion axes.
 struct Box {
     glm::dvec3 centre, half[3]; // half: from the centre to the middle of each side
-    double scale;    // world units per local unit, at most
+    double scale; // world units per local unit, at most
     double distance; // from the eye, at least
 
     /// How far it reaches along a unit vector from its centre.
@@ -69,7 +69,8 @@ int level_of(const Primitive& primitive, const Box& box, double texels_per_unit)
 
 } // namespace
 
-DrawList cull(const World& world, const glm::dvec3& eye, const glm::dmat3& motion_from_world, const std::vector<PlanImage>& images)
+DrawList cull(
+    const World& world, const glm::dvec3& eye, const glm::dmat3& motion_from_world, const std::vector<PlanImage>& images)
 {
     DrawList list;
     list.instances.reserve(world.instances.size());
@@ -80,14 +81,14 @@ DrawList cull(const World& world, const glm::dvec3& eye, const glm::dmat3& motio
         glm::dmat3 turn = motion_from_world * glm::dmat3(m);
         glm::dvec3 place = motion_from_world * (glm::dvec3(m[3]) - eye);
         glm::dmat3 rows = glm::transpose(turn);
-        list.instances.push_back(
-            {glm::vec4(rows[0], place.x), glm::vec4(rows[1], place.y), glm::vec4(rows[2], place.z)});
+        list.instances.push_back({glm::vec4(rows[0], place.x), glm::vec4(rows[1], place.y), glm::vec4(rows[2], place.z)});
         const Primitive& primitive = world.primitives[instance.primitive];
         glm::dvec3 half = 0.5 * (primitive.high - primitive.low), middle = 0.5 * (primitive.high + primitive.low);
         Box box{turn * middle + place, {turn[0] * half.x, turn[1] * half.y, turn[2] * half.z}, 0, 0};
         glm::dvec3 lengths(glm::length(turn[0]), glm::length(turn[1]), glm::length(turn[2]));
         double longest = std::max({lengths.x, lengths.y, lengths.z});
-        double skew = std::abs(glm::dot(turn[0], turn[1])) + std::abs(glm::dot(turn[1], turn[2])) + std::abs(glm::dot(turn[2], turn[0]));
+        double skew = std::abs(glm::dot(turn[0], turn[1])) + std::abs(glm::dot(turn[1], turn[2]))
+            + std::abs(glm::dot(turn[2], turn[0]));
         if (skew < 1e-9 * longest * longest) {
             // The eye in the instance's own frame, to its box.
             glm::dvec3 eye_local = -(place * turn) / (lengths * lengths);
@@ -117,8 +118,10 @@ DrawList cull(const World& world, const glm::dvec3& eye, const glm::dmat3& motio
                     continue;
                 // Nearest first: what stands behind fails the depth test before it is shaded.
                 std::sort(seen.begin(), seen.end(), [&](auto a, auto b) { return boxes[a].distance < boxes[b].distance; });
-                DetailLevel detail = level == 0 ? DetailLevel{primitive.first_index, primitive.index_count, 0} : primitive.coarser[level - 1];
-                list.draws.push_back({i, index, std::uint32_t(list.visible.size()), std::uint32_t(seen.size()), detail.first_index, detail.index_count});
+                DetailLevel detail = level == 0 ? DetailLevel{primitive.first_index, primitive.index_count, 0}
+                                                : primitive.coarser[level - 1];
+                list.draws.push_back({i, index, std::uint32_t(list.visible.size()), std::uint32_t(seen.size()),
+                    detail.first_index, detail.index_count});
                 list.visible.insert(list.visible.end(), seen.begin(), seen.end());
                 seen.clear();
             }

@@ -31,7 +31,7 @@ std::size_t pieces(const std::vector<std::uint32_t>& indices, std::size_t vertex
 void add_detail_levels(World& world)
 {
     constexpr std::size_t worth = 3 * 64; // indices
-    constexpr float most_error = 0.25f;   // of the primitive's extent; beyond it hardly anything is left
+    constexpr float most_error = 0.25f; // of the primitive's extent; beyond it hardly anything is left
     std::vector<std::uint32_t> level;
     for (Primitive& primitive : world.primitives) {
         if (primitive.index_count < worth)
@@ -49,8 +49,8 @@ void add_detail_levels(World& world)
         while (from.size() > 3 * 16) {
             level.resize(from.size());
             float added = 0;
-            std::size_t count = meshopt_simplify(level.data(), from.data(), from.size(), positions, vertex_count, sizeof(Vertex),
-                from.size() / 6 * 3, most_error, 0, &added);
+            std::size_t count = meshopt_simplify(level.data(), from.data(), from.size(), positions, vertex_count,
+                sizeof(Vertex), from.size() / 6 * 3, most_error, 0, &added);
             if (count == 0 || count > from.size() * 4 / 5)
                 break;
             level.resize(count);

@@ -25,7 +25,8 @@ vk::raii::Instance make_instance(Device& device, const Device::Options& options)
         std::uint32_t count = 0;
         const char** names = glfwGetRequiredInstanceExtensions(&count);
         if (!names)
-            throw InputError("No Vulkan window can be opened here: install mesa-vulkan-drivers or the GPU maker's Vulkan driver");
+            throw InputError(
+                "No Vulkan window can be opened here: install mesa-vulkan-drivers or the GPU maker's Vulkan driver");
         extensions.assign(names, names + count);
     }
     vk::DebugUtilsMessengerCreateInfoEXT messenger({},
@@ -57,7 +58,7 @@ vk::raii::Instance make_instance(Device& device, const Device::Options& options)
 }
 
 struct Feature {
-    VkBool32 vk::PhysicalDeviceVulkan13Features::* has;
+    VkBool32 vk::PhysicalDeviceVulkan13Features::*has;
     const char* name;
 };
 
@@ -78,7 +79,8 @@ std::string lacks(const vk::raii::PhysicalDevice& physical, bool windows)
         }))
         return "windows (VK_KHR_swapchain)";
     auto families = physical.getQueueFamilyProperties();
-    if (std::none_of(families.begin(), families.end(), [](auto& f) { return bool(f.queueFlags & vk::QueueFlagBits::eGraphics); }))
+    if (std::none_of(
+            families.begin(), families.end(), [](auto& f) { return bool(f.queueFlags & vk::QueueFlagBits::eGraphics); }))
         return "graphics";
     return {};
 }
@@ -86,11 +88,16 @@ std::string lacks(const vk::raii::PhysicalDevice& physical, bool windows)
 int rank(vk::PhysicalDeviceType type)
 {
     switch (type) {
-    case vk::PhysicalDeviceType::eDiscreteGpu: return 4;
-    case vk::PhysicalDeviceType::eIntegratedGpu: return 3;
-    case vk::PhysicalDeviceType::eVirtualGpu: return 2;
-    case vk::PhysicalDeviceType::eCpu: return 1;
-    default: return 0;
+    case vk::PhysicalDeviceType::eDiscreteGpu:
+        return 4;
+    case vk::PhysicalDeviceType::eIntegratedGpu:
+        return 3;
+    case vk::PhysicalDeviceType::eVirtualGpu:
+        return 2;
+    case vk::PhysicalDeviceType::eCpu:
+        return 1;
+    default:
+        return 0;
     }
 }
 

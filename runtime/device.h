@@ -11,9 +11,9 @@ namespace starbow {
 class Device {
 public:
     struct Options {
-        bool windows = false;     ///< ask GLFW which instance extensions its windows need, and for swapchains
-        bool validation = false;  ///< the validation layers, synchronization included; see complaints()
-        std::string name;         ///< part of a GPU's name, empty: the fastest kind there is
+        bool windows = false; ///< ask GLFW which instance extensions its windows need, and for swapchains
+        bool validation = false; ///< the validation layers, synchronization included; see complaints()
+        std::string name; ///< part of a GPU's name, empty: the fastest kind there is
     };
 
     /// Throws InputError where there is no Vulkan, no device, or none with what is needed: says what to install.

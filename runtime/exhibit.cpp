@@ -21,11 +21,10 @@ double seconds(Clock::duration d) { return std::chrono::duration<double>(d).coun
 void present_barrier(vk::CommandBuffer commands, const Target& target, bool before)
 {
     constexpr auto drawn = Stage::eColorAttachmentOutput;
-    vk::ImageMemoryBarrier2 barrier = before
-        ? vk::ImageMemoryBarrier2(drawn, {}, drawn, Access::eColorAttachmentWrite, vk::ImageLayout::eUndefined,
-            vk::ImageLayout::eColorAttachmentOptimal)
-        : vk::ImageMemoryBarrier2(drawn, Access::eColorAttachmentWrite, drawn, {}, vk::ImageLayout::eColorAttachmentOptimal,
-            vk::ImageLayout::ePresentSrcKHR);
+    vk::ImageMemoryBarrier2 barrier = before ? vk::ImageMemoryBarrier2(drawn, {}, drawn, Access::eColorAttachmentWrite,
+                                          vk::ImageLayout::eUndefined, vk::ImageLayout::eColorAttachmentOptimal)
+                                             : vk::ImageMemoryBarrier2(drawn, Access::eColorAttachmentWrite, drawn, {},
+                                                 vk::ImageLayout::eColorAttachmentOptimal, vk::ImageLayout::ePresentSrcKHR);
     barrier.image = target.image;
     barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1};
@@ -133,7 +132,8 @@ int fly_exhibit(Theatre& theatre, const Layout& layout, const Shot& start, const
         }
 
         // The frame: planned, culled and uploaded here, drawn there.
-        std::string notice = seconds(now - began) < 25 ? "W faster   S slower   arrows turn   Space stop   R start again" : "";
+        std::string notice
+            = seconds(now - began) < 25 ? "W faster   S slower   arrows turn   Space stop   R start again" : "";
         frame.prepare(shot_of(flight, start.scene), dashboard.update(flight, scene, frame.hud_width(), notice));
         device.device.resetFences(*done);
         commands.reset();

@@ -20,7 +20,7 @@ struct Cursor {
 
     template <class T> T take()
     {
-        T value {};
+        T value{};
         if (broken || end - at < sizeof(T))
             broken = true;
         else
@@ -92,7 +92,7 @@ bool read_attribute(const std::string& name, Cursor in, Header& header)
 
 std::string exr_fault(const std::vector<unsigned char>& bytes)
 {
-    Cursor in { bytes, 0, bytes.size() };
+    Cursor in{bytes, 0, bytes.size()};
     constexpr std::uint32_t long_names = 0x400;
     if (in.take<std::uint32_t>() != 20000630)
         return "is not an EXR file; a file that Starbow wrote is right";
@@ -105,12 +105,12 @@ std::string exr_fault(const std::vector<unsigned char>& bytes)
         const auto size = in.take<std::uint32_t>();
         if (in.broken || size > in.end - in.at)
             return "breaks off inside its header; a whole file is right";
-        if (!header.attributes.insert(name).second || !read_attribute(name, { bytes, in.at, in.at + size }, header))
+        if (!header.attributes.insert(name).second || !read_attribute(name, {bytes, in.at, in.at + size}, header))
             return "has a header \"" + printable(name) + "\" that can't be read here; a file that Starbow wrote is right";
         in.at += size;
     }
-    for (const char* name : { "channels", "compression", "dataWindow", "displayWindow", "lineOrder", "pixelAspectRatio",
-             "screenWindowCenter", "screenWindowWidth" })
+    for (const char* name : {"channels", "compression", "dataWindow", "displayWindow", "lineOrder", "pixelAspectRatio",
+             "screenWindowCenter", "screenWindowWidth"})
         if (in.broken || !header.attributes.count(name))
             return std::string("lacks the header \"") + name + "\"; a whole file is right";
 
@@ -120,7 +120,7 @@ std::string exr_fault(const std::vector<unsigned char>& bytes)
         const auto place = in.take<std::uint64_t>();
         if (in.broken || place > bytes.size())
             return "breaks off at row " + std::to_string(row) + "; a whole file is right";
-        Cursor block { bytes, place, bytes.size() };
+        Cursor block{bytes, place, bytes.size()};
         const auto number = block.take<std::int32_t>();
         const auto size = block.take<std::int32_t>();
         const std::int64_t full = row_bytes * std::min(rows_per_block, header.height - row);

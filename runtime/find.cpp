@@ -41,7 +41,8 @@ fs::path find(const std::string& kind, const std::string& name)
     std::string list;
     for (const std::string& known : names)
         list += (list.empty() ? "" : ", ") + known;
-    throw InputError("There is no " + name + ".json in config/" + kind + "; there are: " + list + "; or give the path of a file");
+    throw InputError(
+        "There is no " + name + ".json in config/" + kind + "; there are: " + list + "; or give the path of a file");
 }
 
 fs::path scene_of(const Shot& shot, const fs::path& shot_file)

@@ -58,7 +58,7 @@ Flight step(Flight flight, const Controls& controls, double dt_s, double seconds
     flight.turn_rad_s += follow * (controls.turn * turn_rad_per_s - flight.turn_rad_s);
 
     double gain = flight.faster * dt_s; // of rapidity
-    glm::dvec3 way(0, 0, -1);           // cockpit axes
+    glm::dvec3 way(0, 0, -1); // cockpit axes
     if (gain > 0) {
         gain = std::min(gain, room(flight.ship, flight.ship.ship_from_cockpit * way));
     } else if (gain < 0) {

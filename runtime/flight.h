@@ -7,9 +7,9 @@ namespace starbow {
 /// Everything that a visitor changes.
 struct Flight {
     Ship ship;
-    glm::dvec2 look_rad{0};    ///< of the head, to the left and up from the nose
-    double faster = 0;         ///< rapidity per second now: follows the control smoothly
-    bool held_back = false;    ///< after a stop no thrust until the control has been let go: stopped means stopped
+    glm::dvec2 look_rad{0}; ///< of the head, to the left and up from the nose
+    double faster = 0; ///< rapidity per second now: follows the control smoothly
+    bool held_back = false; ///< after a stop no thrust until the control has been let go: stopped means stopped
     glm::dvec3 turn_rad_s{0};
     Effects effects;
     double exposure_ev = 0;

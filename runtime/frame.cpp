@@ -27,8 +27,8 @@ vk::SampleCountFlagBits sample_bits(int samples)
 glm::vec4 row(const glm::dmat3& m, int i, double w = 0) { return glm::vec4(m[0][i], m[1][i], m[2][i], w); }
 glm::vec4 row(const glm::dmat4& m, int i) { return glm::vec4(m[0][i], m[1][i], m[2][i], m[3][i]); }
 
-/// Panel axes from the cockpit's: x right and y up on the panel, z = 1 on its plane, the origin at its middle. Flat screens get
-/// a panel parallel to them, so that its lines stay level; everywhere else it faces the visitor.
+/// Panel axes from the cockpit's: x right and y up on the panel, z = 1 on its plane, the origin at its middle. Flat screens
+/// get a panel parallel to them, so that its lines stay level; everywhere else it faces the visitor.
 glm::dmat3 panel_from_cockpit(const HudPlacement& hud, bool flat)
 {
     double a = hud.azimuth_deg * degree, e = hud.elevation_deg * degree;
@@ -54,7 +54,8 @@ void set_area(vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size)
 
 } // namespace
 
-Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality, bool keeps_depth)
+Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality,
+    bool keeps_depth)
     : quality_(quality)
     , device_(device)
     , pipelines_(pipelines)
@@ -64,10 +65,12 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
 {
     const Sky& sky = world.scene.sky;
     sky_ = sky.zenith != sky.horizon || sky.nadir != sky.horizon;
-    linear_ = device.device.createSampler(
-        {{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eLinear, vk::SamplerAddressMode::eClampToEdge,
-            vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, 0, false, 1, false, {}, 0, VK_LOD_CLAMP_NONE});
+    linear_ = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eLinear,
+        vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, 0,
+        false, 1, false, {}, 0, VK_LOD_CLAMP_NONE});
     nearest_ = device.device.createSampler({});
+    finest_ = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eNearest,
+        vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge});
     const std::vector<glm::vec4> table = doppler_table();
     colours_ = make_static_buffer(device, std::as_bytes(std::span(table)), vk::BufferUsageFlagBits::eUniformBuffer);
     const float zeros[4] = {};
@@ -91,7 +94,8 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
             if (same == eyes_.end()) {
                 Eye eye;
                 eye.offset_m = viewport.eye_m;
-                eye.constants = make_mapped_buffer(device, sizeof(shared::CubeConstants), vk::BufferUsageFlagBits::eUniformBuffer);
+                eye.constants
+                    = make_mapped_buffer(device, sizeof(shared::CubeConstants), vk::BufferUsageFlagBits::eUniformBuffer);
                 eye.slots = make_mapped_buffer(
                     device, SLOT_COUNT * sizeof(shared::SlotEntry), vk::BufferUsageFlagBits::eUniformBuffer);
                 eye.set = make_set(pipelines.eye_set);
@@ -108,7 +112,8 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
         }
     }
     plans_.resize(eyes_.size());
-    bool flat = std::all_of(views_.begin(), views_.end(), [](auto& v) { return std::holds_alternative<Planar>(v.projection); });
+    bool flat
+        = std::all_of(views_.begin(), views_.end(), [](auto& v) { return std::holds_alternative<Planar>(v.projection); });
     panel_from_cockpit_ = panel_from_cockpit(layout.hud, flat);
     for (std::size_t output = 0; output < layout.outputs.size(); ++output)
         resize(output, layout.outputs[output].size);
@@ -209,7 +214,7 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
         glm::dvec3 place = shot.position + physics::eye_place(shot.u, offset);
         eyes_[i].list = cull(world_.world, place, to_motion, plans_[i].images);
         fit(eyes_[i], plans_[i].atlas_size, plans_[i].levels);
-        upload_eye(eyes_[i], shot, to_motion, place);
+        upload_eye(eyes_[i], to_motion, place);
         glm::ivec2 size(eyes_[i].atlas.extent.width, eyes_[i].atlas.extent.height);
         auto table = slot_table(plans_[i], size);
         std::memcpy(eyes_[i].slots.mapped, table.data(), table.size() * sizeof(table[0]));
@@ -226,7 +231,7 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
     write_sets();
 }
 
-void Frame::upload_eye(Eye& eye, const Shot&, const glm::dmat3& to_motion, const glm::dvec3& place)
+void Frame::upload_eye(Eye& eye, const glm::dmat3& to_motion, const glm::dvec3& place)
 {
     for (const Draw& draw : eye.list.draws)
         triangles_ += std::size_t(draw.count) * draw.index_count / 3;
@@ -268,10 +273,11 @@ void Frame::write_sets()
         buffers.push_back({*b.buffer, 0, VK_WHOLE_SIZE});
         writes.push_back({*set, binding, 0, 1, type, nullptr, &buffers.back()});
     };
-    auto image = [&](const vk::raii::DescriptorSet& set, std::uint32_t binding, const Image& i, const vk::raii::Sampler& sampler) {
-        images.push_back({*sampler, *i.view, vk::ImageLayout::eShaderReadOnlyOptimal});
-        writes.push_back({*set, binding, 0, 1, vk::DescriptorType::eCombinedImageSampler, &images.back()});
-    };
+    auto image
+        = [&](const vk::raii::DescriptorSet& set, std::uint32_t binding, const Image& i, const vk::raii::Sampler& sampler) {
+              images.push_back({*sampler, *i.view, vk::ImageLayout::eShaderReadOnlyOptimal});
+              writes.push_back({*set, binding, 0, 1, vk::DescriptorType::eCombinedImageSampler, &images.back()});
+          };
     for (const Eye& eye : eyes_) {
         buffer(eye.set, 0, vk::DescriptorType::eUniformBuffer, eye.constants);
         buffer(eye.set, 1, vk::DescriptorType::eStorageBuffer, eye.instances);
@@ -281,7 +287,7 @@ void Frame::write_sets()
         const Eye& eye = eyes_[view.eye];
         const Image& map = view.planar() ? nothing_ : view.map;
         image(view.warp_set, 0, map, nearest_);
-        image(view.warp_set, 1, eye.atlas, linear_);
+        image(view.warp_set, 1, eye.atlas, plans_[view.eye].levels > 1 ? linear_ : finest_);
         buffer(view.warp_set, 2, vk::DescriptorType::eUniformBuffer, eye.slots);
         buffer(view.warp_set, 3, vk::DescriptorType::eUniformBuffer, colours_);
         image(view.warp_set, 4, keeps_depth_ ? eye.depth : nothing_, nearest_);
@@ -317,21 +323,24 @@ void Frame::draw_eye(vk::CommandBuffer commands, Eye& eye, const Plan& plan)
         Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
     constexpr auto tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
     constexpr auto depth_access = Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite;
-    transition(commands, eye.depth, Layout_::eUndefined, tests | Stage::eFragmentShader | Stage::eColorAttachmentOutput, depth_access,
-        Layout_::eDepthAttachmentOptimal, tests | Stage::eColorAttachmentOutput,
+    transition(commands, eye.depth, Layout_::eUndefined, tests | Stage::eFragmentShader | Stage::eColorAttachmentOutput,
+        depth_access, Layout_::eDepthAttachmentOptimal, tests | Stage::eColorAttachmentOutput,
         depth_access | Access::eColorAttachmentWrite);
     if (sampled) {
         transition(commands, colour, Layout_::eUndefined, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
             Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
             Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
-        transition(commands, depth, Layout_::eUndefined, tests, depth_access, Layout_::eDepthAttachmentOptimal, tests, depth_access);
+        transition(commands, depth, Layout_::eUndefined, tests, depth_access, Layout_::eDepthAttachmentOptimal, tests,
+            depth_access);
     }
     glm::dvec3 sky = world_.scene.sky.horizon * world_.pre_exposure;
     vk::ClearColorValue clear(std::array<float, 4>{float(sky.r), float(sky.g), float(sky.b), 1});
-    vk::RenderingAttachmentInfo colour_info(*colour.view, Layout_::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
-        sampled ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore, clear);
-    vk::RenderingAttachmentInfo depth_info(*depth.view, Layout_::eDepthAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
-        keeps_depth_ && !sampled ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare, vk::ClearDepthStencilValue(0, 0));
+    vk::RenderingAttachmentInfo colour_info(*colour.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear, sampled ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore, clear);
+    vk::RenderingAttachmentInfo depth_info(*depth.view, Layout_::eDepthAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear,
+        keeps_depth_ && !sampled ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare,
+        vk::ClearDepthStencilValue(0, 0));
     if (sampled) {
         colour_info.resolveMode = vk::ResolveModeFlagBits::eAverage;
         colour_info.resolveImageView = *eye.atlas.view;
@@ -348,15 +357,17 @@ void Frame::draw_eye(vk::CommandBuffer commands, Eye& eye, const Plan& plan)
     if (plan.levels > 1)
         make_mips(commands, eye, plan);
     else
-        transition(commands, eye.atlas, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
-            Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
+        transition(commands, eye.atlas, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+            Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader,
+            Access::eShaderSampledRead);
     if (keeps_depth_)
         transition(commands, eye.depth, Layout_::eDepthAttachmentOptimal, tests | Stage::eColorAttachmentOutput,
             depth_access | Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader,
             Access::eShaderSampledRead);
 }
 
-void Frame::draw_images(vk::CommandBuffer commands, const Eye& eye, std::span<const PlanImage> images, const TargetKind& kind)
+void Frame::draw_images(
+    vk::CommandBuffer commands, const Eye& eye, std::span<const PlanImage> images, const TargetKind& kind)
 {
     const World& world = world_.world;
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.surface_layout, 0, *eye.set, {});
@@ -379,9 +390,11 @@ void Frame::draw_images(vk::CommandBuffer commands, const Eye& eye, std::span<co
             // Nothing is nearer than the near plane: what falls into the hole fails the depth test before it is shaded.
             glm::dvec2 low = glm::ceil((-glm::dvec2(image.hole) - image.low) * image.texels_per_unit);
             glm::dvec2 high = glm::floor((glm::dvec2(image.hole) - image.low) * image.texels_per_unit);
-            glm::ivec2 first = glm::clamp(glm::ivec2(low), glm::ivec2(0), image.size), last = glm::clamp(glm::ivec2(high), first, image.size);
+            glm::ivec2 first = glm::clamp(glm::ivec2(low), glm::ivec2(0), image.size),
+                       last = glm::clamp(glm::ivec2(high), first, image.size);
             if (last.x > first.x && last.y > first.y)
-                commands.clearAttachments(vk::ClearAttachment(vk::ImageAspectFlagBits::eDepth, 0, vk::ClearDepthStencilValue(1, 0)),
+                commands.clearAttachments(
+                    vk::ClearAttachment(vk::ImageAspectFlagBits::eDepth, 0, vk::ClearDepthStencilValue(1, 0)),
                     vk::ClearRect(rect_of(image.atlas + first, last - first), 0, 1));
         }
         int material = -1;
@@ -415,14 +428,14 @@ void Frame::draw_images(vk::CommandBuffer commands, const Eye& eye, std::span<co
 
 void Frame::make_mips(vk::CommandBuffer commands, Eye& eye, const Plan& plan)
 {
-    auto level_barrier = [&](std::uint32_t first, std::uint32_t count, Layout_ from, Stage from_stage, vk::AccessFlags2 from_access,
-                             Layout_ to, Stage to_stage, vk::AccessFlags2 to_access) {
+    auto level_barrier = [&](std::uint32_t first, std::uint32_t count, Layout_ from, Stage from_stage,
+                             vk::AccessFlags2 from_access, Layout_ to, Stage to_stage, vk::AccessFlags2 to_access) {
         vk::ImageMemoryBarrier2 barrier(from_stage, from_access, to_stage, to_access, from, to, VK_QUEUE_FAMILY_IGNORED,
             VK_QUEUE_FAMILY_IGNORED, *eye.atlas.image, {vk::ImageAspectFlagBits::eColor, first, count, 0, 1});
         commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
     };
-    // One level more than is asked for: at its coarsest level an image is sampled together with the next, at weight nought, and
-    // nought times what was never written may be NaN.
+    // One level more than is asked for: at its coarsest level an image is sampled together with the next, at weight nought,
+    // and nought times what was never written may be NaN.
     std::uint32_t levels = std::min(std::uint32_t(plan.levels) + 1, eye.atlas.levels);
     level_barrier(0, 1, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
         Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
@@ -439,10 +452,10 @@ void Frame::make_mips(vk::CommandBuffer commands, Eye& eye, const Plan& plan)
                 blits.push_back({{vk::ImageAspectFlagBits::eColor, level - 1, 0, 1}, box(level - 1),
                     {vk::ImageAspectFlagBits::eColor, level, 0, 1}, box(level)});
             }
-        commands.blitImage(
-            *eye.atlas.image, Layout_::eTransferSrcOptimal, *eye.atlas.image, Layout_::eTransferDstOptimal, blits, vk::Filter::eLinear);
-        level_barrier(level, 1, Layout_::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite, Layout_::eTransferSrcOptimal,
-            Stage::eTransfer, Access::eTransferRead);
+        commands.blitImage(*eye.atlas.image, Layout_::eTransferSrcOptimal, *eye.atlas.image, Layout_::eTransferDstOptimal,
+            blits, vk::Filter::eLinear);
+        level_barrier(level, 1, Layout_::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
+            Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
     }
     level_barrier(0, levels, Layout_::eTransferSrcOptimal, Stage::eTransfer, {}, Layout_::eShaderReadOnlyOptimal,
         Stage::eFragmentShader, Access::eShaderSampledRead);
@@ -471,12 +484,10 @@ shared::ViewPush Frame::push(const ViewState& view, const glm::dmat3& axes_from_
     return push;
 }
 
-void Frame::warp_view(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline)
+void Frame::warp_view(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline, double exposure)
 {
     shared::ViewPush constants = push(view, view.motion_from_cockpit);
-    bool measured = keeps_depth_;
-    double gain = (measured ? 1 : std::exp2(shot_.exposure_ev)) / world_.pre_exposure;
-    constants.boost = glm::vec4(E_, 1 / E_, gain, near_distance);
+    constants.boost = glm::vec4(E_, 1 / E_, exposure / world_.pre_exposure, near_distance);
     set_area(commands, view.corner, view.size);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.warp_layout, 0, *view.warp_set, {});
@@ -486,12 +497,12 @@ void Frame::warp_view(vk::CommandBuffer commands, const ViewState& view, vk::Pip
 
 void Frame::warp_output(vk::CommandBuffer commands, std::size_t output, const Target& target)
 {
-    vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
-        vk::AttachmentStoreOp::eStore, vk::ClearColorValue(std::array<float, 4>{0, 0, 0, 1}));
+    vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore, vk::ClearColorValue(std::array<float, 4>{0, 0, 0, 1}));
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
     for (const ViewState& view : views_)
         if (view.output == output)
-            warp_view(commands, view, pipelines_.warp(variant(view), target.format));
+            warp_view(commands, view, pipelines_.warp(variant(view), target.format), std::exp2(shot_.exposure_ev));
     commands.endRendering();
 }
 
@@ -509,11 +520,11 @@ void Frame::record_measured(vk::CommandBuffer commands, std::size_t output, cons
     commands.beginRendering({{}, {{0, 0}, target.camera.extent}, 1, 0, colours});
     for (const ViewState& view : views_)
         if (view.output == output)
-            warp_view(commands, view, pipelines_.measure(variant(view)));
+            warp_view(commands, view, pipelines_.measure(variant(view)), 1);
     commands.endRendering();
     for (const Image* image : {&target.light_and_depth, &target.camera, &target.world})
-        transition(commands, *image, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
-            Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+        transition(commands, *image, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+            Access::eColorAttachmentWrite, Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
 }
 
 void Frame::draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& target)
@@ -521,21 +532,22 @@ void Frame::draw_hud(vk::CommandBuffer commands, std::size_t output, const Targe
     if (!hud_on_)
         return;
     if (panel_new_) {
-        transition(commands, panel_, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eTransferDstOptimal, Stage::eTransfer,
-            Access::eTransferWrite);
+        transition(commands, panel_, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eTransferDstOptimal,
+            Stage::eTransfer, Access::eTransferWrite);
         commands.copyBufferToImage(*panel_pixels_.buffer, *panel_.image, Layout_::eTransferDstOptimal,
-            vk::BufferImageCopy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {panel_.extent.width, panel_.extent.height, 1}));
+            vk::BufferImageCopy(
+                0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {panel_.extent.width, panel_.extent.height, 1}));
         transition(commands, panel_, Layout_::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
             Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
         panel_new_ = false;
     }
-    vk::ImageMemoryBarrier2 after_warp(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput,
-        Access::eColorAttachmentWrite | Access::eColorAttachmentRead, Layout_::eColorAttachmentOptimal,
-        Layout_::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, target.image,
-        {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
+    vk::ImageMemoryBarrier2 after_warp(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+        Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead,
+        Layout_::eColorAttachmentOptimal, Layout_::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED,
+        target.image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
     commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, after_warp));
-    vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eLoad,
-        vk::AttachmentStoreOp::eStore);
+    vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eLoad, vk::AttachmentStoreOp::eStore);
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
     for (const ViewState& view : views_) {
         if (view.output != output || view.hud_box.extent.width == 0 || view.hud_box.extent.height == 0)
@@ -546,7 +558,8 @@ void Frame::draw_hud(vk::CommandBuffer commands, std::size_t output, const Targe
         commands.setScissor(0, view.hud_box);
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.hud(!view.planar(), target.format));
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, *view.hud_set, {});
-        commands.pushConstants<shared::ViewPush>(*pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
+        commands.pushConstants<shared::ViewPush>(
+            *pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
         commands.draw(3, 1, 0, 0);
     }
     commands.endRendering();
@@ -564,11 +577,12 @@ void Frame::prepare_plain(const Shot& shot)
     image.texels_per_unit = image.size.y / (image.high.y - image.low.y);
     plain_ = image;
     eyes_[0].list = cull(world_.world, shot.position, straight, {*plain_});
-    upload_eye(eyes_[0], shot, straight, shot.position);
+    upload_eye(eyes_[0], straight, shot.position);
     fit(eyes_[0], view.size, 1);
     if (!*plain_depth_.view)
         plain_depth_ = make_image(device_,
-            {depth_format, {std::uint32_t(view.size.x), std::uint32_t(view.size.y)}, vk::ImageUsageFlagBits::eDepthStencilAttachment});
+            {depth_format, {std::uint32_t(view.size.x), std::uint32_t(view.size.y)},
+                vk::ImageUsageFlagBits::eDepthStencilAttachment});
     write_sets();
 }
 
@@ -578,10 +592,11 @@ void Frame::draw_plain(vk::CommandBuffer commands, const Target& target)
     transition(commands, plain_depth_, Layout_::eUndefined, tests, Access::eDepthStencilAttachmentWrite,
         Layout_::eDepthAttachmentOptimal, tests, Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
     glm::dvec3 sky = world_.scene.sky.horizon * world_.pre_exposure;
-    vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
-        vk::AttachmentStoreOp::eStore, vk::ClearColorValue(std::array<float, 4>{float(sky.r), float(sky.g), float(sky.b), 1}));
-    vk::RenderingAttachmentInfo depth(*plain_depth_.view, Layout_::eDepthAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
-        vk::AttachmentStoreOp::eDontCare, vk::ClearDepthStencilValue(0, 0));
+    vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
+        vk::ClearColorValue(std::array<float, 4>{float(sky.r), float(sky.g), float(sky.b), 1}));
+    vk::RenderingAttachmentInfo depth(*plain_depth_.view, Layout_::eDepthAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eDontCare, vk::ClearDepthStencilValue(0, 0));
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour, &depth});
     draw_images(commands, eyes_[0], std::span(&*plain_, 1), {target.format});
     commands.endRendering();
@@ -591,8 +606,8 @@ void Frame::look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeli
 {
     const ViewState& view = views_.front();
     shared::ViewPush constants = push(view, view.motion_from_cockpit);
-    vk::RenderingAttachmentInfo colour(
-        target.view, Layout_::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore);
+    vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore);
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
     set_area(commands, view.corner, view.size);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);

@@ -26,7 +26,7 @@ struct MeasureTarget {
 class Frame {
 public:
     Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality,
-        bool keeps_depth = false);
+        bool keeps_depth = false); ///< keeps_depth: so that record_measured can tell distances
 
     /// The size in pixels of an output, when it is not the layout's.
     void resize(std::size_t output, glm::ivec2 size);
@@ -56,11 +56,8 @@ public:
     /// What the head-up display's panel would need across to be sharp in the finest viewport, pixels.
     int hud_width() const;
     const std::vector<Plan>& plans() const { return plans_; }
-    const Quality& quality() const { return quality_; }
     std::size_t triangles() const { return triangles_; } ///< sent to the device for the last frame, all images
-    vk::DeviceSize memory() const;                       ///< of the images this object holds
-
-    Quality quality_;
+    vk::DeviceSize memory() const; ///< of the images this object holds
 
 private:
     /// What the cube pass of one eye needs on the device.
@@ -87,21 +84,22 @@ private:
     void fit_buffer(Buffer& buffer, vk::DeviceSize size, vk::BufferUsageFlags usage);
     void place_view(ViewState& view, glm::ivec2 output_size);
     void write_sets();
-    void upload_eye(Eye& eye, const Shot& shot, const glm::dmat3& motion_from_world, const glm::dvec3& place);
+    void upload_eye(Eye& eye, const glm::dmat3& motion_from_world, const glm::dvec3& place);
     void draw_images(vk::CommandBuffer commands, const Eye& eye, std::span<const PlanImage> images, const TargetKind& kind);
     void draw_eye(vk::CommandBuffer commands, Eye& eye, const Plan& plan);
     void make_mips(vk::CommandBuffer commands, Eye& eye, const Plan& plan);
-    void warp_view(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline);
+    void warp_view(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline, double exposure);
     WarpVariant variant(const ViewState& view) const;
     shared::ViewPush push(const ViewState& view, const glm::dmat3& axes_from_cockpit) const;
 
+    Quality quality_;
     Device& device_;
     Pipelines& pipelines_;
     const GpuWorld& world_;
     Layout layout_;
     bool keeps_depth_;
     vk::raii::DescriptorPool pool_ = nullptr;
-    vk::raii::Sampler linear_ = nullptr, nearest_ = nullptr;
+    vk::raii::Sampler linear_ = nullptr, nearest_ = nullptr, finest_ = nullptr; ///< finest_: level 0 alone
     Buffer colours_;
     Image nothing_; ///< stands in for a map that a planar view has not
     std::vector<Eye> eyes_;

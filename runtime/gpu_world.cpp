@@ -28,7 +28,8 @@ vk::raii::Sampler make_sampler(const Device& device, const Sampler& s)
     return device.device.createSampler(info);
 }
 
-/// In software the decoding of sRGB costs more than the memory of linear fp16; everywhere else the hardware does it for nothing.
+/// In software the decoding of sRGB costs more than the memory of linear fp16; everywhere else the hardware does it for
+/// nothing.
 Image make_colour_texture(Device& device, const Texture& texture)
 {
     bool mips = texture.sampler.mipmaps;
@@ -55,7 +56,8 @@ double brightest(const World& world, const SceneFile& scene)
         light += std::visit([&](const auto& l) { return peak(l.radiance); }, lamp);
     double most = std::max({light, peak(scene.sky.zenith), peak(scene.sky.horizon), peak(scene.sky.nadir)});
     for (const Material& material : world.materials)
-        most = std::max(most, peak(glm::dvec3(material.emissive)) + peak(glm::dvec3(material.base_colour)) * std::max(light, 1.0));
+        most = std::max(
+            most, peak(glm::dvec3(material.emissive)) + peak(glm::dvec3(material.base_colour)) * std::max(light, 1.0));
     return most;
 }
 
@@ -64,7 +66,8 @@ double brightest(const World& world, const SceneFile& scene)
 SurfaceVariant GpuWorld::variant(int material) const
 {
     const Material& m = world.materials[material];
-    return {m.base_texture >= 0, m.emissive_texture >= 0, m.alpha_cutoff > 0, m.unlit, m.unlit ? 0 : int(scene.lights.size())};
+    return {
+        m.base_texture >= 0, m.emissive_texture >= 0, m.alpha_cutoff > 0, m.unlit, m.unlit ? 0 : int(scene.lights.size())};
 }
 
 GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const SceneFile& scene)
@@ -73,7 +76,8 @@ GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const S
     sort_instances(world);
     gpu.scene = scene;
     gpu.pre_exposure = std::min(1.0, 16384 / std::max(brightest(world, scene), 1e-30));
-    gpu.vertices = make_static_buffer(device, std::as_bytes(std::span(world.vertices)), vk::BufferUsageFlagBits::eVertexBuffer);
+    gpu.vertices
+        = make_static_buffer(device, std::as_bytes(std::span(world.vertices)), vk::BufferUsageFlagBits::eVertexBuffer);
     gpu.indices = make_static_buffer(device, std::as_bytes(std::span(world.indices)), vk::BufferUsageFlagBits::eIndexBuffer);
     const std::uint32_t white = 0xffffffff;
     gpu.white = make_texture(device, vk::Format::eR8G8B8A8Unorm, {1, 1}, std::as_bytes(std::span(&white, 1)), false);
@@ -89,10 +93,11 @@ GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const S
     gpu.materials = device.device.allocateDescriptorSets({*gpu.pool, layouts});
     for (std::uint32_t i = 0; i < count; ++i) {
         auto picture = [&](int texture) {
-            return vk::DescriptorImageInfo(*gpu.samplers[texture + 1], *(texture < 0 ? gpu.white : gpu.textures[texture]).view,
-                vk::ImageLayout::eShaderReadOnlyOptimal);
+            return vk::DescriptorImageInfo(*gpu.samplers[texture + 1],
+                *(texture < 0 ? gpu.white : gpu.textures[texture]).view, vk::ImageLayout::eShaderReadOnlyOptimal);
         };
-        vk::DescriptorImageInfo base = picture(world.materials[i].base_texture), emissive = picture(world.materials[i].emissive_texture);
+        vk::DescriptorImageInfo base = picture(world.materials[i].base_texture),
+                                emissive = picture(world.materials[i].emissive_texture);
         device.device.updateDescriptorSets(
             {vk::WriteDescriptorSet(*gpu.materials[i], 0, 0, vk::DescriptorType::eCombinedImageSampler, base),
                 vk::WriteDescriptorSet(*gpu.materials[i], 1, 0, vk::DescriptorType::eCombinedImageSampler, emissive)},

@@ -43,9 +43,9 @@ std::string number(double x)
 std::string duration(double s)
 {
     double size = std::abs(s);
-    return size < 600 ? text("%.1f s", s)
-        : size < 36000 ? text("%.1f min", s / 60)
-        : size < 10 * 86400.0 ? text("%.1f h", s / 3600)
+    return size < 600              ? text("%.1f s", s)
+        : size < 36000             ? text("%.1f min", s / 60)
+        : size < 10 * 86400.0      ? text("%.1f h", s / 3600)
         : size < 2 * julian_year_s ? text("%.1f days", s / 86400)
                                    : number(s / julian_year_s) + " years";
 }
@@ -54,8 +54,8 @@ std::string length(double m, double scene_light_speed_m_s)
 {
     if (scene_light_speed_m_s == light_speed_m_s && m > 1e6) {
         double s = m / light_speed_m_s;
-        return s < 600 ? text("%.2f light-s", s)
-            : s < 36000 ? text("%.1f light-min", s / 60)
+        return s < 600               ? text("%.2f light-s", s)
+            : s < 36000              ? text("%.1f light-min", s / 60)
             : s < julian_year_s / 10 ? text("%.1f light-h", s / 3600)
                                      : number(s / julian_year_s) + " light-years";
     }
@@ -124,7 +124,8 @@ struct Typesetter::Font {
             int advance, bearing;
             stbtt_GetCodepointHMetrics(&info, code, &advance, &bearing);
             g.advance = advance * scale;
-            if (unsigned char* bitmap = stbtt_GetCodepointBitmap(&info, scale, scale, code, &g.width, &g.height, &g.left, &g.top)) {
+            if (unsigned char* bitmap
+                = stbtt_GetCodepointBitmap(&info, scale, scale, code, &g.width, &g.height, &g.left, &g.top)) {
                 g.coverage.assign(bitmap, bitmap + g.width * g.height);
                 stbtt_FreeBitmap(bitmap, nullptr);
             }
@@ -158,7 +159,8 @@ Typesetter::Typesetter()
     const char* path = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
     std::ifstream stream(path, std::ios::binary);
     font_->file.assign(std::istreambuf_iterator<char>(stream), {});
-    if (font_->file.empty() || !stbtt_InitFont(&font_->info, font_->file.data(), stbtt_GetFontOffsetForIndex(font_->file.data(), 0)))
+    if (font_->file.empty()
+        || !stbtt_InitFont(&font_->info, font_->file.data(), stbtt_GetFontOffsetForIndex(font_->file.data(), 0)))
         throw InputError(path, "", "is not there or no font; install fonts-dejavu-core");
 }
 

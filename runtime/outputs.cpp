@@ -19,7 +19,8 @@ std::string glfw_says()
 WindowSystem::WindowSystem()
 {
     if (!glfwInit())
-        throw InputError("No window can be opened (" + glfw_says() + "): start a desktop session, or set DISPLAY, or use 'starbow render'");
+        throw InputError("No window can be opened (" + glfw_says()
+            + "): start a desktop session, or set DISPLAY, or use 'starbow render'");
 }
 
 WindowSystem::~WindowSystem() { glfwTerminate(); }
@@ -36,7 +37,8 @@ Window::Window(Device& device, const Output& output)
     : device_(&device)
 {
     if (!glfwVulkanSupported())
-        throw InputError("The window system shows no Vulkan pictures: install mesa-vulkan-drivers or the GPU maker's Vulkan driver");
+        throw InputError(
+            "The window system shows no Vulkan pictures: install mesa-vulkan-drivers or the GPU maker's Vulkan driver");
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_RESIZABLE, output.resizable);
     window_ = glfwCreateWindow(output.size.x, output.size.y, ("Starbow " + output.name).c_str(), nullptr, nullptr);
@@ -121,10 +123,11 @@ bool Window::make_swapchain()
         count = std::min(count, limits.maxImageCount);
     views_.clear();
     drawn_.clear();
-    auto alpha = limits.supportedCompositeAlpha & vk::CompositeAlphaFlagBitsKHR::eOpaque ? vk::CompositeAlphaFlagBitsKHR::eOpaque
-                                                                                         : vk::CompositeAlphaFlagBitsKHR::eInherit;
-    swapchain_ = device_->device.createSwapchainKHR({{}, *surface_, count, format_, vk::ColorSpaceKHR::eSrgbNonlinear, extent, 1,
-        vk::ImageUsageFlagBits::eColorAttachment, vk::SharingMode::eExclusive, {}, limits.currentTransform, alpha,
+    auto alpha = limits.supportedCompositeAlpha & vk::CompositeAlphaFlagBitsKHR::eOpaque
+        ? vk::CompositeAlphaFlagBitsKHR::eOpaque
+        : vk::CompositeAlphaFlagBitsKHR::eInherit;
+    swapchain_ = device_->device.createSwapchainKHR({{}, *surface_, count, format_, vk::ColorSpaceKHR::eSrgbNonlinear,
+        extent, 1, vk::ImageUsageFlagBits::eColorAttachment, vk::SharingMode::eExclusive, {}, limits.currentTransform, alpha,
         vk::PresentModeKHR::eFifo, true, *std::exchange(swapchain_, nullptr)});
     for (VkImage image : swapchain_.getImages()) {
         images_.resize(views_.size());
@@ -160,7 +163,10 @@ bool Window::acquire()
     return false;
 }
 
-Target Window::target() const { return {images_[image_], *views_[image_], {std::uint32_t(size_.x), std::uint32_t(size_.y)}, format_}; }
+Target Window::target() const
+{
+    return {images_[image_], *views_[image_], {std::uint32_t(size_.x), std::uint32_t(size_.y)}, format_};
+}
 
 void Window::presented(vk::Result result)
 {

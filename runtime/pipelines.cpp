@@ -40,7 +40,8 @@ vk::raii::Pipeline make_pipeline(const Device& device, const Pass& pass)
 
     vk::VertexInputBindingDescription binding(0, sizeof(Vertex));
     vk::VertexInputAttributeDescription attributes[] = {{0, 0, vk::Format::eR32G32B32Sfloat, offsetof(Vertex, position)},
-        {1, 0, vk::Format::eR32G32B32Sfloat, offsetof(Vertex, normal)}, {2, 0, vk::Format::eR32G32Sfloat, offsetof(Vertex, uv)},
+        {1, 0, vk::Format::eR32G32B32Sfloat, offsetof(Vertex, normal)},
+        {2, 0, vk::Format::eR32G32Sfloat, offsetof(Vertex, uv)},
         {3, 0, vk::Format::eR8G8B8A8Unorm, offsetof(Vertex, colour)}};
     vk::PipelineVertexInputStateCreateInfo vertices;
     if (pass.vertices)
@@ -70,8 +71,8 @@ vk::raii::Pipeline make_pipeline(const Device& device, const Pass& pass)
     vk::PipelineDynamicStateCreateInfo dynamics({}, dynamic);
     vk::PipelineRenderingCreateInfo rendering(
         0, pass.targets, pass.depth ? depth_format : vk::Format::eUndefined, vk::Format::eUndefined);
-    vk::GraphicsPipelineCreateInfo info({}, stages, &vertices, &assembly, nullptr, &viewport, &raster, &samples, &depth, &blending,
-        &dynamics, pass.layout);
+    vk::GraphicsPipelineCreateInfo info(
+        {}, stages, &vertices, &assembly, nullptr, &viewport, &raster, &samples, &depth, &blending, &dynamics, pass.layout);
     info.pNext = &rendering;
     return device.device.createGraphicsPipeline(device.cache, info);
 }
@@ -125,9 +126,14 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
 {
     return find(surfaces_, std::pair(v, target), [&] {
         return make_pipeline(device_,
-            {.vertex = cube_vert, .fragment = cube_frag, .layout = *surface_layout, .targets = {target.colour},
-                .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights)}, .depth = true,
-                .vertices = true, .samples = target.samples});
+            {.vertex = cube_vert,
+                .fragment = cube_frag,
+                .layout = *surface_layout,
+                .targets = {target.colour},
+                .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights)},
+                .depth = true,
+                .vertices = true,
+                .samples = target.samples});
     });
 }
 
@@ -135,7 +141,11 @@ vk::Pipeline Pipelines::sky(const TargetKind& target)
 {
     return find(skies_, target, [&] {
         return make_pipeline(device_,
-            {.vertex = sky_vert, .fragment = sky_frag, .layout = *surface_layout, .targets = {target.colour}, .depth = true,
+            {.vertex = sky_vert,
+                .fragment = sky_frag,
+                .layout = *surface_layout,
+                .targets = {target.colour},
+                .depth = true,
                 .samples = target.samples});
     });
 }
@@ -144,7 +154,11 @@ vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
 {
     return find(warps_, std::pair(v, target), [&] {
         return make_pipeline(device_,
-            {.vertex = screen_vert, .fragment = warp_frag, .layout = *warp_layout, .targets = {target}, .constants = constants(v)});
+            {.vertex = screen_vert,
+                .fragment = warp_frag,
+                .layout = *warp_layout,
+                .targets = {target},
+                .constants = constants(v)});
     });
 }
 
@@ -152,8 +166,11 @@ vk::Pipeline Pipelines::measure(const WarpVariant& v)
 {
     return find(measures_, v, [&] {
         return make_pipeline(device_,
-            {.vertex = screen_vert, .fragment = measure_frag, .layout = *warp_layout,
-                .targets = {exact_format, exact_format, exact_format}, .constants = constants(v)});
+            {.vertex = screen_vert,
+                .fragment = measure_frag,
+                .layout = *warp_layout,
+                .targets = {exact_format, exact_format, exact_format},
+                .constants = constants(v)});
     });
 }
 
@@ -161,7 +178,11 @@ vk::Pipeline Pipelines::hud(bool map, vk::Format target)
 {
     return find(huds_, std::pair(map, target), [&] {
         return make_pipeline(device_,
-            {.vertex = screen_vert, .fragment = hud_frag, .layout = *picture_layout, .targets = {target}, .constants = {map},
+            {.vertex = screen_vert,
+                .fragment = hud_frag,
+                .layout = *picture_layout,
+                .targets = {target},
+                .constants = {map},
                 .blend = true});
     });
 }
@@ -170,7 +191,11 @@ vk::Pipeline Pipelines::lookup(vk::Format target)
 {
     return find(lookups_, target, [&] {
         return make_pipeline(device_,
-            {.vertex = screen_vert, .fragment = lookup_frag, .layout = *picture_layout, .targets = {target}, .constants = {false}});
+            {.vertex = screen_vert,
+                .fragment = lookup_frag,
+                .layout = *picture_layout,
+                .targets = {target},
+                .constants = {false}});
     });
 }
 

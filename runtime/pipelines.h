@@ -41,10 +41,10 @@ public:
     vk::Pipeline hud(bool map, vk::Format target);
     vk::Pipeline lookup(vk::Format target);
 
-    vk::raii::DescriptorSetLayout eye_set = nullptr;      ///< 0 constants, 1 instances, 2 visible
+    vk::raii::DescriptorSetLayout eye_set = nullptr; ///< 0 constants, 1 instances, 2 visible
     vk::raii::DescriptorSetLayout material_set = nullptr; ///< 0 base, 1 emissive texture
-    vk::raii::DescriptorSetLayout warp_set = nullptr;     ///< 0 direction map, 1 atlas, 2 slots, 3 colours, 4 depth atlas
-    vk::raii::DescriptorSetLayout picture_set = nullptr;  ///< 0 direction map, 1 panel or cube
+    vk::raii::DescriptorSetLayout warp_set = nullptr; ///< 0 direction map, 1 atlas, 2 slots, 3 colours, 4 depth atlas
+    vk::raii::DescriptorSetLayout picture_set = nullptr; ///< 0 direction map, 1 panel or cube
     vk::raii::PipelineLayout surface_layout = nullptr, warp_layout = nullptr, picture_layout = nullptr;
 
 private:

@@ -42,7 +42,8 @@ int slot_face(int slot) { return slot == SLOT_FRONT ? 0 : slot >= SLOT_REAR ? 1 
 
 int rear_level(double larger, int rear_last)
 {
-    // floor(-log2(larger^2)), an exact power of two going to the coarser image: the shader reads it from the exponent's bits.
+    // floor(-log2(larger^2)), an exact power of two going to the coarser image: the shader reads it from the exponent's
+    // bits.
     int exponent;
     std::frexp(larger * larger, &exponent); // = [0.5, 1) 2^exponent
     return larger > 0 ? std::clamp(-exponent, 0, rear_last) : rear_last;
@@ -51,8 +52,8 @@ int rear_level(double larger, int rear_last)
 /// A circle on the sphere and what its pixels need.
 struct Disc {
     glm::dvec3 centre;
-    double radius;       // radians, up to pi
-    double texel_angle;  // one texel per pixel, radians
+    double radius; // radians, up to pi
+    double texel_angle; // one texel per pixel, radians
 };
 
 /// Range of tan(angle) of a disc seen along a face's normal and one of its axes, clamped to the face. False if it misses.
@@ -73,7 +74,7 @@ bool face_range(double along_axis, double along_normal, double radius, double& l
 
 struct Demand {
     Rect rect;
-    double finest = 1e300;   // face units per texel that some pixel wants
+    double finest = 1e300; // face units per texel that some pixel wants
     double coarsest = 0;
 };
 using Demands = std::array<Demand, SLOT_COUNT>;
@@ -107,7 +108,8 @@ void ask(Demands& demands, const Disc& disc, int rear_last)
             // The nested squares from the one that holds the disc's outermost point to the one of its innermost.
             glm::dvec2 far = glm::max(glm::abs(wanted.low), glm::abs(wanted.high));
             glm::dvec2 near = glm::max(glm::max(wanted.low, -wanted.high), glm::dvec2(0));
-            int outer = rear_level(std::max(far.x, far.y), rear_last), inner = rear_level(std::max(near.x, near.y), rear_last);
+            int outer = rear_level(std::max(far.x, far.y), rear_last),
+                inner = rear_level(std::max(near.x, near.y), rear_last);
             for (int level = outer; level <= inner; ++level)
                 ask(demands, SLOT_REAR + level, wanted, disc.texel_angle);
         } else {
@@ -117,21 +119,13 @@ void ask(Demands& demands, const Disc& disc, int rear_last)
     }
 }
 
-/// Towards the rim of a fisheye that shows all the sky a pixel becomes a sliver that covers next to nothing, but stays as long
-/// as any other: texels finer than half its length would use up the budget of the whole plan for nothing.
-double least_angle(const View& view)
-{
-    auto* fisheye = std::get_if<Fisheye>(&view.projection);
-    return fisheye ? 0.5 * fisheye->aperture_deg * pi / 180 / std::min(view.size.x, view.size.y) : 0;
-}
-
 /// Walks a view's pixels in cells, cut finer where the boost spreads a cell over much of the sky.
 struct Walk {
     const View& view;
     double E;
     int rear_last;
     Demands& demands;
-    double least_angle; ///< of a pixel, radians
+    double least_angle; ///< below it a finer texel shows nothing more
 
     std::optional<glm::dvec3> look(glm::dvec2 pixel) const
     {
@@ -214,7 +208,8 @@ void pack(Plan& plan, int align)
         area += double(image.size.x) * image.size.y;
         widest = std::max(widest, image.size.x);
     }
-    std::sort(order.begin(), order.end(), [](auto* a, auto* b) { return std::pair(a->size.y, b->slot) > std::pair(b->size.y, a->slot); });
+    std::sort(order.begin(), order.end(),
+        [](auto* a, auto* b) { return std::pair(a->size.y, b->slot) > std::pair(b->size.y, a->slot); });
     int width = std::max(widest, (int(1.1 * std::sqrt(area)) + 63) / 64 * 64);
     glm::ivec2 pen(0);
     int shelf = 0;
@@ -266,10 +261,11 @@ Plan make_plan(const std::vector<View>& views, double E, const Quality& quality)
     plan.rear_last = std::clamp(int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0, REAR_LEVELS - 1);
     for (const View& view : views) {
         plan.pixels += double(view.size.x) * view.size.y;
-        Walk walk{view, E, plan.rear_last, demands, least_angle(view)};
+        Walk walk{view, E, plan.rear_last, demands, 0.5 * pixel_length(view.projection, view.size)};
         // Cells of equal size, about 24 pixels, and no fewer than 16 across.
         double cell = std::min(24.0, std::max(view.size.x, view.size.y) / 16.0);
-        int columns = std::max(1, int(std::ceil(view.size.x / cell))), rows = std::max(1, int(std::ceil(view.size.y / cell)));
+        int columns = std::max(1, int(std::ceil(view.size.x / cell))),
+            rows = std::max(1, int(std::ceil(view.size.y / cell)));
         for (int row = 0; row < rows; ++row)
             for (int column = 0; column < columns; ++column)
                 walk.cell(double(view.size.x) * column / columns, double(view.size.y) * row / rows,

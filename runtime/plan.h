@@ -9,15 +9,15 @@ namespace starbow {
 /// What one eye's viewport asks of the cube map.
 struct View {
     Projection projection;
-    glm::ivec2 size;                 ///< pixels
-    glm::dmat3 motion_from_cockpit;  ///< turn into the axes whose z is the direction of motion
+    glm::ivec2 size; ///< pixels
+    glm::dmat3 motion_from_cockpit; ///< turn into the axes whose z is the direction of motion
 };
 
 /// The trade of speed for accuracy.
 struct Quality {
-    double texels_per_pixel = 1;     ///< linear density of the cube map where it is looked at
+    double texels_per_pixel = 1; ///< linear density of the cube map where it is looked at
     double max_texels_per_pixel = 6; ///< area: where the whole plan would hold more, all of it is drawn coarser
-    int samples = 1;                 ///< of the cube pass, per texel, for edges
+    int samples = 1; ///< of the cube pass, per texel, for edges
 };
 
 /// One picture to draw: a rectangle of one face of the cube around the eye, at one resolution, and its place in the atlas.
@@ -26,22 +26,22 @@ struct Quality {
 struct PlanImage {
     int slot;
     int face;
-    glm::dvec2 low, high;  ///< face coordinates of the picture's edges, gutter included
-    glm::ivec2 size;       ///< texels
-    glm::ivec2 atlas;      ///< top left texel
+    glm::dvec2 low, high; ///< face coordinates of the picture's edges, gutter included
+    glm::ivec2 size; ///< texels
+    glm::ivec2 atlas; ///< top left texel
     double texels_per_unit; ///< of face coordinate
-    int levels;            ///< mip levels the warp pass reads
-    double hole = 0;       ///< half the side of the square in the middle that no pixel reads: a finer image holds it
+    int levels; ///< mip levels the warp pass reads
+    double hole = 0; ///< half the side of the square in the middle that no pixel reads: a finer image holds it
 };
 
 /// What the cube map of one eye must hold for one frame.
 struct Plan {
     std::vector<PlanImage> images;
     glm::ivec2 atlas_size{0};
-    int rear_last = 0;         ///< the finest nested image behind that differs from the one before
-    int levels = 1;            ///< of the atlas: the most that any image needs
-    double texels = 0;         ///< drawn, all images
-    double pixels = 0;         ///< served
+    int rear_last = 0; ///< the finest nested image behind that differs from the one before
+    int levels = 1; ///< of the atlas: the most that any image needs
+    double texels = 0; ///< drawn, all images
+    double pixels = 0; ///< served
 };
 
 /// Decides which faces are looked at, in which rectangle and how finely. Pure; E = e^rapidity, 1 where directions are not

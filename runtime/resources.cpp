@@ -12,7 +12,8 @@ std::uint32_t memory_type(const Device& device, std::uint32_t allowed, vk::Memor
     for (std::uint32_t i = 0; i < device.memory.memoryTypeCount; ++i)
         if ((allowed >> i & 1) && (device.memory.memoryTypes[i].propertyFlags & wanted) == wanted)
             return i;
-    throw InputError("The GPU offers no memory of the kind " + vk::to_string(wanted) + ": use another GPU or a newer driver");
+    throw InputError(
+        "The GPU offers no memory of the kind " + vk::to_string(wanted) + ": use another GPU or a newer driver");
 }
 
 vk::raii::DeviceMemory allocate(const Device& device, const vk::MemoryRequirements& needs, vk::MemoryPropertyFlags wanted)
@@ -41,8 +42,8 @@ Buffer make_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFla
 
 Buffer make_mapped_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage)
 {
-    return make_buffer(device, size, usage,
-        vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent);
+    return make_buffer(
+        device, size, usage, vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent);
 }
 
 Buffer make_static_buffer(Device& device, std::span<const std::byte> data, vk::BufferUsageFlags usage)
@@ -65,22 +66,24 @@ vk::ImageAspectFlags aspect_of(vk::Format format)
 
 Image make_image(const Device& device, const ImageSpec& spec)
 {
-    std::uint32_t limit = spec.cube ? device.properties.limits.maxImageDimensionCube : device.properties.limits.maxImageDimension2D;
+    std::uint32_t limit
+        = spec.cube ? device.properties.limits.maxImageDimensionCube : device.properties.limits.maxImageDimension2D;
     if (std::max(spec.extent.width, spec.extent.height) > limit)
         throw InputError("A picture of " + std::to_string(spec.extent.width) + "x" + std::to_string(spec.extent.height)
             + " is more than this GPU can hold: at most " + std::to_string(limit) + " on a side");
     Image image;
     image.format = spec.format, image.extent = spec.extent, image.levels = spec.levels, image.layers = spec.layers;
-    vk::ImageCreateInfo info(spec.cube ? vk::ImageCreateFlagBits::eCubeCompatible : vk::ImageCreateFlags(), vk::ImageType::e2D,
-        spec.format, {spec.extent.width, spec.extent.height, 1}, spec.levels, spec.layers, spec.samples,
+    vk::ImageCreateInfo info(spec.cube ? vk::ImageCreateFlagBits::eCubeCompatible : vk::ImageCreateFlags(),
+        vk::ImageType::e2D, spec.format, {spec.extent.width, spec.extent.height, 1}, spec.levels, spec.layers, spec.samples,
         vk::ImageTiling::eOptimal, spec.usage);
     image.image = device.device.createImage(info);
     vk::MemoryRequirements needs = image.image.getMemoryRequirements();
     image.bytes = needs.size;
     image.memory = allocate(device, needs, vk::MemoryPropertyFlagBits::eDeviceLocal);
     image.image.bindMemory(*image.memory, 0);
-    image.view = device.device.createImageView({{}, *image.image, spec.cube ? vk::ImageViewType::eCube : vk::ImageViewType::e2D,
-        spec.format, {}, {aspect_of(spec.format), 0, spec.levels, 0, spec.layers}});
+    image.view
+        = device.device.createImageView({{}, *image.image, spec.cube ? vk::ImageViewType::eCube : vk::ImageViewType::e2D,
+            spec.format, {}, {aspect_of(spec.format), 0, spec.levels, 0, spec.layers}});
     return image;
 }
 
@@ -97,7 +100,8 @@ Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::span
     std::uint32_t levels = mips ? std::bit_width(std::uint32_t(std::max(size.x, size.y))) : 1;
     Image image = make_image(device,
         {format, {std::uint32_t(size.x), std::uint32_t(size.y)},
-            vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst, levels});
+            vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst,
+            levels});
     Buffer staging = make_mapped_buffer(device, pixels.size(), vk::BufferUsageFlagBits::eTransferSrc);
     std::memcpy(staging.mapped, pixels.data(), pixels.size());
 
@@ -105,16 +109,18 @@ Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::span
     using Access = vk::AccessFlagBits2;
     using Layout = vk::ImageLayout;
     device.now([&](vk::CommandBuffer commands) {
-        auto level_barrier = [&](std::uint32_t level, std::uint32_t count, Layout from, Access from_access, Layout to, Access to_access,
-                                 vk::PipelineStageFlags2 to_stage) {
-            vk::ImageMemoryBarrier2 barrier(Stage::eTransfer, from_access, to_stage, to_access, from, to, VK_QUEUE_FAMILY_IGNORED,
-                VK_QUEUE_FAMILY_IGNORED, *image.image, {vk::ImageAspectFlagBits::eColor, level, count, 0, 1});
+        auto level_barrier = [&](std::uint32_t level, std::uint32_t count, Layout from, Access from_access, Layout to,
+                                 Access to_access, vk::PipelineStageFlags2 to_stage) {
+            vk::ImageMemoryBarrier2 barrier(Stage::eTransfer, from_access, to_stage, to_access, from, to,
+                VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *image.image,
+                {vk::ImageAspectFlagBits::eColor, level, count, 0, 1});
             commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
         };
-        level_barrier(0, levels, Layout::eUndefined, {}, Layout::eTransferDstOptimal, Access::eTransferWrite, Stage::eTransfer);
+        level_barrier(
+            0, levels, Layout::eUndefined, {}, Layout::eTransferDstOptimal, Access::eTransferWrite, Stage::eTransfer);
         commands.copyBufferToImage(*staging.buffer, *image.image, Layout::eTransferDstOptimal,
-            vk::BufferImageCopy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {},
-                {image.extent.width, image.extent.height, 1}));
+            vk::BufferImageCopy(
+                0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {image.extent.width, image.extent.height, 1}));
         glm::ivec2 from = size;
         for (std::uint32_t level = 1; level < levels; ++level) {
             level_barrier(level - 1, 1, Layout::eTransferDstOptimal, Access::eTransferWrite, Layout::eTransferSrcOptimal,
@@ -141,7 +147,8 @@ std::vector<std::byte> read_back(Device& device, const Image& image, std::uint32
     Buffer staging = make_mapped_buffer(device, size, vk::BufferUsageFlagBits::eTransferDst);
     device.now([&](vk::CommandBuffer commands) {
         commands.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, *staging.buffer,
-            vk::BufferImageCopy(0, 0, 0, {aspect_of(image.format), 0, 0, 1}, {}, {image.extent.width, image.extent.height, 1}));
+            vk::BufferImageCopy(
+                0, 0, 0, {aspect_of(image.format), 0, 0, 1}, {}, {image.extent.width, image.extent.height, 1}));
         vk::MemoryBarrier2 to_host(vk::PipelineStageFlagBits2::eTransfer, vk::AccessFlagBits2::eTransferWrite,
             vk::PipelineStageFlagBits2::eHost, vk::AccessFlagBits2::eHostRead);
         commands.pipelineBarrier2(vk::DependencyInfo({}, to_host));

@@ -22,12 +22,12 @@ struct Sum3 {
 
 /// The traveller's state. Scene units, c = 1; times in unit / c.
 struct Ship {
-    Sum3 position;                               ///< world frame
-    Sum time;                                    ///< world time
-    Sum3 u;                                      ///< proper velocity, gamma beta, world frame
-    glm::dquat ship_from_cockpit{1, 0, 0, 0};    ///< cockpit axes in the ship frame: the world's axes carried by the pure boost
-    Sum proper_time;                             ///< on board, since the start
-    Sum distance;                                ///< flown in the world, since the start
+    Sum3 position; ///< world frame
+    Sum time; ///< world time
+    Sum3 u; ///< proper velocity, gamma beta, world frame
+    glm::dquat ship_from_cockpit{1, 0, 0, 0}; ///< cockpit axes in the ship frame: the world's axes carried by the pure boost
+    Sum proper_time; ///< on board, since the start
+    Sum distance; ///< flown in the world, since the start
 };
 
 /// A ship at a shot's instant, its clocks and its log at zero.

@@ -1,6 +1,9 @@
 #include "still.h"
 #include "config/error.h"
+#include <chrono>
+#include <cstdio>
 #include <cstring>
+#include <unistd.h>
 
 namespace starbow {
 namespace {
@@ -10,6 +13,37 @@ using Access = vk::AccessFlagBits2;
 
 constexpr vk::Format picture_format = vk::Format::eR8G8B8A8Srgb;
 
+/// Tells a person at a terminal what a long still is busy with, and about how long the rest may take.
+class Progress {
+public:
+    explicit Progress(std::size_t steps)
+        : steps_(steps)
+    {
+    }
+    ~Progress()
+    {
+        if (told_)
+            std::fprintf(stderr, "\r%60s\r", "");
+    }
+    void next(const std::string& what)
+    {
+        double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+        if (isatty(STDERR_FILENO)) {
+            told_ = true;
+            std::fprintf(stderr, "\r%zu of %zu: %-30s", done_ + 1, steps_, what.c_str());
+            if (done_ > 0)
+                std::fprintf(stderr, " about %.0f s left ", passed / double(done_) * double(steps_ - done_));
+            std::fflush(stderr);
+        }
+        ++done_;
+    }
+
+private:
+    std::size_t steps_, done_ = 0;
+    bool told_ = false;
+    std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+};
+
 vk::Extent2D extent_of(glm::ivec2 size) { return {std::uint32_t(size.x), std::uint32_t(size.y)}; }
 
 } // namespace
@@ -18,13 +52,12 @@ Studio::Studio(
     Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality, bool measured)
     : device_(device)
     , layout_(layout)
+    , frame_(device, pipelines, world, layout, quality, measured)
 {
     for (const Output& output : layout.outputs)
         images_.push_back(make_image(device,
-            {picture_format, extent_of(output.size), vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc}));
-    frame_ = std::make_unique<Frame>(device, pipelines, world, layout, quality);
-    if (measured)
-        measured_ = std::make_unique<Frame>(device, pipelines, world, layout, quality, true);
+            {picture_format, extent_of(output.size),
+                vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc}));
 }
 
 Target Studio::target(std::size_t output) const
@@ -35,18 +68,19 @@ Target Studio::target(std::size_t output) const
 
 std::vector<std::vector<std::uint8_t>> Studio::picture(const Shot& shot, const Panel* hud)
 {
-    frame_->prepare(shot, hud);
+    frame_.prepare(shot, hud);
     std::vector<Target> targets;
     for (std::size_t i = 0; i < images_.size(); ++i)
         targets.push_back(target(i));
     device_.now([&](vk::CommandBuffer commands) {
         for (const Image& image : images_)
-            transition(commands, image, vk::ImageLayout::eUndefined, Stage::eNone, {}, vk::ImageLayout::eColorAttachmentOptimal,
-                Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
-        frame_->record(commands, targets);
+            transition(commands, image, vk::ImageLayout::eUndefined, Stage::eNone, {},
+                vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+        frame_.record(commands, targets);
         for (const Image& image : images_)
             transition(commands, image, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
-                Access::eColorAttachmentWrite, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+                Access::eColorAttachmentWrite, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer,
+                Access::eTransferRead);
     });
     std::vector<std::vector<std::uint8_t>> pictures;
     for (const Image& image : images_) {
@@ -62,9 +96,10 @@ Channels Studio::numbers(const Shot& shot, std::size_t output)
     MeasureTarget target;
     for (Image* image : {&target.light_and_depth, &target.camera, &target.world})
         *image = make_image(device_,
-            {exact_format, images_[output].extent, vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
-    measured_->prepare(shot, nullptr);
-    device_.now([&](vk::CommandBuffer commands) { measured_->record_measured(commands, output, target); });
+            {exact_format, images_[output].extent,
+                vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
+    frame_.prepare(shot, nullptr);
+    device_.now([&](vk::CommandBuffer commands) { frame_.record_measured(commands, output, target); });
 
     std::size_t count = std::size_t(images_[output].extent.width) * images_[output].extent.height;
     auto texels = [&](const Image& image) {
@@ -73,7 +108,8 @@ Channels Studio::numbers(const Shot& shot, std::size_t output)
         std::memcpy(values.data(), bytes.data(), bytes.size());
         return values;
     };
-    std::vector<glm::vec4> light = texels(target.light_and_depth), camera = texels(target.camera), world = texels(target.world);
+    std::vector<glm::vec4> light = texels(target.light_and_depth), camera = texels(target.camera),
+                           world = texels(target.world);
     glm::dmat3 from_motion = glm::transpose(motion_from_world(shot.u, shot.ship_from_cockpit));
     const char* names[] = {"R", "G", "B", "cameraDirection.X", "cameraDirection.Y", "cameraDirection.Z", "worldDirection.X",
         "worldDirection.Y", "worldDirection.Z", "doppler", "depth"};
@@ -89,21 +125,29 @@ Channels Studio::numbers(const Shot& shot, std::size_t output)
     return channels;
 }
 
-std::vector<std::vector<std::uint8_t>> render_still(const std::filesystem::path& directory, Studio& studio, const Shot& shot, bool exr, const Panel* hud)
+std::vector<std::vector<std::uint8_t>> render_still(
+    const std::filesystem::path& directory, Studio& studio, const Shot& shot, bool exr, const Panel* hud)
 {
+    const auto& outputs = studio.layout().outputs;
+    Progress progress(exr ? 2 + 2 * outputs.size() : 2);
+    progress.next("drawing");
     auto pictures = studio.picture(shot, hud);
     std::vector<Channels> numbers;
-    const auto& outputs = studio.layout().outputs;
-    for (std::size_t i = 0; exr && i < outputs.size(); ++i)
+    for (std::size_t i = 0; exr && i < outputs.size(); ++i) {
+        progress.next("measuring " + outputs[i].name);
         numbers.push_back(studio.numbers(shot, i));
+    }
     std::error_code error;
     std::filesystem::create_directories(directory, error);
     if (error)
-        throw InputError(directory.string(), "", "can't be made (" + error.message() + "); give a folder that can be written");
+        throw InputError(
+            directory.string(), "", "can't be made (" + error.message() + "); give a folder that can be written");
+    progress.next("writing");
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         write_png(directory / (outputs[i].name + ".png"), outputs[i].size, pictures[i]);
         if (exr)
-            write_exr(directory / (outputs[i].name + ".exr"), outputs[i].size, numbers[i]);
+            progress.next("compressing " + outputs[i].name),
+                write_exr(directory / (outputs[i].name + ".exr"), outputs[i].size, numbers[i]);
     }
     return pictures;
 }

@@ -9,8 +9,9 @@ namespace starbow {
 /// Off-screen pictures of one layout in one world.
 class Studio {
 public:
-    /// sizes: replaces every output's where set. Numbers as well as pictures if `measured`.
-    Studio(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality, bool measured);
+    /// Numbers as well as pictures if `measured`.
+    Studio(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality,
+        bool measured);
 
     /// Each output as RGBA8, rows from the top.
     std::vector<std::vector<std::uint8_t>> picture(const Shot& shot, const Panel* hud = nullptr);
@@ -19,18 +20,19 @@ public:
     Channels numbers(const Shot& shot, std::size_t output);
 
     const Layout& layout() const { return layout_; }
-    Frame& frame() { return *frame_; }
+    Frame& frame() { return frame_; }
     Target target(std::size_t output) const;
 
 private:
     Device& device_;
     Layout layout_;
-    std::unique_ptr<Frame> frame_, measured_;
+    Frame frame_;
     std::vector<Image> images_;
 };
 
 /// What `starbow render` does: draws all outputs, then writes DIR/<output>.png (and .exr). Writes nothing if anything fails
 /// before all are complete in memory. Returns the pictures.
-std::vector<std::vector<std::uint8_t>> render_still(const std::filesystem::path& directory, Studio& studio, const Shot& shot, bool exr, const Panel* hud = nullptr);
+std::vector<std::vector<std::uint8_t>> render_still(
+    const std::filesystem::path& directory, Studio& studio, const Shot& shot, bool exr, const Panel* hud = nullptr);
 
 } // namespace starbow

@@ -39,7 +39,7 @@ Device::Options device_options(bool windows)
 Quality default_quality(const Device& device, bool still)
 {
     if (still)
-        return {.texels_per_pixel = 1.5, .max_texels_per_pixel = 24, .samples = 4};
+        return {.texels_per_pixel = 1.25, .max_texels_per_pixel = 8, .samples = 4};
     if (device.on_processor())
         return {.texels_per_pixel = 0.8, .max_texels_per_pixel = 1.5, .samples = 1};
     return {.texels_per_pixel = 1.25, .max_texels_per_pixel = 16, .samples = 4};

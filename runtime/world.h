@@ -33,7 +33,7 @@ struct Texture {
 struct Material {
     std::string name;
     glm::vec4 base_colour{1}; ///< Rec. 709 linear, alpha
-    glm::vec3 emissive{0};    ///< Rec. 709 linear radiance
+    glm::vec3 emissive{0}; ///< Rec. 709 linear radiance
     int base_texture = -1, emissive_texture = -1;
     float alpha_cutoff = 0; ///< above 0: a masked material; what is below is not there
     bool double_sided = false;
@@ -57,8 +57,8 @@ struct Primitive {
     std::vector<DetailLevel> coarser; ///< finest first; empty until add_detail_levels
 };
 
-/// Triangles are counter-clockwise from outside in the world, also where `world_from_local` mirrors: its primitive's are turned
-/// beforehand. Normals go by the inverse transpose; the transform has an inverse.
+/// Triangles are counter-clockwise from outside in the world, also where `world_from_local` mirrors: its primitive's are
+/// turned beforehand. Normals go by the inverse transpose; the transform has an inverse.
 struct Instance {
     glm::dmat4 world_from_local;
     std::uint32_t primitive;

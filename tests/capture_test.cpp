@@ -75,10 +75,10 @@ TEST(CaptureTest, PngRoundTrip)
 
 TEST(CaptureTest, ExrRoundTripKeepsEveryBit)
 {
-    const std::vector<std::string> names { "Y", "cameraDirection.X", "cameraDirection.Z", "A", "B",
-        "aNameBeyondTheThirtyOneLettersOfOldFiles.X" };
-    for (const glm::ivec2& size : { glm::ivec2(1, 1), glm::ivec2(33, 17), glm::ivec2(64, 16), glm::ivec2(5, 100) })
-        for (bool smooth : { false, true }) {
+    const std::vector<std::string> names{
+        "Y", "cameraDirection.X", "cameraDirection.Z", "A", "B", "aNameBeyondTheThirtyOneLettersOfOldFiles.X"};
+    for (const glm::ivec2& size : {glm::ivec2(1, 1), glm::ivec2(33, 17), glm::ivec2(64, 16), glm::ivec2(5, 100)})
+        for (bool smooth : {false, true}) {
             const Channels channels = planes(size, names, smooth);
             const auto file = scratch("picture.exr");
             write_exr(file, size, channels);
@@ -97,30 +97,27 @@ TEST(CaptureTest, ExrRoundTripKeepsEveryBit)
 
 TEST(CaptureTest, SamePictureSameBytes)
 {
-    Channels channels = planes({ 40, 50 }, { "R", "G", "B" }, true);
-    write_exr(scratch("one.exr"), { 40, 50 }, channels);
+    Channels channels = planes({40, 50}, {"R", "G", "B"}, true);
+    write_exr(scratch("one.exr"), {40, 50}, channels);
     std::swap(channels[0], channels[2]);
-    write_exr(scratch("two.exr"), { 40, 50 }, channels);
+    write_exr(scratch("two.exr"), {40, 50}, channels);
     EXPECT_EQ(read_text(scratch("one.exr")), read_text(scratch("two.exr")));
     EXPECT_LT(read_text(scratch("one.exr")).size(), 3u * 40 * 50 * 4); // compressed
 }
 
 TEST(CaptureTest, PlacesThatCantBeWritten)
 {
-    const std::vector<std::uint8_t> pixel { 1, 2, 3, 4 };
+    const std::vector<std::uint8_t> pixel{1, 2, 3, 4};
     const auto missing = scratch("no/such/folder/a.png");
     EXPECT_EQ(complaint([&] {
-        write_png(missing, { 1, 1 }, pixel);
+        write_png(missing, {1, 1}, pixel);
     }),
         missing.string() + ": can't be written (No such file or directory); a place for a file is right");
     const auto taken = folder("taken");
-    EXPECT_NE(complaint([&] { write_png(taken, { 1, 1 }, pixel); }).find("is there and is not a file"), std::string::npos);
-    EXPECT_NE(complaint([&] {
-        write_exr("/dev/null", { 1, 1 }, { { "Y", { 1.f } } });
-    }).find("is not a file"),
-        std::string::npos);
+    EXPECT_NE(complaint([&] { write_png(taken, {1, 1}, pixel); }).find("is there and is not a file"), std::string::npos);
+    EXPECT_NE(complaint([&] { write_exr("/dev/null", {1, 1}, {{"Y", {1.f}}}); }).find("is not a file"), std::string::npos);
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
-    EXPECT_NE(complaint([&] { write_png("/proc/a.png", { 1, 1 }, pixel); }).find("can't be written"), std::string::npos);
+    EXPECT_NE(complaint([&] { write_png("/proc/a.png", {1, 1}, pixel); }).find("can't be written"), std::string::npos);
 }
 
 TEST(CaptureTest, AFailureLeavesTheOldFileAndNoPart)
@@ -128,14 +125,14 @@ TEST(CaptureTest, AFailureLeavesTheOldFileAndNoPart)
     const auto file = folder("full") / "old.png";
     std::ofstream(file) << "old";
     // A limit on the length of files stands in for a full disk.
-    rlimit limit {};
+    rlimit limit{};
     getrlimit(RLIMIT_FSIZE, &limit);
-    const rlimit small { 64, limit.rlim_max };
+    const rlimit small{64, limit.rlim_max};
     const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &small);
     std::string message;
     try {
-        write_png(file, { 64, 64 }, std::vector<std::uint8_t>(64 * 64 * 4));
+        write_png(file, {64, 64}, std::vector<std::uint8_t>(64 * 64 * 4));
     } catch (const InputError& error) {
         message = error.what();
     }
@@ -151,19 +148,19 @@ TEST(CaptureTest, LinksStayLinks)
     const auto place = folder("links");
     std::ofstream(place / "true.png") << "old";
     std::filesystem::create_symlink(place / "true.png", place / "link.png");
-    write_png(place / "link.png", { 1, 1 }, { 1, 2, 3, 4 });
+    write_png(place / "link.png", {1, 1}, {1, 2, 3, 4});
     EXPECT_TRUE(std::filesystem::is_symlink(place / "link.png"));
     EXPECT_NE(read_text(place / "true.png"), "old");
 }
 
 TEST(CaptureTest, TheProgramsMistakesStopIt)
 {
-    EXPECT_THROW(write_png(scratch("a.png"), { 2, 2 }, { 1, 2, 3, 4 }), std::logic_error);
-    EXPECT_THROW(write_png(scratch("a.png"), { 0, 2 }, {}), std::logic_error);
-    EXPECT_THROW(write_exr(scratch("a.exr"), { 2, 2 }, { { "Y", { 1.f } } }), std::logic_error);
-    EXPECT_THROW(write_exr(scratch("a.exr"), { 1, 1 }, {}), std::logic_error);
-    EXPECT_THROW(write_exr(scratch("a.exr"), { 1, 1 }, { { "", { 1.f } } }), std::logic_error);
-    EXPECT_THROW(write_exr(scratch("a.exr"), { 1, 1 }, { { "Y", { 1.f } }, { "Y", { 2.f } } }), std::logic_error);
+    EXPECT_THROW(write_png(scratch("a.png"), {2, 2}, {1, 2, 3, 4}), std::logic_error);
+    EXPECT_THROW(write_png(scratch("a.png"), {0, 2}, {}), std::logic_error);
+    EXPECT_THROW(write_exr(scratch("a.exr"), {2, 2}, {{"Y", {1.f}}}), std::logic_error);
+    EXPECT_THROW(write_exr(scratch("a.exr"), {1, 1}, {}), std::logic_error);
+    EXPECT_THROW(write_exr(scratch("a.exr"), {1, 1}, {{"", {1.f}}}), std::logic_error);
+    EXPECT_THROW(write_exr(scratch("a.exr"), {1, 1}, {{"Y", {1.f}}, {"Y", {2.f}}}), std::logic_error);
     EXPECT_FALSE(std::filesystem::exists(scratch("a.exr")));
 }
 
@@ -175,7 +172,7 @@ TEST(CaptureTest, BrokenExrFilesAreRefused)
     EXPECT_NE(
         complaint([] { read_exr(write_text("a.exr", "{ \"no\": 1 }")); }).find("is not an EXR file"), std::string::npos);
 
-    write_exr(scratch("whole.exr"), { 7, 40 }, planes({ 7, 40 }, { "R", "a.X" }, true));
+    write_exr(scratch("whole.exr"), {7, 40}, planes({7, 40}, {"R", "a.X"}, true));
     const std::string whole = read_text(scratch("whole.exr"));
     for (std::size_t length = 0; length < whole.size(); length += length < 500 ? 1 : 37)
         complaint([&] { read_exr(write_text("cut.exr", whole.substr(0, length))); });
@@ -183,16 +180,16 @@ TEST(CaptureTest, BrokenExrFilesAreRefused)
 
 TEST(CaptureTest, MutatedExrFilesAreReadOrRefused)
 {
-    write_exr(scratch("seed.exr"), { 7, 40 }, planes({ 7, 40 }, { "R", "a.X" }, true));
-    write_exr(scratch("noise.exr"), { 9, 20 }, planes({ 9, 20 }, { "R" }, false));
-    const std::vector<std::string> wholes { read_text(scratch("seed.exr")), read_text(scratch("noise.exr")) };
+    write_exr(scratch("seed.exr"), {7, 40}, planes({7, 40}, {"R", "a.X"}, true));
+    write_exr(scratch("noise.exr"), {9, 20}, planes({9, 20}, {"R"}, false));
+    const std::vector<std::string> wholes{read_text(scratch("seed.exr")), read_text(scratch("noise.exr"))};
     std::mt19937 random(11);
     int loaded = 0, refused = 0;
     for (int i = 0; i < fuzz_count(); ++i) {
         std::string bytes = wholes[random() % 2];
         for (unsigned faults = 1 + random() % 3; faults > 0; --faults) {
             const std::size_t at = random() % std::min<std::size_t>(bytes.size(), random() % 2 ? 460 : bytes.size());
-            const char extremes[] { 0, 1, 0x7f, char(0x80), char(0xff), char(random()) };
+            const char extremes[]{0, 1, 0x7f, char(0x80), char(0xff), char(random())};
             bytes[at] = extremes[random() % 6];
         }
         try {

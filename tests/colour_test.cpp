@@ -45,7 +45,8 @@ TEST(Colour, AtRestNothingChanges)
 TEST(Colour, BlackBodiesHaveTheirChromaticity)
 {
     // CIE 1931 chromaticities of Planckian radiators; the fit of the response is good to 0.004 in this range.
-    const double known[][3] = {{2856, 0.4475, 0.4074}, {5772, 0.3266, 0.3358}, {10000, 0.2806, 0.2883}, {45443, 0.2462, 0.2433}};
+    const double known[][3]
+        = {{2856, 0.4475, 0.4074}, {5772, 0.3266, 0.3358}, {10000, 0.2806, 0.2883}, {45443, 0.2462, 0.2433}};
     for (auto& [kelvin, x, y] : known) {
         glm::dvec2 xy = chromaticity(black_body_xyz(kelvin));
         EXPECT_NEAR(xy.x, x, 0.004) << kelvin;
@@ -70,7 +71,8 @@ TEST(Colour, ASunlitGreyIsABlackBodyAtDT)
 TEST(Colour, BlueRunsThroughGreenToRed)
 {
     // The rainbow cylinder at 0.5 c: 1/D is 1.155 across the motion, 1.309 at 105.5 degrees, 1.443 at 120.
-    glm::dvec3 blue(0, 0, 1), centre = shifted(blue, 1 / 1.1547), right = shifted(blue, 1 / 1.3090), edge = shifted(blue, 1 / 1.4434);
+    glm::dvec3 blue(0, 0, 1), centre = shifted(blue, 1 / 1.1547), right = shifted(blue, 1 / 1.3090),
+                              edge = shifted(blue, 1 / 1.4434);
     EXPECT_GT(centre.g, 2 * centre.r);
     EXPECT_GT(centre.g, 2 * centre.b);
     EXPECT_GT(right.r, right.b);
@@ -81,13 +83,17 @@ TEST(Colour, BlueRunsThroughGreenToRed)
 
 TEST(Colour, StepsAreFineEnoughToInterpolate)
 {
-    // Half way between two steps, against the mean of a table twice as coarse there: the interpolation error is a quarter of it.
+    // Half way between two steps, against the mean of a table twice as coarse there: the interpolation error is a quarter of
+    // it.
     const std::vector<glm::vec4> table = doppler_table();
     double worst = 0;
     for (int step = 1; step + 1 < COLOUR_STEPS; ++step)
         for (int row = 0; row < 3; ++row)
             for (int i = 0; i < 4; ++i)
-                worst = std::max(worst, std::abs(0.5 * (table[3 * (step - 1) + row][i] + table[3 * (step + 1) + row][i]) - table[3 * step + row][i]) / 4.0);
+                worst = std::max(worst,
+                    std::abs(
+                        0.5 * (table[3 * (step - 1) + row][i] + table[3 * (step + 1) + row][i]) - table[3 * step + row][i])
+                        / 4.0);
     EXPECT_LT(worst, 0.02); // of a full primary whose shifted light is up to five times as bright as itself
     std::printf("  doppler table: worst interpolation error %.4f\n", worst);
 }

@@ -14,13 +14,22 @@ World boxes(int count, unsigned seed)
 {
     World world;
     world.materials.push_back({});
-    world.primitives.push_back({.first_index = 0, .index_count = 3, .vertex_offset = 0, .material = 0, .low = {-0.5, -1, -0.2},
-        .high = {0.5, 2, 0.3}, .centre = {0, 0.5, 0.05}, .radius = 1.6, .coarser = {}});
+    world.primitives.push_back({.first_index = 0,
+        .index_count = 3,
+        .vertex_offset = 0,
+        .material = 0,
+        .low = {-0.5, -1, -0.2},
+        .high = {0.5, 2, 0.3},
+        .centre = {0, 0.5, 0.05},
+        .radius = 1.6,
+        .coarser = {}});
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
     for (int i = 0; i < count; ++i) {
-        glm::dmat4 m = glm::mat4_cast(glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random))));
-        m = m * glm::dmat4(glm::dmat3(std::exp(normal(random)), 0, 0, i % 3 ? 0 : 0.7, std::exp(normal(random)), 0, 0, 0, 1));
+        glm::dmat4 m
+            = glm::mat4_cast(glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random))));
+        m = m
+            * glm::dmat4(glm::dmat3(std::exp(normal(random)), 0, 0, i % 3 ? 0 : 0.7, std::exp(normal(random)), 0, 0, 0, 1));
         m[3] = glm::dvec4(4 * normal(random), 4 * normal(random), 4 * normal(random), 1);
         world.instances.push_back({m, 0});
     }
@@ -105,8 +114,15 @@ TEST(Detail, CoarserSurfacesStayWithinTheirError)
             for (std::uint32_t k : {a, b, c, b, d, c})
                 world.indices.push_back(k);
         }
-    world.primitives.push_back({.first_index = 0, .index_count = std::uint32_t(world.indices.size()), .vertex_offset = 0, .material = 0,
-        .low = glm::dvec3(-1), .high = glm::dvec3(1), .centre = {0, 0, 0}, .radius = 1, .coarser = {}});
+    world.primitives.push_back({.first_index = 0,
+        .index_count = std::uint32_t(world.indices.size()),
+        .vertex_offset = 0,
+        .material = 0,
+        .low = glm::dvec3(-1),
+        .high = glm::dvec3(1),
+        .centre = {0, 0, 0},
+        .radius = 1,
+        .coarser = {}});
     add_detail_levels(world);
     const Primitive& ball = world.primitives[0];
     ASSERT_GE(ball.coarser.size(), 3u);
@@ -135,10 +151,18 @@ TEST(Detail, LeavesCloudsOfSmallThingsAlone)
     for (int i = 0; i < 500; ++i)
         for (int k = 0; k < 3; ++k) {
             world.indices.push_back(std::uint32_t(world.vertices.size()));
-            world.vertices.push_back({{i % 25 + 0.1f * (k == 1), i / 25 + 0.1f * (k == 2), 0}, {0, 0, 1}, {0, 0}, 0xffffffff});
+            world.vertices.push_back(
+                {{i % 25 + 0.1f * (k == 1), i / 25 + 0.1f * (k == 2), 0}, {0, 0, 1}, {0, 0}, 0xffffffff});
         }
-    world.primitives.push_back({.first_index = 0, .index_count = 1500, .vertex_offset = 0, .material = 0, .low = {0, 0, 0},
-        .high = {25, 20, 0}, .centre = {12, 10, 0}, .radius = 16, .coarser = {}});
+    world.primitives.push_back({.first_index = 0,
+        .index_count = 1500,
+        .vertex_offset = 0,
+        .material = 0,
+        .low = {0, 0, 0},
+        .high = {25, 20, 0},
+        .centre = {12, 10, 0},
+        .radius = 16,
+        .coarser = {}});
     add_detail_levels(world);
     EXPECT_TRUE(world.primitives[0].coarser.empty());
 }

@@ -42,7 +42,7 @@ inline std::filesystem::path write_text(const std::string& name, const std::stri
 inline std::string read_text(const std::filesystem::path& file)
 {
     std::ifstream in(file, std::ios::binary);
-    return { std::istreambuf_iterator<char>(in), {} };
+    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 inline std::vector<std::filesystem::path> shipped(const std::string& folder)
@@ -94,9 +94,9 @@ template <class Load> void expect_wrong(Load load, const std::vector<Wrong>& cas
 /// A text with a few random faults of the kinds that hands and disks make.
 inline std::string mutated(std::string text, std::mt19937& random)
 {
-    static const std::vector<std::string> pieces { "1e999", "-1", "0", "1e308", "1e-320", "null", "true", "\"\"", "[]", "{}",
+    static const std::vector<std::string> pieces{"1e999", "-1", "0", "1e308", "1e-320", "null", "true", "\"\"", "[]", "{}",
         "[", "]", "{", "}", ",", ":", "\"", "NaN", "\\u0000", "\xff", "//", "/*", "99999999999999999999", "0.5",
-        "\"gamma\":2," };
+        "\"gamma\":2,"};
     for (unsigned faults = 1 + random() % 4; faults > 0; --faults) {
         const std::size_t at = random() % (text.size() + 1);
         const std::size_t length = std::min<std::size_t>(random() % 12, text.size() - at);

@@ -115,8 +115,10 @@ TEST(Flight, AHundredThousandRandomStepsStayFinite)
     Controls controls;
     for (int i = 0; i < 100000; ++i) {
         if (i % 20 == 0)
-            controls = {.faster = 4 * part(random), .turn = {part(random), part(random), part(random)},
-                .look_rad = {part(random), part(random)}, .exposure = part(random)};
+            controls = {.faster = 4 * part(random),
+                .turn = {part(random), part(random), part(random)},
+                .look_rad = {part(random), part(random)},
+                .exposure = part(random)};
         controls.stop = random() % 997 == 0;
         controls.reset = random() % 4999 == 0;
         flight = step(flight, controls, random() % 10 == 0 ? 0.1 : 0.016, 1, start());

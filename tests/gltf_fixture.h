@@ -60,7 +60,7 @@ inline Bytes glb_bytes(const std::string& json, const Bytes& bin)
 
 /// A glTF document under construction; everything binary goes into its one buffer.
 struct Doc {
-    Json json = { { "asset", { { "version", "2.0" } } } };
+    Json json = {{"asset", {{"version", "2.0"}}}};
     Bytes bin;
 
     int put(const char* kind, Json thing)
@@ -73,11 +73,11 @@ struct Doc {
     {
         while (bin.size() % 4)
             bin.push_back(0);
-        Json view = { { "buffer", 0 }, { "byteOffset", bin.size() }, { "byteLength", bytes.size() } };
+        Json view = {{"buffer", 0}, {"byteOffset", bin.size()}, {"byteLength", bytes.size()}};
         if (stride)
             view["byteStride"] = stride;
         bin.insert(bin.end(), bytes.begin(), bytes.end());
-        json["buffers"] = { { { "byteLength", bin.size() } } };
+        json["buffers"] = {{{"byteLength", bin.size()}}};
         return put("bufferViews", view);
     }
 
@@ -91,15 +91,15 @@ struct Doc {
             : std::is_same_v<T, std::uint16_t>   ? 5123
                                                  : 5125;
         return put("accessors",
-            { { "bufferView", view(bytes_of(values)) }, { "componentType", component }, { "type", type },
-                { "count", values.size() / std::size_t(width) }, { "normalized", normalized } });
+            {{"bufferView", view(bytes_of(values))}, {"componentType", component}, {"type", type},
+                {"count", values.size() / std::size_t(width)}, {"normalized", normalized}});
     }
 
     /// A mesh of one primitive with a node and the scene that shows it.
     Json& show(Json primitive)
     {
-        int mesh = put("meshes", { { "primitives", { primitive } } });
-        json["scenes"][0]["nodes"].push_back(put("nodes", { { "mesh", mesh } }));
+        int mesh = put("meshes", {{"primitives", {primitive}}});
+        json["scenes"][0]["nodes"].push_back(put("nodes", {{"mesh", mesh}}));
         return json["meshes"][std::size_t(mesh)]["primitives"][0];
     }
 
@@ -114,12 +114,12 @@ struct Doc {
 };
 
 /// The right triangle 000, 200, 010: its flat normal is +z.
-inline const std::vector<float> corner_positions = { 0, 0, 0, 2, 0, 0, 0, 1, 0 };
+inline const std::vector<float> corner_positions = {0, 0, 0, 2, 0, 0, 0, 1, 0};
 
 inline Doc triangle_doc()
 {
     Doc doc;
-    doc.show({ { "attributes", { { "POSITION", doc.accessor(corner_positions, "VEC3") } } } });
+    doc.show({{"attributes", {{"POSITION", doc.accessor(corner_positions, "VEC3")}}}});
     return doc;
 }
 
@@ -145,7 +145,7 @@ inline Bytes grey_jpeg()
 }
 
 /// Two pixels: red, then half transparent blue.
-inline Bytes small_png() { return png(2, 1, { 255, 0, 0, 255, 0, 0, 255, 128 }); }
+inline Bytes small_png() { return png(2, 1, {255, 0, 0, 255, 0, 0, 255, 128}); }
 
 inline std::string png_uri() { return "data:image/png;base64," + base64(small_png()); }
 

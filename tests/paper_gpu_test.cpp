@@ -60,7 +60,8 @@ Thing thing_at(const dvec3& p)
     offer("Earth", outside(earth, earth_radius * 0.9985, earth_radius)); // 96 x 48 faces: two sagittas of 5.4e-4
     dvec3 along = p - cylinder_place;
     double rim = std::hypot(along.y, along.z);
-    double wall = std::hypot(outside(rim, cylinder_radius * 0.9985, cylinder_radius), outside(along.x, -cylinder_half, cylinder_half));
+    double wall = std::hypot(
+        outside(rim, cylinder_radius * 0.9985, cylinder_radius), outside(along.x, -cylinder_half, cylinder_half));
     double end = std::hypot(outside(rim, 0, cylinder_radius), std::abs(along.x) - cylinder_half);
     offer("stippled cylinder", std::min(wall, end));
     for (const dvec2& axis : columns) {
@@ -80,7 +81,8 @@ Thing thing_at(const dvec3& p)
             offer("cube", std::hypot(outside(glm::length(middle), 0, 0.3 * std::sqrt(3.0)), outside(p.y, -1.42, 1.42)));
         }
     double azimuth = 20.4 * degree, elevation = 13.2 * degree;
-    dvec3 sun(499 * std::cos(elevation) * std::sin(azimuth), 499 * std::sin(elevation), -499 * std::cos(elevation) * std::cos(azimuth));
+    dvec3 sun(499 * std::cos(elevation) * std::sin(azimuth), 499 * std::sin(elevation),
+        -499 * std::cos(elevation) * std::cos(azimuth));
     offer("Sun", outside(glm::length(p - sun), 2.32 * 0.996, 2.32)); // 64 x 32 faces
     offer("star", outside(glm::length(p), 0.9999e8, 1.0001e9));
     return best;
@@ -149,7 +151,8 @@ Worst check_directions(const Numbers& numbers, const Layout& layout, const Shot&
                 const double world = quad::angle(quad::of(numbers.world(i)), light.n) / D;
                 const double world_rounding = 5.2e-8 / D;
                 // D of a direction that is off by `camera` is off by this much of itself.
-                const double steep = speed * double(quad::length(quad::cross(quad::of(exact), speed > 0 ? quad::unit(u) : u))) * D;
+                const double steep
+                    = speed * double(quad::length(quad::cross(quad::of(exact), speed > 0 ? quad::unit(u) : u))) * D;
                 const double D_error = std::abs(numbers.D(i) / D - 1);
                 worst.camera = std::max(worst.camera, camera);
                 worst.world = std::max(worst.world, world - world_rounding);
@@ -170,7 +173,8 @@ class ShippedShots : public ::testing::TestWithParam<std::filesystem::path> { };
 TEST_P(ShippedShots, DirectionsAndDopplerAreTheTextbooks)
 {
     const Shot shot = load_shot(GetParam());
-    for (const auto& [name, size] : std::map<std::string, ivec2>{{"desk", {200, 150}}, {"dome", {180, 180}}, {"stereo", {240, 90}}}) {
+    for (const auto& [name, size] :
+        std::map<std::string, ivec2>{{"desk", {200, 150}}, {"dome", {180, 180}}, {"stereo", {240, 90}}}) {
         SCOPED_TRACE(name);
         Layout layout = load_layout(testing::source_dir() / "config/layouts" / (name + ".json"));
         layout.outputs[0].size = size;
@@ -203,8 +207,8 @@ TEST_P(ShippedShots, DepthIsTheDistanceInTheWorldFromTheEyesEvent)
                 continue;
             const double D = shot.effects.aberration ? numbers.D(i) : 1, depth = numbers.depth(i);
             const double footprint = D * pixel_angle(projection, size, numbers.centre(i)); // radians in the world
-            // The cube map's depth is that of a sample up to 0.7 + 0.53 texels off, a texel is at most footprint / 1.5 across
-            // and up to 1.3 times that in a face's corner; a coarser level of detail strays half a texel more.
+            // The cube map's depth is that of a sample up to 0.7 + 0.53 texels off, a texel is at most footprint / 1.5
+            // across and up to 1.3 times that in a face's corner; a coarser level of detail strays half a texel more.
             const double slack = 1.45;
             const dvec3 n = numbers.world(i), place = shot.position + depth * n;
             const double met = surely_met(shot.position, n, 0);
@@ -226,8 +230,9 @@ TEST_P(ShippedShots, DepthIsTheDistanceInTheWorldFromTheEyesEvent)
             // 3e-6: float depth and directions at any distance.
             if (thing.off > (slack * footprint + 3e-6) * depth) {
                 ++failures;
-                ADD_FAILURE() << "pixel " << i << ": at " << place.x << ' ' << place.y << ' ' << place.z << ", distance " << depth
-                              << ", the nearest is a " << thing.name << " but " << thing.off << " off, " << error << " pixels";
+                ADD_FAILURE() << "pixel " << i << ": at " << place.x << ' ' << place.y << ' ' << place.z << ", distance "
+                              << depth << ", the nearest is a " << thing.name << " but " << thing.off << " off, " << error
+                              << " pixels";
             }
         }
         std::printf("  %-5s worst %.2f pixels off the analytic surface\n", name.c_str(), worst);
@@ -278,7 +283,8 @@ TEST(Paper, NoShiftAt74DegreesAtHalfTheSpeedOfLight)
         ++crossings;
         const double part = (1 - numbers.D(i - 1)) / (numbers.D(i) - numbers.D(i - 1));
         const double angle = between(motion, glm::mix(numbers.camera(i - 1), numbers.camera(i), part)) / degree;
-        // D is smooth: over a pixel of 0.1 degrees a straight line is off by 1e-3^2 of a radian; rounding of D by 1e-5 degrees.
+        // D is smooth: over a pixel of 0.1 degrees a straight line is off by 1e-3^2 of a radian; rounding of D by 1e-5
+        // degrees.
         EXPECT_NEAR(angle, 74.45773, 1e-4);
     }
     EXPECT_EQ(crossings, 600); // every row
@@ -390,7 +396,8 @@ TEST(Paper, ItSeemsToMoveBackwardsAtFirst)
     EXPECT_NEAR(L / (L - (std::cosh(smallest) - 1) / a) * std::exp(-smallest), 2 / (2 + a * L), 1e-12);
     // At once after the boost, before anything has come nearer: 0.1 c.
     const double b = 0.1;
-    const double jump = edges(shot_at({0, 0, 0}, {0, 0, -u_of_beta(b)}, {0, 0, -1}), {0, 0, -1}, wide, axis).width() / start.width();
+    const double jump
+        = edges(shot_at({0, 0, 0}, {0, 0, -u_of_beta(b)}, {0, 0, -1}), {0, 0, -1}, wide, axis).width() / start.width();
     EXPECT_NEAR(jump, 0.9045340, 4 * 0.9 * start.pixel / start.width());
 }
 
@@ -399,7 +406,7 @@ TEST(Paper, ItSeemsToMoveBackwardsAtFirst)
 struct Outline {
     dvec3 pole;
     double radius;
-    double rms;   ///< of the edge's points, halfway between a pixel inside and one outside, from the circle, pixels
+    double rms; ///< of the edge's points, halfway between a pixel inside and one outside, from the circle, pixels
     double stray; ///< how far a pixel of the Earth lies outside the circle, or one of the sky inside, at most, pixels
     double pixel;
     int points;
@@ -484,9 +491,10 @@ Circle seen_circle(const dvec3& axis, double radius, const dvec3& u)
 
 void expect_circle(const char* what, const Outline& got, const Circle& want)
 {
-    std::printf("  %s: %d edge points, residual rms %.3f, stray %.3f pixels; centre off %.3f, radius %.5f of %.5f degrees (%.3f pixels)\n",
-        what, got.points, got.rms, got.stray, between(got.pole, want.pole) / got.pixel, got.radius / degree, want.radius / degree,
-        (got.radius - want.radius) / got.pixel);
+    std::printf("  %s: %d edge points, residual rms %.3f, stray %.3f pixels; centre off %.3f, radius %.5f of %.5f degrees "
+                "(%.3f pixels)\n",
+        what, got.points, got.rms, got.stray, between(got.pole, want.pole) / got.pixel, got.radius / degree,
+        want.radius / degree, (got.radius - want.radius) / got.pixel);
     EXPECT_GT(got.points, 100) << what;
     // An edge lies between two pixels' centres: half a pixel each way, evenly spread, is 0.29; the rest below adds to it.
     EXPECT_LT(got.rms, 0.4) << what;
@@ -562,13 +570,15 @@ TEST(Paper, TheStippledCylinderRunsFromBlueThroughGreenToRed)
             const int i = y * numbers.size.x + x;
             const dvec3 light = numbers.light(i);
             const dvec3 place = shot.position + numbers.depth(i) * numbers.world(i);
-            if (std::isfinite(numbers.depth(i)) && thing_at(place).name == "stippled cylinder" && peak(light) > peak(brightest))
+            if (std::isfinite(numbers.depth(i)) && thing_at(place).name == "stippled cylinder"
+                && peak(light) > peak(brightest))
                 brightest = light, D = numbers.D(i);
         }
         ASSERT_GT(peak(brightest), 0) << x; // the cylinder spans the picture
         const double hue = hue_of(brightest);
         hues.push_back(hue);
-        // Where all light comes from blue's own band, what little of the other two primaries its tails bring wavers by a degree.
+        // Where all light comes from blue's own band, what little of the other two primaries its tails bring wavers by a
+        // degree.
         EXPECT_LT(hue, least + 1.5) << x;
         least = std::min(least, hue);
         if (hue > 120)
@@ -578,10 +588,10 @@ TEST(Paper, TheStippledCylinderRunsFromBlueThroughGreenToRed)
             EXPECT_NEAR(brightest.g / brightest.b, 0.06, 0.03) << x; // D 0.4 % off moves green by 0.02 of blue
         }
     }
-    std::printf("  hues %.0f (left), %.0f, %.0f, %.0f, %.0f (right); green at D %.3f\n", hues[0], hues[100], hues[200], hues[300],
-        hues[399], D_of_green);
+    std::printf("  hues %.0f (left), %.0f, %.0f, %.0f, %.0f (right); green at D %.3f\n", hues[0], hues[100], hues[200],
+        hues[300], hues[399], D_of_green);
     EXPECT_NEAR(hues.front(), 245, 10); // violet blue
-    EXPECT_NEAR(hues.back(), 0, 5);     // red
+    EXPECT_NEAR(hues.back(), 0, 5); // red
     // 455 nm of the blue primary seen as the green primary's 545 nm.
     EXPECT_NEAR(D_of_green, 455.0 / 545, 0.03);
 }

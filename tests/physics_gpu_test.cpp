@@ -71,8 +71,8 @@ std::vector<vec4> directions()
         double phi = 2 * glm::pi<double>() * one(random), z = 2 * one(random) - 1, across = std::sqrt((1 - z) * (1 + z));
         list.push_back(vec4(dvec3(across * std::cos(phi), across * std::sin(phi), z), 0));
         double theta = std::pow(1e-18, one(random)); // down to what a float's square still holds
-        list.push_back(vec4(dvec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                                (i % 2 ? 1 : -1) * std::cos(theta)), 0));
+        list.push_back(vec4(
+            dvec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), (i % 2 ? 1 : -1) * std::cos(theta)), 0));
     }
     return list;
 }
@@ -107,7 +107,8 @@ TEST(PhysicsOnTheDevice, SightAgreesWithFloatAndDoubleAtEveryGamma)
             back = std::max(back, angle(dvec3(camera), again.n));
             back_D = std::max(back_D, std::abs(camera.w / again.D - 1));
         }
-        std::printf("  gamma-1 %8.1e  to double: direction %.1e D %.1e length %.1e   to float: %.1e %.1e   back: %.1e %.1e\n",
+        std::printf(
+            "  gamma-1 %8.1e  to double: direction %.1e D %.1e length %.1e   to float: %.1e %.1e   back: %.1e %.1e\n",
             gamma - 1, direction, D, length, float_direction, float_D, back, back_D);
         for (double error : {direction, D, length, float_direction, float_D, back, back_D})
             EXPECT_LE(error, required) << gamma;
@@ -177,8 +178,9 @@ TEST(PhysicsOnTheDevice, BoostsAndMotionAgreeWithDouble)
         scalar(out[6].z, pd::sinh_ratio(angle), pd::sinh_ratio(angle));
         scalar(out[6].w, pd::cosh_less_one_ratio(angle), pd::sinh_ratio(angle));
     }
-    std::printf("  leg %.1e  composed %.1e  turn %.1e  eye %.1e  event %.1e  scalars %.1e\n", leg, composed, turn, eye, event, scalars);
-    EXPECT_LE(leg, 20 * round_float);      // a dozen roundings as in physics_test, and a device's sinh and square roots
+    std::printf("  leg %.1e  composed %.1e  turn %.1e  eye %.1e  event %.1e  scalars %.1e\n", leg, composed, turn, eye,
+        event, scalars);
+    EXPECT_LE(leg, 20 * round_float); // a dozen roundings as in physics_test, and a device's sinh and square roots
     EXPECT_LE(composed, 12 * round_float);
     EXPECT_LE(eye, 12 * round_float);
     EXPECT_LE(event, 12 * round_float);

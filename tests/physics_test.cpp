@@ -49,8 +49,14 @@ pd::Sight camera(const dvec3& n, double beta)
     const double E = pd::exp_rapidity(u_of_beta(beta));
     return pd::camera_from_world(n, E, 1 / E);
 }
-double camera_angle(double theta_w_deg, double beta) { return angle_from_motion(camera(at(theta_w_deg * degree), beta).n) / degree; }
-double world_angle(double theta_c_deg, double beta) { return angle_from_motion(world(at(theta_c_deg * degree), beta).n) / degree; }
+double camera_angle(double theta_w_deg, double beta)
+{
+    return angle_from_motion(camera(at(theta_w_deg * degree), beta).n) / degree;
+}
+double world_angle(double theta_c_deg, double beta)
+{
+    return angle_from_motion(world(at(theta_c_deg * degree), beta).n) / degree;
+}
 
 // What the tables print is half of the last digit away from the truth.
 constexpr double half_1e5 = 0.5e-5, half_1e6 = 0.5e-6, half_1e7 = 0.5e-7;
@@ -59,8 +65,8 @@ constexpr double half_1e5 = 0.5e-5, half_1e6 = 0.5e-6, half_1e7 = 0.5e-7;
 // the seam z = +-0 of the two half-angle branches.
 std::vector<dvec3> directions(int count, double closest)
 {
-    std::vector<dvec3> list = {{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {1, 0, -0.0}, {0, -1, -0.0},
-                               {0.6, 0.8, 0}, {0.6, 0.8, -0.0}, {0.6, -0.8, 1e-9}, {0.6, -0.8, -1e-9}, {-0.0, -0.0, -1}};
+    std::vector<dvec3> list = {{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {1, 0, -0.0},
+        {0, -1, -0.0}, {0.6, 0.8, 0}, {0.6, 0.8, -0.0}, {0.6, -0.8, 1e-9}, {0.6, -0.8, -1e-9}, {-0.0, -0.0, -1}};
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> one(0, 1);
     for (int i = 0; i < count; ++i) {
@@ -79,7 +85,10 @@ struct Worst {
     double direction = 0, D = 0, length = 0;
     bool finite = true;
 };
-bool finite(const dvec3& n, double D) { return std::isfinite(n.x) && std::isfinite(n.y) && std::isfinite(n.z) && std::isfinite(D); }
+bool finite(const dvec3& n, double D)
+{
+    return std::isfinite(n.x) && std::isfinite(n.y) && std::isfinite(n.z) && std::isfinite(D);
+}
 
 void report(const char* what, double gamma, const Worst& w)
 {
@@ -278,7 +287,7 @@ TEST(Sight, DenormalComponentsAndExtremeGammasStayFinite)
                 }
                 const vec3 n_float(n);
                 for (const auto& sight : {pf::world_from_camera(n_float, float(E), float(1 / E)),
-                                          pf::camera_from_world(n_float, float(E), float(1 / E))}) {
+                         pf::camera_from_world(n_float, float(E), float(1 / E))}) {
                     EXPECT_TRUE(finite(sight.n, sight.D));
                     EXPECT_NEAR(glm::length(dvec3(sight.n)), 1, sight_float);
                     EXPECT_NEAR(sight.n.z, z, sight_float);
@@ -322,15 +331,16 @@ TEST(Numbers, AberrationFromWorldToCamera)
     const double b4 = std::sqrt(15.0) / 4;
     const struct {
         double beta, world, camera, half_digit;
-    } table[] = {{.5, 90, 60, 1e-12},          {.5, 120, 90, 1e-12},        {.8, 120, 60, 1e-12},       {.9, 60, 15.09019, half_1e5},
-                 {.9, 90, 25.84193, half_1e5}, {.9, 150, 81.13969, half_1e5}, {b4, 90, 14.47751, half_1e5}, {b4, 150, 50.72495, half_1e5},
-                 {.99, 90, 8.10961, half_1e5}, {.999, 90, 2.56256, half_1e5}};
+    } table[] = {{.5, 90, 60, 1e-12}, {.5, 120, 90, 1e-12}, {.8, 120, 60, 1e-12}, {.9, 60, 15.09019, half_1e5},
+        {.9, 90, 25.84193, half_1e5}, {.9, 150, 81.13969, half_1e5}, {b4, 90, 14.47751, half_1e5},
+        {b4, 150, 50.72495, half_1e5}, {.99, 90, 8.10961, half_1e5}, {.999, 90, 2.56256, half_1e5}};
     for (const auto& row : table) {
         EXPECT_NEAR(camera_angle(row.world, row.beta), row.camera, row.half_digit) << row.beta << ' ' << row.world;
         EXPECT_NEAR(camera_angle(world_angle(row.camera, row.beta), row.beta), row.camera, 1e-12);
         // cos theta_c = (cos theta_w + b) / (1 + b cos theta_w), as every textbook has it
         const double cosine = std::cos(row.world * degree);
-        EXPECT_NEAR(camera_angle(row.world, row.beta), std::acos((cosine + row.beta) / (1 + row.beta * cosine)) / degree, 1e-11);
+        EXPECT_NEAR(
+            camera_angle(row.world, row.beta), std::acos((cosine + row.beta) / (1 + row.beta * cosine)) / degree, 1e-11);
     }
 }
 
@@ -339,7 +349,8 @@ TEST(Numbers, DopplerAheadBehindAndAcross)
     const double b4 = std::sqrt(15.0) / 4;
     const struct {
         double beta, ahead, half_digit;
-    } table[] = {{.6, 2, 1e-14}, {.8, 3, 1e-14}, {.9, 4.358899, half_1e6}, {b4, 7.872983, half_1e6}, {.99, 14.106736, half_1e6}};
+    } table[]
+        = {{.6, 2, 1e-14}, {.8, 3, 1e-14}, {.9, 4.358899, half_1e6}, {b4, 7.872983, half_1e6}, {.99, 14.106736, half_1e6}};
     for (const auto& row : table) {
         EXPECT_NEAR(world({0, 0, 1}, row.beta).D, row.ahead, row.half_digit);
         EXPECT_NEAR(camera({0, 0, 1}, row.beta).D, row.ahead, row.half_digit);
@@ -422,12 +433,13 @@ template <class Real, class Transform> Circle seen_circle(double centre, double 
 TEST(Numbers, CirclesStayCircles)
 {
     const double E = pd::exp_rapidity(u_of_beta(.9));
-    const auto in_double = seen_circle<double>(90 * degree, 20 * degree, [&](dvec3 n) { return pd::camera_from_world(n, E, 1 / E).n; });
+    const auto in_double
+        = seen_circle<double>(90 * degree, 20 * degree, [&](dvec3 n) { return pd::camera_from_world(n, E, 1 / E).n; });
     EXPECT_NEAR(in_double.centre_deg, 27.26680, half_1e5);
     EXPECT_NEAR(in_double.radius_deg, 9.01490, half_1e5);
     EXPECT_LE(in_double.residual, 1e-12); // inverting the fit's 3 x 3 of a circle this small loses two digits
-    const auto in_float =
-        seen_circle<float>(90 * degree, 20 * degree, [&](vec3 n) { return pf::camera_from_world(n, float(E), float(1 / E)).n; });
+    const auto in_float = seen_circle<float>(
+        90 * degree, 20 * degree, [&](vec3 n) { return pf::camera_from_world(n, float(E), float(1 / E)).n; });
     EXPECT_NEAR(in_float.centre_deg, 27.26680, 1e-6 / degree);
     EXPECT_NEAR(in_float.radius_deg, 9.01490, 1e-6 / degree);
     EXPECT_LE(in_float.residual, 1e-6);
@@ -499,10 +511,11 @@ TEST(Numbers, HeadlightSpansTheStopsOfTheTable)
 TEST(Numbers, SpectrumAndHeatAtGammaFour)
 {
     const double E = E_of_gamma(4);
-    const double ahead = pd::world_from_camera({0, 0, 1}, E, 1 / E).D, behind = pd::world_from_camera({0, 0, -1}, E, 1 / E).D;
-    EXPECT_NEAR(380 * behind, 48, 0.5);     // nm seen at 380 behind
-    EXPECT_NEAR(0.78 * ahead, 6.1, 0.05);   // um seen at 780 nm ahead
-    EXPECT_NEAR(288 * ahead, 2267, 0.5);    // K
+    const double ahead = pd::world_from_camera({0, 0, 1}, E, 1 / E).D,
+                 behind = pd::world_from_camera({0, 0, -1}, E, 1 / E).D;
+    EXPECT_NEAR(380 * behind, 48, 0.5); // nm seen at 380 behind
+    EXPECT_NEAR(0.78 * ahead, 6.1, 0.05); // um seen at 780 nm ahead
+    EXPECT_NEAR(288 * ahead, 2267, 0.5); // K
 }
 
 // The camera's rear half is the cone of acos(b) about the rear axis, and D changes at most 2-fold in it.
@@ -603,7 +616,8 @@ std::vector<dvec3> velocities(int count, double most)
     std::uniform_real_distribution<double> one(0, 1);
     std::vector<dvec3> list = {{0, 0, 0}, {0, 0, most}, {-most, 0, 0}, {0, 1e-12, 0}};
     for (int i = 0; i < count; ++i)
-        list.push_back(at(std::acos(2 * one(random) - 1), 7 * one(random)) * std::pow(10.0, -6 + (6 + std::log10(most)) * one(random)));
+        list.push_back(
+            at(std::acos(2 * one(random) - 1), 7 * one(random)) * std::pow(10.0, -6 + (6 + std::log10(most)) * one(random)));
     return list;
 }
 
@@ -631,7 +645,8 @@ TEST(Boost, EyesAreSimultaneousInTheShip)
         const double size = std::sqrt(1 + glm::dot(u, u)) * glm::length(right);
         const double later = pd::eye_time(u, right) - pd::eye_time(u, left);
         const dvec3 apart = pd::eye_place(u, right) - pd::eye_place(u, left);
-        worst = std::max({worst, double(fabsq(later - (r.t - l.t))) / size, double(quad::length(quad::of(apart) - (r.x - l.x))) / size});
+        worst = std::max(
+            {worst, double(fabsq(later - (r.t - l.t))) / size, double(quad::length(quad::of(apart) - (r.x - l.x))) / size});
         // Proper distance is the ship's own, whatever the speed; the difference of squares costs gamma^2.
         if (size < 1e3 * glm::length(right)) {
             const double interval = std::sqrt(glm::dot(apart, apart) - later * later);
@@ -737,7 +752,8 @@ TEST(Boost, WignerAngleAtHighGammaAgreesWithTheCosineFormula)
         const dvec3 u = at(0.3, 1) * std::pow(10, 6 * one(random));
         const dvec3 side = glm::normalize(glm::cross(u, dvec3(1, 2, 3)));
         const dvec3 w = (glm::normalize(u) * std::cos(between) + side * std::sin(between)) * std::pow(10, 6 * one(random));
-        const quad::Q g1 = quad::gamma(quad::of(u)), g2 = quad::gamma(quad::of(w)), g = g1 * g2 + quad::dot(quad::of(u), quad::of(w));
+        const quad::Q g1 = quad::gamma(quad::of(u)), g2 = quad::gamma(quad::of(w)),
+                      g = g1 * g2 + quad::dot(quad::of(u), quad::of(w));
         const quad::Q sum = 1 + g + g1 + g2;
         const double want = double(acosq(sum * sum / ((1 + g) * (1 + g1) * (1 + g2)) - 1));
         const dvec4 q = pd::wigner_turn(u, w);
@@ -758,7 +774,8 @@ TEST(Boost, ThomasTurnOfOneCircularOrbit)
             double total = 0;
             for (int i = 0; i < steps; ++i) {
                 const double a = 2 * glm::pi<double>() * i / steps, b = 2 * glm::pi<double>() * (i + 1) / steps;
-                const dvec3 u(speed * std::cos(a), speed * std::sin(a), 0), next(speed * std::cos(b), speed * std::sin(b), 0);
+                const dvec3 u(speed * std::cos(a), speed * std::sin(a), 0),
+                    next(speed * std::cos(b), speed * std::sin(b), 0);
                 const auto w = quad::boosted(quad::of(u) * -1, {quad::gamma(quad::of(next)), quad::of(next)}).x;
                 const dvec4 t = pd::wigner_turn(u, {double(w.x), double(w.y), double(w.z)});
                 total += 2 * std::atan2(t.z, t.w);
@@ -802,7 +819,8 @@ Course integrated(quad::V3 u, quad::V3 way, quad::Q strength, quad::Q tau, int s
     Course c{{0, {0, 0, 0}}, {quad::gamma(u), u}, quad::boosted(u, {0, way})};
     const quad::Q h = tau / steps;
     for (int i = 0; i < steps; ++i) {
-        const Course k1 = rate(c), k2 = rate(along(c, k1, h / 2)), k3 = rate(along(c, k2, h / 2)), k4 = rate(along(c, k3, h));
+        const Course k1 = rate(c), k2 = rate(along(c, k1, h / 2)), k3 = rate(along(c, k2, h / 2)),
+                     k4 = rate(along(c, k3, h));
         c = along(along(along(along(c, k1, h / 6), k2, h / 3), k3, h / 3), k4, h / 6);
     }
     return c;
@@ -829,9 +847,8 @@ TEST(Motion, OneGTable)
     const double year_s = 365.25 * 86400, g = 9.80665 * year_s / 299792458;
     const struct {
         double tau, t, x, v;
-    } table[] = {{1, 1.187312401712, .5636424650787, .7748272626425},
-                 {2, 3.756289449781, 2.910475472067, .9683178487310},
-                 {5, 84.47972636444, 83.51656515027, .9999342623307}};
+    } table[] = {{1, 1.187312401712, .5636424650787, .7748272626425}, {2, 3.756289449781, 2.910475472067, .9683178487310},
+        {5, 84.47972636444, 83.51656515027, .9999342623307}};
     for (const auto& row : table) {
         const auto leg = pd::thrust_leg({0, 0, 0}, {0, 0, 1}, g, row.tau);
         EXPECT_NEAR(leg.dt / row.t, 1, 1e-12);
@@ -881,8 +898,8 @@ TEST(Motion, FloatAgreesWithDouble)
                 const auto got = pf::thrust_leg(u, way, strength, .7f);
                 const auto want = pd::thrust_leg(ud, dvec3(way), strength, double(.7f));
                 const double reach = std::sqrt(1 + glm::dot(ud, ud)) * std::exp(strength * .7);
-                leg_worst = std::max({leg_worst, glm::length(dvec3(got.du) - want.du) / reach, glm::length(dvec3(got.dx) - want.dx) / reach,
-                                      std::abs(got.dt - want.dt) / reach});
+                leg_worst = std::max({leg_worst, glm::length(dvec3(got.du) - want.du) / reach,
+                    glm::length(dvec3(got.dx) - want.dx) / reach, std::abs(got.dt - want.dt) / reach});
             }
         }
     std::printf("  float: composed %.2e  wigner_turn %.2e  thrust_leg %.2e\n", place, turn, leg_worst);

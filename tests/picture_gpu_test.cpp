@@ -36,8 +36,9 @@ void quad(Doc& doc, const dvec3& centre, const dvec3& right, const dvec3& up, in
         positions.insert(positions.end(), {float(corner.x), float(corner.y), float(corner.z)});
     const std::vector<float> uv = {0, 1, 1, 1, 1, 0, 0, 0};
     const std::vector<std::uint16_t> indices = {0, 1, 2, 0, 2, 3};
-    Json primitive = {{"attributes", {{"POSITION", doc.accessor(positions, "VEC3")}, {"TEXCOORD_0", doc.accessor(uv, "VEC2")}}},
-        {"indices", doc.accessor(indices, "SCALAR")}, {"material", material}};
+    Json primitive
+        = {{"attributes", {{"POSITION", doc.accessor(positions, "VEC3")}, {"TEXCOORD_0", doc.accessor(uv, "VEC2")}}},
+            {"indices", doc.accessor(indices, "SCALAR")}, {"material", material}};
     node["mesh"] = doc.put("meshes", {{"primitives", {primitive}}});
     doc.json["scenes"][0]["nodes"].push_back(doc.put("nodes", node));
 }
@@ -157,7 +158,8 @@ TEST(Picture, HeadlightAloneMultipliesByTheCubeOfD)
     }
 }
 
-// The PNG is the EXR's light, exposed and encoded. What is brighter than tone_map's knee at 0.76 bends; below it is straight.
+// The PNG is the EXR's light, exposed and encoded. What is brighter than tone_map's knee at 0.76 bends; below it is
+// straight.
 TEST(Picture, PixelsAreTheNumbersEncoded)
 {
     Studio stage = studio(avenue().world, one_view(Planar{60}, {240, 180}));
@@ -207,11 +209,11 @@ TEST(Picture, NoSeamsInASmoothSky)
         {"180", one_view(Fisheye{180, 30}, {160, 160})}, {"360", one_view(Fisheye{360, 90}, {200, 200})}};
     const dvec3 way = glm::normalize(dvec3(0.3, 0.45, -0.84)); // the sky's bands cross the cube's faces aslant
     const dvec3 aside = glm::normalize(glm::cross(way, dvec3(0, 1, 0)));
-    // A pixel that covers an angle f of the world shows the sky filtered: texels of about f, each the mean over itself (variance
-    // f^2/12 along a line) and between them straight lines (f^2/4 at most); in a face's corner texels are 1.3 times as long one
-    // way. Half the variance times the sky's greatest curvature, 6 x 0.45 at the horizon, is 0.8 f^2, with the two levels that
-    // are mixed 0.9 f^2. fp16 steps by 2^-11 below 1, a device may cut off instead of rounding, and up to the coarsest level
-    // light is stored five times: 0.6/255.
+    // A pixel that covers an angle f of the world shows the sky filtered: texels of about f, each the mean over itself
+    // (variance f^2/12 along a line) and between them straight lines (f^2/4 at most); in a face's corner texels are 1.3
+    // times as long one way. Half the variance times the sky's greatest curvature, 6 x 0.45 at the horizon, is 0.8 f^2, with
+    // the two levels that are mixed 0.9 f^2. fp16 steps by 2^-11 below 1, a device may cut off instead of rounding, and up
+    // to the coarsest level light is stored five times: 0.6/255.
     auto filtered = [](double f) { return 0.9 * f * f + 5 * 0x1p-11; };
     constexpr double fine = 0.04; // up to here that is less than 1/255
     for (const auto& [name, layout] : layouts) {
@@ -251,8 +253,10 @@ TEST(Picture, NoSeamsInASmoothSky)
                         pair(i, i - numbers.size.x);
                     }
             }
-            std::printf("  %-6s gamma %5g: off the sky's formula by %.2f/255 at most, from a pixel to the next %.2f/255; coarse pixels "
-                        "%.2f of what filtering may\n", name.c_str(), gamma, 255 * worst, 255 * step, coarse);
+            std::printf("  %-6s gamma %5g: off the sky's formula by %.2f/255 at most, from a pixel to the next %.2f/255; "
+                        "coarse pixels "
+                        "%.2f of what filtering may\n",
+                name.c_str(), gamma, 255 * worst, 255 * step, coarse);
             EXPECT_LT(worst, 1.0 / 255) << name << ' ' << gamma;
             EXPECT_LT(step, 1.0 / 255) << name << ' ' << gamma;
             EXPECT_LT(coarse, 1) << name << ' ' << gamma;
@@ -277,15 +281,17 @@ std::pair<dvec2, double> expected(const Marker& marker, const Shot& shot, const 
     const dmat3 to_motion = motion_from_world(shot.u, shot.ship_from_cockpit);
     for (int j = 0; j <= n; ++j)
         for (int i = 0; i <= n; ++i) {
-            const dvec3 place = marker.centre + marker.right * (2.0 * i / n - 1) + marker.up * (2.0 * j / n - 1) - shot.position;
-            const dvec3 seen = glm::transpose(to_motion)
-                * physics::camera_from_world(to_motion * glm::normalize(place), E, 1 / E).n;
+            const dvec3 place
+                = marker.centre + marker.right * (2.0 * i / n - 1) + marker.up * (2.0 * j / n - 1) - shot.position;
+            const dvec3 seen
+                = glm::transpose(to_motion) * physics::camera_from_world(to_motion * glm::normalize(place), E, 1 / E).n;
             const dvec3 cockpit = glm::inverse(shot.ship_from_cockpit) * seen;
             const auto p = pixel(projection, size, cockpit);
             if (!p || glm::any(glm::lessThan(*p, dvec2(3))) || glm::any(glm::greaterThan(*p, dvec2(size) - 3.0)))
                 return {{}, 0};
             // A fisheye of the whole sphere draws what is right behind as a ring.
-            if (const auto* fisheye = std::get_if<Fisheye>(&projection); fisheye && glm::length(*p - dvec2(size) * 0.5) > 0.42 * size.x)
+            if (const auto* fisheye = std::get_if<Fisheye>(&projection);
+                fisheye && glm::length(*p - dvec2(size) * 0.5) > 0.42 * size.x)
                 return {{}, 0};
             at.push_back(*p);
         }
@@ -331,7 +337,8 @@ TEST(Picture, EveryFaceShowsThingsInTheirPlaceUnmirroredAndFromOutside)
                     markers.push_back({5.0 * d + aside * right + above * up, half * right, half * up, next_colour()});
                     return markers.back();
                 };
-                const Marker m = marker(0, 0, 0.4), r = marker(1.1, 0, 0.3), u = marker(0, 1.1, 0.3), l = marker(-1.1, 0, 0.3);
+                const Marker m = marker(0, 0, 0.4), r = marker(1.1, 0, 0.3), u = marker(0, 1.1, 0.3),
+                             l = marker(-1.1, 0, 0.3);
                 for (const Marker& front : {m, r, u})
                     quad(doc, front.centre, front.right, front.up, unlit(doc, front.colour));
                 // Its node mirrors: the front of what is drawn the other way round.
@@ -345,7 +352,8 @@ TEST(Picture, EveryFaceShowsThingsInTheirPlaceUnmirroredAndFromOutside)
     const GpuWorld world = open_world("markers", doc);
     const Projection window = Planar{90}, whole = Fisheye{360, 90};
     double worst = 0;
-    for (const dvec3& u : {dvec3(0), u_of_gamma(2) * glm::normalize(dvec3(1, 2, -0.5)), dvec3(0, 0, u_of_gamma(2)), dvec3(-u_of_gamma(2), 0, 0)}) {
+    for (const dvec3& u : {dvec3(0), u_of_gamma(2) * glm::normalize(dvec3(1, 2, -0.5)), dvec3(0, 0, u_of_gamma(2)),
+             dvec3(-u_of_gamma(2), 0, 0)}) {
         std::vector<int> found(markers.size());
         auto look_around = [&](const Projection& projection, ivec2 size, const dvec3& look, const dvec3& up) {
             Studio stage = studio(world, one_view(projection, size));
@@ -380,7 +388,8 @@ TEST(Picture, EveryFaceShowsThingsInTheirPlaceUnmirroredAndFromOutside)
                 }
             }
         };
-        for (const dvec3& look : {dvec3(1, 0, 0), dvec3(-1, 0, 0), dvec3(0, 0, 1), dvec3(0, 0, -1), dvec3(0, 1, 0.1), dvec3(0.1, -1, 0)})
+        for (const dvec3& look :
+            {dvec3(1, 0, 0), dvec3(-1, 0, 0), dvec3(0, 0, 1), dvec3(0, 0, -1), dvec3(0, 1, 0.1), dvec3(0.1, -1, 0)})
             look_around(window, {500, 500}, look, {0, 1, 0});
         look_around(whole, {500, 500}, {0, 0, -1}, {0, 1, 0});
         look_around(whole, {500, 500}, {0.2, 0.3, 0.9}, {0.5, 1, 0});
@@ -481,7 +490,8 @@ TEST(Picture, EachEyeSeesFromItsOwnEvent)
     pair.hyper_stereo = 1.5;
     Studio both = studio(world, pair), one = studio(world, one_view(Planar{60}, half));
     for (double gamma : {1.0, 1.5, 4.0}) {
-        const Shot shot = shot_at({0.02, -0.01, 0.1}, u_of_gamma(gamma) * glm::normalize(dvec3(0.7, 0.2, -0.6)), {0.1, 0, -1});
+        const Shot shot
+            = shot_at({0.02, -0.01, 0.1}, u_of_gamma(gamma) * glm::normalize(dvec3(0.7, 0.2, -0.6)), {0.1, 0, -1});
         const auto picture = both.picture(shot).front();
         const Numbers numbers(both, shot);
         EXPECT_EQ(both.frame().plans().size(), 2u); // a cube map for each eye
@@ -535,7 +545,8 @@ TEST(WrongDevice, AnOutputAboveTheDevicesLimitIsRefusedInOneLine)
     const int limit = int(device().properties.limits.maxImageDimension2D);
     for (ivec2 size : {ivec2(limit + 1, 8), ivec2(8, limit + 1)})
         for (const Projection& projection : {Projection(Planar{60}), Projection(Fisheye{180, 0})}) {
-            const std::string message = testing::complaint([&] { studio(avenue().world, one_view(projection, size), false); });
+            const std::string message
+                = testing::complaint([&] { studio(avenue().world, one_view(projection, size), false); });
             EXPECT_NE(message.find(std::to_string(limit)), std::string::npos) << message;
         }
 }

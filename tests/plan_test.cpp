@@ -74,7 +74,8 @@ TEST(Plan, EveryTexelThatAnyPixelReadsWasDrawn)
                             return void(++missing);
                         // The level read, and the two by two texels of it around the point; half a texel is for the
                         // shader's float arithmetic.
-                        double texels = world_angle * image->texels_per_unit * std::pow(1 + glm::dot(place.at, place.at), 0.75);
+                        double texels
+                            = world_angle * image->texels_per_unit * std::pow(1 + glm::dot(place.at, place.at), 0.75);
                         int level = std::clamp(int(std::ceil(std::log2(std::max(texels, 1e-9)))), 0, image->levels - 1);
                         double texel = std::exp2(level);
                         glm::dvec2 at = (place.at - image->low) * image->texels_per_unit / texel;
@@ -114,8 +115,8 @@ TEST(Plan, ImagesLieApartInTheAtlas)
 
 TEST(Plan, HoldsTheDensityThatWasAskedFor)
 {
-    // Without a ceiling on texels no pixel is served by less than one texel, but for the difference between a disc's middle and
-    // its edge (cells of 24 pixels: 15 %), nor, mips counted, by more than about two across.
+    // Without a ceiling on texels no pixel is served by less than one texel, but for the difference between a disc's middle
+    // and its edge (cells of 24 pixels: 15 %), nor, mips counted, by more than about two across.
     for (double gamma : {1.0, 4.0, 100.0}) {
         double least = 1e9, most = 0;
         each_pixel(cases[0], gamma, 0, {.texels_per_pixel = 1, .max_texels_per_pixel = 1e9},

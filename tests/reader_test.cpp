@@ -18,7 +18,7 @@ std::string at_file(const std::string& rest) { return scratch("reader.json").str
 TEST(ReaderTest, CommentsAreAllowed)
 {
     const Document d = document("// one\n{ /* two */ \"a\": 1 } // three");
-    EXPECT_EQ(number(member(root(d), "a"), { 0, 2 }), 1);
+    EXPECT_EQ(number(member(root(d), "a"), {0, 2}), 1);
 }
 
 TEST(ReaderTest, FilesThatAreNone)
@@ -45,26 +45,26 @@ TEST(ReaderTest, FilesOfSixteenMebibytesAreRead)
 
 TEST(ReaderTest, SyntaxErrorsTellLineAndColumn)
 {
-    for (const auto& [text, place] : std::vector<std::pair<std::string, std::string>> {
-             { "{", "line 1, column 2: " },
-             { "{\n  \"a\": 1,\n}", "line 3, column 1: " },
-             { "{\n  \"a\": NaN\n}", "line 2, column 8: " },
-             { "{ \"a\": Infinity }", "line 1, column 8: " },
-             { "{ \"a\": -Infinity }", "line 1, column 9: " },
-             { "{ \"a\": 1 } 2", "line 1, column 12: " },
-             { "{ \"a\": 01 }", "line 1, column 9: " },
-             { "{ 'a': 1 }", "line 1, column 3: " },
-             { "{ \"a\" 1 }", "line 1, column 7: " },
-             { "[1, 2", "line 1, column 6: " },
-             { "{ \"a\": \"open", "line 1, column 13: " },
-             { "{ \"a\": \"\n\" }", "line 1, column 9: " },
-             { "{ \"a\": \"\xff\" }", "line 1, column 9: " },
-             { "{ \"ä\": x }", "line 1, column 8: " },
-             { "/* open", "line 1, column 8: " },
-             { "// only a comment", "line 1, column 18: " },
-             { "   ", "line 1, column 4: " },
-             { std::string(1, '\0'), "line 1, column 1: " },
-             { "\xef\xbb", "line 1, column 2: " },
+    for (const auto& [text, place] : std::vector<std::pair<std::string, std::string>>{
+             {"{", "line 1, column 2: "},
+             {"{\n  \"a\": 1,\n}", "line 3, column 1: "},
+             {"{\n  \"a\": NaN\n}", "line 2, column 8: "},
+             {"{ \"a\": Infinity }", "line 1, column 8: "},
+             {"{ \"a\": -Infinity }", "line 1, column 9: "},
+             {"{ \"a\": 1 } 2", "line 1, column 12: "},
+             {"{ \"a\": 01 }", "line 1, column 9: "},
+             {"{ 'a': 1 }", "line 1, column 3: "},
+             {"{ \"a\" 1 }", "line 1, column 7: "},
+             {"[1, 2", "line 1, column 6: "},
+             {"{ \"a\": \"open", "line 1, column 13: "},
+             {"{ \"a\": \"\n\" }", "line 1, column 9: "},
+             {"{ \"a\": \"\xff\" }", "line 1, column 9: "},
+             {"{ \"ä\": x }", "line 1, column 8: "},
+             {"/* open", "line 1, column 8: "},
+             {"// only a comment", "line 1, column 18: "},
+             {"   ", "line 1, column 4: "},
+             {std::string(1, '\0'), "line 1, column 1: "},
+             {"\xef\xbb", "line 1, column 2: "},
          }) {
         SCOPED_TRACE(text);
         const std::string message = refusal(text), start = at_file(place);
@@ -105,11 +105,11 @@ TEST(ReaderTest, UnknownMembersNameTheNearest)
 {
     const Document d = document("{ \"gama\": 4 }");
     EXPECT_EQ(complaint([&] {
-        only(root(d), { "rapidity", "direction", "beta", "gamma" });
+        only(root(d), {"rapidity", "direction", "beta", "gamma"});
     }),
         at_file("/gama: 4 stands under an unknown name; \"gamma\", \"beta\" or \"rapidity\" is right"));
     const Document long_name = document("{ \"" + std::string(100000, 'x') + "\": 1 }");
-    EXPECT_LT(complaint([&] { only(root(long_name), { "a" }); }).size(), 700u);
+    EXPECT_LT(complaint([&] { only(root(long_name), {"a"}); }).size(), 700u);
 }
 
 TEST(ReaderTest, ValuesOfTheWrongKind)
@@ -117,47 +117,47 @@ TEST(ReaderTest, ValuesOfTheWrongKind)
     const Document d = document(R"({ "n": 5, "f": 1.5, "s": "text", "b": true, "z": null, "v": [1, "x", 3], "o": {},
         "e": "", "c": "a\u0000b", "long": "ääääääääääääääääääääääääääääääääääääääääää" })");
     const auto at = [&](const char* name) { return member(root(d), name); };
-    const std::vector<std::pair<std::string, std::string>> cases {
-        { complaint([&] {
-             number(at("s"), { 0, 1 });
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {complaint([&] {
+             number(at("s"), {0, 1});
          }),
-            "/s: \"text\" is not a number; a number from 0 to 1 is right" },
-        { complaint([&] {
-             number(at("z"), { 0, 1 });
+            "/s: \"text\" is not a number; a number from 0 to 1 is right"},
+        {complaint([&] {
+             number(at("z"), {0, 1});
          }),
-            "/z: null is not a number; a number from 0 to 1 is right" },
-        { complaint([&] {
-             number(at("n"), { 0, 1 });
+            "/z: null is not a number; a number from 0 to 1 is right"},
+        {complaint([&] {
+             number(at("n"), {0, 1});
          }),
-            "/n: 5 is too large; a number from 0 to 1 is right" },
-        { complaint([&] {
-             number(at("n"), { 5, 1e12, true });
+            "/n: 5 is too large; a number from 0 to 1 is right"},
+        {complaint([&] {
+             number(at("n"), {5, 1e12, true});
          }),
-            "/n: 5 is too small; a number above 5 up to 1e+12 is right" },
-        { complaint([&] { integer(at("f"), 1, 9); }), "/f: 1.5 is not a whole number; one from 1 to 9 is right" },
-        { complaint([&] { boolean(at("n")); }), "/n: 5 is neither true nor false; one of these is right" },
-        { complaint([&] { text(at("b")); }), "/b: true is not a text; a text in double quotes is right" },
-        { complaint([&] { text(at("e")); }), "/e: \"\" is empty; a text with at least one letter is right" },
-        { complaint([&] { text(at("c")); }), "/c: \"a\\u0000b\" holds a control character; a text without them is right" },
-        { complaint([&] {
-             one_of(at("s"), { "one", "two" });
+            "/n: 5 is too small; a number above 5 up to 1e+12 is right"},
+        {complaint([&] { integer(at("f"), 1, 9); }), "/f: 1.5 is not a whole number; one from 1 to 9 is right"},
+        {complaint([&] { boolean(at("n")); }), "/n: 5 is neither true nor false; one of these is right"},
+        {complaint([&] { text(at("b")); }), "/b: true is not a text; a text in double quotes is right"},
+        {complaint([&] { text(at("e")); }), "/e: \"\" is empty; a text with at least one letter is right"},
+        {complaint([&] { text(at("c")); }), "/c: \"a\\u0000b\" holds a control character; a text without them is right"},
+        {complaint([&] {
+             one_of(at("s"), {"one", "two"});
          }),
-            "/s: \"text\" is not known here; \"one\" or \"two\" is right" },
-        { complaint([&] { one_of(at("n"), { "one" }); }), "/n: 5 is not known here; \"one\" is right" },
-        { complaint([&] {
-             vec3(at("v"), { 0, 9 });
+            "/s: \"text\" is not known here; \"one\" or \"two\" is right"},
+        {complaint([&] { one_of(at("n"), {"one"}); }), "/n: 5 is not known here; \"one\" is right"},
+        {complaint([&] {
+             vec3(at("v"), {0, 9});
          }),
-            "/v/1: \"x\" is not a number; a number from 0 to 9 is right" },
-        { complaint([&] {
-             vec4(at("v"), { 0, 9 });
+            "/v/1: \"x\" is not a number; a number from 0 to 9 is right"},
+        {complaint([&] {
+             vec4(at("v"), {0, 9});
          }),
-            "/v: [1,\"x\",3] has length 3; a list of 4 numbers in [ ] is right" },
-        { complaint([&] {
-             vec3(at("n"), { 0, 9 });
+            "/v: [1,\"x\",3] has length 3; a list of 4 numbers in [ ] is right"},
+        {complaint([&] {
+             vec3(at("n"), {0, 9});
          }),
-            "/n: 5 is not a list; a list of 3 numbers in [ ] is right" },
-        { complaint([&] { only(at("v"), {}); }), "/v: [1,\"x\",3] is not an object; an object in { } is right" },
-        { complaint([&] { member(at("o"), "a"); }), "/o: {} lacks \"a\"; an object with this member is right" },
+            "/n: 5 is not a list; a list of 3 numbers in [ ] is right"},
+        {complaint([&] { only(at("v"), {}); }), "/v: [1,\"x\",3] is not an object; an object in { } is right"},
+        {complaint([&] { member(at("o"), "a"); }), "/o: {} lacks \"a\"; an object with this member is right"},
     };
     for (const auto& [message, expected] : cases)
         EXPECT_EQ(message, at_file(expected));
@@ -169,5 +169,5 @@ TEST(ReaderTest, ValuesOfTheWrongKind)
 TEST(ReaderTest, MutatedFilesAreReadOrRefused)
 {
     expect_survives([](const auto& file) { read_document(file); },
-        { "{ \"a\": [1, 2.5, -3e5], \"b\": { \"c\": \"text\", \"d\": null }, // comment\n \"e\": true }", "[[[[]]]]" });
+        {"{ \"a\": [1, 2.5, -3e5], \"b\": { \"c\": \"text\", \"d\": null }, // comment\n \"e\": true }", "[[[[]]]]"});
 }

@@ -21,7 +21,7 @@ using starbow::fly;
 using starbow::Ship;
 
 constexpr double one_g = 9.80665 * 365.25 * 86400 / 299792458; // rapidity per year
-constexpr double within = 1e-9;                                // required of position and time
+constexpr double within = 1e-9; // required of position and time
 
 Ship flying(const dvec3& u)
 {
@@ -54,8 +54,8 @@ struct Error {
 Error against(const End& want, const Ship& ship)
 {
     return {double(quad::length(quad::of(ship.position.total()) - want.x) / quad::length(want.x)),
-            double(fabsq(ship.time.total() / want.t - 1)),
-            double(quad::length(quad::of(ship.u.total()) - want.u) / quad::length(want.u))};
+        double(fabsq(ship.time.total() / want.t - 1)),
+        double(quad::length(quad::of(ship.u.total()) - want.u) / quad::length(want.u))};
 }
 
 Ship flown(Ship ship, const dvec3& acceleration, double tau, long steps)
@@ -89,14 +89,11 @@ TEST(Fly, TenYearsAgreeWithTheClosedFormAtAnyFrameRate)
     const struct {
         const char* name;
         dvec3 u, acceleration;
-    } flights[] = {{"1 g", dvec3(0), one_g * oblique},
-                   {"1 g along an axis", dvec3(0), dvec3(0, 0, -one_g)},
-                   {"2 g, to gamma 5e8", dvec3(0), 2 * one_g * oblique},
-                   {"0.001 g", dvec3(0), 1e-3 * one_g * oblique},
-                   {"1e-9 g", dvec3(0), 1e-9 * one_g * oblique},
-                   {"1 g across 0.9 c", at_gamma(2.3, {2, 1, 0}), one_g * oblique},
-                   {"0.3 g against gamma 3", at_gamma(3, {-1, 2, -2.4}), .3 * one_g * oblique},
-                   {"1e-9 g across gamma 1e4", at_gamma(1e4, {3, 1, 1}), 1e-9 * one_g * oblique}};
+    } flights[] = {{"1 g", dvec3(0), one_g * oblique}, {"1 g along an axis", dvec3(0), dvec3(0, 0, -one_g)},
+        {"2 g, to gamma 5e8", dvec3(0), 2 * one_g * oblique}, {"0.001 g", dvec3(0), 1e-3 * one_g * oblique},
+        {"1e-9 g", dvec3(0), 1e-9 * one_g * oblique}, {"1 g across 0.9 c", at_gamma(2.3, {2, 1, 0}), one_g * oblique},
+        {"0.3 g against gamma 3", at_gamma(3, {-1, 2, -2.4}), .3 * one_g * oblique},
+        {"1e-9 g across gamma 1e4", at_gamma(1e4, {3, 1, 1}), 1e-9 * one_g * oblique}};
     Error worst{0, 0, 0};
     for (const auto& flight : flights) {
         const double tau = 10;
@@ -126,7 +123,8 @@ TEST(Fly, TenYearsInAHundredMillionStepsOnRequest)
     const dvec3 acceleration = one_g * glm::normalize(dvec3(1, -2, 2.5));
     const Ship ship = flown(Ship(), acceleration, 10, 100000000);
     const Error e = against(closed_form(dvec3(0), acceleration, 10), ship);
-    std::printf("  1e8 steps: position %.2e  time %.2e  u %.2e  proper time %.2e\n", e.x, e.t, e.u, ship.proper_time.total() / 10 - 1);
+    std::printf("  1e8 steps: position %.2e  time %.2e  u %.2e  proper time %.2e\n", e.x, e.t, e.u,
+        ship.proper_time.total() / 10 - 1);
     EXPECT_LE(e.x, within);
     EXPECT_LE(e.t, within);
 }
@@ -167,8 +165,8 @@ TEST(Fly, CoastingIsUniform)
     EXPECT_NEAR(ship.time.total(), 2 * std::sqrt(26.0), 1e-14);
     EXPECT_NEAR(ship.distance.total(), 10, 1e-14);
     EXPECT_LE(glm::length(glm::dvec3(ship.ship_from_cockpit.x - before.x, ship.ship_from_cockpit.y - before.y,
-                                     ship.ship_from_cockpit.z - before.z)),
-              1e-15);
+                  ship.ship_from_cockpit.z - before.z)),
+        1e-15);
 }
 
 TEST(Fly, NoTimeIsNoFlight)
@@ -186,7 +184,8 @@ TEST(Fly, NoTimeIsNoFlight)
 TEST(Fly, ThrustFollowsTheCockpit)
 {
     Ship ship;
-    ship.ship_from_cockpit = glm::angleAxis(glm::half_pi<double>(), dvec3(0, 1, 0)); // cockpit's -z looks along the world's -x
+    ship.ship_from_cockpit
+        = glm::angleAxis(glm::half_pi<double>(), dvec3(0, 1, 0)); // cockpit's -z looks along the world's -x
     ship = fly(ship, {0, 0, -1}, dvec3(0), 1);
     EXPECT_NEAR(ship.u.total().x, -std::sinh(1.0), 1e-15);
     EXPECT_NEAR(ship.u.total().y, 0, 1e-15);
@@ -236,7 +235,8 @@ TEST(Fly, UpToGammaAMillionAndBackSmoothly)
             Ship ship;
             ship.ship_from_cockpit = glm::normalize(dquat(normal(random), normal(random), normal(random), normal(random)));
             const dquat before = ship.ship_from_cockpit;
-            const dvec3 way = attitude % 2 ? dvec3(0, 0, -1) : glm::normalize(dvec3(normal(random), normal(random), normal(random)));
+            const dvec3 way
+                = attitude % 2 ? dvec3(0, 0, -1) : glm::normalize(dvec3(normal(random), normal(random), normal(random)));
             double rapidity = 0, highest = 0;
             for (int i = 0; i < 2 * steps; ++i) {
                 const double sign = i < steps ? 1 : -1;
@@ -253,14 +253,14 @@ TEST(Fly, UpToGammaAMillionAndBackSmoothly)
             turned = std::max(turned, 2 * std::sqrt(left.x * left.x + left.y * left.y + left.z * left.z));
             residual = std::max(residual, glm::length(ship.u.total()));
         }
-        std::printf("  to gamma 1e6 in %6d steps and back: residual u %.1e, orientation %.1e rad, roughest step %.1e\n", steps, residual,
-                    turned, roughest);
+        std::printf("  to gamma 1e6 in %6d steps and back: residual u %.1e, orientation %.1e rad, roughest step %.1e\n",
+            steps, residual, turned, roughest);
         EXPECT_LT(residual, 1e-9);
         EXPECT_LE(roughest, 1e-9); // every frame changes the rapidity by the same: none shows a jump
         // u and way, rounded, are aside of each other by some 2^-53, so that a frame's turn, which should be none, comes to
-        // step times that. Gamma magnifies it at the top, where chance adds up the frames of the last e-fold, 1/step of them:
-        // one deviation is gamma 2^-53 sqrt(step), and the worst of 40 attitudes stays within four. Below steps of 0.01 the
-        // turn no longer touches the last bit.
+        // step times that. Gamma magnifies it at the top, where chance adds up the frames of the last e-fold, 1/step of
+        // them: one deviation is gamma 2^-53 sqrt(step), and the worst of 40 attitudes stays within four. Below steps of
+        // 0.01 the turn no longer touches the last bit.
         EXPECT_LE(turned, step > .01 ? 4 * 1e6 * 0x1p-53 * std::sqrt(step) : 1e-12);
     }
 }
@@ -332,7 +332,8 @@ State integrated(State s, const dvec3& acceleration, const dvec3& turn, Q tau, i
 State state_of(const Ship& ship)
 {
     const auto axis = [&](const dvec3& e) { return quad::of(ship.ship_from_cockpit * e); };
-    return {quad::of(ship.position.total()), quad::of(ship.u.total()), {axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1})}, ship.time.total()};
+    return {quad::of(ship.position.total()), quad::of(ship.u.total()), {axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1})},
+        ship.time.total()};
 }
 // Of position, u and time relative to their size, of the axes in radians: the largest.
 double difference(const State& a, const State& b)
@@ -376,7 +377,8 @@ TEST(Fly, TurningFlightConvergesAsTheSquareOfTheStep)
             ship = fly(ship, acceleration, turn * (tau / steps), tau / steps);
         error[i] = difference(want, state_of(ship));
     }
-    std::printf("  turning at 1.3 rad under thrust 1.4: error %.1e, %.1e, %.1e in 60, 120, 240 steps\n", error[0], error[1], error[2]);
+    std::printf("  turning at 1.3 rad under thrust 1.4: error %.1e, %.1e, %.1e in 60, 120, 240 steps\n", error[0], error[1],
+        error[2]);
     // A step's error is its length times the rates of thrust and turn, cubed, over 24; with rates of 1.4 and 1.3 the 60
     // steps come to 1.5 (1.5 / 60)^2 2.7^3 / 24.
     EXPECT_LE(error[0], 1.5 * std::pow(1.5 / 60, 2) * std::pow(2.7, 3) / 24);
@@ -405,7 +407,8 @@ TEST(Fly, CircularOrbitCloses)
             EXPECT_NEAR(ship.time.total() / (gamma * tau), 1, cut);
             EXPECT_NEAR(ship.distance.total() / (2 * glm::pi<double>() * R), 1, cut);
         }
-        std::printf("  orbit at gamma %.2f: off by %.1e R, %.1e u, %.1e rad in 8000 steps\n", gamma, away[1], off[1], facing[1]);
+        std::printf(
+            "  orbit at gamma %.2f: off by %.1e R, %.1e u, %.1e rad in 8000 steps\n", gamma, away[1], off[1], facing[1]);
         // The cut into 8000 steps: (2 pi gamma / 8000)^2 of the turn, times the 2 pi gamma of the orbit.
         const double cut = std::pow(2 * glm::pi<double>() * gamma, 3) / 8000 / 8000;
         EXPECT_LE(std::max({away[1], off[1], facing[1]}), cut);

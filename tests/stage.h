@@ -26,8 +26,8 @@ public:
     void SetUp() override
     {
 #ifdef __GLIBC__
-        // A device in software has its memory from malloc. Filled with 0x7e it is NaN to fp16 and 8e37 to float: what is read
-        // without having been written shows.
+        // A device in software has its memory from malloc. Filled with 0x7e it is NaN to fp16 and 8e37 to float: what is
+        // read without having been written shows.
         mallopt(M_MMAP_MAX, 0);
         mallopt(M_PERTURB, 0x81);
 #endif

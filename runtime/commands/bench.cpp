@@ -65,13 +65,15 @@ struct Lookup {
         no_map = make_texture(device, exact_format, {1, 1}, std::as_bytes(std::span(zeros)), false);
         vk::DescriptorImageInfo map(*sampler, *no_map.view, vk::ImageLayout::eShaderReadOnlyOptimal);
         vk::DescriptorImageInfo info(*sampler, *cube.view, vk::ImageLayout::eShaderReadOnlyOptimal);
-        device.device.updateDescriptorSets({vk::WriteDescriptorSet(*set, 0, 0, vk::DescriptorType::eCombinedImageSampler, map),
-                                               vk::WriteDescriptorSet(*set, 1, 0, vk::DescriptorType::eCombinedImageSampler, info)},
+        device.device.updateDescriptorSets(
+            {vk::WriteDescriptorSet(*set, 0, 0, vk::DescriptorType::eCombinedImageSampler, map),
+                vk::WriteDescriptorSet(*set, 1, 0, vk::DescriptorType::eCombinedImageSampler, info)},
             {});
     }
 };
 
-const char* const stage_names[] = {"plan and cull", "cube pass", "warp pass", "head-up display", "whole frame", "plain frame", "look-up pass"};
+const char* const stage_names[]
+    = {"plan and cull", "cube pass", "warp pass", "head-up display", "whole frame", "plain frame", "look-up pass"};
 constexpr int stage_count = 7;
 
 struct Result {
@@ -95,10 +97,10 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
     plain.picture(shot);
     plain.frame().prepare_plain(shot);
     auto writable = [](vk::CommandBuffer commands, const Target& t) {
-        vk::ImageMemoryBarrier2 barrier(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput,
-            Access::eColorAttachmentWrite | Access::eColorAttachmentRead, vk::ImageLayout::eUndefined,
-            vk::ImageLayout::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, t.image,
-            {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
+        vk::ImageMemoryBarrier2 barrier(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+            Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead,
+            vk::ImageLayout::eUndefined, vk::ImageLayout::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED,
+            VK_QUEUE_FAMILY_IGNORED, t.image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
         commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
     };
     vk::Pipeline lookup_pipeline = theatre.pipelines.lookup(target.format);
@@ -223,8 +225,11 @@ int bench(const Options& options)
 void add_bench(CLI::App& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("bench", "Times the stages of a frame, and two ratios measured in turn in the same run.");
-    command->add_option("--rounds", options->rounds, "How often each stage is timed")->check(CLI::Range(3, 10000))->capture_default_str();
+    CLI::App* command
+        = app.add_subcommand("bench", "Times the stages of a frame, and two ratios measured in turn in the same run.");
+    command->add_option("--rounds", options->rounds, "How often each stage is timed")
+        ->check(CLI::Range(3, 10000))
+        ->capture_default_str();
     command->add_option("--json", options->json, "Also write the figures to this file");
     command->footer("Example:\n  starbow bench --json out/bench.json");
     command->callback([options, &chosen] { chosen = [options] { return bench(*options); }; });

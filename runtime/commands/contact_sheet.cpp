@@ -44,14 +44,17 @@ struct Sheet {
     }
 
     /// Shrinks by averaging whole pixels (in the encoded values: thumbnails), keeping the aspect.
-    void place(int index, const std::string& name, glm::ivec2 from, const std::vector<std::uint8_t>& picture, const Typesetter& typesetter)
+    void place(int index, const std::string& name, glm::ivec2 from, const std::vector<std::uint8_t>& picture,
+        const Typesetter& typesetter)
     {
         glm::ivec2 corner(index % columns * cell_width, index / columns * (cell_height + label_height));
         double shrink = std::max(double(from.x) / (cell_width - 8), double(from.y) / (cell_height - 8));
-        glm::ivec2 to = glm::max(glm::ivec2(glm::dvec2(from) / shrink), 1), margin = (glm::ivec2(cell_width, cell_height) - to) / 2;
+        glm::ivec2 to = glm::max(glm::ivec2(glm::dvec2(from) / shrink), 1),
+                   margin = (glm::ivec2(cell_width, cell_height) - to) / 2;
         for (int y = 0; y < to.y; ++y)
             for (int x = 0; x < to.x; ++x) {
-                glm::ivec2 first = glm::ivec2(glm::dvec2(x, y) * shrink), last = glm::ivec2(glm::dvec2(x + 1, y + 1) * shrink);
+                glm::ivec2 first = glm::ivec2(glm::dvec2(x, y) * shrink),
+                           last = glm::ivec2(glm::dvec2(x + 1, y + 1) * shrink);
                 last = glm::min(glm::max(last, first + 1), from);
                 glm::dvec3 sum(0);
                 for (int j = first.y; j < last.y; ++j)
@@ -93,8 +96,10 @@ int render_contact_sheet(const fs::path& directory)
         auto& theatre = theatres[scene];
         if (!theatre)
             theatre = std::make_unique<Theatre>(scene, device_options(false));
-        Studio studio(theatre->device, theatre->pipelines, theatre->world, layout, default_quality(theatre->device, true), false);
-        Panel panel = typesetter.draw(readings(ship_at(shot), theatre->world.scene, shot.effects), studio.frame().hud_width());
+        Studio studio(
+            theatre->device, theatre->pipelines, theatre->world, layout, default_quality(theatre->device, true), false);
+        Panel panel
+            = typesetter.draw(readings(ship_at(shot), theatre->world.scene, shot.effects), studio.frame().hud_width());
         fs::path folder = directory / all[i].name();
         auto pictures = render_still(folder, studio, shot, false, &panel);
         sheet.place(int(i), all[i].name(), layout.outputs[0].size, pictures[0], typesetter);

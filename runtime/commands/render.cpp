@@ -22,10 +22,12 @@ glm::ivec2 parse_size(const std::string& text)
     auto width = std::from_chars(text.data(), end, size.x);
     if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
         auto height = std::from_chars(width.ptr + 1, end, size.y);
-        if (height.ec == std::errc() && height.ptr == end && size.x >= 1 && size.y >= 1 && size.x <= 16384 && size.y <= 16384)
+        if (height.ec == std::errc() && height.ptr == end && size.x >= 1 && size.y >= 1 && size.x <= 16384
+            && size.y <= 16384)
             return size;
     }
-    throw InputError("--size " + text + " is no size; give width x height in pixels, each from 1 to 16384, such as 1280x720");
+    throw InputError(
+        "--size " + text + " is no size; give width x height in pixels, each from 1 to 16384, such as 1280x720");
 }
 
 int render(const Options& options)
@@ -39,7 +41,8 @@ int render(const Options& options)
     Theatre theatre(scene_of(shot, shot_file), device_options(false));
     for (const std::string& note : theatre.world.world.notes)
         std::fprintf(stderr, "starbow: %s: %s\n", theatre.world.scene.gltf.c_str(), note.c_str());
-    Studio studio(theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, true), options.exr);
+    Studio studio(
+        theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, true), options.exr);
     std::optional<Panel> panel;
     if (options.hud)
         panel = Typesetter().draw(readings(ship_at(shot), theatre.world.scene, shot.effects), studio.frame().hud_width());
@@ -55,11 +58,14 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("render", "Draw one shot off-screen, the same bytes every time.");
-    command->add_option("--layout", options->layout, "A layout file, or the name of one in config/layouts")->capture_default_str();
+    command->add_option("--layout", options->layout, "A layout file, or the name of one in config/layouts")
+        ->capture_default_str();
     command->add_option("--shot", options->shot, "A shot file, or the name of one in config/shots")->required();
-    command->add_option("--out", options->out, "The folder for OUTPUT.png (and OUTPUT.exr); made if it is not there")->required();
+    command->add_option("--out", options->out, "The folder for OUTPUT.png (and OUTPUT.exr); made if it is not there")
+        ->required();
     command->add_option("--size", options->size, "Pixels of every output, WIDTHxHEIGHT, instead of the layout's");
-    command->add_flag("--exr", options->exr, "Also the numbers: light, directions, Doppler factor and distance of every pixel");
+    command->add_flag(
+        "--exr", options->exr, "Also the numbers: light, directions, Doppler factor and distance of every pixel");
     command->add_flag("--hud", options->hud, "With the head-up display");
     command->footer("Example:\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome --size 2048x2048 --exr");
     command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });

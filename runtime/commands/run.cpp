@@ -1,8 +1,8 @@
 #include "commands.h"
 #include "contact_sheet.h"
+#include "input/keyboard.h"
 #include "runtime/exhibit.h"
 #include "runtime/find.h"
-#include "input/keyboard.h"
 #include "runtime/outputs.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -27,8 +27,9 @@ int run(const Options& options)
         scene = scene_of(start, shot_file);
     }
     if (!has_display()) {
-        std::printf("There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere), so no window can be opened.\n"
-                    "Drawing the default shots into out/ instead.\n");
+        std::printf(
+            "There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere), so no window can be opened.\n"
+            "Drawing the default shots into out/ instead.\n");
         return render_contact_sheet("out");
     }
     WindowSystem window_system;
@@ -43,12 +44,16 @@ int run(const Options& options)
 void add_run(CLI::App& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("run", "Fly: opens the layout's windows. Without a display server it draws the default shots to out/.");
-    command->add_option("--layout", options->layout, "A layout file, or the name of one in config/layouts")->capture_default_str();
-    command->add_option("--scene", options->scene, "A scene file, or the name of one in config/scenes")->capture_default_str();
+    CLI::App* command = app.add_subcommand(
+        "run", "Fly: opens the layout's windows. Without a display server it draws the default shots to out/.");
+    command->add_option("--layout", options->layout, "A layout file, or the name of one in config/layouts")
+        ->capture_default_str();
+    command->add_option("--scene", options->scene, "A scene file, or the name of one in config/scenes")
+        ->capture_default_str();
     command->add_option("--shot", options->shot, "Start at this shot instead of the scene's start");
     command->add_option("--frames", options->frames, "Leave after so many frames")->check(CLI::NonNegativeNumber);
-    command->footer(std::string("Keys:\n") + keyboard_help() + "\n\nExample:\n  starbow run --layout stereo --shot avenue-gamma4");
+    command->footer(
+        std::string("Keys:\n") + keyboard_help() + "\n\nExample:\n  starbow run --layout stereo --shot avenue-gamma4");
     command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

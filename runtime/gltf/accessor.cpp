@@ -6,25 +6,25 @@
 namespace starbow {
 namespace {
 
-    template <typename T> T load(const std::uint8_t* from)
-    {
-        T value;
-        std::memcpy(&value, from, sizeof value); // files need not keep the alignment that glTF asks for
-        return value;
-    }
+template <typename T> T load(const std::uint8_t* from)
+{
+    T value;
+    std::memcpy(&value, from, sizeof value); // files need not keep the alignment that glTF asks for
+    return value;
+}
 
-    std::uint32_t load_index(const std::uint8_t* from, int type)
-    {
-        if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE)
-            return *from;
-        return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? load<std::uint16_t>(from) : load<std::uint32_t>(from);
-    }
+std::uint32_t load_index(const std::uint8_t* from, int type)
+{
+    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE)
+        return *from;
+    return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? load<std::uint16_t>(from) : load<std::uint32_t>(from);
+}
 
-    const std::uint8_t* bytes_of(const tinygltf::Model& model, int view, std::size_t offset)
-    {
-        const auto& buffer_view = model.bufferViews[std::size_t(view)];
-        return model.buffers[std::size_t(buffer_view.buffer)].data.data() + buffer_view.byteOffset + offset;
-    }
+const std::uint8_t* bytes_of(const tinygltf::Model& model, int view, std::size_t offset)
+{
+    const auto& buffer_view = model.bufferViews[std::size_t(view)];
+    return model.buffers[std::size_t(buffer_view.buffer)].data.data() + buffer_view.byteOffset + offset;
+}
 
 } // namespace
 

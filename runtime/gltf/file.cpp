@@ -11,200 +11,199 @@ namespace fs = std::filesystem;
 namespace starbow {
 namespace {
 
-    /// Empty when all went well, else what is wrong. Waits for nobody: a FIFO opens without a writer and is then refused.
-    std::string read_regular(const fs::path& path, std::size_t limit, Bytes& bytes)
-    {
-        int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-        if (descriptor < 0)
-            return std::string("cannot be opened: ") + std::strerror(errno);
-        struct Closer {
-            int descriptor;
-            ~Closer() { ::close(descriptor); }
-        } closer { descriptor };
-        struct stat info { };
-        if (::fstat(descriptor, &info) != 0 || !S_ISREG(info.st_mode))
-            return "is not a file but a folder or a device; should be a file";
-        if (std::uint64_t(info.st_size) > limit)
-            return "has " + std::to_string(info.st_size) + " bytes; " + std::to_string(limit) + " are allowed here";
-        bytes.resize(std::size_t(info.st_size));
-        std::size_t done = 0;
-        while (done < bytes.size()) {
-            ssize_t got = ::read(descriptor, bytes.data() + done, bytes.size() - done);
-            if (got <= 0)
-                return "cannot be read to its end";
-            done += std::size_t(got);
+/// Empty when all went well, else what is wrong. Waits for nobody: a FIFO opens without a writer and is then refused.
+std::string read_regular(const fs::path& path, std::size_t limit, Bytes& bytes)
+{
+    int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (descriptor < 0)
+        return std::string("cannot be opened: ") + std::strerror(errno);
+    struct Closer {
+        int descriptor;
+        ~Closer() { ::close(descriptor); }
+    } closer{descriptor};
+    struct stat info { };
+    if (::fstat(descriptor, &info) != 0 || !S_ISREG(info.st_mode))
+        return "is not a file but a folder or a device; should be a file";
+    if (std::uint64_t(info.st_size) > limit)
+        return "has " + std::to_string(info.st_size) + " bytes; " + std::to_string(limit) + " are allowed here";
+    bytes.resize(std::size_t(info.st_size));
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+        ssize_t got = ::read(descriptor, bytes.data() + done, bytes.size() - done);
+        if (got <= 0)
+            return "cannot be read to its end";
+        done += std::size_t(got);
+    }
+    return "";
+}
+
+std::uint32_t little32(const Bytes& bytes, std::size_t at)
+{
+    return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 | std::uint32_t(bytes[at + 3]) << 24;
+}
+
+/// The JSON and BIN chunks of a GLB (glTF 2.0, section 4.4).
+std::string split_glb(const Bytes& bytes, GltfFile& file)
+{
+    auto fail = [&](std::size_t at, const std::string& problem) {
+        throw InputError(file.name, "byte " + std::to_string(at), problem);
+    };
+    if (bytes.size() < 20)
+        fail(0, "a GLB of " + std::to_string(bytes.size()) + " bytes; its headers alone take 20");
+    if (little32(bytes, 4) != 2)
+        fail(4, "GLB version " + std::to_string(little32(bytes, 4)) + "; should be 2");
+    if (little32(bytes, 8) != bytes.size())
+        fail(8,
+            "the header says " + std::to_string(little32(bytes, 8)) + " bytes; the file has "
+                + std::to_string(bytes.size()));
+    std::string json;
+    std::size_t at = 12;
+    for (int chunk = 0; at < bytes.size(); ++chunk) {
+        if (bytes.size() - at < 8)
+            fail(at, "ends inside a chunk's header");
+        std::size_t length = little32(bytes, at);
+        std::uint32_t type = little32(bytes, at + 4);
+        if (length > bytes.size() - at - 8)
+            fail(at,
+                "a chunk of " + std::to_string(length) + " bytes; the file has " + std::to_string(bytes.size() - at - 8)
+                    + " more");
+        auto begin = bytes.begin() + std::ptrdiff_t(at + 8);
+        if (chunk == 0) {
+            if (type != 0x4E4F534A)
+                fail(at + 4, "the first chunk is not JSON; GLB requires it");
+            json.assign(begin, begin + std::ptrdiff_t(length));
+        } else if (chunk == 1 && type == 0x004E4942) {
+            file.bin.assign(begin, begin + std::ptrdiff_t(length));
+            file.has_bin = true;
         }
-        return "";
+        // The specification's padding: chunks start at multiples of 4.
+        at += 8 + (length + 3) / 4 * 4;
     }
+    return json;
+}
 
-    std::uint32_t little32(const Bytes& bytes, std::size_t at)
-    {
-        return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 | std::uint32_t(bytes[at + 3]) << 24;
-    }
-
-    /// The JSON and BIN chunks of a GLB (glTF 2.0, section 4.4).
-    std::string split_glb(const Bytes& bytes, GltfFile& file)
-    {
-        auto fail = [&](std::size_t at, const std::string& problem) {
-            throw InputError(file.name, "byte " + std::to_string(at), problem);
-        };
-        if (bytes.size() < 20)
-            fail(0, "a GLB of " + std::to_string(bytes.size()) + " bytes; its headers alone take 20");
-        if (little32(bytes, 4) != 2)
-            fail(4, "GLB version " + std::to_string(little32(bytes, 4)) + "; should be 2");
-        if (little32(bytes, 8) != bytes.size())
-            fail(8,
-                "the header says " + std::to_string(little32(bytes, 8)) + " bytes; the file has "
-                    + std::to_string(bytes.size()));
-        std::string json;
-        std::size_t at = 12;
-        for (int chunk = 0; at < bytes.size(); ++chunk) {
-            if (bytes.size() - at < 8)
-                fail(at, "ends inside a chunk's header");
-            std::size_t length = little32(bytes, at);
-            std::uint32_t type = little32(bytes, at + 4);
-            if (length > bytes.size() - at - 8)
-                fail(at,
-                    "a chunk of " + std::to_string(length) + " bytes; the file has " + std::to_string(bytes.size() - at - 8)
-                        + " more");
-            auto begin = bytes.begin() + std::ptrdiff_t(at + 8);
-            if (chunk == 0) {
-                if (type != 0x4E4F534A)
-                    fail(at + 4, "the first chunk is not JSON; GLB requires it");
-                json.assign(begin, begin + std::ptrdiff_t(length));
-            } else if (chunk == 1 && type == 0x004E4942) {
-                file.bin.assign(begin, begin + std::ptrdiff_t(length));
-                file.has_bin = true;
-            }
-            // The specification's padding: chunks start at multiples of 4.
-            at += 8 + (length + 3) / 4 * 4;
+/// Before any parser: deep nesting overflows the stack of a recursive one, and each value costs far more than its text.
+void check_json_bounds(const GltfFile& file, const std::string& json)
+{
+    auto fail = [&](std::size_t at, const std::string& problem) {
+        auto line = 1 + std::count(json.begin(), json.begin() + std::ptrdiff_t(at), '\n');
+        throw InputError(file.name, "line " + std::to_string(line), problem);
+    };
+    if (json.size() > GltfLimits::json_bytes)
+        fail(0,
+            "has " + std::to_string(json.size()) + " bytes of JSON; at most " + std::to_string(GltfLimits::json_bytes)
+                + " are allowed; buffers belong in a .bin or .glb");
+    std::size_t depth = 0, values = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        char c = json[i];
+        if (in_string) {
+            if (c == '\\')
+                ++i;
+            else if (c == '"')
+                in_string = false;
+        } else if (c == '"') {
+            in_string = true;
+        } else if (c == '[' || c == '{') {
+            ++values;
+            if (++depth > GltfLimits::json_depth)
+                fail(
+                    i, "JSON nested deeper than " + std::to_string(GltfLimits::json_depth) + " levels; glTF needs about 10");
+        } else if (c == ']' || c == '}') {
+            depth -= depth > 0;
+        } else if (c == ',') {
+            ++values;
         }
-        return json;
+        if (values > GltfLimits::json_values)
+            fail(i, "more than " + std::to_string(GltfLimits::json_values) + " JSON values; a world needs far fewer");
     }
+}
 
-    /// Before any parser: deep nesting overflows the stack of a recursive one, and each value costs far more than its text.
-    void check_json_bounds(const GltfFile& file, const std::string& json)
-    {
-        auto fail = [&](std::size_t at, const std::string& problem) {
-            auto line = 1 + std::count(json.begin(), json.begin() + std::ptrdiff_t(at), '\n');
-            throw InputError(file.name, "line " + std::to_string(line), problem);
-        };
-        if (json.size() > GltfLimits::json_bytes)
-            fail(0,
-                "has " + std::to_string(json.size()) + " bytes of JSON; at most " + std::to_string(GltfLimits::json_bytes)
-                    + " are allowed; buffers belong in a .bin or .glb");
-        std::size_t depth = 0, values = 0;
-        bool in_string = false;
-        for (std::size_t i = 0; i < json.size(); ++i) {
-            char c = json[i];
-            if (in_string) {
-                if (c == '\\')
-                    ++i;
-                else if (c == '"')
-                    in_string = false;
-            } else if (c == '"') {
-                in_string = true;
-            } else if (c == '[' || c == '{') {
-                ++values;
-                if (++depth > GltfLimits::json_depth)
-                    fail(i,
-                        "JSON nested deeper than " + std::to_string(GltfLimits::json_depth)
-                            + " levels; glTF needs about 10");
-            } else if (c == ']' || c == '}') {
-                depth -= depth > 0;
-            } else if (c == ',') {
-                ++values;
-            }
-            if (values > GltfLimits::json_values)
-                fail(i, "more than " + std::to_string(GltfLimits::json_values) + " JSON values; a world needs far fewer");
-        }
+Json parse_json(const GltfFile& file, const std::string& json)
+{
+    check_json_bounds(file, json);
+    try {
+        return Json::parse(json);
+    } catch (const Json::parse_error& error) {
+        std::size_t at = std::min(error.byte ? error.byte - 1 : 0, json.size());
+        auto end = json.begin() + std::ptrdiff_t(at);
+        auto line = 1 + std::count(json.begin(), end, '\n');
+        auto start = std::find(std::make_reverse_iterator(end), json.rend(), '\n').base();
+        throw InputError(file.name, "line " + std::to_string(line) + ", column " + std::to_string(end - start + 1),
+            "is neither glTF's JSON nor GLB; should be a .gltf or .glb file");
+    } catch (const Json::exception&) {
+        // Such as a number that no double can hold.
+        throw InputError(file.name, "/", "holds a number out of range");
     }
+}
 
-    Json parse_json(const GltfFile& file, const std::string& json)
-    {
-        check_json_bounds(file, json);
-        try {
-            return Json::parse(json);
-        } catch (const Json::parse_error& error) {
-            std::size_t at = std::min(error.byte ? error.byte - 1 : 0, json.size());
-            auto end = json.begin() + std::ptrdiff_t(at);
-            auto line = 1 + std::count(json.begin(), end, '\n');
-            auto start = std::find(std::make_reverse_iterator(end), json.rend(), '\n').base();
-            throw InputError(file.name, "line " + std::to_string(line) + ", column " + std::to_string(end - start + 1),
-                "is neither glTF's JSON nor GLB; should be a .gltf or .glb file");
-        } catch (const Json::exception&) {
-            // Such as a number that no double can hold.
-            throw InputError(file.name, "/", "holds a number out of range");
+Bytes decode_base64(const std::string& text, std::size_t begin, const Spot& spot)
+{
+    std::size_t end = text.size();
+    while (end > begin && text[end - 1] == '=')
+        --end;
+    if (text.size() - end > 2)
+        spot.fail("ends in more than two '='; should be base64");
+    Bytes bytes;
+    bytes.reserve((end - begin) / 4 * 3 + 3);
+    std::uint32_t bits = 0;
+    int held = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+        char c = text[i];
+        int value = c >= 'A' && c <= 'Z' ? c - 'A'
+            : c >= 'a' && c <= 'z'       ? c - 'a' + 26
+            : c >= '0' && c <= '9'       ? c - '0' + 52
+            : c == '+' || c == '-'       ? 62
+            : c == '/' || c == '_'       ? 63
+                                         : -1;
+        if (value < 0)
+            spot.fail("has a character that is not base64, " + std::to_string(i - begin) + " after the comma");
+        bits = bits << 6 | std::uint32_t(value);
+        held += 6;
+        if (held >= 8) {
+            held -= 8;
+            bytes.push_back(std::uint8_t(bits >> held));
         }
     }
+    return bytes;
+}
 
-    Bytes decode_base64(const std::string& text, std::size_t begin, const Spot& spot)
-    {
-        std::size_t end = text.size();
-        while (end > begin && text[end - 1] == '=')
-            --end;
-        if (text.size() - end > 2)
-            spot.fail("ends in more than two '='; should be base64");
-        Bytes bytes;
-        bytes.reserve((end - begin) / 4 * 3 + 3);
-        std::uint32_t bits = 0;
-        int held = 0;
-        for (std::size_t i = begin; i < end; ++i) {
-            char c = text[i];
-            int value = c >= 'A' && c <= 'Z' ? c - 'A'
-                : c >= 'a' && c <= 'z'       ? c - 'a' + 26
-                : c >= '0' && c <= '9'       ? c - '0' + 52
-                : c == '+' || c == '-'       ? 62
-                : c == '/' || c == '_'       ? 63
-                                             : -1;
-            if (value < 0)
-                spot.fail("has a character that is not base64, " + std::to_string(i - begin) + " after the comma");
-            bits = bits << 6 | std::uint32_t(value);
-            held += 6;
-            if (held >= 8) {
-                held -= 8;
-                bytes.push_back(std::uint8_t(bits >> held));
-            }
-        }
-        return bytes;
+std::string decode_percent(const std::string& uri, const Spot& spot)
+{
+    auto digit = [&](std::size_t i) {
+        char c = i < uri.size() ? uri[i] : ' ';
+        if (!std::isxdigit(static_cast<unsigned char>(c)))
+            spot.fail("is " + in_quotes(uri) + "; a % should be followed by two hexadecimal digits");
+        return c <= '9' ? c - '0' : (c | 32) - 'a' + 10;
+    };
+    std::string path;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        if (uri[i] == '%') {
+            path += char(digit(i + 1) * 16 + digit(i + 2));
+            i += 2;
+        } else
+            path += uri[i];
     }
+    return path;
+}
 
-    std::string decode_percent(const std::string& uri, const Spot& spot)
-    {
-        auto digit = [&](std::size_t i) {
-            char c = i < uri.size() ? uri[i] : ' ';
-            if (!std::isxdigit(static_cast<unsigned char>(c)))
-                spot.fail("is " + in_quotes(uri) + "; a % should be followed by two hexadecimal digits");
-            return c <= '9' ? c - '0' : (c | 32) - 'a' + 10;
-        };
-        std::string path;
-        for (std::size_t i = 0; i < uri.size(); ++i) {
-            if (uri[i] == '%') {
-                path += char(digit(i + 1) * 16 + digit(i + 2));
-                i += 2;
-            } else
-                path += uri[i];
-        }
-        return path;
-    }
-
-    /// The place on disk that a relative URI names, or a complaint.
-    fs::path resolve_inside(const fs::path& folder, const std::string& uri, const Spot& spot)
-    {
-        const char* right = "; should be a data: URI or a relative path inside the file's own folder";
-        std::string path = decode_percent(uri, spot);
-        if (path.empty() || path.size() > 1000 || path[0] == '/'
-            || path.find_first_of(std::string("\\:\0", 3)) != std::string::npos)
-            spot.fail("is " + in_quotes(uri) + right);
-        std::error_code error;
-        fs::path place = fs::canonical(folder / path, error);
-        if (error)
-            spot.fail("names " + in_quotes(uri) + ", which cannot be found: " + error.message());
-        auto [rest, _] = std::mismatch(folder.begin(), folder.end(), place.begin(), place.end());
-        if (rest != folder.end())
-            spot.fail("is " + in_quotes(uri) + ", which leads out of the file's folder" + right);
-        return place;
-    }
+/// The place on disk that a relative URI names, or a complaint.
+fs::path resolve_inside(const fs::path& folder, const std::string& uri, const Spot& spot)
+{
+    const char* right = "; should be a data: URI or a relative path inside the file's own folder";
+    std::string path = decode_percent(uri, spot);
+    if (path.empty() || path.size() > 1000 || path[0] == '/'
+        || path.find_first_of(std::string("\\:\0", 3)) != std::string::npos)
+        spot.fail("is " + in_quotes(uri) + right);
+    std::error_code error;
+    fs::path place = fs::canonical(folder / path, error);
+    if (error)
+        spot.fail("names " + in_quotes(uri) + ", which cannot be found: " + error.message());
+    auto [rest, _] = std::mismatch(folder.begin(), folder.end(), place.begin(), place.end());
+    if (rest != folder.end())
+        spot.fail("is " + in_quotes(uri) + ", which leads out of the file's folder" + right);
+    return place;
+}
 
 } // namespace
 

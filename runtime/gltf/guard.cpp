@@ -5,49 +5,48 @@
 namespace starbow {
 namespace {
 
-    constexpr std::array supported_extensions
-        = { "KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_texture_transform", "KHR_mesh_quantization" };
+constexpr std::array supported_extensions
+    = {"KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_texture_transform", "KHR_mesh_quantization"};
 
-    void guard_asset(const Spot& root, GuardedGltf& out)
-    {
-        Spot asset = root["asset"];
-        Spot version = object(asset)["version"];
-        if (!text(version).starts_with("2."))
-            version.fail("is " + in_quotes(text(version)) + "; should be \"2.0\"");
-        if (asset.has("minVersion") && text(asset["minVersion"]) != "2.0")
-            asset["minVersion"].fail("is " + in_quotes(text(asset["minVersion"])) + "; 2.0 is supported");
-        out.json["asset"] = { { "version", "2.0" } };
-    }
+void guard_asset(const Spot& root, GuardedGltf& out)
+{
+    Spot asset = root["asset"];
+    Spot version = object(asset)["version"];
+    if (!text(version).starts_with("2."))
+        version.fail("is " + in_quotes(text(version)) + "; should be \"2.0\"");
+    if (asset.has("minVersion") && text(asset["minVersion"]) != "2.0")
+        asset["minVersion"].fail("is " + in_quotes(text(asset["minVersion"])) + "; 2.0 is supported");
+    out.json["asset"] = {{"version", "2.0"}};
+}
 
-    void guard_extensions(const Spot& root, GuardedGltf& out)
-    {
-        auto each = [&](const char* key, auto unsupported) {
-            if (!root.has(key))
-                return;
-            Spot all = root[key];
-            list(all, 0);
-            for (std::size_t i = 0; i < all.size(); ++i)
-                if (std::string name = text(all[i]);
-                    std::ranges::find(supported_extensions, name) == supported_extensions.end())
-                    unsupported(all[i], in_quotes(name));
-        };
-        each("extensionsRequired", [](const Spot& spot, const std::string& name) {
-            spot.fail("requires the extension " + name + ", which is not supported; export the world without it");
-        });
-        each("extensionsUsed", [&](const Spot&, const std::string& name) {
-            if (out.notes.size() < 100)
-                note_once(out.notes, "extension " + name + " is not supported");
-        });
-    }
+void guard_extensions(const Spot& root, GuardedGltf& out)
+{
+    auto each = [&](const char* key, auto unsupported) {
+        if (!root.has(key))
+            return;
+        Spot all = root[key];
+        list(all, 0);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (std::string name = text(all[i]); std::ranges::find(supported_extensions, name) == supported_extensions.end())
+                unsupported(all[i], in_quotes(name));
+    };
+    each("extensionsRequired", [](const Spot& spot, const std::string& name) {
+        spot.fail("requires the extension " + name + ", which is not supported; export the world without it");
+    });
+    each("extensionsUsed", [&](const Spot&, const std::string& name) {
+        if (out.notes.size() < 100)
+            note_once(out.notes, "extension " + name + " is not supported");
+    });
+}
 
-    /// Whole lists that a world at rest, seen by the ship's own eye, has no use for.
-    void note_unused_lists(const Spot& root, GuardedGltf& out)
-    {
-        for (auto [key, what] : { std::pair { "animations", "animations: the world is at rest" },
-                 { "skins", "skins: meshes are drawn as they are stored" }, { "cameras", "cameras" } })
-            if (count_of(root, key) > 0)
-                note_once(out.notes, std::string(what) + (key == std::string("cameras") ? " are not used" : ""));
-    }
+/// Whole lists that a world at rest, seen by the ship's own eye, has no use for.
+void note_unused_lists(const Spot& root, GuardedGltf& out)
+{
+    for (auto [key, what] : {std::pair{"animations", "animations: the world is at rest"},
+             {"skins", "skins: meshes are drawn as they are stored"}, {"cameras", "cameras"}})
+        if (count_of(root, key) > 0)
+            note_once(out.notes, std::string(what) + (key == std::string("cameras") ? " are not used" : ""));
+}
 
 } // namespace
 
@@ -76,7 +75,7 @@ void guard_buffers(GltfFile& file, const Spot& root, GuardedGltf& out)
         bytes.resize(length);
         out.buffers.push_back(std::move(bytes));
         // tinygltf demands some content; it is replaced by the real one once the model is read.
-        written = { { "byteLength", 1 }, { "uri", "data:application/octet-stream;base64,AA==" } };
+        written = {{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}};
     });
     guard_list(root, "bufferViews", out.json, [&](const Spot& view, Json& written) {
         auto buffer = index_into(view["buffer"], "buffer", out.buffers.size());
@@ -85,7 +84,7 @@ void guard_buffers(GltfFile& file, const Spot& root, GuardedGltf& out)
         auto held = std::int64_t(out.buffers[std::size_t(buffer)].size());
         if (offset + length > held)
             view.fail("ends at byte " + std::to_string(offset + length) + "; its buffer has " + std::to_string(held));
-        written = { { "buffer", buffer }, { "byteOffset", offset }, { "byteLength", length } };
+        written = {{"buffer", buffer}, {"byteOffset", offset}, {"byteLength", length}};
         if (view.has("byteStride")) {
             auto stride = integer(view["byteStride"], 4, 252);
             if (stride % 4 != 0)
@@ -101,7 +100,7 @@ GuardedGltf guard_gltf(const std::filesystem::path& path)
     GuardedGltf out;
     out.name = file.name;
     out.json = Json::object();
-    Spot root { file.json, "", out.name };
+    Spot root{file.json, "", out.name};
     object(root);
     guard_asset(root, out);
     guard_extensions(root, out);

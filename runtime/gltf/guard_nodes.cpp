@@ -3,55 +3,55 @@
 namespace starbow {
 namespace {
 
-    constexpr double far = 1e30; ///< beyond it a float's square, and so a length, is no number any more
+constexpr double far = 1e30; ///< beyond it a float's square, and so a length, is no number any more
 
-    void guard_transform(const Spot& node, Json& written)
-    {
-        bool parts = node.has("translation") || node.has("rotation") || node.has("scale");
-        if (node.has("matrix")) {
-            if (parts)
-                node.fail("has a matrix and also translation, rotation or scale; should have one or the other");
-            auto matrix = numbers(node["matrix"], 16, -far, far);
-            if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1)
-                node["matrix"].fail("has another last row than 0 0 0 1; glTF requires that one");
-            written["matrix"] = matrix;
-            return;
-        }
-        if (node.has("translation"))
-            written["translation"] = numbers(node["translation"], 3, -far, far);
-        if (node.has("scale"))
-            written["scale"] = numbers(node["scale"], 3, -far, far);
-        if (node.has("rotation")) {
-            auto q = numbers(node["rotation"], 4, -1.01, 1.01);
-            double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-            if (std::abs(length - 1) > 0.01)
-                node["rotation"].fail("has the length " + Json(length).dump() + "; should be a unit quaternion");
-            for (double& part : q)
-                part /= length;
-            written["rotation"] = q;
-        }
+void guard_transform(const Spot& node, Json& written)
+{
+    bool parts = node.has("translation") || node.has("rotation") || node.has("scale");
+    if (node.has("matrix")) {
+        if (parts)
+            node.fail("has a matrix and also translation, rotation or scale; should have one or the other");
+        auto matrix = numbers(node["matrix"], 16, -far, far);
+        if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1)
+            node["matrix"].fail("has another last row than 0 0 0 1; glTF requires that one");
+        written["matrix"] = matrix;
+        return;
     }
+    if (node.has("translation"))
+        written["translation"] = numbers(node["translation"], 3, -far, far);
+    if (node.has("scale"))
+        written["scale"] = numbers(node["scale"], 3, -far, far);
+    if (node.has("rotation")) {
+        auto q = numbers(node["rotation"], 4, -1.01, 1.01);
+        double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+        if (std::abs(length - 1) > 0.01)
+            node["rotation"].fail("has the length " + Json(length).dump() + "; should be a unit quaternion");
+        for (double& part : q)
+            part /= length;
+        written["rotation"] = q;
+    }
+}
 
-    /// The specification's strict trees: each node has at most one parent, and following children never comes back.
-    void check_trees(const Spot& nodes, const std::vector<std::int64_t>& parent)
-    {
-        std::vector<char> known(parent.size(), 0); // 1: on the way being followed, 2: leads to a root
-        for (std::size_t i = 0; i < parent.size(); ++i) {
-            auto walk = [&](auto visit) {
-                for (auto n = std::int64_t(i); n >= 0 && visit(n); n = parent[std::size_t(n)]) { }
-            };
-            walk([&](std::int64_t n) {
-                char& state = known[std::size_t(n)];
-                if (state == 1)
-                    nodes[std::size_t(n)].fail("is among its own descendants; nodes should form trees");
-                return state == 2 ? false : (state = 1, true);
-            });
-            walk([&](std::int64_t n) {
-                char& state = known[std::size_t(n)];
-                return state == 2 ? false : (state = 2, true);
-            });
-        }
+/// The specification's strict trees: each node has at most one parent, and following children never comes back.
+void check_trees(const Spot& nodes, const std::vector<std::int64_t>& parent)
+{
+    std::vector<char> known(parent.size(), 0); // 1: on the way being followed, 2: leads to a root
+    for (std::size_t i = 0; i < parent.size(); ++i) {
+        auto walk = [&](auto visit) {
+            for (auto n = std::int64_t(i); n >= 0 && visit(n); n = parent[std::size_t(n)]) { }
+        };
+        walk([&](std::int64_t n) {
+            char& state = known[std::size_t(n)];
+            if (state == 1)
+                nodes[std::size_t(n)].fail("is among its own descendants; nodes should form trees");
+            return state == 2 ? false : (state = 1, true);
+        });
+        walk([&](std::int64_t n) {
+            char& state = known[std::size_t(n)];
+            return state == 2 ? false : (state = 2, true);
+        });
     }
+}
 
 } // namespace
 

@@ -3,18 +3,18 @@
 namespace starbow {
 namespace {
 
-    std::string shown(const Json& json)
-    {
-        if (json.is_object())
-            return "an object";
-        if (json.is_array())
-            return "a list of " + std::to_string(json.size());
-        if (json.is_string())
-            return in_quotes(json.get_ref<const std::string&>());
-        return json.dump();
-    }
+std::string shown(const Json& json)
+{
+    if (json.is_object())
+        return "an object";
+    if (json.is_array())
+        return "a list of " + std::to_string(json.size());
+    if (json.is_string())
+        return in_quotes(json.get_ref<const std::string&>());
+    return json.dump();
+}
 
-    std::string plain(double value) { return Json(value).dump(); }
+std::string plain(double value) { return Json(value).dump(); }
 
 } // namespace
 
@@ -34,7 +34,7 @@ Spot Spot::operator[](const std::string& key) const
     std::string escaped;
     for (char c : key.substr(0, 60))
         escaped += c == '~' ? "~0" : c == '/' ? "~1" : c >= ' ' && c <= '~' ? std::string(1, c) : "?";
-    return { *found, at + "/" + escaped, file };
+    return {*found, at + "/" + escaped, file};
 }
 
 const Spot& object(const Spot& spot)

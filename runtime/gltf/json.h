@@ -22,7 +22,7 @@ struct Spot {
     [[noreturn]] void fail(const std::string& problem) const { throw InputError(file, at.empty() ? "/" : at, problem); }
     bool has(const char* key) const { return json.contains(key); }
     Spot operator[](const std::string& key) const;
-    Spot operator[](std::size_t i) const { return { json[i], at + "/" + std::to_string(i), file }; }
+    Spot operator[](std::size_t i) const { return {json[i], at + "/" + std::to_string(i), file}; }
     std::size_t size() const { return json.size(); }
 };
 

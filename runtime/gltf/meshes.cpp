@@ -6,133 +6,131 @@
 namespace starbow {
 namespace {
 
-    constexpr std::uint32_t none = 0xffffffff;
+constexpr std::uint32_t none = 0xffffffff;
 
-    struct Attributes {
-        Elements position, normal, uv, colour;
-        bool has_normal = false, has_uv = false, has_colour = false;
-    };
+struct Attributes {
+    Elements position, normal, uv, colour;
+    bool has_normal = false, has_uv = false, has_colour = false;
+};
 
-    Elements open(WorldBuild& build, int accessor)
-    {
-        Elements out;
-        const char* problem = nullptr;
-        if (!open_accessor(build.model, accessor, build.sparse_bytes_left, out, problem))
-            build.fail("/accessors/" + std::to_string(accessor), problem);
-        return out;
+Elements open(WorldBuild& build, int accessor)
+{
+    Elements out;
+    const char* problem = nullptr;
+    if (!open_accessor(build.model, accessor, build.sparse_bytes_left, out, problem))
+        build.fail("/accessors/" + std::to_string(accessor), problem);
+    return out;
+}
+
+glm::dvec3 read3(WorldBuild& build, const Elements& from, std::uint32_t i, const std::string& place, const char* attribute)
+{
+    glm::dvec3 value(from.component(i, 0), from.component(i, 1), from.component(i, 2));
+    // Beyond 1e18 a squared length does not fit a float; nothing that is meant to be seen lies there.
+    if (!(glm::length(value) < 1e18))
+        build.fail(place + "/attributes/" + attribute,
+            "element " + std::to_string(i) + " is not finite or above 1e18; should be smaller");
+    return value;
+}
+
+std::uint32_t pack_colour(const Elements& from, std::uint32_t i)
+{
+    std::uint32_t packed = 0;
+    for (int c = 0; c < 4; ++c) {
+        double value = c < from.components ? from.component(i, c) : 1;
+        double unit = value > 0 ? std::min(value, 1.0) : 0; // also what is not a number
+        packed |= std::uint32_t(std::lround(unit * 255)) << 8 * c;
     }
+    return packed;
+}
 
-    glm::dvec3 read3(
-        WorldBuild& build, const Elements& from, std::uint32_t i, const std::string& place, const char* attribute)
-    {
-        glm::dvec3 value(from.component(i, 0), from.component(i, 1), from.component(i, 2));
-        // Beyond 1e18 a squared length does not fit a float; nothing that is meant to be seen lies there.
-        if (!(glm::length(value) < 1e18))
-            build.fail(place + "/attributes/" + attribute,
+Vertex read_vertex(WorldBuild& build, const Attributes& from, std::uint32_t i, const UvSource& uv, const std::string& place)
+{
+    Vertex out{};
+    out.position = read3(build, from.position, i, place, "POSITION");
+    if (from.has_normal) {
+        glm::dvec3 normal = read3(build, from.normal, i, place, "NORMAL");
+        double length = glm::length(normal);
+        out.normal = length > 0 ? normal / length : glm::dvec3(0, 1, 0);
+    }
+    if (from.has_uv) {
+        glm::dvec2 at = uv.rotate_scale * glm::dvec2(from.uv.component(i, 0), from.uv.component(i, 1)) + uv.offset;
+        if (!(glm::length(at) < 1e18))
+            build.fail(place + "/attributes/TEXCOORD_" + std::to_string(uv.set),
                 "element " + std::to_string(i) + " is not finite or above 1e18; should be smaller");
-        return value;
+        out.uv = at;
     }
+    out.colour = from.has_colour ? pack_colour(from.colour, i) : 0xffffffff;
+    return out;
+}
 
-    std::uint32_t pack_colour(const Elements& from, std::uint32_t i)
-    {
-        std::uint32_t packed = 0;
-        for (int c = 0; c < 4; ++c) {
-            double value = c < from.components ? from.component(i, c) : 1;
-            double unit = value > 0 ? std::min(value, 1.0) : 0; // also what is not a number
-            packed |= std::uint32_t(std::lround(unit * 255)) << 8 * c;
-        }
-        return packed;
-    }
+/// The corners of triangle `t`: which of the run of indices they are (glTF 2.0, section 3.7.2.1).
+std::array<std::size_t, 3> corners(int mode, std::size_t t)
+{
+    if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
+        return t % 2 == 0 ? std::array{t, t + 1, t + 2} : std::array{t, t + 2, t + 1};
+    if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
+        return {t + 1, t + 2, std::size_t(0)};
+    return {3 * t, 3 * t + 1, 3 * t + 2};
+}
 
-    Vertex read_vertex(
-        WorldBuild& build, const Attributes& from, std::uint32_t i, const UvSource& uv, const std::string& place)
-    {
-        Vertex out {};
-        out.position = read3(build, from.position, i, place, "POSITION");
-        if (from.has_normal) {
-            glm::dvec3 normal = read3(build, from.normal, i, place, "NORMAL");
-            double length = glm::length(normal);
-            out.normal = length > 0 ? normal / length : glm::dvec3(0, 1, 0);
-        }
-        if (from.has_uv) {
-            glm::dvec2 at = uv.rotate_scale * glm::dvec2(from.uv.component(i, 0), from.uv.component(i, 1)) + uv.offset;
-            if (!(glm::length(at) < 1e18))
-                build.fail(place + "/attributes/TEXCOORD_" + std::to_string(uv.set),
-                    "element " + std::to_string(i) + " is not finite or above 1e18; should be smaller");
-            out.uv = at;
-        }
-        out.colour = from.has_colour ? pack_colour(from.colour, i) : 0xffffffff;
-        return out;
-    }
+glm::vec3 flat_normal(const Vertex& a, const Vertex& b, const Vertex& c)
+{
+    glm::dvec3 across
+        = glm::cross(glm::dvec3(b.position) - glm::dvec3(a.position), glm::dvec3(c.position) - glm::dvec3(a.position));
+    double length = glm::length(across);
+    return length > 0 ? glm::vec3(across / length) : glm::vec3(0, 1, 0);
+}
 
-    /// The corners of triangle `t`: which of the run of indices they are (glTF 2.0, section 3.7.2.1).
-    std::array<std::size_t, 3> corners(int mode, std::size_t t)
-    {
-        if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
-            return t % 2 == 0 ? std::array { t, t + 1, t + 2 } : std::array { t, t + 2, t + 1 };
-        if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
-            return { t + 1, t + 2, std::size_t(0) };
-        return { 3 * t, 3 * t + 1, 3 * t + 2 };
+void set_bounds(const World& world, Primitive& primitive)
+{
+    auto begin = world.vertices.begin() + primitive.vertex_offset;
+    glm::dvec3 low(begin->position), high(begin->position);
+    for (auto v = begin; v != world.vertices.end(); ++v) {
+        low = glm::min(low, glm::dvec3(v->position));
+        high = glm::max(high, glm::dvec3(v->position));
     }
+    primitive.low = low, primitive.high = high;
+    primitive.centre = (low + high) / 2.0;
+    primitive.radius = 0;
+    for (auto v = begin; v != world.vertices.end(); ++v)
+        primitive.radius = std::max(primitive.radius, glm::distance(primitive.centre, glm::dvec3(v->position)));
+}
 
-    glm::vec3 flat_normal(const Vertex& a, const Vertex& b, const Vertex& c)
-    {
-        glm::dvec3 across
-            = glm::cross(glm::dvec3(b.position) - glm::dvec3(a.position), glm::dvec3(c.position) - glm::dvec3(a.position));
-        double length = glm::length(across);
-        return length > 0 ? glm::vec3(across / length) : glm::vec3(0, 1, 0);
-    }
+Attributes open_attributes(WorldBuild& build, const tinygltf::Primitive& primitive, const UvSource& uv, bool textured)
+{
+    Attributes out;
+    auto take = [&](const std::string& name, Elements& into) {
+        auto found = primitive.attributes.find(name);
+        if (found == primitive.attributes.end())
+            return false;
+        into = open(build, found->second);
+        return true;
+    };
+    take("POSITION", out.position);
+    out.has_normal = take("NORMAL", out.normal);
+    out.has_uv = take("TEXCOORD_" + std::to_string(uv.set), out.uv);
+    out.has_colour = take("COLOR_0", out.colour);
+    if (textured && !out.has_uv)
+        note_once(build.world.notes, "textured surfaces without texture coordinates: they take one texel's colour");
+    return out;
+}
 
-    void set_bounds(const World& world, Primitive& primitive)
-    {
-        auto begin = world.vertices.begin() + primitive.vertex_offset;
-        glm::dvec3 low(begin->position), high(begin->position);
-        for (auto v = begin; v != world.vertices.end(); ++v) {
-            low = glm::min(low, glm::dvec3(v->position));
-            high = glm::max(high, glm::dvec3(v->position));
-        }
-        primitive.low = low, primitive.high = high;
-        primitive.centre = (low + high) / 2.0;
-        primitive.radius = 0;
-        for (auto v = begin; v != world.vertices.end(); ++v)
-            primitive.radius = std::max(primitive.radius, glm::distance(primitive.centre, glm::dvec3(v->position)));
-    }
+/// Doubling, but never past the limit: the last doubling would cost more than all that is allowed.
+template <typename T> void grow(std::vector<T>& to, std::size_t more, std::size_t limit)
+{
+    if (to.capacity() < to.size() + more)
+        to.reserve(std::max(to.size() + more, std::min(2 * to.capacity(), limit)));
+}
 
-    Attributes open_attributes(WorldBuild& build, const tinygltf::Primitive& primitive, const UvSource& uv, bool textured)
-    {
-        Attributes out;
-        auto take = [&](const std::string& name, Elements& into) {
-            auto found = primitive.attributes.find(name);
-            if (found == primitive.attributes.end())
-                return false;
-            into = open(build, found->second);
-            return true;
-        };
-        take("POSITION", out.position);
-        out.has_normal = take("NORMAL", out.normal);
-        out.has_uv = take("TEXCOORD_" + std::to_string(uv.set), out.uv);
-        out.has_colour = take("COLOR_0", out.colour);
-        if (textured && !out.has_uv)
-            note_once(build.world.notes, "textured surfaces without texture coordinates: they take one texel's colour");
-        return out;
-    }
-
-    /// Doubling, but never past the limit: the last doubling would cost more than all that is allowed.
-    template <typename T> void grow(std::vector<T>& to, std::size_t more, std::size_t limit)
-    {
-        if (to.capacity() < to.size() + more)
-            to.reserve(std::max(to.size() + more, std::min(2 * to.capacity(), limit)));
-    }
-
-    void make_room(WorldBuild& build, const std::string& place, std::size_t vertices, std::size_t indices)
-    {
-        if (build.world.vertices.size() + vertices > GltfLimits::vertices)
-            build.fail(place, "brings the world above " + std::to_string(GltfLimits::vertices) + " vertices; use fewer");
-        if (build.world.indices.size() + indices > GltfLimits::indices)
-            build.fail(place, "brings the world above " + std::to_string(GltfLimits::indices / 3) + " triangles; use fewer");
-        grow(build.world.vertices, vertices, GltfLimits::vertices);
-        grow(build.world.indices, indices, GltfLimits::indices);
-    }
+void make_room(WorldBuild& build, const std::string& place, std::size_t vertices, std::size_t indices)
+{
+    if (build.world.vertices.size() + vertices > GltfLimits::vertices)
+        build.fail(place, "brings the world above " + std::to_string(GltfLimits::vertices) + " vertices; use fewer");
+    if (build.world.indices.size() + indices > GltfLimits::indices)
+        build.fail(place, "brings the world above " + std::to_string(GltfLimits::indices / 3) + " triangles; use fewer");
+    grow(build.world.vertices, vertices, GltfLimits::vertices);
+    grow(build.world.indices, indices, GltfLimits::indices);
+}
 
 } // namespace
 
@@ -163,7 +161,7 @@ bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::
     // Corners of flat triangles are never shared.
     make_room(build, place, attributes.has_normal ? 0 : 3 * triangles, 3 * triangles);
 
-    Primitive made {};
+    Primitive made{};
     made.first_index = std::uint32_t(world.indices.size());
     made.vertex_offset = std::int32_t(world.vertices.size());
     made.material = material;
@@ -223,7 +221,7 @@ std::uint32_t turned_primitive(WorldBuild& build, std::uint32_t primitive)
     std::uint32_t from = turned.first_index;
     turned.first_index = std::uint32_t(world.indices.size());
     for (std::uint32_t i = 0; i < turned.index_count; i += 3)
-        for (std::uint32_t corner : { 0u, 2u, 1u }) {
+        for (std::uint32_t corner : {0u, 2u, 1u}) {
             std::uint32_t index = world.indices[from + i + corner];
             world.indices.push_back(index);
         }

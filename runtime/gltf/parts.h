@@ -10,8 +10,8 @@ namespace starbow {
 /// offset.
 struct UvSource {
     int set = 0;
-    glm::dmat2 rotate_scale { 1 };
-    glm::dvec2 offset { 0 };
+    glm::dmat2 rotate_scale{1};
+    glm::dvec2 offset{0};
     bool operator==(const UvSource&) const = default;
 };
 
