@@ -1,20 +1,11 @@
 #pragma once
 #include "config/layout.h"
-#include "cull.h"
-#include "gpu_world.h"
+#include "cube_pass.h"
 #include "hud.h"
 #include "plan.h"
 #include <optional>
 
 namespace starbow {
-
-/// A picture that a frame is drawn into: a swapchain's image or one of our own. In eColorAttachmentOptimal during the frame.
-struct Target {
-    vk::Image image;
-    vk::ImageView view;
-    vk::Extent2D extent;
-    vk::Format format;
-};
 
 /// The three pictures of numbers that `measure` fills instead: light and depth, camera and D, world.
 struct MeasureTarget {
@@ -46,27 +37,22 @@ public:
     void warp_output(vk::CommandBuffer commands, std::size_t output, const Target& target);
     void draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& target);
 
-    /// The first viewport of the first output drawn straight in perspective, without relativity, into the target: what any
-    /// other program would do. For comparison.
-    void prepare_plain(const Shot& shot);
-    void draw_plain(vk::CommandBuffer commands, const Target& target);
+    /// What any other program would draw of the first viewport, which must be planar: the image and the axes of a straight
+    /// perspective view, for CubePass::prepare_plain.
+    PlanImage plain_image(const Shot& shot, glm::dmat3& straight_from_world) const;
     /// The first viewport through Pipelines::lookup: the bare cost of a cube map's look-up.
     void look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeline pipeline, vk::DescriptorSet set);
 
     /// What the head-up display's panel would need across to be sharp in the finest viewport, pixels.
     int hud_width() const;
     const std::vector<Plan>& plans() const { return plans_; }
-    std::size_t triangles() const { return triangles_; } ///< sent to the device for the last frame, all images
+    std::size_t triangles() const; ///< sent to the device for the last frame, all images of all eyes
     vk::DeviceSize memory() const; ///< of the images this object holds
 
 private:
-    /// What the cube pass of one eye needs on the device.
     struct Eye {
         glm::dvec3 offset_m;
-        Buffer constants, instances, visible, slots;
-        Image atlas, depth, atlas_samples, depth_samples;
-        vk::raii::DescriptorSet set = nullptr;
-        DrawList list;
+        CubePass cube;
     };
     struct ViewState {
         std::size_t output, eye;
@@ -80,14 +66,8 @@ private:
         bool planar() const { return !*map.view; }
     };
 
-    void fit(Eye& eye, glm::ivec2 atlas_size, int levels);
-    void fit_buffer(Buffer& buffer, vk::DeviceSize size, vk::BufferUsageFlags usage);
     void place_view(ViewState& view, glm::ivec2 output_size);
     void write_sets();
-    void upload_eye(Eye& eye, const glm::dmat3& motion_from_world, const glm::dvec3& place);
-    void draw_images(vk::CommandBuffer commands, const Eye& eye, std::span<const PlanImage> images, const TargetKind& kind);
-    void draw_eye(vk::CommandBuffer commands, Eye& eye, const Plan& plan);
-    void make_mips(vk::CommandBuffer commands, Eye& eye, const Plan& plan);
     void warp_view(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline, double exposure);
     WarpVariant variant(const ViewState& view) const;
     shared::ViewPush push(const ViewState& view, const glm::dmat3& axes_from_cockpit) const;
@@ -107,14 +87,11 @@ private:
     std::vector<Plan> plans_;
     Shot shot_;
     double E_ = 1;
-    bool sky_;
-    Image panel_, plain_depth_;
+    Image panel_;
     Buffer panel_pixels_;
     bool panel_new_ = false, hud_on_ = false;
     glm::dmat3 panel_from_cockpit_{1};
     glm::dvec2 panel_half_{1};
-    std::optional<PlanImage> plain_;
-    std::size_t triangles_ = 0;
     std::vector<glm::ivec2> sizes_;
 };
 

@@ -59,6 +59,12 @@ Buffer make_static_buffer(Device& device, std::span<const std::byte> data, vk::B
     return buffer;
 }
 
+void grow(const Device& device, Buffer& buffer, vk::DeviceSize size, vk::BufferUsageFlags usage)
+{
+    if (buffer.size < size || !*buffer.buffer)
+        buffer = make_mapped_buffer(device, size + size / 2, usage);
+}
+
 vk::ImageAspectFlags aspect_of(vk::Format format)
 {
     return format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
@@ -139,6 +145,17 @@ Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::span
             Access::eShaderSampledRead, Stage::eFragmentShader);
     });
     return image;
+}
+
+vk::Rect2D rect_of(glm::ivec2 corner, glm::ivec2 size)
+{
+    return {{corner.x, corner.y}, {std::uint32_t(size.x), std::uint32_t(size.y)}};
+}
+
+void set_area(vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size)
+{
+    commands.setViewport(0, vk::Viewport(corner.x, corner.y, size.x, size.y, 0, 1));
+    commands.setScissor(0, rect_of(corner, size));
 }
 
 std::vector<std::byte> read_back(Device& device, const Image& image, std::uint32_t bytes_per_texel)

@@ -27,6 +27,9 @@ Buffer make_mapped_buffer(const Device& device, vk::DeviceSize size, vk::BufferU
 /// Filled once.
 Buffer make_static_buffer(Device& device, std::span<const std::byte> data, vk::BufferUsageFlags usage);
 
+/// Makes a mapped buffer anew, half as large again, if it is too small.
+void grow(const Device& device, Buffer& buffer, vk::DeviceSize size, vk::BufferUsageFlags usage);
+
 struct ImageSpec {
     vk::Format format;
     vk::Extent2D extent;
@@ -47,6 +50,10 @@ Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::span
 /// One image barrier, whole image.
 void transition(vk::CommandBuffer commands, const Image& image, vk::ImageLayout from, vk::PipelineStageFlags2 from_stage,
     vk::AccessFlags2 from_access, vk::ImageLayout to, vk::PipelineStageFlags2 to_stage, vk::AccessFlags2 to_access);
+
+vk::Rect2D rect_of(glm::ivec2 corner, glm::ivec2 size);
+/// Viewport and scissor.
+void set_area(vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size);
 
 /// Rows from the top, tightly packed; the image must be in eTransferSrcOptimal.
 std::vector<std::byte> read_back(Device& device, const Image& image, std::uint32_t bytes_per_texel);

@@ -90,12 +90,10 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
 {
     Device& device = theatre.device;
     Studio studio(device, theatre.pipelines, theatre.world, layout, default_quality(device, false), false);
-    Studio plain(device, theatre.pipelines, theatre.world, layout, default_quality(device, false), false);
+    CubePass plain(device, theatre.pipelines, theatre.world, 1, false);
     Panel panel = Typesetter().draw(readings(ship_at(shot), theatre.world.scene, shot.effects), studio.frame().hud_width());
-    Target target = studio.target(0), plain_target = plain.target(0);
+    Target target = studio.target(0);
     studio.picture(shot, &panel); // warms every cache and leaves the target in a known layout
-    plain.picture(shot);
-    plain.frame().prepare_plain(shot);
     auto writable = [](vk::CommandBuffer commands, const Target& t) {
         vk::ImageMemoryBarrier2 barrier(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
             Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead,
@@ -137,10 +135,12 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
             });
         });
         ms[5] = milliseconds([&] {
-            plain.frame().prepare_plain(shot);
+            glm::dmat3 straight;
+            PlanImage image = studio.frame().plain_image(shot, straight);
+            plain.prepare_plain(image, shot.position, straight);
             device.now([&](vk::CommandBuffer c) {
-                writable(c, plain_target);
-                plain.frame().draw_plain(c, plain_target);
+                writable(c, target);
+                plain.record_plain(c, target);
             });
         });
         for (int i = 0; round >= 0 && i < stage_count; ++i)

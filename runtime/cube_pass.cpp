@@ -1,0 +1,294 @@
+#include "cube_pass.h"
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace starbow {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+using Layout_ = vk::ImageLayout;
+
+constexpr auto depth_tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
+
+vk::SampleCountFlagBits sample_bits(int samples)
+{
+    return samples >= 8 ? vk::SampleCountFlagBits::e8
+        : samples >= 4  ? vk::SampleCountFlagBits::e4
+        : samples >= 2  ? vk::SampleCountFlagBits::e2
+                        : vk::SampleCountFlagBits::e1;
+}
+
+glm::vec4 row(const glm::dmat4& m, int i) { return glm::vec4(m[0][i], m[1][i], m[2][i], m[3][i]); }
+
+} // namespace
+
+CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, int samples, bool keeps_depth)
+    : device_(device)
+    , pipelines_(pipelines)
+    , world_(world)
+    , samples_(samples)
+    , keeps_depth_(keeps_depth)
+{
+    const Sky& sky = world.scene.sky;
+    sky_ = sky.zenith != sky.horizon || sky.nadir != sky.horizon;
+    constants_ = make_mapped_buffer(device, sizeof(shared::CubeConstants), vk::BufferUsageFlagBits::eUniformBuffer);
+    slots_ = make_mapped_buffer(device, SLOT_COUNT * sizeof(shared::SlotEntry), vk::BufferUsageFlagBits::eUniformBuffer);
+    std::vector<vk::DescriptorPoolSize> sizes
+        = {{vk::DescriptorType::eUniformBuffer, 1}, {vk::DescriptorType::eStorageBuffer, 2}};
+    pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
+    set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.eye_set}).front());
+}
+
+void CubePass::prepare(const Plan& plan, const glm::dvec3& place, const glm::dmat3& motion_from_world)
+{
+    images_ = plan.images;
+    area_ = plan.atlas_size;
+    levels_ = plan.levels;
+    list_ = cull(world_.world, place, motion_from_world, images_);
+    fit(plan.atlas_size, plan.levels);
+    upload(motion_from_world, place);
+    auto table = slot_table(plan, {atlas_.extent.width, atlas_.extent.height});
+    std::memcpy(slots_.mapped, table.data(), table.size() * sizeof(table[0]));
+}
+
+void CubePass::prepare_plain(const PlanImage& image, const glm::dvec3& place, const glm::dmat3& straight_from_world)
+{
+    images_ = {image};
+    list_ = cull(world_.world, place, straight_from_world, images_);
+    upload(straight_from_world, place);
+    if (int(depth_.extent.width) < image.size.x || int(depth_.extent.height) < image.size.y)
+        depth_ = make_image(device_,
+            {depth_format, {std::uint32_t(image.size.x), std::uint32_t(image.size.y)},
+                vk::ImageUsageFlagBits::eDepthStencilAttachment});
+}
+
+void CubePass::fit(glm::ivec2 size, int levels)
+{
+    bool enough = *atlas_.view && int(atlas_.extent.width) >= size.x && int(atlas_.extent.height) >= size.y
+        && int(atlas_.levels) >= levels;
+    if (enough)
+        return;
+    auto grown = [](int needed, std::uint32_t had) { return std::max((std::uint32_t(needed) + 255) / 256 * 256, had); };
+    vk::Extent2D extent(grown(size.x, atlas_.extent.width), grown(size.y, atlas_.extent.height));
+    auto most = std::max(std::uint32_t(levels), atlas_.levels);
+    using Usage = vk::ImageUsageFlagBits;
+    atlas_ = {}, depth_ = {}, atlas_samples_ = {}, depth_samples_ = {};
+    auto copied = most > 1 ? Usage::eTransferSrc | Usage::eTransferDst : vk::ImageUsageFlags();
+    atlas_ = make_image(device_, {light_format, extent, Usage::eColorAttachment | Usage::eSampled | copied, most});
+    depth_ = make_image(device_, {depth_format, extent, Usage::eDepthStencilAttachment | Usage::eSampled});
+    if (samples_ > 1) {
+        vk::SampleCountFlagBits samples = sample_bits(samples_);
+        atlas_samples_ = make_image(device_, {light_format, extent, Usage::eColorAttachment, 1, 1, samples});
+        depth_samples_ = make_image(device_, {depth_format, extent, Usage::eDepthStencilAttachment, 1, 1, samples});
+    }
+}
+
+void CubePass::upload(const glm::dmat3& to_motion, const glm::dvec3& place)
+{
+    triangles_ = 0;
+    for (const Draw& draw : list_.draws)
+        triangles_ += std::size_t(draw.count) * draw.index_count / 3;
+    auto put = [&](Buffer& buffer, const auto& data) {
+        grow(device_, buffer, data.size() * sizeof(data[0]), vk::BufferUsageFlagBits::eStorageBuffer);
+        if (!data.empty())
+            std::memcpy(buffer.mapped, data.data(), data.size() * sizeof(data[0]));
+    };
+    put(instances_, list_.instances);
+    put(visible_, list_.visible);
+
+    const SceneFile& scene = world_.scene;
+    double scale = world_.pre_exposure;
+    shared::CubeConstants constants{};
+    constants.ambient = glm::vec4(scene.ambient * scale, scale);
+    constants.sky_zenith = glm::vec4(scene.sky.zenith * scale, 0);
+    constants.sky_horizon = glm::vec4(scene.sky.horizon * scale, 0);
+    constants.sky_nadir = glm::vec4(scene.sky.nadir * scale, 0);
+    constants.world_up = glm::vec4(to_motion * glm::dvec3(0, 1, 0), 0);
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        shared::LightEntry& entry = constants.lights[i];
+        if (auto* light = std::get_if<DirectionalLight>(&scene.lights[i]))
+            entry = {glm::vec4(to_motion * light->towards, 0), glm::vec4(light->radiance * scale, 0)};
+        else if (auto* point = std::get_if<PointLight>(&scene.lights[i]))
+            entry = {glm::vec4(to_motion * (point->position - place), 1),
+                glm::vec4(point->radiance * scale, point->distance * point->distance)};
+    }
+    std::memcpy(constants_.mapped, &constants, sizeof constants);
+
+    vk::DescriptorBufferInfo buffers[] = {{*constants_.buffer, 0, VK_WHOLE_SIZE}, {*instances_.buffer, 0, VK_WHOLE_SIZE},
+        {*visible_.buffer, 0, VK_WHOLE_SIZE}};
+    device_.device.updateDescriptorSets(
+        {vk::WriteDescriptorSet(*set_, 0, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[0]),
+            vk::WriteDescriptorSet(*set_, 1, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[1]),
+            vk::WriteDescriptorSet(*set_, 2, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[2])},
+        {});
+}
+
+void CubePass::record(vk::CommandBuffer commands)
+{
+    bool sampled = samples_ > 1;
+    const Image& colour = sampled ? atlas_samples_ : atlas_;
+    const Image& depth = sampled ? depth_samples_ : depth_;
+    transition(commands, atlas_, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eColorAttachmentOptimal,
+        Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
+    constexpr auto depth_access = Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite;
+    transition(commands, depth_, Layout_::eUndefined, depth_tests | Stage::eFragmentShader | Stage::eColorAttachmentOutput,
+        depth_access, Layout_::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
+        depth_access | Access::eColorAttachmentWrite);
+    if (sampled) {
+        transition(commands, colour, Layout_::eUndefined, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+            Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+            Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
+        transition(commands, depth, Layout_::eUndefined, depth_tests, depth_access, Layout_::eDepthAttachmentOptimal,
+            depth_tests, depth_access);
+    }
+    glm::dvec3 sky = world_.scene.sky.horizon * world_.pre_exposure;
+    vk::ClearColorValue clear(std::array<float, 4>{float(sky.r), float(sky.g), float(sky.b), 1});
+    vk::RenderingAttachmentInfo colour_info(*colour.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear, sampled ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore, clear);
+    vk::RenderingAttachmentInfo depth_info(*depth.view, Layout_::eDepthAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear,
+        keeps_depth_ && !sampled ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare,
+        vk::ClearDepthStencilValue(0, 0));
+    if (sampled) {
+        colour_info.resolveMode = vk::ResolveModeFlagBits::eAverage;
+        colour_info.resolveImageView = *atlas_.view;
+        colour_info.resolveImageLayout = Layout_::eColorAttachmentOptimal;
+        if (keeps_depth_) {
+            depth_info.resolveMode = vk::ResolveModeFlagBits::eSampleZero;
+            depth_info.resolveImageView = *depth_.view;
+            depth_info.resolveImageLayout = Layout_::eDepthAttachmentOptimal;
+        }
+    }
+    commands.beginRendering({{}, rect_of({0, 0}, area_), 1, 0, colour_info, &depth_info});
+    draw_images(commands, {light_format, sample_bits(samples_)});
+    commands.endRendering();
+    if (levels_ > 1)
+        make_mips(commands);
+    else
+        transition(commands, atlas_, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+            Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader,
+            Access::eShaderSampledRead);
+    if (keeps_depth_)
+        transition(commands, depth_, Layout_::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
+            depth_access | Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader,
+            Access::eShaderSampledRead);
+}
+
+void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
+{
+    const World& world = world_.world;
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.surface_layout, 0, *set_, {});
+    commands.bindVertexBuffers(0, *world_.vertices.buffer, vk::DeviceSize(0));
+    commands.bindIndexBuffer(*world_.indices.buffer, 0, vk::IndexType::eUint32);
+    constexpr auto stages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+    auto draw = list_.draws.begin();
+    vk::Pipeline bound;
+    for (std::uint32_t i = 0; i < images_.size(); ++i) {
+        const PlanImage& image = images_[i];
+        set_area(commands, image.atlas, image.size);
+        glm::dmat4 clip = clip_from_motion(image, near_distance);
+        shared::CubePush push{row(clip, 0), row(clip, 1), row(clip, 2), row(clip, 3), {}, {}};
+        // Seen through a mirrored pair of face axes a surface's front turns the other way.
+        glm::dvec3 a = face_direction(image.face, {1, 0}) - face_direction(image.face, {0, 0});
+        glm::dvec3 b = face_direction(image.face, {0, 1}) - face_direction(image.face, {0, 0});
+        bool mirrored = glm::dot(glm::cross(a, b), face_direction(image.face, {0, 0})) < 0;
+        commands.setFrontFace(mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
+        if (image.hole > 0) {
+            // Nothing is nearer than the near plane: what falls into the hole fails the depth test before it is shaded.
+            glm::dvec2 low = glm::ceil((-glm::dvec2(image.hole) - image.low) * image.texels_per_unit);
+            glm::dvec2 high = glm::floor((glm::dvec2(image.hole) - image.low) * image.texels_per_unit);
+            glm::ivec2 first = glm::clamp(glm::ivec2(low), glm::ivec2(0), image.size),
+                       last = glm::clamp(glm::ivec2(high), first, image.size);
+            if (last.x > first.x && last.y > first.y)
+                commands.clearAttachments(
+                    vk::ClearAttachment(vk::ImageAspectFlagBits::eDepth, 0, vk::ClearDepthStencilValue(1, 0)),
+                    vk::ClearRect(rect_of(image.atlas + first, last - first), 0, 1));
+        }
+        int material = -1;
+        for (; draw != list_.draws.end() && draw->image == i; ++draw) {
+            const Primitive& primitive = world.primitives[draw->primitive];
+            if (primitive.material != material) {
+                material = primitive.material;
+                const Material& m = world.materials[material];
+                if (vk::Pipeline pipeline = pipelines_.surface(world_.variant(material), kind); pipeline != bound)
+                    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipeline);
+                commands.bindDescriptorSets(
+                    vk::PipelineBindPoint::eGraphics, *pipelines_.surface_layout, 1, *world_.materials[material], {});
+                commands.setCullMode(m.double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
+                push.base_colour = m.base_colour;
+                push.emissive = glm::vec4(m.emissive * float(world_.pre_exposure), m.alpha_cutoff);
+                commands.pushConstants<shared::CubePush>(*pipelines_.surface_layout, stages, 0, push);
+            }
+            commands.drawIndexed(draw->index_count, draw->count, draw->first_index, primitive.vertex_offset, draw->first);
+        }
+        if (sky_) {
+            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipelines_.sky(kind));
+            glm::dvec3 origin = face_direction(image.face, image.low);
+            push.clip_row0 = glm::vec4(origin, 0);
+            push.clip_row1 = glm::vec4(a * (image.high.x - image.low.x), 0);
+            push.clip_row2 = glm::vec4(b * (image.high.y - image.low.y), 0);
+            commands.pushConstants<shared::CubePush>(*pipelines_.surface_layout, stages, 0, push);
+            commands.draw(3, 1, 0, 0);
+        }
+    }
+}
+
+void CubePass::make_mips(vk::CommandBuffer commands)
+{
+    auto level_barrier = [&](std::uint32_t first, std::uint32_t count, Layout_ from, Stage from_stage,
+                             vk::AccessFlags2 from_access, Layout_ to, Stage to_stage, vk::AccessFlags2 to_access) {
+        vk::ImageMemoryBarrier2 barrier(from_stage, from_access, to_stage, to_access, from, to, VK_QUEUE_FAMILY_IGNORED,
+            VK_QUEUE_FAMILY_IGNORED, *atlas_.image, {vk::ImageAspectFlagBits::eColor, first, count, 0, 1});
+        commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
+    };
+    // One level more than is asked for: at its coarsest level an image is sampled together with the next, at weight nought,
+    // and nought times what was never written may be NaN.
+    std::uint32_t levels = std::min(std::uint32_t(levels_) + 1, atlas_.levels);
+    level_barrier(0, 1, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+        Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+    level_barrier(1, atlas_.levels - 1, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, {},
+        Layout_::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite);
+    for (std::uint32_t level = 1; level < levels; ++level) {
+        std::vector<vk::ImageBlit> blits;
+        for (const PlanImage& image : images_)
+            if (image.levels >= int(level)) {
+                auto box = [&](std::uint32_t l) {
+                    glm::ivec2 low = image.atlas >> glm::ivec2(l), high = (image.atlas + image.size) >> glm::ivec2(l);
+                    return std::array<vk::Offset3D, 2>{vk::Offset3D(low.x, low.y, 0), vk::Offset3D(high.x, high.y, 1)};
+                };
+                blits.push_back({{vk::ImageAspectFlagBits::eColor, level - 1, 0, 1}, box(level - 1),
+                    {vk::ImageAspectFlagBits::eColor, level, 0, 1}, box(level)});
+            }
+        commands.blitImage(*atlas_.image, Layout_::eTransferSrcOptimal, *atlas_.image, Layout_::eTransferDstOptimal, blits,
+            vk::Filter::eLinear);
+        level_barrier(level, 1, Layout_::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
+            Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+    }
+    level_barrier(0, levels, Layout_::eTransferSrcOptimal, Stage::eTransfer, {}, Layout_::eShaderReadOnlyOptimal,
+        Stage::eFragmentShader, Access::eShaderSampledRead);
+    if (atlas_.levels > levels)
+        level_barrier(levels, atlas_.levels - levels, Layout_::eTransferDstOptimal, Stage::eTransfer, {},
+            Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
+}
+
+void CubePass::record_plain(vk::CommandBuffer commands, const Target& target)
+{
+    transition(commands, depth_, Layout_::eUndefined, depth_tests, Access::eDepthStencilAttachmentWrite,
+        Layout_::eDepthAttachmentOptimal, depth_tests,
+        Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
+    glm::dvec3 sky = world_.scene.sky.horizon * world_.pre_exposure;
+    vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
+        vk::ClearColorValue(std::array<float, 4>{float(sky.r), float(sky.g), float(sky.b), 1}));
+    vk::RenderingAttachmentInfo depth(*depth_.view, Layout_::eDepthAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eDontCare, vk::ClearDepthStencilValue(0, 0));
+    commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour, &depth});
+    draw_images(commands, {target.format});
+    commands.endRendering();
+}
+
+vk::DeviceSize CubePass::memory() const { return atlas_.bytes + depth_.bytes + atlas_samples_.bytes + depth_samples_.bytes; }
+
+} // namespace starbow

@@ -1,0 +1,63 @@
+#pragma once
+#include "cull.h"
+#include "gpu_world.h"
+#include "plan.h"
+
+namespace starbow {
+
+/// Near plane of every picture of the world, scene units; reversed z keeps its precision at any ratio of far to near.
+constexpr double near_distance = 1e-6;
+
+/// A picture that is drawn into: a swapchain's image or one of our own. In eColorAttachmentOptimal meanwhile.
+struct Target {
+    vk::Image image;
+    vk::ImageView view;
+    vk::Extent2D extent;
+    vk::Format format;
+};
+
+/// The world at rest around one eye, drawn into the images of a plan: the atlas that the warp pass reads. Holds the device's
+/// memory for it; nothing of one frame is needed by the next.
+class CubePass {
+public:
+    CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, int samples, bool keeps_depth);
+
+    /// What the processor does: culls, makes room, uploads. The device must have finished the frame before.
+    void prepare(const Plan& plan, const glm::dvec3& place, const glm::dmat3& motion_from_world);
+    /// What the device does: one pass over all images, then their mips. Leaves the atlas (and the depth, if it is kept) for
+    /// fragment shaders to read.
+    void record(vk::CommandBuffer commands);
+
+    /// The same world drawn straight into a target, through one image alone: for comparison. Not beside prepare and record.
+    void prepare_plain(const PlanImage& image, const glm::dvec3& place, const glm::dmat3& straight_from_world);
+    void record_plain(vk::CommandBuffer commands, const Target& target);
+
+    const Image& atlas() const { return atlas_; }
+    const Image& depth() const { return depth_; }
+    const Buffer& slots() const { return slots_; }
+    std::size_t triangles() const { return triangles_; } ///< sent to the device, all images
+    vk::DeviceSize memory() const;
+
+private:
+    void fit(glm::ivec2 atlas_size, int levels);
+    void upload(const glm::dmat3& to_motion, const glm::dvec3& place);
+    void draw_images(vk::CommandBuffer commands, const TargetKind& kind);
+    void make_mips(vk::CommandBuffer commands);
+
+    Device& device_;
+    Pipelines& pipelines_;
+    const GpuWorld& world_;
+    int samples_;
+    bool keeps_depth_, sky_;
+    vk::raii::DescriptorPool pool_ = nullptr;
+    vk::raii::DescriptorSet set_ = nullptr;
+    Buffer constants_, instances_, visible_, slots_;
+    Image atlas_, depth_, atlas_samples_, depth_samples_;
+    std::vector<PlanImage> images_;
+    glm::ivec2 area_{0};
+    int levels_ = 1;
+    DrawList list_;
+    std::size_t triangles_ = 0;
+};
+
+} // namespace starbow
