@@ -309,12 +309,18 @@ Plan make_plan(const std::vector<View>& views, double E, const Quality& quality)
         }
     };
     double density = quality.texels_per_pixel;
+    double most_texels = std::min(quality.max_texels_per_pixel * plan.pixels, quality.max_texels);
     lay_out(density);
-    for (int i = 0; i < 4 && plan.texels > 1.02 * quality.max_texels_per_pixel * plan.pixels; ++i) {
-        density *= std::sqrt(quality.max_texels_per_pixel * plan.pixels / plan.texels);
+    for (int i = 0; i < 4 && plan.texels > 1.02 * most_texels; ++i) {
+        density *= std::sqrt(most_texels / plan.texels);
         lay_out(density);
     }
     pack(plan, 1 << plan.levels);
+    for (int i = 0; i < 8 && std::max(plan.atlas_size.x, plan.atlas_size.y) > quality.max_atlas_side; ++i) {
+        density *= 0.9 * quality.max_atlas_side / std::max(plan.atlas_size.x, plan.atlas_size.y);
+        lay_out(density);
+        pack(plan, 1 << plan.levels);
+    }
     return plan;
 }
 

@@ -17,6 +17,8 @@ struct View {
 struct Quality {
     double texels_per_pixel = 1; ///< linear density of the cube map where it is looked at
     double max_texels_per_pixel = 6; ///< area: where the whole plan would hold more, all of it is drawn coarser
+    double max_texels = 24e6; ///< of the whole plan: some devices end an image at 1 GiB, all samples counted
+    int max_atlas_side = 16384; ///< of the device's images, texels
     int samples = 1; ///< of the cube pass, per texel, for edges
 };
 

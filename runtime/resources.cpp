@@ -16,13 +16,19 @@ std::uint32_t memory_type(const Device& device, std::uint32_t allowed, vk::Memor
         "The GPU offers no memory of the kind " + vk::to_string(wanted) + ": use another GPU or a newer driver");
 }
 
-vk::raii::DeviceMemory allocate(const Device& device, const vk::MemoryRequirements& needs, vk::MemoryPropertyFlags wanted)
+/// Gives a buffer or an image its memory; software devices find out only when it is bound.
+template <class Resource>
+vk::raii::DeviceMemory bind(const Device& device, const Resource& resource, vk::MemoryPropertyFlags wanted)
 {
+    vk::MemoryRequirements needs = resource.getMemoryRequirements();
     try {
-        return device.device.allocateMemory({needs.size, memory_type(device, needs.memoryTypeBits, wanted)});
+        vk::raii::DeviceMemory memory
+            = device.device.allocateMemory({needs.size, memory_type(device, needs.memoryTypeBits, wanted)});
+        resource.bindMemory(*memory, 0);
+        return memory;
     } catch (const vk::SystemError&) {
         throw InputError("The GPU has no " + std::to_string(needs.size >> 20)
-            + " MiB left: use smaller outputs, a smaller world, or a GPU with more memory");
+            + " MiB in one piece: use smaller outputs, a smaller world, or a GPU with more memory");
     }
 }
 
@@ -31,8 +37,7 @@ Buffer make_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFla
     Buffer buffer;
     buffer.size = std::max<vk::DeviceSize>(size, 16);
     buffer.buffer = device.device.createBuffer({{}, buffer.size, usage});
-    buffer.memory = allocate(device, buffer.buffer.getMemoryRequirements(), wanted);
-    buffer.buffer.bindMemory(*buffer.memory, 0);
+    buffer.memory = bind(device, buffer.buffer, wanted);
     if (wanted & vk::MemoryPropertyFlagBits::eHostVisible)
         buffer.mapped = buffer.memory.mapMemory(0, buffer.size);
     return buffer;
@@ -83,10 +88,8 @@ Image make_image(const Device& device, const ImageSpec& spec)
         vk::ImageType::e2D, spec.format, {spec.extent.width, spec.extent.height, 1}, spec.levels, spec.layers, spec.samples,
         vk::ImageTiling::eOptimal, spec.usage);
     image.image = device.device.createImage(info);
-    vk::MemoryRequirements needs = image.image.getMemoryRequirements();
-    image.bytes = needs.size;
-    image.memory = allocate(device, needs, vk::MemoryPropertyFlagBits::eDeviceLocal);
-    image.image.bindMemory(*image.memory, 0);
+    image.bytes = image.image.getMemoryRequirements().size;
+    image.memory = bind(device, image.image, vk::MemoryPropertyFlagBits::eDeviceLocal);
     image.view
         = device.device.createImageView({{}, *image.image, spec.cube ? vk::ImageViewType::eCube : vk::ImageViewType::e2D,
             spec.format, {}, {aspect_of(spec.format), 0, spec.levels, 0, spec.layers}});

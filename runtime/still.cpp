@@ -54,10 +54,15 @@ Studio::Studio(
     , layout_(layout)
     , frame_(device, pipelines, world, layout, quality, measured)
 {
-    for (const Output& output : layout.outputs)
+    for (const Output& output : layout.outputs) {
+        constexpr double most_measured = 1 << 26; // pixels: 11 channels of them are 3 GiB
+        if (measured && double(output.size.x) * output.size.y > most_measured)
+            throw InputError("The numbers of " + std::to_string(output.size.x) + "x" + std::to_string(output.size.y)
+                + " pixels are too many for one EXR file: at most 8192x8192, or as many in another shape");
         images_.push_back(make_image(device,
             {picture_format, extent_of(output.size),
                 vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc}));
+    }
 }
 
 Target Studio::target(std::size_t output) const

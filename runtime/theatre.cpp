@@ -38,11 +38,16 @@ Device::Options device_options(bool windows)
 
 Quality default_quality(const Device& device, bool still)
 {
+    Quality quality;
     if (still)
-        return {.texels_per_pixel = 1.25, .max_texels_per_pixel = 8, .samples = 4};
-    if (device.on_processor())
-        return {.texels_per_pixel = 0.8, .max_texels_per_pixel = 1.5, .samples = 1};
-    return {.texels_per_pixel = 1.25, .max_texels_per_pixel = 16, .samples = 4};
+        quality = {.texels_per_pixel = 1.25, .max_texels_per_pixel = 8, .samples = 4};
+    else if (device.on_processor())
+        quality = {.texels_per_pixel = 0.8, .max_texels_per_pixel = 1.5, .samples = 1};
+    else
+        quality = {.texels_per_pixel = 1.25, .max_texels_per_pixel = 16, .samples = 4};
+    // The atlas grows in steps of 256.
+    quality.max_atlas_side = int(device.properties.limits.maxImageDimension2D) / 256 * 256;
+    return quality;
 }
 
 } // namespace starbow

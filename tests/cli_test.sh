@@ -44,6 +44,7 @@ refused '--size' render --shot start --size 0x600
 refused '--size' render --shot start --size 800x600x2
 refused '--size' render --shot start --size 99999x99999
 refused '--size' render --shot start --size -800x600
+refused '8192x8192' render --shot start --size 16384x16384 --exr
 shot fast '{ "direction": [0, 0, -1], "beta": 1 }'
 refused '/velocity/beta' render --shot "$folder/fast.json"
 shot slow '{ "direction": [0, 0, -1], "gamma": 0.5 }'

@@ -142,6 +142,18 @@ TEST(Plan, StaysUnderTheCeiling)
                 });
 }
 
+TEST(Plan, FitsTheDeviceHoweverLargeTheOutput)
+{
+    for (double gamma : {1.0, 4.0, 1000.0}) {
+        glm::dvec3 u(0, 0, -std::sqrt((gamma - 1) * (gamma + 1)));
+        View view{Fisheye{180, 30}, {16384, 16384}, motion_from_world(u, glm::dquat(1, 0, 0, 0))};
+        Plan plan = make_plan({view}, physics::exp_rapidity(glm::length(u)),
+            {.texels_per_pixel = 1.25, .max_texels_per_pixel = 8, .max_texels = 48e6, .max_atlas_side = 4096});
+        EXPECT_LE(std::max(plan.atlas_size.x, plan.atlas_size.y), 4096) << gamma;
+        EXPECT_GT(plan.texels, 4096.0 * 4096 / 4) << gamma;
+    }
+}
+
 TEST(Plan, AtRestLookingAheadIsOneImage)
 {
     Plan plan = make_plan({{Planar{60}, {800, 600}, motion_from_world({}, glm::dquat(1, 0, 0, 0))}}, 1, {});
