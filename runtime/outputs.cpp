@@ -14,6 +14,18 @@ std::string glfw_says()
     return text ? text : "no reason given";
 }
 
+/// A window greater than its screen would hide a part of its picture, and of a dome the front.
+glm::ivec2 fit_to_screen(glm::ivec2 size)
+{
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    if (!monitor)
+        return size;
+    glm::ivec2 corner, area;
+    glfwGetMonitorWorkarea(monitor, &corner.x, &corner.y, &area.x, &area.y);
+    double shrink = std::min({1.0, double(area.x) / size.x, double(area.y) / size.y});
+    return shrink > 0 ? glm::max(glm::ivec2(glm::dvec2(size) * shrink), 1) : size;
+}
+
 } // namespace
 
 WindowSystem::WindowSystem()
@@ -41,7 +53,8 @@ Window::Window(Device& device, const Output& output)
             "The window system shows no Vulkan pictures: install mesa-vulkan-drivers or the GPU maker's Vulkan driver");
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_RESIZABLE, output.resizable);
-    window_ = glfwCreateWindow(output.size.x, output.size.y, ("Starbow " + output.name).c_str(), nullptr, nullptr);
+    glm::ivec2 size = fit_to_screen(output.size);
+    window_ = glfwCreateWindow(size.x, size.y, ("Starbow " + output.name).c_str(), nullptr, nullptr);
     if (!window_)
         throw InputError("The window '" + output.name + "' can't be opened: " + glfw_says());
     glfwSetInputMode(window_, GLFW_STICKY_KEYS, GLFW_TRUE); // a tap shorter than a frame counts too
@@ -60,7 +73,7 @@ Window::Window(Device& device, const Output& output)
     if (format_ == vk::Format::eUndefined)
         throw InputError("The window '" + output.name + "' offers no 8-bit sRGB pictures: use another GPU driver");
     acquired_ = device.device.createSemaphore({});
-    size_ = output.size;
+    size_ = size;
 }
 
 Window::Window(Window&& other) noexcept
