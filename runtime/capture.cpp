@@ -83,6 +83,22 @@ Bytes read_whole(const std::filesystem::path& file)
 
 } // namespace
 
+void check_writable(const std::filesystem::path& file)
+{
+    namespace fs = std::filesystem;
+    std::error_code error;
+    if (fs::exists(file, error) && !fs::is_regular_file(file, error))
+        throw InputError(file.string(), "", "is there and is no file; a name that is free or a file's is right");
+    fs::path folder = fs::absolute(file, error).parent_path();
+    while (!fs::exists(folder, error) && folder.has_relative_path())
+        folder = folder.parent_path();
+    if (!fs::is_directory(folder, error))
+        throw InputError(file.string(), "", "can't be written: " + folder.string() + " is no folder; a folder is right");
+    if (access(folder.c_str(), W_OK | X_OK) != 0)
+        throw InputError(
+            file.string(), "", "can't be written: " + folder.string() + " may not be written to; give another folder");
+}
+
 void write_png(const std::filesystem::path& file, glm::ivec2 size, const std::vector<std::uint8_t>& rgba)
 {
     require(rgba.size() == pixels(size) * 4, "write_png: bytes", rgba.size(), pixels(size) * 4);

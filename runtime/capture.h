@@ -8,6 +8,10 @@
 
 namespace starbow {
 
+/// Throws InputError if a file of this name could not be written: its folder (or the nearest that is there) is no folder or
+/// may not be written to, or something other than a file has the name. Writes nothing: for asking before long work.
+void check_writable(const std::filesystem::path& file);
+
 /// Writes RGBA8 rows from the top as PNG, alpha dropped. Written beside and renamed: a failure leaves no half file.
 /// Throws InputError where the place can't be written.
 void write_png(const std::filesystem::path& file, glm::ivec2 size, const std::vector<std::uint8_t>& rgba);

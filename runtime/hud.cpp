@@ -26,7 +26,7 @@ template <class... Values> std::string text(const char* format, Values... values
 std::string number(double x)
 {
     double size = std::abs(x);
-    if (size != 0 && (size >= 1e6 || size < 1e-3)) {
+    if (size != 0 && (size >= 999999.5 || size < 1e-3)) { // six figures, once rounded, is the most that fits
         int exponent = int(std::floor(std::log10(size)));
         double mantissa = x / std::pow(10.0, exponent);
         if (std::abs(mantissa) >= 9.95)
@@ -212,10 +212,17 @@ Panel Typesetter::draw(const Readings& readings, int width) const
     const double columns[] = {0.04, 0.415, 0.64};
     const double sizes[] = {0.26, 0.20, 0.20};
     for (int i = 0; i < 9; ++i) {
-        int size = int(sizes[i / 3] * unit), label = int(0.7 * sizes[i / 3] * unit);
-        double x = panel.size.x * columns[i % 3];
-        write(panel, fields[i].first, x, rows[i / 3] * unit, label, 0.72);
-        write(panel, fields[i].second, x + width_of(fields[i].first, label) + 0.3 * size, rows[i / 3] * unit, size, 1);
+        int column = i % 3;
+        double x = panel.size.x * columns[column],
+               room = panel.size.x * (column < 2 ? columns[column + 1] - 0.02 : 0.97) - x;
+        int size = int(sizes[i / 3] * unit);
+        auto label = [&] { return int(0.7 * size); };
+        auto value_at = [&] { return width_of(fields[i].first, label()) + 0.3 * size; };
+        while (size > 6
+            && value_at() + width_of(fields[i].second, size) > room) // long figures get smaller, never into the next
+            --size;
+        write(panel, fields[i].first, x, rows[i / 3] * unit, label(), 0.72);
+        write(panel, fields[i].second, x + value_at(), rows[i / 3] * unit, size, 1);
     }
     int small = int(0.15 * unit);
     if (fields.size() > 9) {

@@ -15,6 +15,6 @@ void main()
     if (n.z <= 0.0 || (MAP && pixel_angle == 0.0) || any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0))))
         discard;
     vec2 covered = textureLod(panel, vec2(at.x, 1.0 - at.y), 0.0).rg;
-    float plate = covered.g * 0.62;
+    float plate = covered.g * 0.85; // the headlight effect makes bright skies
     shown = vec4(vec3(0.92, 0.96, 1.0) * covered.r, covered.r + plate * (1.0 - covered.r)); // premultiplied
 }

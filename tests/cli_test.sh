@@ -79,11 +79,18 @@ said=$("$program" render --shot start --size 8x8 --out "$folder/out" 2>&1 >/dev/
 if [ $? != 2 ] || [ "$(cat "$folder/out")" != 'in the way' ]; then fail "a file in the way: $said"; else passed=$((passed + 1)); fi
 rm "$folder/out"
 
-# Unknown options and missing ones are told by the option parser, also with exit 2.
+mkdir -p "$folder/half/desk.exr"
+said=$("$program" render --shot start --size 8x8 --exr --out "$folder/half" 2>&1 >/dev/null)
+if [ $? != 2 ] || [ -e "$folder/half/desk.png" ]; then fail "a folder in the EXR's place: $said"; else passed=$((passed + 1)); fi
+said=$("$program" bench --json "$folder" 2>&1 >/dev/null)
+if [ $? != 2 ] || [[ $said != *"no file"* ]]; then fail "bench into a folder: $said"; else passed=$((passed + 1)); fi
+refused 'a?b?[31m' render --shot $'a\nb\e[31m'
+
+# Unknown options and missing ones are told in one line too, also with exit 2.
 for arguments in '' 'fly' 'render' 'render --shot' 'bench --rounds 0' 'run --frames -1' 'render --shot start --out x --colour'; do
     # shellcheck disable=SC2086
-    "$program" $arguments >/dev/null 2>&1
-    if [ $? = 2 ]; then passed=$((passed + 1)); else fail "'$arguments' is not refused with 2"; fi
+    said=$("$program" $arguments 2>&1 >/dev/null)
+    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ]; then passed=$((passed + 1)); else fail "'$arguments' is not refused with 2 in one line: $said"; fi
 done
 
 # Every subcommand's help ends with an example.

@@ -31,6 +31,7 @@ TEST(Hud, TellsTheSpeedWithoutCancellation)
     EXPECT_EQ(field(at_gamma(4), "D ahead"), "7.873");
     EXPECT_EQ(field(at_gamma(1e6), "1 − v/c"), "5.0×10⁻¹³"); // 1/(2 gamma^2)
     EXPECT_EQ(field(at_gamma(1e6), "D ahead"), "2.0×10⁶");
+    EXPECT_EQ(field(at_gamma(999999.9), "γ"), "1.0×10⁶"); // the form is chosen for the rounded figure
 }
 
 TEST(Hud, StraightAheadIsTheNose)
@@ -53,8 +54,15 @@ TEST(Hud, UnitsSuitTheSize)
 TEST(Hud, EveryPanelHasLettersInsideItsPlate)
 {
     Typesetter typesetter;
+    Readings longest = at_gamma(1e6);
+    longest.ship_s = longest.world_s = 16.6 * 60, longest.distance_m = 16.5 * 60 * 299792458.0;
     for (int width : {160, 400, 1200}) {
-        Panel panel = typesetter.draw(at_gamma(1e6), width);
+        Panel panel = typesetter.draw(longest, width);
+        // Between two columns stands a gap, whatever the figures.
+        for (double gap : {0.405, 0.63})
+            for (int y = 0; y < panel.size.y * 8 / 10; ++y)
+                EXPECT_LT(panel.texels[2 * (std::size_t(y) * panel.size.x + std::size_t(gap * width))], 128)
+                    << width << " " << y;
         ASSERT_EQ(panel.texels.size(), std::size_t(panel.size.x) * panel.size.y * 2);
         long letters = 0, outside = 0;
         for (std::size_t i = 0; i < panel.texels.size(); i += 2) {

@@ -416,7 +416,8 @@ struct Outline {
 Outline earth_outline(const Shot& shot, const Projection& projection, bool over_a_half_sphere = false)
 {
     constexpr ivec2 size(256, 256);
-    Studio stage(device(), pipelines(), avenue().world, one_view(projection, size), {3, 40, 1}, true);
+    Studio stage(device(), pipelines(), avenue().world, one_view(projection, size),
+        {.texels_per_pixel = 3, .max_texels_per_pixel = 40, .samples = 1}, true);
     const Numbers numbers(stage, shot);
     auto earth = [&](int i) {
         return numbers.shown(i) && std::isfinite(numbers.depth(i))

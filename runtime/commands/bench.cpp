@@ -158,6 +158,8 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
 
 int bench(const Options& options)
 {
+    if (!options.json.empty())
+        check_writable(options.json);
     Layout layout = load_layout(find("layouts", "desk"));
     layout.outputs[0].size = {800, 600};
     Theatre theatre(find("scenes", "avenue"), device_options(false));
@@ -212,6 +214,10 @@ int bench(const Options& options)
             json["ratios"]["frame_over_plain"][r.name] = r.frame_over_plain();
         }
         json["ratios"]["warp_over_lookup"] = results[1].warp_over_lookup();
+        std::filesystem::path folder = std::filesystem::path(options.json).parent_path();
+        std::error_code error; // told by the stream
+        if (!folder.empty())
+            std::filesystem::create_directories(folder, error);
         std::ofstream stream(options.json);
         stream << json.dump(2) << "\n";
         if (!stream.flush())

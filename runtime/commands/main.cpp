@@ -2,17 +2,26 @@
 #include "config/error.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
+#include <string>
 
 namespace {
+
+/// One line, whatever a name or an argument holds: control characters are not for the terminal.
+int complain(std::string text)
+{
+    for (char& c : text)
+        if ((unsigned char)(c) < 0x20 || c == 0x7f)
+            c = '?';
+    std::fprintf(stderr, "starbow: %s\n", text.c_str());
+    return 2;
+}
 
 int guarded(const std::function<int()>& run)
 {
     try {
         return run();
     } catch (const starbow::InputError& error) {
-        std::fprintf(stderr, "starbow: %s\n", error.what());
-        return 2;
+        return complain(error.what());
     }
 }
 
@@ -28,7 +37,9 @@ int main(int count, char** arguments)
     try {
         app.parse(count, arguments);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+        if (error.get_exit_code() == 0)
+            return app.exit(error); // help
+        return complain(error.what() + std::string("; 'starbow --help' tells what there is"));
     }
     return guarded(chosen);
 }

@@ -38,6 +38,12 @@ int render(const Options& options)
     if (!options.size.empty())
         for (Output& output : layout.outputs)
             output.size = parse_size(options.size);
+    if (options.out.empty())
+        throw InputError("--out is empty; give the folder for the pictures, such as out/shot");
+    for (const Output& output : layout.outputs)
+        for (const char* kind : {".png", ".exr"})
+            if (options.exr || kind == std::string(".png"))
+                check_writable(std::filesystem::path(options.out) / (output.name + kind));
     Theatre theatre(scene_of(shot, shot_file), device_options(false));
     for (const std::string& note : theatre.world.world.notes)
         std::fprintf(stderr, "starbow: %s: %s\n", theatre.world.scene.gltf.c_str(), note.c_str());

@@ -51,7 +51,7 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--scene", options->scene, "A scene file, or the name of one in config/scenes")
         ->capture_default_str();
     command->add_option("--shot", options->shot, "Start at this shot instead of the scene's start");
-    command->add_option("--frames", options->frames, "Leave after so many frames")->check(CLI::NonNegativeNumber);
+    command->add_option("--frames", options->frames, "Leave after so many frames")->check(CLI::Range(0L, 1000000000L));
     command->footer(
         std::string("Keys:\n") + keyboard_help() + "\n\nExample:\n  starbow run --layout stereo --shot avenue-gamma4");
     command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
