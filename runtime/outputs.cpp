@@ -64,7 +64,7 @@ Window::Window(Device& device, const Output& output)
     surface_ = vk::raii::SurfaceKHR(device.instance, surface);
     if (!device.physical.getSurfaceSupportKHR(device.family, *surface_))
         throw InputError("The GPU '" + std::string(device.properties.deviceName.data())
-            + "' can't show pictures in this session's windows: choose another with STARBOW_GPU");
+            + "' can't show pictures in this desktop's windows: choose another with STARBOW_GPU");
     auto formats = device.physical.getSurfaceFormatsKHR(*surface_);
     for (vk::SurfaceFormatKHR offered : formats)
         if (format_ == vk::Format::eUndefined && offered.colorSpace == vk::ColorSpaceKHR::eSrgbNonlinear
