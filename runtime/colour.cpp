@@ -26,9 +26,18 @@ double band(int i, double wavelength_nm)
 template <class Spectrum> glm::dvec3 shifted_colour(Spectrum&& f, double D)
 {
     glm::dvec3 xyz(0);
-    constexpr double step = 1;
-    for (double nm = 360.5; nm < 830; nm += step)
-        xyz += xyz_response(nm) * (f(D * nm) * step / (nm * nm));
+    constexpr double first_nm = 360.5, end_nm = 830, step = 1;
+    // The eye is the same at every step of the table.
+    static const std::vector<glm::dvec3> eye = [] {
+        std::vector<glm::dvec3> responses;
+        for (double nm = first_nm; nm < end_nm; nm += step)
+            responses.push_back(xyz_response(nm));
+        return responses;
+    }();
+    for (std::size_t i = 0; i < eye.size(); ++i) {
+        double nm = first_nm + double(i) * step;
+        xyz += eye[i] * (f(D * nm) * step / (nm * nm));
+    }
     return rec709_linear_from_xyz(xyz);
 }
 

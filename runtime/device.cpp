@@ -57,11 +57,6 @@ vk::raii::Instance make_instance(Device& device, const Device::Options& options)
     }
 }
 
-struct Feature {
-    VkBool32 vk::PhysicalDeviceVulkan13Features::*has;
-    const char* name;
-};
-
 /// What the device lacks, in words; empty if it will do.
 std::string lacks(const vk::raii::PhysicalDevice& physical, bool windows)
 {

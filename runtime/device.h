@@ -47,7 +47,4 @@ private:
     void finish(vk::raii::CommandBuffer& commands);
 };
 
-/// The GPUs that Vulkan shows, by name: for messages.
-std::vector<std::string> device_names(const vk::raii::Instance& instance);
-
 } // namespace starbow

@@ -3,7 +3,6 @@
 #include "cube_pass.h"
 #include "hud.h"
 #include "plan.h"
-#include <optional>
 
 namespace starbow {
 

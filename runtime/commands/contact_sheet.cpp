@@ -90,8 +90,9 @@ int render_contact_sheet(const fs::path& directory)
     std::map<fs::path, std::unique_ptr<Theatre>> theatres;
     auto began = std::chrono::steady_clock::now();
     for (std::size_t i = 0; i < all.size(); ++i) {
-        fs::path shot_file = find("shots", all[i].shot), scene = scene_of(load_shot(shot_file), shot_file);
+        fs::path shot_file = find("shots", all[i].shot);
         Shot shot = load_shot(shot_file);
+        fs::path scene = scene_of(shot, shot_file);
         Layout layout = load_layout(find("layouts", all[i].layout));
         auto& theatre = theatres[scene];
         if (!theatre)
