@@ -123,7 +123,7 @@ Layout load_layout(const std::filesystem::path& file)
     Layout layout;
     layout.name = file.stem().string();
     if (auto p = find(top, "hyper_stereo"))
-        layout.hyper_stereo = number(*p, {0, 1e12, true});
+        layout.stereo.hyper_stereo = number(*p, {0, 1e12, true});
     if (auto p = find(top, "hud"))
         layout.hud = read_hud(*p);
     for (const Place& at : items(member(top, "outputs"), 1, 64, "outputs")) {

@@ -151,7 +151,7 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
             }
         plans_[i] = make_plan(asked, shot.effects.aberration ? E_ : 1, quality_);
 
-        glm::dvec3 offset = shot.ship_from_cockpit * eyes_[i].offset_m * (layout_.hyper_stereo / world_.scene.unit_m);
+        glm::dvec3 offset = shot.ship_from_cockpit * eyes_[i].offset_m * (layout_.stereo.hyper_stereo / world_.scene.unit_m);
         glm::dvec3 place = shot.position + physics::eye_place(shot.u, offset);
         eyes_[i].cube.prepare(plans_[i], place, to_motion);
     }

@@ -51,7 +51,7 @@ TEST(LayoutTest, ShippedLayouts)
     EXPECT_EQ(desk.outputs[0].size, glm::ivec2(800, 600));
     EXPECT_EQ(std::get<Planar>(desk.outputs[0].viewports.at(0).projection).fov_y_deg, 60);
     EXPECT_EQ(desk.outputs[0].viewports[0].rect, glm::dvec4(0, 0, 1, 1));
-    EXPECT_EQ(desk.hyper_stereo, 1);
+    EXPECT_EQ(desk.stereo.hyper_stereo, 1);
 
     const Layout dome = load_layout(folder / "dome.json");
     const Fisheye fisheye = std::get<Fisheye>(dome.outputs.at(0).viewports.at(0).projection);
@@ -64,7 +64,7 @@ TEST(LayoutTest, ShippedLayouts)
     EXPECT_LT(eyes[0].eye_m.x, 0); // the left eye on the left
     EXPECT_EQ(pixel_rect(eyes[0], stereo.outputs[0].size), glm::ivec4(0, 0, 800, 600));
     EXPECT_EQ(pixel_rect(eyes[1], stereo.outputs[0].size), glm::ivec4(800, 0, 800, 600));
-    EXPECT_NEAR((eyes[1].eye_m.x - eyes[0].eye_m.x) * stereo.hyper_stereo / 299792458, 0.03, 0.005);
+    EXPECT_NEAR((eyes[1].eye_m.x - eyes[0].eye_m.x) * stereo.stereo.hyper_stereo / 299792458, 0.03, 0.005);
 }
 
 TEST(LayoutTest, LimitsThemselvesAreRight)

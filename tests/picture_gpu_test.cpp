@@ -486,8 +486,9 @@ TEST(Picture, EachEyeSeesFromItsOwnEvent)
     const dvec3 eyes[2] = {{-0.0325, 0.004, 0}, {0.0325, 0, -0.01}};
     const ivec2 half(160, 120);
     Layout pair = one_view(Planar{60}, {2 * half.x, half.y});
-    pair.outputs[0].viewports = {{{0, 0, 0.5, 1}, Planar{60}, eyes[0]}, {{0.5, 0, 0.5, 1}, Planar{60}, eyes[1]}};
-    pair.hyper_stereo = 1.5;
+    pair.outputs[0].viewports = {{.rect = {0, 0, 0.5, 1}, .projection = Planar{60}, .eye_m = eyes[0]},
+        {.rect = {0.5, 0, 0.5, 1}, .projection = Planar{60}, .eye_m = eyes[1]}};
+    pair.stereo.hyper_stereo = 1.5;
     Studio both = studio(world, pair), one = studio(world, one_view(Planar{60}, half));
     for (double gamma : {1.0, 1.5, 4.0}) {
         const Shot shot
@@ -524,7 +525,7 @@ TEST(Picture, EachEyeSeesFromItsOwnEvent)
 TEST(Picture, EyesInOnePlaceShareACubeMap)
 {
     Layout layout = one_view(Planar{60}, {100, 50});
-    layout.outputs[0].viewports = {{{0, 0, 0.5, 1}, Planar{60}, {0, 0, 0}}, {{0.5, 0, 0.5, 1}, Planar{30}, {0, 0, 0}}};
+    layout.outputs[0].viewports = {{.rect = {0, 0, 0.5, 1}, .projection = Planar{60}}, {.rect = {0.5, 0, 0.5, 1}, .projection = Planar{30}}};
     Studio stage = studio(avenue().world, layout, false);
     stage.picture(shipped_shot("start"));
     EXPECT_EQ(stage.frame().plans().size(), 1u);

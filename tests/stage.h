@@ -61,7 +61,10 @@ inline Layout one_view(const Projection& projection, ivec2 size)
 {
     Layout layout;
     layout.name = "test";
-    layout.outputs = {{"view", size, false, {{{0, 0, 1, 1}, projection, {0, 0, 0}}}}};
+    layout.outputs.resize(1);
+    layout.outputs[0].name = "view";
+    layout.outputs[0].size = size;
+    layout.outputs[0].viewports = {{.projection = projection}};
     return layout;
 }
 
