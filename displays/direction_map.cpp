@@ -1,73 +1,160 @@
 #include "direction_map.h"
-#include "dome.h"
-#include "planar.h"
+#include "rows.h"
 #include <algorithm>
-#include <thread>
+#include <cmath>
 
 namespace starbow {
 namespace {
 
-void compile_rows(const Projection& projection, DirectionMap& map, int first, int end)
+void straight_rows(const Pane& pane, DirectionMap& map, int first, int end)
+{
+    const double squeeze = std::sqrt(pane.picture_from_pixel.x * pane.picture_from_pixel.y);
+    for (int channel = 0; channel < map.channels; ++channel)
+        for (int y = first; y < end; ++y)
+            for (int x = 0; x < map.size.x; ++x) {
+                const glm::dvec2 at = (glm::dvec2(x, y) + 0.5) * pane.picture_from_pixel;
+                const Channel colour = map.channels == 3 ? Channel(channel) : Channel::green;
+                if (auto seen = direction(pane.picture, at, colour))
+                    map.texels[(std::size_t(channel) * map.size.y + y) * map.size.x + x]
+                        = glm::vec4(*seen, std::max(pixel_angle(pane.picture, at, colour) * squeeze, 1e-12));
+            }
+}
+
+struct Bent {
+    const WarpMesh& mesh;
+    const WarpRaster& raster;
+    Picture source;
+    glm::dmat3 turn;
+
+    std::optional<glm::dvec3> direction_of(const WarpSample& sample, int channel) const
+    {
+        switch (mesh.kind) {
+        case WarpMesh::Kind::picture:
+            return direction(source, glm::dvec2(sample.sees[0]) * glm::dvec2(source.size),
+                splits_colours(source.projection) ? Channel(channel) : Channel::green);
+        case WarpMesh::Kind::points: {
+            const glm::dvec3 way = sample.sees[0] - source.eye_m;
+            return glm::length(way) > 0 ? std::optional(glm::normalize(way)) : std::nullopt;
+        }
+        case WarpMesh::Kind::colours:
+            return turn * glm::normalize(sample.sees[channel]);
+        }
+        return {};
+    }
+
+    void rows(DirectionMap& map, int first, int end) const
+    {
+        std::vector<WarpSample> samples(map.size.x);
+        for (int y = first; y < end; ++y) {
+            raster.row(y, samples);
+            for (int x = 0; x < map.size.x; ++x) {
+                if (!samples[x].shown)
+                    continue;
+                const std::size_t at = std::size_t(y) * map.size.x + x;
+                map.intensity[at] = float(samples[x].intensity);
+                for (int channel = 0; channel < map.channels; ++channel)
+                    if (auto seen = direction_of(samples[x], channel))
+                        map.texels[std::size_t(channel) * map.size.x * map.size.y + at] = glm::vec4(*seen, 1);
+            }
+        }
+    }
+};
+
+/// A step of the picture at a pixel along x or y, from its neighbours that show something; 0 where none does.
+glm::vec3 step(const DirectionMap& map, int x, int y, int channel, glm::ivec2 way)
+{
+    const glm::vec4& here = map.at(x, y, channel);
+    glm::vec3 sum(0);
+    int count = 0;
+    for (int sign : {-1, 1}) {
+        const glm::ivec2 p = glm::ivec2(x, y) + sign * way;
+        if (p.x < 0 || p.y < 0 || p.x >= map.size.x || p.y >= map.size.y)
+            continue;
+        if (const glm::vec4& there = map.at(p.x, p.y, channel); there.w > 0)
+            sum += float(sign) * (glm::vec3(there) - glm::vec3(here)), ++count;
+    }
+    return count > 0 ? sum / float(count) : sum;
+}
+
+/// bent: the angle is not known yet; else it is only held against slivers.
+void angle_rows(DirectionMap& map, std::vector<float>& angles, bool bent, int channel, int first, int end)
 {
     for (int y = first; y < end; ++y)
         for (int x = 0; x < map.size.x; ++x) {
-            const glm::dvec2 centre(x + 0.5, y + 0.5);
-            const std::optional<glm::dvec3> seen = direction(projection, map.size, centre);
-            if (seen)
-                map.texels[std::size_t(y) * map.size.x + x] = glm::dvec4(*seen, pixel_angle(projection, map.size, centre));
+            const float known = map.at(x, y, channel).w;
+            if (known == 0)
+                continue;
+            const glm::vec3 across = step(map, x, y, channel, {1, 0}), down = step(map, x, y, channel, {0, 1});
+            const float longest = std::max(glm::length(across), glm::length(down));
+            // Bent and alone in a hole: as large as the sky, so that it asks for nothing.
+            const float own = !bent ? known : longest > 0 ? std::sqrt(glm::length(glm::cross(across, down))) : 1;
+            angles[std::size_t(y) * map.size.x + x] = std::max(own, 0.5f * longest);
         }
+}
+
+glm::dmat3 axes_of(const Projection& projection)
+{
+    Turn turn;
+    if (auto* planar = std::get_if<Planar>(&projection))
+        turn = planar->turn;
+    else if (auto* lens = std::get_if<Lens>(&projection))
+        turn = lens->turn;
+    Planar straight;
+    straight.turn = turn;
+    // Three points of a straight window of 90 degrees tell its axes.
+    straight.fov_y_deg = 90;
+    const glm::dmat3 m = *planar_matrix({straight, {2, 2}});
+    return {m[0], -m[1], -(m * glm::dvec3(1, 1, 1))};
 }
 
 } // namespace
 
-std::optional<glm::dvec3> direction(const Projection& projection, glm::ivec2 size, glm::dvec2 pixel)
+Picture bent_picture(const Pane& pane, const WarpMesh& mesh, bool projection_given)
 {
-    if (const Planar* planar = std::get_if<Planar>(&projection))
-        return planar_direction(*planar, size, pixel);
-    return dome_direction(std::get<Fisheye>(projection), size, pixel);
+    Picture picture = pane.picture;
+    if (!projection_given && mesh.frustum)
+        picture.projection = *mesh.frustum;
+    if (std::holds_alternative<Fisheye>(picture.projection))
+        picture.size = glm::ivec2(std::min(picture.size.x, picture.size.y));
+    return picture;
 }
 
-std::optional<glm::dvec2> pixel(const Projection& projection, glm::ivec2 size, const glm::dvec3& direction)
+std::optional<glm::dmat3> pane_matrix(const Pane& pane)
 {
-    if (const Planar* planar = std::get_if<Planar>(&projection))
-        return planar_pixel(*planar, size, direction);
-    return dome_pixel(std::get<Fisheye>(projection), size, direction);
+    std::optional<glm::dmat3> m = planar_matrix(pane.picture);
+    if (m) {
+        (*m)[0] *= pane.picture_from_pixel.x;
+        (*m)[1] *= pane.picture_from_pixel.y;
+    }
+    return m;
 }
 
-std::optional<glm::dmat3> planar_matrix(const Projection& projection, glm::ivec2 size)
+DirectionMap compile(const Pane& pane, const WarpMesh* mesh)
 {
-    if (const Planar* planar = std::get_if<Planar>(&projection))
-        return planar_direction_matrix(*planar, size);
-    return {};
-}
-
-double pixel_angle(const Projection& projection, glm::ivec2 size, glm::dvec2 pixel)
-{
-    if (const Planar* planar = std::get_if<Planar>(&projection))
-        return planar_pixel_angle(*planar, size, pixel);
-    return dome_pixel_angle(std::get<Fisheye>(projection), size, pixel);
-}
-
-double pixel_length(const Projection& projection, glm::ivec2 size)
-{
-    if (const Fisheye* dome = std::get_if<Fisheye>(&projection))
-        return glm::radians(dome->aperture_deg) / std::min(size.x, size.y);
-    return 0;
-}
-
-DirectionMap compile(const Projection& projection, glm::ivec2 size)
-{
-    DirectionMap map{size, std::vector<glm::vec4>(std::size_t(size.x) * size.y, glm::vec4(0))};
-    // Bands of whole rows: no texel depends on another, so the result does not depend on the number of threads.
-    const int bands = std::clamp(int(std::thread::hardware_concurrency()), 1, std::max(size.y, 1));
-    std::vector<std::jthread> threads;
-    for (int band = 1; band < bands; ++band)
-        threads.emplace_back([&, band] {
-            compile_rows(
-                projection, map, int(std::int64_t(size.y) * band / bands), int(std::int64_t(size.y) * (band + 1) / bands));
-        });
-    compile_rows(projection, map, 0, size.y / bands);
-    threads.clear();
+    DirectionMap map;
+    map.size = pane.size;
+    const Picture source = mesh ? bent_picture(pane, *mesh, pane.projection_given) : pane.picture;
+    map.channels = splits_colours(source.projection) || (mesh && mesh->kind == WarpMesh::Kind::colours) ? 3 : 1;
+    const std::size_t pixels = std::size_t(map.size.x) * map.size.y;
+    map.texels.assign(pixels * map.channels, glm::vec4(0));
+    if (mesh) {
+        map.intensity.assign(pixels, 0.0f);
+        const WarpRaster raster(*mesh, map.size);
+        const Bent bent{*mesh, raster, source, axes_of(source.projection)};
+        by_rows(map.size.y, [&](int first, int end) { bent.rows(map, first, end); });
+        if (std::all_of(map.intensity.begin(), map.intensity.end(), [](float i) { return i == 1; }))
+            map.intensity.clear();
+    } else {
+        by_rows(map.size.y, [&](int first, int end) { straight_rows(pane, map, first, end); });
+    }
+    std::vector<float> angles(pixels);
+    for (int channel = 0; channel < map.channels; ++channel) {
+        by_rows(map.size.y, [&](int first, int end) { angle_rows(map, angles, mesh, channel, first, end); });
+        glm::vec4* texels = map.texels.data() + pixels * channel;
+        for (std::size_t i = 0; i < pixels; ++i)
+            if (texels[i].w > 0)
+                texels[i].w = angles[i];
+    }
     return map;
 }
 

@@ -1,36 +1,35 @@
 #pragma once
-#include "config/layout.h"
-#include <glm/glm.hpp>
-#include <optional>
+#include "panes.h"
+#include "warp/mesh.h"
 #include <vector>
 
 namespace starbow {
 
-/// Unit direction in the cockpit's frame that the point `pixel` of a picture of `size` pixels shows. The top left corner is
-/// (0, 0), a pixel's centre is at +0.5. Nothing where the projection shows nothing (outside the dome's circle).
-std::optional<glm::dvec3> direction(const Projection& projection, glm::ivec2 size, glm::dvec2 pixel);
-
-/// The pixel that shows a direction: the inverse. Nothing where no pixel of the projection shows it; the point may lie
-/// outside the picture where the projection goes on beyond its edge.
-std::optional<glm::dvec2> pixel(const Projection& projection, glm::ivec2 size, const glm::dvec3& direction);
-
-/// For projections whose direction is linear in the pixel: direction is along M (x, y, 1). Nothing for the others.
-std::optional<glm::dmat3> planar_matrix(const Projection& projection, glm::ivec2 size);
-
-/// Angle that one pixel covers around `pixel`, radians: the square root of its solid angle.
-double pixel_angle(const Projection& projection, glm::ivec2 size, glm::dvec2 pixel);
-
-/// The length in radians that a pixel keeps in one direction wherever it is, 0 where none does. Towards the rim of a fisheye
-/// that shows the whole sky a pixel becomes a sliver: its solid angle goes to nothing, this length stays.
-double pixel_length(const Projection& projection, glm::ivec2 size);
-
-/// Rows from the top; xyz: unit direction of the pixel's centre, w: pixel angle in radians, or all 0 where nothing is shown.
+/// A pane compiled for the device. Rows from the top; xyz: unit direction of the pixel's centre in the cockpit's frame,
+/// w: pixel angle in radians; all 0 where nothing is shown.
 struct DirectionMap {
-    glm::ivec2 size;
+    glm::ivec2 size{0};
+    int channels = 1; ///< 3 where red, green and blue look different ways: one whole picture after the other
     std::vector<glm::vec4> texels;
+    std::vector<float> intensity; ///< of each pixel, from a calibration; empty: 1 everywhere
+
+    const glm::vec4& at(int x, int y, int channel = 0) const
+    {
+        return texels[(std::size_t(channel) * size.y + y) * size.x + x];
+    }
 };
 
-/// Compiles a projection for the device, in double, on all cores.
-DirectionMap compile(const Projection& projection, glm::ivec2 size);
+/// Compiles a pane in double, on all cores. mesh: the calibration that bends it, or null. The pixel angle is the root of the
+/// pixel's solid angle, but no less than half the way to the farther neighbour: where a projection draws a point out to a
+/// line, its pixels are slivers whose solid angle goes to nothing while their length stays.
+DirectionMap compile(const Pane& pane, const WarpMesh* mesh = nullptr);
+
+/// The picture that a calibration bends: the file's own frustum where it has one and the layout gives no projection; of a
+/// fisheye the square around it.
+Picture bent_picture(const Pane& pane, const WarpMesh& mesh, bool projection_given);
+
+/// For panes whose direction is linear in the pixel and that nothing bends: direction is along M (x, y, 1), x and y in
+/// pixels from the pane's corner. Nothing for the others.
+std::optional<glm::dmat3> pane_matrix(const Pane& pane);
 
 } // namespace starbow

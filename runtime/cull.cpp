@@ -130,6 +130,24 @@ DrawList cull(
     return list;
 }
 
+double nearest_box(const World& world, const glm::dvec3& place)
+{
+    double nearest = 1e300;
+    for (const Instance& instance : world.instances) {
+        const Primitive& primitive = world.primitives[instance.primitive];
+        // The corners' own box: larger than the turned one, never nearer than allowed.
+        glm::dvec3 low(1e300), high(-1e300);
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 corner(i & 1 ? primitive.high.x : primitive.low.x, i & 2 ? primitive.high.y : primitive.low.y,
+                i & 4 ? primitive.high.z : primitive.low.z);
+            const glm::dvec3 at = glm::dvec3(instance.world_from_local * glm::dvec4(corner, 1));
+            low = glm::min(low, at), high = glm::max(high, at);
+        }
+        nearest = std::min(nearest, glm::distance(place, glm::clamp(place, low, high)));
+    }
+    return nearest;
+}
+
 void sort_instances(World& world)
 {
     auto key = [&](const Instance& i) { return std::pair(world.primitives[i.primitive].material, i.primitive); };

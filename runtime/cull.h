@@ -23,6 +23,9 @@ struct DrawList {
 DrawList cull(
     const World& world, const glm::dvec3& eye, const glm::dmat3& motion_from_world, const std::vector<PlanImage>& images);
 
+/// Distance from a place to the nearest of all instances' bounding boxes, scene units: no surface is nearer.
+double nearest_box(const World& world, const glm::dvec3& place);
+
 /// Puts a world's instances in order of their primitives, these in order of their materials.
 void sort_instances(World& world);
 

@@ -1,6 +1,8 @@
 #include "frame.h"
 #include "colour.h"
-#include "displays/direction_map.h"
+#include "cull.h"
+#include "displays/blend.h"
+#include "label.h"
 #include "physics/physics.h"
 #include <algorithm>
 #include <cmath>
@@ -31,6 +33,21 @@ glm::dmat3 panel_from_cockpit(const HudPlacement& hud, bool flat)
     return glm::transpose(glm::dmat3(x, glm::cross(-middle, x), middle));
 }
 
+/// Whether every display is a window looked at from its axis.
+bool all_face_ahead(const Layout& layout)
+{
+    for (const Output& output : layout.outputs)
+        for (const Viewport& viewport : output.viewports) {
+            const Planar* planar = std::get_if<Planar>(&viewport.projection);
+            if (!planar || planar->sides || viewport.warp
+                || glm::dvec3(planar->turn.yaw_deg, planar->turn.pitch_deg, planar->turn.roll_deg) != glm::dvec3(0))
+                return false;
+        }
+    return true;
+}
+
+constexpr std::size_t no_map = ~std::size_t(0);
+
 } // namespace
 
 Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality,
@@ -40,7 +57,7 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
     , pipelines_(pipelines)
     , world_(world)
     , layout_(layout)
-    , keeps_depth_(keeps_depth)
+    , keeps_depth_(keeps_depth || layout.stereo.method == StereoMethod::reprojected)
 {
     linear_ = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eLinear,
         vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, 0,
@@ -52,87 +69,145 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
     colours_ = make_static_buffer(device, std::as_bytes(std::span(table)), vk::BufferUsageFlagBits::eUniformBuffer);
     const float zeros[4] = {};
     nothing_ = make_texture(device, exact_format, {1, 1}, std::as_bytes(std::span(zeros)), false);
-
-    std::uint32_t views = 0;
-    for (const Output& output : layout.outputs)
-        views += std::uint32_t(output.viewports.size());
-    std::vector<vk::DescriptorPoolSize> sizes
-        = {{vk::DescriptorType::eUniformBuffer, 2 * views}, {vk::DescriptorType::eCombinedImageSampler, 5 * views}};
-    pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2 * views, sizes});
-    auto make_set = [&](const vk::raii::DescriptorSetLayout& set_layout) {
-        return std::move(device.device.allocateDescriptorSets({*pool_, *set_layout}).front());
-    };
-
-    for (std::size_t output = 0; output < layout.outputs.size(); ++output) {
-        sizes_.push_back({0, 0});
-        for (const Viewport& viewport : layout.outputs[output].viewports) {
-            auto same = std::find_if(eyes_.begin(), eyes_.end(), [&](const Eye& e) { return e.offset_m == viewport.eye_m; });
-            if (same == eyes_.end()) {
-                eyes_.push_back({viewport.eye_m, CubePass(device, pipelines, world, quality.samples, keeps_depth)});
-                same = eyes_.end() - 1;
-            }
-            ViewState view;
-            view.output = output;
-            view.eye = std::size_t(same - eyes_.begin());
-            view.projection = viewport.projection;
-            view.warp_set = make_set(pipelines.warp_set);
-            view.hud_set = make_set(pipelines.picture_set);
-            views_.push_back(std::move(view));
-        }
-    }
-    plans_.resize(eyes_.size());
-    bool flat
-        = std::all_of(views_.begin(), views_.end(), [](auto& v) { return std::holds_alternative<Planar>(v.projection); });
-    panel_from_cockpit_ = panel_from_cockpit(layout.hud, flat);
-    for (std::size_t output = 0; output < layout.outputs.size(); ++output)
-        resize(output, layout.outputs[output].size);
+    no_map_ = make_texture_array(device, exact_format, {1, 1}, 1, std::as_bytes(std::span(zeros)));
+    panel_from_cockpit_ = panel_from_cockpit(layout.hud, all_face_ahead(layout));
+    panel_half_ = std::tan(0.5 * layout_.hud.width_deg * degree) * glm::dvec2(1, panel_aspect);
+    for (const Output& output : layout_.outputs)
+        outputs_.emplace_back().size = output.size;
+    compile_panes();
 }
 
 void Frame::resize(std::size_t output, glm::ivec2 size)
 {
-    if (sizes_[output] == size)
+    if (outputs_[output].size == size)
         return;
-    sizes_[output] = size;
-    const Viewport* viewport = layout_.outputs[output].viewports.data();
-    for (ViewState& view : views_)
-        if (view.output == output) {
-            glm::ivec4 rect = pixel_rect(*viewport++, size);
-            view.corner = {rect.x, rect.y};
-            place_view(view, glm::max(glm::ivec2(rect.z, rect.w), 1));
-        }
+    outputs_[output].size = size;
+    compile_panes();
 }
 
-void Frame::place_view(ViewState& view, glm::ivec2 size)
+void Frame::move_head(const glm::dvec3& by_m)
 {
-    view.size = size;
-    if (auto planar = planar_matrix(view.projection, size)) {
-        view.cockpit_from_pixel = *planar;
-    } else {
-        DirectionMap map = compile(view.projection, size);
-        view.map = make_texture(device_, exact_format, size, std::as_bytes(std::span(map.texels)), false);
+    for (PaneState& pane : panes_) {
+        Pane moved = pane.compiled.pane;
+        moved.picture.eye_m += by_m;
+        moved.head_m += by_m;
+        if (auto matrix = pane.compiled.map ? std::nullopt : pane_matrix(moved)) {
+            pane.compiled.matrix = matrix;
+            pane.compiled.blocks = std::make_shared<Blocks>(*matrix, moved.size);
+            find_hud_box(pane);
+        }
     }
-    // The panel's rim, projected, bounds it: its inside is nowhere outside its rim in any continuous view.
-    glm::dmat3 cockpit_from_panel = glm::inverse(panel_from_cockpit_);
-    panel_half_ = std::tan(0.5 * layout_.hud.width_deg * degree) * glm::dvec2(1, panel_aspect);
-    glm::dvec2 low(1e9), high(-1e9);
-    for (int i = 0; i <= 16; ++i)
-        for (glm::dvec2 at : {glm::dvec2(i / 8.0 - 1, -1), glm::dvec2(i / 8.0 - 1, 1), glm::dvec2(-1, i / 8.0 - 1),
-                 glm::dvec2(1, i / 8.0 - 1), glm::dvec2(0)})
-            if (auto p = pixel(view.projection, size, glm::normalize(cockpit_from_panel * glm::dvec3(at * panel_half_, 1))))
-                low = glm::min(low, *p), high = glm::max(high, *p);
-    glm::ivec2 first = glm::clamp(glm::ivec2(glm::clamp(low, -1e6, 1e6)) - 4, glm::ivec2(0), size);
-    glm::ivec2 last = glm::clamp(glm::ivec2(glm::clamp(high, -1e6, 1e6)) + 4, first, size);
-    view.hud_box = rect_of(view.corner + first, last - first);
+    for (Eye& eye : eyes_)
+        eye.moved_m = by_m;
+}
+
+void Frame::compile_panes()
+{
+    std::vector<PaneState> before = std::exchange(panes_, {}); // whose maps are found again
+    std::vector<Map> maps_before = std::exchange(maps_, {});
+    std::vector<CompiledPane> lit; // by projectors, not previews
+    for (std::size_t output = 0; output < outputs_.size(); ++output) {
+        for (CompiledPane& compiled : compile_output(store_, layout_, output, outputs_[output].size)) {
+            PaneState pane;
+            pane.output = output;
+            pane.compiled = std::move(compiled);
+            if (!layout_.outputs[output].preview)
+                lit.push_back(pane.compiled);
+            panes_.push_back(std::move(pane));
+        }
+    }
+    std::vector<std::vector<float>> ramps;
+    if (layout_.blend.ramps)
+        ramps = blend_ramps(layout_, lit, layout_.blend.power);
+    std::vector<Shade> shades(outputs_.size());
+    for (std::size_t output = 0; output < outputs_.size(); ++output)
+        if (!layout_.outputs[output].preview)
+            shades[output] = shade_of(layout_, output, outputs_[output].size, lit, ramps);
+    const double room = headroom(shades);
+    for (std::size_t output = 0; output < outputs_.size(); ++output) {
+        Output own = layout_.outputs[output];
+        own.size = outputs_[output].size;
+        outputs_[output].finish.reset();
+        if (needs_finish(own, shades[output]) || (room != 1 && !own.preview))
+            outputs_[output].finish = std::make_unique<FinishPass>(device_, pipelines_, own, shades[output], room);
+    }
+
+    for (PaneState& pane : panes_) {
+        pane.eye = eye_for(pane.pane());
+        pane.beside_m = pane.pane().picture.eye_m - eyes_[pane.eye].place_m;
+        pane.map = map_for(pane.compiled, maps_before);
+        find_hud_box(pane);
+    }
+    plans_.resize(eyes_.size());
+
+    const std::uint32_t count = std::uint32_t(panes_.size());
+    before.clear();
+    pool_ = nullptr;
+    std::vector<vk::DescriptorPoolSize> sizes
+        = {{vk::DescriptorType::eUniformBuffer, 2 * count}, {vk::DescriptorType::eCombinedImageSampler, 7 * count}};
+    pool_ = device_.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 3 * count, sizes});
+    auto make_set = [&](const vk::raii::DescriptorSetLayout& set_layout) {
+        return std::move(device_.device.allocateDescriptorSets({*pool_, *set_layout}).front());
+    };
+    for (PaneState& pane : panes_) {
+        pane.warp_set = make_set(pipelines_.warp_set);
+        pane.hud_set = make_set(pipelines_.picture_set);
+        pane.label_set = make_set(pipelines_.picture_set);
+    }
+}
+
+std::size_t Frame::eye_for(const Pane& pane)
+{
+    const bool own = layout_.stereo.method == StereoMethod::exact;
+    const glm::dvec3 place = own ? pane.picture.eye_m : pane.head_m;
+    auto same = std::find_if(eyes_.begin(), eyes_.end(), [&](const Eye& e) { return e.place_m == place; });
+    if (same == eyes_.end()) {
+        eyes_.push_back({place, CubePass(device_, pipelines_, world_, quality_.samples, keeps_depth_)});
+        same = eyes_.end() - 1;
+    }
+    return std::size_t(same - eyes_.begin());
+}
+
+std::size_t Frame::map_for(const CompiledPane& pane, std::vector<Map>& before)
+{
+    if (!pane.map)
+        return no_map;
+    for (std::size_t i = 0; i < maps_.size(); ++i)
+        if (maps_[i].directions == pane.map)
+            return i;
+    for (Map& old : before)
+        if (old.directions == pane.map) {
+            maps_.push_back(std::move(old));
+            return maps_.size() - 1;
+        }
+    maps_.push_back({pane.map,
+        make_texture_array(device_, exact_format, pane.map->size, std::uint32_t(pane.map->channels),
+            std::as_bytes(std::span(pane.map->texels)))});
+    return maps_.size() - 1;
+}
+
+PixelBox Frame::panel_in(const Blocks& blocks) const
+{
+    // The panel's edges as planes through the eye, in the panel's axes, and the plane that keeps what is behind out.
+    const glm::dvec2 half = panel_half_;
+    const glm::dmat3 cockpit_from_panel_normals = glm::transpose(panel_from_cockpit_);
+    std::array<glm::dvec3, 5> sides = {glm::dvec3(1, 0, half.x), {-1, 0, half.x}, {0, 1, half.y}, {0, -1, half.y}, {0, 0, 1}};
+    for (glm::dvec3& side : sides)
+        side = glm::normalize(cockpit_from_panel_normals * side);
+    return pixels_in_pyramid(blocks, sides);
+}
+
+void Frame::find_hud_box(PaneState& pane) const
+{
+    const PixelBox box = panel_in(*pane.compiled.blocks);
+    pane.hud_box = rect_of(pane.pane().corner + box.low, box.high - box.low);
 }
 
 int Frame::hud_width() const
 {
     double finest = 1;
-    for (const ViewState& view : views_) {
-        glm::dvec3 middle = glm::inverse(panel_from_cockpit_) * glm::dvec3(0, 0, 1);
-        if (auto p = pixel(view.projection, view.size, glm::normalize(middle)))
-            finest = std::min(finest, pixel_angle(view.projection, view.size, *p));
-    }
+    for (const PaneState& pane : panes_)
+        finest = std::min(finest, double(panel_in(*pane.compiled.blocks).finest));
     return std::clamp(int(2 * panel_half_.x / finest), 160, 4096);
 }
 
@@ -140,19 +215,18 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
 {
     shot_ = shot;
     E_ = physics::exp_rapidity(glm::length(shot.u));
-    glm::dmat3 to_motion = motion_from_world(shot.u, shot.ship_from_cockpit);
-    glm::dmat3 motion_from_cockpit = to_motion * glm::dmat3(glm::mat3_cast(shot.ship_from_cockpit));
-    for (std::size_t i = 0; i < eyes_.size(); ++i) {
+    const glm::dmat3 to_motion = motion_from_world(shot.u, shot.ship_from_cockpit);
+    motion_from_cockpit_ = to_motion * glm::dmat3(glm::mat3_cast(shot.ship_from_cockpit));
+    for (std::size_t i = 0; pattern_ == Pattern::none && i < eyes_.size(); ++i) {
+        const glm::dvec3 place
+            = shot.position + physics::eye_place(shot.u, shot.ship_from_cockpit * scene_units(eyes_[i].place_m + eyes_[i].moved_m));
+        const double near = reprojects() ? std::max(nearest_box(world_.world, place), 1e-30) : 1;
         std::vector<View> asked;
-        for (ViewState& view : views_)
-            if (view.eye == i) {
-                view.motion_from_cockpit = motion_from_cockpit;
-                asked.push_back({view.projection, view.size, motion_from_cockpit});
-            }
+        for (const PaneState& pane : panes_)
+            if (pane.eye == i)
+                asked.push_back({pane.compiled.blocks.get(), motion_from_cockpit_,
+                    reprojects() ? std::min(0.35, glm::length(world_offset(pane)) / near) : 0});
         plans_[i] = make_plan(asked, shot.effects.aberration ? E_ : 1, quality_);
-
-        glm::dvec3 offset = shot.ship_from_cockpit * eyes_[i].offset_m * (layout_.stereo.hyper_stereo / world_.scene.unit_m);
-        glm::dvec3 place = shot.position + physics::eye_place(shot.u, offset);
         eyes_[i].cube.prepare(plans_[i], place, to_motion);
     }
     if (hud && (panel_.extent.width != std::uint32_t(hud->size.x) || panel_.extent.height != std::uint32_t(hud->size.y))) {
@@ -164,15 +238,35 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
     hud_on_ = hud;
     if ((panel_new_ = hud))
         std::memcpy(panel_pixels_.mapped, hud->texels.data(), hud->texels.size());
+    if (pattern_ != Pattern::none)
+        for (PaneState& pane : panes_)
+            if (!*pane.label.view)
+                pane.label = make_label(device_, layout_, pane.pane());
     write_sets();
+}
+
+glm::dvec3 Frame::scene_units(const glm::dvec3& place_m) const
+{
+    return place_m * (layout_.stereo.hyper_stereo / world_.scene.unit_m);
+}
+
+/// Of an eye from its cube map's place: world, motion axes. Where the baseline turns, as far as it ever is.
+glm::dvec3 Frame::world_offset(const PaneState& pane) const
+{
+    glm::dvec3 offset = motion_from_cockpit_ * scene_units(pane.beside_m);
+    const double gamma = 0.5 * (E_ + 1 / E_);
+    if (layout_.stereo.turning)
+        return glm::dvec3(1, 1, gamma) * glm::length(offset);
+    offset.z *= gamma; // physics::eye_place in these axes
+    return offset;
 }
 
 void Frame::write_sets()
 {
     std::vector<vk::DescriptorBufferInfo> buffers;
     std::vector<vk::DescriptorImageInfo> images;
-    buffers.reserve(5 * (eyes_.size() + views_.size()));
-    images.reserve(5 * views_.size());
+    buffers.reserve(2 * panes_.size());
+    images.reserve(7 * panes_.size());
     std::vector<vk::WriteDescriptorSet> writes;
     auto buffer = [&](const vk::raii::DescriptorSet& set, std::uint32_t binding, vk::DescriptorType type, const Buffer& b) {
         buffers.push_back({*b.buffer, 0, VK_WHOLE_SIZE});
@@ -183,28 +277,34 @@ void Frame::write_sets()
               images.push_back({*sampler, *i.view, vk::ImageLayout::eShaderReadOnlyOptimal});
               writes.push_back({*set, binding, 0, 1, vk::DescriptorType::eCombinedImageSampler, &images.back()});
           };
-    for (const ViewState& view : views_) {
-        const Eye& eye = eyes_[view.eye];
-        const Image& map = view.planar() ? nothing_ : view.map;
-        image(view.warp_set, 0, map, nearest_);
-        image(view.warp_set, 1, eye.cube.atlas(), plans_[view.eye].levels > 1 ? linear_ : finest_);
-        buffer(view.warp_set, 2, vk::DescriptorType::eUniformBuffer, eye.cube.slots());
-        buffer(view.warp_set, 3, vk::DescriptorType::eUniformBuffer, colours_);
-        image(view.warp_set, 4, keeps_depth_ ? eye.cube.depth() : nothing_, nearest_);
-        image(view.hud_set, 0, map, nearest_);
-        image(view.hud_set, 1, hud_on_ ? panel_ : nothing_, linear_);
+    for (const PaneState& pane : panes_) {
+        const Image& map = pane.map == no_map ? no_map_ : maps_[pane.map].image;
+        image(pane.hud_set, 0, map, nearest_);
+        image(pane.hud_set, 1, hud_on_ ? panel_ : nothing_, linear_);
+        image(pane.label_set, 0, map, nearest_);
+        image(pane.label_set, 1, *pane.label.view ? pane.label : nothing_, linear_);
+        if (pattern_ != Pattern::none)
+            continue;
+        const Eye& eye = eyes_[pane.eye];
+        image(pane.warp_set, 0, map, nearest_);
+        image(pane.warp_set, 1, eye.cube.atlas(), plans_[pane.eye].levels > 1 ? linear_ : finest_);
+        buffer(pane.warp_set, 2, vk::DescriptorType::eUniformBuffer, eye.cube.slots());
+        buffer(pane.warp_set, 3, vk::DescriptorType::eUniformBuffer, colours_);
+        image(pane.warp_set, 4, keeps_depth_ ? eye.cube.depth() : nothing_, nearest_);
     }
     device_.device.updateDescriptorSets(writes, {});
 }
 
 void Frame::record(vk::CommandBuffer commands, std::span<const Target> targets)
 {
-    draw_cubes(commands);
+    if (pattern_ == Pattern::none)
+        draw_cubes(commands);
     for (std::size_t output = 0; output < targets.size(); ++output) {
         if (!targets[output].view)
-            continue; // minimised
+            continue; // minimised, or its monitor is away
         warp_output(commands, output, targets[output]);
         draw_hud(commands, output, targets[output]);
+        finish_output(commands, output, targets[output]);
     }
 }
 
@@ -214,47 +314,99 @@ void Frame::draw_cubes(vk::CommandBuffer commands)
         eye.cube.record(commands);
 }
 
-WarpVariant Frame::variant(const ViewState& view) const
+WarpVariant Frame::variant(const PaneState& pane) const
 {
-    bool moves = E_ != 1; // at rest there is nothing to shift
+    const bool moves = E_ != 1; // at rest there is nothing to shift
+    const bool beside = reprojects() && pane.beside_m != glm::dvec3(0);
     const Effects& on = shot_.effects;
-    return {!view.planar(), on.aberration && moves, on.doppler && moves, on.headlight && moves, plans_[view.eye].levels > 1};
+    return {pane.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
+        plans_[pane.eye].levels > 1, pane.compiled.channels() == 3, beside, beside && layout_.stereo.turning};
 }
 
-shared::ViewPush Frame::push(const ViewState& view, const glm::dmat3& axes_from_cockpit) const
+shared::ViewPush Frame::push(const PaneState& pane, const glm::dmat3& axes_from_cockpit) const
 {
-    glm::dmat3 m = axes_from_cockpit * view.cockpit_from_pixel;
-    // Planar: one pixel's step on the plane at distance 1, the root of its area.
-    double unit = view.planar() ? std::sqrt(glm::length(glm::cross(m[0], m[1]))) : 0;
+    const bool flat = pane.compiled.matrix.has_value();
+    const glm::dmat3 m = axes_from_cockpit * pane.compiled.matrix.value_or(glm::dmat3(1));
+    // Flat: a pixel's solid angle is det M / length^3.
+    const double unit = flat ? std::sqrt(std::abs(glm::determinant(m))) : 0;
+    const vk::Extent2D atlas = eyes_[pane.eye].cube.atlas().extent;
     shared::ViewPush push{};
     push.row0 = row(m, 0, unit);
-    push.row1 = row(m, 1, plans_[view.eye].rear_last);
+    push.row1 = row(m, 1, plans_[pane.eye].rear_last);
     push.row2 = row(m, 2);
-    push.origin
-        = glm::vec4(view.corner, eyes_[view.eye].cube.atlas().extent.width, eyes_[view.eye].cube.atlas().extent.height);
+    push.origin = glm::vec4(pane.pane().corner, atlas.width, atlas.height);
+    if (layout_.stereo.turning) {
+        const double side = pane.beside_m.x < 0 ? -1 : 1;
+        push.eye = glm::vec4(
+            motion_from_cockpit_ * glm::dvec3(0, 1, 0), side * glm::length(scene_units(pane.beside_m)));
+        push.zenith = glm::vec4(std::sin(layout_.stereo.full_from_zenith_deg * degree), 0, 0, 0);
+    } else {
+        push.eye = glm::vec4(world_offset(pane), 0);
+    }
     return push;
 }
 
-void Frame::warp_view(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline, double exposure)
+void Frame::warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline, double exposure)
 {
-    shared::ViewPush constants = push(view, view.motion_from_cockpit);
+    shared::ViewPush constants = push(pane, motion_from_cockpit_);
     constants.boost = glm::vec4(E_, 1 / E_, exposure / world_.pre_exposure, near_distance);
-    set_area(commands, view.corner, view.size);
+    set_area(commands, pane.pane().corner, pane.pane().size);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.warp_layout, 0, *view.warp_set, {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.warp_layout, 0, *pane.warp_set, {});
     commands.pushConstants<shared::ViewPush>(*pipelines_.warp_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
     commands.draw(3, 1, 0, 0);
 }
 
-void Frame::warp_output(vk::CommandBuffer commands, std::size_t output, const Target& target)
+void Frame::pattern_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Format format)
 {
-    vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
-        vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore, vk::ClearColorValue(std::array<float, 4>{0, 0, 0, 1}));
-    commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
-    for (const ViewState& view : views_)
-        if (view.output == output)
-            warp_view(commands, view, pipelines_.warp(variant(view), target.format), std::exp2(shot_.exposure_ev));
-    commands.endRendering();
+    const Pane& own = pane.pane();
+    const shared::ViewPush look = push(pane, glm::dmat3(1));
+    shared::PatternPush constants{};
+    constants.row0 = look.row0, constants.row1 = look.row1, constants.row2 = look.row2;
+    constants.origin = glm::vec4(own.corner, own.size);
+    constants.tint = glm::vec4(pattern_ == Pattern::names ? eye_tint(own.eye) : output_tint(own.output), 0);
+    constants.label = glm::vec4(pane.label.extent.width, pane.label.extent.height, 0, 0);
+    set_area(commands, own.corner, own.size);
+    commands.bindPipeline(
+        vk::PipelineBindPoint::eGraphics, pipelines_.pattern(pane.compiled.map != nullptr, int(pattern_), format));
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, *pane.label_set, {});
+    commands.pushConstants<shared::PatternPush>(
+        *pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
+    commands.draw(3, 1, 0, 0);
+}
+
+Target Frame::picture_of(std::size_t output, int layer, const Target& last) const
+{
+    const FinishPass* finish = outputs_[output].finish.get();
+    return finish ? finish->picture(std::size_t(layer)) : last;
+}
+
+void Frame::warp_output(vk::CommandBuffer commands, std::size_t output, const Target& last)
+{
+    if (outputs_[output].finish)
+        outputs_[output].finish->begin(commands);
+    for (int layer = 0; layer < layers(layout_.outputs[output].packing); ++layer) {
+        const Target target = picture_of(output, layer, last);
+        vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+            vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
+            vk::ClearColorValue(std::array<float, 4>{0, 0, 0, 1}));
+        commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
+        for (const PaneState& pane : panes_) {
+            if (pane.output != output || pane.pane().layer != layer)
+                continue;
+            if (pattern_ != Pattern::none)
+                pattern_pane(commands, pane, target.format);
+            else
+                warp_pane(commands, pane, pipelines_.warp(variant(pane), target.format), std::exp2(shot_.exposure_ev));
+        }
+        commands.endRendering();
+    }
+}
+
+void Frame::finish_output(vk::CommandBuffer commands, std::size_t output, const Target& target)
+{
+    if (outputs_[output].finish)
+        outputs_[output].finish->record(commands, target);
 }
 
 void Frame::record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target)
@@ -269,18 +421,18 @@ void Frame::record_measured(vk::CommandBuffer commands, std::size_t output, cons
             vk::AttachmentStoreOp::eStore, vk::ClearColorValue(std::array<float, 4>{nothing, nothing, nothing, nothing})});
     }
     commands.beginRendering({{}, {{0, 0}, target.camera.extent}, 1, 0, colours});
-    for (const ViewState& view : views_)
-        if (view.output == output)
-            warp_view(commands, view, pipelines_.measure(variant(view)), 1);
+    for (const PaneState& pane : panes_)
+        if (pane.output == output && pane.pane().layer == 0)
+            warp_pane(commands, pane, pipelines_.measure(variant(pane)), 1);
     commands.endRendering();
     for (const Image* image : {&target.light_and_depth, &target.camera, &target.world})
         transition(commands, *image, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
             Access::eColorAttachmentWrite, Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
 }
 
-void Frame::draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& target)
+void Frame::draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& last)
 {
-    if (!hud_on_)
+    if (!hud_on_ || pattern_ != Pattern::none)
         return;
     if (panel_new_) {
         transition(commands, panel_, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eTransferDstOptimal,
@@ -292,38 +444,44 @@ void Frame::draw_hud(vk::CommandBuffer commands, std::size_t output, const Targe
             Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
         panel_new_ = false;
     }
-    vk::ImageMemoryBarrier2 after_warp(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
-        Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead,
-        Layout_::eColorAttachmentOptimal, Layout_::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED,
-        target.image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
-    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, after_warp));
-    vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
-        vk::AttachmentLoadOp::eLoad, vk::AttachmentStoreOp::eStore);
-    commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
-    for (const ViewState& view : views_) {
-        if (view.output != output || view.hud_box.extent.width == 0 || view.hud_box.extent.height == 0)
-            continue;
-        shared::ViewPush constants = push(view, panel_from_cockpit_);
-        constants.boost = glm::vec4(panel_half_, 0, 0);
-        set_area(commands, view.corner, view.size);
-        commands.setScissor(0, view.hud_box);
-        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.hud(!view.planar(), target.format));
-        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, *view.hud_set, {});
-        commands.pushConstants<shared::ViewPush>(
-            *pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
-        commands.draw(3, 1, 0, 0);
+    for (int layer = 0; layer < layers(layout_.outputs[output].packing); ++layer) {
+        const Target target = picture_of(output, layer, last);
+        vk::ImageMemoryBarrier2 after_warp(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+            Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead,
+            Layout_::eColorAttachmentOptimal, Layout_::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED,
+            VK_QUEUE_FAMILY_IGNORED, target.image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
+        commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, after_warp));
+        vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+            vk::AttachmentLoadOp::eLoad, vk::AttachmentStoreOp::eStore);
+        commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
+        for (const PaneState& pane : panes_) {
+            const bool here = pane.output == output && pane.pane().layer == layer;
+            if (!here || pane.hud_box.extent.width == 0 || pane.hud_box.extent.height == 0)
+                continue;
+            shared::ViewPush constants = push(pane, panel_from_cockpit_);
+            constants.boost = glm::vec4(panel_half_, 0, 0);
+            set_area(commands, pane.pane().corner, pane.pane().size);
+            commands.setScissor(0, pane.hud_box);
+            commands.bindPipeline(
+                vk::PipelineBindPoint::eGraphics, pipelines_.hud(pane.compiled.map != nullptr, target.format));
+            commands.bindDescriptorSets(
+                vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, *pane.hud_set, {});
+            commands.pushConstants<shared::ViewPush>(
+                *pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
+            commands.draw(3, 1, 0, 0);
+        }
+        commands.endRendering();
     }
-    commands.endRendering();
 }
 
 void Frame::look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeline pipeline, vk::DescriptorSet set)
 {
-    const ViewState& view = views_.front();
-    shared::ViewPush constants = push(view, view.motion_from_cockpit);
+    const PaneState& pane = panes_.front();
+    shared::ViewPush constants = push(pane, motion_from_cockpit_);
     vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore);
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
-    set_area(commands, view.corner, view.size);
+    set_area(commands, pane.pane().corner, pane.pane().size);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, set, {});
     commands.pushConstants<shared::ViewPush>(*pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
@@ -333,13 +491,13 @@ void Frame::look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeli
 
 PlanImage Frame::plain_image(const Shot& shot, glm::dmat3& straight_from_world) const
 {
-    const ViewState& view = views_.front();
+    const PaneState& pane = panes_.front();
     straight_from_world = motion_from_world({0, 0, 0}, shot.ship_from_cockpit);
-    glm::dmat3 m = straight_from_world * glm::dmat3(glm::mat3_cast(shot.ship_from_cockpit)) * view.cockpit_from_pixel;
-    glm::dvec3 low = m * glm::dvec3(0, 0, 1), high = m * glm::dvec3(view.size, 1);
+    glm::dmat3 m = straight_from_world * glm::dmat3(glm::mat3_cast(shot.ship_from_cockpit)) * pane.compiled.matrix.value();
+    glm::dvec3 low = m * glm::dvec3(0, 0, 1), high = m * glm::dvec3(pane.pane().size, 1);
     // The view's x may run against the face's a: the picture is then mirrored, at the same cost.
     glm::dvec2 one = glm::dvec2(low) / low.z, other = glm::dvec2(high) / high.z;
-    PlanImage image{SLOT_FRONT, 0, glm::min(one, other), glm::max(one, other), view.size, {0, 0}, 0, 1};
+    PlanImage image{SLOT_FRONT, 0, glm::min(one, other), glm::max(one, other), pane.pane().size, {0, 0}, 0, 1};
     image.texels_per_unit = image.size.y / (image.high.y - image.low.y);
     return image;
 }
@@ -357,8 +515,10 @@ vk::DeviceSize Frame::memory() const
     vk::DeviceSize bytes = panel_.bytes;
     for (const Eye& eye : eyes_)
         bytes += eye.cube.memory();
-    for (const ViewState& view : views_)
-        bytes += view.map.bytes;
+    for (const Map& map : maps_)
+        bytes += map.image.bytes;
+    for (const OutputState& output : outputs_)
+        bytes += output.finish ? output.finish->memory() : 0;
     return bytes;
 }
 

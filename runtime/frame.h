@@ -1,6 +1,6 @@
 #pragma once
-#include "config/layout.h"
-#include "cube_pass.h"
+#include "displays/compiled.h"
+#include "finish_pass.h"
 #include "hud.h"
 #include "plan.h"
 
@@ -10,6 +10,9 @@ namespace starbow {
 struct MeasureTarget {
     Image light_and_depth, camera, world;
 };
+
+/// What the outputs show: the flight, or a pattern to line them up by.
+enum class Pattern { none, grid, rings, names, wedges, overlap };
 
 /// Draws a layout's outputs for a shot. Holds the device's memory that frames share; no frame depends on an earlier one.
 /// One frame at a time: the caller waits for the device before the next prepare().
@@ -21,25 +24,32 @@ public:
     /// The size in pixels of an output, when it is not the layout's.
     void resize(std::size_t output, glm::ivec2 size);
 
+    /// Moves every head from where the layout has it, metres: what is seen through walls follows. Maps (mirrors, measured
+    /// points) stay as they are.
+    void move_head(const glm::dvec3& by_m);
+
+    void show(Pattern pattern) { pattern_ = pattern; }
+
     /// All that the processor does for a frame: eyes, plans, culling, uploads.
     void prepare(const Shot& shot, const Panel* hud);
 
-    /// All that the device does, in order: for each eye the images of its plan; for each output its viewports, then the
-    /// head-up display. targets: one for each output.
+    /// All that the device does, in order: for each eye the images of its plan; for each output its panes, the head-up
+    /// display, and what its screen wants. targets: one for each output.
     void record(vk::CommandBuffer commands, std::span<const Target> targets);
 
-    /// The same for one output with numbers instead of a picture.
+    /// The same for one output with numbers instead of a picture: the left eye's where both share pixels.
     void record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target);
 
     // The stages of record(), one by one, for those who time them.
     void draw_cubes(vk::CommandBuffer commands);
     void warp_output(vk::CommandBuffer commands, std::size_t output, const Target& target);
     void draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& target);
+    void finish_output(vk::CommandBuffer commands, std::size_t output, const Target& target);
 
-    /// What any other program would draw of the first viewport, which must be planar: the image and the axes of a straight
+    /// What any other program would draw of the first pane, which must be flat: the image and the axes of a straight
     /// perspective view, for CubePass::prepare_plain.
     PlanImage plain_image(const Shot& shot, glm::dmat3& straight_from_world) const;
-    /// The first viewport through Pipelines::lookup: the bare cost of a cube map's look-up.
+    /// The first pane through Pipelines::lookup: the bare cost of a cube map's look-up.
     void look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeline pipeline, vk::DescriptorSet set);
 
     /// What the head-up display's panel would need across to be sharp in the finest viewport, pixels.
@@ -50,26 +60,43 @@ public:
 
 private:
     struct Eye {
-        glm::dvec3 offset_m;
+        glm::dvec3 place_m; ///< in the cockpit
         CubePass cube;
+        glm::dvec3 moved_m{0}; ///< with the head
     };
-    struct ViewState {
-        std::size_t output, eye;
-        glm::ivec2 corner, size; ///< pixels in the output
-        Projection projection;
-        Image map; ///< of directions; empty for planar views
-        glm::dmat3 cockpit_from_pixel{1};
-        vk::raii::DescriptorSet warp_set = nullptr, hud_set = nullptr;
-        glm::dmat3 motion_from_cockpit{1};
+    struct PaneState {
+        std::size_t output = 0, eye = 0;
+        CompiledPane compiled;
+        std::size_t map = 0; ///< index into maps_, or none
+        Image label; ///< of test patterns, once they were shown
+        vk::raii::DescriptorSet warp_set = nullptr, hud_set = nullptr, label_set = nullptr;
         vk::Rect2D hud_box;
-        bool planar() const { return !*map.view; }
+        glm::dvec3 beside_m{0}; ///< the eye's place from its cube map's, in the cockpit
+        const Pane& pane() const { return compiled.pane; }
+    };
+    struct OutputState {
+        glm::ivec2 size{0};
+        std::unique_ptr<FinishPass> finish; ///< null where its target takes the light as it is
+    };
+    struct Map {
+        std::shared_ptr<const DirectionMap> directions;
+        Image image;
     };
 
-    void place_view(ViewState& view, glm::ivec2 output_size);
+    void compile_panes();
+    void find_hud_box(PaneState& pane) const;
+    std::size_t eye_for(const Pane& pane);
+    std::size_t map_for(const CompiledPane& pane, std::vector<Map>& before);
+    PixelBox panel_in(const Blocks& blocks) const;
+    glm::dvec3 scene_units(const glm::dvec3& place_m) const;
+    glm::dvec3 world_offset(const PaneState& pane) const;
     void write_sets();
-    void warp_view(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline, double exposure);
-    WarpVariant variant(const ViewState& view) const;
-    shared::ViewPush push(const ViewState& view, const glm::dmat3& axes_from_cockpit) const;
+    void warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline, double exposure);
+    void pattern_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Format target);
+    WarpVariant variant(const PaneState& pane) const;
+    shared::ViewPush push(const PaneState& pane, const glm::dmat3& axes_from_cockpit) const;
+    Target picture_of(std::size_t output, int layer, const Target& last) const;
+    bool reprojects() const { return layout_.stereo.method == StereoMethod::reprojected; }
 
     Quality quality_;
     Device& device_;
@@ -77,21 +104,25 @@ private:
     const GpuWorld& world_;
     Layout layout_;
     bool keeps_depth_;
+    MapStore store_;
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::raii::Sampler linear_ = nullptr, nearest_ = nullptr, finest_ = nullptr; ///< finest_: level 0 alone
     Buffer colours_;
-    Image nothing_; ///< stands in for a map that a planar view has not
+    Image nothing_, no_map_; ///< stand in for what a pane has not
+    std::vector<Map> maps_;
     std::vector<Eye> eyes_;
-    std::vector<ViewState> views_;
+    std::vector<PaneState> panes_;
+    std::vector<OutputState> outputs_;
     std::vector<Plan> plans_;
     Shot shot_;
     double E_ = 1;
+    glm::dmat3 motion_from_cockpit_{1};
+    Pattern pattern_ = Pattern::none;
     Image panel_;
     Buffer panel_pixels_;
     bool panel_new_ = false, hud_on_ = false;
     glm::dmat3 panel_from_cockpit_{1};
     glm::dvec2 panel_half_{1};
-    std::vector<glm::ivec2> sizes_;
 };
 
 } // namespace starbow

@@ -3,9 +3,11 @@
 #include "runtime/world.h"
 #include "spirv/cube_frag.h"
 #include "spirv/cube_vert.h"
+#include "spirv/finish_frag.h"
 #include "spirv/hud_frag.h"
 #include "spirv/lookup_frag.h"
 #include "spirv/measure_frag.h"
+#include "spirv/pattern_frag.h"
 #include "spirv/screen_vert.h"
 #include "spirv/sky_frag.h"
 #include "spirv/sky_vert.h"
@@ -93,7 +95,9 @@ vk::raii::PipelineLayout make_layout(const Device& device, std::initializer_list
     return device.device.createPipelineLayout({{}, sets, push});
 }
 
-std::vector<std::uint32_t> constants(const WarpVariant& v) { return {v.map, v.aberration, v.doppler, v.headlight, v.mips}; }
+std::vector<std::uint32_t> constants(const WarpVariant& v) {
+    return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning};
+}
 
 /// The pipeline of a key, made by `make` if it is new.
 template <class Key, class Make> vk::Pipeline find(std::map<Key, vk::raii::Pipeline>& made, const Key& key, Make&& make)
@@ -117,9 +121,11 @@ Pipelines::Pipelines(Device& device)
     material_set = make_set_layout(device, fragment, {picture, picture});
     warp_set = make_set_layout(device, fragment, {picture, picture, Type::eUniformBuffer, Type::eUniformBuffer, picture});
     picture_set = make_set_layout(device, fragment, {picture, picture});
+    finish_set = make_set_layout(device, fragment, {picture, picture, picture, picture, picture});
     surface_layout = make_layout(device, {*eye_set, *material_set}, both, sizeof(shared::CubePush));
     warp_layout = make_layout(device, {*warp_set}, fragment, sizeof(shared::ViewPush));
     picture_layout = make_layout(device, {*picture_set}, fragment, sizeof(shared::ViewPush));
+    finish_layout = make_layout(device, {*finish_set}, fragment, sizeof(shared::FinishPush));
 }
 
 vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& target)
@@ -196,6 +202,30 @@ vk::Pipeline Pipelines::lookup(vk::Format target)
                 .layout = *picture_layout,
                 .targets = {target},
                 .constants = {false}});
+    });
+}
+
+vk::Pipeline Pipelines::finish(const FinishVariant& v, vk::Format target)
+{
+    return find(finishes_, std::pair(v, target), [&] {
+        return make_pipeline(device_,
+            {.vertex = screen_vert,
+                .fragment = finish_frag,
+                .layout = *finish_layout,
+                .targets = {target},
+                .constants = {std::uint32_t(v.combine), v.masked, std::uint32_t(v.curve)}});
+    });
+}
+
+vk::Pipeline Pipelines::pattern(bool map, int pattern, vk::Format target)
+{
+    return find(patterns_, std::tuple(map, pattern, target), [&] {
+        return make_pipeline(device_,
+            {.vertex = screen_vert,
+                .fragment = pattern_frag,
+                .layout = *picture_layout,
+                .targets = {target},
+                .constants = {map, std::uint32_t(pattern)}});
     });
 }
 

@@ -2,6 +2,7 @@
 #include "resources.h"
 #include <array>
 #include <map>
+#include <tuple>
 
 namespace starbow {
 
@@ -19,7 +20,17 @@ struct SurfaceVariant {
 /// What a viewport needs of the warp pass: constant_ids of view.glsl and seen.glsl.
 struct WarpVariant {
     bool map, aberration, doppler, headlight, mips;
+    bool channels = false; ///< red, green and blue look different ways
+    bool reproject = false, turning = false; ///< stereo from one cube map; by the azimuth
     auto operator<=>(const WarpVariant&) const = default;
+};
+
+/// How an output's pictures become its screen's: constant_ids of finish.frag.
+struct FinishVariant {
+    int combine = 0; ///< 0 one picture; two by rows 1, columns 2, checkerboard 3; added 4
+    bool masked = false;
+    int curve = 0; ///< 0 sRGB, 1 gamma, 2 table
+    auto operator<=>(const FinishVariant&) const = default;
 };
 
 /// Where a pass draws.
@@ -40,12 +51,16 @@ public:
     vk::Pipeline measure(const WarpVariant& variant);
     vk::Pipeline hud(bool map, vk::Format target);
     vk::Pipeline lookup(vk::Format target);
+    vk::Pipeline finish(const FinishVariant& variant, vk::Format target);
+    vk::Pipeline pattern(bool map, int pattern, vk::Format target);
 
     vk::raii::DescriptorSetLayout eye_set = nullptr; ///< 0 constants, 1 instances, 2 visible
     vk::raii::DescriptorSetLayout material_set = nullptr; ///< 0 base, 1 emissive texture
     vk::raii::DescriptorSetLayout warp_set = nullptr; ///< 0 direction map, 1 atlas, 2 slots, 3 colours, 4 depth atlas
-    vk::raii::DescriptorSetLayout picture_set = nullptr; ///< 0 direction map, 1 panel or cube
-    vk::raii::PipelineLayout surface_layout = nullptr, warp_layout = nullptr, picture_layout = nullptr;
+    vk::raii::DescriptorSetLayout picture_set = nullptr; ///< 0 direction map, 1 panel, label or cube
+    vk::raii::DescriptorSetLayout finish_set = nullptr; ///< 0 left, 1 right picture, 2 weights, 3 black level, 4 table
+    vk::raii::PipelineLayout surface_layout = nullptr, warp_layout = nullptr, picture_layout = nullptr,
+                             finish_layout = nullptr;
 
 private:
     Device& device_;
@@ -55,6 +70,8 @@ private:
     std::map<WarpVariant, vk::raii::Pipeline> measures_;
     std::map<std::pair<bool, vk::Format>, vk::raii::Pipeline> huds_;
     std::map<vk::Format, vk::raii::Pipeline> lookups_;
+    std::map<std::pair<FinishVariant, vk::Format>, vk::raii::Pipeline> finishes_;
+    std::map<std::tuple<bool, int, vk::Format>, vk::raii::Pipeline> patterns_;
 };
 
 } // namespace starbow

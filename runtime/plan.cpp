@@ -1,10 +1,8 @@
 #include "plan.h"
-#include "displays/direction_map.h"
 #include "physics/physics.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 namespace starbow {
 namespace {
@@ -53,7 +51,7 @@ int rear_level(double larger, int rear_last)
 struct Disc {
     glm::dvec3 centre;
     double radius; // radians, up to pi
-    double texel_angle; // one texel per pixel, radians
+    double finest, coarsest; // one texel per pixel, radians
 };
 
 /// Range of tan(angle) of a disc seen along a face's normal and one of its axes, clamped to the face. False if it misses.
@@ -79,7 +77,7 @@ struct Demand {
 };
 using Demands = std::array<Demand, SLOT_COUNT>;
 
-void ask(Demands& demands, int slot, const Rect& wanted, double texel_angle)
+void ask(Demands& demands, int slot, const Rect& wanted, const Disc& disc)
 {
     Rect own = slot_rect(slot);
     Rect part{glm::max(own.low, wanted.low), glm::min(own.high, wanted.high)};
@@ -87,11 +85,11 @@ void ask(Demands& demands, int slot, const Rect& wanted, double texel_angle)
         return;
     // The solid angle of a texel at (a, b) is its area over (1 + a^2 + b^2)^(3/2).
     glm::dvec2 at = 0.5 * (part.low + part.high);
-    double unit = texel_angle * std::pow(1 + glm::dot(at, at), 0.75);
+    double per_angle = std::pow(1 + glm::dot(at, at), 0.75);
     Demand& demand = demands[slot];
     demand.rect.add(part);
-    demand.finest = std::min(demand.finest, unit);
-    demand.coarsest = std::max(demand.coarsest, unit);
+    demand.finest = std::min(demand.finest, disc.finest * per_angle);
+    demand.coarsest = std::max(demand.coarsest, disc.coarsest * per_angle);
 }
 
 void ask(Demands& demands, const Disc& disc, int rear_last)
@@ -103,7 +101,7 @@ void ask(Demands& demands, const Disc& disc, int rear_last)
             || !face_range(disc.centre[face_b[face]], normal, disc.radius, wanted.low.y, wanted.high.y))
             continue;
         if (face == 0) {
-            ask(demands, SLOT_FRONT, wanted, disc.texel_angle);
+            ask(demands, SLOT_FRONT, wanted, disc);
         } else if (face == 1) {
             // The nested squares from the one that holds the disc's outermost point to the one of its innermost.
             glm::dvec2 far = glm::max(glm::abs(wanted.low), glm::abs(wanted.high));
@@ -111,89 +109,65 @@ void ask(Demands& demands, const Disc& disc, int rear_last)
             int outer = rear_level(std::max(far.x, far.y), rear_last),
                 inner = rear_level(std::max(near.x, near.y), rear_last);
             for (int level = outer; level <= inner; ++level)
-                ask(demands, SLOT_REAR + level, wanted, disc.texel_angle);
+                ask(demands, SLOT_REAR + level, wanted, disc);
         } else {
             for (int band = 0; band < SIDE_BANDS; ++band)
-                ask(demands, SLOT_SIDES + (face - 2) * SIDE_BANDS + band, wanted, disc.texel_angle);
+                ask(demands, SLOT_SIDES + (face - 2) * SIDE_BANDS + band, wanted, disc);
         }
     }
 }
 
-/// Walks a view's pixels in cells, cut finer where the boost spreads a cell over much of the sky.
+/// Walks a view's blocks of pixels, finer where the boost spreads one over much of the sky.
 struct Walk {
     const View& view;
     double E;
     int rear_last;
     Demands& demands;
-    double least_angle; ///< below it a finer texel shows nothing more
+    int coarsest_level; ///< that is fine enough to follow the view's outline
 
-    std::optional<glm::dvec3> look(glm::dvec2 pixel) const
+    void block(int level, glm::ivec2 at) const
     {
-        auto n = direction(view.projection, view.size, pixel);
-        if (!n)
-            return {};
-        return view.motion_from_cockpit * *n;
-    }
-
-    void cell(double x0, double y0, double x1, double y1) const
-    {
-        double width = std::max(x1 - x0, y1 - y0);
-        glm::dvec2 middle(0.5 * (x0 + x1), 0.5 * (y0 + y1));
-        const glm::dvec2 corner_at[4] = {{x0, y0}, {x1, y0}, {x0, y1}, {x1, y1}};
-        auto centre = look(middle);
-        std::optional<glm::dvec3> corners[4];
-        for (int i = 0; i < 4; ++i)
-            corners[i] = look(corner_at[i]);
-        int seen = centre.has_value();
-        for (auto& corner : corners)
-            seen += corner.has_value();
-        bool rim = seen < 5;
-        if (rim && width > 4)
-            return split(x0, y0, x1, y1);
-        if (seen == 0 && width <= 1)
+        const bool last = level + 1 == view.blocks->levels();
+        if (view.blocks->flat() && level < coarsest_level)
+            return split(level, at);
+        const Cap cap = view.blocks->cap(level, at);
+        if (cap.empty())
             return;
-        if (rim && !centre) {
-            for (int i = 0; i < 4; ++i)
-                if (corners[i])
-                    centre = corners[i], middle = corner_at[i];
-            if (!centre)
-                return;
-        }
-        double angle = std::max(pixel_angle(view.projection, view.size, middle), least_angle);
-        double radius = angle; // a pixel's own extent, and some for a map that bends inside the cell
-        if (rim)
-            radius += 1.5 * width * angle;
-        else
-            for (auto& corner : corners)
-                radius = std::max(radius, 1.05 * std::acos(std::clamp(glm::dot(*centre, *corner), -1.0, 1.0)) + 0.5 * angle);
-        if (radius > 0.3 && width > 4)
-            return split(x0, y0, x1, y1);
+        if (!last && (level < coarsest_level || cap.radius > 0.3))
+            return split(level, at);
 
         // A boost maps circles to circles, so the world's disc follows exactly from its two ends on the meridian.
-        glm::dvec2 across(centre->x, centre->y);
-        double theta = std::atan2(glm::length(across), centre->z);
+        const glm::dvec3 centre = view.motion_from_cockpit * glm::dvec3(cap.centre);
+        const double radius = cap.radius + 0.5 * cap.coarsest;
+        const glm::dvec2 across(centre.x, centre.y);
+        const double theta = std::atan2(glm::length(across), centre.z);
         auto world = [&](double camera) { return 2 * std::atan2(E * std::sin(camera / 2), std::cos(camera / 2)); };
-        double low = world(theta - radius), high = world(std::min(theta + radius, theta + pi));
+        const double low = world(theta - radius), high = world(std::min(theta + radius, theta + pi));
         Disc disc;
         disc.radius = std::min(pi, 0.5 * (high - low));
-        if (disc.radius > 0.25 && width > 1.5)
-            return split(x0, y0, x1, y1);
-        double world_theta = 0.5 * (low + high);
-        glm::dvec2 meridian = glm::length(across) > 0 ? across / glm::length(across) : glm::dvec2(1, 0);
+        if (!last && disc.radius > 0.25)
+            return split(level, at);
+        const double world_theta = 0.5 * (low + high);
+        const glm::dvec2 meridian = glm::length(across) > 0 ? across / glm::length(across) : glm::dvec2(1, 0);
         disc.centre = glm::dvec3(meridian * std::sin(world_theta), std::cos(world_theta));
-        double half = 0.5 * theta;
-        double D = 1 / (std::cos(half) * std::cos(half) / E + std::sin(half) * std::sin(half) * E);
-        disc.texel_angle = D * angle;
+        auto doppler = [&](double camera) {
+            const double c = std::cos(camera / 2), s = std::sin(camera / 2);
+            return 1 / (c * c / E + s * s * E);
+        };
+        const double D = doppler(theta);
+        // A last block may still hold many pixels: the finest texel is then wanted at its far side.
+        disc.finest = (disc.radius > 0.25 ? doppler(std::min(theta + cap.radius, pi)) : D) * cap.finest;
+        disc.coarsest = D * cap.coarsest;
+        disc.radius = std::min(pi, disc.radius + view.parallax_rad);
         ask(demands, disc, rear_last);
     }
 
-    void split(double x0, double y0, double x1, double y1) const
+    void split(int level, glm::ivec2 at) const
     {
-        double x = 0.5 * (x0 + x1), y = 0.5 * (y0 + y1);
-        cell(x0, y0, x, y);
-        cell(x, y0, x1, y);
-        cell(x0, y, x, y1);
-        cell(x, y, x1, y1);
+        const glm::ivec2 finer = view.blocks->count(level + 1);
+        for (int j = 2 * at.y; j < std::min(2 * at.y + 2, finer.y); ++j)
+            for (int i = 2 * at.x; i < std::min(2 * at.x + 2, finer.x); ++i)
+                block(level + 1, {i, j});
     }
 };
 
@@ -260,16 +234,14 @@ Plan make_plan(const std::vector<View>& views, double E, const Quality& quality)
     // Behind, D stops falling at 1/gamma from the axis: finer images would only repeat the last one.
     plan.rear_last = std::clamp(int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0, REAR_LEVELS - 1);
     for (const View& view : views) {
-        plan.pixels += double(view.size.x) * view.size.y;
-        Walk walk{view, E, plan.rear_last, demands, 0.5 * pixel_length(view.projection, view.size)};
-        // Cells of equal size, about 24 pixels, and no fewer than 16 across.
-        double cell = std::min(24.0, std::max(view.size.x, view.size.y) / 16.0);
-        int columns = std::max(1, int(std::ceil(view.size.x / cell))),
-            rows = std::max(1, int(std::ceil(view.size.y / cell)));
-        for (int row = 0; row < rows; ++row)
-            for (int column = 0; column < columns; ++column)
-                walk.cell(double(view.size.x) * column / columns, double(view.size.y) * row / rows,
-                    double(view.size.x) * (column + 1) / columns, double(view.size.y) * (row + 1) / rows);
+        const Blocks& blocks = *view.blocks;
+        plan.pixels += double(blocks.size().x) * blocks.size().y;
+        // Blocks of up to 32 pixels, and no fewer than 16 across.
+        const double wanted = std::min(32.0, std::max(blocks.size().x, blocks.size().y) / 16.0);
+        int level = 0;
+        while (level + 1 < blocks.levels() && blocks.side(level) > wanted)
+            ++level;
+        Walk{view, E, plan.rear_last, demands, level}.block(0, {0, 0});
     }
 
     constexpr int least = 8, most = 8192; // texels across one image

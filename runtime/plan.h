@@ -1,16 +1,16 @@
 #pragma once
-#include "config/layout.h"
+#include "displays/blocks.h"
 #include "runtime/shared.h"
 #include <glm/glm.hpp>
 #include <vector>
 
 namespace starbow {
 
-/// What one eye's viewport asks of the cube map.
+/// What one pane asks of its eye's cube map.
 struct View {
-    Projection projection;
-    glm::ivec2 size; ///< pixels
+    const Blocks* blocks;
     glm::dmat3 motion_from_cockpit; ///< turn into the axes whose z is the direction of motion
+    double parallax_rad = 0; ///< by how much the place that a pixel reads may lie off its direction, in the world
 };
 
 /// The trade of speed for accuracy.

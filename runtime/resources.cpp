@@ -91,7 +91,10 @@ Image make_image(const Device& device, const ImageSpec& spec)
     image.bytes = image.image.getMemoryRequirements().size;
     image.memory = bind(device, image.image, vk::MemoryPropertyFlagBits::eDeviceLocal);
     image.view
-        = device.device.createImageView({{}, *image.image, spec.cube ? vk::ImageViewType::eCube : vk::ImageViewType::e2D,
+        = device.device.createImageView({{}, *image.image,
+            spec.cube        ? vk::ImageViewType::eCube
+                : spec.array ? vk::ImageViewType::e2DArray
+                             : vk::ImageViewType::e2D,
             spec.format, {}, {aspect_of(spec.format), 0, spec.levels, 0, spec.layers}});
     return image;
 }
@@ -146,6 +149,31 @@ Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::span
                 Access::eShaderSampledRead, Stage::eFragmentShader);
         level_barrier(levels - 1, 1, Layout::eTransferDstOptimal, Access::eTransferWrite, Layout::eShaderReadOnlyOptimal,
             Access::eShaderSampledRead, Stage::eFragmentShader);
+    });
+    return image;
+}
+
+Image make_texture_array(
+    Device& device, vk::Format format, glm::ivec2 size, std::uint32_t layers, std::span<const std::byte> pixels)
+{
+    Image image = make_image(device,
+        {.format = format,
+            .extent = {std::uint32_t(size.x), std::uint32_t(size.y)},
+            .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst,
+            .layers = layers,
+            .array = true});
+    Buffer staging = make_mapped_buffer(device, pixels.size(), vk::BufferUsageFlagBits::eTransferSrc);
+    std::memcpy(staging.mapped, pixels.data(), pixels.size());
+    using Stage = vk::PipelineStageFlagBits2;
+    using Access = vk::AccessFlagBits2;
+    device.now([&](vk::CommandBuffer commands) {
+        transition(commands, image, vk::ImageLayout::eUndefined, Stage::eNone, {}, vk::ImageLayout::eTransferDstOptimal,
+            Stage::eTransfer, Access::eTransferWrite);
+        commands.copyBufferToImage(*staging.buffer, *image.image, vk::ImageLayout::eTransferDstOptimal,
+            vk::BufferImageCopy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, layers}, {},
+                {image.extent.width, image.extent.height, 1}));
+        transition(commands, image, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
+            vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
     });
     return image;
 }

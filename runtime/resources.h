@@ -38,6 +38,7 @@ struct ImageSpec {
     std::uint32_t layers = 1;
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     bool cube = false;
+    bool array = false; ///< seen as an array, however few its layers
 };
 /// Throws InputError if the device can't hold it.
 Image make_image(const Device& device, const ImageSpec& spec);
@@ -46,6 +47,9 @@ vk::ImageAspectFlags aspect_of(vk::Format format);
 
 /// A picture for sampling, with mips made by halving.
 Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::span<const std::byte> pixels, bool mips);
+/// The same without mips, as an array of pictures one after the other.
+Image make_texture_array(
+    Device& device, vk::Format format, glm::ivec2 size, std::uint32_t layers, std::span<const std::byte> pixels);
 
 /// One image barrier, whole image.
 void transition(vk::CommandBuffer commands, const Image& image, vk::ImageLayout from, vk::PipelineStageFlags2 from_stage,

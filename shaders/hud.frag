@@ -5,12 +5,13 @@
 // The head-up display: a panel at infinity in the cockpit, seen through the same directions as the world.
 
 layout(set = 0, binding = 1) uniform sampler2D panel; // r: letters, g: the dark plate behind them
+layout(push_constant) uniform Push { ViewPush view; };
 layout(location = 0) out vec4 shown;
 
 void main()
 {
     float pixel_angle;
-    vec3 n = look(pixel_angle); // panel axes: z towards the panel's middle
+    vec3 n = look(view.row0, view.row1, view.row2, gl_FragCoord.xy - view.origin.xy, 0, pixel_angle); // panel axes: z towards the panel's middle
     vec2 at = n.xy / (n.z * view.boost.xy) * 0.5 + 0.5;
     if (n.z <= 0.0 || (MAP && pixel_angle == 0.0) || any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0))))
         discard;

@@ -5,10 +5,11 @@
 // The least that any cube map display can cost: one look-up per pixel. The measure of the warp pass, nothing else.
 
 layout(set = 0, binding = 1) uniform samplerCube cube_texture;
+layout(push_constant) uniform Push { ViewPush view; };
 layout(location = 0) out vec4 shown;
 
 void main()
 {
     float pixel_angle;
-    shown = textureLod(cube_texture, look(pixel_angle), 0.0);
+    shown = textureLod(cube_texture, look(view.row0, view.row1, view.row2, gl_FragCoord.xy - view.origin.xy, 0, pixel_angle), 0.0);
 }

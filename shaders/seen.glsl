@@ -4,10 +4,16 @@ layout(constant_id = 1) const bool ABERRATION = true;
 layout(constant_id = 2) const bool DOPPLER = true;
 layout(constant_id = 3) const bool HEADLIGHT = true;
 layout(constant_id = 4) const bool MIPS = false;
+layout(constant_id = 5) const bool CHANNELS = false; // red, green and blue look different ways
+layout(constant_id = 6) const bool REPROJECT = false; // the eye is not where the cube map was drawn
+layout(constant_id = 7) const bool TURNING = false; // and on which side of it depends on the azimuth
+
+layout(push_constant) uniform Push { ViewPush view; };
 
 layout(set = 0, binding = 1) uniform sampler2D atlas;
 layout(set = 0, binding = 2) uniform Slots { SlotEntry slots[SLOT_COUNT]; };
 layout(set = 0, binding = 3) uniform Colours { vec4 colours[COLOUR_STEPS * 3]; };
+layout(set = 0, binding = 4) uniform sampler2D depth_atlas; // near / distance along the face's normal, 0 at infinity
 
 struct Place {
     vec2 face;  // face coordinates
@@ -68,6 +74,59 @@ vec3 doppler_shifted(vec3 rgb, float D)
         shifted *= beyond * beyond;
     }
     return max(shifted, vec3(0.0));
+}
+
+// Distance of what a place of the cube map shows, from where it was drawn, scene units; infinite for the sky.
+float distance_at(Place place)
+{
+    float depth = texelFetch(depth_atlas, ivec2(place.atlas * view.origin.zw), 0).r;
+    return depth > 0.0 ? view.boost.w * sqrt(1.0 + dot(place.face, place.face)) / depth : intBitsToFloat(0x7f800000);
+}
+
+// The eye's place from the cube map's, in the world at rest. n: the ship's direction.
+vec3 eye_offset(vec3 n)
+{
+    if (!TURNING)
+        return view.eye.xyz;
+    vec3 right = cross(n, view.eye.xyz); // as long as the sine of the angle from the zenith
+    vec3 offset = right * (view.eye.w / max(length(right), view.zenith.x));
+    offset.z *= 0.5 * (view.boost.x + view.boost.y); // simultaneous in the ship: stretched by gamma in the world
+    return offset;
+}
+
+// Where the cube map shows what an eye beside it sees along n (world): the point P = d(m) m of its surface with P - offset
+// along n. From the place at infinity each round takes the distance found where the last one looked; behind an edge, where
+// there is no such point, it ends on the nearer surface's rim.
+vec3 reprojected(vec3 n, vec3 offset)
+{
+    vec3 m = n;
+    float off = 1e30;
+    vec3 best = n;
+    for (int round = 0; round < REPROJECT_ROUNDS; ++round) {
+        float d = distance_at(place_of(m));
+        if (isinf(d))
+            return n;
+        vec3 from_eye = d * m - offset;
+        float along = dot(from_eye, n);
+        float miss = length(from_eye - along * n) / max(d, 1e-30);
+        if (miss < off)
+            off = miss, best = m;
+        if (along <= 0.0)
+            break;
+        m = normalize(offset + along * n);
+    }
+    return off < 1e29 ? best : n;
+}
+
+// Where the cube map holds what the ship's direction n shows: in the world, and D.
+Sight sight_of(vec3 n)
+{
+    Sight sight = world_from_camera(n, view.boost.x, view.boost.y);
+    if (!ABERRATION)
+        sight.n = n;
+    if (REPROJECT)
+        sight.n = reprojected(sight.n, eye_offset(n));
+    return sight;
 }
 
 // Scene-linear light, pre-exposed by the cube map's factor.

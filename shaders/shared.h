@@ -9,6 +9,7 @@
 #define REAR_LEVELS 43
 #define SLOT_COUNT 56
 
+#define REPROJECT_ROUNDS 8
 #define MAX_LIGHTS 8
 #define COLOUR_STEPS 769 // over log2 D from -COLOUR_RANGE to COLOUR_RANGE
 #define COLOUR_RANGE 6.0
@@ -48,8 +49,33 @@ struct CubePush {
 
 // Push constants of the passes that run once per output pixel.
 struct ViewPush {
-    vec4 row0, row1, row2; // planar: rows of direction_from_pixel; map: of the turn from the map's axes. w of row0: map's
-                           // pixel angle (planar: face units per pixel)
-    vec4 boost;            // E, 1/E, exposure gain / pre-exposure, D^3 clamp (unused)
+    vec4 row0, row1, row2; // planar: rows of direction_from_pixel; map: of the turn from the map's axes. w of row0: planar:
+                           // a pixel's step on the plane at distance 1; of row1: the finest image behind
+    vec4 boost;            // E, 1/E, exposure gain / pre-exposure, near plane
     vec4 origin;           // viewport's top left corner in the target, pixels; z, w: atlas size in texels
+    vec4 eye;              // REPROJECT: the eye's place from the cube map's, world, motion axes. TURNING: xyz: the cockpit's
+                           // up in motion axes; w: the eye's distance from the middle, to the right
+    vec4 zenith;           // TURNING: x: sine of the angle from the zenith at which the separation is full
 };
+
+// Push constants of the finish pass: from light to the screen's input. Rows of matrices.
+struct FinishPush {
+    vec4 left0, left1, left2;    // of the first picture, or the only one
+    vec4 right0, right1, right2; // of the second, where both are added
+    vec4 curve;                  // x: 1 / gamma or the table's last index; y: headroom under the black level
+};
+
+// Push constants of the test patterns.
+struct PatternPush {
+    vec4 row0, row1, row2; // as ViewPush's, to the cockpit's axes
+    vec4 origin;           // xy: as ViewPush's; zw: pixels of the pane
+    vec4 tint;             // rgb: this output's, or this eye's
+    vec4 label;            // xy: size of the label in pixels
+};
+
+// Test patterns, by number.
+#define PATTERN_GRID 1
+#define PATTERN_RINGS 2
+#define PATTERN_NAMES 3
+#define PATTERN_WEDGES 4
+#define PATTERN_OVERLAP 5

@@ -10,15 +10,19 @@
 
 layout(location = 0) out vec4 shown;
 
-void main()
+vec3 light_along(int channel)
 {
     float pixel_angle;
-    vec3 n = look(pixel_angle);
-    vec3 light = vec3(0.0);
-    if (!MAP || pixel_angle > 0.0) {
-        Sight sight = world_from_camera(n, view.boost.x, view.boost.y);
-        light = light_seen(place_of(ABERRATION ? sight.n : n), sight.D, pixel_angle);
-    }
+    vec3 n = look(view.row0, view.row1, view.row2, gl_FragCoord.xy - view.origin.xy, channel, pixel_angle);
+    if (MAP && pixel_angle == 0.0)
+        return vec3(0.0);
+    Sight sight = sight_of(n);
+    return light_seen(place_of(sight.n), sight.D, pixel_angle);
+}
+
+void main()
+{
+    vec3 light = CHANNELS ? vec3(light_along(0).r, light_along(1).g, light_along(2).b) : light_along(0);
     // Both infinities of D^3 stay numbers: the greatest light is already white.
     shown = vec4(tone_map(min(light * view.boost.z, vec3(1e30))), 1.0);
 }

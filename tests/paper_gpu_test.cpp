@@ -130,7 +130,7 @@ Worst check_directions(const Numbers& numbers, const Layout& layout, const Shot&
             for (int x = 0; x < rect.z; ++x) {
                 const int i = (rect.y + y) * numbers.size.x + rect.x + x;
                 covered[i] = true;
-                const auto cockpit = direction(viewport.projection, {rect.z, rect.w}, {x + 0.5, y + 0.5});
+                const auto cockpit = direction(Picture{viewport.projection, {rect.z, rect.w}}, {x + 0.5, y + 0.5});
                 if (numbers.shown(i) != cockpit.has_value()) {
                     ADD_FAILURE() << "pixel " << x << ' ' << y << (cockpit ? " shows nothing" : " shows something");
                     return worst;
@@ -206,10 +206,10 @@ TEST_P(ShippedShots, DepthIsTheDistanceInTheWorldFromTheEyesEvent)
             if (!numbers.shown(i))
                 continue;
             const double D = shot.effects.aberration ? numbers.D(i) : 1, depth = numbers.depth(i);
-            const double footprint = D * pixel_angle(projection, size, numbers.centre(i)); // radians in the world
+            const double footprint = D * pixel_angle(Picture{projection, size}, numbers.centre(i)); // radians in the world
             // The cube map's depth is that of a sample up to 0.7 + 0.53 texels off, a texel is at most footprint / 1.5
-            // across and up to 1.3 times that in a face's corner; a coarser level of detail strays half a texel more.
-            const double slack = 1.45;
+            // across and up to 1.3 times that in a face's corner; a coarser level of detail strays up to a texel more.
+            const double slack = (0.7 + 0.53 + 1) * 1.3 / 1.5;
             const dvec3 n = numbers.world(i), place = shot.position + depth * n;
             const double met = surely_met(shot.position, n, 0);
             if (met < 1e300 && slack * footprint * met < 0.004) {
@@ -456,15 +456,15 @@ Outline earth_outline(const Shot& shot, const Projection& projection, bool over_
     for (const dvec3& n : points)
         outline.radius += between(pole, n) / double(points.size());
     auto off = [&](const dvec3& n) { // outside the circle, pixels
-        const dvec2 at = *pixel(projection, size, glm::inverse(shot.ship_from_cockpit) * n);
-        return (between(pole, n) - outline.radius) / pixel_angle(projection, size, at);
+        const dvec2 at = *pixel(Picture{projection, size}, glm::inverse(shot.ship_from_cockpit) * n);
+        return (between(pole, n) - outline.radius) / pixel_angle(Picture{projection, size}, at);
     };
     for (const dvec3& n : points)
         outline.rms += off(n) * off(n) / double(points.size());
     outline.rms = std::sqrt(outline.rms);
     for (auto [i, inside] : rim)
         outline.stray = std::max(outline.stray, (inside ? 1 : -1) * off(numbers.camera(i)));
-    outline.pixel = pixel_angle(projection, size, dvec2(size) * 0.5);
+    outline.pixel = pixel_angle(Picture{projection, size}, dvec2(size) * 0.5);
     return outline;
 }
 

@@ -232,7 +232,7 @@ TEST(Picture, NoSeamsInASmoothSky)
                 for (int i = 0; i < numbers.count(); ++i) {
                     if (!numbers.shown(i))
                         continue;
-                    footprint[i] = numbers.D(i) * std::max(length, pixel_angle(projection, numbers.size, numbers.centre(i)));
+                    footprint[i] = numbers.D(i) * std::max(length, pixel_angle(Picture{projection, numbers.size}, numbers.centre(i)));
                     error[i] = numbers.light(i) - sky_colour(numbers.world(i));
                     ASSERT_TRUE(std::isinf(numbers.depth(i)));
                     const double off = std::max({std::abs(error[i].r), std::abs(error[i].g), std::abs(error[i].b)});
@@ -286,7 +286,7 @@ std::pair<dvec2, double> expected(const Marker& marker, const Shot& shot, const 
             const dvec3 seen
                 = glm::transpose(to_motion) * physics::camera_from_world(to_motion * glm::normalize(place), E, 1 / E).n;
             const dvec3 cockpit = glm::inverse(shot.ship_from_cockpit) * seen;
-            const auto p = pixel(projection, size, cockpit);
+            const auto p = pixel(Picture{projection, size}, cockpit);
             if (!p || glm::any(glm::lessThan(*p, dvec2(3))) || glm::any(glm::greaterThan(*p, dvec2(size) - 3.0)))
                 return {{}, 0};
             // A fisheye of the whole sphere draws what is right behind as a ring.

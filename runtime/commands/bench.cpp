@@ -1,3 +1,4 @@
+#include "bench_layout.h"
 #include "commands.h"
 #include "config/error.h"
 #include "runtime/find.h"
@@ -16,7 +17,7 @@ namespace {
 
 struct Options {
     int rounds = 25;
-    std::string json;
+    std::string json, layout, shot = "avenue-gamma4";
 };
 
 using Clock = std::chrono::steady_clock;
@@ -158,6 +159,8 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
 
 int bench(const Options& options)
 {
+    if (!options.layout.empty())
+        return bench_layout(options.layout, options.shot, options.rounds);
     if (!options.json.empty())
         check_writable(options.json);
     Layout layout = load_layout(find("layouts", "desk"));
@@ -237,6 +240,10 @@ void add_bench(CLI::App& app, std::function<int()>& chosen)
         ->check(CLI::Range(3, 10000))
         ->capture_default_str();
     command->add_option("--json", options->json, "Also write the figures to this file");
+    command->add_option("--layout", options->layout,
+        "Instead: this layout stage by stage, and displays compared with each other: kinds of projection, many viewports, "
+        "stereo methods");
+    command->add_option("--shot", options->shot, "With --layout: the shot to time")->capture_default_str();
     command->footer("Example:\n  starbow bench --json out/bench.json");
     command->callback([options, &chosen] { chosen = [options] { return bench(*options); }; });
 }

@@ -1,0 +1,235 @@
+#include "blocks.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+/// Sharp for small angles, where an arc cosine in float is not.
+float angle(const glm::vec3& a, const glm::vec3& b) { return 2 * std::asin(std::min(1.0f, 0.5f * glm::distance(a, b))); }
+
+/// Rounding in float, with room.
+constexpr float slack = 1e-6f;
+
+Cap around(const Cap* const* parts, int count)
+{
+    glm::vec3 sum(0);
+    for (int i = 0; i < count; ++i)
+        sum += parts[i]->centre;
+    // Opposite directions may cancel: any centre will do for a cap that is nearly the sphere.
+    Cap cap = *parts[0];
+    cap.centre = glm::length(sum) > 1e-3f ? glm::normalize(sum) : parts[0]->centre;
+    cap.radius = 0;
+    for (int i = 0; i < count; ++i) {
+        cap.radius = std::max(cap.radius, angle(cap.centre, parts[i]->centre) + parts[i]->radius + slack);
+        cap.finest = std::min(cap.finest, parts[i]->finest);
+        cap.coarsest = std::max(cap.coarsest, parts[i]->coarsest);
+    }
+    return cap;
+}
+
+Cap leaf_cap(const DirectionMap& map, glm::ivec2 low, glm::ivec2 high)
+{
+    glm::vec3 sum(0), any(0);
+    for (int channel = 0; channel < map.channels; ++channel)
+        for (int y = low.y; y < high.y; ++y)
+            for (int x = low.x; x < high.x; ++x)
+                if (const glm::vec4& texel = map.at(x, y, channel); texel.w > 0)
+                    sum += glm::vec3(texel), any = glm::vec3(texel);
+    Cap cap;
+    if (any == glm::vec3(0))
+        return cap;
+    cap.centre = glm::length(sum) > 1e-3f ? glm::normalize(sum) : any;
+    cap.finest = 1e30f;
+    for (int channel = 0; channel < map.channels; ++channel)
+        for (int y = low.y; y < high.y; ++y)
+            for (int x = low.x; x < high.x; ++x)
+                if (const glm::vec4& texel = map.at(x, y, channel); texel.w > 0) {
+                    cap.radius = std::max(cap.radius, angle(cap.centre, glm::vec3(texel)) + slack);
+                    cap.finest = std::min(cap.finest, texel.w);
+                    cap.coarsest = std::max(cap.coarsest, texel.w);
+                }
+    return cap;
+}
+
+int levels_for(glm::ivec2 size, int leaf)
+{
+    int levels = 1;
+    while ((leaf << (levels - 1)) < std::max(size.x, size.y))
+        ++levels;
+    return levels;
+}
+
+} // namespace
+
+Blocks::Blocks(const DirectionMap& map)
+    : size_(map.size)
+    , leaf_(8)
+    , levels_(levels_for(map.size, 8))
+{
+    caps_.resize(levels_);
+    for (int level = levels_ - 1; level >= 0; --level) {
+        const glm::ivec2 blocks = count(level);
+        caps_[level].resize(std::size_t(blocks.x) * blocks.y);
+        for (int y = 0; y < blocks.y; ++y)
+            for (int x = 0; x < blocks.x; ++x) {
+                Cap& cap = caps_[level][std::size_t(y) * blocks.x + x];
+                if (level == levels_ - 1) {
+                    cap = leaf_cap(map, {x * leaf_, y * leaf_}, glm::min(glm::ivec2(x + 1, y + 1) * leaf_, size_));
+                    continue;
+                }
+                const glm::ivec2 finer = count(level + 1);
+                const Cap* parts[4];
+                int found = 0;
+                for (int j = 2 * y; j < std::min(2 * y + 2, finer.y); ++j)
+                    for (int i = 2 * x; i < std::min(2 * x + 2, finer.x); ++i)
+                        if (const Cap& part = caps_[level + 1][std::size_t(j) * finer.x + i]; !part.empty())
+                            parts[found++] = &part;
+                if (found > 0)
+                    cap = around(parts, found);
+            }
+    }
+}
+
+Blocks::Blocks(const glm::dmat3& direction_from_pixel, glm::ivec2 size)
+    : size_(size)
+    , leaf_(1)
+    , levels_(levels_for(size, 1))
+    , flat_(direction_from_pixel)
+{
+    const glm::dmat3& m = direction_from_pixel;
+    unit_ = std::sqrt(std::abs(glm::determinant(m)));
+    foot_ = -glm::dvec2(glm::dot(m[0], m[2]) / glm::dot(m[0], m[0]), glm::dot(m[1], m[2]) / glm::dot(m[1], m[1]));
+}
+
+Cap Blocks::flat_cap(glm::ivec2 low, glm::ivec2 high) const
+{
+    const glm::dvec2 first = glm::dvec2(low) + 0.5, last = glm::dvec2(high) - 0.5;
+    auto at = [&](const glm::dvec2& p) { return *flat_ * glm::dvec3(p, 1); };
+    const glm::dvec3 corners[4] = {at(first), at({last.x, first.y}), at({first.x, last.y}), at(last)};
+    Cap cap;
+    // Less than half a sphere is convex: the rectangle lies within any cap that holds its corners.
+    cap.centre = glm::normalize(at(0.5 * (first + last)));
+    double farthest = 0;
+    for (const glm::dvec3& corner : corners) {
+        cap.radius = std::max(cap.radius, angle(cap.centre, glm::normalize(corner)) + slack);
+        farthest = std::max(farthest, glm::length(corner));
+    }
+    // The solid angle of a pixel is det M / length^3.
+    const double nearest = glm::length(at(glm::clamp(foot_, first, last)));
+    cap.finest = float(unit_ / (farthest * std::sqrt(farthest)));
+    cap.coarsest = float(unit_ / (nearest * std::sqrt(nearest)));
+    return cap;
+}
+
+Cap Blocks::cap(int level, glm::ivec2 block) const
+{
+    if (!flat_)
+        return caps_[level][std::size_t(block.y) * count(level).x + block.x];
+    return flat_cap(block * side(level), glm::min((block + 1) * side(level), size_));
+}
+
+namespace {
+
+/// Looks through a block for the pixel that comes nearest to a direction.
+struct Search {
+    const DirectionMap& map;
+    const Blocks& blocks;
+    glm::vec3 wanted;
+    glm::ivec2 best{-1};
+    float nearest = 1e30f;
+
+    void block(int level, glm::ivec2 at)
+    {
+        const Cap cap = blocks.cap(level, at);
+        if (cap.empty() || angle(cap.centre, wanted) > cap.radius + std::min(nearest, 2 * cap.coarsest) + slack)
+            return;
+        const glm::ivec2 low = at * blocks.side(level), high = glm::min(low + blocks.side(level), map.size);
+        if (level + 1 == blocks.levels()) {
+            for (int y = low.y; y < high.y; ++y)
+                for (int x = low.x; x < high.x; ++x)
+                    if (const glm::vec4& texel = map.at(x, y); texel.w > 0)
+                        if (float off = glm::distance(glm::vec3(texel), wanted); off < nearest)
+                            nearest = off, best = {x, y};
+            return;
+        }
+        const glm::ivec2 finer = blocks.count(level + 1);
+        for (int j = 2 * at.y; j < std::min(2 * at.y + 2, finer.y); ++j)
+            for (int i = 2 * at.x; i < std::min(2 * at.x + 2, finer.x); ++i)
+                block(level + 1, {i, j});
+    }
+};
+
+} // namespace
+
+std::optional<glm::dvec2> find(const DirectionMap& map, const Blocks& blocks, const glm::dvec3& direction)
+{
+    Search search{map, blocks, direction};
+    search.block(0, {0, 0});
+    if (search.best.x < 0)
+        return {};
+    // From there along the picture's own steps, one-sided where a neighbour shows nothing.
+    const glm::ivec2 p = search.best;
+    const glm::dvec3 here = map.at(p.x, p.y);
+    auto step = [&](glm::ivec2 way) {
+        glm::dvec3 sum(0);
+        for (int sign : {-1, 1}) {
+            const glm::ivec2 q = p + sign * way;
+            if (q.x >= 0 && q.y >= 0 && q.x < map.size.x && q.y < map.size.y && map.at(q.x, q.y).w > 0)
+                sum = sum == glm::dvec3(0) ? double(sign) * (glm::dvec3(map.at(q.x, q.y)) - here)
+                                           : 0.5 * (sum + double(sign) * (glm::dvec3(map.at(q.x, q.y)) - here));
+        }
+        return sum;
+    };
+    const glm::dvec3 x = step({1, 0}), y = step({0, 1}), off = direction - here;
+    const double xx = glm::dot(x, x), yy = glm::dot(y, y), xy = glm::dot(x, y), det = xx * yy - xy * xy;
+    if (!(det > 1e-6 * xx * yy))
+        return {};
+    const glm::dvec2 move((glm::dot(off, x) * yy - glm::dot(off, y) * xy) / det, (glm::dot(off, y) * xx - glm::dot(off, x) * xy) / det);
+    if (!(std::max(std::abs(move.x), std::abs(move.y)) < 0.75))
+        return {};
+    return glm::dvec2(p) + 0.5 + move;
+}
+
+namespace {
+
+struct Pyramid {
+    const Blocks& blocks;
+    std::span<const glm::dvec3> sides;
+    PixelBox box{glm::ivec2(1 << 30), glm::ivec2(0), 1};
+
+    bool sees(const Cap& cap) const
+    {
+        const double reach = cap.radius < 1.57f ? std::sin(double(cap.radius)) + slack : 1;
+        return std::all_of(sides.begin(), sides.end(),
+            [&](const glm::dvec3& side) { return glm::dot(side, glm::dvec3(cap.centre)) >= -reach; });
+    }
+    void add(int level, glm::ivec2 at)
+    {
+        const Cap cap = blocks.cap(level, at);
+        if (cap.empty() || !sees(cap))
+            return;
+        const int side = blocks.side(level);
+        if (level + 1 < blocks.levels() && side > 8) {
+            const glm::ivec2 finer = blocks.count(level + 1);
+            for (int j = 2 * at.y; j < std::min(2 * at.y + 2, finer.y); ++j)
+                for (int i = 2 * at.x; i < std::min(2 * at.x + 2, finer.x); ++i)
+                    add(level + 1, {i, j});
+            return;
+        }
+        box.low = glm::min(box.low, at * side);
+        box.high = glm::max(box.high, glm::min((at + 1) * side, blocks.size()));
+        box.finest = std::min(box.finest, double(cap.finest));
+    }
+};
+
+} // namespace
+
+PixelBox pixels_in_pyramid(const Blocks& blocks, std::span<const glm::dvec3> sides)
+{
+    Pyramid pyramid{blocks, sides};
+    pyramid.add(0, {0, 0});
+    return pyramid.box.high.x > 0 ? pyramid.box : PixelBox{};
+}
+
+} // namespace starbow

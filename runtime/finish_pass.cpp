@@ -1,0 +1,150 @@
+#include "finish_pass.h"
+#include <glm/gtc/packing.hpp>
+
+namespace starbow {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+using Layout_ = vk::ImageLayout;
+
+/// Two eyes in one colour picture. Rows of the left and of the right eye's matrix, linear Rec. 709.
+struct Anaglyph {
+    glm::dmat3 left, right; ///< rows as columns: transposed when used
+};
+
+// Red-cyan keeps every channel as it is. The other two are Eric Dubois's least-squares matrices for sRGB primaries and
+// typical glasses (A projection method to generate anaglyph stereo images, 2001, and its tables), made for linear light.
+const Anaglyph red_cyan{{1, 0, 0, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 1, 0, 0, 0, 1}};
+const Anaglyph dubois{{0.4561, 0.500484, 0.176381, -0.0400822, -0.0378246, -0.0157589, -0.0152161, -0.0205971, -0.00546856},
+    {-0.0434706, -0.0879388, -0.00155529, 0.378476, 0.73364, -0.0184503, -0.0721527, -0.112961, 1.2264}};
+const Anaglyph amber_blue{{1.062, -0.205, 0.299, -0.026, 0.908, 0.068, -0.038, -0.173, 0.022},
+    {-0.016, -0.123, -0.017, 0.006, 0.062, -0.017, 0.094, 0.185, 0.911}};
+
+int combine_of(Packing packing)
+{
+    switch (packing) {
+    case Packing::rows:
+        return 1;
+    case Packing::columns:
+        return 2;
+    case Packing::checkerboard:
+        return 3;
+    case Packing::anaglyph_red_cyan:
+    case Packing::anaglyph_dubois:
+    case Packing::anaglyph_amber_blue:
+        return 4;
+    default:
+        return 0;
+    }
+}
+
+glm::vec4 row(const glm::dmat3& m, int i) { return glm::vec4(m[0][i], m[1][i], m[2][i], 0); }
+
+Image shade_texture(Device& device, glm::ivec2 size, const std::vector<glm::vec3>& values)
+{
+    std::vector<glm::u16vec4> halves;
+    halves.reserve(values.size());
+    for (const glm::vec3& v : values)
+        halves.push_back(glm::packHalf(glm::vec4(v, 1)));
+    return make_texture(device, vk::Format::eR16G16B16A16Sfloat, size, std::as_bytes(std::span(halves)), false);
+}
+
+} // namespace
+
+bool needs_finish(const Output& output, const Shade& shade)
+{
+    const Colour& colour = output.colour;
+    return layers(output.packing) > 1 || colour.matrix != glm::dmat3(1) || colour.gamma != 0 || !colour.lut.empty()
+        || !shade.empty();
+}
+
+FinishPass::FinishPass(
+    Device& device, Pipelines& pipelines, const Output& output, const Shade& shade, double headroom)
+    : device_(device)
+    , pipelines_(pipelines)
+{
+    const vk::Extent2D extent(std::uint32_t(output.size.x), std::uint32_t(output.size.y));
+    using Usage = vk::ImageUsageFlagBits;
+    for (int i = 0; i < starbow::layers(output.packing); ++i)
+        pictures_.push_back(make_image(device, {light_format, extent, Usage::eColorAttachment | Usage::eSampled}));
+
+    const Colour& colour = output.colour;
+    variant_.combine = combine_of(output.packing);
+    variant_.masked = !shade.empty() || headroom != 1;
+    variant_.curve = !colour.lut.empty() ? 2 : colour.gamma != 0 ? 1 : 0;
+    glm::dmat3 left = colour.matrix, right(0);
+    if (variant_.combine == 4) {
+        const Anaglyph& anaglyph = output.packing == Packing::anaglyph_dubois ? dubois
+            : output.packing == Packing::anaglyph_amber_blue                  ? amber_blue
+                                                                              : red_cyan;
+        left = colour.matrix * glm::transpose(anaglyph.left);
+        right = colour.matrix * glm::transpose(anaglyph.right);
+    }
+    push_.left0 = row(left, 0), push_.left1 = row(left, 1), push_.left2 = row(left, 2);
+    push_.right0 = row(right, 0), push_.right1 = row(right, 1), push_.right2 = row(right, 2);
+    const double curve = variant_.curve == 2 ? double(colour.lut.size() - 1) : variant_.curve == 1 ? 1 / colour.gamma : 0;
+    push_.curve = glm::vec4(curve, headroom, 0, 0);
+
+    const std::vector<glm::vec3> one(1, glm::vec3(1)), none(1, glm::vec3(0));
+    weight_ = shade.weight.empty() ? shade_texture(device, {1, 1}, one) : shade_texture(device, shade.size, shade.weight);
+    black_ = shade.black.empty() ? shade_texture(device, {1, 1}, none) : shade_texture(device, shade.size, shade.black);
+    std::vector<glm::vec4> entries;
+    for (const glm::dvec3& entry : colour.lut)
+        entries.emplace_back(entry, 1);
+    if (entries.empty())
+        entries.resize(2);
+    table_ = make_texture(device, exact_format, {int(entries.size()), 1}, std::as_bytes(std::span(entries)), false);
+
+    sampler_ = device.device.createSampler({});
+    vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 5);
+    pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size});
+    set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.finish_set}).front());
+    std::vector<vk::DescriptorImageInfo> images;
+    for (const Image* image : {&pictures_.front(), &pictures_.back(), &weight_, &black_, &table_})
+        images.push_back({*sampler_, *image->view, Layout_::eShaderReadOnlyOptimal});
+    std::vector<vk::WriteDescriptorSet> writes;
+    for (std::uint32_t i = 0; i < images.size(); ++i)
+        writes.push_back({*set_, i, 0, 1, vk::DescriptorType::eCombinedImageSampler, &images[i]});
+    device.device.updateDescriptorSets(writes, {});
+}
+
+Target FinishPass::picture(std::size_t layer) const
+{
+    const Image& image = pictures_[layer];
+    return {*image.image, *image.view, image.extent, image.format};
+}
+
+void FinishPass::begin(vk::CommandBuffer commands)
+{
+    for (const Image& picture : pictures_)
+        transition(commands, picture, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eColorAttachmentOptimal,
+            Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
+}
+
+void FinishPass::record(vk::CommandBuffer commands, const Target& target)
+{
+    for (const Image& picture : pictures_)
+        transition(commands, picture, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+            Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader,
+            Access::eShaderSampledRead);
+    vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eStore);
+    commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
+    set_area(commands, {0, 0}, {int(target.extent.width), int(target.extent.height)});
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.finish(variant_, target.format));
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.finish_layout, 0, *set_, {});
+    commands.pushConstants<shared::FinishPush>(*pipelines_.finish_layout, vk::ShaderStageFlagBits::eFragment, 0, push_);
+    commands.draw(3, 1, 0, 0);
+    commands.endRendering();
+}
+
+vk::DeviceSize FinishPass::memory() const
+{
+    vk::DeviceSize bytes = weight_.bytes + black_.bytes + table_.bytes;
+    for (const Image& picture : pictures_)
+        bytes += picture.bytes;
+    return bytes;
+}
+
+} // namespace starbow

@@ -1,0 +1,64 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
+// From an output's pictures, in linear light, to what its screen or projector wants: both eyes in one, the colours that this
+// projector shows as the others do, the blend with its neighbours, the black of the darkest one, the curve of its input.
+
+layout(constant_id = 0) const int COMBINE = 0; // 0: one picture; 1 rows, 2 columns, 3 checkerboard of two; 4: both added
+layout(constant_id = 1) const bool MASKED = false;
+layout(constant_id = 2) const int CURVE = 0; // 0: sRGB; 1: gamma; 2: table
+
+layout(set = 0, binding = 0) uniform sampler2D left_picture;
+layout(set = 0, binding = 1) uniform sampler2D right_picture;
+layout(set = 0, binding = 2) uniform sampler2D weights;     // multiplies the light
+layout(set = 0, binding = 3) uniform sampler2D black_level; // is added to it
+layout(set = 0, binding = 4) uniform sampler2D table;       // input for evenly spaced light
+
+layout(push_constant) uniform Push { FinishPush push; };
+layout(location = 0) out vec4 shown;
+
+vec3 through(vec4 row0, vec4 row1, vec4 row2, vec3 light)
+{
+    return vec3(dot(row0.xyz, light), dot(row1.xyz, light), dot(row2.xyz, light));
+}
+
+vec3 tabled(vec3 light)
+{
+    vec3 at = light * push.curve.x;
+    ivec3 i = ivec3(min(at, vec3(push.curve.x - 1.0)));
+    vec3 f = at - vec3(i);
+    return mix(vec3(texelFetch(table, ivec2(i.r, 0), 0).r, texelFetch(table, ivec2(i.g, 0), 0).g, texelFetch(table, ivec2(i.b, 0), 0).b),
+        vec3(texelFetch(table, ivec2(i.r + 1, 0), 0).r, texelFetch(table, ivec2(i.g + 1, 0), 0).g, texelFetch(table, ivec2(i.b + 1, 0), 0).b), f);
+}
+
+// One texel stands for all where there is nothing to tell pixels apart.
+vec3 spread(sampler2D picture, ivec2 p) { return texelFetch(picture, min(p, textureSize(picture, 0) - 1), 0).rgb; }
+
+// The target encodes by sRGB's curve: light that comes out of it as the value wanted.
+vec3 undo_srgb(vec3 value)
+{
+    return mix(value / 12.92, pow((value + 0.055) / 1.055, vec3(2.4)), greaterThan(value, vec3(0.04045)));
+}
+
+void main()
+{
+    ivec2 p = ivec2(gl_FragCoord.xy);
+    vec3 light;
+    if (COMBINE == 4) {
+        light = through(push.left0, push.left1, push.left2, texelFetch(left_picture, p, 0).rgb)
+            + through(push.right0, push.right1, push.right2, texelFetch(right_picture, p, 0).rgb);
+    } else {
+        int second = COMBINE == 1 ? p.y & 1 : COMBINE == 2 ? p.x & 1 : COMBINE == 3 ? (p.x + p.y) & 1 : 0;
+        vec3 own = second == 0 ? texelFetch(left_picture, p, 0).rgb : texelFetch(right_picture, p, 0).rgb;
+        light = through(push.left0, push.left1, push.left2, own);
+    }
+    light = max(light, vec3(0.0));
+    if (MASKED)
+        light = light * push.curve.y * spread(weights, p) + spread(black_level, p);
+    light = min(light, vec3(1.0));
+    if (CURVE == 1)
+        light = undo_srgb(pow(light, vec3(push.curve.x)));
+    if (CURVE == 2)
+        light = undo_srgb(tabled(light));
+    shown = vec4(light, 1.0);
+}

@@ -1,0 +1,134 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
+#include "view.glsl"
+// Test patterns: what a builder lines projectors up by. Linear light.
+
+layout(constant_id = 1) const int PATTERN = PATTERN_GRID;
+layout(set = 0, binding = 1) uniform sampler2D label; // r: letters
+layout(push_constant) uniform Push { PatternPush pattern; };
+layout(location = 0) out vec4 shown;
+
+const float degree = 0.01745329252;
+
+// 1 on lines of a width in pixels, 0 elsewhere; off: distance from the line in pixels.
+float line(float off, float width) { return clamp(0.5 * width + 0.5 - abs(off), 0.0, 1.0); }
+
+// Distance to the nearest multiple of `every`.
+float from_multiple(float x, float every) { return abs(x - every * round(x / every)); }
+
+vec3 grid(vec2 p, vec2 size)
+{
+    vec2 off = p - 0.5 * size;
+    float cells = max(line(from_multiple(off.x, 64.0), 1.0), line(from_multiple(off.y, 64.0), 1.0));
+    float cross = max(line(off.x, 3.0), line(off.y, 3.0));
+    float circle = line(length(off) - 0.5 * min(size.x, size.y) + 1.0, 2.0);
+    vec2 edge = min(p, size - p);
+    float border = step(min(edge.x, edge.y), 2.0);
+    vec3 light = vec3(0.18) * cells;
+    light = mix(light, vec3(1.0, 0.45, 0.1), cross);
+    light = mix(light, vec3(0.1, 0.7, 1.0), circle);
+    return mix(light, vec3(1.0), border);
+}
+
+// Digits of 3 x 5 cells, rows from the top, three bits each.
+const int digits[10] = int[10](0x7b6f, 0x2c97, 0x73e7, 0x73cf, 0x5bc9, 0x79cf, 0x79ef, 0x7249, 0x7bef, 0x7bcf);
+
+// 1 inside the number `value` written to the right from (0, 0), one unit a cell, y down.
+float number(vec2 at, int value)
+{
+    int count = value >= 100 ? 3 : value >= 10 ? 2 : 1;
+    at.x += float(count) * 2.0; // centred
+    int place = int(floor(at.x / 4.0));
+    if (place < 0 || place >= count || at.y < 0.0 || at.y >= 5.0)
+        return 0.0;
+    int power = place == count - 1 ? 1 : place == count - 2 ? 10 : 100;
+    int cell_x = int(at.x - 4.0 * float(place)), cell_y = int(at.y);
+    if (cell_x > 2)
+        return 0.0;
+    return float(digits[(value / power) % 10] >> (14 - cell_y * 3 - cell_x) & 1);
+}
+
+vec3 rings(vec3 n, float angle)
+{
+    float elevation = asin(clamp(n.y, -1.0, 1.0)) / degree, azimuth = atan(n.x, -n.z) / degree;
+    float pixel = angle / degree, shrink = max(sqrt(max(1.0 - n.y * n.y, 0.0)), 1e-4);
+    float fine = max(line(from_multiple(elevation, 15.0) / pixel, 1.5),
+        shrink > 0.05 ? line(from_multiple(azimuth, 15.0) * shrink / pixel, 1.5) : 0.0);
+    float horizon = line(elevation / pixel, 3.0), front = abs(azimuth) < 90.0 ? line(azimuth * shrink / pixel, 3.0) : 0.0;
+    vec3 light = (n.y > 0.0 ? vec3(0.25, 0.5, 0.8) : vec3(0.5, 0.35, 0.2)) * fine;
+    light = mix(light, vec3(1.0, 0.45, 0.1), horizon);
+    light = mix(light, vec3(0.2, 1.0, 0.3), front);
+    // The azimuth above the horizon and the 45 degree rings, each 30 degrees; the elevation along the four main azimuths.
+    float cell = 0.35;
+    float ring = 45.0 * round(elevation / 45.0), spoke = 30.0 * round(azimuth / 30.0);
+    vec2 at = vec2((azimuth - spoke) * shrink, ring - elevation) / cell;
+    if (abs(ring) < 60.0)
+        light = mix(light, vec3(1.0), number(at - vec2(0.0, -6.5), int(mod(spoke + 360.0, 360.0))));
+    float height = 15.0 * round(elevation / 15.0), main_spoke = 90.0 * round(azimuth / 90.0);
+    at = vec2((azimuth - main_spoke) * shrink, height - elevation) / cell;
+    if (abs(height) > 1.0 && abs(height) < 89.0)
+        light = mix(light, vec3(1.0, 0.9, 0.4), number(at - vec2(8.0, 1.5), int(abs(height))));
+    return light;
+}
+
+// How much letter the label has at p, for a copy with its top left corner at `corner`.
+float label_at(vec2 p, vec2 corner)
+{
+    vec2 at = (p - corner) / pattern.label.xy;
+    return all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(1.0))) ? textureLod(label, at, 0.0).r : 0.0;
+}
+
+float labels(vec2 p, vec2 size, bool corners)
+{
+    float letters = label_at(p, floor(0.5 * (size - pattern.label.xy)));
+    for (int i = 0; corners && i < 4; ++i)
+        letters = max(letters, label_at(p, floor(vec2(i & 1, i >> 1) * (size - pattern.label.xy - 16.0)) + 8.0));
+    return letters;
+}
+
+vec3 names(vec2 p, vec2 size)
+{
+    vec2 edge = min(p, size - p);
+    vec3 light = pattern.tint.rgb * 0.25;
+    light = mix(light, pattern.tint.rgb, step(min(edge.x, edge.y), 6.0));
+    return mix(light, vec3(1.0), labels(p, size, true));
+}
+
+// From the top: seventeen even steps of input; lines of black and white beside the grey that a right curve makes of them, for
+// each channel; the darkest inputs, of which each should just be seen.
+vec3 wedges(vec2 p, vec2 size)
+{
+    vec2 at = p / size;
+    if (at.y < 0.4)
+        return vec3(pow(floor(at.x * 17.0) / 16.0, 2.2));
+    if (at.y < 0.7) {
+        int band = int(at.x * 4.0);
+        vec3 colour = band == 3 ? vec3(1.0) : vec3(band == 0, band == 1, band == 2);
+        bool lines = fract(at.x * 4.0) > 0.25 && fract(at.x * 4.0) < 0.75 && at.y > 0.46 && at.y < 0.64;
+        return colour * (lines ? float(int(p.y) & 1) : 0.5);
+    }
+    float step_ = floor(at.x * 12.0);
+    bool inside = fract(at.x * 12.0) > 0.2 && fract(at.x * 12.0) < 0.8 && at.y > 0.76 && at.y < 0.94;
+    return vec3(inside ? pow((step_ + 1.0) / 255.0 * 2.0, 2.2) : 0.0);
+}
+
+void main()
+{
+    float angle;
+    vec2 p = gl_FragCoord.xy - pattern.origin.xy, size = pattern.origin.zw;
+    vec3 n = look(pattern.row0, pattern.row1, pattern.row2, p, 0, angle);
+    bool seen = !MAP || angle > 0.0;
+    vec3 light = vec3(0.0);
+    if (PATTERN == PATTERN_GRID)
+        light = grid(p, size);
+    else if (PATTERN == PATTERN_RINGS && seen)
+        light = rings(n, angle);
+    else if (PATTERN == PATTERN_NAMES)
+        light = names(p, size);
+    else if (PATTERN == PATTERN_WEDGES && seen)
+        light = wedges(p, size);
+    else if (PATTERN == PATTERN_OVERLAP && seen)
+        light = mix(pattern.tint.rgb * 0.8, vec3(0.0), labels(p, size, false));
+    shown = vec4(light, 1.0);
+}
