@@ -60,8 +60,9 @@ struct Equirectangular {
     Turn turn;
 };
 
-/// The six faces of a cube in one picture. row: 6 x 1: +x -x +y -y +z -z as cube map files have them, seen from inside.
-/// cross: 4 x 3, up above and down below the front, the middle row left, front, right, back.
+/// The six faces of a cube in one picture. row: 6 x 1: +x -x +y -y +z -z as cube map files have them, seen from inside;
+/// their axes are left-handed, +z is straight ahead: right, left, up, down, front, back (displays/cube_faces.h has the
+/// edges). cross: 4 x 3, up above and down below the front, the middle row left, front, right, back.
 struct CubeFaces {
     enum class Arrangement { row, cross } arrangement = Arrangement::row;
     Turn turn;
@@ -85,7 +86,8 @@ struct Lens {
     enum class Form {
         panotools, ///< f = k0 r^3 + k1 r^2 + k2 r + k3
         vive ///< f = 1 / (1 + k0 r^2 + k1 r^4 + k2 r^6) + k3
-    } form = Form::vive;
+    } form
+        = Form::vive;
     struct Colour {
         glm::dvec2 centre{0.5, 0.5}; ///< in fractions of the picture from its top left
         std::array<double, 4> k{0, 0, 0, 0};
@@ -199,8 +201,8 @@ struct Layout {
 /// The pixels of a viewport in an output of `size`: x, y, width, height. Its edges are rounded, so that neighbours meet.
 glm::ivec4 pixel_rect(const Viewport& viewport, glm::ivec2 size);
 
-/// Reads and checks a layout. Throws InputError with file, line, JSON pointer, value and what would be right. Paths in it are
-/// taken from the layout's folder.
+/// Reads and checks a layout. Throws InputError with file, line, JSON pointer, value and what would be right. Paths in it
+/// are taken from the layout's folder.
 Layout load_layout(const std::filesystem::path& file);
 
 } // namespace starbow

@@ -1,5 +1,6 @@
 #include "direction_map.h"
 #include "rows.h"
+#include "turn.h"
 #include <algorithm>
 #include <cmath>
 
@@ -9,28 +10,30 @@ namespace {
 void straight_rows(const Pane& pane, DirectionMap& map, int first, int end)
 {
     const double squeeze = std::sqrt(pane.picture_from_pixel.x * pane.picture_from_pixel.y);
+    const PictureRays rays(pane.picture);
     for (int channel = 0; channel < map.channels; ++channel)
         for (int y = first; y < end; ++y)
             for (int x = 0; x < map.size.x; ++x) {
                 const glm::dvec2 at = (glm::dvec2(x, y) + 0.5) * pane.picture_from_pixel;
                 const Channel colour = map.channels == 3 ? Channel(channel) : Channel::green;
-                if (auto seen = direction(pane.picture, at, colour))
+                if (auto seen = rays.direction(at, colour))
                     map.texels[(std::size_t(channel) * map.size.y + y) * map.size.x + x]
-                        = glm::vec4(*seen, std::max(pixel_angle(pane.picture, at, colour) * squeeze, 1e-12));
+                        = glm::vec4(*seen, std::max(rays.pixel_angle(at, colour) * squeeze, 1e-12));
             }
 }
 
 struct Bent {
     const WarpMesh& mesh;
     const WarpRaster& raster;
-    Picture source;
+    const Picture& source;
+    const PictureRays rays;
     glm::dmat3 turn;
 
     std::optional<glm::dvec3> direction_of(const WarpSample& sample, int channel) const
     {
         switch (mesh.kind) {
         case WarpMesh::Kind::picture:
-            return direction(source, glm::dvec2(sample.sees[0]) * glm::dvec2(source.size),
+            return rays.direction(glm::dvec2(sample.sees[0]) * glm::dvec2(source.size),
                 splits_colours(source.projection) ? Channel(channel) : Channel::green);
         case WarpMesh::Kind::points: {
             const glm::dvec3 way = sample.sees[0] - source.eye_m;
@@ -92,19 +95,14 @@ void angle_rows(DirectionMap& map, std::vector<float>& angles, bool bent, int ch
         }
 }
 
-glm::dmat3 axes_of(const Projection& projection)
+/// What a measured headset's directions are turned by.
+glm::dmat3 turn_of(const Projection& projection)
 {
-    Turn turn;
     if (auto* planar = std::get_if<Planar>(&projection))
-        turn = planar->turn;
-    else if (auto* lens = std::get_if<Lens>(&projection))
-        turn = lens->turn;
-    Planar straight;
-    straight.turn = turn;
-    // Three points of a straight window of 90 degrees tell its axes.
-    straight.fov_y_deg = 90;
-    const glm::dmat3 m = *planar_matrix({straight, {2, 2}});
-    return {m[0], -m[1], -(m * glm::dvec3(1, 1, 1))};
+        return cockpit_from_picture(planar->turn);
+    if (auto* lens = std::get_if<Lens>(&projection))
+        return cockpit_from_picture(lens->turn);
+    return glm::dmat3(1);
 }
 
 } // namespace
@@ -140,7 +138,7 @@ DirectionMap compile(const Pane& pane, const WarpMesh* mesh)
     if (mesh) {
         map.intensity.assign(pixels, 0.0f);
         const WarpRaster raster(*mesh, map.size);
-        const Bent bent{*mesh, raster, source, axes_of(source.projection)};
+        const Bent bent{*mesh, raster, source, PictureRays(source), turn_of(source.projection)};
         by_rows(map.size.y, [&](int first, int end) { bent.rows(map, first, end); });
         if (std::all_of(map.intensity.begin(), map.intensity.end(), [](float i) { return i == 1; }))
             map.intensity.clear();
