@@ -50,7 +50,9 @@ Place root(const Document& document) { return {&document, &document.root, ""}; }
 
 void complain(const Place& place, const std::string& problem)
 {
-    throw InputError(place.document->file, one_line(place.pointer), value_text(*place.json) + " " + problem);
+    const std::optional<Span> span = find_span(*place.document, place.pointer);
+    throw InputError(place.document->file + (span ? ":" + std::to_string(span->line) : ""), one_line(place.pointer),
+        value_text(*place.json) + " " + problem);
 }
 
 double number(const Place& place, Range range)

@@ -15,6 +15,14 @@ namespace starbow {
 struct Document {
     std::string file; ///< as messages show it
     nlohmann::json root;
+    std::string text; ///< that it was parsed from
+};
+
+/// Where a value stands in its document's text.
+struct Span {
+    std::size_t begin, end; ///< its first byte and the one after its last
+    int line; ///< of its first byte, counted from 1
+    std::optional<std::size_t> first_key; ///< of an object that is not empty: the opening quote of its first member's name
 };
 
 /// A value in a document and the JSON pointer that leads to it.
@@ -33,9 +41,15 @@ struct Range {
 /// Reads JSON with // and /* */ comments. Throws InputError for a file that can't be read, is larger than 16 MiB, is not
 /// JSON (with line and column), nests deeper than 64, repeats a member, or holds a number that a double can't.
 Document read_document(const std::filesystem::path& file);
+/// The same from a text; `file` is what messages call it.
+Document parse_document(const std::string& file, std::string text);
 Place root(const Document& document);
 
-/// Throws "FILE: POINTER: VALUE problem". By custom the problem reads "is wrong in this way; what would be right".
+/// Where the value that a JSON pointer leads to stands, or nothing. Parses the text once more: only the few values that a
+/// message or a change is about are ever asked for.
+std::optional<Span> find_span(const Document& document, const std::string& pointer);
+
+/// Throws "FILE:LINE: POINTER: VALUE problem". By custom the problem reads "is wrong in this way; what would be right".
 [[noreturn]] void complain(const Place& place, const std::string& problem);
 
 /// Each of these returns the value at a place or complains about it.
