@@ -1,12 +1,13 @@
 #pragma once
 #include "error.h"
+#include <algorithm>
 #include <filesystem>
 #include <glm/glm.hpp>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace starbow {
@@ -57,9 +58,20 @@ double number(const Place& place, Range range);
 int integer(const Place& place, int low, int high);
 bool boolean(const Place& place);
 std::string text(const Place& place); ///< neither empty nor with control characters
-std::string one_of(const Place& place, std::initializer_list<std::string_view> choices);
-glm::dvec3 vec3(const Place& place, Range range); ///< every component in range
+std::string one_of(const Place& place, const std::vector<std::string_view>& choices);
+glm::dvec2 vec2(const Place& place, Range range); ///< every component in range
+glm::dvec3 vec3(const Place& place, Range range);
 glm::dvec4 vec4(const Place& place, Range range);
+
+/// What the text at a place stands for.
+template <class Value> Value chosen(const Place& place, const std::vector<std::pair<std::string_view, Value>>& choices)
+{
+    std::vector<std::string_view> names;
+    for (const auto& choice : choices)
+        names.push_back(choice.first);
+    const std::string name = one_of(place, names);
+    return choices[std::size_t(std::find(names.begin(), names.end(), name) - names.begin())].second;
+}
 
 /// The places in an array of `least` to `most` of the things that `what` names in the plural.
 std::vector<Place> items(const Place& place, std::size_t least, std::size_t most, const std::string& what);
@@ -68,6 +80,11 @@ std::vector<Place> items(const Place& place, std::size_t least, std::size_t most
 void only(const Place& place, const std::vector<std::string_view>& known);
 /// The member of an object, or nothing; the object was checked with only().
 std::optional<Place> find(const Place& place, const std::string& name);
+/// Each of these sets a value to a member of an object where the member is there.
+void take(const Place& place, const std::string& name, double& value, Range range);
+void take(const Place& place, const std::string& name, bool& value);
+void take(const Place& place, const std::string& name, glm::dvec2& value, Range range);
+void take(const Place& place, const std::string& name, glm::dvec3& value, Range range);
 /// The member of an object; complains where it is missing.
 Place member(const Place& place, const std::string& name);
 

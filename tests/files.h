@@ -99,7 +99,9 @@ template <class Load> void expect_wrong(Load load, const std::vector<Wrong>& cas
         const std::filesystem::path file = write_text("wrong.json", wrong.text);
         const std::string message = complaint([&] { load(file); });
         const auto [line, rest] = line_and_rest(message, file);
-        const std::string start = (wrong.pointer.empty() ? "" : wrong.pointer + ": ") + wrong.value + " ";
+        const bool begun
+            = wrong.value.starts_with("{") && !wrong.value.ends_with("}"); // of a long object only the beginning
+        const std::string start = (wrong.pointer.empty() ? "" : wrong.pointer + ": ") + wrong.value + (begun ? "" : " ");
         EXPECT_EQ(rest.substr(0, start.size()), start);
         EXPECT_GE(line, 1);
         EXPECT_LE(line, 1 + std::count(wrong.text.begin(), wrong.text.end(), '\n'));
