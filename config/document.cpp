@@ -42,30 +42,98 @@ std::string contents(const std::filesystem::path& path, const std::string& file)
     return text;
 }
 
-/// Of the last of the first `read` bytes, counted from 1 in letters.
-std::string line_and_column(const std::string& content, std::size_t read)
+/// Feeds the parser the text and tells, by way of `read`, how much of it the parser has taken.
+struct CountedByte {
+    using iterator_category = std::input_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char*;
+    using reference = const char&;
+
+    const std::string* text;
+    std::size_t at;
+    std::size_t* read;
+
+    reference operator*() const { return (*text)[at]; }
+    CountedByte& operator++()
+    {
+        *read = ++at;
+        return *this;
+    }
+    CountedByte operator++(int)
+    {
+        const CountedByte before = *this;
+        ++*this;
+        return before;
+    }
+    bool operator==(const CountedByte& other) const { return at == other.at; }
+};
+
+/// The line of the byte at `at`, counted from 1.
+int line_of(const std::string& text, std::size_t at)
 {
-    const std::string_view before = std::string_view(content).substr(0, read > 0 ? read - 1 : 0);
+    return 1 + int(std::count(text.begin(), text.begin() + std::ptrdiff_t(std::min(at, text.size())), '\n'));
+}
+
+/// The column of the byte at `at`, counted from 1 in letters.
+std::string column_of(const std::string& text, std::size_t at)
+{
+    const std::string_view before = std::string_view(text).substr(0, at);
     const std::size_t line_start = before.rfind('\n') + 1; // npos + 1 is 0
     const auto letters = std::count_if(
         before.begin() + std::ptrdiff_t(line_start), before.end(), [](unsigned char c) { return (c & 0xc0) != 0x80; });
-    return "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) + ", column "
-        + std::to_string(1 + letters);
+    return "column " + std::to_string(1 + letters);
 }
 
-/// Builds the document as the parser goes, because only here are a repeated member, the depth and the place of a number
-/// that overflows still known. The parser does not recurse, so depth costs no stack.
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// The first byte of the string whose closing quote is at `end - 1`. Going back, each quote inside follows an odd number of
+/// backslashes, and what stands before the opening one is never a backslash.
+std::size_t string_begin(const std::string& text, std::size_t end)
+{
+    for (std::size_t quote = end - 1; quote > 0;) {
+        quote = text.rfind('"', quote - 1);
+        std::size_t slash = quote;
+        while (slash > 0 && text[slash - 1] == '\\')
+            --slash;
+        if ((quote - slash) % 2 == 0)
+            return quote;
+    }
+    return 0;
+}
+
+/// The first byte of the number that ends before `end`: none of its characters can stand right before it.
+std::size_t number_begin(const std::string& text, std::size_t end)
+{
+    while (end > 0 && (is_digit(text[end - 1]) || std::strchr("+-.eE", text[end - 1])))
+        --end;
+    return end;
+}
+
+/// Builds the document as the parser goes, because only here are a repeated member, the depth, the place of a number that
+/// overflows and the bytes of a value still known. The parser does not recurse, so depth costs no stack. It tells of each
+/// value when it has taken the value's last byte, or for a number, where the text goes on, the byte after it.
 struct Builder : json::json_sax_t {
     const std::string& file;
     const std::string& content;
+    std::size_t read = 0; // bytes that the parser has taken
     json root;
     std::vector<json*> open; // containers from the root inwards; an outer one does not grow while an inner is open
     std::vector<std::string> keys; // beside each open container: the member being read, where it is an object
+
+    const std::string* wanted = nullptr; // a pointer whose value's bytes are asked for
+    std::size_t wanted_depth = 0;
+    std::optional<Span> found;
 
     Builder(const std::string& name, const std::string& text)
         : file(name)
         , content(text)
     {
+    }
+    void parse()
+    {
+        json::sax_parse(CountedByte{&content, 0, &read}, CountedByte{&content, content.size(), &read}, this,
+            json::input_format_t::json, true, true);
     }
 
     std::string pointer() const // of the value that comes next
@@ -73,12 +141,19 @@ struct Builder : json::json_sax_t {
         std::string path;
         for (std::size_t i = 0; i < open.size(); ++i) {
             const std::size_t index = open[i]->size() - (i + 1 < open.size() ? 1 : 0);
-            path += "/" + (open[i]->is_array() ? std::to_string(index) : escaped(keys[i]));
+            path += '/';
+            path += open[i]->is_array() ? std::to_string(index) : escaped(keys[i]);
         }
-        return one_line(path);
+        return path;
     }
-    json* add(json value)
+    [[noreturn]] void refuse(std::size_t at, const std::string& place, const std::string& problem) const
     {
+        throw InputError(file + ":" + std::to_string(line_of(content, at)), one_line(place), problem);
+    }
+    json* add(json value, std::size_t begin, std::size_t end)
+    {
+        if (wanted && !found && open.size() == wanted_depth && pointer() == *wanted)
+            found = Span{begin, end, line_of(content, begin)};
         if (open.empty())
             return &(root = std::move(value));
         json& parent = *open.back();
@@ -87,11 +162,17 @@ struct Builder : json::json_sax_t {
         parent.push_back(std::move(value));
         return &parent.back();
     }
+    json* add_number(json value)
+    {
+        const std::size_t end = is_digit(content[read - 1]) ? read : read - 1;
+        return add(std::move(value), number_begin(content, end), end);
+    }
     bool start(json container)
     {
         if (open.size() == most_depth)
-            throw InputError(file, pointer(), "is nested too deeply; at most 64 levels are right");
-        open.push_back(add(std::move(container)));
+            refuse(read - 1, pointer(), "is nested too deeply; at most 64 levels are right");
+        json* added = add(std::move(container), read - 1, 0);
+        open.push_back(added);
         keys.emplace_back();
         return true;
     }
@@ -99,15 +180,17 @@ struct Builder : json::json_sax_t {
     {
         open.pop_back();
         keys.pop_back();
+        if (found && found->end == 0 && open.size() == wanted_depth)
+            found->end = read;
         return true;
     }
 
-    bool null() override { return add(nullptr); }
-    bool boolean(bool value) override { return add(value); }
-    bool number_integer(json::number_integer_t value) override { return add(value); }
-    bool number_unsigned(json::number_unsigned_t value) override { return add(value); }
-    bool number_float(json::number_float_t value, const std::string&) override { return add(value); }
-    bool string(std::string& value) override { return add(value); }
+    bool null() override { return add(nullptr, read - 4, read); }
+    bool boolean(bool value) override { return add(value, read - (value ? 4 : 5), read); }
+    bool number_integer(json::number_integer_t value) override { return add_number(value); }
+    bool number_unsigned(json::number_unsigned_t value) override { return add_number(value); }
+    bool number_float(json::number_float_t value, const std::string&) override { return add_number(value); }
+    bool string(std::string& value) override { return add(value, string_begin(content, read), read); }
     bool binary(json::binary_t&) override { return false; }
     bool start_object(std::size_t) override { return start(json::object()); }
     bool end_object() override { return end(); }
@@ -117,30 +200,47 @@ struct Builder : json::json_sax_t {
     {
         keys.back() = name;
         if (open.back()->contains(name))
-            throw InputError(file, pointer(), "\"" + one_line(name, 60) + "\" is given twice; one of the two is right");
+            refuse(read - 1, pointer(), one_line(json(name).dump(), 62) + " is given twice; one of the two is right");
+        if (found && found->end == 0 && !found->first_key && open.size() == wanted_depth + 1)
+            found->first_key = string_begin(content, read);
         return true;
     }
-    bool parse_error(std::size_t read, const std::string& token, const nlohmann::detail::exception& error) override
+    bool parse_error(std::size_t taken, const std::string& token, const nlohmann::detail::exception& error) override
     {
+        const std::size_t at = taken > 0 ? taken - 1 : 0;
         if (error.id == 406)
-            throw InputError(file, pointer(), one_line(token, 60) + " is too large for a number; up to 1.79e308 is right");
+            refuse(at, pointer(), one_line(token, 60) + " is too large for a number; up to 1.79e308 is right");
         // "[...] parse error at line L, column C: ..." with a column in bytes, and 0 for the end of the line before.
         const std::string what = error.what();
         const std::size_t column = what.find(", column "), start = what.find(": ", column);
-        throw InputError(file, line_and_column(content, read), one_line(what.substr(start == what.npos ? 0 : start + 2)));
+        refuse(at, column_of(content, at), one_line(what.substr(start == what.npos ? 0 : start + 2)));
     }
 };
 
 } // namespace
 
-Document read_document(const std::filesystem::path& path)
+Document parse_document(const std::string& file, std::string text)
 {
-    Document document{one_line(path.string()), nullptr};
-    const std::string content = contents(path, document.file);
-    Builder builder(document.file, content);
-    json::sax_parse(content, &builder, json::input_format_t::json, true, true);
+    Document document{file, nullptr, std::move(text)};
+    Builder builder(document.file, document.text);
+    builder.parse();
     document.root = std::move(builder.root);
     return document;
+}
+
+Document read_document(const std::filesystem::path& path)
+{
+    const std::string file = one_line(path.string());
+    return parse_document(file, contents(path, file));
+}
+
+std::optional<Span> find_span(const Document& document, const std::string& pointer)
+{
+    Builder builder(document.file, document.text);
+    builder.wanted = &pointer;
+    builder.wanted_depth = std::size_t(std::count(pointer.begin(), pointer.end(), '/'));
+    builder.parse();
+    return builder.found;
 }
 
 } // namespace starbow

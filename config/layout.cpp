@@ -1,5 +1,4 @@
-#include "layout.h"
-#include "reader.h"
+#include "layout_reader.h"
 #include <algorithm>
 #include <cctype>
 
@@ -12,45 +11,82 @@ static_assert(most_pixels_across <= (1 << 28) / most_pixels_across, "an output's
 /// Fractions such as 0.3333 and 0.6667 meet well enough: this is 1/60 of the widest output's pixel.
 constexpr double slack = 1e-6;
 
-Projection read_projection(const Place& place)
+/// Windows may begin left of and above the main monitor.
+constexpr int farthest_px = 100000;
+
+glm::ivec2 read_pixels(const Place& place, int low, int high)
 {
-    only(place, {"type", "fov_y_deg", "aperture_deg", "tilt_deg"});
-    if (one_of(member(place, "type"), {"planar", "fisheye"}) == "planar") {
-        only(place, {"type", "fov_y_deg"});
-        Planar planar;
-        if (auto p = find(place, "fov_y_deg"))
-            planar.fov_y_deg = number(*p, {0.1, 179});
-        return planar;
-    }
-    only(place, {"type", "aperture_deg", "tilt_deg"});
-    Fisheye fisheye;
-    if (auto p = find(place, "aperture_deg"))
-        fisheye.aperture_deg = number(*p, {1, 360});
-    if (auto p = find(place, "tilt_deg"))
-        fisheye.tilt_deg = number(*p, {-180, 180});
-    return fisheye;
+    const std::vector<Place> at = items(place, 2, 2, "whole numbers");
+    return {integer(at[0], low, high), integer(at[1], low, high)};
 }
 
-Viewport read_viewport(const Place& place, glm::ivec2 size)
+/// The pixels of one eye's picture in an output.
+glm::ivec2 eye_size(const Output& output)
 {
-    only(place, {"rect", "projection", "eye_m"});
+    const bool beside = output.packing == Packing::side_by_side || output.packing == Packing::side_by_side_half;
+    const bool above = output.packing == Packing::top_and_bottom || output.packing == Packing::top_and_bottom_half;
+    return output.size / glm::ivec2(beside ? 2 : 1, above ? 2 : 1);
+}
+
+glm::dvec4 read_rect(const Place& place, glm::ivec2 size)
+{
+    const glm::dvec4 r = vec4(place, {0, 1});
+    if (r.z <= 0 || r.w <= 0)
+        complain(place, "is empty; x, y, width and height in fractions of the output, the last two above 0, is right");
+    if (r.x + r.z > 1 + slack || r.y + r.w > 1 + slack)
+        complain(place, "reaches beyond the output; x + width and y + height up to 1 is right");
+    const glm::ivec4 pixels = pixel_rect({r}, size);
+    if (pixels.z < 1 || pixels.w < 1)
+        complain(place,
+            "is smaller than a pixel of the " + std::to_string(size.x) + " x " + std::to_string(size.y)
+                + " output; at least one pixel each way is right");
+    return r;
+}
+
+Warp read_warp(const Place& place, const std::filesystem::path& folder)
+{
+    only(place, {"file", "frustum", "region", "first_row"});
+    Warp warp;
+    warp.file = existing_file(member(place, "file"), folder);
+    if (auto p = find(place, "frustum"))
+        warp.frustum = existing_file(*p, folder);
+    if (auto p = find(place, "region"))
+        warp.region = text(*p);
+    if (auto p = find(place, "first_row"))
+        warp.first_row_on_top = one_of(*p, {"top", "bottom"}) == "top";
+    return warp;
+}
+
+Viewport read_viewport(const Place& place, const Output& output, const Stereo& stereo, const std::filesystem::path& folder)
+{
+    only(place, {"rect", "eye", "eye_m", "projection", "warp", "alpha_mask", "black_level", "mask_gamma"});
     Viewport viewport;
-    if (auto p = find(place, "rect")) {
-        viewport.rect = vec4(*p, {0, 1});
-        const glm::dvec4& r = viewport.rect;
-        if (r.z <= 0 || r.w <= 0)
-            complain(*p, "is empty; x, y, width and height in fractions of the output, the last two above 0, is right");
-        if (r.x + r.z > 1 + slack || r.y + r.w > 1 + slack)
-            complain(*p, "reaches beyond the output; x + width and y + height up to 1 is right");
-        const glm::ivec4 pixels = pixel_rect(viewport, size);
-        if (pixels.z < 1 || pixels.w < 1)
-            complain(*p,
-                "is smaller than a pixel of the " + std::to_string(size.x) + " x " + std::to_string(size.y)
-                    + " output; at least one pixel each way is right");
+    if (auto p = find(place, "rect"))
+        viewport.rect = read_rect(*p, eye_size(output));
+    if (auto p = find(place, "eye"))
+        viewport.eye = chosen<Eye>(*p, {{"middle", Eye::middle}, {"left", Eye::left}, {"right", Eye::right}});
+    take(place, "eye_m", viewport.eye_m, {-1e3, 1e3});
+    const bool packed = output.packing != Packing::mono;
+    if (packed && find(place, "eye"))
+        complain(member(place, "eye"),
+            "is set in an output whose \"packing\" shows both eyes; no \"eye\", or \"packing\" left out, is right");
+
+    const auto projection = find(place, "projection"), warp = find(place, "warp");
+    if (projection) {
+        viewport.projection = read_projection(*projection);
+        check_eye(*projection, viewport.projection, viewport.eye_m,
+            packed || viewport.eye != Eye::middle ? stereo.separation_m : 0);
+    } else if (!warp) {
+        member(place, "projection");
     }
-    viewport.projection = read_projection(member(place, "projection"));
-    if (auto p = find(place, "eye_m"))
-        viewport.eye_m = vec3(*p, {-1e3, 1e3});
+    viewport.projection_given = projection.has_value();
+    if (warp)
+        viewport.warp = read_warp(*warp, folder);
+    if (auto p = find(place, "alpha_mask"))
+        viewport.alpha_mask = existing_file(*p, folder);
+    if (auto p = find(place, "black_level"))
+        viewport.black_level = existing_file(*p, folder);
+    take(place, "mask_gamma", viewport.mask_gamma, {0.1, 10});
     return viewport;
 }
 
@@ -70,19 +106,82 @@ std::string read_name(const Place& place)
     return name;
 }
 
-Output read_output(const Place& place)
+Packing read_packing(const Place& place)
 {
-    only(place, {"name", "size", "resizable", "viewports"});
+    return chosen<Packing>(place,
+        {{"mono", Packing::mono}, {"side-by-side", Packing::side_by_side}, {"side-by-side-half", Packing::side_by_side_half},
+            {"top-and-bottom", Packing::top_and_bottom}, {"top-and-bottom-half", Packing::top_and_bottom_half},
+            {"rows", Packing::rows}, {"columns", Packing::columns}, {"checkerboard", Packing::checkerboard},
+            {"anaglyph-red-cyan", Packing::anaglyph_red_cyan}, {"anaglyph-dubois", Packing::anaglyph_dubois},
+            {"anaglyph-amber-blue", Packing::anaglyph_amber_blue}});
+}
+
+MonitorName read_monitor(const Place& place)
+{
+    only(place, {"connector", "model", "serial", "position"});
+    MonitorName monitor;
+    if (auto p = find(place, "connector"))
+        monitor.connector = text(*p);
+    if (auto p = find(place, "model"))
+        monitor.model = text(*p);
+    if (auto p = find(place, "serial"))
+        monitor.serial = text(*p);
+    if (auto p = find(place, "position"))
+        monitor.position = read_pixels(*p, -farthest_px, farthest_px);
+    if (monitor.empty())
+        complain(place, "names no monitor; at least one of \"connector\", \"model\", \"serial\" and \"position\" is right");
+    return monitor;
+}
+
+/// Where the output's window goes.
+void read_window(const Place& place, Output& output)
+{
+    take(place, "resizable", output.resizable);
+    if (auto p = find(place, "monitor"))
+        output.monitor = read_monitor(*p);
+    take(place, "whole_monitor", output.whole_monitor);
+    if (auto p = find(place, "place")) {
+        output.place = read_pixels(*p, -farthest_px, farthest_px);
+        if (output.whole_monitor)
+            complain(
+                *p, "places a window that covers its whole monitor; \"place\" or \"whole_monitor\", not both, is right");
+    }
+}
+
+/// A packing that halves the picture wants halves of whole pixels.
+void check_halves(const Place& place, const Output& output)
+{
+    const glm::ivec2 eye = eye_size(output);
+    if ((eye.x != output.size.x && output.size.x % 2) || (eye.y != output.size.y && output.size.y % 2))
+        complain(find(place, "size").value_or(place),
+            "has no two equal halves for \"packing\"; an even number of pixels across the cut is right");
+}
+
+Output read_output(const Place& place, const Stereo& stereo, const std::filesystem::path& folder)
+{
+    only(place,
+        {"name", "size", "resizable", "viewports", "preview", "packing", "colour", "monitor", "whole_monitor", "place"});
     Output output;
     output.name = read_name(member(place, "name"));
-    if (auto p = find(place, "size")) {
-        const std::vector<Place> at = items(*p, 2, 2, "whole numbers");
-        output.size = {integer(at[0], 1, most_pixels_across), integer(at[1], 1, most_pixels_across)};
+    if (auto p = find(place, "size"))
+        output.size = read_pixels(*p, 1, most_pixels_across);
+    take(place, "preview", output.preview);
+    if (auto p = find(place, "packing"))
+        output.packing = read_packing(*p);
+    read_window(place, output);
+    if (auto p = find(place, "colour"))
+        output.colour = read_colour(*p, folder);
+    if (output.preview) {
+        for (const char* name : {"viewports", "packing"})
+            if (auto p = find(place, name))
+                complain(*p,
+                    "stands in the preview, which shows the other outputs as they are; a preview without \""
+                        + std::string(name) + "\" is right");
+        return output;
     }
-    if (auto p = find(place, "resizable"))
-        output.resizable = boolean(*p);
+    check_halves(place, output);
     for (const Place& at : items(member(place, "viewports"), 1, 64, "viewports")) {
-        const Viewport viewport = read_viewport(at, output.size);
+        const Viewport viewport = read_viewport(at, output, stereo, folder);
         for (std::size_t i = 0; i < output.viewports.size(); ++i)
             if (overlap(viewport.rect, output.viewports[i].rect))
                 complain(find(at, "rect").value_or(at),
@@ -92,17 +191,62 @@ Output read_output(const Place& place)
     return output;
 }
 
+Stereo read_stereo(const Place& place)
+{
+    only(place, {"method", "separation_m", "hyper_stereo", "baseline", "full_from_zenith_deg"});
+    Stereo stereo;
+    if (auto p = find(place, "method"))
+        stereo.method = chosen<StereoMethod>(*p,
+            {{"shared", StereoMethod::shared}, {"exact", StereoMethod::exact}, {"reprojected", StereoMethod::reprojected}});
+    take(place, "separation_m", stereo.separation_m, {0, 10});
+    take(place, "hyper_stereo", stereo.hyper_stereo, {0, 1e12, true});
+    if (auto p = find(place, "baseline"))
+        stereo.turning = one_of(*p, {"fixed", "turning"}) == "turning";
+    take(place, "full_from_zenith_deg", stereo.full_from_zenith_deg, {0, 90});
+    if (stereo.separation_m == 0 && stereo.method != StereoMethod::shared)
+        complain(member(place, "separation_m"),
+            "puts both eyes in one place; a number above 0, or the method \"shared\", is right");
+    if (stereo.turning && stereo.method != StereoMethod::reprojected)
+        complain(member(place, "baseline"), "turns eyes that only one method can turn; the method \"reprojected\" is right");
+    return stereo;
+}
+
+Blend read_blend(const Place& place)
+{
+    only(place, {"ramps", "power"});
+    Blend blend;
+    take(place, "ramps", blend.ramps);
+    take(place, "power", blend.power, {0.1, 10});
+    return blend;
+}
+
 HudPlacement read_hud(const Place& place)
 {
     only(place, {"azimuth_deg", "elevation_deg", "width_deg"});
     HudPlacement hud;
-    if (auto p = find(place, "azimuth_deg"))
-        hud.azimuth_deg = number(*p, {-180, 180});
-    if (auto p = find(place, "elevation_deg"))
-        hud.elevation_deg = number(*p, {-90, 90});
-    if (auto p = find(place, "width_deg"))
-        hud.width_deg = number(*p, {1, 120});
+    take(place, "azimuth_deg", hud.azimuth_deg, {-180, 180});
+    take(place, "elevation_deg", hud.elevation_deg, {-90, 90});
+    take(place, "width_deg", hud.width_deg, {1, 120});
     return hud;
+}
+
+bool same(const MonitorName& a, const MonitorName& b)
+{
+    return a.connector == b.connector && a.model == b.model && a.serial == b.serial && a.position == b.position;
+}
+
+/// Complains where an output can't stand beside an earlier one.
+void check_beside(const Place& place, const Output& output, const Output& earlier, std::size_t index)
+{
+    const std::string which = "output " + std::to_string(index);
+    if (output.name == earlier.name)
+        complain(member(place, "name"), "is the name of " + which + " too; a name of its own is right");
+    if (output.preview && earlier.preview)
+        complain(member(place, "preview"), "makes a second preview beside " + which + "; one is right");
+    if ((output.whole_monitor || earlier.whole_monitor) && same(output.monitor, earlier.monitor))
+        complain(find(place, "monitor").value_or(place),
+            "takes the same monitor as " + which
+                + ", and a window over the whole of it leaves no room; a monitor for each is right");
 }
 
 } // namespace
@@ -119,21 +263,27 @@ Layout load_layout(const std::filesystem::path& file)
 {
     const Document document = read_document(file);
     const Place top = root(document);
-    only(top, {"hyper_stereo", "hud", "outputs"});
+    only(top, {"$schema", "stereo", "blend", "hud", "outputs"});
     Layout layout;
     layout.name = file.stem().string();
-    if (auto p = find(top, "hyper_stereo"))
-        layout.stereo.hyper_stereo = number(*p, {0, 1e12, true});
+    layout.file = file;
+    if (auto p = find(top, "$schema"))
+        text(*p);
+    if (auto p = find(top, "stereo"))
+        layout.stereo = read_stereo(*p);
+    if (auto p = find(top, "blend"))
+        layout.blend = read_blend(*p);
     if (auto p = find(top, "hud"))
         layout.hud = read_hud(*p);
-    for (const Place& at : items(member(top, "outputs"), 1, 64, "outputs")) {
-        const Output output = read_output(at);
+    const Place outputs = member(top, "outputs");
+    for (const Place& at : items(outputs, 1, 64, "outputs")) {
+        const Output output = read_output(at, layout.stereo, file.parent_path());
         for (std::size_t i = 0; i < layout.outputs.size(); ++i)
-            if (output.name == layout.outputs[i].name)
-                complain(
-                    member(at, "name"), "is the name of output " + std::to_string(i) + " too; a name of its own is right");
+            check_beside(at, output, layout.outputs[i], i);
         layout.outputs.push_back(output);
     }
+    if (layout.outputs.size() == 1 && layout.outputs[0].preview)
+        complain(outputs, "holds a preview alone; at least one other output for it to show is right");
     return layout;
 }
 

@@ -50,7 +50,9 @@ Place root(const Document& document) { return {&document, &document.root, ""}; }
 
 void complain(const Place& place, const std::string& problem)
 {
-    throw InputError(place.document->file, one_line(place.pointer), value_text(*place.json) + " " + problem);
+    const std::optional<Span> span = find_span(*place.document, place.pointer);
+    throw InputError(place.document->file + (span ? ":" + std::to_string(span->line) : ""), one_line(place.pointer),
+        value_text(*place.json) + " " + problem);
 }
 
 double number(const Place& place, Range range)
@@ -93,7 +95,7 @@ std::string text(const Place& place)
     return value;
 }
 
-std::string one_of(const Place& place, std::initializer_list<std::string_view> choices)
+std::string one_of(const Place& place, const std::vector<std::string_view>& choices)
 {
     if (place.json->is_string())
         for (std::string_view name : choices)
@@ -115,6 +117,12 @@ std::vector<Place> items(const Place& place, std::size_t least, std::size_t most
     for (std::size_t i = 0; i < count; ++i)
         places.push_back({place.document, &(*place.json)[i], place.pointer + "/" + std::to_string(i)});
     return places;
+}
+
+glm::dvec2 vec2(const Place& place, Range range)
+{
+    const std::vector<Place> at = items(place, 2, 2, "numbers");
+    return {number(at[0], range), number(at[1], range)};
 }
 
 glm::dvec3 vec3(const Place& place, Range range)
@@ -152,6 +160,30 @@ std::optional<Place> find(const Place& place, const std::string& name)
     if (found == place.json->end())
         return {};
     return Place{place.document, &*found, place.pointer + "/" + escaped(name)};
+}
+
+void take(const Place& place, const std::string& name, double& value, Range range)
+{
+    if (auto p = find(place, name))
+        value = number(*p, range);
+}
+
+void take(const Place& place, const std::string& name, bool& value)
+{
+    if (auto p = find(place, name))
+        value = boolean(*p);
+}
+
+void take(const Place& place, const std::string& name, glm::dvec2& value, Range range)
+{
+    if (auto p = find(place, name))
+        value = vec2(*p, range);
+}
+
+void take(const Place& place, const std::string& name, glm::dvec3& value, Range range)
+{
+    if (auto p = find(place, name))
+        value = vec3(*p, range);
 }
 
 Place member(const Place& place, const std::string& name)

@@ -1,12 +1,13 @@
 #pragma once
 #include "error.h"
+#include <algorithm>
 #include <filesystem>
 #include <glm/glm.hpp>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace starbow {
@@ -15,6 +16,14 @@ namespace starbow {
 struct Document {
     std::string file; ///< as messages show it
     nlohmann::json root;
+    std::string text; ///< that it was parsed from
+};
+
+/// Where a value stands in its document's text.
+struct Span {
+    std::size_t begin, end; ///< its first byte and the one after its last
+    int line; ///< of its first byte, counted from 1
+    std::optional<std::size_t> first_key; ///< of an object that is not empty: the opening quote of its first member's name
 };
 
 /// A value in a document and the JSON pointer that leads to it.
@@ -33,9 +42,15 @@ struct Range {
 /// Reads JSON with // and /* */ comments. Throws InputError for a file that can't be read, is larger than 16 MiB, is not
 /// JSON (with line and column), nests deeper than 64, repeats a member, or holds a number that a double can't.
 Document read_document(const std::filesystem::path& file);
+/// The same from a text; `file` is what messages call it.
+Document parse_document(const std::string& file, std::string text);
 Place root(const Document& document);
 
-/// Throws "FILE: POINTER: VALUE problem". By custom the problem reads "is wrong in this way; what would be right".
+/// Where the value that a JSON pointer leads to stands, or nothing. Parses the text once more: only the few values that a
+/// message or a change is about are ever asked for.
+std::optional<Span> find_span(const Document& document, const std::string& pointer);
+
+/// Throws "FILE:LINE: POINTER: VALUE problem". By custom the problem reads "is wrong in this way; what would be right".
 [[noreturn]] void complain(const Place& place, const std::string& problem);
 
 /// Each of these returns the value at a place or complains about it.
@@ -43,9 +58,20 @@ double number(const Place& place, Range range);
 int integer(const Place& place, int low, int high);
 bool boolean(const Place& place);
 std::string text(const Place& place); ///< neither empty nor with control characters
-std::string one_of(const Place& place, std::initializer_list<std::string_view> choices);
-glm::dvec3 vec3(const Place& place, Range range); ///< every component in range
+std::string one_of(const Place& place, const std::vector<std::string_view>& choices);
+glm::dvec2 vec2(const Place& place, Range range); ///< every component in range
+glm::dvec3 vec3(const Place& place, Range range);
 glm::dvec4 vec4(const Place& place, Range range);
+
+/// What the text at a place stands for.
+template <class Value> Value chosen(const Place& place, const std::vector<std::pair<std::string_view, Value>>& choices)
+{
+    std::vector<std::string_view> names;
+    for (const auto& choice : choices)
+        names.push_back(choice.first);
+    const std::string name = one_of(place, names);
+    return choices[std::size_t(std::find(names.begin(), names.end(), name) - names.begin())].second;
+}
 
 /// The places in an array of `least` to `most` of the things that `what` names in the plural.
 std::vector<Place> items(const Place& place, std::size_t least, std::size_t most, const std::string& what);
@@ -54,6 +80,11 @@ std::vector<Place> items(const Place& place, std::size_t least, std::size_t most
 void only(const Place& place, const std::vector<std::string_view>& known);
 /// The member of an object, or nothing; the object was checked with only().
 std::optional<Place> find(const Place& place, const std::string& name);
+/// Each of these sets a value to a member of an object where the member is there.
+void take(const Place& place, const std::string& name, double& value, Range range);
+void take(const Place& place, const std::string& name, bool& value);
+void take(const Place& place, const std::string& name, glm::dvec2& value, Range range);
+void take(const Place& place, const std::string& name, glm::dvec3& value, Range range);
 /// The member of an object; complains where it is missing.
 Place member(const Place& place, const std::string& name);
 

@@ -54,7 +54,7 @@ refused '/velocity/direction' render --shot "$folder/nowhere.json"
 shot blind '{ "direction": [0, 0, -1], "gamma": 2 }' ', "look": [0, 0, 0]'
 refused '/look' render --shot "$folder/blind.json"
 shot nan '{ "direction": [0, 0, -1], "gamma": NaN }'
-refused 'line 1' render --shot "$folder/nan.json"
+refused 'nan.json:1: column' render --shot "$folder/nan.json"
 shot huge '{ "direction": [0, 0, -1], "gamma": 1e999 }'
 refused 'huge.json' render --shot "$folder/huge.json"
 shot word '{ "direction": [0, 0, -1], "gamma": "four" }'
