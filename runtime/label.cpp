@@ -9,7 +9,7 @@ Image make_label(Device& device, const Layout& layout, const Pane& pane)
     const Output& output = layout.outputs[pane.output];
     std::string name = output.name;
     if (output.viewports.size() > 1)
-        name += " " + std::to_string(pane.viewport);
+        name.append(" ").append(std::to_string(pane.viewport));
     std::string pixels = pane.eye == Eye::left ? "left eye, " : pane.eye == Eye::right ? "right eye, " : "";
     pixels += std::to_string(pane.size.x) + " x " + std::to_string(pane.size.y);
     const std::string lines[] = {name, pixels};

@@ -124,13 +124,12 @@ Worst check_directions(const Numbers& numbers, const Layout& layout, const Shot&
     const double speed = glm::length(shot.u);
     Worst worst;
     std::vector<bool> covered(numbers.count());
-    for (const Viewport& viewport : layout.outputs[0].viewports) {
-        const glm::ivec4 rect = pixel_rect(viewport, numbers.size);
-        for (int y = 0; y < rect.w; ++y)
-            for (int x = 0; x < rect.z; ++x) {
-                const int i = (rect.y + y) * numbers.size.x + rect.x + x;
+    for (const Pane& pane : panes(layout, 0, numbers.size)) {
+        for (int y = 0; y < pane.size.y; ++y)
+            for (int x = 0; x < pane.size.x; ++x) {
+                const int i = (pane.corner.y + y) * numbers.size.x + pane.corner.x + x;
                 covered[i] = true;
-                const auto cockpit = direction(Picture{viewport.projection, {rect.z, rect.w}}, {x + 0.5, y + 0.5});
+                const auto cockpit = direction(pane.picture, pane.picture_from_pixel * dvec2(x + 0.5, y + 0.5));
                 if (numbers.shown(i) != cockpit.has_value()) {
                     ADD_FAILURE() << "pixel " << x << ' ' << y << (cockpit ? " shows nothing" : " shows something");
                     return worst;
