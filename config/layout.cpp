@@ -259,10 +259,8 @@ glm::ivec4 pixel_rect(const Viewport& viewport, glm::ivec2 size)
     return {from, to - from};
 }
 
-Layout load_layout(const std::filesystem::path& file)
+Layout read_layout(const Place& top, const std::filesystem::path& file)
 {
-    const Document document = read_document(file);
-    const Place top = root(document);
     only(top, {"$schema", "stereo", "blend", "hud", "outputs"});
     Layout layout;
     layout.name = file.stem().string();
@@ -285,6 +283,12 @@ Layout load_layout(const std::filesystem::path& file)
     if (layout.outputs.size() == 1 && layout.outputs[0].preview)
         complain(outputs, "holds a preview alone; at least one other output for it to show is right");
     return layout;
+}
+
+Layout load_layout(const std::filesystem::path& file)
+{
+    const Document document = read_document(file);
+    return read_layout(root(document), file);
 }
 
 } // namespace starbow

@@ -10,6 +10,9 @@ namespace starbow {
 /// Far beyond any building, and its square is far from overflow.
 constexpr Range room_m{-1e4, 1e4};
 
+/// A whole layout; `file` gives its name and the folder that its paths start from.
+Layout read_layout(const Place& place, const std::filesystem::path& file);
+
 Projection read_projection(const Place& place);
 
 /// Complains where the projection can't be looked at from the eye: a wall from behind or edge on, a dome from outside.

@@ -65,6 +65,35 @@ TEST(LayoutTest, ShippedLayouts)
     EXPECT_NEAR(stereo.stereo.separation_m * stereo.stereo.hyper_stereo / 299792458, 0.03, 0.005);
 }
 
+/// The layouts between ``` in the handbook, and a message that it quotes.
+TEST(LayoutTest, TheHandbooksExamples)
+{
+    int layouts = 0;
+    for (const char* name : {"docs/displays.md", "docs/files.md"}) {
+        const std::string text = read_text(source_dir() / name), fence = "\n```\n";
+        for (std::size_t at = text.find(fence); at != text.npos; at = text.find(fence, at)) {
+            const std::size_t begin = at + fence.size(), end = text.find(fence, begin - 1);
+            ASSERT_NE(end, text.npos);
+            const std::string block = text.substr(begin, end + 1 - begin);
+            at = end + fence.size() - 1;
+            if (block.find("\"outputs\"") == block.npos)
+                continue;
+            ++layouts;
+            EXPECT_NO_THROW(load_layout(write_text("handbook.json", block))) << block;
+        }
+    }
+    EXPECT_EQ(layouts, 2);
+
+    std::string wall = read_text(source_dir() / "config/layouts/tv3d.json");
+    const std::string corners = wall.substr(
+        wall.find("\"lower_left_m\""), wall.find('}', wall.find("\"lower_left_m\"")) - wall.find("\"lower_left_m\""));
+    wall.replace(wall.find(corners), corners.size(),
+        R"("lower_left_m": [-1.2, -0.675, -2], "lower_right_m": [1.2, -0.675, -2], "upper_left_m": [-1.1, 0.675, -2])");
+    const std::string message = complaint([&] { load_layout(write_text("wall.json", wall)); });
+    const std::string said = message.substr(std::min(message.find(": /outputs"), message.size()));
+    EXPECT_NE(read_text(source_dir() / "docs/displays.md").find(said), std::string::npos) << said;
+}
+
 TEST(LayoutTest, LimitsThemselvesAreRight)
 {
     for (const std::string& text :
