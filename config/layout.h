@@ -60,7 +60,8 @@ struct Equirectangular {
     Turn turn;
 };
 
-/// The six faces of a cube in one picture. row: 6 x 1: +x -x +y -y +z -z as cube map files have them, seen from inside.
+/// The six faces of a cube in one picture. row: 6 x 1: +x -x +y -y +z -z as cube map files have them, seen from inside: right,
+/// left, up, down, front, back, for their axes are left-handed and +z is ahead (displays/cube_faces.h has the edges).
 /// cross: 4 x 3, up above and down below the front, the middle row left, front, right, back.
 struct CubeFaces {
     enum class Arrangement { row, cross } arrangement = Arrangement::row;
