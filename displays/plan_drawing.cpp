@@ -219,6 +219,7 @@ private:
         const glm::dvec2 below = at(middle) + glm::dvec2(0, 13);
         svg_.label(below, "head-up display", 11, "#222");
         taken_.push_back(around(below, "head-up display", 11));
+        taken_.push_back({at({0, 0}) - 8., at({0, 0}) + 8.}); // the cross straight ahead
     }
 
     bool shows(const Coverage& coverage, glm::dvec2 place) const
@@ -426,7 +427,7 @@ public:
             const int v = int(&viewport - output.viewports.data());
             if (const Wall* wall = std::get_if<Wall>(&viewport.projection)) {
                 const auto all = corners(*wall);
-                name(at((all[0] + all[2]) / 2.), viewport_name(layout_, number, v), colour_of(number));
+                name(at((all[0] + all[2]) / 2.), shortened(viewport_name(layout_, number, v), 20), colour_of(number));
             }
         });
         bar({corner.x + 14, corner.y + size.y - 14});
@@ -473,7 +474,7 @@ private:
             svg_.add("Z\" fill=\"%s\" fill-opacity=\"0.12\" stroke=\"%s\" stroke-width=\"3\" stroke-linejoin=\"round\"/>\n",
                 colour, colour);
         }
-        if (const SphericalMirror* mirror = std::get_if<SphericalMirror>(&viewport.projection)) {
+        if (const SphericalMirror* mirror = std::get_if<SphericalMirror>(&viewport.projection); mirror && upright) {
             svg_.circle(at(mirror->dome_m), mirror->dome_radius_m * scale_,
                 "fill=\"none\" stroke=\"#888\" stroke-width=\"2\" stroke-dasharray=\"6 4\"");
             svg_.circle(at(mirror->mirror_m), mirror->mirror_radius_m * scale_,
@@ -511,9 +512,8 @@ private:
     }
 
     /// A label at the place, or the nearest one up and down from it that is free.
-    void name(glm::dvec2 place, std::string words, const char* colour)
+    void name(glm::dvec2 place, const std::string& words, const char* colour)
     {
-        words = shortened(words, 20);
         const double half = bold_width(words, 12) / 2 + 6;
         place.x = std::clamp(place.x, frame_.from.x + half, std::max(frame_.from.x + half, frame_.to.x - half));
         for (int i = 0; i < 24; ++i) {

@@ -302,6 +302,11 @@ TEST(PlanDrawingTest, OneRegionForEachViewportAndEye)
     EXPECT_EQ(count(parsed(cave()), "path", "shown"), 4);
     EXPECT_EQ(count(parsed(cave()), "path", "wall"), 4);
     EXPECT_EQ(count(parsed(projectors()), "path", "wall"), 0);
+    std::vector<std::string> in_room;
+    const pugi::xml_document document = parsed(mirror_dome());
+    each(document, "text", [&](pugi::xml_node node) { in_room.push_back(node.text().get()); });
+    EXPECT_EQ(std::count(in_room.begin(), in_room.end(), "projector"), 1);
+    EXPECT_EQ(std::count(in_room.begin(), in_room.end(), "eye at height −0.30 m"), 1);
 }
 
 TEST(PlanDrawingTest, TheMapPutsDegreesInTheirPlaces)
