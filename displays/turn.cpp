@@ -5,6 +5,8 @@ namespace starbow {
 
 glm::dmat3 cockpit_from_picture(const Turn& turn)
 {
+    if (turn.yaw_deg == 0 && turn.pitch_deg == 0 && turn.roll_deg == 0)
+        return glm::dmat3(1);
     const auto sine = [](double deg) { return std::sin(glm::radians(deg)); };
     const auto cosine = [](double deg) { return std::cos(glm::radians(deg)); };
     const double cy = cosine(turn.yaw_deg), sy = sine(turn.yaw_deg), cp = cosine(turn.pitch_deg), sp = sine(turn.pitch_deg);

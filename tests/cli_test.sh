@@ -86,15 +86,24 @@ said=$("$program" bench --json "$folder" 2>&1 >/dev/null)
 if [ $? != 2 ] || [[ $said != *"no file"* ]]; then fail "bench into a folder: $said"; else passed=$((passed + 1)); fi
 refused 'a?b?[31m' render --shot $'a\nb\e[31m'
 
+# A plan of a layout: where it was asked for, and nothing of a wrong one.
+said=$("$program" check desk --svg "$folder/plans/desk.svg")
+if [[ $said == *"desk: window, 60"* && $said == *"plans/desk.svg" ]] && grep -q '</svg>' "$folder/plans/desk.svg"; then passed=$((passed + 1)); else fail "check desk: $said"; fi
+(cd "$folder" && "$program" check dome >/dev/null && [ -s dome-plan.svg ]) && passed=$((passed + 1)) || fail "check dome writes no dome-plan.svg"
+for layout in "$folder/wide.json" no-such-layout; do
+    said=$("$program" check "$layout" --svg "$folder/wrong.svg" 2>&1)
+    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [ ! -e "$folder/wrong.svg" ]; then passed=$((passed + 1)); else fail "check $layout: $said"; fi
+done
+
 # Unknown options and missing ones are told in one line too, also with exit 2.
-for arguments in '' 'fly' 'render' 'render --shot' 'bench --rounds 0' 'run --frames -1' 'render --shot start --out x --colour'; do
+for arguments in '' 'fly' 'render' 'render --shot' 'bench --rounds 0' 'run --frames -1' 'check' 'render --shot start --out x --colour'; do
     # shellcheck disable=SC2086
     said=$("$program" $arguments 2>&1 >/dev/null)
     if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ]; then passed=$((passed + 1)); else fail "'$arguments' is not refused with 2 in one line: $said"; fi
 done
 
 # Every subcommand's help ends with an example.
-for command in run render bench; do
+for command in run render bench check; do
     if "$program" $command --help | grep -q "starbow $command "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
 done
 

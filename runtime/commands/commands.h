@@ -11,5 +11,6 @@ namespace starbow {
 void add_run(CLI::App& app, std::function<int()>& chosen);
 void add_render(CLI::App& app, std::function<int()>& chosen);
 void add_bench(CLI::App& app, std::function<int()>& chosen);
+void add_check(CLI::App& app, std::function<int()>& chosen);
 
 } // namespace starbow

@@ -1,0 +1,54 @@
+#include "commands.h"
+#include "config/error.h"
+#include "displays/plan_drawing.h"
+#include "displays/plan_table.h"
+#include "runtime/capture.h"
+#include "runtime/find.h"
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+
+namespace starbow {
+namespace {
+
+struct Options {
+    std::string layout, svg;
+};
+
+int check(const Options& options)
+{
+    const Layout layout = load_layout(find("layouts", options.layout));
+    const std::filesystem::path file = options.svg.empty() ? layout.name + "-plan.svg" : options.svg;
+    check_writable(file);
+    const std::vector<Coverage> shown = coverages(layout);
+    for (const PlanRow& row : plan_rows(layout, shown))
+        std::printf("%s: %s; %s, %s of the sky; %s pixels, %s per degree\n", row.name.c_str(), row.projection.c_str(),
+            row.spans.c_str(), row.sky.c_str(), row.pixels.c_str(),
+            row.per_degree.empty() ? "none" : row.per_degree.c_str());
+    for (const std::string& line : overlap_lines(layout, shown))
+        std::printf("%s\n", line.c_str());
+    if (file.has_parent_path())
+        std::filesystem::create_directories(file.parent_path());
+    std::ofstream stream(file, std::ios::binary);
+    stream << draw_plan(layout, shown);
+    stream.close();
+    if (!stream)
+        throw InputError(file.string(), "", "can't be written; a folder with room and leave to write is right");
+    std::printf("%s\n", file.c_str());
+    return 0;
+}
+
+} // namespace
+
+void add_check(CLI::App& app, std::function<int()>& chosen)
+{
+    auto options = std::make_shared<Options>();
+    CLI::App* command
+        = app.add_subcommand("check", "Read a layout, tell what each viewport shows, and draw the plan of it.");
+    command->add_option("FILE", options->layout, "A layout file, or the name of one in config/layouts")->required();
+    command->add_option("--svg", options->svg, "The drawing; without it LAYOUT-plan.svg in the current folder");
+    command->footer("Example:\n  starbow check dome --svg out/dome.svg");
+    command->callback([options, &chosen] { chosen = [options] { return check(*options); }; });
+}
+
+} // namespace starbow
