@@ -14,7 +14,7 @@ float value_at(std::string_view bytes, bool little)
     return std::bit_cast<float>(word);
 }
 
-/// How many cells of a grid of places keep the way round that most have.
+/// Whether more than a twentieth of a grid's cells is turned over.
 bool folds(glm::ivec2 size, const std::vector<glm::dvec2>& places)
 {
     int right = 0, left = 0;
@@ -25,6 +25,19 @@ bool folds(glm::ivec2 size, const std::vector<glm::dvec2>& places)
             (across.x * down.y - across.y * down.x > 0 ? right : left)++;
         }
     return right < 19 * left && left < 19 * right;
+}
+
+/// Of all cells together.
+double area(glm::ivec2 size, const std::vector<glm::dvec2>& places)
+{
+    double sum = 0;
+    for (int y = 0; y + 1 < size.y; ++y)
+        for (int x = 0; x + 1 < size.x; ++x) {
+            const std::size_t i = std::size_t(y) * std::size_t(size.x) + std::size_t(x);
+            const glm::dvec2 across = places[i + 1] - places[i], down = places[i + std::size_t(size.x)] - places[i];
+            sum += across.x * down.y - across.y * down.x;
+        }
+    return std::abs(sum);
 }
 
 } // namespace
@@ -98,7 +111,7 @@ WarpMesh place_mesh(const FloatMap& map, const WarpFile& file)
 
     WarpMesh mesh;
     if (2 * inside < known) {
-        std::vector<glm::dvec2> bent;
+        std::vector<glm::dvec2> bent, turned;
         bool sound = map.size.x > 1 && map.size.y > 1;
         for (std::size_t i = 0; sound && i < map.values.size(); ++i) {
             const glm::vec3& value = map.values[i];
@@ -114,6 +127,10 @@ WarpMesh place_mesh(const FloatMap& map, const WarpFile& file)
                     + " places outside the picture, and they make no offsets either; places from 0 to 1 are right");
         mesh.grid = map.size;
         mesh.notes.push_back("the values are offsets from a regular grid, not places in the picture: read as such");
+        for (std::size_t i = 0; i < bent.size(); ++i)
+            turned.push_back({bent[i].x, bent[i].y + 2.0 * map.values[i].y});
+        if (area(map.size, turned) > 1.25 * area(map.size, bent))
+            mesh.notes.push_back("with its rows in the other order the mesh would cover much more: first_row may be wrong");
         join_grid(mesh, std::vector<char>(mesh.vertices.size()));
         return mesh;
     }

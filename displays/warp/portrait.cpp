@@ -59,7 +59,7 @@ struct Canvas {
         const double far = 4.0 * std::max(size.x, size.y);
         if (!(std::max(glm::length(a), glm::length(b)) < far))
             return; // lies mostly elsewhere
-        const int steps = std::max(1, int(std::ceil(std::max(std::abs(b.x - a.x), std::abs(b.y - a.y)))));
+        const int steps = 1 + int(std::ceil(std::max(std::abs(b.x - a.x), std::abs(b.y - a.y))));
         for (int i = 0; i < steps; ++i)
             mix(glm::ivec2(glm::floor(glm::mix(a, b, (i + 0.5) / steps))), with, share);
     }
@@ -74,7 +74,7 @@ std::vector<std::uint8_t> portrait(const WarpMesh& mesh, glm::ivec2 size)
     const glm::ivec2 margin = canvas.size / 16, inner = canvas.size - 2 * margin;
     const WarpRaster raster(mesh, inner);
 
-    // Three rows at a time: a line runs where what is seen passes a whole number before the next pixel.
+    // This row and the one above: their difference tells how wide a line must be.
     const std::size_t width = std::size_t(inner.x);
     std::vector<WarpSample> samples(width);
     std::vector<std::optional<Seen>> above(width), here(width);
@@ -93,15 +93,15 @@ std::vector<std::uint8_t> portrait(const WarpMesh& mesh, glm::ivec2 size)
             if (!here[x])
                 continue;
             canvas.mix(at, colour(here[x]->place) * std::sqrt(std::clamp(samples[x].intensity, 0.0, 1.0)), 1);
-            for (int axis = 0; axis < 2; ++axis)
-                for (const auto& beside : {x > 0 ? here[x - 1] : std::optional<Seen>(), above[x]})
-                    if (beside && std::abs(here[x]->lines[axis] - beside->lines[axis]) < 0.5
-                        && std::floor(here[x]->lines[axis] + 1e-9) != std::floor(beside->lines[axis] + 1e-9)) {
-                        const double middle
-                            = std::round(std::max(here[x]->lines[axis], beside->lines[axis]) - 0.5 + 1e-9) == 5 ? 0.95
-                                                                                                                : 0.75;
-                        canvas.mix(at, Rgb(255), middle);
-                    }
+            // A line is as far as what is seen differs from a whole number, in steps from one pixel to the next.
+            for (int axis = 0; axis < 2; ++axis) {
+                const double value = here[x]->lines[axis], off = value - std::round(value);
+                const double dx = x > 0 && here[x - 1] ? value - here[x - 1]->lines[axis] : 0;
+                const double dy = above[x] ? value - above[x]->lines[axis] : 0;
+                const double step = std::hypot(dx, dy);
+                if (step > 0 && step < 0.25)
+                    canvas.mix(at, Rgb(255), 0.85 * std::clamp(1.6 - std::abs(off) / step, 0.0, 1.0));
+            }
         }
     }
 

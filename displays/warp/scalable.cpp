@@ -56,10 +56,9 @@ WarpMesh read_scalable(const WarpFile& file)
         if (f[0].find_first_not_of("+-.0123456789eE") == f[0].npos) {
             if (f.size() != 5)
                 lines.refuse(in_quotes(lines.text()) + " is no vertex; x y intensity s t is right");
-            if (mesh.vertices.empty())
-                mesh.vertices.push_back(
-                    {{lines.number(f[0], {-1e6, 1e6}), lines.number(f[1], {-1e6, 1e6})}, lines.number(f[2], {0, 255}) / 255,
-                        {glm::dvec3(lines.number(f[3], picture_range), 1 - lines.number(f[4], picture_range), 0)}});
+            mesh.vertices.push_back(
+                {{lines.number(f[0], {-1e6, 1e6}), lines.number(f[1], {-1e6, 1e6})}, lines.number(f[2], {0, 255}) / 255,
+                    {glm::dvec3(lines.number(f[3], picture_range), 1 - lines.number(f[4], picture_range), 0)}});
             continue;
         }
         bool known = f[0] == "SUBVERSION" || f[0] == "LABEL" || f[0].starts_with("FRUSTUM_EULER_");

@@ -44,6 +44,25 @@ struct Reader {
     }
 };
 
+/// Whether the triangles, a strip's, are all of a grid so many columns wide, but perhaps for one of a cell's two: then the
+/// grid says the same without the strip's slivers, and with the corner that strips in the wild leave out.
+bool fills_grid(const WarpMesh& mesh, std::size_t columns)
+{
+    if (columns < 2 || mesh.vertices.size() % columns != 0 || mesh.vertices.size() / columns < 2)
+        return false;
+    const std::size_t rows = mesh.vertices.size() / columns, cells = (columns - 1) * (rows - 1);
+    std::vector<char> filled((columns - 1) * (rows - 1));
+    for (const auto& t : mesh.triangles) {
+        const auto [from, to] = std::minmax({t[0] % columns, t[1] % columns, t[2] % columns});
+        const auto [low, high] = std::minmax({t[0] / columns, t[1] / columns, t[2] / columns});
+        if (to - from > 1 || high - low > 2)
+            return false;
+        if (to > from && high == low + 1)
+            filled[low * (columns - 1) + from] = 1;
+    }
+    return std::size_t(std::count(filled.begin(), filled.end(), 1)) == cells;
+}
+
 } // namespace
 
 WarpMesh read_sciss(const WarpFile& file)
@@ -120,6 +139,7 @@ WarpMesh read_sciss(const WarpFile& file)
     const std::uint32_t indices = in.word("the number of indices");
     in.room(indices, 4, "indices");
     const std::size_t corners = indices > 0 ? indices : count; // none: the vertices as they stand
+    std::uint32_t second_index = 0; // of a grid's strip: the one below the first
     std::array<std::uint32_t, 3> t{};
     for (std::size_t i = 0; i < corners; ++i) {
         const std::string place = in.place();
@@ -127,12 +147,22 @@ WarpMesh read_sciss(const WarpFile& file)
         if (index >= count)
             refuse(file, place,
                 std::to_string(index) + " is the number of no vertex; one below " + std::to_string(count) + " is right");
+        if (i == 1)
+            second_index = index;
         t = {t[1], t[2], index};
         if ((strip ? i >= 2 : i % 3 == 2) && t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
             mesh.triangles.push_back(strip && i % 2 ? std::array{t[1], t[0], t[2]} : t);
     }
     if (in.left() > 0)
         mesh.notes.push_back(std::to_string(in.left()) + " bytes after the end are not used");
+    if (const std::size_t columns = version == 1 ? std::size_t(mesh.grid.x)
+            : strip && count > 1                 ? second_index
+                                                 : 0;
+        fills_grid(mesh, columns)) {
+        mesh.grid = {int(columns), int(count / columns)};
+        mesh.triangles.clear();
+        join_grid(mesh, std::vector<char>(count));
+    }
     rows_from_top(mesh);
     check_mesh(mesh, file);
     return mesh;
