@@ -1,5 +1,5 @@
 #include "cube_faces.h"
-#include "turn.h"
+#include "config/turn.h"
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 #include "cylinder.h"
-#include "turn.h"
+#include "config/turn.h"
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 

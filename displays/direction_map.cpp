@@ -1,6 +1,6 @@
 #include "direction_map.h"
+#include "config/turn.h"
 #include "rows.h"
-#include "turn.h"
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 #include "fisheye.h"
-#include "turn.h"
+#include "config/turn.h"
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>

@@ -1,5 +1,5 @@
 #include "lens.h"
-#include "turn.h"
+#include "config/turn.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>

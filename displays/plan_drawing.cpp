@@ -1,6 +1,6 @@
 #include "plan_drawing.h"
+#include "config/turn.h"
 #include "plan_table.h"
-#include "turn.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

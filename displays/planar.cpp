@@ -1,5 +1,5 @@
 #include "planar.h"
-#include "turn.h"
+#include "config/turn.h"
 #include <cmath>
 
 namespace starbow {

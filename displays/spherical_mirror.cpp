@@ -1,6 +1,6 @@
 #include "spherical_mirror.h"
+#include "config/turn.h"
 #include "planar.h"
-#include "turn.h"
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>

@@ -25,7 +25,8 @@ struct WarpMesh {
         picture, ///< sees[0].xy: a place in a picture that is not bent, fractions from its top left
         points, ///< sees[0]: the lit point of the screen, cockpit's frame, metres
         colours ///< sees: unit directions of red, green and blue in the axes of a picture without turn (-z ahead)
-    } kind = Kind::picture;
+    } kind
+        = Kind::picture;
     std::vector<WarpVertex> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     glm::ivec2 grid{0}; ///< columns and rows of the vertices, rows from the top, where they are a grid; else 0

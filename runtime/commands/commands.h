@@ -12,5 +12,7 @@ void add_run(CLI::App& app, std::function<int()>& chosen);
 void add_render(CLI::App& app, std::function<int()>& chosen);
 void add_bench(CLI::App& app, std::function<int()>& chosen);
 void add_check(CLI::App& app, std::function<int()>& chosen);
+void add_warp(CLI::App& app, std::function<int()>& chosen);
+void add_import(CLI::App& app, std::function<int()>& chosen);
 
 } // namespace starbow

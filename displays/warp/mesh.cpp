@@ -1,0 +1,271 @@
+#include "parts.h"
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <memory>
+
+namespace starbow {
+
+void join_grid(WarpMesh& mesh, const std::vector<char>& holes)
+{
+    const auto columns = std::uint32_t(mesh.grid.x), rows = std::uint32_t(mesh.grid.y);
+    mesh.triangles.reserve(2 * std::size_t(columns - 1) * (rows - 1));
+    for (std::uint32_t row = 0; row + 1 < rows; ++row)
+        for (std::uint32_t column = 0; column + 1 < columns; ++column) {
+            const std::uint32_t a = row * columns + column, b = a + 1, c = b + columns, d = a + columns;
+            for (const auto& t : {std::array{a, b, c}, std::array{a, c, d}})
+                if (!holes[t[0]] && !holes[t[1]] && !holes[t[2]])
+                    mesh.triangles.push_back(t);
+        }
+}
+
+void rows_from_top(WarpMesh& mesh)
+{
+    if (mesh.grid.x < 1)
+        return;
+    const auto columns = std::uint32_t(mesh.grid.x), rows = std::uint32_t(mesh.grid.y);
+    double first = 0, last = 0;
+    for (std::size_t i = 0; i < columns; ++i) {
+        first += mesh.vertices[i].at.y;
+        last += mesh.vertices[mesh.vertices.size() - 1 - i].at.y;
+    }
+    if (first <= last)
+        return;
+    for (std::uint32_t row = 0; row < rows / 2; ++row)
+        std::swap_ranges(mesh.vertices.begin() + row * columns, mesh.vertices.begin() + (row + 1) * columns,
+            mesh.vertices.begin() + (rows - 1 - row) * columns);
+    for (auto& triangle : mesh.triangles)
+        for (std::uint32_t& i : triangle)
+            i = (rows - 1 - i / columns) * columns + i % columns;
+}
+
+WarpMesh centred_mesh(glm::ivec2 cells, const std::vector<WarpVertex>& values, const std::vector<char>& holes)
+{
+    WarpMesh mesh;
+    mesh.grid = cells + 2;
+    mesh.vertices.reserve(std::size_t(mesh.grid.x) * std::size_t(mesh.grid.y));
+    std::vector<char> wide_holes;
+    wide_holes.reserve(std::size_t(mesh.grid.x) * std::size_t(mesh.grid.y));
+    const auto index = [&](glm::ivec2 cell) { return std::size_t(cell.y) * std::size_t(cells.x) + std::size_t(cell.x); };
+    for (int y = 0; y < mesh.grid.y; ++y)
+        for (int x = 0; x < mesh.grid.x; ++x) {
+            const glm::ivec2 cell = glm::clamp(glm::ivec2(x, y) - 1, glm::ivec2(0), cells - 1);
+            const glm::ivec2 out = glm::ivec2(x, y) - 1 - cell; // which way the edge lies, if this is one
+            WarpVertex vertex = values[index(cell)];
+            for (int axis = 0; axis < 2; ++axis) {
+                vertex.at[axis] = (cell[axis] + 0.5 + 0.5 * out[axis]) / cells[axis];
+                glm::ivec2 inner = cell;
+                inner[axis] -= out[axis];
+                if (out[axis] != 0 && cells[axis] > 1 && !holes[index(cell)] && !holes[index(inner)])
+                    for (std::size_t c = 0; c < 3; ++c)
+                        vertex.sees[c] += (values[index(cell)].sees[c] - values[index(inner)].sees[c]) * 0.5;
+            }
+            mesh.vertices.push_back(vertex);
+            wide_holes.push_back(holes[index(cell)]);
+        }
+    join_grid(mesh, wide_holes);
+    return mesh;
+}
+
+Sides checked_sides(const WarpFile& file, const std::string& place, const Sides& s)
+{
+    for (double angle : {s.left_deg, s.right_deg, s.down_deg, s.up_deg})
+        if (!(std::abs(angle) <= 89.9))
+            refuse(file, place,
+                shown(angle) + " degrees is too far from a flat picture's axis; up to 89.9 to each side is right");
+    if (!(s.left_deg < s.right_deg && s.down_deg < s.up_deg))
+        refuse(file, place,
+            "a picture from " + shown(s.left_deg) + " to " + shown(s.right_deg) + " degrees to the right and from "
+                + shown(s.down_deg) + " to " + shown(s.up_deg)
+                + " up is turned about; left before right and down before up is right");
+    return s;
+}
+
+void check_mesh(WarpMesh& mesh, const WarpFile& file)
+{
+    if (mesh.vertices.size() > most_vertices)
+        refuse(file, "",
+            std::to_string(mesh.vertices.size()) + " vertices are too many; at most " + std::to_string(most_vertices)
+                + " are right");
+    if (mesh.triangles.empty())
+        refuse(file, "",
+            mesh.vertices.empty()
+                ? "holds no mesh; vertices and triangles are right"
+                : "shows nothing: every triangle has a hole at a corner; a mesh with some that have none is right");
+    std::vector<char> used(mesh.vertices.size());
+    glm::dvec2 low(1e30), high(-1e30), seen_low(1e30), seen_high(-1e30);
+    std::size_t flat = 0, right = 0, left = 0, visible = 0;
+    for (const auto& t : mesh.triangles) {
+        const glm::dvec2 a = mesh.vertices[t[0]].at, b = mesh.vertices[t[1]].at, c = mesh.vertices[t[2]].at;
+        const double area2 = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        ++(area2 == 0 ? flat : area2 > 0 ? right : left);
+        const glm::dvec2 from = glm::min(a, glm::min(b, c)), to = glm::max(a, glm::max(b, c));
+        visible += area2 != 0 && from.x < 1 && from.y < 1 && to.x > 0 && to.y > 0;
+        low = glm::min(low, from);
+        high = glm::max(high, to);
+        for (std::uint32_t i : t) {
+            used[i] = 1;
+            seen_low = glm::min(seen_low, glm::dvec2(mesh.vertices[i].sees[0]));
+            seen_high = glm::max(seen_high, glm::dvec2(mesh.vertices[i].sees[0]));
+        }
+    }
+    const auto span = [](const glm::dvec2& from, const glm::dvec2& to) {
+        return "x " + shown(from.x) + " to " + shown(to.x) + ", y " + shown(from.y) + " to " + shown(to.y);
+    };
+    if (visible == 0)
+        refuse(file, "",
+            "shows nothing: its triangles lie at " + span(low, high)
+                + " in fractions of the viewport, or have no area; a mesh that covers some of it is right");
+    const std::size_t holes = std::size_t(std::count(used.begin(), used.end(), 0));
+    if (holes > 0)
+        mesh.notes.push_back(std::to_string(holes) + " of " + std::to_string(used.size()) + " vertices are holes or unused");
+    if (flat > 0)
+        mesh.notes.push_back(
+            std::to_string(flat) + " of " + std::to_string(mesh.triangles.size()) + " triangles have no area");
+    if (std::min(right, left) > 0)
+        mesh.notes.push_back(std::to_string(std::min(right, left)) + " of " + std::to_string(mesh.triangles.size())
+            + " triangles are folded over");
+    if (low.x < -1e-9 || low.y < -1e-9 || high.x > 1 + 1e-9 || high.y > 1 + 1e-9)
+        mesh.notes.push_back("reaches beyond the viewport: " + span(low, high));
+    if (mesh.kind == WarpMesh::Kind::picture
+        && (seen_low.x < -1e-9 || seen_low.y < -1e-9 || seen_high.x > 1 + 1e-9 || seen_high.y > 1 + 1e-9))
+        mesh.notes.push_back("looks beyond the picture: " + span(seen_low, seen_high));
+}
+
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t(512) << 20;
+
+std::string contents(const std::filesystem::path& path)
+{
+    const std::string name = one_line(path.string());
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored))
+        throw InputError(name, "", "is a folder; a warp file is right");
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(path.c_str(), "rb"), std::fclose);
+    if (!stream)
+        throw InputError(
+            name, "", std::string("can't be opened (") + std::strerror(errno) + "); a readable warp file is right");
+    std::string bytes;
+    char piece[65536];
+    while (const std::size_t got = std::fread(piece, 1, sizeof piece, stream.get())) {
+        bytes.append(piece, got);
+        if (bytes.size() > most_bytes)
+            throw InputError(name, "", "is larger than 512 MiB; a smaller file is right");
+    }
+    if (std::ferror(stream.get()))
+        throw InputError(
+            name, "", std::string("can't be read (") + std::strerror(errno) + "); a readable warp file is right");
+    return bytes;
+}
+
+enum class Format { none, bourke, domeprojection, simcad, sciss, scalable, skyskan, obj, pfm, mpcdi, headset };
+
+Format format_of(const WarpFile& file)
+{
+    std::string_view text = file.content;
+    if (text.starts_with("PK\x03\x04"))
+        return Format::mpcdi;
+    if (text.starts_with("SGC"))
+        return Format::sciss;
+    if (text.starts_with("PF\n") || text.starts_with("PF ") || text.starts_with("PF\r") || text.starts_with("Pf\n"))
+        return Format::pfm;
+    if (text.starts_with("\xef\xbb\xbf"))
+        text.remove_prefix(3);
+    text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+    const std::string_view line = text.substr(0, std::min(text.find_first_of("\r\n"), text.size()));
+    if (line.starts_with("OPENMESH"))
+        return Format::scalable;
+    if (line.starts_with("starbow headset"))
+        return Format::headset;
+    if (line.starts_with("x;y;"))
+        return Format::domeprojection;
+    if (line.starts_with("Dome ") || line.starts_with("Horizontal FOV="))
+        return Format::skyskan;
+    if (line.starts_with("<") && text.substr(0, 4096).find("<GeometryFile") != text.npos)
+        return Format::simcad;
+    std::string extension = std::filesystem::path(file.name).extension();
+    std::transform(
+        extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    const std::pair<std::string_view, Format> names[] = {{".data", Format::bourke}, {".map", Format::bourke},
+        {".csv", Format::domeprojection}, {".simcad", Format::simcad}, {".sgc", Format::sciss}, {".ol", Format::scalable},
+        {".txt", Format::skyskan}, {".obj", Format::obj}, {".pfm", Format::pfm}, {".mpcdi", Format::mpcdi}};
+    for (const auto& [name, format] : names)
+        if (extension == name)
+            return format;
+    if (line == "2")
+        return Format::bourke;
+    if (line.starts_with("v ") || line.starts_with("#"))
+        return Format::obj;
+    return Format::none;
+}
+
+} // namespace
+
+WarpMesh read_warp(const WarpFile& file, const std::string& region, bool first_row_on_top)
+{
+    if (file.content.empty())
+        refuse(file, "", "is empty; a warp file is right");
+    const Format format = format_of(file);
+    if (!region.empty() && format != Format::mpcdi)
+        refuse(file, "", "has no regions, and " + in_quotes(region) + " is wanted; an MPCDI file, or no region, is right");
+    switch (format) {
+    case Format::bourke:
+        return read_bourke(file);
+    case Format::domeprojection:
+        return read_domeprojection(file);
+    case Format::simcad:
+        return read_simcad(file);
+    case Format::sciss:
+        return read_sciss(file);
+    case Format::scalable:
+        return read_scalable(file);
+    case Format::skyskan:
+        return read_skyskan(file);
+    case Format::obj:
+        return read_obj(file);
+    case Format::pfm:
+        return read_pfm(file, first_row_on_top);
+    case Format::mpcdi:
+        return read_mpcdi(file, region, first_row_on_top);
+    case Format::headset:
+        return read_headset(file);
+    case Format::none:
+        break;
+    }
+    refuse(file, "",
+        "is no warp file that is known; a Bourke mesh (.data), MPCDI (.mpcdi), PFM (.pfm), domeprojection (.csv), "
+        "SimCAD (.simcad), SCISS (.sgc), Scalable (.ol), SkySkan (.txt), OBJ (.obj) or headset mesh is right");
+}
+
+WarpMesh load_warp(const Warp& warp)
+{
+    const std::string bytes = contents(warp.file);
+    const WarpFile file{one_line(warp.file.string()), bytes};
+    WarpMesh mesh = read_warp(file, warp.region, warp.first_row_on_top);
+    std::filesystem::path frustum = warp.frustum;
+    if (frustum.empty() && mesh.format == "domeprojection mesh") {
+        std::string name = warp.file.stem().string();
+        if (name.ends_with("_mesh"))
+            name.resize(name.size() - 5);
+        std::error_code ignored;
+        const std::filesystem::path beside = warp.file.parent_path() / (name + "_frustum.csv");
+        if (std::filesystem::exists(beside, ignored))
+            frustum = beside;
+    }
+    if (!frustum.empty()) {
+        if (mesh.kind != WarpMesh::Kind::picture || mesh.frustum)
+            refuse(file, "",
+                std::string(mesh.frustum ? "has a frustum of its own" : "shows no flat picture") + ", and "
+                    + in_quotes(frustum.filename().string()) + " gives another; one is right");
+        const std::string text = contents(frustum);
+        const WarpFrustum read = read_frustum({one_line(frustum.string()), text});
+        mesh.frustum = read.planar;
+        mesh.eye_m = read.eye_m;
+    }
+    return mesh;
+}
+
+} // namespace starbow

@@ -1,0 +1,77 @@
+#include "parts.h"
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace starbow {
+namespace {
+
+/// The 0-based index of a 1-based one, or of a negative one that counts from the end.
+std::uint32_t index(const Lines& lines, std::string_view text, std::size_t count, const char* what)
+{
+    const int most = int(count);
+    const std::optional<double> value = parsed(text);
+    const bool right = value && std::abs(*value) >= 1 && std::abs(*value) <= most && *value == std::floor(*value);
+    if (!right)
+        lines.refuse(
+            in_quotes(text) + " is the number of no " + what + "; one from 1 to " + std::to_string(count) + " is right");
+    return std::uint32_t(*value > 0 ? *value - 1 : *value + most);
+}
+
+} // namespace
+
+WarpMesh read_obj(const WarpFile& file)
+{
+    Lines lines(file);
+    WarpMesh mesh;
+    mesh.format = "OBJ mesh";
+    std::vector<glm::dvec2> positions, places;
+    std::unordered_map<std::uint64_t, std::uint32_t> vertices; // by position and place
+    std::vector<std::uint32_t> corners;
+    std::vector<std::string> unused;
+    bool deep = false;
+    while (lines.next()) {
+        const auto& f = lines.fields();
+        if (f[0].starts_with('#'))
+            continue;
+        if (f[0] == "v") {
+            if (f.size() < 4 || f.size() > 5)
+                lines.refuse(in_quotes(lines.text()) + " is no vertex; v x y z is right");
+            positions.push_back(
+                {(lines.number(f[1], position_range) + 1) / 2, (1 - lines.number(f[2], position_range)) / 2});
+            deep |= lines.number(f[3], {-1e30, 1e30}) != 0;
+        } else if (f[0] == "vt") {
+            if (f.size() < 3 || f.size() > 4)
+                lines.refuse(in_quotes(lines.text()) + " is no place in the picture; vt u v is right");
+            places.push_back({lines.number(f[1], picture_range), 1 - lines.number(f[2], picture_range)});
+        } else if (f[0] == "f") {
+            if (f.size() < 4)
+                lines.refuse(in_quotes(lines.text()) + " has fewer than three corners; f a/a b/b c/c is right");
+            corners.clear();
+            for (std::size_t i = 1; i < f.size(); ++i) {
+                const std::size_t slash = f[i].find('/'), second = f[i].find('/', std::min(slash, f[i].size() - 1) + 1);
+                const std::string_view v = f[i].substr(0, slash);
+                const std::string_view t
+                    = slash == f[i].npos ? v : f[i].substr(slash + 1, second == f[i].npos ? second : second - slash - 1);
+                const std::uint64_t position = index(lines, v, positions.size(), "vertex before it");
+                const std::uint64_t place = index(lines, t, places.size(), "vt before it");
+                const auto [at, fresh] = vertices.try_emplace(position << 32 | place, std::uint32_t(mesh.vertices.size()));
+                if (fresh)
+                    mesh.vertices.push_back({positions[position], 1, {glm::dvec3(places[place], 0)}});
+                corners.push_back(at->second);
+            }
+            for (std::size_t i = 2; i < corners.size(); ++i)
+                if (corners[0] != corners[i - 1] && corners[i - 1] != corners[i] && corners[i] != corners[0])
+                    mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+        } else if (unused.size() < 8 && std::find(unused.begin(), unused.end(), f[0]) == unused.end()) {
+            unused.emplace_back(one_line(std::string(f[0]), 20));
+            mesh.notes.push_back("lines that begin with " + unused.back() + " are not used");
+        }
+    }
+    if (deep)
+        mesh.notes.push_back("z is not 0 everywhere, and is not used");
+    check_mesh(mesh, file);
+    return mesh;
+}
+
+} // namespace starbow

@@ -1,0 +1,155 @@
+#include "parts.h"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace starbow {
+namespace {
+
+using Rgb = glm::dvec3; // sRGB, 0 to 255
+
+constexpr int fine = 2; // drawn so many times larger, then averaged
+
+/// What is seen as a place in a flat chart, for colours, and where its lines run: at whole numbers.
+struct Seen {
+    glm::dvec2 place, lines;
+};
+
+Seen seen(const WarpMesh& mesh, const std::array<glm::dvec3, 3>& sees)
+{
+    switch (mesh.kind) {
+    case WarpMesh::Kind::picture:
+        return {glm::dvec2(sees[0]), glm::dvec2(sees[0]) * 10.0};
+    case WarpMesh::Kind::points: {
+        const glm::dvec3 way = sees[0] - mesh.eye_m.value_or(glm::dvec3(0));
+        const glm::dvec2 angles(std::atan2(way.x, -way.z), std::atan2(way.y, std::hypot(way.x, way.z)));
+        constexpr double pi = std::numbers::pi;
+        return {{angles.x / (2 * pi) + 0.5, 0.5 - angles.y / pi}, angles * (18 / pi)}; // each 10 degrees
+    }
+    case WarpMesh::Kind::colours:
+        break;
+    }
+    const glm::dvec2 tangents = glm::dvec2(sees[1]) / std::max(-sees[1].z, 1e-3);
+    return {glm::dvec2(0.5) + glm::dvec2(tangents.x, -tangents.y) / 3.0, tangents * 5.0};
+}
+
+/// Four corners' colours mixed.
+Rgb colour(glm::dvec2 place)
+{
+    const glm::dvec2 p = glm::clamp(place, 0.0, 1.0);
+    const Rgb top = glm::mix(Rgb(52, 88, 160), Rgb(196, 84, 92), p.x),
+              bottom = glm::mix(Rgb(44, 140, 128), Rgb(232, 184, 92), p.x);
+    return glm::mix(top, bottom, p.y);
+}
+
+struct Canvas {
+    glm::ivec2 size;
+    std::vector<glm::vec3> pixels;
+
+    void mix(glm::ivec2 p, const Rgb& with, double share)
+    {
+        if (p.x >= 0 && p.y >= 0 && p.x < size.x && p.y < size.y) {
+            glm::vec3& pixel = pixels[std::size_t(p.y) * std::size_t(size.x) + std::size_t(p.x)];
+            pixel = glm::mix(pixel, glm::vec3(with), float(share));
+        }
+    }
+
+    void line(glm::dvec2 a, glm::dvec2 b, const Rgb& with, double share)
+    {
+        const double far = 4.0 * std::max(size.x, size.y);
+        if (!(std::max(glm::length(a), glm::length(b)) < far))
+            return; // lies mostly elsewhere
+        const int steps = 1 + int(std::ceil(std::max(std::abs(b.x - a.x), std::abs(b.y - a.y))));
+        for (int i = 0; i < steps; ++i)
+            mix(glm::ivec2(glm::floor(glm::mix(a, b, (i + 0.5) / steps))), with, share);
+    }
+};
+
+} // namespace
+
+std::vector<std::uint8_t> portrait(const WarpMesh& mesh, glm::ivec2 size)
+{
+    Canvas canvas{size * fine, {}};
+    canvas.pixels.assign(std::size_t(canvas.size.x) * std::size_t(canvas.size.y), glm::vec3(34, 35, 40));
+    const glm::ivec2 margin = canvas.size / 16, inner = canvas.size - 2 * margin;
+    const WarpRaster raster(mesh, inner);
+
+    // This row and the one above: their difference tells how wide a line must be.
+    const std::size_t width = std::size_t(inner.x);
+    std::vector<WarpSample> samples(width);
+    std::vector<std::optional<Seen>> above(width), here(width);
+    std::vector<double> light(width);
+    for (int y = 0; y < inner.y; ++y) {
+        raster.row(y, samples);
+        std::swap(above, here);
+        for (std::size_t x = 0; x < width; ++x) {
+            here[x].reset();
+            if (samples[x].shown)
+                here[x] = seen(mesh, samples[x].sees);
+        }
+        for (std::size_t x = 0; x < width; ++x) {
+            const glm::ivec2 at = margin + glm::ivec2(int(x), y);
+            canvas.mix(at, Rgb(0), 1);
+            if (!here[x])
+                continue;
+            canvas.mix(at, colour(here[x]->place) * std::sqrt(std::clamp(samples[x].intensity, 0.0, 1.0)), 1);
+            // A line is as far as what is seen differs from a whole number, in steps from one pixel to the next.
+            for (int axis = 0; axis < 2; ++axis) {
+                const double value = here[x]->lines[axis], off = value - std::round(value);
+                const double dx = x > 0 && here[x - 1] ? value - here[x - 1]->lines[axis] : 0;
+                const double dy = above[x] ? value - above[x]->lines[axis] : 0;
+                const double step = std::hypot(dx, dy);
+                if (step > 0 && step < 0.25)
+                    canvas.mix(at, Rgb(255), 0.85 * std::clamp(1.6 - std::abs(off) / step, 0.0, 1.0));
+            }
+        }
+    }
+
+    const auto on_canvas = [&](std::uint32_t i) { return glm::dvec2(margin) + mesh.vertices[i].at * glm::dvec2(inner); };
+    const Rgb ink(8, 10, 14);
+    const std::size_t step = mesh.triangles.size() / 20000 + 1; // of a dense mesh not every line
+    if (mesh.grid.x > 1) {
+        std::vector<char> used(mesh.vertices.size());
+        for (const auto& t : mesh.triangles)
+            for (std::uint32_t i : t)
+                used[i] = 1;
+        const auto columns = std::uint32_t(mesh.grid.x), rows = std::uint32_t(mesh.grid.y);
+        const std::uint32_t every = std::max(1u, std::max(columns, rows) / 48);
+        for (std::uint32_t row = 0; row < rows; ++row)
+            for (std::uint32_t column = 0; column < columns; ++column) {
+                const std::uint32_t i = row * columns + column;
+                if (column + 1 < columns && row % every == 0 && used[i] && used[i + 1])
+                    canvas.line(on_canvas(i), on_canvas(i + 1), ink, 0.4);
+                if (row + 1 < rows && column % every == 0 && used[i] && used[i + columns])
+                    canvas.line(on_canvas(i), on_canvas(i + columns), ink, 0.4);
+            }
+    } else
+        for (std::size_t i = 0; i < mesh.triangles.size(); i += step)
+            for (std::size_t k = 0; k < 3; ++k)
+                canvas.line(on_canvas(mesh.triangles[i][k]), on_canvas(mesh.triangles[i][(k + 1) % 3]), ink, 0.2);
+
+    const glm::dvec2 low(margin), high(margin + inner);
+    for (int i = 0; i < fine; ++i) {
+        const double d = i + 0.5;
+        canvas.line({low.x - d, low.y - d}, {high.x + d, low.y - d}, Rgb(220), 1);
+        canvas.line({low.x - d, high.y + d}, {high.x + d, high.y + d}, Rgb(220), 1);
+        canvas.line({low.x - d, low.y - d}, {low.x - d, high.y + d}, Rgb(220), 1);
+        canvas.line({high.x + d, low.y - d}, {high.x + d, high.y + d}, Rgb(220), 1);
+    }
+
+    std::vector<std::uint8_t> rgba;
+    rgba.reserve(std::size_t(size.x) * std::size_t(size.y) * 4);
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            glm::vec3 sum(0);
+            for (int j = 0; j < fine; ++j)
+                for (int i = 0; i < fine; ++i)
+                    sum += canvas.pixels[std::size_t(y * fine + j) * std::size_t(canvas.size.x) + std::size_t(x * fine + i)];
+            for (int k = 0; k < 3; ++k)
+                rgba.push_back(std::uint8_t(std::lround(sum[k] / (fine * fine))));
+            rgba.push_back(255);
+        }
+    return rgba;
+}
+
+} // namespace starbow

@@ -1,0 +1,205 @@
+#include "commands.h"
+#include "config/reader.h"
+#include "displays/warp/formats.h"
+#include "runtime/capture.h"
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <set>
+
+namespace starbow {
+namespace {
+
+struct Options {
+    std::string file, out, size, region, frustum, aspect;
+    bool first_row_on_top = false;
+    Warp warp() const { return {file, frustum, region, first_row_on_top}; }
+};
+
+std::optional<glm::ivec2> parse_size(const std::string& text, int most)
+{
+    if (text.empty())
+        return {};
+    glm::ivec2 size(0);
+    const char* end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.x);
+    if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
+        const auto height = std::from_chars(width.ptr + 1, end, size.y);
+        if (height.ec == std::errc() && height.ptr == end && size.x >= 2 && size.y >= 2 && size.x <= most && size.y <= most)
+            return size;
+    }
+    throw InputError(
+        "--size " + text + " is no size; give width x height, each from 2 to " + std::to_string(most) + ", such as 960x540");
+}
+
+void line(const char* label, const std::string& value) { std::printf("%-10s %s\n", label, one_line(value).c_str()); }
+
+/// The range of a quantity over the vertices that some triangle uses.
+template <class Quantity> std::string range(const WarpMesh& mesh, Quantity quantity)
+{
+    double low = 1e300, high = -1e300;
+    for (const auto& triangle : mesh.triangles)
+        for (std::uint32_t i : triangle) {
+            low = std::min(low, quantity(mesh.vertices[i]));
+            high = std::max(high, quantity(mesh.vertices[i]));
+        }
+    return shown(low) + " to " + shown(high);
+}
+
+void tell(const WarpMesh& mesh)
+{
+    line("format", mesh.format);
+    line("grid",
+        mesh.grid.x > 0 ? std::to_string(mesh.grid.x) + " columns x " + std::to_string(mesh.grid.y) + " rows"
+                        : std::string("none, triangles alone"));
+    std::set<std::uint32_t> used;
+    for (const auto& triangle : mesh.triangles)
+        used.insert(triangle.begin(), triangle.end());
+    line("vertices", std::to_string(mesh.vertices.size()) + ", " + std::to_string(used.size()) + " used");
+    line("triangles", std::to_string(mesh.triangles.size()));
+    line("at",
+        "x " + range(mesh, [](const WarpVertex& v) { return v.at.x; }) + ", y "
+            + range(mesh, [](const WarpVertex& v) { return v.at.y; }) + ", fractions of the viewport from its top left");
+    const auto of = [&](std::size_t colour, int axis) {
+        return range(mesh, [=](const WarpVertex& v) { return v.sees[colour][axis]; });
+    };
+    if (mesh.kind == WarpMesh::Kind::picture)
+        line("sees", "x " + of(0, 0) + ", y " + of(0, 1) + ", fractions of the picture from its top left");
+    else if (mesh.kind == WarpMesh::Kind::points)
+        line("sees", "points x " + of(0, 0) + ", y " + of(0, 1) + ", z " + of(0, 2) + " metres");
+    else
+        line("sees", "directions, of green x " + of(1, 0) + ", y " + of(1, 1) + ", z " + of(1, 2));
+    line("light", range(mesh, [](const WarpVertex& v) { return v.intensity; }));
+    if (mesh.frustum) {
+        const Sides s = mesh.frustum->sides.value();
+        const Turn& t = mesh.frustum->turn;
+        line("frustum",
+            "left " + shown(s.left_deg) + " right " + shown(s.right_deg) + " down " + shown(s.down_deg) + " up "
+                + shown(s.up_deg) + ", yaw " + shown(t.yaw_deg) + " pitch " + shown(t.pitch_deg) + " roll "
+                + shown(t.roll_deg) + " degrees");
+    } else
+        line("frustum", "none in the file");
+    if (mesh.eye_m)
+        line("eye", shown(mesh.eye_m->x) + " " + shown(mesh.eye_m->y) + " " + shown(mesh.eye_m->z) + " metres");
+    for (const auto& [name, mask] : {std::pair("alpha", &mesh.alpha), std::pair("beta", &mesh.beta)})
+        if (*mask)
+            line(name,
+                std::to_string((*mask)->size.x) + " x " + std::to_string((*mask)->size.y) + ", "
+                    + std::to_string((*mask)->channels) + ((*mask)->channels == 1 ? " channel" : " channels") + ", gamma "
+                    + shown((*mask)->gamma));
+    for (const std::string& note : mesh.notes)
+        line("note", note);
+}
+
+int inspect(const Options& options)
+{
+    const glm::ivec2 size = parse_size(options.size, 8192).value_or(glm::ivec2(1024, 640));
+    const WarpMesh mesh = load_warp(options.warp());
+    if (!options.out.empty())
+        check_writable(options.out);
+    tell(mesh);
+    if (!options.out.empty()) {
+        write_png(options.out, size, portrait(mesh, size));
+        std::printf("%s\n", options.out.c_str());
+    }
+    return 0;
+}
+
+void write_text(const std::string& file, const std::string& bytes)
+{
+    check_writable(file);
+    std::error_code ignored; // told by the stream
+    if (const auto folder = std::filesystem::path(file).parent_path(); !folder.empty())
+        std::filesystem::create_directories(folder, ignored);
+    std::ofstream stream(file, std::ios::binary);
+    stream << bytes;
+    if (!stream.flush())
+        throw InputError(file, "", "can't be written; give a file in a folder that can be");
+    std::printf("%s\n", file.c_str());
+}
+
+int convert(const Options& options)
+{
+    std::string extension = std::filesystem::path(options.out).extension();
+    std::transform(
+        extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    if (extension != ".data" && extension != ".map" && extension != ".pfm" && extension != ".csv")
+        throw InputError(options.out, "", "names no format that is written; .data, .pfm or .csv at its end is right");
+    double aspect = 16.0 / 9;
+    if (!options.aspect.empty()) {
+        const char* end = options.aspect.data() + options.aspect.size();
+        const auto [at, error] = std::from_chars(options.aspect.data(), end, aspect);
+        if (error != std::errc() || at != end || !(aspect >= 0.01 && aspect <= 100))
+            throw InputError("--aspect " + options.aspect + " is no width over height; a number from 0.01 to 100 is right");
+    }
+    const std::optional<glm::ivec2> size = parse_size(options.size, 4096);
+    WarpMesh mesh = load_warp(options.warp());
+    if (size)
+        mesh = resampled(mesh, *size);
+    else if (extension == ".pfm" && !is_centred(mesh))
+        mesh = resampled(mesh, {960, 540});
+    if (mesh.grid.x == 0)
+        mesh = resampled(mesh, {96, 54});
+    const bool lit = std::any_of(mesh.vertices.begin(), mesh.vertices.end(),
+        [](const WarpVertex& v) { return v.intensity != 0 && v.intensity != 1; });
+    if (extension == ".pfm")
+        write_text(options.out, write_pfm(mesh, options.file));
+    else if (extension == ".csv") {
+        write_text(options.out, write_domeprojection(mesh, options.file));
+        if (mesh.frustum) {
+            std::string stem = std::filesystem::path(options.out).stem();
+            if (stem.ends_with("_mesh"))
+                stem.resize(stem.size() - 5);
+            write_text(std::filesystem::path(options.out).parent_path() / (stem + "_frustum.csv"),
+                write_frustum({*mesh.frustum, mesh.eye_m.value_or(glm::dvec3(0))}));
+        }
+    } else
+        write_text(options.out, write_bourke(mesh, options.file, aspect));
+    if (lit && extension != ".data" && extension != ".map")
+        std::fprintf(
+            stderr, "starbow: %s: the vertices' brightness is lost: this format has no room for it\n", options.out.c_str());
+    if (mesh.frustum && extension != ".csv")
+        std::fprintf(stderr, "starbow: %s: the frustum is lost: this format has no room for it\n", options.out.c_str());
+    return 0;
+}
+
+void add_input(CLI::App& command, Options& options)
+{
+    command.add_option("file", options.file, "A warp file")->required();
+    command.add_option("--region", options.region, "Which region of an MPCDI file that has several");
+    command.add_option("--frustum", options.frustum, "domeprojection's NAME_frustum.csv, if it is elsewhere");
+    command.add_flag(
+        "--first-row-on-top", options.first_row_on_top, "The first row of a PFM is its top one, against the standard");
+}
+
+} // namespace
+
+void add_warp(CLI::App& app, std::function<int()>& chosen)
+{
+    CLI::App* command = app.add_subcommand("warp", "Look into calibrations, and change their format.");
+    command->require_subcommand(1);
+    auto looking = std::make_shared<Options>(), changing = std::make_shared<Options>();
+
+    CLI::App* inspect_command = command->add_subcommand("inspect", "Tell what is in a warp file, and draw it");
+    add_input(*inspect_command, *looking);
+    inspect_command->add_option("--out", looking->out, "Draw it to this PNG");
+    inspect_command->add_option("--size", looking->size, "Pixels of the PNG, WIDTHxHEIGHT; 1024x640 if not given");
+    inspect_command->callback([looking, &chosen] { chosen = [looking] { return inspect(*looking); }; });
+
+    CLI::App* convert_command
+        = command->add_subcommand("convert", "Write a warp file as a Bourke mesh (.data), PFM or domeprojection's .csv");
+    add_input(*convert_command, *changing);
+    convert_command->add_option("out", changing->out, "The new file; its name's end says the format")->required();
+    convert_command->add_option("--size", changing->size, "Sample the mesh on a grid of WIDTHxHEIGHT first");
+    convert_command->add_option(
+        "--aspect", changing->aspect, "Of a Bourke mesh's screen, width over height; 16/9 if not given");
+    convert_command->callback([changing, &chosen] { chosen = [changing] { return convert(*changing); }; });
+    command->footer("Example:\n  starbow warp inspect dome.data --out dome.png\n  starbow warp convert channel1.sgc "
+                    "channel1.pfm --size 1920x1200");
+}
+
+} // namespace starbow

@@ -1,0 +1,109 @@
+#include "warp_fixture.h"
+#include <limits>
+
+namespace starbow::warp_test {
+namespace {
+
+/// Where it shows something it must be the same; a hole's numbers say nothing.
+void expect_same(const WarpMesh& a, const WarpMesh& b, double tolerance)
+{
+    ASSERT_EQ(a.grid, b.grid);
+    ASSERT_EQ(a.triangles.size(), b.triangles.size());
+    const std::vector<char> flags = used(a);
+    EXPECT_EQ(flags, used(b));
+    double worst = 0;
+    for (std::size_t i = 0; i < flags.size(); ++i)
+        if (flags[i]) {
+            worst = std::max({worst, glm::length(a.vertices[i].at - b.vertices[i].at),
+                glm::length(a.vertices[i].sees[0] - b.vertices[i].sees[0]),
+                std::abs(a.vertices[i].intensity - b.vertices[i].intensity)});
+        }
+    EXPECT_LE(worst, tolerance);
+}
+
+TEST(WarpWriterTest, BourkeReadsBack)
+{
+    // x goes through a multiplication and a division by the aspect: a few units in the last place.
+    for (const std::string name : {"standard_16x9.data", "channel2_warp_mesh.csv", "correction_mesh.mpcdi"})
+        for (double aspect : {16.0 / 9, 1.0, 0.3}) {
+            const WarpMesh mesh = read(name, sample(name), "", true);
+            expect_same(mesh, read("b.data", write_bourke(mesh, name, aspect)), 1e-14);
+        }
+    const WarpMesh holes = read("a.data", bourke);
+    expect_same(holes, read("b.data", write_bourke(holes, "a", 1.6)), 1e-14);
+}
+
+TEST(WarpWriterTest, DomeprojectionReadsBackToTheBit)
+{
+    for (const std::string name :
+        {"channel1_warp_mesh.csv", "channel1_warp.simcad", "channel3_warp_u2.sgc", "correction_mesh.mpcdi"}) {
+        const WarpMesh mesh = read(name, sample(name));
+        expect_same(mesh, read("b.csv", write_domeprojection(mesh, name)), 0);
+        if (mesh.frustum) {
+            const WarpFrustum back = read_frustum({"f", write_frustum({*mesh.frustum, {1, 2, 3}})});
+            EXPECT_EQ(back.planar.turn.roll_deg, mesh.frustum->turn.roll_deg);
+            EXPECT_EQ(back.planar.turn.yaw_deg, mesh.frustum->turn.yaw_deg);
+            EXPECT_EQ(back.planar.sides->down_deg, mesh.frustum->sides->down_deg);
+            EXPECT_EQ(back.planar.sides->left_deg, mesh.frustum->sides->left_deg);
+            EXPECT_EQ(back.eye_m, glm::dvec3(1, 2, 3));
+        }
+    }
+}
+
+TEST(WarpWriterTest, PfmReadsBackToTheBit)
+{
+    std::vector<float> values = straight(5, 4);
+    values[3 * 7 + 1] = std::numeric_limits<float>::quiet_NaN();
+    const std::string bytes = pfm(5, 4, values);
+    const WarpMesh mesh = read("a.pfm", bytes);
+    const std::string written = write_pfm(mesh, "a");
+    expect_same(mesh, read("b.pfm", written), 0);
+    EXPECT_EQ(write_pfm(read("b.pfm", written), "b"), written);
+}
+
+TEST(WarpWriterTest, SampledMeshesShowTheSame)
+{
+    // Bilinear in effect: a mesh of 33 x 33 on four times as many places, compared at places between them.
+    const WarpMesh mesh = read("a.csv", sample("channel1_warp_mesh.csv"));
+    const WarpMesh back = read("b.pfm", write_pfm(resampled(mesh, {480, 300}), "a"));
+    const WarpRaster before(mesh, {120, 75}), after(back, {120, 75});
+    std::vector<WarpSample> a(120), b(120);
+    std::size_t compared = 0, differ = 0;
+    for (int y = 0; y < 75; ++y) {
+        before.row(y, a);
+        after.row(y, b);
+        for (std::size_t x = 0; x < 120; ++x) {
+            differ += a[x].shown != b[x].shown;
+            if (a[x].shown && b[x].shown) {
+                ++compared;
+                EXPECT_LE(glm::length(a[x].sees[0] - b[x].sees[0]), 2e-4); // a cell's bend, far below a pixel of 1/120
+            }
+        }
+    }
+    EXPECT_GT(compared, 5000u);
+    EXPECT_LT(differ, 150u); // along the outline, where a cell without all its corners is black
+}
+
+TEST(WarpWriterTest, WhatAFormatCannotHoldIsRefused)
+{
+    const WarpMesh none = read("a.obj", obj), three = read("a.mesh", headset);
+    EXPECT_NE(complaint([&] { write_bourke(none, "a.obj", 1); }).find("no grid"), std::string::npos);
+    EXPECT_NE(complaint([&] { write_domeprojection(three, "a"); }).find("no flat picture"), std::string::npos);
+    EXPECT_NE(complaint([&] { write_pfm(three, "a"); }).find("three ways"), std::string::npos);
+    EXPECT_NE(complaint([&] { write_pfm(none, "a"); }).find("not one value per pixel"), std::string::npos);
+}
+
+TEST(WarpWriterTest, PortraitShowsHolesBlack)
+{
+    const std::vector<std::uint8_t> rgba = portrait(read("a.data", bourke), {160, 100});
+    ASSERT_EQ(rgba.size(), 160u * 100 * 4);
+    const auto at = [&](int x, int y) {
+        return std::max({rgba[std::size_t(4 * (160 * y + x))], rgba[std::size_t(4 * (160 * y + x) + 1)],
+            rgba[std::size_t(4 * (160 * y + x) + 2)]});
+    };
+    EXPECT_LT(at(30, 12), 3); // the upper part, which the hole takes
+    EXPECT_GT(at(145, 88), 60); // the lower right, which is shown
+}
+
+} // namespace
+} // namespace starbow::warp_test
