@@ -125,8 +125,8 @@ struct Settled {
 std::string told(const Skew& skew)
 {
     std::array<char, 96> text;
-    std::snprintf(text.data(), text.size(), "outputs handed over together within %.2f ms, at worst %.2f ms",
-        1e3 * skew.median_s(), 1e3 * skew.worst_s());
+    std::snprintf(text.data(), text.size(), "outputs %s together within %.2f ms, at worst %.2f ms",
+        skew.on_screen ? "shown" : "handed over", 1e3 * skew.median_s(), 1e3 * skew.worst_s());
     return text.data();
 }
 

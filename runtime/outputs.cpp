@@ -83,6 +83,8 @@ Window::Window(Device& device, const Output& output, const std::optional<WindowP
         put(*place);
     }
     size_ = size;
+    if (device.tells_when_shown)
+        clock_ = std::make_unique<PresentClock>(device);
     try {
         make_surface();
     } catch (...) {
@@ -112,6 +114,7 @@ Window::Window(Window&& other) noexcept
     , acquired_(std::move(other.acquired_))
     , drawn_(std::move(other.drawn_))
     , image_(other.image_)
+    , clock_(std::move(other.clock_))
 {
 }
 
@@ -119,19 +122,23 @@ Window::~Window()
 {
     if (!window_)
         return;
+    let_go();
+    glfwDestroyWindow(window_);
+}
+
+void Window::let_go()
+{
+    if (clock_)
+        clock_->rest();
     settle(*device_);
     views_.clear();
     swapchain_ = nullptr;
     surface_ = nullptr;
-    glfwDestroyWindow(window_);
 }
 
 void Window::make_surface()
 {
-    settle(*device_);
-    views_.clear();
-    swapchain_ = nullptr;
-    surface_ = nullptr;
+    let_go();
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     if (glfwCreateWindowSurface(*device_->instance, window_, nullptr, &surface) != VK_SUCCESS)
         throw InputError("The window '" + name_ + "' has no Vulkan surface: " + glfw_says());
@@ -181,6 +188,8 @@ void Window::put(const WindowPlace& place)
 
 bool Window::make_swapchain()
 {
+    if (clock_)
+        clock_->rest();
     settle(*device_);
     auto limits = device_->physical.getSurfaceCapabilitiesKHR(*surface_);
     glm::ivec2 wanted;

@@ -1,6 +1,7 @@
 #pragma once
 #include "frame.h"
 #include "monitors.h"
+#include "present_clock.h"
 #include <chrono>
 
 struct GLFWwindow;
@@ -46,9 +47,11 @@ public:
     vk::SwapchainKHR swapchain() const { return *swapchain_; }
     std::uint32_t image() const { return image_; }
     void presented(vk::Result result);
+    PresentClock* clock() { return clock_.get(); } ///< null where the driver does not tell when pictures are shown
 
 private:
     using Clock = std::chrono::steady_clock;
+    void let_go(); ///< of the swapchain and the surface
     void make_surface();
     bool make_swapchain();
     vk::Result try_acquire();
@@ -70,6 +73,7 @@ private:
     vk::raii::Semaphore acquired_ = nullptr;
     std::vector<vk::raii::Semaphore> drawn_;
     std::uint32_t image_ = 0;
+    std::unique_ptr<PresentClock> clock_;
 };
 
 } // namespace starbow

@@ -31,6 +31,7 @@ Screens::Screens(Device& device, const Layout& layout)
 
 void Screens::adopt(const Layout& layout)
 {
+    asked_.clear();
     std::vector<Screen> screens;
     for (const Output& output : layout.outputs) {
         auto same = std::find_if(
@@ -97,10 +98,12 @@ void Screens::open(Screen& screen, const std::optional<WindowPlace>& place, bool
 
 void Screens::close(Screen& screen, const std::string& why)
 {
+    asked_.clear();
     screen.window.reset();
-    if (screen.told != why)
+    const std::string short_of_it = why.substr(0, why.find(';')); // what else is there may change often meanwhile
+    if (screen.told != short_of_it)
         std::fprintf(stderr, "starbow: output '%s' is not shown: %s\n", screen.output.name.c_str(), why.c_str());
-    screen.told = why;
+    screen.told = short_of_it;
 }
 
 void Screens::list_handles()
@@ -139,6 +142,7 @@ void Screens::submit(vk::CommandBuffer commands, vk::Fence done)
     }
     vk::CommandBufferSubmitInfo buffer(commands);
     device_.queue.submit2(vk::SubmitInfo2({}, wait, buffer, signal), done);
+    done_ = done;
 }
 
 void Screens::present(Skew& skew)
@@ -152,17 +156,47 @@ void Screens::present(Skew& skew)
         images.push_back(window->image());
     }
     std::vector<vk::Result> results(swapchains.size(), vk::Result::eSuccess);
-    const vk::PresentInfoKHR present(drawn, swapchains, images, results);
+    vk::PresentInfoKHR present(drawn, swapchains, images, results);
+    const std::vector<std::uint64_t> ids(swapchains.size(), ++frame_);
+    const vk::PresentIdKHR present_id(ids);
+    const bool several = acquired_.size() > 1;
+    skew.on_screen = device_.tells_when_shown;
+    if (skew.on_screen)
+        present.pNext = &present_id;
+    else if (several) // timed below is the handing over alone, not the drawing that some drivers wait for in it
+        (void)device_.device.waitForFences(done_, true, UINT64_MAX);
+
     const Clock::time_point began = Clock::now();
     try {
         (void)device_.queue.presentKHR(present);
     } catch (const vk::OutOfDateKHRError&) { // told per window in `results`
     } catch (const vk::SurfaceLostKHRError&) {
     }
-    if (acquired_.size() > 1)
+    if (several && skew.on_screen)
+        time_on_screen(skew);
+    else if (several)
         skew.add(std::chrono::duration<double>(Clock::now() - began).count());
     for (std::size_t i = 0; i < acquired_.size(); ++i)
         acquired_[i]->presented(results[i]);
+}
+
+void Screens::time_on_screen(Skew& skew)
+{
+    if (std::any_of(asked_.begin(), asked_.end(), [](const PresentClock* clock) { return clock->asking(); }))
+        return; // the next frame is asked about
+    std::vector<Clock::time_point> shown;
+    for (const PresentClock* clock : asked_)
+        if (const auto at = clock->shown())
+            shown.push_back(*at);
+    if (shown.size() > 1 && shown.size() == asked_.size()) {
+        const auto [first, last] = std::minmax_element(shown.begin(), shown.end());
+        skew.add(std::chrono::duration<double>(*last - *first).count());
+    }
+    asked_.clear();
+    for (Window* window : acquired_) {
+        asked_.push_back(window->clock());
+        asked_.back()->ask(window->swapchain(), frame_);
+    }
 }
 
 bool Screens::closed() const

@@ -27,7 +27,8 @@ public:
     /// Hands the device the commands that draw the acquired pictures; `done` is signalled after them. Throws
     /// vk::DeviceLostError.
     void submit(vk::CommandBuffer commands, vk::Fence done);
-    /// Shows them all, together. Throws vk::DeviceLostError. Adds to `skew` if there are several.
+    /// Shows them all, together. Throws vk::DeviceLostError. Adds to `skew` where there are several: the skew of this frame,
+    /// or of an earlier one of which the driver has told by now when its pictures were seen.
     void present(Skew& skew);
 
     const std::vector<GLFWwindow*>& handles() const { return handles_; } ///< of the windows that are open
@@ -49,6 +50,7 @@ private:
     void open(Screen& screen, const std::optional<WindowPlace>& place, bool starting);
     void close(Screen& screen, const std::string& why);
     void list_handles();
+    void time_on_screen(Skew& skew);
 
     Device& device_;
     Desktop desktop_;
@@ -56,6 +58,9 @@ private:
     std::vector<GLFWwindow*> handles_;
     std::vector<Target> targets_;
     std::vector<Window*> acquired_; ///< windows with a picture of this frame
+    vk::Fence done_; ///< of the frame's commands
+    std::uint64_t frame_ = 0; ///< counted for the driver
+    std::vector<PresentClock*> asked_; ///< about one frame's pictures
     Clock::time_point looked_{};
 };
 
