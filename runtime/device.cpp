@@ -80,6 +80,37 @@ std::string lacks(const vk::raii::PhysicalDevice& physical, bool windows)
     return {};
 }
 
+const char* kind_of(vk::PhysicalDeviceType type)
+{
+    switch (type) {
+    case vk::PhysicalDeviceType::eDiscreteGpu:
+        return "a card of its own";
+    case vk::PhysicalDeviceType::eIntegratedGpu:
+        return "part of the processor";
+    case vk::PhysicalDeviceType::eVirtualGpu:
+        return "virtual";
+    case vk::PhysicalDeviceType::eCpu:
+        return "software";
+    default:
+        return "of no known kind";
+    }
+}
+
+/// Whether the device can tell when a picture is seen on its screen.
+bool can_tell_when_shown(const vk::raii::PhysicalDevice& physical)
+{
+    int offered = 0;
+    for (const vk::ExtensionProperties& extension : physical.enumerateDeviceExtensionProperties())
+        for (const char* name : {VK_KHR_PRESENT_ID_EXTENSION_NAME, VK_KHR_PRESENT_WAIT_EXTENSION_NAME})
+            offered += std::string_view(extension.extensionName) == name;
+    if (offered != 2)
+        return false;
+    const auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDevicePresentIdFeaturesKHR,
+        vk::PhysicalDevicePresentWaitFeaturesKHR>();
+    return features.get<vk::PhysicalDevicePresentIdFeaturesKHR>().presentId
+        && features.get<vk::PhysicalDevicePresentWaitFeaturesKHR>().presentWait;
+}
+
 int rank(vk::PhysicalDeviceType type)
 {
     switch (type) {
@@ -96,7 +127,7 @@ int rank(vk::PhysicalDeviceType type)
     }
 }
 
-vk::raii::PhysicalDevice choose(const vk::raii::Instance& instance, const Device::Options& options)
+std::vector<vk::raii::PhysicalDevice> all_of(const vk::raii::Instance& instance)
 {
     std::vector<vk::raii::PhysicalDevice> all;
     try {
@@ -104,26 +135,42 @@ vk::raii::PhysicalDevice choose(const vk::raii::Instance& instance, const Device
             all.push_back(std::move(physical));
     } catch (const vk::SystemError&) { // no driver at all is an error to some loaders
     }
-    std::string refused;
-    int best = -1, best_rank = -1;
+    return all;
+}
+
+/// Why a device is not taken; empty if it may be.
+std::string refusal(const vk::raii::PhysicalDevice& physical, const Device::Options& options)
+{
+    const std::string name(physical.getProperties().deviceName.data());
+    if (name.find(options.name) == std::string::npos)
+        return "is not called '" + options.name + "'";
+    const std::string missing = lacks(physical, options.windows);
+    return missing.empty() ? "" : "lacks " + missing;
+}
+
+/// The fastest kind of those that are not refused, or nothing.
+std::optional<std::size_t> best_of(const std::vector<vk::raii::PhysicalDevice>& all, const Device::Options& options)
+{
+    std::optional<std::size_t> best;
+    int best_rank = -1;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        vk::PhysicalDeviceProperties properties = all[i].getProperties();
-        std::string name(properties.deviceName.data());
-        if (name.find(options.name) == std::string::npos) {
-            refused += "; " + name + " is not called '" + options.name + "'";
-            continue;
-        }
-        if (std::string missing = lacks(all[i], options.windows); !missing.empty()) {
-            refused += "; " + name + " lacks " + missing;
-            continue;
-        }
-        if (rank(properties.deviceType) > best_rank)
-            best = int(i), best_rank = rank(properties.deviceType);
+        const int its_rank = rank(all[i].getProperties().deviceType);
+        if (its_rank > best_rank && refusal(all[i], options).empty())
+            best = i, best_rank = its_rank;
     }
-    if (best < 0)
-        throw InputError("No usable Vulkan device" + refused
-            + ": install mesa-vulkan-drivers (software) or the GPU maker's Vulkan 1.3 driver");
-    return std::move(all[best]);
+    return best;
+}
+
+vk::raii::PhysicalDevice choose(const vk::raii::Instance& instance, const Device::Options& options)
+{
+    std::vector<vk::raii::PhysicalDevice> all = all_of(instance);
+    if (const auto best = best_of(all, options))
+        return std::move(all[*best]);
+    std::string refused;
+    for (const auto& physical : all)
+        refused += "; " + std::string(physical.getProperties().deviceName.data()) + " " + refusal(physical, options);
+    throw InputError("No usable Vulkan device" + refused
+        + ": install mesa-vulkan-drivers (software) or the GPU maker's Vulkan 1.3 driver");
 }
 
 } // namespace
@@ -147,10 +194,45 @@ Device::Device(const Options& options)
     std::vector<const char*> extensions;
     if (options.windows)
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    vk::PhysicalDevicePresentIdFeaturesKHR present_id(true);
+    vk::PhysicalDevicePresentWaitFeaturesKHR present_wait(true, &present_id);
+    if (options.windows && can_tell_when_shown(physical)) {
+        tells_when_shown = true;
+        extensions.push_back(VK_KHR_PRESENT_ID_EXTENSION_NAME);
+        extensions.push_back(VK_KHR_PRESENT_WAIT_EXTENSION_NAME);
+        features13.pNext = &present_wait;
+    }
     device = physical.createDevice({{}, queue_info, {}, extensions, &features, &features13});
     queue = device.getQueue(family, 0);
     pool = device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family});
     cache = device.createPipelineCache({});
+}
+
+std::vector<GpuListing> list_gpus(const Device::Options& options)
+{
+    const vk::raii::Context context;
+    const vk::ApplicationInfo application("Starbow", 1, nullptr, 0, VK_API_VERSION_1_3);
+    std::vector<GpuListing> list;
+    try {
+        const vk::raii::Instance instance(context, vk::InstanceCreateInfo({}, &application));
+        const auto all = all_of(instance);
+        const auto best = best_of(all, options);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const vk::PhysicalDeviceProperties properties = all[i].getProperties();
+            std::string driver = "Vulkan " + std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "."
+                + std::to_string(VK_API_VERSION_MINOR(properties.apiVersion));
+            if (properties.apiVersion >= VK_API_VERSION_1_2) {
+                const auto told = all[i]
+                                      .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
+                                      .get<vk::PhysicalDeviceDriverProperties>();
+                driver = std::string(told.driverName.data()) + " " + told.driverInfo.data() + ", " + driver;
+            }
+            list.push_back(
+                {properties.deviceName.data(), driver, kind_of(properties.deviceType), refusal(all[i], options), best == i});
+        }
+    } catch (const vk::SystemError&) { // no driver at all
+    }
+    return list;
 }
 
 vk::raii::CommandBuffer Device::begin()

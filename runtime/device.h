@@ -31,6 +31,7 @@ public:
     vk::raii::PipelineCache cache = nullptr;
     vk::PhysicalDeviceProperties properties;
     vk::PhysicalDeviceMemoryProperties memory;
+    bool tells_when_shown = false; ///< VK_KHR_present_wait
 
     bool on_processor() const { return properties.deviceType == vk::PhysicalDeviceType::eCpu; }
 
@@ -46,5 +47,14 @@ private:
     vk::raii::CommandBuffer begin();
     void finish(vk::raii::CommandBuffer& commands);
 };
+
+/// A GPU as people are told of it.
+struct GpuListing {
+    std::string name, driver, kind;
+    std::string refusal; ///< why it can't be used, or empty
+    bool chosen;
+};
+/// All that Vulkan knows; none where it knows none.
+std::vector<GpuListing> list_gpus(const Device::Options& options);
 
 } // namespace starbow

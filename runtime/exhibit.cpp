@@ -1,12 +1,17 @@
 #include "exhibit.h"
+#include "config/error.h"
+#include "config/reader.h"
+#include "file_watch.h"
 #include "flight.h"
 #include "frame.h"
 #include "input/keyboard.h"
-#include "outputs.h"
+#include "screens.h"
+#include "theatre.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <chrono>
+#include <array>
 #include <cstdio>
+#include <memory>
 #include <thread>
 
 namespace starbow {
@@ -15,6 +20,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
+
+/// A GPU that is lost, as after a hang of its driver, is opened anew and the flight goes on; but not for ever: so often
+/// without a minute's flight between.
+constexpr int most_losses = 5;
 
 double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
@@ -31,12 +40,13 @@ void present_barrier(vk::CommandBuffer commands, const Target& target, bool befo
     commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
 }
 
-/// Some drivers' FIFO does not wait for the screen: no frame starts before its turn at 60 in a second.
+/// Some drivers' FIFO does not wait for the screen: no frame starts before its turn. The turn is a hundredth shorter than
+/// the screen's, so that where the driver does wait, it alone does: what is asked of a clock that runs ahead never delays.
 struct Pace {
     Clock::time_point next = Clock::now();
-    void wait()
+    void wait(double refresh_hz)
     {
-        constexpr auto turn = std::chrono::nanoseconds(16'666'667);
+        const auto turn = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(0.99 / refresh_hz));
         std::this_thread::sleep_until(next);
         next = std::max(next + turn, Clock::now() - turn);
     }
@@ -69,102 +79,205 @@ struct Dashboard {
     }
 };
 
-} // namespace
+/// Every file that a layout is made of.
+std::vector<std::filesystem::path> files_of(const Layout& layout)
+{
+    std::vector<std::filesystem::path> files;
+    auto add = [&](const std::filesystem::path& file) {
+        if (!file.empty())
+            files.push_back(file);
+    };
+    add(layout.file);
+    for (const Output& output : layout.outputs)
+        for (const Viewport& viewport : output.viewports) {
+            if (viewport.warp) {
+                add(viewport.warp->file);
+                add(viewport.warp->frustum);
+            }
+            add(viewport.alpha_mask);
+            add(viewport.black_level);
+        }
+    return files;
+}
 
-int fly_exhibit(Theatre& theatre, const Layout& layout, const Shot& start, const Quality& quality, long frames)
+/// What outlasts the loss of a device.
+struct Visit {
+    const std::filesystem::path& scene;
+    const Shot& start;
+    long frames; ///< still to be shown; 0: no end
+    Layout layout;
+    FileWatch watch{files_of(layout)};
+    std::string refused; ///< why a change of the layout was not taken up, for the head-up display
+    Flight flight = flight_at(start);
+    Keyboard keyboard{};
+    Skew skew{};
+    Clock::time_point began = Clock::now(), last = began;
+    long shown = 0;
+    bool complaints = false;
+};
+
+/// The device has nothing to do when this goes.
+struct Settled {
+    Device& device;
+    ~Settled() { settle(device); }
+};
+
+std::string told(const Skew& skew)
+{
+    std::array<char, 96> text;
+    std::snprintf(text.data(), text.size(), "outputs %s together within %.2f ms, at worst %.2f ms",
+        skew.on_screen ? "shown" : "handed over", 1e3 * skew.median_s(), 1e3 * skew.worst_s());
+    return text.data();
+}
+
+/// What the head-up display says beneath its figures.
+std::string notice_of(const Visit& visit)
+{
+    if (!visit.refused.empty())
+        return visit.refused;
+    if (seconds(Clock::now() - visit.began) < 25)
+        return "W faster   S slower   arrows turn   Space stop   R start again";
+    return visit.skew.frames() > 0 ? told(visit.skew) : "";
+}
+
+/// Takes up a change of the layout's files: all of it, or, where anything in it is wrong, nothing. The old picture stays
+/// until the new one can be drawn.
+void take_up_changes(Visit& visit, Theatre& theatre, std::unique_ptr<Frame>& frame, Screens& screens)
+{
+    if (!visit.watch.changed(Clock::now()))
+        return;
+    try {
+        Layout layout = load_layout(visit.layout.file);
+        FileWatch watch(files_of(layout));
+        frame = std::make_unique<Frame>(
+            theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, false));
+        screens.adopt(layout);
+        visit.layout = std::move(layout);
+        visit.watch = std::move(watch);
+        visit.refused.clear();
+        std::fprintf(stderr, "starbow: %s: taken up\n", visit.layout.file.c_str());
+    } catch (const InputError& error) {
+        const std::string why = one_line(error.what());
+        std::fprintf(stderr, "starbow: %s; the exhibit stays as it was\n", why.c_str());
+        // On the display the folders would leave no room for the reason.
+        const std::string folder = visit.layout.file.parent_path().string() + "/";
+        visit.refused = why.starts_with(folder) ? why.substr(folder.size()) : why;
+    }
+}
+
+/// Flies on one device until the visitor leaves. Throws vk::DeviceLostError.
+void fly(Visit& visit, Theatre& theatre)
 {
     Device& device = theatre.device;
     const SceneFile& scene = theatre.world.scene;
-    std::vector<Window> windows;
-    std::vector<GLFWwindow*> handles;
-    for (const Output& output : layout.outputs) {
-        windows.emplace_back(device, output);
-        handles.push_back(windows.back().handle());
-    }
-    Frame frame(device, theatre.pipelines, theatre.world, layout, quality);
-    Keyboard keyboard;
+    auto frame
+        = std::make_unique<Frame>(device, theatre.pipelines, theatre.world, visit.layout, default_quality(device, false));
+    Screens screens(device, visit.layout);
     Dashboard dashboard;
     Pace pace;
-    Flight flight = flight_at(start);
     vk::raii::Fence done = device.device.createFence({vk::FenceCreateFlagBits::eSignaled});
     vk::raii::CommandBuffer commands
         = std::move(device.device.allocateCommandBuffers({*device.pool, vk::CommandBufferLevel::ePrimary, 1}).front());
-    Clock::time_point began = Clock::now(), last = began;
+    const Settled settled{device}; // before any of the above goes
 
-    for (long shown = 0; frames == 0 || shown < frames; ++shown) {
+    while (visit.frames == 0 || visit.shown < visit.frames) {
+        // One frame is in flight: the least delay between a control and its picture.
+        pace.wait(screens.refresh_hz());
+        (void)device.device.waitForFences(*done, true, UINT64_MAX);
+
+        // What has changed around the exhibit, and which pictures to draw into. This waits for the screens.
+        take_up_changes(visit, theatre, frame, screens);
+        screens.follow();
+        const bool any = screens.acquire();
+
         // What the visitor wants, and where that leads.
-        pace.wait();
-        glfwPollEvents();
-        Clock::time_point now = Clock::now();
-        Controls controls = keyboard.read(handles, std::chrono::nanoseconds(now - began).count());
-        bool closed = std::any_of(windows.begin(), windows.end(), [](const Window& w) { return w.closed(); });
-        if (controls.quit || closed)
+        if (any)
+            glfwPollEvents();
+        else
+            glfwWaitEventsTimeout(0.1); // all minimised, or no monitor there
+        const Clock::time_point now = Clock::now();
+        const Controls controls
+            = visit.keyboard.read(screens.handles(), std::chrono::nanoseconds(now - visit.began).count());
+        if (controls.quit || screens.closed())
             break;
         if (controls.full_screen)
-            for (Window& window : windows)
-                window.switch_full_screen();
+            screens.switch_full_screen();
         // A stall of the machine must not become a leap of the ship.
-        flight = step(flight, controls, std::min(seconds(now - last), 0.1), scene.seconds_per_time_unit(), start);
-        last = now;
-
-        // Which pictures to draw into. One frame is in flight: the least delay between a control and its picture.
-        (void)device.device.waitForFences(*done, true, UINT64_MAX);
-        std::vector<Target> targets(windows.size());
-        std::vector<vk::SemaphoreSubmitInfo> wait, signal;
-        std::vector<vk::SwapchainKHR> swapchains;
-        std::vector<std::uint32_t> images;
-        std::vector<vk::Semaphore> drawn;
-        std::vector<Window*> presented;
-        for (std::size_t i = 0; i < windows.size(); ++i)
-            if (windows[i].acquire()) {
-                frame.resize(i, windows[i].size());
-                targets[i] = windows[i].target();
-                wait.push_back({windows[i].acquired(), 0, Stage::eColorAttachmentOutput});
-                signal.push_back({windows[i].drawn(), 0, Stage::eAllCommands});
-                swapchains.push_back(windows[i].swapchain());
-                images.push_back(windows[i].image());
-                drawn.push_back(windows[i].drawn());
-                presented.push_back(&windows[i]);
-            }
-        if (presented.empty()) {
-            glfwWaitEventsTimeout(0.1); // all minimised
+        const double passed = std::min(seconds(now - visit.last), 0.1);
+        visit.flight = step(visit.flight, controls, passed, scene.seconds_per_time_unit(), visit.start);
+        visit.last = now;
+        if (!any)
             continue;
-        }
 
         // The frame: planned, culled and uploaded here, drawn there.
-        std::string notice
-            = seconds(now - began) < 25 ? "W faster   S slower   arrows turn   Space stop   R start again" : "";
-        frame.prepare(shot_of(flight, start.scene), dashboard.update(flight, scene, frame.hud_width(), notice));
-        device.device.resetFences(*done);
+        const std::vector<Target>& targets = screens.targets();
+        for (std::size_t i = 0; i < targets.size(); ++i)
+            if (targets[i].view)
+                frame->resize(i, {targets[i].extent.width, targets[i].extent.height});
+        frame->prepare(shot_of(visit.flight, visit.start.scene),
+            dashboard.update(visit.flight, scene, frame->hud_width(), notice_of(visit)));
         commands.reset();
         commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
         for (const Target& target : targets)
             if (target.view)
                 present_barrier(*commands, target, true);
-        frame.record(*commands, targets);
+        frame->record(*commands, targets);
         for (const Target& target : targets)
             if (target.view)
                 present_barrier(*commands, target, false);
         commands.end();
-        vk::CommandBufferSubmitInfo buffer(*commands);
-        device.queue.submit2(vk::SubmitInfo2({}, wait, buffer, signal), *done);
-
-        // All windows together.
-        std::vector<vk::Result> results(swapchains.size(), vk::Result::eSuccess);
-        vk::PresentInfoKHR present(drawn, swapchains, images, results);
-        try {
-            (void)device.queue.presentKHR(present);
-        } catch (const vk::OutOfDateKHRError&) { // told per window below
-        }
-        for (std::size_t i = 0; i < presented.size(); ++i)
-            presented[i]->presented(results[i]);
+        device.device.resetFences(*done);
+        screens.submit(*commands, *done);
+        screens.present(visit.skew);
+        ++visit.shown;
     }
-    device.device.waitIdle();
-    Readings told = readings(flight.ship, scene, flight.effects);
-    for (const auto& [label, value] : hud_fields(told))
+}
+
+/// The closing lines: where the flight has led, and how well the screens kept together.
+void tell(const Visit& visit, const SceneFile& scene)
+{
+    for (const auto& [label, value] : hud_fields(readings(visit.flight.ship, scene, visit.flight.effects)))
         std::printf("%s %s  ", label.c_str(), value.c_str());
     std::printf("\n");
-    return device.complaints.empty() ? 0 : 1;
+    if (visit.skew.frames() > 0)
+        std::printf("%s\n", told(visit.skew).c_str());
+}
+
+} // namespace
+
+int fly_exhibit(const std::filesystem::path& scene, const Layout& layout, const Shot& start, long frames)
+{
+    Visit visit{scene, start, frames, layout};
+    for (int losses = 0;;) {
+        const Clock::time_point opened = Clock::now();
+        std::unique_ptr<Theatre> theatre;
+        std::string lost;
+        try {
+            theatre = std::make_unique<Theatre>(scene, device_options(true));
+            for (const std::string& note : theatre->world.world.notes)
+                if (losses == 0)
+                    std::fprintf(stderr, "starbow: %s: %s\n", theatre->world.scene.gltf.c_str(), note.c_str());
+            fly(visit, *theatre);
+            tell(visit, theatre->world.scene);
+            return visit.complaints || !theatre->device.complaints.empty() ? 1 : 0;
+        } catch (const vk::DeviceLostError& error) {
+            lost = error.what();
+        } catch (const InputError& error) {
+            if (losses == 0)
+                throw;
+            lost = error.what(); // its driver is not back yet
+        }
+        visit.complaints |= theatre && !theatre->device.complaints.empty();
+        theatre.reset();
+        if (seconds(Clock::now() - opened) > 60)
+            losses = 0;
+        if (++losses > most_losses) {
+            std::fprintf(stderr, "starbow: the GPU is lost again and again (%s)\n", lost.c_str());
+            return 1;
+        }
+        std::fprintf(stderr, "starbow: the GPU is lost (%s); it is opened anew\n", lost.c_str());
+        std::this_thread::sleep_for(std::chrono::seconds(losses - 1));
+    }
 }
 
 } // namespace starbow

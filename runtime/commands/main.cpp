@@ -32,8 +32,8 @@ int main(int count, char** arguments)
     CLI::App app("Starbow: fly near the speed of light and see what physics says you would see.");
     app.require_subcommand(1);
     std::function<int()> chosen;
-    for (auto add : {starbow::add_run, starbow::add_render, starbow::add_check, starbow::add_warp, starbow::add_import,
-             starbow::add_bench})
+    for (auto add : {starbow::add_run, starbow::add_render, starbow::add_check, starbow::add_displays, starbow::add_warp,
+             starbow::add_import, starbow::add_bench})
         add(app, chosen);
     try {
         app.parse(count, arguments);

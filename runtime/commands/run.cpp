@@ -33,10 +33,7 @@ int run(const Options& options)
         return render_contact_sheet("out");
     }
     WindowSystem window_system;
-    Theatre theatre(scene, device_options(true));
-    for (const std::string& note : theatre.world.world.notes)
-        std::fprintf(stderr, "starbow: %s: %s\n", theatre.world.scene.gltf.c_str(), note.c_str());
-    return fly_exhibit(theatre, layout, start, default_quality(theatre.device, false), options.frames);
+    return fly_exhibit(scene, layout, start, options.frames);
 }
 
 } // namespace

@@ -1,0 +1,34 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace starbow {
+
+/// Notices when files are written, or replaced by others as editors do.
+class FileWatch {
+public:
+    using Clock = std::chrono::steady_clock;
+    explicit FileWatch(std::vector<std::filesystem::path> files);
+
+    /// True once after a change, when the files have stayed the same for a fifth of a second: nobody reads half a file.
+    /// Files that are missing are waited for. Looks at the disk ten times a second at most, however often it is asked.
+    bool changed(Clock::time_point now);
+
+private:
+    struct Stamp {
+        std::int64_t written_s = 0, written_ns = 0, size = 0;
+        std::uint64_t number = 0; ///< of the file on its disk
+        bool operator==(const Stamp&) const = default;
+    };
+    /// Nothing where one is missing.
+    std::optional<std::vector<Stamp>> look() const;
+
+    std::vector<std::filesystem::path> files_;
+    std::optional<std::vector<Stamp>> known_, seen_;
+    Clock::time_point looked_, seen_since_;
+};
+
+} // namespace starbow

@@ -1,0 +1,22 @@
+#pragma once
+#include <array>
+#include <cstddef>
+
+namespace starbow {
+
+/// How far apart in time the outputs' pictures of one frame came, over a flight.
+class Skew {
+public:
+    bool on_screen = false; ///< timed as the driver shows them; otherwise as they are handed to the window system
+    void add(double s);
+    std::size_t frames() const { return frames_; }
+    double median_s() const; ///< of the last 4096 frames; 0 before the first
+    double worst_s() const { return worst_; } ///< of all frames
+
+private:
+    std::array<float, 4096> last_{};
+    std::size_t frames_ = 0;
+    double worst_ = 0;
+};
+
+} // namespace starbow

@@ -1,0 +1,381 @@
+// A Vulkan layer for tests: makes chosen calls fail as drivers do, and stay failed until the program has done what mends it.
+//
+// STARBOW_FAULTS=CALL:NTH:RESULT[,...]
+//   CALL    acquire, present (both counted per picture), swapchain (creation) or submit
+//   NTH     the call that fails first, counted from 1
+//   RESULT  OUT_OF_DATE   of a swapchain: until it is made anew
+//           SURFACE_LOST  of a surface: until it is made anew
+//           DEVICE_LOST   until the device is made anew
+//           SUBOPTIMAL    this once; the call itself succeeds
+//           FROZEN        the swapchain's next 100 acquires have no picture to give in time
+// STARBOW_SHOWN_LATE_MS=MS: the driver can tell when pictures are shown (VK_KHR_present_wait): each swapchain's MS after the
+//   one's that was made before it.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+#include <vulkan/vk_layer.h>
+#include <vulkan/vulkan.h>
+
+namespace {
+
+std::mutex mutex; // of everything below
+std::map<void*, PFN_vkGetInstanceProcAddr> instances;
+std::map<void*, PFN_vkGetDeviceProcAddr> devices;
+std::map<void*, VkDevice> handles;
+PFN_vkGetInstanceProcAddr last_instance_calls;
+VkInstance last_instance;
+std::map<std::string, int> counts;
+std::map<VkSwapchainKHR, VkSurfaceKHR> surfaces;
+std::map<VkSwapchainKHR, int> order, frozen;
+std::set<VkSwapchainKHR> spent;
+std::set<VkSurfaceKHR> lost;
+std::set<void*> lost_devices;
+
+/// The loader's table pointer: the same for a device and its queues.
+void* key(const void* handle) { return *static_cast<void* const*>(handle); }
+
+template <class Function> Function next(const void* device_or_queue, const char* name)
+{
+    void* k = key(device_or_queue);
+    return reinterpret_cast<Function>(devices[k](handles[k], name));
+}
+template <class Function> Function next_of_instance(const char* name)
+{
+    return reinterpret_cast<Function>(last_instance_calls(last_instance, name));
+}
+
+double late_ms()
+{
+    const char* text = std::getenv("STARBOW_SHOWN_LATE_MS");
+    return text ? std::atof(text) : -1;
+}
+
+/// Counts a call; what shall happen to it, or nothing.
+std::string fault(const std::string& call)
+{
+    const int n = ++counts[call];
+    const char* text = std::getenv("STARBOW_FAULTS");
+    std::string rest = text ? text : "";
+    while (!rest.empty()) {
+        const std::string one = rest.substr(0, rest.find(','));
+        rest.erase(0, one.size() + 1);
+        const std::string start = call + ":" + std::to_string(n) + ":";
+        if (one.starts_with(start)) {
+            std::fprintf(stderr, "fault: %s\n", one.c_str());
+            return one.substr(start.size());
+        }
+    }
+    return {};
+}
+
+/// What has become of a swapchain, after a fault that may befall it now.
+VkResult state(const void* device_or_queue, VkSwapchainKHR swapchain, const std::string& now)
+{
+    if (now == "DEVICE_LOST")
+        lost_devices.insert(key(device_or_queue));
+    if (now == "SURFACE_LOST")
+        lost.insert(surfaces[swapchain]);
+    if (now == "OUT_OF_DATE")
+        spent.insert(swapchain);
+    if (now == "FROZEN")
+        frozen[swapchain] = 100;
+    if (lost_devices.count(key(device_or_queue)))
+        return VK_ERROR_DEVICE_LOST;
+    if (lost.count(surfaces[swapchain]))
+        return VK_ERROR_SURFACE_LOST_KHR;
+    if (spent.count(swapchain))
+        return VK_ERROR_OUT_OF_DATE_KHR;
+    return now == "SUBOPTIMAL" ? VK_SUBOPTIMAL_KHR : VK_SUCCESS;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL acquire(
+    VkDevice device, VkSwapchainKHR swapchain, uint64_t timeout, VkSemaphore semaphore, VkFence fence, uint32_t* image)
+{
+    VkResult mine;
+    {
+        const std::lock_guard lock(mutex);
+        mine = state(device, swapchain, fault("acquire"));
+        if (mine < 0)
+            return mine;
+        if (frozen[swapchain] > 0) {
+            --frozen[swapchain];
+            return timeout == 0 ? VK_NOT_READY : VK_TIMEOUT;
+        }
+    }
+    const VkResult result = next<PFN_vkAcquireNextImageKHR>(device, "vkAcquireNextImageKHR")(
+        device, swapchain, timeout, semaphore, fence, image);
+    return result == VK_SUCCESS ? mine : result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* info)
+{
+    VkPresentInfoKHR copy = *info;
+    std::vector<VkResult> results(info->swapchainCount);
+    copy.pResults = results.data();
+    copy.pNext = nullptr;
+    VkResult worst = next<PFN_vkQueuePresentKHR>(queue, "vkQueuePresentKHR")(queue, &copy);
+    const std::lock_guard lock(mutex);
+    for (uint32_t i = 0; i < info->swapchainCount; ++i) {
+        const VkResult mine = state(queue, info->pSwapchains[i], fault("present"));
+        if (results[i] == VK_SUCCESS)
+            results[i] = mine;
+        if (results[i] < 0 || worst == VK_SUCCESS)
+            worst = results[i];
+        if (info->pResults)
+            info->pResults[i] = results[i];
+    }
+    return worst;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSubmitInfo2* infos, VkFence fence)
+{
+    {
+        const std::lock_guard lock(mutex);
+        if (fault("submit") == "DEVICE_LOST")
+            lost_devices.insert(key(queue));
+        if (lost_devices.count(key(queue)))
+            return VK_ERROR_DEVICE_LOST;
+    }
+    return next<PFN_vkQueueSubmit2>(queue, "vkQueueSubmit2")(queue, count, infos, fence);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL wait_for_fences(
+    VkDevice device, uint32_t count, const VkFence* fences, VkBool32 all, uint64_t timeout)
+{
+    {
+        const std::lock_guard lock(mutex);
+        if (lost_devices.count(key(device)))
+            return VK_ERROR_DEVICE_LOST;
+    }
+    return next<PFN_vkWaitForFences>(device, "vkWaitForFences")(device, count, fences, all, timeout);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL wait_idle(VkDevice device)
+{
+    const VkResult result = next<PFN_vkDeviceWaitIdle>(device, "vkDeviceWaitIdle")(device);
+    const std::lock_guard lock(mutex);
+    return lost_devices.count(key(device)) ? VK_ERROR_DEVICE_LOST : result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_swapchain(
+    VkDevice device, const VkSwapchainCreateInfoKHR* info, const VkAllocationCallbacks* allocator, VkSwapchainKHR* made)
+{
+    {
+        const std::lock_guard lock(mutex);
+        if (fault("swapchain") == "SURFACE_LOST")
+            lost.insert(info->surface);
+        if (lost.count(info->surface))
+            return VK_ERROR_SURFACE_LOST_KHR;
+    }
+    const VkResult result = next<PFN_vkCreateSwapchainKHR>(device, "vkCreateSwapchainKHR")(device, info, allocator, made);
+    const std::lock_guard lock(mutex);
+    if (result == VK_SUCCESS) {
+        surfaces[*made] = info->surface;
+        order[*made] = int(order.size());
+    }
+    return result;
+}
+
+VKAPI_ATTR void VKAPI_CALL destroy_swapchain(
+    VkDevice device, VkSwapchainKHR swapchain, const VkAllocationCallbacks* allocator)
+{
+    next<PFN_vkDestroySwapchainKHR>(device, "vkDestroySwapchainKHR")(device, swapchain, allocator);
+    const std::lock_guard lock(mutex);
+    surfaces.erase(swapchain);
+    spent.erase(swapchain);
+    frozen.erase(swapchain);
+    order.erase(swapchain);
+}
+
+VKAPI_ATTR void VKAPI_CALL destroy_surface(VkInstance instance, VkSurfaceKHR surface, const VkAllocationCallbacks* allocator)
+{
+    next_of_instance<PFN_vkDestroySurfaceKHR>("vkDestroySurfaceKHR")(instance, surface, allocator);
+    const std::lock_guard lock(mutex);
+    lost.erase(surface);
+}
+
+VKAPI_ATTR void VKAPI_CALL destroy_device(VkDevice device, const VkAllocationCallbacks* allocator)
+{
+    void* k = key(device);
+    next<PFN_vkDestroyDevice>(device, "vkDestroyDevice")(device, allocator);
+    const std::lock_guard lock(mutex);
+    lost_devices.erase(k);
+    devices.erase(k);
+    handles.erase(k);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL wait_for_present(VkDevice, VkSwapchainKHR swapchain, uint64_t, uint64_t)
+{
+    int place;
+    {
+        const std::lock_guard lock(mutex);
+        place = order[swapchain];
+    }
+    std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(late_ms() * place));
+    return VK_SUCCESS;
+}
+
+// The extensions that the layer, not the driver, provides.
+const char* const provided[] = {VK_KHR_PRESENT_ID_EXTENSION_NAME, VK_KHR_PRESENT_WAIT_EXTENSION_NAME};
+
+VKAPI_ATTR VkResult VKAPI_CALL enumerate_extensions(
+    VkPhysicalDevice physical, const char* layer, uint32_t* count, VkExtensionProperties* properties)
+{
+    const auto below = next_of_instance<PFN_vkEnumerateDeviceExtensionProperties>("vkEnumerateDeviceExtensionProperties");
+    if (layer || late_ms() < 0)
+        return below(physical, layer, count, properties);
+    uint32_t theirs = 0;
+    below(physical, nullptr, &theirs, nullptr);
+    std::vector<VkExtensionProperties> all(theirs);
+    below(physical, nullptr, &theirs, all.data());
+    for (const char* name : provided) {
+        VkExtensionProperties mine{};
+        std::strncpy(mine.extensionName, name, sizeof mine.extensionName - 1);
+        mine.specVersion = 1;
+        all.push_back(mine);
+    }
+    if (!properties) {
+        *count = uint32_t(all.size());
+        return VK_SUCCESS;
+    }
+    const bool fits = *count >= all.size();
+    *count = std::min(*count, uint32_t(all.size()));
+    std::copy_n(all.begin(), *count, properties);
+    return fits ? VK_SUCCESS : VK_INCOMPLETE;
+}
+
+VKAPI_ATTR void VKAPI_CALL get_features(VkPhysicalDevice physical, VkPhysicalDeviceFeatures2* features)
+{
+    next_of_instance<PFN_vkGetPhysicalDeviceFeatures2>("vkGetPhysicalDeviceFeatures2")(physical, features);
+    for (auto* s = static_cast<VkBaseOutStructure*>(features->pNext); s && late_ms() >= 0; s = s->pNext) {
+        if (s->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_ID_FEATURES_KHR)
+            reinterpret_cast<VkPhysicalDevicePresentIdFeaturesKHR*>(s)->presentId = VK_TRUE;
+        if (s->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_WAIT_FEATURES_KHR)
+            reinterpret_cast<VkPhysicalDevicePresentWaitFeaturesKHR*>(s)->presentWait = VK_TRUE;
+    }
+}
+
+/// The link to the next layer, which each layer moves on.
+template <class Link> Link* link_of(const void* chain, VkStructureType type)
+{
+    auto* link = static_cast<Link*>(const_cast<void*>(chain));
+    while (link && !(link->sType == type && link->function == VK_LAYER_LINK_INFO))
+        link = static_cast<Link*>(const_cast<void*>(link->pNext));
+    return link;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_instance(
+    const VkInstanceCreateInfo* info, const VkAllocationCallbacks* allocator, VkInstance* made)
+{
+    auto* link = link_of<VkLayerInstanceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
+    const auto calls = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
+    link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+    const VkResult result
+        = reinterpret_cast<PFN_vkCreateInstance>(calls(nullptr, "vkCreateInstance"))(info, allocator, made);
+    if (result == VK_SUCCESS) {
+        const std::lock_guard lock(mutex);
+        last_instance = *made;
+        last_instance_calls = instances[key(*made)] = calls;
+    }
+    return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_device(
+    VkPhysicalDevice physical, const VkDeviceCreateInfo* info, const VkAllocationCallbacks* allocator, VkDevice* made)
+{
+    auto* link = link_of<VkLayerDeviceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
+    const auto instance_calls = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
+    const auto device_calls = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
+    link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+
+    // The driver must not see what only the layer provides.
+    VkDeviceCreateInfo copy = *info;
+    std::vector<const char*> names;
+    for (uint32_t i = 0; i < info->enabledExtensionCount; ++i) {
+        const std::string_view name = info->ppEnabledExtensionNames[i];
+        if (late_ms() < 0 || (name != provided[0] && name != provided[1]))
+            names.push_back(info->ppEnabledExtensionNames[i]);
+    }
+    copy.enabledExtensionCount = uint32_t(names.size());
+    copy.ppEnabledExtensionNames = names.data();
+    auto* before = reinterpret_cast<VkBaseOutStructure*>(&copy);
+    while (before->pNext && late_ms() >= 0) {
+        const bool mine = before->pNext->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_ID_FEATURES_KHR
+            || before->pNext->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_WAIT_FEATURES_KHR;
+        if (mine)
+            before->pNext = before->pNext->pNext;
+        else
+            before = before->pNext;
+    }
+    const VkResult result = reinterpret_cast<PFN_vkCreateDevice>(instance_calls(last_instance, "vkCreateDevice"))(
+        physical, &copy, allocator, made);
+    if (result == VK_SUCCESS) {
+        const std::lock_guard lock(mutex);
+        devices[key(*made)] = device_calls;
+        handles[key(*made)] = *made;
+        lost_devices.erase(key(*made));
+    }
+    return result;
+}
+
+PFN_vkVoidFunction own(std::string_view name);
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_proc(VkDevice device, const char* name)
+{
+    const auto mine = own(name);
+    return mine ? mine : devices[key(device)](device, name);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_instance_proc(VkInstance instance, const char* name)
+{
+    const auto mine = own(name);
+    return mine ? mine : instance ? instances[key(instance)](instance, name) : nullptr;
+}
+
+PFN_vkVoidFunction own(std::string_view name)
+{
+    const std::map<std::string_view, PFN_vkVoidFunction> functions = {
+#define FUNCTION(name, function) {name, reinterpret_cast<PFN_vkVoidFunction>(function)}
+        FUNCTION("vkGetInstanceProcAddr", get_instance_proc),
+        FUNCTION("vkGetDeviceProcAddr", get_device_proc),
+        FUNCTION("vkCreateInstance", create_instance),
+        FUNCTION("vkCreateDevice", create_device),
+        FUNCTION("vkDestroyDevice", destroy_device),
+        FUNCTION("vkDestroySurfaceKHR", destroy_surface),
+        FUNCTION("vkEnumerateDeviceExtensionProperties", enumerate_extensions),
+        FUNCTION("vkGetPhysicalDeviceFeatures2", get_features),
+        FUNCTION("vkCreateSwapchainKHR", create_swapchain),
+        FUNCTION("vkDestroySwapchainKHR", destroy_swapchain),
+        FUNCTION("vkAcquireNextImageKHR", acquire),
+        FUNCTION("vkQueuePresentKHR", present),
+        FUNCTION("vkQueueSubmit2", submit),
+        FUNCTION("vkWaitForFences", wait_for_fences),
+        FUNCTION("vkDeviceWaitIdle", wait_idle),
+#undef FUNCTION
+    };
+    if (name == "vkWaitForPresentKHR" && late_ms() >= 0)
+        return reinterpret_cast<PFN_vkVoidFunction>(wait_for_present);
+    const auto found = functions.find(name);
+    return found == functions.end() ? nullptr : found->second;
+}
+
+} // namespace
+
+extern "C" VK_LAYER_EXPORT VKAPI_ATTR VkResult VKAPI_CALL vkNegotiateLoaderLayerInterfaceVersion(
+    VkNegotiateLayerInterface* interface)
+{
+    interface->loaderLayerInterfaceVersion = 2;
+    interface->pfnGetInstanceProcAddr = get_instance_proc;
+    interface->pfnGetDeviceProcAddr = get_device_proc;
+    interface->pfnGetPhysicalDeviceProcAddr = nullptr;
+    return VK_SUCCESS;
+}

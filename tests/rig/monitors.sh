@@ -1,0 +1,48 @@
+# Sourced by shell tests: X servers without hardware. Every process that is started here ends with the test.
+
+folder=$(mktemp -d)
+started=()
+finish() {
+    for process in "${started[@]}"; do kill "$process" 2>/dev/null; done
+    for process in "${started[@]}"; do wait "$process" 2>/dev/null; done
+    rm -rf "$folder"
+}
+trap finish EXIT
+
+passed=0
+ok() { passed=$((passed + 1)); }
+fail() {
+    echo "FAILED: $*"
+    for log in "$folder"/*log; do [ -s "$log" ] && echo "--- $(basename "$log")" && tail -n 30 "$log"; done
+    exit 1
+}
+
+# until_true SECONDS COMMAND...: runs it again and again until it succeeds.
+until_true() {
+    local end=$((${EPOCHREALTIME/./} + $1 * 1000000))
+    shift
+    until "$@" >/dev/null 2>&1; do
+        [ "${EPOCHREALTIME/./}" -lt "$end" ] || return 1
+        sleep 0.05
+    done
+}
+
+serve() { # COMMAND...: an X server that chooses its own number; sets DISPLAY.
+    : >"$folder/number"
+    "$@" -displayfd 9 9>"$folder/number" >"$folder/server-log" 2>&1 &
+    started+=($!)
+    until_true 20 test -s "$folder/number" || fail "no X server starts ($1; Xorg wants to be root)"
+    DISPLAY=:$(cat "$folder/number")
+    export DISPLAY
+}
+
+# start_monitors COUNT WIDTHxHEIGHT: DUMMY0, DUMMY1, ... from left to right.
+start_monitors() {
+    serve Xorg -noreset -nolisten tcp -novtswitch -sharevts -config "$rig/xorg.conf" -logfile "$folder/xorg-log"
+    xrandr --output DUMMY0 --mode "$2" --pos 0x0 --primary || fail "xrandr"
+    local i
+    for ((i = 1; i < $1; i++)); do
+        xrandr --addmode DUMMY$i "$2" && xrandr --output DUMMY$i --mode "$2" --right-of DUMMY$((i - 1)) || fail "xrandr DUMMY$i"
+    done
+    xrandr -q >/dev/null # without it the server hides all but one
+}
