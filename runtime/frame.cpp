@@ -220,12 +220,12 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
     for (std::size_t i = 0; pattern_ == Pattern::none && i < eyes_.size(); ++i) {
         const glm::dvec3 place
             = shot.position + physics::eye_place(shot.u, shot.ship_from_cockpit * scene_units(eyes_[i].place_m + eyes_[i].moved_m));
-        const double near = reprojects() ? std::max(nearest_box(world_.world, place), 1e-30) : 1;
+        eyes_[i].nearest = reprojects() ? std::max(nearest_box(world_.world, place), 1e-30) : 1;
         std::vector<View> asked;
         for (const PaneState& pane : panes_)
             if (pane.eye == i)
                 asked.push_back({pane.compiled.blocks.get(), motion_from_cockpit_,
-                    reprojects() ? std::min(0.35, glm::length(world_offset(pane)) / near) : 0});
+                    reprojects() ? std::min(MOST_PARALLAX, glm::length(world_offset(pane)) / eyes_[i].nearest) : 0});
         plans_[i] = make_plan(asked, shot.effects.aberration ? E_ : 1, quality_);
         eyes_[i].cube.prepare(plans_[i], place, to_motion);
     }
@@ -339,10 +339,11 @@ shared::ViewPush Frame::push(const PaneState& pane, const glm::dmat3& axes_from_
         const double side = pane.beside_m.x < 0 ? -1 : 1;
         push.eye = glm::vec4(
             motion_from_cockpit_ * glm::dvec3(0, 1, 0), side * glm::length(scene_units(pane.beside_m)));
-        push.zenith = glm::vec4(std::sin(layout_.stereo.full_from_zenith_deg * degree), 0, 0, 0);
     } else {
         push.eye = glm::vec4(world_offset(pane), 0);
     }
+    push.zenith
+        = glm::vec4(std::sin(layout_.stereo.full_from_zenith_deg * degree), eyes_[pane.eye].nearest, 0, 0);
     return push;
 }
 

@@ -63,6 +63,7 @@ private:
         glm::dvec3 place_m; ///< in the cockpit
         CubePass cube;
         glm::dvec3 moved_m{0}; ///< with the head
+        double nearest = 1; ///< distance of the nearest surface that there may be, scene units; where it counts
     };
     struct PaneState {
         std::size_t output = 0, eye = 0;

@@ -23,7 +23,7 @@ void main()
         vec3 n = look(view.row0, view.row1, view.row2, pixel, channel, pixel_angle);
         if (MAP && pixel_angle == 0.0)
             continue;
-        Sight sight = sight_of(n);
+        Sight sight = sight_of(n, pixel_angle);
         Place place = place_of(sight.n);
         vec3 seen = light_seen(place, sight.D, pixel_angle) * view.boost.z;
         if (CHANNELS)

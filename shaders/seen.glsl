@@ -94,38 +94,64 @@ vec3 eye_offset(vec3 n)
     return offset;
 }
 
-// Where the cube map shows what an eye beside it sees along n (world): the point P = d(m) m of its surface with P - offset
-// along n. From the place at infinity each round takes the distance found where the last one looked; behind an edge, where
-// there is no such point, it ends on the nearer surface's rim.
-vec3 reprojected(vec3 n, vec3 offset)
+// Where the cube map shows what an eye beside it sees along n (world). The eye's line of sight, seen from the cube map's place,
+// is an arc from the nearest surface that there may be to n at infinity: the first place on it where the cube map's surface
+// is no farther than the line is what the eye sees. It is looked for in steps of about five texels (even in 1 / distance, as
+// parallax is), then drawn closer to P = d(m) m with P - offset along n. What the cube map's place does not see it cannot
+// show: there the surface behind the edge is drawn out.
+vec3 reprojected(vec3 n, vec3 offset, float texel)
 {
+    float across = length(offset - dot(offset, n) * n);
+    float arc = min(across / view.zenith.y, MOST_PARALLAX);
+    if (arc < 0.1 * texel)
+        return n;
+    float steps = clamp(ceil(0.2 * arc / texel), 1.0, float(REPROJECT_STEPS));
+    float nearness = arc / across, shrink = nearness / steps; // 1 / distance
+    float far = 0.0; // distance of the surface in front of which the line passed last
     vec3 m = n;
-    float off = 1e30;
-    vec3 best = n;
-    for (int round = 0; round < REPROJECT_ROUNDS; ++round) {
-        float d = distance_at(place_of(m));
-        if (isinf(d))
+    bool met = false;
+    for (float i = 0.0; i < steps; i += 1.0) {
+        float s = 1.0 / (nearness - (i + 0.5) * shrink);
+        vec3 line = offset + s * n;
+        m = normalize(line);
+        far = distance_at(place_of(m));
+        if (far <= length(line)) {
+            met = true;
+            break;
+        }
+    }
+    if (!met) {
+        m = n;
+        far = distance_at(place_of(m));
+        if (isinf(far))
             return n;
-        vec3 from_eye = d * m - offset;
+    }
+    vec3 best = m;
+    float off = 1e30;
+    for (int round = 0; round < REPROJECT_ROUNDS; ++round) {
+        vec3 from_eye = far * m - offset;
         float along = dot(from_eye, n);
-        float miss = length(from_eye - along * n) / max(d, 1e-30);
+        float miss = length(from_eye - along * n) / far;
         if (miss < off)
             off = miss, best = m;
-        if (along <= 0.0)
+        if (along <= 0.0 || miss < 0.05 * texel)
             break;
         m = normalize(offset + along * n);
+        far = distance_at(place_of(m));
+        if (isinf(far))
+            break;
     }
-    return off < 1e29 ? best : n;
+    return best;
 }
 
 // Where the cube map holds what the ship's direction n shows: in the world, and D.
-Sight sight_of(vec3 n)
+Sight sight_of(vec3 n, float pixel_angle)
 {
     Sight sight = world_from_camera(n, view.boost.x, view.boost.y);
     if (!ABERRATION)
         sight.n = n;
     if (REPROJECT)
-        sight.n = reprojected(sight.n, eye_offset(n));
+        sight.n = reprojected(sight.n, eye_offset(n), ABERRATION ? sight.D * pixel_angle : pixel_angle);
     return sight;
 }
 

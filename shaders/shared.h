@@ -9,7 +9,9 @@
 #define REAR_LEVELS 43
 #define SLOT_COUNT 56
 
-#define REPROJECT_ROUNDS 8
+#define REPROJECT_STEPS 12
+#define REPROJECT_ROUNDS 4
+#define MOST_PARALLAX 0.35 // radians between two eyes' views of a point: nearer surfaces are not told apart
 #define MAX_LIGHTS 8
 #define COLOUR_STEPS 769 // over log2 D from -COLOUR_RANGE to COLOUR_RANGE
 #define COLOUR_RANGE 6.0
@@ -55,7 +57,8 @@ struct ViewPush {
     vec4 origin;           // viewport's top left corner in the target, pixels; z, w: atlas size in texels
     vec4 eye;              // REPROJECT: the eye's place from the cube map's, world, motion axes. TURNING: xyz: the cockpit's
                            // up in motion axes; w: the eye's distance from the middle, to the right
-    vec4 zenith;           // TURNING: x: sine of the angle from the zenith at which the separation is full
+    vec4 zenith;           // x: TURNING: sine of the angle from the zenith at which the separation is full; y:
+                           // REPROJECT: distance of the nearest surface that there may be, scene units
 };
 
 // Push constants of the finish pass: from light to the screen's input. Rows of matrices.

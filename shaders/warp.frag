@@ -16,7 +16,7 @@ vec3 light_along(int channel)
     vec3 n = look(view.row0, view.row1, view.row2, gl_FragCoord.xy - view.origin.xy, channel, pixel_angle);
     if (MAP && pixel_angle == 0.0)
         return vec3(0.0);
-    Sight sight = sight_of(n);
+    Sight sight = sight_of(n, pixel_angle);
     return light_seen(place_of(sight.n), sight.D, pixel_angle);
 }
 

@@ -129,8 +129,8 @@ void bench_kinds(Theatre& theatre, const Shot& shot, int rounds)
     mesh.blend.ramps = false;
     Lens lens;
     lens.fov_y_deg = 90;
-    for (Lens::Colour& colour : lens.colours)
-        colour.k = {0.1, 0, 0, 0};
+    for (int i = 0; i < 3; ++i)
+        lens.colours[std::size_t(i)].k = {0.1 + 0.01 * i, 0, 0, 0};
     // The circle covers the whole picture: every pixel shows something, as in the window.
     Fisheye fisheye{.aperture_deg = 110, .tilt_deg = 90, .diameter = 5.0 / 3};
     std::vector<Case> cases;
