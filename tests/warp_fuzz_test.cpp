@@ -5,7 +5,9 @@
 #include <map>
 
 #if defined(__SANITIZE_ADDRESS__)
-#include <sanitizer/allocator_interface.h>
+// Its header is not in every compiler's package.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(
+    void (*)(const volatile void*, std::size_t), void (*)(const volatile void*));
 #endif
 
 namespace starbow::warp_test {
