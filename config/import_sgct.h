@@ -7,7 +7,7 @@ namespace starbow {
 /// What became of an SGCT configuration.
 struct Import {
     nlohmann::ordered_json layout;
-    /// One for each member, in the file's order: "/POINTER  -> what it became" or "/POINTER  not mapped: reason".
+    /// One for each member: "/POINTER  -> what it became" or "/POINTER  not mapped: reason".
     std::vector<std::string> lines;
 };
 

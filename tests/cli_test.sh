@@ -95,15 +95,33 @@ for layout in "$folder/wide.json" no-such-layout; do
     if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [ ! -e "$folder/wrong.svg" ]; then passed=$((passed + 1)); else fail "check $layout: $said"; fi
 done
 
+# Warp files and imports.
+warps=$(cd "$(dirname "$0")" && pwd)/warp
+refused 'no-such.data' warp inspect "$folder/no-such.data"
+echo 'Dear Sir' > "$folder/letter"
+refused 'no warp file that is known' warp inspect "$folder/letter"
+head -c 300 "$warps/channel1_warp_u2.sgc" > "$folder/short.sgc"
+refused 'byte 56' warp inspect "$folder/short.sgc"
+refused '--size' warp inspect "$warps/channel1_warp_u2.sgc" --size 1x1
+refused 'has no regions' warp inspect "$warps/channel1_warp_u2.sgc" --region left
+refused 'lacks "nodes"' import sgct "$folder/scene.json"
+refused 'no node 3' import sgct "$warps/sgct-configs/single.json" --node 3
+said=$("$program" warp convert "$warps/channel1_warp_u2.sgc" "$folder/out.doc" 2>&1 >/dev/null)
+if [ $? = 2 ] && [[ $said == *".csv at its end"* ]]; then passed=$((passed + 1)); else fail "convert to .doc: $said"; fi
+"$program" warp convert "$warps/channel1_warp_u2.sgc" "$folder/one.csv" >/dev/null 2>&1 && "$program" warp convert "$folder/one.csv" "$folder/two.csv" >/dev/null 2>&1
+if cmp -s "$folder/one.csv" "$folder/two.csv" && cmp -s "$folder/one_frustum.csv" "$folder/two_frustum.csv"; then passed=$((passed + 1)); else fail "convert: what is written is not read back"; fi
+if "$program" warp inspect "$folder/one.csv" --out "$folder/one.png" | grep -q '^grid *33 columns x 33 rows$' && [ -s "$folder/one.png" ]; then passed=$((passed + 1)); else fail "inspect"; fi
+if "$program" import sgct "$warps/sgct-configs/single_fisheye.json" --out "$folder/imported.json" | grep -q '^/nodes/0/windows/0/size  -> size$' && [ -s "$folder/imported.json" ]; then passed=$((passed + 1)); else fail "import"; fi
+
 # Unknown options and missing ones are told in one line too, also with exit 2.
-for arguments in '' 'fly' 'render' 'render --shot' 'bench --rounds 0' 'run --frames -1' 'check' 'render --shot start --out x --colour'; do
+for arguments in '' 'fly' 'render' 'render --shot' 'bench --rounds 0' 'run --frames -1' 'check' 'render --shot start --out x --colour' 'warp' 'warp inspect' 'import sgct x'; do
     # shellcheck disable=SC2086
     said=$("$program" $arguments 2>&1 >/dev/null)
     if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ]; then passed=$((passed + 1)); else fail "'$arguments' is not refused with 2 in one line: $said"; fi
 done
 
 # Every subcommand's help ends with an example.
-for command in run render bench check; do
+for command in run render bench check warp import displays; do
     if "$program" $command --help | grep -q "starbow $command "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
 done
 

@@ -15,9 +15,23 @@ std::uint32_t big32(std::string_view bytes, std::size_t at)
     return value;
 }
 
-/// How many bytes the picture's data become, counted up to `most` + 1 without keeping them: the decoder keeps them all,
-/// however many there are.
-std::size_t inflated_bytes(std::string_view png, std::size_t most)
+/// Whether every chunk up to the end is as long as it says: the decoder asks for the memory before it looks.
+bool whole(std::string_view png)
+{
+    for (std::size_t at = 8; at + 12 <= png.size();) {
+        const std::size_t length = big32(png, at);
+        if (length > png.size() - at - 12)
+            return false;
+        if (png.substr(at + 4, 4) == "IEND")
+            return true;
+        at += length + 12;
+    }
+    return false;
+}
+
+/// Whether a whole picture's data become no more than `most` bytes and come to their end, counted without keeping them: the
+/// decoder keeps them all, however many there are.
+bool inflates_to(std::string_view png, std::size_t most)
 {
     z_stream stream{};
     if (inflateInit(&stream) != Z_OK)
@@ -25,10 +39,8 @@ std::size_t inflated_bytes(std::string_view png, std::size_t most)
     const std::unique_ptr<z_stream, int (*)(z_stream*)> owner(&stream, inflateEnd);
     std::size_t total = 0;
     int status = Z_OK;
-    for (std::size_t at = 8; status == Z_OK && at + 12 <= png.size();) {
+    for (std::size_t at = 8; status == Z_OK && png.substr(at + 4, 4) != "IEND";) {
         const std::size_t length = big32(png, at);
-        if (length > png.size() - at - 12)
-            break;
         if (png.substr(at + 4, 4) == "IDAT") {
             stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(png.data() + at + 8));
             stream.avail_in = uInt(length);
@@ -39,14 +51,14 @@ std::size_t inflated_bytes(std::string_view png, std::size_t most)
                 status = inflate(&stream, Z_NO_FLUSH);
                 total += sizeof piece - stream.avail_out;
                 if (total > most)
-                    return total;
+                    return false;
             }
             if (status == Z_BUF_ERROR)
                 status = Z_OK; // wants more, which the next chunk may bring
         }
         at += length + 12;
     }
-    return total;
+    return status == Z_STREAM_END;
 }
 
 } // namespace
@@ -57,6 +69,8 @@ WarpMesh::Mask read_mask(const WarpFile& file, const std::string& place, std::si
     const std::string right = "; a PNG of 8 or 16 bits is right";
     if (!png.starts_with("\x89PNG\r\n\x1a\n") || png.size() < 33 || png.substr(12, 4) != "IHDR")
         refuse(file, place, "is no PNG" + right);
+    if (!whole(png))
+        refuse(file, place, "ends early or has a chunk that says it is longer than the file" + right);
     const auto* bytes = reinterpret_cast<const stbi_uc*>(png.data());
     int width = 0, height = 0, channels = 0;
     if (!stbi_info_from_memory(bytes, int(png.size()), &width, &height, &channels))
@@ -73,9 +87,10 @@ WarpMesh::Mask read_mask(const WarpFile& file, const std::string& place, std::si
         refuse(file, place,
             std::to_string(width) + " x " + std::to_string(height) + " pixels are too many for a file of this size" + right);
     const std::size_t data = std::size_t(height) * (1 + (std::size_t(width) * bits + 7) / 8); // a row begins with its filter
-    if (inflated_bytes(png, data) > data)
+    if (!inflates_to(png, data))
         refuse(file, place,
-            "holds more data than its " + std::to_string(width) + " x " + std::to_string(height) + " pixels take" + right);
+            "has damaged data, or more than its " + std::to_string(width) + " x " + std::to_string(height) + " pixels take"
+                + right);
 
     const bool deep = stbi_is_16_bit_from_memory(bytes, int(png.size()));
     const std::unique_ptr<void, void (*)(void*)> decoded(deep

@@ -66,7 +66,7 @@ public:
 private:
     const WarpMesh& mesh_;
     glm::ivec2 size_;
-    std::vector<std::uint32_t> first_, triangles_; ///< of each row: indices into triangles_
+    std::vector<std::uint32_t> first_, triangles_; ///< of each band of rows: where its triangles begin
 };
 
 } // namespace starbow
