@@ -196,26 +196,27 @@ bool Desktop::look()
     return changed;
 }
 
-void forget_dead_window_manager()
+std::shared_ptr<void> forget_dead_window_manager()
 {
-    const Server x;
-    if (!x.answers())
-        return;
-    const xcb_atom_t check = x.atom("_NET_SUPPORTING_WM_CHECK");
+    const auto x = std::make_shared<Server>();
+    if (!x->answers())
+        return x;
+    const xcb_atom_t check = x->atom("_NET_SUPPORTING_WM_CHECK");
     if (check == XCB_ATOM_NONE)
-        return;
+        return x;
     auto named = reply(
-        xcb_get_property_reply(x.link, xcb_get_property(x.link, false, x.root, check, XCB_ATOM_WINDOW, 0, 1), nullptr));
+        xcb_get_property_reply(x->link, xcb_get_property(x->link, false, x->root, check, XCB_ATOM_WINDOW, 0, 1), nullptr));
     if (!named || xcb_get_property_value_length(named.get()) != int(sizeof(xcb_window_t)))
-        return;
+        return x;
     xcb_window_t manager;
     std::memcpy(&manager, xcb_get_property_value(named.get()), sizeof manager);
-    auto lives = reply(xcb_get_geometry_reply(x.link, xcb_get_geometry(x.link, manager), nullptr));
+    auto lives = reply(xcb_get_geometry_reply(x->link, xcb_get_geometry(x->link, manager), nullptr));
     if (!lives) {
-        xcb_delete_property(x.link, x.root, check);
+        xcb_delete_property(x->link, x->root, check);
         // Answered only once the deletion has been done.
-        reply(xcb_get_input_focus_reply(x.link, xcb_get_input_focus(x.link), nullptr));
+        reply(xcb_get_input_focus_reply(x->link, xcb_get_input_focus(x->link), nullptr));
     }
+    return x;
 }
 
 } // namespace starbow

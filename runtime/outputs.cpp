@@ -31,7 +31,7 @@ glm::ivec2 fit_to_screen(glm::ivec2 size)
 
 WindowSystem::WindowSystem()
 {
-    forget_dead_window_manager();
+    const auto server = forget_dead_window_manager();
     if (!glfwInit())
         throw InputError("No window can be opened (" + glfw_says()
             + "): start a desktop session, or set DISPLAY, or use 'starbow render'");
@@ -41,11 +41,8 @@ WindowSystem::~WindowSystem() { glfwTerminate(); }
 
 bool has_display()
 {
-    forget_dead_window_manager();
-    bool is = glfwInit();
-    if (is)
-        glfwTerminate();
-    return is;
+    const auto server = forget_dead_window_manager();
+    return glfwInit();
 }
 
 void settle(Device& device) noexcept

@@ -14,7 +14,7 @@ struct WindowSystem {
     ~WindowSystem();
     WindowSystem(const WindowSystem&) = delete;
 };
-/// Whether a window system answers at all.
+/// Whether a window system answers at all. Where it does, GLFW runs from here on.
 bool has_display();
 
 /// Waits until the device has nothing to do, or is lost.

@@ -167,17 +167,23 @@ void Screens::present(Skew& skew)
         (void)device_.device.waitForFences(done_, true, UINT64_MAX);
 
     const Clock::time_point began = Clock::now();
+    vk::Result worst;
     try {
-        (void)device_.queue.presentKHR(present);
-    } catch (const vk::OutOfDateKHRError&) { // told per window in `results`
+        worst = device_.queue.presentKHR(present);
+    } catch (const vk::OutOfDateKHRError&) {
+        worst = vk::Result::eErrorOutOfDateKHR;
     } catch (const vk::SurfaceLostKHRError&) {
+        worst = vk::Result::eErrorSurfaceLostKHR;
     }
     if (several && skew.on_screen)
         time_on_screen(skew);
     else if (several)
         skew.add(std::chrono::duration<double>(Clock::now() - began).count());
+    // Which window it was is told in `results`; a driver that does not tell means them all.
+    const bool untold
+        = std::all_of(results.begin(), results.end(), [](vk::Result result) { return result == vk::Result::eSuccess; });
     for (std::size_t i = 0; i < acquired_.size(); ++i)
-        acquired_[i]->presented(results[i]);
+        acquired_[i]->presented(untold ? worst : results[i]);
 }
 
 void Screens::time_on_screen(Skew& skew)

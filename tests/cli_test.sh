@@ -125,6 +125,10 @@ for command in run render bench check warp import displays; do
     if "$program" $command --help | grep -q "starbow $command "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
 done
 
+# Without a display server the GPUs are listed all the same.
+said=$(env -u DISPLAY -u WAYLAND_DISPLAY "$program" displays 2>&1)
+if [ $? = 0 ] && [[ $said == *"GPU "*": is used"*"no display server"* ]]; then passed=$((passed + 1)); else fail "displays: $said"; fi
+
 # The same bytes twice, and the numbers beside the picture.
 "$program" render --shot starbow --size 160x120 --out "$folder/once" --exr >/dev/null || fail "a good shot is refused"
 "$program" render --shot starbow --size 160x120 --out "$folder/twice" --exr >/dev/null

@@ -4,7 +4,7 @@ set -u
 program=$1 tools=$2 rig=$(dirname "$0")/rig
 . "$rig/monitors.sh"
 export VK_LAYER_PATH=$tools VK_INSTANCE_LAYERS=VK_LAYER_STARBOW_faults
-serve Xvfb -screen 0 1280x800x24
+serve Xvfb -noreset -screen 0 1280x800x24
 
 cat >"$folder/two.json" <<'END'
 { "outputs": [

@@ -31,8 +31,11 @@ std::mutex mutex; // of everything below
 std::map<void*, PFN_vkGetInstanceProcAddr> instances;
 std::map<void*, PFN_vkGetDeviceProcAddr> devices;
 std::map<void*, VkDevice> handles;
-PFN_vkGetInstanceProcAddr last_instance_calls;
 VkInstance last_instance;
+// Of the last instance, asked for while it was made: later the loader would answer with this layer's own.
+PFN_vkEnumerateDeviceExtensionProperties next_enumerate;
+PFN_vkGetPhysicalDeviceFeatures2 next_features;
+PFN_vkDestroySurfaceKHR next_destroy_surface;
 std::map<std::string, int> counts;
 std::map<VkSwapchainKHR, VkSurfaceKHR> surfaces;
 std::map<VkSwapchainKHR, int> order, frozen;
@@ -48,11 +51,6 @@ template <class Function> Function next(const void* device_or_queue, const char*
     void* k = key(device_or_queue);
     return reinterpret_cast<Function>(devices[k](handles[k], name));
 }
-template <class Function> Function next_of_instance(const char* name)
-{
-    return reinterpret_cast<Function>(last_instance_calls(last_instance, name));
-}
-
 double late_ms()
 {
     const char* text = std::getenv("STARBOW_SHOWN_LATE_MS");
@@ -101,6 +99,7 @@ VKAPI_ATTR VkResult VKAPI_CALL acquire(
     VkDevice device, VkSwapchainKHR swapchain, uint64_t timeout, VkSemaphore semaphore, VkFence fence, uint32_t* image)
 {
     VkResult mine;
+    bool waits = false;
     {
         const std::lock_guard lock(mutex);
         mine = state(device, swapchain, fault("acquire"));
@@ -108,8 +107,12 @@ VKAPI_ATTR VkResult VKAPI_CALL acquire(
             return mine;
         if (frozen[swapchain] > 0) {
             --frozen[swapchain];
-            return timeout == 0 ? VK_NOT_READY : VK_TIMEOUT;
+            waits = true;
         }
+    }
+    if (waits) { // as long as it is told to, which may be for ever
+        std::this_thread::sleep_for(std::chrono::nanoseconds(std::min(timeout, uint64_t(3600) * 1'000'000'000)));
+        return timeout == 0 ? VK_NOT_READY : VK_TIMEOUT;
     }
     const VkResult result = next<PFN_vkAcquireNextImageKHR>(device, "vkAcquireNextImageKHR")(
         device, swapchain, timeout, semaphore, fence, image);
@@ -198,7 +201,7 @@ VKAPI_ATTR void VKAPI_CALL destroy_swapchain(
 
 VKAPI_ATTR void VKAPI_CALL destroy_surface(VkInstance instance, VkSurfaceKHR surface, const VkAllocationCallbacks* allocator)
 {
-    next_of_instance<PFN_vkDestroySurfaceKHR>("vkDestroySurfaceKHR")(instance, surface, allocator);
+    next_destroy_surface(instance, surface, allocator);
     const std::lock_guard lock(mutex);
     lost.erase(surface);
 }
@@ -230,7 +233,7 @@ const char* const provided[] = {VK_KHR_PRESENT_ID_EXTENSION_NAME, VK_KHR_PRESENT
 VKAPI_ATTR VkResult VKAPI_CALL enumerate_extensions(
     VkPhysicalDevice physical, const char* layer, uint32_t* count, VkExtensionProperties* properties)
 {
-    const auto below = next_of_instance<PFN_vkEnumerateDeviceExtensionProperties>("vkEnumerateDeviceExtensionProperties");
+    const auto below = next_enumerate;
     if (layer || late_ms() < 0)
         return below(physical, layer, count, properties);
     uint32_t theirs = 0;
@@ -255,7 +258,7 @@ VKAPI_ATTR VkResult VKAPI_CALL enumerate_extensions(
 
 VKAPI_ATTR void VKAPI_CALL get_features(VkPhysicalDevice physical, VkPhysicalDeviceFeatures2* features)
 {
-    next_of_instance<PFN_vkGetPhysicalDeviceFeatures2>("vkGetPhysicalDeviceFeatures2")(physical, features);
+    next_features(physical, features);
     for (auto* s = static_cast<VkBaseOutStructure*>(features->pNext); s && late_ms() >= 0; s = s->pNext) {
         if (s->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_ID_FEATURES_KHR)
             reinterpret_cast<VkPhysicalDevicePresentIdFeaturesKHR*>(s)->presentId = VK_TRUE;
@@ -284,7 +287,11 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(
     if (result == VK_SUCCESS) {
         const std::lock_guard lock(mutex);
         last_instance = *made;
-        last_instance_calls = instances[key(*made)] = calls;
+        instances[key(*made)] = calls;
+        next_enumerate = reinterpret_cast<PFN_vkEnumerateDeviceExtensionProperties>(
+            calls(*made, "vkEnumerateDeviceExtensionProperties"));
+        next_features = reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(calls(*made, "vkGetPhysicalDeviceFeatures2"));
+        next_destroy_surface = reinterpret_cast<PFN_vkDestroySurfaceKHR>(calls(*made, "vkDestroySurfaceKHR"));
     }
     return result;
 }
