@@ -258,7 +258,7 @@ std::shared_ptr<const DirectionMap> MapStore::map(const Pane& pane, const WarpMe
     std::shared_ptr<DirectionMap> map = on_disk ? read_map(file, pane) : nullptr;
     if (!map) {
         map = std::make_shared<DirectionMap>(starbow::compile(pane, mesh));
-        if (on_disk)
+        if (on_disk && keep_)
             write_map(file, *map);
     }
     kept = map;

@@ -23,6 +23,9 @@ public:
     MapStore();
     explicit MapStore(std::filesystem::path folder); ///< empty: memory only
 
+    /// Whether new maps go to the folder: not while a hand turns a dome's tilt.
+    void keep(bool on_disk) { keep_ = on_disk; }
+
     /// Throws InputError for a warp file that is wrong.
     CompiledPane compile(const Layout& layout, const Pane& pane);
 
@@ -31,6 +34,7 @@ private:
     std::shared_ptr<const DirectionMap> map(const Pane& pane, const WarpMesh* mesh, const std::string& key);
 
     std::filesystem::path folder_;
+    bool keep_ = true;
     struct Kept;
     std::shared_ptr<Kept> kept_;
 };

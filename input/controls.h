@@ -15,6 +15,9 @@ struct Controls {
     bool look_ahead = false, stop = false, reset = false;
     bool aberration = false, doppler = false, headlight = false; ///< effects to switch over
     bool hud = false, full_screen = false, quit = false;
+    // For who builds the exhibit: the next test pattern; which of the layout's numbers to turn, by how many steps; keep them.
+    bool pattern = false, save = false;
+    int choose = 0, turn_by = 0;
 };
 
 } // namespace starbow

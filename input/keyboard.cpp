@@ -30,6 +30,9 @@ const char* keyboard_help()
            "1, 2, 3         aberration, Doppler effect, headlight effect on and off\n"
            "+, -            brighter, darker\n"
            "H               head-up display; F11 full screen; Esc leave\n"
+           "F2              for builders: the next test pattern\n"
+           "F3, Page Up/Dn  choose a tilt, rotation, turn or blend of the layout; turn it (Shift: ten times as far)\n"
+           "F5              keep what was turned: writes it into the layout's file\n"
            "gamepad         triggers: slower, faster; left stick: turn; right stick: look; A stop; B back to the start;\n"
            "                X, Y, right bumper: the effects; left bumper: look ahead";
 }
@@ -79,6 +82,11 @@ void Keyboard::finish(Controls& controls)
     controls.hud = pressed(GLFW_KEY_H);
     controls.full_screen = pressed(GLFW_KEY_F11);
     controls.quit = pressed(GLFW_KEY_ESCAPE);
+    const bool shift = down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT);
+    controls.pattern = pressed(GLFW_KEY_F2);
+    controls.choose = pressed(GLFW_KEY_F3) ? (shift ? -1 : 1) : 0;
+    controls.turn_by = (shift ? 10 : 1) * (pressed(GLFW_KEY_PAGE_UP) - pressed(GLFW_KEY_PAGE_DOWN));
+    controls.save = pressed(GLFW_KEY_F5);
 
     pad_before_ = pad_;
     pad_.fill(false);

@@ -7,6 +7,7 @@
 #include "input/keyboard.h"
 #include "screens.h"
 #include "theatre.h"
+#include "workbench.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <array>
@@ -110,6 +111,7 @@ struct Visit {
     std::string refused; ///< why a change of the layout was not taken up, for the head-up display
     Flight flight = flight_at(start);
     Keyboard keyboard{};
+    Workbench workbench{};
     Skew skew{};
     Clock::time_point began = Clock::now(), last = began;
     long shown = 0;
@@ -133,6 +135,8 @@ std::string told(const Skew& skew)
 /// What the head-up display says beneath its figures.
 std::string notice_of(const Visit& visit)
 {
+    if (!visit.workbench.says().empty())
+        return visit.workbench.says();
     if (!visit.refused.empty())
         return visit.refused;
     if (seconds(Clock::now() - visit.began) < 25)
@@ -206,6 +210,9 @@ void fly(Visit& visit, Theatre& theatre)
         const double passed = std::min(seconds(now - visit.last), 0.1);
         visit.flight = step(visit.flight, controls, passed, scene.seconds_per_time_unit(), visit.start);
         visit.last = now;
+        if (visit.workbench.apply(controls, visit.layout))
+            frame->adopt(visit.layout); // the device has finished the frame before
+        frame->show(visit.workbench.pattern());
         if (!any)
             continue;
 
@@ -214,8 +221,10 @@ void fly(Visit& visit, Theatre& theatre)
         for (std::size_t i = 0; i < targets.size(); ++i)
             if (targets[i].view)
                 frame->resize(i, {targets[i].extent.width, targets[i].extent.height});
-        frame->prepare(shot_of(visit.flight, visit.start.scene),
-            dashboard.update(visit.flight, scene, frame->hud_width(), notice_of(visit)));
+        const Panel* panel = dashboard.update(visit.flight, scene, frame->hud_width(), notice_of(visit));
+        // A pattern is left alone but for what its builder is being told.
+        const bool told = visit.workbench.pattern() == Pattern::none || !visit.workbench.says().empty();
+        frame->prepare(shot_of(visit.flight, visit.start.scene), told ? panel : nullptr);
         commands.reset();
         commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
         for (const Target& target : targets)
@@ -245,9 +254,11 @@ void tell(const Visit& visit, const SceneFile& scene)
 
 } // namespace
 
-int fly_exhibit(const std::filesystem::path& scene, const Layout& layout, const Shot& start, long frames)
+int fly_exhibit(
+    const std::filesystem::path& scene, const Layout& layout, const Shot& start, long frames, Pattern pattern)
 {
     Visit visit{scene, start, frames, layout};
+    visit.workbench = Workbench(pattern);
     for (int losses = 0;;) {
         const Clock::time_point opened = Clock::now();
         std::unique_ptr<Theatre> theatre;

@@ -122,17 +122,19 @@ void FinishPass::begin(vk::CommandBuffer commands)
             Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
 }
 
-void FinishPass::record(vk::CommandBuffer commands, const Target& target)
+void FinishPass::record(vk::CommandBuffer commands, const Target& target, bool plain)
 {
     for (const Image& picture : pictures_)
         transition(commands, picture, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
             Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader,
             Access::eShaderSampledRead);
+    FinishVariant variant = variant_;
+    variant.masked = variant.masked && !plain;
     vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eStore);
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
     set_area(commands, {0, 0}, {int(target.extent.width), int(target.extent.height)});
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.finish(variant_, target.format));
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.finish(variant, target.format));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.finish_layout, 0, *set_, {});
     commands.pushConstants<shared::FinishPush>(*pipelines_.finish_layout, vk::ShaderStageFlagBits::eFragment, 0, push_);
     commands.draw(3, 1, 0, 0);

@@ -19,7 +19,8 @@ public:
 
     /// Before and after the pictures are drawn.
     void begin(vk::CommandBuffer commands);
-    void record(vk::CommandBuffer commands, const Target& target);
+    /// plain: without masks and blend, for a pattern that is aligned by its lines.
+    void record(vk::CommandBuffer commands, const Target& target, bool plain);
 
     vk::DeviceSize memory() const;
 

@@ -70,8 +70,6 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
     const float zeros[4] = {};
     nothing_ = make_texture(device, exact_format, {1, 1}, std::as_bytes(std::span(zeros)), false);
     no_map_ = make_texture_array(device, exact_format, {1, 1}, 1, std::as_bytes(std::span(zeros)));
-    panel_from_cockpit_ = panel_from_cockpit(layout.hud, all_face_ahead(layout));
-    panel_half_ = std::tan(0.5 * layout_.hud.width_deg * degree) * glm::dvec2(1, panel_aspect);
     for (const Output& output : layout_.outputs)
         outputs_.emplace_back().size = output.size;
     compile_panes();
@@ -83,6 +81,14 @@ void Frame::resize(std::size_t output, glm::ivec2 size)
         return;
     outputs_[output].size = size;
     compile_panes();
+}
+
+void Frame::adopt(const Layout& layout)
+{
+    layout_ = layout;
+    store_.keep(false);
+    compile_panes();
+    store_.keep(true);
 }
 
 void Frame::move_head(const glm::dvec3& by_m)
@@ -103,6 +109,8 @@ void Frame::move_head(const glm::dvec3& by_m)
 
 void Frame::compile_panes()
 {
+    panel_from_cockpit_ = panel_from_cockpit(layout_.hud, all_face_ahead(layout_));
+    panel_half_ = std::tan(0.5 * layout_.hud.width_deg * degree) * glm::dvec2(1, panel_aspect);
     std::vector<PaneState> before = std::exchange(panes_, {}); // whose maps are found again
     std::vector<Map> maps_before = std::exchange(maps_, {});
     std::vector<CompiledPane> lit; // by projectors, not previews
@@ -407,7 +415,7 @@ void Frame::warp_output(vk::CommandBuffer commands, std::size_t output, const Ta
 void Frame::finish_output(vk::CommandBuffer commands, std::size_t output, const Target& target)
 {
     if (outputs_[output].finish)
-        outputs_[output].finish->record(commands, target);
+        outputs_[output].finish->record(commands, target, pattern_ == Pattern::grid || pattern_ == Pattern::names);
 }
 
 void Frame::record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target)
@@ -433,7 +441,7 @@ void Frame::record_measured(vk::CommandBuffer commands, std::size_t output, cons
 
 void Frame::draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& last)
 {
-    if (!hud_on_ || pattern_ != Pattern::none)
+    if (!hud_on_)
         return;
     if (panel_new_) {
         transition(commands, panel_, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eTransferDstOptimal,

@@ -13,6 +13,7 @@ struct MeasureTarget {
 
 /// What the outputs show: the flight, or a pattern to line them up by.
 enum class Pattern { none, grid, rings, names, wedges, overlap };
+constexpr std::array<const char*, 6> pattern_names = {"none", "grid", "rings", "names", "wedges", "overlap"};
 
 /// Draws a layout's outputs for a shot. Holds the device's memory that frames share; no frame depends on an earlier one.
 /// One frame at a time: the caller waits for the device before the next prepare().
@@ -23,6 +24,9 @@ public:
 
     /// The size in pixels of an output, when it is not the layout's.
     void resize(std::size_t output, glm::ivec2 size);
+
+    /// Another layout with the same outputs: while someone turns its numbers. Its maps are not kept on disk.
+    void adopt(const Layout& layout);
 
     /// Moves every head from where the layout has it, metres: what is seen through walls follows. Maps (mirrors, measured
     /// points) stay as they are.

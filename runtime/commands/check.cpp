@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "config/error.h"
+#include "displays/compiled.h"
 #include "displays/plan_drawing.h"
 #include "displays/plan_table.h"
 #include "runtime/capture.h"
@@ -7,6 +8,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
+#include <map>
+#include <memory>
 
 namespace starbow {
 namespace {
@@ -15,12 +18,29 @@ struct Options {
     std::string layout, svg;
 };
 
+/// What the pixels of bent viewports look at: their compiled maps.
+Sight compiled_sight(const Layout& layout)
+{
+    MapStore store;
+    auto maps = std::make_shared<std::map<const Viewport*, CompiledPane>>();
+    for (std::size_t output = 0; output < layout.outputs.size(); ++output)
+        if (!layout.outputs[output].preview)
+            for (CompiledPane& pane : compile_output(store, layout, output, layout.outputs[output].size))
+                (*maps)[&layout.outputs[output].viewports[pane.pane.viewport]] = pane;
+    return [maps](const Output&, const Viewport& viewport, glm::dvec2 pixel) -> std::optional<glm::dvec3> {
+        const DirectionMap& map = *maps->at(&viewport).map;
+        const glm::ivec2 at = glm::clamp(glm::ivec2(glm::floor(pixel)), glm::ivec2(0), map.size - 1);
+        const glm::vec4 texel = map.at(at.x, at.y);
+        return texel.w > 0 ? std::optional<glm::dvec3>(texel) : std::nullopt;
+    };
+}
+
 int check(const Options& options)
 {
     const Layout layout = load_layout(find("layouts", options.layout));
     const std::filesystem::path file = options.svg.empty() ? layout.name + "-plan.svg" : options.svg;
     check_writable(file);
-    const std::vector<Coverage> shown = coverages(layout);
+    const std::vector<Coverage> shown = coverages(layout, compiled_sight(layout));
     for (const PlanRow& row : plan_rows(layout, shown))
         std::printf("%s: %s; %s, %s of the sky; %s pixels, %s per degree\n", row.name.c_str(), row.projection.c_str(),
             row.spans.c_str(), row.sky.c_str(), row.pixels.c_str(),

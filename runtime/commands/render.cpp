@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "config/error.h"
+#include "pattern_option.h"
 #include "runtime/find.h"
 #include "runtime/still.h"
 #include "runtime/theatre.h"
@@ -12,7 +13,7 @@ namespace starbow {
 namespace {
 
 struct Options {
-    std::string layout = "desk", shot, out, size;
+    std::string layout = "desk", shot, out, size, pattern = "none";
     bool exr = false, hud = false;
 };
 
@@ -39,6 +40,7 @@ int render(const Options& options)
     if (!options.size.empty())
         for (Output& output : layout.outputs)
             output.size = parse_size(options.size);
+    const Pattern pattern = pattern_of(options.pattern);
     if (options.out.empty())
         throw InputError("--out is empty; give the folder for the pictures, such as out/shot");
     for (const Output& output : layout.outputs)
@@ -50,6 +52,7 @@ int render(const Options& options)
         std::fprintf(stderr, "starbow: %s: %s\n", theatre.world.scene.gltf.c_str(), note.c_str());
     Studio studio(
         theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, true), options.exr);
+    studio.frame().show(pattern);
     std::optional<Panel> panel;
     if (options.hud)
         panel = Typesetter().draw(readings(ship_at(shot), theatre.world.scene, shot.effects), studio.frame().hud_width());
@@ -73,6 +76,7 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--size", options->size, "Pixels of every output, WIDTHxHEIGHT, instead of the layout's");
     command->add_flag(
         "--exr", options->exr, "Also the numbers: light, directions, Doppler factor and distance of every pixel");
+    command->add_option("--pattern", options->pattern, pattern_help)->capture_default_str();
     command->add_flag("--hud", options->hud, "With the head-up display");
     command->footer("Example:\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome --size 2048x2048 --exr");
     command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });

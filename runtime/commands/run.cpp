@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "contact_sheet.h"
+#include "pattern_option.h"
 #include "input/keyboard.h"
 #include "runtime/exhibit.h"
 #include "runtime/find.h"
@@ -12,7 +13,7 @@ namespace starbow {
 namespace {
 
 struct Options {
-    std::string layout = "desk", scene = "avenue", shot;
+    std::string layout = "desk", scene = "avenue", shot, pattern = "none";
     long frames = 0;
 };
 
@@ -33,7 +34,7 @@ int run(const Options& options)
         return render_contact_sheet("out");
     }
     WindowSystem window_system;
-    return fly_exhibit(scene, layout, start, options.frames);
+    return fly_exhibit(scene, layout, start, options.frames, pattern_of(options.pattern));
 }
 
 } // namespace
@@ -48,6 +49,7 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--scene", options->scene, "A scene file, or the name of one in config/scenes")
         ->capture_default_str();
     command->add_option("--shot", options->shot, "Start at this shot instead of the scene's start");
+    command->add_option("--pattern", options->pattern, pattern_help)->capture_default_str();
     command->add_option("--frames", options->frames, "Leave after so many frames")->check(CLI::Range(0L, 1000000000L));
     command->footer(
         std::string("Keys:\n") + keyboard_help() + "\n\nExample:\n  starbow run --layout stereo --shot avenue-gamma4");
