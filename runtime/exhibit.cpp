@@ -155,10 +155,10 @@ void take_up_changes(Visit& visit, Theatre& theatre, std::unique_ptr<Frame>& fra
         FileWatch watch(files_of(layout));
         frame = std::make_unique<Frame>(
             theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, false));
-        screens.adopt(layout);
         visit.layout = std::move(layout);
         visit.watch = std::move(watch);
         visit.refused.clear();
+        screens.adopt(visit.layout);
         std::fprintf(stderr, "starbow: %s: taken up\n", visit.layout.file.c_str());
     } catch (const InputError& error) {
         const std::string why = one_line(error.what());

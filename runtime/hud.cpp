@@ -224,12 +224,17 @@ Panel Typesetter::draw(const Readings& readings, int width) const
         write(panel, fields[i].first, x, rows[i / 3] * unit, label(), 0.72);
         write(panel, fields[i].second, x + value_at(), rows[i / 3] * unit, size, 1);
     }
-    int small = int(0.15 * unit);
-    if (fields.size() > 9) {
+    // A long notice gets smaller, down to half, and takes the place of the rate.
+    const int small = int(0.15 * unit);
+    const auto notice_width = [&](int size) { return width_of(readings.notice, size) / panel.size.x; };
+    int notice_size = small;
+    while (notice_size > small / 2 && notice_width(notice_size) > 0.92)
+        --notice_size;
+    if (fields.size() > 9 && notice_width(notice_size) < 0.74) {
         std::string rate = fields[9].second + " " + fields[9].first;
         write(panel, rate, panel.size.x * 0.96 - width_of(rate, small), 0.93 * unit, small, 0.72);
     }
-    write(panel, readings.notice, panel.size.x * 0.04, 0.93 * unit, small, 1);
+    write(panel, readings.notice, panel.size.x * 0.04, 0.93 * unit, notice_size, 1);
     return panel;
 }
 

@@ -208,4 +208,10 @@ wait $manager 2>/dev/null
 xprop -root _NET_SUPPORTING_WM_CHECK | grep -q 0x || fail "the window manager left no name behind: nothing is tested"
 timeout 60 "$program" run --layout "$folder/wall.json" --frames 3 >"$folder/log" 2>&1 || fail "after a killed window manager: exit $?"
 ok
+
+# An X server that can't tell of monitors: GLFW's one will do.
+serve Xvfb -noreset -screen 0 800x500x24 -extension RANDR
+"$program" displays >"$folder/displays-log" 2>&1 || fail "displays without RandR: exit $?"
+grep -q '^monitor .*: 800 x 500 at \[0, 0\]' "$folder/displays-log" || fail "displays without RandR"
+ok
 echo "$passed passed, 0 failed"

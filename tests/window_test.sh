@@ -2,26 +2,15 @@
 # The exhibit in a real window under Xvfb, the validation layers listening: flown by the keyboard, resized, left.
 # Usage: window_test.sh PROGRAM
 set -u
-program=$1 passed=0
-folder=$(mktemp -d)
-number=90
-while [ -e /tmp/.X11-unix/X$number ]; do number=$((number + 1)); done
-Xvfb :$number -screen 0 1280x800x24 >/dev/null 2>&1 &
-server=$!
-trap 'kill $server 2>/dev/null; rm -rf "$folder"' EXIT
-export DISPLAY=:$number STARBOW_VALIDATION=1
-for _ in $(seq 100); do xdotool getmouselocation >/dev/null 2>&1 && break; sleep 0.05; done
-
-ok() { passed=$((passed + 1)); }
-fail() {
-    echo "FAILED: $*"
-    cat "$folder/log"
-    exit 1
-}
+program=$1 rig=$(dirname "$0")/rig
+. "$rig/monitors.sh"
+serve Xvfb -noreset -screen 0 1280x800x24
+export STARBOW_VALIDATION=1
 
 fly() { # LAYOUT
     timeout 60 "$program" run --layout "$1" >"$folder/log" 2>&1 &
     exhibit=$!
+    started+=($exhibit)
     window=
     for _ in $(seq 200); do
         window=$(xdotool search --name '^Starbow' 2>/dev/null | head -n 1)

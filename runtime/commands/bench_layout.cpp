@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <unistd.h>
@@ -122,22 +123,24 @@ Layout one_view(const Projection& projection, glm::ivec2 size)
 void bench_kinds(Theatre& theatre, const Shot& shot, int rounds)
 {
     constexpr glm::ivec2 size(800, 600);
-    Layout mesh = load_layout(find("layouts", "dome2"));
-    mesh.outputs.resize(1);
-    mesh.outputs[0].size = size;
-    mesh.outputs[0].colour = {};
-    mesh.blend.ramps = false;
+    // The same window bent by a mesh that bends nothing, and the fisheye whose circle covers the whole picture: every pixel
+    // shows something in all of them.
+    const std::filesystem::path file
+        = std::filesystem::temp_directory_path() / ("starbow-bench-" + std::to_string(::getpid()) + ".data");
+    std::ofstream(file) << "2\n2 2\n-1 -1 0 0 1\n1 -1 1 0 1\n-1 1 0 1 1\n1 1 1 1 1\n";
+    Layout mesh = one_view(Planar{90}, size);
+    mesh.outputs[0].viewports[0].warp = Warp{file};
     Lens lens;
     lens.fov_y_deg = 90;
     for (int i = 0; i < 3; ++i)
         lens.colours[std::size_t(i)].k = {0.1 + 0.01 * i, 0, 0, 0};
-    // The circle covers the whole picture: every pixel shows something, as in the window.
     Fisheye fisheye{.aperture_deg = 110, .tilt_deg = 90, .diameter = 5.0 / 3};
     std::vector<Case> cases;
     cases.push_back(make_case(theatre, "planar", one_view(Planar{90}, size)));
     cases.push_back(make_case(theatre, "fisheye", one_view(fisheye, size)));
     cases.push_back(make_case(theatre, "mesh", mesh));
     cases.push_back(make_case(theatre, "lens, three colours", one_view(lens, size)));
+    std::filesystem::remove(file);
     time(theatre, cases, shot, rounds);
     std::printf("\nThe warp pass by kind of display, 800x600:\n");
     for (const Case& one : cases)

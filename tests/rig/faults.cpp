@@ -8,6 +8,7 @@
 //           DEVICE_LOST   until the device is made anew
 //           SUBOPTIMAL    this once; the call itself succeeds
 //           FROZEN        the swapchain's next 100 acquires have no picture to give in time
+// When a swapchain goes it is told on stderr how many pictures it has shown.
 // STARBOW_SHOWN_LATE_MS=MS: the driver can tell when pictures are shown (VK_KHR_present_wait): each swapchain's MS after the
 //   one's that was made before it.
 #include <algorithm>
@@ -38,7 +39,7 @@ PFN_vkGetPhysicalDeviceFeatures2 next_features;
 PFN_vkDestroySurfaceKHR next_destroy_surface;
 std::map<std::string, int> counts;
 std::map<VkSwapchainKHR, VkSurfaceKHR> surfaces;
-std::map<VkSwapchainKHR, int> order, frozen;
+std::map<VkSwapchainKHR, int> order, frozen, shown;
 std::set<VkSwapchainKHR> spent;
 std::set<VkSurfaceKHR> lost;
 std::set<void*> lost_devices;
@@ -131,6 +132,7 @@ VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* in
         const VkResult mine = state(queue, info->pSwapchains[i], fault("present"));
         if (results[i] == VK_SUCCESS)
             results[i] = mine;
+        shown[info->pSwapchains[i]] += results[i] >= 0;
         if (results[i] < 0 || worst == VK_SUCCESS)
             worst = results[i];
         if (info->pResults)
@@ -193,6 +195,8 @@ VKAPI_ATTR void VKAPI_CALL destroy_swapchain(
 {
     next<PFN_vkDestroySwapchainKHR>(device, "vkDestroySwapchainKHR")(device, swapchain, allocator);
     const std::lock_guard lock(mutex);
+    std::fprintf(stderr, "fault: shown %d\n", shown[swapchain]);
+    shown.erase(swapchain);
     surfaces.erase(swapchain);
     spent.erase(swapchain);
     frozen.erase(swapchain);
