@@ -25,8 +25,8 @@ private:
 };
 
 /// A window manager that was killed leaves its name on the X server's root window, and GLFW dies of asking it. Takes a dead
-/// one's name away; does nothing without an X server. What it returns holds a connection, to be kept until GLFW has its own: an
-/// X server that loses its last client starts anew and answers nobody meanwhile.
+/// one's name away; does nothing without an X server. What it returns holds a connection, to be kept until GLFW has its own:
+/// an X server that loses its last client starts anew and answers nobody meanwhile.
 std::shared_ptr<void> forget_dead_window_manager();
 
 } // namespace starbow
