@@ -2,6 +2,7 @@
 #include "config/turn.h"
 #include "rows.h"
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace starbow {
@@ -105,6 +106,18 @@ glm::dmat3 turn_of(const Projection& projection)
     return glm::dmat3(1);
 }
 
+glm::uvec2 packed(const glm::vec4& texel)
+{
+    const glm::dvec3 n(texel);
+    glm::dvec2 at = glm::dvec2(n) / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+    if (n.z < 0)
+        at = {std::copysign(1 - std::abs(at.y), at.x), std::copysign(1 - std::abs(at.x), at.y)};
+    const glm::uvec2 net(at * double(0x7fffff) + (0x800000 + 0.5));
+    // Rounded to the upper 16 bits; an angle is never so small that they are 0.
+    const std::uint32_t angle = (std::bit_cast<std::uint32_t>(texel.w) + 0x8000u) >> 16;
+    return {net.x << 8 | (angle & 0xff), net.y << 8 | angle >> 8};
+}
+
 } // namespace
 
 Picture bent_picture(const Pane& pane, const WarpMesh& mesh, bool projection_given)
@@ -125,6 +138,18 @@ std::optional<glm::dmat3> pane_matrix(const Pane& pane)
         (*m)[1] *= pane.picture_from_pixel.y;
     }
     return m;
+}
+
+std::vector<glm::uvec2> packed(const DirectionMap& map)
+{
+    std::vector<glm::uvec2> all(map.texels.size());
+    const int rows = map.size.y * map.channels;
+    by_rows(rows, [&](int first, int end) {
+        for (std::size_t i = std::size_t(first) * map.size.x; i < std::size_t(end) * map.size.x; ++i)
+            if (map.texels[i].w > 0)
+                all[i] = packed(map.texels[i]);
+    });
+    return all;
 }
 
 DirectionMap compile(const Pane& pane, const WarpMesh* mesh)

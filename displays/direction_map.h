@@ -24,6 +24,11 @@ struct DirectionMap {
 /// line, its pixels are slivers whose solid angle goes to nothing while their length stays.
 DirectionMap compile(const Pane& pane, const WarpMesh* mesh = nullptr);
 
+/// The texels as the device reads them, 8 bytes each: the direction on an octahedron's unfolded net (Meyer et al., On
+/// floating-point normal vectors, 2010), 24 bits a coordinate, 2.6e-7 radians at worst; below each coordinate 8 bits of
+/// the pixel angle's float, 0.4 % at worst. view.glsl's unpacked undoes it. All 0 where nothing is shown.
+std::vector<glm::uvec2> packed(const DirectionMap& map);
+
 /// The picture that a calibration bends: the file's own frustum where it has one and the layout gives no projection; of a
 /// fisheye the square around it.
 Picture bent_picture(const Pane& pane, const WarpMesh& mesh, bool projection_given);

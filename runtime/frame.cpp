@@ -69,7 +69,7 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
     colours_ = make_static_buffer(device, std::as_bytes(std::span(table)), vk::BufferUsageFlagBits::eUniformBuffer);
     const float zeros[4] = {};
     nothing_ = make_texture(device, exact_format, {1, 1}, std::as_bytes(std::span(zeros)), false);
-    no_map_ = make_texture_array(device, exact_format, {1, 1}, 1, std::as_bytes(std::span(zeros)));
+    no_map_ = make_texture_array(device, map_format, {1, 1}, 1, std::as_bytes(std::span(zeros, 2)));
     for (const Output& output : layout_.outputs)
         outputs_.emplace_back().size = output.size;
     compile_panes();
@@ -188,9 +188,10 @@ std::size_t Frame::map_for(const CompiledPane& pane, std::vector<Map>& before)
             maps_.push_back(std::move(old));
             return maps_.size() - 1;
         }
+    const std::vector<glm::uvec2> texels = packed(*pane.map);
     maps_.push_back({pane.map,
-        make_texture_array(device_, exact_format, pane.map->size, std::uint32_t(pane.map->channels),
-            std::as_bytes(std::span(pane.map->texels)))});
+        make_texture_array(
+            device_, map_format, pane.map->size, std::uint32_t(pane.map->channels), std::as_bytes(std::span(texels)))});
     return maps_.size() - 1;
 }
 
@@ -199,7 +200,8 @@ PixelBox Frame::panel_in(const Blocks& blocks) const
     // The panel's edges as planes through the eye, in the panel's axes, and the plane that keeps what is behind out.
     const glm::dvec2 half = panel_half_;
     const glm::dmat3 cockpit_from_panel_normals = glm::transpose(panel_from_cockpit_);
-    std::array<glm::dvec3, 5> sides = {glm::dvec3(1, 0, half.x), {-1, 0, half.x}, {0, 1, half.y}, {0, -1, half.y}, {0, 0, 1}};
+    std::array<glm::dvec3, 5> sides
+        = {glm::dvec3(1, 0, half.x), {-1, 0, half.x}, {0, 1, half.y}, {0, -1, half.y}, {0, 0, 1}};
     for (glm::dvec3& side : sides)
         side = glm::normalize(cockpit_from_panel_normals * side);
     return pixels_in_pyramid(blocks, sides);
@@ -226,8 +228,8 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
     const glm::dmat3 to_motion = motion_from_world(shot.u, shot.ship_from_cockpit);
     motion_from_cockpit_ = to_motion * glm::dmat3(glm::mat3_cast(shot.ship_from_cockpit));
     for (std::size_t i = 0; pattern_ == Pattern::none && i < eyes_.size(); ++i) {
-        const glm::dvec3 place
-            = shot.position + physics::eye_place(shot.u, shot.ship_from_cockpit * scene_units(eyes_[i].place_m + eyes_[i].moved_m));
+        const glm::dvec3 place = shot.position
+            + physics::eye_place(shot.u, shot.ship_from_cockpit * scene_units(eyes_[i].place_m + eyes_[i].moved_m));
         eyes_[i].nearest = reprojects() ? std::max(nearest_box(world_.world, place), 1e-30) : 1;
         std::vector<View> asked;
         for (const PaneState& pane : panes_)
@@ -345,13 +347,11 @@ shared::ViewPush Frame::push(const PaneState& pane, const glm::dmat3& axes_from_
     push.origin = glm::vec4(pane.pane().corner, atlas.width, atlas.height);
     if (layout_.stereo.turning) {
         const double side = pane.beside_m.x < 0 ? -1 : 1;
-        push.eye = glm::vec4(
-            motion_from_cockpit_ * glm::dvec3(0, 1, 0), side * glm::length(scene_units(pane.beside_m)));
+        push.eye = glm::vec4(motion_from_cockpit_ * glm::dvec3(0, 1, 0), side * glm::length(scene_units(pane.beside_m)));
     } else {
         push.eye = glm::vec4(world_offset(pane), 0);
     }
-    push.zenith
-        = glm::vec4(std::sin(layout_.stereo.full_from_zenith_deg * degree), eyes_[pane.eye].nearest, 0, 0);
+    push.zenith = glm::vec4(std::sin(layout_.stereo.full_from_zenith_deg * degree), eyes_[pane.eye].nearest, 0, 0);
     return push;
 }
 
@@ -473,8 +473,7 @@ void Frame::draw_hud(vk::CommandBuffer commands, std::size_t output, const Targe
             commands.setScissor(0, pane.hud_box);
             commands.bindPipeline(
                 vk::PipelineBindPoint::eGraphics, pipelines_.hud(pane.compiled.map != nullptr, target.format));
-            commands.bindDescriptorSets(
-                vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, *pane.hud_set, {});
+            commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, *pane.hud_set, {});
             commands.pushConstants<shared::ViewPush>(
                 *pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
             commands.draw(3, 1, 0, 0);

@@ -10,6 +10,7 @@ namespace starbow {
 constexpr vk::Format light_format = vk::Format::eR16G16B16A16Sfloat;
 constexpr vk::Format depth_format = vk::Format::eD32Sfloat;
 constexpr vk::Format exact_format = vk::Format::eR32G32B32A32Sfloat;
+constexpr vk::Format map_format = vk::Format::eR32G32Uint; // a direction map's texel, packed
 
 /// What a material needs of the cube pass: constant_ids of cube.frag.
 struct SurfaceVariant {
