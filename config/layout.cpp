@@ -1,5 +1,6 @@
 #include "layout_reader.h"
 #include <algorithm>
+#include <arpa/inet.h>
 #include <cctype>
 
 namespace starbow {
@@ -230,6 +231,21 @@ HudPlacement read_hud(const Place& place)
     return hud;
 }
 
+HeadTracking read_head_tracker(const Place& place)
+{
+    only(place, {"port", "address"});
+    HeadTracking tracking;
+    if (auto p = find(place, "port"))
+        tracking.port = integer(*p, 1024, 65535);
+    if (auto p = find(place, "address")) {
+        tracking.address = text(*p);
+        in_addr unused;
+        if (inet_pton(AF_INET, tracking.address.c_str(), &unused) != 1)
+            complain(*p, "is no IPv4 address; \"127.0.0.1\" (a tracker on this computer) or \"0.0.0.0\" (on any) is right");
+    }
+    return tracking;
+}
+
 bool same(const MonitorName& a, const MonitorName& b)
 {
     return a.connector == b.connector && a.model == b.model && a.serial == b.serial && a.position == b.position;
@@ -261,7 +277,7 @@ glm::ivec4 pixel_rect(const Viewport& viewport, glm::ivec2 size)
 
 Layout read_layout(const Place& top, const std::filesystem::path& file)
 {
-    only(top, {"$schema", "stereo", "blend", "hud", "outputs"});
+    only(top, {"$schema", "stereo", "blend", "hud", "head_tracker", "outputs"});
     Layout layout;
     layout.name = file.stem().string();
     layout.file = file;
@@ -273,6 +289,8 @@ Layout read_layout(const Place& top, const std::filesystem::path& file)
         layout.blend = read_blend(*p);
     if (auto p = find(top, "hud"))
         layout.hud = read_hud(*p);
+    if (auto p = find(top, "head_tracker"))
+        layout.head_tracker = read_head_tracker(*p);
     const Place outputs = member(top, "outputs");
     for (const Place& at : items(outputs, 1, 64, "outputs")) {
         const Output output = read_output(at, layout.stereo, file.parent_path());

@@ -188,6 +188,13 @@ struct HudPlacement {
     double width_deg = 40;
 };
 
+/// Where a tracker tells of a visitor's head, over UDP.
+struct HeadTracking {
+    int port = 4242;
+    std::string address = "127.0.0.1"; ///< of this computer: where to listen
+    bool operator==(const HeadTracking&) const = default;
+};
+
 /// What the exhibit is made of.
 struct Layout {
     std::string name;
@@ -195,6 +202,7 @@ struct Layout {
     Stereo stereo;
     Blend blend;
     HudPlacement hud;
+    std::optional<HeadTracking> head_tracker;
     std::vector<Output> outputs;
 };
 

@@ -1,8 +1,15 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 namespace starbow {
+
+/// How a tracked head has moved from where the layout has it, in the cockpit's axes: right, up, back.
+struct Head {
+    glm::dvec3 moved_m{0};
+    glm::dquat turned{1, 0, 0, 0};
+};
 
 /// What the visitor wants, at a time. Rates run from -1 to 1 of what the exhibit allows; switches are true in the one frame
 /// in which they are pressed.
@@ -11,11 +18,13 @@ struct Controls {
     double faster = 0; ///< rapidity: above 0 speeds up along the nose, below 0 slows down
     glm::dvec3 turn{0}; ///< pitch up, yaw left, roll left: right-handed about the cockpit's x, y, z
     glm::dvec2 look_rad{0}; ///< how much further to look to the left and up, since the last frame
+    Head head;
     double exposure = 0; ///< brighter or darker
     bool look_ahead = false, stop = false, reset = false;
     bool aberration = false, doppler = false, headlight = false; ///< effects to switch over
     bool hud = false, full_screen = false, quit = false;
-    // For who builds the exhibit: the next test pattern; which of the layout's numbers to turn, by how many steps; keep them.
+    // For who builds the exhibit: the next test pattern; which of the layout's numbers to turn, by how many steps; keep
+    // them.
     bool pattern = false, save = false;
     int choose = 0, turn_by = 0;
 };

@@ -4,6 +4,7 @@
 #include "file_watch.h"
 #include "flight.h"
 #include "frame.h"
+#include "input/head_tracker.h"
 #include "input/keyboard.h"
 #include "screens.h"
 #include "theatre.h"
@@ -101,6 +102,11 @@ std::vector<std::filesystem::path> files_of(const Layout& layout)
     return files;
 }
 
+std::unique_ptr<HeadTracker> tracker_of(const Layout& layout)
+{
+    return layout.head_tracker ? std::make_unique<HeadTracker>(*layout.head_tracker) : nullptr;
+}
+
 /// What outlasts the loss of a device.
 struct Visit {
     const std::filesystem::path& scene;
@@ -111,6 +117,7 @@ struct Visit {
     std::string refused; ///< why a change of the layout was not taken up, for the head-up display
     Flight flight = flight_at(start);
     Keyboard keyboard{};
+    std::unique_ptr<HeadTracker> tracker = tracker_of(layout);
     Workbench workbench{};
     Skew skew{};
     Clock::time_point began = Clock::now(), last = began;
@@ -141,6 +148,8 @@ std::string notice_of(const Visit& visit)
         return visit.refused;
     if (seconds(Clock::now() - visit.began) < 25)
         return "W faster   S slower   arrows turn   Space stop   R start again";
+    if (visit.tracker && !visit.tracker->heard(Clock::now()))
+        return "no head tracker is heard on port " + std::to_string(visit.tracker->tracking().port);
     return visit.skew.frames() > 0 ? told(visit.skew) : "";
 }
 
@@ -153,8 +162,14 @@ void take_up_changes(Visit& visit, Theatre& theatre, std::unique_ptr<Frame>& fra
     try {
         Layout layout = load_layout(visit.layout.file);
         FileWatch watch(files_of(layout));
+        std::unique_ptr<HeadTracker> tracker;
+        const bool same_tracker = visit.layout.head_tracker == layout.head_tracker;
+        if (!same_tracker)
+            tracker = tracker_of(layout);
         frame = std::make_unique<Frame>(
             theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, false));
+        if (!same_tracker)
+            visit.tracker = std::move(tracker);
         visit.layout = std::move(layout);
         visit.watch = std::move(watch);
         visit.refused.clear();
@@ -200,8 +215,9 @@ void fly(Visit& visit, Theatre& theatre)
         else
             glfwWaitEventsTimeout(0.1); // all minimised, or no monitor there
         const Clock::time_point now = Clock::now();
-        const Controls controls
-            = visit.keyboard.read(screens.handles(), std::chrono::nanoseconds(now - visit.began).count());
+        Controls controls = visit.keyboard.read(screens.handles(), std::chrono::nanoseconds(now - visit.began).count());
+        if (visit.tracker)
+            controls.head = visit.tracker->read(now);
         if (controls.quit || screens.closed())
             break;
         if (controls.full_screen)
@@ -221,6 +237,7 @@ void fly(Visit& visit, Theatre& theatre)
         for (std::size_t i = 0; i < targets.size(); ++i)
             if (targets[i].view)
                 frame->resize(i, {targets[i].extent.width, targets[i].extent.height});
+        frame->move_head(controls.head);
         const Panel* panel = dashboard.update(visit.flight, scene, frame->hud_width(), notice_of(visit));
         // A pattern is left alone but for what its builder is being told.
         const bool told = visit.workbench.pattern() == Pattern::none || !visit.workbench.says().empty();
@@ -254,8 +271,7 @@ void tell(const Visit& visit, const SceneFile& scene)
 
 } // namespace
 
-int fly_exhibit(
-    const std::filesystem::path& scene, const Layout& layout, const Shot& start, long frames, Pattern pattern)
+int fly_exhibit(const std::filesystem::path& scene, const Layout& layout, const Shot& start, long frames, Pattern pattern)
 {
     Visit visit{scene, start, frames, layout};
     visit.workbench = Workbench(pattern);

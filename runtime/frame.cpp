@@ -91,20 +91,22 @@ void Frame::adopt(const Layout& layout)
     store_.keep(true);
 }
 
-void Frame::move_head(const glm::dvec3& by_m)
+void Frame::move_head(const Head& head)
 {
     for (PaneState& pane : panes_) {
-        Pane moved = pane.compiled.pane;
-        moved.picture.eye_m += by_m;
-        moved.head_m += by_m;
-        if (auto matrix = pane.compiled.map ? std::nullopt : pane_matrix(moved)) {
+        Pane moved = pane.pane();
+        const glm::dvec3 beside = moved.picture.eye_m - moved.head_m;
+        moved.head_m += head.moved_m;
+        moved.picture.eye_m = moved.head_m + head.turned * beside;
+        if (auto matrix = pane.compiled.map ? std::nullopt : pane_matrix(moved); matrix && matrix != pane.compiled.matrix) {
             pane.compiled.matrix = matrix;
             pane.compiled.blocks = std::make_shared<Blocks>(*matrix, moved.size);
             find_hud_box(pane);
         }
+        Eye& eye = eyes_[pane.eye];
+        eye.now_m = place_of_eye(moved);
+        pane.beside_m = moved.picture.eye_m - eye.now_m;
     }
-    for (Eye& eye : eyes_)
-        eye.moved_m = by_m;
 }
 
 void Frame::compile_panes()
@@ -142,7 +144,7 @@ void Frame::compile_panes()
 
     for (PaneState& pane : panes_) {
         pane.eye = eye_for(pane.pane());
-        pane.beside_m = pane.pane().picture.eye_m - eyes_[pane.eye].place_m;
+        pane.beside_m = pane.pane().picture.eye_m - eyes_[pane.eye].now_m;
         pane.map = map_for(pane.compiled, maps_before);
         find_hud_box(pane);
     }
@@ -164,15 +166,21 @@ void Frame::compile_panes()
     }
 }
 
+/// Where the pane's cube map is drawn from.
+glm::dvec3 Frame::place_of_eye(const Pane& pane) const
+{
+    return layout_.stereo.method == StereoMethod::exact ? pane.picture.eye_m : pane.head_m;
+}
+
 std::size_t Frame::eye_for(const Pane& pane)
 {
-    const bool own = layout_.stereo.method == StereoMethod::exact;
-    const glm::dvec3 place = own ? pane.picture.eye_m : pane.head_m;
+    const glm::dvec3 place = place_of_eye(pane);
     auto same = std::find_if(eyes_.begin(), eyes_.end(), [&](const Eye& e) { return e.place_m == place; });
     if (same == eyes_.end()) {
-        eyes_.push_back({place, CubePass(device_, pipelines_, world_, quality_.samples, keeps_depth_)});
+        eyes_.push_back({place, CubePass(device_, pipelines_, world_, quality_.samples, keeps_depth_), place});
         same = eyes_.end() - 1;
     }
+    same->now_m = place;
     return std::size_t(same - eyes_.begin());
 }
 
@@ -228,8 +236,8 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
     const glm::dmat3 to_motion = motion_from_world(shot.u, shot.ship_from_cockpit);
     motion_from_cockpit_ = to_motion * glm::dmat3(glm::mat3_cast(shot.ship_from_cockpit));
     for (std::size_t i = 0; pattern_ == Pattern::none && i < eyes_.size(); ++i) {
-        const glm::dvec3 place = shot.position
-            + physics::eye_place(shot.u, shot.ship_from_cockpit * scene_units(eyes_[i].place_m + eyes_[i].moved_m));
+        const glm::dvec3 place
+            = shot.position + physics::eye_place(shot.u, shot.ship_from_cockpit * scene_units(eyes_[i].now_m));
         eyes_[i].nearest = reprojects() ? std::max(nearest_box(world_.world, place), 1e-30) : 1;
         std::vector<View> asked;
         for (const PaneState& pane : panes_)

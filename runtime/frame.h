@@ -2,6 +2,7 @@
 #include "displays/compiled.h"
 #include "finish_pass.h"
 #include "hud.h"
+#include "input/controls.h"
 #include "plan.h"
 
 namespace starbow {
@@ -28,9 +29,9 @@ public:
     /// Another layout with the same outputs: while someone turns its numbers. Its maps are not kept on disk.
     void adopt(const Layout& layout);
 
-    /// Moves every head from where the layout has it, metres: what is seen through walls follows. Maps (mirrors, measured
-    /// points) stay as they are.
-    void move_head(const glm::dvec3& by_m);
+    /// Moves every head from where the layout has it, and turns its eyes: what is seen through walls follows, but for a wall
+    /// that would be seen from behind. Maps (mirrors, measured points) stay as they are.
+    void move_head(const Head& head);
 
     void show(Pattern pattern) { pattern_ = pattern; }
 
@@ -64,9 +65,9 @@ public:
 
 private:
     struct Eye {
-        glm::dvec3 place_m; ///< in the cockpit
+        glm::dvec3 place_m; ///< in the cockpit, before any head moves
         CubePass cube;
-        glm::dvec3 moved_m{0}; ///< with the head
+        glm::dvec3 now_m; ///< where it is
         double nearest = 1; ///< distance of the nearest surface that there may be, scene units; where it counts
     };
     struct PaneState {
@@ -90,6 +91,7 @@ private:
 
     void compile_panes();
     void find_hud_box(PaneState& pane) const;
+    glm::dvec3 place_of_eye(const Pane& pane) const;
     std::size_t eye_for(const Pane& pane);
     std::size_t map_for(const CompiledPane& pane, std::vector<Map>& before);
     PixelBox panel_in(const Blocks& blocks) const;

@@ -57,6 +57,42 @@ ok
 grep -q 'γ 1.000' "$folder/log" || fail "stereo: Space did not stop the ship"
 ok
 
+# A head tracker's packets move the window in a wall; silent, it is missed on the display, not in the flight.
+cat >"$folder/tracked.json" <<'LAYOUT'
+{
+    "head_tracker": { "port": 42719 },
+    "outputs": [
+        {
+            "name": "wall", "size": [400, 300],
+            "viewports": [{ "projection": { "type": "wall", "lower_left_m": [-1, -0.75, -1], "lower_right_m": [1, -0.75, -1], "upper_left_m": [-1, 0.75, -1] } }]
+        }
+    ]
+}
+LAYOUT
+tell_head() { # CENTIMETRES to the right
+    python3 - "$1" <<'SEND'
+import socket, struct, sys
+socket.socket(socket.AF_INET, socket.SOCK_DGRAM).sendto(struct.pack("<6d", float(sys.argv[1]), 0, 0, 0, 0, 0), ("127.0.0.1", 42719))
+SEND
+}
+view() { import -window "$window" -crop 400x200+0+0 rgb:"$folder/$1"; }
+fly "$folder/tracked.json"
+xdotool key h # without the figures, which change by themselves
+sleep 0.5
+view rest
+tell_head 60
+sleep 0.5
+view right
+sleep 4
+view back
+xdotool key Escape
+wait $exhibit || fail "tracked: exit $?"
+ok
+cmp -s "$folder/rest" "$folder/right" && fail "tracked: the picture did not follow the head"
+ok
+cmp -s "$folder/rest" "$folder/back" || fail "tracked: the picture did not come back when the tracker fell silent"
+ok
+
 # Without a display it says so and draws (the first shot is enough here).
 (unset DISPLAY; cd "$folder" && timeout 5 "$program" run >"$folder/log" 2>&1)
 grep -q 'no display server' "$folder/log" || fail "no word of the missing display"

@@ -1,0 +1,81 @@
+#include "head_tracker.h"
+#include "config/error.h"
+#include <algorithm>
+#include <arpa/inet.h>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+constexpr double farthest_m = 10, hold_s = 1, return_s = 2;
+
+} // namespace
+
+std::optional<Head> parse_head(std::span<const std::byte> packet)
+{
+    std::array<double, 6> told;
+    if (packet.size() != sizeof told)
+        return {};
+    std::memcpy(told.data(), packet.data(), sizeof told); // Debian's machines are little-endian, all that have a GPU
+    Head head;
+    head.moved_m = 0.01 * glm::dvec3(told[0], told[1], told[2]);
+    const bool finite = std::all_of(told.begin(), told.end(), [](double v) { return std::isfinite(v); });
+    if (!finite || !(glm::length(head.moved_m) <= farthest_m))
+        return {};
+    const glm::dvec3 angles = glm::radians(glm::dvec3(told[3], told[4], told[5]));
+    head.turned = glm::angleAxis(angles.x, glm::dvec3(0, 1, 0)) * glm::angleAxis(angles.y, glm::dvec3(1, 0, 0))
+        * glm::angleAxis(angles.z, glm::dvec3(0, 0, 1));
+    return head;
+}
+
+Head held(const Head& last, double silent_s)
+{
+    const double back = glm::smoothstep(0.0, 1.0, (silent_s - hold_s) / return_s);
+    return {(1 - back) * last.moved_m, glm::slerp(last.turned, glm::dquat(1, 0, 0, 0), back)};
+}
+
+HeadTracker::HeadTracker(const HeadTracking& tracking)
+    : tracking_(tracking)
+    , socket_(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0))
+{
+    sockaddr_in at{};
+    at.sin_family = AF_INET;
+    at.sin_port = htons(std::uint16_t(tracking.port));
+    const bool known = inet_pton(AF_INET, tracking.address.c_str(), &at.sin_addr) == 1;
+    if (socket_ >= 0 && known && bind(socket_, reinterpret_cast<const sockaddr*>(&at), sizeof at) == 0)
+        return;
+    const std::string why = known ? std::strerror(errno) : "not an IPv4 address";
+    if (socket_ >= 0)
+        close(socket_);
+    throw InputError("head_tracker", "port " + std::to_string(tracking.port) + " of " + tracking.address,
+        "can't be listened to (" + why + "); a free port of an address of this computer is right");
+}
+
+HeadTracker::~HeadTracker() { close(socket_); }
+
+Head HeadTracker::read(std::chrono::steady_clock::time_point now)
+{
+    std::array<std::byte, 64> packet;
+    // So many at most: a sender gone wild must not hold the frame.
+    for (int i = 0; i < 1000; ++i) {
+        const ssize_t size = recv(socket_, packet.data(), packet.size(), 0);
+        if (size < 0)
+            break;
+        if (auto head = parse_head({packet.data(), std::size_t(size)})) {
+            last_ = *head;
+            heard_ = now;
+        }
+    }
+    return heard_ ? held(last_, std::chrono::duration<double>(now - *heard_).count()) : Head{};
+}
+
+bool HeadTracker::heard(std::chrono::steady_clock::time_point now) const
+{
+    return heard_ && now - *heard_ < std::chrono::duration<double>(hold_s + return_s);
+}
+
+} // namespace starbow
