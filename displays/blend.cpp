@@ -111,6 +111,23 @@ Field field_of(const CompiledPane& pane)
 constexpr int stride = 4;
 /// Nearer to an edge than so many pixels each pixel is looked up: there a small error is a large part.
 constexpr float sharp = 16;
+/// And where the field bends by more than this part of itself from node to node: half way between two edges it has a ridge.
+constexpr float bend = 0.01f;
+
+/// Whether the field is straight enough around the cell with the node (x, y) at its top left to be interpolated.
+bool straight(const std::vector<float>& nodes, glm::ivec2 count, int x, int y)
+{
+    auto node = [&](int i, int j) {
+        return nodes[std::size_t(std::clamp(j, 0, count.y - 1)) * count.x + std::clamp(i, 0, count.x - 1)];
+    };
+    const float most = bend * node(x, y);
+    for (int j = y; j <= y + 1; ++j)
+        for (int i = x; i <= x + 1; ++i)
+            if (std::abs(node(i - 1, j) - 2 * node(i, j) + node(i + 1, j)) > most
+                || std::abs(node(i, j - 1) - 2 * node(i, j) + node(i, j + 1)) > most)
+                return false;
+    return std::abs(node(x, y) - node(x + 1, y) - node(x, y + 1) + node(x + 1, y + 1)) <= most;
+}
 
 std::vector<float> ramp(const Field& own, const std::vector<const Field*>& others, double power)
 {
@@ -133,6 +150,16 @@ std::vector<float> ramp(const Field& own, const std::vector<const Field*>& other
             continue;
         any = true;
         const float near_own = sharp * own.pixel, near_other = sharp * other->pixel;
+        std::vector<char> exact(count, 0); // cells whose pixels are all looked up
+        by_rows(nodes.y - 1, [&](int first, int end) {
+            for (int y = first; y < end; ++y)
+                for (int x = 0; x + 1 < nodes.x; ++x) {
+                    const std::size_t at = std::size_t(y) * nodes.x + x;
+                    const float least
+                        = std::min({coarse[at], coarse[at + 1], coarse[at + nodes.x], coarse[at + nodes.x + 1]});
+                    exact[at] = least < near_other || !straight(coarse, nodes, x, y);
+                }
+        });
         by_rows(size.y, [&](int first, int end) {
             for (int y = first; y < end; ++y)
                 for (int x = 0; x < size.x; ++x) {
@@ -142,11 +169,10 @@ std::vector<float> ramp(const Field& own, const std::vector<const Field*>& other
                     const int i = x / stride, j = y / stride;
                     const float* corner = &coarse[std::size_t(j) * nodes.x + i];
                     const float a = corner[0], b = corner[1], c = corner[nodes.x], d = corner[nodes.x + 1];
-                    const float least = std::min({a, b, c, d}), most = std::max({a, b, c, d});
                     float value;
-                    if (most == 0)
+                    if (std::max({a, b, c, d}) == 0)
                         value = 0; // -1, a corner that this pane does not show, is not 0
-                    else if (least < near_other || own.from_edge[at] < near_own)
+                    else if (exact[std::size_t(j) * nodes.x + i] || own.from_edge[at] < near_own)
                         value = std::max(0.0f, look(*other, x, y));
                     else {
                         const float u = float(x % stride) / stride, v = float(y % stride) / stride;
@@ -171,6 +197,14 @@ bool has_mask(const Layout& layout, const CompiledPane& pane)
         || (pane.mesh && pane.mesh->alpha);
 }
 
+/// Whether two panes are drawn on the same pixels: then one covers the other. Beside each other they may well be for two
+/// projectors on one desktop.
+bool share_pixels(const Pane& a, const Pane& b)
+{
+    return a.output == b.output && a.layer == b.layer && glm::all(glm::lessThan(a.corner, b.corner + b.size))
+        && glm::all(glm::lessThan(b.corner, a.corner + a.size));
+}
+
 } // namespace
 
 std::vector<std::vector<float>> blend_ramps(const Layout& layout, std::span<const CompiledPane> panes, double power)
@@ -188,7 +222,7 @@ std::vector<std::vector<float>> blend_ramps(const Layout& layout, std::span<cons
             continue;
         std::vector<const Field*> others;
         for (const Field& other : fields)
-            if (other.pane->pane.output != panes[i].pane.output && other.pane->pane.eye == panes[i].pane.eye)
+            if (other.pane->pane.eye == panes[i].pane.eye && !share_pixels(other.pane->pane, panes[i].pane))
                 others.push_back(&other);
         ramps[i] = ramp(fields[field_of_pane[i]], others, power);
     }

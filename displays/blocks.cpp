@@ -5,8 +5,13 @@
 namespace starbow {
 namespace {
 
-/// Sharp for small angles, where an arc cosine in float is not.
-float angle(const glm::vec3& a, const glm::vec3& b) { return 2 * std::asin(std::min(1.0f, 0.5f * glm::distance(a, b))); }
+/// Sharp for small angles and for opposite directions, where an arc cosine in float is not.
+float angle(const glm::vec3& a, const glm::vec3& b)
+{
+    if (glm::dot(a, b) < 0)
+        return 3.14159265f - 2 * std::asin(std::min(1.0f, 0.5f * glm::length(a + b)));
+    return 2 * std::asin(std::min(1.0f, 0.5f * glm::distance(a, b)));
+}
 
 /// Rounding in float, with room.
 constexpr float slack = 1e-6f;

@@ -1,5 +1,6 @@
 #include "compiled.h"
 #include "config/error.h"
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -21,6 +22,7 @@ struct Hash {
         for (std::size_t i = 0; i < size; ++i)
             value = (value ^ static_cast<const unsigned char*>(data)[i]) * 1099511628211u;
     }
+    void add(std::uint64_t word) { value = (value ^ word) * 1099511628211u; }
     void add(const std::string& text) { add(text.data(), text.size() + 1); }
 };
 
@@ -124,22 +126,28 @@ std::filesystem::path default_folder()
 struct Header {
     char magic[8] = {'S', 't', 'a', 'r', 'b', 'o', 'w', 'M'};
     std::int32_t width = 0, height = 0, channels = 0, intensities = 0;
-    std::uint64_t hash = 0; ///< of what follows: a file half written by a crash is not believed
+    std::uint64_t hash = 0; ///< of what follows: a damaged file is not believed
 };
 
-std::uint64_t quick_hash(const DirectionMap& map)
+/// Of every word, so that no single fault passes; in four chains side by side, which is as fast as memory.
+std::uint64_t content_hash(const DirectionMap& map)
 {
-    // Over 8-byte words, a stride apart: as good against a torn file and some hundred times faster than every byte.
-    Hash hash;
-    auto some = [&](const void* data, std::size_t bytes) {
-        for (std::size_t at = 0; at + 8 <= bytes; at += 1024)
-            hash.add(static_cast<const char*>(data) + at, 8);
-        if (bytes >= 8)
-            hash.add(static_cast<const char*>(data) + bytes - 8, 8);
+    std::array<Hash, 4> lanes;
+    auto all = [&](const void* data, std::size_t bytes) {
+        const char* from = static_cast<const char*>(data);
+        std::uint64_t words[4];
+        for (; bytes >= sizeof words; bytes -= sizeof words, from += sizeof words) {
+            std::memcpy(words, from, sizeof words);
+            for (int i = 0; i < 4; ++i)
+                lanes[i].add(words[i]);
+        }
+        lanes[0].add(from, bytes);
     };
-    some(map.texels.data(), map.texels.size() * sizeof(glm::vec4));
-    some(map.intensity.data(), map.intensity.size() * sizeof(float));
-    return hash.value;
+    all(map.texels.data(), map.texels.size() * sizeof(glm::vec4));
+    all(map.intensity.data(), map.intensity.size() * sizeof(float));
+    for (int i = 1; i < 4; ++i)
+        lanes[0].add(lanes[i].value);
+    return lanes[0].value;
 }
 
 std::shared_ptr<DirectionMap> read_map(const std::filesystem::path& file, const Pane& pane)
@@ -158,7 +166,7 @@ std::shared_ptr<DirectionMap> read_map(const std::filesystem::path& file, const 
     map->intensity.resize(header.intensities ? pixels : 0);
     stream.read(reinterpret_cast<char*>(map->texels.data()), std::streamsize(map->texels.size() * sizeof(glm::vec4)));
     stream.read(reinterpret_cast<char*>(map->intensity.data()), std::streamsize(map->intensity.size() * sizeof(float)));
-    if (!stream || quick_hash(*map) != header.hash)
+    if (!stream || content_hash(*map) != header.hash)
         return {};
     std::error_code ignored;
     std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), ignored); // read just now
@@ -195,9 +203,10 @@ void write_map(const std::filesystem::path& file, const DirectionMap& map)
         Header header;
         header.width = map.size.x, header.height = map.size.y, header.channels = map.channels;
         header.intensities = !map.intensity.empty();
-        header.hash = quick_hash(map);
+        header.hash = content_hash(map);
         stream.write(reinterpret_cast<const char*>(&header), sizeof header);
-        stream.write(reinterpret_cast<const char*>(map.texels.data()), std::streamsize(map.texels.size() * sizeof(glm::vec4)));
+        stream.write(
+            reinterpret_cast<const char*>(map.texels.data()), std::streamsize(map.texels.size() * sizeof(glm::vec4)));
         stream.write(
             reinterpret_cast<const char*>(map.intensity.data()), std::streamsize(map.intensity.size() * sizeof(float)));
         if (!stream.flush()) {

@@ -138,8 +138,12 @@ vec3 reprojected(vec3 n, vec3 offset, float texel)
             break;
         m = normalize(offset + along * n);
         far = distance_at(place_of(m));
-        if (isinf(far))
+        if (isinf(far)) {
+            // The line passes behind what it seemed to meet, on to the sky: along n, or beside the edge that hides it there.
+            if (off > texel)
+                best = isinf(distance_at(place_of(n))) ? n : m;
             break;
+        }
     }
     return best;
 }

@@ -2,63 +2,15 @@
 // in small worlds made for the purpose.
 #include "displays/direction_map.h"
 #include "physics/physics.h"
-#include "runtime/detail.h"
 #include "runtime/find.h"
-#include "tests/gltf_fixture.h"
-#include "tests/stage.h"
+#include "tests/small_world.h"
 #include <functional>
 
 namespace starbow::gpu_test {
 namespace {
 
-using gltf_test::Doc;
-using gltf_test::Json;
 constexpr double pi = 3.14159265358979323846;
 constexpr double degree = pi / 180;
-
-// ---------------------------------------------------------------- small worlds
-
-/// A colour that shines as it is, without lamps.
-int unlit(Doc& doc, const dvec3& colour)
-{
-    doc.json["extensionsUsed"] = {"KHR_materials_unlit"};
-    return doc.put("materials",
-        {{"pbrMetallicRoughness", {{"baseColorFactor", {colour.r, colour.g, colour.b, 1}}}},
-            {"extensions", {{"KHR_materials_unlit", Json::object()}}}});
-}
-
-/// A rectangle whose front shows `right` to the right and `up` upwards; texture coordinates 0, 0 at its top left.
-/// `node`: the node's own members; the corners are in its frame.
-void quad(Doc& doc, const dvec3& centre, const dvec3& right, const dvec3& up, int material, Json node = Json::object())
-{
-    std::vector<float> positions;
-    for (const dvec3& corner : {centre - right - up, centre + right - up, centre + right + up, centre - right + up})
-        positions.insert(positions.end(), {float(corner.x), float(corner.y), float(corner.z)});
-    const std::vector<float> uv = {0, 1, 1, 1, 1, 0, 0, 0};
-    const std::vector<std::uint16_t> indices = {0, 1, 2, 0, 2, 3};
-    Json primitive
-        = {{"attributes", {{"POSITION", doc.accessor(positions, "VEC3")}, {"TEXCOORD_0", doc.accessor(uv, "VEC2")}}},
-            {"indices", doc.accessor(indices, "SCALAR")}, {"material", material}};
-    node["mesh"] = doc.put("meshes", {{"primitives", {primitive}}});
-    doc.json["scenes"][0]["nodes"].push_back(doc.put("nodes", node));
-}
-
-/// As `starbow` opens it: a scene file and its glTF, one unit a metre.
-GpuWorld open_world(const std::string& name, const Doc& doc, Json scene = Json::object())
-{
-    testing::write_text(name + ".gltf", doc.text());
-    scene["gltf"] = name + ".gltf";
-    scene["unit_m"] = 1;
-    const SceneFile file = load_scene_file(testing::write_text(name + ".json", scene.dump()));
-    World world = load_world(file.gltf);
-    add_detail_levels(world);
-    return upload(device(), pipelines(), std::move(world), file);
-}
-
-bool near_colour(const dvec3& a, const dvec3& b, double by) { return glm::length(a - b) < by; }
-
-/// From linear light to what a pixel's byte holds, 0 to 1: IEC 61966-2-1.
-double srgb(double linear) { return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055; }
 
 Shot shipped_shot(const std::string& name) { return load_shot(testing::source_dir() / "config/shots" / (name + ".json")); }
 
@@ -188,18 +140,6 @@ TEST(Picture, PixelsAreTheNumbersEncoded)
 
 // ---------------------------------------------------------------- seams
 
-const Json smooth_sky = {{"zenith", {0.25, 0.45, 0.80}}, {"horizon", {0.70, 0.60, 0.40}}, {"nadir", {0.30, 0.20, 0.55}}};
-
-dvec3 sky_colour(const dvec3& n)
-{
-    auto colour = [](const char* at) {
-        const Json& c = smooth_sky.at(at);
-        return dvec3(c.at(0), c.at(1), c.at(2));
-    };
-    const double h = std::min(std::abs(n.y), 1.0), blend = h * h * (3 - 2 * h);
-    return glm::mix(colour("horizon"), colour(n.y > 0 ? "zenith" : "nadir"), blend);
-}
-
 TEST(Picture, NoSeamsInASmoothSky)
 {
     Doc doc;
@@ -232,7 +172,8 @@ TEST(Picture, NoSeamsInASmoothSky)
                 for (int i = 0; i < numbers.count(); ++i) {
                     if (!numbers.shown(i))
                         continue;
-                    footprint[i] = numbers.D(i) * std::max(length, pixel_angle(Picture{projection, numbers.size}, numbers.centre(i)));
+                    footprint[i]
+                        = numbers.D(i) * std::max(length, pixel_angle(Picture{projection, numbers.size}, numbers.centre(i)));
                     error[i] = numbers.light(i) - sky_colour(numbers.world(i));
                     ASSERT_TRUE(std::isinf(numbers.depth(i)));
                     const double off = std::max({std::abs(error[i].r), std::abs(error[i].g), std::abs(error[i].b)});
@@ -525,7 +466,8 @@ TEST(Picture, EachEyeSeesFromItsOwnEvent)
 TEST(Picture, EyesInOnePlaceShareACubeMap)
 {
     Layout layout = one_view(Planar{60}, {100, 50});
-    layout.outputs[0].viewports = {{.rect = {0, 0, 0.5, 1}, .projection = Planar{60}}, {.rect = {0.5, 0, 0.5, 1}, .projection = Planar{30}}};
+    layout.outputs[0].viewports
+        = {{.rect = {0, 0, 0.5, 1}, .projection = Planar{60}}, {.rect = {0.5, 0, 0.5, 1}, .projection = Planar{30}}};
     Studio stage = studio(avenue().world, layout, false);
     stage.picture(shipped_shot("start"));
     EXPECT_EQ(stage.frame().plans().size(), 1u);
