@@ -36,19 +36,21 @@ void transform(std::vector<double>& f, std::vector<int>& vertex, std::vector<dou
     f = std::move(out);
 }
 
-/// A pane's distance from its own edge.
+/// How far a pane's pixels are from where its light must have faded: the part of its edge beyond which another's goes on.
+/// Towards an edge beyond which nothing is lit, that of a wall or a dome's rim, no one's light needs to fade.
 struct Field {
     const CompiledPane* pane;
     std::shared_ptr<const DirectionMap> map;
     std::shared_ptr<const Blocks> blocks;
-    std::vector<float> from_edge; ///< of each pixel's centre, radians of an average pixel; 0 where nothing is shown
+    std::vector<float> to_fade; ///< from each pixel's centre, radians of an average pixel; with one row of nothing all round
     float pixel = 0; ///< average pixel angle
 
-    float at(int x, int y) const
+    bool shows(glm::ivec2 p) const
     {
-        const glm::ivec2 size = map->size;
-        return x < 0 || y < 0 || x >= size.x || y >= size.y ? 0 : from_edge[std::size_t(y) * size.x + x];
+        return p.x >= 0 && p.y >= 0 && p.x < map->size.x && p.y < map->size.y && map->at(p.x, p.y).w > 0;
     }
+    std::size_t index(int x, int y) const { return std::size_t(y + 1) * (map->size.x + 2) + x + 1; }
+    float at(int x, int y) const { return to_fade[index(x, y)]; }
     /// Between pixels, 0 where the direction is not shown.
     float along(const glm::dvec3& direction) const
     {
@@ -68,20 +70,84 @@ Field field_of(const CompiledPane& pane)
     field.pane = &pane;
     field.map = pane.map ? pane.map : std::make_shared<DirectionMap>(compile(pane.pane));
     field.blocks = pane.map ? pane.blocks : std::make_shared<Blocks>(*field.map);
-    const glm::ivec2 size = field.map->size;
-    // One pixel of nothing all round: the picture's own edge counts.
-    const int width = size.x + 2, height = size.y + 2;
-    constexpr double far = 1e12;
-    std::vector<double> square(std::size_t(width) * height, 0.0);
     double sum = 0;
     long shown = 0;
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x)
-            if (const float angle = field.map->at(x, y).w; angle > 0) {
-                square[std::size_t(y + 1) * width + x + 1] = far;
-                sum += angle, ++shown;
-            }
+    for (const glm::vec4& texel : std::span(field.map->texels).first(std::size_t(field.map->size.x) * field.map->size.y))
+        if (texel.w > 0)
+            sum += texel.w, ++shown;
     field.pixel = shown > 0 ? float(sum / double(shown)) : 0;
+    return field;
+}
+
+/// Edges that lie on each other count as one, though a calibration has them some pixels apart.
+constexpr double beyond_px = 4;
+
+/// Which way, in pixels of length 1, the light of the shown pixel p ends, beside a pixel `out` from it that shows nothing:
+/// square to the picture's own edge, and to any other as the pixels around draw it.
+glm::dvec2 outwards(const Field& field, glm::ivec2 p, glm::ivec2 out)
+{
+    const glm::ivec2 beside = p + out;
+    if (beside.x < 0 || beside.y < 0 || beside.x >= field.map->size.x || beside.y >= field.map->size.y)
+        return out;
+    glm::dvec2 sum(0);
+    constexpr int around = 4;
+    for (int y = -around; y <= around; ++y)
+        for (int x = -around; x <= around; ++x)
+            if (x * x + y * y <= around * around && field.shows(p + glm::ivec2(x, y)))
+                sum -= glm::dvec2(x, y);
+    const double length = glm::length(sum);
+    return length > 0 ? sum / length : glm::dvec2(out);
+}
+
+/// Where the map would look at p + way, way in pixels, if it went on as at the shown pixel p.
+glm::dvec3 going_on(const Field& field, glm::ivec2 p, const glm::dvec2& way)
+{
+    const auto look = [&](glm::ivec2 q) { return glm::dvec3(field.map->at(q.x, q.y)); };
+    glm::dvec3 to = look(p);
+    for (int axis = 0; axis < 2; ++axis) {
+        const glm::ivec2 step(axis == 0, axis == 1), before = p - step, after = p + step;
+        if (field.shows(before))
+            to += way[axis] * (look(p) - look(before));
+        else if (field.shows(after))
+            to += way[axis] * (look(after) - look(p));
+    }
+    return glm::normalize(to);
+}
+
+/// The places beside a field's pixels where it shows nothing: whether another pane lights what lies beyond them.
+std::vector<char> fades(const Field& own, const std::vector<const Field*>& others)
+{
+    std::vector<char> ends(std::size_t(own.map->size.x + 2) * (own.map->size.y + 2), 0);
+    by_rows(own.map->size.y + 2, [&](int first, int end) {
+        for (int y = first - 1; y < end - 1; ++y)
+            for (int x = -1; x <= own.map->size.x; ++x) {
+                if (own.shows({x, y}))
+                    continue;
+                char& fade = ends[own.index(x, y)];
+                for (glm::ivec2 out : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
+                    const glm::ivec2 p = glm::ivec2(x, y) - out;
+                    if (fade || !own.shows(p))
+                        continue;
+                    const glm::dvec3 beyond = going_on(own, p, (0.5 + beyond_px) * outwards(own, p, out));
+                    fade = std::any_of(others.begin(), others.end(),
+                        [&](const Field* other) { return find(*other->map, *other->blocks, beyond).has_value(); });
+                }
+            }
+    });
+    return ends;
+}
+
+void measure(Field& field, const std::vector<const Field*>& others)
+{
+    const int width = field.map->size.x + 2, height = field.map->size.y + 2;
+    const std::vector<char> ends = fades(field, others);
+    // A picture that reaches over all that its neighbours light has no such edge: then all of its edge counts.
+    const bool any = std::find(ends.begin(), ends.end(), 1) != ends.end();
+    constexpr double far = 1e12;
+    std::vector<double> square(ends.size());
+    for (int y = -1; y < height - 1; ++y)
+        for (int x = -1; x < width - 1; ++x)
+            square[field.index(x, y)] = (any ? ends[field.index(x, y)] : !field.shows({x, y})) ? 0 : far;
     std::vector<double> line, border(std::max(width, height) + 1);
     std::vector<int> vertex(std::max(width, height));
     for (int x = 0; x < width; ++x) {
@@ -97,14 +163,10 @@ Field field_of(const CompiledPane& pane)
         transform(line, vertex, border);
         std::copy(line.begin(), line.end(), square.begin() + std::ptrdiff_t(y) * width);
     }
-    field.from_edge.resize(std::size_t(size.x) * size.y);
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x) {
-            // The edge lies half way to the first pixel that shows nothing.
-            const double away = std::sqrt(square[std::size_t(y + 1) * width + x + 1]) - 0.5;
-            field.from_edge[std::size_t(y) * size.x + x] = float(std::max(away, 0.0)) * field.pixel;
-        }
-    return field;
+    field.to_fade.resize(square.size());
+    // The edge lies half way to the first pixel that shows nothing.
+    std::transform(square.begin(), square.end(), field.to_fade.begin(),
+        [&](double away) { return float(std::max(std::sqrt(away) - 0.5, 0.0)) * field.pixel; });
 }
 
 /// Every so many pixels the others' fields are looked up, between these points they are interpolated.
@@ -164,7 +226,7 @@ std::vector<float> ramp(const Field& own, const std::vector<const Field*>& other
             for (int y = first; y < end; ++y)
                 for (int x = 0; x < size.x; ++x) {
                     const std::size_t at = std::size_t(y) * size.x + x;
-                    if (own.from_edge[at] <= 0)
+                    if (own.map->texels[at].w <= 0)
                         continue;
                     const int i = x / stride, j = y / stride;
                     const float* corner = &coarse[std::size_t(j) * nodes.x + i];
@@ -172,7 +234,7 @@ std::vector<float> ramp(const Field& own, const std::vector<const Field*>& other
                     float value;
                     if (std::max({a, b, c, d}) == 0)
                         value = 0; // -1, a corner that this pane does not show, is not 0
-                    else if (exact[std::size_t(j) * nodes.x + i] || own.from_edge[at] < near_own)
+                    else if (exact[std::size_t(j) * nodes.x + i] || own.at(x, y) < near_own)
                         value = std::max(0.0f, look(*other, x, y));
                     else {
                         const float u = float(x % stride) / stride, v = float(y % stride) / stride;
@@ -185,9 +247,13 @@ std::vector<float> ramp(const Field& own, const std::vector<const Field*>& other
     if (!any)
         return {};
     std::vector<float> weight(pixels, 0.0f);
-    for (std::size_t at = 0; at < pixels; ++at)
-        if (const double mine = std::pow(own.from_edge[at], power); mine > 0)
-            weight[at] = float(mine / (mine + sum[at]));
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const std::size_t at = std::size_t(y) * size.x + x;
+            const double mine = std::pow(own.at(x, y), power);
+            if (own.map->texels[at].w > 0 && mine > 0)
+                weight[at] = float(mine / (mine + sum[at]));
+        }
     return weight;
 }
 
@@ -216,16 +282,19 @@ std::vector<std::vector<float>> blend_ramps(const Layout& layout, std::span<cons
             field_of_pane[i] = int(fields.size());
             fields.push_back(field_of(panes[i]));
         }
-    std::vector<std::vector<float>> ramps(panes.size());
-    for (std::size_t i = 0; i < panes.size(); ++i) {
-        if (field_of_pane[i] < 0)
-            continue;
-        std::vector<const Field*> others;
+    std::vector<std::vector<const Field*>> others(fields.size());
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        const Pane& own = fields[i].pane->pane;
         for (const Field& other : fields)
-            if (other.pane->pane.eye == panes[i].pane.eye && !share_pixels(other.pane->pane, panes[i].pane))
-                others.push_back(&other);
-        ramps[i] = ramp(fields[field_of_pane[i]], others, power);
+            if (other.pane->pane.eye == own.eye && !share_pixels(other.pane->pane, own))
+                others[i].push_back(&other);
     }
+    for (std::size_t i = 0; i < fields.size(); ++i)
+        measure(fields[i], others[i]);
+    std::vector<std::vector<float>> ramps(panes.size());
+    for (std::size_t i = 0; i < panes.size(); ++i)
+        if (const int own = field_of_pane[i]; own >= 0)
+            ramps[i] = ramp(fields[own], others[own], power);
     return ramps;
 }
 

@@ -307,15 +307,16 @@ TEST(BlendTest, RampsAreStraightOrAsSteepAsAsked)
     for (double power : {1.0, 2.0, 3.0}) {
         layout.blend.power = power;
         const Weights weights(layout);
-        // Of the row in the middle: the strip is from 200 to 400 in the left picture, whose upper and lower edge are 120
-        // away.
-        for (int x = 300; x < 400; ++x) {
-            const double own = std::min(399.5 - x + 0.5, 120.0), other = std::min(x + 0.5 - 200, 120.0);
-            const double mine = std::pow(own, power), wanted = mine / (mine + std::pow(other, power));
-            // Distances are from the pixel's centre, one row of 240 is not quite the middle: half a pixel in a hundred.
-            EXPECT_NEAR(weights.outputs[0].values[120 * 400 + x], wanted, 0.5 / 100 * power) << x << " power " << power;
+        // The strip is from 200 to 400 in the left picture. Both end at the same height: no row is another's.
+        for (int y : {0, 1, 2, 50, 120, 237, 239}) {
+            for (int x = 200; x < 400; ++x) {
+                const double own = std::pow(399.5 - x, power), other = std::pow(x + 0.5 - 200, power);
+                // Distances are looked up at every fourth pixel and straight between: 1 % is the bound of their bend.
+                EXPECT_NEAR(weights.outputs[0].values[y * 400 + x], own / (own + other), 0.002)
+                    << x << " " << y << " power " << power;
+            }
+            EXPECT_EQ(weights.outputs[0].values[y * 400 + 150], 1);
         }
-        EXPECT_EQ(weights.outputs[0].values[120 * 400 + 150], 1);
     }
 }
 
