@@ -23,13 +23,13 @@ Turn* turn_of(Projection& projection)
     return nullptr;
 }
 
-double* place_of(Layout& layout, const Adjustable& a)
+double* place_of(Layout& layout, const Adjustable& a, const Adjustable::Spot& spot)
 {
     if (a.what == What::blend_power)
         return &layout.blend.power;
     if (a.what == What::hud_elevation)
         return &layout.hud.elevation_deg;
-    Projection& projection = layout.outputs[a.output].viewports[a.viewport].projection;
+    Projection& projection = layout.outputs[spot.output].viewports[spot.viewport].projection;
     if (auto* dome = std::get_if<Fisheye>(&projection))
         return a.what == What::tilt ? &dome->tilt_deg : &dome->rotation_deg;
     if (auto* mirror = std::get_if<SphericalMirror>(&projection))
@@ -38,66 +38,116 @@ double* place_of(Layout& layout, const Adjustable& a)
     return a.what == What::yaw ? &turn.yaw_deg : a.what == What::pitch ? &turn.pitch_deg : &turn.roll_deg;
 }
 
+/// The numbers of one viewport.
+void add_own(std::vector<Adjustable>& all, const Layout& layout, std::size_t output, std::size_t viewport)
+{
+    const Viewport& own = layout.outputs[output].viewports[viewport];
+    if (!own.projection_given)
+        return; // the calibration's own frustum
+    std::string name = layout.outputs[output].name;
+    if (layout.outputs[output].viewports.size() > 1)
+        name.append(" ").append(std::to_string(viewport));
+    auto add = [&](const char* what, const char* member, What which) {
+        all.push_back({name + ", " + what,
+            {{viewport_pointer(output, viewport) + "/projection/" + member, output, viewport}}, which, 0.1});
+    };
+    Projection projection = own.projection;
+    if (std::holds_alternative<Fisheye>(projection)) {
+        add("tilt", "tilt_deg", What::tilt);
+        add("rotation", "rotation_deg", What::rotation);
+    } else if (std::holds_alternative<SphericalMirror>(projection)) {
+        add("tilt", "dome_tilt_deg", What::tilt);
+    } else if (turn_of(projection)) {
+        add("yaw", "turn_deg/yaw", What::yaw);
+        add("pitch", "turn_deg/pitch", What::pitch);
+        add("roll", "turn_deg/roll", What::roll);
+    }
+}
+
+/// What several projectors on one dome share: turned one by one their pictures would part.
+std::vector<Adjustable> of_whole_domes(const Layout& layout, const std::vector<Adjustable>& each)
+{
+    std::vector<Adjustable> all;
+    for (const What what : {What::tilt, What::rotation}) {
+        Adjustable whole{what == What::tilt ? "the whole dome, tilt" : "the whole dome, rotation", {}, what, 0.1};
+        for (const Adjustable& one : each)
+            if (one.what == what)
+                whole.spots.push_back(one.spots[0]);
+        if (whole.spots.size() < 2)
+            continue;
+        const bool agree = std::all_of(each.begin(), each.end(),
+            [&](const Adjustable& one) { return one.what != what || value_of(layout, one) == value_of(layout, whole); });
+        if (agree)
+            all.push_back(std::move(whole));
+    }
+    return all;
+}
+
+/// The number that stands at a pointer, if a builder may turn it.
+std::optional<double> value_at(const Layout& layout, const std::string& pointer)
+{
+    for (const Adjustable& one : adjustables(layout))
+        if (one.spots[0].pointer == pointer)
+            return value_of(layout, one);
+    return {};
+}
+
 } // namespace
 
 std::vector<Adjustable> adjustables(const Layout& layout)
 {
-    std::vector<Adjustable> all;
+    std::vector<Adjustable> each;
     for (std::size_t output = 0; output < layout.outputs.size(); ++output)
-        for (std::size_t viewport = 0; viewport < layout.outputs[output].viewports.size(); ++viewport) {
-            const Viewport& own = layout.outputs[output].viewports[viewport];
-            if (!own.projection_given)
-                continue; // the calibration's own frustum
-            std::string name = layout.outputs[output].name;
-            if (layout.outputs[output].viewports.size() > 1)
-                name.append(" ").append(std::to_string(viewport));
-            const std::string at = "/outputs/" + std::to_string(output) + "/viewports/" + std::to_string(viewport) + "/projection/";
-            auto add = [&](const char* what, const char* member, What which) {
-                all.push_back({name + ", " + what, at + member, output, viewport, which, 0.1});
-            };
-            Projection projection = own.projection;
-            if (std::holds_alternative<Fisheye>(projection)) {
-                add("tilt", "tilt_deg", What::tilt);
-                add("rotation", "rotation_deg", What::rotation);
-            } else if (std::holds_alternative<SphericalMirror>(projection)) {
-                add("tilt", "dome_tilt_deg", What::tilt);
-            } else if (turn_of(projection)) {
-                add("yaw", "turn_deg/yaw", What::yaw);
-                add("pitch", "turn_deg/pitch", What::pitch);
-                add("roll", "turn_deg/roll", What::roll);
-            }
-        }
+        for (std::size_t viewport = 0; viewport < layout.outputs[output].viewports.size(); ++viewport)
+            add_own(each, layout, output, viewport);
+    std::vector<Adjustable> all = of_whole_domes(layout, each);
+    all.insert(all.end(), each.begin(), each.end());
     if (layout.blend.ramps)
-        all.push_back({"blend, power", "/blend/power", 0, 0, What::blend_power, 0.05});
-    all.push_back({"head-up display, height", "/hud/elevation_deg", 0, 0, What::hud_elevation, 0.5});
+        all.push_back({"blend, power", {{"/blend/power"}}, What::blend_power, 0.05});
+    all.push_back({"head-up display, height", {{"/hud/elevation_deg"}}, What::hud_elevation, 0.5});
     return all;
 }
 
 double value_of(const Layout& layout, const Adjustable& adjustable)
 {
     Layout copy = layout;
-    return *place_of(copy, adjustable);
+    return *place_of(copy, adjustable, adjustable.spots[0]);
 }
 
 Layout adjusted(Layout layout, const Adjustable& adjustable, double steps)
 {
-    double& value = *place_of(layout, adjustable);
+    double value = value_of(layout, adjustable);
     // On whole steps, so that the file reads 30.1 and not 30.099999.
     const bool dome = adjustable.what == What::tilt, display = adjustable.what == What::hud_elevation;
     const double high = adjustable.what == What::blend_power ? 10 : display ? 90 : dome ? 180 : 360;
     const double low = adjustable.what == What::blend_power ? 0.1 : -high;
     value = std::clamp(std::round((value / adjustable.step + steps) * 1e6) * 1e-6 * adjustable.step, low, high);
-    value = std::round(value * 1e6) / 1e6;
+    for (const Adjustable::Spot& spot : adjustable.spots)
+        *place_of(layout, adjustable, spot) = std::round(value * 1e6) / 1e6;
     return layout;
 }
 
 std::vector<Change> changes(const Layout& saved, const Layout& now)
 {
     std::vector<Change> all;
-    for (const Adjustable& adjustable : adjustables(now))
-        if (const double value = value_of(now, adjustable); value != value_of(saved, adjustable))
-            all.push_back({adjustable.pointer, value});
+    for (const Adjustable& one : adjustables(now)) {
+        const double value = value_of(now, one);
+        const std::optional<double> before = value_at(saved, one.spots[0].pointer);
+        if (one.spots.size() == 1 && before && value != *before)
+            all.push_back({one.spots[0].pointer, value});
+    }
     return all;
+}
+
+Layout turned_again(Layout fresh, const Layout& kept, const Layout& turned)
+{
+    for (const Adjustable& one : adjustables(fresh)) {
+        const std::optional<double> before = value_at(kept, one.spots[0].pointer),
+                                    after = value_at(turned, one.spots[0].pointer);
+        if (one.spots.size() == 1 && before && after && *before != *after && value_of(fresh, one) == *before)
+            *place_of(fresh, one, one.spots[0]) = *after;
+    }
+    return fresh;
 }
 
 } // namespace starbow

@@ -303,6 +303,22 @@ Layout read_layout(const Place& top, const std::filesystem::path& file)
     return layout;
 }
 
+std::string viewport_pointer(std::size_t output, std::size_t viewport)
+{
+    return "/outputs/" + std::to_string(output) + "/viewports/" + std::to_string(viewport);
+}
+
+std::string place_in(const Layout& layout, const std::string& pointer)
+{
+    std::string line;
+    try {
+        if (const auto span = find_span(read_document(layout.file), pointer))
+            line = std::string(":").append(std::to_string(span->line));
+    } catch (const InputError&) { // someone is changing it
+    }
+    return layout.file.string() + line + ": " + pointer;
+}
+
 Layout load_layout(const std::filesystem::path& file)
 {
     const Document document = read_document(file);

@@ -1,4 +1,5 @@
 #pragma once
+#include "error.h"
 #include <array>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -212,5 +213,20 @@ glm::ivec4 pixel_rect(const Viewport& viewport, glm::ivec2 size);
 /// Reads and checks a layout. Throws InputError with file, line, JSON pointer, value and what would be right. Paths in it
 /// are taken from the layout's folder.
 Layout load_layout(const std::filesystem::path& file);
+
+/// For what goes wrong only when a layout is put to use: "FILE:LINE: POINTER" of its file as it is now; without the line
+/// where the file does not have the pointer any more.
+std::string place_in(const Layout& layout, const std::string& pointer);
+std::string viewport_pointer(std::size_t output, std::size_t viewport);
+
+/// What work() returns; where it throws an InputError, one that names the layout's place before that.
+template <class Work> auto on_behalf_of(const Layout& layout, const std::string& pointer, Work&& work)
+{
+    try {
+        return work();
+    } catch (const InputError& error) {
+        throw InputError(place_in(layout, pointer), "", error.what());
+    }
+}
 
 } // namespace starbow

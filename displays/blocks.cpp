@@ -190,7 +190,8 @@ std::optional<glm::dvec2> find(const DirectionMap& map, const Blocks& blocks, co
     const double xx = glm::dot(x, x), yy = glm::dot(y, y), xy = glm::dot(x, y), det = xx * yy - xy * xy;
     if (!(det > 1e-6 * xx * yy))
         return {};
-    const glm::dvec2 move((glm::dot(off, x) * yy - glm::dot(off, y) * xy) / det, (glm::dot(off, y) * xx - glm::dot(off, x) * xy) / det);
+    const glm::dvec2 move(
+        (glm::dot(off, x) * yy - glm::dot(off, y) * xy) / det, (glm::dot(off, y) * xx - glm::dot(off, x) * xy) / det);
     if (!(std::max(std::abs(move.x), std::abs(move.y)) < 0.75))
         return {};
     return glm::dvec2(p) + 0.5 + move;

@@ -44,8 +44,8 @@ private:
 /// the directions are taken as linear: a hundredth of a pixel for any picture that a person would call smooth.
 std::optional<glm::dvec2> find(const DirectionMap& map, const Blocks& blocks, const glm::dvec3& direction);
 
-/// A box around all pixels that may look into a pyramid from the eye, from low to before high (both 0 where none do), and the
-/// finest pixel angle among them. sides: unit normals of its planes, pointing inwards.
+/// A box around all pixels that may look into a pyramid from the eye, from low to before high (both 0 where none do), and
+/// the finest pixel angle among them. sides: unit normals of its planes, pointing inwards.
 struct PixelBox {
     glm::ivec2 low{0}, high{0};
     double finest = 1;

@@ -280,10 +280,12 @@ CompiledPane MapStore::compile(const Layout& layout, const Pane& pane)
     compiled.pane = pane;
     std::string content;
     if (const auto& warp = layout.outputs[pane.output].viewports[pane.viewport].warp) {
-        compiled.mesh = mesh(*warp, content);
+        const std::string viewport = viewport_pointer(pane.output, pane.viewport);
+        compiled.mesh = on_behalf_of(layout, viewport + "/warp", [&] { return mesh(*warp, content); });
         if (!pane.projection_given && compiled.mesh->kind == WarpMesh::Kind::picture && !compiled.mesh->frustum)
-            throw InputError(warp->file.string(), "",
-                "does not say what its picture shows; a viewport with a projection beside this warp is right");
+            throw InputError(place_in(layout, viewport), "",
+                "has no projection, and " + warp->file.filename().string()
+                    + " does not say what its picture shows; a \"projection\" beside \"warp\" is right");
     } else {
         compiled.matrix = pane_matrix(pane);
     }
@@ -302,6 +304,14 @@ std::vector<CompiledPane> compile_output(MapStore& store, const Layout& layout, 
     for (const Pane& pane : panes(layout, output, size))
         compiled.push_back(store.compile(layout, pane));
     return compiled;
+}
+
+void refuse_dark(const Layout& layout, std::span<const CompiledPane> panes)
+{
+    for (const CompiledPane& pane : panes)
+        if (pane.blocks->cap(0, {0, 0}).empty())
+            throw InputError(place_in(layout, viewport_pointer(pane.pane.output, pane.pane.viewport)), "",
+                "shows nothing: no pixel looks anywhere; a projection, and a warp, that lie within the picture are right");
 }
 
 } // namespace starbow

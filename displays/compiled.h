@@ -42,4 +42,7 @@ private:
 /// All panes of one output.
 std::vector<CompiledPane> compile_output(MapStore& store, const Layout& layout, std::size_t output, glm::ivec2 size);
 
+/// Throws InputError, with the layout's place, for a pane that shows nothing at all.
+void refuse_dark(const Layout& layout, std::span<const CompiledPane> panes);
+
 } // namespace starbow

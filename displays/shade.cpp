@@ -17,11 +17,13 @@ WarpMesh::Mask read_mask(const std::filesystem::path& file, double gamma)
         throw InputError(file.string(), "", "is no picture; a PNG file is right");
     constexpr int most = 16384;
     if (mask.size.x > most || mask.size.y > most)
-        throw InputError(file.string(), "", "is larger than 16384 x 16384 pixels; a picture of the viewport's size is right");
+        throw InputError(
+            file.string(), "", "is larger than 16384 x 16384 pixels; a picture of the viewport's size is right");
     mask.channels = channels >= 3 ? 3 : 1;
     stbi_us* values = stbi_load_16(file.c_str(), &mask.size.x, &mask.size.y, &channels, mask.channels);
     if (!values)
-        throw InputError(file.string(), "", std::string("can't be read (") + stbi_failure_reason() + "); a whole PNG file is right");
+        throw InputError(
+            file.string(), "", std::string("can't be read (") + stbi_failure_reason() + "); a whole PNG file is right");
     mask.values.resize(std::size_t(mask.size.x) * mask.size.y * mask.channels);
     for (std::size_t i = 0; i < mask.values.size(); ++i)
         mask.values[i] = values[i] / 65535.0f;
@@ -64,6 +66,10 @@ Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::s
         if (pane.output != output || pane.layer > 0)
             continue;
         const Viewport& viewport = layout.outputs[output].viewports[pane.viewport];
+        auto read = [&](const char* member, const std::filesystem::path& file) {
+            return on_behalf_of(layout, viewport_pointer(output, pane.viewport) + member,
+                [&] { return read_mask(file, viewport.mask_gamma); });
+        };
         auto place = [&](int x, int y) { return (glm::dvec2(x, y) + 0.5) / glm::dvec2(pane.size); };
         auto multiply = [&](const WarpMesh::Mask& mask) {
             fill(shade.weight, pane, 1, [&](glm::vec3& w, int x, int y) { w *= light_at(mask, place(x, y)); });
@@ -80,11 +86,11 @@ Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::s
         if (!ramps.empty())
             scale(ramps[i]);
         if (!viewport.alpha_mask.empty())
-            multiply(read_mask(viewport.alpha_mask, viewport.mask_gamma));
+            multiply(read("/alpha_mask", viewport.alpha_mask));
         else if (panes[i].mesh && panes[i].mesh->alpha)
             multiply(*panes[i].mesh->alpha);
         if (!viewport.black_level.empty())
-            add(read_mask(viewport.black_level, viewport.mask_gamma));
+            add(read("/black_level", viewport.black_level));
         else if (panes[i].mesh && panes[i].mesh->beta)
             add(*panes[i].mesh->beta);
     }

@@ -70,7 +70,10 @@ void CubePass::fit(glm::ivec2 size, int levels)
         && int(atlas_.levels) >= levels;
     if (enough)
         return;
-    auto grown = [](int needed, std::uint32_t had) { return std::max((std::uint32_t(needed) + 255) / 256 * 256, had); };
+    // A plan without images, where no pane shows anything, has a texture all the same.
+    auto grown = [](int needed, std::uint32_t had) {
+        return std::max((std::uint32_t(std::max(needed, 1)) + 255) / 256 * 256, had);
+    };
     vk::Extent2D extent(grown(size.x, atlas_.extent.width), grown(size.y, atlas_.extent.height));
     auto most = std::max(std::uint32_t(levels), atlas_.levels);
     using Usage = vk::ImageUsageFlagBits;

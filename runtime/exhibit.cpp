@@ -113,6 +113,7 @@ struct Visit {
     const Shot& start;
     long frames; ///< still to be shown; 0: no end
     Layout layout;
+    Layout kept = layout; ///< as its file has it: without what was turned since
     FileWatch watch{files_of(layout)};
     std::string refused; ///< why a change of the layout was not taken up, for the head-up display
     Flight flight = flight_at(start);
@@ -160,7 +161,8 @@ void take_up_changes(Visit& visit, Theatre& theatre, std::unique_ptr<Frame>& fra
     if (!visit.watch.changed(Clock::now()))
         return;
     try {
-        Layout layout = load_layout(visit.layout.file);
+        const Layout fresh = load_layout(visit.layout.file);
+        Layout layout = turned_again(fresh, visit.kept, visit.layout);
         FileWatch watch(files_of(layout));
         std::unique_ptr<HeadTracker> tracker;
         const bool same_tracker = visit.layout.head_tracker == layout.head_tracker;
@@ -171,16 +173,33 @@ void take_up_changes(Visit& visit, Theatre& theatre, std::unique_ptr<Frame>& fra
         if (!same_tracker)
             visit.tracker = std::move(tracker);
         visit.layout = std::move(layout);
+        visit.kept = fresh;
         visit.watch = std::move(watch);
         visit.refused.clear();
         screens.adopt(visit.layout);
-        std::fprintf(stderr, "starbow: %s: taken up\n", visit.layout.file.c_str());
+        const std::size_t unkept = changes(visit.kept, visit.layout).size();
+        std::fprintf(stderr, "starbow: %s: taken up%s\n", visit.layout.file.c_str(),
+            unkept > 0 ? "; what was turned by hand stays turned (F5 keeps it)" : "");
     } catch (const InputError& error) {
         const std::string why = one_line(error.what());
         std::fprintf(stderr, "starbow: %s; the exhibit stays as it was\n", why.c_str());
         // On the display the folders would leave no room for the reason.
         const std::string folder = visit.layout.file.parent_path().string() + "/";
         visit.refused = why.starts_with(folder) ? why.substr(folder.size()) : why;
+    }
+}
+
+/// What a builder turns with the keyboard; what can't be drawn is turned back.
+void turn(Visit& visit, Frame& frame, const Controls& controls)
+{
+    Layout layout = visit.layout;
+    if (!visit.workbench.apply(controls, layout))
+        return;
+    try {
+        frame.adopt(layout);
+        visit.layout = std::move(layout);
+    } catch (const InputError& error) {
+        visit.workbench.say(one_line(error.what()));
     }
 }
 
@@ -226,8 +245,7 @@ void fly(Visit& visit, Theatre& theatre)
         const double passed = std::min(seconds(now - visit.last), 0.1);
         visit.flight = step(visit.flight, controls, passed, scene.seconds_per_time_unit(), visit.start);
         visit.last = now;
-        if (visit.workbench.apply(controls, visit.layout))
-            frame->adopt(visit.layout); // the device has finished the frame before
+        turn(visit, *frame, controls); // the device has finished the frame before
         frame->show(visit.workbench.pattern());
         if (!any)
             continue;

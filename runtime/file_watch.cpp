@@ -35,7 +35,7 @@ bool FileWatch::changed(Clock::time_point now)
         seen_ = stamps;
         seen_since_ = now;
     }
-    if (!seen_ || seen_ == known_ || now - seen_since_ < std::chrono::milliseconds(200))
+    if (seen_ == known_ || now - seen_since_ < std::chrono::milliseconds(seen_ ? 200 : 1000))
         return false;
     known_ = seen_;
     return true;

@@ -59,8 +59,7 @@ bool needs_finish(const Output& output, const Shade& shade)
         || !shade.empty();
 }
 
-FinishPass::FinishPass(
-    Device& device, Pipelines& pipelines, const Output& output, const Shade& shade, double headroom)
+FinishPass::FinishPass(Device& device, Pipelines& pipelines, const Output& output, const Shade& shade, double headroom)
     : device_(device)
     , pipelines_(pipelines)
 {

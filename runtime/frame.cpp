@@ -19,31 +19,35 @@ constexpr double degree = 3.14159265358979323846 / 180;
 
 glm::vec4 row(const glm::dmat3& m, int i, double w = 0) { return glm::vec4(m[0][i], m[1][i], m[2][i], w); }
 
-/// Panel axes from the cockpit's: x right and y up on the panel, z = 1 on its plane, the origin at its middle. Flat screens
-/// get a panel parallel to them, so that its lines stay level; everywhere else it faces the visitor.
-glm::dmat3 panel_from_cockpit(const HudPlacement& hud, bool flat)
+glm::dvec3 panel_middle(const HudPlacement& hud)
 {
-    double a = hud.azimuth_deg * degree, e = hud.elevation_deg * degree;
-    glm::dvec3 middle(std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e));
-    if (flat && middle.z < -0.2) {
-        glm::dvec2 at = glm::dvec2(middle) / -middle.z;
-        return glm::transpose(glm::dmat3(glm::dvec3(1, 0, at.x), glm::dvec3(0, 1, at.y), glm::dvec3(0, 0, -1)));
-    }
-    glm::dvec3 x(std::cos(a), 0, std::sin(a));
-    return glm::transpose(glm::dmat3(x, glm::cross(-middle, x), middle));
+    const double a = hud.azimuth_deg * degree, e = hud.elevation_deg * degree;
+    return {std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e)};
 }
 
-/// Whether every display is a window looked at from its axis.
-bool all_face_ahead(const Layout& layout)
+/// Which way the flat picture faces that shows the panel's middle, towards the eye's far side; elsewhere the middle itself.
+glm::dvec3 panel_faces(const glm::dvec3& middle, const std::vector<std::vector<CompiledPane>>& panes)
 {
-    for (const Output& output : layout.outputs)
-        for (const Viewport& viewport : output.viewports) {
-            const Planar* planar = std::get_if<Planar>(&viewport.projection);
-            if (!planar || planar->sides || viewport.warp
-                || glm::dvec3(planar->turn.yaw_deg, planar->turn.pitch_deg, planar->turn.roll_deg) != glm::dvec3(0))
-                return false;
-        }
-    return true;
+    for (const auto& output : panes)
+        for (const CompiledPane& pane : output)
+            if (pane.matrix) {
+                const glm::dvec3 at = glm::inverse(*pane.matrix) * middle;
+                const glm::dvec2 pixel = glm::dvec2(at) / at.z, size(pane.pane.size);
+                if (at.z > 0 && glm::all(glm::greaterThanEqual(pixel, glm::dvec2(0)))
+                    && glm::all(glm::lessThanEqual(pixel, size)))
+                    return glm::normalize(glm::cross((*pane.matrix)[0], (*pane.matrix)[1]));
+            }
+    return middle;
+}
+
+/// Panel axes from the cockpit's: x right and y up on the panel, z = 1 on its plane, the origin at its middle. On a flat
+/// screen the panel is parallel to it, so that its lines stay level; everywhere else it faces the visitor.
+glm::dmat3 panel_from_cockpit(const glm::dvec3& middle, const glm::dvec3& faces)
+{
+    const glm::dvec3 across = glm::cross(faces, glm::dvec3(0, 1, 0));
+    const glm::dvec3 x = glm::length(across) > 1e-6 ? glm::normalize(across) : glm::dvec3(1, 0, 0), y = glm::cross(x, faces);
+    const glm::dvec2 at = glm::dvec2(glm::dot(middle, x), glm::dot(middle, y)) / glm::dot(middle, faces);
+    return glm::transpose(glm::dmat3(x - at.x * faces, y - at.y * faces, faces));
 }
 
 constexpr std::size_t no_map = ~std::size_t(0);
@@ -72,7 +76,7 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
     no_map_ = make_texture_array(device, map_format, {1, 1}, 1, std::as_bytes(std::span(zeros, 2)));
     for (const Output& output : layout_.outputs)
         outputs_.emplace_back().size = output.size;
-    compile_panes();
+    take_up(parts(true));
 }
 
 void Frame::resize(std::size_t output, glm::ivec2 size)
@@ -80,14 +84,20 @@ void Frame::resize(std::size_t output, glm::ivec2 size)
     if (outputs_[output].size == size)
         return;
     outputs_[output].size = size;
-    compile_panes();
+    take_up(parts(false)); // a window may be dragged so small that a viewport is left with nothing
 }
 
 void Frame::adopt(const Layout& layout)
 {
-    layout_ = layout;
     store_.keep(false);
-    compile_panes();
+    const Layout before = std::exchange(layout_, layout);
+    try {
+        take_up(parts(true));
+    } catch (const InputError&) {
+        layout_ = before;
+        store_.keep(true);
+        throw;
+    }
     store_.keep(true);
 }
 
@@ -109,37 +119,48 @@ void Frame::move_head(const Head& head)
     }
 }
 
-void Frame::compile_panes()
+Frame::Parts Frame::parts(bool refuses_dark)
 {
-    panel_from_cockpit_ = panel_from_cockpit(layout_.hud, all_face_ahead(layout_));
-    panel_half_ = std::tan(0.5 * layout_.hud.width_deg * degree) * glm::dvec2(1, panel_aspect);
-    std::vector<PaneState> before = std::exchange(panes_, {}); // whose maps are found again
-    std::vector<Map> maps_before = std::exchange(maps_, {});
+    Parts parts;
     std::vector<CompiledPane> lit; // by projectors, not previews
     for (std::size_t output = 0; output < outputs_.size(); ++output) {
-        for (CompiledPane& compiled : compile_output(store_, layout_, output, outputs_[output].size)) {
-            PaneState pane;
-            pane.output = output;
-            pane.compiled = std::move(compiled);
-            if (!layout_.outputs[output].preview)
-                lit.push_back(pane.compiled);
-            panes_.push_back(std::move(pane));
-        }
+        parts.panes.push_back(compile_output(store_, layout_, output, outputs_[output].size));
+        if (!layout_.outputs[output].preview)
+            lit.insert(lit.end(), parts.panes.back().begin(), parts.panes.back().end());
     }
+    if (refuses_dark)
+        refuse_dark(layout_, lit);
     std::vector<std::vector<float>> ramps;
     if (layout_.blend.ramps)
         ramps = blend_ramps(layout_, lit, layout_.blend.power);
-    std::vector<Shade> shades(outputs_.size());
+    parts.shades.resize(outputs_.size());
     for (std::size_t output = 0; output < outputs_.size(); ++output)
         if (!layout_.outputs[output].preview)
-            shades[output] = shade_of(layout_, output, outputs_[output].size, lit, ramps);
-    const double room = headroom(shades);
+            parts.shades[output] = shade_of(layout_, output, outputs_[output].size, lit, ramps);
+    return parts;
+}
+
+void Frame::take_up(Parts parts)
+{
+    const glm::dvec3 middle = panel_middle(layout_.hud);
+    panel_from_cockpit_ = panel_from_cockpit(middle, panel_faces(middle, parts.panes));
+    panel_half_ = std::tan(0.5 * layout_.hud.width_deg * degree) * glm::dvec2(1, panel_aspect);
+    std::vector<PaneState> before = std::exchange(panes_, {}); // whose maps are found again
+    std::vector<Map> maps_before = std::exchange(maps_, {});
+    for (std::size_t output = 0; output < outputs_.size(); ++output)
+        for (CompiledPane& compiled : parts.panes[output]) {
+            PaneState pane;
+            pane.output = output;
+            pane.compiled = std::move(compiled);
+            panes_.push_back(std::move(pane));
+        }
+    const double room = headroom(parts.shades);
     for (std::size_t output = 0; output < outputs_.size(); ++output) {
         Output own = layout_.outputs[output];
         own.size = outputs_[output].size;
         outputs_[output].finish.reset();
-        if (needs_finish(own, shades[output]) || (room != 1 && !own.preview))
-            outputs_[output].finish = std::make_unique<FinishPass>(device_, pipelines_, own, shades[output], room);
+        if (needs_finish(own, parts.shades[output]) || (room != 1 && !own.preview))
+            outputs_[output].finish = std::make_unique<FinishPass>(device_, pipelines_, own, parts.shades[output], room);
     }
 
     for (PaneState& pane : panes_) {

@@ -26,7 +26,8 @@ public:
     /// The size in pixels of an output, when it is not the layout's.
     void resize(std::size_t output, glm::ivec2 size);
 
-    /// Another layout with the same outputs: while someone turns its numbers. Its maps are not kept on disk.
+    /// Another layout with the same outputs: while someone turns its numbers. Its maps are not kept on disk. Throws
+    /// InputError where a viewport would be left with nothing to show; then nothing has changed.
     void adopt(const Layout& layout);
 
     /// Moves every head from where the layout has it, and turns its eyes: what is seen through walls follows, but for a wall
@@ -89,7 +90,13 @@ private:
         Image image;
     };
 
-    void compile_panes();
+    /// What is worked out of the layout before anything changes: what is wrong with its files shows here.
+    struct Parts {
+        std::vector<std::vector<CompiledPane>> panes; ///< of each output
+        std::vector<Shade> shades;
+    };
+    Parts parts(bool refuses_dark);
+    void take_up(Parts parts);
     void find_hud_box(PaneState& pane) const;
     glm::dvec3 place_of_eye(const Pane& pane) const;
     std::size_t eye_for(const Pane& pane);

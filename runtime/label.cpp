@@ -28,15 +28,15 @@ Image make_label(Device& device, const Layout& layout, const Pane& pane)
     panel.size = {int(widest) + 2, int(2.6 * height)};
     panel.texels.assign(std::size_t(2) * panel.size.x * panel.size.y, 0);
     for (int i = 0; i < 2; ++i)
-        typesetter.write(panel, lines[i], 0.5 * (panel.size.x - typesetter.width_of(lines[i], height)), (0.95 + 1.2 * i) * height,
-            height, 1);
+        typesetter.write(panel, lines[i], 0.5 * (panel.size.x - typesetter.width_of(lines[i], height)),
+            (0.95 + 1.2 * i) * height, height, 1);
     return make_texture(device, vk::Format::eR8G8Unorm, panel.size, std::as_bytes(std::span(panel.texels)), false);
 }
 
 glm::vec3 output_tint(std::size_t output)
 {
-    constexpr glm::vec3 tints[] = {{1, 0.05f, 0.05f}, {0.05f, 0.7f, 0.1f}, {0.1f, 0.2f, 1}, {0.8f, 0.6f, 0.05f}, {0.6f, 0.1f, 0.8f},
-        {0.05f, 0.6f, 0.7f}};
+    constexpr glm::vec3 tints[] = {{1, 0.05f, 0.05f}, {0.05f, 0.7f, 0.1f}, {0.1f, 0.2f, 1}, {0.8f, 0.6f, 0.05f},
+        {0.6f, 0.1f, 0.8f}, {0.05f, 0.6f, 0.7f}};
     return tints[output % std::size(tints)];
 }
 

@@ -95,7 +95,8 @@ vk::raii::PipelineLayout make_layout(const Device& device, std::initializer_list
     return device.device.createPipelineLayout({{}, sets, push});
 }
 
-std::vector<std::uint32_t> constants(const WarpVariant& v) {
+std::vector<std::uint32_t> constants(const WarpVariant& v)
+{
     return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning};
 }
 

@@ -90,12 +90,11 @@ Image make_image(const Device& device, const ImageSpec& spec)
     image.image = device.device.createImage(info);
     image.bytes = image.image.getMemoryRequirements().size;
     image.memory = bind(device, image.image, vk::MemoryPropertyFlagBits::eDeviceLocal);
-    image.view
-        = device.device.createImageView({{}, *image.image,
-            spec.cube        ? vk::ImageViewType::eCube
-                : spec.array ? vk::ImageViewType::e2DArray
-                             : vk::ImageViewType::e2D,
-            spec.format, {}, {aspect_of(spec.format), 0, spec.levels, 0, spec.layers}});
+    image.view = device.device.createImageView({{}, *image.image,
+        spec.cube        ? vk::ImageViewType::eCube
+            : spec.array ? vk::ImageViewType::e2DArray
+                         : vk::ImageViewType::e2D,
+        spec.format, {}, {aspect_of(spec.format), 0, spec.levels, 0, spec.layers}});
     return image;
 }
 
@@ -170,8 +169,8 @@ Image make_texture_array(
         transition(commands, image, vk::ImageLayout::eUndefined, Stage::eNone, {}, vk::ImageLayout::eTransferDstOptimal,
             Stage::eTransfer, Access::eTransferWrite);
         commands.copyBufferToImage(*staging.buffer, *image.image, vk::ImageLayout::eTransferDstOptimal,
-            vk::BufferImageCopy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, layers}, {},
-                {image.extent.width, image.extent.height, 1}));
+            vk::BufferImageCopy(
+                0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, layers}, {}, {image.extent.width, image.extent.height, 1}));
         transition(commands, image, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
             vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
     });

@@ -49,7 +49,8 @@ bool Workbench::apply(const Controls& controls, Layout& layout)
         choosing_ = true;
     }
     if (turned || controls.choose != 0)
-        say(all[chosen_].name + ": " + shown(value_of(layout, all[chosen_])) + (turned ? "   (F5 keeps it)" : "   (Page Up, Page Down)"));
+        say(all[chosen_].name + ": " + shown(value_of(layout, all[chosen_]))
+            + (turned ? "   (F5 keeps it)" : "   (Page Up, Page Down)"));
     return turned;
 }
 

@@ -22,8 +22,9 @@ public:
     /// One line for the head-up display, some seconds after a key; else empty.
     const std::string& says() const { return Clock::now() < until_ ? says_ : silent_; }
 
-private:
     void say(std::string line);
+
+private:
     void save(const Layout& layout);
 
     Pattern pattern_;

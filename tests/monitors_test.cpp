@@ -220,6 +220,17 @@ TEST(FileWatch, TellsOnceOfAChangeThatHasSettled)
     for (int i = 0; i < 6; ++i)
         told += look();
     EXPECT_EQ(told, 1);
+    // Gone for good it is told of once, and again when it is back.
+    const auto aside = file.parent_path() / "aside.json";
+    std::filesystem::rename(file, aside);
+    told = 0;
+    for (int i = 0; i < 30; ++i)
+        told += look();
+    EXPECT_EQ(told, 1);
+    std::filesystem::rename(aside, file);
+    for (int i = 0; i < 6; ++i)
+        told += look();
+    EXPECT_EQ(told, 2);
     // One that is written again and again is waited for.
     for (int i = 0; i < 6; ++i) {
         write_text("a.json", std::string(std::size_t(i), 'x'));

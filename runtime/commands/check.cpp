@@ -1,8 +1,10 @@
 #include "commands.h"
 #include "config/error.h"
 #include "displays/compiled.h"
+#include "displays/doubts.h"
 #include "displays/plan_drawing.h"
 #include "displays/plan_table.h"
+#include "displays/shade.h"
 #include "runtime/capture.h"
 #include "runtime/find.h"
 #include <CLI/CLI.hpp>
@@ -18,15 +20,19 @@ struct Options {
     std::string layout, svg;
 };
 
-/// What the pixels of bent viewports look at: their compiled maps.
+/// What the pixels of bent viewports look at: their compiled maps. Throws InputError for what can be read but not be drawn.
 Sight compiled_sight(const Layout& layout)
 {
     MapStore store;
     auto maps = std::make_shared<std::map<const Viewport*, CompiledPane>>();
     for (std::size_t output = 0; output < layout.outputs.size(); ++output)
-        if (!layout.outputs[output].preview)
-            for (CompiledPane& pane : compile_output(store, layout, output, layout.outputs[output].size))
+        if (!layout.outputs[output].preview) {
+            const std::vector<CompiledPane> panes = compile_output(store, layout, output, layout.outputs[output].size);
+            refuse_dark(layout, panes);
+            (void)shade_of(layout, output, layout.outputs[output].size, panes, {});
+            for (const CompiledPane& pane : panes)
                 (*maps)[&layout.outputs[output].viewports[pane.pane.viewport]] = pane;
+        }
     return [maps](const Output&, const Viewport& viewport, glm::dvec2 pixel) -> std::optional<glm::dvec3> {
         const DirectionMap& map = *maps->at(&viewport).map;
         const glm::ivec2 at = glm::clamp(glm::ivec2(glm::floor(pixel)), glm::ivec2(0), map.size - 1);
@@ -47,6 +53,8 @@ int check(const Options& options)
             row.per_degree.empty() ? "none" : row.per_degree.c_str());
     for (const std::string& line : overlap_lines(layout, shown))
         std::printf("%s\n", line.c_str());
+    for (const std::string& line : doubts(layout, shown))
+        std::printf("note: %s\n", line.c_str());
     if (file.has_parent_path())
         std::filesystem::create_directories(file.parent_path());
     std::ofstream stream(file, std::ios::binary);
