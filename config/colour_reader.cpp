@@ -138,6 +138,8 @@ std::filesystem::path existing_file(const Place& place, const std::filesystem::p
 {
     const std::filesystem::path file = folder / text(place);
     std::error_code error;
+    if (std::filesystem::is_directory(file, error))
+        complain(place, "is a folder; the path of a file, from the layout's folder on, is right");
     if (!std::filesystem::is_regular_file(file, error))
         complain(place,
             "names no file in " + (folder.empty() ? "this folder" : one_line(folder.string(), 200))

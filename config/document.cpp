@@ -1,5 +1,6 @@
 #include "reader.h"
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -110,6 +111,62 @@ std::size_t number_begin(const std::string& text, std::size_t end)
     return end;
 }
 
+/// What is wrong with a text that is not JSON, and at which byte.
+struct Fault {
+    std::size_t at;
+    std::string problem;
+};
+
+/// In the words of who wrote the file. at: the byte where the parser gave up; what: its message, "[...] parse error at line
+/// L, column C: syntax error while parsing object - unexpected ...; expected ...".
+Fault fault_of(const std::string& text, std::size_t at, const std::string& what)
+{
+    const auto has = [&](const char* part) { return what.find(part) != what.npos; };
+    const std::size_t stopped = at;
+    if (has("unexpected end of input"))
+        return {stopped, "the file ends too early; a } or ] for each { and [, and a quote for each quote, is right"};
+    if (has("missing closing quote") || has("control character"))
+        return {stopped, "a text has no end here; a double quote on the same line is right"};
+    if (has("comment"))
+        return {stopped, "a comment has no end; */ is right"};
+    if (has("invalid string"))
+        return {stopped, "this text can't be read; \\\\ for a backslash, \\\" for a quote and letters in UTF-8 are right"};
+    if (at > 0 && (at >= text.size() || (has("number literal") && !is_digit(text[at])))) // it has looked at what follows
+        --at;
+    const auto of_word = [&](char c) { return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("+-._", c); };
+    std::size_t begin = at, end = at + 1;
+    if (has("string literal;"))
+        begin = string_begin(text, end);
+    else if (of_word(text[at]) || (at > 0 && has("invalid literal") && of_word(text[at - 1]))) {
+        end = of_word(text[at]) ? end : at;
+        while (begin > 0 && of_word(text[begin - 1]))
+            --begin;
+        while (end < text.size() && of_word(text[end]))
+            ++end;
+    }
+    const std::string seen = one_line(text.substr(begin, end - begin), 60);
+    if (seen.size() > 1 && seen[0] == '0' && is_digit(seen[1]))
+        return {begin, seen + " begins with a 0; the number without it is right"};
+    if (has("expected end of input"))
+        return {begin, seen + " comes after the end; nothing more is right"};
+    if (has("parsing object - unexpected") || has("parsing array - unexpected")) {
+        const std::size_t before = text.find_last_not_of(" \t\r\n", begin > 0 ? begin - 1 : 0);
+        return {before == text.npos ? at : before,
+            "then follows " + seen + "; a comma between them, or a closing " + (has("parsing array") ? "]" : "}")
+                + ", is right"};
+    }
+    if ((has("parsing object key") && seen == "}") || (has("parsing value") && seen == "]"))
+        return {begin, seen + " follows a comma; no comma after the last is right"};
+    if (has("parsing object key"))
+        return {begin, seen + " stands where a name should; a name in double quotes, then a colon, is right"};
+    if (has("parsing object separator"))
+        return {begin, seen + " follows a name; a colon between the name and its value is right"};
+    if (has("invalid literal") || has("parsing value"))
+        return {begin, seen + " is no value; a number, a text in double quotes, true, false, null, [...] or {...} is right"};
+    const std::size_t column = what.find(", column "), start = what.find(": ", column);
+    return {at, one_line(what.substr(start == what.npos ? 0 : start + 2)) + "; JSON is right"};
+}
+
 /// Builds the document as the parser goes, because only here are a repeated member, the depth, the place of a number that
 /// overflows and the bytes of a value still known. The parser does not recurse, so depth costs no stack. It tells of each
 /// value when it has taken the value's last byte, or for a number, where the text goes on, the byte after it.
@@ -210,10 +267,8 @@ struct Builder : json::json_sax_t {
         const std::size_t at = taken > 0 ? taken - 1 : 0;
         if (error.id == 406)
             refuse(at, pointer(), one_line(token, 60) + " is too large for a number; up to 1.79e308 is right");
-        // "[...] parse error at line L, column C: ..." with a column in bytes, and 0 for the end of the line before.
-        const std::string what = error.what();
-        const std::size_t column = what.find(", column "), start = what.find(": ", column);
-        refuse(at, column_of(content, at), one_line(what.substr(start == what.npos ? 0 : start + 2)));
+        const Fault fault = fault_of(content, at, error.what());
+        refuse(fault.at, column_of(content, fault.at), fault.problem);
     }
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 std::string value_text(const json& value)
 {
-    return one_line(value.dump(-1, ' ', false, json::error_handler_t::replace), 60);
+    return one_line(value.dump(-1, ' ', false, json::error_handler_t::replace), 160);
 }
 
 std::string phrase(Range range)

@@ -140,7 +140,7 @@ TEST(LayoutTest, WrongLayouts)
             {named("\"../a\""), "/outputs/0/name", "\"../a\"", "can't be part of a file's name"},
             {named("\"ä\""), "/outputs/0/name", "\"ä\"", "can't be part of a file's name"},
             {named("\"a\\n\""), "/outputs/0/name", "\"a\\n\"", "holds a control character"},
-            {named("\"" + std::string(65, 'x') + "\""), "/outputs/0/name", "\"" + std::string(59, 'x') + "...", "up to 64"},
+            {named("\"" + std::string(65, 'x') + "\""), "/outputs/0/name", "\"" + std::string(65, 'x') + "\"", "up to 64"},
             {named("5"), "/outputs/0/name", "5", "is not a text"},
             {R"({ "outputs": [{ "name": "a", "viewports": [{ "projection": { "type": "planar" } }] },
                 { "name": "a", "viewports": [{ "projection": { "type": "planar" } }] }] })",

@@ -18,6 +18,41 @@ std::string at_line(int line, const std::string& rest)
 
 } // namespace
 
+// Each mistake that a hand makes, told where it is and in words that name no parser's state.
+TEST(ReaderTest, WhatIsNoJsonIsToldWithItsCure)
+{
+    const std::vector<std::array<std::string, 3>> cases = {
+        {"{\n \"a\": [\n {\"b\": \"c\" // d\n \"e\": 1}]}", "3", "follows \"e\"; a comma"},
+        {"{\n \"a\": 1\n \"b\": 2}", "2", "follows \"b\"; a comma"},
+        {"{\n \"a\": [1\n 2.5e3]}", "2", "follows 2.5e3; a comma"},
+        {"{\"a\": 1,\n}", "2", "} follows a comma"},
+        {"{\"a\": [1,\n]}", "2", "] follows a comma"},
+        {"{a: 1}", "1", "a stands where a name should"},
+        {"{'a': 1}", "1", "' stands where a name should"},
+        {"{\"a\" 1}", "1", "1 follows a name; a colon"},
+        {"{\"a\":\ntru}", "2", "tru is no value"},
+        {"{\"a\": +1}", "1", "+1 is no value"},
+        {"{\"a\": .5}", "1", ".5 is no value"},
+        {"{\"a\": 0x1F}", "1", "0x1F is no value"},
+        {"{\"a\": 1", "1", "ends too early"},
+        {"{\"a\": \"b\n}", "1", "a text has no end"},
+        {"{\"a\": \"\\q\"}", "1", "can't be read"},
+        {"{\"a\": 1}}", "1", "} comes after the end"},
+        {"{\"a\": [1, 2}", "1", "follows }; a comma between them, or a closing ]"},
+        {"{\"a\": NaN}", "1", "NaN is no value"},
+    };
+    for (const auto& [text, line, problem] : cases)
+        try {
+            parse_document("f", text);
+            FAIL() << text;
+        } catch (const InputError& error) {
+            const std::string what = error.what();
+            EXPECT_TRUE(what.starts_with("f:" + line + ": ")) << text << "\n" << what;
+            EXPECT_NE(what.find(problem), what.npos) << text << "\n" << what;
+            EXPECT_TRUE(what.ends_with("right")) << what;
+        }
+}
+
 TEST(ReaderTest, CommentsAreAllowed)
 {
     const Document d = document("// one\n{ /* two */ \"a\": 1 } // three");
@@ -53,9 +88,9 @@ TEST(ReaderTest, SyntaxErrorsTellLineAndColumn)
              {"{\n  \"a\": 1,\n}", 3, "column 1: "},
              {"{\n  \"a\": NaN\n}", 2, "column 8: "},
              {"{ \"a\": Infinity }", 1, "column 8: "},
-             {"{ \"a\": -Infinity }", 1, "column 9: "},
+             {"{ \"a\": -Infinity }", 1, "column 8: "},
              {"{ \"a\": 1 } 2", 1, "column 12: "},
-             {"{ \"a\": 01 }", 1, "column 9: "},
+             {"{ \"a\": 01 }", 1, "column 8: "},
              {"{ 'a': 1 }", 1, "column 3: "},
              {"{ \"a\" 1 }", 1, "column 7: "},
              {"[1, 2", 1, "column 6: "},
@@ -118,8 +153,12 @@ TEST(ReaderTest, UnknownMembersNameTheNearest)
 
 TEST(ReaderTest, ValuesOfTheWrongKind)
 {
+    std::string long_text;
+    for (int i = 0; i < 100; ++i)
+        long_text += "ä";
     const Document d = document(R"({ "n": 5, "f": 1.5, "s": "text", "b": true, "z": null, "v": [1, "x", 3], "o": {},
-        "e": "", "c": "a\u0000b", "long": "ääääääääääääääääääääääääääääääääääääääääää" })");
+        "e": "", "c": "a\u0000b", "long": ")"
+        + long_text + "\" }");
     const auto at = [&](const char* name) { return member(root(d), name); };
     const std::vector<std::pair<std::string, std::string>> cases{
         {complaint([&] {
