@@ -97,4 +97,8 @@ ok
 (unset DISPLAY; cd "$folder" && timeout 5 "$program" run >"$folder/log" 2>&1)
 grep -q 'no display server' "$folder/log" || fail "no word of the missing display"
 ok
+# What was asked for can't be shown there: told, with nothing drawn instead.
+said=$(unset DISPLAY; cd "$folder" && "$program" run --layout desk 2>&1)
+[ $? = 2 ] && [[ $said == *"no display server"*"starbow render"* ]] || fail "asked for a layout without a display: $said"
+ok
 echo "$passed passed, 0 failed"

@@ -1,7 +1,7 @@
 #include "commands.h"
 #include "contact_sheet.h"
-#include "pattern_option.h"
 #include "input/keyboard.h"
+#include "pattern_option.h"
 #include "runtime/exhibit.h"
 #include "runtime/find.h"
 #include "runtime/outputs.h"
@@ -15,6 +15,7 @@ namespace {
 struct Options {
     std::string layout = "desk", scene = "avenue", shot, pattern = "none";
     long frames = 0;
+    bool asked = false; ///< for anything of the above
 };
 
 int run(const Options& options)
@@ -27,6 +28,11 @@ int run(const Options& options)
         start = load_shot(shot_file);
         scene = scene_of(start, shot_file);
     }
+    const Pattern pattern = pattern_of(options.pattern);
+    if (!has_display() && options.asked)
+        throw InputError(
+            "There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere), so no window can be opened; "
+            "starbow render, which needs none, is right");
     if (!has_display()) {
         std::printf(
             "There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere), so no window can be opened.\n"
@@ -34,7 +40,7 @@ int run(const Options& options)
         return render_contact_sheet("out");
     }
     WindowSystem window_system;
-    return fly_exhibit(scene, layout, start, options.frames, pattern_of(options.pattern));
+    return fly_exhibit(scene, layout, start, options.frames, pattern);
 }
 
 } // namespace
@@ -53,7 +59,11 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--frames", options->frames, "Leave after so many frames")->check(CLI::Range(0L, 1000000000L));
     command->footer(
         std::string("Keys:\n") + keyboard_help() + "\n\nExample:\n  starbow run --layout stereo --shot avenue-gamma4");
-    command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+    command->callback([options, command, &chosen] {
+        for (const CLI::Option* option : command->get_options())
+            options->asked = options->asked || option->count() > 0;
+        chosen = [options] { return run(*options); };
+    });
 }
 
 } // namespace starbow
