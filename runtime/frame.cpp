@@ -279,8 +279,10 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
         std::memcpy(panel_pixels_.mapped, hud->texels.data(), hud->texels.size());
     if (pattern_ != Pattern::none)
         for (PaneState& pane : panes_)
-            if (!*pane.label.view)
+            if (!*pane.label.view) {
                 pane.label = make_label(device_, layout_, pane.pane());
+                pane.shown_part = shown_part(pane.compiled);
+            }
     write_sets();
 }
 
@@ -403,7 +405,10 @@ void Frame::pattern_pane(vk::CommandBuffer commands, const PaneState& pane, vk::
     constants.row0 = look.row0, constants.row1 = look.row1, constants.row2 = look.row2;
     constants.origin = glm::vec4(own.corner, own.size);
     constants.tint = glm::vec4(pattern_ == Pattern::names ? eye_tint(own.eye) : output_tint(own.output), 0);
-    constants.label = glm::vec4(pane.label.extent.width, pane.label.extent.height, 0, 0);
+    // A table most likely is near a gamma of 2.2. A preview's target is sRGB whatever it shows.
+    const Colour& colour = layout_.outputs[pane.output].colour;
+    const double gamma = colour.lut.empty() ? colour.gamma : 2.2;
+    constants.label = glm::vec4(pane.label.extent.width, pane.label.extent.height, pane.shown_part, gamma);
     set_area(commands, own.corner, own.size);
     commands.bindPipeline(
         vk::PipelineBindPoint::eGraphics, pipelines_.pattern(pane.compiled.map != nullptr, int(pattern_), format));

@@ -76,6 +76,7 @@ private:
         CompiledPane compiled;
         std::size_t map = 0; ///< index into maps_, or none
         Image label; ///< of test patterns, once they were shown
+        float shown_part = 1; ///< for them too
         vk::raii::DescriptorSet warp_set = nullptr, hud_set = nullptr, label_set = nullptr;
         vk::Rect2D hud_box;
         glm::dvec3 beside_m{0}; ///< the eye's place from its cube map's, in the cockpit

@@ -33,6 +33,25 @@ Image make_label(Device& device, const Layout& layout, const Pane& pane)
     return make_texture(device, vk::Format::eR8G8Unorm, panel.size, std::as_bytes(std::span(panel.texels)), false);
 }
 
+float shown_part(const CompiledPane& pane)
+{
+    if (!pane.map)
+        return 1;
+    const glm::ivec2 size = pane.map->size;
+    auto shown = [&](int x, int y) { return pane.map->at(x, y).w > 0; };
+    for (int percent = 100; percent > 30; --percent) {
+        const glm::ivec2 low = size * (100 - percent) / 200, high = size - 1 - low;
+        bool all = true;
+        for (int x = low.x; x <= high.x && all; ++x)
+            all = shown(x, low.y) && shown(x, high.y);
+        for (int y = low.y; y <= high.y && all; ++y)
+            all = shown(low.x, y) && shown(high.x, y);
+        if (all)
+            return float(percent) / 100;
+    }
+    return 1;
+}
+
 glm::vec3 output_tint(std::size_t output)
 {
     constexpr glm::vec3 tints[] = {{1, 0.05f, 0.05f}, {0.05f, 0.7f, 0.1f}, {0.1f, 0.2f, 1}, {0.8f, 0.6f, 0.05f},

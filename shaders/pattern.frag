@@ -34,20 +34,25 @@ vec3 grid(vec2 p, vec2 size)
 // Digits of 3 x 5 cells, rows from the top, three bits each.
 const int digits[10] = int[10](0x7b6f, 0x2c97, 0x73e7, 0x73cf, 0x5bc9, 0x79cf, 0x79ef, 0x7249, 0x7bef, 0x7bcf);
 
-// 1 inside the number `value` written to the right from (0, 0), one unit a cell, y down.
-float number(vec2 at, int value)
+// The number `value` centred above (0, 0) to (0, 5), one unit a cell, y down. x: 1 inside its digits; y: 1 on the plate around
+// them, where nothing else is drawn.
+vec2 number(vec2 at, int value)
 {
-    int count = value >= 100 ? 3 : value >= 10 ? 2 : 1;
-    at.x += float(count) * 2.0; // centred
-    int place = int(floor(at.x / 4.0));
-    if (place < 0 || place >= count || at.y < 0.0 || at.y >= 5.0)
-        return 0.0;
+    int size = abs(value);
+    int signs = int(value < 0), count = signs + (size >= 100 ? 3 : size >= 10 ? 2 : 1);
+    at.x += float(count) * 2.0 - 0.5;
+    if (at.x < -1.0 || at.x >= float(count) * 4.0 || at.y < -1.0 || at.y >= 6.0)
+        return vec2(0.0);
+    int place = int(floor(at.x / 4.0)), cell_x = int(floor(at.x)) - 4 * place, cell_y = int(floor(at.y));
+    if (place < 0 || cell_x > 2 || cell_y < 0 || cell_y > 4)
+        return vec2(0.0, 1.0);
+    if (place < signs)
+        return vec2(cell_y == 2, 1.0);
     int power = place == count - 1 ? 1 : place == count - 2 ? 10 : 100;
-    int cell_x = int(at.x - 4.0 * float(place)), cell_y = int(at.y);
-    if (cell_x > 2)
-        return 0.0;
-    return float(digits[(value / power) % 10] >> (14 - cell_y * 3 - cell_x) & 1);
+    return vec2(digits[(size / power) % 10] >> (14 - cell_y * 3 - cell_x) & 1, 1.0);
 }
+
+vec3 written(vec3 light, vec2 mark, vec3 colour) { return mix(light * (1.0 - mark.y), colour, mark.x); }
 
 vec3 rings(vec3 n, float angle)
 {
@@ -60,15 +65,15 @@ vec3 rings(vec3 n, float angle)
     light = mix(light, vec3(1.0, 0.45, 0.1), horizon);
     light = mix(light, vec3(0.2, 1.0, 0.3), front);
     // The azimuth above the horizon and the 45 degree rings, each 30 degrees; the elevation along the four main azimuths.
-    float cell = 0.35;
+    float cell = 0.45;
     float ring = 45.0 * round(elevation / 45.0), spoke = 30.0 * round(azimuth / 30.0);
     vec2 at = vec2((azimuth - spoke) * shrink, ring - elevation) / cell;
     if (abs(ring) < 60.0)
-        light = mix(light, vec3(1.0), number(at - vec2(0.0, -6.5), int(mod(spoke + 360.0, 360.0))));
+        light = written(light, number(at - vec2(0.0, -6.5), int(mod(spoke + 360.0, 360.0))), vec3(1.0));
     float height = 15.0 * round(elevation / 15.0), main_spoke = 90.0 * round(azimuth / 90.0);
     at = vec2((azimuth - main_spoke) * shrink, height - elevation) / cell;
     if (abs(height) > 1.0 && abs(height) < 89.0)
-        light = mix(light, vec3(1.0, 0.9, 0.4), number(at - vec2(8.0, 1.5), int(abs(height))));
+        light = written(light, number(at - vec2(8.0, 2.0), int(height)), vec3(1.0, 0.9, 0.4));
     return light;
 }
 
@@ -95,13 +100,23 @@ vec3 names(vec2 p, vec2 size)
     return mix(light, vec3(1.0), labels(p, size, true));
 }
 
+// Light that leaves the output as this input, 0 to 1.
+float light_of_input(float value)
+{
+    if (pattern.label.w > 0.0)
+        return pow(value, pattern.label.w);
+    return value > 0.04045 ? pow((value + 0.055) / 1.055, 2.4) : value / 12.92;
+}
+
 // From the top: seventeen even steps of input; lines of black and white beside the grey that a right curve makes of them, for
 // each channel; the darkest inputs, of which each should just be seen.
 vec3 wedges(vec2 p, vec2 size)
 {
-    vec2 at = p / size;
+    vec2 at = (p / size - 0.5) / pattern.label.z + 0.5;
+    if (any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, vec2(1.0))))
+        return vec3(0.0);
     if (at.y < 0.4)
-        return vec3(pow(floor(at.x * 17.0) / 16.0, 2.2));
+        return vec3(light_of_input(floor(at.x * 17.0) / 16.0));
     if (at.y < 0.7) {
         int band = int(at.x * 4.0);
         vec3 colour = band == 3 ? vec3(1.0) : vec3(band == 0, band == 1, band == 2);
@@ -110,7 +125,7 @@ vec3 wedges(vec2 p, vec2 size)
     }
     float step_ = floor(at.x * 12.0);
     bool inside = fract(at.x * 12.0) > 0.2 && fract(at.x * 12.0) < 0.8 && at.y > 0.76 && at.y < 0.94;
-    return vec3(inside ? pow((step_ + 1.0) / 255.0 * 2.0, 2.2) : 0.0);
+    return vec3(inside ? light_of_input((step_ + 1.0) / 255.0 * 2.0) : 0.0);
 }
 
 void main()

@@ -97,8 +97,8 @@ vec3 eye_offset(vec3 n)
 // Where the cube map shows what an eye beside it sees along n (world). The eye's line of sight, seen from the cube map's place,
 // is an arc from the nearest surface that there may be to n at infinity: the first place on it where the cube map's surface
 // is no farther than the line is what the eye sees. It is looked for in steps of about five texels (even in 1 / distance, as
-// parallax is), then drawn closer to P = d(m) m with P - offset along n. What the cube map's place does not see it cannot
-// show: there the surface behind the edge is drawn out.
+// parallax is) and, where a surface ends between two steps, before its end; then drawn closer to P = d(m) m with P - offset
+// along n. What the cube map's place does not see it cannot show: there the surface behind the edge is drawn out.
 vec3 reprojected(vec3 n, vec3 offset, float texel)
 {
     float across = length(offset - dot(offset, n) * n);
@@ -107,25 +107,31 @@ vec3 reprojected(vec3 n, vec3 offset, float texel)
         return n;
     float steps = clamp(ceil(0.2 * arc / texel), 1.0, float(REPROJECT_STEPS));
     float nearness = arc / across, shrink = nearness / steps; // 1 / distance
-    float far = 0.0; // distance of the surface in front of which the line passed last
-    vec3 m = n;
+    float far = 0.0, before = 0.0; // distance of the surface at this step, and of that in front of which the line passed last
+    vec3 m = n, last = n;
     bool met = false;
-    for (float i = 0.0; i < steps; i += 1.0) {
-        float s = 1.0 / (nearness - (i + 0.5) * shrink);
-        vec3 line = offset + s * n;
+    for (float i = 0.0; i <= steps && !met; i += 1.0) {
+        bool finite = i < steps; // the last step is n itself, at infinity
+        vec3 line = finite ? offset + n / (nearness - i * shrink) : n;
         m = normalize(line);
         far = distance_at(place_of(m));
-        if (far <= length(line)) {
-            met = true;
-            break;
+        met = finite ? far <= length(line) : !isinf(far);
+        if (i > 0.0 && far > 1.1 * before) {
+            // That surface ended between the steps: the line may have met it just before its end.
+            vec3 edge = normalize(offset + dot(before * last - offset, n) * n);
+            float there = distance_at(place_of(edge));
+            vec3 from_eye = there * edge - offset;
+            if (!isinf(there) && length(from_eye - dot(from_eye, n) * n) < 0.3 * texel * there) {
+                m = edge;
+                far = there;
+                met = true;
+            }
         }
+        before = far;
+        last = m;
     }
-    if (!met) {
-        m = n;
-        far = distance_at(place_of(m));
-        if (isinf(far))
-            return n;
-    }
+    if (!met)
+        return n;
     vec3 best = m;
     float off = 1e30;
     for (int round = 0; round < REPROJECT_ROUNDS; ++round) {
@@ -140,7 +146,7 @@ vec3 reprojected(vec3 n, vec3 offset, float texel)
         far = distance_at(place_of(m));
         if (isinf(far)) {
             // The line passes behind what it seemed to meet, on to the sky: along n, or beside the edge that hides it there.
-            if (off > texel)
+            if (off > 0.15 * texel)
                 best = isinf(distance_at(place_of(n))) ? n : m;
             break;
         }

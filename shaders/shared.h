@@ -73,7 +73,8 @@ struct PatternPush {
     vec4 row0, row1, row2; // as ViewPush's, to the cockpit's axes
     vec4 origin;           // xy: as ViewPush's; zw: pixels of the pane
     vec4 tint;             // rgb: this output's, or this eye's
-    vec4 label;            // xy: size of the label in pixels
+    vec4 label;            // xy: size of the label in pixels; z: part of the pane around its middle that is
+                           // shown; w: gamma of the output, 0: sRGB's curve
 };
 
 // Test patterns, by number.

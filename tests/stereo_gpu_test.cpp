@@ -278,12 +278,16 @@ Layout pair_of(const Projection& projection, ivec2 size, StereoMethod method)
     return layout;
 }
 
-/// Middle of the light of a thing's hue in one eye's half of the picture, and its area; pixels from the half's corner.
-std::pair<dvec2, double> middle_of(const Numbers& numbers, Eye eye, const dvec3& colour)
+/// The light of a thing's hue in one eye's half of the picture, in whole pixels of it: its middle, in pixels from the half's
+/// corner, and its area, both within `reach` of where it should be; and what is farther away.
+struct Found {
+    dvec2 middle{0};
+    double area = 0, astray = 0;
+};
+Found find_thing(const Numbers& numbers, Eye eye, const dvec3& colour, const dvec2& wanted, double reach)
 {
     const int half = numbers.size.x / 2;
-    dvec2 sum(0);
-    double area = 0;
+    Found found;
     for (int i = 0; i < numbers.count(); ++i) {
         if (!numbers.shown(i) || (i % numbers.size.x >= half) != (eye == Eye::right))
             continue;
@@ -291,10 +295,16 @@ std::pair<dvec2, double> middle_of(const Numbers& numbers, Eye eye, const dvec3&
         const double part = std::max({light.r, light.g, light.b}) / std::max({colour.r, colour.g, colour.b});
         if (part < 0.01 || !near_colour(light / part, colour, 0.02))
             continue;
-        sum += part * numbers.centre(i);
-        area += part;
+        const dvec2 at = numbers.centre(i) - dvec2(eye == Eye::right ? half : 0, 0);
+        if (std::max(std::abs(at.x - wanted.x), std::abs(at.y - wanted.y)) > reach) {
+            found.astray += part;
+            continue;
+        }
+        found.middle += part * at;
+        found.area += part;
     }
-    return {sum / area - dvec2(eye == Eye::right ? half : 0, 0), area};
+    found.middle /= found.area;
+    return found;
 }
 
 /// The same as geometry has it. see: the direction in which a point is seen; pixel: where that is.
@@ -338,21 +348,40 @@ dvec3 eye_at(Eye eye, double separation) { return {(eye == Eye::left ? -0.5 : 0.
 const std::vector<Thing> things = {facing(0, 0, 0.5, 2, {0.7, 0, 0}), facing(-18, 8, 1, 2, {0, 0.7, 0}),
     facing(15, -10, 2, 2, {0, 0, 0.7}), facing(-12, -12, 10, 2, {0.7, 0.7, 0}), facing(14, 12, 1e4, 2, {0, 0.7, 0.7})};
 
-/// Where all things should be against where they are, pixels; the worst.
-double worst_middle(const GpuWorld& world, const Layout& layout, const std::vector<Thing>& all,
+/// Where all things should be against where they are.
+struct Off {
+    double worst = 0; ///< middle, pixels
+    double astray = 0; ///< of all their light, the part that is elsewhere
+};
+Off off_of(const GpuWorld& world, const Layout& layout, const std::vector<Thing>& all,
     const std::function<dvec2(const Thing&, Eye)>& wanted)
 {
     Studio stage = studio(world, layout);
     const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
-    double worst = 0;
+    Off off;
+    double area = 0;
     for (const Thing& thing : all)
         for (Eye eye : {Eye::left, Eye::right}) {
-            const auto [middle, area] = middle_of(numbers, eye, thing.colour);
-            EXPECT_GT(area, 50) << "not to be seen";
-            worst = std::max(worst, glm::length(middle - wanted(thing, eye)));
+            const dvec2 right = wanted(thing, eye);
+            const Found found = find_thing(numbers, eye, thing.colour, right, 18); // they are 12 to each side
+            EXPECT_GT(found.area, 50) << "not to be seen";
+            off.worst = std::max(off.worst, glm::length(found.middle - right));
+            off.astray += found.astray;
+            area += found.area + found.astray;
         }
-    return worst;
+    off.astray /= area;
+    std::printf("  middles at most %.3f pixels off, %.2f %% of the light astray\n", off.worst, 100 * off.astray);
+    return off;
 }
+
+/// The cube map has four samples in a texel of 0.8 pixels: an edge is known to half of a quarter.
+constexpr double sharp = 0.2;
+/// Reprojected edges are those of the depth's texels, 0.8 pixels: with one too few along two sides a middle is off by 0.6,
+/// and what is slanted has a step in its edge.
+constexpr double blunt = 0.8;
+/// Beside an edge of what was drawn a texel of the sky has some of the edge's light: a dim outline stays where the eye sees
+/// on to the sky. Of a thing of 24 pixels the outline is a sixth, less than half as bright.
+constexpr double outlines = 0.03;
 
 TEST(Stereo, ExactHasTheParallaxOfTheDistance)
 {
@@ -361,15 +390,14 @@ TEST(Stereo, ExactHasTheParallaxOfTheDistance)
     for (double hyper : {1.0, 3.0}) {
         Layout layout = pair_of(Planar{50}, size, StereoMethod::exact);
         layout.stereo.hyper_stereo = hyper;
-        const double worst = worst_middle(world, layout, things, [&](const Thing& thing, Eye eye) {
+        const Off off = off_of(world, layout, things, [&](const Thing& thing, Eye eye) {
             return wanted_middle(
                 thing, [&](const dvec3& p) { return p - eye_at(eye, eyes_m * hyper); },
                 [&](const dvec3& d) { return planar_pixel(d, 50, size); });
         });
-        std::printf("  exact, hyper-stereo %g: worst middle %.3f pixels off\n", hyper, worst);
-        // The nearest has 42 pixels of parallax (126). The cube map's texels are 0.8 pixels; a middle is known to a few
-        // hundredths of them, as the middles of flat_picture's markers.
-        EXPECT_LT(worst, 0.15);
+        // The nearest has 42 pixels of parallax, or 126.
+        EXPECT_LT(off.worst, sharp);
+        EXPECT_EQ(off.astray, 0);
     }
 }
 
@@ -380,13 +408,13 @@ TEST(Stereo, ReprojectedHasTheParallaxOfTheDistance)
     for (double hyper : {1.0, 3.0}) {
         Layout layout = pair_of(Planar{50}, size, StereoMethod::reprojected);
         layout.stereo.hyper_stereo = hyper;
-        const double worst = worst_middle(world, layout, things, [&](const Thing& thing, Eye eye) {
+        const Off off = off_of(world, layout, things, [&](const Thing& thing, Eye eye) {
             return wanted_middle(
                 thing, [&](const dvec3& p) { return p - eye_at(eye, eyes_m * hyper); },
                 [&](const dvec3& d) { return planar_pixel(d, 50, size); });
         });
-        std::printf("  reprojected, hyper-stereo %g: worst middle %.3f pixels off\n", hyper, worst);
-        EXPECT_LT(worst, 0.5); // edges are found to a texel on either side, not half a pixel in the mean
+        EXPECT_LT(off.worst, blunt);
+        EXPECT_LT(off.astray, outlines);
     }
 }
 
@@ -397,22 +425,21 @@ TEST(Stereo, SharedShowsEverythingAtInfinity)
     const ivec2 size(360, 300);
     Layout layout = pair_of(Planar{50}, size, StereoMethod::shared);
     auto straight = [](const dvec3& p) { return p; };
-    const double flat = worst_middle(world, layout, things, [&](const Thing& thing, Eye) {
+    const Off flat = off_of(world, layout, things, [&](const Thing& thing, Eye) {
         return wanted_middle(thing, straight, [&](const dvec3& d) { return planar_pixel(d, 50, size); });
     });
-    EXPECT_LT(flat, 0.15); // as `exact`
+    EXPECT_LT(flat.worst, sharp);
 
     const Wall wall{{-0.9, -0.75, -1.5}, {0.9, -0.75, -1.5}, {-0.9, 0.75, -1.5}};
     layout = pair_of(wall, size, StereoMethod::shared);
     layout.stereo.hyper_stereo = 100; // of the world alone
-    const double on_wall = worst_middle(world, layout, things, [&](const Thing& thing, Eye eye) {
+    const Off on_wall = off_of(world, layout, things, [&](const Thing& thing, Eye eye) {
         return wanted_middle(thing, straight, [&](const dvec3& d) {
             const dvec3 at = eye_at(eye, eyes_m) + d * (1.5 / -d.z);
             return dvec2((at.x + 0.9) / 1.8 * size.x, (0.75 - at.y) / 1.5 * size.y);
         });
     });
-    EXPECT_LT(on_wall, 0.15);
-    std::printf("  shared: worst middle %.3f pixels off, on a wall %.3f\n", flat, on_wall);
+    EXPECT_LT(on_wall.worst, sharp);
 }
 
 // A wall's picture for each eye and the world's parallax together: a thing in the wall's plane is at one place for both
@@ -426,11 +453,10 @@ TEST(Stereo, AThingOnTheWallHasNoParallaxOnIt)
         {{-0.6, -0.4, -1.5}, {0.05, 0, 0}, {0, 0.05, 0}, {0, 0, 0.7}}};
     const GpuWorld world = world_of("on_wall", on_it);
     for (StereoMethod method : {StereoMethod::exact, StereoMethod::reprojected}) {
-        const double worst = worst_middle(world, pair_of(wall, size, method), on_it, [&](const Thing& thing, Eye) {
+        const Off off = off_of(world, pair_of(wall, size, method), on_it, [&](const Thing& thing, Eye) {
             return dvec2((thing.centre.x + 0.9) / 1.8 * size.x, (0.75 - thing.centre.y) / 1.5 * size.y);
         });
-        std::printf("  on the wall: worst middle %.3f pixels off\n", worst);
-        EXPECT_LT(worst, 0.3);
+        EXPECT_LT(off.worst, method == StereoMethod::exact ? sharp : blunt);
     }
 }
 
@@ -514,16 +540,56 @@ TEST(Stereo, ReprojectedAgainstExactPixelByPixel)
                 "pixels, other things %.2f %%\n",
         of_exact.median, of_exact.high, 100 * of_exact.hidden, of_tested.median, of_tested.high, 100 * of_tested.hidden);
     EXPECT_LT(of_exact.high, 0.001); // by construction: what is asked for is what is looked up
-    EXPECT_LT(of_exact.hidden, 0.03); // depth of the nearest texel: along edges, half a texel
-    // The way to a surface stops at a twentieth of a texel; beside edges it ends on one of them.
-    EXPECT_LT(of_tested.median, 0.1);
-    EXPECT_LT(of_tested.high, 4);
-    EXPECT_LT(of_tested.hidden, 0.06);
+    EXPECT_LT(of_exact.hidden, 0.008); // along edges the depth of the nearest texel, half a texel off
+    // The way to a surface stops at a twentieth of a texel of 0.8 pixels, most often far sooner; beside edges it does not
+    // get there, but these are less than a hundredth.
+    EXPECT_LT(of_tested.median, 0.02);
+    EXPECT_LT(of_tested.high, 0.1);
+    // The edges once more for each eye, and what the middle of the head does not see beside the nearest things.
+    EXPECT_LT(of_tested.hidden, 0.012);
     // What the program tells about itself is that.
     const Disparity told = disparity(tested, &exact, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}), 0, 1);
-    EXPECT_NEAR(told.median, of_tested.median, 0.02);
-    EXPECT_NEAR(told.high, of_tested.high, 0.3 * of_tested.high + 0.02);
-    EXPECT_NEAR(told.hidden, of_tested.hidden, 0.03);
+    EXPECT_NEAR(told.median, of_tested.median, 0.2 * of_tested.median);
+    EXPECT_NEAR(told.high, of_tested.high, 0.2 * of_tested.high);
+    EXPECT_NEAR(told.hidden, of_tested.hidden, 0.006); // against the other's depth, not the ray's
+}
+
+// In flight both eyes are where the ship's moment puts them in the world: the part along the motion is gamma times as far
+// from the middle. That `exact` does so is tested in picture_gpu_test.
+TEST(Stereo, ReprojectedAgainstExactInFlight)
+{
+    const std::vector<Thing> all = room();
+    const GpuWorld world = world_of("room", all);
+    const ivec2 size(320, 240);
+    Studio exact = studio(world, pair_of(Planar{60}, size, StereoMethod::exact)),
+           tested = studio(world, pair_of(Planar{60}, size, StereoMethod::reprojected));
+    const double gamma = 1.6;
+    const dvec3 way = glm::normalize(dvec3(0.8, 0.1, -0.6));
+    const Shot shot = shot_at({0, 0, 0.5}, u_of_gamma(gamma) * way, {0.2, 0, -1});
+    const Numbers of_exact(exact, shot), of_tested(tested, shot);
+    std::vector<double> off;
+    int other = 0, both = 0;
+    for (int i = 0; i < of_exact.count(); ++i) {
+        const bool left = i % of_exact.size.x < size.x;
+        const dvec3 e = shot.ship_from_cockpit * eye_at(left ? Eye::left : Eye::right, eyes_m);
+        const dvec3 eye = e + (gamma - 1) * glm::dot(e, way) * way;
+        const double a = of_exact.depth(i), b = of_tested.depth(i);
+        if (std::isinf(a) && std::isinf(b))
+            continue;
+        ++both;
+        const dvec3 point = b * of_tested.world(i) - eye;
+        if (std::isinf(a) != std::isinf(b) || std::abs(glm::length(point) / a - 1) > 0.02)
+            ++other;
+        else
+            off.push_back(between(point, of_exact.world(i)) / (60 * degree / size.y * of_exact.D(i)));
+    }
+    ASSERT_GT(off.size(), 50000u);
+    std::sort(off.begin(), off.end());
+    std::printf("  in flight: median %.4f, 99 %% %.4f pixels, other things %.2f %%\n", off[off.size() / 2],
+        off[off.size() * 99 / 100], 100.0 * other / both);
+    EXPECT_LT(off[off.size() / 2], 0.02); // as at rest
+    EXPECT_LT(off[off.size() * 99 / 100], 0.15);
+    EXPECT_LT(other, 0.03 * both); // the edges of two pictures
 }
 
 // ---------------------------------------------------------------- domes
@@ -568,13 +634,13 @@ TEST(Stereo, ADomesBaselineTurnsAndFades)
         for (const Thing& thing : around) {
             dvec2 seen[2];
             for (Eye eye : {Eye::left, Eye::right}) {
-                const auto [middle, area] = middle_of(numbers, eye, thing.colour);
-                ASSERT_GT(area, 50);
                 const dvec2 wanted = wanted_middle(
                     thing, [&](const dvec3& p) { return turned_look(eye, p, separation, full); },
                     [&](const dvec3& d) { return dome_pixel(d, size); });
-                worst = std::max(worst, glm::length(middle - wanted));
-                seen[eye == Eye::right] = middle;
+                const Found found = find_thing(numbers, eye, thing.colour, wanted, 20); // 11 to each side, 16 aside
+                ASSERT_GT(found.area, 50);
+                worst = std::max(worst, glm::length(found.middle - wanted));
+                seen[eye == Eye::right] = found.middle;
             }
             // The right eye sees what is near further to the left: against the turn to the right that it looks along.
             const dvec3 c = thing.centre;
@@ -584,15 +650,16 @@ TEST(Stereo, ADomesBaselineTurnsAndFades)
         // On a dome's picture an angle aside from the azimuth is stretched by angle / sine from the zenith.
         const double pixels_per_radian = size / pi, parallax = 2 * std::atan(0.5 * separation / 2) * pixels_per_radian;
         const double stretch = 65 * degree / std::sin(65 * degree);
+        constexpr double close = 1; // each eye's half a pixel, as on a window
         for (int i = 0; i < 4; ++i)
-            EXPECT_NEAR(told[i], parallax * stretch, 0.05 * parallax) << "azimuth " << 90 * i;
+            EXPECT_NEAR(told[i], parallax * stretch, close) << "azimuth " << 90 * i;
         const double faded = std::sin(20 * degree) / std::sin(full * degree) * 20 * degree / std::sin(20 * degree);
-        EXPECT_NEAR(told[4], parallax * faded, 0.08 * parallax);
+        EXPECT_NEAR(told[4], parallax * faded, close);
         EXPECT_NEAR(told[5], 0, 0.3) << "at the zenith";
         std::printf("  dome, hyper-stereo %g: parallax %.2f %.2f %.2f %.2f pixels around (%.2f), %.2f faded (%.2f), %.2f at "
                     "the zenith; worst middle %.2f off\n",
             hyper, told[0], told[1], told[2], told[3], parallax * stretch, told[4], parallax * faded, told[5], worst);
-        EXPECT_LT(worst, 0.5); // as `reprojected` on a window
+        EXPECT_LT(worst, blunt);
     }
 }
 
