@@ -11,7 +11,8 @@ namespace {
 
 std::string value_text(const json& value)
 {
-    return one_line(value.dump(-1, ' ', false, json::error_handler_t::replace), 160);
+    // Of a path its end counts; of a list its beginning is enough to know it.
+    return one_line(value.dump(-1, ' ', false, json::error_handler_t::replace), value.is_string() ? 160 : 60);
 }
 
 std::string phrase(Range range)

@@ -280,10 +280,20 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
     if (pattern_ != Pattern::none)
         for (PaneState& pane : panes_)
             if (!*pane.label.view) {
-                pane.label = make_label(device_, layout_, pane.pane());
+                pane.label = make_label(device_, layout_, pane.pane(), sent_pixels(pane));
                 pane.shown_part = shown_part(pane.compiled);
             }
     write_sets();
+}
+
+/// The pixels of the pane, and where it is a preview, of the one that it shows small.
+glm::ivec2 Frame::sent_pixels(const PaneState& pane) const
+{
+    for (const PaneState& other : panes_)
+        if (other.output == other.pane().output && other.output == pane.pane().output
+            && other.pane().viewport == pane.pane().viewport && other.pane().eye == pane.pane().eye)
+            return other.pane().size;
+    return pane.pane().size;
 }
 
 glm::dvec3 Frame::scene_units(const glm::dvec3& place_m) const
@@ -449,7 +459,9 @@ void Frame::warp_output(vk::CommandBuffer commands, std::size_t output, const Ta
 void Frame::finish_output(vk::CommandBuffer commands, std::size_t output, const Target& target)
 {
     if (outputs_[output].finish)
-        outputs_[output].finish->record(commands, target, pattern_ == Pattern::grid || pattern_ == Pattern::names);
+        // How a projector is set is judged without what lies on its picture; how pictures meet, with it.
+        outputs_[output].finish->record(
+            commands, target, pattern_ == Pattern::grid || pattern_ == Pattern::names || pattern_ == Pattern::wedges);
 }
 
 void Frame::record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target)

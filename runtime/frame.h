@@ -103,6 +103,7 @@ private:
     std::size_t eye_for(const Pane& pane);
     std::size_t map_for(const CompiledPane& pane, std::vector<Map>& before);
     PixelBox panel_in(const Blocks& blocks) const;
+    glm::ivec2 sent_pixels(const PaneState& pane) const;
     glm::dvec3 scene_units(const glm::dvec3& place_m) const;
     glm::dvec3 world_offset(const PaneState& pane) const;
     void write_sets();

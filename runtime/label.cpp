@@ -4,14 +4,14 @@
 
 namespace starbow {
 
-Image make_label(Device& device, const Layout& layout, const Pane& pane)
+Image make_label(Device& device, const Layout& layout, const Pane& pane, glm::ivec2 sent)
 {
     const Output& output = layout.outputs[pane.output];
     std::string name = output.name;
     if (output.viewports.size() > 1)
         name.append(" ").append(std::to_string(pane.viewport));
     std::string pixels = pane.eye == Eye::left ? "left eye, " : pane.eye == Eye::right ? "right eye, " : "";
-    pixels += std::to_string(pane.size.x) + " x " + std::to_string(pane.size.y);
+    pixels += std::to_string(sent.x) + " x " + std::to_string(sent.y);
     const std::string lines[] = {name, pixels};
 
     const Typesetter typesetter;

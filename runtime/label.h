@@ -5,7 +5,8 @@
 namespace starbow {
 
 /// What the test patterns write on a pane: its output, viewport, eye and pixels, as a picture of letters (r of R8G8).
-Image make_label(Device& device, const Layout& layout, const Pane& pane);
+/// sent: the pixels that its projector gets, where the pane is a preview of them.
+Image make_label(Device& device, const Layout& layout, const Pane& pane, glm::ivec2 sent);
 
 /// How much of a pane, of its shape and around its middle, shows something all along its edge: 1 for a whole rectangle, 0.7
 /// for a circle. 1 too where the middle is dark.
