@@ -205,8 +205,8 @@ Sum light_of(const Rig& rig, int count = 200000)
         int by = 0, whole = 0, edges = 0, near = 0;
         for (std::size_t i = 0; i < rig.lights.size(); ++i) {
             const auto light_at = rig.lights[i](d, weights.outputs[i].size);
-            if (!light_at)
-                continue;
+            if (!light_at || glm::any(glm::greaterThan(glm::abs(*light_at), dvec2(1e6))))
+                continue; // behind the projector, or nearly beside it
             const dvec2 place = weights.corrected(i, d, *light_at);
             if (const auto weight = weights.at(i, place))
                 light += *weight, ++by;
