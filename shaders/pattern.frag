@@ -69,7 +69,7 @@ vec3 rings(vec3 n, float angle)
     float ring = 45.0 * round(elevation / 45.0), spoke = 30.0 * round(azimuth / 30.0);
     vec2 at = vec2((azimuth - spoke) * shrink, ring - elevation) / cell;
     if (abs(ring) < 60.0)
-        light = written(light, number(at - vec2(0.0, -6.5), int(mod(spoke + 360.0, 360.0))), vec3(1.0));
+        light = written(light, number(at - vec2(0.0, -6.5), int(spoke < -170.0 ? 180.0 : spoke)), vec3(1.0));
     float height = 15.0 * round(elevation / 15.0), main_spoke = 90.0 * round(azimuth / 90.0);
     at = vec2((azimuth - main_spoke) * shrink, height - elevation) / cell;
     if (abs(height) > 1.0 && abs(height) < 89.0)

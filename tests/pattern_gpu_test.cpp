@@ -169,7 +169,7 @@ TEST(Pattern, NumbersCanBeRead)
         const Drawn drawn = draw(screen.layout, Pattern::rings).front();
         for (int azimuth = 0; azimuth < 360; azimuth += 30)
             for (int ring : {0, 45}) {
-                const std::string text = std::to_string(azimuth);
+                const std::string text = std::to_string(azimuth > 180 ? azimuth - 360 : azimuth);
                 bool whole = true;
                 std::vector<std::pair<dvec2, bool>> cells;
                 for (std::size_t k = 0; k < text.size(); ++k)
@@ -181,7 +181,7 @@ TEST(Pattern, NumbersCanBeRead)
                             const double aside = right / std::cos(elevation * degree);
                             const dvec2 p = screen.pixel(towards(azimuth + aside, elevation));
                             whole = whole && drawn.inside(p - 1.0) && drawn.inside(p + 1.0);
-                            cells.emplace_back(p, digits[text[k] - '0'][y][x] == '#');
+                            cells.emplace_back(p, text[k] == '-' ? y == 2 : digits[text[k] - '0'][y][x] == '#');
                         }
                 if (!whole)
                     continue;
