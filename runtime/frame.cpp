@@ -2,6 +2,7 @@
 #include "colour.h"
 #include "cull.h"
 #include "displays/blend.h"
+#include "hud_place.h"
 #include "label.h"
 #include "physics/physics.h"
 #include <algorithm>
@@ -18,37 +19,6 @@ using Layout_ = vk::ImageLayout;
 constexpr double degree = 3.14159265358979323846 / 180;
 
 glm::vec4 row(const glm::dmat3& m, int i, double w = 0) { return glm::vec4(m[0][i], m[1][i], m[2][i], w); }
-
-glm::dvec3 panel_middle(const HudPlacement& hud)
-{
-    const double a = hud.azimuth_deg * degree, e = hud.elevation_deg * degree;
-    return {std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e)};
-}
-
-/// Which way the flat picture faces that shows the panel's middle, towards the eye's far side; elsewhere the middle itself.
-glm::dvec3 panel_faces(const glm::dvec3& middle, const std::vector<std::vector<CompiledPane>>& panes)
-{
-    for (const auto& output : panes)
-        for (const CompiledPane& pane : output)
-            if (pane.matrix) {
-                const glm::dvec3 at = glm::inverse(*pane.matrix) * middle;
-                const glm::dvec2 pixel = glm::dvec2(at) / at.z, size(pane.pane.size);
-                if (at.z > 0 && glm::all(glm::greaterThanEqual(pixel, glm::dvec2(0)))
-                    && glm::all(glm::lessThanEqual(pixel, size)))
-                    return glm::normalize(glm::cross((*pane.matrix)[0], (*pane.matrix)[1]));
-            }
-    return middle;
-}
-
-/// Panel axes from the cockpit's: x right and y up on the panel, z = 1 on its plane, the origin at its middle. On a flat
-/// screen the panel is parallel to it, so that its lines stay level; everywhere else it faces the visitor.
-glm::dmat3 panel_from_cockpit(const glm::dvec3& middle, const glm::dvec3& faces)
-{
-    const glm::dvec3 across = glm::cross(faces, glm::dvec3(0, 1, 0));
-    const glm::dvec3 x = glm::length(across) > 1e-6 ? glm::normalize(across) : glm::dvec3(1, 0, 0), y = glm::cross(x, faces);
-    const glm::dvec2 at = glm::dvec2(glm::dot(middle, x), glm::dot(middle, y)) / glm::dot(middle, faces);
-    return glm::transpose(glm::dmat3(x - at.x * faces, y - at.y * faces, faces));
-}
 
 constexpr std::size_t no_map = ~std::size_t(0);
 
@@ -142,8 +112,7 @@ Frame::Parts Frame::parts(bool refuses_dark)
 
 void Frame::take_up(Parts parts)
 {
-    const glm::dvec3 middle = panel_middle(layout_.hud);
-    panel_from_cockpit_ = panel_from_cockpit(middle, panel_faces(middle, parts.panes));
+    panel_from_cockpit_ = panel_from_cockpit(layout_.hud, parts.panes);
     panel_half_ = std::tan(0.5 * layout_.hud.width_deg * degree) * glm::dvec2(1, panel_aspect);
     std::vector<PaneState> before = std::exchange(panes_, {}); // whose maps are found again
     std::vector<Map> maps_before = std::exchange(maps_, {});
