@@ -113,6 +113,18 @@ if cmp -s "$folder/one.csv" "$folder/two.csv" && cmp -s "$folder/one_frustum.csv
 if "$program" warp inspect "$folder/one.csv" --out "$folder/one.png" | grep -q '^grid *33 columns x 33 rows$' && [ -s "$folder/one.png" ]; then passed=$((passed + 1)); else fail "inspect"; fi
 if "$program" import sgct "$warps/sgct-configs/single_fisheye.json" --out "$folder/imported.json" | grep -q '^/nodes/0/windows/0/size  -> size$' && [ -s "$folder/imported.json" ]; then passed=$((passed + 1)); else fail "import"; fi
 
+# A SCISS mesh's own view is what a flat one becomes.
+mkdir -p "$folder/sciss"
+cp "$warps/channel1_warp_u2.sgc" "$folder/sciss/"
+cat > "$folder/sciss/sgct.json" << 'END'
+{ "version": 1, "nodes": [ { "windows": [ { "name": "P1", "size": { "x": 64, "y": 40 }, "viewports": [
+    { "mesh": "channel1_warp_u2.sgc", "projection": { "type": "PlanarProjection", "fov": { "hfov": 95, "vfov": 70 } } } ] } ] } ] }
+END
+said=$("$program" import sgct "$folder/sciss/sgct.json" --out "$folder/sciss/layout.json" 2>&1)
+if [ $? = 0 ] && [[ $said == *"projection  not mapped: replaced by the mesh's own"* ]] && ! grep -q '"projection"' "$folder/sciss/layout.json"; then passed=$((passed + 1)); else fail "import of a SCISS mesh: $said"; fi
+said=$("$program" check "$folder/sciss/layout.json" --svg "$folder/sciss/plan.svg" 2>&1)
+if [[ $said == *"P1: the warp file's own; bent by channel1_warp_u2.sgc"* ]]; then passed=$((passed + 1)); else fail "check of a SCISS mesh: $said"; fi
+
 # Unknown options and missing ones are told in one line too, also with exit 2.
 for arguments in '' 'fly' 'render' 'render --shot' 'bench --rounds 0' 'run --frames -1' 'check' 'render --shot start --out x --colour' 'warp' 'warp inspect' 'import sgct x'; do
     # shellcheck disable=SC2086

@@ -202,6 +202,37 @@ TEST(ImportSgctTest, UsersMasksEyesAndNodes)
         complaint([&] { imported(two, 2); }).find("/nodes: has no node 2; one from 0 to 1 is right"), std::string::npos);
 }
 
+TEST(ImportSgctTest, MeshesBringTheirOwnView)
+{
+    const std::string planar = R"({ "type": "PlanarProjection", "fov": { "hfov": 95, "vfov": 70 } })",
+                      users = R"([{ "pos": { "x": 0, "y": 0, "z": 4 } }])";
+    const auto made = [&](const std::string& mesh, const std::string& projection, const MeshView& view) {
+        const std::string text
+            = config(R"({ "projection": )" + projection + R"(, "mesh": "m/)" + mesh + R"(" })", "", users);
+        return import_sgct(read_document(write_text("sgct.json", text)), 0, "from", [&](const std::filesystem::path& file) {
+            EXPECT_EQ(file, "m/" + mesh);
+            return view;
+        });
+    };
+    // SCISS and SkySkan files place the user too, Scalable's do not.
+    for (const auto& [mesh, eye] : {std::pair("a.sgc", "[1.0, 2.0, 3.0]"), std::pair("a.txt", "[1.0, 2.0, 3.0]"),
+             std::pair("a.skyskan", "[1.0, 2.0, 3.0]"), std::pair("a.ol", "[0.0, 0.0, 4.0]")}) {
+        SCOPED_TRACE(mesh);
+        const Import import = made(mesh, planar, {true, glm::dvec3(1, 2, 3)});
+        const Json viewport = import.layout["outputs"][0]["viewports"][0];
+        EXPECT_FALSE(viewport.contains("projection"));
+        EXPECT_EQ(viewport["warp"]["file"], "from/m/" + std::string(mesh));
+        EXPECT_EQ(viewport["eye_m"], Json::parse(eye));
+        EXPECT_TRUE(has(import, "/nodes/0/windows/0/viewports/0/projection  not mapped: replaced by the mesh's own"));
+    }
+    const auto viewport = [](const Import& import) { return import.layout["outputs"][0]["viewports"][0]; };
+    EXPECT_FALSE(viewport(made("a.sgc", planar, {true, glm::dvec3(0)})).contains("eye_m"));
+    // Files without a view, formats that SGCT takes none from, and what is no flat picture.
+    EXPECT_EQ(viewport(made("a.ol", planar, {false, {}}))["projection"]["type"], "planar");
+    EXPECT_EQ(viewport(made("a.csv", planar, {true, {}}))["projection"]["type"], "planar");
+    EXPECT_EQ(viewport(made("a.sgc", sphere, {true, {}}))["projection"]["type"], "equirectangular");
+}
+
 TEST(ImportSgctTest, WhatCannotBeMapped)
 {
     const std::string mirror

@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "config/import_sgct.h"
+#include "displays/warp/mesh.h"
 #include "runtime/capture.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -14,13 +15,24 @@ struct Options {
     int node = 0;
 };
 
+MeshView view_of(const std::filesystem::path& mesh)
+{
+    try {
+        const WarpMesh read = load_warp({mesh});
+        return {read.frustum || read.kind == WarpMesh::Kind::colours, read.eye_m};
+    } catch (const InputError&) {
+        return {}; // as its kind has it; what is wrong with the file is told where the layout is tried
+    }
+}
+
 int import(const Options& options)
 {
     const Document document = read_document(options.file);
     check_writable(options.out);
     const std::filesystem::path from = std::filesystem::absolute(options.file).parent_path().lexically_normal(),
                                 to = std::filesystem::absolute(options.out).parent_path().lexically_normal();
-    const Import import = import_sgct(document, options.node, from.lexically_relative(to));
+    const Import import = import_sgct(document, options.node, from.lexically_relative(to),
+        [&](const std::filesystem::path& mesh) { return view_of(from / mesh); });
     for (const std::string& line : import.lines)
         std::printf("%s\n", one_line(line).c_str());
     std::error_code ignored; // told by the stream
