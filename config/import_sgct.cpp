@@ -80,7 +80,7 @@ private:
 
     std::vector<Place> nodes(const Place& top);
     void user(const Place& place);
-    std::optional<Json> window(const Place& place, std::size_t index);
+    std::optional<Json> window(const Place& place, std::size_t index, bool alone);
     std::optional<Json> viewport(const Place& place, glm::ivec2 window_size);
     std::optional<Json> projection(const Place& place, glm::dvec2 pixels);
     std::optional<MeshView> mesh_view(const Place& viewport);
@@ -141,9 +141,17 @@ Import Importer::run()
                                 if (part != "windows")
                                     return false;
                                 std::size_t index = 0;
-                                for (const Place& each : items(windows, 1, 64, "windows"))
-                                    if (auto output = window(each, index++))
+                                const std::vector<Place> each = items(windows, 1, 64, "windows");
+                                for (const Place& at : each)
+                                    if (auto output = window(at, index++, each.size() == 1)) {
+                                        if (output->contains("monitor"))
+                                            out_.to_mend.push_back("/outputs/" + std::to_string(outputs.size())
+                                                + "/monitor/connector: "
+                                                + (*output)["monitor"]["connector"].get<std::string>()
+                                                + " stands in for the monitor's name; one that 'starbow displays' lists is "
+                                                  "right");
                                         outputs.push_back(*output);
+                                    }
                                 return true;
                             });
             } else
@@ -238,7 +246,7 @@ std::string Importer::packing(const Place& place)
     return "mono";
 }
 
-std::optional<Json> Importer::window(const Place& place, std::size_t index)
+std::optional<Json> Importer::window(const Place& place, std::size_t index, bool alone)
 {
     Json output;
     const Place size_at = member(place, "size");
@@ -246,6 +254,15 @@ std::optional<Json> Importer::window(const Place& place, std::size_t index)
     const auto name_at = find(place, "name");
     output["name"] = output_name(name_at ? text(*name_at) : "window" + std::to_string(index));
     output["size"] = Json::array({size.x, size.y});
+    const auto fullscreen_at = find(place, "fullscreen"), monitor_at = find(place, "monitor");
+    const bool fullscreen = fullscreen_at && boolean(*fullscreen_at);
+    if (fullscreen) {
+        output["whole_monitor"] = true;
+        // SGCT counts monitors, a layout names them: several windows must at least be told apart.
+        if (!alone)
+            output["monitor"]
+                = {{"connector", "SGCT-monitor-" + std::to_string(monitor_at ? integer(*monitor_at, -1, 1024) : 0)}};
+    }
     Json viewports = Json::array();
     members(place,
         {{"id", elsewhere}, {"tags", elsewhere}, {"bufferbitdepth", chosen_here}, {"autoiconify", elsewhere},
@@ -265,6 +282,10 @@ std::optional<Json> Importer::window(const Place& place, std::size_t index)
                 became(at, "size");
             else if (name == "name")
                 became(at, "name " + output["name"].get<std::string>());
+            else if (name == "pos" && fullscreen)
+                not_mapped(at, "the window covers its monitor");
+            else if (name == "monitor" && output.contains("monitor"))
+                became(at, "monitor, a connector that stands in for its name");
             else if (name == "pos") {
                 output["place"]
                     = Json::array({integer(member(at, "x"), -65536, 65536), integer(member(at, "y"), -65536, 65536)});
@@ -275,9 +296,7 @@ std::optional<Json> Importer::window(const Place& place, std::size_t index)
                 else
                     not_mapped(at, "an output is drawn at its own size");
             } else if (name == "fullscreen") {
-                if (boolean(at))
-                    output["whole_monitor"] = true;
-                became(at, boolean(at) ? "whole_monitor" : "a window");
+                became(at, fullscreen ? "whole_monitor" : "a window");
             } else if (name == "resizable") {
                 output["resizable"] = boolean(at);
                 became(at, "resizable");

@@ -10,6 +10,8 @@ struct Import {
     nlohmann::ordered_json layout;
     /// One for each member: "/POINTER  -> what it became" or "/POINTER  not mapped: reason".
     std::vector<std::string> lines;
+    /// What only the builder can tell, a line each: "/POINTER in the layout: what stands there; what would be right".
+    std::vector<std::string> to_mend;
 };
 
 /// What a mesh's file says of the view that it bends.

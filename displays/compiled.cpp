@@ -274,6 +274,13 @@ std::shared_ptr<const DirectionMap> MapStore::map(const Pane& pane, const WarpMe
     return map;
 }
 
+void check_projection(const Warp& warp, const WarpMesh& mesh, bool projection_given)
+{
+    if (!projection_given && mesh.kind == WarpMesh::Kind::picture && !mesh.frustum)
+        throw InputError(warp.file.string(), "",
+            "does not say what its picture shows; a viewport with a projection beside this warp is right");
+}
+
 CompiledPane MapStore::compile(const Layout& layout, const Pane& pane)
 {
     CompiledPane compiled;
@@ -281,9 +288,7 @@ CompiledPane MapStore::compile(const Layout& layout, const Pane& pane)
     std::string content;
     if (const auto& warp = layout.outputs[pane.output].viewports[pane.viewport].warp) {
         compiled.mesh = mesh(*warp, content);
-        if (!pane.projection_given && compiled.mesh->kind == WarpMesh::Kind::picture && !compiled.mesh->frustum)
-            throw InputError(warp->file.string(), "",
-                "does not say what its picture shows; a viewport with a projection beside this warp is right");
+        check_projection(*warp, *compiled.mesh, pane.projection_given);
     } else {
         compiled.matrix = pane_matrix(pane);
     }

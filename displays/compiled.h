@@ -39,6 +39,9 @@ private:
     std::shared_ptr<Kept> kept_;
 };
 
+/// Throws InputError where a viewport leaves it to a mesh to say what its picture shows, and the mesh does not.
+void check_projection(const Warp& warp, const WarpMesh& mesh, bool projection_given);
+
 /// All panes of one output.
 std::vector<CompiledPane> compile_output(MapStore& store, const Layout& layout, std::size_t output, glm::ivec2 size);
 

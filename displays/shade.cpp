@@ -6,9 +6,7 @@
 #include <stb/stb_image.h>
 
 namespace starbow {
-namespace {
-
-WarpMesh::Mask read_mask(const std::filesystem::path& file, double gamma)
+WarpMesh::Mask load_mask(const std::filesystem::path& file, double gamma)
 {
     WarpMesh::Mask mask;
     mask.gamma = gamma;
@@ -17,17 +15,21 @@ WarpMesh::Mask read_mask(const std::filesystem::path& file, double gamma)
         throw InputError(file.string(), "", "is no picture; a PNG file is right");
     constexpr int most = 16384;
     if (mask.size.x > most || mask.size.y > most)
-        throw InputError(file.string(), "", "is larger than 16384 x 16384 pixels; a picture of the viewport's size is right");
+        throw InputError(
+            file.string(), "", "is larger than 16384 x 16384 pixels; a picture of the viewport's size is right");
     mask.channels = channels >= 3 ? 3 : 1;
     stbi_us* values = stbi_load_16(file.c_str(), &mask.size.x, &mask.size.y, &channels, mask.channels);
     if (!values)
-        throw InputError(file.string(), "", std::string("can't be read (") + stbi_failure_reason() + "); a whole PNG file is right");
+        throw InputError(
+            file.string(), "", std::string("can't be read (") + stbi_failure_reason() + "); a whole PNG file is right");
     mask.values.resize(std::size_t(mask.size.x) * mask.size.y * mask.channels);
     for (std::size_t i = 0; i < mask.values.size(); ++i)
         mask.values[i] = values[i] / 65535.0f;
     std::free(values);
     return mask;
 }
+
+namespace {
 
 /// Linear light of a mask at a place in fractions from its top left, values interpolated between the pixels' centres.
 glm::vec3 light_at(const WarpMesh::Mask& mask, const glm::dvec2& place)
@@ -80,11 +82,11 @@ Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::s
         if (!ramps.empty())
             scale(ramps[i]);
         if (!viewport.alpha_mask.empty())
-            multiply(read_mask(viewport.alpha_mask, viewport.mask_gamma));
+            multiply(load_mask(viewport.alpha_mask, viewport.mask_gamma));
         else if (panes[i].mesh && panes[i].mesh->alpha)
             multiply(*panes[i].mesh->alpha);
         if (!viewport.black_level.empty())
-            add(read_mask(viewport.black_level, viewport.mask_gamma));
+            add(load_mask(viewport.black_level, viewport.mask_gamma));
         else if (panes[i].mesh && panes[i].mesh->beta)
             add(*panes[i].mesh->beta);
     }

@@ -3,6 +3,9 @@
 
 namespace starbow {
 
+/// A viewport's alpha_mask or black_level. Throws InputError for a picture that can't be read.
+WarpMesh::Mask load_mask(const std::filesystem::path& file, double gamma);
+
 /// What the light of an output's pixels is multiplied by, and what is added to it. Linear light, rows from the top; both
 /// empty where nothing is to be done.
 struct Shade {

@@ -125,6 +125,14 @@ if [ $? = 0 ] && [[ $said == *"projection  not mapped: replaced by the mesh's ow
 said=$("$program" check "$folder/sciss/layout.json" --svg "$folder/sciss/plan.svg" 2>&1)
 if [[ $said == *"P1: the warp file's own; bent by channel1_warp_u2.sgc"* ]]; then passed=$((passed + 1)); else fail "check of a SCISS mesh: $said"; fi
 
+# What an imported layout still lacks is said last.
+said=$("$program" import sgct "$warps/sgct-configs/spherical_mirror.json" --out "$folder/mirror.json" 2>&1)
+if [ $? = 1 ] && [[ $(printf '%s\n' "$said" | tail -1) == "to mend: "*"/outputs/0/viewports/0/warp/file: "*" names no file in "* ]]; then passed=$((passed + 1)); else fail "import without its mesh: $said"; fi
+mkdir "$folder/mirror"
+sed 's|mesh/||' "$warps/sgct-configs/spherical_mirror.json" > "$folder/mirror/sgct.json"
+cp "$warps/standard_16x9.data" "$folder/mirror/"
+if "$program" import sgct "$folder/mirror/sgct.json" --out "$folder/mirror/layout.json" > "$folder/said" && ! grep -q 'to mend' "$folder/said" && "$program" check "$folder/mirror/layout.json" --svg "$folder/mirror/plan.svg" >/dev/null; then passed=$((passed + 1)); else fail "import with its mesh: $(cat "$folder/said")"; fi
+
 # Unknown options and missing ones are told in one line too, also with exit 2.
 for arguments in '' 'fly' 'render' 'render --shot' 'bench --rounds 0' 'run --frames -1' 'check' 'render --shot start --out x --colour' 'warp' 'warp inspect' 'import sgct x'; do
     # shellcheck disable=SC2086

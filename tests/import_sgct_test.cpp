@@ -1,4 +1,5 @@
 #include "config/import_sgct.h"
+#include "config/layout_reader.h"
 #include "config/turn.h"
 #include "files.h"
 #include <cmath>
@@ -231,6 +232,35 @@ TEST(ImportSgctTest, MeshesBringTheirOwnView)
     EXPECT_EQ(viewport(made("a.ol", planar, {false, {}}))["projection"]["type"], "planar");
     EXPECT_EQ(viewport(made("a.csv", planar, {true, {}}))["projection"]["type"], "planar");
     EXPECT_EQ(viewport(made("a.sgc", sphere, {true, {}}))["projection"]["type"], "equirectangular");
+}
+
+TEST(ImportSgctTest, FullscreenWindowsAreToldApart)
+{
+    const auto window = [](const std::string& members) {
+        return R"({ "size": { "x": 80, "y": 40 }, )" + members + R"( "viewports": [)" + with(sphere) + "] }";
+    };
+    const auto both = [](const std::string& windows) {
+        const Import import = imported(R"({ "version": 1, "nodes": [{ "windows": [)" + windows + "] }] }");
+        const Document document = parse_document("layout.json", import.layout.dump());
+        read_layout(root(document), scratch("layout.json")); // is one that is read
+        return import;
+    };
+    const Import two = both(window(R"("fullscreen": true, "monitor": 0, "pos": { "x": 0, "y": 0 },)") + ","
+        + window(R"("fullscreen": true, "monitor": 1,)"));
+    EXPECT_EQ(two.layout["outputs"][0]["monitor"]["connector"], "SGCT-monitor-0");
+    EXPECT_EQ(two.layout["outputs"][1]["monitor"]["connector"], "SGCT-monitor-1");
+    EXPECT_FALSE(two.layout["outputs"][0].contains("place"));
+    ASSERT_EQ(two.to_mend.size(), 2u);
+    EXPECT_EQ(two.to_mend[1],
+        "/outputs/1/monitor/connector: SGCT-monitor-1 stands in for the monitor's name; one that 'starbow displays' lists "
+        "is "
+        "right");
+    const Import one = both(window(R"("fullscreen": true, "monitor": 1,)"));
+    EXPECT_FALSE(one.layout["outputs"][0].contains("monitor"));
+    EXPECT_TRUE(one.to_mend.empty());
+    const Import mixed = both(window(R"("pos": { "x": 5, "y": 6 },)") + "," + window(R"("fullscreen": true,)"));
+    EXPECT_FALSE(mixed.layout["outputs"][0].contains("monitor"));
+    EXPECT_EQ(mixed.layout["outputs"][1]["monitor"]["connector"], "SGCT-monitor-0");
 }
 
 TEST(ImportSgctTest, WhatCannotBeMapped)

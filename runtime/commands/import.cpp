@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "config/import_sgct.h"
-#include "displays/warp/mesh.h"
+#include "config/layout_reader.h"
+#include "displays/shade.h"
 #include "runtime/capture.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -25,6 +26,39 @@ MeshView view_of(const std::filesystem::path& mesh)
     }
 }
 
+/// What keeps the layout in a file from being shown, a line each: every file that is missing, or else what is wrong first.
+std::vector<std::string> faults(const std::filesystem::path& file)
+{
+    std::vector<std::string> found;
+    const auto attempt = [&](auto&& act) {
+        try {
+            act();
+        } catch (const InputError& error) {
+            found.push_back(error.what());
+        }
+    };
+    const Document document = read_document(file);
+    for (const Place& output : items(member(root(document), "outputs"), 1, 64, "outputs"))
+        for (const Place& viewport : items(member(output, "viewports"), 1, 64, "viewports")) {
+            if (const auto mask = find(viewport, "alpha_mask"))
+                attempt([&] { existing_file(*mask, file.parent_path()); });
+            if (const auto warp = find(viewport, "warp"))
+                attempt([&] { existing_file(member(*warp, "file"), file.parent_path()); });
+        }
+    if (!found.empty())
+        return found;
+    attempt([&] {
+        for (const Output& output : read_layout(root(document), file).outputs)
+            for (const Viewport& viewport : output.viewports) {
+                if (viewport.warp)
+                    attempt([&] { check_projection(*viewport.warp, load_warp(*viewport.warp), viewport.projection_given); });
+                if (!viewport.alpha_mask.empty())
+                    attempt([&] { load_mask(viewport.alpha_mask, viewport.mask_gamma); });
+            }
+    });
+    return found;
+}
+
 int import(const Options& options)
 {
     const Document document = read_document(options.file);
@@ -33,15 +67,20 @@ int import(const Options& options)
                                 to = std::filesystem::absolute(options.out).parent_path().lexically_normal();
     const Import import = import_sgct(document, options.node, from.lexically_relative(to),
         [&](const std::filesystem::path& mesh) { return view_of(from / mesh); });
-    for (const std::string& line : import.lines)
-        std::printf("%s\n", one_line(line).c_str());
     std::error_code ignored; // told by the stream
     std::filesystem::create_directories(to, ignored);
     std::ofstream stream(options.out);
     stream << import.layout.dump(4) << "\n";
     if (!stream.flush())
         throw InputError(options.out, "", "can't be written; give a file in a folder that can be");
-    return 0;
+    stream.close();
+    const std::vector<std::string> wrong = faults(options.out);
+    for (const std::string& line : import.lines)
+        std::printf("%s\n", one_line(line).c_str());
+    for (const auto& lines : {import.to_mend, wrong})
+        for (const std::string& line : lines)
+            std::printf("to mend: %s\n", one_line(line).c_str());
+    return wrong.empty() ? 0 : 1;
 }
 
 } // namespace
@@ -55,6 +94,7 @@ void add_import(CLI::App& app, std::function<int()>& chosen)
     sgct->add_option("file", options->file, "SGCT's configuration")->required();
     sgct->add_option("--out", options->out, "The layout's file")->required();
     sgct->add_option("--node", options->node, "Which of several machines, from 0")->capture_default_str();
+    sgct->footer("Where something is to be mended before the layout loads, the last lines say what, and it ends with 1.");
     command->footer("Example:\n  starbow import sgct single_fisheye.json --out my/dome.json");
     sgct->callback([options, &chosen] { chosen = [options] { return import(*options); }; });
 }
