@@ -113,6 +113,37 @@ if cmp -s "$folder/one.csv" "$folder/two.csv" && cmp -s "$folder/one_frustum.csv
 if "$program" warp inspect "$folder/one.csv" --out "$folder/one.png" | grep -q '^grid *33 columns x 33 rows$' && [ -s "$folder/one.png" ]; then passed=$((passed + 1)); else fail "inspect"; fi
 if "$program" import sgct "$warps/sgct-configs/single_fisheye.json" --out "$folder/imported.json" | grep -q '^/nodes/0/windows/0/size  -> size$' && [ -s "$folder/imported.json" ]; then passed=$((passed + 1)); else fail "import"; fi
 
+# Nothing that is read is written over, and nothing else without being asked: exit 2 in one line, and the file as it was.
+kept() { # FILE TEXT ARGUMENTS...
+    local file=$1 text=$2 before said status
+    shift 2
+    before=$(md5sum "$file")
+    said=$("$program" "$@" 2>&1 >/dev/null)
+    status=$?
+    if [ $status = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$text"* ]] && [ "$before" = "$(md5sum "$file")" ]; then passed=$((passed + 1)); else fail "$*: exit $status: $said"; fi
+}
+own=$folder/own
+mkdir "$own"
+cp "$warps/standard_16x9.data" "$warps/channel1_warp_mesh.csv" "$warps/channel1_warp_frustum.csv" "$warps/sgct-configs/single.json" "$own/"
+cp "$warps/../../config/layouts/desk.json" "$own/"
+ln -s standard_16x9.data "$own/link.data"
+kept "$own/single.json" 'is read' import sgct "$own/single.json" --out "$own/../own/single.json"
+kept "$own/single.json" 'is read' import sgct "$own/single.json" --out "$own/single.json" --force
+kept "$own/desk.json" '--force' import sgct "$own/single.json" --out "$own/desk.json"
+kept "$own/desk.json" 'is read' check "$own/desk.json" --svg "$own/desk.json"
+kept "$own/single.json" '.svg' check "$own/desk.json" --svg "$own/single.json"
+kept "$own/standard_16x9.data" 'is read' warp inspect "$own/standard_16x9.data" --out "$own/standard_16x9.data"
+kept "$own/single.json" '.png' warp inspect "$own/standard_16x9.data" --out "$own/single.json"
+kept "$own/standard_16x9.data" 'is read' warp convert "$own/standard_16x9.data" "$own/standard_16x9.data" --size 10x10 --force
+kept "$own/standard_16x9.data" 'is read' warp convert "$own/standard_16x9.data" "$own/link.data" --size 10x10 --force
+kept "$own/standard_16x9.data" '--force' warp convert "$own/channel1_warp_mesh.csv" "$own/standard_16x9.data"
+kept "$own/channel1_warp_frustum.csv" 'is read' warp convert "$own/channel1_warp_mesh.csv" "$own/channel1_warp.csv" --force
+if "$program" warp convert "$own/channel1_warp_mesh.csv" "$own/link.data" --force >/dev/null 2>&1 && "$program" import sgct "$own/single.json" --out "$own/desk.json" --force >/dev/null; then passed=$((passed + 1)); else fail "--force does not replace"; fi
+cp "$warps/../../config/layouts/desk.json" "$own/masked.json"
+"$program" warp inspect "$own/channel1_warp_mesh.csv" --out "$own/desk.PNG" > /dev/null && mv "$own/desk.PNG" "$own/desk.png"
+sed -i 's|"projection"|"alpha_mask": "desk.png", "projection"|' "$own/masked.json"
+kept "$own/desk.png" 'is read' render --layout "$own/masked.json" --shot start --size 8x8 --out "$own"
+
 # A SCISS mesh's own view is what a flat one becomes.
 mkdir -p "$folder/sciss"
 cp "$warps/channel1_warp_u2.sgc" "$folder/sciss/"

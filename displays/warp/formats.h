@@ -31,6 +31,7 @@ struct WarpFrustum {
     glm::dvec3 eye_m{0};
 };
 WarpFrustum read_frustum(const WarpFile& file);
+std::filesystem::path frustum_beside(const std::filesystem::path& mesh); ///< where it is looked for, and written
 
 /// The file's text. `aspect`: width over height of the picture that the mesh covers. Both want Kind::picture and a grid, and
 /// throw InputError with `name`, which is the mesh's, where it is otherwise. What is written reads back the same.

@@ -240,6 +240,14 @@ WarpMesh read_warp(const WarpFile& file, const std::string& region, bool first_r
         "SimCAD (.simcad), SCISS (.sgc), Scalable (.ol), SkySkan (.txt), OBJ (.obj) or headset mesh is right");
 }
 
+std::filesystem::path frustum_beside(const std::filesystem::path& mesh)
+{
+    std::string name = mesh.stem().string();
+    if (name.ends_with("_mesh"))
+        name.resize(name.size() - 5);
+    return mesh.parent_path() / (name + "_frustum.csv");
+}
+
 WarpMesh load_warp(const Warp& warp)
 {
     const std::string bytes = contents(warp.file);
@@ -247,12 +255,8 @@ WarpMesh load_warp(const Warp& warp)
     WarpMesh mesh = read_warp(file, warp.region, warp.first_row_on_top);
     std::filesystem::path frustum = warp.frustum;
     if (frustum.empty() && mesh.format == "domeprojection mesh") {
-        std::string name = warp.file.stem().string();
-        if (name.ends_with("_mesh"))
-            name.resize(name.size() - 5);
         std::error_code ignored;
-        const std::filesystem::path beside = warp.file.parent_path() / (name + "_frustum.csv");
-        if (std::filesystem::exists(beside, ignored))
+        if (const std::filesystem::path beside = frustum_beside(warp.file); std::filesystem::exists(beside, ignored))
             frustum = beside;
     }
     if (!frustum.empty()) {

@@ -14,6 +14,7 @@ namespace {
 struct Options {
     std::string file, out;
     int node = 0;
+    bool force = false;
 };
 
 MeshView view_of(const std::filesystem::path& mesh)
@@ -62,6 +63,8 @@ std::vector<std::string> faults(const std::filesystem::path& file)
 int import(const Options& options)
 {
     const Document document = read_document(options.file);
+    check_not_read(options.out, {options.file});
+    check_free(options.out, options.force);
     check_writable(options.out);
     const std::filesystem::path from = std::filesystem::absolute(options.file).parent_path().lexically_normal(),
                                 to = std::filesystem::absolute(options.out).parent_path().lexically_normal();
@@ -94,6 +97,7 @@ void add_import(CLI::App& app, std::function<int()>& chosen)
     sgct->add_option("file", options->file, "SGCT's configuration")->required();
     sgct->add_option("--out", options->out, "The layout's file")->required();
     sgct->add_option("--node", options->node, "Which of several machines, from 0")->capture_default_str();
+    sgct->add_flag("--force", options->force, "Replace a file of that name");
     sgct->footer("Where something is to be mended before the layout loads, the last lines say what, and it ends with 1.");
     command->footer("Example:\n  starbow import sgct single_fisheye.json --out my/dome.json");
     sgct->callback([options, &chosen] { chosen = [options] { return import(*options); }; });

@@ -16,7 +16,7 @@ namespace {
 
 struct Options {
     std::string file, out, size, region, frustum, aspect;
-    bool first_row_on_top = false;
+    bool first_row_on_top = false, force = false;
     Warp warp() const { return {file, frustum, region, first_row_on_top}; }
 };
 
@@ -99,8 +99,11 @@ int inspect(const Options& options)
 {
     const glm::ivec2 size = parse_size(options.size, 8192).value_or(glm::ivec2(1024, 640));
     const WarpMesh mesh = load_warp(options.warp());
-    if (!options.out.empty())
+    if (!options.out.empty()) {
+        check_not_read(options.out, {options.file, options.frustum});
+        check_ending(options.out, ".png");
         check_writable(options.out);
+    }
     tell(mesh);
     if (!options.out.empty()) {
         write_png(options.out, size, portrait(mesh, size));
@@ -109,16 +112,15 @@ int inspect(const Options& options)
     return 0;
 }
 
-void write_text(const std::string& file, const std::string& bytes)
+void write_text(const std::filesystem::path& file, const std::string& bytes)
 {
-    check_writable(file);
     std::error_code ignored; // told by the stream
-    if (const auto folder = std::filesystem::path(file).parent_path(); !folder.empty())
-        std::filesystem::create_directories(folder, ignored);
+    if (file.has_parent_path())
+        std::filesystem::create_directories(file.parent_path(), ignored);
     std::ofstream stream(file, std::ios::binary);
     stream << bytes;
     if (!stream.flush())
-        throw InputError(file, "", "can't be written; give a file in a folder that can be");
+        throw InputError(file.string(), "", "can't be written; give a file in a folder that can be");
     std::printf("%s\n", file.c_str());
 }
 
@@ -138,6 +140,17 @@ int convert(const Options& options)
     }
     const std::optional<glm::ivec2> size = parse_size(options.size, 4096);
     WarpMesh mesh = load_warp(options.warp());
+    const std::filesystem::path frustum_file = frustum_beside(options.out);
+    std::vector<std::filesystem::path> read{options.file, options.frustum}, written{options.out};
+    if (mesh.format == "domeprojection mesh")
+        read.push_back(frustum_beside(options.file));
+    if (extension == ".csv" && mesh.frustum)
+        written.push_back(frustum_file);
+    for (const std::filesystem::path& file : written) {
+        check_not_read(file, read);
+        check_free(file, options.force);
+        check_writable(file);
+    }
     if (size)
         mesh = resampled(mesh, *size);
     else if (extension == ".pfm" && !is_centred(mesh))
@@ -150,13 +163,8 @@ int convert(const Options& options)
         write_text(options.out, write_pfm(mesh, options.file));
     else if (extension == ".csv") {
         write_text(options.out, write_domeprojection(mesh, options.file));
-        if (mesh.frustum) {
-            std::string stem = std::filesystem::path(options.out).stem();
-            if (stem.ends_with("_mesh"))
-                stem.resize(stem.size() - 5);
-            write_text(std::filesystem::path(options.out).parent_path() / (stem + "_frustum.csv"),
-                write_frustum({*mesh.frustum, mesh.eye_m.value_or(glm::dvec3(0))}));
-        }
+        if (mesh.frustum)
+            write_text(frustum_file, write_frustum({*mesh.frustum, mesh.eye_m.value_or(glm::dvec3(0))}));
     } else
         write_text(options.out, write_bourke(mesh, options.file, aspect));
     if (lit && extension != ".data" && extension != ".map")
@@ -197,6 +205,7 @@ void add_warp(CLI::App& app, std::function<int()>& chosen)
     convert_command->add_option("--size", changing->size, "Sample the mesh on a grid of WIDTHxHEIGHT first");
     convert_command->add_option(
         "--aspect", changing->aspect, "Of a Bourke mesh's screen, width over height; 16/9 if not given");
+    convert_command->add_flag("--force", changing->force, "Replace a file of that name");
     convert_command->callback([changing, &chosen] { chosen = [changing] { return convert(*changing); }; });
     command->footer("Example:\n  starbow warp inspect dome.data --out dome.png\n  starbow warp convert channel1.sgc "
                     "channel1.pfm --size 1920x1200");
