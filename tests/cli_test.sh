@@ -113,6 +113,12 @@ if cmp -s "$folder/one.csv" "$folder/two.csv" && cmp -s "$folder/one_frustum.csv
 if "$program" warp inspect "$folder/one.csv" --out "$folder/one.png" | grep -q '^grid *33 columns x 33 rows$' && [ -s "$folder/one.png" ]; then passed=$((passed + 1)); else fail "inspect"; fi
 if "$program" import sgct "$warps/sgct-configs/single_fisheye.json" --out "$folder/imported.json" | grep -q '^/nodes/0/windows/0/size  -> size$' && [ -s "$folder/imported.json" ]; then passed=$((passed + 1)); else fail "import"; fi
 
+# Sizes are those of the file.
+"$program" warp convert "$warps/channel1_warp_mesh.csv" "$folder/ten.data" --size 10x8 >/dev/null 2>&1
+if [ "$(sed -n 2p "$folder/ten.data")" = '10 8' ] && "$program" warp inspect "$folder/ten.data" | grep -q '^grid *10 columns x 8 rows$'; then passed=$((passed + 1)); else fail "convert --size 10x8 to .data"; fi
+"$program" warp convert "$warps/channel1_warp_mesh.csv" "$folder/ten.pfm" --size 10x8 >/dev/null 2>&1
+if "$program" warp inspect "$folder/ten.pfm" | grep -q '^grid *10 columns x 8 rows$'; then passed=$((passed + 1)); else fail "convert --size 10x8 to .pfm"; fi
+
 # Nothing that is read is written over, and nothing else without being asked: exit 2 in one line, and the file as it was.
 kept() { # FILE TEXT ARGUMENTS...
     local file=$1 text=$2 before said status

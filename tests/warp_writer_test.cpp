@@ -84,6 +84,56 @@ TEST(WarpWriterTest, SampledMeshesShowTheSame)
     EXPECT_LT(differ, 150u); // along the outline, where a cell without all its corners is black
 }
 
+TEST(WarpWriterTest, AGridHasTheSizeThatIsAskedFor)
+{
+    const WarpMesh mesh = read("a.csv", sample("channel1_warp_mesh.csv"));
+    EXPECT_EQ(read("b.data", write_bourke(gridded(mesh, {10, 7}), "a", 1.6)).grid, glm::ivec2(10, 7));
+    EXPECT_EQ(read("b.pfm", write_pfm(resampled(mesh, {10, 7}), "a")).cells, glm::ivec2(10, 7));
+    // It reaches from edge to edge, and loses nothing where the mesh fills the viewport.
+    const WarpMesh full = read("a.data", sample("standard_16x9.data"));
+    const WarpMesh grid = gridded(full, {10, 7});
+    EXPECT_EQ(grid.vertices.front().at, glm::dvec2(0));
+    EXPECT_LE(glm::length(grid.vertices.back().at - 1.0), 1e-15);
+    EXPECT_EQ(differs(full, grid), 0);
+}
+
+TEST(WarpWriterTest, AGridEndsWhereTheMeshDoes)
+{
+    // A disc of triangles, which look at a third of the picture about its middle and fade to the right.
+    WarpMesh disc;
+    disc.format = "disc";
+    const glm::dvec2 centre(0.51, 0.47);
+    const auto seen = [](const glm::dvec2& at) { return glm::dvec3(0.3 + at.x / 3, 0.4 + at.y / 3, 0); };
+    const int sides = 720;
+    disc.vertices.push_back({centre, 1 - centre.x / 2, {seen(centre)}});
+    for (int i = 0; i < sides; ++i) {
+        const double angle = glm::radians(i * 360.0 / sides);
+        const glm::dvec2 at = centre + 0.4 * glm::dvec2(std::cos(angle), std::sin(angle));
+        disc.vertices.push_back({at, 1 - at.x / 2, {seen(at)}});
+        disc.triangles.push_back({0, std::uint32_t(i + 1), std::uint32_t((i + 1) % sides + 1)});
+    }
+    const WarpMesh grid = read("b.data", write_bourke(gridded(disc, {30, 24}), "a", 1));
+    const glm::ivec2 size(800, 800);
+    const WarpRaster raster(grid, size);
+    std::vector<WarpSample> row(800);
+    double shown = 0, farthest = 0, worst = 0;
+    for (int y = 0; y < size.y; ++y) {
+        raster.row(y, row);
+        for (int x = 0; x < size.x; ++x)
+            if (const WarpSample& s = row[std::size_t(x)]; s.shown) {
+                const glm::dvec2 at = (glm::dvec2(x, y) + 0.5) / glm::dvec2(size);
+                shown += 1.0 / (size.x * size.y);
+                farthest = std::max(farthest, glm::length(at - centre));
+                worst = std::max({worst, glm::length(s.sees[0] - seen(at)), std::abs(s.intensity - (1 - at.x / 2))});
+            }
+    }
+    EXPECT_NEAR(shown / (glm::radians(180.0) * 0.16), 1, 0.01); // chords of two cells; without its rim 0.87
+    EXPECT_LE(farthest, 0.4 + 1e-9);
+    EXPECT_LE(worst, 1e-12); // all is linear
+    EXPECT_LE(differs(disc, grid), 0.01);
+    EXPECT_GT(differs(disc, resampled(disc, {30, 24})), 0.03);
+}
+
 TEST(WarpWriterTest, WhatAFormatCannotHoldIsRefused)
 {
     const WarpMesh none = read("a.obj", obj), three = read("a.mesh", headset);

@@ -45,6 +45,7 @@ WarpMesh centred_mesh(glm::ivec2 cells, const std::vector<WarpVertex>& values, c
 {
     WarpMesh mesh;
     mesh.grid = cells + 2;
+    mesh.cells = cells;
     mesh.vertices.reserve(std::size_t(mesh.grid.x) * std::size_t(mesh.grid.y));
     std::vector<char> wide_holes;
     wide_holes.reserve(std::size_t(mesh.grid.x) * std::size_t(mesh.grid.y));

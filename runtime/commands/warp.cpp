@@ -53,9 +53,10 @@ template <class Quantity> std::string range(const WarpMesh& mesh, Quantity quant
 void tell(const WarpMesh& mesh)
 {
     line("format", mesh.format);
+    const glm::ivec2 grid = mesh.cells.x > 0 ? mesh.cells : mesh.grid;
     line("grid",
-        mesh.grid.x > 0 ? std::to_string(mesh.grid.x) + " columns x " + std::to_string(mesh.grid.y) + " rows"
-                        : std::string("none, triangles alone"));
+        grid.x > 0 ? std::to_string(grid.x) + " columns x " + std::to_string(grid.y) + " rows"
+                   : std::string("none, triangles alone"));
     std::set<std::uint32_t> used;
     for (const auto& triangle : mesh.triangles)
         used.insert(triangle.begin(), triangle.end());
@@ -151,12 +152,10 @@ int convert(const Options& options)
         check_free(file, options.force);
         check_writable(file);
     }
-    if (size)
-        mesh = resampled(mesh, *size);
-    else if (extension == ".pfm" && !is_centred(mesh))
-        mesh = resampled(mesh, {960, 540});
-    if (mesh.grid.x == 0)
-        mesh = resampled(mesh, {96, 54});
+    if (extension == ".pfm" && (size || !is_centred(mesh)))
+        mesh = resampled(mesh, size.value_or(glm::ivec2(960, 540)));
+    else if (size || mesh.grid.x == 0)
+        mesh = gridded(mesh, size.value_or(glm::ivec2(192, 108)));
     const bool lit = std::any_of(mesh.vertices.begin(), mesh.vertices.end(),
         [](const WarpVertex& v) { return v.intensity != 0 && v.intensity != 1; });
     if (extension == ".pfm")
@@ -202,7 +201,8 @@ void add_warp(CLI::App& app, std::function<int()>& chosen)
         = command->add_subcommand("convert", "Write a warp file as a Bourke mesh (.data), PFM or domeprojection's .csv");
     add_input(*convert_command, *changing);
     convert_command->add_option("out", changing->out, "The new file; its name's end says the format")->required();
-    convert_command->add_option("--size", changing->size, "Sample the mesh on a grid of WIDTHxHEIGHT first");
+    convert_command->add_option(
+        "--size", changing->size, "Sample it first: WIDTHxHEIGHT vertices of a mesh, or cells of a PFM");
     convert_command->add_option(
         "--aspect", changing->aspect, "Of a Bourke mesh's screen, width over height; 16/9 if not given");
     convert_command->add_flag("--force", changing->force, "Replace a file of that name");
