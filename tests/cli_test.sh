@@ -119,6 +119,26 @@ if [ "$(sed -n 2p "$folder/ten.data")" = '10 8' ] && "$program" warp inspect "$f
 "$program" warp convert "$warps/channel1_warp_mesh.csv" "$folder/ten.pfm" --size 10x8 >/dev/null 2>&1
 if "$program" warp inspect "$folder/ten.pfm" | grep -q '^grid *10 columns x 8 rows$'; then passed=$((passed + 1)); else fail "convert --size 10x8 to .pfm"; fi
 
+# What a conversion loses is said, and nothing else.
+printf 'v -2 0 0\nv 0 -1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n' > "$folder/three.obj"
+loses() { # WHAT FROM TO: the words that are said, "" for none
+    local said
+    said=$("$program" warp convert "$2" "$folder/$3" --force 2>&1 >/dev/null)
+    if [ "$(printf '%s' "$said" | grep -oE 'outline|beyond the viewport|beyond the picture|brightness|frustum' | tr '\n' ' ')" = "$1" ]; then passed=$((passed + 1)); else fail "convert $2 to $3: $said"; fi
+}
+loses 'outline beyond the viewport ' "$folder/three.obj" lost.data
+loses 'outline beyond the viewport ' "$folder/three.obj" lost.pfm
+loses 'outline beyond the viewport ' "$folder/three.obj" lost.csv
+loses '' "$warps/channel1_warp.simcad" lost.csv
+loses 'outline beyond the viewport frustum ' "$warps/channel1_warp_mesh.csv" lost.pfm
+loses 'frustum ' "$warps/channel1_warp_mesh.csv" lost.data
+printf '2\n2 2\n-1 -1 0 0 1\n1 -1 1 0 0.5\n-1 1 0 1 1\n1 1 1 1 1\n' > "$folder/dim.data"
+loses 'brightness ' "$folder/dim.data" lost.csv
+
+# A map whose rows run the other way: the cure is named, and is one.
+said=$("$program" warp inspect "$warps/correction_mesh.mpcdi" 2>&1)
+if [[ $said == *"rows in the other order"*" --first-row-on-top"*'"first_row": "top"'* ]] && ! "$program" warp inspect "$warps/correction_mesh.mpcdi" --first-row-on-top | grep -q 'other order'; then passed=$((passed + 1)); else fail "inspect of rows in the other order: $said"; fi
+
 # Nothing that is read is written over, and nothing else without being asked: exit 2 in one line, and the file as it was.
 kept() { # FILE TEXT ARGUMENTS...
     local file=$1 text=$2 before said status

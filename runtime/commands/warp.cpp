@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -125,6 +126,38 @@ void write_text(const std::filesystem::path& file, const std::string& bytes)
     std::printf("%s\n", file.c_str());
 }
 
+/// What is lost of a mesh that was sampled or not and then written to a file of a kind.
+std::vector<std::string> losses(const WarpMesh& original, const WarpMesh& mesh, const std::string& extension)
+{
+    std::vector<std::string> all;
+    const auto any = [&](const WarpMesh& of, auto&& odd) {
+        return std::any_of(of.triangles.begin(), of.triangles.end(), [&](const std::array<std::uint32_t, 3>& t) {
+            return std::any_of(t.begin(), t.end(), [&](std::uint32_t i) { return odd(of.vertices[i]); });
+        });
+    };
+    const auto beyond = [](const glm::dvec2& p) { // rounding apart
+        return std::max({-p.x, -p.y, p.x - 1, p.y - 1}) > 1e-9;
+    };
+    if (mesh.format != original.format) {
+        const glm::ivec2 size = mesh.cells.x > 0 ? mesh.cells : mesh.grid;
+        const double part = differs(original, mesh);
+        all.push_back("sampled on " + std::to_string(size.x) + " x " + std::to_string(size.y) + " places: "
+            + (part > 0 ? shown(std::ceil(part * 1e5) / 1e3) + " % of what it covers is lost or gained at its outline"
+                        : "nothing is lost at its outline")
+            + "; a larger --size follows the mesh more closely");
+        if (any(original, [&](const WarpVertex& v) { return beyond(v.at); }))
+            all.push_back("what the mesh shows beyond the viewport is left out");
+    }
+    const bool bourke = extension == ".data" || extension == ".map";
+    if (bourke && any(mesh, [&](const WarpVertex& v) { return beyond(glm::dvec2(v.sees[0])); }))
+        all.push_back("what looks beyond the picture becomes a hole: this format has no room for it");
+    if (!bourke && any(mesh, [](const WarpVertex& v) { return std::abs(v.intensity - 1) > 1e-6; })) // rounding apart
+        all.push_back("the vertices' brightness is lost: this format has no room for it");
+    if (mesh.frustum && extension != ".csv")
+        all.push_back("the frustum is lost: this format has no room for it");
+    return all;
+}
+
 int convert(const Options& options)
 {
     std::string extension = std::filesystem::path(options.out).extension();
@@ -152,12 +185,11 @@ int convert(const Options& options)
         check_free(file, options.force);
         check_writable(file);
     }
+    const WarpMesh original = mesh;
     if (extension == ".pfm" && (size || !is_centred(mesh)))
         mesh = resampled(mesh, size.value_or(glm::ivec2(960, 540)));
     else if (size || mesh.grid.x == 0)
         mesh = gridded(mesh, size.value_or(glm::ivec2(192, 108)));
-    const bool lit = std::any_of(mesh.vertices.begin(), mesh.vertices.end(),
-        [](const WarpVertex& v) { return v.intensity != 0 && v.intensity != 1; });
     if (extension == ".pfm")
         write_text(options.out, write_pfm(mesh, options.file));
     else if (extension == ".csv") {
@@ -166,11 +198,8 @@ int convert(const Options& options)
             write_text(frustum_file, write_frustum({*mesh.frustum, mesh.eye_m.value_or(glm::dvec3(0))}));
     } else
         write_text(options.out, write_bourke(mesh, options.file, aspect));
-    if (lit && extension != ".data" && extension != ".map")
-        std::fprintf(
-            stderr, "starbow: %s: the vertices' brightness is lost: this format has no room for it\n", options.out.c_str());
-    if (mesh.frustum && extension != ".csv")
-        std::fprintf(stderr, "starbow: %s: the frustum is lost: this format has no room for it\n", options.out.c_str());
+    for (const std::string& loss : losses(original, mesh, extension))
+        std::fprintf(stderr, "starbow: %s: %s\n", options.out.c_str(), loss.c_str());
     return 0;
 }
 
