@@ -197,6 +197,24 @@ for arguments in '' 'fly' 'render' 'render --shot' 'bench --rounds 0' 'run --fra
     if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ]; then passed=$((passed + 1)); else fail "'$arguments' is not refused with 2 in one line: $said"; fi
 done
 
+# What is misspelt is told as that, with what there is.
+told() { # TEXT ARGUMENTS...
+    local text=$1 said
+    shift
+    said=$("$program" "$@" 2>&1 >/dev/null)
+    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == "starbow: $text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not say '$text': $said"; fi
+}
+told 'fly is no command; run, render, check, displays, warp, import and bench are' fly
+told 'look is no command; inspect and convert are' warp look
+told "--ouput is no option of 'starbow render'; --help, --layout, --shot, --out," render --shot start --ouput o1
+told "--sizes is no option of 'starbow warp inspect'; " warp inspect x --sizes 3
+told "out is one argument too many for 'starbow run'" run out
+told '--frames: x is no whole number; one from 0 to 1000000000 is right' run --frames x
+told '--frames: -1 is no whole number that fits; one from 0 to 1000000000 is right' run --frames -1
+told '--node: one is no whole number; ' import sgct x --out y --node one
+told '--out is required' render --shot start
+refused 'no first row' warp inspect "$warps/standard_16x9.data" --first-row-on-top
+
 # Every subcommand's help ends with an example.
 for command in run render bench check warp import displays; do
     if "$program" $command --help | grep -q "starbow $command "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi

@@ -212,6 +212,9 @@ WarpMesh read_warp(const WarpFile& file, const std::string& region, bool first_r
     const Format format = format_of(file);
     if (!region.empty() && format != Format::mpcdi)
         refuse(file, "", "has no regions, and " + in_quotes(region) + " is wanted; an MPCDI file, or no region, is right");
+    if (first_row_on_top && format != Format::mpcdi && format != Format::pfm)
+        refuse(file, "",
+            "has no first row that may be on top or at the bottom; an MPCDI or PFM file, or nothing said of it, is right");
     switch (format) {
     case Format::bourke:
         return read_bourke(file);

@@ -2,6 +2,7 @@
 #include "config/import_sgct.h"
 #include "config/layout_reader.h"
 #include "displays/shade.h"
+#include "number_option.h"
 #include "runtime/capture.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -96,7 +97,9 @@ void add_import(CLI::App& app, std::function<int()>& chosen)
     CLI::App* sgct = command->add_subcommand("sgct", "Of SGCT's JSON; says line by line what became of each member");
     sgct->add_option("file", options->file, "SGCT's configuration")->required();
     sgct->add_option("--out", options->out, "The layout's file")->required();
-    sgct->add_option("--node", options->node, "Which of several machines, from 0")->capture_default_str();
+    sgct->add_option("--node", options->node, "Which of several machines, from 0")
+        ->check(whole_number(0, 1023))
+        ->capture_default_str();
     sgct->add_flag("--force", options->force, "Replace a file of that name");
     sgct->footer("Where something is to be mended before the layout loads, the last lines say what, and it ends with 1.");
     command->footer("Example:\n  starbow import sgct single_fisheye.json --out my/dome.json");
