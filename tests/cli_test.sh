@@ -220,6 +220,11 @@ for command in run render bench check warp import displays; do
     if "$program" $command --help | grep -q "starbow $command "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
 done
 
+for command in '' 'warp inspect' 'warp convert' 'import sgct'; do
+    # shellcheck disable=SC2086
+    if "$program" $command --help | grep -A1 '^Examples\?:' | grep -q "starbow ${command:-run} "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
+done
+
 # Without a display server the GPUs are listed all the same.
 said=$(env -u DISPLAY -u WAYLAND_DISPLAY "$program" displays 2>&1)
 if [ $? = 0 ] && [[ $said == *"GPU "*": is used"*"no display server"* ]]; then passed=$((passed + 1)); else fail "displays: $said"; fi

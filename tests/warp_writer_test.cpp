@@ -143,6 +143,27 @@ TEST(WarpWriterTest, WhatAFormatCannotHoldIsRefused)
     EXPECT_NE(complaint([&] { write_pfm(none, "a"); }).find("not one value per pixel"), std::string::npos);
 }
 
+TEST(WarpWriterTest, PortraitsLinesAreAlikeWhereTheMeshHasSome)
+{
+    // Five columns: the mesh's own lines run where the picture is at 0, 1/4, 1/2 ..., and one half is a white line too.
+    const WarpMesh mesh = gridded(read("a.data", sample("standard_16x9.data")), {5, 3});
+    WarpMesh straight = mesh;
+    for (WarpVertex& v : straight.vertices) {
+        v.sees[0] = {v.at, 0};
+        v.intensity = 1;
+    }
+    const std::vector<std::uint8_t> rgba = portrait(straight, {640, 400});
+    const auto light = [&](double place) { // of a place's line, all of it, at 0.33 of the height
+        const int margin = 640 / 16, middle = margin + int(std::lround(place * (640 - 2 * margin)));
+        int sum = 0;
+        for (int x = middle - 3; x < middle + 3; ++x)
+            sum += rgba[std::size_t(4 * (640 * 140 + x))];
+        return sum;
+    };
+    // The picture grows steadily redder to the right, so that a line is as bright as its neighbours are on average.
+    EXPECT_NEAR(light(0.5), (light(0.4) + light(0.6)) / 2, 30); // of some 800: where in its pixels a line falls
+}
+
 TEST(WarpWriterTest, PortraitShowsHolesBlack)
 {
     const std::vector<std::uint8_t> rgba = portrait(read("a.data", bourke), {160, 100});

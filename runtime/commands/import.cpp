@@ -101,7 +101,8 @@ void add_import(CLI::App& app, std::function<int()>& chosen)
         ->check(whole_number(0, 1023))
         ->capture_default_str();
     sgct->add_flag("--force", options->force, "Replace a file of that name");
-    sgct->footer("Where something is to be mended before the layout loads, the last lines say what, and it ends with 1.");
+    sgct->footer("Where something is to be mended before the layout loads, the last lines say what, and it ends with 1.\n\n"
+                 "Example:\n  starbow import sgct single_fisheye.json --out my/dome.json");
     command->footer("Example:\n  starbow import sgct single_fisheye.json --out my/dome.json");
     sgct->callback([options, &chosen] { chosen = [options] { return import(*options); }; });
 }

@@ -224,6 +224,15 @@ void add_warp(CLI::App& app, std::function<int()>& chosen)
     add_input(*inspect_command, *looking);
     inspect_command->add_option("--out", looking->out, "Draw it to this PNG");
     inspect_command->add_option("--size", looking->size, "Pixels of the PNG, WIDTHxHEIGHT; 1024x640 if not given");
+    inspect_command->footer(
+        "The picture: in the frame what the viewport shows, around it, dark grey, its surroundings. A colour is a place in "
+        "the\n"
+        "picture that is bent: blue its upper left, red its upper right, green its lower left, yellow its lower right. "
+        "White lines\n"
+        "are tenths of that picture; where the mesh knows points in metres, each ten degrees as seen from the eye; where a\n"
+        "headset's directions, each fifth of a tangent. Dark lines are the mesh. Darker colours are dimmed, black shows "
+        "nothing.\n\n"
+        "Example:\n  starbow warp inspect dome.data --out dome.png");
     inspect_command->callback([looking, &chosen] { chosen = [looking] { return inspect(*looking); }; });
 
     CLI::App* convert_command
@@ -235,6 +244,7 @@ void add_warp(CLI::App& app, std::function<int()>& chosen)
     convert_command->add_option(
         "--aspect", changing->aspect, "Of a Bourke mesh's screen, width over height; 16/9 if not given");
     convert_command->add_flag("--force", changing->force, "Replace a file of that name");
+    convert_command->footer("Example:\n  starbow warp convert channel1.sgc channel1.pfm --size 1920x1200");
     convert_command->callback([changing, &chosen] { chosen = [changing] { return convert(*changing); }; });
     command->footer("Example:\n  starbow warp inspect dome.data --out dome.png\n  starbow warp convert channel1.sgc "
                     "channel1.pfm --size 1920x1200");
