@@ -269,7 +269,7 @@ std::optional<Json> Importer::window(const Place& place, std::size_t index, bool
             {"hidemousecursor", "the pointer rests by itself"}, {"floating", elsewhere}, {"alwaysrender", elsewhere},
             {"hidden", "every output is shown; starbow render draws without a window"}, {"takescreenshot", elsewhere},
             {"alpha", "an output is opaque"}, {"msaa", chosen_here}, {"fxaa", chosen_here},
-            {"border", "a window has the system's border unless it has whole_monitor"}, {"draw2d", elsewhere},
+            {"border", "a window has a frame unless it has monitor, whole_monitor or place"}, {"draw2d", elsewhere},
             {"draw3d", "every output shows the world"}, {"noerror", elsewhere},
             {"blitwindowid", "an output is not copied; one with preview shows all others small"},
             {"monitor", "a layout names a monitor by its connector, model, serial number or position, not by a number"},

@@ -182,6 +182,10 @@ if [ $? = 0 ] && [[ $said == *"projection  not mapped: replaced by the mesh's ow
 said=$("$program" check "$folder/sciss/layout.json" --svg "$folder/sciss/plan.svg" 2>&1)
 if [[ $said == *"P1: the warp file's own; bent by channel1_warp_u2.sgc"* ]]; then passed=$((passed + 1)); else fail "check of a SCISS mesh: $said"; fi
 
+# It says where it comes from, and leads editors to the schema.
+schema=$(sed -n 's/.*"$schema": "\(.*\)",$/\1/p' "$folder/imported.json")
+if head -1 "$folder/imported.json" | grep -q '^// .*single_fisheye.json' && [ -n "$schema" ] && cmp -s "$folder/$schema" "$warps/../../config/schema/layout.schema.json" && grep -q '"hud"' "$folder/imported.json"; then passed=$((passed + 1)); else fail "import: $(head -5 "$folder/imported.json")"; fi
+
 # What an imported layout still lacks is said last.
 said=$("$program" import sgct "$warps/sgct-configs/spherical_mirror.json" --out "$folder/mirror.json" 2>&1)
 if [ $? = 1 ] && [[ $(printf '%s\n' "$said" | tail -1) == "to mend: "*"/outputs/0/viewports/0/warp/file: "*" names no file in "* ]]; then passed=$((passed + 1)); else fail "import without its mesh: $said"; fi
@@ -224,6 +228,10 @@ for command in '' 'warp inspect' 'warp convert' 'import sgct'; do
     # shellcheck disable=SC2086
     if "$program" $command --help | grep -A1 '^Examples\?:' | grep -q "starbow ${command:-run} "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
 done
+
+# Measures are told to the millimetre.
+printf '{ "outputs": [ { "name": "a", "viewports": [ { "projection": { "type": "wall", "lower_left_m": [-1, 0, -2], "lower_right_m": [1, 0, -2], "upper_left_m": [-1, 1.125, -2] } } ] } ] }' > "$folder/wall.json"
+if "$program" check "$folder/wall.json" --svg "$folder/wall.svg" | grep -q 'wall, 2.000 x 1.125 m'; then passed=$((passed + 1)); else fail "check rounds"; fi
 
 # Without a display server the GPUs are listed all the same.
 said=$(env -u DISPLAY -u WAYLAND_DISPLAY "$program" displays 2>&1)

@@ -182,7 +182,8 @@ TEST(ImportSgctTest, UsersMasksEyesAndNodes)
     const Import import = imported(config(
         with(sphere,
             R"(, "user": "guide", "eye": "left", "blendmask": "m/../a.png", "blacklevelmask": "b.png", "tracked": true)"),
-        R"("fullscreen": true, "monitor": 1, "name": "a", "stereo": "side_by_side_inverted", "shine": 3,)", users));
+        R"("fullscreen": true, "monitor": 1, "name": "a", "stereo": "side_by_side_inverted", "shine": 3, "border": false,)",
+        users));
     const Json output = import.layout["outputs"][0];
     EXPECT_EQ(output["whole_monitor"], true);
     EXPECT_EQ(output["packing"], "mono");
@@ -192,6 +193,8 @@ TEST(ImportSgctTest, UsersMasksEyesAndNodes)
     EXPECT_FALSE(output["viewports"][0].contains("black_level"));
     EXPECT_TRUE(has(import, "/nodes/0/windows/0/shine  not mapped: SGCT's configurations have no such name here"));
     EXPECT_TRUE(has(import, "/nodes/0/windows/0/fullscreen  -> whole_monitor"));
+    EXPECT_TRUE(has(import,
+        "/nodes/0/windows/0/border  not mapped: a window has a frame unless it has monitor, whole_monitor or place"));
 
     const std::string two
         = R"({ "version": 1, "nodes": [{ "windows": [{ "size": { "x": 10, "y": 10 }, "name": "one", "viewports": [)"

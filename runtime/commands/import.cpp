@@ -4,6 +4,7 @@
 #include "displays/shade.h"
 #include "number_option.h"
 #include "runtime/capture.h"
+#include "runtime/find.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
@@ -73,8 +74,19 @@ int import(const Options& options)
         [&](const std::filesystem::path& mesh) { return view_of(from / mesh); });
     std::error_code ignored; // told by the stream
     std::filesystem::create_directories(to, ignored);
+    nlohmann::ordered_json layout;
+    try {
+        layout["$schema"] = std::filesystem::proximate(home() / "config/schema/layout.schema.json", to).generic_string();
+    } catch (const InputError&) {
+        // A program apart from its checkout has no schema to lead to.
+    }
+    const HudPlacement hud;
+    layout["hud"] = {{"azimuth_deg", hud.azimuth_deg}, {"elevation_deg", hud.elevation_deg}, {"width_deg", hud.width_deg}};
+    layout.update(import.layout);
     std::ofstream stream(options.out);
-    stream << import.layout.dump(4) << "\n";
+    stream << "// Made of SGCT's " << one_line(options.file)
+           << " by 'starbow import sgct', which tells what became of each member.\n"
+           << layout.dump(4) << "\n";
     if (!stream.flush())
         throw InputError(options.out, "", "can't be written; give a file in a folder that can be");
     stream.close();
