@@ -24,14 +24,21 @@ struct User {
     double separation = 0;
 };
 
+/// Whether a projection is one picture on a plane, of which SGCT makes no cube map first.
+bool is_flat(const std::string& projection)
+{
+    return projection == "PlanarProjection" || projection == "TextureMappedProjection" || projection == "ProjectionPlane";
+}
+
 Json list(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 class Importer {
 public:
-    Importer(const Document& document, int node, std::filesystem::path folder)
+    Importer(const Document& document, int node, std::filesystem::path folder, LookInto look_into)
         : document_(document)
         , node_(node)
         , folder_(std::move(folder))
+        , look_into_(std::move(look_into))
     {
     }
 
@@ -73,9 +80,10 @@ private:
 
     std::vector<Place> nodes(const Place& top);
     void user(const Place& place);
-    std::optional<Json> window(const Place& place, std::size_t index);
+    std::optional<Json> window(const Place& place, std::size_t index, bool alone);
     std::optional<Json> viewport(const Place& place, glm::ivec2 window_size);
     std::optional<Json> projection(const Place& place, glm::dvec2 pixels);
+    std::optional<MeshView> mesh_view(const Place& viewport);
     Json planar(const Place& place);
     Json wall(const Place& place);
     Json fisheye(const Place& place, glm::dvec2 pixels);
@@ -87,6 +95,7 @@ private:
     const Document& document_;
     int node_;
     std::filesystem::path folder_;
+    LookInto look_into_;
     Import out_;
     std::vector<User> users_;
     std::vector<std::string> names_; ///< of outputs so far
@@ -132,9 +141,17 @@ Import Importer::run()
                                 if (part != "windows")
                                     return false;
                                 std::size_t index = 0;
-                                for (const Place& each : items(windows, 1, 64, "windows"))
-                                    if (auto output = window(each, index++))
+                                const std::vector<Place> each = items(windows, 1, 64, "windows");
+                                for (const Place& at : each)
+                                    if (auto output = window(at, index++, each.size() == 1)) {
+                                        if (output->contains("monitor"))
+                                            out_.to_mend.push_back("/outputs/" + std::to_string(outputs.size())
+                                                + "/monitor/connector: "
+                                                + (*output)["monitor"]["connector"].get<std::string>()
+                                                + " stands in for the monitor's name; one that 'starbow displays' lists is "
+                                                  "right");
                                         outputs.push_back(*output);
+                                    }
                                 return true;
                             });
             } else
@@ -229,7 +246,7 @@ std::string Importer::packing(const Place& place)
     return "mono";
 }
 
-std::optional<Json> Importer::window(const Place& place, std::size_t index)
+std::optional<Json> Importer::window(const Place& place, std::size_t index, bool alone)
 {
     Json output;
     const Place size_at = member(place, "size");
@@ -237,13 +254,22 @@ std::optional<Json> Importer::window(const Place& place, std::size_t index)
     const auto name_at = find(place, "name");
     output["name"] = output_name(name_at ? text(*name_at) : "window" + std::to_string(index));
     output["size"] = Json::array({size.x, size.y});
+    const auto fullscreen_at = find(place, "fullscreen"), monitor_at = find(place, "monitor");
+    const bool fullscreen = fullscreen_at && boolean(*fullscreen_at);
+    if (fullscreen) {
+        output["whole_monitor"] = true;
+        // SGCT counts monitors, a layout names them: several windows must at least be told apart.
+        if (!alone)
+            output["monitor"]
+                = {{"connector", "SGCT-monitor-" + std::to_string(monitor_at ? integer(*monitor_at, -1, 1024) : 0)}};
+    }
     Json viewports = Json::array();
     members(place,
         {{"id", elsewhere}, {"tags", elsewhere}, {"bufferbitdepth", chosen_here}, {"autoiconify", elsewhere},
             {"hidemousecursor", "the pointer rests by itself"}, {"floating", elsewhere}, {"alwaysrender", elsewhere},
             {"hidden", "every output is shown; starbow render draws without a window"}, {"takescreenshot", elsewhere},
             {"alpha", "an output is opaque"}, {"msaa", chosen_here}, {"fxaa", chosen_here},
-            {"border", "a window has the system's border unless it has whole_monitor"}, {"draw2d", elsewhere},
+            {"border", "a window has a frame unless it has monitor, whole_monitor or place"}, {"draw2d", elsewhere},
             {"draw3d", "every output shows the world"}, {"noerror", elsewhere},
             {"blitwindowid", "an output is not copied; one with preview shows all others small"},
             {"monitor", "a layout names a monitor by its connector, model, serial number or position, not by a number"},
@@ -256,6 +282,10 @@ std::optional<Json> Importer::window(const Place& place, std::size_t index)
                 became(at, "size");
             else if (name == "name")
                 became(at, "name " + output["name"].get<std::string>());
+            else if (name == "pos" && fullscreen)
+                not_mapped(at, "the window covers its monitor");
+            else if (name == "monitor" && output.contains("monitor"))
+                became(at, "monitor, a connector that stands in for its name");
             else if (name == "pos") {
                 output["place"]
                     = Json::array({integer(member(at, "x"), -65536, 65536), integer(member(at, "y"), -65536, 65536)});
@@ -266,9 +296,7 @@ std::optional<Json> Importer::window(const Place& place, std::size_t index)
                 else
                     not_mapped(at, "an output is drawn at its own size");
             } else if (name == "fullscreen") {
-                if (boolean(at))
-                    output["whole_monitor"] = true;
-                became(at, boolean(at) ? "whole_monitor" : "a window");
+                became(at, fullscreen ? "whole_monitor" : "a window");
             } else if (name == "resizable") {
                 output["resizable"] = boolean(at);
                 became(at, "resizable");
@@ -296,6 +324,28 @@ std::optional<Json> Importer::window(const Place& place, std::size_t index)
     return output;
 }
 
+/// The view that a viewport's mesh puts in the place of a flat one. SGCT takes it from SCISS, Scalable and SkySkan files, by
+/// their names (CorrectionMesh::loadMesh, which the meshes' loaders call setViewPlaneCoordsUsingFOVs for); it reads no
+/// domeprojection frustum, and a fisheye or panorama stays what is bent.
+std::optional<MeshView> Importer::mesh_view(const Place& viewport)
+{
+    const auto mesh = find(viewport, "mesh"), shown = find(viewport, "projection");
+    if (!mesh)
+        return {};
+    if (shown && !is_flat(text(member(*shown, "type"))))
+        return {};
+    const std::filesystem::path file = text(*mesh);
+    const std::string kind = file.extension().string();
+    if (kind != ".sgc" && kind != ".ol" && kind != ".txt" && kind != ".skyskan")
+        return {};
+    MeshView view = look_into_(file);
+    if (!view.frustum)
+        return {};
+    if (kind == ".ol")
+        view.eye_m.reset(); // SGCT leaves the user where it is
+    return view;
+}
+
 std::optional<Json> Importer::viewport(const Place& place, glm::ivec2 window_size)
 {
     Json out;
@@ -317,8 +367,11 @@ std::optional<Json> Importer::viewport(const Place& place, glm::ivec2 window_siz
     const auto user_at = find(place, "user");
     const std::string wanted = user_at ? text(*user_at) : "";
     const auto whose = std::find_if(users_.begin(), users_.end(), [&](const User& user) { return user.name == wanted; });
-    if (whose != users_.end() && whose->pos != glm::dvec3(0))
-        out["eye_m"] = list(whose->pos);
+    const std::optional<MeshView> own = mesh_view(place);
+    const glm::dvec3 given = whose != users_.end() ? whose->pos : glm::dvec3(0),
+                     eye = own ? own->eye_m.value_or(given) : given;
+    if (eye != glm::dvec3(0))
+        out["eye_m"] = list(eye);
     members(place,
         {{"overlay", "nothing is drawn over the world but the head-up display"}, {"tracked", "no head tracker is read"},
             {"blacklevelmask", "SGCT multiplies by it; black_level is added, and needs a picture of that kind"},
@@ -340,10 +393,14 @@ std::optional<Json> Importer::viewport(const Place& place, glm::ivec2 window_siz
                 became(at, eye == "center" ? "eye middle" : "eye " + eye);
             } else if (name == "mesh") {
                 out["warp"] = {{"file", file(at)}};
-                became(at, "warp, file " + file(at));
+                became(at,
+                    "warp, file " + file(at) + (own ? ", which brings its own view" : "")
+                        + (eye != given ? " and eye" : ""));
             } else if (name == "blendmask") {
                 out["alpha_mask"] = file(at);
                 became(at, "alpha_mask " + file(at));
+            } else if (name == "projection" && own) {
+                not_mapped(at, "replaced by the mesh's own");
             } else if (name == "projection") {
                 auto made = projection(at, (high - low) * glm::dvec2(window_size));
                 usable = made.has_value();
@@ -544,9 +601,9 @@ Json Importer::cylinder(const Place& place)
 
 } // namespace
 
-Import import_sgct(const Document& document, int node, const std::filesystem::path& folder)
+Import import_sgct(const Document& document, int node, const std::filesystem::path& folder, const LookInto& look_into)
 {
-    return Importer(document, node, folder).run();
+    return Importer(document, node, folder, look_into).run();
 }
 
 } // namespace starbow

@@ -507,7 +507,7 @@ private:
     static std::string metres(double m)
     {
         char text[32];
-        std::snprintf(text, sizeof text, "%s%.2f m", m < 0 ? "−" : "", std::abs(m));
+        std::snprintf(text, sizeof text, "%s%.3f m", m < 0 ? "−" : "", std::abs(m));
         return text;
     }
 

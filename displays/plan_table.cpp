@@ -42,8 +42,8 @@ std::string words(const Planar& planar)
 
 std::string words(const Wall& wall)
 {
-    return "wall, " + printed("%.2f x ", glm::distance(wall.lower_left_m, wall.lower_right_m))
-        + printed("%.2f m", glm::distance(wall.lower_left_m, wall.upper_left_m));
+    return "wall, " + printed("%.3f x ", glm::distance(wall.lower_left_m, wall.lower_right_m))
+        + printed("%.3f m", glm::distance(wall.lower_left_m, wall.upper_left_m));
 }
 
 std::string words(const Fisheye& fisheye)
@@ -76,8 +76,8 @@ std::string words(const CubeFaces& cube)
 
 std::string words(const SphericalMirror& mirror)
 {
-    return "spherical mirror, radius " + printed("%.2f m, ", mirror.mirror_radius_m) + "in a dome of "
-        + degrees(mirror.dome_aperture_deg) + ", radius " + printed("%.2f m", mirror.dome_radius_m)
+    return "spherical mirror, radius " + printed("%.3f m, ", mirror.mirror_radius_m) + "in a dome of "
+        + degrees(mirror.dome_aperture_deg) + ", radius " + printed("%.3f m", mirror.dome_radius_m)
         + (mirror.dome_tilt_deg != 0 ? ", tilted " + degrees(mirror.dome_tilt_deg) : "");
 }
 

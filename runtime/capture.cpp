@@ -2,6 +2,7 @@
 #include "config/error.h"
 #include "exr_check.h"
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -97,6 +98,30 @@ void check_writable(const std::filesystem::path& file)
     if (access(folder.c_str(), W_OK | X_OK) != 0)
         throw InputError(
             file.string(), "", "can't be written: " + folder.string() + " may not be written to; give another folder");
+}
+
+void check_not_read(const std::filesystem::path& file, const std::vector<std::filesystem::path>& read)
+{
+    std::error_code not_there;
+    for (const std::filesystem::path& each : read)
+        if (std::filesystem::equivalent(file, each, not_there))
+            throw InputError(file.string(), "", "is read, and would be replaced; another name for what is written is right");
+}
+
+void check_free(const std::filesystem::path& file, bool force)
+{
+    std::error_code not_there;
+    if (!force && std::filesystem::exists(file, not_there))
+        throw InputError(file.string(), "", "is there already; another name, or --force to replace it, is right");
+}
+
+void check_ending(const std::filesystem::path& file, const std::string& ending)
+{
+    std::string extension = file.extension();
+    std::transform(
+        extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    if (extension != ending)
+        throw InputError(file.string(), "", "does not end in " + ending + "; a name that does is right");
 }
 
 void write_png(const std::filesystem::path& file, glm::ivec2 size, const std::vector<std::uint8_t>& rgba)

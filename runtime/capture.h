@@ -12,6 +12,15 @@ namespace starbow {
 /// may not be written to, or something other than a file has the name. Writes nothing: for asking before long work.
 void check_writable(const std::filesystem::path& file);
 
+/// Throws InputError if writing the file would replace one that is read, by whatever name.
+void check_not_read(const std::filesystem::path& file, const std::vector<std::filesystem::path>& read);
+
+/// Throws InputError if the file is there and `force` does not allow to replace it.
+void check_free(const std::filesystem::path& file, bool force);
+
+/// Throws InputError unless the file's name ends as those of its kind do, such as ".png", in capital or small letters.
+void check_ending(const std::filesystem::path& file, const std::string& ending);
+
 /// Writes RGBA8 rows from the top as PNG, alpha dropped. Written beside and renamed: a failure leaves no half file.
 /// Throws InputError where the place can't be written.
 void write_png(const std::filesystem::path& file, glm::ivec2 size, const std::vector<std::uint8_t>& rgba);

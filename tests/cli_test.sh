@@ -113,6 +113,87 @@ if cmp -s "$folder/one.csv" "$folder/two.csv" && cmp -s "$folder/one_frustum.csv
 if "$program" warp inspect "$folder/one.csv" --out "$folder/one.png" | grep -q '^grid *33 columns x 33 rows$' && [ -s "$folder/one.png" ]; then passed=$((passed + 1)); else fail "inspect"; fi
 if "$program" import sgct "$warps/sgct-configs/single_fisheye.json" --out "$folder/imported.json" | grep -q '^/nodes/0/windows/0/size  -> size$' && [ -s "$folder/imported.json" ]; then passed=$((passed + 1)); else fail "import"; fi
 
+# Sizes are those of the file.
+"$program" warp convert "$warps/channel1_warp_mesh.csv" "$folder/ten.data" --size 10x8 >/dev/null 2>&1
+if [ "$(sed -n 2p "$folder/ten.data")" = '10 8' ] && "$program" warp inspect "$folder/ten.data" | grep -q '^grid *10 columns x 8 rows$'; then passed=$((passed + 1)); else fail "convert --size 10x8 to .data"; fi
+"$program" warp convert "$warps/channel1_warp_mesh.csv" "$folder/ten.pfm" --size 10x8 >/dev/null 2>&1
+if "$program" warp inspect "$folder/ten.pfm" | grep -q '^grid *10 columns x 8 rows$'; then passed=$((passed + 1)); else fail "convert --size 10x8 to .pfm"; fi
+
+# What a conversion loses is said, and nothing else.
+printf 'v -2 0 0\nv 0 -1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n' > "$folder/three.obj"
+loses() { # WHAT FROM TO: the words that are said, "" for none
+    local said
+    said=$("$program" warp convert "$2" "$folder/$3" --force 2>&1 >/dev/null)
+    if [ "$(printf '%s' "$said" | grep -oE 'outline|beyond the viewport|beyond the picture|brightness|frustum' | tr '\n' ' ')" = "$1" ]; then passed=$((passed + 1)); else fail "convert $2 to $3: $said"; fi
+}
+loses 'outline beyond the viewport ' "$folder/three.obj" lost.data
+loses 'outline beyond the viewport ' "$folder/three.obj" lost.pfm
+loses 'outline beyond the viewport ' "$folder/three.obj" lost.csv
+loses '' "$warps/channel1_warp.simcad" lost.csv
+loses 'outline beyond the viewport frustum ' "$warps/channel1_warp_mesh.csv" lost.pfm
+loses 'frustum ' "$warps/channel1_warp_mesh.csv" lost.data
+printf '2\n2 2\n-1 -1 0 0 1\n1 -1 1 0 0.5\n-1 1 0 1 1\n1 1 1 1 1\n' > "$folder/dim.data"
+loses 'brightness ' "$folder/dim.data" lost.csv
+
+# A map whose rows run the other way: the cure is named, and is one.
+said=$("$program" warp inspect "$warps/correction_mesh.mpcdi" 2>&1)
+if [[ $said == *"rows in the other order"*" --first-row-on-top"*'"first_row": "top"'* ]] && ! "$program" warp inspect "$warps/correction_mesh.mpcdi" --first-row-on-top | grep -q 'other order'; then passed=$((passed + 1)); else fail "inspect of rows in the other order: $said"; fi
+
+# Nothing that is read is written over, and nothing else without being asked: exit 2 in one line, and the file as it was.
+kept() { # FILE TEXT ARGUMENTS...
+    local file=$1 text=$2 before said status
+    shift 2
+    before=$(md5sum "$file")
+    said=$("$program" "$@" 2>&1 >/dev/null)
+    status=$?
+    if [ $status = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$text"* ]] && [ "$before" = "$(md5sum "$file")" ]; then passed=$((passed + 1)); else fail "$*: exit $status: $said"; fi
+}
+own=$folder/own
+mkdir "$own"
+cp "$warps/standard_16x9.data" "$warps/channel1_warp_mesh.csv" "$warps/channel1_warp_frustum.csv" "$warps/sgct-configs/single.json" "$own/"
+cp "$warps/../../config/layouts/desk.json" "$own/"
+ln -s standard_16x9.data "$own/link.data"
+kept "$own/single.json" 'is read' import sgct "$own/single.json" --out "$own/../own/single.json"
+kept "$own/single.json" 'is read' import sgct "$own/single.json" --out "$own/single.json" --force
+kept "$own/desk.json" '--force' import sgct "$own/single.json" --out "$own/desk.json"
+kept "$own/desk.json" 'is read' check "$own/desk.json" --svg "$own/desk.json"
+kept "$own/single.json" '.svg' check "$own/desk.json" --svg "$own/single.json"
+kept "$own/standard_16x9.data" 'is read' warp inspect "$own/standard_16x9.data" --out "$own/standard_16x9.data"
+kept "$own/single.json" '.png' warp inspect "$own/standard_16x9.data" --out "$own/single.json"
+kept "$own/standard_16x9.data" 'is read' warp convert "$own/standard_16x9.data" "$own/standard_16x9.data" --size 10x10 --force
+kept "$own/standard_16x9.data" 'is read' warp convert "$own/standard_16x9.data" "$own/link.data" --size 10x10 --force
+kept "$own/standard_16x9.data" '--force' warp convert "$own/channel1_warp_mesh.csv" "$own/standard_16x9.data"
+kept "$own/channel1_warp_frustum.csv" 'is read' warp convert "$own/channel1_warp_mesh.csv" "$own/channel1_warp.csv" --force
+if "$program" warp convert "$own/channel1_warp_mesh.csv" "$own/link.data" --force >/dev/null 2>&1 && "$program" import sgct "$own/single.json" --out "$own/desk.json" --force >/dev/null; then passed=$((passed + 1)); else fail "--force does not replace"; fi
+cp "$warps/../../config/layouts/desk.json" "$own/masked.json"
+"$program" warp inspect "$own/channel1_warp_mesh.csv" --out "$own/desk.PNG" > /dev/null && mv "$own/desk.PNG" "$own/desk.png"
+sed -i 's|"projection"|"alpha_mask": "desk.png", "projection"|' "$own/masked.json"
+kept "$own/desk.png" 'is read' render --layout "$own/masked.json" --shot start --size 8x8 --out "$own"
+
+# A SCISS mesh's own view is what a flat one becomes.
+mkdir -p "$folder/sciss"
+cp "$warps/channel1_warp_u2.sgc" "$folder/sciss/"
+cat > "$folder/sciss/sgct.json" << 'END'
+{ "version": 1, "nodes": [ { "windows": [ { "name": "P1", "size": { "x": 64, "y": 40 }, "viewports": [
+    { "mesh": "channel1_warp_u2.sgc", "projection": { "type": "PlanarProjection", "fov": { "hfov": 95, "vfov": 70 } } } ] } ] } ] }
+END
+said=$("$program" import sgct "$folder/sciss/sgct.json" --out "$folder/sciss/layout.json" 2>&1)
+if [ $? = 0 ] && [[ $said == *"projection  not mapped: replaced by the mesh's own"* ]] && ! grep -q '"projection"' "$folder/sciss/layout.json"; then passed=$((passed + 1)); else fail "import of a SCISS mesh: $said"; fi
+said=$("$program" check "$folder/sciss/layout.json" --svg "$folder/sciss/plan.svg" 2>&1)
+if [[ $said == *"P1: the warp file's own; bent by channel1_warp_u2.sgc"* ]]; then passed=$((passed + 1)); else fail "check of a SCISS mesh: $said"; fi
+
+# It says where it comes from, and leads editors to the schema.
+schema=$(sed -n 's/.*"$schema": "\(.*\)",$/\1/p' "$folder/imported.json")
+if head -1 "$folder/imported.json" | grep -q '^// .*single_fisheye.json' && [ -n "$schema" ] && cmp -s "$folder/$schema" "$warps/../../config/schema/layout.schema.json" && grep -q '"hud"' "$folder/imported.json"; then passed=$((passed + 1)); else fail "import: $(head -5 "$folder/imported.json")"; fi
+
+# What an imported layout still lacks is said last.
+said=$("$program" import sgct "$warps/sgct-configs/spherical_mirror.json" --out "$folder/mirror.json" 2>&1)
+if [ $? = 1 ] && [[ $(printf '%s\n' "$said" | tail -1) == "to mend: "*"/outputs/0/viewports/0/warp/file: "*" names no file in "* ]]; then passed=$((passed + 1)); else fail "import without its mesh: $said"; fi
+mkdir "$folder/mirror"
+sed 's|mesh/||' "$warps/sgct-configs/spherical_mirror.json" > "$folder/mirror/sgct.json"
+cp "$warps/standard_16x9.data" "$folder/mirror/"
+if "$program" import sgct "$folder/mirror/sgct.json" --out "$folder/mirror/layout.json" > "$folder/said" && ! grep -q 'to mend' "$folder/said" && "$program" check "$folder/mirror/layout.json" --svg "$folder/mirror/plan.svg" >/dev/null; then passed=$((passed + 1)); else fail "import with its mesh: $(cat "$folder/said")"; fi
+
 # Unknown options and missing ones are told in one line too, also with exit 2.
 for arguments in '' 'fly' 'render' 'render --shot' 'bench --rounds 0' 'run --frames -1' 'check' 'render --shot start --out x --colour' 'warp' 'warp inspect' 'import sgct x'; do
     # shellcheck disable=SC2086
@@ -120,10 +201,37 @@ for arguments in '' 'fly' 'render' 'render --shot' 'bench --rounds 0' 'run --fra
     if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ]; then passed=$((passed + 1)); else fail "'$arguments' is not refused with 2 in one line: $said"; fi
 done
 
+# What is misspelt is told as that, with what there is.
+told() { # TEXT ARGUMENTS...
+    local text=$1 said
+    shift
+    said=$("$program" "$@" 2>&1 >/dev/null)
+    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == "starbow: $text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not say '$text': $said"; fi
+}
+told 'fly is no command; run, render, check, displays, warp, import and bench are' fly
+told 'look is no command; inspect and convert are' warp look
+told "--ouput is no option of 'starbow render'; --help, --layout, --shot, --out," render --shot start --ouput o1
+told "--sizes is no option of 'starbow warp inspect'; " warp inspect x --sizes 3
+told "out is one argument too many for 'starbow run'" run out
+told '--frames: x is no whole number; one from 0 to 1000000000 is right' run --frames x
+told '--frames: -1 is no whole number that fits; one from 0 to 1000000000 is right' run --frames -1
+told '--node: one is no whole number; ' import sgct x --out y --node one
+told '--out is required' render --shot start
+refused 'no first row' warp inspect "$warps/standard_16x9.data" --first-row-on-top
+
 # Every subcommand's help ends with an example.
 for command in run render bench check warp import displays; do
     if "$program" $command --help | grep -q "starbow $command "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
 done
+
+for command in '' 'warp inspect' 'warp convert' 'import sgct'; do
+    # shellcheck disable=SC2086
+    if "$program" $command --help | grep -A1 '^Examples\?:' | grep -q "starbow ${command:-run} "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
+done
+
+# Measures are told to the millimetre.
+printf '{ "outputs": [ { "name": "a", "viewports": [ { "projection": { "type": "wall", "lower_left_m": [-1, 0, -2], "lower_right_m": [1, 0, -2], "upper_left_m": [-1, 1.125, -2] } } ] } ] }' > "$folder/wall.json"
+if "$program" check "$folder/wall.json" --svg "$folder/wall.svg" | grep -q 'wall, 2.000 x 1.125 m'; then passed=$((passed + 1)); else fail "check rounds"; fi
 
 # Without a display server the GPUs are listed all the same.
 said=$(env -u DISPLAY -u WAYLAND_DISPLAY "$program" displays 2>&1)

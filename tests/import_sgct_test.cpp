@@ -1,4 +1,5 @@
 #include "config/import_sgct.h"
+#include "config/layout_reader.h"
 #include "config/turn.h"
 #include "files.h"
 #include <cmath>
@@ -181,7 +182,8 @@ TEST(ImportSgctTest, UsersMasksEyesAndNodes)
     const Import import = imported(config(
         with(sphere,
             R"(, "user": "guide", "eye": "left", "blendmask": "m/../a.png", "blacklevelmask": "b.png", "tracked": true)"),
-        R"("fullscreen": true, "monitor": 1, "name": "a", "stereo": "side_by_side_inverted", "shine": 3,)", users));
+        R"("fullscreen": true, "monitor": 1, "name": "a", "stereo": "side_by_side_inverted", "shine": 3, "border": false,)",
+        users));
     const Json output = import.layout["outputs"][0];
     EXPECT_EQ(output["whole_monitor"], true);
     EXPECT_EQ(output["packing"], "mono");
@@ -191,6 +193,8 @@ TEST(ImportSgctTest, UsersMasksEyesAndNodes)
     EXPECT_FALSE(output["viewports"][0].contains("black_level"));
     EXPECT_TRUE(has(import, "/nodes/0/windows/0/shine  not mapped: SGCT's configurations have no such name here"));
     EXPECT_TRUE(has(import, "/nodes/0/windows/0/fullscreen  -> whole_monitor"));
+    EXPECT_TRUE(has(import,
+        "/nodes/0/windows/0/border  not mapped: a window has a frame unless it has monitor, whole_monitor or place"));
 
     const std::string two
         = R"({ "version": 1, "nodes": [{ "windows": [{ "size": { "x": 10, "y": 10 }, "name": "one", "viewports": [)"
@@ -200,6 +204,66 @@ TEST(ImportSgctTest, UsersMasksEyesAndNodes)
     EXPECT_TRUE(has(imported(two), "/nodes/1  not mapped: node 0 is taken; --node 1 takes this one"));
     EXPECT_NE(
         complaint([&] { imported(two, 2); }).find("/nodes: has no node 2; one from 0 to 1 is right"), std::string::npos);
+}
+
+TEST(ImportSgctTest, MeshesBringTheirOwnView)
+{
+    const std::string planar = R"({ "type": "PlanarProjection", "fov": { "hfov": 95, "vfov": 70 } })",
+                      users = R"([{ "pos": { "x": 0, "y": 0, "z": 4 } }])";
+    const auto made = [&](const std::string& mesh, const std::string& projection, const MeshView& view) {
+        const std::string text
+            = config(R"({ "projection": )" + projection + R"(, "mesh": "m/)" + mesh + R"(" })", "", users);
+        return import_sgct(read_document(write_text("sgct.json", text)), 0, "from", [&](const std::filesystem::path& file) {
+            EXPECT_EQ(file, "m/" + mesh);
+            return view;
+        });
+    };
+    // SCISS and SkySkan files place the user too, Scalable's do not.
+    for (const auto& [mesh, eye] : {std::pair("a.sgc", "[1.0, 2.0, 3.0]"), std::pair("a.txt", "[1.0, 2.0, 3.0]"),
+             std::pair("a.skyskan", "[1.0, 2.0, 3.0]"), std::pair("a.ol", "[0.0, 0.0, 4.0]")}) {
+        SCOPED_TRACE(mesh);
+        const Import import = made(mesh, planar, {true, glm::dvec3(1, 2, 3)});
+        const Json viewport = import.layout["outputs"][0]["viewports"][0];
+        EXPECT_FALSE(viewport.contains("projection"));
+        EXPECT_EQ(viewport["warp"]["file"], "from/m/" + std::string(mesh));
+        EXPECT_EQ(viewport["eye_m"], Json::parse(eye));
+        EXPECT_TRUE(has(import, "/nodes/0/windows/0/viewports/0/projection  not mapped: replaced by the mesh's own"));
+    }
+    const auto viewport = [](const Import& import) { return import.layout["outputs"][0]["viewports"][0]; };
+    EXPECT_FALSE(viewport(made("a.sgc", planar, {true, glm::dvec3(0)})).contains("eye_m"));
+    // Files without a view, formats that SGCT takes none from, and what is no flat picture.
+    EXPECT_EQ(viewport(made("a.ol", planar, {false, {}}))["projection"]["type"], "planar");
+    EXPECT_EQ(viewport(made("a.csv", planar, {true, {}}))["projection"]["type"], "planar");
+    EXPECT_EQ(viewport(made("a.sgc", sphere, {true, {}}))["projection"]["type"], "equirectangular");
+}
+
+TEST(ImportSgctTest, FullscreenWindowsAreToldApart)
+{
+    const auto window = [](const std::string& members) {
+        return R"({ "size": { "x": 80, "y": 40 }, )" + members + R"( "viewports": [)" + with(sphere) + "] }";
+    };
+    const auto both = [](const std::string& windows) {
+        const Import import = imported(R"({ "version": 1, "nodes": [{ "windows": [)" + windows + "] }] }");
+        const Document document = parse_document("layout.json", import.layout.dump());
+        read_layout(root(document), scratch("layout.json")); // is one that is read
+        return import;
+    };
+    const Import two = both(window(R"("fullscreen": true, "monitor": 0, "pos": { "x": 0, "y": 0 },)") + ","
+        + window(R"("fullscreen": true, "monitor": 1,)"));
+    EXPECT_EQ(two.layout["outputs"][0]["monitor"]["connector"], "SGCT-monitor-0");
+    EXPECT_EQ(two.layout["outputs"][1]["monitor"]["connector"], "SGCT-monitor-1");
+    EXPECT_FALSE(two.layout["outputs"][0].contains("place"));
+    ASSERT_EQ(two.to_mend.size(), 2u);
+    EXPECT_EQ(two.to_mend[1],
+        "/outputs/1/monitor/connector: SGCT-monitor-1 stands in for the monitor's name; one that 'starbow displays' lists "
+        "is "
+        "right");
+    const Import one = both(window(R"("fullscreen": true, "monitor": 1,)"));
+    EXPECT_FALSE(one.layout["outputs"][0].contains("monitor"));
+    EXPECT_TRUE(one.to_mend.empty());
+    const Import mixed = both(window(R"("pos": { "x": 5, "y": 6 },)") + "," + window(R"("fullscreen": true,)"));
+    EXPECT_FALSE(mixed.layout["outputs"][0].contains("monitor"));
+    EXPECT_EQ(mixed.layout["outputs"][1]["monitor"]["connector"], "SGCT-monitor-0");
 }
 
 TEST(ImportSgctTest, WhatCannotBeMapped)

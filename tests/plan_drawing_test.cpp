@@ -242,7 +242,7 @@ TEST(PlanTableTest, Words)
     });
     const std::vector<PlanRow> rows = plan_rows(layout, coverages(layout));
     EXPECT_EQ(rows[0].projection, "window, 60° high, turned 30° right, 15° down");
-    EXPECT_EQ(rows[1].projection, "wall, 4.00 x 2.25 m");
+    EXPECT_EQ(rows[1].projection, "wall, 4.000 x 2.250 m");
     EXPECT_EQ(rows[1].spans, "azimuth −53.1° to 53.1°, elevation 0° to 56.3°");
     EXPECT_EQ(rows[2].projection, "fisheye (equidistant), 180° across, tilted 30°");
     EXPECT_EQ(rows[2].spans, "all around, elevation −30° to 90°");
@@ -306,7 +306,7 @@ TEST(PlanDrawingTest, OneRegionForEachViewportAndEye)
     const pugi::xml_document document = parsed(mirror_dome());
     each(document, "text", [&](pugi::xml_node node) { in_room.push_back(node.text().get()); });
     EXPECT_EQ(std::count(in_room.begin(), in_room.end(), "projector"), 1);
-    EXPECT_EQ(std::count(in_room.begin(), in_room.end(), "eye at height −0.30 m"), 1);
+    EXPECT_EQ(std::count(in_room.begin(), in_room.end(), "eye at height −0.300 m"), 1);
 }
 
 TEST(PlanDrawingTest, TheMapPutsDegreesInTheirPlaces)

@@ -26,7 +26,7 @@ TEST(WarpWriterTest, BourkeReadsBack)
     // x goes through a multiplication and a division by the aspect: a few units in the last place.
     for (const std::string name : {"standard_16x9.data", "channel2_warp_mesh.csv", "correction_mesh.mpcdi"})
         for (double aspect : {16.0 / 9, 1.0, 0.3}) {
-            const WarpMesh mesh = read(name, sample(name), "", true);
+            const WarpMesh mesh = read(name, sample(name), "", name.ends_with(".mpcdi"));
             expect_same(mesh, read("b.data", write_bourke(mesh, name, aspect)), 1e-14);
         }
     const WarpMesh holes = read("a.data", bourke);
@@ -84,6 +84,56 @@ TEST(WarpWriterTest, SampledMeshesShowTheSame)
     EXPECT_LT(differ, 150u); // along the outline, where a cell without all its corners is black
 }
 
+TEST(WarpWriterTest, AGridHasTheSizeThatIsAskedFor)
+{
+    const WarpMesh mesh = read("a.csv", sample("channel1_warp_mesh.csv"));
+    EXPECT_EQ(read("b.data", write_bourke(gridded(mesh, {10, 7}), "a", 1.6)).grid, glm::ivec2(10, 7));
+    EXPECT_EQ(read("b.pfm", write_pfm(resampled(mesh, {10, 7}), "a")).cells, glm::ivec2(10, 7));
+    // It reaches from edge to edge, and loses nothing where the mesh fills the viewport.
+    const WarpMesh full = read("a.data", sample("standard_16x9.data"));
+    const WarpMesh grid = gridded(full, {10, 7});
+    EXPECT_EQ(grid.vertices.front().at, glm::dvec2(0));
+    EXPECT_LE(glm::length(grid.vertices.back().at - 1.0), 1e-15);
+    EXPECT_EQ(differs(full, grid), 0);
+}
+
+TEST(WarpWriterTest, AGridEndsWhereTheMeshDoes)
+{
+    // A disc of triangles, which look at a third of the picture about its middle and fade to the right.
+    WarpMesh disc;
+    disc.format = "disc";
+    const glm::dvec2 centre(0.51, 0.47);
+    const auto seen = [](const glm::dvec2& at) { return glm::dvec3(0.3 + at.x / 3, 0.4 + at.y / 3, 0); };
+    const int sides = 720;
+    disc.vertices.push_back({centre, 1 - centre.x / 2, {seen(centre)}});
+    for (int i = 0; i < sides; ++i) {
+        const double angle = glm::radians(i * 360.0 / sides);
+        const glm::dvec2 at = centre + 0.4 * glm::dvec2(std::cos(angle), std::sin(angle));
+        disc.vertices.push_back({at, 1 - at.x / 2, {seen(at)}});
+        disc.triangles.push_back({0, std::uint32_t(i + 1), std::uint32_t((i + 1) % sides + 1)});
+    }
+    const WarpMesh grid = read("b.data", write_bourke(gridded(disc, {30, 24}), "a", 1));
+    const glm::ivec2 size(800, 800);
+    const WarpRaster raster(grid, size);
+    std::vector<WarpSample> row(800);
+    double shown = 0, farthest = 0, worst = 0;
+    for (int y = 0; y < size.y; ++y) {
+        raster.row(y, row);
+        for (int x = 0; x < size.x; ++x)
+            if (const WarpSample& s = row[std::size_t(x)]; s.shown) {
+                const glm::dvec2 at = (glm::dvec2(x, y) + 0.5) / glm::dvec2(size);
+                shown += 1.0 / (size.x * size.y);
+                farthest = std::max(farthest, glm::length(at - centre));
+                worst = std::max({worst, glm::length(s.sees[0] - seen(at)), std::abs(s.intensity - (1 - at.x / 2))});
+            }
+    }
+    EXPECT_NEAR(shown / (glm::radians(180.0) * 0.16), 1, 0.01); // chords of two cells; without its rim 0.87
+    EXPECT_LE(farthest, 0.4 + 1e-9);
+    EXPECT_LE(worst, 1e-12); // all is linear
+    EXPECT_LE(differs(disc, grid), 0.01);
+    EXPECT_GT(differs(disc, resampled(disc, {30, 24})), 0.03);
+}
+
 TEST(WarpWriterTest, WhatAFormatCannotHoldIsRefused)
 {
     const WarpMesh none = read("a.obj", obj), three = read("a.mesh", headset);
@@ -91,6 +141,27 @@ TEST(WarpWriterTest, WhatAFormatCannotHoldIsRefused)
     EXPECT_NE(complaint([&] { write_domeprojection(three, "a"); }).find("no flat picture"), std::string::npos);
     EXPECT_NE(complaint([&] { write_pfm(three, "a"); }).find("three ways"), std::string::npos);
     EXPECT_NE(complaint([&] { write_pfm(none, "a"); }).find("not one value per pixel"), std::string::npos);
+}
+
+TEST(WarpWriterTest, PortraitsLinesAreAlikeWhereTheMeshHasSome)
+{
+    // Five columns: the mesh's own lines run where the picture is at 0, 1/4, 1/2 ..., and one half is a white line too.
+    const WarpMesh mesh = gridded(read("a.data", sample("standard_16x9.data")), {5, 3});
+    WarpMesh straight = mesh;
+    for (WarpVertex& v : straight.vertices) {
+        v.sees[0] = {v.at, 0};
+        v.intensity = 1;
+    }
+    const std::vector<std::uint8_t> rgba = portrait(straight, {640, 400});
+    const auto light = [&](double place) { // of a place's line, all of it, at 0.33 of the height
+        const int margin = 640 / 16, middle = margin + int(std::lround(place * (640 - 2 * margin)));
+        int sum = 0;
+        for (int x = middle - 3; x < middle + 3; ++x)
+            sum += rgba[std::size_t(4 * (640 * 140 + x))];
+        return sum;
+    };
+    // The picture grows steadily redder to the right, so that a line is as bright as its neighbours are on average.
+    EXPECT_NEAR(light(0.5), (light(0.4) + light(0.6)) / 2, 30); // of some 800: where in its pixels a line falls
 }
 
 TEST(WarpWriterTest, PortraitShowsHolesBlack)

@@ -31,6 +31,7 @@ struct WarpFrustum {
     glm::dvec3 eye_m{0};
 };
 WarpFrustum read_frustum(const WarpFile& file);
+std::filesystem::path frustum_beside(const std::filesystem::path& mesh); ///< where it is looked for, and written
 
 /// The file's text. `aspect`: width over height of the picture that the mesh covers. Both want Kind::picture and a grid, and
 /// throw InputError with `name`, which is the mesh's, where it is otherwise. What is written reads back the same.
@@ -44,6 +45,13 @@ bool is_centred(const WarpMesh& mesh); ///< such a mesh
 
 /// What the mesh shows at the centres of a grid of cells over the viewport.
 WarpMesh resampled(const WarpMesh& mesh, glm::ivec2 cells);
+
+/// What the mesh shows at the vertices of a grid over the part of the viewport that it reaches into. Vertices beside the
+/// mesh move to its outline, so that the grid ends where the mesh does.
+WarpMesh gridded(const WarpMesh& mesh, glm::ivec2 vertices);
+
+/// How much of the viewport only one of two meshes covers, in what the first covers.
+double differs(const WarpMesh& mesh, const WarpMesh& other);
 
 /// A picture of a mesh for people, RGBA8 in sRGB, rows from the top: colours stand for what is seen, lines are the mesh's,
 /// holes are black, the viewport has a frame.

@@ -45,6 +45,7 @@ WarpMesh centred_mesh(glm::ivec2 cells, const std::vector<WarpVertex>& values, c
 {
     WarpMesh mesh;
     mesh.grid = cells + 2;
+    mesh.cells = cells;
     mesh.vertices.reserve(std::size_t(mesh.grid.x) * std::size_t(mesh.grid.y));
     std::vector<char> wide_holes;
     wide_holes.reserve(std::size_t(mesh.grid.x) * std::size_t(mesh.grid.y));
@@ -211,6 +212,9 @@ WarpMesh read_warp(const WarpFile& file, const std::string& region, bool first_r
     const Format format = format_of(file);
     if (!region.empty() && format != Format::mpcdi)
         refuse(file, "", "has no regions, and " + in_quotes(region) + " is wanted; an MPCDI file, or no region, is right");
+    if (first_row_on_top && format != Format::mpcdi && format != Format::pfm)
+        refuse(file, "",
+            "has no first row that may be on top or at the bottom; an MPCDI or PFM file, or nothing said of it, is right");
     switch (format) {
     case Format::bourke:
         return read_bourke(file);
@@ -240,6 +244,14 @@ WarpMesh read_warp(const WarpFile& file, const std::string& region, bool first_r
         "SimCAD (.simcad), SCISS (.sgc), Scalable (.ol), SkySkan (.txt), OBJ (.obj) or headset mesh is right");
 }
 
+std::filesystem::path frustum_beside(const std::filesystem::path& mesh)
+{
+    std::string name = mesh.stem().string();
+    if (name.ends_with("_mesh"))
+        name.resize(name.size() - 5);
+    return mesh.parent_path() / (name + "_frustum.csv");
+}
+
 WarpMesh load_warp(const Warp& warp)
 {
     const std::string bytes = contents(warp.file);
@@ -247,12 +259,8 @@ WarpMesh load_warp(const Warp& warp)
     WarpMesh mesh = read_warp(file, warp.region, warp.first_row_on_top);
     std::filesystem::path frustum = warp.frustum;
     if (frustum.empty() && mesh.format == "domeprojection mesh") {
-        std::string name = warp.file.stem().string();
-        if (name.ends_with("_mesh"))
-            name.resize(name.size() - 5);
         std::error_code ignored;
-        const std::filesystem::path beside = warp.file.parent_path() / (name + "_frustum.csv");
-        if (std::filesystem::exists(beside, ignored))
+        if (const std::filesystem::path beside = frustum_beside(warp.file); std::filesystem::exists(beside, ignored))
             frustum = beside;
     }
     if (!frustum.empty()) {

@@ -30,6 +30,7 @@ struct WarpMesh {
     std::vector<WarpVertex> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     glm::ivec2 grid{0}; ///< columns and rows of the vertices, rows from the top, where they are a grid; else 0
+    glm::ivec2 cells{0}; ///< of a map: its columns and rows; its vertices are their centres, and an edge around them
     std::optional<Planar> frustum; ///< what the picture that is not bent shows, where the file says
     std::optional<glm::dvec3> eye_m; ///< from where, where the file says
     std::string format; ///< for people: "Bourke mesh", "MPCDI 2.0, profile 3d, region left" ...

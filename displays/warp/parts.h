@@ -80,6 +80,7 @@ WarpMesh::Mask read_mask(const WarpFile& file, const std::string& place, std::si
 /// The values of a PFM, rows from the top.
 struct FloatMap {
     glm::ivec2 size{0};
+    bool first_row_on_top = false; ///< in the file
     std::vector<glm::vec3> values;
 };
 FloatMap read_float_map(const WarpFile& file, bool first_row_on_top);

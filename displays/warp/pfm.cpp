@@ -63,6 +63,7 @@ FloatMap read_float_map(const WarpFile& file, bool first_row_on_top)
     if (magic != "PF")
         refuse(file, "byte 0", in_quotes(magic) + " begins no PFM; PF is right");
     FloatMap map;
+    map.first_row_on_top = first_row_on_top;
     for (int* side : {&map.size.x, &map.size.y}) {
         const std::string_view text = word(side == &map.size.x ? "the width" : "the height");
         const std::optional<double> value = parsed(text);
@@ -130,7 +131,11 @@ WarpMesh place_mesh(const FloatMap& map, const WarpFile& file)
         for (std::size_t i = 0; i < bent.size(); ++i)
             turned.push_back({bent[i].x, bent[i].y + 2.0 * map.values[i].y});
         if (area(map.size, turned) > 1.25 * area(map.size, bent))
-            mesh.notes.push_back("with its rows in the other order the mesh would cover much more: first_row may be wrong");
+            mesh.notes.push_back(map.first_row_on_top
+                    ? "with its rows in the other order the mesh would cover much more: try it without --first-row-on-top, "
+                      "and a layout without \"first_row\""
+                    : "with its rows in the other order the mesh would cover much more: try it with --first-row-on-top, "
+                      "and \"first_row\": \"top\" in a layout");
         join_grid(mesh, std::vector<char>(mesh.vertices.size()));
         return mesh;
     }

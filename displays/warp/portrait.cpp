@@ -78,7 +78,11 @@ std::vector<std::uint8_t> portrait(const WarpMesh& mesh, glm::ivec2 size)
     const std::size_t width = std::size_t(inner.x);
     std::vector<WarpSample> samples(width);
     std::vector<std::optional<Seen>> above(width), here(width);
-    std::vector<double> light(width);
+    struct Dot {
+        glm::ivec2 at;
+        double share;
+    };
+    std::vector<Dot> chart; // of the white lines, which the mesh's must not dim where both run
     for (int y = 0; y < inner.y; ++y) {
         raster.row(y, samples);
         std::swap(above, here);
@@ -100,7 +104,7 @@ std::vector<std::uint8_t> portrait(const WarpMesh& mesh, glm::ivec2 size)
                 const double dy = above[x] ? value - above[x]->lines[axis] : 0;
                 const double step = std::hypot(dx, dy);
                 if (step > 0 && step < 0.25)
-                    canvas.mix(at, Rgb(255), 0.85 * std::clamp(1.6 - std::abs(off) / step, 0.0, 1.0));
+                    chart.push_back({at, 0.85 * std::clamp(1.6 - std::abs(off) / step, 0.0, 1.0)});
             }
         }
     }
@@ -127,6 +131,9 @@ std::vector<std::uint8_t> portrait(const WarpMesh& mesh, glm::ivec2 size)
         for (std::size_t i = 0; i < mesh.triangles.size(); i += step)
             for (std::size_t k = 0; k < 3; ++k)
                 canvas.line(on_canvas(mesh.triangles[i][k]), on_canvas(mesh.triangles[i][(k + 1) % 3]), ink, 0.2);
+
+    for (const Dot& dot : chart)
+        canvas.mix(dot.at, Rgb(255), dot.share);
 
     const glm::dvec2 low(margin), high(margin + inner);
     for (int i = 0; i < fine; ++i) {

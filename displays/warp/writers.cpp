@@ -49,8 +49,8 @@ std::string write_bourke(const WarpMesh& mesh, const std::string& name, double a
             const std::size_t i = std::size_t(row) * std::size_t(mesh.grid.x) + std::size_t(column);
             const WarpVertex& v = mesh.vertices[i];
             // Where this format has nothing but its sign for holes, what looks beyond the picture becomes one.
-            const glm::dvec2 place(v.sees[0].x, 1 - v.sees[0].y);
-            const bool hole = !flags[i] || place.x < 0 || place.x > 1 || place.y < 0 || place.y > 1;
+            const glm::dvec2 exactly(v.sees[0].x, 1 - v.sees[0].y), place = glm::clamp(exactly, 0.0, 1.0);
+            const bool hole = !flags[i] || !near(exactly.x, place.x) || !near(exactly.y, place.y);
             text += exact((2 * v.at.x - 1) * aspect) + " " + exact(1 - 2 * v.at.y) + " "
                 + (hole ? "0 0 -1" : exact(place.x) + " " + exact(place.y) + " " + exact(v.intensity)) + "\n";
         }

@@ -1,6 +1,7 @@
 #include "bench_layout.h"
 #include "commands.h"
 #include "config/error.h"
+#include "number_option.h"
 #include "runtime/find.h"
 #include "runtime/still.h"
 #include "runtime/theatre.h"
@@ -237,7 +238,7 @@ void add_bench(CLI::App& app, std::function<int()>& chosen)
     CLI::App* command
         = app.add_subcommand("bench", "Times the stages of a frame, and two ratios measured in turn in the same run.");
     command->add_option("--rounds", options->rounds, "How often each stage is timed")
-        ->check(CLI::Range(3, 10000))
+        ->check(whole_number(3, 10000))
         ->capture_default_str();
     command->add_option("--json", options->json, "Also write the figures to this file");
     command->add_option("--layout", options->layout,

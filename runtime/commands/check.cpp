@@ -43,8 +43,11 @@ Sight compiled_sight(const Layout& layout)
 
 int check(const Options& options)
 {
-    const Layout layout = load_layout(find("layouts", options.layout));
+    const std::filesystem::path layout_file = find("layouts", options.layout);
+    const Layout layout = load_layout(layout_file);
     const std::filesystem::path file = options.svg.empty() ? layout.name + "-plan.svg" : options.svg;
+    check_not_read(file, {layout_file});
+    check_ending(file, ".svg");
     check_writable(file);
     const std::vector<Coverage> shown = coverages(layout, compiled_sight(layout));
     for (const PlanRow& row : plan_rows(layout, shown))

@@ -1,6 +1,10 @@
 #include "commands.h"
 #include "config/import_sgct.h"
+#include "config/layout_reader.h"
+#include "displays/shade.h"
+#include "number_option.h"
 #include "runtime/capture.h"
+#include "runtime/find.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
@@ -12,24 +16,88 @@ namespace {
 struct Options {
     std::string file, out;
     int node = 0;
+    bool force = false;
 };
+
+MeshView view_of(const std::filesystem::path& mesh)
+{
+    try {
+        const WarpMesh read = load_warp({mesh});
+        return {read.frustum || read.kind == WarpMesh::Kind::colours, read.eye_m};
+    } catch (const InputError&) {
+        return {}; // as its kind has it; what is wrong with the file is told where the layout is tried
+    }
+}
+
+/// What keeps the layout in a file from being shown, a line each: every file that is missing, or else what is wrong first.
+std::vector<std::string> faults(const std::filesystem::path& file)
+{
+    std::vector<std::string> found;
+    const auto attempt = [&](auto&& act) {
+        try {
+            act();
+        } catch (const InputError& error) {
+            found.push_back(error.what());
+        }
+    };
+    const Document document = read_document(file);
+    for (const Place& output : items(member(root(document), "outputs"), 1, 64, "outputs"))
+        for (const Place& viewport : items(member(output, "viewports"), 1, 64, "viewports")) {
+            if (const auto mask = find(viewport, "alpha_mask"))
+                attempt([&] { existing_file(*mask, file.parent_path()); });
+            if (const auto warp = find(viewport, "warp"))
+                attempt([&] { existing_file(member(*warp, "file"), file.parent_path()); });
+        }
+    if (!found.empty())
+        return found;
+    attempt([&] {
+        const Layout layout = read_layout(root(document), file);
+        MapStore store;
+        for (std::size_t output = 0; output < layout.outputs.size(); ++output)
+            attempt([&] {
+                const auto panes = compile_output(store, layout, output, layout.outputs[output].size);
+                refuse_dark(layout, panes);
+                (void)shade_of(layout, output, layout.outputs[output].size, panes, {});
+            });
+    });
+    return found;
+}
 
 int import(const Options& options)
 {
     const Document document = read_document(options.file);
+    check_not_read(options.out, {options.file});
+    check_free(options.out, options.force);
     check_writable(options.out);
     const std::filesystem::path from = std::filesystem::absolute(options.file).parent_path().lexically_normal(),
                                 to = std::filesystem::absolute(options.out).parent_path().lexically_normal();
-    const Import import = import_sgct(document, options.node, from.lexically_relative(to));
-    for (const std::string& line : import.lines)
-        std::printf("%s\n", one_line(line).c_str());
+    const Import import = import_sgct(document, options.node, from.lexically_relative(to),
+        [&](const std::filesystem::path& mesh) { return view_of(from / mesh); });
     std::error_code ignored; // told by the stream
     std::filesystem::create_directories(to, ignored);
+    nlohmann::ordered_json layout;
+    try {
+        layout["$schema"] = std::filesystem::proximate(home() / "config/schema/layout.schema.json", to).generic_string();
+    } catch (const InputError&) {
+        // A program apart from its checkout has no schema to lead to.
+    }
+    const HudPlacement hud;
+    layout["hud"] = {{"azimuth_deg", hud.azimuth_deg}, {"elevation_deg", hud.elevation_deg}, {"width_deg", hud.width_deg}};
+    layout.update(import.layout);
     std::ofstream stream(options.out);
-    stream << import.layout.dump(4) << "\n";
+    stream << "// Made of SGCT's " << one_line(options.file)
+           << " by 'starbow import sgct', which tells what became of each member.\n"
+           << layout.dump(4) << "\n";
     if (!stream.flush())
         throw InputError(options.out, "", "can't be written; give a file in a folder that can be");
-    return 0;
+    stream.close();
+    const std::vector<std::string> wrong = faults(options.out);
+    for (const std::string& line : import.lines)
+        std::printf("%s\n", one_line(line).c_str());
+    for (const auto& lines : {import.to_mend, wrong})
+        for (const std::string& line : lines)
+            std::printf("to mend: %s\n", one_line(line).c_str());
+    return wrong.empty() ? 0 : 1;
 }
 
 } // namespace
@@ -42,7 +110,12 @@ void add_import(CLI::App& app, std::function<int()>& chosen)
     CLI::App* sgct = command->add_subcommand("sgct", "Of SGCT's JSON; says line by line what became of each member");
     sgct->add_option("file", options->file, "SGCT's configuration")->required();
     sgct->add_option("--out", options->out, "The layout's file")->required();
-    sgct->add_option("--node", options->node, "Which of several machines, from 0")->capture_default_str();
+    sgct->add_option("--node", options->node, "Which of several machines, from 0")
+        ->check(whole_number(0, 1023))
+        ->capture_default_str();
+    sgct->add_flag("--force", options->force, "Replace a file of that name");
+    sgct->footer("Where something is to be mended before the layout loads, the last lines say what, and it ends with 1.\n\n"
+                 "Example:\n  starbow import sgct single_fisheye.json --out my/dome.json");
     command->footer("Example:\n  starbow import sgct single_fisheye.json --out my/dome.json");
     sgct->callback([options, &chosen] { chosen = [options] { return import(*options); }; });
 }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -14,6 +15,39 @@ int complain(std::string text)
             c = '?';
     std::fprintf(stderr, "starbow: %s\n", text.c_str());
     return 2;
+}
+
+/// Names as a sentence has them: "a, b and c are".
+std::string there_are(const std::vector<std::string>& names)
+{
+    std::string list;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        list += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+    return list + (names.size() == 1 ? " is" : " are");
+}
+
+/// What the command line holds that there is not, or "". Said before what it lacks: most often the one is the other
+/// misspelt.
+std::string unknown(const CLI::App& app)
+{
+    const std::vector<std::string> left = app.remaining();
+    const std::vector<CLI::App*> taken = app.get_subcommands();
+    if (left.empty())
+        return taken.empty() ? "" : unknown(*taken.back());
+    std::string whole_name = "starbow"; // app's, with those before it
+    for (const CLI::App* at = &app; at->get_parent(); at = at->get_parent())
+        whole_name.insert(7, " " + at->get_name());
+    std::vector<std::string> names;
+    if (left[0].starts_with("-")) {
+        for (const CLI::Option* option : app.get_options())
+            if (option->nonpositional())
+                names.push_back("--" + option->get_lnames().at(0));
+        return left[0] + " is no option of '" + whole_name + "'; " + there_are(names);
+    }
+    for (const CLI::App* command : app.get_subcommands({}))
+        names.push_back(command->get_name());
+    return left[0]
+        + (names.empty() ? " is one argument too many for '" + whole_name + "'" : " is no command; " + there_are(names));
 }
 
 int guarded(const std::function<int()>& run)
@@ -31,6 +65,8 @@ int main(int count, char** arguments)
 {
     CLI::App app("Starbow: fly near the speed of light and see what physics says you would see.");
     app.require_subcommand(1);
+    app.footer("Examples:\n  starbow run --layout dome\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome\n"
+               "  starbow check my/wall.json --svg out/wall.svg\n  starbow COMMAND --help");
     std::function<int()> chosen;
     for (auto add : {starbow::add_run, starbow::add_render, starbow::add_check, starbow::add_displays, starbow::add_warp,
              starbow::add_import, starbow::add_bench})
@@ -40,7 +76,8 @@ int main(int count, char** arguments)
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0)
             return app.exit(error); // help
-        return complain(error.what() + std::string("; 'starbow --help' tells what there is"));
+        const std::string what = unknown(app);
+        return complain((what.empty() ? error.what() : what) + "; 'starbow --help' tells what there is");
     }
     return guarded(chosen);
 }

@@ -43,10 +43,17 @@ int render(const Options& options)
     const Pattern pattern = pattern_of(options.pattern);
     if (options.out.empty())
         throw InputError("--out is empty; give the folder for the pictures, such as out/shot");
+    std::vector<std::filesystem::path> pictures;
+    for (const Output& output : layout.outputs)
+        for (const Viewport& viewport : output.viewports)
+            pictures.insert(pictures.end(), {viewport.alpha_mask, viewport.black_level});
     for (const Output& output : layout.outputs)
         for (const char* kind : {".png", ".exr"})
-            if (options.exr || kind == std::string(".png"))
-                check_writable(std::filesystem::path(options.out) / (output.name + kind));
+            if (options.exr || kind == std::string(".png")) {
+                const std::filesystem::path picture = std::filesystem::path(options.out) / (output.name + kind);
+                check_not_read(picture, pictures);
+                check_writable(picture);
+            }
     Theatre theatre(scene_of(shot, shot_file), device_options(false));
     for (const std::string& note : theatre.world.world.notes)
         std::fprintf(stderr, "starbow: %s: %s\n", theatre.world.scene.gltf.c_str(), note.c_str());

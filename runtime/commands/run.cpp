@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "contact_sheet.h"
 #include "input/keyboard.h"
+#include "number_option.h"
 #include "pattern_option.h"
 #include "runtime/exhibit.h"
 #include "runtime/find.h"
@@ -56,7 +57,7 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
         ->capture_default_str();
     command->add_option("--shot", options->shot, "Start at this shot instead of the scene's start");
     command->add_option("--pattern", options->pattern, pattern_help)->capture_default_str();
-    command->add_option("--frames", options->frames, "Leave after so many frames")->check(CLI::Range(0L, 1000000000L));
+    command->add_option("--frames", options->frames, "Leave after so many frames")->check(whole_number(0, 1000000000));
     command->footer(
         std::string("Keys:\n") + keyboard_help() + "\n\nExample:\n  starbow run --layout stereo --shot avenue-gamma4");
     command->callback([options, command, &chosen] {

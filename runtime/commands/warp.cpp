@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -16,7 +17,7 @@ namespace {
 
 struct Options {
     std::string file, out, size, region, frustum, aspect;
-    bool first_row_on_top = false;
+    bool first_row_on_top = false, force = false;
     Warp warp() const { return {file, frustum, region, first_row_on_top}; }
 };
 
@@ -53,9 +54,10 @@ template <class Quantity> std::string range(const WarpMesh& mesh, Quantity quant
 void tell(const WarpMesh& mesh)
 {
     line("format", mesh.format);
+    const glm::ivec2 grid = mesh.cells.x > 0 ? mesh.cells : mesh.grid;
     line("grid",
-        mesh.grid.x > 0 ? std::to_string(mesh.grid.x) + " columns x " + std::to_string(mesh.grid.y) + " rows"
-                        : std::string("none, triangles alone"));
+        grid.x > 0 ? std::to_string(grid.x) + " columns x " + std::to_string(grid.y) + " rows"
+                   : std::string("none, triangles alone"));
     std::set<std::uint32_t> used;
     for (const auto& triangle : mesh.triangles)
         used.insert(triangle.begin(), triangle.end());
@@ -99,8 +101,11 @@ int inspect(const Options& options)
 {
     const glm::ivec2 size = parse_size(options.size, 8192).value_or(glm::ivec2(1024, 640));
     const WarpMesh mesh = load_warp(options.warp());
-    if (!options.out.empty())
+    if (!options.out.empty()) {
+        check_not_read(options.out, {options.file, options.frustum});
+        check_ending(options.out, ".png");
         check_writable(options.out);
+    }
     tell(mesh);
     if (!options.out.empty()) {
         write_png(options.out, size, portrait(mesh, size));
@@ -109,17 +114,48 @@ int inspect(const Options& options)
     return 0;
 }
 
-void write_text(const std::string& file, const std::string& bytes)
+void write_text(const std::filesystem::path& file, const std::string& bytes)
 {
-    check_writable(file);
     std::error_code ignored; // told by the stream
-    if (const auto folder = std::filesystem::path(file).parent_path(); !folder.empty())
-        std::filesystem::create_directories(folder, ignored);
+    if (file.has_parent_path())
+        std::filesystem::create_directories(file.parent_path(), ignored);
     std::ofstream stream(file, std::ios::binary);
     stream << bytes;
     if (!stream.flush())
-        throw InputError(file, "", "can't be written; give a file in a folder that can be");
+        throw InputError(file.string(), "", "can't be written; give a file in a folder that can be");
     std::printf("%s\n", file.c_str());
+}
+
+/// What is lost of a mesh that was sampled or not and then written to a file of a kind.
+std::vector<std::string> losses(const WarpMesh& original, const WarpMesh& mesh, const std::string& extension)
+{
+    std::vector<std::string> all;
+    const auto any = [&](const WarpMesh& of, auto&& odd) {
+        return std::any_of(of.triangles.begin(), of.triangles.end(), [&](const std::array<std::uint32_t, 3>& t) {
+            return std::any_of(t.begin(), t.end(), [&](std::uint32_t i) { return odd(of.vertices[i]); });
+        });
+    };
+    const auto beyond = [](const glm::dvec2& p) { // rounding apart
+        return std::max({-p.x, -p.y, p.x - 1, p.y - 1}) > 1e-9;
+    };
+    if (mesh.format != original.format) {
+        const glm::ivec2 size = mesh.cells.x > 0 ? mesh.cells : mesh.grid;
+        const double part = differs(original, mesh);
+        all.push_back("sampled on " + std::to_string(size.x) + " x " + std::to_string(size.y) + " places: "
+            + (part > 0 ? shown(std::ceil(part * 1e5) / 1e3) + " % of what it covers is lost or gained at its outline"
+                        : "nothing is lost at its outline")
+            + "; a larger --size follows the mesh more closely");
+        if (any(original, [&](const WarpVertex& v) { return beyond(v.at); }))
+            all.push_back("what the mesh shows beyond the viewport is left out");
+    }
+    const bool bourke = extension == ".data" || extension == ".map";
+    if (bourke && any(mesh, [&](const WarpVertex& v) { return beyond(glm::dvec2(v.sees[0])); }))
+        all.push_back("what looks beyond the picture becomes a hole: this format has no room for it");
+    if (!bourke && any(mesh, [](const WarpVertex& v) { return std::abs(v.intensity - 1) > 1e-6; })) // rounding apart
+        all.push_back("the vertices' brightness is lost: this format has no room for it");
+    if (mesh.frustum && extension != ".csv")
+        all.push_back("the frustum is lost: this format has no room for it");
+    return all;
 }
 
 int convert(const Options& options)
@@ -138,32 +174,32 @@ int convert(const Options& options)
     }
     const std::optional<glm::ivec2> size = parse_size(options.size, 4096);
     WarpMesh mesh = load_warp(options.warp());
-    if (size)
-        mesh = resampled(mesh, *size);
-    else if (extension == ".pfm" && !is_centred(mesh))
-        mesh = resampled(mesh, {960, 540});
-    if (mesh.grid.x == 0)
-        mesh = resampled(mesh, {96, 54});
-    const bool lit = std::any_of(mesh.vertices.begin(), mesh.vertices.end(),
-        [](const WarpVertex& v) { return v.intensity != 0 && v.intensity != 1; });
+    const std::filesystem::path frustum_file = frustum_beside(options.out);
+    std::vector<std::filesystem::path> read{options.file, options.frustum}, written{options.out};
+    if (mesh.format == "domeprojection mesh")
+        read.push_back(frustum_beside(options.file));
+    if (extension == ".csv" && mesh.frustum)
+        written.push_back(frustum_file);
+    for (const std::filesystem::path& file : written) {
+        check_not_read(file, read);
+        check_free(file, options.force);
+        check_writable(file);
+    }
+    const WarpMesh original = mesh;
+    if (extension == ".pfm" && (size || !is_centred(mesh)))
+        mesh = resampled(mesh, size.value_or(glm::ivec2(960, 540)));
+    else if (size || mesh.grid.x == 0)
+        mesh = gridded(mesh, size.value_or(glm::ivec2(192, 108)));
     if (extension == ".pfm")
         write_text(options.out, write_pfm(mesh, options.file));
     else if (extension == ".csv") {
         write_text(options.out, write_domeprojection(mesh, options.file));
-        if (mesh.frustum) {
-            std::string stem = std::filesystem::path(options.out).stem();
-            if (stem.ends_with("_mesh"))
-                stem.resize(stem.size() - 5);
-            write_text(std::filesystem::path(options.out).parent_path() / (stem + "_frustum.csv"),
-                write_frustum({*mesh.frustum, mesh.eye_m.value_or(glm::dvec3(0))}));
-        }
+        if (mesh.frustum)
+            write_text(frustum_file, write_frustum({*mesh.frustum, mesh.eye_m.value_or(glm::dvec3(0))}));
     } else
         write_text(options.out, write_bourke(mesh, options.file, aspect));
-    if (lit && extension != ".data" && extension != ".map")
-        std::fprintf(
-            stderr, "starbow: %s: the vertices' brightness is lost: this format has no room for it\n", options.out.c_str());
-    if (mesh.frustum && extension != ".csv")
-        std::fprintf(stderr, "starbow: %s: the frustum is lost: this format has no room for it\n", options.out.c_str());
+    for (const std::string& loss : losses(original, mesh, extension))
+        std::fprintf(stderr, "starbow: %s: %s\n", options.out.c_str(), loss.c_str());
     return 0;
 }
 
@@ -188,15 +224,27 @@ void add_warp(CLI::App& app, std::function<int()>& chosen)
     add_input(*inspect_command, *looking);
     inspect_command->add_option("--out", looking->out, "Draw it to this PNG");
     inspect_command->add_option("--size", looking->size, "Pixels of the PNG, WIDTHxHEIGHT; 1024x640 if not given");
+    inspect_command->footer(
+        "The picture: in the frame what the viewport shows, around it, dark grey, its surroundings. A colour is a place in "
+        "the\n"
+        "picture that is bent: blue its upper left, red its upper right, green its lower left, yellow its lower right. "
+        "White lines\n"
+        "are tenths of that picture; where the mesh knows points in metres, each ten degrees as seen from the eye; where a\n"
+        "headset's directions, each fifth of a tangent. Dark lines are the mesh. Darker colours are dimmed, black shows "
+        "nothing.\n\n"
+        "Example:\n  starbow warp inspect dome.data --out dome.png");
     inspect_command->callback([looking, &chosen] { chosen = [looking] { return inspect(*looking); }; });
 
     CLI::App* convert_command
         = command->add_subcommand("convert", "Write a warp file as a Bourke mesh (.data), PFM or domeprojection's .csv");
     add_input(*convert_command, *changing);
     convert_command->add_option("out", changing->out, "The new file; its name's end says the format")->required();
-    convert_command->add_option("--size", changing->size, "Sample the mesh on a grid of WIDTHxHEIGHT first");
+    convert_command->add_option(
+        "--size", changing->size, "Sample it first: WIDTHxHEIGHT vertices of a mesh, or cells of a PFM");
     convert_command->add_option(
         "--aspect", changing->aspect, "Of a Bourke mesh's screen, width over height; 16/9 if not given");
+    convert_command->add_flag("--force", changing->force, "Replace a file of that name");
+    convert_command->footer("Example:\n  starbow warp convert channel1.sgc channel1.pfm --size 1920x1200");
     convert_command->callback([changing, &chosen] { chosen = [changing] { return convert(*changing); }; });
     command->footer("Example:\n  starbow warp inspect dome.data --out dome.png\n  starbow warp convert channel1.sgc "
                     "channel1.pfm --size 1920x1200");
