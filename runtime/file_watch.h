@@ -14,7 +14,8 @@ public:
     explicit FileWatch(std::vector<std::filesystem::path> files);
 
     /// True once after a change, when the files have stayed the same for a fifth of a second: nobody reads half a file.
-    /// A missing file, too, is a change, once it has been gone for a second: saving may take it away and put it back. Looks at the disk ten times a second at most, however often it is asked.
+    /// A missing file, too, is a change, once it has been gone for a second: saving may take it away and put it back. Looks
+    /// at the disk ten times a second at most, however often it is asked.
     bool changed(Clock::time_point now);
 
 private:

@@ -160,8 +160,9 @@ TEST(Plan, FitsTheDeviceHoweverLargeTheOutput)
     for (double gamma : {1.0, 4.0, 1000.0}) {
         glm::dvec3 u(0, 0, -std::sqrt((gamma - 1) * (gamma + 1)));
         // As flat as a dome of 16384 pixels is large: its map would fill the test's memory.
-        Plan plan = make_plan({{&blocks, motion_from_world(u, glm::dquat(1, 0, 0, 0))}}, physics::exp_rapidity(glm::length(u)),
-            {.texels_per_pixel = 1.25, .max_texels_per_pixel = 8, .max_texels = 48e6, .max_atlas_side = 4096});
+        Plan plan
+            = make_plan({{&blocks, motion_from_world(u, glm::dquat(1, 0, 0, 0))}}, physics::exp_rapidity(glm::length(u)),
+                {.texels_per_pixel = 1.25, .max_texels_per_pixel = 8, .max_texels = 48e6, .max_atlas_side = 4096});
         EXPECT_LE(std::max(plan.atlas_size.x, plan.atlas_size.y), 4096) << gamma;
         EXPECT_GT(plan.texels, 4096.0 * 4096 / 4) << gamma;
     }

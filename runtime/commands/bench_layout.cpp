@@ -203,10 +203,13 @@ void bench_stereo(Theatre& theatre, const Shot& shot, int rounds)
     time(theatre, cases, shot, rounds);
     // Errors at the quality of stills, where the depth map is as fine as the picture.
     const Quality quality = default_quality(theatre.device, true);
-    auto measured
-        = [&](const Layout& layout) { return Studio(theatre.device, theatre.pipelines, theatre.world, layout, quality, true); };
-    std::printf("\nTwo eyes of 800x600 (domes 600x600), %.4g scene units apart:\n", stereo.stereo.separation_m * stereo.stereo.hyper_stereo / theatre.world.scene.unit_m);
-    std::printf("  %-22s %10s %8s %9s   %s\n", "", "frame, ms", "of exact", "warp, ms", "disparity error, pixels: median, 99 %, most; hidden wrongly");
+    auto measured = [&](const Layout& layout) {
+        return Studio(theatre.device, theatre.pipelines, theatre.world, layout, quality, true);
+    };
+    std::printf("\nTwo eyes of 800x600 (domes 600x600), %.4g scene units apart:\n",
+        stereo.stereo.separation_m * stereo.stereo.hyper_stereo / theatre.world.scene.unit_m);
+    std::printf("  %-22s %10s %8s %9s   %s\n", "", "frame, ms", "of exact", "warp, ms",
+        "disparity error, pixels: median, 99 %, most; hidden wrongly");
     for (std::size_t i = 0; i < cases.size(); ++i) {
         Studio tested = measured(layouts[i]);
         const bool turns = layouts[i].stereo.turning;
@@ -232,7 +235,8 @@ int bench_layout(const std::string& name, const std::string& shot_name, int roun
         name.c_str(), shot_name.c_str(), rounds);
 
     // Compiling the maps: without a cache, and from a folder that holds them.
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("starbow-bench-" + std::to_string(::getpid()));
+    const std::filesystem::path folder
+        = std::filesystem::temp_directory_path() / ("starbow-bench-" + std::to_string(::getpid()));
     auto compile_all = [&](MapStore store) {
         return milliseconds([&] {
             for (std::size_t output = 0; output < layout.outputs.size(); ++output)
@@ -245,7 +249,8 @@ int bench_layout(const std::string& name, const std::string& shot_name, int roun
     std::error_code ignored;
     std::filesystem::remove_all(folder, ignored);
     const double pixels = pixels_of(layout);
-    std::printf("  %-22s %10.1f ms  (%.1f ns per pixel), %.1f ms from the cache\n", "direction maps", cold, cold * 1e6 / pixels, warm);
+    std::printf("  %-22s %10.1f ms  (%.1f ns per pixel), %.1f ms from the cache\n", "direction maps", cold,
+        cold * 1e6 / pixels, warm);
 
     std::vector<Case> cases;
     cases.push_back(make_case(theatre, name, layout));

@@ -5,9 +5,9 @@
 
 namespace starbow {
 
-constexpr const char* pattern_help
-    = "A test pattern instead of the flight: grid, rings (azimuth and elevation), names (of outputs and eyes), wedges (gamma "
-      "and black level) or overlap";
+constexpr const char* pattern_help = "A test pattern instead of the flight: grid, rings (azimuth and elevation), names (of "
+                                     "outputs and eyes), wedges (gamma "
+                                     "and black level) or overlap";
 
 /// Throws InputError for a name that is none.
 inline Pattern pattern_of(const std::string& name)
