@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <optional>
 
 namespace starbow {
 
@@ -15,12 +16,18 @@ struct Head {
 /// in which they are pressed.
 struct Controls {
     std::int64_t time_ns = 0;
-    double faster = 0; ///< rapidity: above 0 speeds up along the nose, below 0 slows down
+    std::optional<double> lever; ///< where the throttle stands, from 0 to 1; without one keys move it
+    double faster = 0; ///< of who has no throttle: above 0 more, below 0 less
+    glm::dvec3 push{0}; ///< thrusters: right, up, back; newtonian flight
     glm::dvec3 turn{0}; ///< pitch up, yaw left, roll left: right-handed about the cockpit's x, y, z
     glm::dvec2 look_rad{0}; ///< how much further to look to the left and up, since the last frame
     Head head;
     double exposure = 0; ///< brighter or darker
-    bool look_ahead = false, stop = false, reset = false;
+    bool look_ahead = false, stop = false;
+    bool home = false; ///< fly back to the start
+    bool undo = false; ///< ten seconds back
+    bool reset = false; ///< to the start at once
+    bool next_mode = false;
     bool aberration = false, doppler = false, headlight = false; ///< effects to switch over
     bool hud = false, full_screen = false, quit = false;
     // For who builds the exhibit: the next test pattern; which of the layout's numbers to turn, by how many steps; keep

@@ -26,14 +26,15 @@ const char* keyboard_help()
            "arrows, A, D    turn the ship; Q, E roll it\n"
            "mouse drag      look around; C looks ahead again\n"
            "Space           stop at once, relative to the world\n"
-           "R               back to the start\n"
+           "R               fly back to the start; Backspace ten seconds back\n"
+           "M               the next mode of flight: guided, free, newtonian\n"
            "1, 2, 3         aberration, Doppler effect, headlight effect on and off\n"
            "+, -            brighter, darker\n"
            "H               head-up display; F11 full screen; Esc leave\n"
            "F2              for builders: the next test pattern\n"
            "F3, Page Up/Dn  choose a tilt, rotation, turn or blend of the layout; turn it (Shift: ten times as far)\n"
            "F5              keep what was turned: writes it into the layout's file\n"
-           "gamepad         triggers: slower, faster; left stick: turn; right stick: look; A stop; B back to the start;\n"
+           "gamepad         triggers: slower, faster; left stick: turn; right stick: look; A stop; B fly back to the start;\n"
            "                X, Y, right bumper: the effects; left bumper: look ahead";
 }
 
@@ -75,7 +76,9 @@ void Keyboard::finish(Controls& controls)
         - std::max(double(down(GLFW_KEY_MINUS)), double(down(GLFW_KEY_KP_SUBTRACT)));
     controls.look_ahead = pressed(GLFW_KEY_C);
     controls.stop = pressed(GLFW_KEY_SPACE);
-    controls.reset = pressed(GLFW_KEY_R);
+    controls.home = pressed(GLFW_KEY_R);
+    controls.undo = pressed(GLFW_KEY_BACKSPACE);
+    controls.next_mode = pressed(GLFW_KEY_M);
     controls.aberration = pressed(GLFW_KEY_1);
     controls.doppler = pressed(GLFW_KEY_2);
     controls.headlight = pressed(GLFW_KEY_3);
@@ -105,7 +108,8 @@ void Keyboard::finish(Controls& controls)
     }
     auto tapped = [&](int button) { return pad_[button] && !pad_before_[button]; };
     controls.stop |= tapped(GLFW_GAMEPAD_BUTTON_A);
-    controls.reset |= tapped(GLFW_GAMEPAD_BUTTON_B);
+    controls.home |= tapped(GLFW_GAMEPAD_BUTTON_B);
+    controls.undo |= tapped(GLFW_GAMEPAD_BUTTON_LEFT_THUMB);
     controls.aberration |= tapped(GLFW_GAMEPAD_BUTTON_X);
     controls.doppler |= tapped(GLFW_GAMEPAD_BUTTON_Y);
     controls.headlight |= tapped(GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER);

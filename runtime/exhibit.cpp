@@ -4,6 +4,7 @@
 #include "file_watch.h"
 #include "flight.h"
 #include "frame.h"
+#include "history.h"
 #include "input/head_tracker.h"
 #include "input/keyboard.h"
 #include "screens.h"
@@ -116,7 +117,9 @@ struct Visit {
     Layout kept = layout; ///< as its file has it: without what was turned since
     FileWatch watch{files_of(layout)};
     std::string refused; ///< why a change of the layout was not taken up, for the head-up display
-    Flight flight = flight_at(start);
+    Flying rules{};
+    Flight flight = flight_at(start, rules);
+    History history{};
     Keyboard keyboard{};
     std::unique_ptr<HeadTracker> tracker = tracker_of(layout);
     Workbench workbench{};
@@ -148,7 +151,7 @@ std::string notice_of(const Visit& visit)
     if (!visit.refused.empty())
         return visit.refused;
     if (seconds(Clock::now() - visit.began) < 25)
-        return "W faster   S slower   arrows turn   Space stop   R start again";
+        return "W faster   S slower   arrows turn   Space stop   R back to the start";
     if (visit.tracker && !visit.tracker->heard(Clock::now()))
         return "no head tracker is heard on port " + std::to_string(visit.tracker->tracking().port);
     return visit.skew.frames() > 0 ? told(visit.skew) : "";
@@ -242,8 +245,11 @@ void fly(Visit& visit, Theatre& theatre)
         if (controls.full_screen)
             screens.switch_full_screen();
         // A stall of the machine must not become a leap of the ship.
-        const double passed = std::min(seconds(now - visit.last), 0.1);
-        visit.flight = step(visit.flight, controls, passed, scene.seconds_per_time_unit(), visit.start);
+        const auto passed = std::min<std::chrono::nanoseconds>(now - visit.last, std::chrono::milliseconds(100));
+        if (controls.undo)
+            visit.flight = visit.history.back(visit.flight);
+        visit.flight = step(visit.flight, controls, passed.count(), visit.rules, scene.seconds_per_time_unit(), visit.start);
+        visit.history.keep(visit.flight);
         visit.last = now;
         turn(visit, *frame, controls); // the device has finished the frame before
         frame->show(visit.workbench.pattern());

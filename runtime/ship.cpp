@@ -67,7 +67,8 @@ Ship fly(Ship ship, const glm::dvec3& acceleration, const glm::dvec3& turn, doub
     const glm::dquat half_turn = quaternion_of(0.5 * turn);
     const glm::dquat ship_from_thruster = ship.ship_from_cockpit * half_turn;
 
-    const double strength = glm::length(acceleration);
+    // A thrust whose square underflows has no direction; it has no effect either.
+    const double length = glm::length(acceleration), strength = length > 1e-100 ? length : 0;
     const glm::dvec3 way = strength > 0 ? glm::normalize(ship_from_thruster * acceleration) : glm::dvec3(0);
     const glm::dvec3 u = ship.u.total();
     const physics::Leg leg = physics::thrust_leg(u, way, strength, dtau);

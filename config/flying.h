@@ -1,0 +1,21 @@
+#pragma once
+
+namespace starbow {
+
+/// guided: the throttle's place is the speed, and the velocity follows the nose. free: the throttle's place is the speed,
+/// the nose looks where it likes. newtonian: the throttle is the engine's thrust along the nose, and nothing else slows
+/// down.
+enum class FlightMode { guided, free, newtonian };
+
+/// How an exhibit flies. Times are the visitor's seconds, which are the ship's.
+struct Flying {
+    FlightMode mode = FlightMode::guided;
+    double greatest_gamma = 1e6; ///< of a full throttle; the speeds below it are even in rapidity
+    // What the visitors' stomachs are spared.
+    double turn_deg_per_s = 40; ///< nose up, down, left, right
+    double roll_deg_per_s = 40;
+    double rapidity_per_s = 1.5; ///< greatest gain or loss of speed
+    double ease_s = 0.2; ///< a control's way to a new value: the longer, the smaller the jerk
+};
+
+} // namespace starbow

@@ -1,0 +1,36 @@
+#include "history.h"
+
+namespace starbow {
+
+void History::keep(const Flight& flight)
+{
+    if (flight.homing) // no one wants to go back into it
+        return;
+    if (!kept_.empty() && flight.ticks - kept_.back().ticks < history_every_ticks)
+        return;
+    kept_.push_back(flight);
+    // Twice as much, so that a second undo leads further back.
+    while (kept_.size() > 2 && flight.ticks - kept_[1].ticks >= 2 * history_ticks)
+        kept_.pop_front();
+}
+
+Flight History::back(const Flight& now)
+{
+    if (kept_.empty())
+        return now;
+    while (kept_.size() > 1 && now.ticks - kept_.back().ticks < history_ticks)
+        kept_.pop_back();
+    Flight then = kept_.back();
+    // Time goes on: what is kept now is ten seconds away from the next that is.
+    for (Flight& flight : kept_)
+        flight.ticks += now.ticks - then.ticks;
+    then.mode = now.mode;
+    then.effects = now.effects;
+    then.exposure_ev = now.exposure_ev;
+    then.hud = now.hud;
+    then.ticks = now.ticks, then.left_ns = now.left_ns;
+    then.homing.reset();
+    return then;
+}
+
+} // namespace starbow

@@ -1,0 +1,23 @@
+#pragma once
+#include "flight.h"
+#include <deque>
+
+namespace starbow {
+
+/// The last ten seconds of a flight, for who has got lost.
+class History {
+public:
+    /// After each step.
+    void keep(const Flight& flight);
+
+    /// The flight as it was ten seconds ago, or as long ago as is known; switches, throttle and clock stay as they are. What
+    /// lies between is forgotten: called again it leads further back.
+    Flight back(const Flight& now);
+
+private:
+    std::deque<Flight> kept_;
+};
+
+constexpr std::int64_t history_ticks = 10'000, history_every_ticks = 100;
+
+} // namespace starbow

@@ -1,0 +1,102 @@
+#include "pilot.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+constexpr double degree = 3.14159265358979323846 / 180;
+const glm::dvec3 nose(0, 0, -1); ///< cockpit axes
+
+/// The part of the way that a smoothed value goes in one tick.
+double share(double seconds) { return seconds > 0 ? -std::expm1(-tick_s / seconds) : 1; }
+
+/// The velocity's direction in the cockpit as it stands in the middle of the tick, where its thrust acts; the nose's at rest.
+glm::dvec3 heading(const Flight& flight)
+{
+    const glm::dvec3 u = flight.ship.u.total(), half = 0.5 * tick_s * flight.turn_rad_s;
+    const double length = glm::length(u), angle = glm::length(half);
+    if (!(length > 0))
+        return nose;
+    const glm::dvec3 way = glm::inverse(flight.ship.ship_from_cockpit) * (u / length);
+    return glm::normalize(angle > 0 ? glm::angleAxis(-angle, half / angle) * way : way);
+}
+
+/// Across `way`, towards `to`; where that is straight behind, upwards: there is no better reason for any way round.
+glm::dvec3 across(const glm::dvec3& way, const glm::dvec3& to)
+{
+    glm::dvec3 side = to - way * glm::dot(to, way);
+    if (!(glm::length(side) > 1e-9)) {
+        const glm::dvec3 up(0, 1, 0), right(1, 0, 0);
+        side = std::abs(way.y) < 0.9 ? up - way * way.y : right - way * way.x;
+    }
+    return glm::normalize(side);
+}
+
+/// Guided and free: the throttle's place is the speed.
+Push by_lever(Flight& flight, const Flying& rules)
+{
+    const double speed = rapidity_of(flight.ship),
+                 target = flight.held_back ? 0 : flight.lever * std::acosh(rules.greatest_gamma);
+    const double wanted = std::clamp((target - speed) / settle_s, -rules.rapidity_per_s, rules.rapidity_per_s);
+    flight.faster += share(rules.ease_s) * (wanted - flight.faster);
+    const double gain = flight.faster * tick_s;
+    Push push;
+    if (target == 0 && speed + gain < 2e-3) { // slower than anyone can see, and then for ever less
+        flight.faster = 0;
+        push.stop = speed > 0;
+        return push;
+    }
+    const glm::dvec3 way = heading(flight);
+    push.rapidity = std::max(gain, -speed) * way;
+    if (flight.mode == FlightMode::guided) {
+        // A thrust across the flight turns what is ahead, as the ship sees it, by itself over v/c; and it adds a speed of the
+        // second order, cosh w' = cosh(thrust) cosh w, which is taken off again.
+        const double angle = std::atan2(glm::length(glm::cross(way, nose)), glm::dot(way, nose));
+        const double turned = share(follow_s) * angle;
+        push.rapidity += (across(way, nose) * turned - way * (0.5 * turned * turned)) * std::tanh(speed);
+    }
+    return push;
+}
+
+/// Newtonian: the throttle is the engine.
+Push by_thrust(Flight& flight, const Controls& controls, const Flying& rules)
+{
+    const double engine = controls.lever ? *controls.lever * rules.rapidity_per_s : 0;
+    glm::dvec3 wanted = (nose * controls.faster + controls.push) * key_rapidity_per_s + nose * engine;
+    if (flight.held_back)
+        wanted = glm::dvec3(0);
+    flight.thrust += share(rules.ease_s) * (wanted - flight.thrust);
+    if (wanted == glm::dvec3(0) && glm::length(flight.thrust) < 1e-4)
+        flight.thrust = glm::dvec3(0);
+    Push push{flight.thrust * tick_s};
+    // At the limit nothing more is gained along the flight; turning it stays possible, and what that adds is taken off.
+    if (const double beyond = rapidity_of(flight.ship) - std::acosh(rules.greatest_gamma); beyond >= 0) {
+        const glm::dvec3 way = heading(flight);
+        push.rapidity -= way * (std::max(0.0, glm::dot(push.rapidity, way)) + beyond);
+    }
+    return push;
+}
+
+} // namespace
+
+double rapidity_of(const Ship& ship) { return std::asinh(glm::length(ship.u.total())); }
+
+Push pilot(Flight& flight, const Controls& controls, const Flying& rules)
+{
+    const glm::dvec3 rates = degree * glm::dvec3(rules.turn_deg_per_s, rules.turn_deg_per_s, rules.roll_deg_per_s);
+    flight.turn_rad_s += share(rules.ease_s) * (glm::clamp(controls.turn, -1.0, 1.0) * rates - flight.turn_rad_s);
+    if (controls.lever)
+        flight.lever = std::clamp(*controls.lever, 0.0, 1.0);
+    else if (flight.mode != FlightMode::newtonian)
+        flight.lever = std::clamp(flight.lever + controls.faster * lever_per_s * tick_s, 0.0, 1.0);
+    const bool let_go = flight.mode == FlightMode::newtonian
+        ? controls.faster == 0 && controls.push == glm::dvec3(0) && controls.lever.value_or(0) < 0.02
+        : (controls.lever ? flight.lever < 0.02 : controls.faster <= 0);
+    flight.held_back = flight.held_back && !let_go;
+    if (flight.held_back && !controls.lever)
+        flight.lever = 0;
+    return flight.mode == FlightMode::newtonian ? by_thrust(flight, controls, rules) : by_lever(flight, rules);
+}
+
+} // namespace starbow
