@@ -34,7 +34,8 @@ const char* keyboard_help()
            "F2              for builders: the next test pattern\n"
            "F3, Page Up/Dn  choose a tilt, rotation, turn or blend of the layout; turn it (Shift: ten times as far)\n"
            "F5              keep what was turned: writes it into the layout's file\n"
-           "gamepad         triggers: slower, faster; left stick: turn; right stick: look; A stop; B fly back to the start;\n"
+           "gamepad         triggers: slower, faster; left stick: turn; right stick: look; A stop; B fly back to the "
+           "start;\n"
            "                X, Y, right bumper: the effects; left bumper: look ahead";
 }
 
@@ -61,7 +62,7 @@ void Keyboard::collect(GLFWwindow* window)
     }
 }
 
-void Keyboard::finish(Controls& controls)
+void Keyboard::finish(Controls& controls, bool pads)
 {
     if (!held_)
         dragging_ = nullptr;
@@ -93,7 +94,7 @@ void Keyboard::finish(Controls& controls)
 
     pad_before_ = pad_;
     pad_.fill(false);
-    for (int joystick = GLFW_JOYSTICK_1; joystick <= GLFW_JOYSTICK_LAST; ++joystick) {
+    for (int joystick = GLFW_JOYSTICK_1; pads && joystick <= GLFW_JOYSTICK_LAST; ++joystick) {
         GLFWgamepadstate state;
         if (!glfwJoystickIsGamepad(joystick) || !glfwGetGamepadState(joystick, &state))
             continue;

@@ -9,15 +9,16 @@ namespace starbow {
 /// Keyboard, mouse and any gamepad that GLFW knows, over all windows of the exhibit. Remembers only what was down before.
 class Keyboard {
 public:
-    /// Reads what is down now (after glfwPollEvents). windows: those whose keys and pointer count.
-    template <class Windows> Controls read(const Windows& windows, std::int64_t time_ns)
+    /// Reads what is down now (after glfwPollEvents). windows: those whose keys and pointer count. pads: whether GLFW's
+    /// gamepads count, which may be the ones that Hid reads.
+    template <class Windows> Controls read(const Windows& windows, std::int64_t time_ns, bool pads)
     {
         Controls controls;
         controls.time_ns = time_ns;
         begin();
         for (GLFWwindow* window : windows)
             collect(window);
-        finish(controls);
+        finish(controls, pads);
         return controls;
     }
 
@@ -25,7 +26,7 @@ private:
     static constexpr int keys = 512, buttons = 32;
     void begin();
     void collect(GLFWwindow* window);
-    void finish(Controls& controls);
+    void finish(Controls& controls, bool pads);
     bool down(int key) const { return now_[key]; }
     bool pressed(int key) const { return now_[key] && !before_[key]; }
 

@@ -2,10 +2,12 @@
 #include "config/error.h"
 #include "config/reader.h"
 #include "file_watch.h"
+#include "find.h"
 #include "flight.h"
 #include "frame.h"
 #include "history.h"
 #include "input/head_tracker.h"
+#include "input/hid.h"
 #include "input/keyboard.h"
 #include "screens.h"
 #include "theatre.h"
@@ -108,6 +110,16 @@ std::unique_ptr<HeadTracker> tracker_of(const Layout& layout)
     return layout.head_tracker ? std::make_unique<HeadTracker>(*layout.head_tracker) : nullptr;
 }
 
+/// All in config/profiles. Throws InputError for a wrong one.
+std::vector<Profile> shipped_profiles()
+{
+    std::vector<Profile> all;
+    for (const auto& entry : std::filesystem::directory_iterator(home() / "config" / "profiles"))
+        if (entry.path().extension() == ".json")
+            all.push_back(load_profile(entry.path()));
+    return all;
+}
+
 /// What outlasts the loss of a device.
 struct Visit {
     const std::filesystem::path& scene;
@@ -121,6 +133,7 @@ struct Visit {
     Flight flight = flight_at(start, rules);
     History history{};
     Keyboard keyboard{};
+    Hid hid{shipped_profiles(), [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); }};
     std::unique_ptr<HeadTracker> tracker = tracker_of(layout);
     Workbench workbench{};
     Skew skew{};
@@ -150,6 +163,8 @@ std::string notice_of(const Visit& visit)
         return visit.workbench.says();
     if (!visit.refused.empty())
         return visit.refused;
+    if (const std::string missing = visit.hid.missing(); !missing.empty())
+        return missing;
     if (seconds(Clock::now() - visit.began) < 25)
         return "W faster   S slower   arrows turn   Space stop   R back to the start";
     if (visit.tracker && !visit.tracker->heard(Clock::now()))
@@ -237,7 +252,9 @@ void fly(Visit& visit, Theatre& theatre)
         else
             glfwWaitEventsTimeout(0.1); // all minimised, or no monitor there
         const Clock::time_point now = Clock::now();
-        Controls controls = visit.keyboard.read(screens.handles(), std::chrono::nanoseconds(now - visit.began).count());
+        Controls controls = visit.keyboard.read(
+            screens.handles(), std::chrono::nanoseconds(now - visit.began).count(), !visit.hid.has_gamepad());
+        visit.hid.add(seconds(now - visit.last), controls);
         if (visit.tracker)
             controls.head = visit.tracker->read(now);
         if (controls.quit || screens.closed())

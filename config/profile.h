@@ -1,0 +1,75 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace starbow {
+
+/// What an axis of a device does. Forward, right and up are a visitor's; the throttle runs from idle to full.
+enum class AxisRole {
+    none,
+    throttle,
+    faster,
+    slower,
+    nose_up,
+    nose_right,
+    roll_right,
+    look_right,
+    look_up,
+    push_right,
+    push_up,
+    push_back
+};
+/// What a button does.
+enum class ButtonRole {
+    none,
+    stop,
+    home,
+    undo,
+    next_mode,
+    look_ahead,
+    aberration,
+    doppler,
+    headlight,
+    hud,
+    faster,
+    slower,
+    brighter,
+    darker
+};
+
+/// An axis of a device by its HID usage, and what becomes of its values.
+struct AxisUse {
+    int page = 1, usage = 0;
+    int nth = 0; ///< of several axes with this usage, in the descriptor's order, from 0
+    AxisRole role = AxisRole::none;
+    bool inverted = false;
+    double dead_zone = 0.06; ///< around the middle, of the way to an end; of a throttle at idle
+    double curve = 1.6; ///< exponent: above 1 the middle is finer; throttles are straight
+    std::optional<std::array<double, 3>> range; ///< raw values at one end, in the middle and at the other, as calibrated
+    std::vector<double> detents; ///< of a throttle: places from 0 to 1 in which it rests
+};
+
+struct ButtonUse {
+    int button = 1; ///< as the device counts, from 1
+    ButtonRole role = ButtonRole::none;
+};
+
+/// How one kind of device is used.
+struct Profile {
+    std::string name;
+    int vendor = 0, product = 0;
+    std::string serial; ///< of one device among several of its kind; empty: any
+    std::vector<AxisUse> axes;
+    std::vector<ButtonUse> buttons;
+    std::optional<AxisRole> hat_x, hat_y; ///< what the hat does to the sides, and up and down
+    std::filesystem::path file;
+};
+
+/// Reads and checks a profile. Throws InputError with file, line, JSON pointer, value and what would be right.
+Profile load_profile(const std::filesystem::path& file);
+
+} // namespace starbow

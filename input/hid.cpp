@@ -1,0 +1,296 @@
+#include "hid.h"
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <hidapi/hidapi.h>
+#include <libudev.h>
+#include <poll.h>
+#include <thread>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+std::int64_t now_ns()
+{
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string plain(const wchar_t* text)
+{
+    std::string out;
+    for (; text && *text; ++text)
+        if (*text >= 32 && *text < 127) // names are for people and for files: plain letters do
+            out += char(*text);
+    return out;
+}
+
+std::string hex4(int number)
+{
+    std::array<char, 8> text;
+    std::snprintf(text.data(), text.size(), "%04x", unsigned(number) & 0xffff);
+    return text.data();
+}
+
+/// hidapi 0.13 does not tell it; sysfs does, and to everyone.
+std::vector<std::uint8_t> descriptor_bytes(const std::string& path)
+{
+    const std::string node = path.substr(path.rfind('/') + 1);
+    std::ifstream stream("/sys/class/hidraw/" + node + "/device/report_descriptor", std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+} // namespace
+
+/// What the reading thread and the visitor's frame share.
+struct Hid::Device {
+    DeviceInfo info;
+    Descriptor descriptor;
+    int opening = 0; ///< counts all openings: the same path may be another device
+    std::atomic<bool> gone = false;
+    mutable std::mutex mutex;
+    DeviceState state;
+    std::thread reader;
+};
+
+struct Hid::Shared {
+    std::function<void(const std::string&)> say;
+    std::atomic<bool> stop = false;
+    mutable std::mutex mutex;
+    std::vector<std::shared_ptr<Device>> devices;
+    std::vector<DeviceInfo> missing;
+    int openings = 0;
+    std::vector<std::string> refused; ///< paths that could not be opened, told once
+    std::thread watcher;
+
+    void read(const std::shared_ptr<Device>& device, hid_device* handle);
+    void look();
+    void watch();
+    void open(const hid_device_info& found);
+};
+
+/// Until the device or the program goes. The queue is emptied each time: the last report is what counts.
+void Hid::Shared::read(const std::shared_ptr<Device>& device, hid_device* handle)
+{
+    std::array<unsigned char, 4096> report;
+    while (!stop) {
+        const int size = hid_read_timeout(handle, report.data(), report.size(), 50);
+        if (size < 0)
+            break;
+        if (size == 0)
+            continue;
+        const std::int64_t now = now_ns();
+        const std::lock_guard lock(device->mutex);
+        take_report(device->descriptor, std::span(report.data(), std::size_t(size)), now, device->state);
+    }
+    device->gone = true;
+    hid_close(handle);
+    if (stop)
+        return;
+    say(told(device->info) + " is unplugged");
+    const std::lock_guard lock(mutex);
+    missing.push_back(device->info);
+}
+
+void Hid::Shared::open(const hid_device_info& found)
+{
+    const std::string path = found.path;
+    const Descriptor descriptor = parse_descriptor(descriptor_bytes(path));
+    if (!is_controller(descriptor))
+        return;
+    auto device = std::make_shared<Device>();
+    device->info = {path, plain(found.product_string), plain(found.serial_number), found.vendor_id, found.product_id};
+    if (device->info.name.empty())
+        device->info.name = "device";
+    device->descriptor = descriptor;
+    device->state.raw.resize(descriptor.fields.size());
+    hid_device* handle = hid_open_path(path.c_str());
+    if (!handle) {
+        const int why = access(path.c_str(), R_OK | W_OK) == 0 ? 0 : errno;
+        if (std::find(refused.begin(), refused.end(), path) == refused.end()) {
+            refused.push_back(path);
+            say(told(device->info) + " at " + path
+                + (why == EACCES ? " may not be read: copy config/70-starbow.rules to /etc/udev/rules.d and plug it in again"
+                                 : " can't be opened"));
+        }
+        return;
+    }
+    std::erase(refused, path);
+    const std::lock_guard lock(mutex);
+    device->opening = ++openings;
+    const auto back = std::find_if(missing.begin(), missing.end(), [&](const DeviceInfo& info) {
+        return info.vendor == device->info.vendor && info.product == device->info.product
+            && info.serial == device->info.serial;
+    });
+    if (back != missing.end())
+        missing.erase(back);
+    devices.push_back(device);
+    device->reader = std::thread([this, device, handle] { read(device, handle); });
+    say(told(device->info) + " is plugged in at " + path);
+}
+
+/// Opens what is there and not open yet; forgets what is gone.
+void Hid::Shared::look()
+{
+    std::vector<std::shared_ptr<Device>> ended;
+    {
+        const std::lock_guard lock(mutex);
+        for (const auto& device : devices)
+            if (device->gone)
+                ended.push_back(device);
+        std::erase_if(devices, [](const auto& device) { return device->gone.load(); });
+    }
+    for (const auto& device : ended)
+        device->reader.join();
+    hid_device_info* all = hid_enumerate(0, 0);
+    std::vector<std::string> paths; // a device of several collections is listed once for each
+    for (const hid_device_info* found = all; found; found = found->next) {
+        const std::string path = found->path;
+        if (std::find(paths.begin(), paths.end(), path) != paths.end())
+            continue;
+        paths.push_back(path);
+        bool known = false;
+        {
+            const std::lock_guard lock(mutex);
+            known = std::any_of(devices.begin(), devices.end(), [&](const auto& d) { return d->info.path == path; });
+        }
+        if (!known)
+            open(*found);
+    }
+    std::erase_if(
+        refused, [&](const std::string& path) { return std::find(paths.begin(), paths.end(), path) == paths.end(); });
+    hid_free_enumeration(all);
+}
+
+void Hid::Shared::watch()
+{
+    udev* context = udev_new();
+    udev_monitor* monitor = context ? udev_monitor_new_from_netlink(context, "udev") : nullptr;
+    if (monitor) {
+        udev_monitor_filter_add_match_subsystem_devtype(monitor, "hidraw", nullptr);
+        udev_monitor_enable_receiving(monitor);
+    }
+    look();
+    while (!stop) {
+        pollfd wait{monitor ? udev_monitor_get_fd(monitor) : -1, POLLIN, 0};
+        const int events = poll(&wait, 1, 100);
+        if (events > 0)
+            while (udev_device* event = udev_monitor_receive_device(monitor))
+                udev_device_unref(event);
+        bool gone = false;
+        {
+            const std::lock_guard lock(mutex);
+            gone = std::any_of(devices.begin(), devices.end(), [](const auto& d) { return d->gone.load(); });
+        }
+        if (events > 0 || gone)
+            look();
+    }
+    if (monitor)
+        udev_monitor_unref(monitor);
+    if (context)
+        udev_unref(context);
+}
+
+std::string told(const DeviceInfo& info) { return info.name + " (" + hex4(info.vendor) + ":" + hex4(info.product) + ")"; }
+
+bool is_controller(const Descriptor& descriptor)
+{
+    return std::any_of(descriptor.applications.begin(), descriptor.applications.end(), [](const Usage& usage) {
+        return (usage.page == 1 && (usage.id == 4 || usage.id == 5 || usage.id == 8)) || usage.page == 2;
+    });
+}
+
+Profile profile_for(const std::vector<Profile>& profiles, const DeviceInfo& info, const Descriptor& descriptor)
+{
+    const Profile* best = nullptr;
+    for (const Profile& profile : profiles)
+        if (profile.vendor == info.vendor && profile.product == info.product
+            && (profile.serial.empty() || profile.serial == info.serial) && (!best || !profile.serial.empty()))
+            best = &profile;
+    return best ? *best : usual_profile(descriptor);
+}
+
+Hid::Hid(std::vector<Profile> profiles, std::function<void(const std::string&)> say)
+    : shared_(std::make_shared<Shared>())
+    , profiles_(std::move(profiles))
+{
+    shared_->say = std::move(say);
+    hid_init();
+    shared_->watcher = std::thread([shared = shared_] { shared->watch(); });
+}
+
+Hid::~Hid()
+{
+    shared_->stop = true;
+    shared_->watcher.join();
+    for (const auto& device : shared_->devices)
+        device->reader.join();
+    hid_exit();
+}
+
+void Hid::add(double dt_s, Controls& controls)
+{
+    std::vector<std::shared_ptr<Device>> devices;
+    {
+        const std::lock_guard lock(shared_->mutex);
+        devices = shared_->devices;
+    }
+    std::map<std::string, std::unique_ptr<Mapping>> kept;
+    for (const auto& device : devices) {
+        if (device->gone)
+            continue;
+        const std::string key = device->info.path + " " + std::to_string(device->opening);
+        auto& mapping = kept[key] = std::move(mappings_[key]);
+        if (!mapping)
+            mapping
+                = std::make_unique<Mapping>(device->descriptor, profile_for(profiles_, device->info, device->descriptor));
+        DeviceState state;
+        {
+            const std::lock_guard lock(device->mutex);
+            state = device->state;
+        }
+        mapping->add(state, dt_s, controls);
+        if (state.told_ns > 0)
+            controls.told_ns = std::max(controls.told_ns, state.told_ns);
+    }
+    mappings_ = std::move(kept);
+    controls.turn = glm::clamp(controls.turn, -1.0, 1.0);
+}
+
+std::string Hid::missing() const
+{
+    const std::lock_guard lock(shared_->mutex);
+    std::string line;
+    for (const DeviceInfo& info : shared_->missing)
+        line += (line.empty() ? "" : ", ") + info.name;
+    return line.empty() ? "" : line + " is unplugged";
+}
+
+bool Hid::has_gamepad() const
+{
+    const std::lock_guard lock(shared_->mutex);
+    return std::any_of(shared_->devices.begin(), shared_->devices.end(), [](const auto& device) {
+        const auto& all = device->descriptor.applications;
+        return std::find(all.begin(), all.end(), Usage{1, 5}) != all.end();
+    });
+}
+
+std::vector<Hid::Seen> Hid::devices() const
+{
+    const std::lock_guard lock(shared_->mutex);
+    std::vector<Seen> all;
+    for (const auto& device : shared_->devices)
+        if (!device->gone) {
+            const std::lock_guard own(device->mutex);
+            all.push_back({device->info, profile_for(profiles_, device->info, device->descriptor).name, device->descriptor,
+                device->state});
+        }
+    return all;
+}
+
+} // namespace starbow

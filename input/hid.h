@@ -1,0 +1,59 @@
+#pragma once
+#include "mapping.h"
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace starbow {
+
+/// A controller that is plugged in.
+struct DeviceInfo {
+    std::string path, name, serial; ///< path: "/dev/hidraw0"
+    int vendor = 0, product = 0;
+};
+
+/// "Flight Stick (1234:abcd)"
+std::string told(const DeviceInfo& info);
+
+/// Whether a descriptor is that of a joystick, gamepad, space mouse or simulator's control, not a mouse or a keyboard.
+bool is_controller(const Descriptor& descriptor);
+
+/// Sticks, throttles, pads: all that are plugged in, whenever they are, each read on a thread of its own. Nothing here
+/// waits.
+class Hid {
+public:
+    /// say: is called with a line for the log, from any thread.
+    explicit Hid(std::vector<Profile> profiles, std::function<void(const std::string&)> say);
+    Hid(const Hid&) = delete;
+    ~Hid();
+
+    /// Adds what all devices ask for. A device that is gone asks for nothing: its axes are neutral from then on.
+    void add(double dt_s, Controls& controls);
+
+    /// A line for the visitors' display while a device that was there is missing; else empty.
+    std::string missing() const;
+    bool has_gamepad() const;
+
+    struct Seen {
+        DeviceInfo info;
+        std::string profile; ///< its name
+        Descriptor descriptor;
+        DeviceState state;
+    };
+    std::vector<Seen> devices() const;
+
+private:
+    struct Device;
+    struct Shared;
+    std::shared_ptr<Shared> shared_;
+    std::vector<Profile> profiles_;
+    std::map<std::string, std::unique_ptr<Mapping>> mappings_; ///< by path and the count of its opening
+};
+
+/// The profile of a device: by its serial number first, then by its kind, else from its usages.
+Profile profile_for(const std::vector<Profile>& profiles, const DeviceInfo& info, const Descriptor& descriptor);
+
+} // namespace starbow

@@ -1,0 +1,276 @@
+#include "mapping.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+// HID Usage Tables 1.4: generic desktop, simulation controls, buttons.
+constexpr std::uint16_t desktop = 1, simulation = 2, button_page = 9;
+constexpr std::uint16_t axis_x = 0x30, axis_y = 0x31, axis_z = 0x32, axis_rx = 0x33, axis_ry = 0x34, axis_rz = 0x35,
+                        slider = 0x36, dial = 0x37, hat_switch = 0x39;
+constexpr double look_rad_per_s = 1.5;
+constexpr double detent_reach = 0.03;
+
+bool one_sided(AxisRole role) { return role == AxisRole::throttle || role == AxisRole::faster || role == AxisRole::slower; }
+
+bool is_axis(const Field& field)
+{
+    const Usage u = field.usage;
+    if (!field.array.empty() || field.bits < 2)
+        return false;
+    return (u.page == desktop && u.id >= axis_x && u.id <= dial) || (u.page == simulation && u.id >= 0xb0 && u.id <= 0xd0);
+}
+
+void add_role(AxisRole role, double value, double dt_s, Controls& controls)
+{
+    switch (role) {
+    case AxisRole::none:
+        return;
+    case AxisRole::throttle:
+        controls.lever = std::max(controls.lever.value_or(0), value);
+        return;
+    case AxisRole::faster:
+        controls.faster += value;
+        return;
+    case AxisRole::slower:
+        controls.faster -= value;
+        return;
+    case AxisRole::nose_up:
+        controls.turn.x += value;
+        return;
+    case AxisRole::nose_right:
+        controls.turn.y -= value;
+        return;
+    case AxisRole::roll_right:
+        controls.turn.z -= value;
+        return;
+    case AxisRole::look_right:
+        controls.look_rad.x -= value * look_rad_per_s * dt_s;
+        return;
+    case AxisRole::look_up:
+        controls.look_rad.y += value * look_rad_per_s * dt_s;
+        return;
+    case AxisRole::push_right:
+        controls.push.x += value;
+        return;
+    case AxisRole::push_up:
+        controls.push.y += value;
+        return;
+    case AxisRole::push_back:
+        controls.push.z += value;
+        return;
+    }
+}
+
+void press(ButtonRole role, bool pressed, bool down, Controls& controls)
+{
+    switch (role) {
+    case ButtonRole::none:
+        return;
+    case ButtonRole::stop:
+        controls.stop |= pressed;
+        return;
+    case ButtonRole::home:
+        controls.home |= pressed;
+        return;
+    case ButtonRole::undo:
+        controls.undo |= pressed;
+        return;
+    case ButtonRole::next_mode:
+        controls.next_mode |= pressed;
+        return;
+    case ButtonRole::look_ahead:
+        controls.look_ahead |= pressed;
+        return;
+    case ButtonRole::aberration:
+        controls.aberration |= pressed;
+        return;
+    case ButtonRole::doppler:
+        controls.doppler |= pressed;
+        return;
+    case ButtonRole::headlight:
+        controls.headlight |= pressed;
+        return;
+    case ButtonRole::hud:
+        controls.hud |= pressed;
+        return;
+    case ButtonRole::faster:
+        controls.faster += down;
+        return;
+    case ButtonRole::slower:
+        controls.faster -= down;
+        return;
+    case ButtonRole::brighter:
+        controls.exposure += down;
+        return;
+    case ButtonRole::darker:
+        controls.exposure -= down;
+        return;
+    }
+}
+
+bool has(const Descriptor& descriptor, std::uint16_t page, std::uint16_t id)
+{
+    return std::any_of(descriptor.fields.begin(), descriptor.fields.end(), [&](const Field& f) {
+        return is_axis(f) && f.usage == Usage{page, id};
+    });
+}
+
+} // namespace
+
+bool take_report(const Descriptor& descriptor, std::span<const std::uint8_t> report, std::int64_t now_ns, DeviceState& state)
+{
+    state.raw.resize(descriptor.fields.size());
+    int id = 0;
+    if (descriptor.uses_report_ids) {
+        if (report.empty())
+            return false;
+        id = report[0];
+        report = report.subspan(1);
+    }
+    bool any = false;
+    for (std::size_t i = 0; i < descriptor.fields.size(); ++i) {
+        const Field& field = descriptor.fields[i];
+        if (field.report_id != id || std::size_t(field.bit_offset + field.bits + 7) / 8 > report.size())
+            continue; // what a report cut short does not hold stays as it was
+        state.raw[i] = raw_value(field, report);
+        any = true;
+    }
+    if (any)
+        state.told_ns = now_ns;
+    return any;
+}
+
+double shaped(const AxisUse& use, const Field& field, std::int64_t raw)
+{
+    double value = centred(field, raw);
+    if (use.range) {
+        const auto [low, middle, high] = *use.range;
+        const double from = double(raw) - middle;
+        value = std::clamp(
+            (from < 0) == (low < middle) ? from / std::abs(low - middle) : from / std::abs(high - middle), -1.0, 1.0);
+        if (high < low)
+            value = -value;
+    }
+    if (use.inverted)
+        value = -value;
+    if (one_sided(use.role)) {
+        const double way = std::clamp(((value + 1) / 2 - use.dead_zone) / (1 - 2 * use.dead_zone), 0.0, 1.0);
+        for (double detent : use.detents)
+            if (std::abs(way - detent) < detent_reach)
+                return detent;
+        return way;
+    }
+    const double size = std::abs(value);
+    return size <= use.dead_zone ? 0
+                                 : std::copysign(std::pow((size - use.dead_zone) / (1 - use.dead_zone), use.curve), value);
+}
+
+Profile usual_profile(const Descriptor& descriptor)
+{
+    Profile profile;
+    profile.name = "its usages";
+    const bool pad = std::find(descriptor.applications.begin(), descriptor.applications.end(), Usage{desktop, 5})
+        != descriptor.applications.end(),
+               six_axes = std::find(descriptor.applications.begin(), descriptor.applications.end(), Usage{desktop, 8})
+        != descriptor.applications.end();
+    auto use = [&](std::uint16_t page, std::uint16_t id, AxisRole role, bool inverted = false, int nth = 0) {
+        AxisUse axis{page, id, nth, role, inverted};
+        if (one_sided(role))
+            axis.dead_zone = 0.02, axis.curve = 1;
+        profile.axes.push_back(axis);
+    };
+    if (six_axes) {
+        use(desktop, axis_x, AxisRole::push_right);
+        use(desktop, axis_y, AxisRole::push_back);
+        use(desktop, axis_z, AxisRole::push_up, true);
+        use(desktop, axis_rx, AxisRole::nose_up);
+        use(desktop, axis_rz, AxisRole::nose_right);
+        use(desktop, axis_ry, AxisRole::roll_right, true);
+        profile.buttons = {{1, ButtonRole::stop}, {2, ButtonRole::home}};
+        return profile;
+    }
+    // HID counts an axis' values from the left, and from the far end: forward is less.
+    use(desktop, axis_x, AxisRole::nose_right);
+    use(desktop, axis_y, AxisRole::nose_up); // pulled back, the nose goes up
+    if (pad) {
+        const bool second_is_z = has(descriptor, desktop, axis_z) && has(descriptor, desktop, axis_rz);
+        use(desktop, second_is_z ? axis_z : axis_rx, AxisRole::look_right);
+        use(desktop, second_is_z ? axis_rz : axis_ry, AxisRole::look_up, true);
+        if (has(descriptor, simulation, 0xc4)) {
+            use(simulation, 0xc4, AxisRole::faster);
+            use(simulation, 0xc5, AxisRole::slower);
+        } else if (second_is_z) {
+            use(desktop, axis_ry, AxisRole::faster);
+            use(desktop, axis_rx, AxisRole::slower);
+        }
+        profile.buttons
+            = {{1, ButtonRole::stop}, {2, ButtonRole::home}, {3, ButtonRole::doppler}, {4, ButtonRole::headlight},
+                {5, ButtonRole::look_ahead}, {6, ButtonRole::aberration}, {9, ButtonRole::hud}, {10, ButtonRole::next_mode}};
+        profile.hat_y = AxisRole::faster;
+        return profile;
+    }
+    use(desktop, axis_rz, AxisRole::roll_right); // the twist
+    use(simulation, 0xba, AxisRole::nose_right); // rudder
+    use(simulation, 0xb0, AxisRole::roll_right); // aileron
+    use(simulation, 0xb8, AxisRole::nose_up); // elevator
+    use(simulation, 0xbb, AxisRole::throttle);
+    use(simulation, 0xc4, AxisRole::throttle); // accelerator
+    // One throttle: the slider, else the axis that is left, else the dial.
+    if (has(descriptor, desktop, slider))
+        use(desktop, slider, AxisRole::throttle, true);
+    else if (has(descriptor, desktop, axis_z))
+        use(desktop, axis_z, AxisRole::throttle, true);
+    else
+        use(desktop, dial, AxisRole::throttle, true);
+    profile.buttons = {{1, ButtonRole::stop}, {2, ButtonRole::home}, {3, ButtonRole::undo}, {4, ButtonRole::doppler},
+        {5, ButtonRole::headlight}, {6, ButtonRole::aberration}, {7, ButtonRole::hud}, {8, ButtonRole::next_mode}};
+    profile.hat_x = AxisRole::look_right, profile.hat_y = AxisRole::look_up;
+    return profile;
+}
+
+Mapping::Mapping(Descriptor descriptor, Profile profile)
+    : descriptor_(std::move(descriptor))
+    , profile_(std::move(profile))
+{
+    for (const AxisUse& use : profile_.axes) {
+        int nth = 0;
+        for (std::size_t i = 0; i < descriptor_.fields.size(); ++i)
+            if (is_axis(descriptor_.fields[i])
+                && descriptor_.fields[i].usage == Usage{std::uint16_t(use.page), std::uint16_t(use.usage)}
+                && nth++ == use.nth)
+                axes_.push_back({i, use});
+    }
+    for (std::size_t i = 0; i < descriptor_.fields.size(); ++i) {
+        const Field& field = descriptor_.fields[i];
+        if (field.usage == Usage{desktop, hat_switch} && !hat_)
+            hat_ = i;
+        if (field.usage.page == button_page && field.bits == 1 && field.array.empty())
+            for (const ButtonUse& use : profile_.buttons)
+                if (use.button == field.usage.id)
+                    buttons_.push_back({i, use.role});
+    }
+}
+
+void Mapping::add(const DeviceState& state, double dt_s, Controls& controls)
+{
+    auto raw = [&](std::size_t field) { return field < state.raw.size() ? state.raw[field] : std::nullopt; };
+    for (const Axis& axis : axes_)
+        if (const auto value = raw(axis.field))
+            add_role(axis.use.role, shaped(axis.use, descriptor_.fields[axis.field], *value), dt_s, controls);
+    for (Button& button : buttons_) {
+        const bool down = raw(button.field).value_or(0) != 0;
+        press(button.role, down && !button.down, down, controls);
+        button.down = down;
+    }
+    if (hat_)
+        if (const auto value = raw(*hat_))
+            if (const auto degrees = hat_degrees(descriptor_.fields[*hat_], *value)) {
+                const double a = *degrees * 3.14159265358979323846 / 180;
+                add_role(profile_.hat_x.value_or(AxisRole::none), std::round(std::sin(a)), dt_s, controls);
+                add_role(profile_.hat_y.value_or(AxisRole::none), std::round(std::cos(a)), dt_s, controls);
+            }
+}
+
+} // namespace starbow
