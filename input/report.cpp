@@ -228,8 +228,8 @@ private:
     void add_input(std::uint32_t flags)
     {
         int& bits = found_.report_bits[globals_.report_id];
-        const std::int64_t added = std::int64_t(globals_.size) * std::int64_t(globals_.count);
-        if (bits + added > most_bits || globals_.size > most_bits) {
+        const std::uint64_t added = std::uint64_t(globals_.size) * globals_.count; // fits: both have 32 bits
+        if (globals_.size > most_bits || added > std::uint64_t(most_bits - bits)) {
             found_.stopped = "a report is longer than 16384 bytes";
             return;
         }

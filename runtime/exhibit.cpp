@@ -110,16 +110,6 @@ std::unique_ptr<HeadTracker> tracker_of(const Layout& layout)
     return layout.head_tracker ? std::make_unique<HeadTracker>(*layout.head_tracker) : nullptr;
 }
 
-/// All in config/profiles. Throws InputError for a wrong one.
-std::vector<Profile> shipped_profiles()
-{
-    std::vector<Profile> all;
-    for (const auto& entry : std::filesystem::directory_iterator(home() / "config" / "profiles"))
-        if (entry.path().extension() == ".json")
-            all.push_back(load_profile(entry.path()));
-    return all;
-}
-
 /// What outlasts the loss of a device.
 struct Visit {
     const std::filesystem::path& scene;

@@ -25,6 +25,15 @@ fs::path home()
                      "run starbow from its own checkout");
 }
 
+std::vector<Profile> shipped_profiles()
+{
+    std::vector<Profile> all;
+    for (const auto& entry : fs::directory_iterator(home() / "config" / "profiles"))
+        if (entry.path().extension() == ".json")
+            all.push_back(load_profile(entry.path()));
+    return all;
+}
+
 fs::path find(const std::string& kind, const std::string& name)
 {
     std::error_code error;

@@ -1,4 +1,5 @@
 #pragma once
+#include "config/profile.h"
 #include "config/shot.h"
 #include <filesystem>
 #include <string>
@@ -8,6 +9,9 @@ namespace starbow {
 /// The folder that holds config/ and scenes/: the nearest above the program, or else above the current folder.
 /// Throws InputError.
 std::filesystem::path home();
+
+/// All in config/profiles. Throws InputError for a wrong one.
+std::vector<Profile> shipped_profiles();
 
 /// A config file by path, or by the name of a shipped one: find("layouts", "dome") is config/layouts/dome.json.
 /// Throws InputError that lists the shipped names.

@@ -10,6 +10,7 @@ namespace starbow {
 /// Each adds its subcommand, whose options choose what `chosen` does and returns as the exit status.
 void add_run(CLI::App& app, std::function<int()>& chosen);
 void add_render(CLI::App& app, std::function<int()>& chosen);
+void add_devices(CLI::App& app, std::function<int()>& chosen);
 void add_displays(CLI::App& app, std::function<int()>& chosen);
 void add_bench(CLI::App& app, std::function<int()>& chosen);
 void add_check(CLI::App& app, std::function<int()>& chosen);

@@ -1,0 +1,179 @@
+#include "commands.h"
+#include "config/error.h"
+#include "config/reader.h"
+#include "input/hid.h"
+#include "runtime/find.h"
+#include <CLI/CLI.hpp>
+#include <cctype>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+using nlohmann::json;
+
+struct Options {
+    std::string describe;
+    double seconds = 0;
+};
+
+constexpr std::size_t most_bytes = 1 << 20;
+
+/// Hexadecimal digits in pairs, with or without 0x, blanks and commas; comments from # or // to the line's end.
+std::optional<std::vector<std::uint8_t>> from_hex(const std::string& text)
+{
+    std::string digits;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '#' || (c == '/' && i + 1 < text.size() && text[i + 1] == '/')) {
+            while (i < text.size() && text[i] != '\n')
+                ++i;
+        } else if (c == '0' && i + 1 < text.size() && (text[i + 1] == 'x' || text[i + 1] == 'X')) {
+            ++i;
+        } else if (std::isxdigit(static_cast<unsigned char>(c))) {
+            digits += c;
+        } else if (!std::isspace(static_cast<unsigned char>(c)) && c != ',' && c != ';' && c != '{' && c != '}') {
+            return {};
+        }
+    }
+    if (digits.empty() || digits.size() % 2 != 0)
+        return {};
+    std::vector<std::uint8_t> bytes;
+    for (std::size_t i = 0; i < digits.size(); i += 2)
+        bytes.push_back(std::uint8_t(std::stoul(digits.substr(i, 2), nullptr, 16)));
+    return bytes;
+}
+
+/// A descriptor as raw bytes, as hexadecimal text, or as JSON with a member "descriptor_hex".
+std::vector<std::uint8_t> descriptor_in(const std::string& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    std::string text(most_bytes + 1, '\0');
+    if (!stream || std::filesystem::is_directory(file))
+        throw InputError(file, "", "can't be read; a file with a report descriptor is right");
+    stream.read(text.data(), std::streamsize(text.size()));
+    text.resize(std::size_t(stream.gcount()));
+    if (text.empty() || text.size() > most_bytes)
+        throw InputError(file, "",
+            text.empty() ? "is empty; a report descriptor is right" : "is larger than 1 MiB; a report descriptor is right");
+    if (const auto first = text.find_first_not_of(" \t\r\n");
+        first != text.npos && text[first] == '{' && text.find('"') != text.npos) {
+        const Document document = parse_document(file, text);
+        const Place hex = member(root(document), "descriptor_hex");
+        if (const auto bytes = from_hex(starbow::text(hex)))
+            return *bytes;
+        complain(hex, "is no hexadecimal text; two digits for each byte are right");
+    }
+    if (const auto bytes = from_hex(text))
+        return *bytes;
+    return {text.begin(), text.end()};
+}
+
+json told(const Field& field)
+{
+    json out = {{"report_id", field.report_id}, {"usage_page", field.usage.page}, {"usage", field.usage.id},
+        {"bit_offset", field.bit_offset}, {"bits", field.bits}, {"logical_min", field.logical_min},
+        {"logical_max", field.logical_max}, {"signed", field.is_signed}, {"null_state", field.null_state}};
+    if (field.relative)
+        out["relative"] = true;
+    if (field.repeated)
+        out["repeated_usage"] = true;
+    if (!field.array.empty()) {
+        out["array"] = true;
+        out["usage_max"] = field.array.back().last;
+        for (const UsageRange& range : field.array)
+            out["array_usages"].push_back({range.page, range.first, range.last});
+    }
+    return out;
+}
+
+int describe(const std::string& file)
+{
+    const Descriptor found = parse_descriptor(descriptor_in(file));
+    if (found.fields.empty() && found.report_bits.empty())
+        throw InputError(file, "",
+            "declares no input" + (found.stopped.empty() ? "" : " (" + found.stopped + ")")
+                + "; a HID report descriptor is right");
+    json out = {{"uses_report_ids", found.uses_report_ids}, {"application_usages", json::array()},
+        {"input_report_bits", json::object()}, {"fields", json::array()}};
+    for (const Usage& usage : found.applications)
+        out["application_usages"].push_back({usage.page, usage.id});
+    for (const auto& [id, bits] : found.report_bits)
+        out["input_report_bits"][std::to_string(id)] = bits;
+    for (const Field& field : found.fields)
+        out["fields"].push_back(told(field));
+    if (!found.stopped.empty())
+        out["stopped"] = found.stopped;
+    std::printf("%s\n", out.dump(2).c_str());
+    return 0;
+}
+
+/// A device's axes as bars, each on a line of its own.
+void draw(const Hid::Seen& device)
+{
+    std::printf(
+        "%s, %s, profile: %s\n", starbow::told(device.info).c_str(), device.info.path.c_str(), device.profile.c_str());
+    std::string buttons;
+    for (std::size_t i = 0; i < device.descriptor.fields.size(); ++i) {
+        const Field& field = device.descriptor.fields[i];
+        const auto raw = i < device.state.raw.size() ? device.state.raw[i] : std::nullopt;
+        if (field.usage.page == 9 && field.bits == 1) {
+            if (raw.value_or(0))
+                buttons += " " + std::to_string(field.usage.id);
+        } else if (field.bits > 1 && field.usage.page <= 2 && field.array.empty()) {
+            std::string bar(41, '.');
+            bar[20] = '|';
+            if (raw)
+                bar[std::size_t(20.5 + 20 * centred(field, *raw))] = '#';
+            std::printf("  %u/%-3u %s %s\n", field.usage.page, field.usage.id, bar.c_str(),
+                raw ? std::to_string(*raw).c_str() : "not told of yet");
+        }
+    }
+    std::printf("  buttons:%s\n", buttons.empty() ? " none" : buttons.c_str());
+}
+
+int devices(const Options& options)
+{
+    if (!options.describe.empty())
+        return describe(options.describe);
+    Hid hid(shipped_profiles(), [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); });
+    const bool live = options.seconds > 0;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(live ? options.seconds : 0.5);
+    for (;;) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(live ? 100 : 500));
+        if (live && isatty(1))
+            std::printf("\033[H\033[2J");
+        const auto all = hid.devices();
+        for (const Hid::Seen& device : all)
+            draw(device);
+        if (all.empty())
+            std::printf("no stick, throttle, pad or space mouse is plugged in\n");
+        std::fflush(stdout);
+        if (std::chrono::steady_clock::now() >= end)
+            return 0;
+    }
+}
+
+} // namespace
+
+void add_devices(CLI::App& app, std::function<int()>& chosen)
+{
+    auto options = std::make_shared<Options>();
+    CLI::App* command
+        = app.add_subcommand("devices", "List sticks, throttles, pads and space mice, with their axes and buttons.");
+    command->add_option("--seconds", options->seconds, "Show them live for so long")->check(CLI::Range(0.0, 1e9));
+    command->add_option("--describe", options->describe,
+        "Instead: what a report descriptor declares, as JSON. A file of raw bytes, of hexadecimal text, or JSON with "
+        "\"descriptor_hex\"");
+    command->footer("Examples:\n  starbow devices --seconds 60\n  starbow devices --describe "
+                    "/sys/class/hidraw/hidraw0/device/report_descriptor");
+    command->callback([options, &chosen] { chosen = [options] { return devices(*options); }; });
+}
+
+} // namespace starbow

@@ -1,0 +1,234 @@
+// Devices that are not there: a stick and a throttle as the kernel would show them, plugged in, moved and unplugged by a
+// script, around an unmodified program. Wants umockdev:
+//   umockdev-wrapper fake_sticks FOLDER SCRIPT PROGRAM ARGUMENTS...
+// FOLDER holds descriptors as tests/hid/*.json. SCRIPT, a line each:
+//   plug NAME NODE          a device of FOLDER/NAME.json appears as /dev/hidrawNODE
+//   unplug NAME
+//   report NAME HEX [COUNT] its report, as often, five milliseconds apart
+//   start                   the program begins; devices plugged in before are there already
+//   wait SECONDS
+//   say TEXT                on standard error
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <linux/hidraw.h>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <pty.h>
+#include <sstream>
+#include <string>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <sys/wait.h>
+#include <termios.h>
+#include <umockdev.h>
+#include <unistd.h>
+#include <vector>
+
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+Bytes bytes_of(const std::string& hex)
+{
+    Bytes bytes;
+    for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
+        bytes.push_back((unsigned char)(std::stoul(hex.substr(i, 2), nullptr, 16)));
+    return bytes;
+}
+
+struct Stick {
+    UMockdevTestbed* testbed = nullptr;
+    std::string root; ///< of the pretended file system
+    std::string name, vendor, product, descriptor; ///< the last in hexadecimal
+    std::string usb, hid, hidraw, node;
+    unsigned major_number = 0, minor_number = 0;
+    int master = -1, slave = -1;
+    UMockdevIoctlBase* answers = nullptr;
+
+    /// What hidraw's driver is asked for (linux/hidraw.h).
+    static gboolean answer(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self)
+    {
+        const Stick& stick = *static_cast<const Stick*>(self);
+        const gulong request = umockdev_ioctl_client_get_request(client);
+        if (_IOC_TYPE(request) != 'H')
+            return FALSE;
+        UMockdevIoctlData* argument = umockdev_ioctl_client_get_arg(client);
+        UMockdevIoctlData* data = umockdev_ioctl_data_resolve(argument, 0, _IOC_SIZE(request), nullptr);
+        Bytes bytes = bytes_of(stick.descriptor);
+        if (_IOC_NR(request) == 1) {
+            int size = int(bytes.size());
+            umockdev_ioctl_data_update(data, 0, reinterpret_cast<guint8*>(&size), sizeof size);
+            umockdev_ioctl_client_complete(client, 0, 0);
+        } else if (_IOC_NR(request) == 2) {
+            const auto* wanted = reinterpret_cast<const hidraw_report_descriptor*>(data->data);
+            umockdev_ioctl_data_update(data, 4, bytes.data(), int(std::min<std::size_t>(wanted->size, bytes.size())));
+            umockdev_ioctl_client_complete(client, 0, 0);
+        } else if (_IOC_NR(request) == 3) {
+            hidraw_devinfo info{
+                3, __s16(std::stoul(stick.vendor, nullptr, 16)), __s16(std::stoul(stick.product, nullptr, 16))};
+            umockdev_ioctl_data_update(data, 0, reinterpret_cast<guint8*>(&info), sizeof info);
+            umockdev_ioctl_client_complete(client, 0, 0);
+        } else {
+            umockdev_ioctl_client_complete(client, -1, 22);
+        }
+        if (data)
+            g_object_unref(data);
+        return TRUE;
+    }
+
+    void plug(int number, int generation)
+    {
+        // A terminal's two ends stand in for the device: closing one hangs up the other, as pulling a cable does.
+        char terminal[128];
+        openpty(&master, &slave, terminal, nullptr, nullptr);
+        termios raw;
+        tcgetattr(slave, &raw);
+        cfmakeraw(&raw);
+        tcsetattr(slave, TCSANOW, &raw);
+        fcntl(master, F_SETFD, FD_CLOEXEC);
+        fcntl(slave, F_SETFD, FD_CLOEXEC);
+        node = "/dev/hidraw" + std::to_string(number);
+        mkdir((root + "/dev").c_str(), 0755);
+        mkdir((root + "/dev/.ptymap").c_str(), 0755);
+        std::string flat = terminal;
+        std::replace(flat.begin(), flat.end(), '/', '_');
+        unlink((root + node).c_str());
+        if (symlink(terminal, (root + node).c_str()) != 0)
+            std::perror("fake_sticks: symlink");
+        struct stat own;
+        stat(terminal, &own);
+        major_number = major(own.st_rdev), minor_number = minor(own.st_rdev);
+        const std::string numbers = std::to_string(major_number) + ":" + std::to_string(minor_number);
+        unlink((root + "/dev/.ptymap/" + flat).c_str());
+        if (symlink(numbers.c_str(), (root + "/dev/.ptymap/" + flat).c_str()) != 0)
+            std::perror("fake_sticks: symlink");
+        answers = umockdev_ioctl_base_new();
+        g_signal_connect(answers, "handle-ioctl", G_CALLBACK(answer), this);
+        umockdev_testbed_attach_ioctl(testbed, node.c_str(), answers, nullptr);
+
+        const std::string place = "1-" + std::to_string(3 + number),
+                          id = "0003:" + vendor + ":" + product + ".00" + std::to_string(10 + generation);
+        usb = "/sys/devices/pci0000:00/0000:00:14.0/usb1/" + place;
+        hid = usb + "/" + place + ":1.0/" + id;
+        hidraw = hid + "/hidraw/hidraw" + std::to_string(number);
+        const auto below_sys = [](const std::string& path) { return path.substr(4); };
+        std::ostringstream all;
+        all << "P: " << below_sys(hidraw) << "\nE: DEVNAME=" << node << "\nE: MAJOR=" << major_number
+            << "\nE: MINOR=" << minor_number << "\nE: SUBSYSTEM=hidraw\nA: dev=" << numbers << "\\n\nL: device=../../../"
+            << id << "\n\n"
+            << "P: " << below_sys(hid) << "\nE: DRIVER=hid-generic\nE: HID_ID=0003:0000" << vendor << ":0000" << product
+            << "\nE: HID_NAME=" << name
+            << "\nE: HID_PHYS=usb-0000:00:14.0-3/input0\nE: HID_UNIQ=\nE: SUBSYSTEM=hid\nH: report_descriptor=" << descriptor
+            << "\n\n"
+            << "P: " << below_sys(usb) << "/" << place
+            << ":1.0\nE: DEVTYPE=usb_interface\nE: DRIVER=usbhid\nE: INTERFACE=3/0/0\nE: SUBSYSTEM=usb\n"
+            << "A: bInterfaceNumber=00\\n\nA: bInterfaceClass=03\\n\n\n"
+            << "P: " << below_sys(usb) << "\nN: bus/usb/001/" << 100 + generation << "=00\nE: DEVNAME=/dev/bus/usb/001/"
+            << 100 + generation << "\nE: DEVTYPE=usb_device\nE: PRODUCT=" << vendor << "/" << product
+            << "/100\nE: SUBSYSTEM=usb\nE: BUSNUM=001\nE: DEVNUM=" << 100 + generation << "\nA: idVendor=" << vendor
+            << "\\n\nA: idProduct=" << product << "\\n\nA: bcdDevice=0100\\n\nA: manufacturer=Rig\\n\nA: product=" << name
+            << "\\n\nA: serial=\\n\n\n";
+        GError* error = nullptr;
+        if (!umockdev_testbed_add_from_string(testbed, all.str().c_str(), &error)) {
+            std::fprintf(stderr, "fake_sticks: %s\n", error->message);
+            std::exit(2);
+        }
+        umockdev_testbed_uevent(testbed, hidraw.c_str(), "add"); // once more, now that its parents exist
+    }
+
+    void unplug()
+    {
+        umockdev_testbed_uevent(testbed, hidraw.c_str(), "remove");
+        const std::string interface = usb + "/" + usb.substr(usb.rfind('/') + 1) + ":1.0";
+        for (const std::string& path : {hidraw, hid, interface, usb}) // leaves first
+            umockdev_testbed_remove_device(testbed, path.c_str());
+        unlink((root + "/sys/dev/char/" + std::to_string(major_number) + ":" + std::to_string(minor_number)).c_str());
+        unlink((root + "/dev/.node/" + node.substr(5)).c_str());
+        unlink((root + node).c_str());
+        umockdev_testbed_detach_ioctl(testbed, node.c_str(), nullptr);
+        g_object_unref(answers);
+        answers = nullptr;
+        close(slave);
+        close(master);
+        master = slave = -1;
+    }
+
+    /// One report a read: a terminal would join two that wait.
+    void report(const Bytes& bytes)
+    {
+        for (int i = 0; i < 2000; ++i) {
+            int waiting = 0;
+            ioctl(slave, FIONREAD, &waiting);
+            if (waiting == 0)
+                break;
+            usleep(100);
+        }
+        if (write(master, bytes.data(), bytes.size()) != ssize_t(bytes.size()))
+            std::perror("fake_sticks: write");
+    }
+};
+
+} // namespace
+
+int main(int count, char** arguments)
+{
+    if (count < 4)
+        return 2;
+    UMockdevTestbed* testbed = umockdev_testbed_new();
+    char* root_text = umockdev_testbed_get_root_dir(testbed);
+    const std::string root = root_text, folder = arguments[1];
+    g_free(root_text);
+    std::map<std::string, Stick> sticks;
+    int generation = 0;
+    std::ifstream script(arguments[2]);
+    pid_t program = -1;
+    for (std::string line; std::getline(script, line);) {
+        std::istringstream words(line);
+        std::string verb, name, rest;
+        words >> verb;
+        if (verb == "start") {
+            program = fork();
+            if (program == 0) {
+                execvp(arguments[3], arguments + 3);
+                _exit(127);
+            }
+        } else if (verb == "plug") {
+            int node = 0;
+            words >> name >> node;
+            const auto file = nlohmann::json::parse(std::ifstream(folder + "/" + name + ".json"));
+            Stick& stick = sticks[name];
+            stick.testbed = testbed, stick.root = root;
+            stick.name = file["name"], stick.vendor = file["vid"], stick.product = file["pid"],
+            stick.descriptor = file["descriptor_hex"];
+            stick.plug(node, generation++);
+        } else if (verb == "unplug") {
+            words >> name;
+            sticks.at(name).unplug();
+        } else if (verb == "report") {
+            int times = 1;
+            words >> name >> rest >> times;
+            for (int i = 0; i < std::max(times, 1); ++i) {
+                sticks.at(name).report(bytes_of(rest));
+                usleep(5000);
+            }
+        } else if (verb == "wait") {
+            double seconds = 0;
+            words >> seconds;
+            usleep(useconds_t(seconds * 1e6));
+        } else if (verb == "say") {
+            std::getline(words, rest);
+            std::fprintf(stderr, "rig:%s\n", rest.c_str());
+        }
+    }
+    int status = 0;
+    if (program > 0)
+        waitpid(program, &status, 0);
+    g_object_unref(testbed);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
