@@ -14,8 +14,9 @@ struct Flying {
     // What the visitors' stomachs are spared.
     double turn_deg_per_s = 40; ///< nose up, down, left, right
     double roll_deg_per_s = 40;
+    double turn_jerk_deg_per_s3 = 8000; ///< of any of these turns, even when a stick is thrown from end to end
     double rapidity_per_s = 1.5; ///< greatest gain or loss of speed
-    double ease_s = 0.2; ///< a control's way to a new value: the longer, the smaller the jerk
+    double rapidity_jerk_per_s2 = 15; ///< how fast that gain may change
 };
 
 } // namespace starbow

@@ -210,7 +210,8 @@ Profile profile_for(const std::vector<Profile>& profiles, const DeviceInfo& info
     const Profile* best = nullptr;
     for (const Profile& profile : profiles)
         if (profile.vendor == info.vendor && profile.product == info.product
-            && (profile.serial.empty() || profile.serial == info.serial) && (!best || !profile.serial.empty()))
+            && (profile.serial.empty() || profile.serial == info.serial)
+            && (!best || best->serial.empty() || !profile.serial.empty()))
             best = &profile;
     return best ? *best : usual_profile(descriptor);
 }

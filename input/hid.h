@@ -53,7 +53,7 @@ private:
     std::map<std::string, std::unique_ptr<Mapping>> mappings_; ///< by path and the count of its opening
 };
 
-/// The profile of a device: by its serial number first, then by its kind, else from its usages.
+/// The profile of a device: by its serial number first, then by its kind, the last of several, else from its usages.
 Profile profile_for(const std::vector<Profile>& profiles, const DeviceInfo& info, const Descriptor& descriptor);
 
 } // namespace starbow

@@ -112,20 +112,17 @@ std::unique_ptr<HeadTracker> tracker_of(const Layout& layout)
 
 /// What outlasts the loss of a device.
 struct Visit {
-    const std::filesystem::path& scene;
-    const Shot& start;
-    long frames; ///< still to be shown; 0: no end
-    Layout layout;
+    const Opening& opening;
+    Layout layout = opening.layout;
     Layout kept = layout; ///< as its file has it: without what was turned since
     FileWatch watch{files_of(layout)};
     std::string refused; ///< why a change of the layout was not taken up, for the head-up display
-    Flying rules{};
-    Flight flight = flight_at(start, rules);
+    Flight flight = flight_at(opening.start, opening.rules);
     History history{};
     Keyboard keyboard{};
-    Hid hid{shipped_profiles(), [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); }};
+    Hid hid{opening.profiles, [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); }};
     std::unique_ptr<HeadTracker> tracker = tracker_of(layout);
-    Workbench workbench{};
+    Workbench workbench{opening.pattern};
     Skew skew{};
     Clock::time_point began = Clock::now(), last = began;
     long shown = 0;
@@ -226,7 +223,7 @@ void fly(Visit& visit, Theatre& theatre)
         = std::move(device.device.allocateCommandBuffers({*device.pool, vk::CommandBufferLevel::ePrimary, 1}).front());
     const Settled settled{device}; // before any of the above goes
 
-    while (visit.frames == 0 || visit.shown < visit.frames) {
+    while (visit.opening.frames == 0 || visit.shown < visit.opening.frames) {
         // One frame is in flight: the least delay between a control and its picture.
         pace.wait(screens.refresh_hz());
         (void)device.device.waitForFences(*done, true, UINT64_MAX);
@@ -255,7 +252,8 @@ void fly(Visit& visit, Theatre& theatre)
         const auto passed = std::min<std::chrono::nanoseconds>(now - visit.last, std::chrono::milliseconds(100));
         if (controls.undo)
             visit.flight = visit.history.back(visit.flight);
-        visit.flight = step(visit.flight, controls, passed.count(), visit.rules, scene.seconds_per_time_unit(), visit.start);
+        visit.flight = step(
+            visit.flight, controls, passed.count(), visit.opening.rules, scene.seconds_per_time_unit(), visit.opening.start);
         visit.history.keep(visit.flight);
         visit.last = now;
         turn(visit, *frame, controls); // the device has finished the frame before
@@ -272,7 +270,7 @@ void fly(Visit& visit, Theatre& theatre)
         const Panel* panel = dashboard.update(visit.flight, scene, frame->hud_width(), notice_of(visit));
         // A pattern is left alone but for what its builder is being told.
         const bool told = visit.workbench.pattern() == Pattern::none || !visit.workbench.says().empty();
-        frame->prepare(shot_of(visit.flight, visit.start.scene), told ? panel : nullptr);
+        frame->prepare(shot_of(visit.flight, visit.opening.start.scene), told ? panel : nullptr);
         commands.reset();
         commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
         for (const Target& target : targets)
@@ -302,16 +300,15 @@ void tell(const Visit& visit, const SceneFile& scene)
 
 } // namespace
 
-int fly_exhibit(const std::filesystem::path& scene, const Layout& layout, const Shot& start, long frames, Pattern pattern)
+int fly_exhibit(const Opening& opening)
 {
-    Visit visit{scene, start, frames, layout};
-    visit.workbench = Workbench(pattern);
+    Visit visit{opening};
     for (int losses = 0;;) {
         const Clock::time_point opened = Clock::now();
         std::unique_ptr<Theatre> theatre;
         std::string lost;
         try {
-            theatre = std::make_unique<Theatre>(scene, device_options(true));
+            theatre = std::make_unique<Theatre>(opening.scene, device_options(true));
             for (const std::string& note : theatre->world.world.notes)
                 if (losses == 0)
                     std::fprintf(stderr, "starbow: %s: %s\n", theatre->world.scene.gltf.c_str(), note.c_str());

@@ -1,15 +1,27 @@
 #pragma once
+#include "config/flying.h"
 #include "config/layout.h"
+#include "config/profile.h"
 #include "config/shot.h"
 #include "frame.h"
 #include <filesystem>
 
 namespace starbow {
 
-/// Flies until the visitor leaves or `frames` frames have been shown (0: no end). start: where the visit begins and where
-/// reset leads back to. pattern: what the outputs show first. Follows changes of the layout's files, of the monitors, and
-/// the loss of the GPU. Returns the exit status; throws InputError for what is wrong at the start.
-int fly_exhibit(const std::filesystem::path& scene, const Layout& layout, const Shot& start, long frames,
-    Pattern pattern = Pattern::none);
+/// An exhibit as it opens, its files read.
+struct Opening {
+    std::filesystem::path scene;
+    Layout layout;
+    Shot start; ///< where the visit begins and where reset leads back to
+    Flying rules{};
+    std::vector<Profile> profiles{};
+    bool tutorial = true;
+    long frames = 0; ///< to be shown; 0: until the visitor leaves
+    Pattern pattern = Pattern::none; ///< what the outputs show first
+};
+
+/// Flies until the visitor leaves. Follows changes of the layout's files, of the monitors, and the loss of the GPU. Returns
+/// the exit status; throws InputError for what is wrong at the start.
+int fly_exhibit(const Opening& opening);
 
 } // namespace starbow

@@ -25,12 +25,27 @@ fs::path home()
                      "run starbow from its own checkout");
 }
 
-std::vector<Profile> shipped_profiles()
+fs::path own_profiles()
 {
+    const char *config = std::getenv("XDG_CONFIG_HOME"), *person = std::getenv("HOME");
+    return (config && *config ? fs::path(config) : fs::path(person ? person : "/") / ".config") / "starbow" / "profiles";
+}
+
+std::vector<Profile> known_profiles(const fs::path& exhibits)
+{
+    std::error_code error;
+    if (!exhibits.empty() && !fs::is_directory(exhibits, error))
+        throw InputError(exhibits.string(), "", "is no folder; a folder with profiles is right");
     std::vector<Profile> all;
-    for (const auto& entry : fs::directory_iterator(home() / "config" / "profiles"))
-        if (entry.path().extension() == ".json")
-            all.push_back(load_profile(entry.path()));
+    for (const fs::path& folder : {home() / "config" / "profiles", own_profiles(), exhibits}) {
+        std::vector<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(folder, error))
+            if (entry.path().extension() == ".json")
+                files.push_back(entry.path());
+        std::sort(files.begin(), files.end());
+        for (const fs::path& file : files)
+            all.push_back(load_profile(file));
+    }
     return all;
 }
 

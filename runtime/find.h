@@ -10,8 +10,12 @@ namespace starbow {
 /// Throws InputError.
 std::filesystem::path home();
 
-/// All in config/profiles. Throws InputError for a wrong one.
-std::vector<Profile> shipped_profiles();
+/// Where this person's own profiles are: $XDG_CONFIG_HOME/starbow/profiles, or ~/.config/starbow/profiles.
+std::filesystem::path own_profiles();
+
+/// The shipped profiles, then the person's own, then those in a folder of the exhibit's, if it names one: of two for the
+/// same device the later counts. Throws InputError for a wrong one, and for a folder of the exhibit's that is not there.
+std::vector<Profile> known_profiles(const std::filesystem::path& exhibits = {});
 
 /// A config file by path, or by the name of a shipped one: find("layouts", "dome") is config/layouts/dome.json.
 /// Throws InputError that lists the shipped names.

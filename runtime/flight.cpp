@@ -45,7 +45,7 @@ void tick(Flight& flight, const Controls& controls, const Flying& rules, double 
     flight.exposure_ev = std::clamp(flight.exposure_ev + controls.exposure * exposure_ev_per_s * tick_s, -60.0, 60.0);
     if (flight.homing) {
         fly_home(flight.ship, *flight.homing, start, tick_s, seconds_per_time_unit);
-        flight.turn_rad_s = glm::dvec3(0);
+        flight.turn_rad_s = flight.turn_lead_rad_s = glm::dvec3(0);
         if (flight.homing->arrived)
             flight.homing.reset();
         return;

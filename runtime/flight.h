@@ -16,7 +16,7 @@ struct Flight {
     bool held_back = false; ///< after a stop no thrust until the throttle has been at 0: stopped means stopped
     double faster = 0; ///< rapidity per second now, along the way; guided and free
     glm::dvec3 thrust{0}; ///< rapidity per second now, cockpit axes; newtonian
-    glm::dvec3 turn_rad_s{0};
+    glm::dvec3 turn_rad_s{0}, turn_lead_rad_s{0}; ///< now, and what that is on its way to
     std::optional<Homing> homing; ///< flying back to the start by itself
     glm::dvec2 look_rad{0}; ///< of the head, to the left and up from the nose
     Effects effects;

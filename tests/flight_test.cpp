@@ -177,7 +177,7 @@ TEST(Flight, FreeNosesLookWhereTheyLike)
 TEST(Flight, NewtonianThrustIsProperAcceleration)
 {
     Flying rules = with(FlightMode::newtonian, 1e6);
-    rules.ease_s = 0; // at once: the closed form begins with the thrust
+    rules.rapidity_jerk_per_s2 = 1e12; // at once: the closed form begins with the thrust
     Flight flight = hold(flight_at(start(), rules), {.lever = 1.0}, 4, rules);
     const double a = rules.rapidity_per_s, tau = 4;
     EXPECT_NEAR(rapidity(flight), a * tau, 1e-11);

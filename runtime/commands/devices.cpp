@@ -142,7 +142,7 @@ int devices(const Options& options)
 {
     if (!options.describe.empty())
         return describe(options.describe);
-    Hid hid(shipped_profiles(), [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); });
+    Hid hid(known_profiles(), [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); });
     const bool live = options.seconds > 0;
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(live ? options.seconds : 0.5);
     for (;;) {

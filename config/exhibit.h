@@ -1,0 +1,22 @@
+#pragma once
+#include "flying.h"
+#include <filesystem>
+#include <string>
+
+namespace starbow {
+
+/// What an exhibit is made of, and how it flies.
+struct Exhibit {
+    // Each a path, or the name of a shipped one.
+    std::string layout = "desk", scene = "avenue";
+    std::string shot; ///< where the visit begins, in the scene of its own; empty: at the scene's start
+    std::filesystem::path profiles; ///< a folder with profiles of this exhibit's own sticks; empty: none
+    bool tutorial = true; ///< three prompts for the first minute
+    Flying flying;
+};
+
+/// Reads and checks an exhibit; what it names is not opened here. Throws InputError with file, line, JSON pointer, value and
+/// what would be right.
+Exhibit load_exhibit(const std::filesystem::path& file);
+
+} // namespace starbow
