@@ -51,6 +51,7 @@ std::vector<std::uint8_t> descriptor_bytes(const std::string& path)
 struct Hid::Device {
     DeviceInfo info;
     Descriptor descriptor;
+    Profile profile;
     int opening = 0; ///< counts all openings: the same path may be another device
     std::atomic<bool> gone = false;
     mutable std::mutex mutex;
@@ -59,6 +60,7 @@ struct Hid::Device {
 };
 
 struct Hid::Shared {
+    std::vector<Profile> profiles;
     std::function<void(const std::string&)> say;
     std::atomic<bool> stop = false;
     mutable std::mutex mutex;
@@ -88,10 +90,10 @@ void Hid::Shared::read(const std::shared_ptr<Device>& device, hid_device* handle
         const std::lock_guard lock(device->mutex);
         take_report(device->descriptor, std::span(report.data(), std::size_t(size)), now, device->state);
     }
-    device->gone = true;
     hid_close(handle);
     if (stop)
         return;
+    device->gone = true;
     say(told(device->info) + " is unplugged");
     const std::lock_guard lock(mutex);
     missing.push_back(device->info);
@@ -108,6 +110,7 @@ void Hid::Shared::open(const hid_device_info& found)
     if (device->info.name.empty())
         device->info.name = "device";
     device->descriptor = descriptor;
+    device->profile = profile_for(profiles, device->info, descriptor);
     device->state.raw.resize(descriptor.fields.size());
     hid_device* handle = hid_open_path(path.c_str());
     if (!handle) {
@@ -131,7 +134,8 @@ void Hid::Shared::open(const hid_device_info& found)
         missing.erase(back);
     devices.push_back(device);
     device->reader = std::thread([this, device, handle] { read(device, handle); });
-    say(told(device->info) + " is plugged in at " + path);
+    say(told(device->info) + " is plugged in at " + path + ", flown by "
+        + (device->profile.file.empty() ? device->profile.name : "the profile " + device->profile.name));
 }
 
 /// Opens what is there and not open yet; forgets what is gone.
@@ -218,8 +222,8 @@ Profile profile_for(const std::vector<Profile>& profiles, const DeviceInfo& info
 
 Hid::Hid(std::vector<Profile> profiles, std::function<void(const std::string&)> say)
     : shared_(std::make_shared<Shared>())
-    , profiles_(std::move(profiles))
 {
+    shared_->profiles = std::move(profiles);
     shared_->say = std::move(say);
     hid_init();
     shared_->watcher = std::thread([shared = shared_] { shared->watch(); });
@@ -242,34 +246,61 @@ void Hid::add(double dt_s, Controls& controls)
         devices = shared_->devices;
     }
     std::map<std::string, std::unique_ptr<Mapping>> kept;
+    std::vector<Lever> levers;
+    std::vector<std::string> troubles;
+    const std::int64_t now = now_ns();
     for (const auto& device : devices) {
         if (device->gone)
             continue;
         const std::string key = device->info.path + " " + std::to_string(device->opening);
         auto& mapping = kept[key] = std::move(mappings_[key]);
         if (!mapping)
-            mapping
-                = std::make_unique<Mapping>(device->descriptor, profile_for(profiles_, device->info, device->descriptor));
+            mapping = std::make_unique<Mapping>(device->descriptor, device->profile);
         DeviceState state;
         {
             const std::lock_guard lock(device->mutex);
             state = device->state;
+            device->state.tapped.assign(device->state.tapped.size(), false);
         }
-        mapping->add(state, dt_s, controls);
+        mapping->add(state, now, dt_s, controls);
+        for (Lever lever : mapping->levers()) {
+            lever.device = told(device->info) + device->info.serial;
+            levers.push_back(std::move(lever));
+        }
+        for (const std::string& trouble : mapping->troubles())
+            troubles.push_back(device->info.name + ": " + trouble + " and is left out");
         if (state.told_ns > 0)
             controls.told_ns = std::max(controls.told_ns, state.told_ns);
     }
     mappings_ = std::move(kept);
+    if (const auto place = lever_.place(levers, now))
+        controls.lever = place;
+    tell(std::move(troubles));
     controls.turn = glm::clamp(controls.turn, -1.0, 1.0);
 }
 
-std::string Hid::missing() const
+void Hid::tell(std::vector<std::string> troubles)
+{
+    const auto holds
+        = [](const auto& all, const std::string& one) { return std::find(all.begin(), all.end(), one) != all.end(); };
+    for (const std::string& trouble : troubles)
+        if (!holds(troubles_, trouble))
+            shared_->say(trouble);
+    for (const std::string& trouble : troubles_)
+        if (!holds(troubles, trouble))
+            shared_->say("no longer: " + trouble);
+    troubles_ = std::move(troubles);
+}
+
+std::string Hid::trouble() const
 {
     const std::lock_guard lock(shared_->mutex);
     std::string line;
     for (const DeviceInfo& info : shared_->missing)
         line += (line.empty() ? "" : ", ") + info.name;
-    return line.empty() ? "" : line + " is unplugged";
+    if (!line.empty())
+        return line + (shared_->missing.size() > 1 ? " are unplugged" : " is unplugged");
+    return troubles_.empty() ? "" : troubles_.front();
 }
 
 bool Hid::has_gamepad() const
@@ -288,8 +319,7 @@ std::vector<Hid::Seen> Hid::devices() const
     for (const auto& device : shared_->devices)
         if (!device->gone) {
             const std::lock_guard own(device->mutex);
-            all.push_back({device->info, profile_for(profiles_, device->info, device->descriptor).name, device->descriptor,
-                device->state});
+            all.push_back({device->info, device->profile.name, device->descriptor, device->state});
         }
     return all;
 }

@@ -33,8 +33,9 @@ public:
     /// Adds what all devices ask for. A device that is gone asks for nothing: its axes are neutral from then on.
     void add(double dt_s, Controls& controls);
 
-    /// A line for the visitors' display while a device that was there is missing; else empty.
-    std::string missing() const;
+    /// A line for the visitors' display while a device that was there is missing, or one of its axes is left out because it
+    /// is stuck or noisy; else empty.
+    std::string trouble() const;
     bool has_gamepad() const;
 
     struct Seen {
@@ -49,8 +50,10 @@ private:
     struct Device;
     struct Shared;
     std::shared_ptr<Shared> shared_;
-    std::vector<Profile> profiles_;
     std::map<std::string, std::unique_ptr<Mapping>> mappings_; ///< by path and the count of its opening
+    LeverChoice lever_;
+    std::vector<std::string> troubles_; ///< of axes, as last told to the log
+    void tell(std::vector<std::string> troubles);
 };
 
 /// The profile of a device: by its serial number first, then by its kind, the last of several, else from its usages.

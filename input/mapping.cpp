@@ -1,5 +1,6 @@
 #include "mapping.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace starbow {
@@ -26,9 +27,7 @@ void add_role(AxisRole role, double value, double dt_s, Controls& controls)
 {
     switch (role) {
     case AxisRole::none:
-        return;
-    case AxisRole::throttle:
-        controls.lever = std::max(controls.lever.value_or(0), value);
+    case AxisRole::throttle: // one of several counts, see LeverChoice
         return;
     case AxisRole::faster:
         controls.faster += value;
@@ -122,6 +121,8 @@ bool has(const Descriptor& descriptor, std::uint16_t page, std::uint16_t id)
 bool take_report(const Descriptor& descriptor, std::span<const std::uint8_t> report, std::int64_t now_ns, DeviceState& state)
 {
     state.raw.resize(descriptor.fields.size());
+    state.tapped.resize(descriptor.fields.size());
+    state.health.resize(descriptor.fields.size());
     int id = 0;
     if (descriptor.uses_report_ids) {
         if (report.empty())
@@ -134,12 +135,30 @@ bool take_report(const Descriptor& descriptor, std::span<const std::uint8_t> rep
         const Field& field = descriptor.fields[i];
         if (field.report_id != id || std::size_t(field.bit_offset + field.bits + 7) / 8 > report.size())
             continue; // what a report cut short does not hold stays as it was
-        state.raw[i] = raw_value(field, report);
+        const std::int64_t raw = raw_value(field, report);
+        state.raw[i] = raw;
+        state.tapped[i] = state.tapped[i] || raw > 0;
+        if (is_axis(field))
+            state.health[i].take((centred(field, raw) + 1) / 2, now_ns);
         any = true;
     }
     if (any)
         state.told_ns = now_ns;
     return any;
+}
+
+std::string name_of(const Usage& usage)
+{
+    constexpr std::array<const char*, 9> names{"X", "Y", "Z", "Rx", "Ry", "Rz", "slider", "dial", "wheel"};
+    if (usage.page == desktop && usage.id >= axis_x && usage.id < axis_x + names.size())
+        return names[usage.id - axis_x];
+    for (const auto& [id, name] : {std::pair{0xb0, "aileron"}, {0xb8, "elevator"}, {0xba, "rudder"}, {0xbb, "throttle"},
+             {0xc4, "accelerator"}, {0xc5, "brake"}, {0xc6, "clutch"}, {0xc8, "steering wheel"}})
+        if (usage.page == simulation && usage.id == id)
+            return name;
+    std::string text = "usage ";
+    text.append(std::to_string(usage.page)).append("/").append(std::to_string(usage.id));
+    return text;
 }
 
 double shaped(const AxisUse& use, const Field& field, std::int64_t raw)
@@ -253,15 +272,32 @@ Mapping::Mapping(Descriptor descriptor, Profile profile)
     }
 }
 
-void Mapping::add(const DeviceState& state, double dt_s, Controls& controls)
+void Mapping::add(const DeviceState& state, std::int64_t now_ns, double dt_s, Controls& controls)
 {
+    levers_.clear();
+    troubles_.clear();
     auto raw = [&](std::size_t field) { return field < state.raw.size() ? state.raw[field] : std::nullopt; };
-    for (const Axis& axis : axes_)
-        if (const auto value = raw(axis.field))
-            add_role(axis.use.role, shaped(axis.use, descriptor_.fields[axis.field], *value), dt_s, controls);
+    for (const Axis& axis : axes_) {
+        const auto value = raw(axis.field);
+        if (!value || axis.use.role == AxisRole::none)
+            continue;
+        const Field& field = descriptor_.fields[axis.field];
+        const AxisHealth health = axis.field < state.health.size() ? state.health[axis.field] : AxisHealth();
+        const double wanted = shaped(axis.use, field, *value);
+        const bool noisy = health.noisy(now_ns),
+                   stuck = axis.use.role != AxisRole::throttle && wanted != 0 && health.still_since_ns() > 0
+            && now_ns - health.still_since_ns() > stuck_after_ns;
+        if (noisy || stuck)
+            troubles_.push_back("axis " + name_of(field.usage) + (noisy ? " jitters" : " is stuck"));
+        else if (axis.use.role == AxisRole::throttle)
+            levers_.push_back({{}, int(axis.field), wanted, health.moved_ns()});
+        else
+            add_role(axis.use.role, wanted, dt_s, controls);
+    }
     for (Button& button : buttons_) {
-        const bool down = raw(button.field).value_or(0) != 0;
-        press(button.role, down && !button.down, down, controls);
+        const bool down = raw(button.field).value_or(0) != 0,
+                   tapped = button.field < state.tapped.size() && state.tapped[button.field];
+        press(button.role, (down || tapped) && !button.down, down, controls);
         button.down = down;
     }
     if (hat_)

@@ -1,6 +1,8 @@
 #pragma once
 #include "config/profile.h"
 #include "controls.h"
+#include "health.h"
+#include "lever.h"
 #include "report.h"
 
 namespace starbow {
@@ -9,6 +11,8 @@ namespace starbow {
 /// yet.
 struct DeviceState {
     std::vector<std::optional<std::int64_t>> raw;
+    std::vector<bool> tapped; ///< fields that were above 0 in any report since the last reading: no tap is too short
+    std::vector<AxisHealth> health;
     std::int64_t told_ns = 0; ///< arrival of the last report
 };
 
@@ -25,8 +29,13 @@ class Mapping {
 public:
     Mapping(Descriptor descriptor, Profile profile);
 
-    /// Adds what the device asks for to the controls. dt_s: since the last reading, for what looks around.
-    void add(const DeviceState& state, double dt_s, Controls& controls);
+    /// Adds what the device asks for to the controls, all but the lever's place. now_ns: the steady clock's; dt_s: since the
+    /// last reading, for what looks around. An axis that is stuck or noisy asks for nothing.
+    void add(const DeviceState& state, std::int64_t now_ns, double dt_s, Controls& controls);
+
+    // As of the last reading:
+    const std::vector<Lever>& levers() const { return levers_; } ///< their devices are not named here
+    const std::vector<std::string>& troubles() const { return troubles_; } ///< "axis Rz is stuck", for people
 
     const Descriptor& descriptor() const { return descriptor_; }
     const Profile& profile() const { return profile_; }
@@ -46,7 +55,12 @@ private:
     std::vector<Axis> axes_;
     std::vector<Button> buttons_;
     std::optional<std::size_t> hat_;
+    std::vector<Lever> levers_;
+    std::vector<std::string> troubles_;
 };
+
+/// "X", "Rz", "slider", "rudder": as people and drivers call an axis.
+std::string name_of(const Usage& usage);
 
 /// The axis' value after calibration, dead zone and curve: -1 to 1, of a throttle 0 to 1.
 double shaped(const AxisUse& use, const Field& field, std::int64_t raw);

@@ -150,8 +150,8 @@ std::string notice_of(const Visit& visit)
         return visit.workbench.says();
     if (!visit.refused.empty())
         return visit.refused;
-    if (const std::string missing = visit.hid.missing(); !missing.empty())
-        return missing;
+    if (const std::string trouble = visit.hid.trouble(); !trouble.empty())
+        return trouble;
     if (seconds(Clock::now() - visit.began) < 25)
         return "W faster   S slower   arrows turn   Space stop   R back to the start";
     if (visit.tracker && !visit.tracker->heard(Clock::now()))

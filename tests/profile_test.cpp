@@ -90,14 +90,14 @@ TEST(ProfileTest, ShippedProfilesAreValidAndFitTheirDevices)
             EXPECT_NO_THROW(field(descriptor, {9, std::uint16_t(use.button)})) << use.button;
         // At rest it asks for nothing but the throttle's middle.
         Controls controls;
-        Mapping(descriptor, profile).add(at_rest(descriptor), 0.01, controls);
+        Mapping mapping(descriptor, profile);
+        mapping.add(at_rest(descriptor), 0, 0.01, controls);
         EXPECT_EQ(controls.turn, glm::dvec3(0));
         EXPECT_EQ(controls.look_rad, glm::dvec2(0));
         EXPECT_EQ(controls.faster, controls.faster);
         EXPECT_FALSE(controls.stop || controls.home || controls.undo);
-        if (controls.lever) {
-            EXPECT_NEAR(*controls.lever, 0.5, 0.01);
-        }
+        for (const Lever& lever : mapping.levers())
+            EXPECT_NEAR(lever.place, 0.5, 0.01);
     }
     EXPECT_GE(on_devices, 8);
 }
@@ -113,7 +113,7 @@ TEST(ProfileTest, AnyDeviceFliesFromItsUsages)
             continue; // buttons and keys alone: nothing to fly with
         Mapping mapping(descriptor, usual_profile(descriptor));
         Controls rest;
-        mapping.add(at_rest(descriptor), 0.01, rest);
+        mapping.add(at_rest(descriptor), 0, 0.01, rest);
         EXPECT_EQ(rest.turn, glm::dvec3(0));
         // Some axis turns the nose to the right at its end, and back at the other.
         bool turns = false;
@@ -121,9 +121,9 @@ TEST(ProfileTest, AnyDeviceFliesFromItsUsages)
             DeviceState state = at_rest(descriptor);
             Controls high, low;
             state.raw[i] = descriptor.fields[i].logical_max;
-            mapping.add(state, 0.01, high);
+            mapping.add(state, 0, 0.01, high);
             state.raw[i] = descriptor.fields[i].logical_min;
-            mapping.add(state, 0.01, low);
+            mapping.add(state, 0, 0.01, low);
             turns = turns || (descriptor.fields[i].bits > 1 && high.turn.y == -1 && low.turn.y == 1);
         }
         EXPECT_TRUE(turns);
@@ -138,7 +138,9 @@ TEST(ProfileTest, AStickDoesWhatItsHandDoes)
     DeviceState state = at_rest(descriptor);
     const auto asked = [&] {
         Controls controls;
-        mapping.add(state, 0.1, controls);
+        mapping.add(state, 0, 0.1, controls);
+        if (!mapping.levers().empty())
+            controls.lever = mapping.levers()[0].place;
         return controls;
     };
     state.raw[field(descriptor, {1, 0x30})] = 16383;

@@ -122,7 +122,7 @@ void draw(const Hid::Seen& device)
     std::string buttons;
     for (std::size_t i = 0; i < device.descriptor.fields.size(); ++i) {
         const Field& field = device.descriptor.fields[i];
-        const auto raw = i < device.state.raw.size() ? device.state.raw[i] : std::nullopt;
+        const std::optional<std::int64_t> raw = device.state.raw.at(i);
         if (field.usage.page == 9 && field.bits == 1) {
             if (raw.value_or(0))
                 buttons += " " + std::to_string(field.usage.id);

@@ -7,6 +7,7 @@
 //   report NAME HEX [COUNT] its report, as often, five milliseconds apart
 //   start                   the program begins; devices plugged in before are there already
 //   wait SECONDS
+//   run COMMAND             a shell command, waited for
 //   say TEXT                on standard error
 #include <algorithm>
 #include <chrono>
@@ -221,6 +222,10 @@ int main(int count, char** arguments)
             double seconds = 0;
             words >> seconds;
             usleep(useconds_t(seconds * 1e6));
+        } else if (verb == "run") {
+            std::getline(words, rest);
+            if (std::system(rest.c_str()) != 0)
+                std::fprintf(stderr, "rig: failed:%s\n", rest.c_str());
         } else if (verb == "say") {
             std::getline(words, rest);
             std::fprintf(stderr, "rig:%s\n", rest.c_str());

@@ -1,0 +1,38 @@
+#include "health.h"
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+constexpr double smallest_move = 0.01;
+/// A turn back counts from this part of the range on; good sensors' last digits flicker by less than a thousandth.
+constexpr double smallest_turn = 0.03;
+/// Two dozen turns in a second are twelve swings; a hand that shakes as fast as it can makes six or seven.
+constexpr std::int64_t second_ns = 1'000'000'000, forgiven_after_ns = 3 * second_ns;
+
+} // namespace
+
+void AxisHealth::take(double place, std::int64_t now_ns)
+{
+    if (first_ns_ == 0) {
+        first_ns_ = now_ns;
+        resting_ = turning_ = place;
+        return;
+    }
+    if (std::abs(place - resting_) > smallest_move) {
+        resting_ = place;
+        moved_ns_ = now_ns;
+    }
+    if (rising_ ? place > turning_ : place < turning_) {
+        turning_ = place;
+    } else if (std::abs(place - turning_) > smallest_turn) {
+        rising_ = !rising_;
+        turning_ = place;
+        turns_[next_] = now_ns;
+        next_ = (next_ + 1) % turns_.size();
+        if (const std::int64_t oldest = turns_[next_]; oldest > 0 && now_ns - oldest < second_ns)
+            noisy_until_ns_ = now_ns + forgiven_after_ns;
+    }
+}
+
+} // namespace starbow
