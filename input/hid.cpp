@@ -303,6 +303,18 @@ std::string Hid::trouble() const
     return troubles_.empty() ? "" : troubles_.front();
 }
 
+Means Hid::means() const
+{
+    Means all;
+    for (const auto& [key, mapping] : mappings_) {
+        const Means own = mapping->means();
+        all.stick |= own.stick, all.lever |= own.lever, all.trigger |= own.trigger;
+        if (own.stick && own.stop_button > 0) // on what is in the hand
+            all.stop_button = own.stop_button;
+    }
+    return all;
+}
+
 bool Hid::has_gamepad() const
 {
     const std::lock_guard lock(shared_->mutex);

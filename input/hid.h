@@ -37,6 +37,8 @@ public:
     /// is stuck or noisy; else empty.
     std::string trouble() const;
     bool has_gamepad() const;
+    /// What visitors have in their hands, of all devices together; as of the last add().
+    Means means() const;
 
     struct Seen {
         DeviceInfo info;

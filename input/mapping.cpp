@@ -272,6 +272,20 @@ Mapping::Mapping(Descriptor descriptor, Profile profile)
     }
 }
 
+Means Mapping::means() const
+{
+    Means means;
+    for (const Axis& axis : axes_) {
+        means.stick |= axis.use.role == AxisRole::nose_right;
+        means.lever |= axis.use.role == AxisRole::throttle;
+        means.trigger |= axis.use.role == AxisRole::faster;
+    }
+    for (const Button& button : buttons_)
+        if (button.role == ButtonRole::stop && means.stop_button == 0)
+            means.stop_button = descriptor_.fields[button.field].usage.id;
+    return means;
+}
+
 void Mapping::add(const DeviceState& state, std::int64_t now_ns, double dt_s, Controls& controls)
 {
     levers_.clear();

@@ -3,6 +3,7 @@
 #include "controls.h"
 #include "health.h"
 #include "lever.h"
+#include "means.h"
 #include "report.h"
 
 namespace starbow {
@@ -37,8 +38,8 @@ public:
     const std::vector<Lever>& levers() const { return levers_; } ///< their devices are not named here
     const std::vector<std::string>& troubles() const { return troubles_; } ///< "axis Rz is stuck", for people
 
-    const Descriptor& descriptor() const { return descriptor_; }
-    const Profile& profile() const { return profile_; }
+    /// What of it is on this device.
+    Means means() const;
 
 private:
     struct Axis {

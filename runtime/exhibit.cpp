@@ -11,6 +11,7 @@
 #include "input/keyboard.h"
 #include "screens.h"
 #include "theatre.h"
+#include "tutorial.h"
 #include "workbench.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -65,7 +66,8 @@ struct Dashboard {
     int frames = 0;
     double rate = 0;
 
-    const Panel* update(const Flight& flight, const SceneFile& scene, int width, const std::string& notice)
+    const Panel* update(
+        const Flight& flight, const SceneFile& scene, int width, const std::string& prompt, const std::string& notice)
     {
         Clock::time_point now = Clock::now();
         ++frames;
@@ -76,7 +78,8 @@ struct Dashboard {
         if (panel.size.x != width || seconds(now - drawn) > 0.1) {
             Readings told = readings(flight.ship, scene, flight.effects);
             told.frames_per_s = rate;
-            told.notice = notice;
+            told.mode = flight.mode, told.lever = flight.lever;
+            told.prompt = prompt, told.notice = notice;
             panel = typesetter.draw(told, width);
             drawn = now;
         }
@@ -119,6 +122,7 @@ struct Visit {
     std::string refused; ///< why a change of the layout was not taken up, for the head-up display
     Flight flight = flight_at(opening.start, opening.rules);
     History history{};
+    Tutorial tutorial = tutorial_at(flight);
     Keyboard keyboard{};
     Hid hid{opening.profiles, [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); }};
     std::unique_ptr<HeadTracker> tracker = tracker_of(layout);
@@ -152,8 +156,6 @@ std::string notice_of(const Visit& visit)
         return visit.refused;
     if (const std::string trouble = visit.hid.trouble(); !trouble.empty())
         return trouble;
-    if (seconds(Clock::now() - visit.began) < 25)
-        return "W faster   S slower   arrows turn   Space stop   R back to the start";
     if (visit.tracker && !visit.tracker->heard(Clock::now()))
         return "no head tracker is heard on port " + std::to_string(visit.tracker->tracking().port);
     return visit.skew.frames() > 0 ? told(visit.skew) : "";
@@ -255,6 +257,7 @@ void fly(Visit& visit, Theatre& theatre)
         visit.flight = step(
             visit.flight, controls, passed.count(), visit.opening.rules, scene.seconds_per_time_unit(), visit.opening.start);
         visit.history.keep(visit.flight);
+        visit.tutorial = advance(visit.tutorial, controls, visit.flight, seconds(passed));
         visit.last = now;
         turn(visit, *frame, controls); // the device has finished the frame before
         frame->show(visit.workbench.pattern());
@@ -267,7 +270,8 @@ void fly(Visit& visit, Theatre& theatre)
             if (targets[i].view)
                 frame->resize(i, {targets[i].extent.width, targets[i].extent.height});
         frame->move_head(controls.head);
-        const Panel* panel = dashboard.update(visit.flight, scene, frame->hud_width(), notice_of(visit));
+        const Panel* panel = dashboard.update(visit.flight, scene, frame->hud_width(),
+            visit.opening.tutorial ? prompt(visit.tutorial, visit.hid.means()) : "", notice_of(visit));
         // A pattern is left alone but for what its builder is being told.
         const bool told = visit.workbench.pattern() == Pattern::none || !visit.workbench.says().empty();
         frame->prepare(shot_of(visit.flight, visit.opening.start.scene), told ? panel : nullptr);
@@ -291,7 +295,9 @@ void fly(Visit& visit, Theatre& theatre)
 /// The closing lines: where the flight has led, and how well the screens kept together.
 void tell(const Visit& visit, const SceneFile& scene)
 {
-    for (const auto& [label, value] : hud_fields(readings(visit.flight.ship, scene, visit.flight.effects)))
+    Readings last = readings(visit.flight.ship, scene, visit.flight.effects);
+    last.mode = visit.flight.mode;
+    for (const auto& [label, value] : hud_fields(last))
         std::printf("%s %s  ", label.c_str(), value.c_str());
     std::printf("\n");
     if (visit.skew.frames() > 0)

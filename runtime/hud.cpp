@@ -80,8 +80,7 @@ Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effec
         .distance_m = ship.distance.total() * unit_m,
         .light_speed_m_s = scene.light_speed_m_s,
         .frames_per_s = 0,
-        .effects = effects,
-        .notice = {}};
+        .effects = effects};
 }
 
 std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r)
@@ -99,6 +98,8 @@ std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r)
         {"Doppler", on(r.effects.doppler)},
         {"headlight", on(r.effects.headlight)},
     };
+    constexpr const char* modes[] = {"guided", "free", "newtonian"};
+    fields.push_back({"flight", modes[int(r.mode)]});
     if (r.frames_per_s > 0)
         fields.push_back({"frames/s", text("%.0f", r.frames_per_s)});
     return fields;
@@ -205,13 +206,21 @@ Panel Typesetter::draw(const Readings& readings, int width) const
                 = std::uint8_t(255 * std::clamp(corner - glm::length(out) + 0.5, 0.0, 1.0));
         }
 
-    // Three rows of three, the speed row greater; beneath them whatever else there is to say.
+    // The lever's way along the left edge, filled up to where it stands.
+    const glm::ivec2 from(panel.size.x * 0.016, panel.size.y * 0.13), to(panel.size.x * 0.023, panel.size.y * 0.87);
+    const int filled = to.y - int(std::lround((to.y - from.y) * std::clamp(readings.lever, 0.0, 1.0)));
+    for (int y = from.y; y < to.y; ++y)
+        for (int x = from.x; x < to.x; ++x)
+            panel.texels[2 * (std::size_t(y) * panel.size.x + x)] = y >= filled ? 255 : 64;
+
+    // Three rows of three, the speed row greater; a prompt takes the third row's place; beneath them whatever else there is
+    // to say.
     auto fields = hud_fields(readings);
     double unit = panel.size.y;
     const double rows[] = {0.27, 0.53, 0.76};
     const double columns[] = {0.04, 0.415, 0.64};
     const double sizes[] = {0.26, 0.20, 0.20};
-    for (int i = 0; i < 9; ++i) {
+    for (int i = 0; i < (readings.prompt.empty() ? 9 : 6); ++i) {
         int column = i % 3;
         double x = panel.size.x * columns[column],
                room = panel.size.x * (column < 2 ? columns[column + 1] - 0.02 : 0.97) - x;
@@ -224,14 +233,20 @@ Panel Typesetter::draw(const Readings& readings, int width) const
         write(panel, fields[i].first, x, rows[i / 3] * unit, label(), 0.72);
         write(panel, fields[i].second, x + value_at(), rows[i / 3] * unit, size, 1);
     }
+    int prompt_size = int(0.24 * unit);
+    while (prompt_size > 6 && width_of(readings.prompt, prompt_size) > 0.93 * panel.size.x)
+        --prompt_size;
+    write(panel, readings.prompt, panel.size.x * columns[0], 0.785 * unit, prompt_size, 1);
     // A long notice gets smaller, down to half, and takes the place of the rate.
     const int small = int(0.15 * unit);
     const auto notice_width = [&](int size) { return width_of(readings.notice, size) / panel.size.x; };
     int notice_size = small;
     while (notice_size > small / 2 && notice_width(notice_size) > 0.92)
         --notice_size;
-    if (fields.size() > 9 && notice_width(notice_size) < 0.74) {
-        std::string rate = fields[9].second + " " + fields[9].first;
+    if (notice_width(notice_size) < 0.7) {
+        std::string rate = fields[9].second;
+        if (fields.size() > 10)
+            rate += "   " + fields[10].second + " " + fields[10].first;
         write(panel, rate, panel.size.x * 0.96 - width_of(rate, small), 0.93 * unit, small, 0.72);
     }
     write(panel, readings.notice, panel.size.x * 0.04, 0.93 * unit, notice_size, 1);

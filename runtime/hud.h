@@ -1,4 +1,5 @@
 #pragma once
+#include "config/flying.h"
 #include "config/scene_file.h"
 #include "ship.h"
 #include <cstdint>
@@ -26,7 +27,10 @@ struct Readings {
     double light_speed_m_s;
     double frames_per_s;
     Effects effects;
-    std::string notice; ///< one line for the visitor, or empty
+    FlightMode mode = FlightMode::guided;
+    double lever = 0; ///< where the throttle is, 0 to 1
+    std::string prompt{}; ///< what the visitor is to try now, or empty
+    std::string notice{}; ///< one line for who looks after the exhibit, or empty
 };
 Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effects);
 

@@ -95,8 +95,11 @@ Push by_thrust(Flight& flight, const Controls& controls, const Flying& rules)
 
 double rapidity_of(const Ship& ship) { return std::asinh(glm::length(ship.u.total())); }
 
-Push pilot(Flight& flight, const Controls& controls, const Flying& rules)
+Push pilot(Flight& flight, const Controls& told, const Flying& rules)
 {
+    Controls controls = told;
+    if (flight.mode != FlightMode::newtonian) // who has thrusters alone, as on a space mouse, has a speed all the same
+        controls.faster -= told.push.z;
     const glm::dvec3 rates = degree * glm::dvec3(rules.turn_deg_per_s, rules.turn_deg_per_s, rules.roll_deg_per_s);
     for (int i = 0; i < 3; ++i)
         turn(flight.turn_rad_s[i], flight.turn_lead_rad_s[i], std::clamp(controls.turn[i], -1.0, 1.0) * rates[i], rates[i],

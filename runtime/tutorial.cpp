@@ -1,0 +1,48 @@
+#include "tutorial.h"
+#include "pilot.h"
+#include <cmath>
+
+namespace starbow {
+
+Tutorial tutorial_at(const Flight& flight) { return {.begun_at = rapidity_of(flight.ship), .lever = flight.lever}; }
+
+Tutorial advance(Tutorial tutorial, const Controls& controls, const Flight& flight, double dt_s)
+{
+    const bool touched = controls.faster != 0 || controls.push != glm::dvec3(0) || controls.turn != glm::dvec3(0)
+        || controls.look_rad != glm::dvec2(0) || std::abs(flight.lever - tutorial.lever) > 0.005 || controls.stop
+        || controls.home || controls.undo || controls.reset || controls.next_mode;
+    tutorial.idle_s = touched ? 0 : tutorial.idle_s + dt_s;
+    if (touched)
+        tutorial.lever = flight.lever;
+    if (tutorial.idle_s > visit_over_s)
+        return tutorial_at(flight);
+    tutorial.turned_rad += std::hypot(flight.turn_rad_s.x, flight.turn_rad_s.y) * dt_s;
+    const double speed = rapidity_of(flight.ship);
+    const bool done[] = {std::abs(speed - tutorial.begun_at) > lesson_rapidity, tutorial.turned_rad > lesson_turn_rad,
+        controls.stop || controls.home};
+    if (tutorial.lesson < lessons && done[tutorial.lesson])
+        tutorial = {.lesson = tutorial.lesson + 1, .begun_at = speed, .lever = flight.lever};
+    return tutorial;
+}
+
+std::string prompt(const Tutorial& tutorial, const Means& means)
+{
+    switch (tutorial.lesson) {
+    case 0:
+        return means.lever  ? "Push the throttle forward: faster"
+            : means.trigger ? "Squeeze the right trigger: faster"
+                            : "Hold W: faster";
+    case 1:
+        return means.stick ? "Move the stick: the ship turns" : "Arrow keys: the ship turns";
+    case 2: {
+        std::string how = "Space";
+        if (means.stop_button > 0)
+            how.assign("Press button ").append(std::to_string(means.stop_button));
+        return how + ": full stop";
+    }
+    default:
+        return "";
+    }
+}
+
+} // namespace starbow

@@ -1,0 +1,115 @@
+// Exhibit files: the shipped ones, what each member does, and wrong ones; the schema that editors use agrees.
+#include "config/exhibit.h"
+#include "config/layout.h"
+#include "runtime/find.h"
+#include "tests/files.h"
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+
+using namespace starbow;
+using namespace starbow::testing;
+using nlohmann::json;
+
+namespace {
+
+bool schema_accepts(const json& exhibit)
+{
+    valijson::Schema schema;
+    const json text = json::parse(read_text(source_dir() / "config/schema/exhibit.schema.json"));
+    valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(text), schema);
+    valijson::Validator validator(valijson::Validator::kStrongTypes);
+    return validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(exhibit), nullptr);
+}
+
+/// What the reader says; "" where it reads it.
+std::string said(const std::string& text)
+{
+    try {
+        load_exhibit(write_text("exhibit.json", text));
+        return "";
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
+} // namespace
+
+TEST(ExhibitFileTest, ShippedOnesLeadToWhatIsThere)
+{
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(source_dir() / "config/exhibits")) {
+        SCOPED_TRACE(entry.path().filename().string());
+        EXPECT_TRUE(schema_accepts(json::parse(read_text(entry.path()), nullptr, true, true)));
+        const Exhibit exhibit = load_exhibit(entry.path());
+        EXPECT_NO_THROW(load_layout(find("layouts", exhibit.layout)));
+        EXPECT_NO_THROW(find("scenes", exhibit.scene));
+        ++count;
+    }
+    EXPECT_GE(count, 3);
+}
+
+TEST(ExhibitFileTest, EveryMemberIsTaken)
+{
+    const std::string text
+        = R"({ "layout": "../walls/wall.json", "shot": "gamma100", "profiles": "sticks", "tutorial": false,
+        "flying": { "mode": "newtonian", "greatest_gamma": 50, "turn_deg_per_s": 11, "roll_deg_per_s": 12,
+                    "turn_jerk_deg_per_s3": 13, "rapidity_per_s": 0.14, "rapidity_jerk_per_s2": 0.15 } })";
+    EXPECT_TRUE(schema_accepts(json::parse(text)));
+    const auto file = write_text("exhibit.json", text);
+    const Exhibit exhibit = load_exhibit(file);
+    const auto folder = std::filesystem::absolute(file).parent_path();
+    EXPECT_EQ(exhibit.layout, (folder / "../walls/wall.json").lexically_normal().string());
+    EXPECT_EQ(exhibit.shot, "gamma100");
+    EXPECT_EQ(exhibit.profiles, folder / "sticks");
+    EXPECT_FALSE(exhibit.tutorial);
+    const Flying& flying = exhibit.flying;
+    EXPECT_EQ(flying.mode, FlightMode::newtonian);
+    EXPECT_EQ(flying.greatest_gamma, 50);
+    EXPECT_EQ(flying.turn_deg_per_s, 11);
+    EXPECT_EQ(flying.roll_deg_per_s, 12);
+    EXPECT_EQ(flying.turn_jerk_deg_per_s3, 13);
+    EXPECT_EQ(flying.rapidity_per_s, 0.14);
+    EXPECT_EQ(flying.rapidity_jerk_per_s2, 0.15);
+}
+
+TEST(ExhibitFileTest, TheSchemasDefaultsAreTheReaders)
+{
+    const json schema = json::parse(read_text(source_dir() / "config/schema/exhibit.schema.json"));
+    json defaults = json::object();
+    for (const auto& [name, node] : schema["properties"].items())
+        if (node.contains("default"))
+            defaults[name] = node["default"];
+    for (const auto& [name, node] : schema["properties"]["flying"]["properties"].items())
+        defaults["flying"][name] = node.at("default");
+    const Exhibit told = load_exhibit(write_text("exhibit.json", defaults.dump())),
+                  own = load_exhibit(write_text("own.json", "{}"));
+    EXPECT_EQ(told.layout, own.layout);
+    EXPECT_EQ(told.scene, own.scene);
+    EXPECT_EQ(told.tutorial, own.tutorial);
+    EXPECT_EQ(told.flying.mode, own.flying.mode);
+    EXPECT_EQ(told.flying.greatest_gamma, own.flying.greatest_gamma);
+    EXPECT_EQ(told.flying.turn_deg_per_s, own.flying.turn_deg_per_s);
+    EXPECT_EQ(told.flying.roll_deg_per_s, own.flying.roll_deg_per_s);
+    EXPECT_EQ(told.flying.turn_jerk_deg_per_s3, own.flying.turn_jerk_deg_per_s3);
+    EXPECT_EQ(told.flying.rapidity_per_s, own.flying.rapidity_per_s);
+    EXPECT_EQ(told.flying.rapidity_jerk_per_s2, own.flying.rapidity_jerk_per_s2);
+}
+
+TEST(ExhibitFileTest, WrongOnesAreRefusedByBoth)
+{
+    for (const auto& [text, problem] : std::vector<std::pair<std::string, std::string>>{
+             {R"({ "layuot": "desk" })", "layuot"}, {R"({ "layout": "" })", "/layout"},
+             {R"({ "tutorial": "yes" })", "/tutorial"}, {R"({ "flying": { "mode": "easy" } })", "/flying/mode: \"easy\""},
+             {R"({ "flying": { "greatest_gamma": 1 } })", "/flying/greatest_gamma: 1 is too small"},
+             {R"({ "flying": { "greatest_gamma": 1e7 } })", "/flying/greatest_gamma: 10000000"},
+             {R"({ "flying": { "turn_deg_per_s": 0 } })", "/flying/turn_deg_per_s: 0"},
+             {R"({ "flying": { "turn_jerk_deg_per_s3": -1 } })", "/flying/turn_jerk_deg_per_s3: -1"}}) {
+        EXPECT_NE(said(text).find(problem), std::string::npos) << said(text);
+        EXPECT_FALSE(schema_accepts(json::parse(text))) << text;
+    }
+    EXPECT_NE(said(R"({ "scene": "avenue", "shot": "gamma100" })").find("one too many"), std::string::npos);
+}
