@@ -208,7 +208,7 @@ told() { # TEXT ARGUMENTS...
     said=$("$program" "$@" 2>&1 >/dev/null)
     if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == "starbow: $text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not say '$text': $said"; fi
 }
-told 'fly is no command; run, render, check, displays, warp, import and bench are' fly
+told 'fly is no command; run, render, check, displays, devices, warp, import and bench are' fly
 told 'look is no command; inspect and convert are' warp look
 told "--ouput is no option of 'starbow render'; --help, --layout, --shot, --out," render --shot start --ouput o1
 told "--sizes is no option of 'starbow warp inspect'; " warp inspect x --sizes 3
@@ -243,6 +243,48 @@ if [ $? = 0 ] && [[ $said == *"GPU "*": is used"*"no display server"* ]]; then p
 for file in desk.png desk.exr; do
     if cmp -s "$folder/once/$file" "$folder/twice/$file"; then passed=$((passed + 1)); else fail "$file differs the second time"; fi
 done
+
+# Sticks: what a descriptor declares, from raw bytes, hexadecimal text and JSON alike, with the fields that its file lists.
+hid=$(cd "$(dirname "$0")" && pwd)/hid
+python3 - "$hid" "$folder" << 'END'
+import json, sys
+device = json.load(open(sys.argv[1] + "/thrustmaster-t16000m.json"))
+raw = bytes.fromhex(device["descriptor_hex"])
+open(sys.argv[2] + "/t16000m.bin", "wb").write(raw)
+open(sys.argv[2] + "/t16000m.txt", "w").write("# as usbhid-dump prints\n" + " ".join("%02X" % b for b in raw) + "\n")
+open(sys.argv[2] + "/lines.json", "w").write('{ "descriptor_hex": "zz" }')
+open(sys.argv[2] + "/empty.bin", "w").write("")
+END
+for file in "$hid/thrustmaster-t16000m.json" "$folder/t16000m.bin" "$folder/t16000m.txt"; do
+    if "$program" devices --describe "$file" | python3 -c '
+import json, sys
+told, wanted = json.load(sys.stdin), json.load(open(sys.argv[1]))
+sys.exit(told["fields"] != wanted["fields"] or told["input_report_bits"] != wanted["input_report_bits"])' \
+        "$hid/thrustmaster-t16000m.json"; then passed=$((passed + 1)); else fail "devices --describe $(basename "$file")"; fi
+done
+refused_describe() { # TEXT FILE
+    local said
+    said=$("$program" devices --describe "$2" 2>&1 >/dev/null)
+    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$1"* ]]; then passed=$((passed + 1)); else fail "devices --describe $2: $said"; fi
+}
+refused_describe 'is empty' "$folder/empty.bin"
+refused_describe "can't be read" "$folder/no-such.bin"
+refused_describe "can't be read" "$folder"
+refused_describe '/descriptor_hex' "$folder/lines.json"
+printf 'hello' > "$folder/hello.bin"
+refused_describe 'declares no input' "$folder/hello.bin"
+
+# Exhibits.
+refused_run() { # TEXT EXHIBIT_JSON
+    local said
+    printf '%s\n' "$2" > "$folder/exhibit.json"
+    said=$("$program" run --exhibit "$folder/exhibit.json" 2>&1 >/dev/null)
+    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$1"* ]]; then passed=$((passed + 1)); else fail "run --exhibit $2: $said"; fi
+}
+refused_run 'exhibit.json:1: /flying/turn_deg_per_s: 0' '{ "flying": { "turn_deg_per_s": 0 } }'
+refused_run 'there are:' '{ "layout": "no-such" }'
+refused_run 'no-such.json' '{ "scene": "sub/no-such.json" }'
+refused_run 'is no folder' '{ "profiles": "no-such" }'
 
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]

@@ -89,4 +89,22 @@ grep -q ' γ 7.106 ' "$folder/log" || fail "the last speed is not that of half a
 ok
 grep -q 'T.16000M.*axis X jitters and is left out' "$folder/log" || fail "an axis that jumps to and fro was not noticed"
 ok
+
+# Without leave to read it the rule that gives it is named. Only root can try what it is like to have no leave.
+if [ "$(id -u)" = 0 ]; then
+    cat >"$folder/locked" <<END
+plug thrustmaster-t16000m 0
+run chmod -R go+rX \$UMOCKDEV_DIR; find \$UMOCKDEV_DIR -type s -exec chmod 777 {} +
+run chmod 600 \$(readlink \$UMOCKDEV_DIR/dev/hidraw0)
+start
+END
+    # A checkout need not be open to others: a copy of the program and its files is.
+    mkdir "$folder/open"
+    cp -r "$program" "$here/../config" "$folder/open"
+    chmod -R go+rX "$folder"
+    (cd / && timeout 30 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/locked" \
+        setpriv --reuid=65534 --regid=65534 --clear-groups "$folder/open/starbow" devices) >"$folder/log" 2>&1 </dev/null
+    grep -q 'T.16000M.*may not be read: copy config/70-starbow.rules' "$folder/log" || fail "no leave: the rule is not named"
+    ok
+fi
 echo "$passed passed, 0 failed"
