@@ -107,10 +107,10 @@ void Hid::Shared::open(const hid_device_info& found)
         return;
     auto device = std::make_shared<Device>();
     device->info = {path, plain(found.product_string), plain(found.serial_number), found.vendor_id, found.product_id};
-    if (device->info.name.empty())
-        device->info.name = "device";
     device->descriptor = descriptor;
     device->profile = profile_for(profiles, device->info, descriptor);
+    if (device->info.name.empty()) // not every device tells it
+        device->info.name = device->profile.file.empty() ? "device" : device->profile.name;
     device->state.raw.resize(descriptor.fields.size());
     hid_device* handle = hid_open_path(path.c_str());
     if (!handle) {
