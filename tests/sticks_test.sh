@@ -102,7 +102,7 @@ END
     mkdir "$folder/open"
     cp -r "$program" "$here/../config" "$folder/open"
     chmod -R go+rX "$folder"
-    (cd / && timeout 30 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/locked" \
+    (cd "$folder" && timeout 30 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/locked" \
         setpriv --reuid=65534 --regid=65534 --clear-groups "$folder/open/starbow" devices) >"$folder/log" 2>&1 </dev/null
     grep -q 'T.16000M.*may not be read: copy config/70-starbow.rules' "$folder/log" || fail "no leave: the rule is not named"
     ok

@@ -153,7 +153,7 @@ int devices(const Options& options)
         for (const Hid::Seen& device : all)
             draw(device);
         if (all.empty())
-            std::printf("no stick, throttle, pad or space mouse is plugged in\n");
+            std::printf("no stick, throttle, pad or space mouse that may be read is plugged in\n");
         std::fflush(stdout);
         if (std::chrono::steady_clock::now() >= end)
             return 0;
