@@ -18,6 +18,8 @@ struct Opening {
     bool tutorial = true;
     long frames = 0; ///< to be shown; 0: until the visitor leaves
     Pattern pattern = Pattern::none; ///< what the outputs show first
+    std::filesystem::path record{}; ///< where to keep the flight; empty: nowhere
+    std::filesystem::path replay{}; ///< a record to fly again instead of the visitor; empty: none
 };
 
 /// Flies until the visitor leaves. Follows changes of the layout's files, of the monitors, and the loss of the GPU. Returns
