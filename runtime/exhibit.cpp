@@ -32,6 +32,7 @@ using Access = vk::AccessFlagBits2;
 /// without a minute's flight between.
 constexpr int most_losses = 5;
 
+std::int64_t steady_ns(Clock::time_point t) { return std::chrono::nanoseconds(t.time_since_epoch()).count(); }
 double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
 void present_barrier(vk::CommandBuffer commands, const Target& target, bool before)
@@ -203,6 +204,12 @@ void turn(Visit& visit, Frame& frame, const Controls& controls)
     }
 }
 
+bool is_over(const Visit& visit)
+{
+    const Opening& opening = visit.opening;
+    return (opening.frames > 0 && visit.shown >= opening.frames) || (opening.over && opening.over());
+}
+
 /// Flies on one device until the visitor leaves. Throws vk::DeviceLostError.
 void fly(Visit& visit, Theatre& theatre)
 {
@@ -218,7 +225,7 @@ void fly(Visit& visit, Theatre& theatre)
         = std::move(device.device.allocateCommandBuffers({*device.pool, vk::CommandBufferLevel::ePrimary, 1}).front());
     const Settled settled{device}; // before any of the above goes
 
-    while (visit.opening.frames == 0 || visit.shown < visit.opening.frames) {
+    while (!is_over(visit)) {
         // One frame is in flight: the least delay between a control and its picture.
         pace.wait(screens.refresh_hz());
         (void)device.device.waitForFences(*done, true, UINT64_MAX);
@@ -284,7 +291,10 @@ void fly(Visit& visit, Theatre& theatre)
         commands.end();
         device.device.resetFences(*done);
         screens.submit(*commands, *done);
+        const Clock::time_point handed = Clock::now();
         screens.present(visit.skew);
+        if (visit.opening.timed)
+            visit.opening.timed({controls.told_ns, steady_ns(now), steady_ns(handed), steady_ns(Clock::now())});
         ++visit.shown;
     }
 }

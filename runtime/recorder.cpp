@@ -61,6 +61,12 @@ Recorder::~Recorder()
     close(stream_);
 }
 
+bool Recorder::failed() const
+{
+    const std::lock_guard lock(mutex_);
+    return failed_;
+}
+
 void Recorder::add(const std::string& text)
 {
     const std::lock_guard lock(mutex_);

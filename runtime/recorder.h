@@ -24,6 +24,7 @@ public:
     /// The last line of a flight that was left properly.
     void end(const Flight& flight);
 
+    bool failed() const; ///< said so, and keeps nothing more
     const std::filesystem::path& file() const { return file_; }
 
 private:
@@ -36,7 +37,7 @@ private:
     int stream_ = -1;
     bool ordinary_ = false; ///< a file on a disk, not a pipe
     std::int64_t checked_ticks_ = 0;
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::string waiting_; ///< to be written
     bool ended_ = false, failed_ = false;
