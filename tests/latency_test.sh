@@ -27,7 +27,7 @@ timeout 60 umockdev-wrapper "$built/fake_sticks" "$hid" "$folder/script" "$progr
 ok
 grep -q '^A device reports' "$folder/log" || fail "nothing told while it measures"
 ok
-row() { sed -n "s/^$1.* \([0-9.]*\) *\([0-9.]*\) *\([0-9.]*\)\$/\1 \2 \3/p" "$folder/table"; }
+row() { awk -v name="$1" 'index($0, name) == 1 { print $(NF - 2), $(NF - 1), $NF }' "$folder/table"; }
 report=$(row "report's arrival") own=$(row 'own share') frame=$(row 'frame time') bound=$(row 'no report takes')
 awk -v a="$report" -v o="$own" -v f="$frame" -v b="$bound" 'BEGIN {
     exit !(split(a, r) == 3 && split(o, s) == 3 && split(f, t) == 3 && split(b, u) == 3 &&
