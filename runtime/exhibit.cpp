@@ -99,8 +99,8 @@ Tape tape_of(const Opening& opening)
     std::unique_ptr<Recorder> recorder;
     if (!opening.record.empty())
         recorder = std::make_unique<Recorder>(opening.record,
-            header_of(opening.scene, opening.layout, opening.start, opening.rules,
-                pattern_names[std::size_t(opening.pattern)]),
+            header_of(
+                opening.scene, opening.layout, opening.start, opening.rules, pattern_names[std::size_t(opening.pattern)]),
             log_line);
     return {std::move(recorder), opening.replay.empty() ? nullptr : std::make_unique<Replay>(opening.replay)};
 }

@@ -58,7 +58,7 @@ void take_turn(const Place& place, const std::string& name, glm::dquat& turn)
         return;
     const glm::dvec4 v = vec4(*p, {-1.001, 1.001});
     if (std::abs(glm::length(v) - 1) > 0.001)
-        complain(*p, "is no turn; four numbers whose squares add up to 1 are right");
+        complain(*p, "is no turn; a list of four numbers whose squares add up to 1 is right");
     turn = glm::dquat(v[0], v[1], v[2], v[3]);
 }
 
@@ -74,7 +74,7 @@ std::uint64_t read_digest(const Place& place)
 {
     const std::string digits = text(place);
     if (digits.size() != 16 || digits.find_first_not_of("0123456789abcdef") != digits.npos)
-        complain(place, "is no digest; 16 hexadecimal digits are right");
+        complain(place, "is no digest; a text of 16 hexadecimal digits is right");
     return std::stoull(digits, nullptr, 16);
 }
 
@@ -205,10 +205,10 @@ std::string text_of(const RecordHeader& header)
     json["start"] = {{"time", start.time}, {"position", components(start.position)}, {"u", components(start.u)},
         {"ship_from_cockpit", components(start.ship_from_cockpit)}, {"effects", json_of(start.effects)},
         {"exposure_ev", start.exposure_ev}};
-    json["flying"] = {{"mode", name_of(rules.mode)}, {"greatest_gamma", rules.greatest_gamma},
-        {"turn_deg_per_s", rules.turn_deg_per_s}, {"roll_deg_per_s", rules.roll_deg_per_s},
-        {"turn_jerk_deg_per_s3", rules.turn_jerk_deg_per_s3}, {"rapidity_per_s", rules.rapidity_per_s},
-        {"rapidity_jerk_per_s2", rules.rapidity_jerk_per_s2}};
+    json["flying"]
+        = {{"mode", name_of(rules.mode)}, {"greatest_gamma", rules.greatest_gamma}, {"turn_deg_per_s", rules.turn_deg_per_s},
+            {"roll_deg_per_s", rules.roll_deg_per_s}, {"turn_jerk_deg_per_s3", rules.turn_jerk_deg_per_s3},
+            {"rapidity_per_s", rules.rapidity_per_s}, {"rapidity_jerk_per_s2", rules.rapidity_jerk_per_s2}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -27,7 +27,8 @@ struct RecordHeader {
 /// One frame: what step() was given. Controls::told_ns is not kept: that clock means nothing on another day.
 struct RecordEntry {
     std::int64_t dt_ns = 0;
-    std::int64_t skipped_ns = 0; ///< of the visitor's time before it: a stall of the machine that the flight does not make up
+    std::int64_t skipped_ns
+        = 0; ///< of the visitor's time before it: a stall of the machine that the flight does not make up
     bool shown = true; ///< false: the visitor saw no picture of it, all windows being out of sight
     Controls controls; ///< time_ns: the sum of all dt_ns and skipped_ns so far
 };

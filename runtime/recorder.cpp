@@ -37,7 +37,7 @@ Recorder::Recorder(const fs::path& file, const RecordHeader& header, std::functi
 {
     std::error_code ignored;
     file_ = fs::is_directory(file, ignored) ? named_by_time(file) : file;
-    struct stat known{};
+    struct stat known { };
     const bool there = stat(file_.c_str(), &known) == 0;
     ordinary_ = !there || S_ISREG(known.st_mode);
     stream_ = open(file_.c_str(), O_WRONLY | O_CLOEXEC | (ordinary_ ? O_CREAT | O_EXCL : 0), 0644);

@@ -33,7 +33,8 @@ bool Tape::end(const Flight& flight)
 {
     if (recorder_) {
         recorder_->end(flight);
-        const std::string where = recorder_->failed() ? "not recorded to the end" : "recorded in " + recorder_->file().string();
+        const std::string where
+            = recorder_->failed() ? "not recorded to the end" : "recorded in " + recorder_->file().string();
         std::printf("%s, flight state %s\n", where.c_str(), shown_digest(digest(flight)).c_str());
     }
     if (!replay_)

@@ -59,8 +59,9 @@ struct Measurement {
 int bench_input(const std::string& layout, double seconds)
 {
     if (!has_display())
-        throw InputError("There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere), so no present call can "
-                         "be timed; a desktop session is right");
+        throw InputError(
+            "There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere), so no present call can "
+            "be timed; a desktop session is right");
     Opening opening{
         .scene = find("scenes", "avenue"), .layout = load_layout(find("layouts", layout.empty() ? "desk" : layout))};
     opening.start = load_scene_file(opening.scene).start;
