@@ -173,6 +173,7 @@ Fault fault_of(const std::string& text, std::size_t at, const std::string& what)
 struct Builder : json::json_sax_t {
     const std::string& file;
     const std::string& content;
+    int first_line;
     std::size_t read = 0; // bytes that the parser has taken
     json root;
     std::vector<json*> open; // containers from the root inwards; an outer one does not grow while an inner is open
@@ -182,9 +183,10 @@ struct Builder : json::json_sax_t {
     std::size_t wanted_depth = 0;
     std::optional<Span> found;
 
-    Builder(const std::string& name, const std::string& text)
-        : file(name)
-        , content(text)
+    explicit Builder(const Document& document)
+        : file(document.file)
+        , content(document.text)
+        , first_line(document.first_line)
     {
     }
     void parse()
@@ -203,14 +205,15 @@ struct Builder : json::json_sax_t {
         }
         return path;
     }
+    int line(std::size_t at) const { return line_of(content, at) + first_line - 1; }
     [[noreturn]] void refuse(std::size_t at, const std::string& place, const std::string& problem) const
     {
-        throw InputError(file + ":" + std::to_string(line_of(content, at)), one_line(place), problem);
+        throw InputError(file + ":" + std::to_string(line(at)), one_line(place), problem);
     }
     json* add(json value, std::size_t begin, std::size_t end)
     {
         if (wanted && !found && open.size() == wanted_depth && pointer() == *wanted)
-            found = Span{begin, end, line_of(content, begin)};
+            found = Span{begin, end, line(begin)};
         if (open.empty())
             return &(root = std::move(value));
         json& parent = *open.back();
@@ -274,10 +277,10 @@ struct Builder : json::json_sax_t {
 
 } // namespace
 
-Document parse_document(const std::string& file, std::string text)
+Document parse_document(const std::string& file, std::string text, int first_line)
 {
-    Document document{file, nullptr, std::move(text)};
-    Builder builder(document.file, document.text);
+    Document document{file, nullptr, std::move(text), first_line};
+    Builder builder(document);
     builder.parse();
     document.root = std::move(builder.root);
     return document;
@@ -291,7 +294,7 @@ Document read_document(const std::filesystem::path& path)
 
 std::optional<Span> find_span(const Document& document, const std::string& pointer)
 {
-    Builder builder(document.file, document.text);
+    Builder builder(document);
     builder.wanted = &pointer;
     builder.wanted_depth = std::size_t(std::count(pointer.begin(), pointer.end(), '/'));
     builder.parse();

@@ -17,6 +17,7 @@ struct Document {
     std::string file; ///< as messages show it
     nlohmann::json root;
     std::string text; ///< that it was parsed from
+    int first_line = 1; ///< of the text in its file
 };
 
 /// Where a value stands in its document's text.
@@ -42,8 +43,8 @@ struct Range {
 /// Reads JSON with // and /* */ comments. Throws InputError for a file that can't be read, is larger than 16 MiB, is not
 /// JSON (with line and column), nests deeper than 64, repeats a member, or holds a number that a double can't.
 Document read_document(const std::filesystem::path& file);
-/// The same from a text; `file` is what messages call it.
-Document parse_document(const std::string& file, std::string text);
+/// The same from a text; `file` is what messages call it, `first_line` where in the file the text begins.
+Document parse_document(const std::string& file, std::string text, int first_line = 1);
 Place root(const Document& document);
 
 /// Where the value that a JSON pointer leads to stands, or nothing. Parses the text once more: only the few values that a

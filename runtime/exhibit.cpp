@@ -9,7 +9,9 @@
 #include "input/head_tracker.h"
 #include "input/hid.h"
 #include "input/keyboard.h"
+#include "record_files.h"
 #include "screens.h"
+#include "tape.h"
 #include "theatre.h"
 #include "tutorial.h"
 #include "workbench.h"
@@ -31,6 +33,7 @@ using Access = vk::AccessFlagBits2;
 /// without a minute's flight between.
 constexpr int most_losses = 5;
 
+std::int64_t steady_ns(Clock::time_point t) { return std::chrono::nanoseconds(t.time_since_epoch()).count(); }
 double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
 void present_barrier(vk::CommandBuffer commands, const Target& target, bool before)
@@ -87,30 +90,22 @@ struct Dashboard {
     }
 };
 
-/// Every file that a layout is made of.
-std::vector<std::filesystem::path> files_of(const Layout& layout)
-{
-    std::vector<std::filesystem::path> files;
-    auto add = [&](const std::filesystem::path& file) {
-        if (!file.empty())
-            files.push_back(file);
-    };
-    add(layout.file);
-    for (const Output& output : layout.outputs)
-        for (const Viewport& viewport : output.viewports) {
-            if (viewport.warp) {
-                add(viewport.warp->file);
-                add(viewport.warp->frustum);
-            }
-            add(viewport.alpha_mask);
-            add(viewport.black_level);
-        }
-    return files;
-}
-
 std::unique_ptr<HeadTracker> tracker_of(const Layout& layout)
 {
     return layout.head_tracker ? std::make_unique<HeadTracker>(*layout.head_tracker) : nullptr;
+}
+
+void log_line(const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); }
+
+Tape tape_of(const Opening& opening)
+{
+    std::unique_ptr<Recorder> recorder;
+    if (!opening.record.empty())
+        recorder = std::make_unique<Recorder>(opening.record,
+            header_of(
+                opening.scene, opening.layout, opening.start, opening.rules, pattern_names[std::size_t(opening.pattern)]),
+            log_line);
+    return {std::move(recorder), opening.replay.empty() ? nullptr : std::make_unique<Replay>(opening.replay)};
 }
 
 /// What outlasts the loss of a device.
@@ -123,8 +118,9 @@ struct Visit {
     Flight flight = flight_at(opening.start, opening.rules);
     History history{};
     Tutorial tutorial = tutorial_at(flight);
+    Tape tape = tape_of(opening);
     Keyboard keyboard{};
-    Hid hid{opening.profiles, [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); }};
+    Hid hid{opening.profiles, log_line};
     std::unique_ptr<HeadTracker> tracker = tracker_of(layout);
     Workbench workbench{opening.pattern};
     Skew skew{};
@@ -210,6 +206,12 @@ void turn(Visit& visit, Frame& frame, const Controls& controls)
     }
 }
 
+bool is_over(const Visit& visit)
+{
+    const Opening& opening = visit.opening;
+    return (opening.frames > 0 && visit.shown >= opening.frames) || (opening.over && opening.over());
+}
+
 /// Flies on one device until the visitor leaves. Throws vk::DeviceLostError.
 void fly(Visit& visit, Theatre& theatre)
 {
@@ -225,7 +227,7 @@ void fly(Visit& visit, Theatre& theatre)
         = std::move(device.device.allocateCommandBuffers({*device.pool, vk::CommandBufferLevel::ePrimary, 1}).front());
     const Settled settled{device}; // before any of the above goes
 
-    while (visit.opening.frames == 0 || visit.shown < visit.opening.frames) {
+    while (!is_over(visit)) {
         // One frame is in flight: the least delay between a control and its picture.
         pace.wait(screens.refresh_hz());
         (void)device.device.waitForFences(*done, true, UINT64_MAX);
@@ -241,7 +243,9 @@ void fly(Visit& visit, Theatre& theatre)
         else
             glfwWaitEventsTimeout(0.1); // all minimised, or no monitor there
         const Clock::time_point now = Clock::now();
-        Controls controls = visit.keyboard.read(
+        RecordEntry entry{.shown = any};
+        Controls& controls = entry.controls;
+        controls = visit.keyboard.read(
             screens.handles(), std::chrono::nanoseconds(now - visit.began).count(), !visit.hid.has_gamepad());
         visit.hid.add(seconds(now - visit.last), controls);
         if (visit.tracker)
@@ -251,14 +255,18 @@ void fly(Visit& visit, Theatre& theatre)
         if (controls.full_screen)
             screens.switch_full_screen();
         // A stall of the machine must not become a leap of the ship.
-        const auto passed = std::min<std::chrono::nanoseconds>(now - visit.last, std::chrono::milliseconds(100));
-        if (controls.undo)
-            visit.flight = visit.history.back(visit.flight);
-        visit.flight = step(
-            visit.flight, controls, passed.count(), visit.opening.rules, scene.seconds_per_time_unit(), visit.opening.start);
-        visit.history.keep(visit.flight);
-        visit.tutorial = advance(visit.tutorial, controls, visit.flight, seconds(passed));
+        const std::chrono::nanoseconds passed = now - visit.last;
+        entry.dt_ns = std::min<std::int64_t>(passed.count(), 100'000'000);
+        entry.skipped_ns = passed.count() - entry.dt_ns;
         visit.last = now;
+        if (visit.tape.replays() && !any)
+            continue; // a replay waits to be seen
+        if (!visit.tape.play(entry)) // from here on a replay's controls
+            break;
+        visit.flight = flown(visit.flight, visit.history, controls, entry.dt_ns, visit.opening.rules,
+            scene.seconds_per_time_unit(), visit.opening.start);
+        visit.tape.keep(entry, visit.flight);
+        visit.tutorial = advance(visit.tutorial, controls, visit.flight, 1e-9 * double(entry.dt_ns));
         turn(visit, *frame, controls); // the device has finished the frame before
         frame->show(visit.workbench.pattern());
         if (!any)
@@ -287,7 +295,10 @@ void fly(Visit& visit, Theatre& theatre)
         commands.end();
         device.device.resetFences(*done);
         screens.submit(*commands, *done);
+        const Clock::time_point handed = Clock::now();
         screens.present(visit.skew);
+        if (visit.opening.timed)
+            visit.opening.timed({controls.told_ns, steady_ns(now), steady_ns(handed), steady_ns(Clock::now())});
         ++visit.shown;
     }
 }
@@ -320,7 +331,8 @@ int fly_exhibit(const Opening& opening)
                     std::fprintf(stderr, "starbow: %s: %s\n", theatre->world.scene.gltf.c_str(), note.c_str());
             fly(visit, *theatre);
             tell(visit, theatre->world.scene);
-            return visit.complaints || !theatre->device.complaints.empty() ? 1 : 0;
+            const bool same = visit.tape.end(visit.flight);
+            return !same || visit.complaints || !theatre->device.complaints.empty() ? 1 : 0;
         } catch (const vk::DeviceLostError& error) {
             lost = error.what();
         } catch (const InputError& error) {

@@ -4,7 +4,9 @@
 #include "config/profile.h"
 #include "config/shot.h"
 #include "frame.h"
+#include "latency.h"
 #include <filesystem>
+#include <functional>
 
 namespace starbow {
 
@@ -18,6 +20,10 @@ struct Opening {
     bool tutorial = true;
     long frames = 0; ///< to be shown; 0: until the visitor leaves
     Pattern pattern = Pattern::none; ///< what the outputs show first
+    std::filesystem::path record{}; ///< where to keep the flight; empty: nowhere
+    std::filesystem::path replay{}; ///< a record to fly again instead of the visitor; empty: none
+    std::function<void(const FrameTimes&)> timed{}; ///< is told of each frame
+    std::function<bool()> over{}; ///< is asked before each frame whether to leave
 };
 
 /// Flies until the visitor leaves. Follows changes of the layout's files, of the monitors, and the loss of the GPU. Returns

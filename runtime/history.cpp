@@ -33,4 +33,13 @@ Flight History::back(const Flight& now)
     return then;
 }
 
+Flight flown(const Flight& flight, History& history, const Controls& controls, std::int64_t dt_ns, const Flying& rules,
+    double seconds_per_time_unit, const Shot& start)
+{
+    const Flight now
+        = step(controls.undo ? history.back(flight) : flight, controls, dt_ns, rules, seconds_per_time_unit, start);
+    history.keep(now);
+    return now;
+}
+
 } // namespace starbow

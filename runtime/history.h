@@ -18,6 +18,11 @@ private:
     std::deque<Flight> kept_;
 };
 
+/// What one frame's controls lead to: what is undone first, then the step, which the history keeps. The live flight and
+/// every replay go through this.
+Flight flown(const Flight& flight, History& history, const Controls& controls, std::int64_t dt_ns, const Flying& rules,
+    double seconds_per_time_unit, const Shot& start);
+
 constexpr std::int64_t history_ticks = 10'000, history_every_ticks = 100;
 
 } // namespace starbow

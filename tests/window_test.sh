@@ -7,8 +7,8 @@ program=$1 rig=$(dirname "$0")/rig
 serve Xvfb -noreset -screen 0 1280x800x24
 export STARBOW_VALIDATION=1
 
-fly() { # LAYOUT
-    timeout 60 "$program" run --layout "$1" >"$folder/log" 2>&1 &
+fly() { # LAYOUT [MORE...]
+    timeout 60 "$program" run --layout "$@" >"$folder/log" 2>&1 &
     exhibit=$!
     started+=($exhibit)
     window=
@@ -44,8 +44,8 @@ ok
 grep -q 'Doppler off' "$folder/log" || fail "desk: 2 did not switch the Doppler effect off"
 ok
 
-# Stop is at once.
-fly stereo
+# Stop is at once. The flight is recorded, and flown again it ends the same.
+fly stereo --record "$folder/flight.jsonl"
 xdotool keydown w
 sleep 2
 xdotool keyup w
@@ -55,6 +55,12 @@ xdotool key Escape
 wait $exhibit || fail "stereo: exit $?"
 ok
 grep -q 'γ 1.000' "$folder/log" || fail "stereo: Space did not stop the ship"
+ok
+timeout 60 "$program" run --replay "$folder/flight.jsonl" >"$folder/replay-log" 2>&1 || fail "replay: exit $?"
+ok
+grep -q '^the same to the bit at 1 check$' "$folder/replay-log" || fail "replay: not the same"
+ok
+[ "$(grep γ "$folder/log")" = "$(grep γ "$folder/replay-log")" ] || fail "replay: it ended elsewhere"
 ok
 
 # A head tracker's packets move the window in a wall; silent, it is missed on the display, not in the flight.

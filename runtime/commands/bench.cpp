@@ -1,3 +1,4 @@
+#include "bench_input.h"
 #include "bench_layout.h"
 #include "commands.h"
 #include "config/error.h"
@@ -17,7 +18,8 @@ namespace starbow {
 namespace {
 
 struct Options {
-    int rounds = 25;
+    int rounds = 25, seconds = 60;
+    bool input = false;
     std::string json, layout, shot = "avenue-gamma4";
 };
 
@@ -160,6 +162,8 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
 
 int bench(const Options& options)
 {
+    if (options.input)
+        return bench_input(options.layout, options.seconds);
     if (!options.layout.empty())
         return bench_layout(options.layout, options.shot, options.rounds);
     if (!options.json.empty())
@@ -245,7 +249,13 @@ void add_bench(CLI::App& app, std::function<int()>& chosen)
         "Instead: this layout stage by stage, and displays compared with each other: kinds of projection, many viewports, "
         "stereo methods");
     command->add_option("--shot", options->shot, "With --layout: the shot to time")->capture_default_str();
-    command->footer("Example:\n  starbow bench --json out/bench.json");
+    command->add_flag("--input", options->input,
+        "Instead: in the exhibit's windows (on --layout), the time from a stick's report to the return of the present call "
+        "that shows it");
+    command->add_option("--seconds", options->seconds, "With --input: how long")
+        ->check(whole_number(1, 3600))
+        ->capture_default_str();
+    command->footer("Examples:\n  starbow bench --json out/bench.json\n  starbow bench --input --seconds 60");
     command->callback([options, &chosen] { chosen = [options] { return bench(*options); }; });
 }
 

@@ -1,11 +1,13 @@
 #include "commands.h"
 #include "config/error.h"
+#include "number_option.h"
 #include "pattern_option.h"
+#include "render_replay.h"
 #include "runtime/find.h"
 #include "runtime/still.h"
 #include "runtime/theatre.h"
+#include "size_option.h"
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cstdio>
 #include <optional>
 
@@ -13,30 +15,21 @@ namespace starbow {
 namespace {
 
 struct Options {
-    std::string layout = "desk", shot, out, size, pattern = "none";
+    std::string layout, shot, out, size, pattern = "none", replay, frames;
+    long every = 1;
     bool exr = false, hud = false;
 };
 
-glm::ivec2 parse_size(const std::string& text)
-{
-    glm::ivec2 size(0);
-    const char* end = text.data() + text.size();
-    auto width = std::from_chars(text.data(), end, size.x);
-    if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
-        auto height = std::from_chars(width.ptr + 1, end, size.y);
-        if (height.ec == std::errc() && height.ptr == end && size.x >= 1 && size.y >= 1 && size.x <= 16384
-            && size.y <= 16384)
-            return size;
-    }
-    throw InputError(
-        "--size " + text + " is no size; give width x height in pixels, each from 1 to 16384, such as 1280x720");
-}
-
 int render(const Options& options)
 {
+    if (!options.replay.empty())
+        return render_replay(
+            {options.replay, options.layout, options.out, options.size, options.frames, options.every, options.hud});
+    if (options.shot.empty())
+        throw InputError("Neither --shot nor --replay is given; what is to be drawn, one of the two, is right");
     std::filesystem::path shot_file = find("shots", options.shot);
     Shot shot = load_shot(shot_file);
-    Layout layout = load_layout(find("layouts", options.layout));
+    Layout layout = load_layout(find("layouts", options.layout.empty() ? "desk" : options.layout));
     if (!options.size.empty())
         for (Output& output : layout.outputs)
             output.size = parse_size(options.size);
@@ -75,17 +68,29 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("render", "Draw one shot off-screen, the same bytes every time.");
-    command->add_option("--layout", options->layout, "A layout file, or the name of one in config/layouts")
-        ->capture_default_str();
-    command->add_option("--shot", options->shot, "A shot file, or the name of one in config/shots")->required();
-    command->add_option("--out", options->out, "The folder for OUTPUT.png (and OUTPUT.exr); made if it is not there")
+    command->add_option(
+        "--layout", options->layout, "A layout file, or the name of one in config/layouts [desk; of a replay the record's]");
+    CLI::Option* shot = command->add_option("--shot", options->shot, "A shot file, or the name of one in config/shots");
+    command
+        ->add_option("--out", options->out,
+            "The folder for OUTPUT.png (and OUTPUT.exr), or of a replay OUTPUT-FRAME.png; made if it is not there")
         ->required();
     command->add_option("--size", options->size, "Pixels of every output, WIDTHxHEIGHT, instead of the layout's");
-    command->add_flag(
+    CLI::Option* exr = command->add_flag(
         "--exr", options->exr, "Also the numbers: light, directions, Doppler factor and distance of every pixel");
-    command->add_option("--pattern", options->pattern, pattern_help)->capture_default_str();
+    CLI::Option* pattern = command->add_option("--pattern", options->pattern, pattern_help)->capture_default_str();
     command->add_flag("--hud", options->hud, "With the head-up display");
-    command->footer("Example:\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome --size 2048x2048 --exr");
+    CLI::Option* replay = command->add_option(
+        "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");
+    for (CLI::Option* other : {shot, exr, pattern})
+        replay->excludes(other);
+    command->add_option("--frames", options->frames, "Of a replay: the frames from A to B, counted from 0, as A:B")
+        ->needs(replay);
+    command->add_option("--every", options->every, "Of a replay: each N-th frame")
+        ->check(whole_number(1, 1000000000))
+        ->needs(replay);
+    command->footer("Examples:\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome --size 2048x2048 --exr\n"
+                    "  starbow render --replay flight.jsonl --out out/flight --frames 0:599");
     command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
 }
 

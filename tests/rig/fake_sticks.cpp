@@ -175,6 +175,13 @@ struct Stick {
     }
 };
 
+/// There is nobody left to report to.
+bool has_ended(pid_t program)
+{
+    siginfo_t info{};
+    return program > 0 && waitid(P_PID, id_t(program), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == program;
+}
+
 } // namespace
 
 int main(int count, char** arguments)
@@ -214,7 +221,7 @@ int main(int count, char** arguments)
         } else if (verb == "report") {
             int times = 1;
             words >> name >> rest >> times;
-            for (int i = 0; i < std::max(times, 1); ++i) {
+            for (int i = 0; i < std::max(times, 1) && !has_ended(program); ++i) {
                 sticks.at(name).report(bytes_of(rest));
                 usleep(5000);
             }

@@ -1,0 +1,46 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace starbow {
+
+/// The stations of one frame, nanoseconds of the steady clock.
+struct FrameTimes {
+    std::int64_t told_ns = 0; ///< arrival of the last report of any device that the frame knows of; 0: none yet
+    std::int64_t read_ns = 0; ///< the controls are read
+    std::int64_t handed_ns = 0; ///< the program has done its part; the present call begins
+    std::int64_t shown_ns = 0; ///< the present call has returned
+};
+
+/// The percentile of nearest rank: the smallest of the values that at least `part` (above 0, up to 1) of them do not exceed.
+/// 0 of no values.
+double percentile(std::vector<double> values, double part);
+
+/// How long it takes from a device to the screen, over the frames of a flight.
+class Latency {
+public:
+    void add(const FrameTimes& times);
+
+    std::size_t frames() const { return own_ms_.size(); }
+    std::size_t reports() const { return report_ms_.size(); } ///< frames that were the first to show one
+    double seconds() const { return 1e-9 * double(last_.shown_ns - first_ns_); } ///< first to last frame
+
+    /// For people: a table.
+    std::string told() const;
+
+    // Milliseconds, one for each frame, or for each that shows a new report.
+    const std::vector<double>& report_ms() const { return report_ms_; } ///< its arrival to the present call's return
+    const std::vector<double>& frame_ms() const { return frame_ms_; } ///< from one present call's return to the next
+    const std::vector<double>& own_ms() const { return own_ms_; } ///< controls read to the present call: no waiting
+    const std::vector<double>& present_ms() const { return present_ms_; } ///< the present call, which may wait
+    /// Controls read to the next frame's present call returned: no report, whenever it comes, takes longer.
+    const std::vector<double>& bound_ms() const { return bound_ms_; }
+
+private:
+    FrameTimes last_;
+    std::int64_t first_ns_ = 0;
+    std::vector<double> report_ms_, frame_ms_, own_ms_, present_ms_, bound_ms_;
+};
+
+} // namespace starbow

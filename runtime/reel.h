@@ -1,0 +1,27 @@
+#pragma once
+#include "flight.h"
+#include "still.h"
+#include "workbench.h"
+
+namespace starbow {
+
+/// A flight's pictures off-screen, frame by frame as the exhibit shows them.
+class Reel {
+public:
+    /// pattern: what the outputs show first.
+    Reel(Studio& studio, Pattern pattern);
+
+    /// What a frame's controls do to the pictures: the head, test patterns, what a builder turns (which adds up, so every
+    /// frame counts). Writes no layout.
+    void take(Controls controls);
+
+    /// Each output as RGBA8, rows from the top.
+    std::vector<std::vector<std::uint8_t>> picture(const Flight& flight, const std::string& scene, const Panel* hud);
+
+private:
+    Studio& studio_;
+    Layout layout_;
+    Workbench workbench_;
+};
+
+} // namespace starbow

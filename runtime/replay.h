@@ -1,0 +1,54 @@
+#pragma once
+#include "record.h"
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+
+namespace starbow {
+
+/// Reads a record frame by frame, and compares the flight with the record's checks. Of a record of any length only a line is
+/// held.
+class Replay {
+public:
+    /// Reads the header. Throws InputError.
+    explicit Replay(const std::filesystem::path& file);
+
+    const RecordHeader& header() const { return header_; }
+
+    /// The next frame, its controls' time counted from the record's beginning; nothing after the last. Throws InputError
+    /// with file and line.
+    std::optional<RecordEntry> next();
+
+    /// Where that frame has led: compared where the record has a check there.
+    void compare(const Flight& flight);
+
+    int checks() const { return checks_; } ///< compared so far
+    std::int64_t frames() const { return frames_; }
+    /// Of the file, from 0 to 1.
+    double part_read() const;
+
+    /// For people, when next() has returned nothing: whether the flight was the same to the bit, or where it first differed;
+    /// and what is missing of the record.
+    std::string verdict() const;
+    bool differs() const { return !differs_.empty(); }
+
+private:
+    std::optional<std::string> line();
+    void look_ahead();
+    void compare_here(const Flight& flight);
+
+    std::string file_;
+    std::ifstream stream_;
+    std::uintmax_t bytes_ = 0, read_ = 0; ///< of the file; bytes_ is 0 for a pipe
+    int line_ = 0; ///< the last that was read
+    RecordHeader header_;
+    std::optional<std::variant<RecordEntry, RecordCheck>> ahead_;
+    std::int64_t time_ns_ = 0, frames_ = 0;
+    int checks_ = 0;
+    bool whole_ = false; ///< the last line of a flight that was left properly was there
+    bool cut_ = false; ///< an incomplete last line was left out
+    std::string differs_; ///< where first
+};
+
+} // namespace starbow
