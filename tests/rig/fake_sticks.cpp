@@ -6,10 +6,14 @@
 //   unplug NAME
 //   report NAME HEX [COUNT] its report, as often, five milliseconds apart
 //   start                   the program begins; devices plugged in before are there already
+//   start typed             the same, with what `type` says on its standard input, which ends with the script
+//   type TEXT               a line
+//   interrupt               as Ctrl-C does
 //   wait SECONDS
 //   say TEXT                on standard error
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -188,16 +192,32 @@ int main(int count, char** arguments)
     int generation = 0;
     std::ifstream script(arguments[2]);
     pid_t program = -1;
+    int keyboard = -1;
+    std::signal(SIGPIPE, SIG_IGN); // the program may end before the typing does
     for (std::string line; std::getline(script, line);) {
         std::istringstream words(line);
         std::string verb, name, rest;
         words >> verb;
         if (verb == "start") {
+            int ends[2] = {-1, -1};
+            if (words >> rest && rest == "typed" && pipe2(ends, O_CLOEXEC) == 0)
+                keyboard = ends[1];
             program = fork();
             if (program == 0) {
+                std::signal(SIGPIPE, SIG_DFL);
+                if (keyboard >= 0)
+                    dup2(ends[0], 0);
                 execvp(arguments[3], arguments + 3);
                 _exit(127);
             }
+            if (keyboard >= 0)
+                close(ends[0]);
+        } else if (verb == "type") {
+            std::getline(words >> std::ws, rest);
+            rest += '\n';
+            (void)!write(keyboard, rest.data(), rest.size());
+        } else if (verb == "interrupt") {
+            kill(program, SIGINT);
         } else if (verb == "plug") {
             int node = 0;
             words >> name >> node;
@@ -226,6 +246,8 @@ int main(int count, char** arguments)
             std::fprintf(stderr, "rig:%s\n", rest.c_str());
         }
     }
+    if (keyboard >= 0)
+        close(keyboard);
     int status = 0;
     if (program > 0)
         waitpid(program, &status, 0);
