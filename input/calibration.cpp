@@ -8,6 +8,7 @@ namespace {
 using Rest = AxisMeasure::Rest;
 
 constexpr double least_way = 0.2; // of the declared range
+constexpr double still = 0.1; // of the declared range
 constexpr double near_end = 0.15; // of the way between the ends
 // A spring brings a stick back to within a hundredth or two of its way, and worn ones a little less well.
 constexpr double least_dead_zone = 0.03, least_idle_zone = 0.02;
@@ -118,11 +119,11 @@ std::string told(const SeenAxis& axis)
     return axis.nth ? text + " " + std::to_string(axis.nth + 1) : text;
 }
 
-void take_rest(const DeviceState& state, int when, std::vector<SeenAxis>& axes)
+void take_rest(const DeviceState& state, std::size_t when, std::vector<SeenAxis>& axes)
 {
     for (SeenAxis& axis : axes)
         if (const auto raw = raw_of(state, axis))
-            axis.rest.at(std::size_t(when)).push_back(*raw);
+            axis.rest.at(when).push_back(*raw);
 }
 
 void take_ends(const DeviceState& state, std::vector<SeenAxis>& axes)
@@ -132,6 +133,15 @@ void take_ends(const DeviceState& state, std::vector<SeenAxis>& axes)
             axis.low = std::min(axis.low.value_or(*raw), *raw);
             axis.high = std::max(axis.high.value_or(*raw), *raw);
         }
+}
+
+bool kept_still(const std::vector<std::int64_t>& values, const Field& field)
+{
+    if (values.empty())
+        return true;
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    // A step of one is noise, however coarse the axis.
+    return double(*high) - double(*low) <= std::max(1.0, still * (double(field.logical_max) - double(field.logical_min)));
 }
 
 AxisMeasure measured(const SeenAxis& axis, const Field& field)

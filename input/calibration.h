@@ -21,8 +21,11 @@ std::vector<SeenAxis> axes_of(const Descriptor& descriptor);
 std::string told(const SeenAxis& axis);
 
 /// Each takes in what the device tells now. when: 0 before the axes were moved about, 1 after.
-void take_rest(const DeviceState& state, int when, std::vector<SeenAxis>& axes);
+void take_rest(const DeviceState& state, std::size_t when, std::vector<SeenAxis>& axes);
 void take_ends(const DeviceState& state, std::vector<SeenAxis>& axes);
+
+/// Whether raw values are those of an axis that nobody touches: within a tenth of what its device declares.
+bool kept_still(const std::vector<std::int64_t>& values, const Field& field);
 
 /// What the samples of an axis say. Raw values.
 struct AxisMeasure {

@@ -31,88 +31,123 @@ stick() {
 }
 
 play() { # STATUS SCRIPT ARGUMENTS...: what the program says is in $said
-    local expected=$1 script=$2 status
+    local expected=$1 script=$2 file=$folder/script$BASHPID status
     shift 2
-    printf '%s\n' "$script" > "$folder/script"
-    said=$(timeout 60 umockdev-wrapper "$rig/fake_sticks" "$hid" "$folder/script" "$starbow" "$@" 2>&1)
+    printf '%s\n' "$script" > "$file"
+    said=$(timeout 60 umockdev-wrapper "$rig/fake_sticks" "$hid" "$file" "$starbow" "$@" 2>&1)
     status=$?
     [ $status = "$expected" ] || fail "$*: exit $status, not $expected: $said"
 }
 
-# The middle of X trembles by 20 around 8000, not around 8192; the twist counts the wrong way; the slider stays where it is
-# put; Y reaches from 300 to 16000 only.
-tremble() { # SECONDS SLIDER
-    for ((i = 0; i < $1 * 10; ++i)); do
+says() { # TEXT: waits until the program does
+    echo "until $1"
+}
+enter() {
+    echo "type $*"
+}
+
+# The middle of X trembles by 20 around 8000, not around 8192; the slider stays where it is put; Y reaches from 300 to 16000.
+tremble() { # TENTHS_OF_A_SECOND SLIDER
+    for ((i = 0; i < $1; ++i)); do
         stick 7980 8200 128 "$2"
         stick 8020 8200 128 "$2"
         echo wait 0.08
     done
 }
+press() { # BUTTONS
+    stick 8000 8200 128 1 "$1"
+    echo "wait 0.1"
+    stick 8000 8200 128 1 0
+}
+
+quick() { # ANSWER: the stick is the first in the list, in the ports' order
+    echo "plug thrustmaster-twcs-throttle 1"
+    echo "plug thrustmaster-t16000m 0"
+    echo "start typed"
+    says 'Which of them?'
+    enter 1
+    says 'The middle.'
+    stick 8100 8200 128 255
+    enter
+    says 'The ends.'
+    for x in 50 16300 8100; do
+        stick $x 8200 128 255
+        echo "wait 0.04"
+    done
+    enter
+    says 'A name'
+    enter
+    says 'is there already'
+    enter "$1"
+}
+
+# A file that is there is replaced only by a yes. Meanwhile:
+echo 'mine' > "$folder/there.json"
+(
+    failed=0
+    play 2 "$(quick '')" calibrate --quick --out "$folder/there.json"
+    check 'chosen' 'Calibrating Thrustmaster T.16000M flight stick (044f:b10a)'
+    check 'kept' 'is there already and was kept'
+    check 'left out' 'Not moved to any ends, so left as they were: Y axis, twist (Rz), slider.'
+    [ "$(cat "$folder/there.json")" = mine ] || fail 'the file was changed without a yes'
+    exit $failed
+) &
+beside=$!
 
 session=$(
     echo "plug thrustmaster-t16000m 0"
     echo "start typed"
-    echo "wait 0.7"
+    says 'The middle.'
     stick 8000 8200 128 255
-    echo "type"
-    tremble 2 255
-    # The ends.
-    stick 100 8200 128 255
-    stick 16200 8200 128 255
-    stick 8000 300 128 255
-    stick 8000 16000 128 255
-    stick 8000 8200 10 255
-    stick 8000 8200 250 255
-    stick 8000 8200 128 0
-    stick 8000 8200 128 255
-    stick 8000 8200 128 40
+    enter
+    says 'Hands off'
+    echo "wait 0.3"
+    stick 15000 8200 128 255 # a hand on it: once more
     echo "wait 0.1"
-    echo "type"
-    tremble 1 40
+    stick 8000 8200 128 255
+    says 'Moved meanwhile: X axis.'
+    tremble 8 255
+    says 'The ends.'
+    for ends in '100 8200 128 255' '16200 8200 128 255' '8000 300 128 255' '8000 16000 128 255' '8000 8200 10 255' \
+        '8000 8200 250 255' '8000 8200 128 0' '8000 8200 128 255' '8000 8200 128 40'; do
+        stick $ends
+        echo "wait 0.04"
+    done
+    enter
+    tremble 5 40
     # Nose up by X to its low end; to the right by Y to its high end; roll by the twist to its low end; full by the slider's 0.
+    says 'Nose up'
     stick 120 8300 128 40
-    echo "wait 0.1"
-    echo "type"
-    echo "wait 0.1"
-    stick 8000 8200 128 40
-    # Both at once are refused first.
-    stick 8000 15900 12 40
-    echo "wait 0.1"
-    echo "type"
-    echo "wait 0.1"
+    enter
+    says 'Nose to the right'
+    stick 8000 15900 12 40 # two at once are refused
+    enter
+    says 'Several moved'
+    says 'Nose to the right'
     stick 8010 15900 128 40
-    echo "wait 0.1"
-    echo "type"
-    echo "wait 0.1"
+    enter
+    says 'Roll'
     stick 8000 8200 12 40
-    echo "wait 0.1"
-    echo "type"
-    echo "wait 0.1"
+    enter
+    says 'Throttle'
     stick 8000 8200 128 255
-    echo "wait 0.1"
-    echo "type"
-    echo "wait 0.1"
+    enter
+    says 'full'
     stick 8000 8200 128 1
-    echo "wait 0.1"
-    echo "type"
+    enter
     # Full stop is button 4; back to the start stays; ten seconds back goes; next mode is button 2.
-    echo "wait 0.1"
-    stick 8000 8200 128 1 8
-    echo "wait 0.03"
-    stick 8000 8200 128 1 0
-    echo "wait 0.1"
-    echo "type"
-    echo "wait 0.1"
-    echo "type"
-    echo "wait 0.1"
-    echo "type none"
-    echo "wait 0.1"
-    stick 8000 8200 128 1 2
-    echo "wait 0.03"
-    stick 8000 8200 128 1 0
-    echo "wait 0.1"
-    echo "type"
-    echo "type Left stick"
+    says 'Full stop'
+    press 8
+    enter
+    says 'Back to the start'
+    enter
+    says 'Ten seconds back'
+    enter none
+    says 'Next way'
+    press 2
+    enter
+    says 'A name'
+    enter Left stick
 )
 play 0 "$session" calibrate
 check 'the middle' 'The middle.'
@@ -146,16 +181,12 @@ check 'what counts afterwards' 'profile: Left stick'
 
 # Whatever ends it before its end leaves the file as it was.
 before=$(cat "$written")
-play 2 $'plug thrustmaster-t16000m 0\nstart typed\nwait 0.7\ntype' calibrate --device 044f:b10a
+alone=$'plug thrustmaster-t16000m 0\nstart typed\nuntil The middle.'
+play 2 "$alone"$'\ntype' calibrate --device 044f:b10a
 check 'the end of what is typed' 'broken off; nothing was written'
-play 2 $'plug thrustmaster-t16000m 0\nstart typed\nwait 0.8\ninterrupt' calibrate --device 1
+play 2 "$alone"$'\ninterrupt' calibrate --device 1
 check 'Ctrl-C' 'broken off; nothing was written'
-play 2 "plug thrustmaster-t16000m 0
-start typed
-wait 0.8
-unplug thrustmaster-t16000m
-type
-wait 0.5" calibrate
+play 2 "$alone"$'\nunplug thrustmaster-t16000m\nwait 0.3' calibrate
 check 'unplugged' 'unplugged; nothing was written'
 play 2 'start typed' calibrate
 check 'no stick' 'No stick, throttle, pad or space mouse is plugged in'
@@ -163,36 +194,8 @@ play 2 $'plug thrustmaster-t16000m 0\nstart typed' calibrate --device 1234:5678
 check 'another device' '1234:5678 is not plugged in'
 [ "$(cat "$written")" = "$before" ] || fail 'the file was changed'
 
-# Quick, of two that are plugged in: roles stay; the file is replaced only by a yes; what was not moved keeps its range.
-quick() { # ANSWER
-    echo "plug thrustmaster-twcs-throttle 1"
-    echo "plug thrustmaster-t16000m 0"
-    echo "start typed"
-    echo "wait 0.7"
-    echo "type $2"
-    stick 8100 8200 128 255
-    echo "type"
-    echo "wait 1.7"
-    stick 50 8200 128 255
-    stick 16300 8200 128 255
-    stick 8100 8200 128 255
-    echo "wait 0.1"
-    echo "type"
-    echo "wait 0.9"
-    echo "type"
-    echo "type $1"
-    echo "wait 0.2"
-}
-number() { # which number the list gives the stick
-    printf 'plug thrustmaster-twcs-throttle 1\nplug thrustmaster-t16000m 0\nstart typed\nwait 0.8\n' > "$folder/script"
-    umockdev-wrapper "$rig/fake_sticks" "$hid" "$folder/script" "$starbow" calibrate 2>&1 | sed -n 's/^ *\([0-9]\)  .*044f:b10a.*/\1/p'
-}
-which=$(number)
-play 2 "$(quick '' "$which")" calibrate --quick
-check 'kept' 'is there already and was kept'
-check 'left out' 'Not moved to any ends, so left as they were: Y axis, twist (Rz), slider.'
-[ "$(cat "$written")" = "$before" ] || fail 'the file was changed without a yes'
-play 0 "$(quick y "$which")" calibrate --quick
+# Quick, of two that are plugged in: roles stay, and what was not moved keeps its range.
+play 0 "$(quick y)" calibrate --quick
 python3 - "$written" << 'END' || fail "the profile of the quick one: $(cat "$written")"
 import json, sys
 axes = {axis["usage"]: axis for axis in json.load(open(sys.argv[1]))["axes"]}
@@ -200,5 +203,6 @@ assert axes[48]["role"] == "nose-up" and axes[48]["inverted"] and axes[48]["rang
 assert axes[49]["range"] == [300, 8200, 16000] and axes[54]["range"] == [0, 127.5, 255]
 END
 
+wait $beside || failed=$((failed + 1))
 echo "calibrate_test: $passed checks passed, $failed failed"
 [ $failed = 0 ]

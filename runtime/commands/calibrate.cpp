@@ -42,6 +42,8 @@ public:
         sigaction(SIGINT, &stop, nullptr); // no SA_RESTART: poll() shall return
     }
 
+    Look always = [] {}; ///< at what, whatever is asked
+
     /// Asks, and waits for a line; looks meanwhile. What was typed ahead at a terminal counts for nothing: a second Enter
     /// by mistake would skip a step.
     std::string answer(const std::string& question, const Look& look = {})
@@ -72,6 +74,7 @@ public:
                     give_up();
                 typed_.append(bytes, std::size_t(std::max<ssize_t>(count, 0)));
             }
+            always();
             if (look)
                 look();
         }
@@ -208,13 +211,29 @@ void draw(const Watched& device, const std::vector<SeenAxis>& axes, const Device
     std::fflush(stdout);
 }
 
+/// Samples with hands off. An axis that goes about meanwhile was touched: once more, unless it never stops.
+void stay_off(Person& person, const Watched& device, std::size_t when, double seconds, std::vector<SeenAxis>& axes)
+{
+    for (int attempt = 0; attempt < 3; ++attempt) {
+        for (SeenAxis& axis : axes)
+            axis.rest[when].clear();
+        std::printf("Hands off for %s ...\n", when == 0 ? "two seconds" : "another second");
+        person.wait(seconds, [&] { take_rest(device.now(), when, axes); });
+        const std::string touched = names(
+            axes, [&](const SeenAxis& axis) { return !kept_still(axis.rest[when], device.descriptor.fields[axis.field]); });
+        if (touched.empty())
+            return;
+        std::printf("Moved meanwhile: %s. ", touched.c_str());
+    }
+    std::printf("It does not stop.\n");
+}
+
 void find_rest(Person& person, const Watched& device, std::vector<SeenAxis>& axes)
 {
     std::string question = "\nThe middle. Move every control a little, let go of everything, hands off, and press Enter:";
     for (;;) {
         person.answer(question);
-        std::printf("Hands off for two seconds ...\n");
-        person.wait(hands_off_s, [&] { take_rest(device.now(), 0, axes); });
+        stay_off(person, device, 0, hands_off_s, axes);
         if (std::any_of(axes.begin(), axes.end(), [](const SeenAxis& axis) { return !axis.rest[0].empty(); }))
             return;
         question = "The device has not told anything yet. Move its controls a little, let go, and press Enter:";
@@ -237,8 +256,7 @@ void find_ends(Person& person, const Watched& device, std::vector<SeenAxis>& axe
         if (isatty(1) && pace.due())
             draw(device, axes, state, true);
     });
-    std::printf("Hands off for another second ...\n");
-    person.wait(back_s, [&] { take_rest(device.now(), 1, axes); });
+    stay_off(person, device, 1, back_s, axes);
     const std::string left
         = names(axes, [&](const SeenAxis& axis) { return !measured(axis, device.descriptor.fields[axis.field]).moved; });
     if (!left.empty())
@@ -269,9 +287,8 @@ void ask_axis(Person& person, const Watched& device, const Profile& present, con
     AxisRole role, const std::string& what, DeviceState from, Chosen& chosen)
 {
     const std::string now = does(present, role, axes);
-    const std::string question = what
-        + ", hold it there, and press Enter.\n  (Enter without moving leaves it as it is, which is " + now
-        + "; 'none' and Enter: nothing shall do it.)";
+    const std::string question = what + ", hold it there, and press Enter.\n  (Now: " + now
+        + ". Enter without moving leaves it so; 'none' and Enter: nothing shall do it.)";
     for (;;) {
         std::string typed;
         if (role == AxisRole::throttle) {
@@ -455,6 +472,7 @@ int calibrate(const Options& options)
     Person person;
     const Hid hid(known, [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); });
     const Watched device = choose(person, hid, options.device);
+    person.always = [&] { (void)device.now(); };
     const Profile present = profile_for(known, device.info, device.descriptor);
     std::printf("Calibrating %s; its profile so far: %s.\nEach step ends with Enter. Ctrl-C gives up: nothing is written.\n",
         told(device.info).c_str(), one_line(present.name).c_str());

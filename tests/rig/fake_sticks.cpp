@@ -7,7 +7,8 @@
 //   report NAME HEX [COUNT] its report, as often, five milliseconds apart
 //   start                   the program begins; devices plugged in before are there already
 //   start typed             the same, with what `type` says on its standard input, which ends with the script
-//   type TEXT               a line
+//   until TEXT              the typed program has said it, after what was waited for before
+//   type TEXT               a line, once all reports were read
 //   interrupt               as Ctrl-C does
 //   wait SECONDS
 //   say TEXT                on standard error
@@ -22,6 +23,7 @@
 #include <linux/hidraw.h>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <poll.h>
 #include <pty.h>
 #include <sstream>
 #include <string>
@@ -163,8 +165,8 @@ struct Stick {
         master = slave = -1;
     }
 
-    /// One report a read: a terminal would join two that wait.
-    void report(const Bytes& bytes)
+    /// Waits until what was written is read.
+    void drain() const
     {
         for (int i = 0; i < 2000; ++i) {
             int waiting = 0;
@@ -173,8 +175,57 @@ struct Stick {
                 break;
             usleep(100);
         }
+    }
+
+    /// One report a read: a terminal would join two that wait.
+    void report(const Bytes& bytes)
+    {
+        drain();
         if (write(master, bytes.data(), bytes.size()) != ssize_t(bytes.size()))
             std::perror("fake_sticks: write");
+    }
+};
+
+/// What the program under test says and is told, where the script types.
+struct Dialogue {
+    int keyboard = -1, screen = -1;
+    std::string said;
+    std::size_t heard = 0; ///< of `said`
+
+    /// Passes on what there is within so long; false at its end.
+    bool listen(int wait_ms)
+    {
+        char bytes[4096];
+        pollfd wait{screen, POLLIN, 0};
+        if (poll(&wait, 1, wait_ms) <= 0)
+            return true;
+        const ssize_t count = read(screen, bytes, sizeof bytes);
+        if (count <= 0)
+            return false;
+        said.append(bytes, std::size_t(count));
+        return write(1, bytes, std::size_t(count)) == count;
+    }
+
+    bool until(const std::string& text)
+    {
+        for (int i = 0; i < 1000; ++i) {
+            if (const auto at = said.find(text, heard); at != said.npos) {
+                heard = at + text.size();
+                return true;
+            }
+            if (!listen(10))
+                break;
+        }
+        std::fprintf(stderr, "fake_sticks: it did not say: %s\n", text.c_str());
+        return false;
+    }
+
+    void end()
+    {
+        if (keyboard < 0)
+            return;
+        close(keyboard);
+        while (listen(-1)) { }
     }
 };
 
@@ -192,30 +243,42 @@ int main(int count, char** arguments)
     int generation = 0;
     std::ifstream script(arguments[2]);
     pid_t program = -1;
-    int keyboard = -1;
+    Dialogue dialogue;
     std::signal(SIGPIPE, SIG_IGN); // the program may end before the typing does
     for (std::string line; std::getline(script, line);) {
         std::istringstream words(line);
         std::string verb, name, rest;
         words >> verb;
         if (verb == "start") {
-            int ends[2] = {-1, -1};
-            if (words >> rest && rest == "typed" && pipe2(ends, O_CLOEXEC) == 0)
-                keyboard = ends[1];
+            int in[2], out[2];
+            const bool typed = words >> rest && rest == "typed" && pipe2(in, O_CLOEXEC) == 0 && pipe2(out, O_CLOEXEC) == 0;
             program = fork();
             if (program == 0) {
                 std::signal(SIGPIPE, SIG_DFL);
-                if (keyboard >= 0)
-                    dup2(ends[0], 0);
+                if (typed) {
+                    dup2(in[0], 0);
+                    dup2(out[1], 1);
+                }
                 execvp(arguments[3], arguments + 3);
                 _exit(127);
             }
-            if (keyboard >= 0)
-                close(ends[0]);
+            if (typed) {
+                dialogue.keyboard = in[1], dialogue.screen = out[0];
+                close(in[0]);
+                close(out[1]);
+            }
+        } else if (verb == "until") {
+            std::getline(words >> std::ws, rest);
+            if (!dialogue.until(rest))
+                break; // the end of its input ends it
         } else if (verb == "type") {
             std::getline(words >> std::ws, rest);
+            for (const auto& [key, stick] : sticks)
+                if (stick.slave >= 0)
+                    stick.drain();
+            usleep(20000); // from being read to being known
             rest += '\n';
-            (void)!write(keyboard, rest.data(), rest.size());
+            (void)!write(dialogue.keyboard, rest.data(), rest.size());
         } else if (verb == "interrupt") {
             kill(program, SIGINT);
         } else if (verb == "plug") {
@@ -246,8 +309,7 @@ int main(int count, char** arguments)
             std::fprintf(stderr, "rig:%s\n", rest.c_str());
         }
     }
-    if (keyboard >= 0)
-        close(keyboard);
+    dialogue.end();
     int status = 0;
     if (program > 0)
         waitpid(program, &status, 0);
