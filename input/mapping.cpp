@@ -156,7 +156,7 @@ double shaped(const AxisUse& use, const Field& field, std::int64_t raw)
     if (use.inverted)
         value = -value;
     if (one_sided(use.role)) {
-        const double way = std::clamp(((value + 1) / 2 - use.dead_zone) / (1 - 2 * use.dead_zone), 0.0, 1.0);
+        const double way = std::clamp(((value + 1) / 2 - use.dead_zone) / std::max(1 - 2 * use.dead_zone, 1e-9), 0.0, 1.0);
         for (double detent : use.detents)
             if (std::abs(way - detent) < detent_reach)
                 return detent;

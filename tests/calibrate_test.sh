@@ -60,12 +60,7 @@ press() { # BUTTONS
     stick 8000 8200 128 1 0
 }
 
-quick() { # ANSWER: the stick is the first in the list, in the ports' order
-    echo "plug thrustmaster-twcs-throttle 1"
-    echo "plug thrustmaster-t16000m 0"
-    echo "start typed"
-    says 'Which of them?'
-    enter 1
+middle_and_ends() { # of X alone
     says 'The middle.'
     stick 8100 8200 128 255
     enter
@@ -75,10 +70,27 @@ quick() { # ANSWER: the stick is the first in the list, in the ports' order
         echo "wait 0.04"
     done
     enter
+}
+quick() { # ANSWER: of two, the stick is the first in the list, in the ports' order
+    echo "plug thrustmaster-twcs-throttle 1"
+    echo "plug thrustmaster-t16000m 0"
+    echo "start typed"
+    says 'Which of them?'
+    enter 1
+    middle_and_ends
     says 'A name'
     enter
     says 'is there already'
     enter "$1"
+}
+by_serial() {
+    echo "plug thrustmaster-t16000m 0"
+    echo "start typed"
+    middle_and_ends
+    says 'A name'
+    enter Mine
+    says 'serial number A/12?'
+    enter y
 }
 
 # A file that is there is replaced only by a yes. Meanwhile:
@@ -90,6 +102,16 @@ echo 'mine' > "$folder/there.json"
     check 'kept' 'is there already and was kept'
     check 'left out' 'Not moved to any ends, so left as they were: Y axis, twist (Rz), slider.'
     [ "$(cat "$folder/there.json")" = mine ] || fail 'the file was changed without a yes'
+
+    # A stick that tells its serial number may have a profile of its own, which counts for it whatever its kind has.
+    export XDG_CONFIG_HOME=$folder/serial
+    mkdir "$folder/hid"
+    sed 's/"vid"/"serial": "A\/12", "vid"/' "$hid/thrustmaster-t16000m.json" > "$folder/hid/thrustmaster-t16000m.json"
+    hid=$folder/hid
+    play 0 "$(by_serial)" calibrate --quick
+    check 'by serial' "Written to $folder/serial/starbow/profiles/044f-b10a-A_12.json."
+    play 0 $'plug thrustmaster-t16000m 0\nstart' devices
+    check 'what counts for it' 'profile: Mine'
     exit $failed
 ) &
 beside=$!

@@ -188,6 +188,11 @@ TEST(ProfileTest, AxesAreShaped)
     EXPECT_EQ(shaped(use, stick, 990), 1);
     EXPECT_EQ(shaped(use, stick, 515), 0.5);
     EXPECT_GT(shaped(use, stick, 560), 0.55);
+    // With the largest dead zone it is a switch, of which no place is no number.
+    use.dead_zone = 0.5;
+    EXPECT_EQ(shaped(use, stick, 400), 0);
+    EXPECT_EQ(shaped(use, stick, 500), 0);
+    EXPECT_EQ(shaped(use, stick, 600), 1);
 }
 
 TEST(ProfileTest, ReportsCutShortOrOfNoKnownNumberLeaveTheRest)

@@ -51,7 +51,7 @@ Bytes bytes_of(const std::string& hex)
 struct Stick {
     UMockdevTestbed* testbed = nullptr;
     std::string root; ///< of the pretended file system
-    std::string name, vendor, product, descriptor; ///< the last in hexadecimal
+    std::string name, vendor, product, serial, descriptor; ///< the last in hexadecimal
     std::string usb, hid, hidraw, node;
     unsigned major_number = 0, minor_number = 0;
     int master = -1, slave = -1;
@@ -129,9 +129,8 @@ struct Stick {
             << "\nE: MINOR=" << minor_number << "\nE: SUBSYSTEM=hidraw\nA: dev=" << numbers << "\\n\nL: device=../../../"
             << id << "\n\n"
             << "P: " << below_sys(hid) << "\nE: DRIVER=hid-generic\nE: HID_ID=0003:0000" << vendor << ":0000" << product
-            << "\nE: HID_NAME=" << name
-            << "\nE: HID_PHYS=usb-0000:00:14.0-3/input0\nE: HID_UNIQ=\nE: SUBSYSTEM=hid\nH: report_descriptor=" << descriptor
-            << "\n\n"
+            << "\nE: HID_NAME=" << name << "\nE: HID_PHYS=usb-0000:00:14.0-3/input0\nE: HID_UNIQ=" << serial
+            << "\nE: SUBSYSTEM=hid\nH: report_descriptor=" << descriptor << "\n\n"
             << "P: " << below_sys(usb) << "/" << place
             << ":1.0\nE: DEVTYPE=usb_interface\nE: DRIVER=usbhid\nE: INTERFACE=3/0/0\nE: SUBSYSTEM=usb\n"
             << "A: bInterfaceNumber=00\\n\nA: bInterfaceClass=03\\n\n\n"
@@ -139,7 +138,7 @@ struct Stick {
             << 100 + generation << "\nE: DEVTYPE=usb_device\nE: PRODUCT=" << vendor << "/" << product
             << "/100\nE: SUBSYSTEM=usb\nE: BUSNUM=001\nE: DEVNUM=" << 100 + generation << "\nA: idVendor=" << vendor
             << "\\n\nA: idProduct=" << product << "\\n\nA: bcdDevice=0100\\n\nA: manufacturer=Rig\\n\nA: product=" << name
-            << "\\n\nA: serial=\\n\n\n";
+            << "\\n\nA: serial=" << serial << "\\n\n\n";
         GError* error = nullptr;
         if (!umockdev_testbed_add_from_string(testbed, all.str().c_str(), &error)) {
             std::fprintf(stderr, "fake_sticks: %s\n", error->message);
@@ -288,7 +287,7 @@ int main(int count, char** arguments)
             Stick& stick = sticks[name];
             stick.testbed = testbed, stick.root = root;
             stick.name = file["name"], stick.vendor = file["vid"], stick.product = file["pid"],
-            stick.descriptor = file["descriptor_hex"];
+            stick.serial = file.value("serial", ""), stick.descriptor = file["descriptor_hex"];
             stick.plug(node, generation++);
         } else if (verb == "unplug") {
             words >> name;
