@@ -1,6 +1,14 @@
 #include "profile.h"
 #include "reader.h"
+#include <array>
+#include <cerrno>
 #include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <unistd.h>
 
 namespace starbow {
 namespace {
@@ -53,7 +61,78 @@ AxisUse read_axis(const Place& place)
     return use;
 }
 
+template <class Role> std::string name_in(const std::vector<std::pair<std::string_view, Role>>& all, Role role)
+{
+    for (const auto& [name, which] : all)
+        if (which == role)
+            return std::string(name);
+    return "none";
+}
+
+std::string hex4(int number)
+{
+    std::array<char, 8> text;
+    std::snprintf(text.data(), text.size(), "%04x", unsigned(number) & 0xffff);
+    return text.data();
+}
+
+/// A text in double quotes. What is no UTF-8 is replaced: a file of JSON must be.
+std::string quoted(const std::string& text)
+{
+    return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// The shortest text that reads back as the same number.
+std::string exact(double number)
+{
+    return std::abs(number) < 1e15 && number == std::trunc(number) ? std::to_string(std::int64_t(number))
+                                                                   : nlohmann::json(number).dump();
+}
+
+std::string listed(std::span<const double> numbers)
+{
+    std::string text;
+    for (double number : numbers)
+        text += (text.empty() ? "[" : ", ") + exact(number);
+    return text + "]";
+}
+
+std::string line_of(const AxisUse& use)
+{
+    const AxisUse usual;
+    std::string line = "{ ";
+    if (use.page != usual.page)
+        line += "\"page\": " + std::to_string(use.page) + ", ";
+    line += "\"usage\": " + std::to_string(use.usage);
+    if (use.nth != usual.nth)
+        line += ", \"nth\": " + std::to_string(use.nth);
+    line += ", \"role\": " + quoted(name_of(use.role));
+    if (use.inverted)
+        line += ", \"inverted\": true";
+    if (use.dead_zone != usual.dead_zone)
+        line += ", \"dead_zone\": " + exact(use.dead_zone);
+    if (use.curve != usual.curve)
+        line += ", \"curve\": " + exact(use.curve);
+    if (use.range)
+        line += ", \"range\": " + listed(*use.range);
+    if (!use.detents.empty())
+        line += ", \"detents\": " + listed(use.detents);
+    return line + " }";
+}
+
+template <class Use, class Line> std::string block(const std::vector<Use>& uses, Line line)
+{
+    std::string text;
+    for (const Use& use : uses)
+        text += (text.empty() ? "[\n        " : ",\n        ") + line(use);
+    return text.empty() ? "[]" : text + "\n    ]";
+}
+
 } // namespace
+
+std::string name_of(AxisRole role) { return name_in(axis_roles, role); }
+
+std::string name_of(ButtonRole role) { return name_in(button_roles, role); }
 
 Profile load_profile(const std::filesystem::path& file)
 {
@@ -83,6 +162,66 @@ Profile load_profile(const std::filesystem::path& file)
             profile.hat_y = chosen(*y, axis_roles);
     }
     return profile;
+}
+
+std::string profile_text(const Profile& profile)
+{
+    std::vector<std::string> members{"\"name\": " + quoted(profile.name), "\"vendor\": " + quoted(hex4(profile.vendor)),
+        "\"product\": " + quoted(hex4(profile.product))};
+    if (!profile.serial.empty())
+        members.push_back("\"serial\": " + quoted(profile.serial));
+    if (!profile.axes.empty())
+        members.push_back("\"axes\": " + block(profile.axes, line_of));
+    if (!profile.buttons.empty())
+        members.push_back("\"buttons\": " + block(profile.buttons, [](const ButtonUse& use) {
+            return "{ \"button\": " + std::to_string(use.button) + ", \"role\": " + quoted(name_of(use.role)) + " }";
+        }));
+    std::string hat;
+    if (profile.hat_x)
+        hat += "\"x\": " + quoted(name_of(*profile.hat_x));
+    if (profile.hat_y)
+        hat += (hat.empty() ? "" : ", ") + ("\"y\": " + quoted(name_of(*profile.hat_y)));
+    if (!hat.empty())
+        members.push_back("\"hat\": { " + hat + " }");
+    std::string text;
+    for (const std::string& member : members)
+        text += (text.empty() ? "{\n    " : ",\n    ") + member;
+    return text + "\n}\n";
+}
+
+void save_profile(const Profile& profile, const std::filesystem::path& file)
+{
+    const std::string text = profile_text(profile);
+    const auto refuse = [&](int why) {
+        throw InputError(
+            file.string(), "", std::string("can't be written (") + std::strerror(why) + "); a place for a file is right");
+    };
+    std::error_code problem;
+    if (file.has_parent_path())
+        std::filesystem::create_directories(file.parent_path(), problem);
+    // Renaming would put a plain file in the place of a link, or of a device such as /dev/null.
+    std::filesystem::path target = std::filesystem::canonical(file, problem);
+    if (problem)
+        target = file;
+    else if (!std::filesystem::is_regular_file(target, problem))
+        throw InputError(file.string(), "", "is there and is not a file; a new name or that of a file is right");
+    std::filesystem::path part = target;
+    part += '.' + std::to_string(getpid()) + ".part";
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(part.c_str(), "wb"), std::fclose);
+    if (!stream)
+        refuse(errno);
+    // On the disk before the old file goes: exhibits are switched off at the wall.
+    bool good = std::fwrite(text.data(), 1, text.size(), stream.get()) == text.size() && std::fflush(stream.get()) == 0
+        && fsync(fileno(stream.get())) == 0;
+    int why = errno;
+    if (std::fclose(stream.release()) != 0 && good)
+        good = false, why = errno;
+    if (good && std::rename(part.c_str(), target.c_str()) != 0)
+        good = false, why = errno;
+    if (!good) {
+        std::remove(part.c_str());
+        refuse(why);
+    }
 }
 
 } // namespace starbow

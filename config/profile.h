@@ -51,11 +51,13 @@ struct AxisUse {
     double curve = 1.6; ///< exponent: above 1 the middle is finer; throttles are straight
     std::optional<std::array<double, 3>> range; ///< raw values at one end, in the middle and at the other, as calibrated
     std::vector<double> detents; ///< of a throttle: places from 0 to 1 in which it rests
+    bool operator==(const AxisUse&) const = default;
 };
 
 struct ButtonUse {
     int button = 1; ///< as the device counts, from 1
     ButtonRole role = ButtonRole::none;
+    bool operator==(const ButtonUse&) const = default;
 };
 
 /// How one kind of device is used.
@@ -71,5 +73,15 @@ struct Profile {
 
 /// Reads and checks a profile. Throws InputError with file, line, JSON pointer, value and what would be right.
 Profile load_profile(const std::filesystem::path& file);
+
+/// The profile as a file's text, an axis and a button a line; members that have their default are left out.
+std::string profile_text(const Profile& profile);
+
+/// Writes the whole file or nothing: who reads it meanwhile gets the old one. Makes its folder. Throws InputError.
+void save_profile(const Profile& profile, const std::filesystem::path& file);
+
+/// As a profile's file has them: "nose-up", "next-mode".
+std::string name_of(AxisRole role);
+std::string name_of(ButtonRole role);
 
 } // namespace starbow

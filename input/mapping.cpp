@@ -13,16 +13,6 @@ constexpr std::uint16_t axis_x = 0x30, axis_y = 0x31, axis_z = 0x32, axis_rx = 0
 constexpr double look_rad_per_s = 1.5;
 constexpr double detent_reach = 0.03;
 
-bool one_sided(AxisRole role) { return role == AxisRole::throttle || role == AxisRole::faster || role == AxisRole::slower; }
-
-bool is_axis(const Field& field)
-{
-    const Usage u = field.usage;
-    if (!field.array.empty() || field.bits < 2)
-        return false;
-    return (u.page == desktop && u.id >= axis_x && u.id <= dial) || (u.page == simulation && u.id >= 0xb0 && u.id <= 0xd0);
-}
-
 void add_role(AxisRole role, double value, double dt_s, Controls& controls)
 {
     switch (role) {
@@ -118,6 +108,16 @@ bool has(const Descriptor& descriptor, std::uint16_t page, std::uint16_t id)
 
 } // namespace
 
+bool one_sided(AxisRole role) { return role == AxisRole::throttle || role == AxisRole::faster || role == AxisRole::slower; }
+
+bool is_axis(const Field& field)
+{
+    const Usage u = field.usage;
+    if (!field.array.empty() || field.bits < 2)
+        return false;
+    return (u.page == desktop && u.id >= axis_x && u.id <= dial) || (u.page == simulation && u.id >= 0xb0 && u.id <= 0xd0);
+}
+
 bool take_report(const Descriptor& descriptor, std::span<const std::uint8_t> report, std::int64_t now_ns, DeviceState& state)
 {
     state.raw.resize(descriptor.fields.size());
@@ -175,7 +175,7 @@ double shaped(const AxisUse& use, const Field& field, std::int64_t raw)
     if (use.inverted)
         value = -value;
     if (one_sided(use.role)) {
-        const double way = std::clamp(((value + 1) / 2 - use.dead_zone) / (1 - 2 * use.dead_zone), 0.0, 1.0);
+        const double way = std::clamp(((value + 1) / 2 - use.dead_zone) / std::max(1 - 2 * use.dead_zone, 1e-9), 0.0, 1.0);
         for (double detent : use.detents)
             if (std::abs(way - detent) < detent_reach)
                 return detent;

@@ -21,6 +21,12 @@ struct DeviceState {
 bool take_report(
     const Descriptor& descriptor, std::span<const std::uint8_t> report, std::int64_t now_ns, DeviceState& state);
 
+/// Whether a field is one that a profile's axes may name: more than a bit, of a usage that moves.
+bool is_axis(const Field& field);
+
+/// Whether a role runs from nothing to full, instead of to two sides of a middle.
+bool one_sided(AxisRole role);
+
 /// How a device that no profile knows is used, from its HID usages alone: sticks turn the ship, sliders are throttles,
 /// triggers go faster and slower, a hat and a second stick look around.
 Profile usual_profile(const Descriptor& descriptor);

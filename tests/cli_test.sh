@@ -208,7 +208,7 @@ told() { # TEXT ARGUMENTS...
     said=$("$program" "$@" 2>&1 >/dev/null)
     if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == "starbow: $text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not say '$text': $said"; fi
 }
-told 'fly is no command; run, render, check, displays, devices, warp, import and bench are' fly
+told 'fly is no command; run, render, check, displays, devices, calibrate, warp, import and bench are' fly
 told 'look is no command; inspect and convert are' warp look
 told "--ouput is no option of 'starbow render'; --help, --layout, --shot, --out," render --shot start --ouput o1
 told "--sizes is no option of 'starbow warp inspect'; " warp inspect x --sizes 3

@@ -190,6 +190,11 @@ TEST(ProfileTest, AxesAreShaped)
     EXPECT_EQ(shaped(use, stick, 990), 1);
     EXPECT_EQ(shaped(use, stick, 515), 0.5);
     EXPECT_GT(shaped(use, stick, 560), 0.55);
+    // With the largest dead zone it is a switch, of which no place is no number.
+    use.dead_zone = 0.5;
+    EXPECT_EQ(shaped(use, stick, 400), 0);
+    EXPECT_EQ(shaped(use, stick, 500), 0);
+    EXPECT_EQ(shaped(use, stick, 600), 1);
 }
 
 TEST(ProfileTest, ReportsCutShortOrOfNoKnownNumberLeaveTheRest)
@@ -229,4 +234,62 @@ TEST(ProfileTest, WrongProfilesAreRefused)
         EXPECT_NE(said(head + more + "}").find(problem), std::string::npos) << said(head + more + "}");
     EXPECT_NE(
         said(R"({ "name": "a", "vendor": "44f", "product": "b10a" })").find("four hexadecimal digits"), std::string::npos);
+}
+
+TEST(ProfileTest, WhatIsWrittenReadsBackTheSame)
+{
+    valijson::Schema schema;
+    const json text = json_of(source_dir() / "config/schema/profile.schema.json");
+    valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(text), schema);
+    std::vector<Profile> all;
+    for (const auto& file : shipped())
+        all.push_back(load_profile(file));
+    Profile full;
+    full.name = "\"Left\" \\ stick, \xc3\xa9";
+    full.vendor = 0x044f, full.product = 0xfffe, full.serial = "A/1 2";
+    full.axes = {{2, 0xbb, 3, AxisRole::throttle, true, 0.123, 2.5, std::array{4294967295.0, 0.5, -2147483648.0}, {0.1, 1}},
+        {1, 0x30, 0, AxisRole::none, false, 0, 1, std::array{-0.25, 1.0 / 3, 1e9}}};
+    full.buttons = {{128, ButtonRole::darker}, {1, ButtonRole::none}};
+    full.hat_y = AxisRole::push_back;
+    all.push_back(full);
+    Profile bare;
+    bare.name = "b", bare.vendor = 1, bare.product = 0;
+    all.push_back(bare);
+    const std::filesystem::path file = scratch("profiles/of/mine/written.json"); // folders that are not there yet
+    for (const Profile& profile : all) {
+        SCOPED_TRACE(profile.name);
+        save_profile(profile, file);
+        EXPECT_TRUE(valijson::Validator().validate(schema, valijson::adapters::NlohmannJsonAdapter(json_of(file)), nullptr));
+        const Profile back = load_profile(file);
+        EXPECT_EQ(back.name, profile.name);
+        EXPECT_EQ(back.vendor, profile.vendor);
+        EXPECT_EQ(back.product, profile.product);
+        EXPECT_EQ(back.serial, profile.serial);
+        EXPECT_EQ(back.axes, profile.axes);
+        EXPECT_EQ(back.buttons, profile.buttons);
+        EXPECT_EQ(back.hat_x, profile.hat_x);
+        EXPECT_EQ(back.hat_y, profile.hat_y);
+    }
+    // A name that is no UTF-8 loses what is wrong with it; the file loads.
+    bare.name = "a\xff";
+    save_profile(bare, file);
+    EXPECT_TRUE(load_profile(file).name.starts_with("a"));
+}
+
+TEST(ProfileTest, AProfileThatCantBeWrittenLeavesTheOldOne)
+{
+    Profile profile;
+    profile.name = "new";
+    const auto file = write_text("profile-kept.json", "old");
+    EXPECT_NE(
+        complaint([&] { save_profile(profile, file / "in-a-file.json"); }).find("can't be written"), std::string::npos);
+    EXPECT_NE(complaint([&] { save_profile(profile, file.parent_path()); }).find("is not a file"), std::string::npos);
+    EXPECT_EQ(read_text(file), "old");
+    // A link stays one: what it leads to is replaced.
+    const auto link = scratch("profile-link.json");
+    std::filesystem::remove(link);
+    std::filesystem::create_symlink(file, link);
+    save_profile(profile, link);
+    EXPECT_TRUE(std::filesystem::is_symlink(link));
+    EXPECT_EQ(load_profile(file).name, "new");
 }

@@ -11,6 +11,7 @@ namespace starbow {
 void add_run(CLI::App& app, std::function<int()>& chosen);
 void add_render(CLI::App& app, std::function<int()>& chosen);
 void add_devices(CLI::App& app, std::function<int()>& chosen);
+void add_calibrate(CLI::App& app, std::function<int()>& chosen);
 void add_displays(CLI::App& app, std::function<int()>& chosen);
 void add_bench(CLI::App& app, std::function<int()>& chosen);
 void add_check(CLI::App& app, std::function<int()>& chosen);

@@ -6,11 +6,16 @@
 //   unplug NAME
 //   report NAME HEX [COUNT] its report, as often, five milliseconds apart
 //   start                   the program begins; devices plugged in before are there already
+//   start typed             the same, with what `type` says on its standard input, which ends with the script
+//   until TEXT              the typed program has said it, after what was waited for before
+//   type TEXT               a line, once all reports were read
+//   interrupt               as Ctrl-C does
 //   wait SECONDS
 //   run COMMAND             a shell command, waited for
 //   say TEXT                on standard error
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -19,6 +24,7 @@
 #include <linux/hidraw.h>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <poll.h>
 #include <pty.h>
 #include <sstream>
 #include <string>
@@ -46,7 +52,7 @@ Bytes bytes_of(const std::string& hex)
 struct Stick {
     UMockdevTestbed* testbed = nullptr;
     std::string root; ///< of the pretended file system
-    std::string name, vendor, product, descriptor; ///< the last in hexadecimal
+    std::string name, vendor, product, serial, descriptor; ///< the last in hexadecimal
     std::string usb, hid, hidraw, node;
     unsigned major_number = 0, minor_number = 0;
     int master = -1, slave = -1;
@@ -124,9 +130,8 @@ struct Stick {
             << "\nE: MINOR=" << minor_number << "\nE: SUBSYSTEM=hidraw\nA: dev=" << numbers << "\\n\nL: device=../../../"
             << id << "\n\n"
             << "P: " << below_sys(hid) << "\nE: DRIVER=hid-generic\nE: HID_ID=0003:0000" << vendor << ":0000" << product
-            << "\nE: HID_NAME=" << name
-            << "\nE: HID_PHYS=usb-0000:00:14.0-3/input0\nE: HID_UNIQ=\nE: SUBSYSTEM=hid\nH: report_descriptor=" << descriptor
-            << "\n\n"
+            << "\nE: HID_NAME=" << name << "\nE: HID_PHYS=usb-0000:00:14.0-3/input0\nE: HID_UNIQ=" << serial
+            << "\nE: SUBSYSTEM=hid\nH: report_descriptor=" << descriptor << "\n\n"
             << "P: " << below_sys(usb) << "/" << place
             << ":1.0\nE: DEVTYPE=usb_interface\nE: DRIVER=usbhid\nE: INTERFACE=3/0/0\nE: SUBSYSTEM=usb\n"
             << "A: bInterfaceNumber=00\\n\nA: bInterfaceClass=03\\n\n\n"
@@ -134,7 +139,7 @@ struct Stick {
             << 100 + generation << "\nE: DEVTYPE=usb_device\nE: PRODUCT=" << vendor << "/" << product
             << "/100\nE: SUBSYSTEM=usb\nE: BUSNUM=001\nE: DEVNUM=" << 100 + generation << "\nA: idVendor=" << vendor
             << "\\n\nA: idProduct=" << product << "\\n\nA: bcdDevice=0100\\n\nA: manufacturer=Rig\\n\nA: product=" << name
-            << "\\n\nA: serial=\\n\n\n";
+            << "\\n\nA: serial=" << serial << "\\n\n\n";
         GError* error = nullptr;
         if (!umockdev_testbed_add_from_string(testbed, all.str().c_str(), &error)) {
             std::fprintf(stderr, "fake_sticks: %s\n", error->message);
@@ -160,8 +165,8 @@ struct Stick {
         master = slave = -1;
     }
 
-    /// One report a read: a terminal would join two that wait.
-    void report(const Bytes& bytes)
+    /// Waits until what was written is read.
+    void drain() const
     {
         for (int i = 0; i < 2000; ++i) {
             int waiting = 0;
@@ -170,6 +175,12 @@ struct Stick {
                 break;
             usleep(100);
         }
+    }
+
+    /// One report a read: a terminal would join two that wait.
+    void report(const Bytes& bytes)
+    {
+        drain();
         if (write(master, bytes.data(), bytes.size()) != ssize_t(bytes.size()))
             std::perror("fake_sticks: write");
     }
@@ -181,6 +192,49 @@ bool has_ended(pid_t program)
     siginfo_t info{};
     return program > 0 && waitid(P_PID, id_t(program), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == program;
 }
+
+/// What the program under test says and is told, where the script types.
+struct Dialogue {
+    int keyboard = -1, screen = -1;
+    std::string said;
+    std::size_t heard = 0; ///< of `said`
+
+    /// Passes on what there is within so long; false at its end.
+    bool listen(int wait_ms)
+    {
+        char bytes[4096];
+        pollfd wait{screen, POLLIN, 0};
+        if (poll(&wait, 1, wait_ms) <= 0)
+            return true;
+        const ssize_t count = read(screen, bytes, sizeof bytes);
+        if (count <= 0)
+            return false;
+        said.append(bytes, std::size_t(count));
+        return write(1, bytes, std::size_t(count)) == count;
+    }
+
+    bool until(const std::string& text)
+    {
+        for (int i = 0; i < 1000; ++i) {
+            if (const auto at = said.find(text, heard); at != said.npos) {
+                heard = at + text.size();
+                return true;
+            }
+            if (!listen(10))
+                break;
+        }
+        std::fprintf(stderr, "fake_sticks: it did not say: %s\n", text.c_str());
+        return false;
+    }
+
+    void end()
+    {
+        if (keyboard < 0)
+            return;
+        close(keyboard);
+        while (listen(-1)) { }
+    }
+};
 
 } // namespace
 
@@ -196,16 +250,44 @@ int main(int count, char** arguments)
     int generation = 0;
     std::ifstream script(arguments[2]);
     pid_t program = -1;
+    Dialogue dialogue;
+    std::signal(SIGPIPE, SIG_IGN); // the program may end before the typing does
     for (std::string line; std::getline(script, line);) {
         std::istringstream words(line);
         std::string verb, name, rest;
         words >> verb;
         if (verb == "start") {
+            int in[2], out[2];
+            const bool typed = words >> rest && rest == "typed" && pipe2(in, O_CLOEXEC) == 0 && pipe2(out, O_CLOEXEC) == 0;
             program = fork();
             if (program == 0) {
+                std::signal(SIGPIPE, SIG_DFL);
+                if (typed) {
+                    dup2(in[0], 0);
+                    dup2(out[1], 1);
+                }
                 execvp(arguments[3], arguments + 3);
                 _exit(127);
             }
+            if (typed) {
+                dialogue.keyboard = in[1], dialogue.screen = out[0];
+                close(in[0]);
+                close(out[1]);
+            }
+        } else if (verb == "until") {
+            std::getline(words >> std::ws, rest);
+            if (!dialogue.until(rest))
+                break; // the end of its input ends it
+        } else if (verb == "type") {
+            std::getline(words >> std::ws, rest);
+            for (const auto& [key, stick] : sticks)
+                if (stick.slave >= 0)
+                    stick.drain();
+            usleep(20000); // from being read to being known
+            rest += '\n';
+            (void)!write(dialogue.keyboard, rest.data(), rest.size());
+        } else if (verb == "interrupt") {
+            kill(program, SIGINT);
         } else if (verb == "plug") {
             int node = 0;
             words >> name >> node;
@@ -213,7 +295,7 @@ int main(int count, char** arguments)
             Stick& stick = sticks[name];
             stick.testbed = testbed, stick.root = root;
             stick.name = file["name"], stick.vendor = file["vid"], stick.product = file["pid"],
-            stick.descriptor = file["descriptor_hex"];
+            stick.serial = file.value("serial", ""), stick.descriptor = file["descriptor_hex"];
             stick.plug(node, generation++);
         } else if (verb == "unplug") {
             words >> name;
@@ -238,6 +320,7 @@ int main(int count, char** arguments)
             std::fprintf(stderr, "rig:%s\n", rest.c_str());
         }
     }
+    dialogue.end();
     int status = 0;
     if (program > 0)
         waitpid(program, &status, 0);

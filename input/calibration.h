@@ -1,0 +1,72 @@
+#pragma once
+#include "mapping.h"
+#include <array>
+#include <utility>
+
+namespace starbow {
+
+/// An axis of a device, and what was seen of it while a person was led through its calibration.
+struct SeenAxis {
+    std::size_t field = 0; ///< of the descriptor's
+    int page = 1, usage = 0, nth = 0; ///< as profiles name it
+    /// Raw values while nobody touched it: before it was moved about, and after.
+    std::array<std::vector<std::int64_t>, 2> rest;
+    std::optional<std::int64_t> low, high; ///< of all raw values while it was moved about
+};
+
+/// The axes that a profile may name, in the descriptor's order.
+std::vector<SeenAxis> axes_of(const Descriptor& descriptor);
+
+/// "X axis", "twist (Rz)", "slider 2"
+std::string told(const SeenAxis& axis);
+
+/// Each takes in what the device tells now. when: 0 before the axes were moved about, 1 after.
+void take_rest(const DeviceState& state, std::size_t when, std::vector<SeenAxis>& axes);
+void take_ends(const DeviceState& state, std::vector<SeenAxis>& axes);
+
+/// Whether raw values are those of an axis that nobody touches: within a tenth of what its device declares.
+bool kept_still(const std::vector<std::int64_t>& values, const Field& field);
+
+/// What the samples of an axis say. Raw values.
+struct AxisMeasure {
+    /// Whether it went over at least a fifth of what its device declares: less comes from moving the controls beside it.
+    bool moved = false;
+    double low = 0, high = 0;
+    enum class Rest {
+        middle,
+        low_end, ///< a pedal or a trigger
+        high_end,
+        anywhere ///< it stays where it is put, as a throttle does: its middle is halfway between its ends
+    } rests
+        = Rest::middle;
+    double middle = 0; ///< where it rests
+    double noise = 0; ///< the furthest from there while nobody touched it, coming back from either side included
+};
+AxisMeasure measured(const SeenAxis& axis, const Field& field);
+
+/// An axis that was moved to one of its ends.
+struct Push {
+    std::size_t axis = 0; ///< of axes_of()
+    bool to_high = true;
+    double way = 0; ///< how much of the way to that end, from where it was
+};
+
+/// Which axis a person moves: all that went at least half of their way between two states, and seven tenths as far as the
+/// one that went furthest, which comes first. One: it is clear. None: nothing was moved.
+std::vector<Push> pushed(
+    const Descriptor& descriptor, const std::vector<SeenAxis>& axes, const DeviceState& from, const DeviceState& to);
+
+/// What the person chose; nothing beside a role: no axis, no button shall do it. Roles that are not named stay as they were.
+struct Chosen {
+    std::vector<std::pair<AxisRole, std::optional<Push>>> axes;
+    std::vector<std::pair<ButtonRole, std::optional<int>>> buttons;
+};
+
+/// The device's profile after the calibration. Axes that were moved have their range and a dead zone a half larger than
+/// their noise; those that no role fell to are kept with the role none. Axes that were not moved are left as they were.
+Profile calibrated(Profile present, const Descriptor& descriptor, const std::vector<SeenAxis>& axes, const Chosen& chosen);
+
+/// The index of the axis that a profile's use means, if the device has it.
+std::optional<std::size_t> axis_of(const AxisUse& use, const std::vector<SeenAxis>& axes);
+
+} // namespace starbow

@@ -1,0 +1,531 @@
+#include "commands.h"
+#include "config/error.h"
+#include "config/reader.h"
+#include "input/calibration.h"
+#include "input/hid.h"
+#include "runtime/find.h"
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <poll.h>
+#include <termios.h>
+#include <thread>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+struct Options {
+    std::string device, out;
+    bool quick = false, force = false;
+};
+
+constexpr double hands_off_s = 1.5, back_s = 0.7;
+constexpr int look_every_ms = 5; // a press of a button lasts a tenth of a second
+constexpr int draw_every_ms = 50;
+constexpr std::size_t bar_width = 41, most_buttons = 128;
+
+volatile std::sig_atomic_t interrupted = 0;
+
+using Look = std::function<void()>;
+
+/// The person at the terminal.
+class Person {
+public:
+    Person()
+    {
+        struct sigaction stop { };
+        stop.sa_handler = [](int) { interrupted = 1; };
+        sigaction(SIGINT, &stop, nullptr); // no SA_RESTART: poll() shall return
+    }
+
+    Look always = [] {}; ///< at what, whatever is asked
+
+    /// Asks, and waits for a line; looks meanwhile. What was typed ahead at a terminal counts for nothing: a second Enter
+    /// by mistake would skip a step.
+    std::string answer(const std::string& question, const Look& look = {})
+    {
+        std::printf("%s ", question.c_str());
+        std::fflush(stdout);
+        if (isatty(0)) {
+            tcflush(0, TCIFLUSH);
+            typed_.clear();
+        }
+        for (;;) {
+            if (const auto end = typed_.find('\n'); end != typed_.npos) {
+                const std::string line = typed_.substr(0, end);
+                typed_.erase(0, end + 1);
+                if (!isatty(0))
+                    std::printf("\n"); // as Enter would have
+                const auto first = line.find_first_not_of(" \t\r"), last = line.find_last_not_of(" \t\r");
+                return first == line.npos ? "" : one_line(line.substr(first, last - first + 1), 200);
+            }
+            pollfd wait{0, POLLIN, 0};
+            const int events = poll(&wait, 1, look_every_ms);
+            if (interrupted)
+                give_up();
+            if (events > 0) {
+                char bytes[256];
+                const ssize_t count = read(0, bytes, sizeof bytes);
+                if (count == 0 || (count < 0 && errno != EINTR && errno != EAGAIN))
+                    give_up();
+                typed_.append(bytes, std::size_t(std::max<ssize_t>(count, 0)));
+            }
+            always();
+            if (look)
+                look();
+        }
+    }
+
+    /// Looks for so long.
+    void wait(double seconds, const Look& look)
+    {
+        std::fflush(stdout);
+        const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+        while (std::chrono::steady_clock::now() < end) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(look_every_ms));
+            if (interrupted)
+                give_up();
+            look();
+        }
+    }
+
+private:
+    [[noreturn]] static void give_up()
+    {
+        std::printf("\n");
+        std::fflush(stdout);
+        throw InputError("The calibration was broken off; nothing was written");
+    }
+    std::string typed_;
+};
+
+/// The device that is calibrated, as long as it stays plugged in.
+struct Watched {
+    const Hid& hid;
+    DeviceInfo info;
+    Descriptor descriptor;
+
+    DeviceState now() const
+    {
+        for (Hid::Seen& seen : hid.devices())
+            if (seen.info.path == info.path && seen.info.vendor == info.vendor && seen.info.product == info.product)
+                return std::move(seen.state);
+        throw InputError(told(info) + " was unplugged; nothing was written");
+    }
+};
+
+/// True at most as often as people can read.
+class Pace {
+public:
+    bool due()
+    {
+        const auto now = std::chrono::steady_clock::now();
+        if (now < next_)
+            return false;
+        next_ = now + std::chrono::milliseconds(draw_every_ms);
+        return true;
+    }
+
+private:
+    std::chrono::steady_clock::time_point next_;
+};
+
+std::string shown(const Hid::Seen& device)
+{
+    return told(device.info) + (device.info.serial.empty() ? "" : ", serial number " + device.info.serial) + ", "
+        + device.info.path;
+}
+
+/// "044f:b10a" chooses by kind, "2" by its place in the list; else the only one, or the one that the person says.
+Watched choose(Person& person, const Hid& hid, const std::string& wanted)
+{
+    person.wait(0.5, [] {}); // until all are open
+    std::vector<Hid::Seen> all = hid.devices();
+    if (all.empty())
+        throw InputError(
+            "No stick, throttle, pad or space mouse is plugged in that may be read; plug it in, then start again");
+    const bool kind = wanted.size() == 9 && wanted[4] == ':';
+    std::vector<Hid::Seen> fitting;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        char ids[16];
+        std::snprintf(ids, sizeof ids, "%04x:%04x", unsigned(all[i].info.vendor), unsigned(all[i].info.product));
+        if (wanted.empty() || (kind && CLI::detail::to_lower(wanted) == ids) || wanted == std::to_string(i + 1))
+            fitting.push_back(all[i]);
+    }
+    const auto list = [](const std::vector<Hid::Seen>& devices) {
+        for (std::size_t i = 0; i < devices.size(); ++i)
+            std::printf("  %zu  %s\n", i + 1, shown(devices[i]).c_str());
+    };
+    if (fitting.empty()) {
+        list(all);
+        throw InputError("--device: " + wanted
+            + " is not plugged in; a number from this list, or its four and four hexadecimal digits, are right");
+    }
+    std::size_t one = 0;
+    if (fitting.size() > 1) {
+        list(fitting);
+        for (one = fitting.size(); one >= fitting.size();) {
+            const std::string number
+                = person.answer("Which of them? Type its number (1 to " + std::to_string(fitting.size()) + "), then Enter:");
+            for (std::size_t i = 0; i < fitting.size(); ++i)
+                if (number == std::to_string(i + 1))
+                    one = i;
+        }
+    }
+    return {hid, fitting[one].info, fitting[one].descriptor};
+}
+
+/// Names as a sentence has them: "X axis, twist (Rz)".
+std::string names(const std::vector<SeenAxis>& axes, const std::function<bool(const SeenAxis&)>& which)
+{
+    std::string text;
+    for (const SeenAxis& axis : axes)
+        if (which(axis))
+            text += (text.empty() ? "" : ", ") + told(axis);
+    return text;
+}
+
+/// Each axis on a line: the way it has been over, and where it is. Over the lines drawn before.
+void draw(const Watched& device, const std::vector<SeenAxis>& axes, const DeviceState& state, bool again)
+{
+    if (again)
+        std::printf("\033[%zuA", axes.size());
+    for (const SeenAxis& axis : axes) {
+        const Field& field = device.descriptor.fields[axis.field];
+        const auto place = [&](std::int64_t raw) {
+            return std::size_t(double(bar_width) / 2 + double(bar_width / 2) * centred(field, raw));
+        };
+        std::string bar(bar_width, '.');
+        if (axis.low)
+            for (std::size_t i = place(*axis.low); i <= place(*axis.high); ++i)
+                bar[i] = '=';
+        if (axis.field < state.raw.size() && state.raw[axis.field])
+            bar[place(*state.raw[axis.field])] = '#';
+        std::printf("\r\033[K  %-12s %s %s\n", told(axis).c_str(), bar.c_str(),
+            axis.low ? (std::to_string(*axis.low) + " to " + std::to_string(*axis.high)).c_str() : "not told of yet");
+    }
+    std::fflush(stdout);
+}
+
+/// Samples with hands off. An axis that goes about meanwhile was touched: once more, unless it never stops.
+void stay_off(Person& person, const Watched& device, std::size_t when, double seconds, std::vector<SeenAxis>& axes)
+{
+    for (int attempt = 0; attempt < 3; ++attempt) {
+        for (SeenAxis& axis : axes)
+            axis.rest[when].clear();
+        std::printf("Hands off for %s ...\n", when == 0 ? "two seconds" : "another second");
+        person.wait(seconds, [&] { take_rest(device.now(), when, axes); });
+        const std::string touched = names(
+            axes, [&](const SeenAxis& axis) { return !kept_still(axis.rest[when], device.descriptor.fields[axis.field]); });
+        if (touched.empty())
+            return;
+        std::printf("Moved meanwhile: %s. ", touched.c_str());
+    }
+    std::printf("It does not stop.\n");
+}
+
+void find_rest(Person& person, const Watched& device, std::vector<SeenAxis>& axes)
+{
+    std::string question = "\nThe middle. Move every control a little, let go of everything, hands off, and press Enter:";
+    for (;;) {
+        person.answer(question);
+        stay_off(person, device, 0, hands_off_s, axes);
+        if (std::any_of(axes.begin(), axes.end(), [](const SeenAxis& axis) { return !axis.rest[0].empty(); }))
+            return;
+        question = "The device has not told anything yet. Move its controls a little, let go, and press Enter:";
+    }
+}
+
+void find_ends(Person& person, const Watched& device, std::vector<SeenAxis>& axes)
+{
+    std::printf(
+        "\nThe ends. Move every control slowly all the way to each of its ends, and around: stick, twist, throttle,\n"
+        "pedals, triggers, whatever there is.\n");
+    Pace pace;
+    if (isatty(1)) {
+        std::printf("Then let go of everything and press Enter.\n");
+        draw(device, axes, device.now(), false);
+    }
+    person.answer(isatty(1) ? "" : "Then let go of everything and press Enter:", [&] {
+        const DeviceState state = device.now();
+        take_ends(state, axes);
+        if (isatty(1) && pace.due())
+            draw(device, axes, state, true);
+    });
+    stay_off(person, device, 1, back_s, axes);
+    const std::string left
+        = names(axes, [&](const SeenAxis& axis) { return !measured(axis, device.descriptor.fields[axis.field]).moved; });
+    if (!left.empty())
+        std::printf("Not moved to any ends, so left as they were: %s.\n", left.c_str());
+}
+
+/// What does a role now: "Y axis" or "nothing".
+std::string does(const Profile& present, AxisRole role, const std::vector<SeenAxis>& axes)
+{
+    std::string text;
+    for (const AxisUse& use : present.axes)
+        if (const auto axis = axis_of(use, axes); axis && use.role == role)
+            text += (text.empty() ? "" : ", ") + told(axes[*axis]);
+    return text.empty() ? "nothing" : text;
+}
+
+std::string does(const Profile& present, ButtonRole role)
+{
+    std::string text;
+    for (const ButtonUse& use : present.buttons)
+        if (use.role == role)
+            text += (text.empty() ? "button " : ", ") + std::to_string(use.button);
+    return text.empty() ? "nothing" : text;
+}
+
+/// Asks until one axis is moved, or Enter alone leaves the role as it was, or "none" takes it away.
+void ask_axis(Person& person, const Watched& device, const Profile& present, const std::vector<SeenAxis>& axes,
+    AxisRole role, const std::string& what, DeviceState from, Chosen& chosen)
+{
+    const std::string now = does(present, role, axes);
+    const std::string question = what + ", hold it there, and press Enter.\n  (Now: " + now
+        + ". Enter without moving leaves it so; 'none' and Enter: nothing shall do it.)";
+    for (;;) {
+        std::string typed;
+        if (role == AxisRole::throttle) {
+            typed = person.answer("Throttle: first pull it back to idle, all the way, and press Enter.");
+            from = device.now();
+        }
+        if (typed.empty())
+            typed = person.answer(question);
+        if (typed == "none") {
+            chosen.axes.push_back({role, {}});
+            std::printf("  Nothing shall do it.\n");
+            return;
+        }
+        const std::vector<Push> found = pushed(device.descriptor, axes, from, device.now());
+        if (found.empty()) {
+            std::printf("  Nothing was moved: %s, as it was.\n", now.c_str());
+            return;
+        }
+        if (found.size() > 1) {
+            std::string both;
+            for (const Push& push : found)
+                both += (both.empty() ? "" : " and ") + told(axes[push.axis]);
+            std::printf("  Several moved: %s. Let go, then move one control alone.\n", both.c_str());
+            continue;
+        }
+        const auto taken = std::find_if(chosen.axes.begin(), chosen.axes.end(), [&](const auto& answer) {
+            return answer.second && answer.second->axis == found[0].axis
+                && (answer.second->to_high == found[0].to_high || !one_sided(answer.first) || !one_sided(role));
+        });
+        if (taken != chosen.axes.end()) {
+            std::printf("  %s is %s already. Take another control.\n", told(axes[found[0].axis]).c_str(),
+                name_of(taken->first).c_str());
+            continue;
+        }
+        chosen.axes.push_back({role, found[0]});
+        std::printf("  %s, to its %s end.\n", told(axes[found[0].axis]).c_str(), found[0].to_high ? "high" : "low");
+        return;
+    }
+}
+
+void ask_axes(
+    Person& person, const Watched& device, const Profile& present, const std::vector<SeenAxis>& axes, Chosen& chosen)
+{
+    std::printf("\nWhat each control does. Let go of everything between the questions.\n");
+    const auto& applications = device.descriptor.applications;
+    const bool pad = std::find(applications.begin(), applications.end(), Usage{1, 5}) != applications.end();
+    std::vector<std::pair<AxisRole, std::string>> wanted{
+        {AxisRole::nose_up, "Nose up: pull all the way what shall pull the nose up"},
+        {AxisRole::nose_right, "Nose to the right: move all the way what shall turn the nose to the right"},
+        {AxisRole::roll_right, "Roll to the right: move all the way what shall roll the ship to the right"}};
+    if (pad) {
+        wanted.push_back({AxisRole::faster, "Faster: pull all the way what shall fly faster"});
+        wanted.push_back({AxisRole::slower, "Slower: pull all the way what shall fly slower"});
+    } else {
+        wanted.push_back({AxisRole::throttle, "Now push it to full, all the way"});
+    }
+    const DeviceState from = device.now();
+    for (const auto& [role, what] : wanted)
+        ask_axis(person, device, present, axes, role, what, from, chosen);
+}
+
+/// Numbers of the buttons that are down.
+std::vector<int> down(const Watched& device, const DeviceState& state)
+{
+    std::vector<int> numbers;
+    for (std::size_t i = 0; i < std::min(state.raw.size(), device.descriptor.fields.size()); ++i) {
+        const Field& field = device.descriptor.fields[i];
+        if (field.usage.page == 9 && field.bits == 1 && field.array.empty() && state.raw[i].value_or(0) != 0
+            && field.usage.id >= 1 && field.usage.id <= most_buttons)
+            numbers.push_back(field.usage.id);
+    }
+    return numbers;
+}
+
+void ask_buttons(Person& person, const Watched& device, const Profile& present, Chosen& chosen)
+{
+    std::printf(
+        "\nButtons. Press the one that shall do it, let go, then Enter. Enter alone leaves it as it is; 'none' and Enter:\n"
+        "no button shall do it.\n");
+    for (const auto& [role, what] : std::vector<std::pair<ButtonRole, std::string>>{{ButtonRole::stop, "Full stop"},
+             {ButtonRole::home, "Back to the start"}, {ButtonRole::undo, "Ten seconds back"},
+             {ButtonRole::next_mode, "Next way of flying"}})
+        for (bool asked = false; !asked;) {
+            std::vector<int> before = down(device, device.now());
+            std::optional<int> pressed;
+            const std::string typed = person.answer(what + " (now " + does(present, role) + "):", [&] {
+                const std::vector<int> now = down(device, device.now());
+                for (const int button : now)
+                    if (std::find(before.begin(), before.end(), button) == before.end())
+                        pressed = button;
+                before = now;
+            });
+            asked = true;
+            const auto taken = std::find_if(chosen.buttons.begin(), chosen.buttons.end(),
+                [&](const auto& answer) { return pressed && answer.second == pressed; });
+            if (typed == "none") {
+                chosen.buttons.push_back({role, {}});
+                std::printf("  No button shall do it.\n");
+            } else if (taken != chosen.buttons.end()) {
+                std::printf("  Button %d is %s already. Press another.\n", *pressed, name_of(taken->first).c_str());
+                asked = false;
+            } else if (pressed) {
+                chosen.buttons.push_back({role, pressed});
+                std::printf("  Button %d.\n", *pressed);
+            }
+        }
+}
+
+/// What a person should know of an axis' calibration, or "".
+std::string doubt(const AxisMeasure& is, const AxisUse& use)
+{
+    if (!is.moved)
+        return "not moved: as it was";
+    if (use.role != AxisRole::none && !one_sided(use.role)
+        && (is.rests == AxisMeasure::Rest::low_end || is.rests == AxisMeasure::Rest::high_end))
+        return "rests at an end: works to one side alone. Was it let go?";
+    return use.dead_zone > 0.15 ? "restless: worn or dirty?" : "";
+}
+
+void show(const Watched& device, const std::vector<SeenAxis>& axes, const Profile& profile)
+{
+    std::printf("\n  %-14s %-11s %-16s %-9s %-10s %s\n", "axis", "role", "ends", "middle", "dead zone", "inverted");
+    for (const AxisUse& use : profile.axes)
+        if (const auto i = axis_of(use, axes)) {
+            const AxisMeasure is = measured(axes[*i], device.descriptor.fields[axes[*i].field]);
+            std::string ends = "the device's", middle = "its own";
+            if (use.range) {
+                ends = starbow::shown(use.range->front()) + " to " + starbow::shown(use.range->back());
+                middle = one_sided(use.role) || is.rests == AxisMeasure::Rest::anywhere ? "none"
+                                                                                        : starbow::shown((*use.range)[1]);
+            }
+            char zone[16];
+            std::snprintf(zone, sizeof zone, "%.1f %%", 100 * use.dead_zone);
+            std::printf("  %-14s %-11s %-16s %-9s %-10s %-9s %s\n", told(axes[*i]).c_str(), name_of(use.role).c_str(),
+                ends.c_str(), middle.c_str(), zone, use.inverted ? "yes" : "no", doubt(is, use).c_str());
+        }
+    for (const ButtonUse& use : profile.buttons)
+        std::printf("  button %-7d %s\n", use.button, name_of(use.role).c_str());
+}
+
+std::filesystem::path own_file(const Profile& profile)
+{
+    char ids[16];
+    std::snprintf(ids, sizeof ids, "%04x-%04x", unsigned(profile.vendor), unsigned(profile.product));
+    std::string name = ids;
+    if (!profile.serial.empty()) {
+        name += "-";
+        for (const char c : profile.serial) // a serial number may hold anything, a file's name not
+            name += std::isalnum((unsigned char)(c)) || c == '.' || c == '_' ? c : '_';
+    }
+    return own_profiles() / (name + ".json");
+}
+
+void ask_name(Person& person, const Watched& device, Profile& profile)
+{
+    const std::string name = person.answer("\nA name for this profile (Enter: " + device.info.name + "):");
+    profile.name = name.empty() ? device.info.name : name;
+    profile.vendor = device.info.vendor, profile.product = device.info.product;
+    profile.serial.clear();
+    if (device.info.serial.empty())
+        return;
+    const std::string alone = person.answer("Is it for this one device alone, by its serial number " + device.info.serial
+        + "? (y and Enter: this one alone; Enter: all of its kind):");
+    if (alone == "y" || alone == "yes")
+        profile.serial = device.info.serial;
+}
+
+/// A later and more special profile counts before the one just written: the person would wonder.
+void tell_what_counts(const Watched& device, const std::filesystem::path& file)
+{
+    const Profile counts = profile_for(known_profiles(), device.info, device.descriptor);
+    std::error_code error;
+    if (!std::filesystem::equivalent(counts.file, file, error))
+        std::printf("For this device %s counts before it.\n",
+            counts.file.empty() ? "what its usages say" : counts.file.string().c_str());
+}
+
+int calibrate(const Options& options)
+{
+    const std::vector<Profile> known = known_profiles();
+    Person person;
+    const Hid hid(known, [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); });
+    const Watched device = choose(person, hid, options.device);
+    person.always = [&] { (void)device.now(); };
+    const Profile present = profile_for(known, device.info, device.descriptor);
+    std::printf("Calibrating %s; its profile so far: %s.\nEach step ends with Enter. Ctrl-C gives up: nothing is written.\n",
+        told(device.info).c_str(), one_line(present.name).c_str());
+
+    std::vector<SeenAxis> axes = axes_of(device.descriptor);
+    Chosen chosen;
+    if (!axes.empty()) {
+        find_rest(person, device, axes);
+        find_ends(person, device, axes);
+        if (!options.quick)
+            ask_axes(person, device, present, axes, chosen);
+    }
+    if (!options.quick)
+        ask_buttons(person, device, present, chosen);
+    Profile profile = calibrated(present, device.descriptor, axes, chosen);
+    ask_name(person, device, profile);
+    show(device, axes, profile);
+
+    const std::filesystem::path file = options.out.empty() ? own_file(profile) : std::filesystem::path(options.out);
+    std::error_code error;
+    if (!options.force && std::filesystem::exists(file, error)) {
+        const std::string replace
+            = person.answer("\n" + file.string() + " is there already. y and Enter replaces it; Enter gives up:");
+        if (replace != "y" && replace != "yes")
+            throw InputError(file.string(), "", "is there already and was kept; --force or another --out is right");
+    }
+    if (interrupted)
+        throw InputError("The calibration was broken off; nothing was written");
+    save_profile(profile, file);
+    std::printf("\nWritten to %s.\nAn exhibit that is running goes on with what it has and reads this at its next start.\n",
+        file.c_str());
+    if (options.out.empty())
+        tell_what_counts(device, file);
+    return 0;
+}
+
+} // namespace
+
+void add_calibrate(CLI::App& app, std::function<int()>& chosen)
+{
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand(
+        "calibrate", "Lead through the calibration of a stick, throttle, pad or pedals, and write its profile.");
+    command->add_option("--device", options->device,
+        "Which, where several are plugged in: its four and four hexadecimal digits, or its number in the list");
+    command->add_option(
+        "--out", options->out, "The profile's file; without it, one of your own in ~/.config/starbow/profiles");
+    command->add_flag("--quick", options->quick, "Middle and ends alone; what the controls do stays as it is");
+    command->add_flag("--force", options->force, "Replace a file of that name without asking");
+    command->footer("Asks step by step and writes at the end; Ctrl-C gives up, and nothing is written.\n\n"
+                    "Examples:\n  starbow calibrate\n  starbow calibrate --device 044f:b10a --quick\n"
+                    "  starbow calibrate --device 2 --out my/profiles/left-stick.json");
+    command->callback([options, &chosen] { chosen = [options] { return calibrate(*options); }; });
+}
+
+} // namespace starbow
