@@ -40,11 +40,11 @@ ok
 # Interrupted: what there is.
 (
     timeout 60 umockdev-wrapper "$built/fake_sticks" "$hid" "$folder/script" bash -c 'echo $$ >"$0/pid"; exec "$@"' "$folder" \
-        "$program" bench --input --layout "$folder/small.json" --seconds 600 >"$folder/cut" 2>"$folder/log"
+        "$program" bench --input --layout "$folder/small.json" --seconds 600 >"$folder/cut" 2>"$folder/cut-log"
     echo $? >"$folder/status"
 ) &
 started+=($!)
-until_true 20 grep -q '^A device reports' "$folder/log" || fail "no device reports"
+until_true 20 grep -q '^A device reports' "$folder/cut-log" || fail "no device reports"
 sleep 0.5
 kill -INT "$(cat "$folder/pid")"
 until_true 20 test -s "$folder/status"

@@ -17,6 +17,8 @@ using Clock = std::chrono::steady_clock;
 
 /// So long a device may be silent at the start: time to find it, and to take it into the hand.
 constexpr double grace_s = 4;
+/// And so many frames: where shaders are still being compiled seconds pass between two of them.
+constexpr int grace_frames = 60;
 
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -25,13 +27,14 @@ struct Measurement {
     double seconds;
     Latency latency{};
     Clock::time_point told = Clock::now();
+    int frames = 0;
     std::optional<Clock::time_point> drawn{}, began{}; ///< the first frame, and the first with a report
 
     static double since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
 
     void add(const FrameTimes& times)
     {
-        if (!drawn)
+        if (frames++ == 0)
             drawn = Clock::now();
         if (times.told_ns == 0)
             return;
@@ -50,7 +53,7 @@ struct Measurement {
             std::fprintf(stderr, "%s%.0f of %.0f s, %zu reports shown, %.0f s left%s", terminal ? "\r" : "", since(*began),
                 seconds, latency.reports(), std::max(0.0, seconds - since(*began)), terminal ? "   " : "\n");
         }
-        return interrupted || (began ? since(*began) > seconds : drawn && since(*drawn) > grace_s);
+        return interrupted || (began ? since(*began) > seconds : frames > grace_frames && since(*drawn) > grace_s);
     }
 };
 
