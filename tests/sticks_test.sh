@@ -15,7 +15,7 @@ END
 # play SCRIPT_NAME: the log, each line with the time at which it came.
 play() {
     timeout 120 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/$1" \
-        "$program" run --exhibit "$folder/exhibit.json" 2>&1 </dev/null \
+        "$program" run --exhibit "$folder/exhibit.json" --record "$folder/record" 2>&1 </dev/null \
         | while IFS= read -r line; do echo "$EPOCHREALTIME $line"; done >"$folder/log"
 }
 
@@ -86,6 +86,23 @@ echo "  plugged in again on another port: read after $back ms"
 ok
 # Through it all the ship has kept the speed that the lever stood for.
 grep -q ' γ 7.106 ' "$folder/log" || fail "the last speed is not that of half a lever, gamma 7.106"
+ok
+# What the visitor asked for, frame by frame: the throttle is let go first, the stick a second later, and nothing in between.
+python3 - "$folder/record" <<'END' || fail "the record does not tell of neutral axes"
+import json, sys
+now, frames = 0, []
+for line in list(open(sys.argv[1]))[1:]:
+    entry = json.loads(line)
+    if "dt_ns" in entry:
+        now += (entry["dt_ns"] + entry.get("skipped_ns", 0)) * 1e-9
+        frames.append((now, "lever" in entry, "turn" in entry))
+changes = [(b[0], b[1], b[2]) for a, b in zip(frames, frames[1:]) if a[1:] != b[1:]]
+held = next(i for i, c in enumerate(changes) if c[1] and c[2])
+(gone, *first), (let_go, *second), (back, *third) = changes[held + 1:held + 4]
+print("  the throttle's axes neutral, the stick's %.2f s later, the throttle's back %.2f s after" % (let_go - gone, back - let_go))
+sys.exit(not (first == [False, True] and second == [False, False] and third == [True, False]
+    and abs(let_go - gone - 1) < 0.25 and 0.9 < back - let_go < 3))
+END
 ok
 grep -q 'T.16000M.*axis X jitters and is left out' "$folder/log" || fail "an axis that jumps to and fro was not noticed"
 ok
