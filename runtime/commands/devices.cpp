@@ -131,8 +131,8 @@ void draw(const Hid::Seen& device)
             bar[20] = '|';
             if (raw)
                 bar[std::size_t(20.5 + 20 * centred(field, *raw))] = '#';
-            std::printf("  %u/%-3u %s %s\n", field.usage.page, field.usage.id, bar.c_str(),
-                raw ? std::to_string(*raw).c_str() : "not told of yet");
+            std::printf("  %-9s %u/%-3u %s %s\n", name_of(field.usage).c_str(), field.usage.page, field.usage.id,
+                bar.c_str(), raw ? std::to_string(*raw).c_str() : "not told of yet");
         }
     }
     std::printf("  buttons:%s\n", buttons.empty() ? " none" : buttons.c_str());
