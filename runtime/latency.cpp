@@ -24,12 +24,15 @@ double percentile(std::vector<double> values, double part)
 
 void Latency::add(const FrameTimes& times)
 {
-    if (own_ms_.empty()) {
+    const bool first = own_ms_.empty();
+    if (first)
         first_ns_ = times.shown_ns;
-    } else {
+    else
         frame_ms_.push_back(ms(last_.shown_ns, times.shown_ns));
-        bound_ms_.push_back(ms(last_.read_ns, times.shown_ns));
-    }
+    // A device's thread stamps a report and then hands it over: where it is held up between the two, the report is older than
+    // the controls that were read without it.
+    const std::int64_t read_ns = first ? times.read_ns : last_.read_ns;
+    bound_ms_.push_back(ms(times.told_ns > last_.told_ns ? std::min(read_ns, times.told_ns) : read_ns, times.shown_ns));
     own_ms_.push_back(ms(times.read_ns, times.handed_ns));
     present_ms_.push_back(ms(times.handed_ns, times.shown_ns));
     if (times.told_ns > last_.told_ns)
