@@ -4,8 +4,7 @@
 
 namespace starbow {
 
-/// CIE 1931 2-degree colour matching functions at a wavelength in nm. From the analytic fit of Wyman, Sloan and Shirley,
-/// "Simple Analytic Approximations to the CIE XYZ Color Matching Functions", JCGT 2 (2013).
+/// CIE 1931 2-degree colour matching functions at a wavelength in nm, from the tables; nothing below 360 and above 830.
 glm::dvec3 xyz_response(double wavelength_nm);
 
 /// CIE XYZ to linear Rec. 709 primaries with a D65 white.

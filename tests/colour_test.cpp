@@ -44,14 +44,31 @@ TEST(Colour, AtRestNothingChanges)
 
 TEST(Colour, BlackBodiesHaveTheirChromaticity)
 {
-    // CIE 1931 chromaticities of Planckian radiators; the fit of the response is good to 0.004 in this range.
-    const double known[][3]
-        = {{2856, 0.4475, 0.4074}, {5772, 0.3266, 0.3358}, {10000, 0.2806, 0.2883}, {45443, 0.2462, 0.2433}};
+    // CIE 1931 chromaticities of Planckian radiators, known to four digits.
+    const double known[][3] = {{1273.15, 0.6152, 0.3747}, {2856, 0.4475, 0.4074}, {5772, 0.3266, 0.3358},
+        {10000, 0.2806, 0.2883}, {45443, 0.2462, 0.2433}};
     for (auto& [kelvin, x, y] : known) {
         glm::dvec2 xy = chromaticity(black_body_xyz(kelvin));
-        EXPECT_NEAR(xy.x, x, 0.004) << kelvin;
-        EXPECT_NEAR(xy.y, y, 0.004) << kelvin;
+        EXPECT_NEAR(xy.x, x, 1e-4) << kelvin;
+        EXPECT_NEAR(xy.y, y, 1e-4) << kelvin;
     }
+}
+
+TEST(Colour, TheObserverIsTheTable)
+{
+    // A value of the table, and two between that CIE gives too, by its own interpolation.
+    EXPECT_EQ(xyz_response(555), glm::dvec3(0.5120501, 1, 0.005749999));
+    EXPECT_NEAR(xyz_response(552).y, 0.9980983, 1e-5);
+    EXPECT_NEAR(xyz_response(553).y, 0.9991120, 1e-5);
+    EXPECT_EQ(xyz_response(359), glm::dvec3(0));
+    EXPECT_EQ(xyz_response(831), glm::dvec3(0));
+    // Equal energy is equally white: the three functions have the same area (CIE 015).
+    glm::dvec3 area(0);
+    for (int nm = 360; nm <= 830; ++nm)
+        area += xyz_response(nm);
+    EXPECT_NEAR(area.x / area.y, 1, 2e-4);
+    EXPECT_NEAR(area.z / area.y, 1, 4e-4);
+    EXPECT_NEAR(area.y, 106.857, 0.001);
 }
 
 TEST(Colour, ASunlitGreyIsABlackBodyAtDT)
