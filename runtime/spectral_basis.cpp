@@ -133,7 +133,7 @@ SpectralBasis spectral_basis(int size, std::span<const double> thermal_K)
     SpectralBasis basis;
     basis.thermal_K.assign(thermal_K.begin(), thermal_K.end());
     const int n = basis.hats = size - int(thermal_K.size());
-    const std::vector<Row> samples = pigments(400);
+    const std::vector<Row> samples = pigments(200);
     std::vector<Row> hats{std::size_t(n), Row(std::size_t(grid_points), 0.0)};
     for (int k = 0; k < n; ++k)
         for (int i = 0; i < grid_points; ++i)
@@ -149,7 +149,7 @@ SpectralBasis spectral_basis(int size, std::span<const double> thermal_K)
         for (int i = 0; i < grid_points; ++i)
             right[std::size_t(k * grid_points + i)] += sample_weight * hats[std::size_t(k)][std::size_t(i)];
     }
-    for (int step = 0; step < steps; step += 4) {
+    for (int step = 0; step < steps; step += 8) {
         const double D = step_D(step);
         if (std::abs(std::log(D)) > std::log(10))
             continue;

@@ -17,7 +17,7 @@ struct SpectralBasis {
 };
 
 /// Steps of the response table: log2 D from -response_below to +response_above.
-constexpr int response_per_octave = 64;
+constexpr int response_per_octave = 128;
 constexpr double response_below = 6, response_above = 10;
 
 /// size: of the whole, at least three more than there are temperatures.

@@ -94,7 +94,7 @@ Errors of_chart(const SpectralBasis& basis, bool greys)
         if (field.features.empty() == greys) {
             const std::vector<double> numbers = sunlit(basis, field);
             for (int step = -24; step <= 24; ++step) {
-                const double D = std::exp2(step / 8.0);
+                const double D = std::exp2(step / 8.0 + (step < 0 ? 1 : -1) / 256.0); // between two steps of the table
                 errors.add(seen_xyz([&](double nm) { return sun(nm) * field(nm); }, D), seen_xyz(basis, numbers, D));
             }
         }
@@ -168,7 +168,9 @@ TEST(SpectrumTest, FewNumbersHoldBlackBodiesAndGreys)
         std::printf(
             "  greys, %2d numbers: CIEDE2000 worst %.4f, luminance %.4f %%\n", size, greys.worst(), 100 * greys.luminance);
         EXPECT_LT(greys.worst(), 0.05);
-        EXPECT_LT(greys.luminance, 2e-3);
+        // Sunlight at D = 1/8 is that of 722 K, whose luminance grows as D^32: straight lines between the table's steps miss
+        // it by (32 ln 2 / 128)^2 / 8.
+        EXPECT_LT(greys.luminance, 3.8e-3);
     }
 }
 
