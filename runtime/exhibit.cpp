@@ -1,6 +1,7 @@
 #include "exhibit.h"
 #include "config/error.h"
 #include "config/reader.h"
+#include "exposure.h"
 #include "file_watch.h"
 #include "find.h"
 #include "flight.h"
@@ -66,8 +67,8 @@ struct Dashboard {
     int frames = 0;
     double rate = 0;
 
-    const Panel* update(
-        const Flight& flight, const SceneFile& scene, int width, const std::string& prompt, const std::string& notice)
+    const Panel* update(const Flight& flight, const SceneFile& scene, double exposure_ev, bool locked, int width,
+        const std::string& prompt, const std::string& notice)
     {
         Clock::time_point now = Clock::now();
         ++frames;
@@ -79,6 +80,7 @@ struct Dashboard {
             Readings told = readings(flight.ship, scene, flight.effects);
             told.frames_per_s = rate;
             told.mode = flight.mode, told.lever = flight.lever;
+            told.exposure_ev = exposure_ev, told.exposure_locked = locked;
             told.prompt = prompt, told.notice = notice;
             panel = typesetter.draw(told, width);
             drawn = now;
@@ -122,6 +124,7 @@ struct Visit {
     std::string refused; ///< why a change of the layout was not taken up, for the head-up display
     Flight flight = flight_at(opening.start, opening.rules);
     History history{};
+    Exposure exposure{};
     Tutorial tutorial = tutorial_at(flight);
     Keyboard keyboard{};
     Hid hid{opening.profiles, [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); }};
@@ -229,6 +232,7 @@ void fly(Visit& visit, Theatre& theatre)
         // One frame is in flight: the least delay between a control and its picture.
         pace.wait(screens.refresh_hz());
         (void)device.device.waitForFences(*done, true, UINT64_MAX);
+        const std::optional<double> metered = frame->metered(); // of the frame before this one, always
 
         // What has changed around the exhibit, and which pictures to draw into. This waits for the screens.
         take_up_changes(visit, theatre, frame, screens);
@@ -257,6 +261,8 @@ void fly(Visit& visit, Theatre& theatre)
         visit.flight = step(
             visit.flight, controls, passed.count(), visit.opening.rules, scene.seconds_per_time_unit(), visit.opening.start);
         visit.history.keep(visit.flight);
+        visit.exposure.locked ^= controls.lock_exposure;
+        visit.exposure = adapted(visit.exposure, metered, seconds(passed), visit.opening.exposure);
         visit.tutorial = advance(visit.tutorial, controls, visit.flight, seconds(passed));
         visit.last = now;
         turn(visit, *frame, controls); // the device has finished the frame before
@@ -270,11 +276,15 @@ void fly(Visit& visit, Theatre& theatre)
             if (targets[i].view)
                 frame->resize(i, {targets[i].extent.width, targets[i].extent.height});
         frame->move_head(controls.head);
-        const Panel* panel = dashboard.update(visit.flight, scene, frame->hud_width(),
-            visit.opening.tutorial ? prompt(visit.tutorial, visit.hid.means()) : "", notice_of(visit));
+        frame->meter(visit.opening.exposure.automatic);
+        Shot shot = shot_of(visit.flight, visit.opening.start.scene);
+        shot.exposure_ev
+            = shown_ev(visit.exposure, visit.opening.exposure, shot.exposure_ev, visit.opening.start.exposure_ev);
+        const Panel* panel = dashboard.update(visit.flight, scene, shot.exposure_ev, visit.exposure.locked,
+            frame->hud_width(), visit.opening.tutorial ? prompt(visit.tutorial, visit.hid.means()) : "", notice_of(visit));
         // A pattern is left alone but for what its builder is being told.
         const bool told = visit.workbench.pattern() == Pattern::none || !visit.workbench.says().empty();
-        frame->prepare(shot_of(visit.flight, visit.opening.start.scene), told ? panel : nullptr);
+        frame->prepare(shot, told ? panel : nullptr);
         commands.reset();
         commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
         for (const Target& target : targets)
@@ -297,6 +307,9 @@ void tell(const Visit& visit, const SceneFile& scene)
 {
     Readings last = readings(visit.flight.ship, scene, visit.flight.effects);
     last.mode = visit.flight.mode;
+    last.exposure_ev
+        = shown_ev(visit.exposure, visit.opening.exposure, visit.flight.exposure_ev, visit.opening.start.exposure_ev);
+    last.exposure_locked = visit.exposure.locked;
     for (const auto& [label, value] : hud_fields(last))
         std::printf("%s %s  ", label.c_str(), value.c_str());
     std::printf("\n");

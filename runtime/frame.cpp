@@ -139,6 +139,7 @@ void Frame::take_up(Parts parts)
         find_hud_box(pane);
     }
     plans_.resize(eyes_.size());
+    meter_.reset();
 
     const std::uint32_t count = std::uint32_t(panes_.size());
     before.clear();
@@ -243,6 +244,12 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
                 vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
         grow(device_, panel_pixels_, hud->texels.size(), vk::BufferUsageFlagBits::eTransferSrc);
     }
+    if (meters_ && !meter_) {
+        std::vector<glm::ivec2> sizes;
+        for (const PaneState& pane : panes_)
+            sizes.push_back(pane.pane().size);
+        meter_ = std::make_unique<Meter>(device_, sizes);
+    }
     hud_on_ = hud;
     if ((panel_new_ = hud))
         std::memcpy(panel_pixels_.mapped, hud->texels.data(), hud->texels.size());
@@ -317,8 +324,10 @@ void Frame::write_sets()
 
 void Frame::record(vk::CommandBuffer commands, std::span<const Target> targets)
 {
-    if (pattern_ == Pattern::none)
+    if (pattern_ == Pattern::none) {
         draw_cubes(commands);
+        draw_meter(commands);
+    }
     for (std::size_t output = 0; output < targets.size(); ++output) {
         if (!targets[output].view)
             continue; // minimised, or its monitor is away
@@ -369,12 +378,42 @@ void Frame::warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pip
 {
     shared::ViewPush constants = push(pane, motion_from_cockpit_);
     constants.boost = glm::vec4(E_, 1 / E_, exposure / world_.pre_exposure, near_distance);
-    set_area(commands, pane.pane().corner, pane.pane().size);
+    set_warp(commands, pane, pipeline, constants, pane.pane().corner, pane.pane().size);
+}
+
+void Frame::set_warp(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline,
+    const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size)
+{
+    set_area(commands, corner, size);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.warp_layout, 0, *pane.warp_set, {});
     commands.pushConstants<shared::ViewPush>(*pipelines_.warp_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
     commands.draw(3, 1, 0, 0);
 }
+
+void Frame::draw_meter(vk::CommandBuffer commands)
+{
+    if (!meters_)
+        return;
+    const vk::RenderingAttachmentInfo picture = meter_->begin(commands);
+    commands.beginRendering({{}, {{0, 0}, meter_->extent()}, 1, 0, picture});
+    for (std::size_t i = 0; i < panes_.size(); ++i) {
+        const PaneState& pane = panes_[i];
+        if (layout_.outputs[pane.output].preview)
+            continue;
+        const Meter::Cell& cell = meter_->cell(i);
+        shared::ViewPush constants = push(pane, motion_from_cockpit_);
+        constants.boost = glm::vec4(E_, 1 / E_, 1 / world_.pre_exposure, near_distance);
+        constants.origin.x = float(cell.corner.x), constants.origin.y = float(cell.corner.y);
+        const glm::dvec2 step = glm::dvec2(pane.pane().size) / glm::dvec2(cell.size);
+        constants.zenith.z = float(step.x), constants.zenith.w = float(step.y);
+        set_warp(commands, pane, pipelines_.meter(variant(pane)), constants, cell.corner, cell.size);
+    }
+    commands.endRendering();
+    meter_->end(commands);
+}
+
+std::optional<double> Frame::metered() const { return meters_ && meter_ ? metered_ev(meter_->view()) : std::nullopt; }
 
 void Frame::pattern_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Format format)
 {
@@ -540,6 +579,7 @@ vk::DeviceSize Frame::memory() const
         bytes += eye.cube.memory();
     for (const Map& map : maps_)
         bytes += map.image.bytes;
+    bytes += meter_ ? meter_->memory() : 0;
     for (const OutputState& output : outputs_)
         bytes += output.finish ? output.finish->memory() : 0;
     return bytes;

@@ -3,6 +3,7 @@
 #include "finish_pass.h"
 #include "hud.h"
 #include "input/controls.h"
+#include "meter.h"
 #include "plan.h"
 
 namespace starbow {
@@ -36,6 +37,13 @@ public:
 
     void show(Pattern pattern) { pattern_ = pattern; }
 
+    /// Whether the light of what all panes of all outputs show is sampled beside each frame: of what is seen, not of
+    /// previews, and evenly for the solid angle that the visitor sees.
+    void meter(bool on) { meters_ = on; }
+    /// The exposure for what the last frame showed. Nothing where it was dark, or not metered. The device must have
+    /// finished it.
+    std::optional<double> metered() const;
+
     /// All that the processor does for a frame: eyes, plans, culling, uploads.
     void prepare(const Shot& shot, const Panel* hud);
 
@@ -48,6 +56,7 @@ public:
 
     // The stages of record(), one by one, for those who time them.
     void draw_cubes(vk::CommandBuffer commands);
+    void draw_meter(vk::CommandBuffer commands);
     void warp_output(vk::CommandBuffer commands, std::size_t output, const Target& target);
     void draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& target);
     void finish_output(vk::CommandBuffer commands, std::size_t output, const Target& target);
@@ -107,6 +116,8 @@ private:
     glm::dvec3 scene_units(const glm::dvec3& place_m) const;
     glm::dvec3 world_offset(const PaneState& pane) const;
     void write_sets();
+    void set_warp(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline,
+        const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size);
     void warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline, double exposure);
     void pattern_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Format target);
     WarpVariant variant(const PaneState& pane) const;
@@ -134,6 +145,8 @@ private:
     double E_ = 1;
     glm::dmat3 motion_from_cockpit_{1};
     Pattern pattern_ = Pattern::none;
+    bool meters_ = false;
+    std::unique_ptr<Meter> meter_; ///< once it was asked for
     Image panel_;
     Buffer panel_pixels_;
     bool panel_new_ = false, hud_on_ = false;

@@ -7,6 +7,7 @@
 #include "spirv/hud_frag.h"
 #include "spirv/lookup_frag.h"
 #include "spirv/measure_frag.h"
+#include "spirv/meter_frag.h"
 #include "spirv/pattern_frag.h"
 #include "spirv/screen_vert.h"
 #include "spirv/sky_frag.h"
@@ -177,6 +178,18 @@ vk::Pipeline Pipelines::measure(const WarpVariant& v)
                 .fragment = measure_frag,
                 .layout = *warp_layout,
                 .targets = {exact_format, exact_format, exact_format},
+                .constants = constants(v)});
+    });
+}
+
+vk::Pipeline Pipelines::meter(const WarpVariant& v)
+{
+    return find(meters_, v, [&] {
+        return make_pipeline(device_,
+            {.vertex = screen_vert,
+                .fragment = meter_frag,
+                .layout = *warp_layout,
+                .targets = {meter_format},
                 .constants = constants(v)});
     });
 }

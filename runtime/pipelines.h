@@ -10,6 +10,7 @@ namespace starbow {
 constexpr vk::Format light_format = vk::Format::eR16G16B16A16Sfloat;
 constexpr vk::Format depth_format = vk::Format::eD32Sfloat;
 constexpr vk::Format exact_format = vk::Format::eR32G32B32A32Sfloat;
+constexpr vk::Format meter_format = vk::Format::eR32G32Sfloat; // luminance, solid angle
 constexpr vk::Format map_format = vk::Format::eR32G32Uint; // a direction map's texel, packed
 
 /// What a material needs of the cube pass: constant_ids of cube.frag.
@@ -50,6 +51,7 @@ public:
     vk::Pipeline sky(const TargetKind& target);
     vk::Pipeline warp(const WarpVariant& variant, vk::Format target);
     vk::Pipeline measure(const WarpVariant& variant);
+    vk::Pipeline meter(const WarpVariant& variant);
     vk::Pipeline hud(bool map, vk::Format target);
     vk::Pipeline lookup(vk::Format target);
     vk::Pipeline finish(const FinishVariant& variant, vk::Format target);
@@ -68,7 +70,7 @@ private:
     std::map<std::pair<SurfaceVariant, TargetKind>, vk::raii::Pipeline> surfaces_;
     std::map<TargetKind, vk::raii::Pipeline> skies_;
     std::map<std::pair<WarpVariant, vk::Format>, vk::raii::Pipeline> warps_;
-    std::map<WarpVariant, vk::raii::Pipeline> measures_;
+    std::map<WarpVariant, vk::raii::Pipeline> measures_, meters_;
     std::map<std::pair<bool, vk::Format>, vk::raii::Pipeline> huds_;
     std::map<vk::Format, vk::raii::Pipeline> lookups_;
     std::map<std::pair<FinishVariant, vk::Format>, vk::raii::Pipeline> finishes_;

@@ -96,6 +96,19 @@ std::vector<std::vector<std::uint8_t>> Studio::picture(const Shot& shot, const P
     return pictures;
 }
 
+std::optional<double> Studio::metered(const Shot& shot)
+{
+    frame_.meter(true);
+    frame_.prepare(shot, nullptr);
+    device_.now([&](vk::CommandBuffer commands) {
+        frame_.draw_cubes(commands);
+        frame_.draw_meter(commands);
+    });
+    const std::optional<double> ev = frame_.metered();
+    frame_.meter(false);
+    return ev;
+}
+
 Channels Studio::numbers(const Shot& shot, std::size_t output)
 {
     MeasureTarget target;

@@ -58,7 +58,8 @@ struct ViewPush {
     vec4 eye;              // REPROJECT: the eye's place from the cube map's, world, motion axes. TURNING: xyz: the cockpit's
                            // up in motion axes; w: the eye's distance from the middle, to the right
     vec4 zenith;           // x: TURNING: sine of the angle from the zenith at which the separation is full; y:
-                           // REPROJECT: distance of the nearest surface that there may be, scene units
+                           // REPROJECT: distance of the nearest surface that there may be, scene units; z, w: the meter:
+                           // pixels of the viewport for one of its samples
 };
 
 // Push constants of the finish pass: from light to the screen's input. Rows of matrices.

@@ -5,6 +5,7 @@
 #include "runtime/still.h"
 #include "runtime/theatre.h"
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <optional>
@@ -13,7 +14,7 @@ namespace starbow {
 namespace {
 
 struct Options {
-    std::string layout = "desk", shot, out, size, pattern = "none";
+    std::string layout = "desk", shot, out, size, pattern = "none", exposure = "shot";
     bool exr = false, hud = false;
 };
 
@@ -60,10 +61,17 @@ int render(const Options& options)
     Studio studio(
         theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, true), options.exr);
     studio.frame().show(pattern);
+    if (options.exposure == "auto")
+        shot.exposure_ev = std::clamp(studio.metered(shot).value_or(shot.exposure_ev), -60.0, 60.0);
     std::optional<Panel> panel;
-    if (options.hud)
-        panel = Typesetter().draw(readings(ship_at(shot), theatre.world.scene, shot.effects), studio.frame().hud_width());
+    if (options.hud) {
+        Readings told = readings(ship_at(shot), theatre.world.scene, shot.effects);
+        told.exposure_ev = shot.exposure_ev;
+        panel = Typesetter().draw(told, studio.frame().hud_width());
+    }
     render_still(options.out, studio, shot, options.exr, panel ? &*panel : nullptr);
+    if (options.exposure == "auto")
+        std::printf("exposure %.2f EV\n", shot.exposure_ev);
     for (const Output& output : layout.outputs)
         std::printf("%s/%s.png%s\n", options.out.c_str(), output.name.c_str(), options.exr ? " and .exr" : "");
     return theatre.device.complaints.empty() ? 0 : 1;
@@ -84,6 +92,9 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
     command->add_flag(
         "--exr", options->exr, "Also the numbers: light, directions, Doppler factor and distance of every pixel");
     command->add_option("--pattern", options->pattern, pattern_help)->capture_default_str();
+    command->add_option("--exposure", options->exposure, "The shot's own exposure (shot), or after what is seen (auto)")
+        ->check(CLI::IsMember({"shot", "auto"}))
+        ->capture_default_str();
     command->add_flag("--hud", options->hud, "With the head-up display");
     command->footer("Example:\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome --size 2048x2048 --exr");
     command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });

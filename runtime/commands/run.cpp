@@ -38,6 +38,7 @@ int run(const Options& options)
         opening.scene = scene_of(opening.start, shot_file);
     }
     opening.rules = exhibit.flying;
+    opening.exposure = exhibit.exposure;
     opening.profiles = known_profiles(exhibit.profiles);
     opening.tutorial = exhibit.tutorial;
     opening.frames = options.frames;
