@@ -30,7 +30,7 @@ std::optional<double> metered_ev(std::span<const Glimpse> view)
     }
     if (all == 0)
         return {};
-    double below = 0, weight = 0, sum = 0;
+    double below = 0, weight = 0, sum = 0, bright = 0;
     for (const Bin& bin : bins) {
         if (bin.weight == 0)
             continue;
@@ -39,9 +39,11 @@ std::optional<double> metered_ev(std::span<const Glimpse> view)
             weight += to - from;
             sum += (to - from) * bin.sum / bin.weight;
         }
+        if (below <= bright_from * all)
+            bright = bin.sum / bin.weight;
         below += bin.weight;
     }
-    return std::log2(metered_to_luminance) - sum / weight;
+    return std::min(std::log2(metered_to_luminance) - sum / weight, std::log2(brightest_luminance) - bright);
 }
 
 Exposure adapted(Exposure exposure, std::optional<double> metered, double dt_s, const Exposing& rules)
@@ -63,6 +65,13 @@ double shown_ev(const Exposure& exposure, const Exposing& rules, double visitors
     if (!rules.automatic || !exposure.ev)
         return visitors_ev;
     return std::clamp(*exposure.ev + visitors_ev - start_ev, -60.0, 60.0);
+}
+
+double pre_exposure(double brightest, double exposure_ev, double most_gain)
+{
+    const double white_ev = 10 - exposure_ev + std::log2(most_gain);
+    const double brightest_ev = std::min(std::log2(std::max(brightest, 1e-30)), white_ev);
+    return std::exp2(std::clamp(std::floor(14 - brightest_ev), -100.0, 100.0));
 }
 
 } // namespace starbow

@@ -226,6 +226,8 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
     E_ = physics::exp_rapidity(glm::length(shot.u));
     const glm::dmat3 to_motion = motion_from_world(shot.u, shot.ship_from_cockpit);
     motion_from_cockpit_ = to_motion * glm::dmat3(glm::mat3_cast(shot.ship_from_cockpit));
+    const bool gains = shot.effects.headlight || shot.effects.doppler;
+    pre_exposure_ = pre_exposure(world_.brightest, shot.exposure_ev, gains ? E_ * E_ * E_ : 1);
     for (std::size_t i = 0; pattern_ == Pattern::none && i < eyes_.size(); ++i) {
         const glm::dvec3 place
             = shot.position + physics::eye_place(shot.u, shot.ship_from_cockpit * scene_units(eyes_[i].now_m));
@@ -236,7 +238,7 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
                 asked.push_back({pane.compiled.blocks.get(), motion_from_cockpit_,
                     reprojects() ? std::min(MOST_PARALLAX, glm::length(world_offset(pane)) / eyes_[i].nearest) : 0});
         plans_[i] = make_plan(asked, shot.effects.aberration ? E_ : 1, quality_);
-        eyes_[i].cube.prepare(plans_[i], place, to_motion);
+        eyes_[i].cube.prepare(plans_[i], place, to_motion, pre_exposure_);
     }
     if (hud && (panel_.extent.width != std::uint32_t(hud->size.x) || panel_.extent.height != std::uint32_t(hud->size.y))) {
         panel_ = make_image(device_,
@@ -247,7 +249,7 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
     if (meters_ && !meter_) {
         std::vector<glm::ivec2> sizes;
         for (const PaneState& pane : panes_)
-            sizes.push_back(pane.pane().size);
+            sizes.push_back(layout_.outputs[pane.output].preview ? glm::ivec2(0) : pane.pane().size);
         meter_ = std::make_unique<Meter>(device_, sizes);
     }
     hud_on_ = hud;
@@ -377,7 +379,8 @@ shared::ViewPush Frame::push(const PaneState& pane, const glm::dmat3& axes_from_
 void Frame::warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline, double exposure)
 {
     shared::ViewPush constants = push(pane, motion_from_cockpit_);
-    constants.boost = glm::vec4(E_, 1 / E_, exposure / world_.pre_exposure, near_distance);
+    // Not infinite, so that darkness times it stays dark.
+    constants.boost = glm::vec4(E_, 1 / E_, std::min(exposure / pre_exposure_, 1e37), near_distance);
     set_warp(commands, pane, pipeline, constants, pane.pane().corner, pane.pane().size);
 }
 
@@ -403,7 +406,7 @@ void Frame::draw_meter(vk::CommandBuffer commands)
             continue;
         const Meter::Cell& cell = meter_->cell(i);
         shared::ViewPush constants = push(pane, motion_from_cockpit_);
-        constants.boost = glm::vec4(E_, 1 / E_, 1 / world_.pre_exposure, near_distance);
+        constants.boost = glm::vec4(E_, 1 / E_, 1 / pre_exposure_, near_distance);
         constants.origin.x = float(cell.corner.x), constants.origin.y = float(cell.corner.y);
         const glm::dvec2 step = glm::dvec2(pane.pane().size) / glm::dvec2(cell.size);
         constants.zenith.z = float(step.x), constants.zenith.w = float(step.y);

@@ -142,7 +142,7 @@ private:
     std::vector<OutputState> outputs_;
     std::vector<Plan> plans_;
     Shot shot_;
-    double E_ = 1;
+    double E_ = 1, pre_exposure_ = 1;
     glm::dmat3 motion_from_cockpit_{1};
     Pattern pattern_ = Pattern::none;
     bool meters_ = false;

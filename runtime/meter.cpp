@@ -21,8 +21,13 @@ Meter::Meter(const Device& device, std::span<const glm::ivec2> panes)
 {
     glm::ivec2 size(1);
     int below = 0;
+    const auto counting = std::count_if(panes.begin(), panes.end(), [](const glm::ivec2& pane) { return pane.x > 0; });
     for (const glm::ivec2& pane : panes) {
-        const double wanted = std::max(samples / double(panes.size()), least_samples);
+        if (pane.x == 0) {
+            cells_.push_back({});
+            continue;
+        }
+        const double wanted = std::max(samples / double(counting), least_samples);
         const double across = std::sqrt(wanted * pane.x / pane.y);
         Cell cell{
             {0, below}, glm::clamp(glm::ivec2(glm::dvec2(across, wanted / across)), glm::ivec2(1), glm::min(pane, 1024))};

@@ -8,7 +8,7 @@ namespace starbow {
 /// in a cell of one small picture.
 class Meter {
 public:
-    /// panes: the size of each in pixels.
+    /// panes: the size of each in pixels, 0 where it does not count.
     Meter(const Device& device, std::span<const glm::ivec2> panes);
 
     struct Cell {

@@ -160,13 +160,15 @@ vk::Pipeline Pipelines::sky(const TargetKind& target)
 
 vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
 {
+    std::vector<std::uint32_t> all = constants(v);
+    all.push_back(target != light_format); // has 8 bits: dithered
     return find(warps_, std::pair(v, target), [&] {
         return make_pipeline(device_,
             {.vertex = screen_vert,
                 .fragment = warp_frag,
                 .layout = *warp_layout,
                 .targets = {target},
-                .constants = constants(v)});
+                .constants = all});
     });
 }
 
@@ -227,7 +229,7 @@ vk::Pipeline Pipelines::finish(const FinishVariant& v, vk::Format target)
                 .fragment = finish_frag,
                 .layout = *finish_layout,
                 .targets = {target},
-                .constants = {std::uint32_t(v.combine), v.masked, std::uint32_t(v.curve)}});
+                .constants = {std::uint32_t(v.combine), v.masked, std::uint32_t(v.curve), v.dithered}});
     });
 }
 

@@ -32,6 +32,7 @@ struct FinishVariant {
     int combine = 0; ///< 0 one picture; two by rows 1, columns 2, checkerboard 3; added 4
     bool masked = false;
     int curve = 0; ///< 0 sRGB, 1 gamma, 2 table
+    bool dithered = true;
     auto operator<=>(const FinishVariant&) const = default;
 };
 

@@ -116,7 +116,9 @@ Channels Studio::numbers(const Shot& shot, std::size_t output)
         *image = make_image(device_,
             {exact_format, images_[output].extent,
                 vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
-    frame_.prepare(shot, nullptr);
+    Shot unexposed = shot; // numbers are of light, not of pictures: all of it counts, and it is the same at any exposure
+    unexposed.exposure_ev = -60;
+    frame_.prepare(unexposed, nullptr);
     device_.now([&](vk::CommandBuffer commands) { frame_.record_measured(commands, output, target); });
 
     std::size_t count = std::size_t(images_[output].extent.width) * images_[output].extent.height;

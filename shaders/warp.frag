@@ -6,7 +6,10 @@
 #include "view.glsl"
 #include "seen.glsl"
 #include "tone.glsl"
+#include "dither.glsl"
 // The relativistic transform of one output pixel, shown.
+
+layout(constant_id = 8) const bool DITHERED = true; // the target has 8 bits
 
 layout(location = 0) out vec4 shown;
 
@@ -24,5 +27,6 @@ void main()
 {
     vec3 light = CHANNELS ? vec3(light_along(0).r, light_along(1).g, light_along(2).b) : light_along(0);
     // Both infinities of D^3 stay numbers: the greatest light is already white.
-    shown = vec4(tone_map(min(light * view.boost.z, vec3(1e30))), 1.0);
+    vec3 screen = tone_map(min(light * view.boost.z, vec3(1e30)));
+    shown = vec4(DITHERED ? dithered_srgb(screen, ivec2(gl_FragCoord.xy)) : screen, 1.0);
 }
