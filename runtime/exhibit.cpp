@@ -277,6 +277,7 @@ void fly(Visit& visit, Theatre& theatre)
                 frame->resize(i, {targets[i].extent.width, targets[i].extent.height});
         frame->move_head(controls.head);
         frame->meter(visit.opening.exposure.automatic);
+        frame->bloom(visit.opening.exposure.bloom);
         Shot shot = shot_of(visit.flight, visit.opening.start.scene);
         shot.exposure_ev
             = shown_ev(visit.exposure, visit.opening.exposure, shot.exposure_ev, visit.opening.start.exposure_ev);

@@ -246,6 +246,11 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
                 vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
         grow(device_, panel_pixels_, hud->texels.size(), vk::BufferUsageFlagBits::eTransferSrc);
     }
+    for (PaneState& pane : panes_)
+        if (bloom_ == 0)
+            pane.bloom.reset();
+        else if (!pane.bloom && pattern_ == Pattern::none)
+            pane.bloom = std::make_unique<BloomPass>(device_, pipelines_, pane.pane().size);
     if (meters_ && !meter_) {
         std::vector<glm::ivec2> sizes;
         for (const PaneState& pane : panes_)
@@ -376,11 +381,17 @@ shared::ViewPush Frame::push(const PaneState& pane, const glm::dmat3& axes_from_
     return push;
 }
 
+/// What comes before light is shown: ViewPush's member.
+glm::vec4 Frame::boost(double exposure) const
+{
+    // Not infinite, so that darkness times it stays dark.
+    return glm::vec4(E_, 1 / E_, std::min(exposure / pre_exposure_, 1e37), near_distance);
+}
+
 void Frame::warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline, double exposure)
 {
     shared::ViewPush constants = push(pane, motion_from_cockpit_);
-    // Not infinite, so that darkness times it stays dark.
-    constants.boost = glm::vec4(E_, 1 / E_, std::min(exposure / pre_exposure_, 1e37), near_distance);
+    constants.boost = boost(exposure);
     set_warp(commands, pane, pipeline, constants, pane.pane().corner, pane.pane().size);
 }
 
@@ -392,6 +403,24 @@ void Frame::set_warp(vk::CommandBuffer commands, const PaneState& pane, vk::Pipe
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.warp_layout, 0, *pane.warp_set, {});
     commands.pushConstants<shared::ViewPush>(*pipelines_.warp_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
     commands.draw(3, 1, 0, 0);
+}
+
+/// The light of a pane that glows, spread.
+void Frame::bloom_pane(vk::CommandBuffer commands, const PaneState& pane)
+{
+    const Target light = pane.bloom->light();
+    pane.bloom->begin(commands);
+    vk::RenderingAttachmentInfo colour(light.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eStore);
+    commands.beginRendering({{}, {{0, 0}, light.extent}, 1, 0, colour});
+    shared::ViewPush constants = push(pane, motion_from_cockpit_);
+    constants.boost = boost(std::exp2(shot_.exposure_ev));
+    constants.origin.x = constants.origin.y = 0;
+    WarpVariant linear = variant(pane);
+    linear.linear = true;
+    set_warp(commands, pane, pipelines_.warp(linear, light.format), constants, {0, 0}, pane.pane().size);
+    commands.endRendering();
+    pane.bloom->spread(commands);
 }
 
 void Frame::draw_meter(vk::CommandBuffer commands)
@@ -406,7 +435,7 @@ void Frame::draw_meter(vk::CommandBuffer commands)
             continue;
         const Meter::Cell& cell = meter_->cell(i);
         shared::ViewPush constants = push(pane, motion_from_cockpit_);
-        constants.boost = glm::vec4(E_, 1 / E_, 1 / pre_exposure_, near_distance);
+        constants.boost = boost(1);
         constants.origin.x = float(cell.corner.x), constants.origin.y = float(cell.corner.y);
         const glm::dvec2 step = glm::dvec2(pane.pane().size) / glm::dvec2(cell.size);
         constants.zenith.z = float(step.x), constants.zenith.w = float(step.y);
@@ -451,6 +480,10 @@ void Frame::warp_output(vk::CommandBuffer commands, std::size_t output, const Ta
         outputs_[output].finish->begin(commands);
     for (int layer = 0; layer < layers(layout_.outputs[output].packing); ++layer) {
         const Target target = picture_of(output, layer, last);
+        const bool glows = bloom_ > 0 && pattern_ == Pattern::none;
+        for (const PaneState& pane : panes_)
+            if (glows && pane.output == output && pane.pane().layer == layer)
+                bloom_pane(commands, pane);
         vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
             vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
             vk::ClearColorValue(std::array<float, 4>{0, 0, 0, 1}));
@@ -460,6 +493,8 @@ void Frame::warp_output(vk::CommandBuffer commands, std::size_t output, const Ta
                 continue;
             if (pattern_ != Pattern::none)
                 pattern_pane(commands, pane, target.format);
+            else if (glows)
+                pane.bloom->show(commands, pane.pane().corner, bloom_, target.format);
             else
                 warp_pane(commands, pane, pipelines_.warp(variant(pane), target.format), std::exp2(shot_.exposure_ev));
         }
@@ -583,6 +618,8 @@ vk::DeviceSize Frame::memory() const
     for (const Map& map : maps_)
         bytes += map.image.bytes;
     bytes += meter_ ? meter_->memory() : 0;
+    for (const PaneState& pane : panes_)
+        bytes += pane.bloom ? pane.bloom->memory() : 0;
     for (const OutputState& output : outputs_)
         bytes += output.finish ? output.finish->memory() : 0;
     return bytes;

@@ -1,4 +1,5 @@
 #pragma once
+#include "bloom_pass.h"
 #include "displays/compiled.h"
 #include "finish_pass.h"
 #include "hud.h"
@@ -23,6 +24,9 @@ class Frame {
 public:
     Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality,
         bool keeps_depth = false); ///< keeps_depth: so that record_measured can tell distances
+
+    /// The part of the light that glows around what shines, 0 to 1. At 0 there is no pass for it, and no memory.
+    void bloom(double part) { bloom_ = part; }
 
     /// The size in pixels of an output, when it is not the layout's.
     void resize(std::size_t output, glm::ivec2 size);
@@ -88,6 +92,7 @@ private:
         float shown_part = 1; ///< for them too
         vk::raii::DescriptorSet warp_set = nullptr, hud_set = nullptr, label_set = nullptr;
         vk::Rect2D hud_box;
+        std::unique_ptr<BloomPass> bloom; ///< once it was asked for
         glm::dvec3 beside_m{0}; ///< the eye's place from its cube map's, in the cockpit
         const Pane& pane() const { return compiled.pane; }
     };
@@ -116,9 +121,11 @@ private:
     glm::dvec3 scene_units(const glm::dvec3& place_m) const;
     glm::dvec3 world_offset(const PaneState& pane) const;
     void write_sets();
+    glm::vec4 boost(double exposure) const;
     void set_warp(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline,
         const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size);
     void warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline, double exposure);
+    void bloom_pane(vk::CommandBuffer commands, const PaneState& pane);
     void pattern_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Format target);
     WarpVariant variant(const PaneState& pane) const;
     shared::ViewPush push(const PaneState& pane, const glm::dmat3& axes_from_cockpit) const;
@@ -145,6 +152,7 @@ private:
     double E_ = 1, pre_exposure_ = 1;
     glm::dmat3 motion_from_cockpit_{1};
     Pattern pattern_ = Pattern::none;
+    double bloom_ = 0;
     bool meters_ = false;
     std::unique_ptr<Meter> meter_; ///< once it was asked for
     Image panel_;

@@ -1,6 +1,8 @@
 #include "pipelines.h"
 #include "runtime/shared.h"
 #include "runtime/world.h"
+#include "spirv/bloom_frag.h"
+#include "spirv/bloomed_frag.h"
 #include "spirv/cube_frag.h"
 #include "spirv/cube_vert.h"
 #include "spirv/finish_frag.h"
@@ -98,7 +100,7 @@ vk::raii::PipelineLayout make_layout(const Device& device, std::initializer_list
 
 std::vector<std::uint32_t> constants(const WarpVariant& v)
 {
-    return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning};
+    return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.linear};
 }
 
 /// The pipeline of a key, made by `make` if it is new.
@@ -164,11 +166,7 @@ vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
     all.push_back(target != light_format); // has 8 bits: dithered
     return find(warps_, std::pair(v, target), [&] {
         return make_pipeline(device_,
-            {.vertex = screen_vert,
-                .fragment = warp_frag,
-                .layout = *warp_layout,
-                .targets = {target},
-                .constants = all});
+            {.vertex = screen_vert, .fragment = warp_frag, .layout = *warp_layout, .targets = {target}, .constants = all});
     });
 }
 
@@ -193,6 +191,31 @@ vk::Pipeline Pipelines::meter(const WarpVariant& v)
                 .layout = *warp_layout,
                 .targets = {meter_format},
                 .constants = constants(v)});
+    });
+}
+
+vk::Pipeline Pipelines::bloom(bool up)
+{
+    return find(blooms_, up, [&] {
+        return make_pipeline(device_,
+            {.vertex = screen_vert,
+                .fragment = bloom_frag,
+                .layout = *picture_layout,
+                .targets = {light_format},
+                .constants = {up},
+                .blend = up});
+    });
+}
+
+vk::Pipeline Pipelines::bloomed(vk::Format target)
+{
+    return find(bloomed_, target, [&] {
+        return make_pipeline(device_,
+            {.vertex = screen_vert,
+                .fragment = bloomed_frag,
+                .layout = *picture_layout,
+                .targets = {target},
+                .constants = {target != light_format}});
     });
 }
 

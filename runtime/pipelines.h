@@ -24,6 +24,7 @@ struct WarpVariant {
     bool map, aberration, doppler, headlight, mips;
     bool channels = false; ///< red, green and blue look different ways
     bool reproject = false, turning = false; ///< stereo from one cube map; by the azimuth
+    bool linear = false; ///< exposed light, for the glow, instead of what is shown
     auto operator<=>(const WarpVariant&) const = default;
 };
 
@@ -53,6 +54,8 @@ public:
     vk::Pipeline warp(const WarpVariant& variant, vk::Format target);
     vk::Pipeline measure(const WarpVariant& variant);
     vk::Pipeline meter(const WarpVariant& variant);
+    vk::Pipeline bloom(bool up);
+    vk::Pipeline bloomed(vk::Format target);
     vk::Pipeline hud(bool map, vk::Format target);
     vk::Pipeline lookup(vk::Format target);
     vk::Pipeline finish(const FinishVariant& variant, vk::Format target);
@@ -73,7 +76,8 @@ private:
     std::map<std::pair<WarpVariant, vk::Format>, vk::raii::Pipeline> warps_;
     std::map<WarpVariant, vk::raii::Pipeline> measures_, meters_;
     std::map<std::pair<bool, vk::Format>, vk::raii::Pipeline> huds_;
-    std::map<vk::Format, vk::raii::Pipeline> lookups_;
+    std::map<bool, vk::raii::Pipeline> blooms_;
+    std::map<vk::Format, vk::raii::Pipeline> lookups_, bloomed_;
     std::map<std::pair<FinishVariant, vk::Format>, vk::raii::Pipeline> finishes_;
     std::map<std::tuple<bool, int, vk::Format>, vk::raii::Pipeline> patterns_;
 };

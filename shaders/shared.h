@@ -69,6 +69,13 @@ struct FinishPush {
     vec4 curve;                  // x: 1 / gamma or the table's last index; y: headroom under the black level
 };
 
+// Push constants of the glow.
+struct BloomPush {
+    vec4 step;  // xy: 1 / size of what is drawn, pixels
+    vec4 texel; // xy: 1 / size of what is read, texels
+    vec4 part;  // x: of the light that is taken; zw: the viewport's top left corner in the target, pixels
+};
+
 // Push constants of the test patterns.
 struct PatternPush {
     vec4 row0, row1, row2; // as ViewPush's, to the cockpit's axes

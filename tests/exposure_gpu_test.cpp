@@ -371,5 +371,108 @@ TEST(Dither, BlackStaysBlack)
     }
 }
 
+// ---------------------------------------------------------------- bloom
+
+/// A lamp of light 0.7 in front of a black sky.
+GpuWorld lamp_in_the_dark()
+{
+    Doc doc;
+    quad(doc, {0, 0, -10}, {1, 0, 0}, {0, 1, 0}, unlit(doc, {0.7, 0.7, 0.7}));
+    return open_world("lamp", doc, even_sky(0, 0, 0));
+}
+
+TEST(Bloom, MovesLightAndMakesNone)
+{
+    const GpuWorld world = lamp_in_the_dark();
+    for (ivec2 size : {ivec2(256, 256), ivec2(301, 203)}) {
+        Layout layout = one_view(Planar{60}, size);
+        layout.outputs[0].colour.gamma = 1; // bytes that are proportional to light, and dithered: their sum is the light's
+        Studio stage = studio(world, layout, false);
+        auto bytes = [&](double part) {
+            stage.frame().bloom(part);
+            return stage.picture(shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1})).front();
+        };
+        auto sum = [&](const std::vector<std::uint8_t>& picture) {
+            double all = 0;
+            for (std::size_t i = 0; i < picture.size(); i += 4)
+                all += picture[i];
+            return all;
+        };
+        const auto sharp = bytes(0);
+        const vk::DeviceSize memory = stage.frame().memory();
+        const auto glowing = bytes(0.4);
+        EXPECT_GT(stage.frame().memory(), memory);
+        // Edges give back what would leave; odd sizes are halved with a texel to spare; a lamp's side is 44 or 35 pixels.
+        EXPECT_NEAR(sum(glowing) / sum(sharp), 1, 0.03) << size.x;
+        const std::size_t middle = 4 * (std::size_t(size.y / 2) * size.x + size.x / 2), corner = 4 * (size.x + 1);
+        EXPECT_NEAR(sharp[middle], 0.7 * 255, 2);
+        EXPECT_LT(glowing[middle], sharp[middle] - 20);
+        EXPECT_EQ(sharp[corner], 0);
+        // Nearer is brighter, on every side alike.
+        for (int away : {30, 50, 70, 90}) {
+            auto ring = [&](int r) {
+                double least = 255, most = 0;
+                for (ivec2 to : {ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1)}) {
+                    double mean = 0; // of 9 x 9
+                    for (int k = 0; k < 81; ++k) {
+                        const ivec2 p = size / 2 + to * r + ivec2(k % 9 - 4, k / 9 - 4);
+                        mean += glowing[4 * (std::size_t(p.y) * size.x + p.x)] / 81.0;
+                    }
+                    least = std::min(least, mean), most = std::max(most, mean);
+                }
+                return dvec2(least, most);
+            };
+            const dvec2 here = ring(away);
+            EXPECT_GT(here.x, 0.1) << away;
+            EXPECT_LT(here.y - here.x, 0.25 * here.y + 0.5) << away;
+            if (away < 90) {
+                EXPECT_GT(here.x, ring(away + 20).y) << away;
+            }
+        }
+        EXPECT_EQ(bytes(0), sharp);
+        EXPECT_EQ(stage.frame().memory(), memory);
+    }
+}
+
+TEST(Bloom, LeavesAnEvenViewAsItIs)
+{
+    const GpuWorld world = sky_alone("even", even_sky(0.3, 0.1, 0.5));
+    for (const Projection& projection : {Projection(Planar{60}), Projection(Fisheye{180, 90})}) {
+        Studio stage = studio(world, one_view(projection, {128, 128}), false);
+        const auto sharp = stage.picture(flown(1)).front();
+        stage.frame().bloom(0.4);
+        const auto glowing = stage.picture(flown(1)).front();
+        for (int i = 0; i < 128 * 128; ++i)
+            for (int k = 0; k < 3; ++k) {
+                const double at = glm::length(dvec2(i % 128, i / 128) - 63.5);
+                const int sharply = sharp[4 * i + k], shown = glowing[4 * i + k];
+                if (std::holds_alternative<Planar>(projection)) {
+                    ASSERT_NEAR(shown, sharply, 1) << i; // fp16
+                } else {
+                    // Outside a dome's circle nothing is shown, whatever glows beside it.
+                    ASSERT_LE(shown, at > 64.5 ? 0 : sharply + 1) << i;
+                }
+            }
+    }
+}
+
+TEST(Bloom, EndsAtTheViewportsEdge)
+{
+    const GpuWorld world = lamp_in_the_dark();
+    Layout layout = one_view(Planar{60}, {256, 128});
+    layout.outputs[0].viewports = {{.rect = {0, 0, 0.5, 1}, .projection = Planar{10}},
+        {.rect = {0.5, 0, 0.5, 1}, .projection = Planar{60, {}, {90, 0, 0}}}};
+    Studio stage = studio(world, layout, false);
+    stage.frame().bloom(1);
+    const auto bytes = stage.picture(shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1})).front();
+    for (int i = 0; i < 256 * 128; ++i)
+        for (int k = 0; k < 3; ++k) {
+            if (i % 256 < 128)
+                ASSERT_GT(bytes[4 * i + k], 200) << i; // the lamp fills it
+            else
+                ASSERT_EQ(bytes[4 * i + k], 0) << i;
+        }
+}
+
 } // namespace
 } // namespace starbow::gpu_test

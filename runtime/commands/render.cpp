@@ -15,6 +15,7 @@ namespace {
 
 struct Options {
     std::string layout = "desk", shot, out, size, pattern = "none", exposure = "shot";
+    double bloom = 0;
     bool exr = false, hud = false;
 };
 
@@ -61,6 +62,7 @@ int render(const Options& options)
     Studio studio(
         theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, true), options.exr);
     studio.frame().show(pattern);
+    studio.frame().bloom(options.bloom);
     if (options.exposure == "auto")
         shot.exposure_ev = std::clamp(studio.metered(shot).value_or(shot.exposure_ev), -60.0, 60.0);
     std::optional<Panel> panel;
@@ -94,6 +96,9 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--pattern", options->pattern, pattern_help)->capture_default_str();
     command->add_option("--exposure", options->exposure, "The shot's own exposure (shot), or after what is seen (auto)")
         ->check(CLI::IsMember({"shot", "auto"}))
+        ->capture_default_str();
+    command->add_option("--bloom", options->bloom, "The part of the light that glows around what shines, 0 to 1")
+        ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
     command->add_flag("--hud", options->hud, "With the head-up display");
     command->footer("Example:\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome --size 2048x2048 --exr");
