@@ -24,6 +24,23 @@ Flying read_flying(const Place& place)
     return flying;
 }
 
+Exposing read_exposure(const Place& place)
+{
+    only(place, {"automatic", "least_ev", "greatest_ev", "bloom"});
+    Exposing exposure;
+    take(place, "automatic", exposure.automatic);
+    take(place, "least_ev", exposure.least_ev, {-60, 60});
+    take(place, "greatest_ev", exposure.greatest_ev, {-60, 60});
+    if (exposure.greatest_ev < exposure.least_ev) {
+        const auto least = find(place, "least_ev");
+        complain(least ? *least : member(place, "greatest_ev"),
+            "leaves nothing between least_ev, " + shown(exposure.least_ev) + ", and greatest_ev, "
+                + shown(exposure.greatest_ev) + "; a least_ev that is no greater is right");
+    }
+    take(place, "bloom", exposure.bloom, {0, 1});
+    return exposure;
+}
+
 /// Paths are the file's own, as in every other file; names are those of shipped ones.
 std::string name_or_path(const Place& place, const std::filesystem::path& folder)
 {
@@ -39,7 +56,7 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     const Document document = read_document(file);
     const Place top = root(document);
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-    only(top, {"$schema", "layout", "scene", "shot", "profiles", "tutorial", "flying"});
+    only(top, {"$schema", "layout", "scene", "shot", "profiles", "tutorial", "flying", "exposure"});
     Exhibit exhibit;
     for (const auto& [name, value] :
         {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene}, {"shot", &exhibit.shot}})
@@ -52,6 +69,8 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     take(top, "tutorial", exhibit.tutorial);
     if (auto p = find(top, "flying"))
         exhibit.flying = read_flying(*p);
+    if (auto p = find(top, "exposure"))
+        exhibit.exposure = read_exposure(*p);
     return exhibit;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "exposing.h"
 #include "flying.h"
 #include <filesystem>
 #include <string>
@@ -13,6 +14,7 @@ struct Exhibit {
     std::filesystem::path profiles; ///< a folder with profiles of this exhibit's own sticks; empty: none
     bool tutorial = true; ///< three prompts for the first minute
     Flying flying;
+    Exposing exposure;
 };
 
 /// Reads and checks an exhibit; what it names is not opened here. Throws InputError with file, line, JSON pointer, value and

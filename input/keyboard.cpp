@@ -29,7 +29,7 @@ const char* keyboard_help()
            "R               fly back to the start; Backspace ten seconds back\n"
            "M               the next mode of flight: guided, free, newtonian\n"
            "1, 2, 3         aberration, Doppler effect, headlight effect on and off\n"
-           "+, -            brighter, darker\n"
+           "+, -            brighter, darker; L holds the automatic exposure, or lets it go\n"
            "H               head-up display; F11 full screen; Esc leave\n"
            "F2              for builders: the next test pattern\n"
            "F3, Page Up/Dn  choose a tilt, rotation, turn or blend of the layout; turn it (Shift: ten times as far)\n"
@@ -83,6 +83,7 @@ void Keyboard::finish(Controls& controls, bool pads)
     controls.aberration = pressed(GLFW_KEY_1);
     controls.doppler = pressed(GLFW_KEY_2);
     controls.headlight = pressed(GLFW_KEY_3);
+    controls.lock_exposure = pressed(GLFW_KEY_L);
     controls.hud = pressed(GLFW_KEY_H);
     controls.full_screen = pressed(GLFW_KEY_F11);
     controls.quit = pressed(GLFW_KEY_ESCAPE);

@@ -41,8 +41,9 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
     set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.eye_set}).front());
 }
 
-void CubePass::prepare(const Plan& plan, const glm::dvec3& place, const glm::dmat3& motion_from_world)
+void CubePass::prepare(const Plan& plan, const glm::dvec3& place, const glm::dmat3& motion_from_world, double pre_exposure)
 {
+    pre_exposure_ = pre_exposure;
     images_ = plan.images;
     area_ = plan.atlas_size;
     levels_ = plan.levels;
@@ -102,7 +103,7 @@ void CubePass::upload(const glm::dmat3& to_motion, const glm::dvec3& place)
     put(visible_, list_.visible);
 
     const SceneFile& scene = world_.scene;
-    double scale = world_.pre_exposure;
+    double scale = pre_exposure_;
     shared::CubeConstants constants{};
     constants.ambient = glm::vec4(scene.ambient * scale, scale);
     constants.sky_zenith = glm::vec4(scene.sky.zenith * scale, 0);
@@ -146,7 +147,7 @@ void CubePass::record(vk::CommandBuffer commands)
         transition(commands, depth, Layout_::eUndefined, depth_tests, depth_access, Layout_::eDepthAttachmentOptimal,
             depth_tests, depth_access);
     }
-    glm::dvec3 sky = world_.scene.sky.horizon * world_.pre_exposure;
+    glm::dvec3 sky = world_.scene.sky.horizon * pre_exposure_;
     vk::ClearColorValue clear(std::array<float, 4>{float(sky.r), float(sky.g), float(sky.b), 1});
     vk::RenderingAttachmentInfo colour_info(*colour.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear, sampled ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore, clear);
@@ -221,7 +222,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
                     vk::PipelineBindPoint::eGraphics, *pipelines_.surface_layout, 1, *world_.materials[material], {});
                 commands.setCullMode(m.double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
                 push.base_colour = m.base_colour;
-                push.emissive = glm::vec4(m.emissive * float(world_.pre_exposure), m.alpha_cutoff);
+                push.emissive = glm::vec4(m.emissive * float(pre_exposure_), m.alpha_cutoff);
                 commands.pushConstants<shared::CubePush>(*pipelines_.surface_layout, stages, 0, push);
             }
             commands.drawIndexed(draw->index_count, draw->count, draw->first_index, primitive.vertex_offset, draw->first);
@@ -281,7 +282,7 @@ void CubePass::record_plain(vk::CommandBuffer commands, const Target& target)
     transition(commands, depth_, Layout_::eUndefined, depth_tests, Access::eDepthStencilAttachmentWrite,
         Layout_::eDepthAttachmentOptimal, depth_tests,
         Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
-    glm::dvec3 sky = world_.scene.sky.horizon * world_.pre_exposure;
+    glm::dvec3 sky = world_.scene.sky.horizon * pre_exposure_;
     vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
         vk::ClearColorValue(std::array<float, 4>{float(sky.r), float(sky.g), float(sky.b), 1}));

@@ -22,8 +22,9 @@ class CubePass {
 public:
     CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, int samples, bool keeps_depth);
 
-    /// What the processor does: culls, makes room, uploads. The device must have finished the frame before.
-    void prepare(const Plan& plan, const glm::dvec3& place, const glm::dmat3& motion_from_world);
+    /// What the processor does: culls, makes room, uploads. The device must have finished the frame before. Every radiance
+    /// is stored times pre_exposure.
+    void prepare(const Plan& plan, const glm::dvec3& place, const glm::dmat3& motion_from_world, double pre_exposure);
     /// What the device does: one pass over all images, then their mips. Leaves the atlas (and the depth, if it is kept) for
     /// fragment shaders to read.
     void record(vk::CommandBuffer commands);
@@ -55,6 +56,7 @@ private:
     Image atlas_, depth_, atlas_samples_, depth_samples_;
     std::vector<PlanImage> images_;
     glm::ivec2 area_{0};
+    double pre_exposure_ = 1;
     int levels_ = 1;
     DrawList list_;
     std::size_t triangles_ = 0;

@@ -1,6 +1,7 @@
 #include "exhibit.h"
 #include "config/error.h"
 #include "config/reader.h"
+#include "exposure.h"
 #include "file_watch.h"
 #include "find.h"
 #include "flight.h"
@@ -69,8 +70,8 @@ struct Dashboard {
     int frames = 0;
     double rate = 0;
 
-    const Panel* update(
-        const Flight& flight, const SceneFile& scene, int width, const std::string& prompt, const std::string& notice)
+    const Panel* update(const Flight& flight, const SceneFile& scene, double exposure_ev, bool locked, int width,
+        const std::string& prompt, const std::string& notice)
     {
         Clock::time_point now = Clock::now();
         ++frames;
@@ -82,6 +83,7 @@ struct Dashboard {
             Readings told = readings(flight.ship, scene, flight.effects);
             told.frames_per_s = rate;
             told.mode = flight.mode, told.lever = flight.lever;
+            told.exposure_ev = exposure_ev, told.exposure_locked = locked;
             told.prompt = prompt, told.notice = notice;
             panel = typesetter.draw(told, width);
             drawn = now;
@@ -102,8 +104,8 @@ Tape tape_of(const Opening& opening)
     std::unique_ptr<Recorder> recorder;
     if (!opening.record.empty())
         recorder = std::make_unique<Recorder>(opening.record,
-            header_of(
-                opening.scene, opening.layout, opening.start, opening.rules, pattern_names[std::size_t(opening.pattern)]),
+            header_of(opening.scene, opening.layout, opening.start, opening.rules, opening.exposure,
+                pattern_names[std::size_t(opening.pattern)]),
             log_line);
     return {std::move(recorder), opening.replay.empty() ? nullptr : std::make_unique<Replay>(opening.replay)};
 }
@@ -117,6 +119,7 @@ struct Visit {
     std::string refused; ///< why a change of the layout was not taken up, for the head-up display
     Flight flight = flight_at(opening.start, opening.rules);
     History history{};
+    Exposure exposure{};
     Tutorial tutorial = tutorial_at(flight);
     Tape tape = tape_of(opening);
     Keyboard keyboard{};
@@ -231,6 +234,7 @@ void fly(Visit& visit, Theatre& theatre)
         // One frame is in flight: the least delay between a control and its picture.
         pace.wait(screens.refresh_hz());
         (void)device.device.waitForFences(*done, true, UINT64_MAX);
+        const std::optional<double> metered = frame->metered(); // of the frame before this one, always
 
         // What has changed around the exhibit, and which pictures to draw into. This waits for the screens.
         take_up_changes(visit, theatre, frame, screens);
@@ -266,6 +270,8 @@ void fly(Visit& visit, Theatre& theatre)
         visit.flight = flown(visit.flight, visit.history, controls, entry.dt_ns, visit.opening.rules,
             scene.seconds_per_time_unit(), visit.opening.start);
         visit.tape.keep(entry, visit.flight);
+        visit.exposure.locked ^= controls.lock_exposure;
+        visit.exposure = adapted(visit.exposure, metered, 1e-9 * double(entry.dt_ns), visit.opening.exposure);
         visit.tutorial = advance(visit.tutorial, controls, visit.flight, 1e-9 * double(entry.dt_ns));
         turn(visit, *frame, controls); // the device has finished the frame before
         frame->show(visit.workbench.pattern());
@@ -278,11 +284,16 @@ void fly(Visit& visit, Theatre& theatre)
             if (targets[i].view)
                 frame->resize(i, {targets[i].extent.width, targets[i].extent.height});
         frame->move_head(controls.head);
-        const Panel* panel = dashboard.update(visit.flight, scene, frame->hud_width(),
-            visit.opening.tutorial ? prompt(visit.tutorial, visit.hid.means()) : "", notice_of(visit));
+        frame->meter(visit.opening.exposure.automatic);
+        frame->bloom(visit.opening.exposure.bloom);
+        Shot shot = shot_of(visit.flight, visit.opening.start.scene);
+        shot.exposure_ev
+            = shown_ev(visit.exposure, visit.opening.exposure, shot.exposure_ev, visit.opening.start.exposure_ev);
+        const Panel* panel = dashboard.update(visit.flight, scene, shot.exposure_ev, visit.exposure.locked,
+            frame->hud_width(), visit.opening.tutorial ? prompt(visit.tutorial, visit.hid.means()) : "", notice_of(visit));
         // A pattern is left alone but for what its builder is being told.
         const bool told = visit.workbench.pattern() == Pattern::none || !visit.workbench.says().empty();
-        frame->prepare(shot_of(visit.flight, visit.opening.start.scene), told ? panel : nullptr);
+        frame->prepare(shot, told ? panel : nullptr);
         commands.reset();
         commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
         for (const Target& target : targets)
@@ -308,6 +319,9 @@ void tell(const Visit& visit, const SceneFile& scene)
 {
     Readings last = readings(visit.flight.ship, scene, visit.flight.effects);
     last.mode = visit.flight.mode;
+    last.exposure_ev
+        = shown_ev(visit.exposure, visit.opening.exposure, visit.flight.exposure_ev, visit.opening.start.exposure_ev);
+    last.exposure_locked = visit.exposure.locked;
     for (const auto& [label, value] : hud_fields(last))
         std::printf("%s %s  ", label.c_str(), value.c_str());
     std::printf("\n");

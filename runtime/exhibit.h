@@ -1,4 +1,5 @@
 #pragma once
+#include "config/exposing.h"
 #include "config/flying.h"
 #include "config/layout.h"
 #include "config/profile.h"
@@ -16,6 +17,7 @@ struct Opening {
     Layout layout;
     Shot start; ///< where the visit begins and where reset leads back to
     Flying rules{};
+    Exposing exposure{};
     std::vector<Profile> profiles{};
     bool tutorial = true;
     long frames = 0; ///< to be shown; 0: until the visitor leaves

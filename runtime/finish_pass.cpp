@@ -129,6 +129,7 @@ void FinishPass::record(vk::CommandBuffer commands, const Target& target, bool p
             Access::eShaderSampledRead);
     FinishVariant variant = variant_;
     variant.masked = variant.masked && !plain;
+    variant.dithered = !plain; // a pattern's steps are exact
     vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eStore);
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});

@@ -19,7 +19,7 @@ public:
 
     /// Before and after the pictures are drawn.
     void begin(vk::CommandBuffer commands);
-    /// plain: without masks and blend, for a pattern that is aligned by its lines.
+    /// plain: without masks, blend and dither, for a pattern that is aligned by its lines.
     void record(vk::CommandBuffer commands, const Target& target, bool plain);
 
     vk::DeviceSize memory() const;

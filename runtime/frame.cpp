@@ -139,6 +139,7 @@ void Frame::take_up(Parts parts)
         find_hud_box(pane);
     }
     plans_.resize(eyes_.size());
+    meter_.reset();
 
     const std::uint32_t count = std::uint32_t(panes_.size());
     before.clear();
@@ -225,6 +226,8 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
     E_ = physics::exp_rapidity(glm::length(shot.u));
     const glm::dmat3 to_motion = motion_from_world(shot.u, shot.ship_from_cockpit);
     motion_from_cockpit_ = to_motion * glm::dmat3(glm::mat3_cast(shot.ship_from_cockpit));
+    const bool gains = shot.effects.headlight || shot.effects.doppler;
+    pre_exposure_ = pre_exposure(world_.brightest, shot.exposure_ev, gains ? E_ * E_ * E_ : 1);
     for (std::size_t i = 0; pattern_ == Pattern::none && i < eyes_.size(); ++i) {
         const glm::dvec3 place
             = shot.position + physics::eye_place(shot.u, shot.ship_from_cockpit * scene_units(eyes_[i].now_m));
@@ -235,13 +238,24 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
                 asked.push_back({pane.compiled.blocks.get(), motion_from_cockpit_,
                     reprojects() ? std::min(MOST_PARALLAX, glm::length(world_offset(pane)) / eyes_[i].nearest) : 0});
         plans_[i] = make_plan(asked, shot.effects.aberration ? E_ : 1, quality_);
-        eyes_[i].cube.prepare(plans_[i], place, to_motion);
+        eyes_[i].cube.prepare(plans_[i], place, to_motion, pre_exposure_);
     }
     if (hud && (panel_.extent.width != std::uint32_t(hud->size.x) || panel_.extent.height != std::uint32_t(hud->size.y))) {
         panel_ = make_image(device_,
             {vk::Format::eR8G8Unorm, {std::uint32_t(hud->size.x), std::uint32_t(hud->size.y)},
                 vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
         grow(device_, panel_pixels_, hud->texels.size(), vk::BufferUsageFlagBits::eTransferSrc);
+    }
+    for (PaneState& pane : panes_)
+        if (bloom_ == 0)
+            pane.bloom.reset();
+        else if (!pane.bloom && pattern_ == Pattern::none)
+            pane.bloom = std::make_unique<BloomPass>(device_, pipelines_, pane.pane().size);
+    if (meters_ && !meter_) {
+        std::vector<glm::ivec2> sizes;
+        for (const PaneState& pane : panes_)
+            sizes.push_back(layout_.outputs[pane.output].preview ? glm::ivec2(0) : pane.pane().size);
+        meter_ = std::make_unique<Meter>(device_, sizes);
     }
     hud_on_ = hud;
     if ((panel_new_ = hud))
@@ -317,8 +331,10 @@ void Frame::write_sets()
 
 void Frame::record(vk::CommandBuffer commands, std::span<const Target> targets)
 {
-    if (pattern_ == Pattern::none)
+    if (pattern_ == Pattern::none) {
         draw_cubes(commands);
+        draw_meter(commands);
+    }
     for (std::size_t output = 0; output < targets.size(); ++output) {
         if (!targets[output].view)
             continue; // minimised, or its monitor is away
@@ -365,16 +381,71 @@ shared::ViewPush Frame::push(const PaneState& pane, const glm::dmat3& axes_from_
     return push;
 }
 
+/// What comes before light is shown: ViewPush's member.
+glm::vec4 Frame::boost(double exposure) const
+{
+    // Not infinite, so that darkness times it stays dark.
+    return glm::vec4(E_, 1 / E_, std::min(exposure / pre_exposure_, 1e37), near_distance);
+}
+
 void Frame::warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline, double exposure)
 {
     shared::ViewPush constants = push(pane, motion_from_cockpit_);
-    constants.boost = glm::vec4(E_, 1 / E_, exposure / world_.pre_exposure, near_distance);
-    set_area(commands, pane.pane().corner, pane.pane().size);
+    constants.boost = boost(exposure);
+    set_warp(commands, pane, pipeline, constants, pane.pane().corner, pane.pane().size);
+}
+
+void Frame::set_warp(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline,
+    const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size)
+{
+    set_area(commands, corner, size);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.warp_layout, 0, *pane.warp_set, {});
     commands.pushConstants<shared::ViewPush>(*pipelines_.warp_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
     commands.draw(3, 1, 0, 0);
 }
+
+/// The light of a pane that glows, spread.
+void Frame::bloom_pane(vk::CommandBuffer commands, const PaneState& pane)
+{
+    const Target light = pane.bloom->light();
+    pane.bloom->begin(commands);
+    vk::RenderingAttachmentInfo colour(light.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eStore);
+    commands.beginRendering({{}, {{0, 0}, light.extent}, 1, 0, colour});
+    shared::ViewPush constants = push(pane, motion_from_cockpit_);
+    constants.boost = boost(std::exp2(shot_.exposure_ev));
+    constants.origin.x = constants.origin.y = 0;
+    WarpVariant linear = variant(pane);
+    linear.linear = true;
+    set_warp(commands, pane, pipelines_.warp(linear, light.format), constants, {0, 0}, pane.pane().size);
+    commands.endRendering();
+    pane.bloom->spread(commands);
+}
+
+void Frame::draw_meter(vk::CommandBuffer commands)
+{
+    if (!meters_)
+        return;
+    const vk::RenderingAttachmentInfo picture = meter_->begin(commands);
+    commands.beginRendering({{}, {{0, 0}, meter_->extent()}, 1, 0, picture});
+    for (std::size_t i = 0; i < panes_.size(); ++i) {
+        const PaneState& pane = panes_[i];
+        if (layout_.outputs[pane.output].preview)
+            continue;
+        const Meter::Cell& cell = meter_->cell(i);
+        shared::ViewPush constants = push(pane, motion_from_cockpit_);
+        constants.boost = boost(1);
+        constants.origin.x = float(cell.corner.x), constants.origin.y = float(cell.corner.y);
+        const glm::dvec2 step = glm::dvec2(pane.pane().size) / glm::dvec2(cell.size);
+        constants.zenith.z = float(step.x), constants.zenith.w = float(step.y);
+        set_warp(commands, pane, pipelines_.meter(variant(pane)), constants, cell.corner, cell.size);
+    }
+    commands.endRendering();
+    meter_->end(commands);
+}
+
+std::optional<double> Frame::metered() const { return meters_ && meter_ ? metered_ev(meter_->view()) : std::nullopt; }
 
 void Frame::pattern_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Format format)
 {
@@ -409,6 +480,10 @@ void Frame::warp_output(vk::CommandBuffer commands, std::size_t output, const Ta
         outputs_[output].finish->begin(commands);
     for (int layer = 0; layer < layers(layout_.outputs[output].packing); ++layer) {
         const Target target = picture_of(output, layer, last);
+        const bool glows = bloom_ > 0 && pattern_ == Pattern::none;
+        for (const PaneState& pane : panes_)
+            if (glows && pane.output == output && pane.pane().layer == layer)
+                bloom_pane(commands, pane);
         vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
             vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
             vk::ClearColorValue(std::array<float, 4>{0, 0, 0, 1}));
@@ -418,6 +493,8 @@ void Frame::warp_output(vk::CommandBuffer commands, std::size_t output, const Ta
                 continue;
             if (pattern_ != Pattern::none)
                 pattern_pane(commands, pane, target.format);
+            else if (glows)
+                pane.bloom->show(commands, pane.pane().corner, bloom_, target.format);
             else
                 warp_pane(commands, pane, pipelines_.warp(variant(pane), target.format), std::exp2(shot_.exposure_ev));
         }
@@ -540,6 +617,9 @@ vk::DeviceSize Frame::memory() const
         bytes += eye.cube.memory();
     for (const Map& map : maps_)
         bytes += map.image.bytes;
+    bytes += meter_ ? meter_->memory() : 0;
+    for (const PaneState& pane : panes_)
+        bytes += pane.bloom ? pane.bloom->memory() : 0;
     for (const OutputState& output : outputs_)
         bytes += output.finish ? output.finish->memory() : 0;
     return bytes;

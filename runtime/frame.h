@@ -1,8 +1,10 @@
 #pragma once
+#include "bloom_pass.h"
 #include "displays/compiled.h"
 #include "finish_pass.h"
 #include "hud.h"
 #include "input/controls.h"
+#include "meter.h"
 #include "plan.h"
 
 namespace starbow {
@@ -23,6 +25,9 @@ public:
     Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality,
         bool keeps_depth = false); ///< keeps_depth: so that record_measured can tell distances
 
+    /// The part of the light that glows around what shines, 0 to 1. At 0 there is no pass for it, and no memory.
+    void bloom(double part) { bloom_ = part; }
+
     /// The size in pixels of an output, when it is not the layout's.
     void resize(std::size_t output, glm::ivec2 size);
 
@@ -36,6 +41,13 @@ public:
 
     void show(Pattern pattern) { pattern_ = pattern; }
 
+    /// Whether the light of what all panes of all outputs show is sampled beside each frame: of what is seen, not of
+    /// previews, and evenly for the solid angle that the visitor sees.
+    void meter(bool on) { meters_ = on; }
+    /// The exposure for what the last frame showed. Nothing where it was dark, or not metered. The device must have
+    /// finished it.
+    std::optional<double> metered() const;
+
     /// All that the processor does for a frame: eyes, plans, culling, uploads.
     void prepare(const Shot& shot, const Panel* hud);
 
@@ -48,6 +60,7 @@ public:
 
     // The stages of record(), one by one, for those who time them.
     void draw_cubes(vk::CommandBuffer commands);
+    void draw_meter(vk::CommandBuffer commands);
     void warp_output(vk::CommandBuffer commands, std::size_t output, const Target& target);
     void draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& target);
     void finish_output(vk::CommandBuffer commands, std::size_t output, const Target& target);
@@ -79,6 +92,7 @@ private:
         float shown_part = 1; ///< for them too
         vk::raii::DescriptorSet warp_set = nullptr, hud_set = nullptr, label_set = nullptr;
         vk::Rect2D hud_box;
+        std::unique_ptr<BloomPass> bloom; ///< once it was asked for
         glm::dvec3 beside_m{0}; ///< the eye's place from its cube map's, in the cockpit
         const Pane& pane() const { return compiled.pane; }
     };
@@ -107,7 +121,11 @@ private:
     glm::dvec3 scene_units(const glm::dvec3& place_m) const;
     glm::dvec3 world_offset(const PaneState& pane) const;
     void write_sets();
+    glm::vec4 boost(double exposure) const;
+    void set_warp(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline,
+        const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size);
     void warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline, double exposure);
+    void bloom_pane(vk::CommandBuffer commands, const PaneState& pane);
     void pattern_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Format target);
     WarpVariant variant(const PaneState& pane) const;
     shared::ViewPush push(const PaneState& pane, const glm::dmat3& axes_from_cockpit) const;
@@ -131,9 +149,12 @@ private:
     std::vector<OutputState> outputs_;
     std::vector<Plan> plans_;
     Shot shot_;
-    double E_ = 1;
+    double E_ = 1, pre_exposure_ = 1;
     glm::dmat3 motion_from_cockpit_{1};
     Pattern pattern_ = Pattern::none;
+    double bloom_ = 0;
+    bool meters_ = false;
+    std::unique_ptr<Meter> meter_; ///< once it was asked for
     Image panel_;
     Buffer panel_pixels_;
     bool panel_new_ = false, hud_on_ = false;

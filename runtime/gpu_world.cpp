@@ -75,7 +75,7 @@ GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const S
     GpuWorld gpu;
     sort_instances(world);
     gpu.scene = scene;
-    gpu.pre_exposure = std::min(1.0, 16384 / std::max(brightest(world, scene), 1e-30));
+    gpu.brightest = brightest(world, scene);
     gpu.vertices
         = make_static_buffer(device, std::as_bytes(std::span(world.vertices)), vk::BufferUsageFlagBits::eVertexBuffer);
     gpu.indices = make_static_buffer(device, std::as_bytes(std::span(world.indices)), vk::BufferUsageFlagBits::eIndexBuffer);

@@ -9,7 +9,7 @@ namespace starbow {
 struct GpuWorld {
     World world; ///< instances in drawing order
     SceneFile scene;
-    double pre_exposure = 1; ///< every radiance is stored times this, so that fp16 never overflows
+    double brightest = 1; ///< the greatest radiance of any surface, before any lamp comes closer than its distance
 
     Buffer vertices, indices;
     std::vector<Image> textures;

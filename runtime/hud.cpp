@@ -100,6 +100,9 @@ std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r)
     };
     constexpr const char* modes[] = {"guided", "free", "newtonian"};
     fields.push_back({"flight", modes[int(r.mode)]});
+    const double ev = std::round(10 * r.exposure_ev) / 10;
+    const std::string sign = ev < 0 ? "−" : ev > 0 ? "+" : "";
+    fields.push_back({"exposure", sign + text("%.1f EV", std::abs(ev)) + (r.exposure_locked ? " locked" : "")});
     if (r.frames_per_s > 0)
         fields.push_back({"frames/s", text("%.0f", r.frames_per_s)});
     return fields;
@@ -244,9 +247,9 @@ Panel Typesetter::draw(const Readings& readings, int width) const
     while (notice_size > small / 2 && notice_width(notice_size) > 0.92)
         --notice_size;
     if (notice_width(notice_size) < 0.7) {
-        std::string rate = fields[9].second;
-        if (fields.size() > 10)
-            rate += "   " + fields[10].second + " " + fields[10].first;
+        std::string rate = fields[9].second + "   " + fields[10].second;
+        if (fields.size() > 11)
+            rate += "   " + fields[11].second + " " + fields[11].first;
         write(panel, rate, panel.size.x * 0.96 - width_of(rate, small), 0.93 * unit, small, 0.72);
     }
     write(panel, readings.notice, panel.size.x * 0.04, 0.93 * unit, notice_size, 1);

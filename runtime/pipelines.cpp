@@ -1,12 +1,15 @@
 #include "pipelines.h"
 #include "runtime/shared.h"
 #include "runtime/world.h"
+#include "spirv/bloom_frag.h"
+#include "spirv/bloomed_frag.h"
 #include "spirv/cube_frag.h"
 #include "spirv/cube_vert.h"
 #include "spirv/finish_frag.h"
 #include "spirv/hud_frag.h"
 #include "spirv/lookup_frag.h"
 #include "spirv/measure_frag.h"
+#include "spirv/meter_frag.h"
 #include "spirv/pattern_frag.h"
 #include "spirv/screen_vert.h"
 #include "spirv/sky_frag.h"
@@ -97,7 +100,7 @@ vk::raii::PipelineLayout make_layout(const Device& device, std::initializer_list
 
 std::vector<std::uint32_t> constants(const WarpVariant& v)
 {
-    return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning};
+    return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.linear};
 }
 
 /// The pipeline of a key, made by `make` if it is new.
@@ -159,13 +162,11 @@ vk::Pipeline Pipelines::sky(const TargetKind& target)
 
 vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
 {
+    std::vector<std::uint32_t> all = constants(v);
+    all.push_back(target != light_format); // has 8 bits: dithered
     return find(warps_, std::pair(v, target), [&] {
         return make_pipeline(device_,
-            {.vertex = screen_vert,
-                .fragment = warp_frag,
-                .layout = *warp_layout,
-                .targets = {target},
-                .constants = constants(v)});
+            {.vertex = screen_vert, .fragment = warp_frag, .layout = *warp_layout, .targets = {target}, .constants = all});
     });
 }
 
@@ -178,6 +179,43 @@ vk::Pipeline Pipelines::measure(const WarpVariant& v)
                 .layout = *warp_layout,
                 .targets = {exact_format, exact_format, exact_format},
                 .constants = constants(v)});
+    });
+}
+
+vk::Pipeline Pipelines::meter(const WarpVariant& v)
+{
+    return find(meters_, v, [&] {
+        return make_pipeline(device_,
+            {.vertex = screen_vert,
+                .fragment = meter_frag,
+                .layout = *warp_layout,
+                .targets = {meter_format},
+                .constants = constants(v)});
+    });
+}
+
+vk::Pipeline Pipelines::bloom(bool up)
+{
+    return find(blooms_, up, [&] {
+        return make_pipeline(device_,
+            {.vertex = screen_vert,
+                .fragment = bloom_frag,
+                .layout = *picture_layout,
+                .targets = {light_format},
+                .constants = {up},
+                .blend = up});
+    });
+}
+
+vk::Pipeline Pipelines::bloomed(vk::Format target)
+{
+    return find(bloomed_, target, [&] {
+        return make_pipeline(device_,
+            {.vertex = screen_vert,
+                .fragment = bloomed_frag,
+                .layout = *picture_layout,
+                .targets = {target},
+                .constants = {target != light_format}});
     });
 }
 
@@ -214,7 +252,7 @@ vk::Pipeline Pipelines::finish(const FinishVariant& v, vk::Format target)
                 .fragment = finish_frag,
                 .layout = *finish_layout,
                 .targets = {target},
-                .constants = {std::uint32_t(v.combine), v.masked, std::uint32_t(v.curve)}});
+                .constants = {std::uint32_t(v.combine), v.masked, std::uint32_t(v.curve), v.dithered}});
     });
 }
 

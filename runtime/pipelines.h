@@ -10,6 +10,7 @@ namespace starbow {
 constexpr vk::Format light_format = vk::Format::eR16G16B16A16Sfloat;
 constexpr vk::Format depth_format = vk::Format::eD32Sfloat;
 constexpr vk::Format exact_format = vk::Format::eR32G32B32A32Sfloat;
+constexpr vk::Format meter_format = vk::Format::eR32G32Sfloat; // luminance, solid angle
 constexpr vk::Format map_format = vk::Format::eR32G32Uint; // a direction map's texel, packed
 
 /// What a material needs of the cube pass: constant_ids of cube.frag.
@@ -23,6 +24,7 @@ struct WarpVariant {
     bool map, aberration, doppler, headlight, mips;
     bool channels = false; ///< red, green and blue look different ways
     bool reproject = false, turning = false; ///< stereo from one cube map; by the azimuth
+    bool linear = false; ///< exposed light, for the glow, instead of what is shown
     auto operator<=>(const WarpVariant&) const = default;
 };
 
@@ -31,6 +33,7 @@ struct FinishVariant {
     int combine = 0; ///< 0 one picture; two by rows 1, columns 2, checkerboard 3; added 4
     bool masked = false;
     int curve = 0; ///< 0 sRGB, 1 gamma, 2 table
+    bool dithered = true;
     auto operator<=>(const FinishVariant&) const = default;
 };
 
@@ -50,6 +53,9 @@ public:
     vk::Pipeline sky(const TargetKind& target);
     vk::Pipeline warp(const WarpVariant& variant, vk::Format target);
     vk::Pipeline measure(const WarpVariant& variant);
+    vk::Pipeline meter(const WarpVariant& variant);
+    vk::Pipeline bloom(bool up);
+    vk::Pipeline bloomed(vk::Format target);
     vk::Pipeline hud(bool map, vk::Format target);
     vk::Pipeline lookup(vk::Format target);
     vk::Pipeline finish(const FinishVariant& variant, vk::Format target);
@@ -68,9 +74,10 @@ private:
     std::map<std::pair<SurfaceVariant, TargetKind>, vk::raii::Pipeline> surfaces_;
     std::map<TargetKind, vk::raii::Pipeline> skies_;
     std::map<std::pair<WarpVariant, vk::Format>, vk::raii::Pipeline> warps_;
-    std::map<WarpVariant, vk::raii::Pipeline> measures_;
+    std::map<WarpVariant, vk::raii::Pipeline> measures_, meters_;
     std::map<std::pair<bool, vk::Format>, vk::raii::Pipeline> huds_;
-    std::map<vk::Format, vk::raii::Pipeline> lookups_;
+    std::map<bool, vk::raii::Pipeline> blooms_;
+    std::map<vk::Format, vk::raii::Pipeline> lookups_, bloomed_;
     std::map<std::pair<FinishVariant, vk::Format>, vk::raii::Pipeline> finishes_;
     std::map<std::tuple<bool, int, vk::Format>, vk::raii::Pipeline> patterns_;
 };

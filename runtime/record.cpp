@@ -12,6 +12,7 @@ using Json = nlohmann::ordered_json;
 // Whoever adds a member to one of these adds it to the record, or to the digest, as well.
 static_assert(sizeof(Controls) == 192);
 static_assert(sizeof(Flying) == 56);
+static_assert(sizeof(Exposing) == 32);
 static_assert(sizeof(Flight) == 552);
 
 /// Wide enough for whatever any device may ask for, narrow enough that nothing overflows.
@@ -19,11 +20,12 @@ constexpr Range any_rate{-1e3, 1e3};
 constexpr Range any_place{-1e15, 1e15};
 constexpr double most_ns = 9e15; ///< a hundred days; whole numbers below it are doubles
 
-constexpr std::pair<const char*, bool Controls::*> switches[] = {{"look_ahead", &Controls::look_ahead},
-    {"stop", &Controls::stop}, {"home", &Controls::home}, {"undo", &Controls::undo}, {"reset", &Controls::reset},
-    {"next_mode", &Controls::next_mode}, {"aberration", &Controls::aberration}, {"doppler", &Controls::doppler},
-    {"headlight", &Controls::headlight}, {"hud", &Controls::hud}, {"full_screen", &Controls::full_screen},
-    {"quit", &Controls::quit}, {"pattern", &Controls::pattern}, {"save", &Controls::save}};
+constexpr std::pair<const char*, bool Controls::*> switches[]
+    = {{"look_ahead", &Controls::look_ahead}, {"stop", &Controls::stop}, {"home", &Controls::home},
+        {"undo", &Controls::undo}, {"reset", &Controls::reset}, {"next_mode", &Controls::next_mode},
+        {"aberration", &Controls::aberration}, {"doppler", &Controls::doppler}, {"headlight", &Controls::headlight},
+        {"lock_exposure", &Controls::lock_exposure}, {"hud", &Controls::hud}, {"full_screen", &Controls::full_screen},
+        {"quit", &Controls::quit}, {"pattern", &Controls::pattern}, {"save", &Controls::save}};
 
 const std::vector<std::pair<std::string_view, FlightMode>> modes{
     {"guided", FlightMode::guided}, {"free", FlightMode::free}, {"newtonian", FlightMode::newtonian}};
@@ -125,6 +127,17 @@ Flying read_rules(const Place& place)
     return rules;
 }
 
+Exposing read_exposing(const Place& place)
+{
+    only(place, {"automatic", "least_ev", "greatest_ev", "bloom"});
+    Exposing exposing;
+    take(place, "automatic", exposing.automatic);
+    take(place, "least_ev", exposing.least_ev, {-60, 60});
+    take(place, "greatest_ev", exposing.greatest_ev, {-60, 60});
+    take(place, "bloom", exposing.bloom, {0, 1});
+    return exposing;
+}
+
 RecordEntry read_entry(const Place& top)
 {
     std::vector<std::string_view> known{"dt_ns", "skipped_ns", "unseen", "lever", "faster", "push", "turn", "look_rad",
@@ -209,6 +222,8 @@ std::string text_of(const RecordHeader& header)
         = {{"mode", name_of(rules.mode)}, {"greatest_gamma", rules.greatest_gamma}, {"turn_deg_per_s", rules.turn_deg_per_s},
             {"roll_deg_per_s", rules.roll_deg_per_s}, {"turn_jerk_deg_per_s3", rules.turn_jerk_deg_per_s3},
             {"rapidity_per_s", rules.rapidity_per_s}, {"rapidity_jerk_per_s2", rules.rapidity_jerk_per_s2}};
+    json["exposure"] = {{"automatic", header.exposing.automatic}, {"least_ev", header.exposing.least_ev},
+        {"greatest_ev", header.exposing.greatest_ev}, {"bloom", header.exposing.bloom}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -271,6 +286,7 @@ RecordHeader parse_record_header(const std::string& file, std::string line)
     header.start = read_start(member(top, "start"));
     header.start.scene = header.scene;
     header.rules = read_rules(member(top, "flying"));
+    header.exposing = read_exposing(member(top, "exposure"));
     return header;
 }
 

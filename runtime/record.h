@@ -1,4 +1,5 @@
 #pragma once
+#include "config/exposing.h"
 #include "config/flying.h"
 #include "config/shot.h"
 #include "flight.h"
@@ -22,6 +23,7 @@ struct RecordHeader {
     double seconds_per_time_unit = 1;
     Shot start;
     Flying rules;
+    Exposing exposing;
 };
 
 /// One frame: what step() was given. Controls::told_ns is not kept: that clock means nothing on another day.

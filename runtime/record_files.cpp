@@ -56,8 +56,8 @@ std::vector<fs::path> files_of(const Layout& layout)
     return files;
 }
 
-RecordHeader header_of(
-    const fs::path& scene, const Layout& layout, const Shot& start, const Flying& rules, const std::string& pattern)
+RecordHeader header_of(const fs::path& scene, const Layout& layout, const Shot& start, const Flying& rules,
+    const Exposing& exposing, const std::string& pattern)
 {
     return {.scene = name_of("scenes", scene),
         .layout = name_of("layouts", layout.file),
@@ -66,7 +66,8 @@ RecordHeader header_of(
         .pattern = pattern,
         .seconds_per_time_unit = load_scene_file(scene).seconds_per_time_unit(),
         .start = start,
-        .rules = rules};
+        .rules = rules,
+        .exposing = exposing};
 }
 
 Flown find_flown(const fs::path& record, const RecordHeader& header, const std::string& layout,

@@ -13,7 +13,7 @@ std::vector<std::filesystem::path> files_of(const Layout& layout);
 
 /// The header of a record of what is flown now. Throws InputError where a file can't be read.
 RecordHeader header_of(const std::filesystem::path& scene, const Layout& layout, const Shot& start, const Flying& rules,
-    const std::string& pattern);
+    const Exposing& exposing, const std::string& pattern);
 
 /// What a replay flies in, and on.
 struct Flown {

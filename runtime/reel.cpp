@@ -4,16 +4,21 @@
 
 namespace starbow {
 
-Reel::Reel(Studio& studio, Pattern pattern)
+Reel::Reel(Studio& studio, Pattern pattern, const Exposing& exposing, double start_ev)
     : studio_(studio)
     , layout_(studio.layout())
     , workbench_(pattern)
+    , exposing_(exposing)
+    , start_ev_(start_ev)
 {
+    studio_.frame().bloom(exposing.bloom);
     studio_.frame().show(pattern);
 }
 
-void Reel::take(Controls controls)
+void Reel::take(Controls controls, std::int64_t dt_ns)
 {
+    exposure_.locked ^= controls.lock_exposure;
+    exposure_ = adapted(exposure_, metered_, 1e-9 * double(dt_ns), exposing_);
     controls.save = false;
     Layout layout = layout_;
     if (workbench_.apply(controls, layout)) {
@@ -28,9 +33,25 @@ void Reel::take(Controls controls)
     studio_.frame().move_head(controls.head);
 }
 
+Shot Reel::shot(const Flight& flight, const std::string& scene) const
+{
+    Shot shot = shot_of(flight, scene);
+    shot.exposure_ev = shown_ev(exposure_, exposing_, shot.exposure_ev, start_ev_);
+    return shot;
+}
+
 std::vector<std::vector<std::uint8_t>> Reel::picture(const Flight& flight, const std::string& scene, const Panel* hud)
 {
-    return studio_.picture(shot_of(flight, scene), hud);
+    studio_.frame().meter(exposing_.automatic);
+    auto pictures = studio_.picture(shot(flight, scene), hud);
+    metered_ = studio_.frame().metered();
+    return pictures;
+}
+
+void Reel::skip(const Flight& flight, const std::string& scene)
+{
+    if (exposing_.automatic)
+        metered_ = studio_.metered(shot(flight, scene));
 }
 
 } // namespace starbow

@@ -12,5 +12,6 @@ static_assert(sizeof(InstanceEntry) == 48);
 static_assert(sizeof(CubePush) == 96);
 static_assert(sizeof(ViewPush) == 112);
 static_assert(sizeof(FinishPush) == 112);
+static_assert(sizeof(BloomPush) == 48);
 static_assert(sizeof(PatternPush) == 96);
 } // namespace starbow::shared

@@ -96,6 +96,19 @@ std::vector<std::vector<std::uint8_t>> Studio::picture(const Shot& shot, const P
     return pictures;
 }
 
+std::optional<double> Studio::metered(const Shot& shot)
+{
+    frame_.meter(true);
+    frame_.prepare(shot, nullptr);
+    device_.now([&](vk::CommandBuffer commands) {
+        frame_.draw_cubes(commands);
+        frame_.draw_meter(commands);
+    });
+    const std::optional<double> ev = frame_.metered();
+    frame_.meter(false);
+    return ev;
+}
+
 Channels Studio::numbers(const Shot& shot, std::size_t output)
 {
     MeasureTarget target;
@@ -103,7 +116,9 @@ Channels Studio::numbers(const Shot& shot, std::size_t output)
         *image = make_image(device_,
             {exact_format, images_[output].extent,
                 vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
-    frame_.prepare(shot, nullptr);
+    Shot unexposed = shot; // numbers are of light, not of pictures: all of it counts, and it is the same at any exposure
+    unexposed.exposure_ev = -60;
+    frame_.prepare(unexposed, nullptr);
     device_.now([&](vk::CommandBuffer commands) { frame_.record_measured(commands, output, target); });
 
     std::size_t count = std::size_t(images_[output].extent.width) * images_[output].extent.height;

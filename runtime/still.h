@@ -19,6 +19,9 @@ public:
     /// One output's numbers: the EXR's channels. Shared by all who check the picture.
     Channels numbers(const Shot& shot, std::size_t output);
 
+    /// The exposure for what the shot shows in all outputs together, EV; nothing where all is dark.
+    std::optional<double> metered(const Shot& shot);
+
     const Layout& layout() const { return layout_; }
     Frame& frame() { return frame_; }
     Target target(std::size_t output) const;

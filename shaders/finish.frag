@@ -1,12 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
+#include "dither.glsl"
 // From an output's pictures, in linear light, to what its screen or projector wants: both eyes in one, the colours that this
 // projector shows as the others do, the blend with its neighbours, the black of the darkest one, the curve of its input.
 
 layout(constant_id = 0) const int COMBINE = 0; // 0: one picture; 1 rows, 2 columns, 3 checkerboard of two; 4: both added
 layout(constant_id = 1) const bool MASKED = false;
 layout(constant_id = 2) const int CURVE = 0; // 0: sRGB; 1: gamma; 2: table
+layout(constant_id = 3) const bool DITHERED = true;
 
 layout(set = 0, binding = 0) uniform sampler2D left_picture;
 layout(set = 0, binding = 1) uniform sampler2D right_picture;
@@ -56,9 +58,14 @@ void main()
     if (MASKED)
         light = light * push.curve.y * spread(weights, p) + spread(black_level, p);
     light = min(light, vec3(1.0));
-    if (CURVE == 1)
-        light = undo_srgb(pow(light, vec3(push.curve.x)));
-    if (CURVE == 2)
-        light = undo_srgb(tabled(light));
+    if (CURVE == 0) {
+        if (DITHERED)
+            light = dithered_srgb(light, p);
+    } else {
+        vec3 value = CURVE == 1 ? pow(light, vec3(push.curve.x)) : tabled(light);
+        if (DITHERED)
+            value = clamp(value + dither(p), 0.0, 1.0);
+        light = undo_srgb(value);
+    }
     shown = vec4(light, 1.0);
 }

@@ -58,7 +58,8 @@ struct ViewPush {
     vec4 eye;              // REPROJECT: the eye's place from the cube map's, world, motion axes. TURNING: xyz: the cockpit's
                            // up in motion axes; w: the eye's distance from the middle, to the right
     vec4 zenith;           // x: TURNING: sine of the angle from the zenith at which the separation is full; y:
-                           // REPROJECT: distance of the nearest surface that there may be, scene units
+                           // REPROJECT: distance of the nearest surface that there may be, scene units; z, w: the meter:
+                           // pixels of the viewport for one of its samples
 };
 
 // Push constants of the finish pass: from light to the screen's input. Rows of matrices.
@@ -66,6 +67,13 @@ struct FinishPush {
     vec4 left0, left1, left2;    // of the first picture, or the only one
     vec4 right0, right1, right2; // of the second, where both are added
     vec4 curve;                  // x: 1 / gamma or the table's last index; y: headroom under the black level
+};
+
+// Push constants of the glow.
+struct BloomPush {
+    vec4 step;  // xy: 1 / size of what is drawn, pixels
+    vec4 texel; // xy: 1 / size of what is read, texels
+    vec4 part;  // x: of the light that is taken; zw: the viewport's top left corner in the target, pixels
 };
 
 // Push constants of the test patterns.

@@ -1,11 +1,34 @@
-// Scene-linear light to what a screen can show, 0 to 1, still linear: straight up to `knee`, then a shoulder that reaches 1
-// only at infinity, desaturating on its way so that the brightest light of any hue ends white.
-vec3 tone_map(vec3 light)
+// From exposed scene-linear light to what a screen can show, 0 to 1, still linear Rec. 709. Compiled as C++ too, by
+// tests/exposure_test.cpp.
+
+// Its brightest channel goes straight up to the knee, then along a shoulder, of no break in its slope, that reaches 1 only at
+// infinity. On the shoulder the colour goes to white on the line of its hue in Oklab (Ottosson 2020), where hues stay what
+// they look like; mixed with white in linear light a blue turns by 22 degrees there. With the cube roots c of Oklab's cone
+// responses that line is c + (1 - c) w; its cube is multiplied out here, so that without w the light stays as it is and the
+// roots need not be exact.
+FN rvec3 tone_map(rvec3 light)
 {
-    const float knee = 0.76;
-    float peak = max(light.r, max(light.g, light.b));
-    float above = max(peak - knee, 0.0);
-    float shown = min(peak, knee) + (1.0 - knee) * above / (above + 1.0 - knee);
-    float white = above / (above + 8.0);
-    return mix(light * (shown / max(peak, 1e-30)), vec3(shown), white);
+    const real knee = real(0.76);
+    const real half_white = real(4.0); // above the knee half of the way to white
+    real peak = max(light.x, max(light.y, light.z));
+    real above = max(peak - knee, real(0.0));
+    real shown = min(peak, knee) + (real(1.0) - knee) * above / (above + real(1.0) - knee);
+    real w = above / (above + half_white);
+    real v = real(1.0) - w;
+
+    rvec3 hue = light * (real(1.0) / max(peak, real(1e-30)));
+    rvec3 cones = rvec3(dot(rvec3(0.4122214708, 0.5363325363, 0.0514459929), hue),
+        dot(rvec3(0.2119034982, 0.6806995451, 0.1073969566), hue), dot(rvec3(0.0883024619, 0.2817188376, 0.6299787005), hue));
+    rvec3 s = sqrt(cones); // from 0.226, blue's, to 1
+    rvec3 c = ((s * real(0.18426305) - real(0.57889682)) * s + real(1.28624613)) * s + real(0.10874639); // s^(2/3) within 1e-3
+    rvec3 mixed = c * (c * v + w) * (real(3.0) * v);
+    rvec3 colour = hue * (v * v * v)
+        + (rvec3(dot(rvec3(4.0767416621, -3.3077115913, 0.2309699292), mixed),
+               dot(rvec3(-1.2684380046, 2.6097574011, -0.3413193965), mixed),
+               dot(rvec3(-0.0041960863, -0.7034186147, 1.7076147010), mixed))
+              + w * w)
+            * w;
+    // The line may leave the gamut by a tenth on its way.
+    real most = max(colour.x, max(colour.y, colour.z));
+    return max(colour, rvec3(0.0)) * (shown / max(most, real(1e-30)));
 }

@@ -57,7 +57,8 @@ TEST(ExhibitFileTest, EveryMemberIsTaken)
     const std::string text
         = R"({ "layout": "../walls/wall.json", "shot": "gamma100", "profiles": "sticks", "tutorial": false,
         "flying": { "mode": "newtonian", "greatest_gamma": 50, "turn_deg_per_s": 11, "roll_deg_per_s": 12,
-                    "turn_jerk_deg_per_s3": 13, "rapidity_per_s": 0.14, "rapidity_jerk_per_s2": 0.15 } })";
+                    "turn_jerk_deg_per_s3": 13, "rapidity_per_s": 0.14, "rapidity_jerk_per_s2": 0.15 },
+        "exposure": { "automatic": false, "least_ev": -16, "greatest_ev": 1.7, "bloom": 0.18 } })";
     EXPECT_TRUE(schema_accepts(json::parse(text)));
     const auto file = write_text("exhibit.json", text);
     const Exhibit exhibit = load_exhibit(file);
@@ -74,6 +75,10 @@ TEST(ExhibitFileTest, EveryMemberIsTaken)
     EXPECT_EQ(flying.turn_jerk_deg_per_s3, 13);
     EXPECT_EQ(flying.rapidity_per_s, 0.14);
     EXPECT_EQ(flying.rapidity_jerk_per_s2, 0.15);
+    EXPECT_FALSE(exhibit.exposure.automatic);
+    EXPECT_EQ(exhibit.exposure.least_ev, -16);
+    EXPECT_EQ(exhibit.exposure.greatest_ev, 1.7);
+    EXPECT_EQ(exhibit.exposure.bloom, 0.18);
 }
 
 TEST(ExhibitFileTest, TheSchemasDefaultsAreTheReaders)
@@ -83,8 +88,9 @@ TEST(ExhibitFileTest, TheSchemasDefaultsAreTheReaders)
     for (const auto& [name, node] : schema["properties"].items())
         if (node.contains("default"))
             defaults[name] = node["default"];
-    for (const auto& [name, node] : schema["properties"]["flying"]["properties"].items())
-        defaults["flying"][name] = node.at("default");
+    for (const char* part : {"flying", "exposure"})
+        for (const auto& [name, node] : schema["properties"][part]["properties"].items())
+            defaults[part][name] = node.at("default");
     const Exhibit told = load_exhibit(write_text("exhibit.json", defaults.dump())),
                   own = load_exhibit(write_text("own.json", "{}"));
     EXPECT_EQ(told.layout, own.layout);
@@ -97,6 +103,10 @@ TEST(ExhibitFileTest, TheSchemasDefaultsAreTheReaders)
     EXPECT_EQ(told.flying.turn_jerk_deg_per_s3, own.flying.turn_jerk_deg_per_s3);
     EXPECT_EQ(told.flying.rapidity_per_s, own.flying.rapidity_per_s);
     EXPECT_EQ(told.flying.rapidity_jerk_per_s2, own.flying.rapidity_jerk_per_s2);
+    EXPECT_EQ(told.exposure.automatic, own.exposure.automatic);
+    EXPECT_EQ(told.exposure.least_ev, own.exposure.least_ev);
+    EXPECT_EQ(told.exposure.greatest_ev, own.exposure.greatest_ev);
+    EXPECT_EQ(told.exposure.bloom, own.exposure.bloom);
 }
 
 TEST(ExhibitFileTest, WrongOnesAreRefusedByBoth)
@@ -107,9 +117,17 @@ TEST(ExhibitFileTest, WrongOnesAreRefusedByBoth)
              {R"({ "flying": { "greatest_gamma": 1 } })", "/flying/greatest_gamma: 1 is too small"},
              {R"({ "flying": { "greatest_gamma": 1e7 } })", "/flying/greatest_gamma: 10000000"},
              {R"({ "flying": { "turn_deg_per_s": 0 } })", "/flying/turn_deg_per_s: 0"},
-             {R"({ "flying": { "turn_jerk_deg_per_s3": -1 } })", "/flying/turn_jerk_deg_per_s3: -1"}}) {
+             {R"({ "flying": { "turn_jerk_deg_per_s3": -1 } })", "/flying/turn_jerk_deg_per_s3: -1"},
+             {R"({ "exposure": { "bloom": 1.5 } })", "/exposure/bloom: 1.5 is too large"},
+             {R"({ "exposure": { "least_ev": -61 } })", "/exposure/least_ev: -61"},
+             {R"({ "exposure": { "ev": 0 } })", "/exposure"}}) {
         EXPECT_NE(said(text).find(problem), std::string::npos) << said(text);
         EXPECT_FALSE(schema_accepts(json::parse(text))) << text;
+    }
+    // What a schema can't say.
+    for (const char* limits : {R"("least_ev": 3, "greatest_ev": 2)", R"("least_ev": 17)", R"("greatest_ev": -60.5)"}) {
+        const std::string text = said(std::string(R"({ "exposure": { )") + limits + " } }");
+        EXPECT_NE(text.find("/exposure/"), std::string::npos) << text;
     }
     EXPECT_NE(said(R"({ "scene": "avenue", "shot": "gamma100" })").find("one too many"), std::string::npos);
 }

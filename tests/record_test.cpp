@@ -388,7 +388,7 @@ TEST(Record, KnowsWhatItWasFlownIn)
     const std::filesystem::path scene_file = write_text("scene.json", scene);
     write_text("w.glb", "glTF");
     const Layout layout = load_layout(find("layouts", "desk"));
-    const RecordHeader header = header_of(scene_file, layout, {}, {}, "none");
+    const RecordHeader header = header_of(scene_file, layout, {}, {}, {}, "none");
     EXPECT_EQ(header.layout, "desk");
     EXPECT_EQ(header.scene, scene_file.string());
     EXPECT_EQ(header.seconds_per_time_unit, 2);

@@ -42,7 +42,7 @@ TEST(ReplayFrames, AreTheSameToTheByte)
     {
         Recorder recorder(file, header, [](const std::string& line) { ADD_FAILURE() << line; });
         Studio stage = studio(avenue().world, layout, false);
-        Reel reel(stage, Pattern::none);
+        Reel reel(stage, Pattern::none, header.exposing, header.start.exposure_ev);
         Flight flight = flight_at(header.start, header.rules);
         History history;
         for (int i = 0; i < 60; ++i) {
@@ -50,14 +50,14 @@ TEST(ReplayFrames, AreTheSameToTheByte)
             flight = flown(
                 flight, history, entry.controls, entry.dt_ns, header.rules, header.seconds_per_time_unit, header.start);
             recorder.keep(entry, flight);
-            reel.take(entry.controls);
+            reel.take(entry.controls, entry.dt_ns);
             live.push_back(reel.picture(flight, scene, nullptr));
         }
         recorder.end(flight);
     }
     Replay replay(file);
     Studio stage = studio(avenue().world, layout, false);
-    Reel reel(stage, Pattern::none);
+    Reel reel(stage, Pattern::none, replay.header().exposing, replay.header().start.exposure_ev);
     Flight flight = flight_at(replay.header().start, replay.header().rules);
     History history;
     std::size_t frame = 0;
@@ -66,9 +66,12 @@ TEST(ReplayFrames, AreTheSameToTheByte)
         flight = flown(flight, history, entry->controls, entry->dt_ns, replay.header().rules,
             replay.header().seconds_per_time_unit, replay.header().start);
         replay.compare(flight);
-        reel.take(entry->controls);
+        reel.take(entry->controls, entry->dt_ns);
         ASSERT_LT(frame, live.size());
-        ASSERT_EQ(reel.picture(flight, scene, nullptr), live[frame]) << frame;
+        if (frame % 3 == 1)
+            reel.skip(flight, scene); // not wanted, but seen: the exposure of those after it depends on it
+        else
+            ASSERT_EQ(reel.picture(flight, scene, nullptr), live[frame]) << frame;
         changed += frame > 0 && live[frame] != live[frame - 1];
     }
     EXPECT_EQ(frame, live.size());

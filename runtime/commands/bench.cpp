@@ -76,9 +76,9 @@ struct Lookup {
     }
 };
 
-const char* const stage_names[]
-    = {"plan and cull", "cube pass", "warp pass", "head-up display", "whole frame", "plain frame", "look-up pass"};
-constexpr int stage_count = 7;
+const char* const stage_names[] = {
+    "plan and cull", "cube pass", "warp pass", "head-up display", "whole frame", "plain frame", "look-up pass", "metering"};
+constexpr int stage_count = 8;
 
 struct Result {
     std::string name;
@@ -88,6 +88,7 @@ struct Result {
     double megabytes;
     double frame_over_plain() const { return ms[4] / ms[5]; }
     double warp_over_lookup() const { return ms[2] / ms[6]; }
+    double metering_over_frame() const { return ms[7] / ms[4]; }
 };
 
 Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Shot& shot, const std::string& name, int rounds)
@@ -97,6 +98,7 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
     CubePass plain(device, theatre.pipelines, theatre.world, 1, false);
     Panel panel = Typesetter().draw(readings(ship_at(shot), theatre.world.scene, shot.effects), studio.frame().hud_width());
     Target target = studio.target(0);
+    studio.frame().meter(true); // as the exhibit flies
     studio.picture(shot, &panel); // warms every cache and leaves the target in a known layout
     auto writable = [](vk::CommandBuffer commands, const Target& t) {
         vk::ImageMemoryBarrier2 barrier(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
@@ -125,6 +127,10 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
                 studio.frame().look_up(c, target, lookup_pipeline, *lookup.set);
             });
         });
+        ms[7] = milliseconds([&] {
+            device.now([&](vk::CommandBuffer c) { studio.frame().draw_meter(c); });
+            (void)studio.frame().metered();
+        });
         ms[3] = milliseconds([&] {
             device.now([&](vk::CommandBuffer c) {
                 writable(c, target);
@@ -137,6 +143,7 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
                 writable(c, target);
                 studio.frame().record(c, std::span(&target, 1));
             });
+            (void)studio.frame().metered();
         });
         ms[5] = milliseconds([&] {
             glm::dmat3 straight;
@@ -204,6 +211,7 @@ int bench(const Options& options)
     };
     line("frame / plain", "%12.2f", [](const Result& r) { return r.frame_over_plain(); });
     line("warp / look-up", "%12.2f", [](const Result& r) { return r.warp_over_lookup(); });
+    line("metering / frame", "%12.3f", [](const Result& r) { return r.metering_over_frame(); });
     line("warp, Mpixel/s", "%12.1f", [](const Result& r) { return 0.48e3 / r.ms[2]; });
     line("frames/s", "%12.1f", [](const Result& r) { return 1e3 / r.ms[4]; });
     line("texels per pixel", "%12.2f", [](const Result& r) { return r.texels_per_pixel; });
@@ -220,6 +228,7 @@ int bench(const Options& options)
                 json["milliseconds"][r.name][stage_names[i]] = r.ms[i];
             json["texels_per_pixel"][r.name] = r.texels_per_pixel;
             json["ratios"]["frame_over_plain"][r.name] = r.frame_over_plain();
+            json["ratios"]["metering_over_frame"][r.name] = r.metering_over_frame();
         }
         json["ratios"]["warp_over_lookup"] = results[1].warp_over_lookup();
         std::filesystem::path folder = std::filesystem::path(options.json).parent_path();

@@ -48,8 +48,9 @@ double pixels_of(const Layout& layout)
     return sum;
 }
 
-constexpr int stages = 5;
-const char* const stage_names[stages] = {"plan and cull", "cube passes", "warp passes", "finish passes", "whole frame"};
+constexpr int stages = 6;
+const char* const stage_names[stages]
+    = {"plan and cull", "cube passes", "warp passes", "finish passes", "whole frame", "metering"};
 
 /// One layout to time among others.
 struct Case {
@@ -80,6 +81,10 @@ struct Case {
         ms[1] = milliseconds([&] { device.now([&](vk::CommandBuffer c) { frame.draw_cubes(c); }); });
         ms[2] = each([&](vk::CommandBuffer c, std::size_t i) { frame.warp_output(c, i, targets[i]); });
         ms[3] = each([&](vk::CommandBuffer c, std::size_t i) { frame.finish_output(c, i, targets[i]); });
+        ms[5] = milliseconds([&] {
+            device.now([&](vk::CommandBuffer c) { frame.draw_meter(c); });
+            (void)frame.metered();
+        });
         ms[4] = milliseconds([&] {
             frame.prepare(shot, nullptr);
             device.now([&](vk::CommandBuffer c) {
@@ -87,6 +92,7 @@ struct Case {
                     writable(c, target);
                 frame.record(c, targets);
             });
+            (void)frame.metered();
         });
         for (int i = 0; counts && i < stages; ++i)
             times[i].push_back(ms[i]);
@@ -107,6 +113,7 @@ Case make_case(Theatre& theatre, const std::string& name, const Layout& layout)
     one.name = name;
     one.studio = std::make_unique<Studio>(
         theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, false), false);
+    one.studio->frame().meter(true); // as the exhibit flies
     return one;
 }
 

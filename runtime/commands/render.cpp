@@ -8,6 +8,7 @@
 #include "runtime/theatre.h"
 #include "size_option.h"
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 
@@ -15,8 +16,9 @@ namespace starbow {
 namespace {
 
 struct Options {
-    std::string layout, shot, out, size, pattern = "none", replay, frames;
+    std::string layout, shot, out, size, pattern = "none", exposure = "shot", replay, frames;
     long every = 1;
+    double bloom = 0;
     bool exr = false, hud = false;
 };
 
@@ -53,10 +55,18 @@ int render(const Options& options)
     Studio studio(
         theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, true), options.exr);
     studio.frame().show(pattern);
+    studio.frame().bloom(options.bloom);
+    if (options.exposure == "auto")
+        shot.exposure_ev = std::clamp(studio.metered(shot).value_or(shot.exposure_ev), -60.0, 60.0);
     std::optional<Panel> panel;
-    if (options.hud)
-        panel = Typesetter().draw(readings(ship_at(shot), theatre.world.scene, shot.effects), studio.frame().hud_width());
+    if (options.hud) {
+        Readings told = readings(ship_at(shot), theatre.world.scene, shot.effects);
+        told.exposure_ev = shot.exposure_ev;
+        panel = Typesetter().draw(told, studio.frame().hud_width());
+    }
     render_still(options.out, studio, shot, options.exr, panel ? &*panel : nullptr);
+    if (options.exposure == "auto")
+        std::printf("exposure %.2f EV\n", shot.exposure_ev);
     for (const Output& output : layout.outputs)
         std::printf("%s/%s.png%s\n", options.out.c_str(), output.name.c_str(), options.exr ? " and .exr" : "");
     return theatre.device.complaints.empty() ? 0 : 1;
@@ -79,6 +89,12 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
     CLI::Option* exr = command->add_flag(
         "--exr", options->exr, "Also the numbers: light, directions, Doppler factor and distance of every pixel");
     CLI::Option* pattern = command->add_option("--pattern", options->pattern, pattern_help)->capture_default_str();
+    command->add_option("--exposure", options->exposure, "The shot's own exposure (shot), or after what is seen (auto)")
+        ->check(CLI::IsMember({"shot", "auto"}))
+        ->capture_default_str();
+    command->add_option("--bloom", options->bloom, "The part of the light that glows around what shines, 0 to 1")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
     command->add_flag("--hud", options->hud, "With the head-up display");
     CLI::Option* replay = command->add_option(
         "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");

@@ -79,7 +79,7 @@ int render_replay(const ReplayOptions& options)
     const SceneFile& scene = theatre.world.scene;
     Studio studio(
         theatre.device, theatre.pipelines, theatre.world, from.layout, default_quality(theatre.device, true), false);
-    Reel reel(studio, pattern);
+    Reel reel(studio, pattern, header.exposing, header.start.exposure_ev);
     Typesetter typesetter;
     std::error_code error; // told by write_png
     std::filesystem::create_directories(folder, error);
@@ -92,13 +92,16 @@ int render_replay(const ReplayOptions& options)
         flight = flown(
             flight, history, entry->controls, entry->dt_ns, header.rules, header.seconds_per_time_unit, header.start);
         replay.compare(flight);
-        reel.take(entry->controls);
+        reel.take(entry->controls, entry->dt_ns);
         if (!entry->shown)
             continue;
         const long number = frame++;
         progress.tell(replay, drawn);
-        if (number < first || number > last || (number - first) % options.every != 0)
+        if (number < first || number > last || (number - first) % options.every != 0) {
+            if (number <= last)
+                reel.skip(flight, header.start.scene);
             continue;
+        }
         std::optional<Panel> panel;
         if (options.hud && flight.hud)
             panel = typesetter.draw(readings(flight.ship, scene, flight.effects), studio.frame().hud_width());

@@ -32,6 +32,7 @@ Opening reopen(const std::filesystem::path& record, const std::string& layout)
         .layout = flown.layout,
         .start = header.start,
         .rules = header.rules,
+        .exposure = header.exposing,
         .tutorial = false,
         .pattern = pattern_of(header.pattern),
         .replay = record};
@@ -57,6 +58,7 @@ Opening open(const Options& options)
         opening.scene = scene_of(opening.start, shot_file);
     }
     opening.rules = exhibit.flying;
+    opening.exposure = exhibit.exposure;
     opening.profiles = known_profiles(exhibit.profiles);
     opening.tutorial = exhibit.tutorial;
     opening.pattern = pattern_of(options.pattern);

@@ -1,0 +1,77 @@
+#include "exposure.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+/// From the least positive float to the greatest, sixteen to the power of two.
+constexpr int low_ev = -140, high_ev = 129, bins_per_ev = 16;
+
+struct Bin {
+    double weight = 0, sum = 0; ///< sum: of weight times log2 luminance
+};
+
+} // namespace
+
+std::optional<double> metered_ev(std::span<const Glimpse> view)
+{
+    std::array<Bin, (high_ev - low_ev) * bins_per_ev> bins{};
+    double all = 0;
+    for (const Glimpse& part : view) {
+        const double log = std::log2(double(part.luminance));
+        // Whatever is no number, or no light, is not there.
+        if (!(log >= low_ev && log < high_ev && part.solid_angle_sr > 0 && std::isfinite(part.solid_angle_sr)))
+            continue;
+        Bin& bin = bins[std::size_t((log - low_ev) * bins_per_ev)];
+        bin.weight += part.solid_angle_sr, bin.sum += part.solid_angle_sr * log;
+        all += part.solid_angle_sr;
+    }
+    if (all == 0)
+        return {};
+    double below = 0, weight = 0, sum = 0, bright = 0;
+    for (const Bin& bin : bins) {
+        if (bin.weight == 0)
+            continue;
+        const double from = std::max(below, metered_from * all), to = std::min(below + bin.weight, metered_to * all);
+        if (to > from) {
+            weight += to - from;
+            sum += (to - from) * bin.sum / bin.weight;
+        }
+        if (below <= bright_from * all)
+            bright = bin.sum / bin.weight;
+        below += bin.weight;
+    }
+    return std::min(std::log2(metered_to_luminance) - sum / weight, std::log2(brightest_luminance) - bright);
+}
+
+Exposure adapted(Exposure exposure, std::optional<double> metered, double dt_s, const Exposing& rules)
+{
+    if (!metered || exposure.locked)
+        return exposure;
+    const double wanted = std::clamp(*metered, rules.least_ev, rules.greatest_ev);
+    if (!exposure.ev) {
+        exposure.ev = wanted;
+        return exposure;
+    }
+    const double time_s = wanted < *exposure.ev ? to_bright_s : to_dark_s; // a brighter view wants less
+    *exposure.ev = wanted + (*exposure.ev - wanted) * std::exp(-std::max(dt_s, 0.0) / time_s);
+    return exposure;
+}
+
+double shown_ev(const Exposure& exposure, const Exposing& rules, double visitors_ev, double start_ev)
+{
+    if (!rules.automatic || !exposure.ev)
+        return visitors_ev;
+    return std::clamp(*exposure.ev + visitors_ev - start_ev, -60.0, 60.0);
+}
+
+double pre_exposure(double brightest, double exposure_ev, double most_gain)
+{
+    const double white_ev = 10 - exposure_ev + std::log2(most_gain);
+    const double brightest_ev = std::min(std::log2(std::max(brightest, 1e-30)), white_ev);
+    return std::exp2(std::clamp(std::floor(14 - brightest_ev), -100.0, 100.0));
+}
+
+} // namespace starbow

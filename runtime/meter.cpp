@@ -1,0 +1,72 @@
+#include "meter.h"
+#include "pipelines.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+using Layout_ = vk::ImageLayout;
+
+/// Of all panes together, and at least so many of each. A lamp of a thousandth of the view is still seen by some.
+constexpr double samples = 6000, least_samples = 48;
+
+static_assert(sizeof(Glimpse) == 8);
+
+} // namespace
+
+Meter::Meter(const Device& device, std::span<const glm::ivec2> panes)
+{
+    glm::ivec2 size(1);
+    int below = 0;
+    const auto counting = std::count_if(panes.begin(), panes.end(), [](const glm::ivec2& pane) { return pane.x > 0; });
+    for (const glm::ivec2& pane : panes) {
+        if (pane.x == 0) {
+            cells_.push_back({});
+            continue;
+        }
+        const double wanted = std::max(samples / double(counting), least_samples);
+        const double across = std::sqrt(wanted * pane.x / pane.y);
+        Cell cell{
+            {0, below}, glm::clamp(glm::ivec2(glm::dvec2(across, wanted / across)), glm::ivec2(1), glm::min(pane, 1024))};
+        below += cell.size.y;
+        size = glm::max(size, cell.corner + cell.size);
+        cells_.push_back(cell);
+    }
+    picture_ = make_image(device,
+        {meter_format, {std::uint32_t(size.x), std::uint32_t(size.y)},
+            vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
+    back_
+        = make_mapped_buffer(device, std::size_t(size.x) * size.y * sizeof(Glimpse), vk::BufferUsageFlagBits::eTransferDst);
+}
+
+vk::RenderingAttachmentInfo Meter::begin(vk::CommandBuffer commands) const
+{
+    transition(commands, picture_, Layout_::eUndefined, Stage::eTransfer, {}, Layout_::eColorAttachmentOptimal,
+        Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+    return {*picture_.view, Layout_::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
+        vk::AttachmentStoreOp::eStore};
+}
+
+void Meter::end(vk::CommandBuffer commands)
+{
+    transition(commands, picture_, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+        Access::eColorAttachmentWrite, Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+    commands.copyImageToBuffer(*picture_.image, Layout_::eTransferSrcOptimal, *back_.buffer,
+        vk::BufferImageCopy(
+            0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {picture_.extent.width, picture_.extent.height, 1}));
+    vk::MemoryBarrier2 to_host(Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
+    commands.pipelineBarrier2(vk::DependencyInfo({}, to_host));
+    drawn_ = true;
+}
+
+std::span<const Glimpse> Meter::view() const
+{
+    if (!drawn_)
+        return {};
+    return {static_cast<const Glimpse*>(back_.mapped), std::size_t(picture_.extent.width) * picture_.extent.height};
+}
+
+} // namespace starbow

@@ -1,0 +1,28 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
+// One step of the glow around what shines: to half the size, or back to twice and mixed with what is there. Every step's
+// weights add up to 1, so that light is moved and none made (Bjorge, "Bandwidth-efficient rendering", 2015: his filters).
+
+layout(constant_id = 0) const bool UP = false;
+
+layout(set = 0, binding = 0) uniform sampler2D picture;
+layout(push_constant) uniform Push { BloomPush push; };
+layout(location = 0) out vec4 spread;
+
+vec3 at(vec2 place) { return textureLod(picture, place, 0.0).rgb; }
+
+void main()
+{
+    vec2 place = gl_FragCoord.xy * push.step.xy;
+    vec2 h = 0.5 * push.texel.xy;
+    if (!UP) {
+        vec3 sum = 4.0 * at(place) + at(place - h) + at(place + h) + at(place + vec2(h.x, -h.y)) + at(place - vec2(h.x, -h.y));
+        spread = vec4(sum / 8.0, 1.0);
+        return;
+    }
+    vec3 sum = at(place + vec2(2.0 * h.x, 0.0)) + at(place - vec2(2.0 * h.x, 0.0)) + at(place + vec2(0.0, 2.0 * h.y))
+        + at(place - vec2(0.0, 2.0 * h.y))
+        + 2.0 * (at(place - h) + at(place + h) + at(place + vec2(h.x, -h.y)) + at(place - vec2(h.x, -h.y)));
+    spread = vec4(sum / 12.0 * push.part.x, push.part.x); // premultiplied: the rest stays
+}

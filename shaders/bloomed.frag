@@ -1,0 +1,23 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
+#include "physics/real.glsl"
+#include "tone.glsl"
+#include "dither.glsl"
+// A viewport's exposed light with its glow, shown: what warp.frag does by itself where nothing glows.
+
+layout(constant_id = 0) const bool DITHERED = true;
+
+layout(set = 0, binding = 0) uniform sampler2D picture; // alpha 0: shows nothing
+layout(set = 0, binding = 1) uniform sampler2D glow;    // half as large
+layout(push_constant) uniform Push { BloomPush push; };
+layout(location = 0) out vec4 shown;
+
+void main()
+{
+    vec2 pixel = gl_FragCoord.xy - push.part.zw;
+    vec4 light = texelFetch(picture, ivec2(pixel), 0);
+    vec3 around = textureLod(glow, pixel * push.step.xy, 0.0).rgb;
+    vec3 screen = light.a > 0.0 ? tone_map(mix(light.rgb, around, push.part.x)) : vec3(0.0);
+    shown = vec4(DITHERED ? dithered_srgb(screen, ivec2(gl_FragCoord.xy)) : screen, 1.0);
+}

@@ -1,0 +1,25 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
+#include "physics/real.glsl"
+#include "physics/aberration.glsl"
+#include "view.glsl"
+#include "seen.glsl"
+// The view at a glance, for the exposure: one pixel stands for zenith.z x zenith.w of the viewport's. Where colours look
+// different ways it looks green's.
+
+layout(location = 0) out vec2 glimpse; // luminance of the scene-linear light at EV 0; solid angle, 0: nothing is shown
+
+void main()
+{
+    glimpse = vec2(0.0);
+    float pixel_angle;
+    vec3 n = look(view.row0, view.row1, view.row2, (gl_FragCoord.xy - view.origin.xy) * view.zenith.zw, CHANNELS ? 1 : 0, pixel_angle);
+    if (MAP && pixel_angle == 0.0)
+        return;
+    pixel_angle *= sqrt(view.zenith.z * view.zenith.w);
+    Sight sight = sight_of(n, pixel_angle);
+    vec3 light = light_seen(place_of(sight.n), sight.D, pixel_angle);
+    const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
+    glimpse = vec2(min(dot(light, luminance) * view.boost.z, 1e38), pixel_angle * pixel_angle);
+}
