@@ -269,9 +269,13 @@ void fly(Visit& visit, Theatre& theatre)
             break;
         visit.flight = flown(visit.flight, visit.history, controls, entry.dt_ns, visit.opening.rules,
             scene.seconds_per_time_unit(), visit.opening.start);
-        visit.tape.keep(entry, visit.flight);
         visit.exposure.locked ^= controls.lock_exposure;
-        visit.exposure = adapted(visit.exposure, metered, 1e-9 * double(entry.dt_ns), visit.opening.exposure);
+        if (visit.tape.replays())
+            visit.exposure.ev = entry.exposure_ev;
+        else
+            visit.exposure = adapted(visit.exposure, metered, 1e-9 * double(entry.dt_ns), visit.opening.exposure);
+        entry.exposure_ev = visit.exposure.ev;
+        visit.tape.keep(entry, visit.flight);
         visit.tutorial = advance(visit.tutorial, controls, visit.flight, 1e-9 * double(entry.dt_ns));
         turn(visit, *frame, controls); // the device has finished the frame before
         frame->show(visit.workbench.pattern());

@@ -141,7 +141,7 @@ Exposing read_exposing(const Place& place)
 RecordEntry read_entry(const Place& top)
 {
     std::vector<std::string_view> known{"dt_ns", "skipped_ns", "unseen", "lever", "faster", "push", "turn", "look_rad",
-        "head_m", "head_turned", "exposure", "choose", "turn_by"};
+        "head_m", "head_turned", "exposure", "exposure_ev", "choose", "turn_by"};
     for (const auto& [name, flag] : switches)
         known.emplace_back(name);
     only(top, known);
@@ -149,6 +149,8 @@ RecordEntry read_entry(const Place& top)
     entry.dt_ns = whole(member(top, "dt_ns"), 1e9);
     if (auto p = find(top, "skipped_ns"))
         entry.skipped_ns = whole(*p, most_ns);
+    if (auto p = find(top, "exposure_ev"))
+        entry.exposure_ev = number(*p, {-1e3, 1e3});
     bool unseen = false;
     take(top, "unseen", unseen);
     entry.shown = !unseen;
@@ -237,6 +239,8 @@ std::string text_of(const RecordEntry& entry)
         json["skipped_ns"] = entry.skipped_ns;
     if (!entry.shown)
         json["unseen"] = true;
+    if (entry.exposure_ev)
+        json["exposure_ev"] = *entry.exposure_ev;
     if (controls.lever)
         json["lever"] = *controls.lever;
     put(json, "faster", controls.faster, usual.faster);

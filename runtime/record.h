@@ -32,6 +32,7 @@ struct RecordEntry {
     std::int64_t skipped_ns
         = 0; ///< of the visitor's time before it: a stall of the machine that the flight does not make up
     bool shown = true; ///< false: the visitor saw no picture of it, all windows being out of sight
+    std::optional<double> exposure_ev; ///< that the automatic exposure had adapted to: what it saw is not repeated
     Controls controls; ///< time_ns: the sum of all dt_ns and skipped_ns so far
 };
 

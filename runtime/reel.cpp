@@ -15,10 +15,11 @@ Reel::Reel(Studio& studio, Pattern pattern, const Exposing& exposing, double sta
     studio_.frame().show(pattern);
 }
 
-void Reel::take(Controls controls, std::int64_t dt_ns)
+void Reel::take(const RecordEntry& entry)
 {
+    Controls controls = entry.controls;
     exposure_.locked ^= controls.lock_exposure;
-    exposure_ = adapted(exposure_, metered_, 1e-9 * double(dt_ns), exposing_);
+    exposure_.ev = entry.exposure_ev;
     controls.save = false;
     Layout layout = layout_;
     if (workbench_.apply(controls, layout)) {
@@ -33,25 +34,11 @@ void Reel::take(Controls controls, std::int64_t dt_ns)
     studio_.frame().move_head(controls.head);
 }
 
-Shot Reel::shot(const Flight& flight, const std::string& scene) const
+std::vector<std::vector<std::uint8_t>> Reel::picture(const Flight& flight, const std::string& scene, const Panel* hud)
 {
     Shot shot = shot_of(flight, scene);
     shot.exposure_ev = shown_ev(exposure_, exposing_, shot.exposure_ev, start_ev_);
-    return shot;
-}
-
-std::vector<std::vector<std::uint8_t>> Reel::picture(const Flight& flight, const std::string& scene, const Panel* hud)
-{
-    studio_.frame().meter(exposing_.automatic);
-    auto pictures = studio_.picture(shot(flight, scene), hud);
-    metered_ = studio_.frame().metered();
-    return pictures;
-}
-
-void Reel::skip(const Flight& flight, const std::string& scene)
-{
-    if (exposing_.automatic)
-        metered_ = studio_.metered(shot(flight, scene));
+    return studio_.picture(shot, hud);
 }
 
 } // namespace starbow

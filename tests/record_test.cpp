@@ -34,6 +34,8 @@ RecordEntry some_entry(std::mt19937_64& random)
 {
     RecordEntry entry;
     entry.dt_ns = std::int64_t(random() % 40'000'000);
+    if (random() % 3 > 0)
+        entry.exposure_ev = double(random() % 100000) / 3000 - 16;
     entry.skipped_ns = random() % 50 == 0 ? std::int64_t(random() % 1'000'000'000'000) : 0;
     entry.shown = random() % 10 != 0;
     Controls& c = entry.controls;
@@ -58,7 +60,7 @@ RecordEntry some_entry(std::mt19937_64& random)
     maybe(c.exposure, -1, 1);
     for (bool Controls::*flag : {&Controls::look_ahead, &Controls::stop, &Controls::home, &Controls::undo, &Controls::reset,
              &Controls::next_mode, &Controls::aberration, &Controls::doppler, &Controls::headlight, &Controls::hud,
-             &Controls::full_screen, &Controls::quit, &Controls::pattern, &Controls::save})
+             &Controls::full_screen, &Controls::quit, &Controls::pattern, &Controls::save, &Controls::lock_exposure})
         c.*flag = random() % 200 == 0;
     c.choose = random() % 20 == 0 ? int(random() % 3) - 1 : 0;
     c.turn_by = random() % 20 == 0 ? int(random() % 21) - 10 : 0;
@@ -68,13 +70,14 @@ RecordEntry some_entry(std::mt19937_64& random)
 std::vector<std::uint64_t> bits(const RecordEntry& e)
 {
     const Controls& c = e.controls;
-    std::vector<std::uint64_t> all{std::uint64_t(e.dt_ns), std::uint64_t(e.skipped_ns), e.shown, c.lever.has_value()};
+    std::vector<std::uint64_t> all{
+        std::uint64_t(e.dt_ns), std::uint64_t(e.skipped_ns), e.shown, c.lever.has_value(), e.exposure_ev.has_value()};
     for (double v : {c.lever.value_or(0), c.faster, c.push.x, c.push.y, c.push.z, c.turn.x, c.turn.y, c.turn.z, c.look_rad.x,
              c.look_rad.y, c.head.moved_m.x, c.head.moved_m.y, c.head.moved_m.z, c.head.turned.w, c.head.turned.x,
-             c.head.turned.y, c.head.turned.z, c.exposure})
+             c.head.turned.y, c.head.turned.z, c.exposure, e.exposure_ev.value_or(0)})
         all.push_back(std::bit_cast<std::uint64_t>(v));
     for (bool flag : {c.look_ahead, c.stop, c.home, c.undo, c.reset, c.next_mode, c.aberration, c.doppler, c.headlight,
-             c.hud, c.full_screen, c.quit, c.pattern, c.save})
+             c.hud, c.full_screen, c.quit, c.pattern, c.save, c.lock_exposure})
         all.push_back(flag);
     all.push_back(std::uint64_t(c.choose));
     all.push_back(std::uint64_t(c.turn_by));

@@ -92,16 +92,13 @@ int render_replay(const ReplayOptions& options)
         flight = flown(
             flight, history, entry->controls, entry->dt_ns, header.rules, header.seconds_per_time_unit, header.start);
         replay.compare(flight);
-        reel.take(entry->controls, entry->dt_ns);
+        reel.take(*entry);
         if (!entry->shown)
             continue;
         const long number = frame++;
         progress.tell(replay, drawn);
-        if (number < first || number > last || (number - first) % options.every != 0) {
-            if (number <= last)
-                reel.skip(flight, header.start.scene);
+        if (number < first || number > last || (number - first) % options.every != 0)
             continue;
-        }
         std::optional<Panel> panel;
         if (options.hud && flight.hud)
             panel = typesetter.draw(readings(flight.ship, scene, flight.effects), studio.frame().hud_width());
