@@ -4,6 +4,7 @@
 #include "hud.h"
 #include "input/controls.h"
 #include "plan.h"
+#include "star_pass.h"
 
 namespace starbow {
 
@@ -89,6 +90,7 @@ private:
     struct Map {
         std::shared_ptr<const DirectionMap> directions;
         Image image;
+        Image inverse; ///< where there are stars
     };
 
     /// What is worked out of the layout before anything changes: what is wrong with its files shows here.
@@ -107,6 +109,7 @@ private:
     glm::dvec3 scene_units(const glm::dvec3& place_m) const;
     glm::dvec3 world_offset(const PaneState& pane) const;
     void write_sets();
+    void draw_stars(vk::CommandBuffer commands, std::size_t output, int layer);
     void warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline, double exposure);
     void pattern_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Format target);
     WarpVariant variant(const PaneState& pane) const;
@@ -124,6 +127,7 @@ private:
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::raii::Sampler linear_ = nullptr, nearest_ = nullptr, finest_ = nullptr; ///< finest_: level 0 alone
     Buffer colours_;
+    StarPass stars_;
     Image nothing_, no_map_; ///< stand in for what a pane has not
     std::vector<Map> maps_;
     std::vector<Eye> eyes_;

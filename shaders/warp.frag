@@ -17,7 +17,8 @@ vec3 light_along(int channel)
     if (MAP && pixel_angle == 0.0)
         return vec3(0.0);
     Sight sight = sight_of(n, pixel_angle);
-    return light_seen(place_of(sight.n), sight.D, pixel_angle);
+    vec3 light = light_seen(place_of(sight.n), sight.D, pixel_angle);
+    return STARS ? light + texelFetch(stars_picture, ivec2(gl_FragCoord.xy), 0).rgb : light;
 }
 
 void main()

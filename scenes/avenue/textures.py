@@ -122,19 +122,3 @@ def black_body(kelvin):
     rgb = (3.2404542 * x - 1.5371385 * y - 0.4985314 * z, -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
            0.0556434 * x - 0.2040259 * y + 1.0572252 * z)
     return [max(0.0, part) / max(rgb) for part in rgb]
-
-
-STAR_TINTS, STAR_LEVELS = 32, 16
-
-
-def star_palette():
-    """A texel for each pair of temperature (columns, 3000 K to 20000 K in equal steps of 1/T) and brightness (rows, by
-    factors of 1.25, the faintest first)."""
-    rows = []
-    for level in range(STAR_LEVELS):
-        row = bytearray()
-        for tint in range(STAR_TINTS):
-            kelvin = 1 / mix(1 / 3000, 1 / 20000, tint / (STAR_TINTS - 1))
-            row += bytes(encode_srgb(part * 1.25 ** (level + 1 - STAR_LEVELS)) for part in black_body(kelvin))
-        rows.append(bytes(row))
-    return png(STAR_TINTS, STAR_LEVELS, rows)
