@@ -137,8 +137,8 @@ void CubePass::record(vk::CommandBuffer commands)
         Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
     constexpr auto depth_access = Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite;
     transition(commands, depth_, Layout_::eUndefined,
-        depth_tests | Stage::eVertexShader | Stage::eFragmentShader | Stage::eColorAttachmentOutput,
-        depth_access, Layout_::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
+        depth_tests | Stage::eVertexShader | Stage::eFragmentShader | Stage::eColorAttachmentOutput, depth_access,
+        Layout_::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
         depth_access | Access::eColorAttachmentWrite);
     if (sampled) {
         transition(commands, colour, Layout_::eUndefined, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,

@@ -377,7 +377,8 @@ shared::ViewPush Frame::push(const PaneState& pane, const glm::dmat3& axes_from_
     } else {
         push.eye = glm::vec4(world_offset(pane), 0);
     }
-    push.zenith = glm::vec4(std::sin(layout_.stereo.full_from_zenith_deg * degree), eyes_[pane.eye].nearest, pane.pane().size);
+    push.zenith
+        = glm::vec4(std::sin(layout_.stereo.full_from_zenith_deg * degree), eyes_[pane.eye].nearest, pane.pane().size);
     return push;
 }
 
@@ -398,8 +399,8 @@ void Frame::draw_stars(vk::CommandBuffer commands, std::size_t output, int layer
         own.mips = false;
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.stars(own, stars_.format()));
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 0, *pane.warp_set, {});
-        commands.pushConstants<shared::ViewPush>(*pipelines_.star_layout,
-            vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
+        commands.pushConstants<shared::ViewPush>(
+            *pipelines_.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
         stars_.draw(commands, pane.pane().corner, pane.pane().size, own.channels);
     }
     stars_.end(commands);

@@ -26,8 +26,8 @@ struct GpuWorld {
 };
 
 /// stars: of the scene's catalogue; counted only where the scene has a sky of stars.
-GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const SceneFile& scene,
-    const std::vector<Star>& stars = {});
+GpuWorld upload(
+    Device& device, const Pipelines& pipelines, World world, const SceneFile& scene, const std::vector<Star>& stars = {});
 
 /// Other stars in their place, none too. No frame of this world must be under way, and none is drawn by a Frame from before.
 void put_stars(Device& device, GpuWorld& world, const std::vector<Star>& stars);

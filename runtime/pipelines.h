@@ -61,7 +61,7 @@ public:
     vk::raii::DescriptorSetLayout eye_set = nullptr; ///< 0 constants, 1 instances, 2 visible
     vk::raii::DescriptorSetLayout material_set = nullptr; ///< 0 base, 1 emissive texture
     vk::raii::DescriptorSetLayout warp_set = nullptr; ///< 0 direction map, 1 atlas, 2 slots, 3 colours, 4 depth atlas,
-                                                   ///< 5 picture of the stars, 6 inverse of the direction map
+                                                      ///< 5 picture of the stars, 6 inverse of the direction map
     vk::raii::DescriptorSetLayout star_set = nullptr; ///< 0 constants, 1 stars, 2 black bodies
     vk::raii::DescriptorSetLayout picture_set = nullptr; ///< 0 direction map, 1 panel, label or cube
     vk::raii::DescriptorSetLayout finish_set = nullptr; ///< 0 left, 1 right picture, 2 weights, 3 black level, 4 table

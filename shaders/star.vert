@@ -51,19 +51,24 @@ ivec2 cell_of(vec3 n, int side)
 
 vec4 texel_at(ivec2 pixel, int channel) { return unpacked(texelFetch(direction_map, ivec3(pixel, channel), 0).rg); }
 
-// How the direction changes from pixel to pixel, from a neighbour that shows something.
-vec3 step_from(vec4 here, ivec2 pixel, ivec2 way, ivec2 size, int channel)
+// How the direction changes from a pixel to the one beside it; 0 where that shows nothing.
+vec3 change_to(vec4 here, ivec2 pixel, ivec2 way, ivec2 size, int channel)
 {
-    for (int back = 0; back < 2; ++back) {
-        ivec2 beside = pixel + way;
-        if (all(greaterThanEqual(beside, ivec2(0))) && all(lessThan(beside, size))) {
-            vec4 there = texel_at(beside, channel);
-            if (there.w > 0.0)
-                return back == 0 ? there.xyz - here.xyz : here.xyz - there.xyz;
-        }
-        way = -way;
-    }
-    return vec3(0.0);
+    ivec2 beside = pixel + way;
+    if (any(lessThan(beside, ivec2(0))) || any(greaterThanEqual(beside, size)))
+        return vec3(0.0);
+    vec4 there = texel_at(beside, channel);
+    return there.w > 0.0 ? there.xyz - here.xyz : vec3(0.0);
+}
+
+// How it changes about a pixel: the mean of both sides, but for one where the picture ends or has a seam.
+vec3 change_about(vec4 here, ivec2 pixel, ivec2 way, ivec2 size, int channel)
+{
+    vec3 on = change_to(here, pixel, way, size, channel), back = -change_to(here, pixel, -way, size, channel);
+    float on_square = dot(on, on), back_square = dot(back, back);
+    if (min(on_square, back_square) * 4.0 > max(on_square, back_square))
+        return 0.5 * (on + back);
+    return back_square == 0.0 || (on_square > 0.0 && on_square < back_square) ? on : back;
 }
 
 // The point of the map (pixels from its corner) that shows n (the map's axes), by Newton's method from a pixel near it; a spot
@@ -73,8 +78,8 @@ bool found_from(ivec2 pixel, vec3 n, int channel, out vec2 point, out float pixe
     ivec2 size = textureSize(direction_map, 0).xy;
     for (int round = 0; round < 8; ++round) {
         vec4 here = texel_at(pixel, channel);
-        vec3 right = step_from(here, pixel, ivec2(1, 0), size, channel);
-        vec3 down = step_from(here, pixel, ivec2(0, 1), size, channel);
+        vec3 right = change_about(here, pixel, ivec2(1, 0), size, channel);
+        vec3 down = change_about(here, pixel, ivec2(0, 1), size, channel);
         vec3 across = cross(right, down), off = n - here.xyz;
         float area_square = dot(across, across);
         if (area_square == 0.0 || dot(n, here.xyz) <= 0.0)

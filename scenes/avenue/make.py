@@ -3,7 +3,7 @@
 visitor starts at the origin, looking along -z. Needs Python 3's own library only; the same bytes come out every time."""
 import random
 import sys
-from math import cos, pi, radians, sin, sqrt
+from math import cos, pi, radians, sin
 from pathlib import Path
 
 import shapes

@@ -100,25 +100,3 @@ def stipple(size=64):
             row.append(round(min(1, max(0, (away - 0.27) * size / 3 + 0.5)) * (levels - 1)))
         rows.append(bytes(row))
     return png(2 * size, size, rows, palette)
-
-
-def encode_srgb(linear):
-    encoded = 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055
-    return round(255 * max(0.0, min(1.0, encoded)))
-
-
-def black_body(kelvin):
-    """Rec. 709 linear, the largest part 1. Planck's law through Wyman, Sloan and Shirley's fits of the CIE 1931 functions
-    (JCGT 2(2), 2013)."""
-    def lobe(nm, peak, below, above):
-        return exp(-0.5 * ((nm - peak) / (below if nm < peak else above)) ** 2)
-    x = y = z = 0.0
-    for nm in range(380, 781, 5):
-        power = nm ** -5 / (exp(1.438777e7 / (nm * kelvin)) - 1)
-        x += power * (1.056 * lobe(nm, 599.8, 37.9, 31.0) + 0.362 * lobe(nm, 442.0, 16.0, 26.7)
-                      - 0.065 * lobe(nm, 501.1, 20.4, 26.2))
-        y += power * (0.821 * lobe(nm, 568.8, 46.9, 40.5) + 0.286 * lobe(nm, 530.9, 16.3, 31.1))
-        z += power * (1.217 * lobe(nm, 437.0, 11.8, 36.0) + 0.681 * lobe(nm, 459.0, 26.0, 13.8))
-    rgb = (3.2404542 * x - 1.5371385 * y - 0.4985314 * z, -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
-           0.0556434 * x - 0.2040259 * y + 1.0572252 * z)
-    return [max(0.0, part) / max(rgb) for part in rgb]
