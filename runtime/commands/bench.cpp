@@ -1,4 +1,5 @@
 #include "bench_layout.h"
+#include "bench_stars.h"
 #include "commands.h"
 #include "config/error.h"
 #include "number_option.h"
@@ -19,6 +20,7 @@ namespace {
 struct Options {
     int rounds = 25;
     std::string json, layout, shot = "avenue-gamma4";
+    bool stars = false;
 };
 
 using Clock = std::chrono::steady_clock;
@@ -160,6 +162,8 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
 
 int bench(const Options& options)
 {
+    if (options.stars)
+        return bench_stars(options.rounds);
     if (!options.layout.empty())
         return bench_layout(options.layout, options.shot, options.rounds);
     if (!options.json.empty())
@@ -245,6 +249,7 @@ void add_bench(CLI::App& app, std::function<int()>& chosen)
         "Instead: this layout stage by stage, and displays compared with each other: kinds of projection, many viewports, "
         "stereo methods");
     command->add_option("--shot", options->shot, "With --layout: the shot to time")->capture_default_str();
+    command->add_flag("--stars", options->stars, "Instead: what the stars cost, the avenue's own and a million");
     command->footer("Example:\n  starbow bench --json out/bench.json");
     command->callback([options, &chosen] { chosen = [options] { return bench(*options); }; });
 }
