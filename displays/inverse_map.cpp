@@ -29,57 +29,57 @@ glm::ivec2 folded(glm::ivec2 cell, int side)
     return cell;
 }
 
-bool apart(const glm::u16vec4& cell, int x, int y)
+void put(glm::uvec4& cell, std::uint32_t pixel)
 {
-    return std::max(std::abs(int(cell.x) - x), std::abs(int(cell.y) - y)) > far;
-}
-
-void put(glm::u16vec4& cell, int x, int y)
-{
-    const glm::u16vec2 pixel(x, y);
-    if (cell.x == InverseMap::none)
-        cell = {pixel, InverseMap::none, InverseMap::none};
-    else if (cell.z == InverseMap::none && apart(cell, x, y))
-        cell = {cell.x, cell.y, pixel};
+    const glm::ivec2 at(pixel & 0xffff, pixel >> 16);
+    for (int i = 0; i < 4; ++i) {
+        if (cell[i] == InverseMap::none) {
+            cell[i] = pixel;
+            return;
+        }
+        const glm::ivec2 off = glm::abs(glm::ivec2(cell[i] & 0xffff, cell[i] >> 16) - at);
+        if (std::max(off.x, off.y) <= far)
+            return;
+    }
 }
 
 } // namespace
 
 InverseMap inverse(const DirectionMap& map)
 {
-    double sky = 0;
-    std::size_t shown = 0;
-    for (const glm::vec4& texel : map.texels) {
-        sky += double(texel.w) * texel.w;
-        shown += texel.w > 0;
+    std::vector<float> angles; // of some pixels
+    for (std::size_t i = 0; i < map.texels.size(); i += 7)
+        if (map.texels[i].w > 0)
+            angles.push_back(map.texels[i].w);
+    double pixel = 1; // the middle one: at a seam of the picture they are too large
+    if (!angles.empty()) {
+        std::nth_element(angles.begin(), angles.begin() + angles.size() / 2, angles.end());
+        pixel = angles[angles.size() / 2];
     }
     InverseMap inverse;
     inverse.channels = map.channels;
-    const double cell = pixels_per_cell * sky / double(std::max<std::size_t>(shown, 1));
-    inverse.side = std::clamp(int(std::sqrt(4 * 3.14159265358979323846 / std::max(cell, 1e-9))), least_side, most_side);
+    const double cells = 4 * 3.14159265358979323846 / (pixels_per_cell * pixel * pixel);
+    inverse.side = int(std::clamp(std::sqrt(cells), double(least_side), double(most_side)));
     const int side = inverse.side;
     const std::size_t count = std::size_t(side) * side;
-    inverse.cells.assign(count * map.channels, glm::u16vec4(InverseMap::none));
+    inverse.cells.assign(count * map.channels, glm::uvec4(InverseMap::none));
     for (int channel = 0; channel < map.channels; ++channel) {
-        glm::u16vec4* cells = inverse.cells.data() + count * channel;
+        glm::uvec4* cells = inverse.cells.data() + count * channel;
         for (int y = 0; y < map.size.y; ++y)
             for (int x = 0; x < map.size.x; ++x)
                 if (const glm::vec4& texel = map.at(x, y, channel); texel.w > 0) {
                     const glm::ivec2 at = cell_of(glm::vec3(texel), side);
-                    put(cells[std::size_t(at.y) * side + at.x], x, y);
+                    put(cells[std::size_t(at.y) * side + at.x], std::uint32_t(x) | std::uint32_t(y) << 16);
                 }
         for (int round = 0; round < spread; ++round) {
-            const std::vector<glm::u16vec4> before(cells, cells + count);
+            const std::vector<glm::uvec4> before(cells, cells + count);
             for (int y = 0; y < side; ++y)
                 for (int x = 0; x < side; ++x)
                     for (const glm::ivec2& step : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
                         const glm::ivec2 beside = folded(glm::ivec2(x, y) + step, side);
-                        const glm::u16vec4& there = before[std::size_t(beside.y) * side + beside.x];
-                        glm::u16vec4& here = cells[std::size_t(y) * side + x];
-                        if (there.x != InverseMap::none)
-                            put(here, there.x, there.y);
-                        if (there.z != InverseMap::none)
-                            put(here, there.z, there.w);
+                        const glm::uvec4& there = before[std::size_t(beside.y) * side + beside.x];
+                        for (int i = 0; i < 4 && there[i] != InverseMap::none; ++i)
+                            put(cells[std::size_t(y) * side + x], there[i]);
                     }
         }
     }

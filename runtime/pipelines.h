@@ -11,7 +11,7 @@ constexpr vk::Format light_format = vk::Format::eR16G16B16A16Sfloat;
 constexpr vk::Format depth_format = vk::Format::eD32Sfloat;
 constexpr vk::Format exact_format = vk::Format::eR32G32B32A32Sfloat;
 constexpr vk::Format map_format = vk::Format::eR32G32Uint; // a direction map's texel, packed
-constexpr vk::Format inverse_format = vk::Format::eR16G16B16A16Uint; // InverseMap's cell
+constexpr vk::Format inverse_format = vk::Format::eR32G32B32A32Uint; // InverseMap's cell
 
 /// What a material needs of the cube pass: constant_ids of cube.frag.
 struct SurfaceVariant {

@@ -1,6 +1,7 @@
 #include "stars.h"
 #include "colour.h"
 #include "config/reader.h"
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -146,6 +147,13 @@ std::vector<shared::StarEntry> star_entries(const std::vector<Star>& stars, cons
         entries.push_back(
             {glm::vec4(turn * star.direction, star.temperature_K), glm::vec4(light / luminance->second, light, 0, 0)});
     }
+    // By patches of the sky: a device works on neighbours together, and these are seen or out of sight together.
+    auto patch = [](const shared::StarEntry& star) {
+        const double azimuth = std::atan2(star.direction.z, star.direction.x) / (360 * degree) + 0.5;
+        return int(16 * (star.direction.y + 1)) * 64 + int(64 * azimuth);
+    };
+    std::stable_sort(entries.begin(), entries.end(),
+        [&](const shared::StarEntry& a, const shared::StarEntry& b) { return patch(a) < patch(b); });
     return entries;
 }
 

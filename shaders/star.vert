@@ -110,11 +110,10 @@ bool find(vec3 n, int channel, out vec2 point, out float pixel_angle)
         return way.z > 0.0;
     }
     uvec4 begin = texelFetch(inverse_map, ivec3(cell_of(way, textureSize(inverse_map, 0).x), channel), 0);
-    if (begin.x == 0xffffu)
-        return false;
-    if (found_from(ivec2(begin.xy), way, channel, point, pixel_angle))
-        return true;
-    return begin.z != 0xffffu && found_from(ivec2(begin.zw), way, channel, point, pixel_angle);
+    for (int i = 0; i < 4 && begin[i] != 0xffffffffu; ++i)
+        if (found_from(ivec2(begin[i] & 0xffffu, begin[i] >> 16), way, channel, point, pixel_angle))
+            return true;
+    return false;
 }
 
 // Whether something stands before the sky. A star outside the viewport, whose spot reaches in, may lie beyond the image's edge.
