@@ -5,6 +5,10 @@ namespace starbow {
 
 /// The picture of the stars alone that the warp pass adds to what it sees: scene-linear light, pixel for pixel an output's.
 /// One for all outputs of a frame, one after the other. Of a world without stars it is nothing.
+///
+/// Each star looks for its pixel, rather than each pixel for its stars: the work per star is then bounded at every speed,
+/// while at gamma 100 a pixel ahead would have a tenth of the sky to look through. Where a display is a map of directions,
+/// InverseMap begins the search.
 class StarPass {
 public:
     StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& world);
