@@ -24,6 +24,19 @@ Sky read_sky(const Place& place)
     return sky;
 }
 
+StarSky read_stars(const Place& place, const std::filesystem::path& folder)
+{
+    only(place, {"catalogue", "brightness_arcmin2", "ahead_deg"});
+    StarSky stars;
+    stars.catalogue = folder / text(member(place, "catalogue"));
+    take(place, "brightness_arcmin2", stars.brightness_arcmin2, {0, 1e9, true});
+    if (auto p = find(place, "ahead_deg")) {
+        const auto angles = items(*p, 2, 2, "angles (right ascension, declination)");
+        stars.ahead_deg = {number(angles[0], {0, 360}), number(angles[1], {-90, 90})};
+    }
+    return stars;
+}
+
 Light read_light(const Place& place)
 {
     only(place, {"type", "towards", "position", "distance", "radiance"});
@@ -50,7 +63,7 @@ SceneFile load_scene_file(const std::filesystem::path& file)
 {
     const Document document = read_document(file);
     const Place top = root(document);
-    only(top, {"gltf", "unit_m", "light_speed_m_s", "sky", "ambient", "lights", "start"});
+    only(top, {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "ambient", "lights", "start"});
     SceneFile scene;
     scene.name = file.stem().string();
     scene.gltf = file.parent_path() / text(member(top, "gltf"));
@@ -60,6 +73,8 @@ SceneFile load_scene_file(const std::filesystem::path& file)
         scene.light_speed_m_s = number(*p, measure);
     if (auto p = find(top, "sky"))
         scene.sky = read_sky(*p);
+    if (auto p = find(top, "stars"))
+        scene.stars = read_stars(*p, file.parent_path());
     if (auto p = find(top, "ambient"))
         scene.ambient = read_colour(*p);
     if (auto p = find(top, "lights"))

@@ -2,6 +2,7 @@
 #include "shot.h"
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -28,12 +29,21 @@ struct Sky {
     glm::dvec3 zenith{0}, horizon{0}, nadir{0}; ///< Rec. 709 linear
 };
 
+/// The stars of a catalogue, behind everything.
+struct StarSky {
+    std::filesystem::path catalogue;
+    double brightness_arcmin2 = 200; ///< a star of magnitude 0 gives as much light as so many square minutes of arc of the
+                                     ///< scene's white
+    glm::dvec2 ahead_deg{0}; ///< right ascension and declination (J2000) of what stands straight ahead (-z), north up
+};
+
 struct SceneFile {
     std::string name;
     std::filesystem::path gltf;
     double unit_m = 299792458; ///< one scene unit in metres
     double light_speed_m_s = 299792458; ///< real, or slow as in Gamow's tales
     Sky sky;
+    std::optional<StarSky> stars;
     glm::dvec3 ambient{0}; ///< Rec. 709 linear, what a white surface gives back without any light
     std::vector<Light> lights;
     Shot start; ///< where a visitor starts; its `scene` is this file's name
@@ -42,7 +52,7 @@ struct SceneFile {
     double seconds_per_time_unit() const { return unit_m / light_speed_m_s; }
 };
 
-/// Reads and checks a scene file; the glTF it names is not opened here. Throws InputError.
+/// Reads and checks a scene file; the files it names are not opened here. Throws InputError.
 SceneFile load_scene_file(const std::filesystem::path& file);
 
 } // namespace starbow

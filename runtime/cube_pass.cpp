@@ -137,8 +137,9 @@ void CubePass::record(vk::CommandBuffer commands)
     transition(commands, atlas_, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eColorAttachmentOptimal,
         Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
     constexpr auto depth_access = Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite;
-    transition(commands, depth_, Layout_::eUndefined, depth_tests | Stage::eFragmentShader | Stage::eColorAttachmentOutput,
-        depth_access, Layout_::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
+    transition(commands, depth_, Layout_::eUndefined,
+        depth_tests | Stage::eVertexShader | Stage::eFragmentShader | Stage::eColorAttachmentOutput, depth_access,
+        Layout_::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
         depth_access | Access::eColorAttachmentWrite);
     if (sampled) {
         transition(commands, colour, Layout_::eUndefined, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
@@ -176,8 +177,8 @@ void CubePass::record(vk::CommandBuffer commands)
             Access::eShaderSampledRead);
     if (keeps_depth_)
         transition(commands, depth_, Layout_::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
-            depth_access | Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader,
-            Access::eShaderSampledRead);
+            depth_access | Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal,
+            Stage::eVertexShader | Stage::eFragmentShader, Access::eShaderSampledRead);
 }
 
 void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)

@@ -62,6 +62,8 @@ std::string lacks(const vk::raii::PhysicalDevice& physical, bool windows)
 {
     if (physical.getProperties().apiVersion < VK_API_VERSION_1_3)
         return "Vulkan 1.3";
+    if (!physical.getFeatures().largePoints)
+        return "the feature largePoints";
     auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>()
                         .get<vk::PhysicalDeviceVulkan13Features>();
     if (!features.dynamicRendering)
@@ -188,6 +190,7 @@ Device::Device(const Options& options)
     vk::PhysicalDeviceVulkan13Features features13;
     features13.dynamicRendering = features13.synchronization2 = true;
     vk::PhysicalDeviceFeatures features;
+    features.largePoints = true; // a star's spot
     features.samplerAnisotropy = physical.getFeatures().samplerAnisotropy;
     float priority = 1;
     vk::DeviceQueueCreateInfo queue_info({}, family, 1, &priority);

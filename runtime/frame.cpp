@@ -2,6 +2,7 @@
 #include "colour.h"
 #include "cull.h"
 #include "displays/blend.h"
+#include "displays/inverse_map.h"
 #include "hud_place.h"
 #include "label.h"
 #include "physics/physics.h"
@@ -31,7 +32,8 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
     , pipelines_(pipelines)
     , world_(world)
     , layout_(layout)
-    , keeps_depth_(keeps_depth || layout.stereo.method == StereoMethod::reprojected)
+    , keeps_depth_(keeps_depth || layout.stereo.method == StereoMethod::reprojected || world.star_count > 0)
+    , stars_(device, pipelines, world)
 {
     linear_ = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eLinear,
         vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, 0,
@@ -145,7 +147,7 @@ void Frame::take_up(Parts parts)
     before.clear();
     pool_ = nullptr;
     std::vector<vk::DescriptorPoolSize> sizes
-        = {{vk::DescriptorType::eUniformBuffer, 2 * count}, {vk::DescriptorType::eCombinedImageSampler, 7 * count}};
+        = {{vk::DescriptorType::eUniformBuffer, 2 * count}, {vk::DescriptorType::eCombinedImageSampler, 9 * count}};
     pool_ = device_.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 3 * count, sizes});
     auto make_set = [&](const vk::raii::DescriptorSetLayout& set_layout) {
         return std::move(device_.device.allocateDescriptorSets({*pool_, *set_layout}).front());
@@ -191,6 +193,11 @@ std::size_t Frame::map_for(const CompiledPane& pane, std::vector<Map>& before)
     maps_.push_back({pane.map,
         make_texture_array(
             device_, map_format, pane.map->size, std::uint32_t(pane.map->channels), std::as_bytes(std::span(texels)))});
+    if (stars_.on()) {
+        const InverseMap inverse = starbow::inverse(*pane.map);
+        maps_.back().inverse = make_texture_array(device_, inverse_format, glm::ivec2(inverse.side),
+            std::uint32_t(inverse.channels), std::as_bytes(std::span(inverse.cells)));
+    }
     return maps_.size() - 1;
 }
 
@@ -239,6 +246,13 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
                     reprojects() ? std::min(MOST_PARALLAX, glm::length(world_offset(pane)) / eyes_[i].nearest) : 0});
         plans_[i] = make_plan(asked, shot.effects.aberration ? E_ : 1, quality_);
         eyes_[i].cube.prepare(plans_[i], place, to_motion, pre_exposure_);
+    }
+    if (stars_.on()) {
+        glm::ivec2 size(1);
+        for (const OutputState& output : outputs_)
+            size = glm::max(size, output.size);
+        stars_.fit({std::uint32_t(size.x), std::uint32_t(size.y)});
+        stars_.prepare(to_motion);
     }
     if (hud && (panel_.extent.width != std::uint32_t(hud->size.x) || panel_.extent.height != std::uint32_t(hud->size.y))) {
         panel_ = make_image(device_,
@@ -300,7 +314,7 @@ void Frame::write_sets()
     std::vector<vk::DescriptorBufferInfo> buffers;
     std::vector<vk::DescriptorImageInfo> images;
     buffers.reserve(2 * panes_.size());
-    images.reserve(7 * panes_.size());
+    images.reserve(9 * panes_.size());
     std::vector<vk::WriteDescriptorSet> writes;
     auto buffer = [&](const vk::raii::DescriptorSet& set, std::uint32_t binding, vk::DescriptorType type, const Buffer& b) {
         buffers.push_back({*b.buffer, 0, VK_WHOLE_SIZE});
@@ -325,6 +339,8 @@ void Frame::write_sets()
         buffer(pane.warp_set, 2, vk::DescriptorType::eUniformBuffer, eye.cube.slots());
         buffer(pane.warp_set, 3, vk::DescriptorType::eUniformBuffer, colours_);
         image(pane.warp_set, 4, keeps_depth_ ? eye.cube.depth() : nothing_, nearest_);
+        image(pane.warp_set, 5, stars_.on() ? stars_.picture() : nothing_, nearest_);
+        image(pane.warp_set, 6, pane.map != no_map && stars_.on() ? maps_[pane.map].inverse : no_map_, nearest_);
     }
     device_.device.updateDescriptorSets(writes, {});
 }
@@ -356,7 +372,7 @@ WarpVariant Frame::variant(const PaneState& pane) const
     const bool beside = reprojects() && pane.beside_m != glm::dvec3(0);
     const Effects& on = shot_.effects;
     return {pane.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
-        plans_[pane.eye].levels > 1, pane.compiled.channels() == 3, beside, beside && layout_.stereo.turning};
+        plans_[pane.eye].levels > 1, pane.compiled.channels() == 3, beside, beside && layout_.stereo.turning, stars_.on()};
 }
 
 shared::ViewPush Frame::push(const PaneState& pane, const glm::dmat3& axes_from_cockpit) const
@@ -371,13 +387,15 @@ shared::ViewPush Frame::push(const PaneState& pane, const glm::dmat3& axes_from_
     push.row1 = row(m, 1, plans_[pane.eye].rear_last);
     push.row2 = row(m, 2);
     push.origin = glm::vec4(pane.pane().corner, atlas.width, atlas.height);
+    push.pane = glm::vec4(pane.pane().corner, 0, 0);
     if (layout_.stereo.turning) {
         const double side = pane.beside_m.x < 0 ? -1 : 1;
         push.eye = glm::vec4(motion_from_cockpit_ * glm::dvec3(0, 1, 0), side * glm::length(scene_units(pane.beside_m)));
     } else {
         push.eye = glm::vec4(world_offset(pane), 0);
     }
-    push.zenith = glm::vec4(std::sin(layout_.stereo.full_from_zenith_deg * degree), eyes_[pane.eye].nearest, 0, 0);
+    push.zenith
+        = glm::vec4(std::sin(layout_.stereo.full_from_zenith_deg * degree), eyes_[pane.eye].nearest, pane.pane().size);
     return push;
 }
 
@@ -386,6 +404,30 @@ glm::vec4 Frame::boost(double exposure) const
 {
     // Not infinite, so that darkness times it stays dark.
     return glm::vec4(E_, 1 / E_, std::min(exposure / pre_exposure_, 1e37), near_distance);
+}
+
+void Frame::draw_stars(vk::CommandBuffer commands, std::size_t output, int layer)
+{
+    const glm::ivec2 size = outputs_[output].size;
+    stars_.begin(commands, {std::uint32_t(size.x), std::uint32_t(size.y)});
+    for (const PaneState& pane : panes_) {
+        if (pane.output != output || pane.pane().layer != layer)
+            continue;
+        shared::ViewPush constants = push(pane, motion_from_cockpit_);
+        constants.boost = glm::vec4(E_, 1 / E_, pre_exposure_, near_distance);
+        const glm::dmat3 back = glm::inverse(motion_from_cockpit_ * pane.compiled.matrix.value_or(glm::dmat3(1)));
+        constants.row0 = row(back, 0, constants.row0.w);
+        constants.row1 = row(back, 1, constants.row1.w);
+        constants.row2 = row(back, 2);
+        WarpVariant own = variant(pane);
+        own.mips = false;
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.stars(own, stars_.format()));
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 0, *pane.warp_set, {});
+        commands.pushConstants<shared::ViewPush>(
+            *pipelines_.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
+        stars_.draw(commands, pane.pane().corner, pane.pane().size, own.channels);
+    }
+    stars_.end(commands);
 }
 
 void Frame::warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline, double exposure)
@@ -479,6 +521,8 @@ void Frame::warp_output(vk::CommandBuffer commands, std::size_t output, const Ta
     if (outputs_[output].finish)
         outputs_[output].finish->begin(commands);
     for (int layer = 0; layer < layers(layout_.outputs[output].packing); ++layer) {
+        if (stars_.on() && pattern_ == Pattern::none)
+            draw_stars(commands, output, layer);
         const Target target = picture_of(output, layer, last);
         const bool glows = bloom_ > 0 && pattern_ == Pattern::none;
         for (const PaneState& pane : panes_)
@@ -513,6 +557,8 @@ void Frame::finish_output(vk::CommandBuffer commands, std::size_t output, const 
 void Frame::record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target)
 {
     draw_cubes(commands);
+    if (stars_.on())
+        draw_stars(commands, output, 0);
     float nothing = std::nanf("");
     std::vector<vk::RenderingAttachmentInfo> colours;
     for (const Image* image : {&target.light_and_depth, &target.camera, &target.world}) {
@@ -612,11 +658,11 @@ std::size_t Frame::triangles() const
 
 vk::DeviceSize Frame::memory() const
 {
-    vk::DeviceSize bytes = panel_.bytes;
+    vk::DeviceSize bytes = panel_.bytes + stars_.picture().bytes;
     for (const Eye& eye : eyes_)
         bytes += eye.cube.memory();
     for (const Map& map : maps_)
-        bytes += map.image.bytes;
+        bytes += map.image.bytes + map.inverse.bytes;
     bytes += meter_ ? meter_->memory() : 0;
     for (const PaneState& pane : panes_)
         bytes += pane.bloom ? pane.bloom->memory() : 0;

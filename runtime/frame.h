@@ -6,6 +6,7 @@
 #include "input/controls.h"
 #include "meter.h"
 #include "plan.h"
+#include "star_pass.h"
 
 namespace starbow {
 
@@ -103,6 +104,7 @@ private:
     struct Map {
         std::shared_ptr<const DirectionMap> directions;
         Image image;
+        Image inverse; ///< where there are stars
     };
 
     /// What is worked out of the layout before anything changes: what is wrong with its files shows here.
@@ -124,6 +126,7 @@ private:
     glm::vec4 boost(double exposure) const;
     void set_warp(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline,
         const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size);
+    void draw_stars(vk::CommandBuffer commands, std::size_t output, int layer);
     void warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline, double exposure);
     void bloom_pane(vk::CommandBuffer commands, const PaneState& pane);
     void pattern_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Format target);
@@ -142,6 +145,7 @@ private:
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::raii::Sampler linear_ = nullptr, nearest_ = nullptr, finest_ = nullptr; ///< finest_: level 0 alone
     Buffer colours_;
+    StarPass stars_;
     Image nothing_, no_map_; ///< stand in for what a pane has not
     std::vector<Map> maps_;
     std::vector<Eye> eyes_;

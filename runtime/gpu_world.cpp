@@ -70,7 +70,21 @@ SurfaceVariant GpuWorld::variant(int material) const
         m.base_texture >= 0, m.emissive_texture >= 0, m.alpha_cutoff > 0, m.unlit, m.unlit ? 0 : int(scene.lights.size())};
 }
 
-GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const SceneFile& scene)
+void put_stars(Device& device, GpuWorld& world, const std::vector<Star>& stars)
+{
+    world.star_count = world.scene.stars ? std::uint32_t(stars.size()) : 0;
+    world.stars = {}, world.black_bodies = {};
+    if (world.star_count == 0)
+        return;
+    const auto entries = star_entries(stars, *world.scene.stars);
+    const auto table = black_body_table();
+    world.stars = make_static_buffer(device, std::as_bytes(std::span(entries)), vk::BufferUsageFlagBits::eStorageBuffer);
+    world.black_bodies
+        = make_static_buffer(device, std::as_bytes(std::span(table)), vk::BufferUsageFlagBits::eUniformBuffer);
+}
+
+GpuWorld upload(
+    Device& device, const Pipelines& pipelines, World world, const SceneFile& scene, const std::vector<Star>& stars)
 {
     GpuWorld gpu;
     sort_instances(world);
@@ -103,6 +117,7 @@ GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const S
                 vk::WriteDescriptorSet(*gpu.materials[i], 1, 0, vk::DescriptorType::eCombinedImageSampler, emissive)},
             {});
     }
+    put_stars(device, gpu, stars);
     world.vertices = {}, world.indices = {};
     for (Texture& texture : world.textures)
         texture.rgba = {};

@@ -1,6 +1,7 @@
 #pragma once
 #include "config/scene_file.h"
 #include "pipelines.h"
+#include "stars.h"
 #include "world.h"
 
 namespace starbow {
@@ -18,9 +19,17 @@ struct GpuWorld {
     vk::raii::DescriptorPool pool = nullptr;
     std::vector<vk::raii::DescriptorSet> materials;
 
+    std::uint32_t star_count = 0;
+    Buffer stars, black_bodies; ///< StarEntry each; the table of black_body_table. Null without stars
+
     SurfaceVariant variant(int material) const;
 };
 
-GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const SceneFile& scene);
+/// stars: of the scene's catalogue; counted only where the scene has a sky of stars.
+GpuWorld upload(
+    Device& device, const Pipelines& pipelines, World world, const SceneFile& scene, const std::vector<Star>& stars = {});
+
+/// Other stars in their place, none too. No frame of this world must be under way, and none is drawn by a Frame from before.
+void put_stars(Device& device, GpuWorld& world, const std::vector<Star>& stars);
 
 } // namespace starbow

@@ -14,6 +14,8 @@
 #include "spirv/screen_vert.h"
 #include "spirv/sky_frag.h"
 #include "spirv/sky_vert.h"
+#include "spirv/star_frag.h"
+#include "spirv/star_vert.h"
 #include "spirv/warp_frag.h"
 #include <cstddef>
 
@@ -26,8 +28,9 @@ struct Pass {
     Words vertex, fragment;
     vk::PipelineLayout layout;
     std::vector<vk::Format> targets;
-    std::vector<std::uint32_t> constants; ///< constant_id = index, fragment stage
+    std::vector<std::uint32_t> constants; ///< constant_id = index, either stage
     bool depth = false, vertices = false, blend = false;
+    bool points = false; ///< added up
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
 };
 
@@ -40,7 +43,7 @@ vk::raii::Pipeline make_pipeline(const Device& device, const Pass& pass)
         entries.push_back({i, i * 4, 4});
     vk::SpecializationInfo constants(
         std::uint32_t(entries.size()), entries.data(), pass.constants.size() * 4, pass.constants.data());
-    vk::PipelineShaderStageCreateInfo stages[] = {{{}, vk::ShaderStageFlagBits::eVertex, *vertex, "main"},
+    vk::PipelineShaderStageCreateInfo stages[] = {{{}, vk::ShaderStageFlagBits::eVertex, *vertex, "main", &constants},
         {{}, vk::ShaderStageFlagBits::eFragment, *fragment, "main", &constants}};
 
     vk::VertexInputBindingDescription binding(0, sizeof(Vertex));
@@ -52,7 +55,8 @@ vk::raii::Pipeline make_pipeline(const Device& device, const Pass& pass)
     if (pass.vertices)
         vertices = vk::PipelineVertexInputStateCreateInfo({}, binding, attributes);
 
-    vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
+    vk::PipelineInputAssemblyStateCreateInfo assembly(
+        {}, pass.points ? vk::PrimitiveTopology::ePointList : vk::PrimitiveTopology::eTriangleList);
     vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
     vk::PipelineRasterizationStateCreateInfo raster;
     raster.lineWidth = 1;
@@ -63,10 +67,11 @@ vk::raii::Pipeline make_pipeline(const Device& device, const Pass& pass)
     depth.depthCompareOp = vk::CompareOp::eGreaterOrEqual;
     vk::PipelineColorBlendAttachmentState blend;
     blend.colorWriteMask = vk::FlagTraits<vk::ColorComponentFlagBits>::allFlags;
-    if (pass.blend) {
+    if (pass.blend || pass.points) {
         blend.blendEnable = true;
         blend.srcColorBlendFactor = blend.srcAlphaBlendFactor = vk::BlendFactor::eOne;
-        blend.dstColorBlendFactor = blend.dstAlphaBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha;
+        blend.dstColorBlendFactor = blend.dstAlphaBlendFactor
+            = pass.points ? vk::BlendFactor::eOne : vk::BlendFactor::eOneMinusSrcAlpha;
     }
     std::vector<vk::PipelineColorBlendAttachmentState> blends(pass.targets.size(), blend);
     vk::PipelineColorBlendStateCreateInfo blending({}, false, {}, blends);
@@ -100,7 +105,7 @@ vk::raii::PipelineLayout make_layout(const Device& device, std::initializer_list
 
 std::vector<std::uint32_t> constants(const WarpVariant& v)
 {
-    return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.linear};
+    return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear};
 }
 
 /// The pipeline of a key, made by `make` if it is new.
@@ -123,11 +128,15 @@ Pipelines::Pipelines(Device& device)
     constexpr Type picture = Type::eCombinedImageSampler;
     eye_set = make_set_layout(device, both, {Type::eUniformBuffer, Type::eStorageBuffer, Type::eStorageBuffer});
     material_set = make_set_layout(device, fragment, {picture, picture});
-    warp_set = make_set_layout(device, fragment, {picture, picture, Type::eUniformBuffer, Type::eUniformBuffer, picture});
+    warp_set = make_set_layout(
+        device, both, {picture, picture, Type::eUniformBuffer, Type::eUniformBuffer, picture, picture, picture});
+    star_set = make_set_layout(
+        device, vk::ShaderStageFlagBits::eVertex, {Type::eUniformBuffer, Type::eStorageBuffer, Type::eUniformBuffer});
     picture_set = make_set_layout(device, fragment, {picture, picture});
     finish_set = make_set_layout(device, fragment, {picture, picture, picture, picture, picture});
     surface_layout = make_layout(device, {*eye_set, *material_set}, both, sizeof(shared::CubePush));
     warp_layout = make_layout(device, {*warp_set}, fragment, sizeof(shared::ViewPush));
+    star_layout = make_layout(device, {*warp_set, *star_set}, both, sizeof(shared::ViewPush));
     picture_layout = make_layout(device, {*picture_set}, fragment, sizeof(shared::ViewPush));
     finish_layout = make_layout(device, {*finish_set}, fragment, sizeof(shared::FinishPush));
 }
@@ -167,6 +176,19 @@ vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
     return find(warps_, std::pair(v, target), [&] {
         return make_pipeline(device_,
             {.vertex = screen_vert, .fragment = warp_frag, .layout = *warp_layout, .targets = {target}, .constants = all});
+    });
+}
+
+vk::Pipeline Pipelines::stars(const WarpVariant& v, vk::Format target)
+{
+    return find(stars_, std::pair(v, target), [&] {
+        return make_pipeline(device_,
+            {.vertex = star_vert,
+                .fragment = star_frag,
+                .layout = *star_layout,
+                .targets = {target},
+                .constants = constants(v),
+                .points = true});
     });
 }
 

@@ -12,6 +12,7 @@ constexpr vk::Format depth_format = vk::Format::eD32Sfloat;
 constexpr vk::Format exact_format = vk::Format::eR32G32B32A32Sfloat;
 constexpr vk::Format meter_format = vk::Format::eR32G32Sfloat; // luminance, solid angle
 constexpr vk::Format map_format = vk::Format::eR32G32Uint; // a direction map's texel, packed
+constexpr vk::Format inverse_format = vk::Format::eR32G32B32A32Uint; // InverseMap's cell
 
 /// What a material needs of the cube pass: constant_ids of cube.frag.
 struct SurfaceVariant {
@@ -24,6 +25,7 @@ struct WarpVariant {
     bool map, aberration, doppler, headlight, mips;
     bool channels = false; ///< red, green and blue look different ways
     bool reproject = false, turning = false; ///< stereo from one cube map; by the azimuth
+    bool stars = false; ///< added to what the cube map shows
     bool linear = false; ///< exposed light, for the glow, instead of what is shown
     auto operator<=>(const WarpVariant&) const = default;
 };
@@ -52,6 +54,7 @@ public:
     vk::Pipeline surface(const SurfaceVariant& variant, const TargetKind& target);
     vk::Pipeline sky(const TargetKind& target);
     vk::Pipeline warp(const WarpVariant& variant, vk::Format target);
+    vk::Pipeline stars(const WarpVariant& variant, vk::Format target);
     vk::Pipeline measure(const WarpVariant& variant);
     vk::Pipeline meter(const WarpVariant& variant);
     vk::Pipeline bloom(bool up);
@@ -63,11 +66,13 @@ public:
 
     vk::raii::DescriptorSetLayout eye_set = nullptr; ///< 0 constants, 1 instances, 2 visible
     vk::raii::DescriptorSetLayout material_set = nullptr; ///< 0 base, 1 emissive texture
-    vk::raii::DescriptorSetLayout warp_set = nullptr; ///< 0 direction map, 1 atlas, 2 slots, 3 colours, 4 depth atlas
+    vk::raii::DescriptorSetLayout warp_set = nullptr; ///< 0 direction map, 1 atlas, 2 slots, 3 colours, 4 depth atlas,
+                                                      ///< 5 picture of the stars, 6 inverse of the direction map
+    vk::raii::DescriptorSetLayout star_set = nullptr; ///< 0 constants, 1 stars, 2 black bodies
     vk::raii::DescriptorSetLayout picture_set = nullptr; ///< 0 direction map, 1 panel, label or cube
     vk::raii::DescriptorSetLayout finish_set = nullptr; ///< 0 left, 1 right picture, 2 weights, 3 black level, 4 table
     vk::raii::PipelineLayout surface_layout = nullptr, warp_layout = nullptr, picture_layout = nullptr,
-                             finish_layout = nullptr;
+                             finish_layout = nullptr, star_layout = nullptr; ///< star_layout: warp_set, star_set
 
 private:
     Device& device_;
@@ -75,6 +80,7 @@ private:
     std::map<TargetKind, vk::raii::Pipeline> skies_;
     std::map<std::pair<WarpVariant, vk::Format>, vk::raii::Pipeline> warps_;
     std::map<WarpVariant, vk::raii::Pipeline> measures_, meters_;
+    std::map<std::pair<WarpVariant, vk::Format>, vk::raii::Pipeline> stars_;
     std::map<std::pair<bool, vk::Format>, vk::raii::Pipeline> huds_;
     std::map<bool, vk::raii::Pipeline> blooms_;
     std::map<vk::Format, vk::raii::Pipeline> lookups_, bloomed_;

@@ -312,11 +312,12 @@ glm::dmat4 clip_from_motion(const PlanImage& image, double near_distance)
 
 std::vector<shared::SlotEntry> slot_table(const Plan& plan, glm::ivec2 atlas_extent)
 {
-    std::vector<shared::SlotEntry> table(SLOT_COUNT, shared::SlotEntry{glm::vec4(0), glm::vec4(0)});
+    std::vector<shared::SlotEntry> table(SLOT_COUNT, shared::SlotEntry{});
     for (const PlanImage& image : plan.images) {
         glm::dvec2 scale = glm::dvec2(image.size) / (image.high - image.low) / glm::dvec2(atlas_extent);
         glm::dvec2 offset = glm::dvec2(image.atlas) / glm::dvec2(atlas_extent) - image.low * scale;
-        table[image.slot] = {glm::vec4(scale, offset), glm::vec4(image.texels_per_unit, image.levels - 1, 0, 0)};
+        table[image.slot] = {glm::vec4(scale, offset), glm::vec4(image.texels_per_unit, image.levels - 1, 0, 0),
+            glm::vec4(image.atlas, image.atlas + image.size - 1)};
     }
     return table;
 }

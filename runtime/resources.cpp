@@ -172,7 +172,8 @@ Image make_texture_array(
             vk::BufferImageCopy(
                 0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, layers}, {}, {image.extent.width, image.extent.height, 1}));
         transition(commands, image, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
-            vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
+            vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eVertexShader | Stage::eFragmentShader,
+            Access::eShaderSampledRead);
     });
     return image;
 }

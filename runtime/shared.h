@@ -5,12 +5,14 @@
 namespace starbow::shared {
 using glm::vec4;
 #include "shaders/shared.h"
-static_assert(sizeof(SlotEntry) == 32);
+static_assert(sizeof(SlotEntry) == 48);
 static_assert(sizeof(LightEntry) == 32);
 static_assert(sizeof(CubeConstants) == 5 * 16 + MAX_LIGHTS * 32);
 static_assert(sizeof(InstanceEntry) == 48);
 static_assert(sizeof(CubePush) == 96);
-static_assert(sizeof(ViewPush) == 112);
+static_assert(sizeof(ViewPush) == 128);
+static_assert(sizeof(StarEntry) == 32);
+static_assert(sizeof(StarConstants) == 48);
 static_assert(sizeof(FinishPush) == 112);
 static_assert(sizeof(BloomPush) == 48);
 static_assert(sizeof(PatternPush) == 96);

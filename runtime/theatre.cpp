@@ -7,6 +7,7 @@ namespace starbow {
 struct LoadedScene {
     SceneFile scene;
     World world;
+    std::vector<Star> stars;
 };
 
 static LoadedScene load(const std::filesystem::path& file)
@@ -14,7 +15,10 @@ static LoadedScene load(const std::filesystem::path& file)
     SceneFile scene = load_scene_file(file);
     World world = load_world(scene.gltf);
     add_detail_levels(world);
-    return {std::move(scene), std::move(world)};
+    std::vector<Star> stars;
+    if (scene.stars)
+        stars = load_stars(scene.stars->catalogue);
+    return {std::move(scene), std::move(world), std::move(stars)};
 }
 
 Theatre::Theatre(const std::filesystem::path& scene, const Device::Options& options)
@@ -25,7 +29,7 @@ Theatre::Theatre(const std::filesystem::path& scene, const Device::Options& opti
 Theatre::Theatre(LoadedScene&& loaded, const Device::Options& options)
     : device(options)
     , pipelines(device)
-    , world(upload(device, pipelines, std::move(loaded.world), loaded.scene))
+    , world(upload(device, pipelines, std::move(loaded.world), loaded.scene, loaded.stars))
 {
 }
 

@@ -25,7 +25,10 @@ void main()
             continue;
         Sight sight = sight_of(n, pixel_angle);
         Place place = place_of(sight.n);
-        vec3 seen = light_seen(place, sight.D, pixel_angle) * view.boost.z;
+        vec3 seen = light_seen(place, sight.D, pixel_angle);
+        if (STARS)
+            seen += texelFetch(stars_picture, ivec2(gl_FragCoord.xy), 0).rgb;
+        seen *= view.boost.z;
         if (CHANNELS)
             light[channel] = seen[channel];
         else

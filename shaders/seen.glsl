@@ -7,6 +7,7 @@ layout(constant_id = 4) const bool MIPS = false;
 layout(constant_id = 5) const bool CHANNELS = false; // red, green and blue look different ways
 layout(constant_id = 6) const bool REPROJECT = false; // the eye is not where the cube map was drawn
 layout(constant_id = 7) const bool TURNING = false; // and on which side of it depends on the azimuth
+layout(constant_id = 8) const bool STARS = false;
 
 layout(push_constant) uniform Push { ViewPush view; };
 
@@ -14,11 +15,13 @@ layout(set = 0, binding = 1) uniform sampler2D atlas;
 layout(set = 0, binding = 2) uniform Slots { SlotEntry slots[SLOT_COUNT]; };
 layout(set = 0, binding = 3) uniform Colours { vec4 colours[COLOUR_STEPS * 3]; };
 layout(set = 0, binding = 4) uniform sampler2D depth_atlas; // near / distance along the face's normal, 0 at infinity
+layout(set = 0, binding = 5) uniform sampler2D stars_picture; // pixel for pixel the target's; light as the atlas's
 
 struct Place {
     vec2 face;  // face coordinates
     vec2 atlas; // normalised
     vec4 detail;
+    int slot;
 };
 
 // The image of the plan that holds the world's direction n: plan.cpp's slot_of, in float.
@@ -40,6 +43,7 @@ Place place_of(vec3 n)
         int side = x_greater ? (n.x >= 0.0 ? 0 : 1) : (n.y >= 0.0 ? 2 : 3);
         slot = SLOT_SIDES + side * SIDE_BANDS + int(place.face.y > -0.5) + int(place.face.y > 0.0);
     }
+    place.slot = slot;
     vec4 to_atlas = slots[slot].atlas_from_face;
     place.atlas = place.face * to_atlas.xy + to_atlas.zw;
     place.detail = MIPS ? slots[slot].detail : vec4(0.0);

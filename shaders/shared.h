@@ -15,11 +15,16 @@
 #define MAX_LIGHTS 8
 #define COLOUR_STEPS 769 // over log2 D from -COLOUR_RANGE to COLOUR_RANGE
 #define COLOUR_RANGE 6.0
+#define STAR_COLDEST 512.0 // K: colder black bodies give no light to speak of (1e-9 of the Sun's surface at 550 K)
+#define STAR_STEPS_PER_OCTAVE 64
+#define STAR_STEPS 769 // 12 octaves: to 2 million K, from where a black body's visible light only grows as its temperature
+#define STAR_RADIUS 2.0 // of the spot that a star is shown as, pixels
 
 // One image of the plan, as the warp pass reads it: atlas coordinate = face coordinate * scale + offset.
 struct SlotEntry {
     vec4 atlas_from_face; // scale x, y; offset x, y (normalised atlas coordinates)
     vec4 detail;          // x: texels per unit of face coordinate, y: coarsest mip level, z, w: unused
+    vec4 texels;          // of the atlas: the image's first x, y and last x, y; 0 of a slot that is not drawn
 };
 
 struct LightEntry {
@@ -52,14 +57,28 @@ struct CubePush {
 // Push constants of the passes that run once per output pixel.
 struct ViewPush {
     vec4 row0, row1, row2; // planar: rows of direction_from_pixel; map: of the turn from the map's axes. w of row0: planar:
-                           // a pixel's step on the plane at distance 1; of row1: the finest image behind
-    vec4 boost;            // E, 1/E, exposure gain / pre-exposure, near plane
+                           // a pixel's step on the plane at distance 1; of row1: the finest image behind. The stars' pass
+                           // has the inverse: rows of pixel_from_direction; of the turn to the map's axes
+    vec4 boost;            // E, 1/E, exposure gain / pre-exposure (the stars: pre-exposure), near plane
     vec4 origin;           // viewport's top left corner in the target, pixels; z, w: atlas size in texels
     vec4 eye;              // REPROJECT: the eye's place from the cube map's, world, motion axes. TURNING: xyz: the cockpit's
                            // up in motion axes; w: the eye's distance from the middle, to the right
     vec4 zenith;           // x: TURNING: sine of the angle from the zenith at which the separation is full; y:
-                           // REPROJECT: distance of the nearest surface that there may be, scene units; z, w: the meter:
-                           // pixels of the viewport for one of its samples
+                           // REPROJECT: distance of the nearest surface that there may be, scene units; z, w: the
+                           // viewport's size, pixels; the meter: pixels of the viewport for one of its samples
+    vec4 pane;             // xy: the viewport's top left corner in the output, pixels, also where it is drawn elsewhere
+};
+
+// A star, in the scene's world at rest.
+struct StarEntry {
+    vec4 direction; // unit, towards it; w: temperature, K
+    vec4 light;     // illuminance at rest, in the scene's white times steradians: x: over the luminance of its
+                    // temperature (black_body_xyz), y: as it is
+};
+
+// The stars' pass, one per frame.
+struct StarConstants {
+    vec4 row0, row1, row2; // rows of motion_from_world
 };
 
 // Push constants of the finish pass: from light to the screen's input. Rows of matrices.

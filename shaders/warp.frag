@@ -9,8 +9,8 @@
 #include "dither.glsl"
 // The relativistic transform of one output pixel, shown.
 
-layout(constant_id = 8) const bool LINEAR = false;  // light for the glow, not yet what is shown; alpha 0: shows nothing
-layout(constant_id = 9) const bool DITHERED = true; // the target has 8 bits
+layout(constant_id = 9) const bool LINEAR = false;  // light for the glow, not yet what is shown; alpha 0: shows nothing
+layout(constant_id = 10) const bool DITHERED = true; // the target has 8 bits
 
 layout(location = 0) out vec4 shown;
 
@@ -21,7 +21,8 @@ vec3 light_along(int channel)
     if (MAP && pixel_angle == 0.0)
         return vec3(0.0);
     Sight sight = sight_of(n, pixel_angle);
-    return light_seen(place_of(sight.n), sight.D, pixel_angle);
+    vec3 light = light_seen(place_of(sight.n), sight.D, pixel_angle);
+    return STARS ? light + texelFetch(stars_picture, ivec2(gl_FragCoord.xy - view.origin.xy + view.pane.xy), 0).rgb : light;
 }
 
 void main()

@@ -96,7 +96,7 @@ TEST(AvenueTest, LoadsWithoutANote)
 {
     EXPECT_EQ(world().notes, std::vector<std::string>{});
     EXPECT_LT(world().indices.size() / 3, 65000u);
-    EXPECT_EQ(world().textures.size(), 5u);
+    EXPECT_EQ(world().textures.size(), 4u);
 }
 
 TEST(AvenueTest, ColumnsStandWhereTheyShould)
@@ -176,7 +176,7 @@ TEST(AvenueTest, TheSunIsSeenBesideTheEarthFromTheStart)
     EXPECT_GT(sun.x / -sun.z, earth.x / -earth.z) << "to its right";
     EXPECT_GT(sun.y / -sun.z, earth.y / -earth.z) << "and above";
     for (const Material& material : world().materials) {
-        if (material.name == "Sun" || material.name == "stars")
+        if (material.name == "Sun")
             continue;
         for (const Shown& thing : shown(material.name))
             for (double right : {-0.3, 0.0, 0.3})
@@ -211,29 +211,6 @@ TEST(AvenueTest, StippledCylinder)
     EXPECT_EQ(cylinder.material->base_colour, glm::vec4(0.02f, 0.06f, 1, 1));
     EXPECT_GE(cylinder.material->base_texture, 0);
     EXPECT_EQ(cylinder.material->emissive_texture, cylinder.material->base_texture);
-}
-
-TEST(AvenueTest, StarsAllAround)
-{
-    std::vector<glm::dvec3> points;
-    for (const Shown& patch : shown("stars"))
-        points.insert(points.end(), patch.points.begin(), patch.points.end());
-    ASSERT_EQ(points.size(), 2500u * 12);
-    glm::dvec3 mean(0);
-    for (std::size_t star = 0; star < 2500; ++star) {
-        const glm::dvec3* corner = &points[12 * star];
-        double distance = glm::length(corner[0]);
-        ASSERT_GE(distance, 0.999e8);
-        ASSERT_LE(distance, 1.001e9);
-        // The hexagon's first and fourth corner lie across: twice the angular radius.
-        double across = apart_deg(corner[0], corner[5]);
-        ASSERT_GT(across, 2 * 0.029);
-        ASSERT_LT(across, 2 * 0.101);
-        ASSERT_LT(glm::dot(glm::cross(corner[1] - corner[0], corner[2] - corner[0]), corner[0]), 0) << "faces the start";
-        mean += glm::normalize(corner[0]) / 2500.0;
-    }
-    // A mean of 2500 random directions is about 1/50 long.
-    EXPECT_LT(glm::length(mean), 0.06);
 }
 
 TEST(AvenueTest, ClosedShapesFaceOutwards)

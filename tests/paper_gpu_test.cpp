@@ -84,7 +84,6 @@ Thing thing_at(const dvec3& p)
     dvec3 sun(499 * std::cos(elevation) * std::sin(azimuth), 499 * std::sin(elevation),
         -499 * std::cos(elevation) * std::cos(azimuth));
     offer("Sun", outside(glm::length(p - sun), 2.32 * 0.996, 2.32)); // 64 x 32 faces
-    offer("star", outside(glm::length(p), 0.9999e8, 1.0001e9));
     return best;
 }
 

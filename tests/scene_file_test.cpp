@@ -10,6 +10,7 @@ const std::string whole = R"({
     "gltf": "worlds/town.glb", // beside this file
     "unit_m": 2, "light_speed_m_s": 10,
     "sky": { "zenith": [0.1, 0.2, 0.3], "horizon": [1, 1, 1], "nadir": [0, 0, 0] },
+    "stars": { "catalogue": "skies/few.txt", "brightness_arcmin2": 30, "ahead_deg": [84, -19] },
     "ambient": [0.25, 0.5, 0.75],
     "lights": [
         { "type": "directional", "towards": [0, 3, 4], "radiance": [1, 2, 3] },
@@ -33,6 +34,10 @@ TEST(SceneFileTest, EveryMember)
     EXPECT_EQ(scene.sky.zenith, glm::dvec3(0.1, 0.2, 0.3));
     EXPECT_EQ(scene.sky.horizon, glm::dvec3(1));
     EXPECT_EQ(scene.ambient, glm::dvec3(0.25, 0.5, 0.75));
+    ASSERT_TRUE(scene.stars);
+    EXPECT_EQ(scene.stars->catalogue, file.parent_path() / "skies/few.txt");
+    EXPECT_EQ(scene.stars->brightness_arcmin2, 30);
+    EXPECT_EQ(scene.stars->ahead_deg, glm::dvec2(84, -19));
     ASSERT_EQ(scene.lights.size(), 2u);
     const auto sun = std::get<DirectionalLight>(scene.lights[0]);
     EXPECT_NEAR(glm::distance(sun.towards, glm::dvec3(0, 0.6, 0.8)), 0, 1e-15);
@@ -53,6 +58,7 @@ TEST(SceneFileTest, Defaults)
     EXPECT_EQ(scene.light_speed_m_s, 299792458);
     EXPECT_EQ(scene.seconds_per_time_unit(), 1);
     EXPECT_TRUE(scene.lights.empty());
+    EXPECT_FALSE(scene.stars);
     EXPECT_EQ(scene.start.scene, "bare");
     EXPECT_EQ(scene.start.u, glm::dvec3(0));
 }
@@ -93,6 +99,14 @@ TEST(SceneFileTest, WrongScenes)
             {with(R"("sky": { "zenith": [0, -0.1, 0] })"), "/sky/zenith/1", "-0.1", "is too small"},
             {with(R"("sky": { "nadir": [0, 0] })"), "/sky/nadir", "[0,0]", "has length 2; "},
             {with(R"("sky": { "horizon": "#fff" })"), "/sky/horizon", "\"#fff\"", "is not a list"},
+            {with(R"("stars": true)"), "/stars", "true", "is not an object"},
+            {with(R"("stars": {})"), "/stars", "{}", "lacks \"catalogue\""},
+            {with(R"("stars": { "catalogue": "a", "brightness": 1 })"), "/stars/brightness", "1", "unknown name"},
+            {with(R"("stars": { "catalogue": "a", "brightness_arcmin2": 0 })"), "/stars/brightness_arcmin2", "0",
+                "is too small; a number above 0"},
+            {with(R"("stars": { "catalogue": "a", "ahead_deg": [84] })"), "/stars/ahead_deg", "[84]", "has length 1; "},
+            {with(R"("stars": { "catalogue": "a", "ahead_deg": [-1, 0] })"), "/stars/ahead_deg/0", "-1", "is too small"},
+            {with(R"("stars": { "catalogue": "a", "ahead_deg": [0, 91] })"), "/stars/ahead_deg/1", "91", "is too large"},
             {with(R"("ambient": 0.5)"), "/ambient", "0.5", "is not a list; a list of 3 numbers"},
             {with(R"("ambient": [0, 0, 1000001])"), "/ambient/2", "1000001", "is too large; a number from 0 to 1000000"},
             {with(R"("lights": {})"), "/lights", "{}", "is not a list"},

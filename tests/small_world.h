@@ -44,7 +44,8 @@ inline GpuWorld open_world(const std::string& name, const Doc& doc, Json scene =
     const SceneFile file = load_scene_file(testing::write_text(name + ".json", scene.dump()));
     World world = load_world(file.gltf);
     add_detail_levels(world);
-    return upload(device(), pipelines(), std::move(world), file);
+    return upload(
+        device(), pipelines(), std::move(world), file, file.stars ? load_stars(file.stars->catalogue) : std::vector<Star>());
 }
 
 inline const Json smooth_sky

@@ -57,6 +57,12 @@ inline Theatre& avenue() { return *Stage::theatre; }
 inline Device& device() { return Stage::theatre->device; }
 inline Pipelines& pipelines() { return Stage::theatre->pipelines; }
 
+/// The avenue under an empty sky, while this lives.
+struct WithoutStars {
+    WithoutStars() { put_stars(device(), avenue().world, {}); }
+    ~WithoutStars() { put_stars(device(), avenue().world, load_stars(avenue().world.scene.stars->catalogue)); }
+};
+
 inline Layout one_view(const Projection& projection, ivec2 size)
 {
     Layout layout;

@@ -1,5 +1,6 @@
 #include "bench_input.h"
 #include "bench_layout.h"
+#include "bench_stars.h"
 #include "commands.h"
 #include "config/error.h"
 #include "number_option.h"
@@ -21,6 +22,7 @@ struct Options {
     int rounds = 25, seconds = 60;
     bool input = false;
     std::string json, layout, shot = "avenue-gamma4";
+    bool stars = false;
 };
 
 using Clock = std::chrono::steady_clock;
@@ -171,6 +173,8 @@ int bench(const Options& options)
 {
     if (options.input)
         return bench_input(options.layout, options.seconds);
+    if (options.stars)
+        return bench_stars(options.rounds);
     if (!options.layout.empty())
         return bench_layout(options.layout, options.shot, options.rounds);
     if (!options.json.empty())
@@ -258,6 +262,7 @@ void add_bench(CLI::App& app, std::function<int()>& chosen)
         "Instead: this layout stage by stage, and displays compared with each other: kinds of projection, many viewports, "
         "stereo methods");
     command->add_option("--shot", options->shot, "With --layout: the shot to time")->capture_default_str();
+    command->add_flag("--stars", options->stars, "Instead: what the stars cost, the avenue's own and a million");
     command->add_flag("--input", options->input,
         "Instead: in the exhibit's windows (on --layout), the time from a stick's report to the return of the present call "
         "that shows it");

@@ -3,7 +3,7 @@
 visitor starts at the origin, looking along -z. Needs Python 3's own library only; the same bytes come out every time."""
 import random
 import sys
-from math import cos, pi, radians, sin, sqrt
+from math import cos, pi, radians, sin
 from pathlib import Path
 
 import shapes
@@ -112,31 +112,9 @@ def add_cylinder(glb):
     glb.node("stippled cylinder", glb.mesh("stippled cylinder", glb.geometry(shape), blue), (-14, 0, 8))
 
 
-def add_stars(glb):
-    """Small discs all around, 1e8 to 1e9 units away. They only glow, so that no lamp of the scene reaches them. By patches of
-    the sky, so that a view that sees little of it draws few."""
-    rng = random.Random(3)
-    patches = {}
-    for _ in range(2500):
-        y, a = rng.uniform(-1, 1), rng.uniform(0, 2 * pi)
-        ring = sqrt(1 - y * y)
-        # Bright stars are rare; what is too bright for its texel is made larger.
-        rank = rng.random() ** 3
-        level = round(rank * (textures.STAR_LEVELS - 1))
-        tint = min(textures.STAR_TINTS - 1, int(textures.STAR_TINTS * rng.betavariate(2.2, 2.2)))
-        uv = ((tint + 0.5) / textures.STAR_TINTS, (level + 0.5) / textures.STAR_LEVELS)
-        patch = patches.setdefault((int(1.5 * (1 + y)), int(6 * a / (2 * pi))), shapes.Shape())
-        shapes.disc_towards_origin((ring * sin(a), y, ring * cos(a)), rng.uniform(1, 10),
-                                   radians(0.03 + 0.07 * rank), 6, uv, patch)
-    exact = {"magFilter": 9728, "minFilter": 9728, "wrapS": 33071, "wrapT": 33071}
-    glow = glb.material("stars", (0, 0, 0), emissive=(8, 8, 8), emissive_texture=glb.texture(textures.star_palette(), exact))
-    for _, patch in sorted(patches.items()):
-        glb.node("stars", glb.mesh("stars", glb.geometry(patch), glow), scale=(1e8, 1e8, 1e8))
-
-
 def main():
     glb = Glb()
-    for add in (add_columns, add_hoops, add_cubes, add_earth, add_sun, add_cylinder, add_stars):
+    for add in (add_columns, add_hoops, add_cubes, add_earth, add_sun, add_cylinder):
         add(glb)
     glb.write(sys.argv[1] if len(sys.argv) > 1 else HERE / "avenue.glb")
 

@@ -128,21 +128,6 @@ def cylinder_along_x(columns, rows, length, radius, uv):
     return shape
 
 
-def disc_towards_origin(direction, distance, angular_radius, corners, uv, shape):
-    """Adds a small polygon seen from the origin face on."""
-    helper = (0, 1, 0) if abs(direction[1]) < 0.9 else (1, 0, 0)
-    right = unit(cross(direction, helper))
-    up = cross(right, direction)
-    size = distance * angular_radius
-    first = len(shape.positions)
-    for i in range(corners):
-        a = 2 * pi * i / corners
-        position = tuple(distance * d + size * (cos(a) * r + sin(a) * w) for d, r, w in zip(direction, right, up))
-        shape.vertex(position, tuple(-d for d in direction), uv)
-    for i in range(1, corners - 1):
-        shape.indices += [first, first + i, first + i + 1]
-
-
 def quaternion(axis, angle):
     s = sin(angle / 2)
     return (axis[0] * s, axis[1] * s, axis[2] * s, cos(angle / 2))

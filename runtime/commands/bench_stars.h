@@ -1,0 +1,8 @@
+#pragma once
+
+namespace starbow {
+
+/// Times whole frames of the avenue, seen from above, under no stars, its own and a synthetic million. Prints to stdout.
+int bench_stars(int rounds);
+
+} // namespace starbow

@@ -1,0 +1,92 @@
+#include "star_pass.h"
+#include "runtime/shared.h"
+#include <algorithm>
+#include <cstring>
+
+namespace starbow {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+using Layout_ = vk::ImageLayout;
+
+/// Where a sky of a million stars crowds into a few pixels, fp16 would stop adding; a device that can't add up floats has it
+/// all the same.
+vk::Format summing_format(const Device& device)
+{
+    const auto can = device.physical.getFormatProperties(exact_format).optimalTilingFeatures;
+    return can & vk::FormatFeatureFlagBits::eColorAttachmentBlend ? exact_format : light_format;
+}
+
+} // namespace
+
+StarPass::StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& world)
+    : device_(device)
+    , pipelines_(pipelines)
+    , world_(world)
+    , format_(summing_format(device))
+{
+    if (!on())
+        return;
+    constants_ = make_mapped_buffer(device, sizeof(shared::StarConstants), vk::BufferUsageFlagBits::eUniformBuffer);
+    std::vector<vk::DescriptorPoolSize> sizes
+        = {{vk::DescriptorType::eUniformBuffer, 2}, {vk::DescriptorType::eStorageBuffer, 1}};
+    pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
+    set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.star_set}).front());
+    const vk::DescriptorBufferInfo buffers[] = {{*constants_.buffer, 0, VK_WHOLE_SIZE},
+        {*world.stars.buffer, 0, VK_WHOLE_SIZE}, {*world.black_bodies.buffer, 0, VK_WHOLE_SIZE}};
+    device.device.updateDescriptorSets(
+        {vk::WriteDescriptorSet(*set_, 0, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[0]),
+            vk::WriteDescriptorSet(*set_, 1, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[1]),
+            vk::WriteDescriptorSet(*set_, 2, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[2])},
+        {});
+}
+
+void StarPass::fit(vk::Extent2D extent)
+{
+    if (*picture_.view && picture_.extent.width >= extent.width && picture_.extent.height >= extent.height)
+        return;
+    extent.width = std::max(extent.width, picture_.extent.width);
+    extent.height = std::max(extent.height, picture_.extent.height);
+    picture_ = {};
+    picture_ = make_image(
+        device_, {format_, extent, vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled});
+}
+
+void StarPass::prepare(const glm::dmat3& motion_from_world)
+{
+    shared::StarConstants constants{};
+    glm::vec4* rows[] = {&constants.row0, &constants.row1, &constants.row2};
+    for (int i = 0; i < 3; ++i)
+        *rows[i] = glm::vec4(motion_from_world[0][i], motion_from_world[1][i], motion_from_world[2][i], 0);
+    std::memcpy(constants_.mapped, &constants, sizeof constants);
+}
+
+void StarPass::begin(vk::CommandBuffer commands, vk::Extent2D extent)
+{
+    transition(commands, picture_, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eColorAttachmentOptimal,
+        Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
+    const vk::RenderingAttachmentInfo colour(*picture_.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore, vk::ClearColorValue(std::array<float, 4>{}));
+    commands.beginRendering({{}, {{0, 0}, extent}, 1, 0, colour});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 1, *set_, {});
+}
+
+void StarPass::draw(vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size, bool channels)
+{
+    // Wider by a spot's radius: a point whose middle lies outside would not be drawn at all.
+    const glm::ivec2 radius(STAR_RADIUS);
+    const glm::vec2 low = corner - radius, wide = size + 2 * radius;
+    commands.setViewport(0, vk::Viewport(low.x, low.y, wide.x, wide.y, 0, 1));
+    commands.setScissor(0, rect_of(corner, size));
+    commands.draw(world_.star_count, channels ? 3 : 1, 0, 0);
+}
+
+void StarPass::end(vk::CommandBuffer commands)
+{
+    commands.endRendering();
+    transition(commands, picture_, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+        Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
+}
+
+} // namespace starbow

@@ -1,0 +1,41 @@
+#pragma once
+#include "gpu_world.h"
+
+namespace starbow {
+
+/// The picture of the stars alone that the warp pass adds to what it sees: scene-linear light, pixel for pixel an output's.
+/// One for all outputs of a frame, one after the other. Of a world without stars it is nothing.
+///
+/// Each star looks for its pixel, rather than each pixel for its stars: the work per star is then bounded at every speed,
+/// while at gamma 100 a pixel ahead would have a tenth of the sky to look through. Where a display is a map of directions,
+/// InverseMap begins the search.
+class StarPass {
+public:
+    StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& world);
+
+    bool on() const { return world_.star_count > 0; }
+    /// Makes room for an output. The device must have finished the frame before.
+    void fit(vk::Extent2D extent);
+    void prepare(const glm::dmat3& motion_from_world);
+
+    /// From begin to end the viewports are drawn: bind a pipeline of Pipelines::stars for format(), its set 0 and the push
+    /// constants, then draw(). The picture is then for fragment shaders to read.
+    void begin(vk::CommandBuffer commands, vk::Extent2D extent);
+    void draw(vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size, bool channels);
+    void end(vk::CommandBuffer commands);
+
+    const Image& picture() const { return picture_; }
+    vk::Format format() const { return format_; }
+
+private:
+    Device& device_;
+    const Pipelines& pipelines_;
+    const GpuWorld& world_;
+    vk::Format format_;
+    vk::raii::DescriptorPool pool_ = nullptr;
+    vk::raii::DescriptorSet set_ = nullptr;
+    Buffer constants_;
+    Image picture_;
+};
+
+} // namespace starbow

@@ -1,0 +1,18 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
+// A star's spot: round, the same at any speed, and wide enough that the sum over its pixels is the same wherever between
+// pixels its centre lies, within 0.5 %: no star twinkles as it drifts.
+
+layout(location = 0) flat in vec2 centre;
+layout(location = 1) flat in vec3 light;
+layout(location = 0) out vec4 shown;
+
+void main()
+{
+    vec2 off = (gl_FragCoord.xy - centre) / STAR_RADIUS;
+    float inside = max(1.0 - dot(off, off), 0.0);
+    inside *= inside;
+    // The integral of (1 - r^2 / R^2)^4 is pi R^2 / 5.
+    shown = vec4(light * (inside * inside * (5.0 / (3.14159265 * STAR_RADIUS * STAR_RADIUS))), 1.0);
+}

@@ -1,0 +1,158 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
+#include "physics/real.glsl"
+#include "physics/aberration.glsl"
+#include "view.glsl"
+#include "seen.glsl"
+// One star of the sky in one viewport: where the ship sees it, which pixel shows that, and what light comes from it. Stars
+// are points: they go through the forward transform one by one and have no size that could be magnified. One instance, or
+// three where colours look different ways: each star then has a place for each.
+
+layout(set = 0, binding = 6) uniform usampler2DArray inverse_map;
+layout(set = 1, binding = 0) uniform Constants { StarConstants turn; };
+layout(set = 1, binding = 1) readonly buffer Stars { StarEntry stars[]; };
+layout(set = 1, binding = 2) uniform BlackBodies { vec4 black_bodies[STAR_STEPS]; };
+
+layout(location = 0) flat out vec2 centre; // pixels of the target
+layout(location = 1) flat out vec3 light;  // of the whole star, spread over the solid angle of a pixel
+
+// Rec. 709 linear light of a black body, relative to a luminance of 1 at 5772 K.
+vec3 black_body(float kelvin)
+{
+    float at = log2(kelvin / STAR_COLDEST) * STAR_STEPS_PER_OCTAVE;
+    if (!(at >= 0.0))
+        return vec3(0.0);
+    float inside = min(at, float(STAR_STEPS - 1) - 0.001);
+    int i = int(inside);
+    vec4 entry = mix(black_bodies[i], black_bodies[i + 1], inside - float(i));
+    return entry.rgb * exp(entry.w) * exp2((at - inside) / STAR_STEPS_PER_OCTAVE);
+}
+
+// What D makes of a point's light. A surface's radiance per frequency grows as D^3, and a point is a surface so small that only
+// its solid angle tells, which shrinks as D^-2: a black body is one at D T with D^-2 of its radiance. Its flux per frequency
+// then grows as D, and that D is the headlight effect of a point: without it the shift alone is left.
+vec3 starlight(StarEntry star, float D)
+{
+    if (!DOPPLER)
+        return black_body(star.direction.w) * star.light.x * (HEADLIGHT ? D : 1.0);
+    vec3 shifted = black_body(D * star.direction.w) * (star.light.x / (D * D));
+    return HEADLIGHT ? shifted : shifted / D;
+}
+
+// inverse_map.cpp's cell_of.
+ivec2 cell_of(vec3 n, int side)
+{
+    vec2 at = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+    if (n.z < 0.0)
+        at = vec2(at.x >= 0.0 ? 1.0 : -1.0, at.y >= 0.0 ? 1.0 : -1.0) * (1.0 - abs(at.yx));
+    return clamp(ivec2((at * 0.5 + 0.5) * float(side)), ivec2(0), ivec2(side - 1));
+}
+
+vec4 texel_at(ivec2 pixel, int channel) { return unpacked(texelFetch(direction_map, ivec3(pixel, channel), 0).rg); }
+
+// How the direction changes from a pixel to the one beside it; 0 where that shows nothing.
+vec3 change_to(vec4 here, ivec2 pixel, ivec2 way, ivec2 size, int channel)
+{
+    ivec2 beside = pixel + way;
+    if (any(lessThan(beside, ivec2(0))) || any(greaterThanEqual(beside, size)))
+        return vec3(0.0);
+    vec4 there = texel_at(beside, channel);
+    return there.w > 0.0 ? there.xyz - here.xyz : vec3(0.0);
+}
+
+// How it changes about a pixel: the mean of both sides, but for one where the picture ends or has a seam.
+vec3 change_about(vec4 here, ivec2 pixel, ivec2 way, ivec2 size, int channel)
+{
+    vec3 on = change_to(here, pixel, way, size, channel), back = -change_to(here, pixel, -way, size, channel);
+    float on_square = dot(on, on), back_square = dot(back, back);
+    if (min(on_square, back_square) * 4.0 > max(on_square, back_square))
+        return 0.5 * (on + back);
+    return back_square == 0.0 || (on_square > 0.0 && on_square < back_square) ? on : back;
+}
+
+// The point of the map (pixels from its corner) that shows n (the map's axes), by Newton's method from a pixel near it; a spot
+// beyond the picture's edge is extrapolated. False where there is none.
+bool found_from(ivec2 pixel, vec3 n, int channel, out vec2 point, out float pixel_angle)
+{
+    ivec2 size = textureSize(direction_map, 0).xy;
+    for (int round = 0; round < 8; ++round) {
+        vec4 here = texel_at(pixel, channel);
+        vec3 right = change_about(here, pixel, ivec2(1, 0), size, channel);
+        vec3 down = change_about(here, pixel, ivec2(0, 1), size, channel);
+        vec3 across = cross(right, down), off = n - here.xyz;
+        float area_square = dot(across, across);
+        if (area_square == 0.0 || dot(n, here.xyz) <= 0.0)
+            return false;
+        vec2 move = vec2(dot(cross(off, down), across), dot(cross(right, off), across)) / area_square;
+        point = vec2(pixel) + 0.5 + move;
+        // As direction_map.h has it.
+        float longest = max(dot(right, right), dot(down, down));
+        pixel_angle = sqrt(max(sqrt(area_square), 0.25 * longest));
+        if (max(abs(move.x), abs(move.y)) <= 0.75)
+            return true;
+        ivec2 next = clamp(ivec2(floor(point)), ivec2(0), size - 1);
+        bool shows = texel_at(next, channel).w > 0.0;
+        if (next == pixel || !shows)
+            return max(abs(move.x), abs(move.y)) < STAR_RADIUS + 1.0;
+        pixel = next;
+    }
+    return false;
+}
+
+// The same for any viewport. n: motion axes.
+bool find(vec3 n, int channel, out vec2 point, out float pixel_angle)
+{
+    vec3 way = vec3(dot(view.row0.xyz, n), dot(view.row1.xyz, n), dot(view.row2.xyz, n));
+    if (!MAP) {
+        point = way.xy / way.z;
+        pixel_angle = view.row0.w * way.z * sqrt(way.z); // n = way.z M (point, 1): the pixel lies 1 / way.z away
+        return way.z > 0.0;
+    }
+    uvec4 begin = texelFetch(inverse_map, ivec3(cell_of(way, textureSize(inverse_map, 0).x), channel), 0);
+    for (int i = 0; i < 4 && begin[i] != 0xffffffffu; ++i)
+        if (found_from(ivec2(begin[i] & 0xffffu, begin[i] >> 16), way, channel, point, pixel_angle))
+            return true;
+    return false;
+}
+
+// Whether something stands before the sky. A star outside the viewport, whose spot reaches in, may lie beyond the image's edge.
+bool hidden(Place place)
+{
+    vec4 image = slots[place.slot].texels;
+    vec2 texel = clamp(place.atlas * view.origin.zw, image.xy, image.zw);
+    return image.z > 0.0 && texelFetch(depth_atlas, ivec2(texel), 0).r > 0.0;
+}
+
+void main()
+{
+    StarEntry star = stars[gl_VertexIndex];
+    int channel = gl_InstanceIndex;
+    vec3 n = vec3(dot(turn.row0.xyz, star.direction.xyz), dot(turn.row1.xyz, star.direction.xyz),
+        dot(turn.row2.xyz, star.direction.xyz));
+    Sight sight = Sight(n, 1.0); // as the ship sees it
+    if (ABERRATION)
+        sight = camera_from_world(n, view.boost.x, view.boost.y);
+    else
+        sight.D = world_from_camera(n, view.boost.x, view.boost.y).D;
+
+    gl_Position = vec4(2.0, 2.0, 0.0, 1.0); // outside
+    gl_PointSize = 2.0 * STAR_RADIUS;
+    centre = vec2(0.0);
+    light = vec3(0.0);
+    float pixel_angle;
+    vec2 size = view.zenith.zw, point;
+    if (!find(sight.n, channel, point, pixel_angle) || any(lessThan(point, vec2(-STAR_RADIUS)))
+        || any(greaterThan(point, size + STAR_RADIUS)))
+        return;
+    vec3 from_place = n; // of the cube map
+    if (REPROJECT)
+        from_place = reprojected(n, eye_offset(sight.n), ABERRATION ? sight.D * pixel_angle : pixel_angle);
+    if (hidden(place_of(from_place)))
+        return;
+    light = starlight(star, sight.D) * (view.boost.z / (pixel_angle * pixel_angle));
+    if (CHANNELS)
+        light *= vec3(equal(ivec3(0, 1, 2), ivec3(channel)));
+    centre = point + view.origin.xy;
+    gl_Position = vec4((point + STAR_RADIUS) / (size + 2.0 * STAR_RADIUS) * 2.0 - 1.0, 0.0, 1.0);
+}
