@@ -279,7 +279,7 @@ RecordHeader parse_record_header(const std::string& file, std::string line)
         complain(version, "is a version of records that is not known here; " + std::to_string(record_version) + " is right");
     only(top,
         {"starbow_record", "scene", "scene_digest", "layout", "layout_digest", "pattern", "seconds_per_time_unit", "start",
-            "flying"});
+            "flying", "exposure"});
     RecordHeader header;
     header.scene = text(member(top, "scene"));
     header.scene_digest = read_digest(member(top, "scene_digest"));
