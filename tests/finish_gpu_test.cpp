@@ -88,8 +88,9 @@ void expect_pixels(const Layout& layout, const std::function<dvec3(dvec3, int, i
                 least = std::min(least, right[k]), most = std::max(most, right[k]);
             }
         }
-    // Half a byte of rounding, half of dither. fp16 keeps light to 2^-11 of itself, weights too; a gamma's inverse makes less of it, a
-    // matrix' or a table's slope up to four times as much: 255 * 4 * 2^-11. The device's own sRGB table adds a bit.
+    // Half a byte of rounding, half of dither. fp16 keeps light to 2^-11 of itself, weights too; a gamma's inverse makes
+    // less of it, a matrix' or a table's slope up to four times as much: 255 * 4 * 2^-11. The device's own sRGB table adds a
+    // bit.
     EXPECT_LE(worst, 1.55);
     EXPECT_GT(most - least, 0.3); // else there is nothing to see
 }
@@ -147,7 +148,8 @@ TEST_F(Finish, TablesHoldTheirEnds)
     Studio stage = studio(*Finish::world, layout, false);
     const auto bright = stage.picture(at_rest(14)).front(), dark = stage.picture(at_rest(-60)).front();
     for (const std::uint8_t value : bright)
-        EXPECT_TRUE(value == 255 || (value >= 190 && value <= 192)) << int(value); // alpha; 191.25 and dither, tone curve just below
+        EXPECT_TRUE(value == 255 || (value >= 190 && value <= 192))
+            << int(value); // alpha; 191.25 and dither, tone curve just below
     for (const std::uint8_t value : dark)
         EXPECT_TRUE(value == 255 || value == 63 || value == 64) << int(value); // 63.75 and dither
 }

@@ -31,6 +31,7 @@ END
 }
 layout 50 >"$folder/wall.json"
 layout 70 | sed 's/\[40, 30\]/[80, 60]/' >"$folder/changed.json"
+echo '{ "exposure": { "automatic": false } }' >"$folder/exhibit.json" # as the stills are
 mkdir "$folder/small"
 "$program" render --layout "$folder/wall.json" --shot start --out "$folder" >/dev/null || fail "render"
 "$program" render --layout "$folder/wall.json" --shot start --out "$folder/small" --size 240x180 >/dev/null || fail "render"
@@ -71,7 +72,7 @@ said() { # WHAT
 }
 
 fly() {
-    timeout 120 "$program" run --layout "$folder/wall.json" >"$folder/log" 2>&1 &
+    timeout 120 "$program" run --exhibit "$folder/exhibit.json" --layout "$folder/wall.json" >"$folder/log" 2>&1 &
     exhibit=$!
     started+=($exhibit)
     until_true 30 xdotool search --name '^Starbow a' || fail "no window"

@@ -28,7 +28,7 @@ fly desk
 xdotool keydown w
 sleep 3
 xdotool keyup w
-xdotool key 2
+xdotool key 2 l
 xdotool windowsize "$window" 500 300
 sleep 1
 xdotool windowsize "$window" 900 700
@@ -42,6 +42,8 @@ gamma=$(sed -n 's/.*γ \([0-9.]*\).*/\1/p' "$folder/log")
 awk "BEGIN { exit !($gamma > 1.05) }" || fail "desk: W did not speed up: gamma $gamma"
 ok
 grep -q 'Doppler off' "$folder/log" || fail "desk: 2 did not switch the Doppler effect off"
+ok
+grep -q 'exposure [^ ]* EV locked' "$folder/log" || fail "desk: L did not hold the exposure"
 ok
 
 # Stop is at once. The flight is recorded, and flown again it ends the same.
@@ -82,7 +84,8 @@ socket.socket(socket.AF_INET, socket.SOCK_DGRAM).sendto(struct.pack("<6d", float
 SEND
 }
 view() { import -window "$window" -crop 400x200+0+0 rgb:"$folder/$1"; }
-fly "$folder/tracked.json"
+echo '{ "exposure": { "automatic": false } }' >"$folder/even.json" # it would take seconds to come back
+fly "$folder/tracked.json" --exhibit "$folder/even.json"
 xdotool key h # without the figures, which change by themselves
 sleep 0.5
 view rest
