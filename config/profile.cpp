@@ -1,14 +1,11 @@
 #include "profile.h"
 #include "reader.h"
+#include "whole_file.h"
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
-#include <memory>
 #include <span>
-#include <unistd.h>
 
 namespace starbow {
 namespace {
@@ -69,13 +66,6 @@ template <class Role> std::string name_in(const std::vector<std::pair<std::strin
     return "none";
 }
 
-std::string hex4(int number)
-{
-    std::array<char, 8> text;
-    std::snprintf(text.data(), text.size(), "%04x", unsigned(number) & 0xffff);
-    return text.data();
-}
-
 /// A text in double quotes. What is no UTF-8 is replaced: a file of JSON must be.
 std::string quoted(const std::string& text)
 {
@@ -129,6 +119,13 @@ template <class Use, class Line> std::string block(const std::vector<Use>& uses,
 }
 
 } // namespace
+
+std::string hex4(int number)
+{
+    std::array<char, 8> text;
+    std::snprintf(text.data(), text.size(), "%04x", unsigned(number) & 0xffff);
+    return text.data();
+}
 
 std::string name_of(AxisRole role) { return name_in(axis_roles, role); }
 
@@ -192,36 +189,11 @@ std::string profile_text(const Profile& profile)
 void save_profile(const Profile& profile, const std::filesystem::path& file)
 {
     const std::string text = profile_text(profile);
-    const auto refuse = [&](int why) {
-        throw InputError(
-            file.string(), "", std::string("can't be written (") + std::strerror(why) + "); a place for a file is right");
-    };
-    std::error_code problem;
+    std::error_code problem; // told by write_whole
     if (file.has_parent_path())
         std::filesystem::create_directories(file.parent_path(), problem);
-    // Renaming would put a plain file in the place of a link, or of a device such as /dev/null.
-    std::filesystem::path target = std::filesystem::canonical(file, problem);
-    if (problem)
-        target = file;
-    else if (!std::filesystem::is_regular_file(target, problem))
-        throw InputError(file.string(), "", "is there and is not a file; a new name or that of a file is right");
-    std::filesystem::path part = target;
-    part += '.' + std::to_string(getpid()) + ".part";
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(part.c_str(), "wb"), std::fclose);
-    if (!stream)
-        refuse(errno);
-    // On the disk before the old file goes: exhibits are switched off at the wall.
-    bool good = std::fwrite(text.data(), 1, text.size(), stream.get()) == text.size() && std::fflush(stream.get()) == 0
-        && fsync(fileno(stream.get())) == 0;
-    int why = errno;
-    if (std::fclose(stream.release()) != 0 && good)
-        good = false, why = errno;
-    if (good && std::rename(part.c_str(), target.c_str()) != 0)
-        good = false, why = errno;
-    if (!good) {
-        std::remove(part.c_str());
-        refuse(why);
-    }
+    // Exhibits are switched off at the wall.
+    write_whole(file, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()), Lasting::power_cut);
 }
 
 } // namespace starbow

@@ -81,6 +81,9 @@ std::string profile_text(const Profile& profile);
 void save_profile(const Profile& profile, const std::filesystem::path& file);
 
 /// As a profile's file has them: "nose-up", "next-mode".
+/// Four hexadecimal digits, as a profile names a vendor or a product.
+std::string hex4(int number);
+
 std::string name_of(AxisRole role);
 std::string name_of(ButtonRole role);
 

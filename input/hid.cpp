@@ -30,13 +30,6 @@ std::string plain(const wchar_t* text)
     return out;
 }
 
-std::string hex4(int number)
-{
-    std::array<char, 8> text;
-    std::snprintf(text.data(), text.size(), "%04x", unsigned(number) & 0xffff);
-    return text.data();
-}
-
 /// hidapi 0.13 does not tell it; sysfs does, and to everyone.
 std::vector<std::uint8_t> descriptor_bytes(const std::string& path)
 {

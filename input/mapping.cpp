@@ -52,51 +52,29 @@ void add_role(AxisRole role, double value, double dt_s, Controls& controls)
     }
 }
 
+/// What a press switches, in the frame in which it comes.
+constexpr std::pair<ButtonRole, bool Controls::*> switches[]
+    = {{ButtonRole::stop, &Controls::stop}, {ButtonRole::home, &Controls::home}, {ButtonRole::undo, &Controls::undo},
+        {ButtonRole::next_mode, &Controls::next_mode}, {ButtonRole::look_ahead, &Controls::look_ahead},
+        {ButtonRole::aberration, &Controls::aberration}, {ButtonRole::doppler, &Controls::doppler},
+        {ButtonRole::headlight, &Controls::headlight}, {ButtonRole::hud, &Controls::hud}};
+/// What a button does for as long as it is held.
+struct Held {
+    ButtonRole role;
+    double Controls::*value;
+    double by;
+};
+constexpr Held held[] = {{ButtonRole::faster, &Controls::faster, 1}, {ButtonRole::slower, &Controls::faster, -1},
+    {ButtonRole::brighter, &Controls::exposure, 1}, {ButtonRole::darker, &Controls::exposure, -1}};
+
 void press(ButtonRole role, bool pressed, bool down, Controls& controls)
 {
-    switch (role) {
-    case ButtonRole::none:
-        return;
-    case ButtonRole::stop:
-        controls.stop |= pressed;
-        return;
-    case ButtonRole::home:
-        controls.home |= pressed;
-        return;
-    case ButtonRole::undo:
-        controls.undo |= pressed;
-        return;
-    case ButtonRole::next_mode:
-        controls.next_mode |= pressed;
-        return;
-    case ButtonRole::look_ahead:
-        controls.look_ahead |= pressed;
-        return;
-    case ButtonRole::aberration:
-        controls.aberration |= pressed;
-        return;
-    case ButtonRole::doppler:
-        controls.doppler |= pressed;
-        return;
-    case ButtonRole::headlight:
-        controls.headlight |= pressed;
-        return;
-    case ButtonRole::hud:
-        controls.hud |= pressed;
-        return;
-    case ButtonRole::faster:
-        controls.faster += down;
-        return;
-    case ButtonRole::slower:
-        controls.faster -= down;
-        return;
-    case ButtonRole::brighter:
-        controls.exposure += down;
-        return;
-    case ButtonRole::darker:
-        controls.exposure -= down;
-        return;
-    }
+    for (const auto& [which, flag] : switches)
+        if (which == role)
+            controls.*flag |= pressed;
+    for (const Held& one : held)
+        if (one.role == role && down)
+            controls.*one.value += one.by;
 }
 
 bool has(const Descriptor& descriptor, std::uint16_t page, std::uint16_t id)

@@ -1,5 +1,6 @@
 #include "capture.h"
 #include "config/error.h"
+#include "config/whole_file.h"
 #include "exr_check.h"
 #include <algorithm>
 #include <cctype>
@@ -11,48 +12,12 @@
 #include <stb/stb_image_write.h>
 #include <stdexcept>
 #include <tinyexr.h>
-#include <unistd.h>
 
 namespace starbow {
 namespace {
 
 using Bytes = std::vector<unsigned char>;
 using Stream = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
-[[noreturn]] void refuse_writing(const std::filesystem::path& file, int why)
-{
-    throw InputError(
-        file.string(), "", std::string("can't be written (") + std::strerror(why) + "); a place for a file is right");
-}
-
-/// The whole file or nothing: a reader of the folder never meets half a picture.
-void write_whole(const std::filesystem::path& file, const Bytes& bytes)
-{
-    // Renaming would put a plain file in the place of a device such as /dev/null, or of a link to the true place.
-    std::error_code problem;
-    std::filesystem::path target = std::filesystem::canonical(file, problem);
-    if (problem)
-        target = file;
-    else if (!std::filesystem::is_regular_file(target, problem))
-        throw InputError(file.string(), "", "is there and is not a file; a new name or that of a file is right");
-
-    std::filesystem::path part = target;
-    part += '.' + std::to_string(getpid()) + ".part";
-    Stream stream(std::fopen(part.c_str(), "wb"), std::fclose);
-    if (!stream)
-        refuse_writing(file, errno);
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stream.get()) == bytes.size();
-    int why = errno;
-    const bool closed = std::fclose(stream.release()) == 0; // a full disk may show only here
-    if (written && !closed)
-        why = errno;
-    if (written && closed && std::rename(part.c_str(), target.c_str()) == 0)
-        return;
-    if (written && closed)
-        why = errno;
-    std::remove(part.c_str());
-    refuse_writing(file, why);
-}
 
 void require(bool right, const std::string& what, std::size_t is, std::size_t expected)
 {
@@ -189,7 +154,7 @@ void write_exr(const std::filesystem::path& file, glm::ivec2 size, const Channel
         FreeEXRErrorMessage(why);
         throw std::logic_error("write_exr: tinyexr: " + reason);
     }
-    write_whole(file, Bytes(memory, memory + count));
+    write_whole(file, {memory, count});
 }
 
 std::pair<glm::ivec2, Channels> read_exr(const std::filesystem::path& file)

@@ -36,6 +36,8 @@ void press(Flight& flight, const Controls& controls, const Flying& rules, const 
         flight.faster = 0;
         flight.thrust = glm::dvec3(0);
         flight.held_back = flight.held_back || !controls.next_mode;
+        if (flight.held_back && !controls.lever) // keys move a lever of their own, which must not wait where it was
+            flight.lever = 0;
     }
 }
 

@@ -262,29 +262,32 @@ told, wanted = json.load(sys.stdin), json.load(open(sys.argv[1]))
 sys.exit(told["fields"] != wanted["fields"] or told["input_report_bits"] != wanted["input_report_bits"])' \
         "$hid/thrustmaster-t16000m.json"; then passed=$((passed + 1)); else fail "devices --describe $(basename "$file")"; fi
 done
-refused_describe() { # TEXT FILE
-    local said
-    said=$("$program" devices --describe "$2" 2>&1 >/dev/null)
-    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$1"* ]]; then passed=$((passed + 1)); else fail "devices --describe $2: $said"; fi
+# says TEXT ARGUMENTS...: one line that holds TEXT, and exit 2.
+says() {
+    local text=$1 said
+    shift
+    said=$("$program" "$@" 2>&1 >/dev/null)
+    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not say '$text': $said"; fi
 }
-refused_describe 'is empty' "$folder/empty.bin"
-refused_describe "can't be read" "$folder/no-such.bin"
-refused_describe "can't be read" "$folder"
-refused_describe '/descriptor_hex' "$folder/lines.json"
+says 'is empty' devices --describe "$folder/empty.bin"
+says "can't be read" devices --describe "$folder/no-such.bin"
+says "can't be read" devices --describe "$folder"
+says '/descriptor_hex' devices --describe "$folder/lines.json"
 printf 'hello' > "$folder/hello.bin"
-refused_describe 'declares no input' "$folder/hello.bin"
+says 'declares no input' devices --describe "$folder/hello.bin"
 
 # Exhibits.
-refused_run() { # TEXT EXHIBIT_JSON
-    local said
-    printf '%s\n' "$2" > "$folder/exhibit.json"
-    said=$("$program" run --exhibit "$folder/exhibit.json" 2>&1 >/dev/null)
-    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$1"* ]]; then passed=$((passed + 1)); else fail "run --exhibit $2: $said"; fi
+exhibit() { # EXHIBIT_JSON
+    printf '%s\n' "$1" > "$folder/exhibit.json"
 }
-refused_run 'exhibit.json:1: /flying/turn_deg_per_s: 0' '{ "flying": { "turn_deg_per_s": 0 } }'
-refused_run 'there are:' '{ "layout": "no-such" }'
-refused_run 'no-such.json' '{ "scene": "sub/no-such.json" }'
-refused_run 'is no folder' '{ "profiles": "no-such" }'
+exhibit '{ "flying": { "turn_deg_per_s": 0 } }'
+says 'exhibit.json:1: /flying/turn_deg_per_s: 0' run --exhibit "$folder/exhibit.json"
+exhibit '{ "layout": "no-such" }'
+says 'there are:' run --exhibit "$folder/exhibit.json"
+exhibit '{ "scene": "sub/no-such.json" }'
+says 'no-such.json' run --exhibit "$folder/exhibit.json"
+exhibit '{ "profiles": "no-such" }'
+says 'is no folder' run --exhibit "$folder/exhibit.json"
 
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]

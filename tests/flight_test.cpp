@@ -221,6 +221,13 @@ TEST_P(Modes, StopIsAtOnceAndStays)
     stopped = hold(step(flight, {.faster = 4, .stop = true}, 0, rules, 1, start()), {.faster = 4}, 1, rules);
     EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
     EXPECT_GT(rapidity(hold(hold(stopped, {}, 0.1, rules), {.faster = 4}, 2, rules)), 0.1);
+    // And a key that was let go before the stop leaves nothing to speed up to, nor does the way home.
+    flight = hold(hold(flight_at(start(), rules), {.faster = 4}, 3, rules), {}, 0.2, rules);
+    stopped = hold(step(flight, {.stop = true}, 0, rules, 1, start()), {}, 2, rules);
+    EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
+    flight = hold(step(flight, {.home = true}, 0, rules, 1, start()), {}, 60, rules);
+    EXPECT_FALSE(flight.homing);
+    EXPECT_EQ(flight.ship.u.total(), dvec3(0));
 }
 
 // A hand that leaves everything: the nose comes to rest, and the ship goes on straight.

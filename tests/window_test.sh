@@ -51,6 +51,7 @@ fly stereo --record "$folder/flight.jsonl"
 xdotool keydown w
 sleep 2
 xdotool keyup w
+sleep 0.3 # a frame without either key
 xdotool key space
 sleep 1
 xdotool key Escape
