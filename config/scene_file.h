@@ -1,4 +1,5 @@
 #pragma once
+#include "emission.h"
 #include "shot.h"
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -13,6 +14,7 @@ namespace starbow {
 struct DirectionalLight {
     glm::dvec3 towards;
     glm::dvec3 radiance; ///< Rec. 709 linear; a white surface facing it gets this colour
+    std::optional<Emission> spectrum; ///< none: sunlight. Otherwise `radiance` tints it: 1 is as much energy as sunlight's
 };
 
 /// Light from a place; a white surface facing it at `distance` (scene units) gets the colour `radiance`, falling as 1/r^2.
@@ -20,13 +22,16 @@ struct PointLight {
     glm::dvec3 position;
     double distance;
     glm::dvec3 radiance;
+    std::optional<Emission> spectrum; ///< as above
 };
 
 using Light = std::variant<DirectionalLight, PointLight>;
 
-/// The sky behind everything: a colour at the zenith (+y), at the horizon and at the nadir, blended smoothly between.
+/// The sky behind everything: a colour at the zenith (+y), at the horizon and at the nadir, blended smoothly between; and
+/// a black body's glow, everywhere the same.
 struct Sky {
     glm::dvec3 zenith{0}, horizon{0}, nadir{0}; ///< Rec. 709 linear
+    double temperature_K = 0; ///< 0: no glow. 2.725 is the microwave background's
 };
 
 /// The stars of a catalogue, behind everything.

@@ -1,7 +1,9 @@
 #pragma once
+#include "config/emission.h"
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,15 @@ struct Material {
     float alpha_cutoff = 0; ///< above 0: a masked material; what is below is not there
     bool double_sided = false;
     bool unlit = false; ///< KHR_materials_unlit: the base colour is the radiance
+
+    // What colours don't tell, from glTF's extras.
+    std::optional<double> ultraviolet, infrared; ///< reflectance below about 360 and beyond 820 nm, 0 to 1; none: as the
+                                                 ///< base colour's mean
+    std::vector<std::pair<double, double>> reflectance; ///< not empty: at wavelengths in nm, rising, instead of the base
+                                                        ///< colour's, whose luminance then scales it
+    double temperature_K = 0, emissivity = 0; ///< glows as a black body does, in part
+    std::optional<Emission> emission; ///< the spectrum of what `emissive` tells; its luminance 1 is then as much energy
+                                      ///< as a sunlit white surface's. None: a sunlit colour
 };
 
 /// The same surface in fewer triangles.
