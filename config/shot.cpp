@@ -75,7 +75,7 @@ glm::dquat read_orientation(const Place& place)
 
 Effects read_effects(const Place& place)
 {
-    only(place, {"aberration", "doppler", "headlight"});
+    only(place, {"aberration", "doppler", "headlight", "false_colours"});
     Effects effects;
     if (auto p = find(place, "aberration"))
         effects.aberration = boolean(*p);
@@ -83,6 +83,8 @@ Effects read_effects(const Place& place)
         effects.doppler = boolean(*p);
     if (auto p = find(place, "headlight"))
         effects.headlight = boolean(*p);
+    if (auto p = find(place, "false_colours"))
+        effects.false_colours = boolean(*p);
     return effects;
 }
 

@@ -11,6 +11,7 @@ struct Effects {
     bool aberration = true;
     bool doppler = true;
     bool headlight = true;
+    bool false_colours = false; ///< infrared as red, the visible as green, ultraviolet as blue
 };
 
 /// One frozen instant, in the scene's units (lengths in units, times in unit / c).

@@ -13,8 +13,4 @@ glm::dvec3 rec709_linear_from_xyz(const glm::dvec3& xyz);
 /// Spectral radiance of a black body per wavelength, up to a constant: Planck's law. nm, K.
 double planck(double wavelength_nm, double temperature_K);
 
-/// The table of seen.glsl's doppler_shifted: per step of log2 D (-COLOUR_RANGE to COLOUR_RANGE) three rows, whose x, y, z
-/// take the chromatic part of a colour and w the achromatic one. Shift alone: L'(l) = D^2 L(D l) per wavelength l.
-std::vector<glm::vec4> doppler_table();
-
 } // namespace starbow

@@ -35,8 +35,9 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
     sky_ = sky.zenith != sky.horizon || sky.nadir != sky.horizon;
     constants_ = make_mapped_buffer(device, sizeof(shared::CubeConstants), vk::BufferUsageFlagBits::eUniformBuffer);
     slots_ = make_mapped_buffer(device, SLOT_COUNT * sizeof(shared::SlotEntry), vk::BufferUsageFlagBits::eUniformBuffer);
+    atlases_.resize(std::size_t(world.spectra.groups));
     std::vector<vk::DescriptorPoolSize> sizes
-        = {{vk::DescriptorType::eUniformBuffer, 1}, {vk::DescriptorType::eStorageBuffer, 2}};
+        = {{vk::DescriptorType::eUniformBuffer, 2}, {vk::DescriptorType::eStorageBuffer, 2}};
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
     set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.eye_set}).front());
 }
@@ -49,8 +50,9 @@ void CubePass::prepare(const Plan& plan, const glm::dvec3& place, const glm::dma
     levels_ = plan.levels;
     list_ = cull(world_.world, place, motion_from_world, images_);
     fit(plan.atlas_size, plan.levels);
-    upload(motion_from_world, place);
-    auto table = slot_table(plan, {atlas_.extent.width, atlas_.extent.height});
+    upload(motion_from_world, place, false);
+    const vk::Extent2D extent = atlases_[0].extent;
+    auto table = slot_table(plan, {extent.width, extent.height});
     std::memcpy(slots_.mapped, table.data(), table.size() * sizeof(table[0]));
 }
 
@@ -58,7 +60,7 @@ void CubePass::prepare_plain(const PlanImage& image, const glm::dvec3& place, co
 {
     images_ = {image};
     list_ = cull(world_.world, place, straight_from_world, images_);
-    upload(straight_from_world, place);
+    upload(straight_from_world, place, true);
     if (int(depth_.extent.width) < image.size.x || int(depth_.extent.height) < image.size.y)
         depth_ = make_image(device_,
             {depth_format, {std::uint32_t(image.size.x), std::uint32_t(image.size.y)},
@@ -67,29 +69,35 @@ void CubePass::prepare_plain(const PlanImage& image, const glm::dvec3& place, co
 
 void CubePass::fit(glm::ivec2 size, int levels)
 {
-    bool enough = *atlas_.view && int(atlas_.extent.width) >= size.x && int(atlas_.extent.height) >= size.y
-        && int(atlas_.levels) >= levels;
+    const Image& first = atlases_[0];
+    bool enough = *first.view && int(first.extent.width) >= size.x && int(first.extent.height) >= size.y
+        && int(first.levels) >= levels;
     if (enough)
         return;
     // A plan without images, where no pane shows anything, has a texture all the same.
     auto grown = [](int needed, std::uint32_t had) {
         return std::max((std::uint32_t(std::max(needed, 1)) + 255) / 256 * 256, had);
     };
-    vk::Extent2D extent(grown(size.x, atlas_.extent.width), grown(size.y, atlas_.extent.height));
-    auto most = std::max(std::uint32_t(levels), atlas_.levels);
+    vk::Extent2D extent(grown(size.x, first.extent.width), grown(size.y, first.extent.height));
+    auto most = std::max(std::uint32_t(levels), first.levels);
     using Usage = vk::ImageUsageFlagBits;
-    atlas_ = {}, depth_ = {}, atlas_samples_ = {}, depth_samples_ = {};
+    for (Image& atlas : atlases_)
+        atlas = {};
+    depth_ = {}, atlas_samples_.clear(), depth_samples_ = {};
     auto copied = most > 1 ? Usage::eTransferSrc | Usage::eTransferDst : vk::ImageUsageFlags();
-    atlas_ = make_image(device_, {light_format, extent, Usage::eColorAttachment | Usage::eSampled | copied, most});
+    const std::vector<vk::Format> formats = world_.numbers().formats();
+    for (std::size_t i = 0; i < atlases_.size(); ++i)
+        atlases_[i] = make_image(device_, {formats[i], extent, Usage::eColorAttachment | Usage::eSampled | copied, most});
     depth_ = make_image(device_, {depth_format, extent, Usage::eDepthStencilAttachment | Usage::eSampled});
     if (samples_ > 1) {
         vk::SampleCountFlagBits samples = sample_bits(samples_);
-        atlas_samples_ = make_image(device_, {light_format, extent, Usage::eColorAttachment, 1, 1, samples});
+        for (vk::Format format : formats)
+            atlas_samples_.push_back(make_image(device_, {format, extent, Usage::eColorAttachment, 1, 1, samples}));
         depth_samples_ = make_image(device_, {depth_format, extent, Usage::eDepthStencilAttachment, 1, 1, samples});
     }
 }
 
-void CubePass::upload(const glm::dmat3& to_motion, const glm::dvec3& place)
+void CubePass::upload(const glm::dmat3& to_motion, const glm::dvec3& place, bool plain)
 {
     triangles_ = 0;
     for (const Draw& draw : list_.draws)
@@ -106,82 +114,98 @@ void CubePass::upload(const glm::dmat3& to_motion, const glm::dvec3& place)
     double scale = pre_exposure_;
     shared::CubeConstants constants{};
     constants.ambient = glm::vec4(scene.ambient * scale, scale);
-    constants.sky_zenith = glm::vec4(scene.sky.zenith * scale, 0);
-    constants.sky_horizon = glm::vec4(scene.sky.horizon * scale, 0);
-    constants.sky_nadir = glm::vec4(scene.sky.nadir * scale, 0);
+    const auto& numbers = world_.spectra.sky;
+    for (std::size_t group = 0; group < atlases_.size(); ++group) {
+        constants.sky_zenith[group] = glm::vec4(numbers[0][group] * scale);
+        constants.sky_horizon[group] = glm::vec4(numbers[1][group] * scale);
+        constants.sky_nadir[group] = glm::vec4(numbers[2][group] * scale);
+    }
+    if (plain) {
+        constants.sky_zenith[0] = glm::vec4(scene.sky.zenith * scale, 0);
+        constants.sky_horizon[0] = glm::vec4(scene.sky.horizon * scale, 0);
+        constants.sky_nadir[0] = glm::vec4(scene.sky.nadir * scale, 0);
+    }
     constants.world_up = glm::vec4(to_motion * glm::dvec3(0, 1, 0), 0);
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         shared::LightEntry& entry = constants.lights[i];
         if (auto* light = std::get_if<DirectionalLight>(&scene.lights[i]))
-            entry = {glm::vec4(to_motion * light->towards, 0), glm::vec4(light->radiance * scale, 0)};
+            entry = {glm::vec4(to_motion * light->towards, 0), glm::vec4(light->radiance * scale, 0), {}};
         else if (auto* point = std::get_if<PointLight>(&scene.lights[i]))
             entry = {glm::vec4(to_motion * (point->position - place), 1),
-                glm::vec4(point->radiance * scale, point->distance * point->distance)};
+                glm::vec4(point->radiance * scale, point->distance * point->distance), {}};
+        entry.kind.x = float(world_.spectra.kind_of_light[i]);
     }
     std::memcpy(constants_.mapped, &constants, sizeof constants);
 
     vk::DescriptorBufferInfo buffers[] = {{*constants_.buffer, 0, VK_WHOLE_SIZE}, {*instances_.buffer, 0, VK_WHOLE_SIZE},
-        {*visible_.buffer, 0, VK_WHOLE_SIZE}};
+        {*visible_.buffer, 0, VK_WHOLE_SIZE}, {*world_.columns.buffer, 0, VK_WHOLE_SIZE}};
     device_.device.updateDescriptorSets(
         {vk::WriteDescriptorSet(*set_, 0, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[0]),
             vk::WriteDescriptorSet(*set_, 1, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[1]),
-            vk::WriteDescriptorSet(*set_, 2, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[2])},
+            vk::WriteDescriptorSet(*set_, 2, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[2]),
+            vk::WriteDescriptorSet(*set_, 3, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[3])},
         {});
 }
 
 void CubePass::record(vk::CommandBuffer commands)
 {
     bool sampled = samples_ > 1;
-    const Image& colour = sampled ? atlas_samples_ : atlas_;
     const Image& depth = sampled ? depth_samples_ : depth_;
-    transition(commands, atlas_, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eColorAttachmentOptimal,
-        Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
+    for (const Image& atlas : atlases_)
+        transition(commands, atlas, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eColorAttachmentOptimal,
+            Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
     constexpr auto depth_access = Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite;
     transition(commands, depth_, Layout_::eUndefined,
         depth_tests | Stage::eVertexShader | Stage::eFragmentShader | Stage::eColorAttachmentOutput, depth_access,
         Layout_::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
         depth_access | Access::eColorAttachmentWrite);
     if (sampled) {
-        transition(commands, colour, Layout_::eUndefined, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
-            Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
-            Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
+        for (const Image& colour : atlas_samples_)
+            transition(commands, colour, Layout_::eUndefined, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+                Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+                Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
         transition(commands, depth, Layout_::eUndefined, depth_tests, depth_access, Layout_::eDepthAttachmentOptimal,
             depth_tests, depth_access);
     }
-    glm::dvec3 sky = world_.scene.sky.horizon * pre_exposure_;
-    vk::ClearColorValue clear(std::array<float, 4>{float(sky.r), float(sky.g), float(sky.b), 1});
-    vk::RenderingAttachmentInfo colour_info(*colour.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
-        vk::AttachmentLoadOp::eClear, sampled ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore, clear);
+    std::vector<vk::RenderingAttachmentInfo> colours;
+    for (std::size_t group = 0; group < atlases_.size(); ++group) {
+        const glm::vec4 sky(world_.spectra.sky[1][group] * pre_exposure_);
+        const vk::ClearColorValue clear(std::array<float, 4>{sky.x, sky.y, sky.z, sky.w});
+        colours.push_back({*(sampled ? atlas_samples_ : atlases_)[group].view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+            vk::AttachmentLoadOp::eClear, sampled ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore,
+            clear});
+        if (sampled) {
+            colours.back().resolveMode = vk::ResolveModeFlagBits::eAverage;
+            colours.back().resolveImageView = *atlases_[group].view;
+            colours.back().resolveImageLayout = Layout_::eColorAttachmentOptimal;
+        }
+    }
     vk::RenderingAttachmentInfo depth_info(*depth.view, Layout_::eDepthAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear,
         keeps_depth_ && !sampled ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare,
         vk::ClearDepthStencilValue(0, 0));
-    if (sampled) {
-        colour_info.resolveMode = vk::ResolveModeFlagBits::eAverage;
-        colour_info.resolveImageView = *atlas_.view;
-        colour_info.resolveImageLayout = Layout_::eColorAttachmentOptimal;
-        if (keeps_depth_) {
-            depth_info.resolveMode = vk::ResolveModeFlagBits::eSampleZero;
-            depth_info.resolveImageView = *depth_.view;
-            depth_info.resolveImageLayout = Layout_::eDepthAttachmentOptimal;
-        }
+    if (sampled && keeps_depth_) {
+        depth_info.resolveMode = vk::ResolveModeFlagBits::eSampleZero;
+        depth_info.resolveImageView = *depth_.view;
+        depth_info.resolveImageLayout = Layout_::eDepthAttachmentOptimal;
     }
-    commands.beginRendering({{}, rect_of({0, 0}, area_), 1, 0, colour_info, &depth_info});
-    draw_images(commands, {light_format, sample_bits(samples_)});
+    commands.beginRendering({{}, rect_of({0, 0}, area_), 1, 0, colours, &depth_info});
+    draw_images(commands, {world_.numbers().formats(), sample_bits(samples_)}, false);
     commands.endRendering();
-    if (levels_ > 1)
-        make_mips(commands);
-    else
-        transition(commands, atlas_, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
-            Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader,
-            Access::eShaderSampledRead);
+    for (const Image& atlas : atlases_)
+        if (levels_ > 1)
+            make_mips(commands, atlas);
+        else
+            transition(commands, atlas, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+                Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader,
+                Access::eShaderSampledRead);
     if (keeps_depth_)
         transition(commands, depth_, Layout_::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
             depth_access | Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal,
             Stage::eVertexShader | Stage::eFragmentShader, Access::eShaderSampledRead);
 }
 
-void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
+void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, bool plain)
 {
     const World& world = world_.world;
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.surface_layout, 0, *set_, {});
@@ -194,7 +218,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
         const PlanImage& image = images_[i];
         set_area(commands, image.atlas, image.size);
         glm::dmat4 clip = clip_from_motion(image, near_distance);
-        shared::CubePush push{row(clip, 0), row(clip, 1), row(clip, 2), row(clip, 3), {}, {}};
+        shared::CubePush push{row(clip, 0), row(clip, 1), row(clip, 2), row(clip, 3), {}, {}, {}, {}};
         // Seen through a mirrored pair of face axes a surface's front turns the other way.
         glm::dvec3 a = face_direction(image.face, {1, 0}) - face_direction(image.face, {0, 0});
         glm::dvec3 b = face_direction(image.face, {0, 1}) - face_direction(image.face, {0, 0});
@@ -217,13 +241,16 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
             if (primitive.material != material) {
                 material = primitive.material;
                 const Material& m = world.materials[material];
-                if (vk::Pipeline pipeline = pipelines_.surface(world_.variant(material), kind); pipeline != bound)
+                if (vk::Pipeline pipeline = pipelines_.surface(world_.variant(material, plain), kind); pipeline != bound)
                     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipeline);
                 commands.bindDescriptorSets(
                     vk::PipelineBindPoint::eGraphics, *pipelines_.surface_layout, 1, *world_.materials[material], {});
                 commands.setCullMode(m.double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
                 push.base_colour = m.base_colour;
-                push.emissive = glm::vec4(m.emissive * float(pre_exposure_), m.alpha_cutoff);
+                const Spectra::Surface& surface = world_.spectra.surfaces[std::size_t(material)];
+                push.emissive = glm::vec4(m.emissive * float(surface.emission * pre_exposure_), m.alpha_cutoff);
+                push.beyond = surface.beyond;
+                push.own = glm::vec4(surface.own * pre_exposure_);
                 commands.pushConstants<shared::CubePush>(*pipelines_.surface_layout, stages, 0, push);
             }
             commands.drawIndexed(draw->index_count, draw->count, draw->first_index, primitive.vertex_offset, draw->first);
@@ -240,20 +267,20 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
     }
 }
 
-void CubePass::make_mips(vk::CommandBuffer commands)
+void CubePass::make_mips(vk::CommandBuffer commands, const Image& atlas)
 {
     auto level_barrier = [&](std::uint32_t first, std::uint32_t count, Layout_ from, Stage from_stage,
                              vk::AccessFlags2 from_access, Layout_ to, Stage to_stage, vk::AccessFlags2 to_access) {
         vk::ImageMemoryBarrier2 barrier(from_stage, from_access, to_stage, to_access, from, to, VK_QUEUE_FAMILY_IGNORED,
-            VK_QUEUE_FAMILY_IGNORED, *atlas_.image, {vk::ImageAspectFlagBits::eColor, first, count, 0, 1});
+            VK_QUEUE_FAMILY_IGNORED, *atlas.image, {vk::ImageAspectFlagBits::eColor, first, count, 0, 1});
         commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
     };
     // One level more than is asked for: at its coarsest level an image is sampled together with the next, at weight nought,
     // and nought times what was never written may be NaN.
-    std::uint32_t levels = std::min(std::uint32_t(levels_) + 1, atlas_.levels);
+    std::uint32_t levels = std::min(std::uint32_t(levels_) + 1, atlas.levels);
     level_barrier(0, 1, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
         Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
-    level_barrier(1, atlas_.levels - 1, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, {},
+    level_barrier(1, atlas.levels - 1, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, {},
         Layout_::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite);
     for (std::uint32_t level = 1; level < levels; ++level) {
         std::vector<vk::ImageBlit> blits;
@@ -266,15 +293,15 @@ void CubePass::make_mips(vk::CommandBuffer commands)
                 blits.push_back({{vk::ImageAspectFlagBits::eColor, level - 1, 0, 1}, box(level - 1),
                     {vk::ImageAspectFlagBits::eColor, level, 0, 1}, box(level)});
             }
-        commands.blitImage(*atlas_.image, Layout_::eTransferSrcOptimal, *atlas_.image, Layout_::eTransferDstOptimal, blits,
+        commands.blitImage(*atlas.image, Layout_::eTransferSrcOptimal, *atlas.image, Layout_::eTransferDstOptimal, blits,
             vk::Filter::eLinear);
         level_barrier(level, 1, Layout_::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
             Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
     }
     level_barrier(0, levels, Layout_::eTransferSrcOptimal, Stage::eTransfer, {}, Layout_::eShaderReadOnlyOptimal,
         Stage::eFragmentShader, Access::eShaderSampledRead);
-    if (atlas_.levels > levels)
-        level_barrier(levels, atlas_.levels - levels, Layout_::eTransferDstOptimal, Stage::eTransfer, {},
+    if (atlas.levels > levels)
+        level_barrier(levels, atlas.levels - levels, Layout_::eTransferDstOptimal, Stage::eTransfer, {},
             Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
 }
 
@@ -290,10 +317,17 @@ void CubePass::record_plain(vk::CommandBuffer commands, const Target& target)
     vk::RenderingAttachmentInfo depth(*depth_.view, Layout_::eDepthAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eDontCare, vk::ClearDepthStencilValue(0, 0));
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour, &depth});
-    draw_images(commands, {target.format});
+    draw_images(commands, {{target.format}}, true);
     commands.endRendering();
 }
 
-vk::DeviceSize CubePass::memory() const { return atlas_.bytes + depth_.bytes + atlas_samples_.bytes + depth_samples_.bytes; }
+vk::DeviceSize CubePass::memory() const
+{
+    vk::DeviceSize bytes = depth_.bytes + depth_samples_.bytes;
+    for (const auto* images : {&atlases_, &atlas_samples_})
+        for (const Image& image : *images)
+            bytes += image.bytes;
+    return bytes;
+}
 
 } // namespace starbow

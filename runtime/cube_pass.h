@@ -33,7 +33,8 @@ public:
     void prepare_plain(const PlanImage& image, const glm::dvec3& place, const glm::dmat3& straight_from_world);
     void record_plain(vk::CommandBuffer commands, const Target& target);
 
-    const Image& atlas() const { return atlas_; }
+    /// Of the light's numbers four each.
+    const std::vector<Image>& atlases() const { return atlases_; }
     const Image& depth() const { return depth_; }
     const Buffer& slots() const { return slots_; }
     std::size_t triangles() const { return triangles_; } ///< sent to the device, all images
@@ -41,9 +42,9 @@ public:
 
 private:
     void fit(glm::ivec2 atlas_size, int levels);
-    void upload(const glm::dmat3& to_motion, const glm::dvec3& place);
-    void draw_images(vk::CommandBuffer commands, const TargetKind& kind);
-    void make_mips(vk::CommandBuffer commands);
+    void upload(const glm::dmat3& to_motion, const glm::dvec3& place, bool plain);
+    void draw_images(vk::CommandBuffer commands, const TargetKind& kind, bool plain);
+    void make_mips(vk::CommandBuffer commands, const Image& atlas);
 
     Device& device_;
     Pipelines& pipelines_;
@@ -53,7 +54,8 @@ private:
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::raii::DescriptorSet set_ = nullptr;
     Buffer constants_, instances_, visible_, slots_;
-    Image atlas_, depth_, atlas_samples_, depth_samples_;
+    std::vector<Image> atlases_, atlas_samples_;
+    Image depth_, depth_samples_;
     std::vector<PlanImage> images_;
     glm::ivec2 area_{0};
     double pre_exposure_ = 1;

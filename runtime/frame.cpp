@@ -1,5 +1,4 @@
 #include "frame.h"
-#include "colour.h"
 #include "cull.h"
 #include "displays/blend.h"
 #include "displays/inverse_map.h"
@@ -41,8 +40,6 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
     nearest_ = device.device.createSampler({});
     finest_ = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eNearest,
         vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge});
-    const std::vector<glm::vec4> table = doppler_table();
-    colours_ = make_static_buffer(device, std::as_bytes(std::span(table)), vk::BufferUsageFlagBits::eUniformBuffer);
     const float zeros[4] = {};
     nothing_ = make_texture(device, exact_format, {1, 1}, std::as_bytes(std::span(zeros)), false);
     no_map_ = make_texture_array(device, map_format, {1, 1}, 1, std::as_bytes(std::span(zeros, 2)));
@@ -147,7 +144,7 @@ void Frame::take_up(Parts parts)
     before.clear();
     pool_ = nullptr;
     std::vector<vk::DescriptorPoolSize> sizes
-        = {{vk::DescriptorType::eUniformBuffer, 2 * count}, {vk::DescriptorType::eCombinedImageSampler, 9 * count}};
+        = {{vk::DescriptorType::eUniformBuffer, 5 * count}, {vk::DescriptorType::eCombinedImageSampler, 12 * count}};
     pool_ = device_.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 3 * count, sizes});
     auto make_set = [&](const vk::raii::DescriptorSetLayout& set_layout) {
         return std::move(device_.device.allocateDescriptorSets({*pool_, *set_layout}).front());
@@ -235,6 +232,9 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
     motion_from_cockpit_ = to_motion * glm::dmat3(glm::mat3_cast(shot.ship_from_cockpit));
     const bool gains = shot.effects.headlight || shot.effects.doppler;
     pre_exposure_ = pre_exposure(world_.brightest, shot.exposure_ev, gains ? E_ * E_ * E_ : 1);
+    // A glow's number may stand for light of any strength: only that it fits counts.
+    if (world_.spectra.most > 0)
+        pre_exposure_ = std::min(pre_exposure_, pre_exposure(world_.spectra.most, -1000, 1));
     for (std::size_t i = 0; pattern_ == Pattern::none && i < eyes_.size(); ++i) {
         const glm::dvec3 place
             = shot.position + physics::eye_place(shot.u, shot.ship_from_cockpit * scene_units(eyes_[i].now_m));
@@ -313,8 +313,8 @@ void Frame::write_sets()
 {
     std::vector<vk::DescriptorBufferInfo> buffers;
     std::vector<vk::DescriptorImageInfo> images;
-    buffers.reserve(2 * panes_.size());
-    images.reserve(9 * panes_.size());
+    buffers.reserve(5 * panes_.size());
+    images.reserve(12 * panes_.size());
     std::vector<vk::WriteDescriptorSet> writes;
     auto buffer = [&](const vk::raii::DescriptorSet& set, std::uint32_t binding, vk::DescriptorType type, const Buffer& b) {
         buffers.push_back({*b.buffer, 0, VK_WHOLE_SIZE});
@@ -335,9 +335,17 @@ void Frame::write_sets()
             continue;
         const Eye& eye = eyes_[pane.eye];
         image(pane.warp_set, 0, map, nearest_);
-        image(pane.warp_set, 1, eye.cube.atlas(), plans_[pane.eye].levels > 1 ? linear_ : finest_);
+        constexpr std::uint32_t atlas_bindings[MAX_GROUPS] = {1, 7, 8, 9};
+        const std::vector<Image>& atlases = eye.cube.atlases();
+        for (std::size_t group = 0; group < MAX_GROUPS; ++group)
+            image(pane.warp_set, atlas_bindings[group], atlases[std::min(group, atlases.size() - 1)],
+                plans_[pane.eye].levels > 1 ? linear_ : finest_);
         buffer(pane.warp_set, 2, vk::DescriptorType::eUniformBuffer, eye.cube.slots());
-        buffer(pane.warp_set, 3, vk::DescriptorType::eUniformBuffer, colours_);
+        const ResponseBuffers& response = shot_.effects.false_colours ? world_.false_colours : world_.eye;
+        buffer(pane.warp_set, 3, vk::DescriptorType::eUniformBuffer, response.rows[0]);
+        buffer(pane.warp_set, 10, vk::DescriptorType::eUniformBuffer, response.rows[1]);
+        buffer(pane.warp_set, 11, vk::DescriptorType::eUniformBuffer, response.rows[2]);
+        buffer(pane.warp_set, 12, vk::DescriptorType::eUniformBuffer, response.own_rows);
         image(pane.warp_set, 4, keeps_depth_ ? eye.cube.depth() : nothing_, nearest_);
         image(pane.warp_set, 5, stars_.on() ? stars_.picture() : nothing_, nearest_);
         image(pane.warp_set, 6, pane.map != no_map && stars_.on() ? maps_[pane.map].inverse : no_map_, nearest_);
@@ -371,8 +379,11 @@ WarpVariant Frame::variant(const PaneState& pane) const
     const bool moves = E_ != 1; // at rest there is nothing to shift
     const bool beside = reprojects() && pane.beside_m != glm::dvec3(0);
     const Effects& on = shot_.effects;
-    return {pane.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
+    WarpVariant variant{pane.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
         plans_[pane.eye].levels > 1, pane.compiled.channels() == 3, beside, beside && layout_.stereo.turning, stars_.on()};
+    variant.numbers = world_.numbers();
+    variant.by_table = variant.doppler || on.false_colours || variant.numbers != Numbers{}; // else as at rest, which is told
+    return variant;
 }
 
 shared::ViewPush Frame::push(const PaneState& pane, const glm::dmat3& axes_from_cockpit) const
@@ -381,7 +392,7 @@ shared::ViewPush Frame::push(const PaneState& pane, const glm::dmat3& axes_from_
     const glm::dmat3 m = axes_from_cockpit * pane.compiled.matrix.value_or(glm::dmat3(1));
     // Flat: a pixel's solid angle is det M / length^3.
     const double unit = flat ? std::sqrt(std::abs(glm::determinant(m))) : 0;
-    const vk::Extent2D atlas = eyes_[pane.eye].cube.atlas().extent;
+    const vk::Extent2D atlas = eyes_[pane.eye].cube.atlases()[0].extent;
     shared::ViewPush push{};
     push.row0 = row(m, 0, unit);
     push.row1 = row(m, 1, plans_[pane.eye].rear_last);

@@ -144,7 +144,6 @@ private:
     MapStore store_;
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::raii::Sampler linear_ = nullptr, nearest_ = nullptr, finest_ = nullptr; ///< finest_: level 0 alone
-    Buffer colours_;
     StarPass stars_;
     Image nothing_, no_map_; ///< stand in for what a pane has not
     std::vector<Map> maps_;

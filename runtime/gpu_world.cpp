@@ -63,11 +63,32 @@ double brightest(const World& world, const SceneFile& scene)
 
 } // namespace
 
-SurfaceVariant GpuWorld::variant(int material) const
+SurfaceVariant GpuWorld::variant(int material, bool plain) const
 {
     const Material& m = world.materials[material];
-    return {
+    SurfaceVariant variant{
         m.base_texture >= 0, m.emissive_texture >= 0, m.alpha_cutoff > 0, m.unlit, m.unlit ? 0 : int(scene.lights.size())};
+    if (!plain)
+        variant.numbers = numbers(), variant.kinds = spectra.kinds,
+        variant.matrices = spectra.matrices;
+    return variant;
+}
+
+void put_spectra(Device& device, GpuWorld& world, SpectralLevel level)
+{
+    world.spectra = spectra_of(world.world, world.scene, level);
+    std::vector<glm::vec4> columns = world.spectra.columns;
+    columns.resize(MAX_MATRICES); // as large as the shader says
+    auto constants = [&](const auto& values) {
+        return make_static_buffer(device, std::as_bytes(std::span(values)), vk::BufferUsageFlagBits::eUniformBuffer);
+    };
+    world.columns = constants(columns);
+    for (auto [observer, buffers] : {std::pair(&eye(), &world.eye), std::pair(&false_colours(), &world.false_colours)}) {
+        const Response response = response_of(world.spectra.basis, *observer);
+        for (std::size_t c = 0; c < 3; ++c)
+            buffers->rows[c] = constants(response.rows[c]);
+        buffers->own_rows = constants(response.own_rows);
+    }
 }
 
 void put_stars(Device& device, GpuWorld& world, const std::vector<Star>& stars)
@@ -83,8 +104,8 @@ void put_stars(Device& device, GpuWorld& world, const std::vector<Star>& stars)
         = make_static_buffer(device, std::as_bytes(std::span(table)), vk::BufferUsageFlagBits::eUniformBuffer);
 }
 
-GpuWorld upload(
-    Device& device, const Pipelines& pipelines, World world, const SceneFile& scene, const std::vector<Star>& stars)
+GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const SceneFile& scene,
+    const std::vector<Star>& stars, std::optional<SpectralLevel> level)
 {
     GpuWorld gpu;
     sort_instances(world);
@@ -122,6 +143,7 @@ GpuWorld upload(
     for (Texture& texture : world.textures)
         texture.rgba = {};
     gpu.world = std::move(world);
+    put_spectra(device, gpu, level.value_or(needed_level(gpu.world, scene).level));
     return gpu;
 }
 

@@ -1,10 +1,18 @@
 #pragma once
 #include "config/scene_file.h"
 #include "pipelines.h"
+#include "response.h"
+#include "spectra.h"
 #include "stars.h"
 #include "world.h"
 
 namespace starbow {
+
+/// What an observer sees of a world's numbers: Response on the device.
+struct ResponseBuffers {
+    std::array<Buffer, 3> rows;
+    Buffer own_rows;
+};
 
 /// A world on the device. The plain arrays of World that only it needs (vertices, indices, texels) are dropped.
 struct GpuWorld {
@@ -22,12 +30,23 @@ struct GpuWorld {
     std::uint32_t star_count = 0;
     Buffer stars, black_bodies; ///< StarEntry each; the table of black_body_table. Null without stars
 
-    SurfaceVariant variant(int material) const;
+    Spectra spectra;
+    Buffer columns; ///< of spectra
+    ResponseBuffers eye, false_colours;
+
+    Numbers numbers() const { return {spectra.basis.reflected, int(spectra.basis.own.size())}; }
+    /// plain: drawn as colours alone, whatever the spectra.
+    SurfaceVariant variant(int material, bool plain = false) const;
 };
 
+/// Another level in its place. No frame of this world must be under way, and none is drawn by a Frame from before. Throws
+/// InputError, before anything is changed, for a world with too many spectra of its own.
+void put_spectra(Device& device, GpuWorld& world, SpectralLevel level);
+
 /// stars: of the scene's catalogue; counted only where the scene has a sky of stars.
-GpuWorld upload(
-    Device& device, const Pipelines& pipelines, World world, const SceneFile& scene, const std::vector<Star>& stars = {});
+/// level: none: as needed_level says. Throws InputError as put_spectra does.
+GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const SceneFile& scene,
+    const std::vector<Star>& stars = {}, std::optional<SpectralLevel> level = {});
 
 /// Other stars in their place, none too. No frame of this world must be under way, and none is drawn by a Frame from before.
 void put_stars(Device& device, GpuWorld& world, const std::vector<Star>& stars);

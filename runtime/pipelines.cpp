@@ -105,7 +105,9 @@ vk::raii::PipelineLayout make_layout(const Device& device, std::initializer_list
 
 std::vector<std::uint32_t> constants(const WarpVariant& v)
 {
-    return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear};
+    constexpr std::uint32_t dithered = 1; // constant_id 10: the warp pass sets it by its target
+    return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear,
+        dithered, std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), v.by_table};
 }
 
 /// The pipeline of a key, made by `make` if it is new.
@@ -126,12 +128,14 @@ Pipelines::Pipelines(Device& device)
     constexpr auto fragment = vk::ShaderStageFlagBits::eFragment;
     constexpr auto both = fragment | vk::ShaderStageFlagBits::eVertex;
     constexpr Type picture = Type::eCombinedImageSampler;
-    eye_set = make_set_layout(device, both, {Type::eUniformBuffer, Type::eStorageBuffer, Type::eStorageBuffer});
+    constexpr Type constants = Type::eUniformBuffer;
+    eye_set = make_set_layout(device, both, {constants, Type::eStorageBuffer, Type::eStorageBuffer, constants});
     material_set = make_set_layout(device, fragment, {picture, picture});
-    warp_set = make_set_layout(
-        device, both, {picture, picture, Type::eUniformBuffer, Type::eUniformBuffer, picture, picture, picture});
-    star_set = make_set_layout(
-        device, vk::ShaderStageFlagBits::eVertex, {Type::eUniformBuffer, Type::eStorageBuffer, Type::eUniformBuffer});
+    warp_set = make_set_layout(device, both,
+        {picture, picture, constants, constants, picture, picture, picture, picture, picture, picture, constants, constants,
+            constants});
+    star_set
+        = make_set_layout(device, vk::ShaderStageFlagBits::eVertex, {constants, Type::eStorageBuffer, constants});
     picture_set = make_set_layout(device, fragment, {picture, picture});
     finish_set = make_set_layout(device, fragment, {picture, picture, picture, picture, picture});
     surface_layout = make_layout(device, {*eye_set, *material_set}, both, sizeof(shared::CubePush));
@@ -148,8 +152,9 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
             {.vertex = cube_vert,
                 .fragment = cube_frag,
                 .layout = *surface_layout,
-                .targets = {target.colour},
-                .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights)},
+                .targets = target.colours,
+                .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights),
+                    std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), std::uint32_t(v.kinds), v.matrices},
                 .depth = true,
                 .vertices = true,
                 .samples = target.samples});
@@ -163,7 +168,8 @@ vk::Pipeline Pipelines::sky(const TargetKind& target)
             {.vertex = sky_vert,
                 .fragment = sky_frag,
                 .layout = *surface_layout,
-                .targets = {target.colour},
+                .targets = target.colours,
+                .constants = {std::uint32_t(target.colours.size())},
                 .depth = true,
                 .samples = target.samples});
     });
@@ -172,7 +178,7 @@ vk::Pipeline Pipelines::sky(const TargetKind& target)
 vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
 {
     std::vector<std::uint32_t> all = constants(v);
-    all.push_back(target != light_format); // has 8 bits: dithered
+    all[10] = target != light_format; // has 8 bits: dithered
     return find(warps_, std::pair(v, target), [&] {
         return make_pipeline(device_,
             {.vertex = screen_vert, .fragment = warp_frag, .layout = *warp_layout, .targets = {target}, .constants = all});

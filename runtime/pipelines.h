@@ -14,10 +14,30 @@ constexpr vk::Format meter_format = vk::Format::eR32G32Sfloat; // luminance, sol
 constexpr vk::Format map_format = vk::Format::eR32G32Uint; // a direction map's texel, packed
 constexpr vk::Format inverse_format = vk::Format::eR32G32B32A32Uint; // InverseMap's cell
 
+/// The numbers that light is told by: constants of the passes that write and read the cube map.
+struct Numbers {
+    int reflected = 3, own = 0;
+    /// Of the images that hold them, four each.
+    std::vector<vk::Format> formats() const
+    {
+        const int all = reflected + own;
+        std::vector<vk::Format> formats(std::size_t((all + 3) / 4), light_format);
+        if (all > 4 && all % 4 == 1)
+            formats.back() = vk::Format::eR16Sfloat;
+        if (all > 4 && all % 4 == 2)
+            formats.back() = vk::Format::eR16G16Sfloat;
+        return formats;
+    }
+    auto operator<=>(const Numbers&) const = default;
+};
+
 /// What a material needs of the cube pass: constant_ids of cube.frag.
 struct SurfaceVariant {
     bool base_texture, emissive_texture, masked, unlit;
     int lights;
+    Numbers numbers{};
+    int kinds = 1; ///< of spectra that shine
+    bool matrices = false; ///< otherwise the numbers are the colour and what is beyond it
     auto operator<=>(const SurfaceVariant&) const = default;
 };
 /// What a viewport needs of the warp pass: constant_ids of view.glsl and seen.glsl.
@@ -27,6 +47,8 @@ struct WarpVariant {
     bool reproject = false, turning = false; ///< stereo from one cube map; by the azimuth
     bool stars = false; ///< added to what the cube map shows
     bool linear = false; ///< exposed light, for the glow, instead of what is shown
+    Numbers numbers{};
+    bool by_table = true; ///< otherwise the numbers are the colour
     auto operator<=>(const WarpVariant&) const = default;
 };
 
@@ -41,7 +63,7 @@ struct FinishVariant {
 
 /// Where a pass draws.
 struct TargetKind {
-    vk::Format colour;
+    std::vector<vk::Format> colours;
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     auto operator<=>(const TargetKind&) const = default;
 };
@@ -64,10 +86,12 @@ public:
     vk::Pipeline finish(const FinishVariant& variant, vk::Format target);
     vk::Pipeline pattern(bool map, int pattern, vk::Format target);
 
-    vk::raii::DescriptorSetLayout eye_set = nullptr; ///< 0 constants, 1 instances, 2 visible
+    vk::raii::DescriptorSetLayout eye_set = nullptr; ///< 0 constants, 1 instances, 2 visible, 3 columns of the spectra
     vk::raii::DescriptorSetLayout material_set = nullptr; ///< 0 base, 1 emissive texture
-    vk::raii::DescriptorSetLayout warp_set = nullptr; ///< 0 direction map, 1 atlas, 2 slots, 3 colours, 4 depth atlas,
-                                                      ///< 5 picture of the stars, 6 inverse of the direction map
+    vk::raii::DescriptorSetLayout warp_set = nullptr; ///< 0 direction map, 1 atlas, 2 slots, 3 rows of the response for red,
+                                                      ///< 4 depth atlas, 5 picture of the stars, 6 inverse of the direction
+                                                      ///< map, 7 to 9 further atlases, 10, 11 rows for green and blue, 12
+                                                      ///< for the world's own spectra
     vk::raii::DescriptorSetLayout star_set = nullptr; ///< 0 constants, 1 stars, 2 black bodies
     vk::raii::DescriptorSetLayout picture_set = nullptr; ///< 0 direction map, 1 panel, label or cube
     vk::raii::DescriptorSetLayout finish_set = nullptr; ///< 0 left, 1 right picture, 2 weights, 3 black level, 4 table

@@ -82,16 +82,18 @@ std::uint64_t read_digest(const Place& place)
 
 Json json_of(const Effects& effects)
 {
-    return {{"aberration", effects.aberration}, {"doppler", effects.doppler}, {"headlight", effects.headlight}};
+    return {{"aberration", effects.aberration}, {"doppler", effects.doppler}, {"headlight", effects.headlight},
+        {"false_colours", effects.false_colours}};
 }
 
 Effects read_effects(const Place& place)
 {
-    only(place, {"aberration", "doppler", "headlight"});
+    only(place, {"aberration", "doppler", "headlight", "false_colours"});
     Effects effects;
     take(place, "aberration", effects.aberration);
     take(place, "doppler", effects.doppler);
     take(place, "headlight", effects.headlight);
+    take(place, "false_colours", effects.false_colours);
     return effects;
 }
 

@@ -6,10 +6,10 @@ namespace starbow::shared {
 using glm::vec4;
 #include "shaders/shared.h"
 static_assert(sizeof(SlotEntry) == 48);
-static_assert(sizeof(LightEntry) == 32);
-static_assert(sizeof(CubeConstants) == 5 * 16 + MAX_LIGHTS * 32);
+static_assert(sizeof(LightEntry) == 48);
+static_assert(sizeof(CubeConstants) == 2 * 16 + 3 * MAX_GROUPS * 16 + MAX_LIGHTS * 48);
 static_assert(sizeof(InstanceEntry) == 48);
-static_assert(sizeof(CubePush) == 96);
+static_assert(sizeof(CubePush) == 128);
 static_assert(sizeof(ViewPush) == 128);
 static_assert(sizeof(StarEntry) == 32);
 static_assert(sizeof(StarConstants) == 48);

@@ -16,27 +16,18 @@ double grid_nm(int point) { return grid_from_nm * std::exp(grid_step * point); }
 // The outermost hats' middles. Found by trying: the errors of colour checkers' colours are least there.
 constexpr double first_hat_nm = 340, last_hat_nm = 830;
 
-constexpr int steps = int((response_below + response_above) * response_per_octave) + 1;
-double step_D(int step) { return std::exp2(double(step) / response_per_octave - response_below); }
-
 using Row = std::vector<double>;
 
-/// How much each sample of a sunlit reflectance adds to XYZ at D.
-std::array<Row, 3> eye_on_grid(double D)
+/// How much each sample of a sunlit reflectance adds to what is seen at D.
+std::array<Row, 3> seen_of_grid(const Observer& observer, double D)
 {
     static const Spectrum sun = sunlit_white();
-    static const double scale = seen_xyz(sun, 1).y / [] {
-        double y = 0;
-        for (int nm = 360; nm <= 830; ++nm)
-            y += xyz_response(nm).y * sun(nm) / (double(nm) * nm);
-        return y;
-    }();
     std::array<Row, 3> rows;
     rows.fill(Row(std::size_t(grid_points), 0.0));
-    for (int nm = 360; nm <= 830; ++nm) {
-        const double at = std::clamp(std::log(D * nm / grid_from_nm) / grid_step, 0.0, double(grid_points - 1));
+    for (const Observer::Sample& s : observer.samples) {
+        const double at = std::clamp(std::log(D * s.nm / grid_from_nm) / grid_step, 0.0, double(grid_points - 1));
         const int i = std::min(int(at), grid_points - 2);
-        const glm::dvec3 add = xyz_response(nm) * (scale * sun(D * nm) / (double(nm) * nm));
+        const glm::dvec3 add = s.response * (sun(D * s.nm) * s.width_nm / (s.nm * s.nm));
         for (int c = 0; c < 3; ++c) {
             rows[std::size_t(c)][std::size_t(i)] += add[c] * (1 - (at - i));
             rows[std::size_t(c)][std::size_t(i + 1)] += add[c] * (at - i);
@@ -57,6 +48,27 @@ double hat(int k, int hats, double nm)
 {
     const double at = std::clamp(std::log(nm / first_hat_nm) / std::log(last_hat_nm / first_hat_nm), 0.0, 1.0) * (hats - 1);
     return std::max(0.0, 1 - std::abs(at - k));
+}
+
+/// Number k's reflectance.
+double shape(int k, int reflected, double nm)
+{
+    if (reflected > 5)
+        return hat(k, reflected, nm);
+    glm::dvec3 rgb(0);
+    if (k < 3)
+        rgb[k] = 1;
+    const double beyond = reflected == 3 ? 1.0 / 3 : 0; // of three, as the primaries' mean
+    return base_reflectance(rgb, k == 3 ? 1 : beyond, k == 4 ? 1 : beyond, nm);
+}
+
+std::vector<Row> shapes(int reflected)
+{
+    std::vector<Row> all{std::size_t(reflected), Row(std::size_t(grid_points), 0.0)};
+    for (int k = 0; k < reflected; ++k)
+        for (int i = 0; i < grid_points; ++i)
+            all[std::size_t(k)][std::size_t(i)] = shape(k, reflected, grid_nm(i));
+    return all;
 }
 
 /// x of a x = b for a symmetric positive a (Cholesky), n columns of b at once: all row by row.
@@ -126,21 +138,51 @@ std::vector<Row> pigments(int count)
     return all;
 }
 
-} // namespace
-
-SpectralBasis spectral_basis(int size, std::span<const double> thermal_K)
+const std::vector<Row>& learned()
 {
-    SpectralBasis basis;
-    basis.thermal_K.assign(thermal_K.begin(), thermal_K.end());
-    const int n = basis.hats = size - int(thermal_K.size());
-    const std::vector<Row> samples = pigments(200);
-    std::vector<Row> hats{std::size_t(n), Row(std::size_t(grid_points), 0.0)};
-    for (int k = 0; k < n; ++k)
-        for (int i = 0; i < grid_points; ++i)
-            hats[std::size_t(k)][std::size_t(i)] = hat(k, n, grid_nm(i));
+    static const std::vector<Row> samples = pigments(200);
+    return samples;
+}
 
-    // The hats' numbers: those whose light looks most alike at every D from 1/10 to 10, colours weighed by how bright they
-    // are there; a little by the spectra themselves, so that no number is left to chance.
+/// The primaries' numbers are the sunlit colour, once the other two, means of their own ranges, have been seen too.
+Row colours_of_grid(int reflected)
+{
+    const std::array<Row, 3> seen = seen_of_grid(eye(), 1);
+    std::vector<glm::dvec3> colours;
+    for (std::size_t i = 0; i < std::size_t(grid_points); ++i)
+        colours.push_back(eye().rec709 * glm::dvec3(seen[0][i], seen[1][i], seen[2][i]));
+    Row rows(std::size_t(reflected * grid_points), 0.0);
+    auto number = [&](int k, int i) -> double& { return rows[std::size_t(k * grid_points + i)]; };
+    for (int k = 3; k < reflected; ++k) {
+        auto inside = [&](int i) { return k == 3 ? grid_nm(i) < 340 : grid_nm(i) > 900; };
+        int count = 0;
+        for (int i = 0; i < grid_points; ++i)
+            count += inside(i);
+        for (int i = 0; i < grid_points; ++i)
+            number(k, i) = inside(i) ? 1.0 / count : 0;
+    }
+    std::vector<glm::dvec3> of_each;
+    for (const Row& shape : shapes(reflected)) {
+        of_each.push_back(glm::dvec3(0));
+        for (std::size_t i = 0; i < shape.size(); ++i)
+            of_each.back() += colours[i] * shape[i];
+    }
+    const glm::dmat3 back = glm::inverse(glm::dmat3(of_each[0], of_each[1], of_each[2]));
+    for (int i = 0; i < grid_points; ++i) {
+        glm::dvec3 rest = colours[std::size_t(i)];
+        for (int k = 3; k < reflected; ++k)
+            rest -= of_each[std::size_t(k)] * number(k, i);
+        for (int k = 0; k < 3; ++k)
+            number(k, i) = (back * rest)[k];
+    }
+    return rows;
+}
+
+/// The hats' numbers: those whose light looks most alike at every D from 1/10 to 10, colours weighed by how bright they are
+/// there; a little by the spectra themselves, so that no number is left to chance.
+Row learned_hats(int n)
+{
+    const std::vector<Row> hats = shapes(n);
     std::vector<double> normal(std::size_t(n * n), 0.0), right(std::size_t(n * grid_points), 0.0);
     const double sample_weight = 1e-3;
     for (int k = 0; k < n; ++k) {
@@ -149,16 +191,14 @@ SpectralBasis spectral_basis(int size, std::span<const double> thermal_K)
         for (int i = 0; i < grid_points; ++i)
             right[std::size_t(k * grid_points + i)] += sample_weight * hats[std::size_t(k)][std::size_t(i)];
     }
-    for (int step = 0; step < steps; step += 8) {
-        const double D = step_D(step);
-        if (std::abs(std::log(D)) > std::log(10))
-            continue;
-        const std::array<Row, 3> eye = eye_on_grid(D);
+    constexpr int steps = 53;
+    for (int step = -steps; step <= steps; ++step) {
+        const std::array<Row, 3> seen_at = seen_of_grid(eye(), std::exp(step * std::log(10) / steps));
         double weight = 0;
-        for (const Row& sample : samples)
-            weight += 1 / std::pow(std::max(dot(eye[1], sample), 1e-12), 2);
-        weight /= double(samples.size());
-        for (const Row& row : eye) {
+        for (const Row& sample : learned())
+            weight += 1 / std::pow(std::max(dot(seen_at[1], sample), 1e-12), 2);
+        weight /= double(learned().size());
+        for (const Row& row : seen_at) {
             std::vector<double> seen;
             for (const Row& one : hats)
                 seen.push_back(dot(row, one));
@@ -171,92 +211,135 @@ SpectralBasis spectral_basis(int size, std::span<const double> thermal_K)
         }
     }
     solve(normal, n, right, grid_points);
-    basis.analysis = right;
-
-    std::vector<Row> numbers;
-    for (const Row& sample : samples) {
-        Row row;
-        for (int k = 0; k < n; ++k) {
-            double sum = 0;
-            for (int i = 0; i < grid_points; ++i)
-                sum += right[std::size_t(k * grid_points + i)] * sample[std::size_t(i)];
-            row.push_back(sum);
-        }
-        numbers.push_back(std::move(row));
-    }
-
-    // What the eye sees of each: the hats' own light, and on it the correction that brings pigments closest to what they
-    // are; of numbers that are all alike, a grey, it changes nothing.
-    for (int step = 0; step < steps; ++step) {
-        const double D = step_D(step);
-        const std::array<Row, 3> eye = eye_on_grid(D);
-        std::array<std::vector<double>, 3> seen;
-        for (std::size_t c = 0; c < 3; ++c)
-            for (const Row& one : hats)
-                seen[c].push_back(dot(eye[c], one));
-        if (n > 3) {
-            std::vector<double> square(std::size_t(n * n), 0.0), miss(std::size_t(n * 3), 0.0);
-            for (std::size_t s = 0; s < samples.size(); ++s) {
-                const double bright = dot(eye[1], samples[s]), weight = 1 / std::max(bright * bright, 1e-30);
-                double mean = 0;
-                for (double value : numbers[s])
-                    mean += value / n;
-                std::array<double, 3> gap;
-                for (std::size_t c = 0; c < 3; ++c)
-                    gap[c] = dot(eye[c], samples[s]) - dot(seen[c], numbers[s]);
-                for (int k = 0; k < n; ++k) {
-                    const double from = numbers[s][std::size_t(k)] - mean;
-                    for (int j = 0; j < n; ++j)
-                        square[std::size_t(k * n + j)] += weight * from * (numbers[s][std::size_t(j)] - mean);
-                    for (std::size_t c = 0; c < 3; ++c)
-                        miss[std::size_t(k) * 3 + c] += weight * from * gap[c];
-                }
-            }
-            double trace = 0;
-            for (int k = 0; k < n; ++k)
-                trace += square[std::size_t(k * n + k)];
-            for (int k = 0; k < n; ++k)
-                square[std::size_t(k * n + k)] += 1e-4 * trace / n; // the sum of all is not told by differences
-            solve(square, n, miss, 3);
-            for (std::size_t c = 0; c < 3; ++c) {
-                double mean = 0;
-                for (int k = 0; k < n; ++k)
-                    mean += miss[std::size_t(k) * 3 + c] / n;
-                for (int k = 0; k < n; ++k)
-                    seen[c][std::size_t(k)] += miss[std::size_t(k) * 3 + c] - mean;
-            }
-        }
-        for (int k = 0; k < n; ++k)
-            basis.response.push_back({seen[0][std::size_t(k)], seen[1][std::size_t(k)], seen[2][std::size_t(k)]});
-        for (double kelvin : thermal_K)
-            basis.response.push_back(seen_xyz(black_body(kelvin), D));
-    }
-    return basis;
+    return right;
 }
 
-std::vector<double> sunlit(const SpectralBasis& basis, const std::function<double(double nm)>& reflectance)
+/// numbers x 3, [number * 3 + sensor]: what to add to the hats' own light, seen, to bring pigments (their numbers and what
+/// is seen of their grid) closest to what they are. Numbers that are all alike, a grey, it does not change.
+Row correction(const std::vector<Row>& numbers, const std::array<Row, 3>& seen_at, const std::array<Row, 3>& seen)
 {
-    std::vector<double> numbers(std::size_t(basis.size()), 0.0);
+    const int n = int(seen[0].size());
+    std::vector<double> square(std::size_t(n * n), 0.0), miss(std::size_t(n * 3), 0.0);
+    for (std::size_t s = 0; s < learned().size(); ++s) {
+        std::array<double, 3> truth;
+        for (std::size_t c = 0; c < 3; ++c)
+            truth[c] = dot(seen_at[c], learned()[s]);
+        const double weight = 1 / std::max(truth[1] * truth[1], 1e-30);
+        double mean = 0;
+        for (double value : numbers[s])
+            mean += value / n;
+        for (int k = 0; k < n; ++k) {
+            const double from = numbers[s][std::size_t(k)] - mean;
+            for (int j = 0; j < n; ++j)
+                square[std::size_t(k * n + j)] += weight * from * (numbers[s][std::size_t(j)] - mean);
+            for (std::size_t c = 0; c < 3; ++c)
+                miss[std::size_t(k) * 3 + c] += weight * from * (truth[c] - dot(seen[c], numbers[s]));
+        }
+    }
+    double trace = 0;
+    for (int k = 0; k < n; ++k)
+        trace += square[std::size_t(k * n + k)];
+    for (int k = 0; k < n; ++k)
+        square[std::size_t(k * n + k)] += 1e-4 * trace / n; // the sum of all is not told by differences
+    solve(square, n, miss, 3);
+    for (std::size_t c = 0; c < 3; ++c) {
+        double mean = 0;
+        for (int k = 0; k < n; ++k)
+            mean += miss[std::size_t(k) * 3 + c] / n;
+        for (int k = 0; k < n; ++k)
+            miss[std::size_t(k) * 3 + c] -= mean;
+    }
+    return miss;
+}
+
+Row told(const SpectralBasis& basis, const std::function<double(double nm)>& reflectance)
+{
+    Row numbers(std::size_t(basis.size()), 0.0);
     for (int i = 0; i < grid_points; ++i) {
         const double sample = reflectance(grid_nm(i));
-        for (int k = 0; k < basis.hats; ++k)
+        for (int k = 0; k < basis.reflected; ++k)
             numbers[std::size_t(k)] += basis.analysis[std::size_t(k * grid_points + i)] * sample;
     }
     return numbers;
 }
 
-glm::dvec3 seen_xyz(const SpectralBasis& basis, std::span<const double> numbers, double D)
+} // namespace
+
+SpectralBasis spectral_basis(int reflected, std::span<const Emission> own)
 {
-    const double at = (std::log2(D) + response_below) * response_per_octave, inside = std::clamp(at, 0.0, double(steps - 1));
-    const int i = std::min(int(inside), steps - 2);
-    glm::dvec3 xyz(0);
-    for (std::size_t k = 0; k < numbers.size(); ++k)
-        xyz += numbers[k]
-            * glm::mix(basis.response[std::size_t(i) * numbers.size() + k],
-                basis.response[std::size_t(i + 1) * numbers.size() + k], inside - i);
-    // Above the table all light is that of the tail that every black body has (Rayleigh and Jeans): as 1 / D^2.
-    const double beyond = at > steps - 1 ? std::exp2(response_above) / D : 1;
-    return xyz * (beyond * beyond);
+    SpectralBasis basis;
+    basis.own.assign(own.begin(), own.end());
+    basis.reflected = reflected;
+    basis.analysis = reflected > 5 ? learned_hats(reflected) : colours_of_grid(reflected);
+    return basis;
+}
+
+std::vector<double> lit(const SpectralBasis& basis, const std::optional<Emission>& light,
+    const std::function<double(double nm)>& reflectance)
+{
+    if (!light)
+        return told(basis, reflectance);
+    const std::size_t own
+        = std::size_t(basis.reflected + (std::find(basis.own.begin(), basis.own.end(), *light) - basis.own.begin()));
+    Row numbers(std::size_t(basis.size()), 0.0);
+    const double part = sunlit_part(*light);
+    if (const auto* line = std::get_if<SpectralLine>(&*light)) {
+        numbers[own] = part * reflectance(line->nm);
+        return numbers;
+    }
+    // Evenly, what it is in the far infrared: there lies most of what a lamp's own number brings from beyond the hats.
+    const double even = reflectance(longest_nm);
+    const Spectrum spectrum = spectrum_of(*light), sun = sunlit_white();
+    numbers = told(
+        basis, [&](double nm) { return (reflectance(nm) - even) * part * spectrum(nm) / sun(nm); });
+    numbers[own] += part * even;
+    return numbers;
+}
+
+ResponseTable response_table(const SpectralBasis& basis, const Observer& observer, int rows)
+{
+    double first = -6, last = 10;
+    for (const Emission& emission : basis.own)
+        if (const auto* body = std::get_if<BlackBody>(&emission)) {
+            const double octaves = std::log2(body->kelvin / 5772);
+            first = std::min(first, -6 - octaves), last = std::max(last, 10 - octaves);
+        }
+    // D = 1 is a row.
+    first = std::floor(first);
+    ResponseTable table{basis.size(), first, std::floor((rows - 1) / (std::ceil(last) - first)), {}};
+    const int n = basis.reflected;
+    const std::vector<Row> own = shapes(n);
+    std::vector<Row> numbers;
+    if (n > 5)
+        for (const Row& sample : learned()) {
+            Row row;
+            for (int k = 0; k < n; ++k) {
+                double sum = 0;
+                for (int i = 0; i < grid_points; ++i)
+                    sum += basis.analysis[std::size_t(k * grid_points + i)] * sample[std::size_t(i)];
+                row.push_back(sum);
+            }
+            numbers.push_back(std::move(row));
+        }
+    for (int row = 0; row < rows; ++row) {
+        const double D = std::exp2(first + row / table.per_octave);
+        const std::array<Row, 3> seen_at = seen_of_grid(observer, D);
+        std::array<Row, 3> of_each;
+        for (std::size_t c = 0; c < 3; ++c)
+            for (const Row& one : own)
+                of_each[c].push_back(dot(seen_at[c], one));
+        if (n > 5) {
+            const Row add = correction(numbers, seen_at, of_each);
+            for (int k = 0; k < n; ++k)
+                for (std::size_t c = 0; c < 3; ++c)
+                    of_each[c][std::size_t(k)] += add[std::size_t(k) * 3 + c];
+        }
+        for (std::size_t k = 0; k < std::size_t(n); ++k)
+            table.seen.push_back({of_each[0][k], of_each[1][k], of_each[2][k]});
+        for (const Emission& emission : basis.own)
+            table.seen.push_back(seen(observer, emission, D));
+    }
+    return table;
 }
 
 } // namespace starbow

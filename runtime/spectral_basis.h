@@ -1,32 +1,41 @@
 #pragma once
 #include "spectrum.h"
+#include <optional>
 #include <span>
 
 namespace starbow {
 
-/// Light as a few numbers. The first are hats, evenly spaced in the logarithm of the wavelength over what the eye sees and a
-/// little more, each weighted by sunlight: what they add up to is a sunlit reflectance, level beyond the outermost, and a
-/// grey is a black body at every D. The others are black bodies of the scene's own temperatures, each exact by itself.
-/// A Doppler shift moves the eye along the hats: what it sees is a table over ln D.
+/// Light as a few numbers. The first tell what reflects sunlight: either base_reflectance's own (the three primaries; with
+/// the ultraviolet and the infrared, five), or hats, evenly spaced in the logarithm of the wavelength over what the eye sees and a little more, each weighted by sunlight: what
+/// they add up to is a sunlit reflectance, level beyond the outermost, and a grey is a black body at every D. The others are
+/// emissions of the scene's own, each exact by itself.
+/// A Doppler shift moves the observer along the spectrum: what is seen is a table over ln D.
 struct SpectralBasis {
-    int hats = 0;
-    std::vector<double> thermal_K;
-    std::vector<double> analysis; ///< [hat * grid points + point]: a hat's number from a sunlit reflectance's samples
-    std::vector<glm::dvec3> response; ///< [step * size() + number]: XYZ per unit of each number, shift alone
-    int size() const { return hats + int(thermal_K.size()); }
+    int reflected = 0; ///< 3, 5; more: hats
+    std::vector<Emission> own;
+    std::vector<double> analysis; ///< [number * grid points + point]: from a sunlit reflectance's samples
+    int size() const { return reflected + int(own.size()); }
 };
 
-/// Steps of the response table: log2 D from -response_below to +response_above.
-constexpr int response_per_octave = 128;
-constexpr double response_below = 6, response_above = 10;
+/// reflected: 3, 5 or more.
+SpectralBasis spectral_basis(int reflected, std::span<const Emission> own);
 
-/// size: of the whole, at least three more than there are temperatures.
-SpectralBasis spectral_basis(int size, std::span<const double> thermal_K);
+/// The numbers of a surface under full sunlight, or under a light as emissions are, sunlit_part of it. A white one under
+/// the Sun has a 1 for every hat. Another light must be among the basis' own: what the surface reflects of it evenly is then
+/// exact.
+std::vector<double> lit(const SpectralBasis& basis, const std::optional<Emission>& light,
+    const std::function<double(double nm)>& reflectance);
 
-/// A sunlit surface's numbers: white under full sunlight has a 1 for every hat.
-std::vector<double> sunlit(const SpectralBasis& basis, const std::function<double(double nm)>& reflectance);
+/// What an observer sees of each number, by D.
+struct ResponseTable {
+    int numbers = 0;
+    double first_log2_D = 0, per_octave = 0; ///< row i: log2 D = first + i / per_octave
+    std::vector<glm::dvec3> seen; ///< [row * numbers + number], the observer's sensors
+    int rows() const { return int(seen.size()) / numbers; }
+};
 
-/// What the eye sees of such numbers at D: as seen_xyz of the light that they stand for.
-glm::dvec3 seen_xyz(const SpectralBasis& basis, std::span<const double> numbers, double D);
+/// Over all D at which anything of the basis is seen and beyond which all of it falls as 1 / D^2, as every black body's tail
+/// does (Rayleigh and Jeans).
+ResponseTable response_table(const SpectralBasis& basis, const Observer& observer, int rows);
 
 } // namespace starbow

@@ -40,5 +40,5 @@ void main()
         world = vec4(sight.n, 1.0);
     }
     if (!isnan(camera.w))
-        light_and_depth.rgb = min(light, vec3(3e38)); // a number, whatever D^3 does
+        light_and_depth.rgb = clamp(light, vec3(-3e38), vec3(3e38)); // a number, whatever D^3 does
 }

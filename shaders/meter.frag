@@ -21,5 +21,5 @@ void main()
     Sight sight = sight_of(n, pixel_angle);
     vec3 light = light_seen(place_of(sight.n), sight.D, pixel_angle);
     const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
-    glimpse = vec2(min(dot(light, luminance) * view.boost.z, 1e38), pixel_angle * pixel_angle);
+    glimpse = vec2(clamp(dot(light, luminance) * view.boost.z, 0.0, 1e38), pixel_angle * pixel_angle);
 }

@@ -8,14 +8,26 @@ layout(constant_id = 5) const bool CHANNELS = false; // red, green and blue look
 layout(constant_id = 6) const bool REPROJECT = false; // the eye is not where the cube map was drawn
 layout(constant_id = 7) const bool TURNING = false; // and on which side of it depends on the azimuth
 layout(constant_id = 8) const bool STARS = false;
+// 9 and 10 are warp.frag's
+layout(constant_id = 11) const int REFLECTED = 3; // numbers of what surfaces reflect: 3 are a colour
+layout(constant_id = 12) const int OWN = 0; // numbers of the world's own spectra
+layout(constant_id = 13) const bool BY_TABLE = true; // otherwise the numbers are the colour itself, seen as it is
+
+const int GROUPS = (REFLECTED + OWN + 3) / 4;
 
 layout(push_constant) uniform Push { ViewPush view; };
 
-layout(set = 0, binding = 1) uniform sampler2D atlas;
+layout(set = 0, binding = 1) uniform sampler2D atlas; // four numbers of the light
 layout(set = 0, binding = 2) uniform Slots { SlotEntry slots[SLOT_COUNT]; };
-layout(set = 0, binding = 3) uniform Colours { vec4 colours[COLOUR_STEPS * 3]; };
+layout(set = 0, binding = 3) uniform Red { uvec4 red[2 * RESPONSE_ROWS]; }; // Response's rows
 layout(set = 0, binding = 4) uniform sampler2D depth_atlas; // near / distance along the face's normal, 0 at infinity
 layout(set = 0, binding = 5) uniform sampler2D stars_picture; // pixel for pixel the target's; light as the atlas's
+layout(set = 0, binding = 7) uniform sampler2D atlas1; // four more numbers, and more
+layout(set = 0, binding = 8) uniform sampler2D atlas2;
+layout(set = 0, binding = 9) uniform sampler2D atlas3;
+layout(set = 0, binding = 10) uniform Green { uvec4 green[2 * RESPONSE_ROWS]; };
+layout(set = 0, binding = 11) uniform Blue { uvec4 blue[2 * RESPONSE_ROWS]; };
+layout(set = 0, binding = 12) uniform Own { vec4 own_rows[RESPONSE_OWN_ROWS * MAX_OWN]; };
 
 struct Place {
     vec2 face;  // face coordinates
@@ -51,33 +63,60 @@ Place place_of(vec3 n)
 }
 
 // Aberration is conformal: the pixel's footprint stays round, so one number is its exact level of detail.
-vec3 cube_map(Place place, float world_angle)
+void cube_map(Place place, float world_angle, out vec4 numbers[MAX_GROUPS])
 {
-    if (!MIPS)
-        return textureLod(atlas, place.atlas, 0.0).rgb;
-    float distance_square = 1.0 + dot(place.face, place.face);
-    float texels = world_angle * place.detail.x * pow(distance_square, 0.75);
-    return textureLod(atlas, place.atlas, clamp(log2(texels), 0.0, place.detail.y)).rgb;
+    float level = 0.0;
+    if (MIPS) {
+        float distance_square = 1.0 + dot(place.face, place.face);
+        float texels = world_angle * place.detail.x * pow(distance_square, 0.75);
+        level = clamp(log2(texels), 0.0, place.detail.y);
+    }
+    numbers[0] = textureLod(atlas, place.atlas, level);
+    if (GROUPS > 1)
+        numbers[1] = textureLod(atlas1, place.atlas, level);
+    if (GROUPS > 2)
+        numbers[2] = textureLod(atlas2, place.atlas, level);
+    if (GROUPS > 3)
+        numbers[3] = textureLod(atlas3, place.atlas, level);
 }
 
-// A colour whose light is shifted by D. The achromatic part is a sunlit grey, which stays a black body; what is left over is
-// three bands around the primaries that slide along the spectrum. The table holds, per step of ln D, the colours of both.
-vec3 doppler_shifted(vec3 rgb, float D)
+// Sum of a row's halves, of one colour, times the numbers of what is reflected.
+float sum_of(uvec4 first, uvec4 second, vec4 numbers[MAX_GROUPS])
 {
-    float grey = min(rgb.r, min(rgb.g, rgb.b));
-    vec4 parts = vec4(rgb - grey, grey);
-    float at = (log2(D) + COLOUR_RANGE) * ((COLOUR_STEPS - 1) / (2.0 * COLOUR_RANGE));
-    float inside = clamp(at, 0.0, float(COLOUR_STEPS - 1) - 0.001);
-    int i = int(inside) * 3;
-    float f = inside - floor(inside);
-    vec3 shifted = vec3(dot(mix(colours[i], colours[i + 3], f), parts), dot(mix(colours[i + 1], colours[i + 4], f), parts),
-        dot(mix(colours[i + 2], colours[i + 5], f), parts));
-    // Above the table a hot body's visible light grows as D, so without the headlight's D^3 it falls as 1 / D^2.
-    if (at > float(COLOUR_STEPS - 1)) {
-        float beyond = exp2(COLOUR_RANGE) / D;
-        shifted *= beyond * beyond;
+    float sum = 0.0;
+    for (int i = 0; i < (REFLECTED + 1) / 2; ++i) {
+        vec2 two = unpackHalf2x16(i < 4 ? first[i % 4] : second[i % 4]);
+        sum += two.x * numbers[i / 2][i % 2 * 2];
+        if (2 * i + 1 < REFLECTED)
+            sum += two.y * numbers[i / 2][i % 2 * 2 + 1];
     }
-    return max(shifted, vec3(0.0));
+    return sum;
+}
+
+// The colour of light that is shifted by D: response.cpp's seen.
+vec3 shifted(vec4 numbers[MAX_GROUPS], float D)
+{
+    float first = uintBitsToFloat(red[1].w), per_octave = uintBitsToFloat(red[3].w);
+    float asked = (log2(D) - first) * per_octave;
+    float at = clamp(asked, 0.0, float(RESPONSE_ROWS) - 1.001);
+    int i = 2 * int(at);
+    float part = fract(at);
+    vec3 here = vec3(sum_of(red[i], red[i + 1], numbers), sum_of(green[i], green[i + 1], numbers),
+        sum_of(blue[i], blue[i + 1], numbers));
+    vec3 next = vec3(sum_of(red[i + 2], red[i + 3], numbers), sum_of(green[i + 2], green[i + 3], numbers),
+        sum_of(blue[i + 2], blue[i + 3], numbers));
+    vec3 light = mix(here, next, part) * exp2(mix(uintBitsToFloat(red[i + 1].z), uintBitsToFloat(red[i + 3].z), part));
+    if (OWN > 0) {
+        float own_at = min(0.5 * at, float(RESPONSE_OWN_ROWS) - 1.001);
+        int j = int(own_at) * MAX_OWN;
+        for (int k = 0; k < OWN; ++k) {
+            vec4 own = mix(own_rows[j + k], own_rows[j + MAX_OWN + k], fract(own_at));
+            light += own.rgb * (exp2(own.w) * numbers[(REFLECTED + k) / 4][(REFLECTED + k) % 4]);
+        }
+    }
+    // Beyond the table every tail falls as 1 / D^2.
+    float beyond = exp2(min(0.0, (at - asked) / per_octave));
+    return light * (beyond * beyond);
 }
 
 // Distance of what a place of the cube map shows, from where it was drawn, scene units; infinite for the sky.
@@ -169,12 +208,14 @@ Sight sight_of(vec3 n, float pixel_angle)
     return sight;
 }
 
-// Scene-linear light, pre-exposed by the cube map's factor.
+// Scene-linear light, pre-exposed by the cube map's factor; colours outside Rec. 709 have channels below 0.
 vec3 light_seen(Place place, float D, float pixel_angle)
 {
-    vec3 light = cube_map(place, ABERRATION ? D * pixel_angle : pixel_angle);
-    if (DOPPLER)
-        light = doppler_shifted(light, D);
+    vec4 numbers[MAX_GROUPS];
+    cube_map(place, ABERRATION ? D * pixel_angle : pixel_angle, numbers);
+    vec3 light = numbers[0].rgb;
+    if (BY_TABLE)
+        light = shifted(numbers, DOPPLER ? D : 1.0);
     if (HEADLIGHT)
         light *= headlight(D);
     return light;

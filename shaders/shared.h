@@ -13,8 +13,12 @@
 #define REPROJECT_ROUNDS 4
 #define MOST_PARALLAX 0.35 // radians between two eyes' views of a point: nearer surfaces are not told apart
 #define MAX_LIGHTS 8
-#define COLOUR_STEPS 769 // over log2 D from -COLOUR_RANGE to COLOUR_RANGE
-#define COLOUR_RANGE 6.0
+#define MOST_REFLECTED 12 // numbers of sunlight that surfaces reflect
+#define MAX_OWN 4 // emissions of a scene's own, each a number by itself
+#define MAX_GROUPS 4 // of four numbers: an image of the cube map each
+#define MAX_MATRICES 4096 // columns of a group: 64 KiB, the least that devices of today let a shader read as constants
+#define RESPONSE_ROWS 2048 // over log2 D; see response.h
+#define RESPONSE_OWN_ROWS 1024 // each second
 #define STAR_COLDEST 512.0 // K: colder black bodies give no light to speak of (1e-9 of the Sun's surface at 550 K)
 #define STAR_STEPS_PER_OCTAVE 64
 #define STAR_STEPS 769 // 12 octaves: to 2 million K, from where a black body's visible light only grows as its temperature
@@ -30,14 +34,15 @@ struct SlotEntry {
 struct LightEntry {
     vec4 place;    // w = 0: unit direction towards the light; w = 1: its place from the eye. Motion axes.
     vec4 radiance; // Rec. 709 linear, pre-exposed; w: square of the distance at which it holds, 0 for a direction
+    vec4 kind;     // x: which of the spectra that shine here, 0 for sunlight
 };
 
 // The cube pass, one per eye and frame.
 struct CubeConstants {
     vec4 ambient;     // Rec. 709 linear, w: pre-exposure
-    vec4 sky_zenith;  // Rec. 709 linear, pre-exposed
-    vec4 sky_horizon;
-    vec4 sky_nadir;
+    vec4 sky_zenith[MAX_GROUPS]; // numbers of the light, pre-exposed
+    vec4 sky_horizon[MAX_GROUPS];
+    vec4 sky_nadir[MAX_GROUPS];
     vec4 world_up;    // motion axes
     LightEntry lights[MAX_LIGHTS];
 };
@@ -52,6 +57,9 @@ struct CubePush {
     vec4 clip_row0, clip_row1, clip_row2, clip_row3; // rows of clip_from_motion
     vec4 base_colour;
     vec4 emissive; // pre-exposed; w: alpha cut-off
+    vec4 beyond;   // reflectance in the ultraviolet and the infrared, below 0: the colour's mean; z: which set of matrices; w:
+                   // which of the world's own spectra the emissive light has, -1: a sunlit colour
+    vec4 own;      // how much it glows with each of them, pre-exposed
 };
 
 // Push constants of the passes that run once per output pixel.

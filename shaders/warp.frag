@@ -29,7 +29,7 @@ void main()
 {
     vec3 light = CHANNELS ? vec3(light_along(0).r, light_along(1).g, light_along(2).b) : light_along(0);
     // Both infinities of D^3 stay numbers: the greatest light is already white.
-    light = min(light * view.boost.z, vec3(1e30));
+    light = clamp(light * view.boost.z, vec3(0.0), vec3(1e30));
     if (LINEAR) {
         float pixel_angle;
         look(view.row0, view.row1, view.row2, gl_FragCoord.xy - view.origin.xy, 0, pixel_angle);

@@ -1,104 +1,22 @@
 // Spectra against themselves at every nanometre: black bodies, sunlit greys and a chart of smooth reflectances, at D from
 // 1/8 to 8, by few numbers and in full.
 #include "runtime/colour.h"
-#include "runtime/spectral_basis.h"
-#include "tests/colour_difference.h"
+#include "runtime/colour_difference.h"
+#include "runtime/response.h"
+#include "runtime/spectral_errors.h"
 #include <cstdio>
 #include <gtest/gtest.h>
 
 using namespace starbow;
-using namespace starbow::testing;
 
 namespace {
 
 glm::dvec2 chromaticity(const glm::dvec3& xyz) { return glm::dvec2(xyz) / (xyz.x + xyz.y + xyz.z); }
 
-/// At equal luminance, half of the white's.
-double difference(const glm::dvec3& one, const glm::dvec3& two)
+/// Back from the colour that is shown.
+glm::dvec3 told_xyz(const Response& response, std::span<const double> numbers, double D)
 {
-    static const glm::dvec3 white = seen_xyz(sunlit_white(), 1);
-    return ciede2000(cielab(one * (0.5 / one.y), white), cielab(two * (0.5 / two.y), white));
-}
-
-/// Twenty-four smooth reflectances after the names and the kinds of a colour chart's fields: a level, steps (s) and bumps
-/// (g). Each goes on beyond the visible as paints do: into a value of its own.
-struct Field {
-    double level;
-    struct Feature {
-        char kind;
-        double height, middle_nm, width_nm;
-    };
-    std::vector<Feature> features;
-
-    double visible(double nm) const
-    {
-        double value = level;
-        for (const Feature& f : features) {
-            const double x = (nm - f.middle_nm) / f.width_nm;
-            value += f.height * (f.kind == 's' ? 1 / (1 + std::exp(-x)) : std::exp(-0.5 * x * x));
-        }
-        return std::clamp(value, 0.005, 0.98);
-    }
-    double operator()(double nm) const
-    {
-        if (features.empty())
-            return level;
-        double mean = 0;
-        for (double at = 400; at <= 700; at += 10)
-            mean += visible(at) / 31;
-        const double uv = 1 / (1 + std::exp(std::log(nm / 360) / 0.035)),
-                     ir = 1 / (1 + std::exp(-std::log(nm / 820) / 0.05));
-        return uv * (0.5 * visible(380) + 0.02) + ir * (0.8 * mean + 0.05)
-            + (1 - uv - ir) * visible(std::clamp(nm, 330.0, 900.0));
-    }
-};
-
-const std::vector<Field>& chart()
-{
-    static const std::vector<Field> fields
-        = {{0.06, {{'s', 0.14, 600, 35}}}, {0.22, {{'s', 0.2, 520, 60}, {'s', 0.28, 590, 15}, {'g', -0.06, 550, 14}}},
-            {0.12, {{'g', 0.24, 450, 60}, {'s', 0.04, 700, 20}}}, {0.05, {{'g', 0.11, 550, 32}, {'s', 0.35, 710, 14}}},
-            {0.2, {{'g', 0.26, 440, 48}, {'s', 0.3, 680, 25}}}, {0.2, {{'g', 0.42, 505, 52}, {'s', 0.15, 720, 20}}},
-            {0.05, {{'s', 0.56, 588, 17}}}, {0.08, {{'g', 0.3, 440, 38}, {'s', 0.35, 700, 20}}},
-            {0.1, {{'s', 0.48, 605, 16}, {'g', 0.04, 430, 30}}}, {0.045, {{'g', 0.15, 425, 32}, {'s', 0.32, 665, 25}}},
-            {0.07, {{'s', 0.45, 520, 18}, {'g', -0.1, 640, 40}, {'s', 0.2, 720, 25}}}, {0.06, {{'s', 0.62, 560, 20}}},
-            {0.05, {{'g', 0.29, 445, 30}, {'s', 0.15, 720, 20}}}, {0.055, {{'g', 0.3, 530, 35}, {'s', 0.15, 715, 25}}},
-            {0.045, {{'s', 0.68, 617, 13}}}, {0.055, {{'s', 0.7, 515, 17}}},
-            {0.1, {{'s', 0.7, 610, 18}, {'g', 0.3, 430, 45}, {'g', -0.03, 540, 25}}},
-            {0.07, {{'g', 0.33, 480, 48}, {'s', 0.1, 720, 20}}}, {0.9, {}}, {0.59, {}}, {0.36, {}}, {0.19, {}}, {0.09, {}},
-            {0.03, {}}};
-    return fields;
-}
-
-struct Errors {
-    std::vector<double> all;
-    double luminance = 0;
-    void add(const glm::dvec3& truth, const glm::dvec3& shown)
-    {
-        all.push_back(shown.y > 0 ? difference(truth, shown) : 100);
-        luminance = std::max(luminance, std::abs(shown.y / truth.y - 1));
-    }
-    double worst() const { return *std::max_element(all.begin(), all.end()); }
-    double median()
-    {
-        std::nth_element(all.begin(), all.begin() + std::ptrdiff_t(all.size() / 2), all.end());
-        return all[all.size() / 2];
-    }
-};
-
-Errors of_chart(const SpectralBasis& basis, bool greys)
-{
-    Errors errors;
-    const Spectrum sun = sunlit_white();
-    for (const Field& field : chart())
-        if (field.features.empty() == greys) {
-            const std::vector<double> numbers = sunlit(basis, field);
-            for (int step = -24; step <= 24; ++step) {
-                const double D = std::exp2(step / 8.0 + (step < 0 ? 1 : -1) / 256.0); // between two steps of the table
-                errors.add(seen_xyz([&](double nm) { return sun(nm) * field(nm); }, D), seen_xyz(basis, numbers, D));
-            }
-        }
-    return errors;
+    return glm::inverse(eye().rec709) * seen(response, numbers, D);
 }
 
 } // namespace
@@ -153,38 +71,123 @@ TEST(SpectrumTest, ABlackBodyStaysOne)
 TEST(SpectrumTest, FewNumbersHoldBlackBodiesAndGreys)
 {
     const std::vector<double> kelvins = {1000, 2856, 5772, 40000};
-    const SpectralBasis basis = spectral_basis(12, kelvins);
+    std::vector<Emission> own;
+    for (double kelvin : kelvins)
+        own.push_back(BlackBody{kelvin});
+    const SpectralBasis basis = spectral_basis(12, own);
+    const Response response = response_of(basis, eye());
     for (std::size_t i = 0; i < kelvins.size(); ++i)
         for (int step = -34; step <= 34; ++step) { // 1/20 to 20
             const double D = std::exp2(step * std::log2(20.0) / 34);
             std::vector<double> numbers(std::size_t(basis.size()), 0.0);
-            numbers[std::size_t(basis.hats) + i] = 1;
-            const glm::dvec3 shown = seen_xyz(basis, numbers, D), truth = seen_xyz(black_body(kelvins[i]), D);
+            numbers[std::size_t(basis.reflected) + i] = 1;
+            const glm::dvec3 shown = told_xyz(response, numbers, D), truth = seen_xyz(black_body(kelvins[i]), D);
             EXPECT_LT(glm::distance(chromaticity(shown), chromaticity(truth)), 0.002) << kelvins[i] << " K at " << D;
         }
-    for (int size : {3, 4, 8, 12}) {
-        const SpectralBasis own = spectral_basis(size, {});
-        Errors greys = of_chart(own, true);
-        std::printf(
-            "  greys, %2d numbers: CIEDE2000 worst %.4f, luminance %.4f %%\n", size, greys.worst(), 100 * greys.luminance);
-        EXPECT_LT(greys.worst(), 0.05);
-        // Sunlight at D = 1/8 is that of 722 K, whose luminance grows as D^32: straight lines between the table's steps miss
-        // it by (32 ln 2 / 128)^2 / 8.
-        EXPECT_LT(greys.luminance, 3.8e-3);
+    for (SpectralLevel level : {SpectralLevel::colours, SpectralLevel::middle, SpectralLevel::fine}) {
+        const SpectralErrors greys = chart_errors(level, ChartFields::greys);
+        std::printf("  greys, %2d numbers: CIEDE2000 worst %.4f, luminance %.4f %%\n", reflected_numbers[std::size_t(level)],
+            greys.worst, 100 * greys.luminance);
+        EXPECT_LT(greys.worst, 0.05); // a half has eleven digits
+        EXPECT_LT(greys.luminance, 1e-3);
     }
 }
 
 TEST(SpectrumTest, FewNumbersHoldAColourChart)
 {
-    for (int size : {3, 4, 8, 12}) {
-        const SpectralBasis basis = spectral_basis(size, {});
-        Errors errors = of_chart(basis, false);
-        std::printf("  chart, %2d numbers: CIEDE2000 median %.2f, worst %.2f, luminance %.2f %%\n", size, errors.median(),
-            errors.worst(), 100 * errors.luminance);
-        if (size >= 12) {
-            EXPECT_LT(errors.median(), 1);
-            EXPECT_LT(errors.worst(), 3);
+    for (SpectralLevel level : {SpectralLevel::colours, SpectralLevel::middle, SpectralLevel::fine}) {
+        const SpectralErrors errors = chart_errors(level, ChartFields::colours);
+        std::printf("  chart, %2d numbers: CIEDE2000 median %.2f, worst %.2f, luminance %.2f %%\n",
+            reflected_numbers[std::size_t(level)], errors.median, errors.worst, 100 * errors.luminance);
+        if (level == SpectralLevel::fine) {
+            EXPECT_LT(errors.median, 1);
+            EXPECT_LT(errors.worst, 3);
             EXPECT_LT(errors.luminance, 0.02);
         }
     }
+}
+
+TEST(SpectrumTest, ALineMovesAsAWholeAndKeepsItsEnergy)
+{
+    // Against a needle of a nanometre's width at every hundredth of one: 450 nm across the eye, D from 0.6 to 1.2.
+    const double energy = [] {
+        double sum = 0;
+        const Spectrum sun = sunlit_white();
+        for (double nm = 40; nm < 200000; nm *= 1.001)
+            sum += sun(nm) * 0.001 / nm;
+        return sum;
+    }();
+    for (double D : {0.6, 0.8660254, 1.0, 1.2}) {
+        glm::dvec3 sum(0);
+        for (double nm = 449.505; nm < 450.5; nm += 0.01)
+            sum += eye().response(nm / D) * (energy * nm * nm * 0.01 / (nm * nm)) * D; // d nm' / nm'^2 = D d nm / nm^2
+        const glm::dvec3 line = seen(eye(), Emission(SpectralLine{450}), D);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(line[c], sum[c], 2e-3 * sum.y + 1e-9) << D; // the eye curves within the nanometre
+    }
+    // A table with the same needle, and one that is the Sun's own spectrum.
+    const SpectralTable needle{{{448, 0}, {450, 1}, {452, 0}}};
+    std::vector<std::pair<double, double>> points;
+    for (double nm = 40; nm <= 12000; nm *= 1.005)
+        points.push_back({nm, planck(nm, 5772)});
+    for (double D : {0.7, 1.0, 1.3}) {
+        const glm::dvec3 a = seen(eye(), Emission(needle), D), b = seen(eye(), Emission(SpectralLine{450}), D);
+        const glm::dvec3 c = seen(eye(), Emission(SpectralTable{points}), D), d = seen(eye(), sunlit_white(), D);
+        EXPECT_LT(glm::distance(a, b), 0.03 * glm::length(b)) << D; // two nanometres are two steps of the sum
+        EXPECT_LT(glm::distance(c, d), 0.002 * glm::length(d)) << D; // what lies beyond 12 um is not in the table
+    }
+    // As much energy as a sunlit white, whatever the temperature.
+    for (double kelvin : {300.0, 2856.0, 20000.0}) {
+        double sum = 0;
+        for (double nm = 1; nm < 1e7; nm *= 1.001)
+            sum += black_body(kelvin)(nm) * 0.001 / nm;
+        EXPECT_NEAR(sum * sunlit_part(BlackBody{kelvin}) / energy, 1, 2e-3) << kelvin;
+    }
+}
+
+TEST(SpectrumTest, LampsOfTheirOwnLightGreysExactly)
+{
+    const std::vector<Emission> lamps = {BlackBody{2856}, SpectralLine{589.3}};
+    const SpectralBasis basis = spectral_basis(12, lamps);
+    const Response response = response_of(basis, eye());
+    for (double D : {0.5, 0.9, 1.0, 1.1, 2.0}) {
+        const glm::dvec3 grey = told_xyz(response, lit(basis, lamps[0], [](double) { return 0.5; }), D);
+        const glm::dvec3 truth = 0.5 * sunlit_part(lamps[0]) * seen(eye(), lamps[0], D);
+        EXPECT_LT(glm::distance(grey, truth), 2e-3 * glm::length(truth)) << D;
+        // Whatever the surface, a line stays one: it takes what is reflected there.
+        auto ramp = [](double nm) { return std::clamp((nm - 400) / 400, 0.0, 1.0); };
+        const glm::dvec3 sodium = told_xyz(response, lit(basis, lamps[1], ramp), D);
+        const glm::dvec3 known = ramp(589.3) * seen(eye(), lamps[1], D);
+        EXPECT_LT(glm::distance(sodium, known), 0.02 * std::max(glm::length(known), 1e-3)) << D; // rows are 5 nm apart
+        // A smooth reflectance under the lamp, within what the chart's errors are under the Sun.
+        const glm::dvec3 shown = told_xyz(response, lit(basis, lamps[0], ramp), D);
+        const glm::dvec3 lamp = sunlit_part(lamps[0])
+            * seen(eye(), [&](double nm) { return ramp(nm) * black_body(2856)(nm); }, D);
+        EXPECT_NEAR(shown.y / lamp.y, 1, 0.02) << D;
+        EXPECT_LT(glm::distance(chromaticity(shown), chromaticity(lamp)), 0.01) << D;
+    }
+}
+
+TEST(SpectrumTest, FalseColoursShowWhatEyesDoNot)
+{
+    // A sunlit white is white, whatever the level; leaves, bright in the infrared alone, are red; a room's own heat is.
+    const Observer& all = false_colours();
+    EXPECT_LT(glm::distance(seen(all, sunlit_white(), 1), glm::dvec3(1)), 1e-9);
+    for (int numbers : {3, 12}) {
+        const SpectralBasis basis = spectral_basis(numbers, std::array{Emission(BlackBody{288})});
+        const Response response = response_of(basis, all);
+        EXPECT_LT(glm::distance(seen(response, lit(basis, {}, [](double) { return 1; }), 1), glm::dvec3(1)), 2e-3);
+        std::vector<double> room(std::size_t(basis.size()), 0.0);
+        room.back() = 1;
+        const glm::dvec3 warm = seen(response, room, 1);
+        EXPECT_GT(warm.r, 0.2); // 390 W/m2, of which 3/4 lies below 12 um, over the Sun's infrared
+        EXPECT_LT(warm.g + warm.b, 1e-9);
+    }
+    const SpectralBasis basis = spectral_basis(12, {});
+    const Response response = response_of(basis, all);
+    const glm::dvec3 leaf = seen(response,
+        lit(basis, {}, [](double nm) { return base_reflectance({0.05, 0.1, 0.03}, 0.02, 0.5, nm); }), 1);
+    EXPECT_NEAR(leaf.r, 0.5, 0.02);
+    EXPECT_NEAR(leaf.b, 0.02, 0.01);
+    EXPECT_LT(leaf.g, 0.2);
 }

@@ -1,5 +1,6 @@
 #include "bench_input.h"
 #include "bench_layout.h"
+#include "bench_spectra.h"
 #include "bench_stars.h"
 #include "commands.h"
 #include "config/error.h"
@@ -223,6 +224,7 @@ int bench(const Options& options)
     line("triangles sent", "%12zu", [](const Result& r) { return r.triangles; });
     line("device images, MiB", "%12.1f", [](const Result& r) { return r.megabytes; });
     std::printf("\n");
+    const auto levels = bench_spectra(theatre, layout, options.rounds);
 
     if (!options.json.empty()) {
         nlohmann::ordered_json json;
@@ -235,6 +237,8 @@ int bench(const Options& options)
             json["ratios"]["metering_over_frame"][r.name] = r.metering_over_frame();
         }
         json["ratios"]["warp_over_lookup"] = results[1].warp_over_lookup();
+        for (std::size_t i = 1; i < levels.size(); ++i)
+            json["ratios"]["spectral_levels"][spectral_level_names[i]] = {{"cube", levels[i][0]}, {"warp", levels[i][1]}};
         std::filesystem::path folder = std::filesystem::path(options.json).parent_path();
         std::error_code error; // told by the stream
         if (!folder.empty())

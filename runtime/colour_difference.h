@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
-namespace starbow::testing {
+namespace starbow {
 
 /// CIE 1976 L*a*b* of XYZ before a white (CIE 015).
 inline glm::dvec3 cielab(const glm::dvec3& xyz, const glm::dvec3& white)
@@ -47,4 +47,4 @@ inline double ciede2000(const glm::dvec3& one, const glm::dvec3& two)
         std::max(0.0, std::pow(dL / SL, 2) + std::pow(dC / SC, 2) + std::pow(dH / SH, 2) + RT * (dC / SC) * (dH / SH)));
 }
 
-} // namespace starbow::testing
+} // namespace starbow

@@ -1,0 +1,49 @@
+#pragma once
+#include "config/scene_file.h"
+#include "runtime/shared.h"
+#include "spectral_basis.h"
+#include "world.h"
+#include <array>
+#include <string>
+
+namespace starbow {
+
+/// How finely light that surfaces reflect is told, in numbers: 3, the base colours' own; 5, with the ultraviolet and the
+/// infrared; 12, a spectrum. Lamps, glows and lines are exact at every level.
+enum class SpectralLevel { colours, middle, fine };
+constexpr std::array<const char*, 3> spectral_level_names = {"colours", "middle", "fine"};
+constexpr std::array<int, 3> reflected_numbers = {3, 5, 12};
+
+/// The coarsest level that is exact for a world, or the finest.
+struct NeededLevel {
+    SpectralLevel level = SpectralLevel::colours;
+    std::string why; ///< a sentence's subject and verb: the first thing that the level before does not tell
+};
+/// As a line for people.
+std::string told(const NeededLevel& needed);
+NeededLevel needed_level(const World& world, const SceneFile& scene);
+
+/// What the passes need to know of a world's spectra, as plain arrays.
+struct Spectra {
+    SpectralLevel level = SpectralLevel::colours;
+    SpectralBasis basis;
+    int groups = 1; ///< of four numbers
+    int kinds = 1; ///< of spectra that shine on surfaces; the first is sunlight
+    std::vector<int> kind_of_light; ///< of each of the scene's
+    bool matrices = false; ///< otherwise its colour, and what it is beyond the visible, are its numbers
+    std::vector<glm::vec4> columns; ///< [set][kind][group][r, g, b, ultraviolet, infrared]
+
+    struct Surface {
+        glm::vec4 beyond; ///< CubePush's member
+        double emission = 1; ///< of the emissive colour that counts as its number
+        glm::dvec4 own{0}; ///< glow, numbers of its own spectra
+    };
+    std::vector<Surface> surfaces; ///< of each material
+    std::array<std::array<glm::dvec4, MAX_GROUPS>, 3> sky; ///< zenith, horizon, nadir: numbers
+    double most = 0; ///< the greatest number of the world's own
+};
+
+/// Throws InputError where a world has more spectra of its own than MAX_OWN.
+Spectra spectra_of(const World& world, const SceneFile& scene, SpectralLevel level);
+
+} // namespace starbow
