@@ -34,6 +34,7 @@ enum class ButtonRole {
     aberration,
     doppler,
     headlight,
+    false_colours,
     hud,
     faster,
     slower,

@@ -30,6 +30,7 @@ struct Controls {
     bool reset = false; ///< to the start at once
     bool next_mode = false;
     bool aberration = false, doppler = false, headlight = false; ///< effects to switch over
+    bool false_colours = false; ///< the infrared and the ultraviolet, for who guides
     bool lock_exposure = false; ///< hold the automatic exposure, or let it go
     bool hud = false, full_screen = false, quit = false;
     // For who builds the exhibit: the next test pattern; which of the layout's numbers to turn, by how many steps; keep

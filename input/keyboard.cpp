@@ -29,6 +29,7 @@ const char* keyboard_help()
            "R               fly back to the start; Backspace ten seconds back\n"
            "M               the next mode of flight: guided, free, newtonian\n"
            "1, 2, 3         aberration, Doppler effect, headlight effect on and off\n"
+           "4               for guides: infrared and ultraviolet in false colours, on and off\n"
            "+, -            brighter, darker; L holds the automatic exposure, or lets it go\n"
            "H               head-up display; F11 full screen; Esc leave\n"
            "F2              for builders: the next test pattern\n"
@@ -84,6 +85,7 @@ void Keyboard::finish(Controls& controls, bool pads)
     controls.doppler = pressed(GLFW_KEY_2);
     controls.headlight = pressed(GLFW_KEY_3);
     controls.lock_exposure = pressed(GLFW_KEY_L);
+    controls.false_colours = pressed(GLFW_KEY_4);
     controls.hud = pressed(GLFW_KEY_H);
     controls.full_screen = pressed(GLFW_KEY_F11);
     controls.quit = pressed(GLFW_KEY_ESCAPE);

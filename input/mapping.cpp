@@ -53,11 +53,11 @@ void add_role(AxisRole role, double value, double dt_s, Controls& controls)
 }
 
 /// What a press switches, in the frame in which it comes.
-constexpr std::pair<ButtonRole, bool Controls::*> switches[]
-    = {{ButtonRole::stop, &Controls::stop}, {ButtonRole::home, &Controls::home}, {ButtonRole::undo, &Controls::undo},
-        {ButtonRole::next_mode, &Controls::next_mode}, {ButtonRole::look_ahead, &Controls::look_ahead},
-        {ButtonRole::aberration, &Controls::aberration}, {ButtonRole::doppler, &Controls::doppler},
-        {ButtonRole::headlight, &Controls::headlight}, {ButtonRole::hud, &Controls::hud}};
+constexpr std::pair<ButtonRole, bool Controls::*> switches[] = {{ButtonRole::stop, &Controls::stop},
+    {ButtonRole::home, &Controls::home}, {ButtonRole::undo, &Controls::undo}, {ButtonRole::next_mode, &Controls::next_mode},
+    {ButtonRole::look_ahead, &Controls::look_ahead}, {ButtonRole::aberration, &Controls::aberration},
+    {ButtonRole::doppler, &Controls::doppler}, {ButtonRole::headlight, &Controls::headlight},
+    {ButtonRole::false_colours, &Controls::false_colours}, {ButtonRole::hud, &Controls::hud}};
 /// What a button does for as long as it is held.
 struct Held {
     ButtonRole role;

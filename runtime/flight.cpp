@@ -21,6 +21,7 @@ void press(Flight& flight, const Controls& controls, const Flying& rules, const 
     flight.effects.aberration ^= controls.aberration;
     flight.effects.doppler ^= controls.doppler;
     flight.effects.headlight ^= controls.headlight;
+    flight.effects.false_colours ^= controls.false_colours;
     flight.hud ^= controls.hud;
     flight.look_rad = controls.look_ahead ? glm::dvec2(0) : flight.look_rad + controls.look_rad;
     flight.look_rad.y = std::clamp(flight.look_rad.y, -half_pi, half_pi);

@@ -69,8 +69,7 @@ SurfaceVariant GpuWorld::variant(int material, bool plain) const
     SurfaceVariant variant{
         m.base_texture >= 0, m.emissive_texture >= 0, m.alpha_cutoff > 0, m.unlit, m.unlit ? 0 : int(scene.lights.size())};
     if (!plain)
-        variant.numbers = numbers(), variant.kinds = spectra.kinds,
-        variant.matrices = spectra.matrices;
+        variant.numbers = numbers(), variant.kinds = spectra.kinds, variant.matrices = spectra.matrices;
     return variant;
 }
 

@@ -83,6 +83,16 @@ Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effec
         .effects = effects};
 }
 
+std::string light_name(const Effects& on)
+{
+    if (on.false_colours)
+        return std::string("false colours: infrared red, visible green, ultraviolet blue")
+            + (on.doppler ? "" : ", unshifted");
+    return on.doppler  ? on.headlight ? "spectra shifted, times D³: as eyes see them" : "spectra shifted, without D³"
+        : on.headlight ? "colours unshifted, times D³"
+                       : "colours as at rest";
+}
+
 std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r)
 {
     bool close = r.beta_deficit < 1e-3;
@@ -105,6 +115,7 @@ std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r)
     fields.push_back({"exposure", sign + text("%.1f EV", std::abs(ev)) + (r.exposure_locked ? " locked" : "")});
     if (r.frames_per_s > 0)
         fields.push_back({"frames/s", text("%.0f", r.frames_per_s)});
+    fields.push_back({"light", light_name(r.effects)});
     return fields;
 }
 
@@ -248,10 +259,12 @@ Panel Typesetter::draw(const Readings& readings, int width) const
         --notice_size;
     if (notice_width(notice_size) < 0.7) {
         std::string rate = fields[9].second + "   " + fields[10].second;
-        if (fields.size() > 11)
+        if (readings.frames_per_s > 0)
             rate += "   " + fields[11].second + " " + fields[11].first;
         write(panel, rate, panel.size.x * 0.96 - width_of(rate, small), 0.93 * unit, small, 0.72);
     }
+    if (readings.notice.empty())
+        write(panel, light_name(readings.effects), panel.size.x * 0.04, 0.93 * unit, small, 0.72);
     write(panel, readings.notice, panel.size.x * 0.04, 0.93 * unit, notice_size, 1);
     return panel;
 }

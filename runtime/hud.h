@@ -36,6 +36,9 @@ struct Readings {
 };
 Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effects);
 
+/// What the light is that is shown, in a few words.
+std::string light_name(const Effects& effects);
+
 /// The lines as text, for the log and for tests: label and value in turn.
 std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& readings);
 

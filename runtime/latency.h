@@ -34,8 +34,8 @@ public:
     const std::vector<double>& frame_ms() const { return frame_ms_; } ///< from one present call's return to the next
     const std::vector<double>& own_ms() const { return own_ms_; } ///< controls read to the present call: no waiting
     const std::vector<double>& present_ms() const { return present_ms_; } ///< the present call, which may wait
-    /// Controls read, or a report stamped that they did not yet tell of, to the next frame's present call returned: no report,
-    /// whenever it comes, takes longer.
+    /// Controls read, or a report stamped that they did not yet tell of, to the next frame's present call returned: no
+    /// report, whenever it comes, takes longer.
     const std::vector<double>& bound_ms() const { return bound_ms_; }
 
 private:

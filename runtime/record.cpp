@@ -20,12 +20,12 @@ constexpr Range any_rate{-1e3, 1e3};
 constexpr Range any_place{-1e15, 1e15};
 constexpr double most_ns = 9e15; ///< a hundred days; whole numbers below it are doubles
 
-constexpr std::pair<const char*, bool Controls::*> switches[]
-    = {{"look_ahead", &Controls::look_ahead}, {"stop", &Controls::stop}, {"home", &Controls::home},
-        {"undo", &Controls::undo}, {"reset", &Controls::reset}, {"next_mode", &Controls::next_mode},
-        {"aberration", &Controls::aberration}, {"doppler", &Controls::doppler}, {"headlight", &Controls::headlight},
-        {"lock_exposure", &Controls::lock_exposure}, {"hud", &Controls::hud}, {"full_screen", &Controls::full_screen},
-        {"quit", &Controls::quit}, {"pattern", &Controls::pattern}, {"save", &Controls::save}};
+constexpr std::pair<const char*, bool Controls::*> switches[] = {{"look_ahead", &Controls::look_ahead},
+    {"stop", &Controls::stop}, {"home", &Controls::home}, {"undo", &Controls::undo}, {"reset", &Controls::reset},
+    {"next_mode", &Controls::next_mode}, {"aberration", &Controls::aberration}, {"doppler", &Controls::doppler},
+    {"headlight", &Controls::headlight}, {"false_colours", &Controls::false_colours},
+    {"lock_exposure", &Controls::lock_exposure}, {"hud", &Controls::hud}, {"full_screen", &Controls::full_screen},
+    {"quit", &Controls::quit}, {"pattern", &Controls::pattern}, {"save", &Controls::save}};
 
 const std::vector<std::pair<std::string_view, FlightMode>> modes{
     {"guided", FlightMode::guided}, {"free", FlightMode::free}, {"newtonian", FlightMode::newtonian}};
@@ -326,6 +326,7 @@ std::uint64_t digest(const Flight& flight)
     }
     all.add(flight.look_rad);
     all.add(flight.effects.aberration), all.add(flight.effects.doppler), all.add(flight.effects.headlight);
+    all.add(flight.effects.false_colours);
     all.add(flight.exposure_ev), all.add(flight.hud), all.add(flight.ticks), all.add(flight.left_ns);
     return all.sum;
 }

@@ -39,8 +39,8 @@ Response response_of(const SpectralBasis& basis, const Observer& observer)
                 values[std::size_t(c)][std::size_t(k)] = float((observer.rec709 * scale.over(seen[k]))[c]);
         for (std::size_t c = 0; c < 3; ++c)
             for (int word = 0; word < 6; ++word)
-                response.rows[c][std::size_t(2 * row + word / 4)][word % 4] = glm::packHalf2x16(
-                    {values[c][std::size_t(2 * word)], values[c][std::size_t(2 * word + 1)]});
+                response.rows[c][std::size_t(2 * row + word / 4)][word % 4]
+                    = glm::packHalf2x16({values[c][std::size_t(2 * word)], values[c][std::size_t(2 * word + 1)]});
         response.rows[0][std::size_t(2 * row + 1)].z = std::bit_cast<std::uint32_t>(float(scale.log2));
         if (row % 2 == 0)
             for (int i = 0; i < response.own; ++i) {
@@ -70,8 +70,7 @@ glm::dvec3 seen(const Response& response, std::span<const double> numbers, doubl
                 const glm::vec2 two = glm::unpackHalf2x16(response.rows[c][2 * row + std::size_t(k / 8)][k / 2 % 4]);
                 light[int(c)] += (row == i ? 1 - part : part) * double(two[k % 2]) * numbers[std::size_t(k)];
             }
-    light *= std::exp2(
-        std::lerp(real(response.rows[0][2 * i + 1].z), real(response.rows[0][2 * i + 3].z), part));
+    light *= std::exp2(std::lerp(real(response.rows[0][2 * i + 1].z), real(response.rows[0][2 * i + 3].z), part));
     const double own_at = std::min(0.5 * at, RESPONSE_OWN_ROWS - 1.001);
     const std::size_t j = std::size_t(own_at);
     for (int k = 0; k < response.own; ++k) {

@@ -14,35 +14,41 @@ const std::optional<Emission>& spectrum_of(const Light& light)
 std::string quoted(const std::string& name) { return '"' + one_line(name, 60) + '"'; }
 
 /// Every emission once, in the order in which they are met.
-std::vector<Emission> own_spectra(const World& world, const SceneFile& scene)
+std::vector<OwnSpectrum> own_spectra(const World& world, const SceneFile& scene)
 {
-    std::vector<Emission> own;
-    auto add = [&](const Emission& emission) {
-        if (std::find(own.begin(), own.end(), emission) == own.end())
-            own.push_back(emission);
+    std::vector<OwnSpectrum> own;
+    auto add = [&](const OwnSpectrum& spectrum) {
+        if (std::find(own.begin(), own.end(), spectrum) == own.end())
+            own.push_back(spectrum);
     };
+    const bool uneven = std::any_of(world.materials.begin(), world.materials.end(),
+        [](const Material& m) { return m.ultraviolet || m.infrared || !m.reflectance.empty(); });
     for (const Light& light : scene.lights)
-        if (spectrum_of(light))
-            add(*spectrum_of(light));
+        if (const auto& spectrum = spectrum_of(light)) {
+            add({*spectrum});
+            if (uneven && !std::holds_alternative<SpectralLine>(*spectrum))
+                add({*spectrum, true});
+        }
     for (const Material& material : world.materials) {
         if (material.temperature_K > 0)
-            add(BlackBody{material.temperature_K});
+            add({BlackBody{material.temperature_K}});
         if (material.emission)
-            add(*material.emission);
+            add({*material.emission});
     }
     if (scene.sky.temperature_K > 0)
-        add(BlackBody{scene.sky.temperature_K});
+        add({BlackBody{scene.sky.temperature_K}});
     if (own.size() > MAX_OWN)
         throw InputError(scene.gltf.string(), "",
             "has, with its lights and its sky, " + std::to_string(own.size())
-                + " different spectra beside sunlight (of lamps, glows, lines and tables); at most "
+                + " different spectra beside sunlight (of lamps, glows, lines and tables; a lamp counts twice where a "
+                  "material's ultraviolet, infrared or reflectance is told); at most "
                 + std::to_string(MAX_OWN) + " is right");
     return own;
 }
 
 std::size_t index_of(const SpectralBasis& basis, const Emission& emission)
 {
-    return std::size_t(std::find(basis.own.begin(), basis.own.end(), emission) - basis.own.begin());
+    return std::size_t(std::find(basis.own.begin(), basis.own.end(), OwnSpectrum{emission}) - basis.own.begin());
 }
 
 /// A surface's five columns under one light: [group * 5 + column].
@@ -53,8 +59,8 @@ std::vector<glm::vec4> by_colour(const SpectralBasis& basis, int groups, const s
         glm::dvec3 rgb(0);
         if (column < 3)
             rgb[column] = 1;
-        std::vector<double> numbers = lit(
-            basis, light, [&](double nm) { return base_reflectance(rgb, column == 3, column == 4, nm); });
+        std::vector<double> numbers
+            = lit(basis, light, [&](double nm) { return base_reflectance(rgb, column == 3, column == 4, nm); });
         if (basis.reflected <= 5 && !light) { // these are its numbers
             numbers.assign(std::size_t(basis.size()), 0.0);
             if (column < basis.reflected)

@@ -265,7 +265,7 @@ Row told(const SpectralBasis& basis, const std::function<double(double nm)>& ref
 
 } // namespace
 
-SpectralBasis spectral_basis(int reflected, std::span<const Emission> own)
+SpectralBasis spectral_basis(int reflected, std::span<const OwnSpectrum> own)
 {
     SpectralBasis basis;
     basis.own.assign(own.begin(), own.end());
@@ -274,33 +274,39 @@ SpectralBasis spectral_basis(int reflected, std::span<const Emission> own)
     return basis;
 }
 
-std::vector<double> lit(const SpectralBasis& basis, const std::optional<Emission>& light,
-    const std::function<double(double nm)>& reflectance)
+std::vector<double> lit(
+    const SpectralBasis& basis, const std::optional<Emission>& light, const std::function<double(double nm)>& reflectance)
 {
     if (!light)
         return told(basis, reflectance);
-    const std::size_t own
-        = std::size_t(basis.reflected + (std::find(basis.own.begin(), basis.own.end(), *light) - basis.own.begin()));
+    auto number = [&](const OwnSpectrum& own) {
+        return std::size_t(basis.reflected + (std::find(basis.own.begin(), basis.own.end(), own) - basis.own.begin()));
+    };
     Row numbers(std::size_t(basis.size()), 0.0);
     const double part = sunlit_part(*light);
     if (const auto* line = std::get_if<SpectralLine>(&*light)) {
-        numbers[own] = part * reflectance(line->nm);
+        numbers[number({*light})] = part * reflectance(line->nm);
         return numbers;
     }
-    // Evenly, what it is in the far infrared: there lies most of what a lamp's own number brings from beyond the hats.
-    const double even = reflectance(longest_nm);
+    // The hats are weighted by sunlight, and a lamp's light over the Sun's grows or falls without end on both sides of the
+    // visible: there nothing may be left to them.
+    const double even = reflectance(shortest_nm);
+    const std::size_t infrared = number({*light, true});
+    const double more = infrared < numbers.size() ? reflectance(longest_nm) - even : 0;
     const Spectrum spectrum = spectrum_of(*light), sun = sunlit_white();
-    numbers = told(
-        basis, [&](double nm) { return (reflectance(nm) - even) * part * spectrum(nm) / sun(nm); });
-    numbers[own] += part * even;
+    numbers = told(basis,
+        [&](double nm) { return (reflectance(nm) - even - more * infrared_part(nm)) * part * spectrum(nm) / sun(nm); });
+    numbers[number({*light})] += part * even;
+    if (more != 0)
+        numbers[infrared] += part * more;
     return numbers;
 }
 
 ResponseTable response_table(const SpectralBasis& basis, const Observer& observer, int rows)
 {
     double first = -6, last = 10;
-    for (const Emission& emission : basis.own)
-        if (const auto* body = std::get_if<BlackBody>(&emission)) {
+    for (const OwnSpectrum& own : basis.own)
+        if (const auto* body = std::get_if<BlackBody>(&own.emission)) {
             const double octaves = std::log2(body->kelvin / 5772);
             first = std::min(first, -6 - octaves), last = std::max(last, 10 - octaves);
         }
@@ -308,7 +314,7 @@ ResponseTable response_table(const SpectralBasis& basis, const Observer& observe
     first = std::floor(first);
     ResponseTable table{basis.size(), first, std::floor((rows - 1) / (std::ceil(last) - first)), {}};
     const int n = basis.reflected;
-    const std::vector<Row> own = shapes(n);
+    const std::vector<Row> reflectances = shapes(n);
     std::vector<Row> numbers;
     if (n > 5)
         for (const Row& sample : learned()) {
@@ -326,7 +332,7 @@ ResponseTable response_table(const SpectralBasis& basis, const Observer& observe
         const std::array<Row, 3> seen_at = seen_of_grid(observer, D);
         std::array<Row, 3> of_each;
         for (std::size_t c = 0; c < 3; ++c)
-            for (const Row& one : own)
+            for (const Row& one : reflectances)
                 of_each[c].push_back(dot(seen_at[c], one));
         if (n > 5) {
             const Row add = correction(numbers, seen_at, of_each);
@@ -336,8 +342,13 @@ ResponseTable response_table(const SpectralBasis& basis, const Observer& observe
         }
         for (std::size_t k = 0; k < std::size_t(n); ++k)
             table.seen.push_back({of_each[0][k], of_each[1][k], of_each[2][k]});
-        for (const Emission& emission : basis.own)
-            table.seen.push_back(seen(observer, emission, D));
+        for (const OwnSpectrum& own : basis.own) {
+            if (own.infrared)
+                table.seen.push_back(seen(
+                    observer, [&, all = spectrum_of(own.emission)](double nm) { return infrared_part(nm) * all(nm); }, D));
+            else
+                table.seen.push_back(seen(observer, own.emission, D));
+        }
     }
     return table;
 }

@@ -6,25 +6,31 @@
 namespace starbow {
 
 /// Light as a few numbers. The first tell what reflects sunlight: either base_reflectance's own (the three primaries; with
-/// the ultraviolet and the infrared, five), or hats, evenly spaced in the logarithm of the wavelength over what the eye sees and a little more, each weighted by sunlight: what
-/// they add up to is a sunlit reflectance, level beyond the outermost, and a grey is a black body at every D. The others are
-/// emissions of the scene's own, each exact by itself.
-/// A Doppler shift moves the observer along the spectrum: what is seen is a table over ln D.
+/// the ultraviolet and the infrared, five), or hats, evenly spaced in the logarithm of the wavelength over what the eye sees
+/// and a little more, each weighted by sunlight: what they add up to is a sunlit reflectance, level beyond the outermost,
+/// and a grey is a black body at every D. The others are emissions of the scene's own, each exact by itself. A Doppler shift
+/// moves the observer along the spectrum: what is seen is a table over ln D.
+struct OwnSpectrum {
+    Emission emission;
+    bool infrared = false; ///< infrared_part of it alone: of a lamp whose surfaces are other there than in the ultraviolet
+    bool operator==(const OwnSpectrum&) const = default;
+};
+
 struct SpectralBasis {
     int reflected = 0; ///< 3, 5; more: hats
-    std::vector<Emission> own;
+    std::vector<OwnSpectrum> own;
     std::vector<double> analysis; ///< [number * grid points + point]: from a sunlit reflectance's samples
     int size() const { return reflected + int(own.size()); }
 };
 
 /// reflected: 3, 5 or more.
-SpectralBasis spectral_basis(int reflected, std::span<const Emission> own);
+SpectralBasis spectral_basis(int reflected, std::span<const OwnSpectrum> own);
 
 /// The numbers of a surface under full sunlight, or under a light as emissions are, sunlit_part of it. A white one under
-/// the Sun has a 1 for every hat. Another light must be among the basis' own: what the surface reflects of it evenly is then
-/// exact.
-std::vector<double> lit(const SpectralBasis& basis, const std::optional<Emission>& light,
-    const std::function<double(double nm)>& reflectance);
+/// the Sun has a 1 for every hat. Another light must be among the basis' own: what the surface reflects of it as in the
+/// ultraviolet, everywhere, is then exact; and if its infrared part is there too, so is what it reflects of that beside.
+std::vector<double> lit(
+    const SpectralBasis& basis, const std::optional<Emission>& light, const std::function<double(double nm)>& reflectance);
 
 /// What an observer sees of each number, by D.
 struct ResponseTable {

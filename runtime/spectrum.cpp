@@ -87,10 +87,12 @@ double Reflectance::operator()(double nm) const
     return before->second + part * (after->second - before->second);
 }
 
+double infrared_part(double nm) { return logistic(std::log(nm / 820) / 0.05); }
+
 double base_reflectance(const glm::dvec3& rgb, double ultraviolet, double infrared, double nm)
 {
     // Where the one ends and the other begins, in the logarithm of the wavelength: glass, paint and leaves change there too.
-    const double uv = logistic(-std::log(nm / 360) / 0.035), ir = logistic(std::log(nm / 820) / 0.05);
+    const double uv = logistic(-std::log(nm / 360) / 0.035), ir = infrared_part(nm);
     const double step = std::log(primaries_to_nm / primaries_from_nm) / double(primaries.size() - 1);
     const double at = std::clamp(std::log(nm / primaries_from_nm) / step, 0.0, double(primaries.size() - 1));
     const std::size_t i = std::min(std::size_t(at), primaries.size() - 2);

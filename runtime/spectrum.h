@@ -28,6 +28,8 @@ struct Reflectance {
 /// in the ultraviolet (below about 360 nm) and in the near infrared (beyond about 820 nm). A base colour whose ultraviolet
 /// and infrared are its mean looks, lit by the Sun, exactly as it says; other values change it by less than 1 %.
 double base_reflectance(const glm::dvec3& rgb, double ultraviolet, double infrared, double nm);
+/// The part of it at a wavelength that is the infrared's.
+double infrared_part(double nm);
 
 /// Three sensors that look at light together.
 struct Observer {
@@ -47,8 +49,8 @@ const Observer& eye();
 /// the ultraviolet (40 to 360 nm), each all energy. sunlit_white is white.
 const Observer& false_colours();
 
-/// What an observer sees of light that is shifted by D (above 1 is blue), spectral radiance per frequency kept. The headlight
-/// effect's D^3 is the caller's. Summed at every nanometre, the false colours in steps of 1 %.
+/// What an observer sees of light that is shifted by D (above 1 is blue), spectral radiance per frequency kept. The
+/// headlight effect's D^3 is the caller's. Summed at every nanometre, the false colours in steps of 1 %.
 glm::dvec3 seen(const Observer& observer, const Spectrum& light, double D);
 
 /// The same of an emission: a black body itself, a line or a table with as much energy as sunlit_white.

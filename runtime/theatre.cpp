@@ -21,16 +21,29 @@ static LoadedScene load(const std::filesystem::path& file)
     return {std::move(scene), std::move(world), std::move(stars)};
 }
 
-Theatre::Theatre(const std::filesystem::path& scene, const Device::Options& options)
-    : Theatre(load(scene), options)
+Theatre::Theatre(const std::filesystem::path& scene, const Device::Options& options, std::optional<SpectralLevel> level)
+    : Theatre(load(scene), options, level)
 {
 }
 
-Theatre::Theatre(LoadedScene&& loaded, const Device::Options& options)
+Theatre::Theatre(LoadedScene&& loaded, const Device::Options& options, std::optional<SpectralLevel> level)
     : device(options)
     , pipelines(device)
-    , world(upload(device, pipelines, std::move(loaded.world), loaded.scene, loaded.stars))
+    , world(upload(device, pipelines, std::move(loaded.world), loaded.scene, loaded.stars, level))
 {
+}
+
+std::vector<std::string> notes(const Theatre& theatre)
+{
+    std::vector<std::string> lines;
+    for (const std::string& note : theatre.world.world.notes)
+        lines.push_back(theatre.world.scene.gltf.string() + ": " + note);
+    NeededLevel needed = needed_level(theatre.world.world, theatre.world.scene);
+    const bool asked = needed.level != theatre.world.spectra.level;
+    if (asked)
+        needed = {theatre.world.spectra.level, "as was asked"};
+    lines.push_back(told(needed));
+    return lines;
 }
 
 Device::Options device_options(bool windows)

@@ -15,11 +15,15 @@ struct Theatre {
     GpuWorld world;
 
     /// Reads scene and world before it touches the device, so that a wrong file is told first.
-    Theatre(const std::filesystem::path& scene, const Device::Options& options);
+    /// level: of the light; none: what the world needs.
+    Theatre(const std::filesystem::path& scene, const Device::Options& options, std::optional<SpectralLevel> level = {});
 
 private:
-    Theatre(struct LoadedScene&& loaded, const Device::Options& options);
+    Theatre(struct LoadedScene&& loaded, const Device::Options& options, std::optional<SpectralLevel> level);
 };
+
+/// What the scene's files hold that is not shown, and how its light is told: a line each, for the log.
+std::vector<std::string> notes(const Theatre& theatre);
 
 /// Device options as the environment asks: STARBOW_VALIDATION=1, STARBOW_GPU=part of a name.
 Device::Options device_options(bool windows);

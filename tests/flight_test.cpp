@@ -299,8 +299,10 @@ TEST(Flight, SwitchesAndReset)
     const Flying rules = with(FlightMode::guided);
     Flight flight = step(flight_at(start(), rules), {.doppler = true}, 10 * ms, rules, 1, start());
     EXPECT_TRUE(flight.effects.aberration && !flight.effects.doppler && flight.effects.headlight);
-    flight = step(flight, {.aberration = true, .doppler = true, .headlight = true, .hud = true}, 10 * ms, rules, 1, start());
-    EXPECT_TRUE(!flight.effects.aberration && flight.effects.doppler && !flight.effects.headlight && !flight.hud);
+    flight = step(flight, {.aberration = true, .doppler = true, .headlight = true, .false_colours = true, .hud = true},
+        10 * ms, rules, 1, start());
+    EXPECT_TRUE(!flight.effects.aberration && flight.effects.doppler && !flight.effects.headlight
+        && flight.effects.false_colours && !flight.hud);
     flight = hold(flight, {.lever = 1.0, .turn = {1, 0, 0}, .exposure = 1}, 2, rules);
     EXPECT_NEAR(flight.exposure_ev, 2 * exposure_ev_per_s, 1e-9);
     flight = step(flight, {.next_mode = true}, 0, rules, 1, start());

@@ -123,7 +123,7 @@ TEST(Picture, PixelsAreTheNumbersEncoded)
         const double gain = std::exp2(shot.exposure_ev);
         int straight = 0;
         for (int i = 0; i < numbers.count(); ++i) {
-            const dvec3 light = numbers.light(i) * gain;
+            const dvec3 light = glm::max(numbers.light(i) * gain, 0.0); // no screen shows what is outside its colours
             const double peak = std::max({light.r, light.g, light.b});
             for (int k = 0; k < 3; ++k) {
                 const int byte = picture[4 * i + k];

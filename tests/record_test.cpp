@@ -58,9 +58,10 @@ RecordEntry some_entry(std::mt19937_64& random)
     if (random() % 3 == 0)
         c.head.turned = glm::angleAxis(some(random, -3, 3), glm::normalize(glm::dvec3(1, 2, 3)));
     maybe(c.exposure, -1, 1);
-    for (bool Controls::*flag : {&Controls::look_ahead, &Controls::stop, &Controls::home, &Controls::undo, &Controls::reset,
-             &Controls::next_mode, &Controls::aberration, &Controls::doppler, &Controls::headlight, &Controls::hud,
-             &Controls::full_screen, &Controls::quit, &Controls::pattern, &Controls::save, &Controls::lock_exposure})
+    for (bool Controls::*flag :
+        {&Controls::look_ahead, &Controls::stop, &Controls::home, &Controls::undo, &Controls::reset, &Controls::next_mode,
+            &Controls::aberration, &Controls::doppler, &Controls::headlight, &Controls::hud, &Controls::false_colours,
+            &Controls::full_screen, &Controls::quit, &Controls::pattern, &Controls::save, &Controls::lock_exposure})
         c.*flag = random() % 200 == 0;
     c.choose = random() % 20 == 0 ? int(random() % 3) - 1 : 0;
     c.turn_by = random() % 20 == 0 ? int(random() % 21) - 10 : 0;
@@ -77,7 +78,7 @@ std::vector<std::uint64_t> bits(const RecordEntry& e)
              c.head.turned.y, c.head.turned.z, c.exposure, e.exposure_ev.value_or(0)})
         all.push_back(std::bit_cast<std::uint64_t>(v));
     for (bool flag : {c.look_ahead, c.stop, c.home, c.undo, c.reset, c.next_mode, c.aberration, c.doppler, c.headlight,
-             c.hud, c.full_screen, c.quit, c.pattern, c.save, c.lock_exposure})
+             c.false_colours, c.hud, c.full_screen, c.quit, c.pattern, c.save, c.lock_exposure})
         all.push_back(flag);
     all.push_back(std::uint64_t(c.choose));
     all.push_back(std::uint64_t(c.turn_by));
@@ -199,7 +200,7 @@ TEST(Record, TheDigestSeesEveryBit)
         *number = kept;
     }
     for (bool* flag : {&flight.held_back, &flight.hud, &flight.effects.aberration, &flight.effects.doppler,
-             &flight.effects.headlight, &flight.homing->arrived}) {
+             &flight.effects.headlight, &flight.effects.false_colours, &flight.homing->arrived}) {
         *flag = !*flag;
         EXPECT_NE(digest(flight), before);
         *flag = !*flag;

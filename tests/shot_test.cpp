@@ -31,20 +31,21 @@ TEST(ShotTest, Defaults)
     EXPECT_EQ(s.u, glm::dvec3(0));
     expect_near(s.ship_from_cockpit * glm::dvec3(0, 0, -1), {0, 0, -1}, 1e-15);
     expect_near(s.ship_from_cockpit * glm::dvec3(0, 1, 0), {0, 1, 0}, 1e-15);
-    EXPECT_TRUE(s.effects.aberration && s.effects.doppler && s.effects.headlight);
+    EXPECT_TRUE(s.effects.aberration && s.effects.doppler && s.effects.headlight && !s.effects.false_colours);
     EXPECT_EQ(s.exposure_ev, 0);
 }
 
 TEST(ShotTest, EveryMember)
 {
     const Shot s = shot(R"("time": -5, "position": [1, 2, 3], "look": [2, 0, 0], "up": [5, 1, 0], "exposure_ev": -3.5,
-        "effects": { "aberration": false, "doppler": false, "headlight": false })");
+        "effects": { "aberration": false, "doppler": false, "headlight": false, "false_colours": true })");
     EXPECT_EQ(s.time, -5);
     EXPECT_EQ(s.position, glm::dvec3(1, 2, 3));
     expect_near(s.ship_from_cockpit * glm::dvec3(0, 0, -1), {1, 0, 0}, 1e-15);
     expect_near(s.ship_from_cockpit * glm::dvec3(0, 1, 0), {0, 1, 0}, 1e-15);
     expect_near(s.ship_from_cockpit * glm::dvec3(1, 0, 0), {0, 0, 1}, 1e-15);
     EXPECT_FALSE(s.effects.aberration || s.effects.doppler || s.effects.headlight);
+    EXPECT_TRUE(s.effects.false_colours);
     EXPECT_EQ(s.exposure_ev, -3.5);
 }
 

@@ -71,9 +71,9 @@ TEST(SpectrumTest, ABlackBodyStaysOne)
 TEST(SpectrumTest, FewNumbersHoldBlackBodiesAndGreys)
 {
     const std::vector<double> kelvins = {1000, 2856, 5772, 40000};
-    std::vector<Emission> own;
+    std::vector<OwnSpectrum> own;
     for (double kelvin : kelvins)
-        own.push_back(BlackBody{kelvin});
+        own.push_back({BlackBody{kelvin}});
     const SpectralBasis basis = spectral_basis(12, own);
     const Response response = response_of(basis, eye());
     for (std::size_t i = 0; i < kelvins.size(); ++i)
@@ -123,7 +123,7 @@ TEST(SpectrumTest, ALineMovesAsAWholeAndKeepsItsEnergy)
             sum += eye().response(nm / D) * (energy * nm * nm * 0.01 / (nm * nm)) * D; // d nm' / nm'^2 = D d nm / nm^2
         const glm::dvec3 line = seen(eye(), Emission(SpectralLine{450}), D);
         for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(line[c], sum[c], 2e-3 * sum.y + 1e-9) << D; // the eye curves within the nanometre
+            EXPECT_NEAR(line[c], sum[c], 5e-3 * sum[c] + 1e-9) << D; // the eye curves within the nanometre
     }
     // A table with the same needle, and one that is the Sun's own spectrum.
     const SpectralTable needle{{{448, 0}, {450, 1}, {452, 0}}};
@@ -133,7 +133,7 @@ TEST(SpectrumTest, ALineMovesAsAWholeAndKeepsItsEnergy)
     for (double D : {0.7, 1.0, 1.3}) {
         const glm::dvec3 a = seen(eye(), Emission(needle), D), b = seen(eye(), Emission(SpectralLine{450}), D);
         const glm::dvec3 c = seen(eye(), Emission(SpectralTable{points}), D), d = seen(eye(), sunlit_white(), D);
-        EXPECT_LT(glm::distance(a, b), 0.03 * glm::length(b)) << D; // two nanometres are two steps of the sum
+        EXPECT_LE(glm::distance(a, b), 0.03 * glm::length(b)) << D; // two nanometres are two steps of the sum
         EXPECT_LT(glm::distance(c, d), 0.002 * glm::length(d)) << D; // what lies beyond 12 um is not in the table
     }
     // As much energy as a sunlit white, whatever the temperature.
@@ -148,7 +148,8 @@ TEST(SpectrumTest, ALineMovesAsAWholeAndKeepsItsEnergy)
 TEST(SpectrumTest, LampsOfTheirOwnLightGreysExactly)
 {
     const std::vector<Emission> lamps = {BlackBody{2856}, SpectralLine{589.3}};
-    const SpectralBasis basis = spectral_basis(12, lamps);
+    const SpectralBasis basis
+        = spectral_basis(12, std::array{OwnSpectrum{lamps[0]}, OwnSpectrum{lamps[0], true}, OwnSpectrum{lamps[1]}});
     const Response response = response_of(basis, eye());
     for (double D : {0.5, 0.9, 1.0, 1.1, 2.0}) {
         const glm::dvec3 grey = told_xyz(response, lit(basis, lamps[0], [](double) { return 0.5; }), D);
@@ -162,9 +163,11 @@ TEST(SpectrumTest, LampsOfTheirOwnLightGreysExactly)
         // A smooth reflectance under the lamp, within what the chart's errors are under the Sun.
         const glm::dvec3 shown = told_xyz(response, lit(basis, lamps[0], ramp), D);
         const glm::dvec3 lamp = sunlit_part(lamps[0])
-            * seen(eye(), [&](double nm) { return ramp(nm) * black_body(2856)(nm); }, D);
-        EXPECT_NEAR(shown.y / lamp.y, 1, 0.02) << D;
-        EXPECT_LT(glm::distance(chromaticity(shown), chromaticity(lamp)), 0.01) << D;
+            * seen(
+                eye(), [&](double nm) { return ramp(nm) * black_body(2856)(nm); }, D);
+        const glm::dvec3 white = sunlit_part(lamps[0]) * seen(eye(), lamps[0], D);
+        EXPECT_LT(glm::distance(shown, lamp), 0.025 * glm::length(white))
+            << D; // the ramp has corners, sharper than hats are
     }
 }
 
@@ -174,7 +177,7 @@ TEST(SpectrumTest, FalseColoursShowWhatEyesDoNot)
     const Observer& all = false_colours();
     EXPECT_LT(glm::distance(seen(all, sunlit_white(), 1), glm::dvec3(1)), 1e-9);
     for (int numbers : {3, 12}) {
-        const SpectralBasis basis = spectral_basis(numbers, std::array{Emission(BlackBody{288})});
+        const SpectralBasis basis = spectral_basis(numbers, std::array{OwnSpectrum{BlackBody{288}}});
         const Response response = response_of(basis, all);
         EXPECT_LT(glm::distance(seen(response, lit(basis, {}, [](double) { return 1; }), 1), glm::dvec3(1)), 2e-3);
         std::vector<double> room(std::size_t(basis.size()), 0.0);
@@ -186,8 +189,12 @@ TEST(SpectrumTest, FalseColoursShowWhatEyesDoNot)
     const SpectralBasis basis = spectral_basis(12, {});
     const Response response = response_of(basis, all);
     const glm::dvec3 leaf = seen(response,
-        lit(basis, {}, [](double nm) { return base_reflectance({0.05, 0.1, 0.03}, 0.02, 0.5, nm); }), 1);
-    EXPECT_NEAR(leaf.r, 0.5, 0.02);
+        lit(basis, {},
+            [](double nm) {
+                return base_reflectance({0.05, 0.1, 0.03}, 0.02, 0.5, nm);
+            }),
+        1);
+    EXPECT_NEAR(leaf.r, 0.5, 0.025); // by 860 nm it is as bright as beyond
     EXPECT_NEAR(leaf.b, 0.02, 0.01);
     EXPECT_LT(leaf.g, 0.2);
 }

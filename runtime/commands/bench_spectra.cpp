@@ -36,8 +36,7 @@ std::array<std::array<double, 2>, 3> bench_spectra(Theatre& theatre, const Layou
     for (std::size_t level = 0; level < reflected_numbers.size(); ++level) {
         World world = load_world(theatre.world.scene.gltf);
         add_detail_levels(world);
-        worlds.push_back(
-            upload(device, theatre.pipelines, std::move(world), theatre.world.scene, {}, SpectralLevel(level)));
+        worlds.push_back(upload(device, theatre.pipelines, std::move(world), theatre.world.scene, {}, SpectralLevel(level)));
         studios.emplace_back(device, theatre.pipelines, worlds.back(), layout, default_quality(device, false), false);
         studios.back().picture(shot); // leaves the target in a known layout
     }

@@ -7,6 +7,7 @@
 #include "runtime/still.h"
 #include "runtime/theatre.h"
 #include "size_option.h"
+#include "spectra_option.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -16,7 +17,7 @@ namespace starbow {
 namespace {
 
 struct Options {
-    std::string layout, shot, out, size, pattern = "none", exposure = "shot", replay, frames;
+    std::string layout, shot, out, size, pattern = "none", exposure = "shot", spectra = "needed", replay, frames;
     long every = 1;
     double bloom = 0;
     bool exr = false, hud = false;
@@ -49,9 +50,9 @@ int render(const Options& options)
                 check_not_read(picture, pictures);
                 check_writable(picture);
             }
-    Theatre theatre(scene_of(shot, shot_file), device_options(false));
-    for (const std::string& note : theatre.world.world.notes)
-        std::fprintf(stderr, "starbow: %s: %s\n", theatre.world.scene.gltf.c_str(), note.c_str());
+    Theatre theatre(scene_of(shot, shot_file), device_options(false), level_of(options.spectra));
+    for (const std::string& note : notes(theatre))
+        std::fprintf(stderr, "starbow: %s\n", note.c_str());
     Studio studio(
         theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, true), options.exr);
     studio.frame().show(pattern);
@@ -95,6 +96,7 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--bloom", options->bloom, "The part of the light that glows around what shines, 0 to 1")
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
+    add_spectra(*command, options->spectra);
     command->add_flag("--hud", options->hud, "With the head-up display");
     CLI::Option* replay = command->add_option(
         "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");
