@@ -113,7 +113,8 @@ def add_people(glb):
     skin = warm(glb, "people", PEOPLE_K, 0.97)
     mesh = glb.mesh("person", glb.geometry(person()), skin)
     for x, z, size in ((-6.6, -10.5, 1.0), (-5.2, -10.9, 0.72), (5.6, -9.4, 1.04), (7.3, -10.2, 0.97), (-9.8, -5.5, 1.0)):
-        glb.node("person", mesh, (x, GROUND, z), scale=(size, size, size))
+        # Turned so that the seam of its surface is behind it.
+        glb.node("person", mesh, (x, GROUND, z), shapes.quaternion((0, 1, 0), pi), (size, size, size))
 
 
 def main():
