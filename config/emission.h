@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -24,5 +25,9 @@ using Emission = std::variant<BlackBody, SpectralLine, SpectralTable>;
 
 /// What spectra are told over.
 constexpr double shortest_nm = 40, longest_nm = 12000;
+/// Temperatures that a file may ask for: from below the microwave background's to above any star's surface.
+constexpr double coldest_K = 0.1, hottest_K = 1e6;
+/// How many points a table may have.
+constexpr std::size_t least_points = 2, most_points = 4096;
 
 } // namespace starbow

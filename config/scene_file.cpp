@@ -1,5 +1,6 @@
 #include "scene_file.h"
 #include "shot_reader.h"
+#include <algorithm>
 #include <cmath>
 
 namespace starbow {
@@ -11,9 +12,41 @@ constexpr double farthest = 1e15;
 
 glm::dvec3 read_colour(const Place& place) { return vec3(place, {0, 1e6}); }
 
+SpectralTable read_table(const Place& place)
+{
+    SpectralTable table;
+    for (const Place& at : items(place, least_points, most_points, "pairs [wavelength in nm, value]")) {
+        const std::vector<Place> pair = items(at, 2, 2, "numbers (wavelength in nm, value)");
+        const double nm = number(pair[0], {shortest_nm, longest_nm});
+        if (!table.points.empty() && !(nm > table.points.back().first))
+            complain(pair[0],
+                "does not rise; a wavelength above the one before, " + shown(table.points.back().first) + ", is right");
+        table.points.emplace_back(nm, number(pair[1], {0, 1e30}));
+    }
+    if (std::all_of(table.points.begin(), table.points.end(), [](const auto& point) { return point.second == 0; }))
+        complain(place, "is dark everywhere; a table with a value above 0 is right");
+    return table;
+}
+
+/// What a light's colours are made of, where it isn't sunlight.
+std::optional<Emission> read_emission(const Place& light)
+{
+    const auto kelvin = find(light, "temperature_K"), line = find(light, "line_nm"), table = find(light, "spectrum");
+    if (kelvin.has_value() + line.has_value() + table.has_value() > 1)
+        complain(
+            light, "has more than one spectrum; at most one of \"temperature_K\", \"line_nm\" and \"spectrum\" is right");
+    if (kelvin)
+        return BlackBody{number(*kelvin, {coldest_K, hottest_K})};
+    if (line)
+        return SpectralLine{number(*line, {shortest_nm, longest_nm})};
+    if (table)
+        return read_table(*table);
+    return {};
+}
+
 Sky read_sky(const Place& place)
 {
-    only(place, {"zenith", "horizon", "nadir"});
+    only(place, {"zenith", "horizon", "nadir", "temperature_K"});
     Sky sky;
     if (auto p = find(place, "zenith"))
         sky.zenith = read_colour(*p);
@@ -21,6 +54,12 @@ Sky read_sky(const Place& place)
         sky.horizon = read_colour(*p);
     if (auto p = find(place, "nadir"))
         sky.nadir = read_colour(*p);
+    if (auto p = find(place, "temperature_K")) {
+        sky.temperature_K = number(*p, {0, hottest_K});
+        if (sky.temperature_K > 0 && sky.temperature_K < coldest_K)
+            complain(*p,
+                "is too small; 0 for none, or a number from " + shown(coldest_K) + " to " + shown(hottest_K) + ", is right");
+    }
     return sky;
 }
 
@@ -39,21 +78,22 @@ StarSky read_stars(const Place& place, const std::filesystem::path& folder)
 
 Light read_light(const Place& place)
 {
-    only(place, {"type", "towards", "position", "distance", "radiance"});
+    only(place, {"type", "towards", "position", "distance", "radiance", "temperature_K", "line_nm", "spectrum"});
     if (one_of(member(place, "type"), {"directional", "point"}) == "directional") {
-        only(place, {"type", "towards", "radiance"});
+        only(place, {"type", "towards", "radiance", "temperature_K", "line_nm", "spectrum"});
         const Place towards = member(place, "towards");
         const glm::dvec3 direction = vec3(towards, {-farthest, farthest});
         const double length = glm::length(direction);
         if (!(length > 1e-100))
             complain(towards, "points nowhere; a direction of any length above 0 is right");
-        return DirectionalLight{direction / length, read_colour(member(place, "radiance"))};
+        return DirectionalLight{direction / length, read_colour(member(place, "radiance")), read_emission(place)};
     }
-    only(place, {"type", "position", "distance", "radiance"});
+    only(place, {"type", "position", "distance", "radiance", "temperature_K", "line_nm", "spectrum"});
     PointLight light;
     light.position = vec3(member(place, "position"), {-farthest, farthest});
     light.distance = number(member(place, "distance"), {0, farthest, true});
     light.radiance = read_colour(member(place, "radiance"));
+    light.spectrum = read_emission(place);
     return light;
 }
 

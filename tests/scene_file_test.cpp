@@ -9,18 +9,26 @@ namespace {
 const std::string whole = R"({
     "gltf": "worlds/town.glb", // beside this file
     "unit_m": 2, "light_speed_m_s": 10,
-    "sky": { "zenith": [0.1, 0.2, 0.3], "horizon": [1, 1, 1], "nadir": [0, 0, 0] },
+    "sky": { "zenith": [0.1, 0.2, 0.3], "horizon": [1, 1, 1], "nadir": [0, 0, 0],
+        "temperature_K": 2.725 },
     "stars": { "catalogue": "skies/few.txt", "brightness_arcmin2": 30, "ahead_deg": [84, -19] },
     "ambient": [0.25, 0.5, 0.75],
     "lights": [
         { "type": "directional", "towards": [0, 3, 4], "radiance": [1, 2, 3] },
-        { "type": "point", "position": [1, 2, 3], "distance": 4, "radiance": [5, 6, 7] }
+        { "type": "point", "position": [1, 2, 3], "distance": 4, "radiance": [5, 6, 7], "temperature_K": 3000 },
+        { "type": "directional", "towards": [1, 0, 0], "radiance": [1, 1, 1], "line_nm": 589.3 },
+        { "type": "point", "position": [0, 0, 0], "distance": 1, "radiance": [1, 1, 1],
+          "spectrum": [[400, 0], [550.5, 1e3], [700, 0.25]] }
     ],
     "start": { "position": [0, 1.7, 0], "velocity": { "direction": [1, 0, 0], "gamma": 2 }, "exposure_ev": 1 }
 })";
 
 std::string with(const std::string& members) { return R"({ "gltf": "a.glb", )" + members + " }"; }
 std::string light(const std::string& members) { return with(R"("lights": [{ )" + members + " }]"); }
+std::string sun(const std::string& members)
+{
+    return light(R"("type": "directional", "towards": [0, 1, 0], "radiance": [1, 1, 1], )" + members);
+}
 
 } // namespace
 
@@ -33,19 +41,25 @@ TEST(SceneFileTest, EveryMember)
     EXPECT_EQ(scene.seconds_per_time_unit(), 0.2);
     EXPECT_EQ(scene.sky.zenith, glm::dvec3(0.1, 0.2, 0.3));
     EXPECT_EQ(scene.sky.horizon, glm::dvec3(1));
+    EXPECT_EQ(scene.sky.temperature_K, 2.725);
     EXPECT_EQ(scene.ambient, glm::dvec3(0.25, 0.5, 0.75));
     ASSERT_TRUE(scene.stars);
     EXPECT_EQ(scene.stars->catalogue, file.parent_path() / "skies/few.txt");
     EXPECT_EQ(scene.stars->brightness_arcmin2, 30);
     EXPECT_EQ(scene.stars->ahead_deg, glm::dvec2(84, -19));
-    ASSERT_EQ(scene.lights.size(), 2u);
+    ASSERT_EQ(scene.lights.size(), 4u);
     const auto sun = std::get<DirectionalLight>(scene.lights[0]);
     EXPECT_NEAR(glm::distance(sun.towards, glm::dvec3(0, 0.6, 0.8)), 0, 1e-15);
     EXPECT_EQ(sun.radiance, glm::dvec3(1, 2, 3));
+    EXPECT_FALSE(sun.spectrum);
     const auto lamp = std::get<PointLight>(scene.lights[1]);
     EXPECT_EQ(lamp.position, glm::dvec3(1, 2, 3));
     EXPECT_EQ(lamp.distance, 4);
     EXPECT_EQ(lamp.radiance, glm::dvec3(5, 6, 7));
+    EXPECT_EQ(lamp.spectrum, Emission(BlackBody{3000}));
+    EXPECT_EQ(std::get<DirectionalLight>(scene.lights[2]).spectrum, Emission(SpectralLine{589.3}));
+    EXPECT_EQ(
+        std::get<PointLight>(scene.lights[3]).spectrum, Emission(SpectralTable{{{400, 0}, {550.5, 1e3}, {700, 0.25}}}));
     EXPECT_EQ(scene.start.scene, "town");
     EXPECT_EQ(scene.start.position, glm::dvec3(0, 1.7, 0));
     EXPECT_NEAR(scene.start.u.x, 1.7320508075688772, 1e-15);
@@ -59,6 +73,7 @@ TEST(SceneFileTest, Defaults)
     EXPECT_EQ(scene.seconds_per_time_unit(), 1);
     EXPECT_TRUE(scene.lights.empty());
     EXPECT_FALSE(scene.stars);
+    EXPECT_EQ(scene.sky.temperature_K, 0);
     EXPECT_EQ(scene.start.scene, "bare");
     EXPECT_EQ(scene.start.u, glm::dvec3(0));
 }
@@ -129,6 +144,29 @@ TEST(SceneFileTest, WrongScenes)
                 "0", "is too small; a number above 0"},
             {light(R"("type": "point", "position": [0, 2e15, 0], "distance": 1, "radiance": [1, 1, 1])"),
                 "/lights/0/position/1", "2e+15", "is too large"},
+            {with(R"("sky": { "temperature_K": -1 })"), "/sky/temperature_K", "-1", "is too small; a number from 0"},
+            {with(R"("sky": { "temperature_K": 0.05 })"), "/sky/temperature_K", "0.05",
+                "is too small; 0 for none, or a number from 0.1 to 1000000"},
+            {with(R"("sky": { "temperature_K": 1e7 })"), "/sky/temperature_K", "10000000.0", "is too large"},
+            {sun(R"("temperature_K": 0)"), "/lights/0/temperature_K", "0", "is too small; a number from 0.1 to 1000000"},
+            {sun(R"("temperature_K": "warm")"), "/lights/0/temperature_K", "\"warm\"", "is not a number"},
+            {sun(R"("temperature": 3000)"), "/lights/0/temperature", "3000", "\"temperature_K\""},
+            {sun(R"("line_nm": 39)"), "/lights/0/line_nm", "39", "is too small; a number from 40 to 12000"},
+            {sun(R"("line_nm": 5.89e5)"), "/lights/0/line_nm", "589000.0", "is too large"},
+            {light(
+                 R"("line_nm": 500, "temperature_K": 3000, "type": "directional", "towards": [0, 1, 0], "radiance": [1, 1, 1])"),
+                "/lights/0", R"({"line_nm":500,)", "has more than one spectrum; at most one of \"temperature_K\""},
+            {sun(R"("spectrum": 589)"), "/lights/0/spectrum", "589", "is not a list; a list of 2 to 4096 pairs"},
+            {sun(R"("spectrum": [[500, 1]])"), "/lights/0/spectrum", "[[500,1]]", "has length 1; "},
+            {sun(R"("spectrum": [[500, 1], 600])"), "/lights/0/spectrum/1", "600", "is not a list; a list of 2 numbers"},
+            {sun(R"("spectrum": [[500, 1], [600]])"), "/lights/0/spectrum/1", "[600]", "has length 1; "},
+            {sun(R"("spectrum": [[500, 1], [500, 2]])"), "/lights/0/spectrum/1/0", "500",
+                "does not rise; a wavelength above the one before, 500,"},
+            {sun(R"("spectrum": [[600, 1], [500, 2]])"), "/lights/0/spectrum/1/0", "500", "does not rise"},
+            {sun(R"("spectrum": [[30, 1], [500, 2]])"), "/lights/0/spectrum/0/0", "30", "is too small"},
+            {sun(R"("spectrum": [[500, 1], [600, -1]])"), "/lights/0/spectrum/1/1", "-1", "is too small"},
+            {sun(R"("spectrum": [[500, 1], [600, 1e31]])"), "/lights/0/spectrum/1/1", "1e+31", "is too large"},
+            {sun(R"("spectrum": [[500, 0], [600, 0]])"), "/lights/0/spectrum", "[[500,0],[600,0]]", "is dark everywhere"},
             {with(R"("start": [])"), "/start", "[]", "is not an object"},
             {with(R"("start": { "scene": "a" })"), "/start/scene", "\"a\"", "unknown name"},
             {with(R"("start": { "velocity": { "direction": [1, 0, 0], "beta": 1 } })"), "/start/velocity/beta", "1",

@@ -49,8 +49,13 @@ Doc rich()
                          {"extensions",
                              {{"KHR_texture_transform", {{"offset", {0, 1}}, {"scale", {2, 2}}, {"rotation", 1}}}}}}},
                     {"baseColorFactor", {1, 0.5, 0, 1}}}},
-               {"alphaMode", "MASK"}, {"alphaCutoff", 0.3}},
+               {"alphaMode", "MASK"}, {"alphaCutoff", 0.3},
+               {"extras",
+                   {{"starbow",
+                       {{"temperature_K", 288}, {"emissivity", 0.5}, {"infrared", 1},
+                           {"reflectance", {{300, 0}, {500, 1}}}}}}}},
             {{"emissiveFactor", {1, 0, 0}}, {"emissiveTexture", {{"index", 1}}},
+                {"extras", {{"starbow", "{\"emission\": {\"table\": [[400, 1], [500, 2]]}}"}}},
                 {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 9}}}}}}};
     doc.json["extensionsUsed"] = {"KHR_texture_transform", "KHR_materials_emissive_strength", "KHR_x"};
     doc.json["extensionsRequired"] = {"KHR_texture_transform"};

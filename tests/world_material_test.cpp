@@ -181,5 +181,113 @@ TEST_F(WorldMaterialTest, PrimitivesWithoutMaterialGetTheDefault)
     EXPECT_EQ(world.primitives[1].material, 1);
 }
 
+/// The material of a world whose extras hold this under the name "starbow"; it emits.
+Doc with_surface(const Json& surface)
+{
+    return painted({{"emissiveFactor", {0, 0.5, 0}}, {"extras", {{"starbow", surface}}}});
+}
+
+TEST_F(WorldMaterialTest, SurfacesWithoutExtrasAndWithOthersAreAsBefore)
+{
+    for (const Json& extras : {Json("mine"), Json::array({1, 2}), Json{{"exporter", {{"temperature_K", -1}}}}, Json()}) {
+        const Material material = load(painted({{"name", "paint"}, {"extras", extras}})).materials.at(0);
+        EXPECT_EQ(material.name, "paint");
+        EXPECT_FALSE(material.ultraviolet || material.infrared || material.emission);
+        EXPECT_TRUE(material.reflectance.empty());
+        EXPECT_EQ(material.temperature_K, 0);
+        EXPECT_EQ(material.emissivity, 0);
+    }
+}
+
+TEST_F(WorldMaterialTest, SurfacesTellWhatColoursDont)
+{
+    const Json surface = {{"ultraviolet", 0.1}, {"infrared", 0.6}, {"reflectance", {{300, 0}, {550.5, 1}, {1000, 0.25}}},
+        {"temperature_K", 288}, {"emissivity", 0.5}, {"emission", {{"line_nm", 450}}}};
+    for (const Json& form : {surface, Json(surface.dump())}) { // an object, and the same as a text
+        Doc doc = with_surface(form);
+        doc.json["materials"][0]["name"] = "paint";
+        doc.json["materials"].push_back({{"name", "plain"}});
+        const World world = load(doc);
+        const Material& material = world.materials.at(0);
+        EXPECT_EQ(material.name, "paint");
+        EXPECT_EQ(material.emissive, glm::vec3(0, 0.5f, 0));
+        EXPECT_EQ(material.ultraviolet, 0.1);
+        EXPECT_EQ(material.infrared, 0.6);
+        EXPECT_EQ(material.reflectance, (std::vector<std::pair<double, double>>{{300, 0}, {550.5, 1}, {1000, 0.25}}));
+        EXPECT_EQ(material.temperature_K, 288);
+        EXPECT_EQ(material.emissivity, 0.5);
+        EXPECT_EQ(material.emission, Emission(SpectralLine{450}));
+        EXPECT_EQ(world.materials.at(1).temperature_K, 0);
+        EXPECT_FALSE(world.materials[1].emission);
+        EXPECT_TRUE(world.notes.empty());
+    }
+    EXPECT_EQ(load(with_surface({{"temperature_K", 300}})).materials[0].emissivity, 0.9);
+    EXPECT_EQ(load(with_surface({{"emission", {{"black_body_K", 2856}}}})).materials[0].emission, Emission(BlackBody{2856}));
+    EXPECT_EQ(load(with_surface({{"emission", {{"table", {{400, 0}, {500, 2e3}}}}}})).materials[0].emission,
+        Emission(SpectralTable{{{400, 0}, {500, 2e3}}}));
+    EXPECT_FALSE(load(with_surface(Json::object())).materials[0].emission);
+}
+
+TEST_F(WorldMaterialTest, WrongSurfacesAreNamedByTheirPlace)
+{
+    const std::string at = "/materials/0/extras/starbow";
+    const std::vector<std::pair<const char*, std::string>> cases = {{"3", ": is 3; should be an object"},
+        {"\"warm\"", ": is \"warm\", which is not JSON; should be an object"},
+        {R"("{\"temperature_K\": 1e400}")", ": is \"{\"temperature_K\": 1e400}\", which is not JSON"},
+        {"\"[]\"", ": is a list of 0; should be an object"},
+        {R"("{\"emissivity\": 1}")", "/emissivity: says how well the surface glows"},
+        {R"({"temperature": 288})",
+            "/temperature: is not known here; should be one of \"ultraviolet\", \"infrared\", "
+            "\"reflectance\", \"temperature_K\", \"emissivity\", \"emission\""},
+        {R"({"a\nb": 288})", "/a?b: is not known here"},
+        {R"({"ultraviolet": -0.1})", "/ultraviolet: is -0.1; should be a number from 0.0 to 1.0"},
+        {R"({"infrared": 1.5})", "/infrared: is 1.5; should be a number from 0.0 to 1.0"},
+        {R"({"infrared": null})", "/infrared: is null; should be a number"},
+        {R"({"temperature_K": 0})", "/temperature_K: is 0; should be a number from 0.1 to 1000000.0"},
+        {R"({"temperature_K": 1e7})", "/temperature_K: is 10000000.0; should be a number from 0.1"},
+        {R"({"temperature_K": 288, "emissivity": 2})", "/emissivity: is 2; should be a number from 0.0 to 1.0"},
+        {R"({"emissivity": 0.5})", "/emissivity: says how well the surface glows but not how warm it is; should stand"},
+        {R"({"reflectance": 0.5})", "/reflectance: is not a list; should be a list of 2 to 4096 pairs"},
+        {R"({"reflectance": [[500, 0.5]]})", "/reflectance: is a list of 1; should be a list of 2 to 4096 pairs"},
+        {R"({"reflectance": [500, 0.5]})", "/reflectance/0: should be a pair [wavelength in nm, value]"},
+        {R"({"reflectance": [[500, 0.5, 1], [600, 1]]})", "/reflectance/0: should be a pair"},
+        {R"({"reflectance": [[500, 0.5], [600, 1.01]]})", "/reflectance/1/1: is 1.01; should be a number from 0.0 to 1.0"},
+        {R"({"reflectance": [[500, 0.5], [500, 1]]})",
+            "/reflectance/1/0: is 500; should be above the wavelength before, 500"},
+        {R"({"reflectance": [[500, 0.5], [13000, 1]]})", "/reflectance/1/0: is 13000; should be a number from 40.0 to"},
+        {R"({"emission": 450})", "/emission: is 450; should be an object"},
+        {R"({"emission": {}})", "/emission: has 0 members; should have one of \"black_body_K\", \"line_nm\", \"table\""},
+        {R"({"emission": {"line_nm": 450, "black_body_K": 3000}})", "/emission: has 2 members; should have one of"},
+        {R"({"emission": {"temperature_K": 3000}})", "/emission/temperature_K: is not known here; should be one of"},
+        {R"({"emission": {"line_nm": 39.9}})", "/emission/line_nm: is 39.9; should be a number from 40.0 to 12000.0"},
+        {R"({"emission": {"black_body_K": 0.01}})", "/emission/black_body_K: is 0.01; should be a number from 0.1"},
+        {R"({"emission": {"table": [[500, 0], [600, 0]]}})", "/emission/table: is 0 everywhere; should have a value above"},
+        {R"({"emission": {"table": [[500, 1], [600, -1]]}})", "/emission/table/1/1: is -1; should be a number from 0.0"}};
+    for (const auto& [surface, says] : cases) {
+        const std::string line = complaint(with_surface(Json::parse(surface)));
+        EXPECT_TRUE(line.starts_with(at + says)) << line << "\n" << at + says;
+    }
+    Doc long_list = with_surface(Json::object());
+    Json& table = long_list.json["materials"][0]["extras"]["starbow"]["reflectance"] = Json::array();
+    for (int i = 0; i < 4097; ++i)
+        table.push_back({100 + i, 0.5});
+    EXPECT_TRUE(complaint(long_list).starts_with(at + "/reflectance: is a list of 4097; should be a list of 2 to 4096"));
+    table.erase(0);
+    EXPECT_EQ(load(long_list).materials[0].reflectance.size(), 4096u);
+}
+
+TEST_F(WorldMaterialTest, AnEmissionThatWouldEmitNothingIsRefused)
+{
+    const Json extras = {{"starbow", {{"emission", {{"line_nm", 450}}}}}};
+    const Json strength = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 0}}}};
+    const std::string at = "/materials/0/extras/starbow/emission: ";
+    for (const Json& black : {Json{{"extras", extras}}, Json{{"extras", extras}, {"emissiveFactor", {0, 0, 0}}},
+             Json{{"extras", extras}, {"emissiveFactor", {1, 1, 1}}, {"extensions", strength}}})
+        EXPECT_TRUE(complaint(painted(black)).starts_with(at + "would emit nothing")) << black;
+    EXPECT_TRUE(complaint(painted({{"extras", extras}, {"emissiveFactor", {1, 1, 1}},
+                              {"extensions", {{"KHR_materials_unlit", Json::object()}}}}))
+                    .starts_with(at + "stands beside KHR_materials_unlit"));
+}
+
 } // namespace
 } // namespace starbow::gltf_test

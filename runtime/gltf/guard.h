@@ -1,5 +1,6 @@
 #pragma once
 #include "file.h"
+#include "runtime/world.h"
 #include <span>
 
 namespace starbow {
@@ -14,6 +15,7 @@ struct GuardedGltf {
     std::vector<Bytes> buffers; ///< one for each in the file
     std::vector<Bytes> image_files;
     std::vector<std::span<const std::uint8_t>> images; ///< as stored, in the two above; empty where no colour comes from it
+    std::vector<Material> surfaces; ///< one for each material in the file: what its extras tell, the rest not set
     std::vector<std::string> notes; ///< what is left out, each once
 };
 
@@ -26,6 +28,9 @@ void guard_accessors(const Spot& root, GuardedGltf& out);
 void guard_materials(GltfFile& file, const Spot& root, GuardedGltf& out);
 void guard_meshes(const Spot& root, GuardedGltf& out);
 void guard_nodes(const Spot& root, GuardedGltf& out);
+
+/// What a material's extras tell under the name "starbow"; `written` is what has passed of the material's own members.
+Material guard_surface(const Spot& material, const Json& written);
 
 void note_once(std::vector<std::string>& notes, const std::string& note);
 

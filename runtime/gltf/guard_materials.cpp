@@ -166,8 +166,10 @@ void guard_materials(GltfFile& file, const Spot& root, GuardedGltf& out)
                 + std::to_string(GltfLimits::looks) + " are allowed");
     guard_samplers(root, out);
     guard_textures(root, out);
-    guard_list(root, "materials", out.json,
-        [&](const Spot& material, Json& written) { guard_material(material, written, root, out); });
+    guard_list(root, "materials", out.json, [&](const Spot& material, Json& written) {
+        guard_material(material, written, root, out);
+        out.surfaces.push_back(guard_surface(material, written));
+    });
     guard_images(file, root, out);
 }
 

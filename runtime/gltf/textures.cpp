@@ -167,7 +167,7 @@ void add_materials(WorldBuild& build)
 {
     TextureShelf shelf{build};
     for (const auto& from : build.model.materials) {
-        Material to;
+        Material to = build.file.surfaces[build.world.materials.size()];
         to.name = from.name;
         const auto& pbr = from.pbrMetallicRoughness;
         for (int i = 0; i < 4; ++i)

@@ -4,9 +4,9 @@ import struct
 
 
 class Glb:
-    def __init__(self):
+    def __init__(self, world="avenue"):
         self.bytes = bytearray()
-        self.doc = {"asset": {"version": "2.0", "generator": "Starbow scenes/avenue/make.py"}, "scene": 0,
+        self.doc = {"asset": {"version": "2.0", "generator": f"Starbow scenes/{world}/make.py"}, "scene": 0,
                     "scenes": [{"nodes": []}]}
 
     def add(self, kind, thing):
@@ -62,7 +62,8 @@ class Glb:
             texture["sampler"] = self.add("samplers", sampler)
         return {"index": self.add("textures", texture)}
 
-    def material(self, name, colour=(1, 1, 1), texture=None, emissive=None, emissive_texture=None):
+    def material(self, name, colour=(1, 1, 1), texture=None, emissive=None, emissive_texture=None, starbow=None):
+        """starbow: what colours don't tell, docs/scenes.md."""
         pbr = {"baseColorFactor": [*colour, 1], "metallicFactor": 0, "roughnessFactor": 1}
         if texture:
             pbr["baseColorTexture"] = texture
@@ -76,6 +77,8 @@ class Glb:
                 self.doc["extensionsUsed"] = ["KHR_materials_emissive_strength"]
         if emissive_texture:
             material["emissiveTexture"] = emissive_texture
+        if starbow:
+            material["extras"] = {"starbow": starbow}
         return self.add("materials", material)
 
     def write(self, path):

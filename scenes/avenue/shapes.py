@@ -88,6 +88,28 @@ def box(half, centre=(0, 0, 0), uv=lambda face, s, t: (s, t)):
     return shape
 
 
+def fan(rim):
+    """A flat shape around the middle of its corners, all of which the middle sees; counter-clockwise from the front."""
+    middle = tuple(sum(p[i] for p in rim) / len(rim) for i in range(3))
+    normal = unit(cross(*(tuple(b - a for a, b in zip(middle, p)) for p in rim[:2])))
+    shape = Shape()
+    for p in [middle, *rim]:
+        shape.vertex(p, normal, (p[0], -p[1]))
+    for i in range(1, len(rim) + 1):
+        shape.indices += [0, i, i % len(rim) + 1]
+    return shape
+
+
+def upright(left, bottom, right, top, z):
+    """A rectangle that faces +z."""
+    return fan([(left, bottom, z), (right, bottom, z), (right, top, z), (left, top, z)])
+
+
+def level(left, near, right, far, y):
+    """A rectangle that faces up; far is the smaller z."""
+    return fan([(left, y, near), (right, y, near), (right, y, far), (left, y, far)])
+
+
 def sphere(columns, rows, radius):
     """Texture coordinates of a map of the whole globe: longitude 0 at +z and at u = 1/2, north up."""
     def at(u, v):

@@ -1,0 +1,120 @@
+#include "guard.h"
+#include <algorithm>
+#include <array>
+
+namespace starbow {
+namespace {
+
+/// A dictionary as text: some editors keep nothing else with a material.
+constexpr std::size_t most_text = std::size_t(1) << 20;
+
+void only(const Spot& spot, std::initializer_list<const char*> known)
+{
+    std::string right;
+    for (const char* name : known)
+        right += (right.empty() ? "\"" : ", \"") + std::string(name) + "\"";
+    for (const auto& [name, value] : object(spot).json.items())
+        if (std::ranges::find(known, name) == known.end())
+            spot[name].fail("is not known here; should be one of " + right);
+}
+
+/// Pairs of a wavelength in nm, rising, and a value from 0 to `most`.
+std::vector<std::pair<double, double>> points(const Spot& spot, double most)
+{
+    if (!spot.json.is_array() || spot.size() < least_points || spot.size() > most_points)
+        spot.fail((spot.json.is_array() ? "is a list of " + std::to_string(spot.size()) : std::string("is not a list"))
+            + "; should be a list of " + std::to_string(least_points) + " to " + std::to_string(most_points)
+            + " pairs [wavelength in nm, value]");
+    std::vector<std::pair<double, double>> out;
+    for (std::size_t i = 0; i < spot.size(); ++i) {
+        const Spot pair = spot[i];
+        if (!pair.json.is_array() || pair.size() != 2)
+            pair.fail("should be a pair [wavelength in nm, value]");
+        const double nm = number(pair[0], shortest_nm, longest_nm);
+        if (!out.empty() && !(nm > out.back().first))
+            pair[0].fail(
+                "is " + pair.json[0].dump() + "; should be above the wavelength before, " + Json(out.back().first).dump());
+        out.emplace_back(nm, number(pair[1], 0, most));
+    }
+    return out;
+}
+
+Emission emission(const Spot& spot)
+{
+    only(spot, {"black_body_K", "line_nm", "table"});
+    if (spot.size() != 1)
+        spot.fail(
+            "has " + std::to_string(spot.size()) + " members; should have one of \"black_body_K\", \"line_nm\", \"table\"");
+    if (spot.has("black_body_K"))
+        return BlackBody{number(spot["black_body_K"], coldest_K, hottest_K)};
+    if (spot.has("line_nm"))
+        return SpectralLine{number(spot["line_nm"], shortest_nm, longest_nm)};
+    SpectralTable table{points(spot["table"], 1e30)};
+    if (std::ranges::all_of(table.points, [](const auto& point) { return point.second == 0; }))
+        spot["table"].fail("is 0 everywhere; should have a value above 0");
+    return table;
+}
+
+/// `material` is what passed of the material that the surface belongs to.
+void check_emits(const Spot& spot, const Json& material)
+{
+    const Json none = Json::object();
+    const Json& extensions = material.contains("extensions") ? material["extensions"] : none;
+    if (extensions.contains("KHR_materials_unlit"))
+        spot.fail("stands beside KHR_materials_unlit, which leaves emission out; should stand without it");
+    double most = 0;
+    if (material.contains("emissiveFactor"))
+        for (const Json& part : material["emissiveFactor"])
+            most = std::max(most, part.get<double>());
+    if (extensions.contains("KHR_materials_emissive_strength"))
+        most *= extensions["KHR_materials_emissive_strength"]["emissiveStrength"].get<double>();
+    if (!(most > 0))
+        spot.fail("would emit nothing, for the material's emissiveFactor is black; should stand beside one above 0");
+}
+
+void read_surface(const Spot& spot, const Json& material, Material& out)
+{
+    only(spot, {"ultraviolet", "infrared", "reflectance", "temperature_K", "emissivity", "emission"});
+    if (spot.has("ultraviolet"))
+        out.ultraviolet = number(spot["ultraviolet"], 0, 1);
+    if (spot.has("infrared"))
+        out.infrared = number(spot["infrared"], 0, 1);
+    if (spot.has("reflectance"))
+        out.reflectance = points(spot["reflectance"], 1);
+    if (spot.has("temperature_K")) {
+        out.temperature_K = number(spot["temperature_K"], coldest_K, hottest_K);
+        out.emissivity = spot.has("emissivity") ? number(spot["emissivity"], 0, 1) : 0.9;
+    } else if (spot.has("emissivity"))
+        spot["emissivity"].fail(
+            "says how well the surface glows but not how warm it is; should stand beside \"temperature_K\"");
+    if (spot.has("emission")) {
+        out.emission = emission(spot["emission"]);
+        check_emits(spot["emission"], material);
+    }
+}
+
+} // namespace
+
+Material guard_surface(const Spot& material, const Json& written)
+{
+    Material out;
+    // Other people's extras may be anything at all.
+    if (!material.has("extras") || !material.json["extras"].is_object() || !material["extras"].has("starbow"))
+        return out;
+    const Spot spot = material["extras"]["starbow"];
+    if (!spot.json.is_string()) {
+        read_surface(spot, written, out);
+        return out;
+    }
+    const std::string& text = spot.json.get_ref<const std::string&>();
+    if (text.size() > most_text)
+        spot.fail(
+            "is a text of " + std::to_string(text.size()) + " bytes; at most " + std::to_string(most_text) + " are allowed");
+    const Json parsed = Json::parse(text, nullptr, false);
+    if (parsed.is_discarded())
+        spot.fail("is " + in_quotes(text) + ", which is not JSON; should be an object in { } or such an object as a text");
+    read_surface({parsed, spot.at, spot.file}, written, out);
+    return out;
+}
+
+} // namespace starbow
