@@ -89,12 +89,9 @@ Light read_light(const Place& place)
         return DirectionalLight{direction / length, read_colour(member(place, "radiance")), read_emission(place)};
     }
     only(place, {"type", "position", "distance", "radiance", "temperature_K", "line_nm", "spectrum"});
-    PointLight light;
-    light.position = vec3(member(place, "position"), {-farthest, farthest});
-    light.distance = number(member(place, "distance"), {0, farthest, true});
-    light.radiance = read_colour(member(place, "radiance"));
-    light.spectrum = read_emission(place);
-    return light;
+    const glm::dvec3 position = vec3(member(place, "position"), {-farthest, farthest});
+    const double distance = number(member(place, "distance"), {0, farthest, true});
+    return PointLight{position, distance, read_colour(member(place, "radiance")), read_emission(place)};
 }
 
 } // namespace

@@ -26,7 +26,8 @@ Response response_of(const SpectralBasis& basis, const Observer& observer)
     Response response{basis.reflected, int(basis.own.size()), {}, {}};
     for (auto& rows : response.rows)
         rows.assign(2 * RESPONSE_ROWS, glm::uvec4(0));
-    response.own_rows.assign(RESPONSE_OWN_ROWS * MAX_OWN, glm::vec4(0, 0, 0, float(least_log2)));
+    response.own_rows.assign(MOST_OWN_ROWS, glm::vec4(0, 0, 0, float(least_log2)));
+    const int own_step = RESPONSE_OWN_STEP(response.own);
     for (int row = 0; row < RESPONSE_ROWS; ++row) {
         const glm::dvec3* seen = &table.seen[std::size_t(row * table.numbers)];
         glm::dvec3 grey(0);
@@ -42,11 +43,11 @@ Response response_of(const SpectralBasis& basis, const Observer& observer)
                 response.rows[c][std::size_t(2 * row + word / 4)][word % 4]
                     = glm::packHalf2x16({values[c][std::size_t(2 * word)], values[c][std::size_t(2 * word + 1)]});
         response.rows[0][std::size_t(2 * row + 1)].z = std::bit_cast<std::uint32_t>(float(scale.log2));
-        if (row % 2 == 0)
+        if (row % own_step == 0)
             for (int i = 0; i < response.own; ++i) {
                 const glm::dvec3 own = seen[basis.reflected + i];
                 const Scaled scale_own = scale_of(peak(own));
-                response.own_rows[std::size_t(row / 2 * MAX_OWN + i)]
+                response.own_rows[std::size_t(row / own_step * response.own + i)]
                     = glm::vec4(observer.rec709 * scale_own.over(own), scale_own.log2);
             }
     }
@@ -71,12 +72,13 @@ glm::dvec3 seen(const Response& response, std::span<const double> numbers, doubl
                 light[int(c)] += (row == i ? 1 - part : part) * double(two[k % 2]) * numbers[std::size_t(k)];
             }
     light *= std::exp2(std::lerp(real(response.rows[0][2 * i + 1].z), real(response.rows[0][2 * i + 3].z), part));
-    const double own_at = std::min(0.5 * at, RESPONSE_OWN_ROWS - 1.001);
-    const std::size_t j = std::size_t(own_at);
+    const int own_step = RESPONSE_OWN_STEP(response.own);
+    const double own_at = std::min(at / own_step, RESPONSE_ROWS / own_step - 1.001);
+    const std::size_t j = std::size_t(own_at), own = std::size_t(response.own);
     for (int k = 0; k < response.own; ++k) {
-        const glm::dvec4 own = glm::mix(glm::dvec4(response.own_rows[j * MAX_OWN + std::size_t(k)]),
-            glm::dvec4(response.own_rows[(j + 1) * MAX_OWN + std::size_t(k)]), own_at - double(j));
-        light += glm::dvec3(own) * (std::exp2(own.w) * numbers[std::size_t(response.reflected + k)]);
+        const glm::dvec4 row = glm::mix(glm::dvec4(response.own_rows[j * own + std::size_t(k)]),
+            glm::dvec4(response.own_rows[(j + 1) * own + std::size_t(k)]), own_at - double(j));
+        light += glm::dvec3(row) * (std::exp2(row.w) * numbers[std::size_t(response.reflected + k)]);
     }
     // Beyond the table every tail falls as 1 / D^2.
     const double beyond = std::exp2(std::min(0.0, (at - asked) / per_octave));

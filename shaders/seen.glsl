@@ -27,7 +27,7 @@ layout(set = 0, binding = 8) uniform sampler2D atlas2;
 layout(set = 0, binding = 9) uniform sampler2D atlas3;
 layout(set = 0, binding = 10) uniform Green { uvec4 green[2 * RESPONSE_ROWS]; };
 layout(set = 0, binding = 11) uniform Blue { uvec4 blue[2 * RESPONSE_ROWS]; };
-layout(set = 0, binding = 12) uniform Own { vec4 own_rows[RESPONSE_OWN_ROWS * MAX_OWN]; };
+layout(set = 0, binding = 12) uniform Own { vec4 own_rows[MOST_OWN_ROWS]; };
 
 struct Place {
     vec2 face;  // face coordinates
@@ -107,10 +107,10 @@ vec3 shifted(vec4 numbers[MAX_GROUPS], float D)
         sum_of(blue[i + 2], blue[i + 3], numbers));
     vec3 light = mix(here, next, part) * exp2(mix(uintBitsToFloat(red[i + 1].z), uintBitsToFloat(red[i + 3].z), part));
     if (OWN > 0) {
-        float own_at = min(0.5 * at, float(RESPONSE_OWN_ROWS) - 1.001);
-        int j = int(own_at) * MAX_OWN;
+        float own_at = min(at / float(RESPONSE_OWN_STEP(OWN)), float(RESPONSE_ROWS / RESPONSE_OWN_STEP(OWN)) - 1.001);
+        int j = int(own_at) * OWN;
         for (int k = 0; k < OWN; ++k) {
-            vec4 own = mix(own_rows[j + k], own_rows[j + MAX_OWN + k], fract(own_at));
+            vec4 own = mix(own_rows[j + k], own_rows[j + OWN + k], fract(own_at));
             light += own.rgb * (exp2(own.w) * numbers[(REFLECTED + k) / 4][(REFLECTED + k) % 4]);
         }
     }

@@ -18,7 +18,8 @@
 #define MAX_GROUPS 4 // of four numbers: an image of the cube map each
 #define MAX_MATRICES 4096 // columns of a group: 64 KiB, the least that devices of today let a shader read as constants
 #define RESPONSE_ROWS 2048 // over log2 D; see response.h
-#define RESPONSE_OWN_ROWS 1024 // each second
+#define RESPONSE_OWN_STEP(own) ((own) > 2 ? 2 : 1) // rows of the world's own spectra: all or each second, as they fit
+#define MOST_OWN_ROWS 4096 // of all together
 #define STAR_COLDEST 512.0 // K: colder black bodies give no light to speak of (1e-9 of the Sun's surface at 550 K)
 #define STAR_STEPS_PER_OCTAVE 64
 #define STAR_STEPS 769 // 12 octaves: to 2 million K, from where a black body's visible light only grows as its temperature
