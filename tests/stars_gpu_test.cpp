@@ -1,6 +1,7 @@
 // The stars in the picture: at their places, as bright as a point is and no larger at any speed, hidden by what stands
 // before them; on every kind of display.
 #include "runtime/colour.h"
+#include "runtime/spectrum.h"
 #include "tests/small_world.h"
 #include <glm/gtx/quaternion.hpp>
 #include <map>
@@ -71,13 +72,18 @@ Sum sum_of(const Numbers& numbers)
     return sum;
 }
 
-double luminance(const dvec3& rgb) { return glm::dot(rgb, dvec3(0.2126729, 0.7151522, 0.0721750)); }
+/// Back from the picture's light, which is for an eye adapted to the Sun.
+dvec3 xyz_of(const dvec3& rgb)
+{
+    static const dmat3 xyz_from_rec709 = glm::inverse(rec709_from_sunlit_xyz());
+    return xyz_from_rec709 * rgb;
+}
+
+double luminance(const dvec3& rgb) { return xyz_of(rgb).y; }
 
 dvec2 chromaticity_of(const dvec3& rgb)
 {
-    const dvec3 columns[]
-        = {rec709_linear_from_xyz({1, 0, 0}), rec709_linear_from_xyz({0, 1, 0}), rec709_linear_from_xyz({0, 0, 1})};
-    const dvec3 xyz = glm::inverse(dmat3(columns[0], columns[1], columns[2])) * rgb;
+    const dvec3 xyz = xyz_of(rgb);
     return dvec2(xyz) / (xyz.x + xyz.y + xyz.z);
 }
 
