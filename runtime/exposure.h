@@ -21,9 +21,16 @@ constexpr double metered_to_luminance = 0.18;
 /// disc in the dark, and it is what is looked at.
 constexpr double bright_from = 0.98, brightest_luminance = 4;
 
+constexpr double few_stars = 16;
+
 /// The exposure for a view, EV: by the log average of the luminance between two percentiles of its solid angle, and by
 /// another percentile. Nothing for a view without light. Darker than 2^-140 is no light.
-std::optional<double> metered_ev(std::span<const Glimpse> view);
+///
+/// stars: each star's spot. They fill too little of a view to tell among its surfaces, and in the dark they are what is
+/// looked at: the same average of them is not brought beyond mid-grey, and of stars alone it is brought there. It is one of
+/// many, so that a few bright ones which come into view or leave it do not tell; where they are few, `few_stars` more are
+/// thought to be there that want what the surfaces want.
+std::optional<double> metered_ev(std::span<const Glimpse> view, std::span<const Glimpse> stars = {});
 
 /// Time constants of the way to a brighter and to a darker view.
 constexpr double to_bright_s = 0.5, to_dark_s = 3;

@@ -269,7 +269,7 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
         std::vector<glm::ivec2> sizes;
         for (const PaneState& pane : panes_)
             sizes.push_back(layout_.outputs[pane.output].preview ? glm::ivec2(0) : pane.pane().size);
-        meter_ = std::make_unique<Meter>(device_, sizes);
+        meter_ = std::make_unique<Meter>(device_, sizes, world_.star_count);
     }
     hud_on_ = hud;
     if ((panel_new_ = hud))
@@ -406,6 +406,18 @@ glm::vec4 Frame::boost(double exposure) const
     return glm::vec4(E_, 1 / E_, std::min(exposure / pre_exposure_, 1e37), near_distance);
 }
 
+/// ViewPush of the stars' pass.
+shared::ViewPush Frame::star_push(const PaneState& pane) const
+{
+    shared::ViewPush constants = push(pane, motion_from_cockpit_);
+    constants.boost = glm::vec4(E_, 1 / E_, pre_exposure_, near_distance);
+    const glm::dmat3 back = glm::inverse(motion_from_cockpit_ * pane.compiled.matrix.value_or(glm::dmat3(1)));
+    constants.row0 = row(back, 0, constants.row0.w);
+    constants.row1 = row(back, 1, constants.row1.w);
+    constants.row2 = row(back, 2);
+    return constants;
+}
+
 void Frame::draw_stars(vk::CommandBuffer commands, std::size_t output, int layer)
 {
     const glm::ivec2 size = outputs_[output].size;
@@ -413,12 +425,7 @@ void Frame::draw_stars(vk::CommandBuffer commands, std::size_t output, int layer
     for (const PaneState& pane : panes_) {
         if (pane.output != output || pane.pane().layer != layer)
             continue;
-        shared::ViewPush constants = push(pane, motion_from_cockpit_);
-        constants.boost = glm::vec4(E_, 1 / E_, pre_exposure_, near_distance);
-        const glm::dmat3 back = glm::inverse(motion_from_cockpit_ * pane.compiled.matrix.value_or(glm::dmat3(1)));
-        constants.row0 = row(back, 0, constants.row0.w);
-        constants.row1 = row(back, 1, constants.row1.w);
-        constants.row2 = row(back, 2);
+        const shared::ViewPush constants = star_push(pane);
         WarpVariant own = variant(pane);
         own.mips = false;
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.stars(own, stars_.format()));
@@ -482,12 +489,31 @@ void Frame::draw_meter(vk::CommandBuffer commands)
         const glm::dvec2 step = glm::dvec2(pane.pane().size) / glm::dvec2(cell.size);
         constants.zenith.z = float(step.x), constants.zenith.w = float(step.y);
         set_warp(commands, pane, pipelines_.meter(variant(pane)), constants, cell.corner, cell.size);
+        if (stars_.on())
+            glance_at_stars(commands, pane, meter_->star_cell(i));
     }
     commands.endRendering();
     meter_->end(commands);
 }
 
-std::optional<double> Frame::metered() const { return meters_ && meter_ ? metered_ev(meter_->view()) : std::nullopt; }
+void Frame::glance_at_stars(vk::CommandBuffer commands, const PaneState& pane, const Meter::Cell& cell)
+{
+    shared::ViewPush constants = star_push(pane);
+    constants.boost.z = 1;
+    constants.pane = glm::vec4(cell.size, meter_->every(), 0);
+    WarpVariant own = variant(pane);
+    own.mips = false;
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.star_meter(own));
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 0, *pane.warp_set, {});
+    commands.pushConstants<shared::ViewPush>(
+        *pipelines_.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
+    stars_.glance(commands, cell.corner, cell.size, meter_->every(), own.channels);
+}
+
+std::optional<double> Frame::metered() const
+{
+    return meters_ && meter_ ? metered_ev(meter_->view(), meter_->stars()) : std::nullopt;
+}
 
 void Frame::pattern_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Format format)
 {

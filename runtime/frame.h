@@ -126,7 +126,9 @@ private:
     glm::vec4 boost(double exposure) const;
     void set_warp(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline,
         const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size);
+    shared::ViewPush star_push(const PaneState& pane) const;
     void draw_stars(vk::CommandBuffer commands, std::size_t output, int layer);
+    void glance_at_stars(vk::CommandBuffer commands, const PaneState& pane, const Meter::Cell& cell);
     void warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline, double exposure);
     void bloom_pane(vk::CommandBuffer commands, const PaneState& pane);
     void pattern_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Format target);

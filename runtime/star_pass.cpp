@@ -82,6 +82,13 @@ void StarPass::draw(vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 si
     commands.draw(world_.star_count, channels ? 3 : 1, 0, 0);
 }
 
+void StarPass::glance(vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size, int every, bool channels) const
+{
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 1, *set_, {});
+    set_area(commands, corner, size);
+    commands.draw((world_.star_count + std::uint32_t(every) - 1) / std::uint32_t(every), 1, 0, channels ? 1 : 0);
+}
+
 void StarPass::end(vk::CommandBuffer commands)
 {
     commands.endRendering();

@@ -24,6 +24,10 @@ public:
     void draw(vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size, bool channels);
     void end(vk::CommandBuffer commands);
 
+    /// For the meter, into its own picture: each `every`-th star is a pixel of the rectangle, row by row. Bind a pipeline of
+    /// Pipelines::star_meter and the rest as above, with the push constant `pane` telling the rectangle's size and `every`.
+    void glance(vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size, int every, bool channels) const;
+
     const Image& picture() const { return picture_; }
     vk::Format format() const { return format_; }
 

@@ -9,12 +9,14 @@
 // are points: they go through the forward transform one by one and have no size that could be magnified. One instance, or
 // three where colours look different ways: each star then has a place for each.
 
+layout(constant_id = 10) const bool GLIMPSE = false; // for the exposure: each star is a pixel of its own, side by side
+
 layout(set = 0, binding = 6) uniform usampler2DArray inverse_map;
 layout(set = 1, binding = 0) uniform Constants { StarConstants turn; };
 layout(set = 1, binding = 1) readonly buffer Stars { StarEntry stars[]; };
 layout(set = 1, binding = 2) uniform BlackBodies { vec4 black_bodies[STAR_STEPS]; };
 
-layout(location = 0) flat out vec2 centre; // pixels of the target
+layout(location = 0) flat out vec2 centre; // pixels of the target; GLIMPSE: x: the angle of a pixel, radians
 layout(location = 1) flat out vec3 light;  // of the whole star, spread over the solid angle of a pixel
 
 // Rec. 709 linear light of a black body, relative to a luminance of 1 at 5772 K.
@@ -126,7 +128,7 @@ bool hidden(Place place)
 
 void main()
 {
-    StarEntry star = stars[gl_VertexIndex];
+    StarEntry star = stars[GLIMPSE ? gl_VertexIndex * int(view.pane.z) : gl_VertexIndex];
     int channel = gl_InstanceIndex;
     vec3 n = vec3(dot(turn.row0.xyz, star.direction.xyz), dot(turn.row1.xyz, star.direction.xyz),
         dot(turn.row2.xyz, star.direction.xyz));
@@ -151,6 +153,13 @@ void main()
     if (hidden(place_of(from_place)))
         return;
     light = starlight(star, sight.D) * (view.boost.z / (pixel_angle * pixel_angle));
+    if (GLIMPSE) {
+        vec2 place = vec2(mod(float(gl_VertexIndex), view.pane.x), floor(float(gl_VertexIndex) / view.pane.x)) + 0.5;
+        gl_Position = vec4(place / view.pane.xy * 2.0 - 1.0, 0.0, 1.0);
+        gl_PointSize = 1.0;
+        centre = vec2(pixel_angle, 0.0);
+        return;
+    }
     if (CHANNELS)
         light *= vec3(equal(ivec3(0, 1, 2), ivec3(channel)));
     centre = point + view.origin.xy;
