@@ -51,8 +51,8 @@ double shown_ev(const Exposure& exposure, const Exposing& rules, double visitors
 
 /// What the cube map's radiance is stored times: a power of two that puts the brightest light which matters two stops below
 /// fp16's greatest number. What lies 28 stops below is still a normal one, 38 stops still a number. Light so bright that it
-/// is ten stops over white wherever it is seen does not matter. brightest: of the world; D^3 is least 1 / most_gain where it
-/// is looked at.
+/// is ten stops over white wherever it is seen does not matter. brightest: of the world; what is made of it where it is
+/// looked at is least 1 / most_gain of it.
 double pre_exposure(double brightest, double exposure_ev, double most_gain);
 
 } // namespace starbow

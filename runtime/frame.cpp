@@ -234,7 +234,9 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
     const glm::dmat3 to_motion = motion_from_world(shot.u, shot.ship_from_cockpit);
     motion_from_cockpit_ = to_motion * glm::dmat3(glm::mat3_cast(shot.ship_from_cockpit));
     const bool gains = shot.effects.headlight || shot.effects.doppler;
-    pre_exposure_ = pre_exposure(world_.brightest, shot.exposure_ev, gains ? E_ * E_ * E_ : 1);
+    // Red-shifted, sunlight also leaves the visible: by Wien's law its part at 360 nm falls as exp(-6.92 (1/D - 1)).
+    const double leaves = shot.effects.doppler ? std::exp(6.92 * (E_ - 1)) : 1;
+    pre_exposure_ = pre_exposure(world_.brightest, shot.exposure_ev, (gains ? E_ * E_ * E_ : 1) * leaves);
     for (std::size_t i = 0; pattern_ == Pattern::none && i < eyes_.size(); ++i) {
         const glm::dvec3 place
             = shot.position + physics::eye_place(shot.u, shot.ship_from_cockpit * scene_units(eyes_[i].now_m));
