@@ -15,12 +15,12 @@ constexpr double degree = pi / 180;
 constexpr double arcmin2_sr = degree * degree / 3600;
 constexpr double brightness_arcmin2 = 1e4;
 
-/// A world with a black sky, one small red square at `square` (facing the origin from -z), and stars.
+/// A world with a black sky, one small square, red if not told, at `square` (facing the origin from -z), and stars.
 GpuWorld sky_world(const std::string& name, const dvec3& square = {0, -50, 0}, double half = 0.1,
-    const std::string& catalogue = "", const dvec2& ahead_deg = {0, 0})
+    const std::string& catalogue = "", const dvec2& ahead_deg = {0, 0}, const dvec3& colour = {1, 0, 0})
 {
     Doc doc;
-    quad(doc, square, {half, 0, 0}, {0, half, 0}, unlit(doc, {1, 0, 0}));
+    quad(doc, square, {half, 0, 0}, {0, half, 0}, unlit(doc, colour));
     const auto one = testing::write_text("one_star.txt", "0 0 0 65\n");
     return open_world(name, doc,
         {{"stars",
@@ -319,6 +319,80 @@ TEST(Stars, WithoutAberrationTheyStayAndTakeTheirPixelsD)
     EXPECT_LT(between(sum.middle, n), 0.1 * 20 * degree / 64);
     // D of a direction of the ship: 1 / (gamma - u.n).
     EXPECT_NEAR(luminance(sum.light) / (brightness_arcmin2 * arcmin2_sr), 1 / (3 - u_of_gamma(3) * n.y), 0.01 * 0.3);
+}
+
+// ---------------------------------------------------------------- how bright they make the view
+
+// Against every star's place, pixel and light, worked out one by one; a black square stands before a quarter of the view.
+TEST(Stars, TheExposureIsByWhatIsSeenOfThem)
+{
+    GpuWorld world = sky_world("metered_stars", {-10, 0, -20}, 10, "", {0, 0}, {0, 0, 0});
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> one(-1, 1);
+    std::vector<Star> stars;
+    for (int i = 0; i < 1200; ++i) {
+        stars.push_back(star_at({one(random), one(random), one(random)}));
+        stars.back().magnitude = 3 + 4 * one(random);
+    }
+    put_stars(device(), world, stars);
+    const dmat3 turn = world_from_equatorial({0, 0});
+    for (const auto& [name, projection] : displays)
+        for (double gamma : {1.0, 2.0}) {
+            Studio stage = studio(world, one_view(projection, size_for(name)));
+            const dvec3 u(0, 0, -u_of_gamma(gamma));
+            const Shot shot = shot_at({0, 0, 0}, u, {0, 0, -1});
+            const Numbers numbers(stage, shot);
+            const std::vector<double> solid = solid_angles(numbers);
+            std::vector<std::pair<double, double>> spots; // log2 of the luminance in the middle, solid angle
+            double all = 0;
+            for (const Star& star : stars) {
+                const dvec3 want = seen(turn * star.direction, u);
+                int nearest = -1;
+                double best = 0;
+                for (int i = 0; i < numbers.count(); ++i)
+                    if (const double along = numbers.shown(i) ? glm::dot(numbers.camera(i), want) : -1; along > best)
+                        best = along, nearest = i;
+                if (nearest < 0 || solid[nearest] == 0 || best < std::cos(1.5 * std::sqrt(solid[nearest]))
+                    || std::isfinite(numbers.depth(nearest)))
+                    continue;
+                // The integral of the spot, (1 - r^2 / 4)^4, is 4 pi / 5 pixels.
+                const double area = 0.8 * pi * solid[nearest];
+                const double light = brightness_arcmin2 * arcmin2_sr * std::pow(10, -0.4 * star.magnitude);
+                spots.emplace_back(std::log2(light / area), area);
+                all += area;
+            }
+            std::sort(spots.begin(), spots.end());
+            double below = 0, weight = 0, mean = 0;
+            for (const auto& [log, area] : spots) {
+                if (below > 0.5 * all && below < 0.98 * all)
+                    weight += area, mean += area * log;
+                below += area;
+            }
+            const double want = std::log2(0.18) - mean / weight, got = *stage.metered(shot);
+            std::printf(
+                "  %-16s gamma %g: %zu stars seen, EV %.3f, by hand %.3f\n", name.c_str(), gamma, spots.size(), got, want);
+            EXPECT_GT(spots.size(), 50u);
+            EXPECT_NEAR(got, want, 0.05) << name; // a few stars at edges, where the test can't tell
+        }
+}
+
+// Turning about under the shipped stars alone.
+TEST(Stars, TheExposureStaysWhileOneTurns)
+{
+    GpuWorld world
+        = sky_world("turning", {0, -50, 0}, 0.1, absolute(testing::source_dir() / "scenes/stars/stars.txt").string());
+    Studio stage = studio(world, one_view(Planar{60}, {400, 300}), false);
+    double low = 1e9, high = -1e9, step = 0, before = 0;
+    for (int deg = 0; deg <= 360; deg += 5) {
+        const double ev
+            = *stage.metered(shot_at({0, 0, 0}, {0, 0, 0}, {std::sin(deg * degree), 0.2, -std::cos(deg * degree)}));
+        if (deg > 0)
+            step = std::max(step, std::abs(ev - before));
+        before = ev, low = std::min(low, ev), high = std::max(high, ev);
+    }
+    std::printf("  from %.2f to %.2f EV, at most %.2f in a step of five degrees\n", low, high, step);
+    EXPECT_LT(high - low, 0.7); // half a stop up or down is what a visitor sees when told
+    EXPECT_LT(step, 0.35);
 }
 
 // ---------------------------------------------------------------- what stands before them
