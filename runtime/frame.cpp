@@ -195,6 +195,7 @@ std::size_t Frame::map_for(const CompiledPane& pane, std::vector<Map>& before)
             device_, map_format, pane.map->size, std::uint32_t(pane.map->channels), std::as_bytes(std::span(texels)))});
     if (stars_.on()) {
         const InverseMap inverse = starbow::inverse(*pane.map);
+        maps_.back().closes = inverse.closes;
         maps_.back().inverse = make_texture_array(device_, inverse_format, glm::ivec2(inverse.side),
             std::uint32_t(inverse.channels), std::as_bytes(std::span(inverse.cells)));
     }
@@ -434,7 +435,8 @@ void Frame::draw_stars(vk::CommandBuffer commands, std::size_t output, int layer
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 0, *pane.warp_set, {});
         commands.pushConstants<shared::ViewPush>(
             *pipelines_.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
-        stars_.draw(commands, pane.pane().corner, pane.pane().size, own.channels);
+        const int places = pane.map != no_map && maps_[pane.map].closes ? 2 : 1;
+        stars_.draw(commands, pane.pane().corner, pane.pane().size, places * (own.channels ? 3 : 1));
     }
     stars_.end(commands);
 }

@@ -105,6 +105,7 @@ private:
         std::shared_ptr<const DirectionMap> directions;
         Image image;
         Image inverse; ///< where there are stars
+        bool closes = false; ///< InverseMap's
     };
 
     /// What is worked out of the layout before anything changes: what is wrong with its files shows here.
