@@ -321,6 +321,59 @@ TEST(Stars, WithoutAberrationTheyStayAndTakeTheirPixelsD)
     EXPECT_NEAR(luminance(sum.light) / (brightness_arcmin2 * arcmin2_sr), 1 / (3 - u_of_gamma(3) * n.y), 0.01 * 0.3);
 }
 
+// All light of the shipped sky, its stars at one temperature, against a sum over the catalogue: a point's flux is D^-2 of a
+// black body at D T, and where it is seen does not matter.
+TEST(Stars, TheWholeSkysLightIsTheCataloguesSum)
+{
+    GpuWorld world = sky_world("whole_sky");
+    const double T = 5000;
+    std::vector<Star> stars = load_stars(testing::source_dir() / "scenes/stars/stars.txt");
+    for (Star& star : stars)
+        star.temperature_K = T;
+    put_stars(device(), world, stars);
+    const dvec2 size(720, 360);
+    Studio stage = studio(world, one_view(Equirectangular{}, ivec2(size)));
+    auto luminance_of = [](double kelvin) {
+        double sum = 0;
+        for (double nm = 360.5; nm < 830; ++nm)
+            sum += xyz_response(nm).y * planck(nm, kelvin);
+        return sum;
+    };
+    for (double gamma : {1.0, 1.5, 4.0, 10.0, 100.0}) {
+        const dvec3 u = u_of_gamma(gamma) * glm::normalize(dvec3(0.3, 0.5, -0.8));
+        Shot shot = shot_at({0, 0, 0}, u, {0, 0, -1});
+        shot.effects = {true, true, true};
+        const auto folder = testing::scratch("whole_sky");
+        render_still(folder, stage, shot, true);
+        const auto [read_size, channels] = read_exr(folder / "view.exr");
+        ASSERT_EQ(read_size, ivec2(size));
+        auto channel = [&](const std::string& name) {
+            for (const auto& [own, values] : channels)
+                if (own == name)
+                    return values;
+            throw std::runtime_error("no channel " + name);
+        };
+        const auto red = channel("R"), green = channel("G"), blue = channel("B"), depth = channel("depth");
+        double got = 0, want = 0;
+        for (int y = 0; y < int(size.y); ++y) {
+            const double across = 2 * pi / size.x * std::cos(pi * ((y + 0.5) / size.y - 0.5)), down = pi / size.y;
+            const double solid = std::max(across * down, 0.25 * down * down); // direction_map.h: of slivers
+            for (int x = 0; x < int(size.x); ++x) {
+                const std::size_t i = std::size_t(y) * std::size_t(size.x) + x;
+                if (std::isinf(depth[i])) // else the red square
+                    got += solid * luminance({red[i], green[i], blue[i]});
+            }
+        }
+        for (const Star& star : stars) {
+            const double D = gamma + glm::dot(u, world_from_equatorial({0, 0}) * star.direction);
+            want += brightness_arcmin2 * arcmin2_sr * std::pow(10, -0.4 * star.magnitude) * luminance_of(D * T)
+                / luminance_of(T) / (D * D);
+        }
+        std::printf("  gamma %g: %.5g, the sum %.5g, ratio %.4f\n", gamma, got, want, got / want);
+        EXPECT_NEAR(got / want, 1, 0.01); // required; the spots' half a per cent
+    }
+}
+
 // ---------------------------------------------------------------- where displays end and close
 
 /// A display's own formula, written again.
