@@ -249,6 +249,8 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
                     reprojects() ? std::min(MOST_PARALLAX, glm::length(world_offset(pane)) / eyes_[i].nearest) : 0});
         plans_[i] = make_plan(asked, shot.effects.aberration ? E_ : 1, quality_);
         eyes_[i].cube.prepare(plans_[i], place, to_motion, pre_exposure_);
+        if (stars_.on())
+            eyes_[i].stars = stars_in(plans_[i].images, world_.star_patches, to_motion);
     }
     if (stars_.on()) {
         glm::ivec2 size(1);
@@ -436,7 +438,7 @@ void Frame::draw_stars(vk::CommandBuffer commands, std::size_t output, int layer
         commands.pushConstants<shared::ViewPush>(
             *pipelines_.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
         const int places = pane.map != no_map && maps_[pane.map].closes ? 2 : 1;
-        stars_.draw(commands, pane.pane().corner, pane.pane().size, places * (own.channels ? 3 : 1));
+        stars_.draw(commands, pane.pane().corner, pane.pane().size, places * (own.channels ? 3 : 1), eyes_[pane.eye].stars);
     }
     stars_.end(commands);
 }

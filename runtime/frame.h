@@ -83,6 +83,7 @@ private:
         glm::dvec3 place_m; ///< in the cockpit, before any head moves
         CubePass cube;
         glm::dvec3 now_m; ///< where it is
+        std::vector<StarRun> stars; ///< that its panes may show
         double nearest = 1; ///< distance of the nearest surface that there may be, scene units; where it counts
     };
     struct PaneState {

@@ -1,6 +1,7 @@
 #pragma once
 #include "config/scene_file.h"
 #include "pipelines.h"
+#include "star_cull.h"
 #include "stars.h"
 #include "world.h"
 
@@ -20,6 +21,7 @@ struct GpuWorld {
     std::vector<vk::raii::DescriptorSet> materials;
 
     std::uint32_t star_count = 0;
+    std::vector<StarPatch> star_patches;
     Buffer stars, black_bodies; ///< StarEntry each; the table of black_body_table. Null without stars
 
     SurfaceVariant variant(int material) const;
