@@ -83,6 +83,8 @@ InverseMap inverse(const DirectionMap& map)
                     }
         }
     }
+    for (const glm::uvec4& cell : inverse.cells)
+        inverse.closes |= cell[1] != InverseMap::none;
     return inverse;
 }
 

@@ -10,6 +10,7 @@ namespace starbow {
 struct InverseMap {
     int side = 0; ///< cells
     int channels = 1;
+    bool closes = false; ///< somewhere the same way is looked from more than one place
     std::vector<glm::uvec4> cells; ///< pixels as x + 65536 y; from the first `none` on there are no more
     static constexpr std::uint32_t none = ~0u;
 };

@@ -13,12 +13,17 @@ struct Bin {
     double weight = 0, sum = 0; ///< sum: of weight times log2 luminance
 };
 
-} // namespace
+/// log2 luminances.
+struct Levels {
+    double average; ///< between metered_from and metered_to
+    double bright; ///< at bright_from
+    double count; ///< of lit parts
+};
 
-std::optional<double> metered_ev(std::span<const Glimpse> view)
+std::optional<Levels> levels(std::span<const Glimpse> view)
 {
     std::array<Bin, (high_ev - low_ev) * bins_per_ev> bins{};
-    double all = 0;
+    double all = 0, count = 0;
     for (const Glimpse& part : view) {
         const double log = std::log2(double(part.luminance));
         // Whatever is no number, or no light, is not there.
@@ -26,7 +31,7 @@ std::optional<double> metered_ev(std::span<const Glimpse> view)
             continue;
         Bin& bin = bins[std::size_t((log - low_ev) * bins_per_ev)];
         bin.weight += part.solid_angle_sr, bin.sum += part.solid_angle_sr * log;
-        all += part.solid_angle_sr;
+        all += part.solid_angle_sr, ++count;
     }
     if (all == 0)
         return {};
@@ -43,7 +48,24 @@ std::optional<double> metered_ev(std::span<const Glimpse> view)
             bright = bin.sum / bin.weight;
         below += bin.weight;
     }
-    return std::min(std::log2(metered_to_luminance) - sum / weight, std::log2(brightest_luminance) - bright);
+    return Levels{sum / weight, bright, count};
+}
+
+} // namespace
+
+std::optional<double> metered_ev(std::span<const Glimpse> view, std::span<const Glimpse> stars)
+{
+    const double grey = std::log2(metered_to_luminance);
+    const std::optional<Levels> surfaces = levels(view), points = levels(stars);
+    std::optional<double> ev;
+    if (surfaces)
+        ev = std::min(grey - surfaces->average, std::log2(brightest_luminance) - surfaces->bright);
+    if (points) {
+        const double wanted = grey - points->average, without = std::max(ev.value_or(wanted), wanted);
+        const double mixed = std::lerp(without, wanted, points->count / (points->count + few_stars));
+        ev = std::min(ev.value_or(mixed), mixed);
+    }
+    return ev;
 }
 
 Exposure adapted(Exposure exposure, std::optional<double> metered, double dt_s, const Exposing& rules)

@@ -21,9 +21,16 @@ constexpr double metered_to_luminance = 0.18;
 /// disc in the dark, and it is what is looked at.
 constexpr double bright_from = 0.98, brightest_luminance = 4;
 
+constexpr double few_stars = 16;
+
 /// The exposure for a view, EV: by the log average of the luminance between two percentiles of its solid angle, and by
 /// another percentile. Nothing for a view without light. Darker than 2^-140 is no light.
-std::optional<double> metered_ev(std::span<const Glimpse> view);
+///
+/// stars: each star's spot. They fill too little of a view to tell among its surfaces, and in the dark they are what is
+/// looked at: the same average of them is not brought beyond mid-grey, and of stars alone it is brought there. It is one of
+/// many, so that a few bright ones which come into view or leave it do not tell; where they are few, `few_stars` more are
+/// thought to be there that want what the surfaces want.
+std::optional<double> metered_ev(std::span<const Glimpse> view, std::span<const Glimpse> stars = {});
 
 /// Time constants of the way to a brighter and to a darker view.
 constexpr double to_bright_s = 0.5, to_dark_s = 3;
@@ -44,8 +51,8 @@ double shown_ev(const Exposure& exposure, const Exposing& rules, double visitors
 
 /// What the cube map's radiance is stored times: a power of two that puts the brightest light which matters two stops below
 /// fp16's greatest number. What lies 28 stops below is still a normal one, 38 stops still a number. Light so bright that it
-/// is ten stops over white wherever it is seen does not matter. brightest: of the world; D^3 is least 1 / most_gain where it
-/// is looked at.
+/// is ten stops over white wherever it is seen does not matter. brightest: of the world; what is made of it where it is
+/// looked at is least 1 / most_gain of it.
 double pre_exposure(double brightest, double exposure_ev, double most_gain);
 
 } // namespace starbow

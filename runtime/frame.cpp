@@ -192,6 +192,7 @@ std::size_t Frame::map_for(const CompiledPane& pane, std::vector<Map>& before)
             device_, map_format, pane.map->size, std::uint32_t(pane.map->channels), std::as_bytes(std::span(texels)))});
     if (stars_.on()) {
         const InverseMap inverse = starbow::inverse(*pane.map);
+        maps_.back().closes = inverse.closes;
         maps_.back().inverse = make_texture_array(device_, inverse_format, glm::ivec2(inverse.side),
             std::uint32_t(inverse.channels), std::as_bytes(std::span(inverse.cells)));
     }
@@ -231,7 +232,9 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
     const glm::dmat3 to_motion = motion_from_world(shot.u, shot.ship_from_cockpit);
     motion_from_cockpit_ = to_motion * glm::dmat3(glm::mat3_cast(shot.ship_from_cockpit));
     const bool gains = shot.effects.headlight || shot.effects.doppler;
-    pre_exposure_ = pre_exposure(world_.brightest, shot.exposure_ev, gains ? E_ * E_ * E_ : 1);
+    // Red-shifted, sunlight also leaves the visible: by Wien's law its part at 360 nm falls as exp(-6.92 (1/D - 1)).
+    const double leaves = shot.effects.doppler ? std::exp(6.92 * (E_ - 1)) : 1;
+    pre_exposure_ = pre_exposure(world_.brightest, shot.exposure_ev, (gains ? E_ * E_ * E_ : 1) * leaves);
     // A glow's number may stand for light of any strength: only that it fits counts.
     if (world_.spectra.most > 0)
         pre_exposure_ = std::min(pre_exposure_, pre_exposure(world_.spectra.most, -1000, 1));
@@ -246,6 +249,8 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
                     reprojects() ? std::min(MOST_PARALLAX, glm::length(world_offset(pane)) / eyes_[i].nearest) : 0});
         plans_[i] = make_plan(asked, shot.effects.aberration ? E_ : 1, quality_);
         eyes_[i].cube.prepare(plans_[i], place, to_motion, pre_exposure_);
+        if (stars_.on())
+            eyes_[i].stars = stars_in(plans_[i].images, world_.star_patches, to_motion);
     }
     if (stars_.on()) {
         glm::ivec2 size(1);
@@ -269,7 +274,7 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
         std::vector<glm::ivec2> sizes;
         for (const PaneState& pane : panes_)
             sizes.push_back(layout_.outputs[pane.output].preview ? glm::ivec2(0) : pane.pane().size);
-        meter_ = std::make_unique<Meter>(device_, sizes);
+        meter_ = std::make_unique<Meter>(device_, sizes, world_.star_count);
     }
     hud_on_ = hud;
     if ((panel_new_ = hud))
@@ -417,6 +422,18 @@ glm::vec4 Frame::boost(double exposure) const
     return glm::vec4(E_, 1 / E_, std::min(exposure / pre_exposure_, 1e37), near_distance);
 }
 
+/// ViewPush of the stars' pass.
+shared::ViewPush Frame::star_push(const PaneState& pane) const
+{
+    shared::ViewPush constants = push(pane, motion_from_cockpit_);
+    constants.boost = glm::vec4(E_, 1 / E_, pre_exposure_, near_distance);
+    const glm::dmat3 back = glm::inverse(motion_from_cockpit_ * pane.compiled.matrix.value_or(glm::dmat3(1)));
+    constants.row0 = row(back, 0, constants.row0.w);
+    constants.row1 = row(back, 1, constants.row1.w);
+    constants.row2 = row(back, 2);
+    return constants;
+}
+
 void Frame::draw_stars(vk::CommandBuffer commands, std::size_t output, int layer)
 {
     const glm::ivec2 size = outputs_[output].size;
@@ -424,19 +441,15 @@ void Frame::draw_stars(vk::CommandBuffer commands, std::size_t output, int layer
     for (const PaneState& pane : panes_) {
         if (pane.output != output || pane.pane().layer != layer)
             continue;
-        shared::ViewPush constants = push(pane, motion_from_cockpit_);
-        constants.boost = glm::vec4(E_, 1 / E_, pre_exposure_, near_distance);
-        const glm::dmat3 back = glm::inverse(motion_from_cockpit_ * pane.compiled.matrix.value_or(glm::dmat3(1)));
-        constants.row0 = row(back, 0, constants.row0.w);
-        constants.row1 = row(back, 1, constants.row1.w);
-        constants.row2 = row(back, 2);
+        const shared::ViewPush constants = star_push(pane);
         WarpVariant own = variant(pane);
         own.mips = false;
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.stars(own, stars_.format()));
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 0, *pane.warp_set, {});
         commands.pushConstants<shared::ViewPush>(
             *pipelines_.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
-        stars_.draw(commands, pane.pane().corner, pane.pane().size, own.channels);
+        const int places = pane.map != no_map && maps_[pane.map].closes ? 2 : 1;
+        stars_.draw(commands, pane.pane().corner, pane.pane().size, places * (own.channels ? 3 : 1), eyes_[pane.eye].stars);
     }
     stars_.end(commands);
 }
@@ -493,12 +506,31 @@ void Frame::draw_meter(vk::CommandBuffer commands)
         const glm::dvec2 step = glm::dvec2(pane.pane().size) / glm::dvec2(cell.size);
         constants.zenith.z = float(step.x), constants.zenith.w = float(step.y);
         set_warp(commands, pane, pipelines_.meter(variant(pane)), constants, cell.corner, cell.size);
+        if (stars_.on())
+            glance_at_stars(commands, pane, meter_->star_cell(i));
     }
     commands.endRendering();
     meter_->end(commands);
 }
 
-std::optional<double> Frame::metered() const { return meters_ && meter_ ? metered_ev(meter_->view()) : std::nullopt; }
+void Frame::glance_at_stars(vk::CommandBuffer commands, const PaneState& pane, const Meter::Cell& cell)
+{
+    shared::ViewPush constants = star_push(pane);
+    constants.boost.z = 1;
+    constants.pane = glm::vec4(cell.size, meter_->every(), 0);
+    WarpVariant own = variant(pane);
+    own.mips = false;
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.star_meter(own));
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 0, *pane.warp_set, {});
+    commands.pushConstants<shared::ViewPush>(
+        *pipelines_.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
+    stars_.glance(commands, cell.corner, cell.size, meter_->every(), own.channels);
+}
+
+std::optional<double> Frame::metered() const
+{
+    return meters_ && meter_ ? metered_ev(meter_->view(), meter_->stars()) : std::nullopt;
+}
 
 void Frame::pattern_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Format format)
 {

@@ -83,6 +83,7 @@ private:
         glm::dvec3 place_m; ///< in the cockpit, before any head moves
         CubePass cube;
         glm::dvec3 now_m; ///< where it is
+        std::vector<StarRun> stars; ///< that its panes may show
         double nearest = 1; ///< distance of the nearest surface that there may be, scene units; where it counts
     };
     struct PaneState {
@@ -105,6 +106,7 @@ private:
         std::shared_ptr<const DirectionMap> directions;
         Image image;
         Image inverse; ///< where there are stars
+        bool closes = false; ///< InverseMap's
     };
 
     /// What is worked out of the layout before anything changes: what is wrong with its files shows here.
@@ -126,7 +128,9 @@ private:
     glm::vec4 boost(double exposure) const;
     void set_warp(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline,
         const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size);
+    shared::ViewPush star_push(const PaneState& pane) const;
     void draw_stars(vk::CommandBuffer commands, std::size_t output, int layer);
+    void glance_at_stars(vk::CommandBuffer commands, const PaneState& pane, const Meter::Cell& cell);
     void warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline, double exposure);
     void bloom_pane(vk::CommandBuffer commands, const PaneState& pane);
     void pattern_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Format target);

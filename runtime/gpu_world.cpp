@@ -98,6 +98,7 @@ void put_stars(Device& device, GpuWorld& world, const std::vector<Star>& stars)
         return;
     const auto entries = star_entries(stars, *world.scene.stars);
     const auto table = black_body_table();
+    world.star_patches = star_patches(entries);
     world.stars = make_static_buffer(device, std::as_bytes(std::span(entries)), vk::BufferUsageFlagBits::eStorageBuffer);
     world.black_bodies
         = make_static_buffer(device, std::as_bytes(std::span(table)), vk::BufferUsageFlagBits::eUniformBuffer);

@@ -3,6 +3,7 @@
 #include "pipelines.h"
 #include "response.h"
 #include "spectra.h"
+#include "star_cull.h"
 #include "stars.h"
 #include "world.h"
 
@@ -28,6 +29,7 @@ struct GpuWorld {
     std::vector<vk::raii::DescriptorSet> materials;
 
     std::uint32_t star_count = 0;
+    std::vector<StarPatch> star_patches;
     Buffer stars, black_bodies; ///< StarEntry each; the table of black_body_table. Null without stars
 
     Spectra spectra;

@@ -12,12 +12,14 @@ using Layout_ = vk::ImageLayout;
 
 /// Of all panes together, and at least so many of each. A lamp of a thousandth of the view is still seen by some.
 constexpr double samples = 6000, least_samples = 48;
+/// Of all panes together: enough that a view of a twentieth of the sky is told by a hundred.
+constexpr int star_samples = 3000, star_row = 64;
 
 static_assert(sizeof(Glimpse) == 8);
 
 } // namespace
 
-Meter::Meter(const Device& device, std::span<const glm::ivec2> panes)
+Meter::Meter(const Device& device, std::span<const glm::ivec2> panes, std::uint32_t stars)
 {
     glm::ivec2 size(1);
     int below = 0;
@@ -34,6 +36,15 @@ Meter::Meter(const Device& device, std::span<const glm::ivec2> panes)
         below += cell.size.y;
         size = glm::max(size, cell.corner + cell.size);
         cells_.push_back(cell);
+    }
+    view_rows_ = below;
+    every_ = std::max(1, int((std::uint64_t(stars) * std::uint64_t(counting) + star_samples - 1) / star_samples));
+    const int rows = (int(stars) + every_ * star_row - 1) / (every_ * star_row);
+    for (const glm::ivec2& pane : panes) {
+        const Cell cell{{0, below}, pane.x > 0 ? glm::ivec2(star_row, rows) : glm::ivec2(0)};
+        below += cell.size.y;
+        size = glm::max(size, cell.corner + cell.size);
+        star_cells_.push_back(cell);
     }
     picture_ = make_image(device,
         {meter_format, {std::uint32_t(size.x), std::uint32_t(size.y)},
@@ -66,7 +77,16 @@ std::span<const Glimpse> Meter::view() const
 {
     if (!drawn_)
         return {};
-    return {static_cast<const Glimpse*>(back_.mapped), std::size_t(picture_.extent.width) * picture_.extent.height};
+    return {static_cast<const Glimpse*>(back_.mapped), std::size_t(picture_.extent.width) * view_rows_};
+}
+
+std::span<const Glimpse> Meter::stars() const
+{
+    if (!drawn_)
+        return {};
+    const std::size_t view = std::size_t(picture_.extent.width) * view_rows_;
+    return {static_cast<const Glimpse*>(back_.mapped) + view,
+        std::size_t(picture_.extent.width) * picture_.extent.height - view};
 }
 
 } // namespace starbow

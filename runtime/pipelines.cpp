@@ -15,6 +15,7 @@
 #include "spirv/sky_frag.h"
 #include "spirv/sky_vert.h"
 #include "spirv/star_frag.h"
+#include "spirv/star_meter_frag.h"
 #include "spirv/star_vert.h"
 #include "spirv/warp_frag.h"
 #include <cstddef>
@@ -30,7 +31,7 @@ struct Pass {
     std::vector<vk::Format> targets;
     std::vector<std::uint32_t> constants; ///< constant_id = index, either stage
     bool depth = false, vertices = false, blend = false;
-    bool points = false; ///< added up
+    bool points = false, added = false;
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
 };
 
@@ -67,11 +68,11 @@ vk::raii::Pipeline make_pipeline(const Device& device, const Pass& pass)
     depth.depthCompareOp = vk::CompareOp::eGreaterOrEqual;
     vk::PipelineColorBlendAttachmentState blend;
     blend.colorWriteMask = vk::FlagTraits<vk::ColorComponentFlagBits>::allFlags;
-    if (pass.blend || pass.points) {
+    if (pass.blend || pass.added) {
         blend.blendEnable = true;
         blend.srcColorBlendFactor = blend.srcAlphaBlendFactor = vk::BlendFactor::eOne;
         blend.dstColorBlendFactor = blend.dstAlphaBlendFactor
-            = pass.points ? vk::BlendFactor::eOne : vk::BlendFactor::eOneMinusSrcAlpha;
+            = pass.added ? vk::BlendFactor::eOne : vk::BlendFactor::eOneMinusSrcAlpha;
     }
     std::vector<vk::PipelineColorBlendAttachmentState> blends(pass.targets.size(), blend);
     vk::PipelineColorBlendStateCreateInfo blending({}, false, {}, blends);
@@ -193,7 +194,8 @@ vk::Pipeline Pipelines::stars(const WarpVariant& v, vk::Format target)
                 .layout = *star_layout,
                 .targets = {target},
                 .constants = constants(v),
-                .points = true});
+                .points = true,
+                .added = true});
     });
 }
 
@@ -218,6 +220,21 @@ vk::Pipeline Pipelines::meter(const WarpVariant& v)
                 .layout = *warp_layout,
                 .targets = {meter_format},
                 .constants = constants(v)});
+    });
+}
+
+vk::Pipeline Pipelines::star_meter(const WarpVariant& v)
+{
+    std::vector<std::uint32_t> all = constants(v);
+    all.push_back(true); // at a glance
+    return find(star_meters_, v, [&] {
+        return make_pipeline(device_,
+            {.vertex = star_vert,
+                .fragment = star_meter_frag,
+                .layout = *star_layout,
+                .targets = {meter_format},
+                .constants = all,
+                .points = true});
     });
 }
 

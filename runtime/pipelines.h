@@ -79,6 +79,7 @@ public:
     vk::Pipeline stars(const WarpVariant& variant, vk::Format target);
     vk::Pipeline measure(const WarpVariant& variant);
     vk::Pipeline meter(const WarpVariant& variant);
+    vk::Pipeline star_meter(const WarpVariant& variant);
     vk::Pipeline bloom(bool up);
     vk::Pipeline bloomed(vk::Format target);
     vk::Pipeline hud(bool map, vk::Format target);
@@ -103,7 +104,7 @@ private:
     std::map<std::pair<SurfaceVariant, TargetKind>, vk::raii::Pipeline> surfaces_;
     std::map<TargetKind, vk::raii::Pipeline> skies_;
     std::map<std::pair<WarpVariant, vk::Format>, vk::raii::Pipeline> warps_;
-    std::map<WarpVariant, vk::raii::Pipeline> measures_, meters_;
+    std::map<WarpVariant, vk::raii::Pipeline> measures_, meters_, star_meters_;
     std::map<std::pair<WarpVariant, vk::Format>, vk::raii::Pipeline> stars_;
     std::map<std::pair<bool, vk::Format>, vk::raii::Pipeline> huds_;
     std::map<bool, vk::raii::Pipeline> blooms_;

@@ -72,14 +72,23 @@ void StarPass::begin(vk::CommandBuffer commands, vk::Extent2D extent)
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 1, *set_, {});
 }
 
-void StarPass::draw(vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size, bool channels)
+void StarPass::draw(
+    vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size, int instances, std::span<const StarRun> stars)
 {
     // Wider by a spot's radius: a point whose middle lies outside would not be drawn at all.
     const glm::ivec2 radius(STAR_RADIUS);
     const glm::vec2 low = corner - radius, wide = size + 2 * radius;
     commands.setViewport(0, vk::Viewport(low.x, low.y, wide.x, wide.y, 0, 1));
     commands.setScissor(0, rect_of(corner, size));
-    commands.draw(world_.star_count, channels ? 3 : 1, 0, 0);
+    for (const StarRun& run : stars)
+        commands.draw(run.count, std::uint32_t(instances), run.first, 0);
+}
+
+void StarPass::glance(vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size, int every, bool channels) const
+{
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 1, *set_, {});
+    set_area(commands, corner, size);
+    commands.draw((world_.star_count + std::uint32_t(every) - 1) / std::uint32_t(every), 1, 0, channels ? 1 : 0);
 }
 
 void StarPass::end(vk::CommandBuffer commands)

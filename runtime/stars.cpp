@@ -1,6 +1,6 @@
 #include "stars.h"
-#include "colour.h"
 #include "config/reader.h"
+#include "spectrum.h"
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -102,22 +102,17 @@ double temperature_of(double b_v) { return 4600 * (1 / (0.92 * b_v + 1.7) + 1 / 
 
 glm::dvec3 black_body_xyz(double temperature_K)
 {
-    auto sum = [](double kelvin) {
-        glm::dvec3 xyz(0);
-        for (double nm = 360.5; nm < 830; ++nm)
-            xyz += xyz_response(nm) * planck(nm, kelvin);
-        return xyz;
-    };
-    static const double sun = sum(sun_K).y;
-    return sum(temperature_K) / sun;
+    static const double sun = seen_xyz(black_body(sun_K), 1).y;
+    return seen_xyz(black_body(temperature_K), 1) / sun;
 }
 
 std::vector<glm::vec4> black_body_table()
 {
+    const glm::dmat3 rec709_from_xyz = rec709_from_sunlit_xyz();
     std::vector<glm::vec4> table;
     for (int step = 0; step < STAR_STEPS; ++step) {
         const glm::dvec3 xyz = black_body_xyz(STAR_COLDEST * std::exp2(step / double(STAR_STEPS_PER_OCTAVE)));
-        table.push_back(glm::vec4(rec709_linear_from_xyz(xyz / xyz.y), std::log(xyz.y)));
+        table.push_back(glm::vec4(rec709_from_xyz * (xyz / xyz.y), std::log(xyz.y)));
     }
     return table;
 }

@@ -24,6 +24,8 @@
 #define STAR_STEPS_PER_OCTAVE 64
 #define STAR_STEPS 769 // 12 octaves: to 2 million K, from where a black body's visible light only grows as its temperature
 #define STAR_RADIUS 2.0 // of the spot that a star is shown as, pixels
+#define STAR_SPOT (3.14159265 * STAR_RADIUS * STAR_RADIUS / 5.0) // pixels of a spot as bright everywhere as in its middle: the
+                                                                // integral of (1 - r^2 / R^2)^4
 
 // One image of the plan, as the warp pass reads it: atlas coordinate = face coordinate * scale + offset.
 struct SlotEntry {
@@ -75,7 +77,8 @@ struct ViewPush {
     vec4 zenith;           // x: TURNING: sine of the angle from the zenith at which the separation is full; y:
                            // REPROJECT: distance of the nearest surface that there may be, scene units; z, w: the
                            // viewport's size, pixels; the meter: pixels of the viewport for one of its samples
-    vec4 pane;             // xy: the viewport's top left corner in the output, pixels, also where it is drawn elsewhere
+    vec4 pane;             // xy: the viewport's top left corner in the output, pixels, also where it is drawn elsewhere; the
+                           // stars at a glance: pixels across and down, and z: of how many stars each is one
 };
 
 // A star, in the scene's world at rest.

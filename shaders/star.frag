@@ -13,6 +13,5 @@ void main()
     vec2 off = (gl_FragCoord.xy - centre) / STAR_RADIUS;
     float inside = max(1.0 - dot(off, off), 0.0);
     inside *= inside;
-    // The integral of (1 - r^2 / R^2)^4 is pi R^2 / 5.
-    shown = vec4(light * (inside * inside * (5.0 / (3.14159265 * STAR_RADIUS * STAR_RADIUS))), 1.0);
+    shown = vec4(light * (inside * inside / STAR_SPOT), 1.0);
 }

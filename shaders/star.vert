@@ -7,14 +7,17 @@
 #include "seen.glsl"
 // One star of the sky in one viewport: where the ship sees it, which pixel shows that, and what light comes from it. Stars
 // are points: they go through the forward transform one by one and have no size that could be magnified. One instance, or
-// three where colours look different ways: each star then has a place for each.
+// three where colours look different ways: each star then has a place for each. And as many again where a display looks the same
+// way at more than one place.
+
+layout(constant_id = 10) const bool GLIMPSE = false; // for the exposure: each star is a pixel of its own, side by side
 
 layout(set = 0, binding = 6) uniform usampler2DArray inverse_map;
 layout(set = 1, binding = 0) uniform Constants { StarConstants turn; };
 layout(set = 1, binding = 1) readonly buffer Stars { StarEntry stars[]; };
 layout(set = 1, binding = 2) uniform BlackBodies { vec4 black_bodies[STAR_STEPS]; };
 
-layout(location = 0) flat out vec2 centre; // pixels of the target
+layout(location = 0) flat out vec2 centre; // pixels of the target; GLIMPSE: x: the angle of a pixel, radians
 layout(location = 1) flat out vec3 light;  // of the whole star, spread over the solid angle of a pixel
 
 // Rec. 709 linear light of a black body, relative to a luminance of 1 at 5772 K.
@@ -71,12 +74,33 @@ vec3 change_about(vec4 here, ivec2 pixel, ivec2 way, ivec2 size, int channel)
     return back_square == 0.0 || (on_square > 0.0 && on_square < back_square) ? on : back;
 }
 
+// Of the pixels that it comes to from one, in strides halved again and again, the one that looks closest to n.
+ivec2 closest_to(vec3 n, ivec2 pixel, ivec2 size, int channel)
+{
+    vec3 off = n - texel_at(pixel, channel).xyz;
+    float least = dot(off, off);
+    const ivec2 ways[4] = ivec2[](ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
+    for (int stride = max(size.x, size.y) / 2; stride > 0; stride /= 2)
+        for (int i = 0; i < 8; ++i) {
+            ivec2 at = pixel + stride * ways[i & 3];
+            if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size)))
+                continue;
+            vec4 there = texel_at(at, channel);
+            off = n - there.xyz;
+            if (there.w > 0.0 && dot(off, off) < least)
+                least = dot(off, off), pixel = at;
+        }
+    return pixel;
+}
+
 // The point of the map (pixels from its corner) that shows n (the map's axes), by Newton's method from a pixel near it; a spot
-// beyond the picture's edge is extrapolated. False where there is none.
-bool found_from(ivec2 pixel, vec3 n, int channel, out vec2 point, out float pixel_angle)
+// beyond the picture's edge is extrapolated. About a panorama's poles pixels are slivers that look every way within a few
+// pixels: there it may lead astray, and goes on from the closest pixel; nearly: that will do. False where there is none.
+bool found_from(ivec2 pixel, vec3 n, int channel, bool nearly, out vec2 point, out float pixel_angle)
 {
     ivec2 size = textureSize(direction_map, 0).xy;
-    for (int round = 0; round < 8; ++round) {
+    bool astray = false;
+    for (int round = 0; round < 10; ++round) {
         vec4 here = texel_at(pixel, channel);
         vec3 right = change_about(here, pixel, ivec2(1, 0), size, channel);
         vec3 down = change_about(here, pixel, ivec2(0, 1), size, channel);
@@ -89,19 +113,30 @@ bool found_from(ivec2 pixel, vec3 n, int channel, out vec2 point, out float pixe
         // As direction_map.h has it.
         float longest = max(dot(right, right), dot(down, down));
         pixel_angle = sqrt(max(sqrt(area_square), 0.25 * longest));
-        if (max(abs(move.x), abs(move.y)) <= 0.75)
+        float far = max(abs(move.x), abs(move.y));
+        if (far <= 0.75)
             return true;
         ivec2 next = clamp(ivec2(floor(point)), ivec2(0), size - 1);
-        bool shows = texel_at(next, channel).w > 0.0;
-        if (next == pixel || !shows)
-            return max(abs(move.x), abs(move.y)) < STAR_RADIUS + 1.0;
-        pixel = next;
+        if (next == pixel || texel_at(next, channel).w == 0.0) {
+            if (far < STAR_RADIUS + 1.0)
+                return true;
+        } else if (round < 7) {
+            pixel = next;
+            continue;
+        }
+        if (astray || dot(off, off) > 16.0 * longest) {
+            point = vec2(pixel) + 0.5 + clamp(move, -0.75, 0.75);
+            return nearly && dot(off, off) < longest;
+        }
+        astray = true;
+        pixel = closest_to(n, pixel, size, channel);
     }
     return false;
 }
 
-// The same for any viewport. n: motion axes.
-bool find(vec3 n, int channel, out vec2 point, out float pixel_angle)
+// The same for any viewport. n: motion axes. second: of two places. Where a panorama's ends meet, and beyond its poles, a spot
+// that is cut by the picture's edge goes on elsewhere.
+bool find(vec3 n, int channel, bool second, out vec2 point, out float pixel_angle)
 {
     vec3 way = vec3(dot(view.row0.xyz, n), dot(view.row1.xyz, n), dot(view.row2.xyz, n));
     if (!MAP) {
@@ -110,9 +145,29 @@ bool find(vec3 n, int channel, out vec2 point, out float pixel_angle)
         return way.z > 0.0;
     }
     uvec4 begin = texelFetch(inverse_map, ivec3(cell_of(way, textureSize(inverse_map, 0).x), channel), 0);
-    for (int i = 0; i < 4 && begin[i] != 0xffffffffu; ++i)
-        if (found_from(ivec2(begin[i] & 0xffffu, begin[i] >> 16), way, channel, point, pixel_angle))
-            return true;
+    if (second && begin[1] == 0xffffffffu)
+        return false;
+    for (int nearly = 0; nearly < 2; ++nearly)
+        for (int i = 0; i < 4 && begin[i] != 0xffffffffu; ++i) {
+            if (!found_from(ivec2(begin[i] & 0xffffu, begin[i] >> 16), way, channel, nearly > 0, point, pixel_angle))
+                continue;
+            if (!second)
+                return true;
+            ivec2 size = textureSize(direction_map, 0).xy, pixel = clamp(ivec2(point), ivec2(0), size - 1);
+            vec2 first = point;
+            // Beyond a pole the other half of the picture goes on; beyond the rim of a whole sphere in a circle, what is opposite.
+            for (int k = -2; k < 4; ++k) {
+                if (k >= 0 && (k <= i || begin[k] == 0xffffffffu))
+                    continue;
+                ivec2 from = k == -2 ? ivec2((pixel.x + size.x / 2) % size.x, pixel.y)
+                    : k == -1        ? size - 1 - pixel
+                                     : ivec2(begin[k] & 0xffffu, begin[k] >> 16);
+                if (found_from(from, way, channel, false, point, pixel_angle)
+                    && max(abs(point.x - first.x), abs(point.y - first.y)) > 2.0 * STAR_RADIUS)
+                    return true;
+            }
+            return false;
+        }
     return false;
 }
 
@@ -126,8 +181,9 @@ bool hidden(Place place)
 
 void main()
 {
-    StarEntry star = stars[gl_VertexIndex];
-    int channel = gl_InstanceIndex;
+    StarEntry star = stars[GLIMPSE ? gl_VertexIndex * int(view.pane.z) : gl_VertexIndex];
+    int channel = CHANNELS ? gl_InstanceIndex % 3 : 0;
+    bool second = gl_InstanceIndex >= (CHANNELS ? 3 : 1);
     vec3 n = vec3(dot(turn.row0.xyz, star.direction.xyz), dot(turn.row1.xyz, star.direction.xyz),
         dot(turn.row2.xyz, star.direction.xyz));
     Sight sight = Sight(n, 1.0); // as the ship sees it
@@ -142,7 +198,7 @@ void main()
     light = vec3(0.0);
     float pixel_angle;
     vec2 size = view.zenith.zw, point;
-    if (!find(sight.n, channel, point, pixel_angle) || any(lessThan(point, vec2(-STAR_RADIUS)))
+    if (!find(sight.n, channel, second, point, pixel_angle) || any(lessThan(point, vec2(-STAR_RADIUS)))
         || any(greaterThan(point, size + STAR_RADIUS)))
         return;
     vec3 from_place = n; // of the cube map
@@ -151,6 +207,13 @@ void main()
     if (hidden(place_of(from_place)))
         return;
     light = starlight(star, sight.D) * (view.boost.z / (pixel_angle * pixel_angle));
+    if (GLIMPSE) {
+        vec2 place = vec2(mod(float(gl_VertexIndex), view.pane.x), floor(float(gl_VertexIndex) / view.pane.x)) + 0.5;
+        gl_Position = vec4(place / view.pane.xy * 2.0 - 1.0, 0.0, 1.0);
+        gl_PointSize = 1.0;
+        centre = vec2(pixel_angle, 0.0);
+        return;
+    }
     if (CHANNELS)
         light *= vec3(equal(ivec3(0, 1, 2), ivec3(channel)));
     centre = point + view.origin.xy;

@@ -135,6 +135,32 @@ TEST(Range, FromRestToAMillionAndThirtyStopsEitherWay)
     expect_in_range(1e9, {1, 1.5, 4});
 }
 
+// Behind, sunlight is shifted into the infrared: what is left to see is dark by many more stops than D^3 tells, and is shown
+// by an exposure at which nothing in the world at rest would be less than white.
+TEST(Range, RedShiftedLightAtGreatExposures)
+{
+    const GpuWorld world = sky_alone("behind", even_sky(0.5, 0.5, 0.5));
+    Studio stage = studio(world, one_view(Planar{20}, {32, 32}));
+    for (double gamma : {1.5, 2.0, 4.0}) {
+        Shot shot = shot_at({0, 0, 0}, {0, 0, u_of_gamma(gamma)}, {0, 0, -1});
+        shot.effects = {true, true, true};
+        const Numbers numbers(stage, shot);
+        shot.exposure_ev = std::log2(0.5 / numbers.light(16 * 32 + 16).r);
+        const auto picture = stage.picture(shot).front();
+        std::printf("  gamma %g: EV %.1f\n", gamma, shot.exposure_ev);
+        for (int i = 0; i < numbers.count(); ++i) {
+            const double red = numbers.light(i).r * std::exp2(shot.exposure_ev); // the brightest
+            if (red < 0.76) { // straight: only the brightest channel shows it if the others are negative
+                ASSERT_NEAR(picture[4 * i], 255 * srgb(red), 2) << "gamma " << gamma << " pixel " << i;
+            }
+        }
+        Shot metered = shot;
+        const double ev = *stage.metered(shot);
+        metered.exposure_ev = 0;
+        EXPECT_NEAR(*stage.metered(metered), ev, 1e-3); // whatever it is shown at
+    }
+}
+
 TEST(Range, NumbersDoNotDependOnTheExposure)
 {
     Studio stage = studio(avenue().world, one_view(Fisheye{180, 30}, {64, 64}));

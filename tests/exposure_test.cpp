@@ -1,4 +1,5 @@
 // The exposure: what is metered, how it adapts; and the curve from light to what a screen shows.
+#include "runtime/colour.h"
 #include "runtime/exposure.h"
 #include "runtime/hud.h"
 #include <algorithm>
@@ -78,6 +79,30 @@ TEST(Metering, ASmallBrightDiscIsNotBurntOut)
     EXPECT_NEAR(*metered_ev(even(luminances)), 2, 1e-6); // two stops above white
 }
 
+// Stars of a hundredfold range of brightness, even in its logarithm, in a twilight.
+TEST(Metering, StarsAreNotBroughtBeyondMidGrey)
+{
+    const View twilight = even(std::vector<float>(1000, 0.01f));
+    std::vector<float> luminances;
+    for (int i = 0; i < 300; ++i)
+        luminances.push_back(float(std::pow(10, -1 + 2 * (i + 0.5) / 300)));
+    const View stars = even(luminances, 1e-6f);
+    const double alone = std::log2(0.18) - std::log2(10) * (-1 + 2 * 0.74); // as the brighter half's above
+    EXPECT_NEAR(*metered_ev({}, stars), alone, 0.01);
+    // Among so many the sixteen that are thought to be there count for 5 %.
+    EXPECT_NEAR(*metered_ev(twilight, stars), alone + (std::log2(18) - alone) * 16 / 316, 0.01);
+    // By day they do not count.
+    EXPECT_EQ(*metered_ev(even({5, 5, 5, 5}), stars), *metered_ev(even({5, 5, 5, 5})));
+    EXPECT_EQ(metered_ev(twilight, even({0, 0, 0})), metered_ev(twilight)); // out of sight
+    // A few bright ones that come into view.
+    View with_bright = stars;
+    for (const float bright : {300.0f, 1000.0f, 3000.0f})
+        with_bright.push_back({bright, 1e-6f});
+    EXPECT_NEAR(*metered_ev(twilight, with_bright), *metered_ev(twilight, stars), 0.1);
+    // One alone can't darken a twilight much, nor tear it as it comes and goes.
+    EXPECT_NEAR(*metered_ev(twilight, even({30.0f}, 1e-6f)), std::log2(18) - std::log2(30 / 0.01) / 17, 0.01);
+}
+
 TEST(Metering, OfDarknessAndOfWhatIsNoNumberThereIsNothing)
 {
     const float none = std::numeric_limits<float>::quiet_NaN(), most = std::numeric_limits<float>::infinity();
@@ -138,6 +163,20 @@ TEST(Adaptation, TheFirstViewIsTakenAtOnceAndDarknessChangesNothing)
     exposure = adapted(exposure, -4.0, 0.001, rules);
     EXPECT_EQ(exposure.ev, -4.0);
     EXPECT_EQ(adapted(exposure, {}, 100, rules).ev, -4.0);
+}
+
+// What config/exposing.h says of the greatest exposure, from SI's constants.
+TEST(Adaptation, TheGreatestExposureIsForTheEyesThreshold)
+{
+    const double h = 6.62607015e-34, c = 299792458, k = 1.380649e-23, kelvin = 5772, pi = 3.14159265358979;
+    double all = 0, seen = 0;
+    for (double nm = 50.5; nm < 1e5; ++nm) {
+        const double m = 1e-9 * nm, power = 1 / (std::pow(m, 5) * std::expm1(h * c / (m * k * kelvin)));
+        all += power, seen += power * xyz_response(nm).y;
+    }
+    const double sunlit_cd_m2 = 683 * 1361 * (seen / all) / pi;
+    EXPECT_NEAR(sunlit_cd_m2, 39900, 100);
+    EXPECT_NEAR(Exposing().greatest_ev, std::log2(0.18 * sunlit_cd_m2 / 1e-6), 0.5); // a whole number
 }
 
 TEST(Adaptation, KeepsToTheLimitsAndToTheLock)

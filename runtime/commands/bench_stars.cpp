@@ -58,6 +58,7 @@ int bench_stars(int rounds)
     std::vector<Case> cases;
     cases.push_back(under("no stars", {}));
     cases.push_back(under("5,044 stars", load_stars(scene.stars.value().catalogue)));
+    cases.push_back(under("100,000 stars", swarm(100'000)));
     cases.push_back(under("1,000,000 stars", swarm(1'000'000)));
     std::printf(
         "%s; avenue at 800x600 from above, all effects on; medians of %d rounds, whole frames, milliseconds\n\n%-12s",

@@ -57,8 +57,10 @@ int render(const Options& options)
         theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, true), options.exr);
     studio.frame().show(pattern);
     studio.frame().bloom(options.bloom);
-    if (options.exposure == "auto")
-        shot.exposure_ev = std::clamp(studio.metered(shot).value_or(shot.exposure_ev), -60.0, 60.0);
+    if (options.exposure == "auto") {
+        const Exposing rules;
+        shot.exposure_ev = std::clamp(studio.metered(shot).value_or(shot.exposure_ev), rules.least_ev, rules.greatest_ev);
+    }
     std::optional<Panel> panel;
     if (options.hud) {
         Readings told = readings(ship_at(shot), theatre.world.scene, shot.effects);

@@ -1,0 +1,15 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
+// A star's spot at a glance, for the exposure: as bright as its middle and so large that its light is the star's.
+
+layout(location = 0) flat in vec2 pixel; // x: its angle, radians
+layout(location = 1) flat in vec3 light; // of the whole star, spread over the solid angle of a pixel
+layout(location = 0) out vec2 glimpse;   // as meter.frag's
+
+void main()
+{
+    const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
+    float pixels = STAR_SPOT;
+    glimpse = vec2(min(max(dot(light, luminance), 0.0) / pixels, 1e38), pixels * pixel.x * pixel.x);
+}
