@@ -106,9 +106,9 @@ vk::raii::PipelineLayout make_layout(const Device& device, std::initializer_list
 
 std::vector<std::uint32_t> constants(const WarpVariant& v)
 {
-    constexpr std::uint32_t dithered = 1; // constant_id 10: the warp pass sets it by its target
+    constexpr std::uint32_t of_the_pass = 0; // constant_id 10, each pass's own
     return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear,
-        dithered, std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), v.by_table};
+        of_the_pass, std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), v.by_table};
 }
 
 /// The pipeline of a key, made by `make` if it is new.
@@ -226,7 +226,7 @@ vk::Pipeline Pipelines::meter(const WarpVariant& v)
 vk::Pipeline Pipelines::star_meter(const WarpVariant& v)
 {
     std::vector<std::uint32_t> all = constants(v);
-    all.push_back(true); // at a glance
+    all[10] = true; // at a glance
     return find(star_meters_, v, [&] {
         return make_pipeline(device_,
             {.vertex = star_vert,

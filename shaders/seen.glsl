@@ -8,7 +8,7 @@ layout(constant_id = 5) const bool CHANNELS = false; // red, green and blue look
 layout(constant_id = 6) const bool REPROJECT = false; // the eye is not where the cube map was drawn
 layout(constant_id = 7) const bool TURNING = false; // and on which side of it depends on the azimuth
 layout(constant_id = 8) const bool STARS = false;
-// 9 and 10 are warp.frag's
+// 9 is warp.frag's, 10 each pass' own
 layout(constant_id = 11) const int REFLECTED = 3; // numbers of what surfaces reflect: 3 are a colour
 layout(constant_id = 12) const int OWN = 0; // numbers of the world's own spectra
 layout(constant_id = 13) const bool BY_TABLE = true; // otherwise the numbers are the colour itself, seen as it is
