@@ -257,7 +257,7 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
         for (const OutputState& output : outputs_)
             size = glm::max(size, output.size);
         stars_.fit({std::uint32_t(size.x), std::uint32_t(size.y)});
-        stars_.prepare(to_motion);
+        stars_.prepare(to_motion, shot.effects.false_colours);
     }
     if (hud && (panel_.extent.width != std::uint32_t(hud->size.x) || panel_.extent.height != std::uint32_t(hud->size.y))) {
         panel_ = make_image(device_,

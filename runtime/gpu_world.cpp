@@ -87,21 +87,19 @@ void put_spectra(Device& device, GpuWorld& world, SpectralLevel level)
         for (std::size_t c = 0; c < 3; ++c)
             buffers->rows[c] = constants(response.rows[c]);
         buffers->own_rows = constants(response.own_rows);
+        buffers->black_bodies = constants(black_body_table(*observer));
     }
 }
 
 void put_stars(Device& device, GpuWorld& world, const std::vector<Star>& stars)
 {
     world.star_count = world.scene.stars ? std::uint32_t(stars.size()) : 0;
-    world.stars = {}, world.black_bodies = {};
+    world.stars = {};
     if (world.star_count == 0)
         return;
     const auto entries = star_entries(stars, *world.scene.stars);
-    const auto table = black_body_table();
     world.star_patches = star_patches(entries);
     world.stars = make_static_buffer(device, std::as_bytes(std::span(entries)), vk::BufferUsageFlagBits::eStorageBuffer);
-    world.black_bodies
-        = make_static_buffer(device, std::as_bytes(std::span(table)), vk::BufferUsageFlagBits::eUniformBuffer);
 }
 
 GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const SceneFile& scene,

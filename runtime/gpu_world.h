@@ -9,10 +9,11 @@
 
 namespace starbow {
 
-/// What an observer sees of a world's numbers: Response on the device.
+/// What an observer sees of a world's numbers, Response on the device, and of its stars.
 struct ResponseBuffers {
     std::array<Buffer, 3> rows;
     Buffer own_rows;
+    Buffer black_bodies; ///< the table of black_body_table
 };
 
 /// A world on the device. The plain arrays of World that only it needs (vertices, indices, texels) are dropped.
@@ -30,7 +31,7 @@ struct GpuWorld {
 
     std::uint32_t star_count = 0;
     std::vector<StarPatch> star_patches;
-    Buffer stars, black_bodies; ///< StarEntry each; the table of black_body_table. Null without stars
+    Buffer stars; ///< StarEntry each; null without stars
 
     Spectra spectra;
     Buffer columns; ///< of spectra

@@ -30,16 +30,19 @@ StarPass::StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& w
         return;
     constants_ = make_mapped_buffer(device, sizeof(shared::StarConstants), vk::BufferUsageFlagBits::eUniformBuffer);
     std::vector<vk::DescriptorPoolSize> sizes
-        = {{vk::DescriptorType::eUniformBuffer, 2}, {vk::DescriptorType::eStorageBuffer, 1}};
-    pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
-    set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.star_set}).front());
-    const vk::DescriptorBufferInfo buffers[] = {{*constants_.buffer, 0, VK_WHOLE_SIZE},
-        {*world.stars.buffer, 0, VK_WHOLE_SIZE}, {*world.black_bodies.buffer, 0, VK_WHOLE_SIZE}};
-    device.device.updateDescriptorSets(
-        {vk::WriteDescriptorSet(*set_, 0, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[0]),
-            vk::WriteDescriptorSet(*set_, 1, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[1]),
-            vk::WriteDescriptorSet(*set_, 2, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[2])},
-        {});
+        = {{vk::DescriptorType::eUniformBuffer, 4}, {vk::DescriptorType::eStorageBuffer, 2}};
+    pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2, sizes});
+    for (std::size_t i = 0; i < sets_.size(); ++i) {
+        sets_[i] = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.star_set}).front());
+        const Buffer& black_bodies = (i == 0 ? world.eye : world.false_colours).black_bodies;
+        const vk::DescriptorBufferInfo buffers[] = {{*constants_.buffer, 0, VK_WHOLE_SIZE},
+            {*world.stars.buffer, 0, VK_WHOLE_SIZE}, {*black_bodies.buffer, 0, VK_WHOLE_SIZE}};
+        device.device.updateDescriptorSets(
+            {vk::WriteDescriptorSet(*sets_[i], 0, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[0]),
+                vk::WriteDescriptorSet(*sets_[i], 1, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[1]),
+                vk::WriteDescriptorSet(*sets_[i], 2, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[2])},
+            {});
+    }
 }
 
 void StarPass::fit(vk::Extent2D extent)
@@ -53,8 +56,9 @@ void StarPass::fit(vk::Extent2D extent)
         device_, {format_, extent, vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled});
 }
 
-void StarPass::prepare(const glm::dmat3& motion_from_world)
+void StarPass::prepare(const glm::dmat3& motion_from_world, bool false_colours)
 {
+    false_colours_ = false_colours;
     shared::StarConstants constants{};
     glm::vec4* rows[] = {&constants.row0, &constants.row1, &constants.row2};
     for (int i = 0; i < 3; ++i)
@@ -69,7 +73,7 @@ void StarPass::begin(vk::CommandBuffer commands, vk::Extent2D extent)
     const vk::RenderingAttachmentInfo colour(*picture_.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore, vk::ClearColorValue(std::array<float, 4>{}));
     commands.beginRendering({{}, {{0, 0}, extent}, 1, 0, colour});
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 1, *set_, {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 1, *sets_[false_colours_], {});
 }
 
 void StarPass::draw(
@@ -86,7 +90,7 @@ void StarPass::draw(
 
 void StarPass::glance(vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size, int every, bool channels) const
 {
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 1, *set_, {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 1, *sets_[false_colours_], {});
     set_area(commands, corner, size);
     commands.draw((world_.star_count + std::uint32_t(every) - 1) / std::uint32_t(every), 1, 0, channels ? 1 : 0);
 }

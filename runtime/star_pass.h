@@ -16,7 +16,7 @@ public:
     bool on() const { return world_.star_count > 0; }
     /// Makes room for an output. The device must have finished the frame before.
     void fit(vk::Extent2D extent);
-    void prepare(const glm::dmat3& motion_from_world);
+    void prepare(const glm::dmat3& motion_from_world, bool false_colours);
 
     /// From begin to end the viewports are drawn: bind a pipeline of Pipelines::stars for format(), its set 0 and the push
     /// constants, then draw() of those stars that may be seen. The picture is then for fragment shaders to read.
@@ -37,7 +37,8 @@ private:
     const GpuWorld& world_;
     vk::Format format_;
     vk::raii::DescriptorPool pool_ = nullptr;
-    vk::raii::DescriptorSet set_ = nullptr;
+    std::array<vk::raii::DescriptorSet, 2> sets_ = {nullptr, nullptr}; ///< for eyes, for false colours
+    bool false_colours_ = false;
     Buffer constants_;
     Image picture_;
 };

@@ -106,13 +106,15 @@ glm::dvec3 black_body_xyz(double temperature_K)
     return seen_xyz(black_body(temperature_K), 1) / sun;
 }
 
-std::vector<glm::vec4> black_body_table()
+std::vector<glm::vec4> black_body_table(const Observer& observer)
 {
-    const glm::dmat3 rec709_from_xyz = rec709_from_sunlit_xyz();
+    static const double sun = seen_xyz(black_body(sun_K), 1).y;
     std::vector<glm::vec4> table;
     for (int step = 0; step < STAR_STEPS; ++step) {
-        const glm::dvec3 xyz = black_body_xyz(STAR_COLDEST * std::exp2(step / double(STAR_STEPS_PER_OCTAVE)));
-        table.push_back(glm::vec4(rec709_from_xyz * (xyz / xyz.y), std::log(xyz.y)));
+        const double kelvin = STAR_COLDEST * std::exp2(step / double(STAR_STEPS_PER_OCTAVE));
+        const glm::dvec3 told = seen(observer, black_body(kelvin), 1) / sun;
+        const double most = std::max({told.x, told.y, told.z});
+        table.push_back(glm::vec4(observer.rec709 * (told / most), std::log(most)));
     }
     return table;
 }

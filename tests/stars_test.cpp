@@ -21,7 +21,7 @@ glm::dvec2 chromaticity(const glm::dvec3& xyz) { return glm::dvec2(xyz) / (xyz.x
 /// What star.vert's black_body() reads, in double: Rec. 709 linear.
 glm::dvec3 from_table(double kelvin)
 {
-    static const std::vector<glm::vec4> table = black_body_table();
+    static const std::vector<glm::vec4> table = black_body_table(eye());
     const double at = std::log2(kelvin / STAR_COLDEST) * STAR_STEPS_PER_OCTAVE;
     const int i = std::clamp(int(at), 0, STAR_STEPS - 2);
     const glm::dvec4 entry = glm::mix(glm::dvec4(table[i]), glm::dvec4(table[i + 1]), at - i);
