@@ -4,9 +4,6 @@
 namespace starbow {
 namespace {
 
-const std::vector<std::pair<std::string_view, FlightMode>> modes{
-    {"guided", FlightMode::guided}, {"free", FlightMode::free}, {"newtonian", FlightMode::newtonian}};
-
 Flying read_flying(const Place& place)
 {
     only(place,
@@ -14,7 +11,7 @@ Flying read_flying(const Place& place)
             "rapidity_jerk_per_s2"});
     Flying flying;
     if (auto p = find(place, "mode"))
-        flying.mode = chosen(*p, modes);
+        flying.mode = chosen(*p, flight_modes);
     take(place, "greatest_gamma", flying.greatest_gamma, {1.001, 1e6});
     take(place, "turn_deg_per_s", flying.turn_deg_per_s, {0, 360, true});
     take(place, "roll_deg_per_s", flying.roll_deg_per_s, {0, 360});

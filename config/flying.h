@@ -1,4 +1,8 @@
 #pragma once
+#include <string_view>
+#include <utility>
+#include <vector>
+#include <utility>
 
 namespace starbow {
 
@@ -6,6 +10,9 @@ namespace starbow {
 /// the nose looks where it likes. newtonian: the throttle is the engine's thrust along the nose, and nothing else slows
 /// down.
 enum class FlightMode { guided, free, newtonian };
+inline const std::vector<std::pair<std::string_view, FlightMode>> flight_modes{
+    {"guided", FlightMode::guided}, {"free", FlightMode::free}, {"newtonian", FlightMode::newtonian}};
+inline std::string_view name_of(FlightMode mode) { return flight_modes[std::size_t(mode)].first; }
 
 /// How an exhibit flies. Times are the visitor's seconds, which are the ship's.
 struct Flying {

@@ -344,9 +344,11 @@ int fly_exhibit(const Opening& opening)
         std::string lost;
         try {
             theatre = std::make_unique<Theatre>(opening.scene, device_options(true));
-            for (const std::string& note : notes(*theatre))
+            for (const std::string& note : theatre->world.world.notes)
                 if (losses == 0)
-                    std::fprintf(stderr, "starbow: %s\n", note.c_str());
+                    std::fprintf(stderr, "starbow: %s: %s\n", theatre->world.scene.gltf.c_str(), note.c_str());
+            if (losses == 0)
+                std::printf("%s\n", light_told(*theatre).c_str());
             fly(visit, *theatre);
             tell(visit, theatre->world.scene);
             const bool same = visit.tape.end(visit.flight);

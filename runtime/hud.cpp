@@ -108,8 +108,7 @@ std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r)
         {"Doppler", on(r.effects.doppler)},
         {"headlight", on(r.effects.headlight)},
     };
-    constexpr const char* modes[] = {"guided", "free", "newtonian"};
-    fields.push_back({"flight", modes[int(r.mode)]});
+    fields.push_back({"flight", std::string(name_of(r.mode))});
     const double ev = std::round(10 * r.exposure_ev) / 10;
     const std::string sign = ev < 0 ? "−" : ev > 0 ? "+" : "";
     fields.push_back({"exposure", sign + text("%.1f EV", std::abs(ev)) + (r.exposure_locked ? " locked" : "")});
@@ -220,10 +219,10 @@ Panel Typesetter::draw(const Readings& readings, int width) const
                 = std::uint8_t(255 * std::clamp(corner - glm::length(out) + 0.5, 0.0, 1.0));
         }
 
-    // The lever's way along the left edge, filled up to where it stands.
+    // The lever's way along the left edge, filled up to where it stands. A still has none.
     const glm::ivec2 from(panel.size.x * 0.016, panel.size.y * 0.13), to(panel.size.x * 0.023, panel.size.y * 0.87);
-    const int filled = to.y - int(std::lround((to.y - from.y) * std::clamp(readings.lever, 0.0, 1.0)));
-    for (int y = from.y; y < to.y; ++y)
+    const int filled = to.y - int(std::lround((to.y - from.y) * std::clamp(readings.lever.value_or(0), 0.0, 1.0)));
+    for (int y = from.y; readings.lever && y < to.y; ++y)
         for (int x = from.x; x < to.x; ++x)
             panel.texels[2 * (std::size_t(y) * panel.size.x + x)] = y >= filled ? 255 : 64;
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,7 @@ struct Readings {
     FlightMode mode = FlightMode::guided;
     double exposure_ev = 0;
     bool exposure_locked = false; ///< it does not follow the view
-    double lever = 0; ///< where the throttle is, 0 to 1
+    std::optional<double> lever{}; ///< where the throttle is, 0 to 1
     std::string prompt{}; ///< what the visitor is to try now, or empty
     std::string notice{}; ///< one line for who looks after the exhibit, or empty
 };

@@ -27,11 +27,6 @@ constexpr std::pair<const char*, bool Controls::*> switches[] = {{"look_ahead", 
     {"lock_exposure", &Controls::lock_exposure}, {"hud", &Controls::hud}, {"full_screen", &Controls::full_screen},
     {"quit", &Controls::quit}, {"pattern", &Controls::pattern}, {"save", &Controls::save}};
 
-const std::vector<std::pair<std::string_view, FlightMode>> modes{
-    {"guided", FlightMode::guided}, {"free", FlightMode::free}, {"newtonian", FlightMode::newtonian}};
-
-std::string_view name_of(FlightMode mode) { return modes[std::size_t(mode)].first; }
-
 /// Not ==: -0 must come back as -0.
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
@@ -118,7 +113,7 @@ Flying read_rules(const Place& place)
         {"mode", "greatest_gamma", "turn_deg_per_s", "roll_deg_per_s", "turn_jerk_deg_per_s3", "rapidity_per_s",
             "rapidity_jerk_per_s2"});
     Flying rules;
-    rules.mode = chosen(member(place, "mode"), modes);
+    rules.mode = chosen(member(place, "mode"), flight_modes);
     constexpr Range any{0, 1e9};
     take(place, "greatest_gamma", rules.greatest_gamma, {1, 1e9, true});
     take(place, "turn_deg_per_s", rules.turn_deg_per_s, any);

@@ -33,17 +33,11 @@ Theatre::Theatre(LoadedScene&& loaded, const Device::Options& options, std::opti
 {
 }
 
-std::vector<std::string> notes(const Theatre& theatre)
+std::string light_told(const Theatre& theatre)
 {
-    std::vector<std::string> lines;
-    for (const std::string& note : theatre.world.world.notes)
-        lines.push_back(theatre.world.scene.gltf.string() + ": " + note);
-    NeededLevel needed = needed_level(theatre.world.world, theatre.world.scene);
-    const bool asked = needed.level != theatre.world.spectra.level;
-    if (asked)
-        needed = {theatre.world.spectra.level, "as was asked"};
-    lines.push_back(told(needed));
-    return lines;
+    const NeededLevel needed = needed_level(theatre.world.world, theatre.world.scene);
+    const SpectralLevel level = theatre.world.spectra.level;
+    return told(level == needed.level ? needed : NeededLevel{level, "as was asked"});
 }
 
 Device::Options device_options(bool windows)

@@ -22,8 +22,8 @@ private:
     Theatre(struct LoadedScene&& loaded, const Device::Options& options, std::optional<SpectralLevel> level);
 };
 
-/// What the scene's files hold that is not shown, and how its light is told: a line each, for the log.
-std::vector<std::string> notes(const Theatre& theatre);
+/// How the scene's light is told, and why: a line for the log.
+std::string light_told(const Theatre& theatre);
 
 /// Device options as the environment asks: STARBOW_VALIDATION=1, STARBOW_GPU=part of a name.
 Device::Options device_options(bool windows);

@@ -51,8 +51,8 @@ int render(const Options& options)
                 check_writable(picture);
             }
     Theatre theatre(scene_of(shot, shot_file), device_options(false), level_of(options.spectra));
-    for (const std::string& note : notes(theatre))
-        std::fprintf(stderr, "starbow: %s\n", note.c_str());
+    for (const std::string& note : theatre.world.world.notes)
+        std::fprintf(stderr, "starbow: %s: %s\n", theatre.world.scene.gltf.c_str(), note.c_str());
     Studio studio(
         theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, true), options.exr);
     studio.frame().show(pattern);
@@ -68,6 +68,7 @@ int render(const Options& options)
         panel = Typesetter().draw(told, studio.frame().hud_width());
     }
     render_still(options.out, studio, shot, options.exr, panel ? &*panel : nullptr);
+    std::printf("%s\n", light_told(theatre).c_str());
     if (options.exposure == "auto")
         std::printf("exposure %.2f EV\n", shot.exposure_ev);
     for (const Output& output : layout.outputs)
