@@ -64,6 +64,8 @@ std::string lacks(const vk::raii::PhysicalDevice& physical, bool windows)
         return "Vulkan 1.3";
     if (!physical.getFeatures().largePoints)
         return "the feature largePoints";
+    if (physical.getProperties().limits.maxUniformBufferRange < 65536)
+        return "64 KiB of constants at once (maxUniformBufferRange)";
     auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>()
                         .get<vk::PhysicalDeviceVulkan13Features>();
     if (!features.dynamicRendering)

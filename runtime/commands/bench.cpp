@@ -2,6 +2,7 @@
 #include "bench_layout.h"
 #include "bench_spectra.h"
 #include "bench_stars.h"
+#include "bench_timing.h"
 #include "commands.h"
 #include "config/error.h"
 #include "number_option.h"
@@ -9,8 +10,6 @@
 #include "runtime/still.h"
 #include "runtime/theatre.h"
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -26,22 +25,8 @@ struct Options {
     bool stars = false;
 };
 
-using Clock = std::chrono::steady_clock;
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
-
-template <class Work> double milliseconds(Work&& work)
-{
-    Clock::time_point began = Clock::now();
-    work();
-    return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
-}
-
-double median(std::vector<double> values)
-{
-    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-    return values[values.size() / 2];
-}
 
 /// A bare cube map of 512 texels a side, its look-up pass, and the set that both need.
 struct Lookup {
@@ -103,13 +88,6 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
     Target target = studio.target(0);
     studio.frame().meter(true); // as the exhibit flies
     studio.picture(shot, &panel); // warms every cache and leaves the target in a known layout
-    auto writable = [](vk::CommandBuffer commands, const Target& t) {
-        vk::ImageMemoryBarrier2 barrier(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
-            Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead,
-            vk::ImageLayout::eUndefined, vk::ImageLayout::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED,
-            VK_QUEUE_FAMILY_IGNORED, t.image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
-        commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
-    };
     vk::Pipeline lookup_pipeline = theatre.pipelines.lookup(target.format);
 
     // Every stage in turn within each round, so that whatever else the machine does falls on all alike.
@@ -120,13 +98,13 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
         ms[1] = milliseconds([&] { device.now([&](vk::CommandBuffer c) { studio.frame().draw_cubes(c); }); });
         ms[2] = milliseconds([&] {
             device.now([&](vk::CommandBuffer c) {
-                writable(c, target);
+                make_writable(c, target);
                 studio.frame().warp_output(c, 0, target);
             });
         });
         ms[6] = milliseconds([&] {
             device.now([&](vk::CommandBuffer c) {
-                writable(c, target);
+                make_writable(c, target);
                 studio.frame().look_up(c, target, lookup_pipeline, *lookup.set);
             });
         });
@@ -136,14 +114,14 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
         });
         ms[3] = milliseconds([&] {
             device.now([&](vk::CommandBuffer c) {
-                writable(c, target);
+                make_writable(c, target);
                 studio.frame().draw_hud(c, 0, target);
             });
         });
         ms[4] = milliseconds([&] {
             studio.frame().prepare(shot, &panel);
             device.now([&](vk::CommandBuffer c) {
-                writable(c, target);
+                make_writable(c, target);
                 studio.frame().record(c, std::span(&target, 1));
             });
             (void)studio.frame().metered();
@@ -153,7 +131,7 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
             PlanImage image = studio.frame().plain_image(shot, straight);
             plain.prepare_plain(image, shot.position, straight);
             device.now([&](vk::CommandBuffer c) {
-                writable(c, target);
+                make_writable(c, target);
                 plain.record_plain(c, target);
             });
         });

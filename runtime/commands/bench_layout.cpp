@@ -1,9 +1,9 @@
 #include "bench_layout.h"
+#include "bench_timing.h"
 #include "runtime/disparity.h"
 #include "runtime/find.h"
 #include "runtime/theatre.h"
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -12,32 +12,6 @@
 
 namespace starbow {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-using Stage = vk::PipelineStageFlagBits2;
-using Access = vk::AccessFlagBits2;
-
-template <class Work> double milliseconds(Work&& work)
-{
-    const Clock::time_point began = Clock::now();
-    work();
-    return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
-}
-
-double median(std::vector<double> values)
-{
-    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-    return values[values.size() / 2];
-}
-
-void writable(vk::CommandBuffer commands, const Target& target)
-{
-    vk::ImageMemoryBarrier2 barrier(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
-        Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead,
-        vk::ImageLayout::eUndefined, vk::ImageLayout::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED,
-        VK_QUEUE_FAMILY_IGNORED, target.image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
-    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
-}
 
 double pixels_of(const Layout& layout)
 {
@@ -70,7 +44,7 @@ struct Case {
             return milliseconds([&] {
                 device.now([&](vk::CommandBuffer c) {
                     for (std::size_t i = 0; i < outputs; ++i) {
-                        writable(c, targets[i]);
+                        make_writable(c, targets[i]);
                         work(c, i);
                     }
                 });
@@ -89,7 +63,7 @@ struct Case {
             frame.prepare(shot, nullptr);
             device.now([&](vk::CommandBuffer c) {
                 for (const Target& target : targets)
-                    writable(c, target);
+                    make_writable(c, target);
                 frame.record(c, targets);
             });
             (void)frame.metered();

@@ -1,27 +1,12 @@
 #include "bench_spectra.h"
+#include "bench_timing.h"
 #include "runtime/detail.h"
 #include "runtime/spectral_errors.h"
 #include "runtime/still.h"
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 
 namespace starbow {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-using Stage = vk::PipelineStageFlagBits2;
-using Access = vk::AccessFlagBits2;
-
-double median(std::vector<double> values)
-{
-    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
-    return values[values.size() / 2];
-}
-
-} // namespace
-
 std::array<std::array<double, 2>, 3> bench_spectra(Theatre& theatre, const Layout& layout, int rounds)
 {
     Device& device = theatre.device;
@@ -49,20 +34,16 @@ std::array<std::array<double, 2>, 3> bench_spectra(Theatre& theatre, const Layou
             const Target target = studios[level].target(0);
             frame.prepare(shot, nullptr);
             for (int pass = 0; pass < 2; ++pass) {
-                const Clock::time_point began = Clock::now();
-                device.now([&](vk::CommandBuffer commands) {
-                    if (pass == 0)
-                        return frame.draw_cubes(commands);
-                    vk::ImageMemoryBarrier2 barrier(Stage::eColorAttachmentOutput, {}, Stage::eColorAttachmentOutput,
-                        Access::eColorAttachmentWrite, vk::ImageLayout::eUndefined, vk::ImageLayout::eColorAttachmentOptimal,
-                        VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, target.image,
-                        {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
-                    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
-                    frame.warp_output(commands, 0, target);
+                const double ms = milliseconds([&] {
+                    device.now([&](vk::CommandBuffer commands) {
+                        if (pass == 0)
+                            return frame.draw_cubes(commands);
+                        make_writable(commands, target);
+                        frame.warp_output(commands, 0, target);
+                    });
                 });
                 if (round >= 0)
-                    times[level][std::size_t(pass)].push_back(
-                        std::chrono::duration<double, std::milli>(Clock::now() - began).count());
+                    times[level][std::size_t(pass)].push_back(ms);
             }
         }
 

@@ -1,24 +1,15 @@
 #include "bench_stars.h"
+#include "bench_timing.h"
 #include "runtime/detail.h"
 #include "runtime/find.h"
 #include "runtime/still.h"
 #include "runtime/theatre.h"
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <random>
 
 namespace starbow {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double median(std::vector<double> values)
-{
-    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-    return values[values.size() / 2];
-}
 
 /// Evenly all around; four times as many with each magnitude (of an endless even swarm), the faintest of magnitude 12.
 std::vector<Star> swarm(int count)
@@ -79,18 +70,15 @@ int bench_stars(int rounds)
         for (int round = -1; round < rounds; ++round)
             for (std::size_t i = 0; i < cases.size(); ++i) {
                 const Target target = studios[i].target(0);
-                const Clock::time_point began = Clock::now();
-                studios[i].frame().prepare(shot, nullptr);
-                device.now([&](vk::CommandBuffer commands) {
-                    vk::ImageMemoryBarrier2 barrier(vk::PipelineStageFlagBits2::eColorAttachmentOutput, {},
-                        vk::PipelineStageFlagBits2::eColorAttachmentOutput, vk::AccessFlagBits2::eColorAttachmentWrite,
-                        vk::ImageLayout::eUndefined, vk::ImageLayout::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED,
-                        VK_QUEUE_FAMILY_IGNORED, target.image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
-                    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
-                    studios[i].frame().record(commands, std::span(&target, 1));
+                const double ms = milliseconds([&] {
+                    studios[i].frame().prepare(shot, nullptr);
+                    device.now([&](vk::CommandBuffer commands) {
+                        make_writable(commands, target);
+                        studios[i].frame().record(commands, std::span(&target, 1));
+                    });
                 });
                 if (round >= 0)
-                    cases[i].ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - began).count());
+                    cases[i].ms.push_back(ms);
             }
         std::printf("\ngamma %-6g", gamma);
         for (const Case& c : cases)

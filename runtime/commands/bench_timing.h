@@ -1,0 +1,37 @@
+#pragma once
+#include "runtime/cube_pass.h"
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+namespace starbow {
+
+/// What the benches of frames share.
+
+template <class Work> double milliseconds(Work&& work)
+{
+    const auto began = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
+}
+
+inline double median(std::vector<double> values)
+{
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// Makes a target ready to be drawn into once more, whatever it held.
+inline void make_writable(vk::CommandBuffer commands, const Target& target)
+{
+    constexpr auto output = vk::PipelineStageFlagBits2::eColorAttachmentOutput;
+    using Access = vk::AccessFlagBits2;
+    vk::ImageMemoryBarrier2 barrier(output, Access::eColorAttachmentWrite, output,
+        Access::eColorAttachmentWrite | Access::eColorAttachmentRead, vk::ImageLayout::eUndefined,
+        vk::ImageLayout::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, target.image,
+        {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
+    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
+}
+
+} // namespace starbow
