@@ -28,7 +28,7 @@ fly desk
 xdotool keydown w
 sleep 3
 xdotool keyup w
-xdotool key 2 l
+xdotool key 2 l 4
 xdotool windowsize "$window" 500 300
 sleep 1
 xdotool windowsize "$window" 900 700
@@ -42,6 +42,8 @@ gamma=$(sed -n 's/.*γ \([0-9.]*\).*/\1/p' "$folder/log")
 awk "BEGIN { exit !($gamma > 1.05) }" || fail "desk: W did not speed up: gamma $gamma"
 ok
 grep -q 'Doppler off' "$folder/log" || fail "desk: 2 did not switch the Doppler effect off"
+ok
+grep -q 'light false colours.*unshifted' "$folder/log" || fail "desk: 4 did not switch to false colours, or they are not told"
 ok
 grep -q 'exposure [^ ]* EV locked' "$folder/log" || fail "desk: L did not hold the exposure"
 ok
