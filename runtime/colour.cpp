@@ -1,7 +1,7 @@
 #include "colour.h"
 #include "cie1931.h"
 #include <algorithm>
-#include <cmath>
+#include <vector>
 
 namespace starbow {
 namespace {
@@ -48,19 +48,6 @@ glm::dvec3 xyz_response(double nm)
         return glm::dvec3(0);
     const std::size_t i = std::min(std::size_t(at), observer().size() - 2);
     return glm::mix(observer()[i], observer()[i + 1], at - double(i));
-}
-
-glm::dvec3 rec709_linear_from_xyz(const glm::dvec3& xyz)
-{
-    return {3.2404542 * xyz.x - 1.5371385 * xyz.y - 0.4985314 * xyz.z,
-        -0.9692660 * xyz.x + 1.8760108 * xyz.y + 0.0415560 * xyz.z,
-        0.0556434 * xyz.x - 0.2040259 * xyz.y + 1.0572252 * xyz.z};
-}
-
-double planck(double nm, double kelvin)
-{
-    constexpr double second_radiation_nm_K = 1.438776877e7; // hc/k, CODATA 2018
-    return std::pow(nm * 1e-3, -5) / std::expm1(second_radiation_nm_K / (nm * kelvin));
 }
 
 } // namespace starbow

@@ -2,6 +2,7 @@
 #include "runtime/colour.h"
 #include "runtime/response.h"
 #include "runtime/shared.h"
+#include "tests/planck.h"
 #include <cmath>
 #include <gtest/gtest.h>
 

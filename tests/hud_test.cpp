@@ -73,3 +73,15 @@ TEST(Hud, EveryPanelHasLettersInsideItsPlate)
         EXPECT_EQ(outside, 0) << width;
     }
 }
+
+TEST(Hud, TheLightThatIsShownHasAName)
+{
+    EXPECT_EQ(light_name({}), "spectra shifted, times D³: as eyes see them");
+    EXPECT_EQ(light_name({.headlight = false}), "spectra shifted, without D³");
+    EXPECT_EQ(light_name({.doppler = false}), "colours unshifted, times D³");
+    EXPECT_EQ(light_name({.doppler = false, .headlight = false}), "colours as at rest");
+    EXPECT_EQ(light_name({.false_colours = true}), "false colours: infrared red, visible green, ultraviolet blue");
+    Readings all = at_gamma(4);
+    all.effects = {.doppler = false, .false_colours = true};
+    EXPECT_EQ(field(all, "light"), "false colours: infrared red, visible green, ultraviolet blue, unshifted");
+}

@@ -4,6 +4,7 @@
 #include "runtime/colour_difference.h"
 #include "runtime/response.h"
 #include "runtime/spectral_errors.h"
+#include "tests/planck.h"
 #include <cstdio>
 #include <gtest/gtest.h>
 

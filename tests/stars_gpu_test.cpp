@@ -2,6 +2,7 @@
 // before them; on every kind of display.
 #include "runtime/colour.h"
 #include "runtime/spectrum.h"
+#include "tests/planck.h"
 #include "tests/small_world.h"
 #include <glm/gtx/quaternion.hpp>
 #include <map>
