@@ -55,6 +55,10 @@ class Glb:
             node["scale"] = list(scale)
         self.doc["scenes"][0]["nodes"].append(self.add("nodes", node))
 
+    def put(self, name, shape, material, position=(0, 0, 0)):
+        """A shape that stands in one place alone."""
+        self.node(name, self.mesh(name, self.geometry(shape), material), position)
+
     def texture(self, content, sampler=None):
         kind = "image/png" if content.startswith(b"\x89PNG") else "image/jpeg"
         texture = {"source": self.add("images", {"bufferView": self.view(content), "mimeType": kind})}

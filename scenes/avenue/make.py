@@ -99,7 +99,7 @@ def sun_position():
 
 def add_sun(glb):
     light = glb.material("Sun", (0, 0, 0), emissive=(60, 56, 48))
-    glb.node("Sun", glb.mesh("Sun", glb.geometry(shapes.sphere(64, 32, SUN_DIAMETER / 2)), light), sun_position())
+    glb.put("Sun", shapes.sphere(64, 32, SUN_DIAMETER / 2), light, sun_position())
 
 
 def add_cylinder(glb):
@@ -109,7 +109,7 @@ def add_cylinder(glb):
     dots = glb.texture(textures.stipple())
     blue = glb.material("stippled blue", (0.02, 0.06, 1.0), dots, (0.005, 0.015, 0.25), dots)
     shape = shapes.cylinder_along_x(64, 60, 16, 0.35, uv)
-    glb.node("stippled cylinder", glb.mesh("stippled cylinder", glb.geometry(shape), blue), (-14, 0, 8))
+    glb.put("stippled cylinder", shape, blue, (-14, 0, 8))
 
 
 def main():

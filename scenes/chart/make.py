@@ -63,12 +63,8 @@ def luminance(rgb):
     return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
 
 
-def put(glb, name, shape, material, position=(0, 0, 0)):
-    glb.node(name, glb.mesh(name, glb.geometry(shape), material), position)
-
-
 def add_chart(glb):
-    put(glb, "board", shapes.box((3.12, 2.12, 0.05), (0, 0, WALL + 0.05)), glb.material("board", (0.02, 0.02, 0.02)))
+    glb.put("board", shapes.box((3.12, 2.12, 0.05), (0, 0, WALL + 0.05)), glb.material("board", (0.02, 0.02, 0.02)))
     field = glb.geometry(shapes.box((SIDE / 2, SIDE / 2, 0.02)))
     for i, (name, level, features) in enumerate(FIELDS):
         table = [[nm, round(reflectance(level, features, nm), 4)] for nm in range(300, 1001, 10)]
@@ -92,8 +88,8 @@ def add_lamps(glb):
 def add_gallery(glb):
     plaster = glb.material("plaster", (0.36, 0.36, 0.36))
     light, dark = (glb.material(name, (c, c, c)) for name, c in (("light stone", 0.30), ("dark stone", 0.16)))
-    put(glb, "wall", shapes.box((14, 4, 0.5), (0, 1.2, WALL - 0.5)), plaster)
-    put(glb, "skirting", shapes.box((14, 0.15, 0.06), (0, -2.65, WALL + 0.06)), dark)
+    glb.put("wall", shapes.box((14, 4, 0.5), (0, 1.2, WALL - 0.5)), plaster)
+    glb.put("skirting", shapes.box((14, 0.15, 0.06), (0, -2.65, WALL + 0.06)), dark)
     pier = glb.mesh("pier", glb.geometry(shapes.box((0.5, 4, 0.4), (0, 1.2, WALL + 0.4))), plaster)
     for x in (-13.5, -9, -4.75, 4.75, 9, 13.5):
         glb.node("pier", pier, (x, 0, 0))
@@ -102,8 +98,8 @@ def add_gallery(glb):
         for j in range(10):
             z = WALL + 2 * j
             stones[(i + j) % 2].add(shapes.level(2 * i, z + 2, 2 * i + 2, z, -2.8))
-    put(glb, "light stones", stones[0], light)
-    put(glb, "dark stones", stones[1], dark)
+    glb.put("light stones", stones[0], light)
+    glb.put("dark stones", stones[1], dark)
 
 
 def main():

@@ -26,10 +26,6 @@ def warm(glb, name, kelvin, emissivity):
     return glb.material(name, (dark, dark, dark), starbow={"temperature_K": kelvin, "emissivity": emissivity})
 
 
-def put(glb, name, shape, material, position=(0, 0, 0)):
-    glb.node(name, glb.mesh(name, glb.geometry(shape), material), position)
-
-
 def union(parts):
     shape = shapes.Shape()
     for part in parts:
@@ -78,14 +74,14 @@ def add_wall(glb):
         for j in range((TOP - GROUND) // TILE):
             y = GROUND + TILE * j
             fields[(i + j) % 2].append(shapes.upright(TILE * i, y, TILE * (i + 1), y + TILE, BACK))
-    put(glb, "painted fields", union(fields[0]), paint)
-    put(glb, "worn fields", union(fields[1]), worn)
-    put(glb, "disc", shapes.fan(ring(5.4, 96, BACK + 0.06)), metal)
-    put(glb, "star", star(5.0, 1.91, BACK + 0.12), paint)
-    put(glb, "plate", shapes.upright(-3.2, 9.1, 3.2, 10.9, BACK + 0.06), metal)
-    put(glb, "writing", union(writing("288 K", -2.6, 9.3, 0.2, BACK + 0.12)), paint)
+    glb.put("painted fields", union(fields[0]), paint)
+    glb.put("worn fields", union(fields[1]), worn)
+    glb.put("disc", shapes.fan(ring(5.4, 96, BACK + 0.06)), metal)
+    glb.put("star", star(5.0, 1.91, BACK + 0.12), paint)
+    glb.put("plate", shapes.upright(-3.2, 9.1, 3.2, 10.9, BACK + 0.06), metal)
+    glb.put("writing", union(writing("288 K", -2.6, 9.3, 0.2, BACK + 0.12)), paint)
     back = shapes.box((HALF, (TOP - GROUND) / 2, 0.5), (0, (TOP + GROUND) / 2, BACK - 0.6))
-    put(glb, "wall", back, paint)
+    glb.put("wall", back, paint)
 
 
 def add_court(glb):
@@ -97,8 +93,8 @@ def add_court(glb):
         for j in range((FRONT - BACK) // TILE):
             z = FRONT - TILE * j
             fields[(i + j) % 2].append(shapes.level(TILE * i, z, TILE * (i + 1), z - TILE, GROUND))
-    put(glb, "light slabs", union(fields[0]), plaster)
-    put(glb, "dark slabs", union(fields[1]), slab)
+    glb.put("light slabs", union(fields[0]), plaster)
+    glb.put("dark slabs", union(fields[1]), slab)
     height = 8
     side = shapes.box((0.5, height / 2, (FRONT - BACK) / 2), (0, GROUND + height / 2, (FRONT + BACK) / 2))
     pilaster = shapes.box((0.25, height / 2, 0.5), (0, GROUND + height / 2, 0))
