@@ -1,5 +1,5 @@
 #include "exhibit.h"
-#include "reader.h"
+#include "exposing_reader.h"
 
 namespace starbow {
 namespace {
@@ -21,7 +21,17 @@ Flying read_flying(const Place& place)
     return flying;
 }
 
-Exposing read_exposure(const Place& place)
+/// Paths are the file's own, as in every other file; names are those of shipped ones.
+std::string name_or_path(const Place& place, const std::filesystem::path& folder)
+{
+    const std::string name = text(place);
+    const bool path = name.find('/') != name.npos || name.ends_with(".json");
+    return path ? (folder / name).lexically_normal().string() : name;
+}
+
+} // namespace
+
+Exposing read_exposing(const Place& place)
 {
     only(place, {"automatic", "least_ev", "greatest_ev", "bloom"});
     Exposing exposure;
@@ -37,16 +47,6 @@ Exposing read_exposure(const Place& place)
     take(place, "bloom", exposure.bloom, {0, 1});
     return exposure;
 }
-
-/// Paths are the file's own, as in every other file; names are those of shipped ones.
-std::string name_or_path(const Place& place, const std::filesystem::path& folder)
-{
-    const std::string name = text(place);
-    const bool path = name.find('/') != name.npos || name.ends_with(".json");
-    return path ? (folder / name).lexically_normal().string() : name;
-}
-
-} // namespace
 
 Exhibit load_exhibit(const std::filesystem::path& file)
 {
@@ -67,7 +67,7 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     if (auto p = find(top, "flying"))
         exhibit.flying = read_flying(*p);
     if (auto p = find(top, "exposure"))
-        exhibit.exposure = read_exposure(*p);
+        exhibit.exposure = read_exposing(*p);
     return exhibit;
 }
 

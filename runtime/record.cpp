@@ -1,5 +1,5 @@
 #include "record.h"
-#include "config/reader.h"
+#include "config/exposing_reader.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -122,17 +122,6 @@ Flying read_rules(const Place& place)
     take(place, "rapidity_per_s", rules.rapidity_per_s, any);
     take(place, "rapidity_jerk_per_s2", rules.rapidity_jerk_per_s2, any);
     return rules;
-}
-
-Exposing read_exposing(const Place& place)
-{
-    only(place, {"automatic", "least_ev", "greatest_ev", "bloom"});
-    Exposing exposing;
-    take(place, "automatic", exposing.automatic);
-    take(place, "least_ev", exposing.least_ev, {-60, 60});
-    take(place, "greatest_ev", exposing.greatest_ev, {-60, 60});
-    take(place, "bloom", exposing.bloom, {0, 1});
-    return exposing;
 }
 
 RecordEntry read_entry(const Place& top)
