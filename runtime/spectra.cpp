@@ -59,13 +59,11 @@ std::vector<glm::vec4> by_colour(const SpectralBasis& basis, int groups, const s
         glm::dvec3 rgb(0);
         if (column < 3)
             rgb[column] = 1;
-        std::vector<double> numbers
-            = lit(basis, light, [&](double nm) { return base_reflectance(rgb, column == 3, column == 4, nm); });
-        if (basis.reflected <= 5 && !light) { // these are its numbers
-            numbers.assign(std::size_t(basis.size()), 0.0);
-            if (column < basis.reflected)
-                numbers[std::size_t(column)] = 1;
-        }
+        std::vector<double> numbers(std::size_t(basis.size()), 0.0);
+        if (light || basis.reflected > 5)
+            numbers = lit(basis, light, [&](double nm) { return base_reflectance(rgb, column == 3, column == 4, nm); });
+        else if (column < basis.reflected) // these are its numbers
+            numbers[std::size_t(column)] = 1;
         for (std::size_t k = 0; k < numbers.size(); ++k)
             columns[k / 4 * 5 + std::size_t(column)][int(k % 4)] = float(numbers[k]);
     }

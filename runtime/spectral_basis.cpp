@@ -18,30 +18,45 @@ constexpr double first_hat_nm = 340, last_hat_nm = 830;
 
 using Row = std::vector<double>;
 
-/// How much each sample of a sunlit reflectance adds to what is seen at D.
-std::array<Row, 3> seen_of_grid(const Observer& observer, double D)
-{
-    static const Spectrum sun = sunlit_white();
-    std::array<Row, 3> rows;
-    rows.fill(Row(std::size_t(grid_points), 0.0));
-    for (const Observer::Sample& s : observer.samples) {
-        const double at = std::clamp(std::log(D * s.nm / grid_from_nm) / grid_step, 0.0, double(grid_points - 1));
-        const int i = std::min(int(at), grid_points - 2);
-        const glm::dvec3 add = s.response * (sun(D * s.nm) * s.width_nm / (s.nm * s.nm));
-        for (int c = 0; c < 3; ++c) {
-            rows[std::size_t(c)][std::size_t(i)] += add[c] * (1 - (at - i));
-            rows[std::size_t(c)][std::size_t(i + 1)] += add[c] * (at - i);
-        }
-    }
-    return rows;
-}
-
 double dot(const Row& a, const Row& b)
 {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
         sum += a[i] * b[i];
     return sum;
+}
+
+/// How much each sample of a sunlit reflectance adds to what is seen at D: nothing but from `first` to before `end`. At most
+/// D these are few, for all that is seen lies beyond the grid.
+struct Sight {
+    std::array<Row, 3> rows;
+    std::size_t first = std::size_t(grid_points), end = 0;
+    double of(std::size_t sensor, const Row& samples) const
+    {
+        double sum = 0;
+        for (std::size_t i = first; i < end; ++i)
+            sum += rows[sensor][i] * samples[i];
+        return sum;
+    }
+};
+
+Sight sight_at(const Observer& observer, double D)
+{
+    static const Spectrum sun = sunlit_white();
+    Sight sight;
+    sight.rows.fill(Row(std::size_t(grid_points), 0.0));
+    for (const Observer::Sample& s : observer.samples) {
+        const double at = std::clamp(std::log(D * s.nm / grid_from_nm) / grid_step, 0.0, double(grid_points - 1));
+        const int i = std::min(int(at), grid_points - 2);
+        const glm::dvec3 add = s.response * (sun(D * s.nm) * s.width_nm / (s.nm * s.nm));
+        for (int c = 0; c < 3; ++c) {
+            sight.rows[std::size_t(c)][std::size_t(i)] += add[c] * (1 - (at - i));
+            sight.rows[std::size_t(c)][std::size_t(i + 1)] += add[c] * (at - i);
+        }
+        sight.first = std::min(sight.first, std::size_t(i));
+        sight.end = std::max(sight.end, std::size_t(i + 2));
+    }
+    return sight;
 }
 
 double hat(int k, int hats, double nm)
@@ -147,7 +162,7 @@ const std::vector<Row>& learned()
 /// The primaries' numbers are the sunlit colour, once the other two, means of their own ranges, have been seen too.
 Row colours_of_grid(int reflected)
 {
-    const std::array<Row, 3> seen = seen_of_grid(eye(), 1);
+    const std::array<Row, 3> seen = sight_at(eye(), 1).rows;
     std::vector<glm::dvec3> colours;
     for (std::size_t i = 0; i < std::size_t(grid_points); ++i)
         colours.push_back(eye().rec709 * glm::dvec3(seen[0][i], seen[1][i], seen[2][i]));
@@ -193,20 +208,20 @@ Row learned_hats(int n)
     }
     constexpr int steps = 53;
     for (int step = -steps; step <= steps; ++step) {
-        const std::array<Row, 3> seen_at = seen_of_grid(eye(), std::exp(step * std::log(10) / steps));
+        const Sight sight = sight_at(eye(), std::exp(step * std::log(10) / steps));
         double weight = 0;
         for (const Row& sample : learned())
-            weight += 1 / std::pow(std::max(dot(seen_at[1], sample), 1e-12), 2);
+            weight += 1 / std::pow(std::max(sight.of(1, sample), 1e-12), 2);
         weight /= double(learned().size());
-        for (const Row& row : seen_at) {
+        for (std::size_t c = 0; c < 3; ++c) {
             std::vector<double> seen;
             for (const Row& one : hats)
-                seen.push_back(dot(row, one));
+                seen.push_back(sight.of(c, one));
             for (int k = 0; k < n; ++k) {
                 for (int j = 0; j < n; ++j)
                     normal[std::size_t(k * n + j)] += weight * seen[std::size_t(k)] * seen[std::size_t(j)];
                 for (int i = 0; i < grid_points; ++i)
-                    right[std::size_t(k * grid_points + i)] += weight * seen[std::size_t(k)] * row[std::size_t(i)];
+                    right[std::size_t(k * grid_points + i)] += weight * seen[std::size_t(k)] * sight.rows[c][std::size_t(i)];
             }
         }
     }
@@ -216,14 +231,14 @@ Row learned_hats(int n)
 
 /// numbers x 3, [number * 3 + sensor]: what to add to the hats' own light, seen, to bring pigments (their numbers and what
 /// is seen of their grid) closest to what they are. Numbers that are all alike, a grey, it does not change.
-Row correction(const std::vector<Row>& numbers, const std::array<Row, 3>& seen_at, const std::array<Row, 3>& seen)
+Row correction(const std::vector<Row>& numbers, const Sight& sight, const std::array<Row, 3>& seen)
 {
     const int n = int(seen[0].size());
     std::vector<double> square(std::size_t(n * n), 0.0), miss(std::size_t(n * 3), 0.0);
     for (std::size_t s = 0; s < learned().size(); ++s) {
         std::array<double, 3> truth;
         for (std::size_t c = 0; c < 3; ++c)
-            truth[c] = dot(seen_at[c], learned()[s]);
+            truth[c] = sight.of(c, learned()[s]);
         const double weight = 1 / std::max(truth[1] * truth[1], 1e-30);
         double mean = 0;
         for (double value : numbers[s])
@@ -329,13 +344,13 @@ ResponseTable response_table(const SpectralBasis& basis, const Observer& observe
         }
     for (int row = 0; row < rows; ++row) {
         const double D = std::exp2(first + row / table.per_octave);
-        const std::array<Row, 3> seen_at = seen_of_grid(observer, D);
+        const Sight sight = sight_at(observer, D);
         std::array<Row, 3> of_each;
         for (std::size_t c = 0; c < 3; ++c)
             for (const Row& one : reflectances)
-                of_each[c].push_back(dot(seen_at[c], one));
+                of_each[c].push_back(sight.of(c, one));
         if (n > 5) {
-            const Row add = correction(numbers, seen_at, of_each);
+            const Row add = correction(numbers, sight, of_each);
             for (int k = 0; k < n; ++k)
                 for (std::size_t c = 0; c < 3; ++c)
                     of_each[c][std::size_t(k)] += add[std::size_t(k) * 3 + c];
