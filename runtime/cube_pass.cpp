@@ -43,8 +43,8 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
     set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.eye_set}).front());
 }
 
-void CubePass::prepare(const Plan& plan, const glm::dvec3& place, double time, const glm::dmat3& motion_from_world,
-    double pre_exposure)
+void CubePass::prepare(
+    const Plan& plan, const glm::dvec3& place, double time, const glm::dmat3& motion_from_world, double pre_exposure)
 {
     pre_exposure_ = pre_exposure;
     images_ = plan.images;

@@ -24,15 +24,14 @@ public:
 
     /// What the processor does: culls, makes room, uploads. The device must have finished the frame before. Every radiance
     /// is stored times pre_exposure. place, time: the eye's event, world frame, scene units.
-    void prepare(const Plan& plan, const glm::dvec3& place, double time, const glm::dmat3& motion_from_world,
-        double pre_exposure);
+    void prepare(
+        const Plan& plan, const glm::dvec3& place, double time, const glm::dmat3& motion_from_world, double pre_exposure);
     /// What the device does: one pass over all images, then their mips. Leaves the atlas (and the depth, if it is kept) for
     /// fragment shaders to read.
     void record(vk::CommandBuffer commands);
 
     /// The same world drawn straight into a target, through one image alone: for comparison. Not beside prepare and record.
-    void prepare_plain(
-        const PlanImage& image, const glm::dvec3& place, double time, const glm::dmat3& straight_from_world);
+    void prepare_plain(const PlanImage& image, const glm::dvec3& place, double time, const glm::dmat3& straight_from_world);
     void record_plain(vk::CommandBuffer commands, const Target& target);
 
     /// Of the light's numbers four each.

@@ -46,7 +46,7 @@ def pillar():
     """From the ground up to a clock's case, with a foot and a collar."""
     top = -(RADIUS + 0.1)
     height = top - GROUND
-    shape = shapes.revolved(32, 16, lambda t: (0.34 - 0.12 * t + 0.02 * sin(pi * t), GROUND + height * t), 1)
+    shape = shapes.revolved(32, 8, lambda t: (0.34 - 0.12 * t + 0.02 * sin(pi * t), GROUND + height * t), 1)
     shape.add(shapes.moulding(32, 0.24, top - 0.12, 0.07, 1))
     shape.add(shapes.box((0.62, 0.12, 0.62), (0, GROUND + 0.12, 0)))
     shape.add(shapes.box((0.48, 0.08, 0.48), (0, GROUND + 0.32, 0)))
@@ -69,7 +69,7 @@ def add_clocks(glb):
     bronze = glb.material("bronze", (0.16, 0.10, 0.055))
     stone = glb.material("stone", (0.46, 0.42, 0.37))
     parts = [glb.mesh(name, glb.geometry(shape), material) for name, shape, material in (
-        ("dial", dial(), ivory), ("rim", shapes.torus(96, 16, RADIUS + 0.09, 0.11), brass), ("case", case(), bronze),
+        ("dial", dial(), ivory), ("rim", shapes.torus(80, 12, RADIUS + 0.09, 0.11), brass), ("case", case(), bronze),
         ("pillar", pillar(), stone))]
     for i in range(CLOCKS):
         x = APART * (i - (CLOCKS - 1) / 2)
@@ -101,7 +101,7 @@ def add_landmarks(glb):
     pale = glb.mesh("obelisk", glb.geometry(obelisk()), glb.material("pale stone", (0.40, 0.44, 0.52)))
     for k in range(-4, 5):
         glb.node("obelisk", pale, (10 * k + 5 * (k % 2), 0, -17 - 3 * (k % 2)))
-    hoop = glb.mesh("hoop", glb.geometry(shapes.torus(64, 10, 3.0, 0.07)), glb.material("copper", (0.55, 0.25, 0.13)))
+    hoop = glb.mesh("hoop", glb.geometry(shapes.torus(64, 8, 3.0, 0.07)), glb.material("copper", (0.55, 0.25, 0.13)))
     quarter = shapes.quaternion((0, 1, 0), pi / 2)
     for x in range(-45, 50, 10):
         glb.node("hoop", hoop, (x, 0, FLIGHT), quarter)
