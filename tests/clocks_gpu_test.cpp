@@ -329,8 +329,9 @@ TEST(Clocks, ALargeDialIsSeenAsEachPartOfItWas)
             EXPECT_GT(last->later - first->later, 3);
             const Hands hands = read_hands(spots);
             EXPECT_LT(apart(hands.main_s, want, 60), 0.01) << hands.main_s;
-            if (want != 52) // when the long hand lies across the small dial
+            if (want != 52) { // when the long hand lies across the small dial
                 EXPECT_LT(apart(hands.fast_s, want, 10), 0.01) << hands.fast_s;
+            }
         }
 }
 
