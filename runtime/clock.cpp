@@ -26,7 +26,7 @@ glm::vec4 packed(const std::string& figures)
 
 } // namespace
 
-double reading_s(const Clock& clock, double time, double distance, double seconds_per_time_unit)
+double reading_s(const WorldClock& clock, double time, double distance, double seconds_per_time_unit)
 {
     return (time - distance) * seconds_per_time_unit - clock.zero_s;
 }
@@ -36,7 +36,10 @@ std::string figures(double reading_s)
     if (!(std::abs(reading_s) < 1e10 - 0.05))
         return "---.-";
     const long long tenths = std::llround(reading_s * 10), size = std::llabs(tenths);
-    return (tenths < 0 ? "-" : "") + std::to_string(size / 10) + "." + std::to_string(size % 10);
+    std::string out = std::to_string(tenths < 0 ? -(size / 10) : size / 10);
+    if (tenths < 0 && size < 10)
+        out.insert(out.begin(), '-');
+    return out.append(1, '.').append(1, char('0' + size % 10));
 }
 
 std::vector<shared::ClockEntry> clock_entries(const World& world, const glm::dvec3& eye, const glm::dmat3& motion_from_world,

@@ -8,7 +8,7 @@ namespace starbow {
 /// What is seen on a clock that rests in the world, seconds: what it showed when the light left. time: the eye's, distance:
 /// from the eye to the clock at the eye's event, both in the world's frame and in scene units, so that a moving eye sees the
 /// same there and then as a resting one. Good to the rounding of `time`: 2e-9 s after four months of seconds.
-double reading_s(const Clock& clock, double time, double distance, double seconds_per_time_unit);
+double reading_s(const WorldClock& clock, double time, double distance, double seconds_per_time_unit);
 
 /// The figures that show a reading: "-5.9", to the nearest tenth. Dashes from 1e10 s on.
 std::string figures(double reading_s);

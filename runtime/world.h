@@ -33,9 +33,9 @@ struct Texture {
 };
 
 /// A dial of a clock that stands in the world: it shows the world's time from its own zero on.
-struct Clock {
+struct WorldClock {
     double zero_s = 0; ///< the world's time at which it shows 0
-    bool operator==(const Clock&) const = default;
+    bool operator==(const WorldClock&) const = default;
 };
 
 struct Material {
@@ -53,7 +53,7 @@ struct Material {
     std::vector<std::pair<double, double>> reflectance; ///< not empty: at wavelengths in nm, rising, instead of the base
                                                         ///< colour's, whose luminance then scales it
     double temperature_K = 0, emissivity = 0; ///< glows as a black body does, in part
-    std::optional<Clock> clock; ///< a dial is drawn on the surface, across texture coordinates 0 to 1; its marks have
+    std::optional<WorldClock> clock; ///< a dial is drawn on the surface, across texture coordinates 0 to 1; its marks have
                                 ///< `emissive` for their light, and nothing else has it
     std::optional<Emission> emission; ///< the spectrum of what `emissive` tells; its luminance 1 is then as much energy
                                       ///< as a sunlit white surface's. None: a sunlit colour

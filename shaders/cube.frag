@@ -54,9 +54,12 @@ void main()
     float ink = 0.0;
     if (CLOCK) {
         ClockEntry clock = clocks[instance];
+        vec2 at = vec2(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y);
+        float distance_ = length(place);
+        vec2 farther_on = vec2(dFdx(distance_), dFdy(distance_));
         // |place| - |middle| without their difference.
-        float farther = dot(place - clock.middle.xyz, place + clock.middle.xyz) / (length(place) + clock.middle.w);
-        ink = marks(vec2(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y), -farther * clock.turns.w, clock);
+        float farther = dot(place - clock.middle.xyz, place + clock.middle.xyz) / (distance_ + clock.middle.w);
+        ink = marks(at, mat2(dFdx(at), dFdy(at)), -farther * clock.turns.w, -farther_on * clock.turns.w, clock);
         base.rgb *= 1.0 - ink;
     }
     if (MASKED && base.a < push.emissive.w)

@@ -60,7 +60,7 @@ World world_of(const std::vector<std::pair<int, glm::dvec3>>& things, std::vecto
 Material clock_of(double zero_s)
 {
     Material material;
-    material.clock = Clock{zero_s};
+    material.clock = WorldClock{zero_s};
     return material;
 }
 

@@ -139,7 +139,7 @@ double ink_around(const std::vector<Spot>& spots, const dvec2& at, double half)
 std::string read_figures(const std::vector<Spot>& spots)
 {
     for (int count = 12; count > 1; --count) {
-        const double cell = std::min(0.15, 0.84 / count), y = 0.34 * cell, x = 0.28 * cell;
+        const double cell = std::min(0.17, 0.96 / count), y = 0.33 * cell, x = 0.27 * cell;
         const std::array<dvec2, 7> segments = {dvec2(0, 2 * y), {x, y}, {x, -y}, {0, -2 * y}, {-x, -y}, {-x, y}, {0, 0}};
         std::string text;
         for (int k = 0; k < count; ++k) {
@@ -207,7 +207,7 @@ TEST(Clocks, ThePapersReadings)
         std::printf("  %s:", figure.shot);
         for (std::size_t k = 0; k < row.size(); ++k) {
             SCOPED_TRACE(std::string(figure.shot) + ", clock " + std::to_string(k + 1));
-            const std::vector<Spot> spots = look_at(paper, shot, clock_at(row[k]), 384);
+            const std::vector<Spot> spots = look_at(paper, shot, clock_at(row[k]), 768);
             const double want = figure.middle_s + figure.readings_s[k];
             const Hands hands = read_hands(spots);
             // A hundredth of a second: 0.06 degrees of the long hand, a sixth of a pixel at its tip; 0.36 of the fast one.
@@ -295,14 +295,14 @@ TEST(Clocks, EachFromItsOwnZeroAfterMonths)
     const Dial left{{-2, 0, -6}, {1, 0, 0}, {0, 1, 0}, 1}, right{{2, 0.5, -6}, {1, 0, 0}, {0, 1, 0}, 1};
     Doc doc;
     clock(doc, left, 0);
-    clock(doc, right, 1e7 - 3.25);
+    clock(doc, right, 1e7 + 10.75);
     const GpuWorld world = slow_world("months", doc);
     for (const dvec3& u : {dvec3(0), dvec3(u_of_gamma(4), 0, 0)}) {
         Shot shot = shot_at({0, 0, 0}, u, {0, 0, -1});
-        shot.time = 1e7 + 14.125;
-        for (const auto& [dial, zero_s] : {std::pair(left, 0.0), std::pair(right, 1e7 - 3.25)}) {
-            const double want = 1e7 + 14.125 - glm::length(dial.middle) - zero_s;
-            const std::vector<Spot> spots = look_at(world, shot, dial, 384);
+        shot.time = 1e7 + 44.125;
+        for (const auto& [dial, zero_s] : {std::pair(left, 0.0), std::pair(right, 1e7 + 10.75)}) {
+            const double want = 1e7 + 44.125 - glm::length(dial.middle) - zero_s;
+            const std::vector<Spot> spots = look_at(world, shot, dial, 640);
             const Hands hands = read_hands(spots);
             EXPECT_LT(apart(hands.main_s, want, 60), 0.01) << hands.main_s;
             EXPECT_LT(apart(hands.fast_s, want, 10), 0.01) << hands.fast_s;
@@ -343,11 +343,11 @@ TEST(Clocks, EyesSeeTheTimesOfTheirOwnEvents)
     clock(doc, dial, 0);
     const GpuWorld world = slow_world("eyes", doc);
     Shot shot = shot_at({0, 0, 0}, {u_of_beta(0.8), 0, 0}, {0, 0, -1});
-    shot.time = 40;
+    shot.time = 22;
     for (const dvec3& beside : {dvec3(0.5, 0, 0), dvec3(-0.5, 0.1, 0), dvec3(0, 0, -0.7)}) {
         const quad::V4 eye = eye_event(shot, beside);
         const double want = double(eye.t - quad::length(quad::of(dial.middle) - eye.x));
-        const std::vector<Spot> spots = look_at(world, shot, dial, 384, beside);
+        const std::vector<Spot> spots = look_at(world, shot, dial, 640, beside);
         const Hands hands = read_hands(spots);
         EXPECT_LT(apart(hands.main_s, want, 60), 0.01) << hands.main_s;
         EXPECT_LT(apart(hands.fast_s, want, 10), 0.01) << hands.fast_s;

@@ -295,9 +295,9 @@ TEST_F(WorldMaterialTest, AnEmissionThatWouldEmitNothingIsRefused)
 
 TEST_F(WorldMaterialTest, Clocks)
 {
-    EXPECT_EQ(load(with_surface({{"clock", {{"zero_s", -12.5}}}})).materials[0].clock, Clock{-12.5});
-    EXPECT_EQ(load(with_surface({{"clock", Json::object()}})).materials[0].clock, Clock{0});
-    EXPECT_EQ(load(with_surface("{\"clock\": {\"zero_s\": 3}}")).materials[0].clock, Clock{3});
+    EXPECT_EQ(load(with_surface({{"clock", {{"zero_s", -12.5}}}})).materials[0].clock, WorldClock{-12.5});
+    EXPECT_EQ(load(with_surface({{"clock", Json::object()}})).materials[0].clock, WorldClock{0});
+    EXPECT_EQ(load(with_surface("{\"clock\": {\"zero_s\": 3}}")).materials[0].clock, WorldClock{3});
     EXPECT_FALSE(load(with_surface(Json::object())).materials[0].clock);
 }
 

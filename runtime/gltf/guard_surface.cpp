@@ -72,7 +72,7 @@ void check_emits(const Spot& spot, const Json& material)
         spot.fail("would emit nothing, for the material's emissiveFactor is black; should stand beside one above 0");
 }
 
-Clock clock(const Spot& spot)
+WorldClock clock(const Spot& spot)
 {
     only(spot, {"zero_s"});
     // Beyond 1e10 a clock's figures have no room.

@@ -103,7 +103,7 @@ def add_landmarks(glb):
         glb.node("obelisk", pale, (10 * k + 5 * (k % 2), 0, -17 - 3 * (k % 2)))
     hoop = glb.mesh("hoop", glb.geometry(shapes.torus(64, 8, 3.0, 0.07)), glb.material("copper", (0.55, 0.25, 0.13)))
     quarter = shapes.quaternion((0, 1, 0), pi / 2)
-    for x in range(-45, 50, 10):
+    for x in range(-50, 60, 20):  # none before the clocks where the shots are taken
         glb.node("hoop", hoop, (x, 0, FLIGHT), quarter)
 
 
