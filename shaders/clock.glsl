@@ -5,7 +5,7 @@ const float MAIN_S = 60.0, FAST_S = 10.0, SLOW_S = 3600.0; // seconds per turn o
 // The small dials: beside the middle, away from where the long hand points on the minute and from the digits.
 const vec2 FAST_AT = vec2(-0.38, 0.06), SLOW_AT = vec2(0.38, 0.06);
 const float SMALL = 0.25;
-const float DIGITS_Y = -0.43, CELL = 0.17, DIGITS_WIDE = 0.96; // a cell is a figure and what keeps it from the next
+const float DIGITS_Y = -0.43, CELL = 0.17, DIGITS_WIDE = 0.84; // a cell is a figure and what keeps it from the next
 
 // Segments of the figures 0 to 9, then of the minus and of nothing: 1 top, then clockwise, 64 the middle.
 const int SEGMENTS[12] = int[12](63, 6, 91, 79, 102, 109, 125, 7, 127, 111, 64, 0);

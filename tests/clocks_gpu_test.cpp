@@ -106,7 +106,7 @@ struct Hands {
 };
 Hands read_hands(const std::vector<Spot>& spots, double seconds_per_time = 1)
 {
-    return {read_hand(spots, {0, 0}, 0.68, 0.78, 60, seconds_per_time),
+    return {read_hand(spots, {0, 0}, 0.70, 0.79, 60, seconds_per_time),
         read_hand(spots, {-0.38, 0.06}, 0.08, 0.17, 10, seconds_per_time),
         read_hand(spots, {0.38, 0.06}, 0.08, 0.17, 3600, seconds_per_time)};
 }
@@ -139,7 +139,7 @@ double ink_around(const std::vector<Spot>& spots, const dvec2& at, double half)
 std::string read_figures(const std::vector<Spot>& spots)
 {
     for (int count = 12; count > 1; --count) {
-        const double cell = std::min(0.17, 0.96 / count), y = 0.33 * cell, x = 0.27 * cell;
+        const double cell = std::min(0.17, 0.84 / count), y = 0.33 * cell, x = 0.27 * cell;
         const std::array<dvec2, 7> segments = {dvec2(0, 2 * y), {x, y}, {x, -y}, {0, -2 * y}, {-x, -y}, {-x, y}, {0, 0}};
         std::string text;
         for (int k = 0; k < count; ++k) {
@@ -323,7 +323,7 @@ TEST(Clocks, ALargeDialIsSeenAsEachPartOfItWas)
         for (double want : {7.0, 22.0, 37.0, 52.0}) {
             Shot shot = shot_at({0, 0, 3}, u, {0, 0, -1});
             shot.time = want + 5;
-            const std::vector<Spot> spots = look_at(world, shot, wide, 512, {0, 0, 0}, 1.8);
+            const std::vector<Spot> spots = look_at(world, shot, wide, 1000, {0, 0, 0}, 1.8);
             const auto [first, last] = std::minmax_element(
                 spots.begin(), spots.end(), [](const Spot& a, const Spot& b) { return a.later < b.later; });
             EXPECT_GT(last->later - first->later, 3);
