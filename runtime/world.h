@@ -54,7 +54,7 @@ struct Material {
                                                         ///< colour's, whose luminance then scales it
     double temperature_K = 0, emissivity = 0; ///< glows as a black body does, in part
     std::optional<WorldClock> clock; ///< a dial is drawn on the surface, across texture coordinates 0 to 1; its marks have
-                                ///< `emissive` for their light, and nothing else has it
+                                     ///< `emissive` for their light, and nothing else has it
     std::optional<Emission> emission; ///< the spectrum of what `emissive` tells; its luminance 1 is then as much energy
                                       ///< as a sunlit white surface's. None: a sunlit colour
 };

@@ -5,13 +5,17 @@ const float MAIN_S = 60.0, FAST_S = 10.0, SLOW_S = 3600.0; // seconds per turn o
 // The small dials: beside the middle, away from where the long hand points on the minute and from the digits.
 const vec2 FAST_AT = vec2(-0.38, 0.06), SLOW_AT = vec2(0.38, 0.06);
 const float SMALL = 0.25;
-const float DIGITS_Y = -0.43, CELL = 0.17, DIGITS_WIDE = 0.84; // a cell is a figure and what keeps it from the next
+const float DIGITS_Y = -0.43, DIGITS_WIDE = 0.84;
+const float CELL = 0.17, POINT = 0.4; // a figure with what keeps it from the next; in cells: the point before the last one
 
 // Segments of the figures 0 to 9, then of the minus and of nothing: 1 top, then clockwise, 64 the middle.
 const int SEGMENTS[12] = int[12](63, 6, 91, 79, 102, 109, 125, 7, 127, 111, 64, 0);
 
 /// The part of a pixel `w` wide around x that lies within h of 0.
-float overlap(float x, float h, float w) { return max(min(abs(x) + 0.5 * w, h) - max(abs(x) - 0.5 * w, -h), 0.0) / w; }
+float overlap(float x, float h, float w)
+{
+    return clamp((h - abs(x)) / w + 0.5, 0.0, 1.0) - clamp((-h - abs(x)) / w + 0.5, 0.0, 1.0);
+}
 
 /// A pixel's extent along the unit vector n.
 float extent(mat2 pixel, vec2 n) { return max(length(n * pixel), 1e-9); }
@@ -49,12 +53,12 @@ vec2 hand(vec2 at, mat2 pixel, float turn, vec2 turned, float reach, float tail,
 
 float box(vec2 at, vec2 half_size, vec2 w) { return overlap(at.x, half_size.x, w.x) * overlap(at.y, half_size.y, w.y); }
 
-float cell_of(vec4 digits) { return min(CELL, DIGITS_WIDE / digits.z); }
+float cell_of(vec4 digits) { return min(CELL, DIGITS_WIDE / (digits.z + POINT)); }
 
 /// The plate that the figures stand on: how much of a pixel it covers.
 float plate(vec2 at, mat2 pixel, vec4 digits, float margin)
 {
-    vec2 half_size = vec2(0.5 * digits.z + margin, 0.8 + margin) * cell_of(digits);
+    vec2 half_size = vec2(0.5 * (digits.z + POINT) + margin, 0.8 + margin) * cell_of(digits);
     return box(at - vec2(0.0, DIGITS_Y), half_size, vec2(extent(pixel, vec2(1.0, 0.0)), extent(pixel, vec2(0.0, 1.0))));
 }
 
@@ -63,9 +67,11 @@ float figures(vec2 at, mat2 pixel, vec4 digits)
 {
     float count = digits.z, cell = cell_of(digits);
     vec2 p = (at - vec2(0.0, DIGITS_Y)) / cell;
-    float place = p.x + 0.5 * count;
-    if (abs(p.y) > 1.0 || place < 0.0 || place >= count)
+    float place = p.x + 0.5 * (count + POINT), last = count - 1.0; // where the last figure would begin
+    if (abs(p.y) > 1.0 || place < 0.0 || place >= count + POINT)
         return 0.0;
+    vec2 point = vec2(place - last - 0.5 * POINT, p.y);
+    place = place < last ? place : max(place - POINT, last);
     int k = int(place);
     int packed = int(k < 6 ? digits.x : digits.y);
     int lit = SEGMENTS[min((packed >> (4 * (k % 6))) & 15, 11)];
@@ -79,9 +85,7 @@ float figures(vec2 at, mat2 pixel, vec4 digits)
     for (int i = 0; i < 7; ++i)
         if ((lit >> i & 1) != 0)
             ink = max(ink, box(in_cell - middles[i], i % 3 == 0 ? level : upright, w));
-    // The point stands before the last figure.
-    vec2 point = vec2(place - (count - 1.0), p.y + 2.0 * y);
-    return max(ink, box(point, vec2(thick), w));
+    return max(ink, box(point + vec2(0.0, 2.0 * y - 0.03), vec2(thick + 0.03), w));
 }
 
 /// How much of a pixel is marks, 0 to 1: lines, hands and figures. `pixel`: of `at`, its steps to the right and down.
@@ -104,8 +108,8 @@ float marks(vec2 at, mat2 pixel, float later_s, vec2 step_s, ClockEntry clock)
     }
     ink = max(ink * (1.0 - main_hand.y), main_hand.x);
     // The hand passes behind the plate, so that the figures can always be read.
-    float inner = plate(at, pixel, clock.digits, 0.2);
-    ink = max(ink * (1.0 - plate(at, pixel, clock.digits, 0.26)), 0.6 * (plate(at, pixel, clock.digits, 0.26) - inner));
+    float inner = plate(at, pixel, clock.digits, 0.2), outer = plate(at, pixel, clock.digits, 0.26);
+    ink = max(ink * (1.0 - outer), 0.6 * (outer - inner));
     ink = max(ink, figures(at, pixel, clock.digits));
     ink = max(ink, ring(at, pixel, 0.0, 0.075));
     return ink * (1.0 - ring(at, pixel, 0.0, 0.035)); // the pin that the hand turns on

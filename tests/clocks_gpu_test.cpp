@@ -139,11 +139,12 @@ double ink_around(const std::vector<Spot>& spots, const dvec2& at, double half)
 std::string read_figures(const std::vector<Spot>& spots)
 {
     for (int count = 12; count > 1; --count) {
-        const double cell = std::min(0.17, 0.84 / count), y = 0.33 * cell, x = 0.27 * cell;
+        const double cell = std::min(0.17, 0.84 / (count + 0.4)), y = 0.33 * cell, x = 0.27 * cell;
         const std::array<dvec2, 7> segments = {dvec2(0, 2 * y), {x, y}, {x, -y}, {0, -2 * y}, {-x, -y}, {-x, y}, {0, 0}};
         std::string text;
         for (int k = 0; k < count; ++k) {
-            const dvec2 middle((k + 0.5 - 0.5 * count) * cell, -0.43);
+            const double point = k == count - 1 ? 0.4 : 0;
+            const dvec2 middle((k + 0.5 + point - 0.5 * (count + 0.4)) * cell, -0.43);
             int lit = 0;
             for (int i = 0; i < 7; ++i)
                 lit |= (ink_around(spots, middle + segments[std::size_t(i)], 0.07 * cell) > 0.5) << i;
@@ -151,7 +152,7 @@ std::string read_figures(const std::vector<Spot>& spots)
                 text += figure;
         }
         if (int(text.size()) == count) {
-            const dvec2 point((0.5 * count - 1) * cell, -0.43 - 2 * y);
+            const dvec2 point((0.5 * count - 1) * cell, -0.43 - 2 * y); // halfway between the last two figures
             EXPECT_GT(ink_around(spots, point, 0.07 * cell), 0.5) << "the point";
             return text.insert(text.size() - 1, ".");
         }

@@ -99,8 +99,8 @@ def add_ground(glb):
 
 def add_landmarks(glb):
     pale = glb.mesh("obelisk", glb.geometry(obelisk()), glb.material("pale stone", (0.40, 0.44, 0.52)))
-    for k in range(-4, 5):
-        glb.node("obelisk", pale, (10 * k + 5 * (k % 2), 0, -17 - 3 * (k % 2)))
+    for k in range(-6, 6):
+        glb.node("obelisk", pale, (7.74 * (k + 0.5), 0, -17))  # between the clocks, as seen from before the middle one
     hoop = glb.mesh("hoop", glb.geometry(shapes.torus(64, 8, 3.0, 0.07)), glb.material("copper", (0.55, 0.25, 0.13)))
     quarter = shapes.quaternion((0, 1, 0), pi / 2)
     for x in range(-50, 60, 20):  # none before the clocks where the shots are taken
