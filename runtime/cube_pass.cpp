@@ -1,4 +1,5 @@
 #include "cube_pass.h"
+#include "clock.h"
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -37,12 +38,13 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
     slots_ = make_mapped_buffer(device, SLOT_COUNT * sizeof(shared::SlotEntry), vk::BufferUsageFlagBits::eUniformBuffer);
     atlases_.resize(std::size_t(world.spectra.groups));
     std::vector<vk::DescriptorPoolSize> sizes
-        = {{vk::DescriptorType::eUniformBuffer, 2}, {vk::DescriptorType::eStorageBuffer, 2}};
+        = {{vk::DescriptorType::eUniformBuffer, 2}, {vk::DescriptorType::eStorageBuffer, 3}};
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
     set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.eye_set}).front());
 }
 
-void CubePass::prepare(const Plan& plan, const glm::dvec3& place, const glm::dmat3& motion_from_world, double pre_exposure)
+void CubePass::prepare(
+    const Plan& plan, const glm::dvec3& place, double time, const glm::dmat3& motion_from_world, double pre_exposure)
 {
     pre_exposure_ = pre_exposure;
     images_ = plan.images;
@@ -50,17 +52,18 @@ void CubePass::prepare(const Plan& plan, const glm::dvec3& place, const glm::dma
     levels_ = plan.levels;
     list_ = cull(world_.world, place, motion_from_world, images_);
     fit(plan.atlas_size, plan.levels);
-    upload(motion_from_world, place, false);
+    upload(motion_from_world, place, time, false);
     const vk::Extent2D extent = atlases_[0].extent;
     auto table = slot_table(plan, {extent.width, extent.height});
     std::memcpy(slots_.mapped, table.data(), table.size() * sizeof(table[0]));
 }
 
-void CubePass::prepare_plain(const PlanImage& image, const glm::dvec3& place, const glm::dmat3& straight_from_world)
+void CubePass::prepare_plain(
+    const PlanImage& image, const glm::dvec3& place, double time, const glm::dmat3& straight_from_world)
 {
     images_ = {image};
     list_ = cull(world_.world, place, straight_from_world, images_);
-    upload(straight_from_world, place, true);
+    upload(straight_from_world, place, time, true);
     if (int(depth_.extent.width) < image.size.x || int(depth_.extent.height) < image.size.y)
         depth_ = make_image(device_,
             {depth_format, {std::uint32_t(image.size.x), std::uint32_t(image.size.y)},
@@ -97,7 +100,7 @@ void CubePass::fit(glm::ivec2 size, int levels)
     }
 }
 
-void CubePass::upload(const glm::dmat3& to_motion, const glm::dvec3& place, bool plain)
+void CubePass::upload(const glm::dmat3& to_motion, const glm::dvec3& place, double time, bool plain)
 {
     triangles_ = 0;
     for (const Draw& draw : list_.draws)
@@ -109,8 +112,11 @@ void CubePass::upload(const glm::dmat3& to_motion, const glm::dvec3& place, bool
     };
     put(instances_, list_.instances);
     put(visible_, list_.visible);
-
     const SceneFile& scene = world_.scene;
+    if (const auto clocks = clock_entries(world_.world, place, to_motion, time, scene.seconds_per_time_unit());
+        !clocks.empty())
+        put(clocks_, clocks);
+
     double scale = pre_exposure_;
     shared::CubeConstants constants{};
     constants.ambient = glm::vec4(scene.ambient * scale, scale);
@@ -138,12 +144,14 @@ void CubePass::upload(const glm::dmat3& to_motion, const glm::dvec3& place, bool
     std::memcpy(constants_.mapped, &constants, sizeof constants);
 
     vk::DescriptorBufferInfo buffers[] = {{*constants_.buffer, 0, VK_WHOLE_SIZE}, {*instances_.buffer, 0, VK_WHOLE_SIZE},
-        {*visible_.buffer, 0, VK_WHOLE_SIZE}, {*world_.columns.buffer, 0, VK_WHOLE_SIZE}};
+        {*visible_.buffer, 0, VK_WHOLE_SIZE}, {*world_.columns.buffer, 0, VK_WHOLE_SIZE},
+        {*(*clocks_.buffer ? clocks_ : instances_).buffer, 0, VK_WHOLE_SIZE}}; // without clocks none is read
     device_.device.updateDescriptorSets(
         {vk::WriteDescriptorSet(*set_, 0, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[0]),
             vk::WriteDescriptorSet(*set_, 1, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[1]),
             vk::WriteDescriptorSet(*set_, 2, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[2]),
-            vk::WriteDescriptorSet(*set_, 3, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[3])},
+            vk::WriteDescriptorSet(*set_, 3, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[3]),
+            vk::WriteDescriptorSet(*set_, 4, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[4])},
         {});
 }
 

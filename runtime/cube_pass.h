@@ -23,14 +23,15 @@ public:
     CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, int samples, bool keeps_depth);
 
     /// What the processor does: culls, makes room, uploads. The device must have finished the frame before. Every radiance
-    /// is stored times pre_exposure.
-    void prepare(const Plan& plan, const glm::dvec3& place, const glm::dmat3& motion_from_world, double pre_exposure);
+    /// is stored times pre_exposure. place, time: the eye's event, world frame, scene units.
+    void prepare(
+        const Plan& plan, const glm::dvec3& place, double time, const glm::dmat3& motion_from_world, double pre_exposure);
     /// What the device does: one pass over all images, then their mips. Leaves the atlas (and the depth, if it is kept) for
     /// fragment shaders to read.
     void record(vk::CommandBuffer commands);
 
     /// The same world drawn straight into a target, through one image alone: for comparison. Not beside prepare and record.
-    void prepare_plain(const PlanImage& image, const glm::dvec3& place, const glm::dmat3& straight_from_world);
+    void prepare_plain(const PlanImage& image, const glm::dvec3& place, double time, const glm::dmat3& straight_from_world);
     void record_plain(vk::CommandBuffer commands, const Target& target);
 
     /// Of the light's numbers four each.
@@ -42,7 +43,7 @@ public:
 
 private:
     void fit(glm::ivec2 atlas_size, int levels);
-    void upload(const glm::dmat3& to_motion, const glm::dvec3& place, bool plain);
+    void upload(const glm::dmat3& to_motion, const glm::dvec3& place, double time, bool plain);
     void draw_images(vk::CommandBuffer commands, const TargetKind& kind, bool plain);
     void make_mips(vk::CommandBuffer commands, const Image& atlas);
 
@@ -53,7 +54,7 @@ private:
     bool keeps_depth_, sky_;
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::raii::DescriptorSet set_ = nullptr;
-    Buffer constants_, instances_, visible_, slots_;
+    Buffer constants_, instances_, visible_, slots_, clocks_; ///< clocks_: null without any
     std::vector<Image> atlases_, atlas_samples_;
     Image depth_, depth_samples_;
     std::vector<PlanImage> images_;

@@ -1,6 +1,7 @@
 #include "cull.h"
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace starbow {
 namespace {
@@ -150,7 +151,10 @@ double nearest_box(const World& world, const glm::dvec3& place)
 
 void sort_instances(World& world)
 {
-    auto key = [&](const Instance& i) { return std::pair(world.primitives[i.primitive].material, i.primitive); };
+    auto key = [&](const Instance& i) {
+        const int material = world.primitives[i.primitive].material;
+        return std::tuple(!world.materials[std::size_t(material)].clock, material, i.primitive);
+    };
     std::stable_sort(world.instances.begin(), world.instances.end(),
         [&](const Instance& a, const Instance& b) { return key(a) < key(b); });
 }

@@ -26,7 +26,7 @@ DrawList cull(
 /// Distance from a place to the nearest of all instances' bounding boxes, scene units: no surface is nearer.
 double nearest_box(const World& world, const glm::dvec3& place);
 
-/// Puts a world's instances in order of their primitives, these in order of their materials.
+/// Puts a world's instances in order of their primitives, these in order of their materials, clocks first.
 void sort_instances(World& world);
 
 } // namespace starbow

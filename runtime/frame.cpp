@@ -239,8 +239,9 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
     if (world_.spectra.most > 0)
         pre_exposure_ = std::min(pre_exposure_, pre_exposure(world_.spectra.most, -1000, 1));
     for (std::size_t i = 0; pattern_ == Pattern::none && i < eyes_.size(); ++i) {
-        const glm::dvec3 place
-            = shot.position + physics::eye_place(shot.u, shot.ship_from_cockpit * scene_units(eyes_[i].now_m));
+        const glm::dvec3 offset = shot.ship_from_cockpit * scene_units(eyes_[i].now_m);
+        const glm::dvec3 place = shot.position + physics::eye_place(shot.u, offset);
+        const double time = shot.time + physics::eye_time(shot.u, offset);
         eyes_[i].nearest = reprojects() ? std::max(nearest_box(world_.world, place), 1e-30) : 1;
         std::vector<View> asked;
         for (const PaneState& pane : panes_)
@@ -248,7 +249,7 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
                 asked.push_back({pane.compiled.blocks.get(), motion_from_cockpit_,
                     reprojects() ? std::min(MOST_PARALLAX, glm::length(world_offset(pane)) / eyes_[i].nearest) : 0});
         plans_[i] = make_plan(asked, shot.effects.aberration ? E_ : 1, quality_);
-        eyes_[i].cube.prepare(plans_[i], place, to_motion, pre_exposure_);
+        eyes_[i].cube.prepare(plans_[i], place, time, to_motion, pre_exposure_);
         if (stars_.on())
             eyes_[i].stars = stars_in(plans_[i].images, world_.star_patches, to_motion);
     }

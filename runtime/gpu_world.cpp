@@ -68,6 +68,7 @@ SurfaceVariant GpuWorld::variant(int material, bool plain) const
     const Material& m = world.materials[material];
     SurfaceVariant variant{
         m.base_texture >= 0, m.emissive_texture >= 0, m.alpha_cutoff > 0, m.unlit, m.unlit ? 0 : int(scene.lights.size())};
+    variant.clock = m.clock.has_value();
     if (!plain)
         variant.numbers = numbers(), variant.kinds = spectra.kinds, variant.matrices = spectra.matrices;
     return variant;

@@ -130,7 +130,7 @@ Pipelines::Pipelines(Device& device)
     constexpr auto both = fragment | vk::ShaderStageFlagBits::eVertex;
     constexpr Type picture = Type::eCombinedImageSampler;
     constexpr Type constants = Type::eUniformBuffer;
-    eye_set = make_set_layout(device, both, {constants, Type::eStorageBuffer, Type::eStorageBuffer, constants});
+    eye_set = make_set_layout(device, both, {constants, Type::eStorageBuffer, Type::eStorageBuffer, constants, Type::eStorageBuffer});
     material_set = make_set_layout(device, fragment, {picture, picture});
     warp_set = make_set_layout(device, both,
         {picture, picture, constants, constants, picture, picture, picture, picture, picture, picture, constants, constants,
@@ -154,7 +154,7 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
                 .layout = *surface_layout,
                 .targets = target.colours,
                 .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights),
-                    std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), std::uint32_t(v.kinds), v.matrices},
+                    std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), std::uint32_t(v.kinds), v.matrices, v.clock},
                 .depth = true,
                 .vertices = true,
                 .samples = target.samples});

@@ -38,6 +38,7 @@ struct SurfaceVariant {
     Numbers numbers{};
     int kinds = 1; ///< of spectra that shine
     bool matrices = false; ///< otherwise the numbers are the colour and what is beyond it
+    bool clock = false;
     auto operator<=>(const SurfaceVariant&) const = default;
 };
 /// What a viewport needs of the warp pass: constant_ids of view.glsl and seen.glsl.
@@ -87,7 +88,7 @@ public:
     vk::Pipeline finish(const FinishVariant& variant, vk::Format target);
     vk::Pipeline pattern(bool map, int pattern, vk::Format target);
 
-    vk::raii::DescriptorSetLayout eye_set = nullptr; ///< 0 constants, 1 instances, 2 visible, 3 columns of the spectra
+    vk::raii::DescriptorSetLayout eye_set = nullptr; ///< 0 constants, 1 instances, 2 visible, 3 columns of the spectra, 4 clocks
     vk::raii::DescriptorSetLayout material_set = nullptr; ///< 0 base, 1 emissive texture
     vk::raii::DescriptorSetLayout warp_set = nullptr; ///< 0 direction map, 1 atlas, 2 slots, 3 rows of the response for red,
                                                       ///< 4 depth atlas, 5 picture of the stars, 6 inverse of the direction

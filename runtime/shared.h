@@ -9,6 +9,7 @@ static_assert(sizeof(SlotEntry) == 48);
 static_assert(sizeof(LightEntry) == 48);
 static_assert(sizeof(CubeConstants) == 2 * 16 + 3 * MAX_GROUPS * 16 + MAX_LIGHTS * 48);
 static_assert(sizeof(InstanceEntry) == 48);
+static_assert(sizeof(ClockEntry) == 48);
 static_assert(sizeof(CubePush) == 128);
 static_assert(sizeof(ViewPush) == 128);
 static_assert(sizeof(StarEntry) == 32);

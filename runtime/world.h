@@ -32,6 +32,12 @@ struct Texture {
     Sampler sampler;
 };
 
+/// A dial of a clock that stands in the world: it shows the world's time from its own zero on.
+struct WorldClock {
+    double zero_s = 0; ///< the world's time at which it shows 0
+    bool operator==(const WorldClock&) const = default;
+};
+
 struct Material {
     std::string name;
     glm::vec4 base_colour{1}; ///< Rec. 709 linear, alpha
@@ -47,6 +53,8 @@ struct Material {
     std::vector<std::pair<double, double>> reflectance; ///< not empty: at wavelengths in nm, rising, instead of the base
                                                         ///< colour's, whose luminance then scales it
     double temperature_K = 0, emissivity = 0; ///< glows as a black body does, in part
+    std::optional<WorldClock> clock; ///< a dial is drawn on the surface, across texture coordinates 0 to 1; its marks have
+                                     ///< `emissive` for their light, and nothing else has it
     std::optional<Emission> emission; ///< the spectrum of what `emissive` tells; its luminance 1 is then as much energy
                                       ///< as a sunlit white surface's. None: a sunlit colour
 };

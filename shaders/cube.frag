@@ -13,9 +13,11 @@ layout(constant_id = 5) const int REFLECTED = 3;
 layout(constant_id = 6) const int OWN = 0;
 layout(constant_id = 7) const int KINDS = 1; // of spectra that shine on surfaces, at most one more than MAX_OWN
 layout(constant_id = 8) const bool MATRICES = false; // otherwise the numbers are the colour itself, and what is beyond it
+layout(constant_id = 9) const bool CLOCK = false;
 
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 0, binding = 3) uniform Matrices { vec4 columns[MAX_MATRICES]; }; // [set][kind][group][r, g, b, uv, ir]
+layout(set = 0, binding = 4) readonly buffer Clocks { ClockEntry clocks[]; };
 layout(set = 1, binding = 0) uniform sampler2D base_texture;
 layout(set = 1, binding = 1) uniform sampler2D emissive_texture;
 layout(push_constant) uniform Push { CubePush push; };
@@ -24,6 +26,7 @@ layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 colour;
+layout(location = 4) flat in uint instance; // CLOCK
 layout(location = 0) out vec4 numbers0;
 layout(location = 1) out vec4 numbers1;
 layout(location = 2) out vec4 numbers2;
@@ -31,6 +34,8 @@ layout(location = 3) out vec4 numbers3;
 
 const int GROUPS = (REFLECTED + OWN + 3) / 4;
 const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
+
+#include "clock.glsl"
 
 float mean(vec3 v) { return (v.x + v.y + v.z) * (1.0 / 3.0); }
 
@@ -46,11 +51,24 @@ void main()
     vec4 base = colour;
     if (BASE_TEXTURE)
         base *= texture(base_texture, uv);
+    float ink = 0.0;
+    if (CLOCK) {
+        ClockEntry clock = clocks[instance];
+        vec2 at = vec2(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y);
+        float distance_ = length(place);
+        vec2 farther_on = vec2(dFdx(distance_), dFdy(distance_));
+        // |place| - |middle| without their difference.
+        float farther = dot(place - clock.middle.xyz, place + clock.middle.xyz) / (distance_ + clock.middle.w);
+        ink = marks(at, mat2(dFdx(at), dFdy(at)), -farther * clock.turns.w, -farther_on * clock.turns.w, clock);
+        base.rgb *= 1.0 - ink;
+    }
     if (MASKED && base.a < push.emissive.w)
         discard;
     vec3 emitted = push.emissive.rgb;
     if (EMISSIVE_TEXTURE)
         emitted *= texture(emissive_texture, uv).rgb;
+    if (CLOCK)
+        emitted *= ink;
     vec3 light[MAX_OWN + 1];
     for (int kind = 0; kind < KINDS; ++kind)
         light[kind] = vec3(0.0);

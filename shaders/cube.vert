@@ -3,6 +3,8 @@
 #include "shared.h"
 // The world at rest around the eye, in motion axes: into one image of the plan, or straight to a plain picture.
 
+layout(constant_id = 9) const bool CLOCK = false;
+
 layout(set = 0, binding = 1) readonly buffer Instances { InstanceEntry instances[]; };
 layout(set = 0, binding = 2) readonly buffer Visible { uint visible[]; };
 layout(push_constant) uniform Push { CubePush push; };
@@ -16,6 +18,7 @@ layout(location = 0) out vec3 out_place;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec2 out_uv;
 layout(location = 3) out vec4 out_colour;
+layout(location = 4) flat out uint out_instance;
 
 void main()
 {
@@ -31,5 +34,7 @@ void main()
     out_place = place.xyz;
     out_uv = uv;
     out_colour = colour * push.base_colour;
+    if (CLOCK)
+        out_instance = visible[gl_InstanceIndex];
     gl_Position = vec4(dot(push.clip_row0, place), dot(push.clip_row1, place), dot(push.clip_row2, place), dot(push.clip_row3, place));
 }

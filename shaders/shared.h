@@ -55,6 +55,13 @@ struct InstanceEntry {
     vec4 row0, row1, row2;
 };
 
+// A clock in front of one eye; those of a world are its first instances.
+struct ClockEntry {
+    vec4 middle; // from the eye, motion axes; w: its distance. What follows is as the light left there
+    vec4 turns;  // 0 to 1 of the hands: one turn in a minute, in ten seconds, in an hour; w: seconds per scene unit of light
+    vec4 digits; // x, y: six figures each, of four bits, the first lowest; 10: a minus, 11: nothing. z: how many there are
+};
+
 // Push constants of the cube pass.
 struct CubePush {
     vec4 clip_row0, clip_row1, clip_row2, clip_row3; // rows of clip_from_motion

@@ -52,7 +52,7 @@ Doc rich()
                {"alphaMode", "MASK"}, {"alphaCutoff", 0.3},
                {"extras",
                    {{"starbow",
-                       {{"temperature_K", 288}, {"emissivity", 0.5}, {"infrared", 1},
+                       {{"temperature_K", 288}, {"emissivity", 0.5}, {"infrared", 1}, {"clock", {{"zero_s", 5}}},
                            {"reflectance", {{300, 0}, {500, 1}}}}}}}},
             {{"emissiveFactor", {1, 0, 0}}, {"emissiveTexture", {{"index", 1}}},
                 {"extras", {{"starbow", "{\"emission\": {\"table\": [[400, 1], [500, 2]]}}"}}},
@@ -166,6 +166,8 @@ void expect_sound(const World& world)
         for (std::uint32_t i = p.first_index; i < p.first_index + p.index_count; ++i)
             ASSERT_LT(world.indices[i] + std::uint64_t(p.vertex_offset), world.vertices.size());
     }
+    for (const Material& m : world.materials)
+        ASSERT_TRUE(!m.clock || std::abs(m.clock->zero_s) <= 1e10);
     for (const Material& m : world.materials)
         for (int texture : {m.base_texture, m.emissive_texture})
             ASSERT_LT(texture, int(world.textures.size()));

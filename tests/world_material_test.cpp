@@ -238,7 +238,7 @@ TEST_F(WorldMaterialTest, WrongSurfacesAreNamedByTheirPlace)
         {R"("{\"emissivity\": 1}")", "/emissivity: says how well the surface glows"},
         {R"({"temperature": 288})",
             "/temperature: is not known here; should be one of \"ultraviolet\", \"infrared\", "
-            "\"reflectance\", \"temperature_K\", \"emissivity\", \"emission\""},
+            "\"reflectance\", \"temperature_K\", \"emissivity\", \"emission\", \"clock\""},
         {R"({"a\nb": 288})", "/a?b: is not known here"},
         {R"({"ultraviolet": -0.1})", "/ultraviolet: is -0.1; should be a number from 0.0 to 1.0"},
         {R"({"infrared": 1.5})", "/infrared: is 1.5; should be a number from 0.0 to 1.0"},
@@ -262,7 +262,11 @@ TEST_F(WorldMaterialTest, WrongSurfacesAreNamedByTheirPlace)
         {R"({"emission": {"line_nm": 39.9}})", "/emission/line_nm: is 39.9; should be a number from 40.0 to 12000.0"},
         {R"({"emission": {"black_body_K": 0.01}})", "/emission/black_body_K: is 0.01; should be a number from 0.1"},
         {R"({"emission": {"table": [[500, 0], [600, 0]]}})", "/emission/table: is 0 everywhere; should have a value above"},
-        {R"({"emission": {"table": [[500, 1], [600, -1]]}})", "/emission/table/1/1: is -1; should be a number from 0.0"}};
+        {R"({"emission": {"table": [[500, 1], [600, -1]]}})", "/emission/table/1/1: is -1; should be a number from 0.0"},
+        {R"({"clock": true})", "/clock: is true; should be an object"},
+        {R"({"clock": {"zero": 1}})", "/clock/zero: is not known here; should be one of \"zero_s\""},
+        {R"({"clock": {"zero_s": "noon"}})", "/clock/zero_s: is \"noon\"; should be a number from -10000000000.0 to"},
+        {R"({"clock": {"zero_s": 1e11}})", "/clock/zero_s: is 100000000000.0; should be a number from"}};
     for (const auto& [surface, says] : cases) {
         const std::string line = complaint(with_surface(Json::parse(surface)));
         EXPECT_TRUE(line.starts_with(at + says)) << line << "\n" << at + says;
@@ -287,6 +291,24 @@ TEST_F(WorldMaterialTest, AnEmissionThatWouldEmitNothingIsRefused)
     EXPECT_TRUE(complaint(painted({{"extras", extras}, {"emissiveFactor", {1, 1, 1}},
                               {"extensions", {{"KHR_materials_unlit", Json::object()}}}}))
                     .starts_with(at + "stands beside KHR_materials_unlit"));
+}
+
+TEST_F(WorldMaterialTest, Clocks)
+{
+    EXPECT_EQ(load(with_surface({{"clock", {{"zero_s", -12.5}}}})).materials[0].clock, WorldClock{-12.5});
+    EXPECT_EQ(load(with_surface({{"clock", Json::object()}})).materials[0].clock, WorldClock{0});
+    EXPECT_EQ(load(with_surface("{\"clock\": {\"zero_s\": 3}}")).materials[0].clock, WorldClock{3});
+    EXPECT_FALSE(load(with_surface(Json::object())).materials[0].clock);
+}
+
+TEST_F(WorldMaterialTest, AClocksDialWantsTextureCoordinates)
+{
+    Doc doc = with_surface({{"clock", Json::object()}});
+    doc.json["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
+    EXPECT_EQ(complaint(doc),
+        "/meshes/0/primitives/0/attributes: has no TEXCOORD_0 for a clock's dial; should have one that goes from 0 to 1 "
+        "across "
+        "it");
 }
 
 } // namespace

@@ -72,9 +72,16 @@ void check_emits(const Spot& spot, const Json& material)
         spot.fail("would emit nothing, for the material's emissiveFactor is black; should stand beside one above 0");
 }
 
+WorldClock clock(const Spot& spot)
+{
+    only(spot, {"zero_s"});
+    // Beyond 1e10 a clock's figures have no room.
+    return {spot.has("zero_s") ? number(spot["zero_s"], -1e10, 1e10) : 0};
+}
+
 void read_surface(const Spot& spot, const Json& material, Material& out)
 {
-    only(spot, {"ultraviolet", "infrared", "reflectance", "temperature_K", "emissivity", "emission"});
+    only(spot, {"ultraviolet", "infrared", "reflectance", "temperature_K", "emissivity", "emission", "clock"});
     if (spot.has("ultraviolet"))
         out.ultraviolet = number(spot["ultraviolet"], 0, 1);
     if (spot.has("infrared"))
@@ -91,6 +98,8 @@ void read_surface(const Spot& spot, const Json& material, Material& out)
         out.emission = emission(spot["emission"]);
         check_emits(spot["emission"], material);
     }
+    if (spot.has("clock"))
+        out.clock = clock(spot["clock"]);
 }
 
 } // namespace

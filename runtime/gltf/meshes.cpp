@@ -149,6 +149,10 @@ bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::
     const Material& look = world.materials[std::size_t(material)];
     const UvSource& uv = build.uv[std::size_t(material)];
     Attributes attributes = open_attributes(build, from, uv, look.base_texture >= 0 || look.emissive_texture >= 0);
+    if (look.clock && !attributes.has_uv)
+        build.fail(place + "/attributes",
+            "has no TEXCOORD_" + std::to_string(uv.set)
+                + " for a clock's dial; should have one that goes from 0 to 1 across it");
     Elements indices;
     if (from.indices >= 0)
         indices = open(build, from.indices);
