@@ -8,7 +8,6 @@ namespace {
 
 /// From far below a nucleus to far beyond the horizon of the universe, and ratios of two of them are still doubles.
 constexpr Range measure{1e-30, 1e30};
-constexpr double farthest = 1e15;
 
 glm::dvec3 read_colour(const Place& place) { return vec3(place, {0, 1e6}); }
 
@@ -76,9 +75,9 @@ StarSky read_stars(const Place& place, const std::filesystem::path& folder)
     return stars;
 }
 
-Light read_light(const Place& place)
+Light read_light(const Place& place, const std::vector<Body>& bodies)
 {
-    only(place, {"type", "towards", "position", "distance", "radiance", "temperature_K", "line_nm", "spectrum"});
+    only(place, {"type", "towards", "position", "distance", "radiance", "temperature_K", "line_nm", "spectrum", "body"});
     if (one_of(member(place, "type"), {"directional", "point"}) == "directional") {
         only(place, {"type", "towards", "radiance", "temperature_K", "line_nm", "spectrum"});
         const Place towards = member(place, "towards");
@@ -88,10 +87,13 @@ Light read_light(const Place& place)
             complain(towards, "points nowhere; a direction of any length above 0 is right");
         return DirectionalLight{direction / length, read_colour(member(place, "radiance")), read_emission(place)};
     }
-    only(place, {"type", "position", "distance", "radiance", "temperature_K", "line_nm", "spectrum"});
     const glm::dvec3 position = vec3(member(place, "position"), {-farthest, farthest});
     const double distance = number(member(place, "distance"), {0, farthest, true});
-    return PointLight{position, distance, read_colour(member(place, "radiance")), read_emission(place)};
+    const auto body = find(place, "body");
+    if (body && std::none_of(bodies.begin(), bodies.end(), [&](const Body& b) { return b.name == text(*body); }))
+        complain(*body, "is no body of this scene; a \"name\" of one of its \"bodies\" is right");
+    return PointLight{
+        position, distance, read_colour(member(place, "radiance")), read_emission(place), body ? text(*body) : ""};
 }
 
 } // namespace
@@ -100,9 +102,10 @@ SceneFile load_scene_file(const std::filesystem::path& file)
 {
     const Document document = read_document(file);
     const Place top = root(document);
-    only(top, {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "ambient", "lights", "start"});
+    only(top, {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "ambient", "lights", "bodies", "start"});
     SceneFile scene;
     scene.name = file.stem().string();
+    scene.file = document.file;
     scene.gltf = file.parent_path() / text(member(top, "gltf"));
     if (auto p = find(top, "unit_m"))
         scene.unit_m = number(*p, measure);
@@ -114,9 +117,11 @@ SceneFile load_scene_file(const std::filesystem::path& file)
         scene.stars = read_stars(*p, file.parent_path());
     if (auto p = find(top, "ambient"))
         scene.ambient = read_colour(*p);
+    if (auto p = find(top, "bodies"))
+        scene.bodies = read_bodies(*p);
     if (auto p = find(top, "lights"))
         for (const Place& at : items(*p, 0, 8, "lights"))
-            scene.lights.push_back(read_light(at));
+            scene.lights.push_back(read_light(at, scene.bodies));
     if (auto p = find(top, "start"))
         scene.start = read_shot(*p, false);
     scene.start.scene = scene.name;

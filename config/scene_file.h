@@ -1,4 +1,5 @@
 #pragma once
+#include "body.h"
 #include "emission.h"
 #include "shot.h"
 #include <filesystem>
@@ -23,6 +24,7 @@ struct PointLight {
     double distance;
     glm::dvec3 radiance;
     std::optional<Emission> spectrum; ///< as above
+    std::string body{}; ///< moves with it, around its origin, and is there when it is; empty: stands in the world
 };
 
 using Light = std::variant<DirectionalLight, PointLight>;
@@ -44,6 +46,7 @@ struct StarSky {
 
 struct SceneFile {
     std::string name;
+    std::string file; ///< as messages show it
     std::filesystem::path gltf;
     double unit_m = 299792458; ///< one scene unit in metres
     double light_speed_m_s = 299792458; ///< real, or slow as in Gamow's tales
@@ -51,6 +54,7 @@ struct SceneFile {
     std::optional<StarSky> stars;
     glm::dvec3 ambient{0}; ///< Rec. 709 linear, what a white surface gives back without any light
     std::vector<Light> lights;
+    std::vector<Body> bodies;
     Shot start; ///< where a visitor starts; its `scene` is this file's name
 
     /// Scene times (unit / c) to seconds.

@@ -5,8 +5,6 @@
 namespace starbow {
 namespace {
 
-/// Large enough for any world, small enough that squares and sums stay far from overflow.
-constexpr double farthest = 1e15;
 constexpr double most_gamma = 1e9;
 
 /// Unit length, also where the squares of the components overflow or vanish. Zero stays zero.
@@ -52,13 +50,6 @@ double read_proper_speed(const Place& place)
     return std::sinh(number(*rapidity, {0, std::acosh(most_gamma)}));
 }
 
-glm::dvec3 read_velocity(const Place& place)
-{
-    only(place, {"direction", "gamma", "beta", "rapidity"});
-    const glm::dvec3 direction = read_direction(member(place, "direction"));
-    return direction * read_proper_speed(place);
-}
-
 glm::dquat read_orientation(const Place& place)
 {
     glm::dvec3 look{0, 0, -1}, up{0, 1, 0};
@@ -95,6 +86,13 @@ glm::dquat orientation(const glm::dvec3& look, const glm::dvec3& up)
     const glm::dvec3 ahead = unit(look);
     const glm::dvec3 right = glm::normalize(glm::cross(ahead, unit(up)));
     return glm::normalize(glm::quat_cast(glm::dmat3(right, glm::cross(right, ahead), -ahead)));
+}
+
+glm::dvec3 read_velocity(const Place& place)
+{
+    only(place, {"direction", "gamma", "beta", "rapidity"});
+    const glm::dvec3 direction = read_direction(member(place, "direction"));
+    return direction * read_proper_speed(place);
 }
 
 Shot read_shot(const Place& place, bool with_scene)

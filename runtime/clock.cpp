@@ -1,8 +1,12 @@
 #include "clock.h"
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace starbow {
 namespace {
+
+constexpr double for_ever = std::numeric_limits<double>::infinity();
 
 /// The part of a turn, 0 to 1: in double, for a float would lose the hands after months.
 double turned(double reading_s, double turn_s)
@@ -11,7 +15,7 @@ double turned(double reading_s, double turn_s)
     return part < 0 ? part + 1 : part;
 }
 
-/// ClockEntry's member: the point needs no place of its own.
+/// TimeEntry's member: the point needs no place of its own.
 glm::vec4 packed(const std::string& figures)
 {
     std::uint32_t six[2] = {};
@@ -42,22 +46,30 @@ std::string figures(double reading_s)
     return out.append(1, '.').append(1, char('0' + size % 10));
 }
 
-std::vector<shared::ClockEntry> clock_entries(const World& world, const glm::dvec3& eye, const glm::dmat3& motion_from_world,
-    double time, double seconds_per_time_unit)
+std::vector<shared::TimeEntry> time_entries(const World& world, const Vantage& vantage, double seconds_per_time_unit)
 {
-    std::vector<shared::ClockEntry> entries;
-    for (const Instance& instance : world.instances) {
+    std::vector<shared::TimeEntry> entries;
+    const InstanceRange range = instances_of(world, vantage.frame);
+    for (std::size_t i = range.first; i < range.last && timed(world, world.instances[i]); ++i) {
+        const Instance& instance = world.instances[i];
         const Primitive& primitive = world.primitives[instance.primitive];
-        const auto& clock = world.materials[std::size_t(primitive.material)].clock;
-        if (!clock)
-            break;
         const glm::dvec3 middle
-            = glm::dvec3(instance.world_from_local * glm::dvec4(0.5 * (primitive.low + primitive.high), 1)) - eye;
+            = glm::dvec3(instance.frame_from_local * glm::dvec4(0.5 * (primitive.low + primitive.high), 1)) - vantage.place;
         const double distance = glm::length(middle);
-        const double reading = reading_s(*clock, time, distance, seconds_per_time_unit);
-        entries.push_back({glm::vec4(motion_from_world * middle, distance),
-            glm::vec4(turned(reading, 60), turned(reading, 10), turned(reading, 3600), seconds_per_time_unit),
-            packed(figures(reading))});
+        const Life life
+            = instance.life < 0 ? Life{-for_ever, for_ever} : world.lives[std::size_t(instance.life)];
+        shared::TimeEntry entry{};
+        entry.middle = glm::vec4(vantage.motion_from_frame * middle, distance);
+        if (const auto& clock = world.materials[std::size_t(primitive.material)].clock) {
+            const double reading = reading_s(*clock, vantage.time - life.zero, distance, seconds_per_time_unit);
+            entry.turns
+                = glm::vec4(turned(reading, 60), turned(reading, 10), turned(reading, 3600), seconds_per_time_unit);
+            entry.digits = packed(figures(reading));
+        }
+        // Of the light that leaves `distance` from the middle's own.
+        auto bound = [&](double time) { return float(std::clamp(vantage.time - time - distance, -1e30, 1e30)); };
+        entry.there = glm::vec4(bound(life.end), bound(life.begin), 0, 0);
+        entries.push_back(entry);
     }
     return entries;
 }

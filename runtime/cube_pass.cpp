@@ -1,5 +1,6 @@
 #include "cube_pass.h"
 #include "clock.h"
+#include "lamp.h"
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -31,39 +32,50 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
     , world_(world)
     , samples_(samples)
     , keeps_depth_(keeps_depth)
+    , layered_(world.layered())
 {
     const Sky& sky = world.scene.sky;
-    sky_ = sky.zenith != sky.horizon || sky.nadir != sky.horizon;
-    constants_ = make_mapped_buffer(device, sizeof(shared::CubeConstants), vk::BufferUsageFlagBits::eUniformBuffer);
-    slots_ = make_mapped_buffer(device, SLOT_COUNT * sizeof(shared::SlotEntry), vk::BufferUsageFlagBits::eUniformBuffer);
-    atlases_.resize(std::size_t(world.spectra.groups));
-    std::vector<vk::DescriptorPoolSize> sizes
-        = {{vk::DescriptorType::eUniformBuffer, 2}, {vk::DescriptorType::eStorageBuffer, 3}};
+    sky_ = !layered_ && (sky.zenith != sky.horizon || sky.nadir != sky.horizon);
+    const vk::DeviceSize step = device.properties.limits.minUniformBufferOffsetAlignment;
+    stride_ = (sizeof(shared::CubeConstants) + step - 1) / step * step;
+    const std::size_t layers = world.world.frames.size();
+    constants_ = make_mapped_buffer(device, layers * stride_, vk::BufferUsageFlagBits::eUniformBuffer);
+    slots_ = make_mapped_buffer(
+        device, MAX_LAYERS * SLOT_COUNT * sizeof(shared::SlotEntry), vk::BufferUsageFlagBits::eUniformBuffer);
+    atlases_.resize(formats().size());
+    std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBufferDynamic, 1},
+        {vk::DescriptorType::eUniformBuffer, 1}, {vk::DescriptorType::eStorageBuffer, 3}};
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
     set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.eye_set}).front());
 }
 
-void CubePass::prepare(
-    const Plan& plan, const glm::dvec3& place, double time, const glm::dmat3& motion_from_world, double pre_exposure)
+std::vector<vk::Format> CubePass::formats() const
+{
+    std::vector<vk::Format> formats = world_.numbers().formats();
+    if (layered_)
+        formats.push_back(vk::Format::eR16Sfloat);
+    return formats;
+}
+
+void CubePass::prepare(const Plan& plan, std::span<const Vantage> layers, double pre_exposure)
 {
     pre_exposure_ = pre_exposure;
     images_ = plan.images;
     area_ = plan.atlas_size;
     levels_ = plan.levels;
-    list_ = cull(world_.world, place, motion_from_world, images_);
+    list_ = cull(world_.world, layers, images_);
     fit(plan.atlas_size, plan.levels);
-    upload(motion_from_world, place, time, false);
+    upload(layers, false);
     const vk::Extent2D extent = atlases_[0].extent;
     auto table = slot_table(plan, {extent.width, extent.height});
     std::memcpy(slots_.mapped, table.data(), table.size() * sizeof(table[0]));
 }
 
-void CubePass::prepare_plain(
-    const PlanImage& image, const glm::dvec3& place, double time, const glm::dmat3& straight_from_world)
+void CubePass::prepare_plain(const PlanImage& image, const Vantage& vantage)
 {
     images_ = {image};
-    list_ = cull(world_.world, place, straight_from_world, images_);
-    upload(straight_from_world, place, time, true);
+    list_ = cull(world_.world, {&vantage, 1}, images_);
+    upload({&vantage, 1}, true);
     if (int(depth_.extent.width) < image.size.x || int(depth_.extent.height) < image.size.y)
         depth_ = make_image(device_,
             {depth_format, {std::uint32_t(image.size.x), std::uint32_t(image.size.y)},
@@ -88,7 +100,7 @@ void CubePass::fit(glm::ivec2 size, int levels)
         atlas = {};
     depth_ = {}, atlas_samples_.clear(), depth_samples_ = {};
     auto copied = most > 1 ? Usage::eTransferSrc | Usage::eTransferDst : vk::ImageUsageFlags();
-    const std::vector<vk::Format> formats = world_.numbers().formats();
+    const std::vector<vk::Format> formats = this->formats();
     for (std::size_t i = 0; i < atlases_.size(); ++i)
         atlases_[i] = make_image(device_, {formats[i], extent, Usage::eColorAttachment | Usage::eSampled | copied, most});
     depth_ = make_image(device_, {depth_format, extent, Usage::eDepthStencilAttachment | Usage::eSampled});
@@ -100,7 +112,7 @@ void CubePass::fit(glm::ivec2 size, int levels)
     }
 }
 
-void CubePass::upload(const glm::dmat3& to_motion, const glm::dvec3& place, double time, bool plain)
+void CubePass::upload(std::span<const Vantage> layers, bool plain)
 {
     triangles_ = 0;
     for (const Draw& draw : list_.draws)
@@ -112,16 +124,37 @@ void CubePass::upload(const glm::dmat3& to_motion, const glm::dvec3& place, doub
     };
     put(instances_, list_.instances);
     put(visible_, list_.visible);
-    const SceneFile& scene = world_.scene;
-    if (const auto clocks = clock_entries(world_.world, place, to_motion, time, scene.seconds_per_time_unit());
-        !clocks.empty())
-        put(clocks_, clocks);
+    std::vector<shared::TimeEntry> times;
+    for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+        shared::CubeConstants constants = constants_of(layers[layer], plain);
+        constants.first = glm::vec4(list_.first[layer], times.size(), 0, 0);
+        std::memcpy(static_cast<std::byte*>(constants_.mapped) + layer * stride_, &constants, sizeof constants);
+        const auto own = time_entries(world_.world, layers[layer], world_.scene.seconds_per_time_unit());
+        times.insert(times.end(), own.begin(), own.end());
+    }
+    if (!times.empty())
+        put(times_, times);
 
-    double scale = pre_exposure_;
+    vk::DescriptorBufferInfo buffers[] = {{*constants_.buffer, 0, sizeof(shared::CubeConstants)}, {*instances_.buffer, 0, VK_WHOLE_SIZE},
+        {*visible_.buffer, 0, VK_WHOLE_SIZE}, {*world_.columns.buffer, 0, VK_WHOLE_SIZE},
+        {*(*times_.buffer ? times_ : instances_).buffer, 0, VK_WHOLE_SIZE}}; // without any none is read
+    device_.device.updateDescriptorSets(
+        {vk::WriteDescriptorSet(*set_, 0, 0, vk::DescriptorType::eUniformBufferDynamic, {}, buffers[0]),
+            vk::WriteDescriptorSet(*set_, 1, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[1]),
+            vk::WriteDescriptorSet(*set_, 2, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[2]),
+            vk::WriteDescriptorSet(*set_, 3, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[3]),
+            vk::WriteDescriptorSet(*set_, 4, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[4])},
+        {});
+}
+
+shared::CubeConstants CubePass::constants_of(const Vantage& vantage, bool plain) const
+{
+    const SceneFile& scene = world_.scene;
+    const double scale = pre_exposure_;
     shared::CubeConstants constants{};
     constants.ambient = glm::vec4(scene.ambient * scale, scale);
     const auto& numbers = world_.spectra.sky;
-    for (std::size_t group = 0; group < atlases_.size(); ++group) {
+    for (std::size_t group = 0; group < std::size_t(world_.spectra.groups); ++group) {
         constants.sky_zenith[group] = glm::vec4(numbers[0][group] * scale);
         constants.sky_horizon[group] = glm::vec4(numbers[1][group] * scale);
         constants.sky_nadir[group] = glm::vec4(numbers[2][group] * scale);
@@ -131,28 +164,10 @@ void CubePass::upload(const glm::dmat3& to_motion, const glm::dvec3& place, doub
         constants.sky_horizon[0] = glm::vec4(scene.sky.horizon * scale, 0);
         constants.sky_nadir[0] = glm::vec4(scene.sky.nadir * scale, 0);
     }
-    constants.world_up = glm::vec4(to_motion * glm::dvec3(0, 1, 0), 0);
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        shared::LightEntry& entry = constants.lights[i];
-        if (auto* light = std::get_if<DirectionalLight>(&scene.lights[i]))
-            entry = {glm::vec4(to_motion * light->towards, 0), glm::vec4(light->radiance * scale, 0), {}};
-        else if (auto* point = std::get_if<PointLight>(&scene.lights[i]))
-            entry = {glm::vec4(to_motion * (point->position - place), 1),
-                glm::vec4(point->radiance * scale, point->distance * point->distance), {}};
-        entry.kind.x = float(world_.spectra.kind_of_light[i]);
-    }
-    std::memcpy(constants_.mapped, &constants, sizeof constants);
-
-    vk::DescriptorBufferInfo buffers[] = {{*constants_.buffer, 0, VK_WHOLE_SIZE}, {*instances_.buffer, 0, VK_WHOLE_SIZE},
-        {*visible_.buffer, 0, VK_WHOLE_SIZE}, {*world_.columns.buffer, 0, VK_WHOLE_SIZE},
-        {*(*clocks_.buffer ? clocks_ : instances_).buffer, 0, VK_WHOLE_SIZE}}; // without clocks none is read
-    device_.device.updateDescriptorSets(
-        {vk::WriteDescriptorSet(*set_, 0, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[0]),
-            vk::WriteDescriptorSet(*set_, 1, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[1]),
-            vk::WriteDescriptorSet(*set_, 2, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[2]),
-            vk::WriteDescriptorSet(*set_, 3, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[3]),
-            vk::WriteDescriptorSet(*set_, 4, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[4])},
-        {});
+    constants.world_up = glm::vec4(vantage.motion_from_frame * glm::dvec3(0, 1, 0), 0);
+    for (std::size_t i = 0; i < world_.world.lamps.size(); ++i)
+        constants.lights[i] = light_entry(world_, world_.world.lamps[i], vantage, scale);
+    return constants;
 }
 
 void CubePass::record(vk::CommandBuffer commands)
@@ -177,7 +192,7 @@ void CubePass::record(vk::CommandBuffer commands)
     }
     std::vector<vk::RenderingAttachmentInfo> colours;
     for (std::size_t group = 0; group < atlases_.size(); ++group) {
-        const glm::vec4 sky(world_.spectra.sky[1][group] * pre_exposure_);
+        const glm::vec4 sky(layered_ ? glm::dvec4(0) : world_.spectra.sky[1][group] * pre_exposure_);
         const vk::ClearColorValue clear(std::array<float, 4>{sky.x, sky.y, sky.z, sky.w});
         colours.push_back({*(sampled ? atlas_samples_ : atlases_)[group].view, Layout_::eColorAttachmentOptimal, {}, {}, {},
             vk::AttachmentLoadOp::eClear, sampled ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore,
@@ -198,7 +213,7 @@ void CubePass::record(vk::CommandBuffer commands)
         depth_info.resolveImageLayout = Layout_::eDepthAttachmentOptimal;
     }
     commands.beginRendering({{}, rect_of({0, 0}, area_), 1, 0, colours, &depth_info});
-    draw_images(commands, {world_.numbers().formats(), sample_bits(samples_)}, false);
+    draw_images(commands, {formats(), sample_bits(samples_)}, false);
     commands.endRendering();
     for (const Image& atlas : atlases_)
         if (levels_ > 1)
@@ -216,7 +231,6 @@ void CubePass::record(vk::CommandBuffer commands)
 void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, bool plain)
 {
     const World& world = world_.world;
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.surface_layout, 0, *set_, {});
     commands.bindVertexBuffers(0, *world_.vertices.buffer, vk::DeviceSize(0));
     commands.bindIndexBuffer(*world_.indices.buffer, 0, vk::IndexType::eUint32);
     constexpr auto stages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
@@ -225,6 +239,9 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
     for (std::uint32_t i = 0; i < images_.size(); ++i) {
         const PlanImage& image = images_[i];
         set_area(commands, image.atlas, image.size);
+        if (i == 0 || image.layer != images_[i - 1].layer)
+            commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.surface_layout, 0, *set_,
+                std::uint32_t(std::size_t(image.layer) * stride_));
         glm::dmat4 clip = clip_from_motion(image, near_distance);
         shared::CubePush push{row(clip, 0), row(clip, 1), row(clip, 2), row(clip, 3), {}, {}, {}, {}};
         // Seen through a mirrored pair of face axes a surface's front turns the other way.
@@ -246,11 +263,13 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
         int material = -1;
         for (; draw != list_.draws.end() && draw->image == i; ++draw) {
             const Primitive& primitive = world.primitives[draw->primitive];
+            SurfaceVariant variant = world_.variant(primitive.material, plain);
+            variant.mortal = draw->mortal && !plain;
+            if (vk::Pipeline pipeline = pipelines_.surface(variant, kind); pipeline != bound)
+                commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipeline);
             if (primitive.material != material) {
                 material = primitive.material;
                 const Material& m = world.materials[material];
-                if (vk::Pipeline pipeline = pipelines_.surface(world_.variant(material, plain), kind); pipeline != bound)
-                    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipeline);
                 commands.bindDescriptorSets(
                     vk::PipelineBindPoint::eGraphics, *pipelines_.surface_layout, 1, *world_.materials[material], {});
                 commands.setCullMode(m.double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);

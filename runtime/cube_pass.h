@@ -16,25 +16,24 @@ struct Target {
     vk::Format format;
 };
 
-/// The world at rest around one eye, drawn into the images of a plan: the atlas that the warp pass reads. Holds the device's
-/// memory for it; nothing of one frame is needed by the next.
+/// What stands still around one eye, in the world and in the rest frame of each thing that moves, drawn into the images of a
+/// plan: the atlas that the warp pass reads. Holds the device's memory for it; nothing of one frame is needed by the next.
 class CubePass {
 public:
     CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, int samples, bool keeps_depth);
 
     /// What the processor does: culls, makes room, uploads. The device must have finished the frame before. Every radiance
-    /// is stored times pre_exposure. place, time: the eye's event, world frame, scene units.
-    void prepare(
-        const Plan& plan, const glm::dvec3& place, double time, const glm::dmat3& motion_from_world, double pre_exposure);
+    /// is stored times pre_exposure. layers: the plan's.
+    void prepare(const Plan& plan, std::span<const Vantage> layers, double pre_exposure);
     /// What the device does: one pass over all images, then their mips. Leaves the atlas (and the depth, if it is kept) for
     /// fragment shaders to read.
     void record(vk::CommandBuffer commands);
 
     /// The same world drawn straight into a target, through one image alone: for comparison. Not beside prepare and record.
-    void prepare_plain(const PlanImage& image, const glm::dvec3& place, double time, const glm::dmat3& straight_from_world);
+    void prepare_plain(const PlanImage& image, const Vantage& vantage);
     void record_plain(vk::CommandBuffer commands, const Target& target);
 
-    /// Of the light's numbers four each.
+    /// Of the light's numbers four each; where something moves one more: how much of a texel is covered.
     const std::vector<Image>& atlases() const { return atlases_; }
     const Image& depth() const { return depth_; }
     const Buffer& slots() const { return slots_; }
@@ -43,7 +42,9 @@ public:
 
 private:
     void fit(glm::ivec2 atlas_size, int levels);
-    void upload(const glm::dmat3& to_motion, const glm::dvec3& place, double time, bool plain);
+    void upload(std::span<const Vantage> layers, bool plain);
+    shared::CubeConstants constants_of(const Vantage& vantage, bool plain) const;
+    std::vector<vk::Format> formats() const;
     void draw_images(vk::CommandBuffer commands, const TargetKind& kind, bool plain);
     void make_mips(vk::CommandBuffer commands, const Image& atlas);
 
@@ -51,10 +52,11 @@ private:
     Pipelines& pipelines_;
     const GpuWorld& world_;
     int samples_;
-    bool keeps_depth_, sky_;
+    bool keeps_depth_, layered_, sky_; ///< layered_: something may move; the sky is then the warp's
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::raii::DescriptorSet set_ = nullptr;
-    Buffer constants_, instances_, visible_, slots_, clocks_; ///< clocks_: null without any
+    Buffer constants_, instances_, visible_, slots_, times_; ///< times_: null without any
+    vk::DeviceSize stride_; ///< of constants_: one for each layer
     std::vector<Image> atlases_, atlas_samples_;
     Image depth_, depth_samples_;
     std::vector<PlanImage> images_;

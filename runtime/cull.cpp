@@ -68,51 +68,121 @@ int level_of(const Primitive& primitive, const Box& box, double texels_per_unit)
     return level;
 }
 
+Box box_of(const Primitive& primitive, const glm::dmat3& turn, const glm::dvec3& place)
+{
+    const glm::dvec3 half = 0.5 * (primitive.high - primitive.low), middle = 0.5 * (primitive.high + primitive.low);
+    Box box{turn * middle + place, {turn[0] * half.x, turn[1] * half.y, turn[2] * half.z}, 0, 0};
+    const glm::dvec3 lengths(glm::length(turn[0]), glm::length(turn[1]), glm::length(turn[2]));
+    const double longest = std::max({lengths.x, lengths.y, lengths.z});
+    const double skew = std::abs(glm::dot(turn[0], turn[1])) + std::abs(glm::dot(turn[1], turn[2]))
+        + std::abs(glm::dot(turn[2], turn[0]));
+    if (skew < 1e-9 * longest * longest) {
+        // The eye in the instance's own frame, to its box.
+        const glm::dvec3 eye_local = -(place * turn) / (lengths * lengths);
+        box.scale = longest;
+        box.distance = std::min({lengths.x, lengths.y, lengths.z})
+            * glm::distance(eye_local, glm::clamp(eye_local, primitive.low, primitive.high));
+    } else {
+        // A sheared node can stretch more than any of its axes; the root of the sum of squares bounds it.
+        box.scale = glm::length(lengths);
+        box.distance = std::max(0.0, glm::length(turn * primitive.centre + place) - box.scale * primitive.radius);
+    }
+    return box;
+}
+
+bool mortal(const World& world, const Instance& instance)
+{
+    return instance.life >= 0
+        && (std::isfinite(world.lives[std::size_t(instance.life)].begin)
+            || std::isfinite(world.lives[std::size_t(instance.life)].end));
+}
+
+/// Whether any of its light that arrives at the vantage may have left while it was there.
+bool may_show(const World& world, const Instance& instance, const Vantage& vantage, const Box& box)
+{
+    if (!mortal(world, instance))
+        return true;
+    const Life& life = world.lives[std::size_t(instance.life)];
+    const double across = 2 * (glm::length(box.half[0]) + glm::length(box.half[1]) + glm::length(box.half[2]));
+    return vantage.time - box.distance >= life.begin && vantage.time - box.distance - across <= life.end;
+}
+
+struct Standing {
+    glm::dmat3 turn; ///< motion axes from local
+    glm::dvec3 place; ///< of the local origin, from the eye
+};
+Standing standing(const Instance& instance, const Vantage& vantage)
+{
+    const glm::dmat4& m = instance.frame_from_local;
+    return {vantage.motion_from_frame * glm::dmat3(m), vantage.motion_from_frame * (glm::dvec3(m[3]) - vantage.place)};
+}
+
 } // namespace
 
-DrawList cull(
-    const World& world, const glm::dvec3& eye, const glm::dmat3& motion_from_world, const std::vector<PlanImage>& images)
+InstanceRange instances_of(const World& world, int frame)
+{
+    const auto of = std::equal_range(world.instances.begin(), world.instances.end(), Instance{.frame = frame},
+        [](const Instance& a, const Instance& b) { return a.frame < b.frame; });
+    return {std::size_t(of.first - world.instances.begin()), std::size_t(of.second - world.instances.begin())};
+}
+
+bool timed(const World& world, const Instance& instance)
+{
+    return mortal(world, instance)
+        || world.materials[std::size_t(world.primitives[instance.primitive].material)].clock.has_value();
+}
+
+std::vector<Ball> balls(const World& world, const Vantage& vantage)
+{
+    std::vector<Ball> balls;
+    const InstanceRange range = instances_of(world, vantage.frame);
+    for (std::size_t i = range.first; i < range.last; ++i) {
+        const Instance& instance = world.instances[i];
+        const Standing at = standing(instance, vantage);
+        const Box box = box_of(world.primitives[instance.primitive], at.turn, at.place);
+        if (may_show(world, instance, vantage, box))
+            balls.push_back({box.centre, std::sqrt(glm::dot(box.half[0], box.half[0]) + glm::dot(box.half[1], box.half[1])
+                                             + glm::dot(box.half[2], box.half[2]))});
+    }
+    return balls;
+}
+
+DrawList cull(const World& world, std::span<const Vantage> layers, const std::vector<PlanImage>& images)
 {
     DrawList list;
-    list.instances.reserve(world.instances.size());
-    std::vector<Box> boxes;
-    boxes.reserve(world.instances.size());
-    for (const Instance& instance : world.instances) {
-        const glm::dmat4& m = instance.world_from_local;
-        glm::dmat3 turn = motion_from_world * glm::dmat3(m);
-        glm::dvec3 place = motion_from_world * (glm::dvec3(m[3]) - eye);
-        glm::dmat3 rows = glm::transpose(turn);
-        list.instances.push_back({glm::vec4(rows[0], place.x), glm::vec4(rows[1], place.y), glm::vec4(rows[2], place.z)});
-        const Primitive& primitive = world.primitives[instance.primitive];
-        glm::dvec3 half = 0.5 * (primitive.high - primitive.low), middle = 0.5 * (primitive.high + primitive.low);
-        Box box{turn * middle + place, {turn[0] * half.x, turn[1] * half.y, turn[2] * half.z}, 0, 0};
-        glm::dvec3 lengths(glm::length(turn[0]), glm::length(turn[1]), glm::length(turn[2]));
-        double longest = std::max({lengths.x, lengths.y, lengths.z});
-        double skew = std::abs(glm::dot(turn[0], turn[1])) + std::abs(glm::dot(turn[1], turn[2]))
-            + std::abs(glm::dot(turn[2], turn[0]));
-        if (skew < 1e-9 * longest * longest) {
-            // The eye in the instance's own frame, to its box.
-            glm::dvec3 eye_local = -(place * turn) / (lengths * lengths);
-            box.scale = longest;
-            box.distance = std::min({lengths.x, lengths.y, lengths.z})
-                * glm::distance(eye_local, glm::clamp(eye_local, primitive.low, primitive.high));
-        } else {
-            // A sheared node can stretch more than any of its axes; the root of the sum of squares bounds it.
-            box.scale = glm::length(lengths);
-            box.distance = std::max(0.0, glm::length(turn * primitive.centre + place) - box.scale * primitive.radius);
+    std::vector<Box> boxes; // empty where nothing is there
+    std::vector<char> shows;
+    for (const Vantage& vantage : layers) {
+        list.first.push_back(std::uint32_t(list.instances.size()));
+        const InstanceRange range = instances_of(world, vantage.frame);
+        list.instances.reserve(list.instances.size() + range.last - range.first);
+        for (std::size_t i = range.first; i < range.last; ++i) {
+            const Instance& instance = world.instances[i];
+            const Standing at = standing(instance, vantage);
+            const glm::dmat3 rows = glm::transpose(at.turn);
+            list.instances.push_back(
+                {glm::vec4(rows[0], at.place.x), glm::vec4(rows[1], at.place.y), glm::vec4(rows[2], at.place.z)});
+            boxes.push_back(box_of(world.primitives[instance.primitive], at.turn, at.place));
+            shows.push_back(may_show(world, instance, vantage, boxes.back()));
         }
-        boxes.push_back(box);
     }
     std::vector<std::vector<std::uint32_t>> by_level;
     for (std::uint32_t i = 0; i < images.size(); ++i) {
-        Frustum frustum(images[i]);
-        for (std::uint32_t at = 0; at < world.instances.size();) {
-            std::uint32_t index = world.instances[at].primitive;
+        const PlanImage& image = images[i];
+        const Frustum frustum(image);
+        const std::uint32_t first = list.first[std::size_t(image.layer)];
+        const InstanceRange range = instances_of(world, layers[std::size_t(image.layer)].frame);
+        for (std::size_t at = range.first; at < range.last;) {
+            const std::uint32_t index = world.instances[at].primitive;
+            const bool dies = mortal(world, world.instances[at]);
             const Primitive& primitive = world.primitives[index];
             by_level.resize(std::max(by_level.size(), primitive.coarser.size() + 1));
-            for (; at < world.instances.size() && world.instances[at].primitive == index; ++at)
-                if (frustum.sees(boxes[at]) && !in_hole(images[i], boxes[at]))
-                    by_level[level_of(primitive, boxes[at], images[i].texels_per_unit) + 1].push_back(at);
+            for (; at < range.last && world.instances[at].primitive == index && mortal(world, world.instances[at]) == dies;
+                 ++at) {
+                const std::uint32_t own = first + std::uint32_t(at - range.first);
+                if (shows[own] && frustum.sees(boxes[own]) && !in_hole(image, boxes[own]))
+                    by_level[std::size_t(level_of(primitive, boxes[own], image.texels_per_unit) + 1)].push_back(own);
+            }
             for (std::size_t level = 0; level < by_level.size(); ++level) {
                 std::vector<std::uint32_t>& seen = by_level[level];
                 if (seen.empty())
@@ -122,7 +192,7 @@ DrawList cull(
                 DetailLevel detail = level == 0 ? DetailLevel{primitive.first_index, primitive.index_count, 0}
                                                 : primitive.coarser[level - 1];
                 list.draws.push_back({i, index, std::uint32_t(list.visible.size()), std::uint32_t(seen.size()),
-                    detail.first_index, detail.index_count});
+                    detail.first_index, detail.index_count, dies});
                 list.visible.insert(list.visible.end(), seen.begin(), seen.end());
                 seen.clear();
             }
@@ -131,18 +201,20 @@ DrawList cull(
     return list;
 }
 
-double nearest_box(const World& world, const glm::dvec3& place)
+double nearest_box(const World& world, int frame, const glm::dvec3& place)
 {
     double nearest = 1e300;
-    for (const Instance& instance : world.instances) {
+    const InstanceRange range = instances_of(world, frame);
+    for (std::size_t at = range.first; at < range.last; ++at) {
+        const Instance& instance = world.instances[at];
         const Primitive& primitive = world.primitives[instance.primitive];
         // The corners' own box: larger than the turned one, never nearer than allowed.
         glm::dvec3 low(1e300), high(-1e300);
         for (int i = 0; i < 8; ++i) {
             const glm::dvec3 corner(i & 1 ? primitive.high.x : primitive.low.x, i & 2 ? primitive.high.y : primitive.low.y,
                 i & 4 ? primitive.high.z : primitive.low.z);
-            const glm::dvec3 at = glm::dvec3(instance.world_from_local * glm::dvec4(corner, 1));
-            low = glm::min(low, at), high = glm::max(high, at);
+            const glm::dvec3 moved = glm::dvec3(instance.frame_from_local * glm::dvec4(corner, 1));
+            low = glm::min(low, moved), high = glm::max(high, moved);
         }
         nearest = std::min(nearest, glm::distance(place, glm::clamp(place, low, high)));
     }
@@ -153,7 +225,7 @@ void sort_instances(World& world)
 {
     auto key = [&](const Instance& i) {
         const int material = world.primitives[i.primitive].material;
-        return std::tuple(!world.materials[std::size_t(material)].clock, material, i.primitive);
+        return std::tuple(i.frame, !timed(world, i), material, i.primitive, mortal(world, i));
     };
     std::stable_sort(world.instances.begin(), world.instances.end(),
         [&](const Instance& a, const Instance& b) { return key(a) < key(b); });

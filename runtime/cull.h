@@ -1,32 +1,56 @@
 #pragma once
 #include "plan.h"
 #include "world.h"
+#include <span>
 
 namespace starbow {
+
+/// An eye before what stands still in one rest frame.
+struct Vantage {
+    int frame = 0; ///< of World::frames
+    glm::dvec3 place{0}; ///< the eye's event, that frame's place and time
+    double time = 0;
+    glm::dmat3 motion_from_frame{1}; ///< turn
+};
 
 /// One indexed draw into one image of a plan: `count` instances, listed in DrawList::visible from `first`.
 struct Draw {
     std::uint32_t image, primitive, first, count;
     std::uint32_t first_index, index_count;
+    bool mortal = false; ///< some of it may not be there when its light would have left
 };
 
 /// What the cube pass of one eye draws.
 struct DrawList {
-    std::vector<shared::InstanceEntry> instances; ///< all of the world's, in front of this eye, in its order
+    std::vector<shared::InstanceEntry> instances; ///< of all layers, each its frame's in the world's order
+    std::vector<std::uint32_t> first; ///< of each layer, in `instances`
     std::vector<std::uint32_t> visible; ///< indices into `instances`
     std::vector<Draw> draws; ///< by image, then by primitive
 };
 
-/// Moves the world around the eye (in double, rounded to float only there) and sorts out which instance each image can see.
-/// Each is drawn at the coarsest level of detail that strays by at most half a texel of that image.
-/// The instances of a world stand in order of their primitives (load_world's and sort_instances' promise).
-DrawList cull(
-    const World& world, const glm::dvec3& eye, const glm::dmat3& motion_from_world, const std::vector<PlanImage>& images);
+/// Moves what rests in each vantage's frame around the eye (in double, rounded to float only there) and sorts out which
+/// instance each image of that layer can see. Each is drawn at the coarsest level of detail that strays by at most half a
+/// texel of that image. The instances of a world stand in sort_instances' order.
+DrawList cull(const World& world, std::span<const Vantage> layers, const std::vector<PlanImage>& images);
 
-/// Distance from a place to the nearest of all instances' bounding boxes, scene units: no surface is nearer.
-double nearest_box(const World& world, const glm::dvec3& place);
+/// Balls around what may be seen of a frame's instances: those whose light, had it left, would have left while they were
+/// there.
+std::vector<Ball> balls(const World& world, const Vantage& vantage);
 
-/// Puts a world's instances in order of their primitives, these in order of their materials, clocks first.
+/// A frame's instances, from first to before last, in sort_instances' order.
+struct InstanceRange {
+    std::size_t first, last;
+};
+InstanceRange instances_of(const World& world, int frame);
+
+/// Whether some of an instance's own times are told: clocks and what is not there for ever. The first of its frame.
+bool timed(const World& world, const Instance& instance);
+
+/// Distance from a place of a frame to the nearest of its instances' bounding boxes, scene units: no surface is nearer.
+double nearest_box(const World& world, int frame, const glm::dvec3& place);
+
+/// Puts a world's instances in order of their frames, in each those that are timed first, then of their materials and their
+/// primitives.
 void sort_instances(World& world);
 
 } // namespace starbow

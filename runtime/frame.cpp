@@ -4,6 +4,7 @@
 #include "displays/inverse_map.h"
 #include "hud_place.h"
 #include "label.h"
+#include "worldline.h"
 #include "physics/physics.h"
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,9 @@ constexpr double degree = 3.14159265358979323846 / 180;
 
 glm::vec4 row(const glm::dmat3& m, int i, double w = 0) { return glm::vec4(m[0][i], m[1][i], m[2][i], w); }
 
+/// Root of the determinant of a flat pane's matrix: its pixels' solid angle is det M / length^3.
+double unit_of(const CompiledPane& pane) { return pane.matrix ? std::sqrt(std::abs(glm::determinant(*pane.matrix))) : 0; }
+
 constexpr std::size_t no_map = ~std::size_t(0);
 
 } // namespace
@@ -31,7 +35,8 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
     , pipelines_(pipelines)
     , world_(world)
     , layout_(layout)
-    , keeps_depth_(keeps_depth || layout.stereo.method == StereoMethod::reprojected || world.star_count > 0)
+    , keeps_depth_(keeps_depth || layout.stereo.method == StereoMethod::reprojected || world.star_count > 0
+          || world.layered())
     , stars_(device, pipelines, world)
 {
     linear_ = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eLinear,
@@ -42,6 +47,7 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
         vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge});
     const float zeros[4] = {};
     nothing_ = make_texture(device, exact_format, {1, 1}, std::as_bytes(std::span(zeros)), false);
+    no_layers_ = make_mapped_buffer(device, sizeof(shared::LayerConstants), vk::BufferUsageFlagBits::eUniformBuffer);
     no_map_ = make_texture_array(device, map_format, {1, 1}, 1, std::as_bytes(std::span(zeros, 2)));
     for (const Output& output : layout_.outputs)
         outputs_.emplace_back().size = output.size;
@@ -144,7 +150,7 @@ void Frame::take_up(Parts parts)
     before.clear();
     pool_ = nullptr;
     std::vector<vk::DescriptorPoolSize> sizes
-        = {{vk::DescriptorType::eUniformBuffer, 5 * count}, {vk::DescriptorType::eCombinedImageSampler, 12 * count}};
+        = {{vk::DescriptorType::eUniformBuffer, 6 * count}, {vk::DescriptorType::eCombinedImageSampler, 13 * count}};
     pool_ = device_.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 3 * count, sizes});
     auto make_set = [&](const vk::raii::DescriptorSetLayout& set_layout) {
         return std::move(device_.device.allocateDescriptorSets({*pool_, *set_layout}).front());
@@ -225,40 +231,76 @@ int Frame::hud_width() const
     return std::clamp(int(2 * panel_half_.x / finest), 160, 4096);
 }
 
+void Frame::find_layers()
+{
+    const bool aberration = shot_.effects.aberration;
+    Shot watcher = shot_; // at rest in the world: without aberration directions are those that he sees
+    watcher.u = glm::dvec3(0);
+    layers_.clear();
+    for (const RestFrame& frame : world_.world.frames) {
+        const bool own = layers_.empty(); // the world's: its axes are those of the motion in any case
+        const Shot looks = in_frame(frame, aberration || own ? shot_ : watcher);
+        const glm::dmat3 turn = motion_from_world(looks.u, looks.ship_from_cockpit);
+        layers_.push_back({in_frame(frame, shot_), aberration || !own ? physics::exp_rapidity(glm::length(looks.u)) : 1, turn,
+            turn * glm::dmat3(glm::mat3_cast(looks.ship_from_cockpit))});
+    }
+}
+
+void Frame::prepare_eye(std::size_t i)
+{
+    Eye& eye = eyes_[i];
+    std::vector<PlanLayer> asked;
+    std::vector<Vantage> vantages;
+    eye.nearest.clear();
+    for (std::size_t at = 0; at < layers_.size(); ++at) {
+        const Layer& layer = layers_[at];
+        const glm::dvec3 offset = layer.shot.ship_from_cockpit * scene_units(eye.now_m);
+        const Vantage vantage{int(at), layer.shot.position + physics::eye_place(layer.shot.u, offset),
+            layer.shot.time + physics::eye_time(layer.shot.u, offset), layer.motion_from_frame};
+        eye.nearest.push_back(
+            reprojects() ? std::max(nearest_box(world_.world, vantage.frame, vantage.place), 1e-30) : 1);
+        PlanLayer ask{{}, layer.E};
+        for (const PaneState& pane : panes_)
+            if (pane.eye == i)
+                ask.views.push_back({pane.compiled.blocks.get(), layer.motion_from_cockpit,
+                    reprojects() ? std::min(MOST_PARALLAX, glm::length(eye_offset(pane, layer)) / eye.nearest[at]) : 0});
+        if (at > 0)
+            ask.things = balls(world_.world, vantage);
+        asked.push_back(std::move(ask));
+        vantages.push_back(vantage);
+    }
+    plans_[i] = make_plan(asked, quality_);
+    eye.cube.prepare(plans_[i], vantages, pre_exposure_);
+    if (!stars_.on())
+        return;
+    const auto& images = plans_[i].images;
+    const auto own = std::find_if(images.begin(), images.end(), [](const PlanImage& image) { return image.layer > 0; });
+    eye.stars = stars_in({images.begin(), own}, world_.star_patches, layers_[0].motion_from_frame);
+}
+
 void Frame::prepare(const Shot& shot, const Panel* hud)
 {
     shot_ = shot;
     E_ = physics::exp_rapidity(glm::length(shot.u));
-    const glm::dmat3 to_motion = motion_from_world(shot.u, shot.ship_from_cockpit);
-    motion_from_cockpit_ = to_motion * glm::dmat3(glm::mat3_cast(shot.ship_from_cockpit));
+    find_layers();
+    double most_E = E_;
+    for (const Layer& layer : layers_)
+        most_E = std::max(most_E, physics::exp_rapidity(glm::length(layer.shot.u)));
     const bool gains = shot.effects.headlight || shot.effects.doppler;
     // Red-shifted, sunlight also leaves the visible: by Wien's law its part at 360 nm falls as exp(-6.92 (1/D - 1)).
-    const double leaves = shot.effects.doppler ? std::exp(6.92 * (E_ - 1)) : 1;
-    pre_exposure_ = pre_exposure(world_.brightest, shot.exposure_ev, (gains ? E_ * E_ * E_ : 1) * leaves);
+    const double leaves = shot.effects.doppler ? std::exp(6.92 * (most_E - 1)) : 1;
+    pre_exposure_ = pre_exposure(world_.brightest, shot.exposure_ev, (gains ? most_E * most_E * most_E : 1) * leaves);
     // A glow's number may stand for light of any strength: only that it fits counts.
     if (world_.spectra.most > 0)
         pre_exposure_ = std::min(pre_exposure_, pre_exposure(world_.spectra.most, -1000, 1));
-    for (std::size_t i = 0; pattern_ == Pattern::none && i < eyes_.size(); ++i) {
-        const glm::dvec3 offset = shot.ship_from_cockpit * scene_units(eyes_[i].now_m);
-        const glm::dvec3 place = shot.position + physics::eye_place(shot.u, offset);
-        const double time = shot.time + physics::eye_time(shot.u, offset);
-        eyes_[i].nearest = reprojects() ? std::max(nearest_box(world_.world, place), 1e-30) : 1;
-        std::vector<View> asked;
-        for (const PaneState& pane : panes_)
-            if (pane.eye == i)
-                asked.push_back({pane.compiled.blocks.get(), motion_from_cockpit_,
-                    reprojects() ? std::min(MOST_PARALLAX, glm::length(world_offset(pane)) / eyes_[i].nearest) : 0});
-        plans_[i] = make_plan(asked, shot.effects.aberration ? E_ : 1, quality_);
-        eyes_[i].cube.prepare(plans_[i], place, time, to_motion, pre_exposure_);
-        if (stars_.on())
-            eyes_[i].stars = stars_in(plans_[i].images, world_.star_patches, to_motion);
-    }
+    for (std::size_t i = 0; pattern_ == Pattern::none && i < eyes_.size(); ++i)
+        prepare_eye(i);
     if (stars_.on()) {
         glm::ivec2 size(1);
         for (const OutputState& output : outputs_)
             size = glm::max(size, output.size);
         stars_.fit({std::uint32_t(size.x), std::uint32_t(size.y)});
-        stars_.prepare(to_motion, shot.effects.false_colours);
+        stars_.prepare(layers_[0].motion_from_frame, shot.effects.false_colours);
     }
     if (hud && (panel_.extent.width != std::uint32_t(hud->size.x) || panel_.extent.height != std::uint32_t(hud->size.y))) {
         panel_ = make_image(device_,
@@ -304,23 +346,65 @@ glm::dvec3 Frame::scene_units(const glm::dvec3& place_m) const
     return place_m * (layout_.stereo.hyper_stereo / world_.scene.unit_m);
 }
 
-/// Of an eye from its cube map's place: world, motion axes. Where the baseline turns, as far as it ever is.
-glm::dvec3 Frame::world_offset(const PaneState& pane) const
+/// Of an eye from its cube map's place, in a layer's motion axes. Where the baseline turns, as far as it ever is.
+glm::dvec3 Frame::eye_offset(const PaneState& pane, const Layer& layer) const
 {
-    glm::dvec3 offset = motion_from_cockpit_ * scene_units(pane.beside_m);
-    const double gamma = 0.5 * (E_ + 1 / E_);
+    const glm::dvec3 offset = layer.shot.ship_from_cockpit * scene_units(pane.beside_m);
     if (layout_.stereo.turning)
-        return glm::dvec3(1, 1, gamma) * glm::length(offset);
-    offset.z *= gamma; // physics::eye_place in these axes
-    return offset;
+        return glm::dvec3(1, 1, physics::gamma_of(layer.shot.u)) * glm::length(offset);
+    return layer.motion_from_frame * physics::eye_place(layer.shot.u, offset);
+}
+
+/// ViewPush's and LayerEntry's member.
+glm::vec4 Frame::eye_told(const PaneState& pane, const Layer& layer) const
+{
+    if (!layout_.stereo.turning)
+        return glm::vec4(eye_offset(pane, layer), 0);
+    const double side = pane.beside_m.x < 0 ? -1 : 1;
+    return glm::vec4(layer.motion_from_cockpit * glm::dvec3(0, 1, 0), side * glm::length(scene_units(pane.beside_m)));
+}
+
+/// Where something moves: the layers of which there is anything to see, and the sky.
+void Frame::put_layers(PaneState& pane)
+{
+    if (!*pane.layers.buffer)
+        pane.layers = make_mapped_buffer(
+            device_, sizeof(shared::LayerConstants), vk::BufferUsageFlagBits::eUniformBuffer);
+    const Eye& eye = eyes_[pane.eye];
+    const Plan& plan = plans_[pane.eye];
+    shared::LayerConstants all{};
+    std::size_t count = 0;
+    for (std::size_t at = 0; at < layers_.size(); ++at) {
+        const bool seen = std::any_of(plan.images.begin(), plan.images.end(),
+            [&](const PlanImage& image) { return std::size_t(image.layer) == at; });
+        if (at > 0 && !seen)
+            continue;
+        const Layer& layer = layers_[at];
+        const glm::dmat3 m = layer.motion_from_cockpit * pane.compiled.matrix.value_or(glm::dmat3(1));
+        shared::LayerEntry& entry = all.layers[count++];
+        entry.row0 = row(m, 0, unit_of(pane.compiled));
+        entry.row1 = row(m, 1, plan.rear_last[at]);
+        entry.row2 = row(m, 2);
+        entry.boost = glm::vec4(layer.E, 1 / layer.E, at * SLOT_COUNT, 0);
+        entry.eye = eye_told(pane, layer);
+        entry.nearest.y = float(eye.nearest[at]);
+    }
+    all.count.x = float(count);
+    all.world_up = glm::vec4(layers_[0].motion_from_frame * glm::dvec3(0, 1, 0), 0);
+    for (std::size_t group = 0; group < MAX_GROUPS; ++group) {
+        all.sky_zenith[group] = glm::vec4(world_.spectra.sky[0][group] * pre_exposure_);
+        all.sky_horizon[group] = glm::vec4(world_.spectra.sky[1][group] * pre_exposure_);
+        all.sky_nadir[group] = glm::vec4(world_.spectra.sky[2][group] * pre_exposure_);
+    }
+    std::memcpy(pane.layers.mapped, &all, sizeof all);
 }
 
 void Frame::write_sets()
 {
     std::vector<vk::DescriptorBufferInfo> buffers;
     std::vector<vk::DescriptorImageInfo> images;
-    buffers.reserve(5 * panes_.size());
-    images.reserve(12 * panes_.size());
+    buffers.reserve(6 * panes_.size());
+    images.reserve(13 * panes_.size());
     std::vector<vk::WriteDescriptorSet> writes;
     auto buffer = [&](const vk::raii::DescriptorSet& set, std::uint32_t binding, vk::DescriptorType type, const Buffer& b) {
         buffers.push_back({*b.buffer, 0, VK_WHOLE_SIZE});
@@ -331,7 +415,7 @@ void Frame::write_sets()
               images.push_back({*sampler, *i.view, vk::ImageLayout::eShaderReadOnlyOptimal});
               writes.push_back({*set, binding, 0, 1, vk::DescriptorType::eCombinedImageSampler, &images.back()});
           };
-    for (const PaneState& pane : panes_) {
+    for (PaneState& pane : panes_) {
         const Image& map = pane.map == no_map ? no_map_ : maps_[pane.map].image;
         image(pane.hud_set, 0, map, nearest_);
         image(pane.hud_set, 1, hud_on_ ? panel_ : nothing_, linear_);
@@ -344,7 +428,7 @@ void Frame::write_sets()
         constexpr std::uint32_t atlas_bindings[MAX_GROUPS] = {1, 7, 8, 9};
         const std::vector<Image>& atlases = eye.cube.atlases();
         for (std::size_t group = 0; group < MAX_GROUPS; ++group)
-            image(pane.warp_set, atlas_bindings[group], atlases[std::min(group, atlases.size() - 1)],
+            image(pane.warp_set, atlas_bindings[group], atlases[std::min(group, std::size_t(world_.spectra.groups) - 1)],
                 plans_[pane.eye].levels > 1 ? linear_ : finest_);
         buffer(pane.warp_set, 2, vk::DescriptorType::eUniformBuffer, eye.cube.slots());
         const ResponseBuffers& response = shot_.effects.false_colours ? world_.false_colours : world_.eye;
@@ -352,6 +436,10 @@ void Frame::write_sets()
         buffer(pane.warp_set, 10, vk::DescriptorType::eUniformBuffer, response.rows[1]);
         buffer(pane.warp_set, 11, vk::DescriptorType::eUniformBuffer, response.rows[2]);
         buffer(pane.warp_set, 12, vk::DescriptorType::eUniformBuffer, response.own_rows);
+        if (world_.layered())
+            put_layers(pane);
+        image(pane.warp_set, 13, world_.layered() ? atlases.back() : nothing_, plans_[pane.eye].levels > 1 ? linear_ : finest_);
+        buffer(pane.warp_set, 14, vk::DescriptorType::eUniformBuffer, world_.layered() ? pane.layers : no_layers_);
         image(pane.warp_set, 4, keeps_depth_ ? eye.cube.depth() : nothing_, nearest_);
         image(pane.warp_set, 5, stars_.on() ? stars_.picture() : nothing_, nearest_);
         image(pane.warp_set, 6, pane.map != no_map && stars_.on() ? maps_[pane.map].inverse : no_map_, nearest_);
@@ -382,37 +470,33 @@ void Frame::draw_cubes(vk::CommandBuffer commands)
 
 WarpVariant Frame::variant(const PaneState& pane) const
 {
-    const bool moves = E_ != 1; // at rest there is nothing to shift
+    const bool moves = E_ != 1 || world_.layered(); // otherwise there is nothing to shift
     const bool beside = reprojects() && pane.beside_m != glm::dvec3(0);
     const Effects& on = shot_.effects;
     WarpVariant variant{pane.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
         plans_[pane.eye].levels > 1, pane.compiled.channels() == 3, beside, beside && layout_.stereo.turning, stars_.on()};
     variant.numbers = world_.numbers();
+    variant.layered = world_.layered();
     variant.by_table = variant.doppler || on.false_colours || variant.numbers != Numbers{}; // else as at rest, which is told
     return variant;
 }
 
 shared::ViewPush Frame::push(const PaneState& pane, const glm::dmat3& axes_from_cockpit) const
 {
-    const bool flat = pane.compiled.matrix.has_value();
     const glm::dmat3 m = axes_from_cockpit * pane.compiled.matrix.value_or(glm::dmat3(1));
-    // Flat: a pixel's solid angle is det M / length^3.
-    const double unit = flat ? std::sqrt(std::abs(glm::determinant(m))) : 0;
     const vk::Extent2D atlas = eyes_[pane.eye].cube.atlases()[0].extent;
     shared::ViewPush push{};
-    push.row0 = row(m, 0, unit);
-    push.row1 = row(m, 1, plans_[pane.eye].rear_last);
+    push.row0 = row(m, 0, unit_of(pane.compiled));
+    push.row1 = row(m, 1, pattern_ == Pattern::none ? plans_[pane.eye].rear_last[0] : 0);
     push.row2 = row(m, 2);
     push.origin = glm::vec4(pane.pane().corner, atlas.width, atlas.height);
     push.pane = glm::vec4(pane.pane().corner, 0, 0);
-    if (layout_.stereo.turning) {
-        const double side = pane.beside_m.x < 0 ? -1 : 1;
-        push.eye = glm::vec4(motion_from_cockpit_ * glm::dvec3(0, 1, 0), side * glm::length(scene_units(pane.beside_m)));
-    } else {
-        push.eye = glm::vec4(world_offset(pane), 0);
+    if (pattern_ == Pattern::none) {
+        push.eye = eye_told(pane, layers_[0]);
+        push.zenith.y = float(eyes_[pane.eye].nearest[0]);
     }
-    push.zenith
-        = glm::vec4(std::sin(layout_.stereo.full_from_zenith_deg * degree), eyes_[pane.eye].nearest, pane.pane().size);
+    push.zenith.x = float(std::sin(layout_.stereo.full_from_zenith_deg * degree));
+    push.zenith.z = float(pane.pane().size.x), push.zenith.w = float(pane.pane().size.y);
     return push;
 }
 
@@ -426,9 +510,9 @@ glm::vec4 Frame::boost(double exposure) const
 /// ViewPush of the stars' pass.
 shared::ViewPush Frame::star_push(const PaneState& pane) const
 {
-    shared::ViewPush constants = push(pane, motion_from_cockpit_);
+    shared::ViewPush constants = push(pane, layers_[0].motion_from_cockpit);
     constants.boost = glm::vec4(E_, 1 / E_, pre_exposure_, near_distance);
-    const glm::dmat3 back = glm::inverse(motion_from_cockpit_ * pane.compiled.matrix.value_or(glm::dmat3(1)));
+    const glm::dmat3 back = glm::inverse(layers_[0].motion_from_cockpit * pane.compiled.matrix.value_or(glm::dmat3(1)));
     constants.row0 = row(back, 0, constants.row0.w);
     constants.row1 = row(back, 1, constants.row1.w);
     constants.row2 = row(back, 2);
@@ -457,7 +541,7 @@ void Frame::draw_stars(vk::CommandBuffer commands, std::size_t output, int layer
 
 void Frame::warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline, double exposure)
 {
-    shared::ViewPush constants = push(pane, motion_from_cockpit_);
+    shared::ViewPush constants = push(pane, layers_[0].motion_from_cockpit);
     constants.boost = boost(exposure);
     set_warp(commands, pane, pipeline, constants, pane.pane().corner, pane.pane().size);
 }
@@ -480,7 +564,7 @@ void Frame::bloom_pane(vk::CommandBuffer commands, const PaneState& pane)
     vk::RenderingAttachmentInfo colour(light.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eStore);
     commands.beginRendering({{}, {{0, 0}, light.extent}, 1, 0, colour});
-    shared::ViewPush constants = push(pane, motion_from_cockpit_);
+    shared::ViewPush constants = push(pane, layers_[0].motion_from_cockpit);
     constants.boost = boost(std::exp2(shot_.exposure_ev));
     constants.origin.x = constants.origin.y = 0;
     WarpVariant linear = variant(pane);
@@ -501,7 +585,7 @@ void Frame::draw_meter(vk::CommandBuffer commands)
         if (layout_.outputs[pane.output].preview)
             continue;
         const Meter::Cell& cell = meter_->cell(i);
-        shared::ViewPush constants = push(pane, motion_from_cockpit_);
+        shared::ViewPush constants = push(pane, layers_[0].motion_from_cockpit);
         constants.boost = boost(1);
         constants.origin.x = float(cell.corner.x), constants.origin.y = float(cell.corner.y);
         const glm::dvec2 step = glm::dvec2(pane.pane().size) / glm::dvec2(cell.size);
@@ -667,7 +751,7 @@ void Frame::draw_hud(vk::CommandBuffer commands, std::size_t output, const Targe
 void Frame::look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeline pipeline, vk::DescriptorSet set)
 {
     const PaneState& pane = panes_.front();
-    shared::ViewPush constants = push(pane, motion_from_cockpit_);
+    shared::ViewPush constants = push(pane, layers_[0].motion_from_cockpit);
     vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore);
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});

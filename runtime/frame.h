@@ -83,8 +83,15 @@ private:
         glm::dvec3 place_m; ///< in the cockpit, before any head moves
         CubePass cube;
         glm::dvec3 now_m; ///< where it is
-        std::vector<StarRun> stars; ///< that its panes may show
-        double nearest = 1; ///< distance of the nearest surface that there may be, scene units; where it counts
+        std::vector<StarRun> stars{}; ///< that its panes may show
+        std::vector<double> nearest{}; ///< of each layer: distance of the nearest surface that there may be, scene units; 1
+                                       ///< where it does not count
+    };
+    /// The ship before what stands still in one of the world's frames.
+    struct Layer {
+        Shot shot; ///< the instant, as that frame has it
+        double E = 1; ///< of directions, from that frame to the ship's
+        glm::dmat3 motion_from_frame{1}, motion_from_cockpit{1}; ///< turns
     };
     struct PaneState {
         std::size_t output = 0, eye = 0;
@@ -96,6 +103,7 @@ private:
         vk::Rect2D hud_box;
         std::unique_ptr<BloomPass> bloom; ///< once it was asked for
         glm::dvec3 beside_m{0}; ///< the eye's place from its cube map's, in the cockpit
+        Buffer layers; ///< LayerConstants, where something moves
         const Pane& pane() const { return compiled.pane; }
     };
     struct OutputState {
@@ -123,7 +131,11 @@ private:
     PixelBox panel_in(const Blocks& blocks) const;
     glm::ivec2 sent_pixels(const PaneState& pane) const;
     glm::dvec3 scene_units(const glm::dvec3& place_m) const;
-    glm::dvec3 world_offset(const PaneState& pane) const;
+    glm::dvec3 eye_offset(const PaneState& pane, const Layer& layer) const;
+    glm::vec4 eye_told(const PaneState& pane, const Layer& layer) const;
+    void find_layers();
+    void prepare_eye(std::size_t eye);
+    void put_layers(PaneState& pane);
     void write_sets();
     glm::vec4 boost(double exposure) const;
     void set_warp(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline,
@@ -150,6 +162,7 @@ private:
     vk::raii::Sampler linear_ = nullptr, nearest_ = nullptr, finest_ = nullptr; ///< finest_: level 0 alone
     StarPass stars_;
     Image nothing_, no_map_; ///< stand in for what a pane has not
+    Buffer no_layers_; ///< and for what a world has not
     std::vector<Map> maps_;
     std::vector<Eye> eyes_;
     std::vector<PaneState> panes_;
@@ -157,7 +170,7 @@ private:
     std::vector<Plan> plans_;
     Shot shot_;
     double E_ = 1, pre_exposure_ = 1;
-    glm::dmat3 motion_from_cockpit_{1};
+    std::vector<Layer> layers_; ///< of the world's frames, the world first
     Pattern pattern_ = Pattern::none;
     double bloom_ = 0;
     bool meters_ = false;

@@ -1,5 +1,6 @@
 #include "gpu_world.h"
 #include "cull.h"
+#include "worldline.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -67,8 +68,10 @@ SurfaceVariant GpuWorld::variant(int material, bool plain) const
 {
     const Material& m = world.materials[material];
     SurfaceVariant variant{
-        m.base_texture >= 0, m.emissive_texture >= 0, m.alpha_cutoff > 0, m.unlit, m.unlit ? 0 : int(scene.lights.size())};
+        m.base_texture >= 0, m.emissive_texture >= 0, m.alpha_cutoff > 0, m.unlit, m.unlit ? 0 : int(world.lamps.size())};
     variant.clock = m.clock.has_value();
+    variant.layered = layered() && !plain;
+    variant.lamps_move = variant.layered && variant.lights > 0;
     if (!plain)
         variant.numbers = numbers(), variant.kinds = spectra.kinds, variant.matrices = spectra.matrices;
     return variant;
@@ -107,6 +110,7 @@ GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const S
     const std::vector<Star>& stars, std::optional<SpectralLevel> level)
 {
     GpuWorld gpu;
+    place_bodies(world, scene);
     sort_instances(world);
     gpu.scene = scene;
     gpu.brightest = brightest(world, scene);

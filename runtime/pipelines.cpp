@@ -108,7 +108,7 @@ std::vector<std::uint32_t> constants(const WarpVariant& v)
 {
     constexpr std::uint32_t of_the_pass = 0; // constant_id 10, each pass's own
     return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear,
-        of_the_pass, std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), v.by_table};
+        of_the_pass, std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), v.by_table, v.layered};
 }
 
 /// The pipeline of a key, made by `make` if it is new.
@@ -130,11 +130,11 @@ Pipelines::Pipelines(Device& device)
     constexpr auto both = fragment | vk::ShaderStageFlagBits::eVertex;
     constexpr Type picture = Type::eCombinedImageSampler;
     constexpr Type constants = Type::eUniformBuffer;
-    eye_set = make_set_layout(device, both, {constants, Type::eStorageBuffer, Type::eStorageBuffer, constants, Type::eStorageBuffer});
+    eye_set = make_set_layout(device, both, {Type::eUniformBufferDynamic, Type::eStorageBuffer, Type::eStorageBuffer, constants, Type::eStorageBuffer});
     material_set = make_set_layout(device, fragment, {picture, picture});
     warp_set = make_set_layout(device, both,
         {picture, picture, constants, constants, picture, picture, picture, picture, picture, picture, constants, constants,
-            constants});
+            constants, picture, constants});
     star_set = make_set_layout(device, vk::ShaderStageFlagBits::eVertex, {constants, Type::eStorageBuffer, constants});
     picture_set = make_set_layout(device, fragment, {picture, picture});
     finish_set = make_set_layout(device, fragment, {picture, picture, picture, picture, picture});
@@ -154,7 +154,8 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
                 .layout = *surface_layout,
                 .targets = target.colours,
                 .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights),
-                    std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), std::uint32_t(v.kinds), v.matrices, v.clock},
+                    std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), std::uint32_t(v.kinds), v.matrices, v.clock,
+                    v.mortal, v.layered, v.lamps_move},
                 .depth = true,
                 .vertices = true,
                 .samples = target.samples});

@@ -39,6 +39,9 @@ struct SurfaceVariant {
     int kinds = 1; ///< of spectra that shine
     bool matrices = false; ///< otherwise the numbers are the colour and what is beyond it
     bool clock = false;
+    bool mortal = false; ///< not there for ever
+    bool layered = false; ///< one of several layers
+    bool lamps_move = false;
     auto operator<=>(const SurfaceVariant&) const = default;
 };
 /// What a viewport needs of the warp pass: constant_ids of view.glsl and seen.glsl.
@@ -50,6 +53,7 @@ struct WarpVariant {
     bool linear = false; ///< exposed light, for the glow, instead of what is shown
     Numbers numbers{};
     bool by_table = true; ///< otherwise the numbers are the colour
+    bool layered = false; ///< something moves in the world
     auto operator<=>(const WarpVariant&) const = default;
 };
 
@@ -88,12 +92,12 @@ public:
     vk::Pipeline finish(const FinishVariant& variant, vk::Format target);
     vk::Pipeline pattern(bool map, int pattern, vk::Format target);
 
-    vk::raii::DescriptorSetLayout eye_set = nullptr; ///< 0 constants, 1 instances, 2 visible, 3 columns of the spectra, 4 clocks
+    vk::raii::DescriptorSetLayout eye_set = nullptr; ///< 0 constants, 1 instances, 2 visible, 3 columns of the spectra, 4 times
     vk::raii::DescriptorSetLayout material_set = nullptr; ///< 0 base, 1 emissive texture
     vk::raii::DescriptorSetLayout warp_set = nullptr; ///< 0 direction map, 1 atlas, 2 slots, 3 rows of the response for red,
                                                       ///< 4 depth atlas, 5 picture of the stars, 6 inverse of the direction
                                                       ///< map, 7 to 9 further atlases, 10, 11 rows for green and blue, 12
-                                                      ///< for the world's own spectra
+                                                      ///< for the world's own spectra, 13 what is covered, 14 layers
     vk::raii::DescriptorSetLayout star_set = nullptr; ///< 0 constants, 1 stars, 2 black bodies
     vk::raii::DescriptorSetLayout picture_set = nullptr; ///< 0 direction map, 1 panel, label or cube
     vk::raii::DescriptorSetLayout finish_set = nullptr; ///< 0 left, 1 right picture, 2 weights, 3 black level, 4 table

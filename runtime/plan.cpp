@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 namespace starbow {
 namespace {
@@ -77,44 +78,96 @@ struct Demand {
 };
 using Demands = std::array<Demand, SLOT_COUNT>;
 
-void ask(Demands& demands, int slot, const Rect& wanted, const Disc& disc)
-{
-    Rect own = slot_rect(slot);
-    Rect part{glm::max(own.low, wanted.low), glm::min(own.high, wanted.high)};
-    if (part.empty())
-        return;
-    // The solid angle of a texel at (a, b) is its area over (1 + a^2 + b^2)^(3/2).
-    glm::dvec2 at = 0.5 * (part.low + part.high);
-    double per_angle = std::pow(1 + glm::dot(at, at), 0.75);
-    Demand& demand = demands[slot];
-    demand.rect.add(part);
-    demand.finest = std::min(demand.finest, disc.finest * per_angle);
-    demand.coarsest = std::max(demand.coarsest, disc.coarsest * per_angle);
-}
-
-void ask(Demands& demands, const Disc& disc, int rear_last)
+/// Calls each(slot, the part of its face's plane) for the slots that a circle may touch. False parts may be empty.
+template <class Each> void each_slot(const glm::dvec3& centre, double radius, int rear_last, Each&& each)
 {
     for (int face = 0; face < 6; ++face) {
-        double normal = disc.centre[face_axis[face]] * face_sign[face];
+        double normal = centre[face_axis[face]] * face_sign[face];
         Rect wanted;
-        if (!face_range(disc.centre[face_a[face]], normal, disc.radius, wanted.low.x, wanted.high.x)
-            || !face_range(disc.centre[face_b[face]], normal, disc.radius, wanted.low.y, wanted.high.y))
+        if (!face_range(centre[face_a[face]], normal, radius, wanted.low.x, wanted.high.x)
+            || !face_range(centre[face_b[face]], normal, radius, wanted.low.y, wanted.high.y))
             continue;
+        auto part = [&](int slot) {
+            const Rect own = slot_rect(slot);
+            const Rect part{glm::max(own.low, wanted.low), glm::min(own.high, wanted.high)};
+            if (!part.empty())
+                each(slot, part);
+        };
         if (face == 0) {
-            ask(demands, SLOT_FRONT, wanted, disc);
+            part(SLOT_FRONT);
         } else if (face == 1) {
-            // The nested squares from the one that holds the disc's outermost point to the one of its innermost.
+            // The nested squares from the one that holds the circle's outermost point to the one of its innermost.
             glm::dvec2 far = glm::max(glm::abs(wanted.low), glm::abs(wanted.high));
             glm::dvec2 near = glm::max(glm::max(wanted.low, -wanted.high), glm::dvec2(0));
             int outer = rear_level(std::max(far.x, far.y), rear_last),
                 inner = rear_level(std::max(near.x, near.y), rear_last);
             for (int level = outer; level <= inner; ++level)
-                ask(demands, SLOT_REAR + level, wanted, disc);
+                part(SLOT_REAR + level);
         } else {
             for (int band = 0; band < SIDE_BANDS; ++band)
-                ask(demands, SLOT_SIDES + (face - 2) * SIDE_BANDS + band, wanted, disc);
+                part(SLOT_SIDES + (face - 2) * SIDE_BANDS + band);
         }
     }
+}
+
+/// Where a layer's things are: in each slot, and all together.
+struct Held {
+    std::array<Rect, SLOT_COUNT> rects;
+    glm::dvec3 axis{0, 0, 1};
+    double radius = pi; ///< of the circle around `axis` that holds them all; below 0 where there are none
+
+    /// Everywhere.
+    Held()
+    {
+        for (int slot = 0; slot < SLOT_COUNT; ++slot)
+            rects[std::size_t(slot)] = slot_rect(slot);
+    }
+    Held(const std::vector<Ball>& things, int rear_last)
+    {
+        glm::dvec3 sum(0);
+        for (const Ball& thing : things)
+            if (const double distance = glm::length(thing.centre); distance > thing.radius)
+                sum += thing.centre / distance * (thing.radius / distance);
+        if (glm::length(sum) > 0)
+            axis = glm::normalize(sum);
+        radius = -1;
+        for (const Ball& thing : things) {
+            const double distance = glm::length(thing.centre);
+            const bool inside = !(distance > thing.radius * 1.0001);
+            const glm::dvec3 way = inside ? axis : thing.centre / distance;
+            const double spread = inside ? pi : std::asin(thing.radius / distance);
+            radius = std::max(radius, std::min(pi, angle(axis, way) + spread));
+            each_slot(way, spread, rear_last, [&](int slot, const Rect& part) { rects[std::size_t(slot)].add(part); });
+        }
+    }
+
+    static double angle(const glm::dvec3& a, const glm::dvec3& b)
+    {
+        return 2 * std::asin(std::min(1.0, 0.5 * glm::length(a - b)));
+    }
+    bool touches(const glm::dvec3& centre, double r) const
+    {
+        return radius >= pi || (radius >= 0 && angle(axis, centre) <= radius + r);
+    }
+};
+
+void ask(Demands& demands, const Held& held, const Disc& disc, int rear_last)
+{
+    if (!held.touches(disc.centre, disc.radius))
+        return;
+    each_slot(disc.centre, disc.radius, rear_last, [&](int slot, const Rect& wanted) {
+        const Rect& own = held.rects[std::size_t(slot)];
+        const Rect part{glm::max(own.low, wanted.low), glm::min(own.high, wanted.high)};
+        if (part.empty())
+            return;
+        // The solid angle of a texel at (a, b) is its area over (1 + a^2 + b^2)^(3/2).
+        const glm::dvec2 at = 0.5 * (wanted.low + wanted.high);
+        const double per_angle = std::pow(1 + glm::dot(at, at), 0.75);
+        Demand& demand = demands[std::size_t(slot)];
+        demand.rect.add(part);
+        demand.finest = std::min(demand.finest, disc.finest * per_angle);
+        demand.coarsest = std::max(demand.coarsest, disc.coarsest * per_angle);
+    });
 }
 
 /// Walks a view's blocks of pixels, finer where the boost spreads one over much of the sky.
@@ -122,6 +175,7 @@ struct Walk {
     const View& view;
     double E;
     int rear_last;
+    const Held& held;
     Demands& demands;
     int coarsest_level; ///< that is fine enough to follow the view's outline
 
@@ -159,7 +213,7 @@ struct Walk {
         disc.finest = (disc.radius > 0.25 ? doppler(std::min(theta + cap.radius, pi)) : D) * cap.finest;
         disc.coarsest = D * cap.coarsest;
         disc.radius = std::min(pi, disc.radius + view.parallax_rad);
-        ask(demands, disc, rear_last);
+        ask(demands, held, disc, rear_last);
     }
 
     void split(int level, glm::ivec2 at) const
@@ -183,7 +237,9 @@ void pack(Plan& plan, int align)
         widest = std::max(widest, image.size.x);
     }
     std::sort(order.begin(), order.end(),
-        [](auto* a, auto* b) { return std::pair(a->size.y, b->slot) > std::pair(b->size.y, a->slot); });
+        [](auto* a, auto* b) {
+            return std::tuple(a->size.y, b->layer, b->slot) > std::tuple(b->size.y, a->layer, a->slot);
+        });
     int width = std::max(widest, (int(1.1 * std::sqrt(area)) + 63) / 64 * 64);
     glm::ivec2 pen(0);
     int shelf = 0;
@@ -229,19 +285,32 @@ glm::dvec3 face_direction(int face, const glm::dvec2& at)
 
 Plan make_plan(const std::vector<View>& views, double E, const Quality& quality)
 {
-    Demands demands;
+    return make_plan({{views, E}}, quality);
+}
+
+Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality)
+{
+    std::vector<Demands> demands(layers.size());
     Plan plan;
-    // Behind, D stops falling at 1/gamma from the axis: finer images would only repeat the last one.
-    plan.rear_last = std::clamp(int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0, REAR_LEVELS - 1);
-    for (const View& view : views) {
-        const Blocks& blocks = *view.blocks;
-        plan.pixels += double(blocks.size().x) * blocks.size().y;
-        // Blocks of up to 32 pixels, and no fewer than 16 across.
-        const double wanted = std::min(32.0, std::max(blocks.size().x, blocks.size().y) / 16.0);
-        int level = 0;
-        while (level + 1 < blocks.levels() && blocks.side(level) > wanted)
-            ++level;
-        Walk{view, E, plan.rear_last, demands, level}.block(0, {0, 0});
+    for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+        const double E = layers[layer].E;
+        // Behind, D stops falling at 1/gamma from the axis: finer images would only repeat the last one.
+        const int rear_last = std::clamp(int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0, REAR_LEVELS - 1);
+        plan.rear_last.push_back(rear_last);
+        const Held held = layers[layer].things ? Held(*layers[layer].things, rear_last) : Held();
+        for (const View& view : layers[layer].views) {
+            const Blocks& blocks = *view.blocks;
+            if (layer == 0)
+                plan.pixels += double(blocks.size().x) * blocks.size().y;
+            if (held.radius < 0)
+                continue;
+            // Blocks of up to 32 pixels, and no fewer than 16 across.
+            const double wanted = std::min(32.0, std::max(blocks.size().x, blocks.size().y) / 16.0);
+            int level = 0;
+            while (level + 1 < blocks.levels() && blocks.side(level) > wanted)
+                ++level;
+            Walk{view, E, rear_last, held, demands[layer], level}.block(0, {0, 0});
+        }
     }
 
     constexpr int least = 8, most = 8192; // texels across one image
@@ -250,8 +319,10 @@ Plan make_plan(const std::vector<View>& views, double E, const Quality& quality)
         plan.images.clear();
         plan.texels = 0;
         plan.levels = 1;
-        for (int slot = 0; slot < SLOT_COUNT; ++slot) {
-            const Demand& demand = demands[slot];
+        for (std::size_t at = 0; at < layers.size() * SLOT_COUNT; ++at) {
+            const std::size_t layer = at / SLOT_COUNT;
+            const int slot = int(at % SLOT_COUNT);
+            const Demand& demand = demands[layer][std::size_t(slot)];
             if (demand.rect.empty())
                 continue;
             glm::dvec2 extent = demand.rect.high - demand.rect.low;
@@ -260,6 +331,7 @@ Plan make_plan(const std::vector<View>& views, double E, const Quality& quality)
             PlanImage image;
             image.slot = slot;
             image.face = slot_face(slot);
+            image.layer = int(layer);
             image.texels_per_unit = 1 / unit;
             // Up to twofold shrinking is what bilinear filtering holds; beyond it the image needs mips.
             image.levels = std::clamp(1 + int(std::floor(std::log2(demand.coarsest / unit) - 0.2)), 1, most_levels);
@@ -273,7 +345,7 @@ Plan make_plan(const std::vector<View>& views, double E, const Quality& quality)
                 image.high[i] = last * unit;
                 image.size[i] = int(last - first);
             }
-            if (slot >= SLOT_REAR && slot < SLOT_REAR + plan.rear_last)
+            if (slot >= SLOT_REAR && slot < SLOT_REAR + plan.rear_last[layer])
                 image.hole = std::max(0.0, std::exp2(-0.5 * (slot + 1 - SLOT_REAR)) - (gutter + 1) * unit);
             plan.levels = std::max(plan.levels, image.levels);
             plan.texels += double(image.size.x) * image.size.y;
@@ -281,8 +353,12 @@ Plan make_plan(const std::vector<View>& views, double E, const Quality& quality)
         }
     };
     double density = quality.texels_per_pixel;
-    double most_texels = std::min(quality.max_texels_per_pixel * plan.pixels, quality.max_texels);
     lay_out(density);
+    // What moves may fill the view as well as the world behind it.
+    int seen = 0;
+    for (std::size_t i = 0; i < plan.images.size(); ++i)
+        seen += i == 0 || plan.images[i].layer != plan.images[i - 1].layer;
+    double most_texels = std::min(quality.max_texels_per_pixel * plan.pixels * std::max(seen, 1), quality.max_texels);
     for (int i = 0; i < 4 && plan.texels > 1.02 * most_texels; ++i) {
         density *= std::sqrt(most_texels / plan.texels);
         lay_out(density);
@@ -312,11 +388,11 @@ glm::dmat4 clip_from_motion(const PlanImage& image, double near_distance)
 
 std::vector<shared::SlotEntry> slot_table(const Plan& plan, glm::ivec2 atlas_extent)
 {
-    std::vector<shared::SlotEntry> table(SLOT_COUNT, shared::SlotEntry{});
+    std::vector<shared::SlotEntry> table(plan.rear_last.size() * SLOT_COUNT, shared::SlotEntry{});
     for (const PlanImage& image : plan.images) {
         glm::dvec2 scale = glm::dvec2(image.size) / (image.high - image.low) / glm::dvec2(atlas_extent);
         glm::dvec2 offset = glm::dvec2(image.atlas) / glm::dvec2(atlas_extent) - image.low * scale;
-        table[image.slot] = {glm::vec4(scale, offset), glm::vec4(image.texels_per_unit, image.levels - 1, 0, 0),
+        table[std::size_t(image.layer * SLOT_COUNT + image.slot)] = {glm::vec4(scale, offset), glm::vec4(image.texels_per_unit, image.levels - 1, 0, 0),
             glm::vec4(image.atlas, image.atlas + image.size - 1)};
     }
     return table;

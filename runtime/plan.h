@@ -2,6 +2,7 @@
 #include "displays/blocks.h"
 #include "runtime/shared.h"
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 namespace starbow {
@@ -11,6 +12,19 @@ struct View {
     const Blocks* blocks;
     glm::dmat3 motion_from_cockpit; ///< turn into the axes whose z is the direction of motion
     double parallax_rad = 0; ///< by how much the place that a pixel reads may lie off its direction, in the world
+};
+
+/// A ball around something that is drawn, from the eye in motion axes, scene units.
+struct Ball {
+    glm::dvec3 centre;
+    double radius;
+};
+
+/// One rest frame's part of a cube map: how the panes look at it, boosted by its own motion.
+struct PlanLayer {
+    std::vector<View> views;
+    double E = 1; ///< e^rapidity between it and the ship; 1 where directions are not aberrated
+    std::optional<std::vector<Ball>> things{}; ///< outside which there is nothing to draw; none: everywhere is something
 };
 
 /// The trade of speed for accuracy.
@@ -26,7 +40,7 @@ struct Quality {
 /// Faces are numbered +z (ahead), -z (behind), +x, -x, +y, -y of the motion axes; a face's coordinates (a, b) are the two
 /// other components (x before y before z) over the distance along its normal.
 struct PlanImage {
-    int slot;
+    int slot; ///< of its layer
     int face;
     glm::dvec2 low, high; ///< face coordinates of the picture's edges, gutter included
     glm::ivec2 size; ///< texels
@@ -34,23 +48,26 @@ struct PlanImage {
     double texels_per_unit; ///< of face coordinate
     int levels; ///< mip levels the warp pass reads
     double hole = 0; ///< half the side of the square in the middle that no pixel reads: a finer image holds it
+    int layer = 0;
 };
 
 /// What the cube map of one eye must hold for one frame.
 struct Plan {
-    std::vector<PlanImage> images;
+    std::vector<PlanImage> images; ///< by layer
     glm::ivec2 atlas_size{0};
-    int rear_last = 0; ///< the finest nested image behind that differs from the one before
+    std::vector<int> rear_last; ///< of each layer: the finest nested image behind that differs from the one before
     int levels = 1; ///< of the atlas: the most that any image needs
     double texels = 0; ///< drawn, all images
     double pixels = 0; ///< served
 };
 
-/// Decides which faces are looked at, in which rectangle and how finely. Pure; E = e^rapidity, 1 where directions are not
-/// aberrated. Every texel that a pixel of the views reads, the neighbours of its filter included, lies inside an image.
+/// Decides which faces are looked at, in which rectangle and how finely. Pure. Every texel that a pixel of the views reads, the neighbours of its filter included, lies inside an image.
 ///
 /// The cut: one image ahead; each side in three bands across the motion, so that D varies less than twofold in each; behind,
-/// nested squares shrinking by sqrt 2 (D varies as the square of the angle there). A slot that nobody looks at is left out.
+/// nested squares shrinking by sqrt 2 (D varies as the square of the angle there). A slot that nobody looks at is left out,
+/// and so is one in which nothing stands.
+Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality);
+/// Of a world in which nothing moves.
 Plan make_plan(const std::vector<View>& views, double E, const Quality& quality);
 
 /// The slot that shows the unit direction n (motion axes) and n's face coordinates there: what the warp shader does.
@@ -66,7 +83,7 @@ glm::dvec3 face_direction(int face, const glm::dvec2& at);
 /// clip_from_motion of an image: reversed z, infinite far plane, near plane at `near_distance` along the face's normal.
 glm::dmat4 clip_from_motion(const PlanImage& image, double near_distance);
 
-/// The table that the warp shader reads: one entry per slot. atlas_extent: the texture's size, at least the plan's.
+/// The table that the warp shader reads: for each layer one entry per slot. atlas_extent: the texture's size, at least the plan's.
 std::vector<shared::SlotEntry> slot_table(const Plan& plan, glm::ivec2 atlas_extent);
 
 /// Turn from world axes to motion axes: z along u, y as near as possible to the cockpit's up; at rest z is the cockpit's

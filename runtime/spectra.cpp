@@ -1,5 +1,7 @@
 #include "spectra.h"
 #include "config/reader.h"
+#include "physics/physics.h"
+#include "worldline.h"
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +11,36 @@ namespace {
 const std::optional<Emission>& spectrum_of(const Light& light)
 {
     return std::visit([](const auto& l) -> const std::optional<Emission>& { return l.spectrum; }, light);
+}
+
+/// Light that shines on surfaces, and by how much it comes shifted.
+struct Kind {
+    std::optional<Emission> light;
+    double D = 1;
+    bool operator==(const Kind&) const = default;
+};
+
+/// What is lit moves against a lamp of this light: with which D its light comes, from lowest to highest.
+struct Shift {
+    double lowest = 1, highest = 1;
+};
+std::optional<Shift> shift_of(const World& world, const SceneFile& scene, std::size_t light, std::size_t frame)
+{
+    std::optional<Shift> shift;
+    for (const Lamp& lamp : world.lamps) {
+        if (lamp.light != light || std::size_t(lamp.frame) == frame)
+            continue;
+        const RestFrame &here = world.frames[frame], &there = world.frames[std::size_t(lamp.frame)];
+        if (const auto* far = std::get_if<DirectionalLight>(&scene.lights[light])) {
+            double D;
+            aberrated(here.u, far->towards, D);
+            return Shift{D, D};
+        }
+        const double E = physics::exp_rapidity(glm::length(physics::relative(here.u, there.u).u));
+        const double most = std::max(E, shift ? shift->highest : 1);
+        shift = {1 / most, most};
+    }
+    return shift;
 }
 
 std::string quoted(const std::string& name) { return '"' + one_line(name, 60) + '"'; }
@@ -29,6 +61,21 @@ std::vector<OwnSpectrum> own_spectra(const World& world, const SceneFile& scene)
             if (uneven && !std::holds_alternative<SpectralLine>(*spectrum))
                 add({*spectrum, true});
         }
+    // Greys are exact where the shifted light of what shines on things that move is a number of its own; beyond that they
+    // are told by those of sunlight. A line can't be.
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        for (std::size_t frame = 0; frame < world.frames.size(); ++frame)
+            if (const auto shift = shift_of(world, scene, i, frame)) {
+                const auto& spectrum = spectrum_of(scene.lights[i]);
+                const bool line = spectrum && std::holds_alternative<SpectralLine>(*spectrum);
+                const bool even = shift->lowest == shift->highest;
+                if (line && !even)
+                    throw InputError(scene.file, "/lights/" + std::to_string(i),
+                        "is a line, and it passes what does not move with it, at wavelengths that change; a \"temperature_K\" "
+                        "or a \"spectrum\" is right there");
+                if (even && (line || own.size() < MAX_OWN - 1))
+                    add({shifted(spectrum, shift->lowest)});
+            }
     for (const Material& material : world.materials) {
         if (material.temperature_K > 0)
             add({BlackBody{material.temperature_K}});
@@ -51,8 +98,13 @@ std::size_t index_of(const SpectralBasis& basis, const Emission& emission)
     return std::size_t(std::find(basis.own.begin(), basis.own.end(), OwnSpectrum{emission}) - basis.own.begin());
 }
 
+std::vector<double> lit(const SpectralBasis& basis, const Kind& kind, const std::function<double(double nm)>& reflectance)
+{
+    return kind.D == 1 ? lit(basis, kind.light, reflectance) : lit_shifted(basis, kind.light, kind.D, reflectance);
+}
+
 /// A surface's five columns under one light: [group * 5 + column].
-std::vector<glm::vec4> by_colour(const SpectralBasis& basis, int groups, const std::optional<Emission>& light)
+std::vector<glm::vec4> by_colour(const SpectralBasis& basis, int groups, const Kind& light)
 {
     std::vector<glm::vec4> columns(std::size_t(groups * 5), glm::vec4(0));
     for (int column = 0; column < 5; ++column) {
@@ -60,7 +112,7 @@ std::vector<glm::vec4> by_colour(const SpectralBasis& basis, int groups, const s
         if (column < 3)
             rgb[column] = 1;
         std::vector<double> numbers(std::size_t(basis.size()), 0.0);
-        if (light || basis.reflected > 5)
+        if (light != Kind{} || basis.reflected > 5)
             numbers = lit(basis, light, [&](double nm) { return base_reflectance(rgb, column == 3, column == 4, nm); });
         else if (column < basis.reflected) // these are its numbers
             numbers[std::size_t(column)] = 1;
@@ -72,7 +124,7 @@ std::vector<glm::vec4> by_colour(const SpectralBasis& basis, int groups, const s
 
 /// The same of a reflectance of its own, which the base colour's luminance scales.
 std::vector<glm::vec4> by_table(
-    const SpectralBasis& basis, int groups, const std::optional<Emission>& light, const Reflectance& reflectance)
+    const SpectralBasis& basis, int groups, const Kind& light, const Reflectance& reflectance)
 {
     constexpr double luminance[3] = {0.2126, 0.7152, 0.0722}; // Rec. 709
     std::vector<glm::vec4> columns(std::size_t(groups * 5), glm::vec4(0));
@@ -98,6 +150,10 @@ NeededLevel needed_level(const World& world, const SceneFile& scene)
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         if (spectrum_of(scene.lights[i]))
             return {SpectralLevel::fine, "light " + std::to_string(i) + " is no sunlight"};
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        for (std::size_t frame = 0; frame < world.frames.size(); ++frame)
+            if (shift_of(world, scene, i, frame))
+                return {SpectralLevel::fine, "light " + std::to_string(i) + " shines on what does not move with it"};
     return needed;
 }
 
@@ -118,12 +174,40 @@ Spectra spectra_of(const World& world, const SceneFile& scene, SpectralLevel lev
         = spectral_basis(reflected_numbers[std::size_t(level)], own_spectra(world, scene));
     spectra.groups = (basis.size() + 3) / 4;
 
-    std::vector<std::optional<Emission>> kinds = {std::nullopt};
-    for (const Light& light : scene.lights) {
-        auto at = std::find(kinds.begin(), kinds.end(), spectrum_of(light));
-        spectra.kind_of_light.push_back(int(at - kinds.begin()));
-        if (at == kinds.end())
-            kinds.push_back(spectrum_of(light));
+    std::vector<Kind> kinds = {Kind{}};
+    auto kind_of = [&](const Kind& kind) {
+        auto at = std::find(kinds.begin(), kinds.end(), kind);
+        return int((at == kinds.end() ? kinds.insert(at, kind) : at) - kinds.begin());
+    };
+    int sets = 1;
+    for (const Material& material : world.materials)
+        sets += !material.reflectance.empty();
+    // Between two shifts of a sixteenth of an octave light that falls as a black body's tail is straight within 0.5 %.
+    const int fitting = MAX_MATRICES / (sets * spectra.groups * 5);
+    for (double per_octave : {16.0, 8.0, 4.0, 2.0}) {
+        kinds.resize(1);
+        spectra.lamps.clear();
+        for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+            spectra.lamps.emplace_back(world.frames.size());
+            for (std::size_t frame = 0; frame < world.frames.size(); ++frame) {
+                Spectra::Lamp& lamp = spectra.lamps[i][frame];
+                const auto& light = spectrum_of(scene.lights[i]);
+                lamp.kind = kind_of({light});
+                const auto shift = shift_of(world, scene, i, frame);
+                if (!shift)
+                    continue;
+                lamp.per_octave = per_octave;
+                const bool even = shift->lowest == shift->highest;
+                const int least = even ? 0 : int(std::floor(std::log2(shift->lowest) * per_octave));
+                lamp.first_log2_D = even ? std::log2(shift->lowest) : least / per_octave;
+                lamp.shifts = 1 - 2 * least;
+                lamp.first_shift = int(kinds.size());
+                for (int k = 0; k < lamp.shifts; ++k)
+                    kinds.push_back({light, even ? shift->lowest : std::exp2((least + k) / per_octave)});
+            }
+        }
+        if (int(kinds.size()) <= fitting)
+            break;
     }
     spectra.kinds = int(kinds.size());
     auto add_set = [&](auto&& columns_under) {
@@ -135,14 +219,14 @@ Spectra spectra_of(const World& world, const SceneFile& scene, SpectralLevel lev
     add_set([&](const auto& light) { return by_colour(basis, spectra.groups, light); });
     spectra.matrices = basis.reflected > 5 || kinds.size() > 1;
 
-    int sets = 1;
+    int set = 1;
     for (const Material& material : world.materials) {
         Spectra::Surface surface;
         surface.beyond = glm::vec4(material.ultraviolet.value_or(-1), material.infrared.value_or(-1), 0, -1);
         if (!material.reflectance.empty()) {
             const Reflectance reflectance{material.reflectance};
             add_set([&](const auto& light) { return by_table(basis, spectra.groups, light, reflectance); });
-            surface.beyond.z = float(sets++);
+            surface.beyond.z = float(set++);
             spectra.matrices = true;
             if (material.emissive != glm::vec3(0) && !material.emission)
                 throw InputError(scene.gltf.string(), "material " + quoted(material.name),

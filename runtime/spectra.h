@@ -21,7 +21,7 @@ struct NeededLevel {
 };
 /// As a line for people.
 std::string told(const NeededLevel& needed);
-NeededLevel needed_level(const World& world, const SceneFile& scene);
+NeededLevel needed_level(const World& world, const SceneFile& scene); ///< world: after place_bodies
 
 /// What the passes need to know of a world's spectra, as plain arrays.
 struct Spectra {
@@ -29,7 +29,13 @@ struct Spectra {
     SpectralBasis basis;
     int groups = 1; ///< of four numbers
     int kinds = 1; ///< of spectra that shine on surfaces; the first is sunlight
-    std::vector<int> kind_of_light; ///< of each of the scene's
+    /// Which kinds a light is for what rests in one frame: the one that it is where it rests too, and, where it moves there,
+    /// so many of shifted light, evenly spaced in log2 D, between two of which the shader blends.
+    struct Lamp {
+        int kind = 0, first_shift = 0, shifts = 0;
+        double first_log2_D = 0, per_octave = 0;
+    };
+    std::vector<std::vector<Lamp>> lamps; ///< [the scene's light][World::frames]
     bool matrices = false; ///< otherwise its colour, and what it is beyond the visible, are its numbers
     std::vector<glm::vec4> columns; ///< [set][kind][group][r, g, b, ultraviolet, infrared]
 
@@ -43,7 +49,8 @@ struct Spectra {
     double most = 0; ///< the greatest number of the world's own
 };
 
-/// Throws InputError where a world has more spectra of its own than MAX_OWN.
+/// world: after place_bodies. Throws InputError where a world has more spectra of its own than MAX_OWN, or a line shines from
+/// something that moves on something that doesn't move with it.
 Spectra spectra_of(const World& world, const SceneFile& scene, SpectralLevel level);
 
 } // namespace starbow

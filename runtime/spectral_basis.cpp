@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 
 namespace starbow {
 namespace {
@@ -317,12 +318,45 @@ std::vector<double> lit(
     return numbers;
 }
 
+Emission shifted(const std::optional<Emission>& light, double D)
+{
+    if (!light)
+        return BlackBody{sun_K * D};
+    if (const auto* body = std::get_if<BlackBody>(&*light))
+        return BlackBody{body->kelvin * D};
+    if (const auto* line = std::get_if<SpectralLine>(&*light))
+        return SpectralLine{line->nm / D};
+    SpectralTable table = std::get<SpectralTable>(*light);
+    for (auto& point : table.points)
+        point.first /= D;
+    return table;
+}
+
+std::vector<double> lit_shifted(const SpectralBasis& basis, const std::optional<Emission>& light, double D,
+    const std::function<double(double nm)>& reflectance)
+{
+    const Emission there = shifted(light, D);
+    // So much of `there`, as emissions are told, is this light: the energy per frequency stays, the width grows as D.
+    const double strength = D;
+    if (std::find(basis.own.begin(), basis.own.end(), OwnSpectrum{there}) != basis.own.end()) {
+        std::vector<double> numbers = lit(basis, there, reflectance);
+        for (double& number : numbers)
+            number *= strength;
+        return numbers;
+    }
+    if (std::holds_alternative<SpectralLine>(there))
+        throw std::logic_error("a line's light is not among the basis' own");
+    const Spectrum spectrum = spectrum_of(there), sun = sunlit_white();
+    const double part = strength * sunlit_part(there);
+    return told(basis, [&](double nm) { return reflectance(nm) * part * spectrum(nm) / sun(nm); });
+}
+
 ResponseTable response_table(const SpectralBasis& basis, const Observer& observer, int rows)
 {
     double first = -6, last = 10;
     for (const OwnSpectrum& own : basis.own)
         if (const auto* body = std::get_if<BlackBody>(&own.emission)) {
-            const double octaves = std::log2(body->kelvin / 5772);
+            const double octaves = std::log2(body->kelvin / sun_K);
             first = std::min(first, -6 - octaves), last = std::max(last, 10 - octaves);
         }
     // D = 1 is a row.

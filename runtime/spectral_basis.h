@@ -32,6 +32,14 @@ SpectralBasis spectral_basis(int reflected, std::span<const OwnSpectrum> own);
 std::vector<double> lit(
     const SpectralBasis& basis, const std::optional<Emission>& light, const std::function<double(double nm)>& reflectance);
 
+/// The same where the light comes shifted by D, spectral radiance per frequency kept. Best where the basis' own have
+/// `shifted` of it: what the surface reflects as in the ultraviolet, everywhere, is then exact. Otherwise it is told as a
+/// reflectance of sunlight, which is level beyond 280 and 1250 nm. A line must be among them.
+std::vector<double> lit_shifted(const SpectralBasis& basis, const std::optional<Emission>& light, double D,
+    const std::function<double(double nm)>& reflectance);
+/// The emission that a light, none: sunlight, is when it comes shifted by D.
+Emission shifted(const std::optional<Emission>& light, double D);
+
 /// What an observer sees of each number, by D.
 struct ResponseTable {
     int numbers = 0;

@@ -8,7 +8,6 @@ namespace starbow {
 namespace {
 
 constexpr double second_radiation_nm_K = 1.438776877e7; // hc/k, CODATA 2018
-constexpr double sun_K = 5772; // IAU 2015 nominal effective temperature
 /// A white surface's radiance over the Sun's own: the solid angle over pi, the square of the Sun's nominal radius over the
 /// astronomical unit (IAU 2015, IAU 2012).
 constexpr double dilution = (6.957e8 / 1.495978707e11) * (6.957e8 / 1.495978707e11);

@@ -7,6 +7,8 @@
 
 namespace starbow {
 
+constexpr double sun_K = 5772; ///< IAU 2015 nominal effective temperature
+
 /// Spectral radiance per frequency at a wavelength in nm, in a scene's own unit.
 using Spectrum = std::function<double(double nm)>;
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "config/body.h"
 #include "config/emission.h"
 #include <cstdint>
 #include <filesystem>
@@ -9,7 +10,8 @@
 
 namespace starbow {
 
-/// What the device draws, as plain arrays. Everything is at rest in the world's frame, lengths in scene units.
+/// What the device draws, as plain arrays. Everything is at rest in its own frame, most of it in the world's; lengths in
+/// scene units.
 struct Vertex {
     glm::vec3 position;
     glm::vec3 normal; ///< unit
@@ -32,9 +34,9 @@ struct Texture {
     Sampler sampler;
 };
 
-/// A dial of a clock that stands in the world: it shows the world's time from its own zero on.
+/// A dial of a clock: it shows the world's time, or that of the body that it is part of, from its own zero on.
 struct WorldClock {
-    double zero_s = 0; ///< the world's time at which it shows 0
+    double zero_s = 0; ///< the time at which it shows 0
     bool operator==(const WorldClock&) const = default;
 };
 
@@ -76,11 +78,42 @@ struct Primitive {
     std::vector<DetailLevel> coarser; ///< finest first; empty until add_detail_levels
 };
 
-/// Triangles are counter-clockwise from outside in the world, also where `world_from_local` mirrors: its primitive's are
+/// A frame in which some of a world stands still. Its axes are the world's, carried by the pure boost.
+struct RestFrame {
+    glm::dvec3 u{0}; ///< proper velocity
+    Event origin; ///< the world's event that is its place 0 at its time 0
+    bool operator==(const RestFrame&) const = default;
+};
+
+/// When something is there, by its rest frame's time, and what its own clock shows then.
+struct Life {
+    double begin, end; ///< infinite where it goes on for ever
+    double zero = 0; ///< the frame's time at its own time 0
+    bool operator==(const Life&) const = default;
+};
+
+/// Triangles are counter-clockwise from outside in the world, also where `frame_from_local` mirrors: its primitive's are
 /// turned beforehand. Normals go by the inverse transpose; the transform has an inverse.
 struct Instance {
-    glm::dmat4 world_from_local;
+    glm::dmat4 frame_from_local;
     std::uint32_t primitive;
+    int node = -1; ///< of World::nodes
+    int frame = 0; ///< of World::frames
+    int life = -1; ///< of World::lives; none: there always, and its time is the frame's
+};
+
+/// A node of the file, by which scene files name what hangs below it.
+struct WorldNode {
+    std::string name;
+    int parent; ///< -1 at the top
+};
+
+/// A light of the scene as one rest frame has it.
+struct Lamp {
+    std::size_t light; ///< of SceneFile::lights
+    int frame = 0; ///< where it stands still
+    glm::dvec3 position{0}; ///< of a point, there
+    int life = -1;
 };
 
 struct World {
@@ -90,6 +123,10 @@ struct World {
     std::vector<Material> materials; ///< never empty: glTF's default material stands in where none is named
     std::vector<Primitive> primitives;
     std::vector<Instance> instances;
+    std::vector<WorldNode> nodes;
+    std::vector<RestFrame> frames{1}; ///< the first is the world's
+    std::vector<Life> lives;
+    std::vector<Lamp> lamps; ///< empty until place_bodies
     std::vector<std::string> notes; ///< optional things in the file that are not supported, each once
 };
 

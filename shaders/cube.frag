@@ -1,6 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
+#include "physics/real.glsl"
+#include "physics/worldline.glsl"
 // Scene-linear, pre-exposed light of a surface, as the numbers of the world's spectral basis: those of what it reflects, then
 // those of the world's own spectra. What a world does not have is compiled out.
 
@@ -11,13 +13,16 @@ layout(constant_id = 3) const bool UNLIT = false;
 layout(constant_id = 4) const int LIGHTS = MAX_LIGHTS;
 layout(constant_id = 5) const int REFLECTED = 3;
 layout(constant_id = 6) const int OWN = 0;
-layout(constant_id = 7) const int KINDS = 1; // of spectra that shine on surfaces, at most one more than MAX_OWN
+layout(constant_id = 7) const int KINDS = 1; // of spectra that shine on surfaces
 layout(constant_id = 8) const bool MATRICES = false; // otherwise the numbers are the colour itself, and what is beyond it
 layout(constant_id = 9) const bool CLOCK = false;
+layout(constant_id = 10) const bool MORTAL = false; // not there for ever
+layout(constant_id = 11) const bool LAYERED = false; // one of several layers: tells what it covers, after the numbers
+layout(constant_id = 12) const bool LAMPS_MOVE = false;
 
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 0, binding = 3) uniform Matrices { vec4 columns[MAX_MATRICES]; }; // [set][kind][group][r, g, b, uv, ir]
-layout(set = 0, binding = 4) readonly buffer Clocks { ClockEntry clocks[]; };
+layout(set = 0, binding = 4) readonly buffer Times { TimeEntry times[]; };
 layout(set = 1, binding = 0) uniform sampler2D base_texture;
 layout(set = 1, binding = 1) uniform sampler2D emissive_texture;
 layout(push_constant) uniform Push { CubePush push; };
@@ -26,13 +31,15 @@ layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 colour;
-layout(location = 4) flat in uint instance; // CLOCK
+layout(location = 4) flat in uint instance; // CLOCK, MORTAL
 layout(location = 0) out vec4 numbers0;
 layout(location = 1) out vec4 numbers1;
 layout(location = 2) out vec4 numbers2;
 layout(location = 3) out vec4 numbers3;
+layout(location = 4) out vec4 numbers4;
 
 const int GROUPS = (REFLECTED + OWN + 3) / 4;
+const int KEPT = LAMPS_MOVE ? 1 : KINDS; // kinds of light that are summed up before they shine
 const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
 
 #include "clock.glsl"
@@ -46,21 +53,59 @@ vec2 beyond_visible(vec3 lit, vec3 light)
         push.beyond.y < 0.0 ? mean(lit) : push.beyond.y * mean(light));
 }
 
+// Adds a surface's numbers under a light of one kind, and those of a sunlit colour that it emits.
+void add_lit(inout vec4 numbers[MAX_GROUPS + 1], int kind, vec3 base, vec3 light, vec3 emitted)
+{
+    vec3 lit = base * light;
+    vec2 beyond = beyond_visible(lit, light) + mean(emitted);
+    lit += emitted;
+    int at = (int(push.beyond.z) * KINDS + kind) * (GROUPS * 5);
+    for (int group = 0; group < GROUPS; ++group) {
+        int column = at + group * 5;
+        numbers[group] += columns[column] * lit.r + columns[column + 1] * lit.g + columns[column + 2] * lit.b
+            + columns[column + 3] * beyond.x + columns[column + 4] * beyond.y;
+    }
+}
+
+// Where a lamp that may move is seen from a surface, in its own distance: as long as the light's way in the lamp's frame, in
+// the direction that it has in the surface's; and D. 0: no light. towards: from the surface at the eye's time. The surface's
+// light that the eye sees left `delay` earlier, and the lamp's that it reflects before that.
+vec3 lamp_seen(LightEntry lamp, vec3 towards, float delay, out float D)
+{
+    D = lamp.kind.w;
+    float u = lamp.way.w, own = 0.0;
+    if (lamp.place.w == 0.0)
+        return towards;
+    if (u > 0.0) {
+        Seen seen = seen_moving(towards - lamp.way.xyz * (u / lamp.shifts.w * delay), lamp.way.xyz, u, lamp.shifts.w);
+        D = seen.D;
+        own = seen.tau - delay / lamp.shifts.w;
+        towards = seen.place / D; // the light's way is D times as long here
+    } else {
+        own = -delay - length(towards);
+    }
+    return own < lamp.kind.y || own > lamp.kind.z ? vec3(0.0) : towards;
+}
+
 void main()
 {
     vec4 base = colour;
     if (BASE_TEXTURE)
         base *= texture(base_texture, uv);
     float ink = 0.0;
-    if (CLOCK) {
-        ClockEntry clock = clocks[instance];
-        vec2 at = vec2(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y);
+    if (CLOCK || MORTAL) {
+        TimeEntry time = times[instance - int(cube.first.x) + int(cube.first.y)];
         float distance_ = length(place);
-        vec2 farther_on = vec2(dFdx(distance_), dFdy(distance_));
         // |place| - |middle| without their difference.
-        float farther = dot(place - clock.middle.xyz, place + clock.middle.xyz) / (distance_ + clock.middle.w);
-        ink = marks(at, mat2(dFdx(at), dFdy(at)), -farther * clock.turns.w, -farther_on * clock.turns.w, clock);
-        base.rgb *= 1.0 - ink;
+        float farther = dot(place - time.middle.xyz, place + time.middle.xyz) / (distance_ + time.middle.w);
+        if (CLOCK) {
+            vec2 at = vec2(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y);
+            vec2 farther_on = vec2(dFdx(distance_), dFdy(distance_));
+            ink = marks(at, mat2(dFdx(at), dFdy(at)), -farther * time.turns.w, -farther_on * time.turns.w, time);
+            base.rgb *= 1.0 - ink;
+        }
+        if (MORTAL && (farther < time.there.x || farther >= time.there.y))
+            discard;
     }
     if (MASKED && base.a < push.emissive.w)
         discard;
@@ -69,44 +114,46 @@ void main()
         emitted *= texture(emissive_texture, uv).rgb;
     if (CLOCK)
         emitted *= ink;
-    vec3 light[MAX_OWN + 1];
-    for (int kind = 0; kind < KINDS; ++kind)
+    vec4 numbers[MAX_GROUPS + 1];
+    for (int group = 0; group < GROUPS; ++group)
+        numbers[group] = vec4(0.0);
+    vec3 light[KEPT];
+    for (int kind = 0; kind < KEPT; ++kind)
         light[kind] = vec3(0.0);
     light[0] = vec3(cube.ambient.w);
     if (!UNLIT) {
         light[0] = cube.ambient.rgb;
         vec3 n = normalize(gl_FrontFacing ? normal : -normal);
         for (int i = 0; i < LIGHTS; ++i) {
-            vec4 where = cube.lights[i].place;
-            vec3 towards = where.xyz - where.w * place;
-            float square = where.w == 0.0 ? 1.0 : dot(towards, towards);
-            float fall = where.w == 0.0 ? 1.0 : cube.lights[i].radiance.w / (square * sqrt(square));
-            vec3 add = cube.lights[i].radiance.rgb * (max(dot(n, towards), 0.0) * fall);
-            for (int kind = 0; kind < KINDS; ++kind)
-                light[kind] += KINDS == 1 || int(cube.lights[i].kind.x) == kind ? add : vec3(0.0);
+            LightEntry lamp = cube.lights[i];
+            vec3 towards = lamp.place.xyz - lamp.place.w * place;
+            float D = 1.0;
+            if (LAMPS_MOVE)
+                towards = lamp_seen(lamp, towards, length(place), D);
+            if (LAMPS_MOVE && towards == vec3(0.0))
+                continue;
+            float square = lamp.place.w == 0.0 ? 1.0 : dot(towards, towards);
+            float fall = lamp.place.w == 0.0 ? 1.0 : lamp.radiance.w / (square * sqrt(square));
+            vec3 add = lamp.radiance.rgb * (max(dot(n, towards), 0.0) * fall);
+            int first = int(lamp.kind.x);
+            if (LAMPS_MOVE) {
+                // Beside the shift of its spectrum a point's flux per frequency grows as D.
+                float at = clamp((log2(D) - lamp.shifts.x) * lamp.shifts.y, 0.0, max(lamp.shifts.z - 1.001, 0.0));
+                add_lit(numbers, first + int(at), base.rgb, add * (D * (1.0 - fract(at))), vec3(0.0));
+                if (fract(at) > 0.0)
+                    add_lit(numbers, first + int(at) + 1, base.rgb, add * (D * fract(at)), vec3(0.0));
+            } else {
+                for (int kind = 0; kind < KEPT; ++kind)
+                    light[kind] += KEPT == 1 || first == kind ? add : vec3(0.0);
+            }
         }
     }
 
-    vec4 numbers[MAX_GROUPS];
-    for (int group = 0; group < GROUPS; ++group)
-        numbers[group] = vec4(0.0);
     bool own_emission = OWN > 0 && push.beyond.w >= 0.0;
     vec3 coloured = own_emission ? vec3(0.0) : emitted;
     if (MATRICES) {
-        int at = int(push.beyond.z) * (KINDS * GROUPS * 5);
-        for (int kind = 0; kind < KINDS; ++kind) {
-            vec3 lit = base.rgb * light[kind];
-            vec2 beyond = beyond_visible(lit, light[kind]);
-            if (kind == 0) {
-                lit += coloured;
-                beyond += mean(coloured);
-            }
-            for (int group = 0; group < GROUPS; ++group) {
-                int column = at + (kind * GROUPS + group) * 5;
-                numbers[group] += columns[column] * lit.r + columns[column + 1] * lit.g + columns[column + 2] * lit.b
-                    + columns[column + 3] * beyond.x + columns[column + 4] * beyond.y;
-            }
-        }
+        for (int kind = 0; kind < KEPT; ++kind)
+            add_lit(numbers, kind, base.rgb, light[kind], kind == 0 ? coloured : vec3(0.0));
     } else {
         vec3 lit = base.rgb * light[0];
         numbers[0].rgb = lit + coloured;
@@ -122,11 +169,16 @@ void main()
     // 60000 is below fp16's greatest number: a light at arm's length must not become infinite.
     for (int group = 0; group < GROUPS; ++group)
         numbers[group] = clamp(numbers[group], vec4(-60000.0), vec4(60000.0));
+    if (LAYERED)
+        numbers[GROUPS] = vec4(1.0);
+    const int outputs = LAYERED ? GROUPS + 1 : GROUPS;
     numbers0 = numbers[0];
-    if (GROUPS > 1)
+    if (outputs > 1)
         numbers1 = numbers[1];
-    if (GROUPS > 2)
+    if (outputs > 2)
         numbers2 = numbers[2];
-    if (GROUPS > 3)
+    if (outputs > 3)
         numbers3 = numbers[3];
+    if (outputs > 4)
+        numbers4 = numbers[4];
 }

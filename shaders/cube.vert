@@ -1,9 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
-// The world at rest around the eye, in motion axes: into one image of the plan, or straight to a plain picture.
+// What stands still around the eye, in motion axes: into one image of the plan, or straight to a plain picture.
 
 layout(constant_id = 9) const bool CLOCK = false;
+layout(constant_id = 10) const bool MORTAL = false;
 
 layout(set = 0, binding = 1) readonly buffer Instances { InstanceEntry instances[]; };
 layout(set = 0, binding = 2) readonly buffer Visible { uint visible[]; };
@@ -34,7 +35,7 @@ void main()
     out_place = place.xyz;
     out_uv = uv;
     out_colour = colour * push.base_colour;
-    if (CLOCK)
+    if (CLOCK || MORTAL)
         out_instance = visible[gl_InstanceIndex];
     gl_Position = vec4(dot(push.clip_row0, place), dot(push.clip_row1, place), dot(push.clip_row2, place), dot(push.clip_row3, place));
 }

@@ -9,7 +9,7 @@
 // look different ways the directions are green's.
 
 layout(location = 0) out vec4 light_and_depth; // Rec. 709 linear; distance in the world from the cube map's event
-layout(location = 1) out vec4 camera;          // unit direction in the ship, motion axes; Doppler factor
+layout(location = 1) out vec4 camera;          // unit direction in the ship, motion axes; Doppler factor, of the nearest where things move
 layout(location = 2) out vec4 world;           // unit direction in the world, motion axes; 1 where something is shown
 
 void main()
@@ -20,12 +20,10 @@ void main()
     vec3 light = vec3(0.0);
     for (int channel = 0; channel < (CHANNELS ? 3 : 1); ++channel) {
         float pixel_angle;
-        vec3 n = look(view.row0, view.row1, view.row2, pixel, channel, pixel_angle);
+        Shown shown = shown_at(pixel, channel, 1.0, pixel_angle);
         if (MAP && pixel_angle == 0.0)
             continue;
-        Sight sight = sight_of(n, pixel_angle);
-        Place place = place_of(sight.n);
-        vec3 seen = light_seen(place, sight.D, pixel_angle);
+        vec3 seen = shown.light;
         if (STARS)
             seen += texelFetch(stars_picture, ivec2(gl_FragCoord.xy), 0).rgb;
         seen *= view.boost.z;
@@ -35,9 +33,9 @@ void main()
             light = seen;
         if (channel != (CHANNELS ? 1 : 0))
             continue;
-        light_and_depth.w = distance_at(place);
-        camera = vec4(n, sight.D);
-        world = vec4(sight.n, 1.0);
+        light_and_depth.w = shown.distance;
+        camera = vec4(shown.n, shown.sight.D);
+        world = vec4(shown.sight.n, 1.0);
     }
     if (!isnan(camera.w))
         light_and_depth.rgb = clamp(light, vec3(-3e38), vec3(3e38)); // a number, whatever D^3 does

@@ -14,12 +14,10 @@ void main()
 {
     glimpse = vec2(0.0);
     float pixel_angle;
-    vec3 n = look(view.row0, view.row1, view.row2, (gl_FragCoord.xy - view.origin.xy) * view.zenith.zw, CHANNELS ? 1 : 0, pixel_angle);
+    vec3 light = shown_at((gl_FragCoord.xy - view.origin.xy) * view.zenith.zw, CHANNELS ? 1 : 0, sqrt(view.zenith.z * view.zenith.w),
+        pixel_angle).light;
     if (MAP && pixel_angle == 0.0)
         return;
-    pixel_angle *= sqrt(view.zenith.z * view.zenith.w);
-    Sight sight = sight_of(n, pixel_angle);
-    vec3 light = light_seen(place_of(sight.n), sight.D, pixel_angle);
     const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
     glimpse = vec2(clamp(dot(light, luminance) * view.boost.z, 0.0, 1e38), pixel_angle * pixel_angle);
 }

@@ -12,13 +12,14 @@ layout(constant_id = 8) const bool STARS = false;
 layout(constant_id = 11) const int REFLECTED = 3; // numbers of what surfaces reflect: 3 are a colour
 layout(constant_id = 12) const int OWN = 0; // numbers of the world's own spectra
 layout(constant_id = 13) const bool BY_TABLE = true; // otherwise the numbers are the colour itself, seen as it is
+layout(constant_id = 14) const bool LAYERED = false; // something moves: what stands still in each of several frames
 
 const int GROUPS = (REFLECTED + OWN + 3) / 4;
 
 layout(push_constant) uniform Push { ViewPush view; };
 
 layout(set = 0, binding = 1) uniform sampler2D atlas; // four numbers of the light
-layout(set = 0, binding = 2) uniform Slots { SlotEntry slots[SLOT_COUNT]; };
+layout(set = 0, binding = 2) uniform Slots { SlotEntry slots[MAX_LAYERS * SLOT_COUNT]; };
 layout(set = 0, binding = 3) uniform Red { uvec4 red[2 * RESPONSE_ROWS]; }; // Response's rows
 layout(set = 0, binding = 4) uniform sampler2D depth_atlas; // near / distance along the face's normal, 0 at infinity
 layout(set = 0, binding = 5) uniform sampler2D stars_picture; // pixel for pixel the target's; light as the atlas's
@@ -29,6 +30,19 @@ layout(set = 0, binding = 10) uniform Green { uvec4 green[2 * RESPONSE_ROWS]; };
 layout(set = 0, binding = 11) uniform Blue { uvec4 blue[2 * RESPONSE_ROWS]; };
 layout(set = 0, binding = 12) uniform Own { vec4 own_rows[MOST_OWN_ROWS]; };
 
+layout(set = 0, binding = 13) uniform sampler2D covered_atlas; // which part of a texel is covered
+layout(set = 0, binding = 14) uniform Layers { LayerConstants layered; };
+
+// One frame's part of the cube map and the eye before it, motion axes there.
+struct Layer {
+    vec2 E; // and its inverse
+    vec4 eye;
+    float nearest;
+    int slots, rear_last;
+};
+// The world's own.
+Layer world_layer() { return Layer(view.boost.xy, view.eye, view.zenith.y, 0, int(view.row1.w)); }
+
 struct Place {
     vec2 face;  // face coordinates
     vec2 atlas; // normalised
@@ -36,8 +50,8 @@ struct Place {
     int slot;
 };
 
-// The image of the plan that holds the world's direction n: plan.cpp's slot_of, in float.
-Place place_of(vec3 n)
+// The image of the plan that holds the direction n: plan.cpp's slot_of, in float.
+Place place_of(vec3 n, Layer layer)
 {
     vec3 m = abs(n);
     bool x_greater = m.x >= m.y;
@@ -49,12 +63,13 @@ Place place_of(vec3 n)
         float larger = across / m.z;
         // floor(-log2(larger^2)) from the exponent's bits; 126: an exact power of two goes to the coarser image.
         int level = 126 - (floatBitsToInt(larger * larger) >> 23);
-        slot = n.z >= 0.0 ? SLOT_FRONT : SLOT_REAR + clamp(level, 0, int(view.row1.w));
+        slot = n.z >= 0.0 ? SLOT_FRONT : SLOT_REAR + clamp(level, 0, layer.rear_last);
     } else {
         place.face = vec2(x_greater ? n.y : n.x, n.z) / across;
         int side = x_greater ? (n.x >= 0.0 ? 0 : 1) : (n.y >= 0.0 ? 2 : 3);
         slot = SLOT_SIDES + side * SIDE_BANDS + int(place.face.y > -0.5) + int(place.face.y > 0.0);
     }
+    slot += layer.slots;
     place.slot = slot;
     vec4 to_atlas = slots[slot].atlas_from_face;
     place.atlas = place.face * to_atlas.xy + to_atlas.zw;
@@ -63,7 +78,8 @@ Place place_of(vec3 n)
 }
 
 // Aberration is conformal: the pixel's footprint stays round, so one number is its exact level of detail.
-void cube_map(Place place, float world_angle, out vec4 numbers[MAX_GROUPS])
+// Returns how much is covered, where that is told.
+float cube_map(Place place, float world_angle, out vec4 numbers[MAX_GROUPS])
 {
     float level = 0.0;
     if (MIPS) {
@@ -78,6 +94,7 @@ void cube_map(Place place, float world_angle, out vec4 numbers[MAX_GROUPS])
         numbers[2] = textureLod(atlas2, place.atlas, level);
     if (GROUPS > 3)
         numbers[3] = textureLod(atlas3, place.atlas, level);
+    return LAYERED ? textureLod(covered_atlas, place.atlas, level).r : 1.0;
 }
 
 // Sum of a row's halves, of one colour, times the numbers of what is reflected.
@@ -127,13 +144,13 @@ float distance_at(Place place)
 }
 
 // The eye's place from the cube map's, in the world at rest. n: the ship's direction.
-vec3 eye_offset(vec3 n)
+vec3 eye_offset(vec3 n, Layer layer)
 {
     if (!TURNING)
-        return view.eye.xyz;
-    vec3 right = cross(n, view.eye.xyz); // as long as the sine of the angle from the zenith
-    vec3 offset = right * (view.eye.w / max(length(right), view.zenith.x));
-    offset.z *= 0.5 * (view.boost.x + view.boost.y); // simultaneous in the ship: stretched by gamma in the world
+        return layer.eye.xyz;
+    vec3 right = cross(n, layer.eye.xyz); // as long as the sine of the angle from the zenith
+    vec3 offset = right * (layer.eye.w / max(length(right), view.zenith.x));
+    offset.z *= 0.5 * (layer.E.x + layer.E.y); // simultaneous in the ship: stretched by gamma in the world
     return offset;
 }
 
@@ -142,10 +159,10 @@ vec3 eye_offset(vec3 n)
 // is no farther than the line is what the eye sees. It is looked for in steps of about five texels (even in 1 / distance, as
 // parallax is) and, where a surface ends between two steps, before its end; then drawn closer to P = d(m) m with P - offset
 // along n. What the cube map's place does not see it cannot show: there the surface behind the edge is drawn out.
-vec3 reprojected(vec3 n, vec3 offset, float texel)
+vec3 reprojected(vec3 n, vec3 offset, float texel, Layer layer)
 {
     float across = length(offset - dot(offset, n) * n);
-    float arc = min(across / view.zenith.y, MOST_PARALLAX);
+    float arc = min(across / layer.nearest, MOST_PARALLAX);
     if (arc < 0.1 * texel)
         return n;
     float steps = clamp(ceil(0.2 * arc / texel), 1.0, float(REPROJECT_STEPS));
@@ -157,12 +174,12 @@ vec3 reprojected(vec3 n, vec3 offset, float texel)
         bool finite = i < steps; // the last step is n itself, at infinity
         vec3 line = finite ? offset + n / (nearness - i * shrink) : n;
         m = normalize(line);
-        far = distance_at(place_of(m));
+        far = distance_at(place_of(m, layer));
         met = finite ? far <= length(line) : !isinf(far);
         if (i > 0.0 && far > 1.1 * before) {
             // That surface ended between the steps: the line may have met it just before its end.
             vec3 edge = normalize(offset + dot(before * last - offset, n) * n);
-            float there = distance_at(place_of(edge));
+            float there = distance_at(place_of(edge, layer));
             vec3 from_eye = there * edge - offset;
             if (!isinf(there) && length(from_eye - dot(from_eye, n) * n) < 0.3 * texel * there) {
                 m = edge;
@@ -186,11 +203,11 @@ vec3 reprojected(vec3 n, vec3 offset, float texel)
         if (along <= 0.0 || miss < 0.05 * texel)
             break;
         m = normalize(offset + along * n);
-        far = distance_at(place_of(m));
+        far = distance_at(place_of(m, layer));
         if (isinf(far)) {
             // The line passes behind what it seemed to meet, on to the sky: along n, or beside the edge that hides it there.
             if (off > 0.15 * texel)
-                best = isinf(distance_at(place_of(n))) ? n : m;
+                best = isinf(distance_at(place_of(n, layer))) ? n : m;
             break;
         }
     }
@@ -204,19 +221,52 @@ Sight sight_of(vec3 n, float pixel_angle)
     if (!ABERRATION)
         sight.n = n;
     if (REPROJECT)
-        sight.n = reprojected(sight.n, eye_offset(n), ABERRATION ? sight.D * pixel_angle : pixel_angle);
+        sight.n = reprojected(sight.n, eye_offset(n, world_layer()), ABERRATION ? sight.D * pixel_angle : pixel_angle, world_layer());
     return sight;
 }
 
 // Scene-linear light, pre-exposed by the cube map's factor; colours outside Rec. 709 have channels below 0.
-vec3 light_seen(Place place, float D, float pixel_angle)
+vec3 light_of(vec4 numbers[MAX_GROUPS], float D)
 {
-    vec4 numbers[MAX_GROUPS];
-    cube_map(place, ABERRATION ? D * pixel_angle : pixel_angle, numbers);
     vec3 light = numbers[0].rgb;
     if (BY_TABLE)
         light = shifted(numbers, DOPPLER ? D : 1.0);
     if (HEADLIGHT)
         light *= headlight(D);
     return light;
+}
+vec3 light_seen(Place place, float D, float pixel_angle)
+{
+    vec4 numbers[MAX_GROUPS];
+    cube_map(place, ABERRATION ? D * pixel_angle : pixel_angle, numbers);
+    return light_of(numbers, D);
+}
+
+#include "layers.glsl"
+
+// What a pixel shows.
+struct Shown {
+    vec3 n;         // unit direction in the ship, motion axes
+    Sight sight;    // in the world, but for D: of what is nearest
+    float distance; // of what is nearest, in the world: as long as its light was under way there; infinite for the sky
+    vec3 light;     // as light_seen's
+};
+Shown shown_at(vec2 pixel, int channel, float coarser, out float pixel_angle)
+{
+    Shown shown;
+    shown.n = look(view.row0, view.row1, view.row2, pixel, channel, pixel_angle);
+    shown.light = vec3(0.0);
+    shown.distance = 0.0;
+    if (MAP && pixel_angle == 0.0)
+        return shown;
+    pixel_angle *= coarser;
+    shown.sight = sight_of(shown.n, pixel_angle);
+    if (LAYERED) {
+        shown.light = light_of_layers(pixel, channel, coarser, shown.sight, shown.distance);
+        return shown;
+    }
+    Place place = place_of(shown.sight.n, world_layer());
+    shown.light = light_seen(place, shown.sight.D, pixel_angle);
+    shown.distance = distance_at(place);
+    return shown;
 }

@@ -13,6 +13,7 @@
 #define REPROJECT_ROUNDS 4
 #define MOST_PARALLAX 0.35 // radians between two eyes' views of a point: nearer surfaces are not told apart
 #define MAX_LIGHTS 8
+#define MAX_LAYERS 16 // velocities of what moves, and rest
 #define MOST_REFLECTED 12 // numbers of sunlight that surfaces reflect
 #define MAX_OWN 4 // emissions of a scene's own, each a number by itself
 #define MAX_GROUPS 4 // of four numbers: an image of the cube map each
@@ -35,18 +36,23 @@ struct SlotEntry {
 };
 
 struct LightEntry {
-    vec4 place;    // w = 0: unit direction towards the light; w = 1: its place from the eye. Motion axes.
+    vec4 place;    // w = 0: unit direction towards the light; w = 1: its place from the eye, at the eye's time. Motion axes.
     vec4 radiance; // Rec. 709 linear, pre-exposed; w: square of the distance at which it holds, 0 for a direction
-    vec4 kind;     // x: which of the spectra that shine here, 0 for sunlight
+    vec4 kind;     // x: which of the spectra that shine here, 0 for sunlight: of one that moves the first of `shifts`; y, z:
+                   // what was sent before and after these own times of the lamp's, from that at `place` on, is none; w: of a
+                   // direction that moves, D
+    vec4 way;      // of one that moves: unit direction of its motion; w: its gamma beta, 0: it doesn't
+    vec4 shifts;   // of one that moves: x: log2 D of the first, y: how many an octave, z: how many; w: gamma
 };
 
-// The cube pass, one per eye and frame.
+// The cube pass, one per eye, layer and frame.
 struct CubeConstants {
     vec4 ambient;     // Rec. 709 linear, w: pre-exposure
     vec4 sky_zenith[MAX_GROUPS]; // numbers of the light, pre-exposed
     vec4 sky_horizon[MAX_GROUPS];
     vec4 sky_nadir[MAX_GROUPS];
     vec4 world_up;    // motion axes
+    vec4 first;       // x: this layer's first instance, y: the first of its instances' times
     LightEntry lights[MAX_LIGHTS];
 };
 
@@ -55,11 +61,12 @@ struct InstanceEntry {
     vec4 row0, row1, row2;
 };
 
-// A clock in front of one eye; those of a world are its first instances.
-struct ClockEntry {
+// The times of an instance in front of one eye: of clocks and of what is not there for ever.
+struct TimeEntry {
     vec4 middle; // from the eye, motion axes; w: its distance. What follows is as the light left there
-    vec4 turns;  // 0 to 1 of the hands: one turn in a minute, in ten seconds, in an hour; w: seconds per scene unit of light
+    vec4 turns;  // 0 to 1 of a clock's hands: one turn in a minute, in ten seconds, in an hour; w: seconds per scene unit of light
     vec4 digits; // x, y: six figures each, of four bits, the first lowest; 10: a minus, 11: nothing. z: how many there are
+    vec4 there;  // x, y: from how much farther off than the middle, and up to where, light left while it was there
 };
 
 // Push constants of the cube pass.
@@ -86,6 +93,24 @@ struct ViewPush {
                            // viewport's size, pixels; the meter: pixels of the viewport for one of its samples
     vec4 pane;             // xy: the viewport's top left corner in the output, pixels, also where it is drawn elsewhere; the
                            // stars at a glance: pixels across and down, and z: of how many stars each is one
+};
+
+// What the warp pass knows of one rest frame, as one pane's eye looks at it: as ViewPush, which has the world's.
+struct LayerEntry {
+    vec4 row0, row1, row2; // planar: rows of direction_from_pixel; map: of the turn from the map's axes
+    vec4 boost;            // E, 1/E; z: its first slot's index
+    vec4 eye;
+    vec4 nearest;          // y: as ViewPush's zenith
+};
+
+// Where something moves: the layers of one pane, and the sky behind them.
+struct LayerConstants {
+    vec4 count; // x: of the layers
+    vec4 world_up; // world's motion axes
+    vec4 sky_zenith[MAX_GROUPS]; // numbers of the light, pre-exposed
+    vec4 sky_horizon[MAX_GROUPS];
+    vec4 sky_nadir[MAX_GROUPS];
+    LayerEntry layers[MAX_LAYERS]; // the world's first
 };
 
 // A star, in the scene's world at rest.

@@ -203,9 +203,13 @@ void main()
         return;
     vec3 from_place = n; // of the cube map
     if (REPROJECT)
-        from_place = reprojected(n, eye_offset(sight.n), ABERRATION ? sight.D * pixel_angle : pixel_angle);
-    if (hidden(place_of(from_place)))
+        from_place = reprojected(n, eye_offset(sight.n, world_layer()), ABERRATION ? sight.D * pixel_angle : pixel_angle, world_layer());
+    if (hidden(place_of(from_place, world_layer())))
         return;
+    // What moves: as it is drawn.
+    for (int i = 1; LAYERED && i < int(layered.count.x); ++i)
+        if (!isinf(part_of(i, clamp(point, vec2(0.5), size - 0.5), channel, 1.0, 1.0).way))
+            return;
     light = starlight(star, sight.D) * (view.boost.z / (pixel_angle * pixel_angle));
     if (GLIMPSE) {
         vec2 place = vec2(mod(float(gl_VertexIndex), view.pane.x), floor(float(gl_VertexIndex) / view.pane.x)) + 0.5;

@@ -17,11 +17,9 @@ layout(location = 0) out vec4 shown;
 vec3 light_along(int channel)
 {
     float pixel_angle;
-    vec3 n = look(view.row0, view.row1, view.row2, gl_FragCoord.xy - view.origin.xy, channel, pixel_angle);
+    vec3 light = shown_at(gl_FragCoord.xy - view.origin.xy, channel, 1.0, pixel_angle).light;
     if (MAP && pixel_angle == 0.0)
         return vec3(0.0);
-    Sight sight = sight_of(n, pixel_angle);
-    vec3 light = light_seen(place_of(sight.n), sight.D, pixel_angle);
     return STARS ? light + texelFetch(stars_picture, ivec2(gl_FragCoord.xy - view.origin.xy + view.pane.xy), 0).rgb : light;
 }
 

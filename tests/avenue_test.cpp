@@ -36,10 +36,10 @@ std::vector<Shown> shown(const std::string& material)
         const Primitive& p = world().primitives[instance.primitive];
         if (world().materials[std::size_t(p.material)].name != material)
             continue;
-        Shown one{.position = instance.world_from_local[3], .material = &world().materials[std::size_t(p.material)]};
+        Shown one{.position = instance.frame_from_local[3], .material = &world().materials[std::size_t(p.material)]};
         for (std::uint32_t i = 0; i < p.index_count; ++i) {
             const Vertex& v = world().vertices[world().indices[p.first_index + i] + std::uint32_t(p.vertex_offset)];
-            one.points.emplace_back(instance.world_from_local * glm::dvec4(v.position, 1));
+            one.points.emplace_back(instance.frame_from_local * glm::dvec4(v.position, 1));
             one.low = glm::min(one.low, one.points.back());
             one.high = glm::max(one.high, one.points.back());
         }

@@ -24,7 +24,7 @@ __float128 exact_reading(double zero_s, double time, const glm::dvec3& place, do
 }
 
 /// What an entry's figures say, by its own bits.
-std::string said(const shared::ClockEntry& entry)
+std::string said(const shared::TimeEntry& entry)
 {
     std::string out;
     const int count = int(entry.digits.z);
@@ -107,7 +107,7 @@ TEST(ClockTest, EntriesStandInFrontOfTheEyeAndFirst)
     const glm::dvec3 eye(1, 0, 3);
     const double time = 1e7 + 0.625, spt = 2;
     const glm::dmat3 turn = glm::mat3_cast(glm::normalize(glm::dquat(0.3, -0.5, 0.2, 0.9)));
-    const auto entries = clock_entries(world, eye, turn, time, spt);
+    const auto entries = time_entries(world, {0, eye, time, turn}, spt);
     ASSERT_EQ(entries.size(), 3u);
     // The middle of each mesh lies at 1, 0, 0 of it.
     const std::vector<std::pair<double, glm::dvec3>> want = {{0, {1, 5, -10}}, {0, {-3, 0, 2}}, {7, {5, 0, -10}}};
@@ -127,7 +127,7 @@ TEST(ClockTest, EntriesStandInFrontOfTheEyeAndFirst)
 TEST(ClockTest, HandsGoBackwardsBeforeZero)
 {
     const World world = world_of({{0, {-1, 0, -31}}}, {clock_of(0)});
-    const auto entries = clock_entries(world, {0, 0, 0}, glm::dmat3(1), 31 - 5.9, 1);
+    const auto entries = time_entries(world, {0, {0, 0, 0}, 31 - 5.9}, 1);
     ASSERT_EQ(entries.size(), 1u);
     EXPECT_NEAR(entries[0].turns.x, 1 - 5.9 / 60, 1e-7);
     EXPECT_NEAR(entries[0].turns.y, 1 - 5.9 / 10, 1e-7);
@@ -137,7 +137,7 @@ TEST(ClockTest, HandsGoBackwardsBeforeZero)
 
 TEST(ClockTest, WithoutClocksThereIsNothing)
 {
-    EXPECT_TRUE(clock_entries(world_of({{0, {0, 0, 0}}}, {{}}), {}, glm::dmat3(1), 0, 1).empty());
+    EXPECT_TRUE(time_entries(world_of({{0, {0, 0, 0}}}, {{}}), {}, 1).empty());
 }
 
 TEST(ClockTest, TheShippedSceneIsThePapers)
@@ -154,7 +154,7 @@ TEST(ClockTest, TheShippedSceneIsThePapers)
     sort_instances(world);
     const SceneFile scene = load_scene_file(source_dir() / "config/scenes/clocks.json");
     EXPECT_EQ(scene.seconds_per_time_unit(), 1);
-    const auto entries = clock_entries(world, {0, 0, 31}, glm::dmat3(1), 31, 1);
+    const auto entries = time_entries(world, {0, {0, 0, 31}, 31}, 1);
     ASSERT_EQ(entries.size(), 5u);
     for (int i = 0; i < 5; ++i)
         EXPECT_LT(glm::length(glm::dvec3(entries[std::size_t(i)].middle) - glm::dvec3(5 * i - 10, 0, -31)), 1e-5);

@@ -38,7 +38,7 @@ World boxes(int count, unsigned seed)
 
 bool ray_hits(const Instance& instance, const Primitive& primitive, const glm::dvec3& eye, const glm::dvec3& way)
 {
-    glm::dmat4 local = glm::inverse(instance.world_from_local);
+    glm::dmat4 local = glm::inverse(instance.frame_from_local);
     glm::dvec3 from = local * glm::dvec4(eye, 1), along = local * glm::dvec4(way, 0);
     double first = 0, last = 1e300;
     for (int i = 0; i < 3; ++i) {
@@ -60,7 +60,7 @@ TEST(Cull, KeepsWhatAnyDirectionOfAnImageHits)
     for (int face = 0; face < 6; ++face)
         images.push_back({0, face, {-0.6, -0.3}, {0.5, 1}, {64, 64}, {0, 0}, 64, 1});
     images.push_back({SLOT_REAR, 1, {-1, -1}, {1, 1}, {64, 64}, {0, 0}, 32, 1, 0.6});
-    DrawList list = cull(world, eye, turn, images);
+    DrawList list = cull(world, {{Vantage{0, eye, 0, turn}}}, images);
     ASSERT_EQ(list.instances.size(), world.instances.size());
     std::mt19937 random(2);
     std::uniform_real_distribution<double> part(0, 1);
@@ -90,8 +90,8 @@ TEST(Cull, KeepsWhatAnyDirectionOfAnImageHits)
 TEST(Cull, InstancesMoveAroundTheEyeInDouble)
 {
     World world = boxes(1, 1);
-    world.instances[0].world_from_local[3] = glm::dvec4(1e9, 2, -3, 1);
-    DrawList list = cull(world, {1e9 - 0.001, 2, -3}, glm::dmat3(1), {});
+    world.instances[0].frame_from_local[3] = glm::dvec4(1e9, 2, -3, 1);
+    DrawList list = cull(world, {{Vantage{0, {1e9 - 0.001, 2, -3}}}}, {});
     EXPECT_NEAR(list.instances[0].row0.w, 0.001, 1.2e-7); // a double at 1e9 resolves 1.2e-7
     EXPECT_EQ(list.instances[0].row1.w, 0);
 }

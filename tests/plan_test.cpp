@@ -66,7 +66,7 @@ template <class Check> void each_pixel(const Case& c, double gamma, int turned, 
             if (!n)
                 continue;
             auto sight = physics::world_from_camera(motion_from_cockpit * *n, E, 1 / E);
-            SlotPlace place = slot_of(sight.n, plan.rear_last);
+            SlotPlace place = slot_of(sight.n, plan.rear_last[0]);
             check(plan, place, sight.D * pixel_angle(pane.pane.picture, pixel), by_slot[place.slot]);
         }
 }

@@ -42,7 +42,7 @@ Box box_of(const World& world, const std::string& name)
             continue;
         for (std::uint32_t i = 0; i < p.index_count; ++i) {
             const Vertex& v = world.vertices[world.indices[p.first_index + i] + std::uint32_t(p.vertex_offset)];
-            const glm::dvec3 at(instance.world_from_local * glm::dvec4(v.position, 1));
+            const glm::dvec3 at(instance.frame_from_local * glm::dvec4(v.position, 1));
             box.low = glm::min(box.low, at);
             box.high = glm::max(box.high, at);
         }

@@ -42,7 +42,7 @@ TEST_F(WorldMeshTest, TriangleWithNothingButPositions)
     ASSERT_EQ(world.materials.size(), 1u);
     EXPECT_EQ(world.materials[0].base_colour, glm::vec4(1));
     ASSERT_EQ(world.instances.size(), 1u);
-    EXPECT_EQ(world.instances[0].world_from_local, glm::dmat4(1));
+    EXPECT_EQ(world.instances[0].frame_from_local, glm::dmat4(1));
     EXPECT_TRUE(world.textures.empty());
     EXPECT_TRUE(world.notes.empty());
 }
@@ -228,12 +228,12 @@ TEST_F(WorldMeshTest, NodesMultiplyInDouble)
     World world = load(doc);
     ASSERT_EQ(world.instances.size(), 2u);
     EXPECT_EQ(world.primitives.size(), 1u) << "both show the same mesh";
-    glm::dvec4 point = world.instances[0].world_from_local * glm::dvec4(1, 1, 1, 1);
+    glm::dvec4 point = world.instances[0].frame_from_local * glm::dvec4(1, 1, 1, 1);
     EXPECT_DOUBLE_EQ(point.x, 1e9 + 0.25 - 3); // exact to 1e-7: a float would be off by 30
     EXPECT_NEAR(point.y, 0.125 + 2, 1e-15);
     EXPECT_NEAR(point.z, 4, 1e-15);
     EXPECT_EQ(
-        glm::dvec3(world.instances[1].world_from_local * glm::dvec4(1, 2, 3, 1)), glm::dvec3(1e9 - 2 + 7, 1 + 8.125, 12));
+        glm::dvec3(world.instances[1].frame_from_local * glm::dvec4(1, 2, 3, 1)), glm::dvec3(1e9 - 2 + 7, 1 + 8.125, 12));
 }
 
 TEST_F(WorldMeshTest, MirroredNodesKeepTheirFacing)
@@ -250,8 +250,8 @@ TEST_F(WorldMeshTest, MirroredNodesKeepTheirFacing)
         glm::dvec3 at[3];
         std::vector<std::uint32_t> corner = triangles(world, instance.primitive);
         for (int i = 0; i < 3; ++i)
-            at[i] = instance.world_from_local * glm::dvec4(world.vertices[corner[std::size_t(i)]].position, 1);
-        glm::dvec3 outside = glm::transpose(glm::inverse(glm::dmat3(instance.world_from_local)))
+            at[i] = instance.frame_from_local * glm::dvec4(world.vertices[corner[std::size_t(i)]].position, 1);
+        glm::dvec3 outside = glm::transpose(glm::inverse(glm::dmat3(instance.frame_from_local)))
             * glm::dvec3(world.vertices[corner[0]].normal);
         EXPECT_GT(glm::dot(glm::cross(at[1] - at[0], at[2] - at[0]), outside), 0);
     }
@@ -266,10 +266,10 @@ TEST_F(WorldMeshTest, ScenesChooseWhatIsShown)
     doc.json["scene"] = 1;
     World world = load(doc);
     ASSERT_EQ(world.instances.size(), 1u);
-    EXPECT_EQ(world.instances[0].world_from_local[3][0], 2);
+    EXPECT_EQ(world.instances[0].frame_from_local[3][0], 2);
     EXPECT_EQ(world.notes, (std::vector<std::string>{"nodes scaled to nothing are not drawn"}));
     doc.json.erase("scene");
-    EXPECT_EQ(load(doc).instances[0].world_from_local[3][0], 1);
+    EXPECT_EQ(load(doc).instances[0].frame_from_local[3][0], 1);
     doc.json.erase("scenes");
     EXPECT_EQ(load(doc).instances.size(), 2u);
 }

@@ -129,7 +129,7 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
         ms[5] = milliseconds([&] {
             glm::dmat3 straight;
             PlanImage image = studio.frame().plain_image(shot, straight);
-            plain.prepare_plain(image, shot.position, shot.time, straight);
+            plain.prepare_plain(image, {0, shot.position, shot.time, straight});
             device.now([&](vk::CommandBuffer c) {
                 make_writable(c, target);
                 plain.record_plain(c, target);

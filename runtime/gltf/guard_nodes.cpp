@@ -62,6 +62,8 @@ void guard_nodes(const Spot& root, GuardedGltf& out)
     std::int64_t current = 0;
     guard_list(root, "nodes", out.json, [&](const Spot& node, Json& written) {
         guard_transform(node, written);
+        if (node.has("name"))
+            written["name"] = text(node["name"]);
         if (node.has("mesh"))
             written["mesh"] = index_into(node["mesh"], "mesh", count_of(root, "meshes"));
         if (node.has("camera"))

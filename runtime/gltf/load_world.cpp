@@ -68,26 +68,29 @@ const std::vector<std::uint32_t>& primitives_of(WorldBuild& build, int mesh, std
 void add_instances(WorldBuild& build)
 {
     struct Visit {
-        int node;
+        int node, parent;
         glm::dmat4 world_from_parent;
     };
     std::vector<Visit> open;
     std::map<int, std::vector<std::uint32_t>> made;
-    auto push_backwards = [&](const std::vector<int>& nodes, const glm::dmat4& world_from_parent) {
+    auto push_backwards = [&](const std::vector<int>& nodes, int parent, const glm::dmat4& world_from_parent) {
         for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
-            open.push_back({*node, world_from_parent});
+            open.push_back({*node, parent, world_from_parent});
     };
-    push_backwards(roots(build.model), glm::dmat4(1));
+    for (const auto& node : build.model.nodes)
+        build.world.nodes.push_back({node.name, -1});
+    push_backwards(roots(build.model), -1, glm::dmat4(1));
     while (!open.empty()) {
-        auto [index, world_from_parent] = open.back();
+        auto [index, parent, world_from_parent] = open.back();
         open.pop_back();
+        build.world.nodes[std::size_t(index)].parent = parent;
         const auto& node = build.model.nodes[std::size_t(index)];
         glm::dmat4 world_from_local = world_from_parent * local_transform(node);
         std::string place = "/nodes/" + std::to_string(index);
         for (int column = 0; column < 4; ++column)
             if (!(glm::length(world_from_local[column]) < 1e30))
                 build.fail(place, "with its parents' transforms leads beyond 1e30; should stay below");
-        push_backwards(node.children, world_from_local);
+        push_backwards(node.children, index, world_from_local);
         if (node.mesh < 0)
             continue;
         double determinant = glm::determinant(glm::dmat3(world_from_local));
@@ -102,7 +105,7 @@ void add_instances(WorldBuild& build)
             // A mirror turns clockwise into counter-clockwise. Turning the corners here spares the renderer a second
             // case.
             build.world.instances.push_back(
-                {world_from_local, determinant < 0 ? turned_primitive(build, primitive) : primitive});
+                {world_from_local, determinant < 0 ? turned_primitive(build, primitive) : primitive, index});
         }
     }
 }

@@ -26,3 +26,27 @@ FN rvec4 wigner_turn(rvec3 u, rvec3 w)
     real inverse_length = real(1.0) / sqrt(dot(axis, axis) + scalar * scalar);
     return rvec4(axis * inverse_length, scalar * inverse_length);
 }
+
+// What moves with u as the frame sees it that moves with w: boost(-w) boost(u) = boost(relative.u) turn. The axes of both are
+// the world's, carried by pure boosts; `turn` (x, y, z; w last) leads from u's axes to those that the frame w's carry there.
+struct Relative {
+    rvec3 u;
+    rvec4 turn;
+};
+
+// From the two boosts in SL(2, C) in half rapidities: composed(-w, u) without its loss of gamma_u gamma_w roundings where both
+// are great and alike. Here one of gamma^2 is left, and where u = w none.
+FN Relative relative(rvec3 w, rvec3 u)
+{
+    real gamma_w = gamma_of(w), gamma_u = gamma_of(u);
+    real scale = real(0.5) / sqrt((real(1.0) + gamma_w) * (real(1.0) + gamma_u)); // 1 / (4 cosh cosh) of the half rapidities
+    rvec3 apart = u - w;
+    // V = cosh_w sinh_u - cosh_u sinh_w, B = sinh_w x sinh_u, A = cosh cosh - sinh . sinh.
+    rvec3 V = (apart * (real(1.0) + gamma_w) - w * (dot(apart, u + w) / (gamma_u + gamma_w))) * scale;
+    rvec3 B = cross(w, apart) * scale;
+    real A = sqrt(max(real(1.0) + dot(V, V) - dot(B, B), real(0.0)));
+    Relative r;
+    r.u = (V * A + cross(B, V)) * real(2.0);
+    r.turn = rvec4(B, A) / sqrt(A * A + dot(B, B));
+    return r;
+}

@@ -13,6 +13,7 @@ using rvec4 = glm::dvec4;
 #include "boost.glsl"
 #include "aberration.glsl"
 #include "motion.glsl"
+#include "worldline.glsl"
 } // namespace starbow::physics_double
 
 namespace starbow::physics_float {
@@ -24,6 +25,7 @@ using rvec4 = glm::vec4;
 #include "boost.glsl"
 #include "aberration.glsl"
 #include "motion.glsl"
+#include "worldline.glsl"
 } // namespace starbow::physics_float
 #undef FN
 

@@ -1,0 +1,26 @@
+// What is seen of a point that moves uniformly. c = 1.
+
+struct Seen {
+    real tau;    // its own time when the light left, from its place at the observer's time on: never above 0
+    rvec3 place; // where it was then, from the observer
+    real delay;  // how long the light was under way: the length of `place`
+    real D;      // Doppler factor, observer over source
+};
+
+// r: its place from the observer at the observer's time; way: unit direction of its motion; u: gamma beta along it; gamma =
+// sqrt(1 + u^2). A float keeps 1e-6 of all times at any gamma where `way` is one of the axes; else 1e-7 gamma, for what of r
+// lies along is not known better. It was at r + u tau at gamma tau, and that lies on the past light cone: tau^2 - 2 (r.u) tau - r^2 = 0, the
+// earlier root, in the form that does not cancel. 1 - v^2 is never formed. D = delay / (k.U), k the light's way, U the
+// source's 4-velocity, and k.U is the square root.
+FN Seen seen_moving(rvec3 r, rvec3 way, real u, real gamma)
+{
+    real along = dot(r, way) * u;
+    real square = dot(r, r);
+    real root = sqrt(along * along + square);
+    Seen s;
+    s.tau = along > real(0.0) ? -square / (along + root) : along - root;
+    s.place = r + way * (u * s.tau);
+    s.delay = -gamma * s.tau;
+    s.D = s.delay / root;
+    return s;
+}
