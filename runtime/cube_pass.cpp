@@ -53,7 +53,7 @@ std::vector<vk::Format> CubePass::formats() const
 {
     std::vector<vk::Format> formats = world_.numbers().formats();
     if (layered_)
-        formats.push_back(vk::Format::eR16Sfloat);
+        formats.push_back(vk::Format::eR32G32Sfloat); // near / distance is small
     return formats;
 }
 

@@ -335,7 +335,8 @@ Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality)
             image.texels_per_unit = 1 / unit;
             // Up to twofold shrinking is what bilinear filtering holds; beyond it the image needs mips.
             image.levels = std::clamp(1 + int(std::floor(std::log2(demand.coarsest / unit) - 0.2)), 1, most_levels);
-            int gutter = 2 << (image.levels - 1);
+            // Twice as wide where pixels look past the image: what they filter in is then all told.
+            int gutter = (layers[layer].things ? 4 : 2) << (image.levels - 1);
             int grid = 1 << image.levels;
             for (int i = 0; i < 2; ++i) {
                 // Edges on the texel grid of the whole face, so that a rectangle that grows does not shift its texels.

@@ -170,7 +170,7 @@ void main()
     for (int group = 0; group < GROUPS; ++group)
         numbers[group] = clamp(numbers[group], vec4(-60000.0), vec4(60000.0));
     if (LAYERED)
-        numbers[GROUPS] = vec4(1.0);
+        numbers[GROUPS] = vec4(1.0, gl_FragCoord.z, 0.0, 0.0); // samples and texels are averaged: what is covered, and its depth's sum
     const int outputs = LAYERED ? GROUPS + 1 : GROUPS;
     numbers0 = numbers[0];
     if (outputs > 1)

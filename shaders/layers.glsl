@@ -18,6 +18,7 @@ void sky_at(vec3 n, out vec4 numbers[MAX_GROUPS])
 struct Part {
     Place place;
     float D, world_angle, way;
+    float covers; // of the pixel
 };
 Part part_of(int i, vec2 pixel, int channel, float coarser, float D_beside)
 {
@@ -34,19 +35,22 @@ Part part_of(int i, vec2 pixel, int channel, float coarser, float D_beside)
     part.place = place_of(sight.n, layer);
     part.D = sight.D * D_beside;
     part.way = intBitsToFloat(0x7f800000);
+    part.covers = 0.0;
     vec4 image = slots[part.place.slot].texels;
     vec2 texel = part.place.atlas * view.origin.zw;
-    if (image.z > 0.0 && all(greaterThanEqual(texel, image.xy + 0.5)) && all(lessThanEqual(texel, image.zw + 0.5))) {
-        // An edge belongs to what is nearer.
-        vec4 depths = textureGather(depth_atlas, part.place.atlas);
-        float depth = max(max(depths.x, depths.y), max(depths.z, depths.w));
-        if (depth > 0.0)
-            part.way = sight.D * view.boost.w * sqrt(1.0 + dot(part.place.face, part.place.face)) / depth;
+    // What moves does not fill its images, and pixels look past them: nothing beyond their edges is filtered in.
+    float margin = i == 0 ? 0.5 : 2.0 * exp2(part.place.detail.y);
+    if (image.z > 0.0 && all(greaterThanEqual(texel, image.xy + margin)) && all(lessThanEqual(texel, image.zw + 1.0 - margin))) {
+        vec2 covered = textureLod(covered_atlas, part.place.atlas, level_of(part.place, part.world_angle)).rg;
+        part.covers = min(covered.x, 1.0);
+        if (covered.x > 0.0 && covered.y > 0.0)
+            part.way = sight.D * view.boost.w * sqrt(1.0 + dot(part.place.face, part.place.face)) * covered.x / covered.y;
     }
     return part;
 }
 
-// The light of all of them, the nearest first, and of the sky behind them. sight: the world's; its D becomes the nearest's.
+// The light of all of them, the nearest first, and of the sky behind them. sight: the world's; its D, and the distance, become those of
+// what most of the pixel shows of them.
 vec3 light_of_layers(vec2 pixel, int channel, float coarser, inout Sight sight, out float distance_)
 {
     const float infinite = intBitsToFloat(0x7f800000);
@@ -57,7 +61,7 @@ vec3 light_of_layers(vec2 pixel, int channel, float coarser, inout Sight sight, 
     for (int i = 0; i < count; ++i)
         parts[i] = part_of(i, pixel, channel, coarser, D_beside);
     vec3 light = vec3(0.0);
-    float left = 1.0, before = -1.0;
+    float left = 1.0, before = -1.0, most = 0.0;
     distance_ = infinite;
     for (int round = 0; round < count && left > 0.002; ++round) {
         int next = -1;
@@ -70,15 +74,14 @@ vec3 light_of_layers(vec2 pixel, int channel, float coarser, inout Sight sight, 
         before = way;
         Part part = parts[next];
         vec4 numbers[MAX_GROUPS];
-        float covers = cube_map(part.place, part.world_angle, numbers);
-        if (covers <= 0.0)
-            continue;
+        cube_map(part.place, part.world_angle, numbers);
         light += left * light_of(numbers, part.D);
-        if (isinf(distance_)) {
+        if (left * part.covers > most) {
+            most = left * part.covers;
             distance_ = way / (ABERRATION ? sky_D : 1.0);
             sight.D = part.D;
         }
-        left *= 1.0 - min(covers, 1.0);
+        left *= 1.0 - part.covers;
     }
     vec4 sky[MAX_GROUPS];
     sky_at(sight.n, sky);

@@ -30,7 +30,7 @@ layout(set = 0, binding = 10) uniform Green { uvec4 green[2 * RESPONSE_ROWS]; };
 layout(set = 0, binding = 11) uniform Blue { uvec4 blue[2 * RESPONSE_ROWS]; };
 layout(set = 0, binding = 12) uniform Own { vec4 own_rows[MOST_OWN_ROWS]; };
 
-layout(set = 0, binding = 13) uniform sampler2D covered_atlas; // which part of a texel is covered
+layout(set = 0, binding = 13) uniform sampler2D covered_atlas; // which part of a texel is covered; times its depth
 layout(set = 0, binding = 14) uniform Layers { LayerConstants layered; };
 
 // One frame's part of the cube map and the eye before it, motion axes there.
@@ -78,15 +78,17 @@ Place place_of(vec3 n, Layer layer)
 }
 
 // Aberration is conformal: the pixel's footprint stays round, so one number is its exact level of detail.
-// Returns how much is covered, where that is told.
-float cube_map(Place place, float world_angle, out vec4 numbers[MAX_GROUPS])
+float level_of(Place place, float world_angle)
 {
-    float level = 0.0;
-    if (MIPS) {
-        float distance_square = 1.0 + dot(place.face, place.face);
-        float texels = world_angle * place.detail.x * pow(distance_square, 0.75);
-        level = clamp(log2(texels), 0.0, place.detail.y);
-    }
+    if (!MIPS)
+        return 0.0;
+    float distance_square = 1.0 + dot(place.face, place.face);
+    float texels = world_angle * place.detail.x * pow(distance_square, 0.75);
+    return clamp(log2(texels), 0.0, place.detail.y);
+}
+void cube_map(Place place, float world_angle, out vec4 numbers[MAX_GROUPS])
+{
+    float level = level_of(place, world_angle);
     numbers[0] = textureLod(atlas, place.atlas, level);
     if (GROUPS > 1)
         numbers[1] = textureLod(atlas1, place.atlas, level);
@@ -94,7 +96,6 @@ float cube_map(Place place, float world_angle, out vec4 numbers[MAX_GROUPS])
         numbers[2] = textureLod(atlas2, place.atlas, level);
     if (GROUPS > 3)
         numbers[3] = textureLod(atlas3, place.atlas, level);
-    return LAYERED ? textureLod(covered_atlas, place.atlas, level).r : 1.0;
 }
 
 // Sum of a row's halves, of one colour, times the numbers of what is reflected.
@@ -136,10 +137,19 @@ vec3 shifted(vec4 numbers[MAX_GROUPS], float D)
     return light * (beyond * beyond);
 }
 
+// near / distance along the face's normal of what a texel of the cube map shows, 0 of the sky.
+float depth_of(ivec2 texel)
+{
+    if (!LAYERED)
+        return texelFetch(depth_atlas, texel, 0).r;
+    vec2 covered = texelFetch(covered_atlas, texel, 0).rg;
+    return covered.x > 0.0 ? covered.y / covered.x : 0.0;
+}
+
 // Distance of what a place of the cube map shows, from where it was drawn, scene units; infinite for the sky.
 float distance_at(Place place)
 {
-    float depth = texelFetch(depth_atlas, ivec2(place.atlas * view.origin.zw), 0).r;
+    float depth = depth_of(ivec2(place.atlas * view.origin.zw));
     return depth > 0.0 ? view.boost.w * sqrt(1.0 + dot(place.face, place.face)) / depth : intBitsToFloat(0x7f800000);
 }
 
