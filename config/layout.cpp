@@ -1,4 +1,5 @@
 #include "layout_reader.h"
+#include "shot_reader.h"
 #include <algorithm>
 #include <arpa/inet.h>
 #include <cctype>
@@ -58,9 +59,16 @@ Warp read_warp(const Place& place, const std::filesystem::path& folder)
     return warp;
 }
 
+Onlooker read_observer(const Place& place)
+{
+    if (place.json->is_object())
+        return {false, read_velocity(place)};
+    return {one_of(place, {"ship", "at-rest"}) == "at-rest"};
+}
+
 Viewport read_viewport(const Place& place, const Output& output, const Stereo& stereo, const std::filesystem::path& folder)
 {
-    only(place, {"rect", "eye", "eye_m", "projection", "warp", "alpha_mask", "black_level", "mask_gamma"});
+    only(place, {"rect", "eye", "eye_m", "projection", "warp", "alpha_mask", "black_level", "mask_gamma", "observer"});
     Viewport viewport;
     if (auto p = find(place, "rect"))
         viewport.rect = read_rect(*p, eye_size(output));
@@ -88,6 +96,8 @@ Viewport read_viewport(const Place& place, const Output& output, const Stereo& s
     if (auto p = find(place, "black_level"))
         viewport.black_level = existing_file(*p, folder);
     take(place, "mask_gamma", viewport.mask_gamma, {0.1, 10});
+    if (auto p = find(place, "observer"))
+        viewport.observer = read_observer(*p);
     return viewport;
 }
 

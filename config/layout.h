@@ -108,8 +108,14 @@ struct Warp {
     bool first_row_on_top = false; ///< of a PFM: against the standard
 };
 
-enum class Eye { middle, left, right };
+/// Whose sky a viewport shows. All are at the ship's event.
+struct Onlooker {
+    bool at_rest = false; ///< in the world, the head turned as in the ship
+    glm::dvec3 passing_u{0}; ///< or who passes the ship with this proper velocity, cockpit's axes
+    bool operator==(const Onlooker&) const = default;
+};
 
+enum class Eye { middle, left, right };
 struct Viewport {
     glm::dvec4 rect{0, 0, 1, 1}; ///< x, y, width, height as fractions of the output, from its top left
     Projection projection;
@@ -120,6 +126,7 @@ struct Viewport {
     double mask_gamma = 1; ///< of both pictures' values: light = value^gamma
     Eye eye = Eye::middle;
     glm::dvec3 eye_m{0}; ///< where the head is; the left and right eye are half the separation beside it
+    Onlooker observer;
 };
 
 /// How an output shows two eyes. The half forms squeeze each eye's picture; rows and columns: the first is the left eye's;

@@ -245,7 +245,7 @@ Coverage cover(const Layout& layout, int o, int v, Eye eye, const Sight& given)
     const Output& output = layout.outputs[o];
     const Viewport& viewport = output.viewports[v];
     const glm::ivec4 rect = pixel_rect(viewport, eye_picture(output));
-    Coverage coverage{o, v, eye, {rect.z, rect.w}};
+    Coverage coverage{o, v, eye, layout.outputs[std::size_t(o)].viewports[std::size_t(v)].observer, {rect.z, rect.w}};
     const double side = eye == Eye::left ? -0.5 : eye == Eye::right ? 0.5 : 0;
     const Picture picture{
         viewport.projection, coverage.size, viewport.eye_m + glm::dvec3(side * layout.stereo.separation_m, 0, 0)};

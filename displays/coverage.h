@@ -15,7 +15,8 @@ using Sight = std::function<std::optional<glm::dvec3>(const Output&, const Viewp
 struct Coverage {
     int output, viewport; ///< in the layout and in the output
     Eye eye; ///< left or right, or middle where the layout has one eye
-    glm::ivec2 size; ///< pixels that the eye's picture of it has
+    Onlooker observer{};
+    glm::ivec2 size{0}; ///< pixels that the eye's picture of it has
 
     /// Azimuth to the right and elevation in degrees, from -180 to 180 and from -90 to 90: closed outlines that enclose what
     /// is shown by the even-odd rule. Where it goes on behind the map's edge they run along that edge.

@@ -105,7 +105,7 @@ std::vector<std::string> doubts(const Layout& layout, const std::vector<Coverage
     for (std::size_t i = 0; i < coverages.size() && !layout.blend.ramps; ++i)
         for (std::size_t j = i + 1; j < coverages.size(); ++j) {
             const Coverage &a = coverages[i], &b = coverages[j];
-            if (a.eye != b.eye || a.output == b.output || masked(layout, a) || masked(layout, b)
+            if (a.eye != b.eye || a.observer != b.observer || a.output == b.output || masked(layout, a) || masked(layout, b)
                 || std::max(shared_part(a, b), shared_part(b, a)) < 0.02)
                 continue;
             doubt(viewport_name(layout, a.output, a.viewport) + " and " + viewport_name(layout, b.output, b.viewport)

@@ -42,6 +42,7 @@ Pane make_pane(const Layout& layout, std::size_t output, std::size_t viewport, E
     pane.corner = {rect.x, rect.y};
     pane.size = glm::max(glm::ivec2(rect.z, rect.w), 1);
     pane.eye = eye;
+    pane.observer = own.observer;
     pane.projection_given = own.projection_given;
     pane.head_m = own.eye_m;
     pane.picture_from_pixel = share.squeeze;

@@ -14,6 +14,7 @@ struct Pane {
     bool projection_given = true; ///< as the viewport's
     glm::dvec2 picture_from_pixel{1}; ///< the pane's point p, in pixels from its corner, is the picture's p * this
     Eye eye = Eye::middle;
+    Onlooker observer{};
     glm::dvec3 head_m{0}; ///< between the eyes; picture.eye_m is this eye
 };
 

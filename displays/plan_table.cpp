@@ -166,7 +166,7 @@ std::vector<std::string> overlap_lines(const Layout& layout, const std::vector<C
     for (std::size_t i = 0; i < coverages.size(); ++i)
         for (std::size_t j = i + 1; j < coverages.size(); ++j) {
             const Coverage &a = coverages[i], &b = coverages[j];
-            if (a.eye != b.eye)
+            if (a.eye != b.eye || a.observer != b.observer)
                 continue;
             const double of_a = shared_part(a, b), of_b = shared_part(b, a);
             const std::string first = viewport_name(layout, a.output, a.viewport),

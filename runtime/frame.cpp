@@ -171,9 +171,15 @@ glm::dvec3 Frame::place_of_eye(const Pane& pane) const
 std::size_t Frame::eye_for(const Pane& pane)
 {
     const glm::dvec3 place = place_of_eye(pane);
-    auto same = std::find_if(eyes_.begin(), eyes_.end(), [&](const Eye& e) { return e.place_m == place; });
+    const auto whose = std::find_if(
+        watchers_.begin(), watchers_.end(), [&](const Watcher& watcher) { return watcher.observer == pane.observer; });
+    const std::size_t own = std::size_t(whose - watchers_.begin());
+    if (whose == watchers_.end())
+        watchers_.push_back({pane.observer});
+    auto same = std::find_if(
+        eyes_.begin(), eyes_.end(), [&](const Eye& e) { return e.place_m == place && e.watcher == own; });
     if (same == eyes_.end()) {
-        eyes_.push_back({place, CubePass(device_, pipelines_, world_, quality_.samples, keeps_depth_), place});
+        eyes_.push_back({place, own, CubePass(device_, pipelines_, world_, quality_.samples, keeps_depth_), place});
         same = eyes_.end() - 1;
     }
     same->now_m = place;
@@ -231,29 +237,15 @@ int Frame::hud_width() const
     return std::clamp(int(2 * panel_half_.x / finest), 160, 4096);
 }
 
-void Frame::find_layers()
-{
-    const bool aberration = shot_.effects.aberration;
-    Shot watcher = shot_; // at rest in the world: without aberration directions are those that he sees
-    watcher.u = glm::dvec3(0);
-    layers_.clear();
-    for (const RestFrame& frame : world_.world.frames) {
-        const bool own = layers_.empty(); // the world's: its axes are those of the motion in any case
-        const Shot looks = in_frame(frame, aberration || own ? shot_ : watcher);
-        const glm::dmat3 turn = motion_from_world(looks.u, looks.ship_from_cockpit);
-        layers_.push_back({in_frame(frame, shot_), aberration || !own ? physics::exp_rapidity(glm::length(looks.u)) : 1, turn,
-            turn * glm::dmat3(glm::mat3_cast(looks.ship_from_cockpit))});
-    }
-}
-
 void Frame::prepare_eye(std::size_t i)
 {
     Eye& eye = eyes_[i];
+    const std::vector<Layer>& layers = watchers_[eye.watcher].layers;
     std::vector<PlanLayer> asked;
     std::vector<Vantage> vantages;
     eye.nearest.clear();
-    for (std::size_t at = 0; at < layers_.size(); ++at) {
-        const Layer& layer = layers_[at];
+    for (std::size_t at = 0; at < layers.size(); ++at) {
+        const Layer& layer = layers[at];
         const glm::dvec3 offset = layer.shot.ship_from_cockpit * scene_units(eye.now_m);
         const Vantage vantage{int(at), layer.shot.position + physics::eye_place(layer.shot.u, offset),
             layer.shot.time + physics::eye_time(layer.shot.u, offset), layer.motion_from_frame};
@@ -275,17 +267,17 @@ void Frame::prepare_eye(std::size_t i)
         return;
     const auto& images = plans_[i].images;
     const auto own = std::find_if(images.begin(), images.end(), [](const PlanImage& image) { return image.layer > 0; });
-    eye.stars = stars_in({images.begin(), own}, world_.star_patches, layers_[0].motion_from_frame);
+    eye.stars = stars_in({images.begin(), own}, world_.star_patches, layers[0].motion_from_frame);
 }
 
 void Frame::prepare(const Shot& shot, const Panel* hud)
 {
     shot_ = shot;
-    E_ = physics::exp_rapidity(glm::length(shot.u));
-    find_layers();
-    double most_E = E_;
-    for (const Layer& layer : layers_)
-        most_E = std::max(most_E, physics::exp_rapidity(glm::length(layer.shot.u)));
+    double most_E = 1;
+    for (Watcher& one : watchers_) {
+        one = watcher(world_.world, shot, one.observer);
+        most_E = std::max(most_E, one.most_E());
+    }
     const bool gains = shot.effects.headlight || shot.effects.doppler;
     // Red-shifted, sunlight also leaves the visible: by Wien's law its part at 360 nm falls as exp(-6.92 (1/D - 1)).
     const double leaves = shot.effects.doppler ? std::exp(6.92 * (most_E - 1)) : 1;
@@ -300,7 +292,10 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
         for (const OutputState& output : outputs_)
             size = glm::max(size, output.size);
         stars_.fit({std::uint32_t(size.x), std::uint32_t(size.y)});
-        stars_.prepare(layers_[0].motion_from_frame, shot.effects.false_colours);
+        std::vector<glm::dmat3> turns;
+        for (const Watcher& one : watchers_)
+            turns.push_back(one.layers[0].motion_from_frame);
+        stars_.prepare(turns, shot.effects.false_colours);
     }
     if (hud && (panel_.extent.width != std::uint32_t(hud->size.x) || panel_.extent.height != std::uint32_t(hud->size.y))) {
         panel_ = make_image(device_,
@@ -372,14 +367,15 @@ void Frame::put_layers(PaneState& pane)
             device_, sizeof(shared::LayerConstants), vk::BufferUsageFlagBits::eUniformBuffer);
     const Eye& eye = eyes_[pane.eye];
     const Plan& plan = plans_[pane.eye];
+    const std::vector<Layer>& layers = watcher_of(pane).layers;
     shared::LayerConstants all{};
     std::size_t count = 0;
-    for (std::size_t at = 0; at < layers_.size(); ++at) {
+    for (std::size_t at = 0; at < layers.size(); ++at) {
         const bool seen = std::any_of(plan.images.begin(), plan.images.end(),
             [&](const PlanImage& image) { return std::size_t(image.layer) == at; });
         if (at > 0 && !seen)
             continue;
-        const Layer& layer = layers_[at];
+        const Layer& layer = layers[at];
         const glm::dmat3 m = layer.motion_from_cockpit * pane.compiled.matrix.value_or(glm::dmat3(1));
         shared::LayerEntry& entry = all.layers[count++];
         entry.row0 = row(m, 0, unit_of(pane.compiled));
@@ -390,7 +386,7 @@ void Frame::put_layers(PaneState& pane)
         entry.nearest.y = float(eye.nearest[at]);
     }
     all.count.x = float(count);
-    all.world_up = glm::vec4(layers_[0].motion_from_frame * glm::dvec3(0, 1, 0), 0);
+    all.world_up = glm::vec4(layers[0].motion_from_frame * glm::dvec3(0, 1, 0), 0);
     for (std::size_t group = 0; group < MAX_GROUPS; ++group) {
         all.sky_zenith[group] = glm::vec4(world_.spectra.sky[0][group] * pre_exposure_);
         all.sky_horizon[group] = glm::vec4(world_.spectra.sky[1][group] * pre_exposure_);
@@ -470,7 +466,7 @@ void Frame::draw_cubes(vk::CommandBuffer commands)
 
 WarpVariant Frame::variant(const PaneState& pane) const
 {
-    const bool moves = E_ != 1 || world_.layered(); // otherwise there is nothing to shift
+    const bool moves = watcher_of(pane).E != 1 || world_.layered(); // otherwise there is nothing to shift
     const bool beside = reprojects() && pane.beside_m != glm::dvec3(0);
     const Effects& on = shot_.effects;
     WarpVariant variant{pane.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
@@ -492,7 +488,7 @@ shared::ViewPush Frame::push(const PaneState& pane, const glm::dmat3& axes_from_
     push.origin = glm::vec4(pane.pane().corner, atlas.width, atlas.height);
     push.pane = glm::vec4(pane.pane().corner, 0, 0);
     if (pattern_ == Pattern::none) {
-        push.eye = eye_told(pane, layers_[0]);
+        push.eye = eye_told(pane, watcher_of(pane).layers[0]);
         push.zenith.y = float(eyes_[pane.eye].nearest[0]);
     }
     push.zenith.x = float(std::sin(layout_.stereo.full_from_zenith_deg * degree));
@@ -501,18 +497,20 @@ shared::ViewPush Frame::push(const PaneState& pane, const glm::dmat3& axes_from_
 }
 
 /// What comes before light is shown: ViewPush's member.
-glm::vec4 Frame::boost(double exposure) const
+glm::vec4 Frame::boost(const PaneState& pane, double exposure) const
 {
     // Not infinite, so that darkness times it stays dark.
-    return glm::vec4(E_, 1 / E_, std::min(exposure / pre_exposure_, 1e37), near_distance);
+    const double E = watcher_of(pane).E;
+    return glm::vec4(E, 1 / E, std::min(exposure / pre_exposure_, 1e37), near_distance);
 }
 
 /// ViewPush of the stars' pass.
 shared::ViewPush Frame::star_push(const PaneState& pane) const
 {
-    shared::ViewPush constants = push(pane, layers_[0].motion_from_cockpit);
-    constants.boost = glm::vec4(E_, 1 / E_, pre_exposure_, near_distance);
-    const glm::dmat3 back = glm::inverse(layers_[0].motion_from_cockpit * pane.compiled.matrix.value_or(glm::dmat3(1)));
+    const Watcher& own = watcher_of(pane);
+    shared::ViewPush constants = push(pane, own.layers[0].motion_from_cockpit);
+    constants.boost = glm::vec4(own.E, 1 / own.E, pre_exposure_, near_distance);
+    const glm::dmat3 back = glm::inverse(own.layers[0].motion_from_cockpit * pane.compiled.matrix.value_or(glm::dmat3(1)));
     constants.row0 = row(back, 0, constants.row0.w);
     constants.row1 = row(back, 1, constants.row1.w);
     constants.row2 = row(back, 2);
@@ -534,15 +532,15 @@ void Frame::draw_stars(vk::CommandBuffer commands, std::size_t output, int layer
         commands.pushConstants<shared::ViewPush>(
             *pipelines_.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
         const int places = pane.map != no_map && maps_[pane.map].closes ? 2 : 1;
-        stars_.draw(commands, pane.pane().corner, pane.pane().size, places * (own.channels ? 3 : 1), eyes_[pane.eye].stars);
+        stars_.draw(commands, eyes_[pane.eye].watcher, pane.pane().corner, pane.pane().size, places * (own.channels ? 3 : 1), eyes_[pane.eye].stars);
     }
     stars_.end(commands);
 }
 
 void Frame::warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline, double exposure)
 {
-    shared::ViewPush constants = push(pane, layers_[0].motion_from_cockpit);
-    constants.boost = boost(exposure);
+    shared::ViewPush constants = push(pane, watcher_of(pane).layers[0].motion_from_cockpit);
+    constants.boost = boost(pane, exposure);
     set_warp(commands, pane, pipeline, constants, pane.pane().corner, pane.pane().size);
 }
 
@@ -564,8 +562,8 @@ void Frame::bloom_pane(vk::CommandBuffer commands, const PaneState& pane)
     vk::RenderingAttachmentInfo colour(light.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eStore);
     commands.beginRendering({{}, {{0, 0}, light.extent}, 1, 0, colour});
-    shared::ViewPush constants = push(pane, layers_[0].motion_from_cockpit);
-    constants.boost = boost(std::exp2(shot_.exposure_ev));
+    shared::ViewPush constants = push(pane, watcher_of(pane).layers[0].motion_from_cockpit);
+    constants.boost = boost(pane, std::exp2(shot_.exposure_ev));
     constants.origin.x = constants.origin.y = 0;
     WarpVariant linear = variant(pane);
     linear.linear = true;
@@ -585,8 +583,8 @@ void Frame::draw_meter(vk::CommandBuffer commands)
         if (layout_.outputs[pane.output].preview)
             continue;
         const Meter::Cell& cell = meter_->cell(i);
-        shared::ViewPush constants = push(pane, layers_[0].motion_from_cockpit);
-        constants.boost = boost(1);
+        shared::ViewPush constants = push(pane, watcher_of(pane).layers[0].motion_from_cockpit);
+        constants.boost = boost(pane, 1);
         constants.origin.x = float(cell.corner.x), constants.origin.y = float(cell.corner.y);
         const glm::dvec2 step = glm::dvec2(pane.pane().size) / glm::dvec2(cell.size);
         constants.zenith.z = float(step.x), constants.zenith.w = float(step.y);
@@ -609,7 +607,7 @@ void Frame::glance_at_stars(vk::CommandBuffer commands, const PaneState& pane, c
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 0, *pane.warp_set, {});
     commands.pushConstants<shared::ViewPush>(
         *pipelines_.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
-    stars_.glance(commands, cell.corner, cell.size, meter_->every(), own.channels);
+    stars_.glance(commands, eyes_[pane.eye].watcher, cell.corner, cell.size, meter_->every(), own.channels);
 }
 
 std::optional<double> Frame::metered() const
@@ -705,6 +703,16 @@ void Frame::record_measured(vk::CommandBuffer commands, std::size_t output, cons
             Access::eColorAttachmentWrite, Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
 }
 
+std::vector<Frame::Axes> Frame::measured_axes(std::size_t output) const
+{
+    std::vector<Axes> axes;
+    for (const PaneState& pane : panes_)
+        if (pane.output == output && pane.pane().layer == 0)
+            axes.push_back({pane.pane().corner, pane.pane().size,
+                glm::transpose(watcher_of(pane).layers[0].motion_from_frame)});
+    return axes;
+}
+
 void Frame::draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& last)
 {
     if (!hud_on_)
@@ -751,7 +759,7 @@ void Frame::draw_hud(vk::CommandBuffer commands, std::size_t output, const Targe
 void Frame::look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeline pipeline, vk::DescriptorSet set)
 {
     const PaneState& pane = panes_.front();
-    shared::ViewPush constants = push(pane, layers_[0].motion_from_cockpit);
+    shared::ViewPush constants = push(pane, watcher_of(pane).layers[0].motion_from_cockpit);
     vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore);
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});

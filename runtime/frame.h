@@ -7,6 +7,7 @@
 #include "meter.h"
 #include "plan.h"
 #include "star_pass.h"
+#include "watcher.h"
 
 namespace starbow {
 
@@ -59,6 +60,13 @@ public:
     /// The same for one output with numbers instead of a picture: the left eye's where both share pixels.
     void record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target);
 
+    /// Turns from a measured pane's motion axes to its watcher's own, after prepare(): each with the pane's corner and size.
+    struct Axes {
+        glm::ivec2 corner, size;
+        glm::dmat3 world_from_motion;
+    };
+    std::vector<Axes> measured_axes(std::size_t output) const;
+
     // The stages of record(), one by one, for those who time them.
     void draw_cubes(vk::CommandBuffer commands);
     void draw_meter(vk::CommandBuffer commands);
@@ -81,17 +89,12 @@ public:
 private:
     struct Eye {
         glm::dvec3 place_m; ///< in the cockpit, before any head moves
+        std::size_t watcher; ///< whose: index into watchers_
         CubePass cube;
         glm::dvec3 now_m; ///< where it is
         std::vector<StarRun> stars{}; ///< that its panes may show
         std::vector<double> nearest{}; ///< of each layer: distance of the nearest surface that there may be, scene units; 1
                                        ///< where it does not count
-    };
-    /// The ship before what stands still in one of the world's frames.
-    struct Layer {
-        Shot shot; ///< the instant, as that frame has it
-        double E = 1; ///< of directions, from that frame to the ship's
-        glm::dmat3 motion_from_frame{1}, motion_from_cockpit{1}; ///< turns
     };
     struct PaneState {
         std::size_t output = 0, eye = 0;
@@ -133,11 +136,11 @@ private:
     glm::dvec3 scene_units(const glm::dvec3& place_m) const;
     glm::dvec3 eye_offset(const PaneState& pane, const Layer& layer) const;
     glm::vec4 eye_told(const PaneState& pane, const Layer& layer) const;
-    void find_layers();
+    const Watcher& watcher_of(const PaneState& pane) const { return watchers_[eyes_[pane.eye].watcher]; }
     void prepare_eye(std::size_t eye);
     void put_layers(PaneState& pane);
     void write_sets();
-    glm::vec4 boost(double exposure) const;
+    glm::vec4 boost(const PaneState& pane, double exposure) const;
     void set_warp(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline,
         const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size);
     shared::ViewPush star_push(const PaneState& pane) const;
@@ -169,8 +172,8 @@ private:
     std::vector<OutputState> outputs_;
     std::vector<Plan> plans_;
     Shot shot_;
-    double E_ = 1, pre_exposure_ = 1;
-    std::vector<Layer> layers_; ///< of the world's frames, the world first
+    double pre_exposure_ = 1;
+    std::vector<Watcher> watchers_; ///< one for each observer that a pane has
     Pattern pattern_ = Pattern::none;
     double bloom_ = 0;
     bool meters_ = false;

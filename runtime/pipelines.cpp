@@ -135,7 +135,7 @@ Pipelines::Pipelines(Device& device)
     warp_set = make_set_layout(device, both,
         {picture, picture, constants, constants, picture, picture, picture, picture, picture, picture, constants, constants,
             constants, picture, constants});
-    star_set = make_set_layout(device, vk::ShaderStageFlagBits::eVertex, {constants, Type::eStorageBuffer, constants});
+    star_set = make_set_layout(device, vk::ShaderStageFlagBits::eVertex, {Type::eUniformBufferDynamic, Type::eStorageBuffer, constants});
     picture_set = make_set_layout(device, fragment, {picture, picture});
     finish_set = make_set_layout(device, fragment, {picture, picture, picture, picture, picture});
     surface_layout = make_layout(device, {*eye_set, *material_set}, both, sizeof(shared::CubePush));

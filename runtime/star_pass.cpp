@@ -28,21 +28,34 @@ StarPass::StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& w
 {
     if (!on())
         return;
-    constants_ = make_mapped_buffer(device, sizeof(shared::StarConstants), vk::BufferUsageFlagBits::eUniformBuffer);
+    const vk::DeviceSize step = device.properties.limits.minUniformBufferOffsetAlignment;
+    stride_ = (sizeof(shared::StarConstants) + step - 1) / step * step;
     std::vector<vk::DescriptorPoolSize> sizes
-        = {{vk::DescriptorType::eUniformBuffer, 4}, {vk::DescriptorType::eStorageBuffer, 2}};
+        = {{vk::DescriptorType::eUniformBufferDynamic, 2}, {vk::DescriptorType::eUniformBuffer, 2},
+            {vk::DescriptorType::eStorageBuffer, 2}};
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2, sizes});
+    for (vk::raii::DescriptorSet& set : sets_)
+        set = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.star_set}).front());
+}
+
+void StarPass::write_sets()
+{
     for (std::size_t i = 0; i < sets_.size(); ++i) {
-        sets_[i] = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.star_set}).front());
-        const Buffer& black_bodies = (i == 0 ? world.eye : world.false_colours).black_bodies;
-        const vk::DescriptorBufferInfo buffers[] = {{*constants_.buffer, 0, VK_WHOLE_SIZE},
-            {*world.stars.buffer, 0, VK_WHOLE_SIZE}, {*black_bodies.buffer, 0, VK_WHOLE_SIZE}};
-        device.device.updateDescriptorSets(
-            {vk::WriteDescriptorSet(*sets_[i], 0, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[0]),
+        const Buffer& black_bodies = (i == 0 ? world_.eye : world_.false_colours).black_bodies;
+        const vk::DescriptorBufferInfo buffers[] = {{*constants_.buffer, 0, sizeof(shared::StarConstants)},
+            {*world_.stars.buffer, 0, VK_WHOLE_SIZE}, {*black_bodies.buffer, 0, VK_WHOLE_SIZE}};
+        device_.device.updateDescriptorSets(
+            {vk::WriteDescriptorSet(*sets_[i], 0, 0, vk::DescriptorType::eUniformBufferDynamic, {}, buffers[0]),
                 vk::WriteDescriptorSet(*sets_[i], 1, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[1]),
                 vk::WriteDescriptorSet(*sets_[i], 2, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[2])},
             {});
     }
+}
+
+void StarPass::bind(vk::CommandBuffer commands, std::size_t watcher) const
+{
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 1, *sets_[false_colours_],
+        std::uint32_t(watcher * stride_));
 }
 
 void StarPass::fit(vk::Extent2D extent)
@@ -56,14 +69,21 @@ void StarPass::fit(vk::Extent2D extent)
         device_, {format_, extent, vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled});
 }
 
-void StarPass::prepare(const glm::dmat3& motion_from_world, bool false_colours)
+void StarPass::prepare(std::span<const glm::dmat3> motion_from_world, bool false_colours)
 {
     false_colours_ = false_colours;
-    shared::StarConstants constants{};
-    glm::vec4* rows[] = {&constants.row0, &constants.row1, &constants.row2};
-    for (int i = 0; i < 3; ++i)
-        *rows[i] = glm::vec4(motion_from_world[0][i], motion_from_world[1][i], motion_from_world[2][i], 0);
-    std::memcpy(constants_.mapped, &constants, sizeof constants);
+    const vk::Buffer before = *constants_.buffer;
+    grow(device_, constants_, motion_from_world.size() * stride_, vk::BufferUsageFlagBits::eUniformBuffer);
+    if (*constants_.buffer != before)
+        write_sets();
+    for (std::size_t at = 0; at < motion_from_world.size(); ++at) {
+        const glm::dmat3& turn = motion_from_world[at];
+        shared::StarConstants constants{};
+        glm::vec4* rows[] = {&constants.row0, &constants.row1, &constants.row2};
+        for (int i = 0; i < 3; ++i)
+            *rows[i] = glm::vec4(turn[0][i], turn[1][i], turn[2][i], 0);
+        std::memcpy(static_cast<std::byte*>(constants_.mapped) + at * stride_, &constants, sizeof constants);
+    }
 }
 
 void StarPass::begin(vk::CommandBuffer commands, vk::Extent2D extent)
@@ -73,12 +93,12 @@ void StarPass::begin(vk::CommandBuffer commands, vk::Extent2D extent)
     const vk::RenderingAttachmentInfo colour(*picture_.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore, vk::ClearColorValue(std::array<float, 4>{}));
     commands.beginRendering({{}, {{0, 0}, extent}, 1, 0, colour});
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 1, *sets_[false_colours_], {});
 }
 
 void StarPass::draw(
-    vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size, int instances, std::span<const StarRun> stars)
+    vk::CommandBuffer commands, std::size_t watcher, glm::ivec2 corner, glm::ivec2 size, int instances, std::span<const StarRun> stars)
 {
+    bind(commands, watcher);
     // Wider by a spot's radius: a point whose middle lies outside would not be drawn at all.
     const glm::ivec2 radius(STAR_RADIUS);
     const glm::vec2 low = corner - radius, wide = size + 2 * radius;
@@ -88,9 +108,9 @@ void StarPass::draw(
         commands.draw(run.count, std::uint32_t(instances), run.first, 0);
 }
 
-void StarPass::glance(vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size, int every, bool channels) const
+void StarPass::glance(vk::CommandBuffer commands, std::size_t watcher, glm::ivec2 corner, glm::ivec2 size, int every, bool channels) const
 {
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 1, *sets_[false_colours_], {});
+    bind(commands, watcher);
     set_area(commands, corner, size);
     commands.draw((world_.star_count + std::uint32_t(every) - 1) / std::uint32_t(every), 1, 0, channels ? 1 : 0);
 }

@@ -1,6 +1,7 @@
 #include "still.h"
 #include "config/error.h"
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <unistd.h>
@@ -130,18 +131,26 @@ Channels Studio::numbers(const Shot& shot, std::size_t output)
     };
     std::vector<glm::vec4> light = texels(target.light_and_depth), camera = texels(target.camera),
                            world = texels(target.world);
-    glm::dmat3 from_motion = glm::transpose(motion_from_world(shot.u, shot.ship_from_cockpit));
     const char* names[] = {"R", "G", "B", "cameraDirection.X", "cameraDirection.Y", "cameraDirection.Z", "worldDirection.X",
         "worldDirection.Y", "worldDirection.Z", "doppler", "depth"};
     Channels channels;
     for (const char* name : names)
         channels.emplace_back(name, std::vector<float>(count));
-    for (std::size_t i = 0; i < count; ++i) {
-        glm::vec3 c = from_motion * glm::dvec3(camera[i]), w = from_motion * glm::dvec3(world[i]);
-        float values[] = {light[i].r, light[i].g, light[i].b, c.x, c.y, c.z, w.x, w.y, w.z, camera[i].w, light[i].w};
-        for (int k = 0; k < 11; ++k)
-            channels[k].second[i] = values[k];
-    }
+    const float nothing = std::nanf("");
+    for (auto& [name, values] : channels)
+        std::fill(values.begin(), values.end(), nothing);
+    const int width = int(images_[output].extent.width);
+    for (const Frame::Axes& axes : frame_.measured_axes(output))
+        for (int y = axes.corner.y; y < axes.corner.y + axes.size.y; ++y)
+            for (int x = axes.corner.x; x < axes.corner.x + axes.size.x; ++x) {
+                const std::size_t i = std::size_t(y * width + x);
+                const glm::vec3 c = axes.world_from_motion * glm::dvec3(camera[i]),
+                                w = axes.world_from_motion * glm::dvec3(world[i]);
+                const float values[]
+                    = {light[i].r, light[i].g, light[i].b, c.x, c.y, c.z, w.x, w.y, w.z, camera[i].w, light[i].w};
+                for (std::size_t k = 0; k < 11; ++k)
+                    channels[k].second[i] = values[k];
+            }
     return channels;
 }
 

@@ -320,4 +320,97 @@ TEST(BodiesGpuTest, ASphereKeepsACircularOutline)
         radius_high / degree, pixel / degree);
 }
 
+TEST(BodiesGpuTest, ABodySeenAbeamSeemsTurned)
+{
+    // Terrell: a small body that passes, seen at right angles to its way, shows itself turned by asin(beta): of its marks, one
+    // ahead by a of its own length and one nearer by a, the first appears a cos and the second a sin further on.
+    constexpr double a = 0.1, L = 20;
+    for (auto [beta, turn_deg] : {std::pair(0.5, 30.0), {0.8, 53.1301}, {0.99, 81.8904}}) {
+        Doc doc;
+        const dvec3 right(0.01, 0, 0), up(0, 0.01, 0);
+        quad(doc, {0, 0, 0}, right, up, unlit(doc, {1, 0, 0}), {{"name", "body"}});
+        quad(doc, {a, 0, 0}, right, up, unlit(doc, {0, 1, 0}), {{"name", "body"}});
+        quad(doc, {0, 0.03, a}, right, up, unlit(doc, {0, 0, 1}), {{"name", "body"}});
+        for (auto& material : doc.json["materials"])
+            material["doubleSided"] = true; // it shows its back when it turns far
+        const double u = u_of_beta(beta), gamma = std::sqrt(1 + u * u);
+        // Seen abeam at time 0: at the emission, L earlier, the middle was straight ahead.
+        const GpuWorld world = open_world("terrell", doc,
+            {{"bodies",
+                {{{"name", "body"}, {"nodes", {"body"}}, {"velocity", velocity_of({u, 0, 0})},
+                    {"at", {{"time", -L}, {"position", {0, 0, -L}}}}}}}});
+        Studio stage = studio(world, one_view(Planar{2.0}, {600, 600}));
+        const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
+        std::array<dvec2, 3> middle{};
+        std::array<double, 3> sum{};
+        double D = 0;
+        for (int i = 0; i < numbers.count(); ++i)
+            for (int c = 0; c < 3; ++c) {
+                middle[std::size_t(c)] += numbers.light(i)[c] * numbers.centre(i);
+                sum[std::size_t(c)] += numbers.light(i)[c];
+                if (c == 0 && numbers.light(i)[c] > 0.9)
+                    D = numbers.D(i);
+            }
+        const double pixel = 2 * std::tan(degree) / 600 * L; // scene units
+        for (std::size_t c = 0; c < 3; ++c) {
+            ASSERT_GT(sum[c], 1) << "beta " << beta << " mark " << c;
+            middle[c] /= sum[c];
+        }
+        // To first order in a / L, of which the second is 3e-5 units: a hundredth of a pixel's 1.2e-3.
+        EXPECT_NEAR((middle[1].x - middle[0].x) * pixel, a * std::cos(turn_deg * degree), 0.5 * pixel) << beta;
+        EXPECT_NEAR((middle[2].x - middle[0].x) * pixel, a * std::sin(turn_deg * degree), 0.5 * pixel) << beta;
+        EXPECT_NEAR(D, 1 / gamma, 2e-3 / gamma) << beta; // the mark is not all at right angles
+    }
+}
+
+TEST(BodiesGpuTest, TwoWatchersAtOneEvent)
+{
+    // Side by side: the ship's view, who rests there, and who passes it; each as a picture of his own would be.
+    Layout three = one_view(Planar{60}, {600, 200});
+    auto& viewports = three.outputs[0].viewports;
+    viewports.assign(3, viewports[0]);
+    for (int i = 0; i < 3; ++i)
+        viewports[std::size_t(i)].rect = {i / 3.0, 0, 1 / 3.0, 1};
+    viewports[1].observer = {true};
+    const dvec3 passing(0.3, -0.4, 1.1);
+    viewports[2].observer = {false, passing};
+    Shot ship = shot_at({0, 0, -8}, dvec3(0.2, 0.1, -1.0), {0.1, 0, -1});
+    ship.effects.doppler = true;
+    Studio all = studio(avenue().world, three);
+    const Numbers numbers(all, ship);
+
+    Shot resting = ship, past = ship;
+    resting.u = dvec3(0);
+    // The passing one by boosts in 33 digits: his velocity, and where his axes lie.
+    const dvec3 w = ship.ship_from_cockpit * passing;
+    const quad::V4 velocity = quad::boosted(quad::of(ship.u), {quad::gamma(quad::of(w)), quad::of(w)});
+    past.u = vec(velocity.x);
+    const std::array<Shot, 3> shots = {ship, resting, past};
+    for (int k = 0; k < 3; ++k) {
+        Studio one = studio(avenue().world, one_view(Planar{60}, {200, 200}));
+        const Numbers alone(one, shots[std::size_t(k)]);
+        long off = 0, compared = 0;
+        double worst = 0;
+        for (int i = 0; i < alone.count(); ++i) {
+            const int there = (i / 200) * 600 + k * 200 + i % 200;
+            if (k < 2) {
+                // The meter and the plan are shared: the same to a filter's rounding.
+                worst = std::max(worst, between(numbers.camera(there), alone.camera(i)));
+                off += glm::length(numbers.light(there) - alone.light(i)) > 0.02 * (0.05 + glm::length(alone.light(i)));
+            } else {
+                // By its own direction: from his cockpit to the ship to the world.
+                const dvec3 in_cockpit = glm::normalize(dvec3((i % 200 + 0.5 - 100) / 100 * std::tan(30 * degree),
+                    (100 - (i / 200 + 0.5)) / 100 * std::tan(30 * degree), -1));
+                const auto in_ship = quad::world_from_camera(quad::of(ship.ship_from_cockpit * in_cockpit), quad::of(w));
+                const auto in_world = quad::world_from_camera(in_ship.n, quad::of(ship.u));
+                worst = std::max(worst, between(numbers.world(there), vec(in_world.n)));
+                off += std::abs(numbers.D(there) / double(in_ship.D * in_world.D) - 1) > 1e-5;
+            }
+            ++compared;
+        }
+        EXPECT_LT(worst, 2e-6) << k; // float directions
+        EXPECT_LT(double(off), 0.005 * compared) << k; // edges, where texels fall otherwise
+    }
+}
+
 } // namespace starbow::gpu_test

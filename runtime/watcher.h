@@ -1,0 +1,30 @@
+#pragma once
+#include "config/layout.h"
+#include "world.h"
+#include "config/shot.h"
+
+namespace starbow {
+
+/// Someone who looks, before what stands still in one of the world's frames.
+struct Layer {
+    Shot shot; ///< the instant, as that frame has it
+    double E = 1; ///< e^rapidity of directions, from that frame to the watcher's
+    glm::dmat3 motion_from_frame{1}, motion_from_cockpit{1}; ///< turns
+};
+
+/// Someone who looks at the ship's place and time: the visitor, or another observer that a viewport has.
+struct Watcher {
+    Onlooker observer;
+    Shot shot; ///< his instant
+    double E = 1; ///< e^rapidity in the world
+    std::vector<Layer> layers; ///< of the world's frames, the world first
+    double most_E() const; ///< of the rapidities in all frames
+};
+
+/// Without aberration directions are those that someone sees who rests in the world.
+Watcher watcher(const World& world, const Shot& ship, const Onlooker& observer);
+
+/// The ship's instant for an observer: its event, another velocity, the axes carried there by the boost between them.
+Shot shot_of(const Shot& ship, const Onlooker& observer);
+
+} // namespace starbow
