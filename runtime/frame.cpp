@@ -139,6 +139,7 @@ void Frame::take_up(Parts parts)
     }
     plans_.resize(eyes_.size());
     meter_.reset();
+    forget_lab();
 
     const std::uint32_t count = std::uint32_t(panes_.size());
     before.clear();
@@ -199,17 +200,7 @@ std::size_t Frame::map_for(const CompiledPane& pane, std::vector<Map>& before)
     return maps_.size() - 1;
 }
 
-PixelBox Frame::panel_in(const Blocks& blocks) const
-{
-    // The panel's edges as planes through the eye, in the panel's axes, and the plane that keeps what is behind out.
-    const glm::dvec2 half = panel_half_;
-    const glm::dmat3 cockpit_from_panel_normals = glm::transpose(panel_from_cockpit_);
-    std::array<glm::dvec3, 5> sides
-        = {glm::dvec3(1, 0, half.x), {-1, 0, half.x}, {0, 1, half.y}, {0, -1, half.y}, {0, 0, 1}};
-    for (glm::dvec3& side : sides)
-        side = glm::normalize(cockpit_from_panel_normals * side);
-    return pixels_in_pyramid(blocks, sides);
-}
+PixelBox Frame::panel_in(const Blocks& blocks) const { return panel_box(blocks, panel_from_cockpit_, panel_half_); }
 
 void Frame::find_hud_box(PaneState& pane) const
 {
@@ -248,6 +239,8 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
             if (pane.eye == i)
                 asked.push_back({pane.compiled.blocks.get(), motion_from_cockpit_,
                     reprojects() ? std::min(MOST_PARALLAX, glm::length(world_offset(pane)) / eyes_[i].nearest) : 0});
+        if (lab_)
+            ask_for_probes(i, asked);
         plans_[i] = make_plan(asked, shot.effects.aberration ? E_ : 1, quality_);
         eyes_[i].cube.prepare(plans_[i], place, time, to_motion, pre_exposure_);
         if (stars_.on())
@@ -287,6 +280,8 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
                 pane.shown_part = shown_part(pane.compiled);
             }
     write_sets();
+    if (lab_ && pattern_ == Pattern::none)
+        prepare_lab();
 }
 
 /// The pixels of the pane, and where it is a preview, of the one that it shows small.
@@ -364,11 +359,13 @@ void Frame::record(vk::CommandBuffer commands, std::span<const Target> targets)
     if (pattern_ == Pattern::none) {
         draw_cubes(commands);
         draw_meter(commands);
+        draw_probes(commands);
     }
     for (std::size_t output = 0; output < targets.size(); ++output) {
         if (!targets[output].view)
             continue; // minimised, or its monitor is away
         warp_output(commands, output, targets[output]);
+        draw_lab(commands, output, targets[output]);
         draw_hud(commands, output, targets[output]);
         finish_output(commands, output, targets[output]);
     }
@@ -708,6 +705,7 @@ vk::DeviceSize Frame::memory() const
     for (const Map& map : maps_)
         bytes += map.image.bytes + map.inverse.bytes;
     bytes += meter_ ? meter_->memory() : 0;
+    bytes += lab_ && lab_->panel ? lab_->panel->memory() : 0;
     for (const PaneState& pane : panes_)
         bytes += pane.bloom ? pane.bloom->memory() : 0;
     for (const OutputState& output : outputs_)

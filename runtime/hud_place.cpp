@@ -1,4 +1,6 @@
 #include "hud_place.h"
+#include "hud.h"
+#include <array>
 #include <cmath>
 
 namespace starbow {
@@ -36,6 +38,30 @@ glm::dmat3 panel_from_cockpit(const HudPlacement& hud, std::span<const std::vect
     const glm::dvec3 x = glm::length(across) > 1e-6 ? glm::normalize(across) : glm::dvec3(1, 0, 0), y = glm::cross(x, faces);
     const glm::dvec2 at = glm::dvec2(glm::dot(middle, x), glm::dot(middle, y)) / glm::dot(middle, faces);
     return glm::transpose(glm::dmat3(x - at.x * faces, y - at.y * faces, faces));
+}
+
+HudPlacement instruments_place(const HudPlacement& hud, double aspect)
+{
+    const double half_width = std::tan(0.5 * hud.width_deg * degree), half = half_width * aspect,
+                 hud_half = half_width * panel_aspect, hud_at = std::tan(hud.elevation_deg * degree);
+    HudPlacement place = hud;
+    const double away = hud_at < 0 ? 1 : -1; // up from a low display
+    double at = away * (std::abs(hud_at) + hud_half - half);
+    if (std::abs(at - hud_at) < half + hud_half) // they would meet
+        at = hud_at + 1.05 * (half + hud_half);
+    place.elevation_deg = std::atan(at) / degree;
+    return place;
+}
+
+PixelBox panel_box(const Blocks& blocks, const glm::dmat3& panel_from_cockpit, const glm::dvec2& half)
+{
+    // The panel's edges as planes through the eye, in the panel's axes, and the plane that keeps what is behind out.
+    const glm::dmat3 cockpit_from_panel_normals = glm::transpose(panel_from_cockpit);
+    std::array<glm::dvec3, 5> sides
+        = {glm::dvec3(1, 0, half.x), {-1, 0, half.x}, {0, 1, half.y}, {0, -1, half.y}, {0, 0, 1}};
+    for (glm::dvec3& side : sides)
+        side = glm::normalize(cockpit_from_panel_normals * side);
+    return pixels_in_pyramid(blocks, sides);
 }
 
 } // namespace starbow
