@@ -98,8 +98,7 @@ void Frame::prepare_lab()
         if (!lab.overlay)
             lab.overlay = std::make_unique<OverlayPass>(device_, pipelines_, panes_.size());
         for (std::size_t i = 0; i < panes_.size(); ++i)
-            lab.overlay->prepare(
-                i, lab.what.over, vantage_of_eye(eyes_[panes_[i].eye].now_m + panes_[i].beside_m), seconds);
+            lab.overlay->prepare(i, lab.what.over, vantage_of_eye(eyes_[panes_[i].eye].now_m + panes_[i].beside_m), seconds);
     }
     const Panel* panel = lab.what.panel;
     if (!panel)

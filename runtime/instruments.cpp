@@ -19,8 +19,7 @@ glm::dvec3 middle_of(const World& world, std::size_t instance)
 
 const WorldClock* clock_of(const World& world, std::size_t instance)
 {
-    const auto& clock
-        = world.materials[std::size_t(world.primitives[world.instances[instance].primitive].material)].clock;
+    const auto& clock = world.materials[std::size_t(world.primitives[world.instances[instance].primitive].material)].clock;
     return clock ? &*clock : nullptr;
 }
 
@@ -54,10 +53,7 @@ Ray ray_from_world(const Vantage& vantage, const glm::dvec3& world)
     return {glm::transpose(to_motion) * sight.n, world, sight.D};
 }
 
-Ray aim_of(const Vantage& vantage)
-{
-    return ray_from_ship(vantage, vantage.ship_from_cockpit * glm::dvec3(0, 0, -1));
-}
+Ray aim_of(const Vantage& vantage) { return ray_from_ship(vantage, vantage.ship_from_cockpit * glm::dvec3(0, 0, -1)); }
 
 Spot spot_at(const Vantage& vantage, const Ray& ray, double distance, const World& world)
 {
@@ -114,6 +110,10 @@ PairReading read_pair(
     PairReading pair{.angle_rad = angle_between(a.ray.ship, b.ray.ship)};
     if (!first.sky && !second.sky) {
         pair.rest_s = glm::distance(first.at, second.at) * seconds_per_time_unit;
+        // Only what lies along the motion is contracted, by 1 / gamma.
+        const glm::dvec3 apart = (second.at - first.at) * seconds_per_time_unit, &u = vantage.u;
+        const double gamma = physics::gamma_of(u);
+        pair.contracted_s = glm::length(apart - u * (glm::dot(u, apart) / (gamma * (1 + gamma))));
         if (vantage.aberration)
             pair.apparent_s = glm::distance(left_from(a), left_from(b));
     }

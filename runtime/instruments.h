@@ -51,12 +51,13 @@ constexpr double example_nm = 550;
 /// What the instruments say of one spot. Seconds are the scene's, distances are seconds of light.
 struct SpotReading {
     Ray ray;
-    std::optional<double> from_motion_rad, from_motion_world_rad; ///< angle from the motion, as seen and in the world; none at
-                                                                  ///< rest
+    std::optional<double> from_motion_rad, from_motion_world_rad; ///< angle from the motion, as seen and in the world; none
+                                                                  ///< at rest
     double seen_nm = example_nm; ///< what example_nm is seen as
     std::optional<double> distance_s; ///< in the world, where the light left; none of the sky
     std::optional<double> emitted_s; ///< the world's time then
-    std::optional<double> ship_distance_s; ///< in the ship's frame: how long the light was under way there, D times the above
+    std::optional<double>
+        ship_distance_s; ///< in the ship's frame: how long the light was under way there, D times the above
     std::optional<double> clock_s; ///< what the clock is seen to show there, on its middle or on another part of its dial
     std::optional<double> light; ///< as Probed's
 };
@@ -65,14 +66,15 @@ SpotReading read_spot(const Vantage& vantage, const Spot& spot, const World& wor
 /// What they say of two spots.
 struct PairReading {
     double angle_rad = 0; ///< between them, as seen
-    std::optional<double> apparent_s; ///< how long what joins them looks: the distance, in the ship's frame, between the places
-                                      ///< where each was when the light left it that is seen now; none of the sky, and none
-                                      ///< without aberration
+    std::optional<double> apparent_s; ///< how long what joins them looks: the distance, in the ship's frame, between the
+                                      ///< places where each was when the light left it that is seen now; none of the sky,
+                                      ///< and none without aberration
     std::optional<double> rest_s; ///< between them in the world, where both rest
+    std::optional<double> contracted_s; ///< between them in the ship's frame, both at one time there
     std::optional<double> clocks_s; ///< the second's reading minus the first's
 };
-PairReading read_pair(const Vantage& vantage, const Spot& first, const Spot& second, const World& world,
-    double seconds_per_time_unit);
+PairReading read_pair(
+    const Vantage& vantage, const Spot& first, const Spot& second, const World& world, double seconds_per_time_unit);
 
 /// Angle from the motion at which nothing is shifted (D = 1), as seen, radians; none at rest, where nothing is anywhere.
 std::optional<double> unshifted_angle(const Vantage& vantage);

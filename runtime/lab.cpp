@@ -53,8 +53,7 @@ void Lab::read(const Frame& frame, const Controls& controls, const GpuWorld& wor
         marks_[marks_[0] ? 1 : 0] = snapped(aimed, world.world);
         mark_wanted_ = false;
     }
-    measured_
-        = measured_of(vantage, ship_, world.scene, world.world, effects_, aimed, probed[0].light, marks_);
+    measured_ = measured_of(vantage, ship_, world.scene, world.world, effects_, aimed, probed[0].light, marks_);
     waited_s_ += dt_s;
     if (controls.log || (every_s_ > 0 && waited_s_ >= every_s_)) {
         waited_s_ = 0;

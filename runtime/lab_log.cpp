@@ -41,8 +41,8 @@ void add_spot(Columns& columns, const std::string& name, const std::optional<Spo
             {name + "_from_motion_in_world_deg", number(s.from_motion_world_rad, degree)},
             {name + "_doppler", known(number(s.ray.D))}, {name + "_550_nm_seen_as_nm", known(number(s.seen_nm))},
             {name + "_distance_light_s", number(s.distance_s)},
-            {name + "_distance_in_ship_light_s", number(s.ship_distance_s)}, {name + "_emitted_world_s", number(s.emitted_s)},
-            {name + "_clock_s", number(s.clock_s)}});
+            {name + "_distance_in_ship_light_s", number(s.ship_distance_s)},
+            {name + "_emitted_world_s", number(s.emitted_s)}, {name + "_clock_s", number(s.clock_s)}});
 }
 
 Columns columns_of(const Measured& m, const std::string& overlay, const std::string& utc)
@@ -58,10 +58,10 @@ Columns columns_of(const Measured& m, const std::string& overlay, const std::str
     for (int i = 0; i < 3; ++i)
         all.emplace_back(velocities[std::size_t(i)], number(o.u[i]));
     all.insert(all.end(),
-        {{"gamma", number(gamma)}, {"beta", number(speed / gamma)}, {"one_minus_beta", number(1 / (gamma * (gamma + speed)))},
-            {"aberration_on", m.effects.aberration ? "1" : "0"}, {"doppler_on", m.effects.doppler ? "1" : "0"},
-            {"headlight_on", m.effects.headlight ? "1" : "0"}, {"overlay", overlay},
-            {"doppler_1_from_motion_deg", number(unshifted_angle(o), degree)}});
+        {{"gamma", number(gamma)}, {"beta", number(speed / gamma)},
+            {"one_minus_beta", number(1 / (gamma * (gamma + speed)))}, {"aberration_on", m.effects.aberration ? "1" : "0"},
+            {"doppler_on", m.effects.doppler ? "1" : "0"}, {"headlight_on", m.effects.headlight ? "1" : "0"},
+            {"overlay", overlay}, {"doppler_1_from_motion_deg", number(unshifted_angle(o), degree)}});
     add_spot(all, "aim", m.aim);
     all.emplace_back("aim_light", number(m.aim.light));
     add_spot(all, "mark_1", m.marks[0]);
@@ -122,13 +122,14 @@ LabLog::LabLog(const std::filesystem::path& file)
         }
         if (!first.empty() && first != log_header() + "\r" && first != log_header())
             throw InputError(name, "1",
-                "begins otherwise than a log of this program does; a new file, or one that starbow run --log has written, is "
+                "begins otherwise than a log of this program does; a new file, or one that starbow run --log has written, "
+                "is "
                 "right");
     }
     stream_ = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
     if (stream_ < 0)
-        throw InputError(name, "", std::string("can't be written (") + std::strerror(errno)
-                + "); a CSV file in a folder that can be is right");
+        throw InputError(name, "",
+            std::string("can't be written (") + std::strerror(errno) + "); a CSV file in a folder that can be is right");
     if (first.empty())
         write_out(log_header() + line_end), lines_ = 1;
     else if (cut)

@@ -11,13 +11,22 @@ constexpr double margin = 0.035; ///< of the width
 bool has_scale(Overlay overlay) { return overlay == Overlay::distance || overlay == Overlay::emission; }
 
 /// A line in no more than `room` pixels: long ones get smaller.
-void write_within(
-    const Typesetter& typesetter, Panel& panel, const std::string& line, double x, double baseline, int size, double room,
-    double strength)
+void write_within(const Typesetter& typesetter, Panel& panel, const std::string& line, double x, double baseline, int size,
+    double room, double strength)
 {
     while (size > 6 && typesetter.width_of(line, size) > room)
         --size;
     typesetter.write(panel, line, x, baseline, size, strength);
+}
+
+/// Without zeros at a fraction's end: 2.000 s says no more than 2 s.
+std::string rounded(const std::string& label)
+{
+    const auto point = label.find('.'), end = label.find(' ');
+    if (point == label.npos || end == label.npos || point > end)
+        return label;
+    const auto last = label.find_last_not_of('0', end - 1);
+    return label.substr(0, last == point ? point : last + 1) + label.substr(end);
 }
 
 std::string overlay_line(Overlay overlay, const Measured& measured, const OverlayScale& scale)
@@ -35,7 +44,8 @@ std::string overlay_line(Overlay overlay, const Measured& measured, const Overla
         return lab_text("overlay distance");
     case Overlay::emission:
         return lab_text("overlay emission",
-            {{"step", shown_number(scale.emission_step_s) + " s"}, {"five", shown_number(5 * scale.emission_step_s) + " s"}});
+            {{"step", rounded(shown_number(scale.emission_step_s) + " s")},
+                {"five", rounded(shown_number(5 * scale.emission_step_s) + " s")}});
     case Overlay::off:
     case Overlay::aim:
         break;
@@ -53,7 +63,8 @@ void write_scale(const Typesetter& typesetter, Panel& panel, Overlay overlay, co
     const auto write_at = [&](double at_s, const std::string& label) {
         const double x = left + wide * std::log10(at_s / scale.nearest_s) / octaves;
         const double half = 0.5 * typesetter.width_of(label, size);
-        typesetter.write(panel, label, std::clamp(x - half, left - half, left + wide - half), (top + 0.115) * panel.size.y, size, 1);
+        typesetter.write(panel, label, std::clamp(x - half, 0.015 * panel.size.x, 0.985 * panel.size.x - 2 * half),
+            (top + 0.115) * panel.size.y, size, 1);
         // A tick in the colours.
         for (int y = int((1 - place.w) * panel.size.y); y < int(top * panel.size.y); ++y)
             if (x > left + 1 && x < left + wide - 1)
@@ -66,13 +77,8 @@ void write_scale(const Typesetter& typesetter, Panel& panel, Overlay overlay, co
             if (x < -1e-6 || x > 1 + 1e-6 || x - before < 0.13)
                 continue;
             before = x;
-            std::string label
-                = overlay == Overlay::emission ? shown_number(at) + " s" : shown_length(at * speed_m_s, speed_m_s);
-            // 2.000 s says no more than 2 s.
-            for (const char* zeros : {".000 ", ".00 ", ".0 "})
-                if (const auto found = label.find(zeros); found != label.npos)
-                    label.replace(found, std::string(zeros).size(), " ");
-            write_at(at, label);
+            write_at(at,
+                rounded(overlay == Overlay::emission ? shown_number(at) + " s" : shown_length(at * speed_m_s, speed_m_s)));
         }
 }
 
@@ -82,7 +88,7 @@ Panel draw_readings(
     const int height = int(width * lab_aspect(overlay, Why::none)), unit = int(width * readings_aspect);
     Panel panel = plate({width, height}, unit * 0.12);
     const auto fields = reading_fields(measured);
-    const double rows[] = {0.26, 0.50, 0.74}, columns[] = {margin, 0.34, 0.67};
+    const double rows[] = {0.26, 0.50, 0.74}, columns[] = {margin, 0.36, 0.71};
     for (int i = 0; i < 9; ++i) {
         const double x = width * columns[i % 3], room = width * (i % 3 < 2 ? columns[i % 3 + 1] - 0.02 : 1 - margin) - x;
         int size = int((i < 3 ? 0.22 : 0.18) * unit);
@@ -105,17 +111,23 @@ Panel draw_page(const Typesetter& typesetter, const WhyPage& page, int width)
     const int height = int(width * why_aspect);
     Panel panel = plate({width, height}, width * readings_aspect * 0.12);
     const double room = width * (1 - 2 * margin), x = width * margin;
-    const auto line = [&](const std::string& words, double at, double size, double strength) {
-        write_within(typesetter, panel, words, x, at * height, int(size * width), room, strength);
+    // Lines of one block have one size.
+    double at = 0.14;
+    const auto block = [&](const std::vector<std::string>& lines, double size, double apart, double strength) {
+        int pixels = int(size * width);
+        for (const std::string& words : lines)
+            while (pixels > 6 && typesetter.width_of(words, pixels) > room)
+                --pixels;
+        for (const std::string& words : lines) {
+            typesetter.write(panel, words, x, at * height, pixels, strength);
+            at += apart;
+        }
     };
-    line(page.title, 0.14, 0.052, 1);
-    double at = 0.27;
-    for (const std::string& words : page.sentence)
-        line(words, at, 0.036, 0.85), at += 0.105;
-    line(page.formula, at + 0.075, 0.052, 1);
-    at += 0.215;
-    for (const std::string& words : page.numbers)
-        line(words, at, 0.042, 1), at += 0.125;
+    block({page.title}, 0.052, 0.13, 1);
+    block(page.sentence, 0.036, 0.105, 0.85);
+    at += 0.075;
+    block({page.formula}, 0.052, 0.14, 1);
+    block(page.numbers, 0.042, 0.125, 1);
     return panel;
 }
 
@@ -133,8 +145,8 @@ glm::vec4 scale_place(Overlay overlay, Why why)
     return {0.06, 0.13, 0.94, 0.20};
 }
 
-Panel draw_lab_panel(const Typesetter& typesetter, const Measured& measured, Overlay overlay, const OverlayScale& scale,
-    Why why, int width)
+Panel draw_lab_panel(
+    const Typesetter& typesetter, const Measured& measured, Overlay overlay, const OverlayScale& scale, Why why, int width)
 {
     return why != Why::none ? draw_page(typesetter, why_page(why, measured), width)
                             : draw_readings(typesetter, measured, overlay, scale, width);

@@ -89,8 +89,7 @@ void OverlayPass::draw(vk::CommandBuffer commands, std::size_t pane, const WarpV
     WarpVariant own{variant.map, variant.aberration, false, false, false};
     own.channels = variant.channels, own.reproject = variant.reproject, own.turning = variant.turning;
     set_area(commands, corner, size);
-    commands.bindPipeline(
-        vk::PipelineBindPoint::eGraphics, pipelines_.overlay(own, kinds[std::size_t(overlay)], target));
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.overlay(own, kinds[std::size_t(overlay)], target));
     commands.bindDescriptorSets(
         vk::PipelineBindPoint::eGraphics, *pipelines_.overlay_layout, 0, {warp_set, *sets_[pane]}, {});
     commands.pushConstants<shared::ViewPush>(*pipelines_.overlay_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);

@@ -33,7 +33,8 @@ public:
 
     /// Draws into the rendering under way; warp_set, constants: as for the pane's warp.
     void draw(vk::CommandBuffer commands, std::size_t pane, const WarpVariant& variant, Overlay overlay,
-        vk::DescriptorSet warp_set, const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size, vk::Format target);
+        vk::DescriptorSet warp_set, const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size,
+        vk::Format target);
 
 private:
     Pipelines& pipelines_;

@@ -37,8 +37,8 @@ void PanelPass::prepare(const Panel& panel, const Place& place)
 
 void PanelPass::prepare_pane(std::size_t pane, const Image& map, vk::Sampler nearest)
 {
-    const vk::DescriptorImageInfo images[] = {{nearest, *map.view, Layout_::eShaderReadOnlyOptimal},
-        {*linear_, *picture_.view, Layout_::eShaderReadOnlyOptimal}};
+    const vk::DescriptorImageInfo images[] = {
+        {nearest, *map.view, Layout_::eShaderReadOnlyOptimal}, {*linear_, *picture_.view, Layout_::eShaderReadOnlyOptimal}};
     device_.device.updateDescriptorSets(
         {vk::WriteDescriptorSet(*sets_[pane], 0, 0, vk::DescriptorType::eCombinedImageSampler, images[0]),
             vk::WriteDescriptorSet(*sets_[pane], 1, 0, vk::DescriptorType::eCombinedImageSampler, images[1])},
@@ -52,14 +52,14 @@ void PanelPass::upload(vk::CommandBuffer commands)
     transition(commands, picture_, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eTransferDstOptimal,
         Stage::eTransfer, Access::eTransferWrite);
     commands.copyBufferToImage(*texels_.buffer, *picture_.image, Layout_::eTransferDstOptimal,
-        vk::BufferImageCopy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {},
-            {picture_.extent.width, picture_.extent.height, 1}));
+        vk::BufferImageCopy(
+            0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {picture_.extent.width, picture_.extent.height, 1}));
     transition(commands, picture_, Layout_::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
         Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
 }
 
-void PanelPass::draw(vk::CommandBuffer commands, std::size_t pane, bool map, shared::ViewPush constants, glm::ivec2 corner, glm::ivec2 size,
-    const vk::Rect2D& box, const glm::vec4& scale, vk::Format target)
+void PanelPass::draw(vk::CommandBuffer commands, std::size_t pane, bool map, shared::ViewPush constants, glm::ivec2 corner,
+    glm::ivec2 size, const vk::Rect2D& box, const glm::vec4& scale, vk::Format target)
 {
     constants.boost = glm::vec4(place_.half, 0, 0);
     constants.eye = scale;

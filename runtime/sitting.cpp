@@ -21,7 +21,8 @@ std::pair<double, bool> take_number(const std::string& part, std::string_view& t
     double value = 0;
     const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
     if (read.ec != std::errc() || !std::isfinite(value))
-        refuse(part, "is no point; X,Y in pixels or Adeg,Bdeg from straight ahead, such as 400,300 or 12deg,-3.5deg, is right");
+        refuse(
+            part, "is no point; X,Y in pixels or Adeg,Bdeg from straight ahead, such as 400,300 or 12deg,-3.5deg, is right");
     text.remove_prefix(std::size_t(read.ptr - text.data()));
     const bool degrees = text.starts_with("deg");
     text.remove_prefix(degrees ? 3 : 0);
@@ -38,14 +39,16 @@ Point parse_point(std::string part, glm::ivec2 size)
     text.remove_prefix(1);
     const auto [y, y_degrees] = take_number(part, text);
     if (!text.empty() || x_degrees != y_degrees)
-        refuse(part, "is no point; X,Y in pixels or Adeg,Bdeg from straight ahead, such as 400,300 or 12deg,-3.5deg, is right");
+        refuse(
+            part, "is no point; X,Y in pixels or Adeg,Bdeg from straight ahead, such as 400,300 or 12deg,-3.5deg, is right");
     if (x_degrees) {
         const double azimuth = x * degree, elevation = y * degree;
         return glm::dvec3(
             std::sin(azimuth) * std::cos(elevation), std::sin(elevation), -std::cos(azimuth) * std::cos(elevation));
     }
     if (x < 0 || y < 0 || x >= size.x || y >= size.y)
-        refuse(part, "lies outside the picture; from 0,0 to below " + std::to_string(size.x) + "," + std::to_string(size.y)
+        refuse(part,
+            "lies outside the picture; from 0,0 to below " + std::to_string(size.x) + "," + std::to_string(size.y)
                 + " is right");
     return glm::dvec2(x, y);
 }
@@ -58,7 +61,8 @@ std::string told(const SpotReading& reading, const Measured& measured)
     const auto fields = reading_fields(one);
     std::string line;
     for (std::size_t i = 0; i < 6; ++i)
-        line.append(i == 0 ? "" : ", ").append(fields[i].first).append(" ").append(fields[i].second);
+        if (!fields[i].first.empty())
+            line.append(i == 0 ? "" : ", ").append(fields[i].first).append(" ").append(fields[i].second);
     return line;
 }
 
@@ -74,8 +78,8 @@ std::vector<Point> parse_points(const std::string& text, const Layout& layout)
     }
     constexpr std::size_t most = 64;
     if (points.size() > most)
-        throw InputError("--measure has " + std::to_string(points.size()) + " points; at most " + std::to_string(most)
-            + " are right");
+        throw InputError(
+            "--measure has " + std::to_string(points.size()) + " points; at most " + std::to_string(most) + " are right");
     return points;
 }
 
@@ -114,8 +118,8 @@ Sitting sit(Studio& studio, const GpuWorld& world, const Shot& shot, const std::
         marks[i - 1] = snapped(spot_of(i), world.world);
     const Ship ship = ship_at(shot);
     for (std::size_t i = 0; i < probed.size(); ++i) {
-        const Measured measured = measured_of(
-            vantage, ship, world.scene, world.world, shot.effects, spot_of(i), probed[i].light, marks);
+        const Measured measured
+            = measured_of(vantage, ship, world.scene, world.world, shot.effects, spot_of(i), probed[i].light, marks);
         sitting.lines.push_back((i == 0 ? "ahead: " : "point " + std::to_string(i) + ": ") + told(measured.aim, measured));
         sitting.points.push_back(measured);
     }

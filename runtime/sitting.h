@@ -9,7 +9,8 @@
 namespace starbow {
 
 constexpr const char* measure_help
-    = "Print what the instruments read at these points of the first output, as \"X,Y; X,Y\" in pixels from its top left, or as "
+    = "Print what the instruments read at these points of the first output, as \"X,Y; X,Y\" in pixels from its top left, or "
+      "as "
       "\"Adeg,Bdeg\", degrees to the right of straight ahead and up; the first two are marked, as ○ and ◇";
 
 /// A point of a picture in pixels, or a unit direction in the cockpit.

@@ -14,10 +14,8 @@ std::string text(const char* format, double value)
     std::snprintf(buffer.data(), buffer.size(), format, value);
     std::string shown = buffer.data();
     if (shown.find_first_not_of("-0.") == shown.npos && shown.starts_with('-')) // no minus before nothing
-        shown.erase(0, 1);
-    if (shown.starts_with('-'))
-        shown.replace(0, 1, "−");
-    return shown;
+        return shown.substr(1);
+    return shown.starts_with('-') ? "−" + shown.substr(1) : shown;
 }
 
 std::string angle(double radians) { return text("%.2f°", radians / degree); }
@@ -32,12 +30,12 @@ std::string length(const std::optional<double>& s, double light_speed_m_s)
 /// What eyes, or instruments, call a wavelength; nm.
 std::string wavelength(double nm)
 {
-    return nm < 10    ? lab_text("beyond ultraviolet")
-        : nm < 380    ? text("%.0f nm", nm) + " " + lab_text("ultraviolet")
-        : nm < 780    ? text("%.0f nm", nm)
-        : nm < 10000  ? text("%.0f nm", nm) + " " + lab_text("infrared")
-        : nm < 1e9    ? shown_number(nm / 1000) + " µm"
-                      : lab_text("radio");
+    return nm < 10   ? lab_text("beyond ultraviolet")
+        : nm < 380   ? text("%.0f nm", nm) + " " + lab_text("ultraviolet")
+        : nm < 780   ? text("%.0f nm", nm)
+        : nm < 10000 ? text("%.0f nm", nm) + " " + lab_text("infrared")
+        : nm < 1e9   ? shown_number(nm / 1000) + " µm"
+                     : lab_text("radio");
 }
 
 } // namespace
@@ -47,16 +45,15 @@ const std::map<std::string, std::string>& lab_words()
     static const std::map<std::string, std::string> words = {
         // The readings.
         {"aim D", "D"},
-        {"aim nm", "550 nm seen as"},
-        {"aim angle", "from the motion"},
-        {"aim angle value", "{ship}, at rest {world}"},
+        {"aim nm", "550 nm →"},
+        {"aim angle", "θ′"},
         {"at rest", "at rest"},
-        {"aim distance", "light's way"},
-        {"aim emitted", "left at"},
-        {"aim clock", "clock shows"},
+        {"aim distance", "distance"},
+        {"aim emitted", "light left"},
+        {"aim clock", "clock"},
         {"aim light", "light"},
-        {"marks angle", "○–◇ angle"},
-        {"marks length", "looks long"},
+        {"marks angle", "○–◇"},
+        {"marks length", "long"},
         {"marks length value", "{apparent} of {rest}"},
         {"marks clocks", "◇ minus ○"},
         {"marks first", "mark two things: X"},
@@ -67,7 +64,7 @@ const std::map<std::string, std::string>& lab_words()
         {"radio", "radio waves"},
         {"sky", "the sky"},
         // What is laid over the picture.
-        {"overlay aim", "D = 1 at {unshifted} from the motion"},
+        {"overlay aim", "θ′: angle from the motion, as seen; D = 1 at {unshifted}"},
         {"overlay aim rest", "at rest: D = 1 everywhere"},
         {"overlay grid", "the world's directions, every 15°; orange: the horizon"},
         {"overlay ring", "the ring where D = 1, at {unshifted} from the motion: bluer within, redder beyond"},
@@ -95,12 +92,12 @@ const std::map<std::string, std::string>& lab_words()
         {"headlight 2", "Together that is D³, for the photons that an eye counts."},
         {"headlight formula", "L′ = D³ L"},
         {"headlight numbers", "{D}³ = {cube}: so many times as bright as at rest"},
-        {"headlight numbers off", "{D}³ = {cube}, but the headlight effect is switched off (3)"},
+        {"headlight numbers off", "the headlight effect is switched off: 3 switches it on"},
         {"delay title", "Why do the clocks not agree?"},
         {"delay 1", "You see each clock as it was when its light left. In their world all show the same:"},
         {"delay 2", "what you see earlier is farther away. Moving, you call that another time there."},
         {"delay formula", "shows t − r/c,   Δt = γ (Δt′ + β Δx′/c)"},
-        {"delay numbers", "{now} − {way} = {left}"},
+        {"delay numbers", "now {now} − {way} on its way = {left}"},
         {"delay numbers none", "aim at something: the sky tells no distance"},
         {"delay numbers 2", "○ shows {first}, ◇ {second}: {apart} apart"},
         {"dilation title", "Why does less time pass on board?"},
@@ -108,12 +105,13 @@ const std::map<std::string, std::string>& lab_words()
         {"dilation 2", "The clock on board starts at the start; the world's goes on beside it."},
         {"dilation formula", "Δt = γ Δτ,   γ = 1 / √(1 − β²)"},
         {"dilation numbers", "γ = {gamma}: one second on board is {gamma} s of the world's"},
-        {"dilation numbers 2", "on board {ship} so far"},
+        {"dilation numbers 2", "on board {ship} since the start"},
         {"length title", "Why do things look shorter, or longer?"},
         {"length 1", "A moving thing is shorter by 1/γ along the motion. But both its ends are seen"},
         {"length 2", "as they were when their light left, and that was not at the same time."},
         {"length formula", "ℓ = | D₁ r₁ n₁ − D₂ r₂ n₂ |,   contracted: L / γ"},
-        {"length numbers", "at rest {rest}; along the motion contracted {contracted}; seen {apparent}"},
+        {"length numbers", "at rest {rest}, contracted {contracted}"},
+        {"length numbers 2", "seen {apparent}"},
         {"length numbers none", "mark both its ends: X"},
     };
     return words;
@@ -147,16 +145,16 @@ WhyPage why_page(Why why, const Measured& m)
     case Why::aberration:
         add("aberration numbers",
             {{"cos", cosine(aim.from_motion_world_rad)}, {"beta", beta}, {"result", cosine(aim.from_motion_rad)}});
-        add("aberration numbers 2",
-            {{"theta", angle(aim.from_motion_world_rad)}, {"seen", angle(aim.from_motion_rad)}});
+        add("aberration numbers 2", {{"theta", angle(aim.from_motion_world_rad)}, {"seen", angle(aim.from_motion_rad)}});
         break;
     case Why::doppler:
         add("doppler numbers", {{"gamma", gammas}, {"beta", beta}, {"cos", cosine(aim.from_motion_rad)}, {"D", D}});
         add("doppler numbers 2", {{"nm", wavelength(aim.seen_nm)}});
         break;
     case Why::headlight:
-        add(m.effects.headlight ? "headlight numbers" : "headlight numbers off",
-            {{"D", D}, {"cube", shown_number(std::pow(aim.ray.D, 3))}});
+        add("headlight numbers", {{"D", D}, {"cube", shown_number(std::pow(aim.ray.D, 3))}});
+        if (!m.effects.headlight)
+            add("headlight numbers off");
         break;
     case Why::delay:
         if (aim.distance_s)
@@ -174,13 +172,14 @@ WhyPage why_page(Why why, const Measured& m)
         add("dilation numbers 2", {{"ship", shown_duration(m.ship_s, 1)}});
         break;
     case Why::length:
-        if (m.pair && m.pair->apparent_s)
+        if (m.pair && m.pair->apparent_s) {
             add("length numbers",
                 {{"rest", length(m.pair->rest_s, m.light_speed_m_s)},
-                    {"contracted", length(*m.pair->rest_s / gamma, m.light_speed_m_s)},
-                    {"apparent", length(m.pair->apparent_s, m.light_speed_m_s)}});
-        else
+                    {"contracted", length(*m.pair->contracted_s, m.light_speed_m_s)}});
+            add("length numbers 2", {{"apparent", length(m.pair->apparent_s, m.light_speed_m_s)}});
+        } else {
             add("length numbers none");
+        }
     }
     return page;
 }
@@ -192,12 +191,9 @@ std::array<std::pair<std::string, std::string>, 9> reading_fields(const Measured
     std::array<std::pair<std::string, std::string>, 9> fields = {{
         {lab_text("aim D"), shown_number(aim.ray.D)},
         {lab_text("aim nm"), wavelength(aim.seen_nm)},
-        {lab_text("aim angle"),
-            aim.from_motion_rad ? lab_text("aim angle value",
-                {{"ship", angle(aim.from_motion_rad)}, {"world", angle(aim.from_motion_world_rad)}})
-                                : lab_text("at rest")},
+        {lab_text("aim angle"), aim.from_motion_rad ? angle(aim.from_motion_rad) : lab_text("at rest")},
         {lab_text("aim distance"), aim.distance_s ? length(aim.distance_s, m.light_speed_m_s) : sky},
-        {lab_text("aim emitted"), seconds(aim.emitted_s)},
+        {aim.emitted_s ? lab_text("aim emitted") : "", aim.emitted_s ? seconds(aim.emitted_s) : ""},
         {lab_text("aim light"), aim.light ? shown_number(*aim.light) : "—"},
         {"", ""},
         {"", ""},
@@ -210,11 +206,16 @@ std::array<std::pair<std::string, std::string>, 9> reading_fields(const Measured
         return fields;
     }
     fields[6] = {lab_text("marks angle"), angle(m.pair->angle_rad)};
-    fields[7] = {lab_text("marks length"),
-        m.pair->apparent_s ? lab_text("marks length value",
-            {{"apparent", length(m.pair->apparent_s, m.light_speed_m_s)},
-                {"rest", length(m.pair->rest_s, m.light_speed_m_s)}})
-                           : "—"};
+    fields[7] = {lab_text("marks length"), "—"};
+    if (m.pair->apparent_s) {
+        std::string apparent = length(m.pair->apparent_s, m.light_speed_m_s),
+                    rest = length(m.pair->rest_s, m.light_speed_m_s);
+        // The unit once, where both have the same.
+        const auto unit = apparent.find(' ');
+        if (unit != apparent.npos && rest.ends_with(apparent.substr(unit)))
+            apparent.erase(unit);
+        fields[7].second = lab_text("marks length value", {{"apparent", apparent}, {"rest", rest}});
+    }
     if (m.pair->clocks_s)
         fields[8] = {lab_text("marks clocks"), seconds(m.pair->clocks_s)};
     return fields;

@@ -67,7 +67,7 @@ vec4 false_colour(float distance)
     bool sky = isinf(distance) || distance > 1e30;
     float logarithm = log2(sky ? 1e30 : max(distance, 1e-30)) * 0.30103 + overlay.scale.z; // of seconds of light
     float per_pixel = max(fwidth(logarithm), 1e-7);
-    float off, wide_off, room;
+    float off, wide_off, room, fine_off = 1e9, fine_room = 0.0;
     if (OVERLAY == OVERLAY_EMISSION) {
         float time = overlay.steps.y - (sky ? 0.0 : distance * overlay.steps.z), step = overlay.steps.x;
         float footprint = max(fwidth(time), 1e-7 * step);
@@ -75,8 +75,11 @@ vec4 false_colour(float distance)
         wide_off = from_multiple(time, 5.0 * step) / footprint;
         room = clamp(step / footprint / 6.0 - 0.5, 0.0, 1.0);
     } else {
-        // At 1, 2 and 5 times each power of ten.
+        // At 1, 2 and 5 times each power of ten; between them ten finer ones.
         float within = fract(logarithm), nearest = 1.0;
+        float leading = exp2(within * 3.3219281), apart = leading < 2.0 ? 0.1 : leading < 5.0 ? 0.2 : 0.5;
+        fine_off = from_multiple(leading, apart) / (leading * 2.3025851 * per_pixel);
+        fine_room = 0.45 * clamp(apart / (leading * 2.3025851 * per_pixel) / 8.0 - 0.5, 0.0, 1.0);
         const float at[4] = float[4](0.0, 0.30103, 0.69897, 1.0);
         for (int i = 0; i < 4; ++i)
             nearest = min(nearest, abs(within - at[i]));
@@ -88,7 +91,8 @@ vec4 false_colour(float distance)
         return vec4(0.0, 0.0, 0.0, 0.35);
     vec3 colour = scale_colour((logarithm - overlay.scale.x) * overlay.scale.y);
     vec4 sum = vec4(colour, 1.0) * 0.72;
-    float ink = max(clamp(1.0 - abs(off), 0.0, 1.0), clamp(1.9 - abs(wide_off), 0.0, 1.0)) * room;
+    float ink = max(clamp(1.2 - abs(off), 0.0, 1.0), clamp(1.9 - abs(wide_off), 0.0, 1.0)) * room;
+    ink = max(ink, clamp(1.0 - abs(fine_off), 0.0, 1.0) * fine_room);
     vec3 contour = dot(colour, vec3(0.2, 0.7, 0.1)) > 0.25 ? vec3(0.0) : vec3(1.0);
     return over(vec4(contour, 1.0) * (0.8 * ink), sum);
 }
@@ -111,7 +115,7 @@ vec4 signs(vec3 n, float pixel_angle)
             }
         }
     }
-    float size = max(radians(0.7), 6.0 * pixel_angle), width = max(radians(0.05), 1.2 * pixel_angle);
+    float size = max(radians(1.0), 6.0 * pixel_angle), width = max(radians(0.05), 1.2 * pixel_angle);
     for (int i = 0; i < 2; ++i) {
         vec3 to = n - overlay.marks[i].xyz;
         if (overlay.marks[i].w <= 0.0 || dot(to, to) > 9.0 * size * size)
