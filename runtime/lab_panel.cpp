@@ -59,12 +59,12 @@ void write_scale(const Typesetter& typesetter, Panel& panel, Overlay overlay, co
     const glm::vec4 place = scale_place(overlay, Why::none);
     const double left = place.x * panel.size.x, wide = (place.z - place.x) * panel.size.x, top = 1 - place.y;
     const double octaves = std::log10(scale.farthest_s / scale.nearest_s);
-    const int size = int(0.105 * panel.size.y);
+    const int size = int(0.10 * panel.size.y);
     const auto write_at = [&](double at_s, const std::string& label) {
         const double x = left + wide * std::log10(at_s / scale.nearest_s) / octaves;
         const double half = 0.5 * typesetter.width_of(label, size);
         typesetter.write(panel, label, std::clamp(x - half, 0.015 * panel.size.x, 0.985 * panel.size.x - 2 * half),
-            (top + 0.115) * panel.size.y, size, 1);
+            (top + 0.11) * panel.size.y, size, 1);
         // A tick in the colours.
         for (int y = int((1 - place.w) * panel.size.y); y < int(top * panel.size.y); ++y)
             if (x > left + 1 && x < left + wide - 1)
@@ -142,7 +142,7 @@ glm::vec4 scale_place(Overlay overlay, Why why)
 {
     if (why != Why::none || !has_scale(overlay))
         return glm::vec4(0);
-    return {0.06, 0.13, 0.94, 0.20};
+    return {0.06, 0.155, 0.94, 0.215};
 }
 
 Panel draw_lab_panel(

@@ -1,6 +1,6 @@
 #pragma once
 #include "hud.h"
-#include "overlay_pass.h"
+#include "overlay.h"
 #include "why.h"
 
 namespace starbow {
