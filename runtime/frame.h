@@ -55,7 +55,9 @@ public:
     void measure(const std::optional<Measuring>& what);
     /// What the last frame showed along Measuring::probes, directions in the world's axes; the device must have finished it.
     std::vector<Probed> probed() const;
-    /// The eye that saw that, the first one.
+    /// Who measures, between the eyes, in that frame.
+    const Vantage& head() const { return lab_->head; }
+    /// The eye that saw what was probed, the first one.
     const Vantage& vantage() const { return lab_->vantage; }
     /// The unit direction in the cockpit that a point of an output (pixels from its top left) shows in its left eye.
     std::optional<glm::dvec3> direction(std::size_t output, const glm::dvec2& pixel) const;

@@ -75,7 +75,7 @@ PanelPass::Place Frame::lab_place(double aspect) const
     std::vector<std::vector<CompiledPane>> shown(outputs_.size());
     for (const PaneState& pane : panes_)
         shown[pane.output].push_back(pane.compiled);
-    return {panel_from_cockpit(instruments_place(layout_.hud, aspect), shown),
+    return {panel_from_cockpit(instruments_place(layout_.hud, aspect, shown), shown),
         std::tan(0.5 * layout_.hud.width_deg * degree) * glm::dvec2(1, aspect)};
 }
 
@@ -92,7 +92,11 @@ void Frame::prepare_lab()
 {
     LabPasses& lab = *lab_;
     const double seconds = world_.scene.seconds_per_time_unit();
-    lab.vantage = vantage_of_eye(eyes_[probed_pane().eye].now_m);
+    const PaneState& probed = probed_pane();
+    const glm::dvec3 eye_m = eyes_[probed.eye].now_m;
+    lab.vantage = vantage_of_eye(eye_m);
+    const bool of_one_eye = layout_.stereo.method == StereoMethod::exact;
+    lab.head = vantage_of_eye(of_one_eye ? eye_m - (probed.pane().picture.eye_m - probed.pane().head_m) : eye_m);
     lab.world_from_motion = glm::transpose(motion_from_world(shot_.u, shot_.ship_from_cockpit));
     if (lab.what.over.overlay != Overlay::off) {
         if (!lab.overlay)

@@ -53,7 +53,7 @@ void Lab::read(const Frame& frame, const Controls& controls, const GpuWorld& wor
         marks_[marks_[0] ? 1 : 0] = snapped(aimed, world.world);
         mark_wanted_ = false;
     }
-    measured_ = measured_of(vantage, ship_, world.scene, world.world, effects_, aimed, probed[0].light, marks_);
+    measured_ = measured_of(frame.head(), ship_, world.scene, world.world, effects_, aimed, probed[0].light, marks_);
     waited_s_ += dt_s;
     if (controls.log || (every_s_ > 0 && waited_s_ >= every_s_)) {
         waited_s_ = 0;
@@ -81,7 +81,7 @@ void Lab::ask(Frame& frame, const Shot& shot, const Flight& flight, const GpuWor
     const bool again = now - drawn_ > std::chrono::milliseconds(100);
     if (again)
         scale_ = overlay_scale(world.world, shot.position, world.scene.seconds_per_time_unit()), drawn_ = now;
-    Measuring what{.probes = {{0, 0, -1}}, .over = {overlay_, marks_, scale_}};
+    Measuring what{.probes = {{0, 0, -1}}, .over = {overlay_ == Overlay::off ? Overlay::aim : overlay_, marks_, scale_}};
     if (measured_ && flight.hud) {
         const double aspect = lab_aspect(overlay_, why_);
         const int width = frame.lab_panel_width(aspect);

@@ -16,7 +16,8 @@ struct Measuring {
 /// The passes for it, each made when first asked for.
 struct LabPasses {
     Measuring what;
-    Vantage vantage;
+    Vantage vantage; ///< of the eye that the probes look from
+    Vantage head; ///< between the eyes: who measures
     glm::dmat3 world_from_motion{1};
     std::unique_ptr<Probe> probe;
     std::unique_ptr<OverlayPass> overlay;

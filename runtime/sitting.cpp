@@ -119,7 +119,7 @@ Sitting sit(Studio& studio, const GpuWorld& world, const Shot& shot, const std::
     const Ship ship = ship_at(shot);
     for (std::size_t i = 0; i < probed.size(); ++i) {
         const Measured measured
-            = measured_of(vantage, ship, world.scene, world.world, shot.effects, spot_of(i), probed[i].light, marks);
+            = measured_of(frame.head(), ship, world.scene, world.world, shot.effects, spot_of(i), probed[i].light, marks);
         sitting.lines.push_back((i == 0 ? "ahead: " : "point " + std::to_string(i) + ": ") + told(measured.aim, measured));
         sitting.points.push_back(measured);
     }
@@ -132,7 +132,7 @@ Sitting sit(Studio& studio, const GpuWorld& world, const Shot& shot, const std::
         sitting.lines.push_back(line);
     }
     const OverlayScale scale = overlay_scale(world.world, vantage.place, world.scene.seconds_per_time_unit());
-    what.over = {over, marks, scale};
+    what.over = {over == Overlay::off && page != Why::none ? Overlay::aim : over, marks, scale};
     if (over != Overlay::off || page != Why::none) {
         sitting.panel = std::make_shared<Panel>(draw_lab_panel(
             Typesetter(), sitting.points[0], over, scale, page, frame.lab_panel_width(lab_aspect(over, page))));

@@ -319,13 +319,34 @@ TEST(Instruments, LettersStayOnTheirPlate)
             }
 }
 
+// A portrait picture that looks down has no room across from its display: right above it is.
+TEST(Instruments, ThePanelIsWhereItIsSeen)
+{
+    Layout layout;
+    layout.outputs.resize(1);
+    layout.outputs[0].size = {300, 400};
+    MapStore store{std::filesystem::path()};
+    const HudPlacement hud{0, -26, 20};
+    for (const Projection& projection : {Projection(Planar{50, {}, {0, -20, 0}}), Projection(Fisheye{100, 45})}) {
+        layout.outputs[0].viewports = {{.projection = projection}};
+        const std::vector<std::vector<CompiledPane>> panes = {compile_output(store, layout, 0, {300, 400})};
+        const HudPlacement own = instruments_place(hud, readings_aspect, panes);
+        const bool flat = std::holds_alternative<Planar>(projection);
+        if (flat) {
+            EXPECT_NEAR(own.elevation_deg, -26 + 20 * panel_aspect, 3);
+        } else {
+            EXPECT_GT(own.elevation_deg, 15);
+        }
+    }
+}
+
 // It hangs across from the display, and never on it.
 TEST(Instruments, ThePanelLeavesTheDisplayFree)
 {
     for (const double elevation : {-30.0, -24.5, -21.0, -13.0, -6.0, 0.0, 6.5, 20.0})
         for (const double width : {26.0, 40.0, 62.0})
             for (const double aspect : {readings_aspect, scaled_aspect, why_aspect}) {
-                const HudPlacement hud{10, elevation, width}, own = instruments_place(hud, aspect);
+                const HudPlacement hud{10, elevation, width}, own = instruments_place(hud, aspect, {});
                 const double half = std::tan(width / 2 * degree), at = std::tan(elevation * degree),
                              own_at = std::tan(own.elevation_deg * degree);
                 EXPECT_GE(std::abs(own_at - at), half * (panel_aspect + aspect) * 0.999) << elevation << ' ' << width;
