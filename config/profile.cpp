@@ -19,6 +19,7 @@ const std::vector<std::pair<std::string_view, ButtonRole>> button_roles{{"none",
     {"stop", ButtonRole::stop}, {"home", ButtonRole::home}, {"undo", ButtonRole::undo}, {"next-mode", ButtonRole::next_mode},
     {"look-ahead", ButtonRole::look_ahead}, {"aberration", ButtonRole::aberration}, {"doppler", ButtonRole::doppler},
     {"headlight", ButtonRole::headlight}, {"false-colours", ButtonRole::false_colours}, {"hud", ButtonRole::hud},
+    {"overlay", ButtonRole::overlay}, {"mark", ButtonRole::mark}, {"log", ButtonRole::log}, {"why", ButtonRole::why},
     {"faster", ButtonRole::faster}, {"slower", ButtonRole::slower}, {"brighter", ButtonRole::brighter},
     {"darker", ButtonRole::darker}};
 

@@ -32,6 +32,8 @@ struct Controls {
     bool aberration = false, doppler = false, headlight = false; ///< effects to switch over
     bool false_colours = false; ///< the infrared and the ultraviolet, for who guides
     bool lock_exposure = false; ///< hold the automatic exposure, or let it go
+    // For who measures: the next overlay; the thing at the crosshair; a line of the log; the next page that tells why.
+    bool overlay = false, mark = false, log = false, why = false;
     bool hud = false, full_screen = false, quit = false;
     // For who builds the exhibit: the next test pattern; which of the layout's numbers to turn, by how many steps; keep
     // them.

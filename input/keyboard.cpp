@@ -31,13 +31,17 @@ const char* keyboard_help()
            "1, 2, 3         aberration, Doppler effect, headlight effect on and off\n"
            "4               for guides: infrared and ultraviolet in false colours, on and off\n"
            "+, -            brighter, darker; L holds the automatic exposure, or lets it go\n"
+           "O               instruments: crosshair, grid, ring of D = 1, distance, time of emission, off\n"
+           "X, K            mark what is at the crosshair (the first thing, the second); write a line of the log\n"
+           "F1              why? the next page, with the formula and its numbers\n"
            "H               head-up display; F11 full screen; Esc leave\n"
            "F2              for builders: the next test pattern\n"
            "F3, Page Up/Dn  choose a tilt, rotation, turn or blend of the layout; turn it (Shift: ten times as far)\n"
            "F5              keep what was turned: writes it into the layout's file\n"
            "gamepad         triggers: slower, faster; left stick: turn; right stick: look; A stop; B fly back to the "
            "start;\n"
-           "                X, Y, right bumper: the effects; left bumper: look ahead";
+           "                X, Y, right bumper: the effects; left bumper: look ahead;\n"
+           "                start: instruments; right stick pressed: mark";
 }
 
 void Keyboard::begin()
@@ -86,6 +90,10 @@ void Keyboard::finish(Controls& controls, bool pads)
     controls.headlight = pressed(GLFW_KEY_3);
     controls.lock_exposure = pressed(GLFW_KEY_L);
     controls.false_colours = pressed(GLFW_KEY_4);
+    controls.overlay = pressed(GLFW_KEY_O);
+    controls.mark = pressed(GLFW_KEY_X);
+    controls.log = pressed(GLFW_KEY_K);
+    controls.why = pressed(GLFW_KEY_F1);
     controls.hud = pressed(GLFW_KEY_H);
     controls.full_screen = pressed(GLFW_KEY_F11);
     controls.quit = pressed(GLFW_KEY_ESCAPE);
@@ -118,6 +126,8 @@ void Keyboard::finish(Controls& controls, bool pads)
     controls.doppler |= tapped(GLFW_GAMEPAD_BUTTON_Y);
     controls.headlight |= tapped(GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER);
     controls.look_ahead |= tapped(GLFW_GAMEPAD_BUTTON_LEFT_BUMPER);
+    controls.mark |= tapped(GLFW_GAMEPAD_BUTTON_RIGHT_THUMB);
+    controls.overlay |= tapped(GLFW_GAMEPAD_BUTTON_START);
     controls.hud |= tapped(GLFW_GAMEPAD_BUTTON_BACK);
     controls.exposure += double(pad_[GLFW_GAMEPAD_BUTTON_DPAD_UP]) - double(pad_[GLFW_GAMEPAD_BUTTON_DPAD_DOWN]);
     controls.turn = glm::clamp(controls.turn, -1.0, 1.0);

@@ -10,6 +10,7 @@
 #include "input/head_tracker.h"
 #include "input/hid.h"
 #include "input/keyboard.h"
+#include "lab.h"
 #include "record_files.h"
 #include "screens.h"
 #include "tape.h"
@@ -126,6 +127,7 @@ struct Visit {
     Hid hid{opening.profiles, log_line};
     std::unique_ptr<HeadTracker> tracker = tracker_of(layout);
     Workbench workbench{opening.pattern};
+    Lab lab{opening.log, opening.log_every_s};
     Skew skew{};
     Clock::time_point began = Clock::now(), last = began;
     long shown = 0;
@@ -277,6 +279,8 @@ void fly(Visit& visit, Theatre& theatre)
         entry.exposure_ev = visit.exposure.ev;
         visit.tape.keep(entry, visit.flight);
         visit.tutorial = advance(visit.tutorial, controls, visit.flight, 1e-9 * double(entry.dt_ns));
+        visit.lab.read(*frame, controls, theatre.world, 1e-9 * double(entry.dt_ns),
+            [&](std::string line) { visit.workbench.say(std::move(line)); });
         turn(visit, *frame, controls); // the device has finished the frame before
         frame->show(visit.workbench.pattern());
         if (!any)
@@ -293,6 +297,7 @@ void fly(Visit& visit, Theatre& theatre)
         Shot shot = shot_of(visit.flight, visit.opening.start.scene);
         shot.exposure_ev
             = shown_ev(visit.exposure, visit.opening.exposure, shot.exposure_ev, visit.opening.start.exposure_ev);
+        visit.lab.ask(*frame, shot, visit.flight, theatre.world, dashboard.typesetter);
         const Panel* panel = dashboard.update(visit.flight, scene, shot.exposure_ev, visit.exposure.locked,
             frame->hud_width(), visit.opening.tutorial ? prompt(visit.tutorial, visit.hid.means()) : "", notice_of(visit));
         // A pattern is left alone but for what its builder is being told.

@@ -23,6 +23,8 @@ struct Opening {
     long frames = 0; ///< to be shown; 0: until the visitor leaves
     Pattern pattern = Pattern::none; ///< what the outputs show first
     std::filesystem::path record{}; ///< where to keep the flight; empty: nowhere
+    std::filesystem::path log{}; ///< where to keep what is measured, a CSV file; empty: nowhere
+    double log_every_s = 0; ///< writes a line by itself so often; 0: only when asked
     std::filesystem::path replay{}; ///< a record to fly again instead of the visitor; empty: none
     std::function<void(const FrameTimes&)> timed{}; ///< is told of each frame
     std::function<bool()> over{}; ///< is asked before each frame whether to leave

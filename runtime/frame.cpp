@@ -145,6 +145,7 @@ void Frame::take_up(Parts parts)
     }
     plans_.resize(eyes_.size());
     meter_.reset();
+    forget_lab();
 
     const std::uint32_t count = std::uint32_t(panes_.size());
     before.clear();
@@ -211,17 +212,7 @@ std::size_t Frame::map_for(const CompiledPane& pane, std::vector<Map>& before)
     return maps_.size() - 1;
 }
 
-PixelBox Frame::panel_in(const Blocks& blocks) const
-{
-    // The panel's edges as planes through the eye, in the panel's axes, and the plane that keeps what is behind out.
-    const glm::dvec2 half = panel_half_;
-    const glm::dmat3 cockpit_from_panel_normals = glm::transpose(panel_from_cockpit_);
-    std::array<glm::dvec3, 5> sides
-        = {glm::dvec3(1, 0, half.x), {-1, 0, half.x}, {0, 1, half.y}, {0, -1, half.y}, {0, 0, 1}};
-    for (glm::dvec3& side : sides)
-        side = glm::normalize(cockpit_from_panel_normals * side);
-    return pixels_in_pyramid(blocks, sides);
-}
+PixelBox Frame::panel_in(const Blocks& blocks) const { return panel_box(blocks, panel_from_cockpit_, panel_half_); }
 
 void Frame::find_hud_box(PaneState& pane) const
 {
@@ -256,6 +247,8 @@ void Frame::prepare_eye(std::size_t i)
             if (pane.eye == i)
                 ask.views.push_back({pane.compiled.blocks.get(), layer.motion_from_cockpit,
                     reprojects() ? std::min(MOST_PARALLAX, glm::length(eye_offset(pane, layer)) / eye.nearest[at]) : 0});
+        if (lab_)
+            ask_for_probes(i, layer.motion_from_cockpit, ask.views);
         if (at > 0)
             ask.things = balls(world_.world, vantage);
         asked.push_back(std::move(ask));
@@ -324,6 +317,8 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
                 pane.shown_part = shown_part(pane.compiled);
             }
     write_sets();
+    if (lab_ && pattern_ == Pattern::none)
+        prepare_lab();
 }
 
 /// The pixels of the pane, and where it is a preview, of the one that it shows small.
@@ -376,12 +371,12 @@ void Frame::put_layers(PaneState& pane)
         if (at > 0 && !seen)
             continue;
         const Layer& layer = layers[at];
-        const glm::dmat3 m = layer.motion_from_cockpit * pane.compiled.matrix.value_or(glm::dmat3(1));
+        const glm::dmat3 turn = layer.motion_from_cockpit * glm::transpose(layers[0].motion_from_cockpit);
         shared::LayerEntry& entry = all.layers[count++];
-        entry.row0 = row(m, 0, unit_of(pane.compiled));
-        entry.row1 = row(m, 1, plan.rear_last[at]);
-        entry.row2 = row(m, 2);
-        entry.boost = glm::vec4(layer.E, 1 / layer.E, at * SLOT_COUNT, 0);
+        entry.row0 = row(turn, 0);
+        entry.row1 = row(turn, 1, plan.rear_last[at]);
+        entry.row2 = row(turn, 2);
+        entry.boost = glm::vec4(layer.E, 1 / layer.E, at * SLOT_COUNT, at);
         entry.eye = eye_told(pane, layer);
         entry.nearest.y = float(eye.nearest[at]);
     }
@@ -448,11 +443,13 @@ void Frame::record(vk::CommandBuffer commands, std::span<const Target> targets)
     if (pattern_ == Pattern::none) {
         draw_cubes(commands);
         draw_meter(commands);
+        draw_probes(commands);
     }
     for (std::size_t output = 0; output < targets.size(); ++output) {
         if (!targets[output].view)
             continue; // minimised, or its monitor is away
         warp_output(commands, output, targets[output]);
+        draw_lab(commands, output, targets[output]);
         draw_hud(commands, output, targets[output]);
         finish_output(commands, output, targets[output]);
     }
@@ -800,6 +797,7 @@ vk::DeviceSize Frame::memory() const
     for (const Map& map : maps_)
         bytes += map.image.bytes + map.inverse.bytes;
     bytes += meter_ ? meter_->memory() : 0;
+    bytes += lab_ && lab_->panel ? lab_->panel->memory() : 0;
     for (const PaneState& pane : panes_)
         bytes += pane.bloom ? pane.bloom->memory() : 0;
     for (const OutputState& output : outputs_)

@@ -4,6 +4,7 @@
 #include "finish_pass.h"
 #include "hud.h"
 #include "input/controls.h"
+#include "lab_passes.h"
 #include "meter.h"
 #include "plan.h"
 #include "star_pass.h"
@@ -50,6 +51,18 @@ public:
     /// finished it.
     std::optional<double> metered() const;
 
+    /// What is laid over all panes from the next frame on, and what is read of the picture; nothing: at no cost. The first
+    /// time of a world without depth it makes room, which takes as long as a change of the layout.
+    void measure(const std::optional<Measuring>& what);
+    /// What the last frame showed along Measuring::probes, directions in the world's axes; the device must have finished it.
+    std::vector<Probed> probed() const;
+    /// Who measures, between the eyes, in that frame.
+    const Lookout& head() const { return lab_->head; }
+    /// The eye that saw what was probed, the first one.
+    const Lookout& lookout() const { return lab_->lookout; }
+    /// The unit direction in the cockpit that a point of an output (pixels from its top left) shows in its left eye.
+    std::optional<glm::dvec3> direction(std::size_t output, const glm::dvec2& pixel) const;
+
     /// All that the processor does for a frame: eyes, plans, culling, uploads.
     void prepare(const Shot& shot, const Panel* hud);
 
@@ -73,6 +86,8 @@ public:
     void warp_output(vk::CommandBuffer commands, std::size_t output, const Target& target);
     void draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& target);
     void finish_output(vk::CommandBuffer commands, std::size_t output, const Target& target);
+    void draw_probes(vk::CommandBuffer commands);
+    void draw_lab(vk::CommandBuffer commands, std::size_t output, const Target& target);
 
     /// What any other program would draw of the first pane, which must be flat: the image and the axes of a straight
     /// perspective view, for CubePass::prepare_plain.
@@ -80,6 +95,8 @@ public:
     /// The first pane through Pipelines::lookup: the bare cost of a cube map's look-up.
     void look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeline pipeline, vk::DescriptorSet set);
 
+    /// The same for the panel of instruments, `aspect` high over its width.
+    int lab_panel_width(double aspect) const;
     /// What the head-up display's panel would need across to be sharp in the finest viewport, pixels.
     int hud_width() const;
     const std::vector<Plan>& plans() const { return plans_; }
@@ -154,6 +171,13 @@ private:
     Target picture_of(std::size_t output, int layer, const Target& last) const;
     bool reprojects() const { return layout_.stereo.method == StereoMethod::reprojected; }
 
+    const PaneState& probed_pane() const;
+    Lookout lookout_of_eye(const glm::dvec3& eye_m) const;
+    PanelPass::Place lab_place(double aspect) const;
+    void ask_for_probes(std::size_t eye, const glm::dmat3& motion_from_cockpit, std::vector<View>& asked) const;
+    void prepare_lab();
+    void forget_lab();
+
     Quality quality_;
     Device& device_;
     Pipelines& pipelines_;
@@ -178,6 +202,7 @@ private:
     double bloom_ = 0;
     bool meters_ = false;
     std::unique_ptr<Meter> meter_; ///< once it was asked for
+    std::unique_ptr<LabPasses> lab_; ///< while something is measured
     Image panel_;
     Buffer panel_pixels_;
     bool panel_new_ = false, hud_on_ = false;

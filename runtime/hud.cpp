@@ -64,6 +64,33 @@ std::string length(double m, double scene_light_speed_m_s)
 
 } // namespace
 
+std::string shown_number(double x) { return number(x); }
+std::string shown_length(double m, double light_speed_m_s) { return length(m, light_speed_m_s); }
+std::string shown_duration(double s, int decimals)
+{
+    if (std::abs(s) >= 600)
+        return duration(s);
+    const std::string shown = text("%.*f s", decimals, s);
+    if (shown.find_first_of("123456789") == shown.npos && shown.starts_with('-')) // no minus before nothing
+        return shown.substr(1);
+    return shown.starts_with('-') ? "−" + shown.substr(1) : shown;
+}
+
+Panel plate(glm::ivec2 size, double corner)
+{
+    Panel panel;
+    panel.size = size;
+    panel.texels.assign(std::size_t(panel.size.x) * panel.size.y * 2, 0);
+    for (int y = 0; y < panel.size.y; ++y)
+        for (int x = 0; x < panel.size.x; ++x) {
+            glm::dvec2 half = 0.5 * glm::dvec2(panel.size);
+            glm::dvec2 out = glm::max(glm::abs(glm::dvec2(x + 0.5, y + 0.5) - half) - (half - corner), 0.0);
+            panel.texels[2 * (std::size_t(y) * panel.size.x + x) + 1]
+                = std::uint8_t(255 * std::clamp(corner - glm::length(out) + 0.5, 0.0, 1.0));
+        }
+    return panel;
+}
+
 Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effects)
 {
     double seconds_per_time_unit = scene.seconds_per_time_unit(), unit_m = scene.unit_m;
@@ -206,18 +233,8 @@ void Typesetter::write(Panel& panel, const std::string& line, double x, double b
 
 Panel Typesetter::draw(const Readings& readings, int width) const
 {
-    Panel panel;
-    panel.size = {width, int(width * panel_aspect)};
-    panel.texels.assign(std::size_t(panel.size.x) * panel.size.y * 2, 0);
-    // The plate, its corners rounded and its edge soft.
-    double corner = panel.size.y * 0.12;
-    for (int y = 0; y < panel.size.y; ++y)
-        for (int x = 0; x < panel.size.x; ++x) {
-            glm::dvec2 half = 0.5 * glm::dvec2(panel.size);
-            glm::dvec2 out = glm::max(glm::abs(glm::dvec2(x + 0.5, y + 0.5) - half) - (half - corner), 0.0);
-            panel.texels[2 * (std::size_t(y) * panel.size.x + x) + 1]
-                = std::uint8_t(255 * std::clamp(corner - glm::length(out) + 0.5, 0.0, 1.0));
-        }
+    const int height = int(width * panel_aspect);
+    Panel panel = plate({width, height}, height * 0.12);
 
     // The lever's way along the left edge, filled up to where it stands. A still has none.
     const glm::ivec2 from(panel.size.x * 0.016, panel.size.y * 0.13), to(panel.size.x * 0.023, panel.size.y * 0.87);

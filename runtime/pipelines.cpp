@@ -10,7 +10,9 @@
 #include "spirv/lookup_frag.h"
 #include "spirv/measure_frag.h"
 #include "spirv/meter_frag.h"
+#include "spirv/overlay_frag.h"
 #include "spirv/pattern_frag.h"
+#include "spirv/probe_frag.h"
 #include "spirv/screen_vert.h"
 #include "spirv/sky_frag.h"
 #include "spirv/sky_vert.h"
@@ -137,10 +139,12 @@ Pipelines::Pipelines(Device& device)
             constants, picture, constants});
     star_set = make_set_layout(device, vk::ShaderStageFlagBits::eVertex, {Type::eUniformBufferDynamic, Type::eStorageBuffer, constants});
     picture_set = make_set_layout(device, fragment, {picture, picture});
+    overlay_set = make_set_layout(device, fragment, {constants});
     finish_set = make_set_layout(device, fragment, {picture, picture, picture, picture, picture});
     surface_layout = make_layout(device, {*eye_set, *material_set}, both, sizeof(shared::CubePush));
     warp_layout = make_layout(device, {*warp_set}, fragment, sizeof(shared::ViewPush));
     star_layout = make_layout(device, {*warp_set, *star_set}, both, sizeof(shared::ViewPush));
+    overlay_layout = make_layout(device, {*warp_set, *overlay_set}, fragment, sizeof(shared::ViewPush));
     picture_layout = make_layout(device, {*picture_set}, fragment, sizeof(shared::ViewPush));
     finish_layout = make_layout(device, {*finish_set}, fragment, sizeof(shared::FinishPush));
 }
@@ -212,6 +216,33 @@ vk::Pipeline Pipelines::measure(const WarpVariant& v)
     });
 }
 
+vk::Pipeline Pipelines::probe(const WarpVariant& v)
+{
+    return find(probes_, v, [&] {
+        return make_pipeline(device_,
+            {.vertex = screen_vert,
+                .fragment = probe_frag,
+                .layout = *warp_layout,
+                .targets = {exact_format, exact_format, exact_format},
+                .constants = constants(v)});
+    });
+}
+
+vk::Pipeline Pipelines::overlay(const WarpVariant& v, int overlay, vk::Format target)
+{
+    std::vector<std::uint32_t> all = constants(v);
+    all[10] = std::uint32_t(overlay);
+    return find(overlays_, std::tuple(v, overlay, target), [&] {
+        return make_pipeline(device_,
+            {.vertex = screen_vert,
+                .fragment = overlay_frag,
+                .layout = *overlay_layout,
+                .targets = {target},
+                .constants = all,
+                .blend = true});
+    });
+}
+
 vk::Pipeline Pipelines::meter(const WarpVariant& v)
 {
     return find(meters_, v, [&] {
@@ -264,15 +295,15 @@ vk::Pipeline Pipelines::bloomed(vk::Format target)
     });
 }
 
-vk::Pipeline Pipelines::hud(bool map, vk::Format target)
+vk::Pipeline Pipelines::hud(bool map, vk::Format target, bool scale)
 {
-    return find(huds_, std::pair(map, target), [&] {
+    return find(huds_, std::tuple(map, target, scale), [&] {
         return make_pipeline(device_,
             {.vertex = screen_vert,
                 .fragment = hud_frag,
                 .layout = *picture_layout,
                 .targets = {target},
-                .constants = {map},
+                .constants = {map, scale},
                 .blend = true});
     });
 }

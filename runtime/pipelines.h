@@ -83,11 +83,15 @@ public:
     vk::Pipeline warp(const WarpVariant& variant, vk::Format target);
     vk::Pipeline stars(const WarpVariant& variant, vk::Format target);
     vk::Pipeline measure(const WarpVariant& variant);
+    vk::Pipeline probe(const WarpVariant& variant);
+    /// overlay: OVERLAY_ of shared.h.
+    vk::Pipeline overlay(const WarpVariant& variant, int overlay, vk::Format target);
     vk::Pipeline meter(const WarpVariant& variant);
     vk::Pipeline star_meter(const WarpVariant& variant);
     vk::Pipeline bloom(bool up);
     vk::Pipeline bloomed(vk::Format target);
-    vk::Pipeline hud(bool map, vk::Format target);
+    /// scale: with the colours of a scale beside its letters.
+    vk::Pipeline hud(bool map, vk::Format target, bool scale = false);
     vk::Pipeline lookup(vk::Format target);
     vk::Pipeline finish(const FinishVariant& variant, vk::Format target);
     vk::Pipeline pattern(bool map, int pattern, vk::Format target);
@@ -101,17 +105,20 @@ public:
     vk::raii::DescriptorSetLayout star_set = nullptr; ///< 0 constants, 1 stars, 2 black bodies
     vk::raii::DescriptorSetLayout picture_set = nullptr; ///< 0 direction map, 1 panel, label or cube
     vk::raii::DescriptorSetLayout finish_set = nullptr; ///< 0 left, 1 right picture, 2 weights, 3 black level, 4 table
+    vk::raii::DescriptorSetLayout overlay_set = nullptr; ///< 0 constants
     vk::raii::PipelineLayout surface_layout = nullptr, warp_layout = nullptr, picture_layout = nullptr,
-                             finish_layout = nullptr, star_layout = nullptr; ///< star_layout: warp_set, star_set
+                             finish_layout = nullptr, star_layout = nullptr, ///< star_layout: warp_set, star_set
+                             overlay_layout = nullptr; ///< warp_set, overlay_set
 
 private:
     Device& device_;
     std::map<std::pair<SurfaceVariant, TargetKind>, vk::raii::Pipeline> surfaces_;
     std::map<TargetKind, vk::raii::Pipeline> skies_;
     std::map<std::pair<WarpVariant, vk::Format>, vk::raii::Pipeline> warps_;
-    std::map<WarpVariant, vk::raii::Pipeline> measures_, meters_, star_meters_;
+    std::map<WarpVariant, vk::raii::Pipeline> measures_, probes_, meters_, star_meters_;
+    std::map<std::tuple<WarpVariant, int, vk::Format>, vk::raii::Pipeline> overlays_;
     std::map<std::pair<WarpVariant, vk::Format>, vk::raii::Pipeline> stars_;
-    std::map<std::pair<bool, vk::Format>, vk::raii::Pipeline> huds_;
+    std::map<std::tuple<bool, vk::Format, bool>, vk::raii::Pipeline> huds_;
     std::map<bool, vk::raii::Pipeline> blooms_;
     std::map<vk::Format, vk::raii::Pipeline> lookups_, bloomed_;
     std::map<std::pair<FinishVariant, vk::Format>, vk::raii::Pipeline> finishes_;

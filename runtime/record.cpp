@@ -10,7 +10,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Whoever adds a member to one of these adds it to the record, or to the digest, as well.
-static_assert(sizeof(Controls) == 192);
+static_assert(sizeof(Controls) == 200);
 static_assert(sizeof(Flying) == 56);
 static_assert(sizeof(Exposing) == 32);
 static_assert(sizeof(Flight) == 552);
@@ -24,7 +24,8 @@ constexpr std::pair<const char*, bool Controls::*> switches[] = {{"look_ahead", 
     {"stop", &Controls::stop}, {"home", &Controls::home}, {"undo", &Controls::undo}, {"reset", &Controls::reset},
     {"next_mode", &Controls::next_mode}, {"aberration", &Controls::aberration}, {"doppler", &Controls::doppler},
     {"headlight", &Controls::headlight}, {"false_colours", &Controls::false_colours},
-    {"lock_exposure", &Controls::lock_exposure}, {"hud", &Controls::hud}, {"full_screen", &Controls::full_screen},
+    {"lock_exposure", &Controls::lock_exposure}, {"overlay", &Controls::overlay}, {"mark", &Controls::mark},
+    {"log", &Controls::log}, {"why", &Controls::why}, {"hud", &Controls::hud}, {"full_screen", &Controls::full_screen},
     {"quit", &Controls::quit}, {"pattern", &Controls::pattern}, {"save", &Controls::save}};
 
 /// Not ==: -0 must come back as -0.

@@ -110,6 +110,16 @@ std::optional<double> Studio::metered(const Shot& shot)
     return ev;
 }
 
+std::vector<Probed> Studio::probed(const Shot& shot)
+{
+    frame_.prepare(shot, nullptr);
+    device_.now([&](vk::CommandBuffer commands) {
+        frame_.draw_cubes(commands);
+        frame_.draw_probes(commands);
+    });
+    return frame_.probed();
+}
+
 Channels Studio::numbers(const Shot& shot, std::size_t output)
 {
     MeasureTarget target;

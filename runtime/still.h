@@ -22,6 +22,9 @@ public:
     /// The exposure for what the shot shows in all outputs together, EV; nothing where all is dark.
     std::optional<double> metered(const Shot& shot);
 
+    /// What the shot shows along the directions that the frame was told to measure.
+    std::vector<Probed> probed(const Shot& shot);
+
     const Layout& layout() const { return layout_; }
     Frame& frame() { return frame_; }
     Target target(std::size_t output) const;

@@ -2,7 +2,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
 #include "view.glsl"
+#include "scale.glsl"
 // The head-up display: a panel at infinity in the cockpit, seen through the same directions as the world.
+
+layout(constant_id = 1) const bool SCALE = false; // with the scale of false colours in the rectangle view.eye of the panel
 
 layout(set = 0, binding = 1) uniform sampler2D panel; // r: letters, g: the dark plate behind them
 layout(push_constant) uniform Push { ViewPush view; };
@@ -17,5 +20,9 @@ void main()
         discard;
     vec2 covered = textureLod(panel, vec2(at.x, 1.0 - at.y), 0.0).rg;
     float plate = covered.g * 0.85; // the headlight effect makes bright skies
+    if (SCALE && all(greaterThan(at, view.eye.xy)) && all(lessThan(at, view.eye.zw)) && covered.r < 0.02) {
+        shown = vec4(scale_colour((at.x - view.eye.x) / (view.eye.z - view.eye.x)), 1.0);
+        return;
+    }
     shown = vec4(vec3(0.92, 0.96, 1.0) * covered.r, covered.r + plate * (1.0 - covered.r)); // premultiplied
 }

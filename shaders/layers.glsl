@@ -20,13 +20,11 @@ struct Part {
     float D, world_angle, way;
     float covers; // of the pixel
 };
-Part part_of(int i, vec2 pixel, int channel, float coarser, float D_beside)
+Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
 {
     LayerEntry entry = layered.layers[i];
     Layer layer = layer_of(entry);
-    float pixel_angle;
-    vec3 n = look(entry.row0, entry.row1, entry.row2, pixel, channel, pixel_angle);
-    pixel_angle *= coarser;
+    vec3 n = i == 0 ? n0 : vec3(dot(entry.row0.xyz, n0), dot(entry.row1.xyz, n0), dot(entry.row2.xyz, n0));
     Sight sight = world_from_camera(n, layer.E.x, layer.E.y);
     Part part;
     part.world_angle = sight.D * pixel_angle;
@@ -49,9 +47,9 @@ Part part_of(int i, vec2 pixel, int channel, float coarser, float D_beside)
     return part;
 }
 
-// The light of all of them, the nearest first, and of the sky behind them. sight: the world's; its D, and the distance, become those of
+// What the ship's direction n0 (the world's motion axes) shows: the light of all layers, the nearest first, and of the sky. sight: the world's; its D, and the distance, become those of
 // what most of the pixel shows of them.
-vec3 light_of_layers(vec2 pixel, int channel, float coarser, inout Sight sight, out float distance_)
+vec3 light_of_layers(vec3 n0, float pixel_angle, inout Sight sight, out float distance_, out float frame)
 {
     const float infinite = intBitsToFloat(0x7f800000);
     // Without aberration directions are as in the world, and what moves there is seen as from there; D is the ship's own beside.
@@ -59,10 +57,11 @@ vec3 light_of_layers(vec2 pixel, int channel, float coarser, inout Sight sight, 
     int count = int(layered.count.x);
     Part parts[MAX_LAYERS];
     for (int i = 0; i < count; ++i)
-        parts[i] = part_of(i, pixel, channel, coarser, D_beside);
+        parts[i] = part_of(i, n0, pixel_angle, D_beside);
     vec3 light = vec3(0.0);
     float left = 1.0, before = -1.0, most = 0.0;
     distance_ = infinite;
+    frame = 0.0;
     for (int round = 0; round < count && left > 0.002; ++round) {
         int next = -1;
         float way = infinite;
@@ -80,6 +79,7 @@ vec3 light_of_layers(vec2 pixel, int channel, float coarser, inout Sight sight, 
             most = left * part.covers;
             distance_ = way / (ABERRATION ? sky_D : 1.0);
             sight.D = part.D;
+            frame = layered.layers[next].boost.w;
         }
         left *= 1.0 - part.covers;
     }

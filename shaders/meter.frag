@@ -13,11 +13,10 @@ layout(location = 0) out vec2 glimpse; // luminance of the scene-linear light at
 void main()
 {
     glimpse = vec2(0.0);
-    float pixel_angle;
-    vec3 light = shown_at((gl_FragCoord.xy - view.origin.xy) * view.zenith.zw, CHANNELS ? 1 : 0, sqrt(view.zenith.z * view.zenith.w),
-        pixel_angle).light;
+    float pixel_angle, coarser = sqrt(view.zenith.z * view.zenith.w);
+    vec3 light = shown_at((gl_FragCoord.xy - view.origin.xy) * view.zenith.zw, CHANNELS ? 1 : 0, coarser, pixel_angle).light;
     if (MAP && pixel_angle == 0.0)
         return;
     const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
-    glimpse = vec2(clamp(dot(light, luminance) * view.boost.z, 0.0, 1e38), pixel_angle * pixel_angle);
+    glimpse = vec2(clamp(dot(light, luminance) * view.boost.z, 0.0, 1e38), pixel_angle * pixel_angle * coarser * coarser);
 }

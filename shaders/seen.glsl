@@ -254,29 +254,35 @@ vec3 light_seen(Place place, float D, float pixel_angle)
 
 #include "layers.glsl"
 
-// What a pixel shows.
+// What a direction shows.
 struct Shown {
     vec3 n;         // unit direction in the ship, motion axes
-    Sight sight;    // in the world, but for D: of what is nearest
-    float distance; // of what is nearest, in the world: as long as its light was under way there; infinite for the sky
+    Sight sight;    // in the world, but for D: of what is shown
+    float distance; // in the world: as long as its light was under way there; infinite for the sky
+    float frame;    // of the world's frames: where what is shown stands still
     vec3 light;     // as light_seen's
 };
-Shown shown_at(vec2 pixel, int channel, float coarser, out float pixel_angle)
+Shown shown_along(vec3 n, float pixel_angle)
 {
     Shown shown;
-    shown.n = look(view.row0, view.row1, view.row2, pixel, channel, pixel_angle);
-    shown.light = vec3(0.0);
-    shown.distance = 0.0;
-    if (MAP && pixel_angle == 0.0)
-        return shown;
-    pixel_angle *= coarser;
-    shown.sight = sight_of(shown.n, pixel_angle);
+    shown.n = n;
+    shown.sight = sight_of(n, pixel_angle);
     if (LAYERED) {
-        shown.light = light_of_layers(pixel, channel, coarser, shown.sight, shown.distance);
+        shown.light = light_of_layers(n, pixel_angle, shown.sight, shown.distance, shown.frame);
         return shown;
     }
     Place place = place_of(shown.sight.n, world_layer());
     shown.light = light_seen(place, shown.sight.D, pixel_angle);
     shown.distance = distance_at(place);
+    shown.frame = 0.0;
     return shown;
+}
+
+// What a pixel shows, or one that is so many times as wide.
+Shown shown_at(vec2 pixel, int channel, float coarser, out float pixel_angle)
+{
+    vec3 n = look(view.row0, view.row1, view.row2, pixel, channel, pixel_angle);
+    if (!MAP || pixel_angle > 0.0)
+        return shown_along(n, pixel_angle * coarser);
+    return Shown(n, Sight(n, 1.0), 0.0, 0.0, vec3(0.0)); // nothing
 }

@@ -97,8 +97,8 @@ struct ViewPush {
 
 // What the warp pass knows of one rest frame, as one pane's eye looks at it: as ViewPush, which has the world's.
 struct LayerEntry {
-    vec4 row0, row1, row2; // planar: rows of direction_from_pixel; map: of the turn from the map's axes
-    vec4 boost;            // E, 1/E; z: its first slot's index
+    vec4 row0, row1, row2; // rows of the turn from the world's motion axes, both in the ship; w of row1: as ViewPush's
+    vec4 boost;            // E, 1/E; z: its first slot's index, w: which of the world's frames it is
     vec4 eye;
     vec4 nearest;          // y: as ViewPush's zenith
 };
@@ -124,6 +124,24 @@ struct StarEntry {
 struct StarConstants {
     vec4 row0, row1, row2; // rows of motion_from_world
 };
+
+// What is laid over a viewport for who measures.
+struct OverlayConstants {
+    vec4 world0, world1, world2; // rows of world_from_motion
+    vec4 ring;                   // x: cosine, y: sine of the angle from the motion where D = 1; z: 1 where there is one
+    vec4 scale;                  // of the colours: x: lowest log10 of a distance in seconds of light, y: 1 over their range; z:
+                                 // log10 of seconds of light per scene unit
+    vec4 steps;                  // emission: x: seconds between contours, y: the eye's time beyond a heavier one, seconds; z:
+                                 // seconds of light per scene unit
+    vec4 aim, right, up;         // of the look, motion axes; aim.w: 1 where the crosshair is drawn
+    vec4 marks[2];               // directions in the ship, motion axes; w: 1 where there is one
+};
+
+#define OVERLAY_NONE 0
+#define OVERLAY_GRID 1
+#define OVERLAY_RING 2
+#define OVERLAY_DISTANCE 3
+#define OVERLAY_EMISSION 4
 
 // Push constants of the finish pass: from light to the screen's input. Rows of matrices.
 struct FinishPush {

@@ -208,7 +208,7 @@ void main()
         return;
     // What moves: as it is drawn.
     for (int i = 1; LAYERED && i < int(layered.count.x); ++i)
-        if (!isinf(part_of(i, clamp(point, vec2(0.5), size - 0.5), channel, 1.0, 1.0).way))
+        if (!isinf(part_of(i, sight.n, pixel_angle, 1.0).way))
             return;
     light = starlight(star, sight.D) * (view.boost.z / (pixel_angle * pixel_angle));
     if (GLIMPSE) {

@@ -276,6 +276,15 @@ says '/descriptor_hex' devices --describe "$folder/lines.json"
 printf 'hello' > "$folder/hello.bin"
 says 'declares no input' devices --describe "$folder/hello.bin"
 
+# What is measured.
+refused 'has one number' render --shot start --measure 400
+refused 'is no point' render --shot start --measure '1deg,2'
+refused 'lies outside the picture' render --shot start --measure '100,100;800,5'
+refused 'overlay' render --shot start --overlay none
+said=$("$program" render --shot clocks-passing --size 200x150 --out "$folder/lab" --measure '-14.7deg,0deg; 16.8deg,0deg' --overlay ring --why delay)
+if [[ $said == *"ahead: D 0.866"* && $said == *"long 17.49 of 20.00 light-s, ◇ minus ○ 9.71 s"* ]]; then passed=$((passed + 1)); else fail "render --measure: $said"; fi
+says '--log-every' run --log-every 1
+
 # Exhibits.
 exhibit() { # EXHIBIT_JSON
     printf '%s\n' "$1" > "$folder/exhibit.json"

@@ -48,6 +48,34 @@ ok
 grep -q 'exposure [^ ]* EV locked' "$folder/log" || fail "desk: L did not hold the exposure"
 ok
 
+# The instruments: marked, logged, explained, switched through; what was logged is there, a line for each K.
+fly desk --scene clocks --log "$folder/lab.csv"
+xdotool key o
+sleep 0.5
+for key in x k x k F1 o o k o o F1 o; do
+    xdotool key $key
+    sleep 0.3
+done
+xdotool key Escape
+wait $exhibit || fail "instruments: exit $? (validation speaks, or worse)"
+ok
+[ "$(wc -l <"$folder/lab.csv")" = 4 ] || fail "instruments: not three lines: $(wc -l <"$folder/lab.csv")"
+ok
+python3 - "$folder/lab.csv" <<'CHECK' || fail "instruments: $(cat "$folder/lab.csv")"
+import csv, sys
+rows = list(csv.DictReader(open(sys.argv[1], newline="")))
+assert rows[0]["overlay"] == "aim" and rows[2]["overlay"] == "ring", rows
+assert abs(float(rows[0]["aim_distance_light_s"]) - 31) < 0.1, rows[0]
+assert abs(float(rows[0]["world_time_s"]) - 31 - float(rows[0]["aim_clock_s"])) < 0.1, rows[0]
+assert rows[0]["mark_1_clock_s"] and not rows[0]["mark_2_clock_s"] and rows[1]["mark_2_clock_s"], rows
+assert float(rows[1]["marks_angle_deg"]) == 0 and float(rows[1]["ship_time_s"]) > float(rows[0]["ship_time_s"])
+CHECK
+ok
+printf 'date,weather\n' >"$folder/other.csv"
+said=$(timeout 20 "$program" run --log "$folder/other.csv" 2>&1 >/dev/null)
+[ $? = 2 ] && [[ $said == *"other.csv: 1: begins otherwise"* ]] || fail "a file that is no log: $said"
+ok
+
 # Stop is at once. The flight is recorded, and flown again it ends the same.
 fly stereo --record "$folder/flight.jsonl"
 xdotool keydown w

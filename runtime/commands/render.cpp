@@ -4,6 +4,7 @@
 #include "pattern_option.h"
 #include "render_replay.h"
 #include "runtime/find.h"
+#include "runtime/sitting.h"
 #include "runtime/still.h"
 #include "runtime/theatre.h"
 #include "size_option.h"
@@ -17,7 +18,8 @@ namespace starbow {
 namespace {
 
 struct Options {
-    std::string layout, shot, out, size, pattern = "none", exposure = "shot", spectra = "needed", replay, frames;
+    std::string layout, shot, out, size, pattern = "none", exposure = "shot", spectra = "needed", replay, frames, points, overlay = "off",
+                why = "none";
     long every = 1;
     double bloom = 0;
     bool exr = false, hud = false;
@@ -50,6 +52,7 @@ int render(const Options& options)
                 check_not_read(picture, pictures);
                 check_writable(picture);
             }
+    parse_points(options.points, layout);
     Theatre theatre(scene_of(shot, shot_file), device_options(false), level_of(options.spectra));
     for (const std::string& note : theatre.world.world.notes)
         std::fprintf(stderr, "starbow: %s: %s\n", theatre.world.scene.gltf.c_str(), note.c_str());
@@ -62,6 +65,7 @@ int render(const Options& options)
         shot.exposure_ev = std::clamp(studio.metered(shot).value_or(shot.exposure_ev), rules.least_ev, rules.greatest_ev);
     }
     std::optional<Panel> panel;
+    const Sitting sitting = sit(studio, theatre.world, shot, parse_points(options.points, layout), options.overlay, options.why);
     if (options.hud) {
         Readings told = readings(ship_at(shot), theatre.world.scene, shot.effects);
         told.exposure_ev = shot.exposure_ev;
@@ -69,6 +73,8 @@ int render(const Options& options)
     }
     render_still(options.out, studio, shot, options.exr, panel ? &*panel : nullptr);
     std::printf("%s\n", light_told(theatre).c_str());
+    for (const std::string& line : sitting.lines)
+        std::printf("%s\n", line.c_str());
     if (options.exposure == "auto")
         std::printf("exposure %.2f EV\n", shot.exposure_ev);
     for (const Output& output : layout.outputs)
@@ -100,10 +106,21 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
     add_spectra(*command, options->spectra);
+    CLI::Option* points = command->add_option("--measure", options->points, measure_help);
+    CLI::Option* overlay
+        = command->add_option("--overlay", options->overlay, "With instruments over the picture, and their readings: off, "
+                                                             "aim, grid, ring (D = 1), distance or emission")
+              ->check(CLI::IsMember(std::vector<std::string>(overlay_names.begin(), overlay_names.end())))
+              ->capture_default_str();
+    CLI::Option* why
+        = command->add_option("--why", options->why, "With the page that tells why: aberration, doppler, headlight, delay, "
+                                                     "dilation or length")
+              ->check(CLI::IsMember(std::vector<std::string>(why_names.begin(), why_names.end())))
+              ->capture_default_str();
     command->add_flag("--hud", options->hud, "With the head-up display");
     CLI::Option* replay = command->add_option(
         "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");
-    for (CLI::Option* other : {shot, exr, pattern})
+    for (CLI::Option* other : {shot, exr, pattern, points, overlay, why})
         replay->excludes(other);
     command->add_option("--frames", options->frames, "Of a replay: the frames from A to B, counted from 0, as A:B")
         ->needs(replay);
@@ -111,7 +128,8 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
         ->check(whole_number(1, 1000000000))
         ->needs(replay);
     command->footer("Examples:\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome --size 2048x2048 --exr\n"
-                    "  starbow render --replay flight.jsonl --out out/flight --frames 0:599");
+                    "  starbow render --replay flight.jsonl --out out/flight --frames 0:599\n"
+                    "  starbow render --shot clocks-passing --out out/clocks --measure \"400,300; 12deg,0deg\" --overlay ring");
     command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
 }
 

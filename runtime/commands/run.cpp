@@ -17,7 +17,8 @@ namespace starbow {
 namespace {
 
 struct Options {
-    std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay;
+    std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, log;
+    double log_every_s = 0;
     long frames = 0;
     bool asked = false; ///< for anything of the above
 };
@@ -70,6 +71,8 @@ int run(const Options& options)
 {
     Opening opening = open(options);
     opening.frames = options.frames;
+    opening.log = options.log;
+    opening.log_every_s = options.log_every_s;
     if (!has_display() && options.asked)
         throw InputError(
             "There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere), so no window can be opened; "
@@ -104,6 +107,12 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--record", options->record,
         "Keep every control of the flight in this new file (or in a new file in this folder), for --replay. A minute at 60 "
         "frames a second takes 70 kB at rest, 0.4 MB with a stick in hand, 1.2 MB with a head tracker");
+    CLI::Option* log = command->add_option("--log", options->log,
+        "Write what the instruments read into this CSV file, a line each time K is pressed; one that is there is continued");
+    command
+        ->add_option("--log-every", options->log_every_s, "With --log: write a line by itself every so many seconds")
+        ->check(CLI::Range(0.02, 86400.0))
+        ->needs(log);
     CLI::Option* replay = command->add_option("--replay", options->replay,
         "Fly a record again, the same to the bit, in its scene and on its layout (or on --layout's)");
     for (const char* other : {"--exhibit", "--scene", "--shot", "--pattern", "--record"})

@@ -1,0 +1,98 @@
+#include "lab.h"
+
+namespace starbow {
+
+Measured measured_of(const Lookout& lookout, const Ship& ship, const SceneFile& scene, const World& world,
+    const Effects& effects, const Spot& aim, double light, const std::array<std::optional<Spot>, 2>& marks)
+{
+    const double seconds = scene.seconds_per_time_unit();
+    Measured m{.lookout = lookout,
+        .ship_s = ship.proper_time.total() * seconds,
+        .world_s = lookout.time * seconds,
+        .light_speed_m_s = scene.light_speed_m_s,
+        .seconds_per_time_unit = seconds,
+        .effects = effects,
+        .aim = read_spot(lookout, aim, world, seconds)};
+    m.aim.light = light;
+    for (std::size_t i = 0; i < 2; ++i)
+        if (marks[i])
+            m.marks[i] = read_spot(lookout, *marks[i], world, seconds);
+    if (marks[0] && marks[1])
+        m.pair = read_pair(lookout, *marks[0], *marks[1], world, seconds);
+    return m;
+}
+
+Lab::Lab(const std::filesystem::path& log, double every_s)
+    : log_(log.empty() ? nullptr : std::make_unique<LabLog>(log))
+    , every_s_(every_s)
+{
+}
+
+void Lab::read(const Frame& frame, const Controls& controls, const GpuWorld& world, double dt_s,
+    const std::function<void(std::string)>& say)
+{
+    if (controls.overlay)
+        overlay_ = Overlay((int(overlay_) + 1) % int(overlay_names.size()));
+    if (controls.why)
+        why_ = Why((int(why_) + 1) % int(why_names.size()));
+    if ((controls.mark || controls.log || every_s_ > 0) && overlay_ == Overlay::off)
+        overlay_ = Overlay::aim; // what is marked or logged is seen
+    mark_wanted_ |= controls.mark;
+    if (!on()) {
+        measured_.reset();
+        return;
+    }
+    const std::vector<Probed> probed = frame.probed();
+    if (probed.empty())
+        return; // the first frame with instruments is still to come
+    const Lookout& lookout = frame.lookout();
+    Probed seen = probed[0];
+    seen.ray = aim_of(lookout); // sharper than the picture's
+    const Spot aimed = spot_at(lookout, seen, world.world);
+    if (mark_wanted_) {
+        if (marks_[0] && marks_[1])
+            marks_ = {};
+        marks_[marks_[0] ? 1 : 0] = snapped(aimed, world.world);
+        mark_wanted_ = false;
+    }
+    measured_ = measured_of(frame.head(), ship_, world.scene, world.world, effects_, aimed, probed[0].light, marks_);
+    waited_s_ += dt_s;
+    if (controls.log || (every_s_ > 0 && waited_s_ >= every_s_)) {
+        waited_s_ = 0;
+        keep(say);
+    }
+}
+
+void Lab::keep(const std::function<void(std::string)>& say)
+{
+    if (!log_)
+        say(lab_text("no log"));
+    else if (log_->write(*measured_, overlay_names[std::size_t(overlay_)]) && every_s_ == 0)
+        say(lab_text("logged", {{"line", std::to_string(log_->lines())}, {"file", log_->file().filename().string()}}));
+}
+
+void Lab::ask(Frame& frame, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter)
+{
+    if (!on()) {
+        frame.measure({});
+        return;
+    }
+    ship_ = flight.ship, effects_ = flight.effects;
+    const auto now = std::chrono::steady_clock::now();
+    // As often as the display's figures, so that they can be read.
+    const bool again = now - drawn_ > std::chrono::milliseconds(100);
+    if (again)
+        scale_ = overlay_scale(world.world, shot.position, world.scene.seconds_per_time_unit()), drawn_ = now;
+    Measuring what{.probes = {{0, 0, -1}}, .over = {overlay_ == Overlay::off ? Overlay::aim : overlay_, marks_, scale_}};
+    if (measured_ && flight.hud) {
+        const double aspect = lab_aspect(overlay_, why_);
+        const int width = frame.lab_panel_width(aspect);
+        if (again || panel_.size != glm::ivec2(width, int(width * aspect)))
+            panel_ = draw_lab_panel(typesetter, *measured_, overlay_, scale_, why_, width);
+        what.panel = &panel_;
+        what.scale = scale_place(overlay_, why_);
+    }
+    frame.measure(what);
+}
+
+} // namespace starbow

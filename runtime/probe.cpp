@@ -1,0 +1,85 @@
+#include "probe.h"
+#include "pipelines.h"
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+using Layout_ = vk::ImageLayout;
+
+/// Of Rec. 709's primaries.
+double luminance(const glm::dvec3& colour) { return glm::dot(colour, glm::dvec3(0.2126, 0.7152, 0.0722)); }
+
+/// One pixel that looks along n.
+glm::dmat3 pixel_along(const glm::dvec3& n, double angle)
+{
+    const glm::dvec3 up = std::abs(n.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+    const glm::dvec3 right = glm::normalize(glm::cross(n, up)), down = glm::cross(n, right);
+    return {right * angle, down * angle, n - 0.5 * angle * (right + down)};
+}
+
+} // namespace
+
+Probe::Probe(const Device& device, const std::vector<glm::dvec3>& directions, double pixel_angle)
+    : pixel_angle_(pixel_angle)
+{
+    for (const glm::dvec3& n : directions) {
+        const glm::dmat3 matrix = pixel_along(n, pixel_angle);
+        pixels_.push_back({n, matrix, std::make_shared<Blocks>(matrix, glm::ivec2(1))});
+    }
+    for (Image& image : images_)
+        image = make_image(device,
+            {exact_format, {std::uint32_t(directions.size()), 1},
+                vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
+    back_ = make_mapped_buffer(
+        device, images_.size() * directions.size() * sizeof(glm::vec4), vk::BufferUsageFlagBits::eTransferDst);
+}
+
+bool Probe::looks(const std::vector<glm::dvec3>& directions, double pixel_angle) const
+{
+    bool same = directions.size() == pixels_.size() && pixel_angle == pixel_angle_;
+    for (std::size_t i = 0; same && i < directions.size(); ++i)
+        same = directions[i] == pixels_[i].direction;
+    return same;
+}
+
+void Probe::record(vk::CommandBuffer commands, const std::function<void(std::size_t, const glm::dmat3&)>& draw)
+{
+    std::vector<vk::RenderingAttachmentInfo> colours;
+    for (const Image& image : images_) {
+        transition(commands, image, Layout_::eUndefined, Stage::eTransfer, {}, Layout_::eColorAttachmentOptimal,
+            Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+        colours.push_back({*image.view, Layout_::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
+            vk::AttachmentStoreOp::eStore});
+    }
+    commands.beginRendering({{}, {{0, 0}, images_[0].extent}, 1, 0, colours});
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+        draw(i, pixels_[i].cockpit_from_pixel);
+    commands.endRendering();
+    const vk::DeviceSize bytes = pixels_.size() * sizeof(glm::vec4);
+    for (std::size_t k = 0; k < images_.size(); ++k) {
+        transition(commands, images_[k], Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+            Access::eColorAttachmentWrite, Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+        commands.copyImageToBuffer(*images_[k].image, Layout_::eTransferSrcOptimal, *back_.buffer,
+            vk::BufferImageCopy(
+                k * bytes, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {images_[k].extent.width, 1, 1}));
+    }
+    vk::MemoryBarrier2 to_host(Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
+    commands.pipelineBarrier2(vk::DependencyInfo({}, to_host));
+    drawn_ = true;
+}
+
+std::vector<Probed> Probe::read() const
+{
+    std::vector<Probed> all;
+    const auto* texels = static_cast<const glm::vec4*>(back_.mapped);
+    for (std::size_t i = 0; drawn_ && i < pixels_.size(); ++i) {
+        const glm::dvec4 light = texels[i], ship = texels[pixels_.size() + i], world = texels[2 * pixels_.size() + i];
+        all.push_back({{glm::dvec3(ship), glm::dvec3(world), ship.w}, light.w, int(world.w), luminance(glm::dvec3(light))});
+    }
+    return all;
+}
+
+} // namespace starbow

@@ -1,0 +1,160 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
+#include "physics/real.glsl"
+#include "physics/aberration.glsl"
+#include "view.glsl"
+#include "seen.glsl"
+#include "distance.glsl"
+#include "scale.glsl"
+// What is laid over a viewport for who measures: the world's directions, the ring where nothing is shifted, distances and
+// times of emission in false colours; the crosshair and what was marked. Every line is so many of its own pixels wide.
+
+layout(constant_id = 10) const int OVERLAY = OVERLAY_NONE;
+
+layout(set = 1, binding = 0) uniform Constants { OverlayConstants overlay; };
+layout(location = 0) out vec4 shown; // premultiplied
+
+vec4 over(vec4 above, vec4 below) { return above + below * (1.0 - above.a); }
+
+// A line, from the distance to its middle in pixels, with a dark edge for bright skies.
+vec4 line(vec3 colour, float off, float half_width, float strength)
+{
+    float ink = clamp(half_width + 0.5 - abs(off), 0.0, 1.0), edge = clamp(half_width + 2.0 - abs(off), 0.0, 1.0);
+    return vec4(colour * ink, ink + 0.5 * edge * (1.0 - ink)) * strength;
+}
+
+// Distance from the nearest multiple of `step`, signed.
+float from_multiple(float x, float step) { return x - step * round(x / step); }
+
+// Parallels and meridians of the world every 15 degrees, poles at +y and -y; the horizon and the four main meridians are
+// wider. n: the world's direction; footprint: of a pixel there, radians.
+vec4 grid(vec3 n, float footprint)
+{
+    const float apart = radians(15.0);
+    float latitude = asin(clamp(n.y, -1.0, 1.0)), longitude = atan(n.x, -n.z), across = length(n.xz);
+    // Lines that stand closer than some pixels would fill the picture: they fade.
+    float room = clamp(apart / footprint / 8.0 - 0.5, 0.0, 1.0);
+    vec4 sum = vec4(0.0);
+    if (abs(latitude) < radians(82.0)) {
+        float off = from_multiple(latitude, apart) / footprint;
+        sum = line(vec3(0.55, 0.75, 0.85), off, 0.6, 0.6 * room);
+    }
+    float off = sin(from_multiple(longitude, apart)) * across / footprint;
+    if (across > sin(apart)) // nearer the poles the four main ones are enough
+        sum = over(line(vec3(0.55, 0.75, 0.85), off, 0.6, 0.6 * room * clamp(apart * across / footprint / 8.0 - 0.5, 0.0, 1.0)), sum);
+    float wide_room = clamp(6.0 * apart / footprint / 8.0 - 0.5, 0.0, 1.0);
+    off = sin(from_multiple(longitude, radians(90.0))) * across / footprint;
+    bool ahead = abs(n.z) > abs(n.x);
+    sum = over(line(ahead ? vec3(0.45, 0.85, 1.0) : vec3(0.65, 0.95, 0.55), off, 1.1, 0.9 * wide_room), sum);
+    return over(line(vec3(1.0, 0.62, 0.2), latitude / footprint, 1.1, 0.9 * wide_room), sum); // the horizon
+}
+
+// The ring where D = 1. n: the ship's direction, motion axes.
+vec4 ring(vec3 n, float pixel_angle)
+{
+    float away = length(n.xy) * overlay.ring.x - n.z * overlay.ring.y; // sine of the angle beyond it
+    float off = (dot(n.xy, n.xy) > 0.0 || n.z > 0.0 ? away : 1.0) / pixel_angle;
+    // Both sides say which they are, close to it: blue within, red without.
+    float side = exp(-abs(off) / 14.0) * 0.55;
+    vec4 tint = vec4((off < 0.0 ? vec3(0.05, 0.15, 0.9) : vec3(0.9, 0.06, 0.03)) * side, side);
+    return over(line(vec3(1.0), off, 0.9, 1.0), tint) * overlay.ring.z;
+}
+
+// A distance (scene units) in colour, with contours; what is behind stays visible.
+vec4 false_colour(float distance)
+{
+    bool sky = isinf(distance) || distance > 1e30;
+    float logarithm = log2(sky ? 1e30 : max(distance, 1e-30)) * 0.30103 + overlay.scale.z; // of seconds of light
+    float per_pixel = max(fwidth(logarithm), 1e-7);
+    float off, wide_off, room, fine_off = 1e9, fine_room = 0.0;
+    if (OVERLAY == OVERLAY_EMISSION) {
+        float time = overlay.steps.y - (sky ? 0.0 : distance * overlay.steps.z), step = overlay.steps.x;
+        float footprint = max(fwidth(time), 1e-7 * step);
+        off = from_multiple(time, step) / footprint;
+        wide_off = from_multiple(time, 5.0 * step) / footprint;
+        room = clamp(step / footprint / 6.0 - 0.5, 0.0, 1.0);
+    } else {
+        // At 1, 2 and 5 times each power of ten; between them ten finer ones.
+        float within = fract(logarithm), nearest = 1.0;
+        float leading = exp2(within * 3.3219281), apart = leading < 2.0 ? 0.1 : leading < 5.0 ? 0.2 : 0.5;
+        fine_off = from_multiple(leading, apart) / (leading * 2.3025851 * per_pixel);
+        fine_room = 0.45 * clamp(apart / (leading * 2.3025851 * per_pixel) / 8.0 - 0.5, 0.0, 1.0);
+        const float at[4] = float[4](0.0, 0.30103, 0.69897, 1.0);
+        for (int i = 0; i < 4; ++i)
+            nearest = min(nearest, abs(within - at[i]));
+        off = nearest / per_pixel;
+        wide_off = from_multiple(logarithm, 1.0) / per_pixel;
+        room = clamp(0.3 / per_pixel / 6.0 - 0.5, 0.0, 1.0);
+    }
+    if (sky)
+        return vec4(0.0, 0.0, 0.0, 0.35);
+    vec3 colour = scale_colour((logarithm - overlay.scale.x) * overlay.scale.y);
+    vec4 sum = vec4(colour, 1.0) * 0.72;
+    float ink = max(clamp(1.2 - abs(off), 0.0, 1.0), clamp(1.9 - abs(wide_off), 0.0, 1.0)) * room;
+    ink = max(ink, clamp(1.0 - abs(fine_off), 0.0, 1.0) * fine_room);
+    vec3 contour = dot(colour, vec3(0.2, 0.7, 0.1)) > 0.25 ? vec3(0.0) : vec3(1.0);
+    return over(vec4(contour, 1.0) * (0.8 * ink), sum);
+}
+
+// The crosshair and the marks.
+vec4 signs(vec3 n, float pixel_angle)
+{
+    vec4 sum = vec4(0.0);
+    vec3 first = overlay.marks[0].xyz, second = overlay.marks[1].xyz;
+    if (overlay.marks[0].w > 0.0 && overlay.marks[1].w > 0.0) {
+        // Dashes along the great circle between them.
+        vec3 axis = cross(first, second);
+        float sine = length(axis);
+        if (sine > 1e-6) {
+            axis /= sine;
+            if (dot(cross(first, n), axis) > 0.0 && dot(cross(n, second), axis) > 0.0) {
+                float along = atan(dot(cross(first, n), axis), dot(first, n));
+                float dash = step(0.5, fract(along / max(radians(0.8), 8.0 * pixel_angle)));
+                sum = line(vec3(1.0), dot(n, axis) / pixel_angle, 0.6, 0.8 * dash);
+            }
+        }
+    }
+    float size = max(radians(1.0), 6.0 * pixel_angle), width = max(radians(0.05), 1.2 * pixel_angle);
+    for (int i = 0; i < 2; ++i) {
+        vec3 to = n - overlay.marks[i].xyz;
+        if (overlay.marks[i].w <= 0.0 || dot(to, to) > 9.0 * size * size)
+            continue;
+        vec2 at = vec2(dot(to, overlay.right.xyz), dot(to, overlay.up.xyz));
+        // At the edge of the view the axes of the look lie askew: the length is always right.
+        at *= length(to) / max(length(at), 1e-9);
+        float off = i == 0 ? length(at) - size : 0.7071 * (abs(at.x) + abs(at.y) - 1.2 * size);
+        sum = over(line(i == 0 ? vec3(1.0, 0.62, 0.2) : vec3(0.35, 0.9, 1.0), off / pixel_angle, 0.5 * width / pixel_angle, 1.0), sum);
+        sum = over(line(vec3(1.0), length(at) / pixel_angle, 0.5 * width / pixel_angle, 1.0), sum);
+    }
+    vec3 to = n - overlay.aim.xyz;
+    float reach = max(radians(1.6), 14.0 * pixel_angle);
+    if (overlay.aim.w > 0.0 && dot(to, to) < 4.0 * reach * reach) {
+        vec2 at = abs(vec2(dot(to, overlay.right.xyz), dot(to, overlay.up.xyz)));
+        float along = max(at.x, at.y), beside = min(at.x, at.y);
+        float gap = clamp((along - 0.3 * reach) / pixel_angle + 0.5, 0.0, 1.0) * clamp((reach - along) / pixel_angle + 0.5, 0.0, 1.0);
+        sum = over(line(vec3(1.0), beside / pixel_angle, 0.5 * width / pixel_angle, gap), sum);
+        sum = over(line(vec3(1.0), length(at) / pixel_angle, 0.5 * width / pixel_angle, 1.0), sum);
+    }
+    return sum;
+}
+
+void main()
+{
+    float pixel_angle;
+    vec3 n = look(view.row0, view.row1, view.row2, gl_FragCoord.xy - view.origin.xy, CHANNELS ? 1 : 0, pixel_angle);
+    if (MAP && pixel_angle == 0.0)
+        discard;
+    vec4 sum = vec4(0.0);
+    if (OVERLAY == OVERLAY_GRID) {
+        Sight sight = world_from_camera(n, view.boost.x, view.boost.y);
+        vec3 world = ABERRATION ? sight.n : n;
+        world = vec3(dot(overlay.world0.xyz, world), dot(overlay.world1.xyz, world), dot(overlay.world2.xyz, world));
+        sum = grid(world, ABERRATION ? sight.D * pixel_angle : pixel_angle);
+    }
+    if (OVERLAY == OVERLAY_RING)
+        sum = ring(n, pixel_angle);
+    if (OVERLAY == OVERLAY_DISTANCE || OVERLAY == OVERLAY_EMISSION)
+        sum = false_colour(LAYERED ? shown_along(n, pixel_angle).distance : smooth_distance_at(place_of(sight_of(n, pixel_angle).n, world_layer())));
+    shown = over(signs(n, pixel_angle), sum);
+}

@@ -1,0 +1,25 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
+#include "physics/real.glsl"
+#include "physics/aberration.glsl"
+#include "view.glsl"
+#include "seen.glsl"
+#include "distance.glsl"
+// What the picture shows in one direction, as numbers: measure.frag's, for a pixel of its own and without stars.
+
+layout(location = 0) out vec4 light_and_depth; // Rec. 709 linear; distance in the world from the cube map's event
+layout(location = 1) out vec4 camera;          // unit direction in the ship, motion axes; Doppler factor
+layout(location = 2) out vec4 world;           // unit direction in the world, motion axes; which of its frames what is shown rests in
+
+void main()
+{
+    float pixel_angle;
+    vec3 n = look(view.row0, view.row1, view.row2, gl_FragCoord.xy - view.origin.xy, 0, pixel_angle);
+    Shown shown = shown_along(n, pixel_angle);
+    vec3 light = shown.light * view.boost.z;
+    float distance = LAYERED ? shown.distance : smooth_distance_at(place_of(shown.sight.n, world_layer()));
+    light_and_depth = vec4(clamp(light, vec3(-3e38), vec3(3e38)), distance);
+    camera = vec4(n, shown.sight.D);
+    world = vec4(shown.sight.n, shown.frame);
+}
