@@ -47,17 +47,24 @@ class Glb:
     def mesh(self, name, geometry, material):
         return self.add("meshes", {"name": name, "primitives": [dict(geometry, material=material)]})
 
-    def node(self, name, mesh, position=(0, 0, 0), rotation=None, scale=None):
+    def group(self, name):
+        """A node of whatever is put below it: what a scene file calls a body."""
+        group = self.add("nodes", {"name": name, "children": []})
+        self.doc["scenes"][0]["nodes"].append(group)
+        return group
+
+    def node(self, name, mesh, position=(0, 0, 0), rotation=None, scale=None, below=None):
         node = {"name": name, "mesh": mesh, "translation": list(position)}
         if rotation:
             node["rotation"] = list(rotation)
         if scale:
             node["scale"] = list(scale)
-        self.doc["scenes"][0]["nodes"].append(self.add("nodes", node))
+        nodes = self.doc["scenes"][0]["nodes"] if below is None else self.doc["nodes"][below]["children"]
+        nodes.append(self.add("nodes", node))
 
-    def put(self, name, shape, material, position=(0, 0, 0)):
+    def put(self, name, shape, material, position=(0, 0, 0), below=None):
         """A shape that stands in one place alone."""
-        self.node(name, self.mesh(name, self.geometry(shape), material), position)
+        self.node(name, self.mesh(name, self.geometry(shape), material), position, below=below)
 
     def texture(self, content, sampler=None):
         kind = "image/png" if content.startswith(b"\x89PNG") else "image/jpeg"
