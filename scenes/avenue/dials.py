@@ -6,11 +6,12 @@ import shapes
 
 class Dials:
     """Clocks of one radius and one zero; as many as are wanted share their meshes."""
-    def __init__(self, glb, radius, zero_s=0, face=(0.86, 0.83, 0.74), rim=(0.62, 0.42, 0.14), name="dial", sides=64):
+    def __init__(self, glb, radius, zero_s=0, face=(0.86, 0.83, 0.74), rim=(0.62, 0.42, 0.14), marks=None, name="dial", sides=64):
+        """marks: the light of hands and figures; without it they are black."""
         self.glb, self.radius = glb, radius
         case = shapes.revolved(sides // 2, 1, lambda t: (radius * 1.02, radius * (0.16 * t - 0.08)), 1)
         self.dial = glb.mesh(name, glb.geometry(shapes.dial(radius, sides)),
-                             glb.material(name, face, starbow={"clock": {"zero_s": zero_s}}))
+                             glb.material(name, face, emissive=marks, starbow={"clock": {"zero_s": zero_s}}))
         metal = glb.material(f"{name} rim", rim)
         self.rim = glb.mesh(f"{name} rim", glb.geometry(shapes.torus(sides, 8, radius * 1.04, radius * 0.07)), metal)
         self.case = glb.mesh(f"{name} case", glb.geometry(case), metal)
