@@ -33,7 +33,7 @@ def add_ship(glb, name, place, paint, dials, pale, dark):
     put = lambda part, shape, material: glb.put(part, shape, material, place, below=ship)
     put("hull", along_z(shapes.revolved(40, 36, lambda t: (radius(t) + 1e-4, 1.5 * t), 1)), pale)
     for low, high in ((0.36, 0.50), (0.80, 0.84)):
-        band = lambda t: (radius(low + (high - low) * t) + 0.006, 1.5 * (low + (high - low) * t))
+        band = lambda t: (radius(low + (high - low) * t) + 0.015, 1.5 * (low + (high - low) * t))
         put("band", along_z(shapes.revolved(40, 4, band, 1)), paint)
     nozzle = shapes.revolved(32, 4, lambda t: (0.20 + 0.06 * (1 - t) ** 2, 0.10 * t), 1)
     put("nozzle", along_z(nozzle), dark)
