@@ -37,12 +37,12 @@ class Glb:
         return self.add("accessors", {"bufferView": self.view(content), "componentType": 5123, "count": len(values),
                                       "type": "SCALAR"})
 
-    def geometry(self, shape):
-        """The accessors of a shape, to be shared by meshes of several materials."""
-        return {"attributes": {"POSITION": self.floats(shape.positions, "VEC3", True),
-                               "NORMAL": self.floats(shape.normals, "VEC3"),
-                               "TEXCOORD_0": self.floats(shape.uvs, "VEC2")},
-                "indices": self.indices(shape.indices)}
+    def geometry(self, shape, uvs=True):
+        """The accessors of a shape, to be shared by meshes of several materials. uvs: for a texture or a clock."""
+        attributes = {"POSITION": self.floats(shape.positions, "VEC3", True), "NORMAL": self.floats(shape.normals, "VEC3")}
+        if uvs:
+            attributes["TEXCOORD_0"] = self.floats(shape.uvs, "VEC2")
+        return {"attributes": attributes, "indices": self.indices(shape.indices)}
 
     def mesh(self, name, geometry, material):
         return self.add("meshes", {"name": name, "primitives": [dict(geometry, material=material)]})
