@@ -170,11 +170,13 @@ TEST(MovingScenesTest, TwinsMeetAtTwentyAndTwelve)
     shot.position = {0, 0, deep + 3};
     shot.time = 20.02 + std::hypot(1.3, 3); // as far from one as from the other; a moment later, when both rest
     for (auto [dial, figures] : {std::pair("home dial", "20.0"), {"traveller's dial", "12.0"}}) {
-        Figures there;
+        int there = 0; // once or, at the bend, as that which arrives and as that which rests
         for (const Seen& s : seen(shot, dial, {0, 0, 1}))
-            if (s.there)
-                there.push_back(s.figures);
-        EXPECT_EQ(there, Figures{figures}) << dial;
+            if (s.there) {
+                EXPECT_EQ(s.figures, figures) << dial;
+                ++there;
+            }
+        EXPECT_GE(there, 1) << dial;
     }
 }
 
