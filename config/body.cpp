@@ -4,7 +4,7 @@
 namespace starbow {
 namespace {
 
-constexpr std::size_t most_bodies = 64, most_events = 64, most_nodes = 256;
+constexpr std::size_t most_bodies = 1024, most_events = 64, most_nodes = 256;
 
 Event read_event(const Place& place)
 {

@@ -1,5 +1,6 @@
 // What clocks show, without a device: the arithmetic after months, figures, entries, and the shipped scene.
 #include "config/scene_file.h"
+#include "dial.h"
 #include "files.h"
 #include "runtime/clock.h"
 #include "runtime/cull.h"
@@ -21,20 +22,6 @@ __float128 exact_reading(double zero_s, double time, const glm::dvec3& place, do
 {
     const __float128 x = place.x, y = place.y, z = place.z;
     return (__float128(time) - sqrtq(x * x + y * y + z * z)) * spt - zero_s;
-}
-
-/// What an entry's figures say, by its own bits.
-std::string said(const shared::TimeEntry& entry)
-{
-    std::string out;
-    const int count = int(entry.digits.z);
-    for (int k = 0; k < count; ++k) {
-        if (k == count - 1)
-            out += '.';
-        const int figure = int(k < 6 ? entry.digits.x : entry.digits.y) >> 4 * (k % 6) & 15;
-        out += figure == 10 ? '-' : char('0' + figure);
-    }
-    return out;
 }
 
 /// Flat things at places, all of the material of that index, the mesh of each from -1 to 3 across.
@@ -135,10 +122,7 @@ TEST(ClockTest, HandsGoBackwardsBeforeZero)
     EXPECT_EQ(said(entries[0]), "-5.9");
 }
 
-TEST(ClockTest, WithoutClocksThereIsNothing)
-{
-    EXPECT_TRUE(time_entries(world_of({{0, {0, 0, 0}}}, {{}}), {}, 1).empty());
-}
+TEST(ClockTest, WithoutClocksThereIsNothing) { EXPECT_TRUE(time_entries(world_of({{0, {0, 0, 0}}}, {{}}), {}, 1).empty()); }
 
 TEST(ClockTest, TheShippedSceneIsThePapers)
 {

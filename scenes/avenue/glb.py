@@ -37,27 +37,34 @@ class Glb:
         return self.add("accessors", {"bufferView": self.view(content), "componentType": 5123, "count": len(values),
                                       "type": "SCALAR"})
 
-    def geometry(self, shape):
-        """The accessors of a shape, to be shared by meshes of several materials."""
-        return {"attributes": {"POSITION": self.floats(shape.positions, "VEC3", True),
-                               "NORMAL": self.floats(shape.normals, "VEC3"),
-                               "TEXCOORD_0": self.floats(shape.uvs, "VEC2")},
-                "indices": self.indices(shape.indices)}
+    def geometry(self, shape, uvs=True):
+        """The accessors of a shape, to be shared by meshes of several materials. uvs: for a texture or a clock."""
+        attributes = {"POSITION": self.floats(shape.positions, "VEC3", True), "NORMAL": self.floats(shape.normals, "VEC3")}
+        if uvs:
+            attributes["TEXCOORD_0"] = self.floats(shape.uvs, "VEC2")
+        return {"attributes": attributes, "indices": self.indices(shape.indices)}
 
     def mesh(self, name, geometry, material):
         return self.add("meshes", {"name": name, "primitives": [dict(geometry, material=material)]})
 
-    def node(self, name, mesh, position=(0, 0, 0), rotation=None, scale=None):
+    def group(self, name):
+        """A node of whatever is put below it: what a scene file calls a body."""
+        group = self.add("nodes", {"name": name, "children": []})
+        self.doc["scenes"][0]["nodes"].append(group)
+        return group
+
+    def node(self, name, mesh, position=(0, 0, 0), rotation=None, scale=None, below=None):
         node = {"name": name, "mesh": mesh, "translation": list(position)}
         if rotation:
             node["rotation"] = list(rotation)
         if scale:
             node["scale"] = list(scale)
-        self.doc["scenes"][0]["nodes"].append(self.add("nodes", node))
+        nodes = self.doc["scenes"][0]["nodes"] if below is None else self.doc["nodes"][below]["children"]
+        nodes.append(self.add("nodes", node))
 
-    def put(self, name, shape, material, position=(0, 0, 0)):
+    def put(self, name, shape, material, position=(0, 0, 0), below=None):
         """A shape that stands in one place alone."""
-        self.node(name, self.mesh(name, self.geometry(shape), material), position)
+        self.node(name, self.mesh(name, self.geometry(shape), material), position, below=below)
 
     def texture(self, content, sampler=None):
         kind = "image/png" if content.startswith(b"\x89PNG") else "image/jpeg"

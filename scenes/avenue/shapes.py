@@ -12,10 +12,13 @@ class Shape:
         self.uvs.append(uv)
         return len(self.positions) - 1
 
-    def add(self, other):
+    def add(self, other, at=(0, 0, 0), turn=(0, 0, 0, 1)):
+        """turn: a quaternion, about the other's own origin."""
         first = len(self.positions)
-        self.positions += other.positions
-        self.normals += other.normals
+        still = tuple(at) == (0, 0, 0) and tuple(turn) == (0, 0, 0, 1)
+        self.positions += other.positions if still else [
+            tuple(a + p for a, p in zip(at, turned(turn, position))) for position in other.positions]
+        self.normals += other.normals if still else [turned(turn, normal) for normal in other.normals]
         self.uvs += other.uvs
         self.indices += [first + i for i in other.indices]
 
@@ -27,6 +30,12 @@ def unit(v):
 
 def cross(a, b):
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def turned(quaternion, v):
+    x, y, z, w = quaternion
+    t = tuple(2 * part for part in cross((x, y, z), v))
+    return tuple(a + w * b + c for a, b, c in zip(v, t, cross((x, y, z), t)))
 
 
 def grid(columns, rows, at, cut_first=False, cut_last=False):
@@ -120,6 +129,17 @@ def sphere(columns, rows, radius):
     return grid(columns, rows, at, True, True)
 
 
+def dial(radius, sides=96):
+    """Faces +z; texture coordinates from 0 to 1 across it, as a clock wants them."""
+    shape = Shape()
+    shape.vertex((0, 0, 0), (0, 0, 1), (0.5, 0.5))
+    for i in range(sides):
+        x, y = cos(2 * pi * i / sides), sin(2 * pi * i / sides)
+        shape.vertex((radius * x, radius * y, 0), (0, 0, 1), (0.5 + 0.5 * x, 0.5 - 0.5 * y))
+        shape.indices += [0, i + 1, (i + 1) % sides + 1]
+    return shape
+
+
 def torus(columns, rows, radius, tube):
     """Around the z axis."""
     def at(u, v):
@@ -147,6 +167,32 @@ def cylinder_along_x(columns, rows, length, radius, uv):
             rim.append(shape.vertex((end * length / 2, y, z), (float(end), 0.0, 0.0), uv(z, y)))
         for a, b in zip(rim, rim[1:]):
             shape.indices += [middle, b, a] if end > 0 else [middle, a, b]
+    return shape
+
+
+def bar(columns, start, end, radius):
+    """A round bar from one place to another, open at its ends."""
+    along = unit(tuple(b - a for a, b in zip(start, end)))
+    side = unit(cross(along, (0, 0, 1) if abs(along[2]) < 0.9 else (1, 0, 0)))
+    other = cross(along, side)
+    shape = Shape()
+    for i in range(columns + 1):
+        c, s = cos(2 * pi * i / columns), sin(2 * pi * i / columns)
+        normal = tuple(c * a + s * b for a, b in zip(side, other))
+        for place, v in ((start, 0), (end, 1)):
+            shape.vertex(tuple(p + radius * n for p, n in zip(place, normal)), normal, (i / columns, v))
+    for i in range(0, 2 * columns, 2):
+        shape.indices += [i, i + 2, i + 3, i, i + 3, i + 1]
+    return shape
+
+
+def extruded(outline, low, high):
+    """A flat outline of (x, y), counter-clockwise from +z and seen whole from its middle, from z = low to high."""
+    shape = Shape()
+    shape.add(fan([(x, y, high) for x, y in outline]))
+    shape.add(fan([(x, y, low) for x, y in reversed(outline)]))
+    for (x0, y0), (x1, y1) in zip(outline, outline[1:] + outline[:1]):
+        shape.add(fan([(x0, y0, high), (x0, y0, low), (x1, y1, low), (x1, y1, high)]))
     return shape
 
 

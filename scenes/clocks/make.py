@@ -16,17 +16,6 @@ GROUND = -4.5
 FLIGHT = 31  # distance of the flight past them
 
 
-def dial(sides=96):
-    """Faces +z; texture coordinates from 0 to 1 across it, as a clock wants them."""
-    shape = shapes.Shape()
-    shape.vertex((0, 0, 0), (0, 0, 1), (0.5, 0.5))
-    for i in range(sides):
-        x, y = cos(2 * pi * i / sides), sin(2 * pi * i / sides)
-        shape.vertex((RADIUS * x, RADIUS * y, 0), (0, 0, 1), (0.5 + 0.5 * x, 0.5 - 0.5 * y))
-        shape.indices += [0, i + 1, (i + 1) % sides + 1]
-    return shape
-
-
 def case():
     """Behind the dial: a drum along z, closed at its back."""
     profile = [(RADIUS + 0.16, -0.05), (RADIUS + 0.16, -0.45), (RADIUS - 0.15, -0.75)]
@@ -69,7 +58,7 @@ def add_clocks(glb):
     bronze = glb.material("bronze", (0.16, 0.10, 0.055))
     stone = glb.material("stone", (0.46, 0.42, 0.37))
     parts = [glb.mesh(name, glb.geometry(shape), material) for name, shape, material in (
-        ("dial", dial(), ivory), ("rim", shapes.torus(80, 12, RADIUS + 0.09, 0.11), brass), ("case", case(), bronze),
+        ("dial", shapes.dial(RADIUS), ivory), ("rim", shapes.torus(80, 12, RADIUS + 0.09, 0.11), brass), ("case", case(), bronze),
         ("pillar", pillar(), stone))]
     for i in range(CLOCKS):
         x = APART * (i - (CLOCKS - 1) / 2)

@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""Writes light-clock.glb, two mirrors 2 light-seconds apart and what a pulse between them is made of, and with it
+config/scenes/light-clock.json, where each flash of each pulse is a body of its own. Needs Python 3's own library only; the same
+bytes come out every time.
+
+A pulse is flashes: balls that rest in their clock, each for a good quarter of a second of its time, one after the other where the
+light is. Where a flash of the moving clock was, a spark stays in the world, and they draw its way."""
+import json
+import sys
+from math import cos, pi, sin
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "avenue"))
+import shapes
+from dials import Dials
+from glb import Glb
+
+APART = 2  # of the mirrors, light-seconds
+STEP, STAYS = 0.25, 0.3125  # from flash to flash, and how long each is there, seconds of its clock: one is always seen whole
+RADIUS = 0.08  # a flash's; its limb is seen as it was so much earlier than its front
+PLACES = 8  # flashes from mirror to mirror
+BEHIND = -1.75  # where the moving clock passes
+GROUND = -0.75
+BEFORE = 1000  # seconds of the moving clock's worldline before 0
+# beta 0.6: gamma 5/4 and gamma beta 3/4, and with STEP and STAYS all events are exact in binary, so that all flashes share one frame.
+GAMMA, PROPER = 1.25, 0.75
+RESTING = (-16, 44)  # seconds of its own during which a clock's pulse runs
+MOVING = (-16, 16)
+
+
+def mirror():
+    """A disc that shines downwards, its back and edge above."""
+    shape = shapes.revolved(64, 6, lambda t: (0.62 + 0.03 * sin(pi * t), 0.10 * t), 1)
+    shape.add(shapes.fan([(0.62 * sin(2 * pi * k / 64), 0.10, 0.62 * cos(2 * pi * k / 64)) for k in range(64)]))
+    return shape
+
+
+def glass():
+    return shapes.fan([(0.62 * sin(-2 * pi * k / 64), 0, 0.62 * cos(-2 * pi * k / 64)) for k in range(64)])
+
+
+def add_clock(glb, name, paint, dials, place, moves):
+    clock = glb.group(name) if moves else None
+    silver = glb.material("silver", (0.80, 0.84, 0.88), emissive=(0.10, 0.11, 0.12))
+    metal = glb.material(f"{name} paint", paint)
+    back, front = (glb.mesh(part, glb.geometry(shape), material)
+                   for part, shape, material in (("mirror", mirror(), metal), ("glass", glass(), silver)))
+    upside_down = shapes.quaternion((1, 0, 0), pi)
+    x, _, z = place
+    for y, turn in ((APART + RADIUS, None), (-RADIUS, upside_down)):  # a flash's radius beyond where its middle turns
+        for mesh in (back, front):
+            glb.node(glb.doc["meshes"][mesh]["name"], mesh, (x, y, z), turn, below=clock)
+    rods = shapes.Shape()
+    for k in range(3):
+        angle = 2 * pi * (k + 0.5) / 3 + pi / 2
+        a, b = 0.60 * sin(angle), 0.60 * cos(angle)
+        rods.add(shapes.bar(12, (a, -RADIUS, b), (a, APART + RADIUS, b), 0.022))
+    rods.add(shapes.bar(16, (0, GROUND + 0.05, 0), (0, -0.2, 0), 0.09))
+    rods.add(shapes.box((0.42, 0.05, 0.42), (0, GROUND + 0.07, 0)))
+    glb.put("rods", rods, metal, place, below=clock)
+    dials.put("dial", (x, APART + 0.34 + dials.radius, z), below=clock, both=True)
+
+
+def add_pulse(glb):
+    """A flash and a spark for each place from the lower mirror to the upper one; config/scenes/light-clock.json says when."""
+    flash = glb.mesh("flash", glb.geometry(shapes.sphere(20, 10, RADIUS)),
+                     glb.material("flash", (0, 0, 0), emissive=(3.2, 2.7, 1.2)))
+    spark = glb.mesh("spark", glb.geometry(shapes.sphere(8, 4, 0.038)),
+                     glb.material("spark", (0, 0, 0), emissive=(1.4, 0.75, 0.15)))
+    for k in range(PLACES + 1):
+        glb.node(f"flash {k}", flash, (0, APART * k / PLACES, 0))
+        glb.node(f"spark {k}", spark, (0, APART * k / PLACES, 0))
+
+
+def add_floor(glb):
+    stones = (shapes.Shape(), shapes.Shape())
+    for i in range(-14, 14):
+        for j in range(-10, 8):
+            stones[(i + j) % 2].add(shapes.level(2 * i, 2 * (j + 1), 2 * (i + 1), 2 * j, GROUND))
+    for name, shape, colour in (("light stones", stones[0], (0.095, 0.11, 0.15)), ("dark stones", stones[1], (0.06, 0.07, 0.10))):
+        glb.put(name, shape, glb.material(name, colour))
+    field = glb.geometry(shapes.box((0.5, 0.06, 0.12)))
+    paints = [glb.mesh(f"{name} field", field, glb.material(f"{name} field", colour))
+              for name, colour in (("white", (0.75, 0.75, 0.72)), ("red", (0.55, 0.07, 0.05)))]
+    for x in range(-24, 24):
+        glb.node("field", paints[x % 2], (x + 0.5, GROUND + 0.06, 1.1))
+    lane = shapes.level(-28, BEHIND + 0.55, 28, BEHIND - 0.55, GROUND + 0.012)
+    glb.put("lane", lane, glb.material("lane", (0.03, 0.09, 0.11)))
+
+
+def bodies():
+    """Of the scene: the moving clock, the flashes of both, the sparks of the moving one."""
+    def event(t, x, z):
+        return {"time": t, "position": [x, 0, z]}
+
+    def runs(span):
+        """Own time of each flash and its place between the mirrors, from -16 s on: up, and down again."""
+        count = int((span[1] - span[0]) / STEP)
+        for n in range(count):
+            k = n % (2 * PLACES)
+            yield span[0] + STEP * n, k if k <= PLACES else 2 * PLACES - k
+
+    out = [{"name": "moving clock", "nodes": ["moving clock"], "worldline": [
+        event(-GAMMA * BEFORE, -PROPER * BEFORE, BEHIND), event(GAMMA * BEFORE, PROPER * BEFORE, BEHIND)]}]
+    for n, (own, k) in enumerate(runs(RESTING)):
+        out.append({"name": f"resting {n}", "nodes": [f"flash {k}"],
+                    "worldline": [event(own, 0, 0), event(own + STAYS, 0, 0)]})
+    for n, (own, k) in enumerate(runs(MOVING)):
+        line = [event(GAMMA * t, PROPER * t, BEHIND) for t in (own, own + STAYS)]
+        out.append({"name": f"moving {n}", "nodes": [f"flash {k}"], "worldline": line})
+        start = line[0]["time"]
+        out.append({"name": f"spark {n}", "nodes": [f"spark {k}"], "worldline": [
+            line[0], event(start + 60, line[0]["position"][0], BEHIND)]})
+    return out
+
+
+def scene():
+    lines = ",\n".join("        " + json.dumps(body) for body in bodies())
+    return SCENE.replace("BODIES", lines)
+
+
+SCENE = """// Two light clocks: a pulse of light goes up and down between mirrors 2 light-seconds apart, 4 s there and back. One rests; one
+// passes behind it at 0.6 c, and its light's way is longer: 5 s. Each flash of a pulse is a body: it rests in its clock from
+// one event to another. One unit is one light-second. scenes/light-clock/make.py writes the glTF and this file.
+{
+    "gltf": "../../scenes/light-clock/light-clock.glb",
+    "unit_m": 299792458,
+    "light_speed_m_s": 299792458,
+    "sky": { "zenith": [0.003, 0.006, 0.018], "horizon": [0.020, 0.032, 0.060], "nadir": [0.003, 0.005, 0.010] },
+    "ambient": [0.16, 0.17, 0.20],
+    "lights": [
+        { "type": "directional", "towards": [-0.40, 0.60, 0.70], "radiance": [0.85, 0.83, 0.80] }
+    ],
+    "bodies": [
+BODIES
+    ],
+    "start": { "time": -4, "position": [0, 1.1, 8.5], "look": [0, 0, -1], "up": [0, 1, 0] }
+}
+"""
+
+
+def main():
+    glb = Glb("light-clock")
+    face, marks = (0.02, 0.028, 0.045), (0.95, 0.88, 0.66)
+    resting = Dials(glb, 0.5, face=face, marks=marks, name="resting dial")
+    moving = Dials(glb, 0.5, BEFORE, face=face, marks=marks, name="moving dial")
+    add_clock(glb, "resting clock", (0.34, 0.20, 0.07), resting, (0, 0, 0), False)
+    add_clock(glb, "moving clock", (0.05, 0.26, 0.34), moving, (0, 0, 0), True)
+    add_pulse(glb)
+    add_floor(glb)
+    out = Path(sys.argv[1]) if len(sys.argv) > 1 else HERE / "light-clock.glb"
+    glb.write(out)
+    json_file = out.with_suffix(".json") if len(sys.argv) > 1 else HERE.parents[1] / "config/scenes/light-clock.json"
+    json_file.write_text(scene())
+
+
+if __name__ == "__main__":
+    main()
