@@ -53,10 +53,10 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     const Document document = read_document(file);
     const Place top = root(document);
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-    only(top, {"$schema", "layout", "scene", "shot", "profiles", "tutorial", "flying", "exposure"});
+    only(top, {"$schema", "layout", "scene", "shot", "language", "profiles", "tutorial", "flying", "exposure"});
     Exhibit exhibit;
-    for (const auto& [name, value] :
-        {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene}, {"shot", &exhibit.shot}})
+    for (const auto& [name, value] : {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene},
+             {"shot", &exhibit.shot}, {"language", &exhibit.language}})
         if (auto p = find(top, name))
             *value = name_or_path(*p, folder);
     if (auto scene = find(top, "scene"); scene && !exhibit.shot.empty())

@@ -70,8 +70,8 @@ struct Dashboard {
     int frames = 0;
     double rate = 0;
 
-    const Panel* update(const Flight& flight, const SceneFile& scene, double exposure_ev, bool locked, int width,
-        const std::string& prompt, const std::string& notice)
+    const Panel* update(const Flight& flight, const SceneFile& scene, const Words& words, double exposure_ev, bool locked,
+        int width, const std::string& prompt, const std::string& notice)
     {
         Clock::time_point now = Clock::now();
         ++frames;
@@ -85,7 +85,7 @@ struct Dashboard {
             told.mode = flight.mode, told.lever = flight.lever;
             told.exposure_ev = exposure_ev, told.exposure_locked = locked;
             told.prompt = prompt, told.notice = notice;
-            panel = typesetter.draw(told, width);
+            panel = typesetter.draw(told, words, width);
             drawn = now;
         }
         return flight.hud ? &panel : nullptr;
@@ -293,8 +293,9 @@ void fly(Visit& visit, Theatre& theatre)
         Shot shot = shot_of(visit.flight, visit.opening.start.scene);
         shot.exposure_ev
             = shown_ev(visit.exposure, visit.opening.exposure, shot.exposure_ev, visit.opening.start.exposure_ev);
-        const Panel* panel = dashboard.update(visit.flight, scene, shot.exposure_ev, visit.exposure.locked,
-            frame->hud_width(), visit.opening.tutorial ? prompt(visit.tutorial, visit.hid.means()) : "", notice_of(visit));
+        const Panel* panel = dashboard.update(visit.flight, scene, visit.opening.words, shot.exposure_ev,
+            visit.exposure.locked, frame->hud_width(),
+            visit.opening.tutorial ? prompt(visit.tutorial, visit.hid.means(), visit.opening.words) : "", notice_of(visit));
         // A pattern is left alone but for what its builder is being told.
         const bool told = visit.workbench.pattern() == Pattern::none || !visit.workbench.says().empty();
         frame->prepare(shot, told ? panel : nullptr);
@@ -326,7 +327,7 @@ void tell(const Visit& visit, const SceneFile& scene)
     last.exposure_ev
         = shown_ev(visit.exposure, visit.opening.exposure, visit.flight.exposure_ev, visit.opening.start.exposure_ev);
     last.exposure_locked = visit.exposure.locked;
-    for (const auto& [label, value] : hud_fields(last))
+    for (const auto& [label, value] : hud_fields(last, words_in("en")))
         std::printf("%s %s  ", label.c_str(), value.c_str());
     std::printf("\n");
     if (visit.skew.frames() > 0)

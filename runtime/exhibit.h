@@ -4,6 +4,7 @@
 #include "config/layout.h"
 #include "config/profile.h"
 #include "config/shot.h"
+#include "config/words.h"
 #include "frame.h"
 #include "latency.h"
 #include <filesystem>
@@ -16,6 +17,7 @@ struct Opening {
     std::filesystem::path scene;
     Layout layout;
     Shot start; ///< where the visit begins and where reset leads back to
+    Words words; ///< of what the visitor reads
     Flying rules{};
     Exposing exposure{};
     std::vector<Profile> profiles{};

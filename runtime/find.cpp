@@ -69,6 +69,8 @@ fs::path find(const std::string& kind, const std::string& name)
         "There is no " + name + ".json in config/" + kind + "; there are: " + list + "; or give the path of a file");
 }
 
+Words words_in(const std::string& language) { return load_words(find("words", language)); }
+
 fs::path scene_of(const Shot& shot, const fs::path& shot_file)
 {
     return is_path(shot.scene) ? shot_file.parent_path() / shot.scene : find("scenes", shot.scene);

@@ -1,6 +1,7 @@
 #pragma once
 #include "config/profile.h"
 #include "config/shot.h"
+#include "config/words.h"
 #include <filesystem>
 #include <string>
 
@@ -20,6 +21,9 @@ std::vector<Profile> known_profiles(const std::filesystem::path& exhibits = {});
 /// A config file by path, or by the name of a shipped one: find("layouts", "dome") is config/layouts/dome.json.
 /// Throws InputError that lists the shipped names.
 std::filesystem::path find(const std::string& kind, const std::string& name);
+
+/// The words of a language: of a shipped one, or a file. Throws InputError.
+Words words_in(const std::string& language);
 
 /// The scene file that a shot names: a shipped one, or a path from the shot's own folder.
 std::filesystem::path scene_of(const Shot& shot, const std::filesystem::path& shot_file);

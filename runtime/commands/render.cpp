@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "config/error.h"
+#include "language_option.h"
 #include "number_option.h"
 #include "pattern_option.h"
 #include "render_replay.h"
@@ -17,7 +18,8 @@ namespace starbow {
 namespace {
 
 struct Options {
-    std::string layout, shot, out, size, pattern = "none", exposure = "shot", spectra = "needed", replay, frames;
+    std::string layout, shot, out, size, pattern = "none", exposure = "shot", spectra = "needed", replay, frames,
+                                         language = "en";
     long every = 1;
     double bloom = 0;
     bool exr = false, hud = false;
@@ -26,10 +28,11 @@ struct Options {
 int render(const Options& options)
 {
     if (!options.replay.empty())
-        return render_replay(
-            {options.replay, options.layout, options.out, options.size, options.frames, options.every, options.hud});
+        return render_replay({options.replay, options.layout, options.out, options.size, options.frames, options.language,
+            options.every, options.hud});
     if (options.shot.empty())
         throw InputError("Neither --shot nor --replay is given; what is to be drawn, one of the two, is right");
+    const Words words = words_in(options.language);
     std::filesystem::path shot_file = find("shots", options.shot);
     Shot shot = load_shot(shot_file);
     Layout layout = load_layout(find("layouts", options.layout.empty() ? "desk" : options.layout));
@@ -65,7 +68,7 @@ int render(const Options& options)
     if (options.hud) {
         Readings told = readings(ship_at(shot), theatre.world.scene, shot.effects);
         told.exposure_ev = shot.exposure_ev;
-        panel = Typesetter().draw(told, studio.frame().hud_width());
+        panel = Typesetter().draw(told, words, studio.frame().hud_width());
     }
     render_still(options.out, studio, shot, options.exr, panel ? &*panel : nullptr);
     std::printf("%s\n", light_told(theatre).c_str());
@@ -101,6 +104,7 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
         ->capture_default_str();
     add_spectra(*command, options->spectra);
     command->add_flag("--hud", options->hud, "With the head-up display");
+    add_language(*command, options->language);
     CLI::Option* replay = command->add_option(
         "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");
     for (CLI::Option* other : {shot, exr, pattern})

@@ -2,6 +2,7 @@
 #include "config/exhibit.h"
 #include "contact_sheet.h"
 #include "input/keyboard.h"
+#include "language_option.h"
 #include "number_option.h"
 #include "pattern_option.h"
 #include "runtime/exhibit.h"
@@ -17,13 +18,13 @@ namespace starbow {
 namespace {
 
 struct Options {
-    std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay;
+    std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, language;
     long frames = 0;
     bool asked = false; ///< for anything of the above
 };
 
 /// What a record was flown in is all that its replay is opened with, but for another layout.
-Opening reopen(const std::filesystem::path& record, const std::string& layout)
+Opening reopen(const std::filesystem::path& record, const std::string& layout, const std::string& language)
 {
     const RecordHeader header = Replay(record).header();
     const auto say = [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); };
@@ -31,6 +32,7 @@ Opening reopen(const std::filesystem::path& record, const std::string& layout)
     return {.scene = flown.scene,
         .layout = flown.layout,
         .start = header.start,
+        .words = words_in(language.empty() ? "en" : language),
         .rules = header.rules,
         .exposure = header.exposing,
         .tutorial = false,
@@ -41,7 +43,7 @@ Opening reopen(const std::filesystem::path& record, const std::string& layout)
 Opening open(const Options& options)
 {
     if (!options.replay.empty())
-        return reopen(options.replay, options.layout);
+        return reopen(options.replay, options.layout, options.language);
     Exhibit exhibit = load_exhibit(find("exhibits", options.exhibit));
     // What the command line names counts; a scene or a shot of its own replaces both of the file's.
     if (!options.layout.empty())
@@ -57,6 +59,7 @@ Opening open(const Options& options)
         opening.start = load_shot(shot_file);
         opening.scene = scene_of(opening.start, shot_file);
     }
+    opening.words = words_in(options.language.empty() ? exhibit.language : options.language);
     opening.rules = exhibit.flying;
     opening.exposure = exhibit.exposure;
     opening.profiles = known_profiles(exhibit.profiles);
@@ -99,6 +102,7 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--layout", options->layout, "Instead: a layout file, or the name of one in config/layouts");
     command->add_option("--scene", options->scene, "Instead: a scene file, or the name of one in config/scenes");
     command->add_option("--shot", options->shot, "Instead: start at this shot, in its scene");
+    add_language(*command, options->language);
     command->add_option("--pattern", options->pattern, pattern_help)->capture_default_str();
     command->add_option("--frames", options->frames, "Leave after so many frames")->check(whole_number(0, 1000000000));
     command->add_option("--record", options->record,
@@ -109,7 +113,7 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
     for (const char* other : {"--exhibit", "--scene", "--shot", "--pattern", "--record"})
         replay->excludes(other);
     command->footer(std::string("Keys:\n") + keyboard_help()
-        + "\n\nExamples:\n  starbow run --layout stereo --shot avenue-gamma4\n  starbow run --exhibit dome");
+        + "\n\nExamples:\n  starbow run --layout stereo --shot avenue-gamma4\n  starbow run --exhibit dome --language de");
     command->callback([options, command, &chosen] {
         for (const CLI::Option* option : command->get_options())
             options->asked = options->asked || option->count() > 0;
