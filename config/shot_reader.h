@@ -8,4 +8,6 @@ namespace starbow {
 /// required.
 Shot read_shot(const Place& place, bool with_scene);
 
+Effects read_effects(const Place& place);
+
 } // namespace starbow

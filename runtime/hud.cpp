@@ -233,6 +233,11 @@ Panel Typesetter::draw(const Readings& readings, const Words& words, int width) 
         for (int x = from.x; x < to.x; ++x)
             panel.texels[2 * (std::size_t(y) * panel.size.x + x)] = y >= filled ? 255 : 64;
 
+    if (readings.caption) {
+        write_caption(panel, *this, *readings.caption, hud_fields(readings, words));
+        return panel;
+    }
+
     // Three rows of three, the speed row greater; a prompt takes the third row's place; beneath them whatever else there is
     // to say.
     auto fields = hud_fields(readings, words);

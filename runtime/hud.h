@@ -1,4 +1,5 @@
 #pragma once
+#include "caption.h"
 #include "config/flying.h"
 #include "config/scene_file.h"
 #include "config/words.h"
@@ -34,6 +35,7 @@ struct Readings {
     bool exposure_locked = false; ///< it does not follow the view
     std::optional<double> lever{}; ///< where the throttle is, 0 to 1
     std::string prompt{}; ///< what the visitor is to try now, or empty
+    std::optional<Caption> caption{}; ///< of a tour: takes the place of all but the speed
     std::string notice{}; ///< one line for who looks after the exhibit, or empty
 };
 Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effects);
