@@ -72,10 +72,13 @@ void write_caption(Panel& panel, const Typesetter& typesetter, const Caption& ca
     double x = left;
     for (std::size_t i = 0; i < fields.size() && i < 5; ++i) {
         const std::string field = fields[i].first + " " + fields[i].second;
-        const double end = x + typesetter.width_of(field, small);
-        if (end > aside - small)
+        int size = small;
+        while (fields.size() == 1 && size > 6 && x + typesetter.width_of(field, size) > aside - small)
+            --size; // a notice stands alone, and is told whole
+        const double end = x + typesetter.width_of(field, size);
+        if (i > 0 && end > aside - small)
             break;
-        typesetter.write(panel, field, x, line, small, 0.72);
+        typesetter.write(panel, field, x, line, size, 0.72);
         x = end + 1.2 * small;
     }
 

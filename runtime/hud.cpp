@@ -234,7 +234,9 @@ Panel Typesetter::draw(const Readings& readings, const Words& words, int width) 
             panel.texels[2 * (std::size_t(y) * panel.size.x + x)] = y >= filled ? 255 : 64;
 
     if (readings.caption) {
-        write_caption(panel, *this, *readings.caption, hud_fields(readings, words));
+        write_caption(panel, *this, *readings.caption,
+            readings.notice.empty() ? hud_fields(readings, words)
+                                    : std::vector<std::pair<std::string, std::string>>{{readings.notice, ""}});
         return panel;
     }
 

@@ -11,6 +11,8 @@ namespace {
 constexpr double second_ns = 1e9;
 /// A stick that is held aside goes on to the next number so often.
 constexpr double first_repeat_s = 0.5, repeat_s = 0.1;
+/// Where nobody answers, as in a movie, a question is asked no longer.
+constexpr double longest_asked_of_nobody_s = 7;
 /// The place was reached when it has been so for so long.
 constexpr double reached_s = 0.3;
 
@@ -102,13 +104,20 @@ const Step& step_of(const Touring& touring, const Show& show) { return show.tour
 
 bool tries(const Step& step) { return std::holds_alternative<Try>(step.motion); }
 
+/// How long a question is asked, or a step without one takes. Nobody needs long to think.
+double asked_s(const Step& step, bool visitors)
+{
+    return step.question && !visitors ? std::min(step.seconds, longest_asked_of_nobody_s) : step.seconds;
+}
+
 /// How long the step takes as things stand.
 std::int64_t duration_ns(const Touring& now, const Show& show)
 {
     const Step& step = step_of(now, show);
+    const std::int64_t asked = ns(asked_s(step, show.visitors));
     if (!step.question)
-        return ns(step.seconds);
-    return (now.told ? now.asked_ns : ns(step.seconds)) + ns(step.question->told_s);
+        return asked;
+    return (now.told ? now.asked_ns : asked) + ns(step.question->told_s);
 }
 
 /// Of the visitor who flies in this step.
@@ -353,7 +362,7 @@ double length_s(const Tour& tour)
     double sum = 0;
     for (const Step& step : tour.steps)
         if (!tries(step))
-            sum += step.seconds + (step.question ? step.question->told_s : 0);
+            sum += asked_s(step, false) + (step.question ? step.question->told_s : 0);
     return sum;
 }
 
@@ -384,7 +393,7 @@ Touring advance(Touring now, const Show& show, const Controls& controls, std::in
     for (std::int64_t left = dt_ns; left > 0 && !now.over;) {
         const Step& step = step_of(now, show);
         // To the end of the step, but not beyond the end of the time to answer.
-        const std::int64_t asked = ns(step.seconds);
+        const std::int64_t asked = ns(asked_s(step, show.visitors));
         std::int64_t end = duration_ns(now, show);
         if (step.question && !now.told)
             end = asked;

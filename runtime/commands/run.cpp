@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "config/error.h"
 #include "config/exhibit.h"
 #include "contact_sheet.h"
 #include "input/keyboard.h"
@@ -18,7 +19,7 @@ namespace starbow {
 namespace {
 
 struct Options {
-    std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, language;
+    std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, language, tour;
     long frames = 0;
     bool asked = false; ///< for anything of the above
 };
@@ -51,15 +52,24 @@ Opening open(const Options& options)
     if (!options.scene.empty())
         exhibit.scene = options.scene;
     if (!options.scene.empty() || !options.shot.empty())
-        exhibit.shot = options.shot;
+        exhibit.shot = options.shot, exhibit.tour.clear();
+    if (!options.tour.empty())
+        exhibit.tour = options.tour, exhibit.shot.clear();
+    if (!exhibit.tour.empty() && !options.record.empty())
+        throw InputError("A tour's flight can't be recorded; --record without a tour is right");
     Opening opening{.scene = find("scenes", exhibit.scene), .layout = load_layout(find("layouts", exhibit.layout))};
     opening.start = load_scene_file(opening.scene).start;
+    opening.words = words_in(options.language.empty() ? exhibit.language : options.language);
     if (!exhibit.shot.empty()) {
         const std::filesystem::path shot_file = find("shots", exhibit.shot);
         opening.start = load_shot(shot_file);
         opening.scene = scene_of(opening.start, shot_file);
     }
-    opening.words = words_in(options.language.empty() ? exhibit.language : options.language);
+    if (!exhibit.tour.empty()) {
+        opening.tour = tour_in(exhibit.tour, opening.words);
+        opening.scene = scene_of(*opening.tour);
+        opening.start = std::get<Cut>(opening.tour->steps[0].motion).shot;
+    }
     opening.rules = exhibit.flying;
     opening.exposure = exhibit.exposure;
     opening.profiles = known_profiles(exhibit.profiles);
@@ -108,12 +118,19 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--record", options->record,
         "Keep every control of the flight in this new file (or in a new file in this folder), for --replay. A minute at 60 "
         "frames a second takes 70 kB at rest, 0.4 MB with a stick in hand, 1.2 MB with a head tracker");
+    CLI::Option* tour = command->add_option("--tour", options->tour,
+        "Instead: show this tour, a file or the name of one in config/tours; then the visitor flies, and when nobody does "
+        "it "
+        "begins anew. Space: stand still, go on; R: on to the next step; Backspace: back");
+    for (const char* other : {"--scene", "--shot", "--record"})
+        tour->excludes(other);
     CLI::Option* replay = command->add_option("--replay", options->replay,
         "Fly a record again, the same to the bit, in its scene and on its layout (or on --layout's)");
-    for (const char* other : {"--exhibit", "--scene", "--shot", "--pattern", "--record"})
+    for (const char* other : {"--exhibit", "--scene", "--shot", "--tour", "--pattern", "--record"})
         replay->excludes(other);
     command->footer(std::string("Keys:\n") + keyboard_help()
-        + "\n\nExamples:\n  starbow run --layout stereo --shot avenue-gamma4\n  starbow run --exhibit dome --language de");
+        + "\n\nExamples:\n  starbow run --layout stereo --shot avenue-gamma4\n  starbow run --exhibit dome --language de\n  "
+          "starbow run --tour first-minute");
     command->callback([options, command, &chosen] {
         for (const CLI::Option* option : command->get_options())
             options->asked = options->asked || option->count() > 0;
