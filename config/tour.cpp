@@ -174,8 +174,8 @@ struct Reader {
     Step read_step(const Place& place, double usual_rate) const
     {
         only(place,
-            {"seconds", "ship_s_per_s", "caption", "measure", "effects", "exposure_ev", "question", "cut", "glide", "thrust",
-                "turn", "try"});
+            {"seconds", "ship_s_per_s", "ease_s", "caption", "measure", "effects", "exposure_ev", "question", "cut", "glide",
+                "thrust", "turn", "try"});
         Step step{.seconds = number(member(place, "seconds"), {0.1, 3600})};
         step.ship_s_per_s = usual_rate;
         take(place, "ship_s_per_s", step.ship_s_per_s, {0, 1e12});
@@ -206,6 +206,14 @@ struct Reader {
             step.motion = read_turn(*p);
         else if (auto p = find(place, "try"))
             step.motion = read_try(*p);
+        if (auto p = find(place, "ease_s")) {
+            step.ease_s = vec2(*p, {0, 3600});
+            if (step.ease_s.x + step.ease_s.y > step.seconds)
+                complain(*p, "is longer than the step, " + shown(step.seconds) + " s; two times that fit are right");
+            if (std::holds_alternative<Glide>(step.motion) || std::holds_alternative<Try>(step.motion))
+                complain(
+                    *p, "is for a ship that flies by itself; nothing here, or no \"glide\" or \"try\" beside it, is right");
+        }
         if (auto p = find(place, "question")) {
             step.question = read_question(*p);
             const bool flies = std::holds_alternative<Try>(step.motion),

@@ -95,6 +95,7 @@ struct Try {
 struct Step {
     double seconds; ///< of the visitor's time
     double ship_s_per_s = 1; ///< seconds of the ship's in each of them: slow and fast motion; 0: nothing moves on
+    glm::dvec2 ease_s{0}; ///< in which the ship's time gets going at the step's beginning, and stands still at its end
     std::variant<Coast, Cut, Glide, Thrust, Turning, Try> motion;
     std::string caption; ///< or empty
     std::optional<Measure> measure; ///< what {measured} in the caption stands for

@@ -35,7 +35,8 @@ Caption caption_of(const Touring& now, const Show& show, const Words& words, con
     if (step.measure)
         caption.text = filled(caption.text, {{"measured", number(*step.measure)}});
     const std::string left = whole(left_s(now, show));
-    if (tries && !now.told)
+    caption.flying = tries && !now.told;
+    if (caption.flying)
         caption.aside = words("touring.fly", {{"left", left}});
     if (step.question && now.told) {
         caption.text = words(now.right ? *now.right ? "touring.right" : "touring.wrong" : "touring.answer") + " "

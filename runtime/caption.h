@@ -18,6 +18,7 @@ struct Caption {
     std::vector<std::string> choices{}; ///< of a question
     int chosen = -1; ///< of them
     std::string aside{}; ///< how to answer, how long there is
+    bool flying = false; ///< the visitor flies: the lever counts
 };
 
 /// Of a tour as it stands, in the words of what there is to answer with; no text where the visitor flies freely.

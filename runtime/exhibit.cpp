@@ -84,6 +84,8 @@ struct Dashboard {
             Readings told = readings(flight.ship, scene, flight.effects);
             told.frames_per_s = rate;
             told.mode = flight.mode, told.lever = flight.lever;
+            if (caption && !caption->flying)
+                told.lever.reset();
             told.exposure_ev = exposure_ev, told.exposure_locked = locked;
             told.prompt = prompt, told.caption = caption, told.notice = notice;
             panel = typesetter.draw(told, words, width);

@@ -25,6 +25,19 @@ double eased(double x)
     return x * x * x * x * (35 + x * (-84 + x * (70 - 20 * x)));
 }
 
+/// The part of the ship's time that has passed after a part of the step: its rate rises and falls as 10x^3 - 15x^4 + 6x^5
+/// does, of which this is the integral.
+double gone(double part, double seconds, const glm::dvec2& ease_s)
+{
+    const auto ramp = [](double x) { return x * x * x * x * (2.5 + x * (-3 + x)); };
+    const double t = part * seconds, all = seconds - 0.5 * (ease_s.x + ease_s.y);
+    const double begun = t < ease_s.x ? ease_s.x * ramp(t / ease_s.x) : t - 0.5 * ease_s.x;
+    const double left = seconds - t;
+    if (t >= ease_s.x && left < ease_s.y)
+        return 1 - ease_s.y * ramp(left / ease_s.y) / all;
+    return begun / all;
+}
+
 /// Proper velocity on the geodesic of velocity space from a to b: of the velocity that b has as a ship at a sees it, a part
 /// of the rapidity.
 glm::dvec3 between(const glm::dvec3& a, const glm::dvec3& b, double part)
@@ -59,7 +72,7 @@ double world_time(const glm::dvec3& a, const glm::dvec3& b, double part, double 
 /// The ship `part` of a step's way in, from its start.
 struct Motion {
     const Step& step;
-    double part, dtau; ///< dtau: units of the ship's time so far in the step
+    double part, run, dtau; ///< run: part of the step's ship's time; dtau: units of the ship's time so far in the step
 
     Ship operator()(Ship ship, const Cut&) const { return fly(ship, {}, {}, dtau); }
     Ship operator()(Ship ship, const Coast&) const { return fly(ship, {}, {}, dtau); }
@@ -75,26 +88,26 @@ struct Motion {
     {
         const glm::dvec3 way
             = thrust.towards ? glm::inverse(ship.ship_from_cockpit) * *thrust.towards : glm::dvec3(0, 0, -1);
-        const double gained = thrust.rapidity_per_s * step.seconds * step.ship_s_per_s * part;
+        const double gained = thrust.rapidity_per_s * step.seconds * step.ship_s_per_s * run;
         return fly(ship, dtau > 0 ? way * (gained / dtau) : glm::dvec3(0), {}, dtau);
     }
     Ship operator()(Ship ship, const Glide& glide) const
     {
-        const double gone = eased(part);
+        const double way = eased(part);
         const Ship from = ship;
         const glm::dvec3 u = from.u.total(), place = from.position.total();
         if (glide.position) {
-            ship.position.add(gone * (*glide.position - place));
-            ship.distance.add(gone * glm::distance(*glide.position, place));
+            ship.position.add(way * (*glide.position - place));
+            ship.distance.add(way * glm::distance(*glide.position, place));
         }
         if (glide.time)
-            ship.time.add(gone * (*glide.time - from.time.total()));
+            ship.time.add(way * (*glide.time - from.time.total()));
         else if (part > 0)
             ship.time.add(world_time(u, glide.u.value_or(u), part, dtau / part));
         if (glide.u)
-            ship.u = Sum3(part < 1 ? between(u, *glide.u, gone) : *glide.u);
+            ship.u = Sum3(part < 1 ? between(u, *glide.u, way) : *glide.u);
         if (glide.ship_from_cockpit)
-            ship.ship_from_cockpit = glm::normalize(glm::slerp(from.ship_from_cockpit, *glide.ship_from_cockpit, gone));
+            ship.ship_from_cockpit = glm::normalize(glm::slerp(from.ship_from_cockpit, *glide.ship_from_cockpit, way));
         ship.proper_time.add(dtau);
         return ship;
     }
@@ -185,10 +198,11 @@ void place(Touring& now, const Show& show)
     // While the answer is told the motion stands: what was asked about stays in view.
     const double seconds = double(now.told ? now.asked_ns : now.into_ns) / second_ns;
     const double part = std::min(1.0, seconds / step.seconds);
-    const double moved = step.seconds * part;
+    const double run = gone(part, step.seconds, step.ease_s), moved = step.seconds * run;
     now.flight.ship = std::visit(
         [&](const auto& motion) {
-            return Motion{step, part, moved * step.ship_s_per_s / show.seconds_per_time_unit}(start.flight.ship, motion);
+            return Motion{step, part, run, moved * step.ship_s_per_s / show.seconds_per_time_unit}(
+                start.flight.ship, motion);
         },
         step.motion);
     now.flight.exposure_ev = start.flight.exposure_ev;

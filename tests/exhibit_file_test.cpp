@@ -132,4 +132,16 @@ TEST(ExhibitFileTest, WrongOnesAreRefusedByBoth)
         EXPECT_NE(text.find("/exposure/"), std::string::npos) << text;
     }
     EXPECT_NE(said(R"({ "scene": "avenue", "shot": "gamma100" })").find("one too many"), std::string::npos);
+    EXPECT_NE(said(R"({ "scene": "avenue", "tour": "rainbow" })").find("one too many beside a tour"), std::string::npos);
+}
+
+TEST(ExhibitFileTest, ATourIsNamedOrAPath)
+{
+    const std::string text = R"({ "tour": "own/tour.json", "language": "own/fr.json" })";
+    EXPECT_TRUE(schema_accepts(json::parse(text)));
+    const auto file = write_text("exhibit.json", text);
+    const auto folder = std::filesystem::absolute(file).parent_path();
+    EXPECT_EQ(load_exhibit(file).tour, (folder / "own/tour.json").string());
+    EXPECT_EQ(load_exhibit(file).language, (folder / "own/fr.json").string());
+    EXPECT_EQ(load_exhibit(write_text("exhibit.json", R"({ "tour": "rainbow" })")).tour, "rainbow");
 }

@@ -120,7 +120,7 @@ TEST(TourFile, EveryMemberIsTaken)
           "caption": { "de": "deutsch", "en": "english" }, "exposure_ev": -2 },
         { "seconds": 2, "ship_s_per_s": 3, "glide": { "position": [4, 5, 6], "time": 9 },
           "caption": "tour.first-minute.back", "measure": { "what": "reading_s", "at": [1, 0, 0], "against": [0, 1, 0] } },
-        { "seconds": 3, "thrust": { "rapidity_per_s": 0.25, "towards": [0, 3, 0] }, "effects": { "doppler": false } },
+        { "seconds": 3, "ease_s": [0.5, 1], "thrust": { "rapidity_per_s": 0.25, "towards": [0, 3, 0] }, "effects": { "doppler": false } },
         { "seconds": 4, "turn": { "look": [1, 0, 0] } },
         { "seconds": 5, "question": { "ask": { "en": "?" }, "told": { "en": "!" }, "told_s": 4, "measure": { "what": "beta" },
           "choices": [{ "text": { "en": "a" }, "below": 0.5 }, { "text": { "en": "b" }, "from": 0.5 }] } },
@@ -153,6 +153,7 @@ TEST(TourFile, EveryMemberIsTaken)
     const Thrust& thrust = std::get<Thrust>(tour.steps[2].motion);
     EXPECT_EQ(thrust.rapidity_per_s, 0.25);
     EXPECT_EQ(thrust.towards, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(tour.steps[2].ease_s, glm::dvec2(0.5, 1));
     EXPECT_FALSE(tour.steps[2].effects->doppler);
     EXPECT_TRUE(tour.steps[2].effects->headlight);
     EXPECT_EQ(std::get<Turning>(tour.steps[3].motion).ship_from_cockpit, orientation({1, 0, 0}, {0, 1, 0}));
@@ -175,6 +176,8 @@ TEST(TourFile, TheSchemasDefaultsAreTheReaders)
     EXPECT_EQ(schema["properties"]["again_after_s"]["default"], tour.again_after_s);
     EXPECT_EQ(schema["properties"]["ship_s_per_s"]["default"], tour.steps[1].ship_s_per_s);
     EXPECT_EQ(schema["definitions"]["question"]["properties"]["told_s"]["default"], tour.steps[1].question->told_s);
+    EXPECT_EQ(schema["definitions"]["step"]["properties"]["ease_s"]["default"],
+        json::array({tour.steps[0].ease_s.x, tour.steps[0].ease_s.y}));
     // Every measure, and no other.
     std::set<std::string> known, described;
     for (const auto& [name, what] : measures)
@@ -202,6 +205,7 @@ TEST(TourFile, WrongOnesAreRefusedByBoth)
             {with(R"("turn": {})"), "/steps/1/turn: {} lacks \"look\""},
             {with(R"("try": { "mode": "easy" })"), "/steps/1/try/mode"},
             {with(R"("glide": { "effects": {} })"), "/steps/1/glide/effects"},
+            {with(R"("ease_s": 1)"), "/steps/1/ease_s: 1 is not a list"},
             {with(R"("exposure_ev": 61)"), "/steps/1/exposure_ev: 61 is too large"},
             {with(R"("question": { "ask": { "en": "?" }, "told": { "en": "!" }, "measure": { "what": "gamma" } })"),
                 "needs one way to answer"},
@@ -217,6 +221,8 @@ TEST(TourFile, WrongOnesAreRefusedByBoth)
                 "/steps/0/cut: \"start\" is a shot in the scene avenue"},
             {with(R"("caption": "tour.no.such")"), "is no text in en.json"},
             {with(R"("caption": "tour.first-minute.back")"), "has {measured} in its text"},
+            {with(R"("ease_s": [1, 1.1])"), "/steps/1/ease_s: [1,1.1] is longer than the step"},
+            {with(R"("ease_s": [1, 1], "glide": {})"), "/steps/1/ease_s: "},
             {with(R"("thrust": { "rapidity_per_s": 1, "towards": [0, 0, 0] })"), "points nowhere"},
             {with(R"("try": {}, "question": { )" + question + " }"), "/steps/1/question: "},
             {with(

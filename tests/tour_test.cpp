@@ -260,6 +260,29 @@ TEST(Tours, AGlideIsSmooth)
     EXPECT_NEAR(end.flight.ship.time.total(), time, 1e-6) << "the midpoint rule's error";
 }
 
+/// Eased, the ship's time has no leap of its rate: it starts and ends at rest, and all of it passes.
+TEST(Tours, AStepIsEased)
+{
+    const Tour tour = tour_of(R"({ "seconds": 1, "cut": { "velocity": { "direction": [1, 0, 0], "beta": 0.6 } },
+        "ship_s_per_s": 0 }, { "seconds": 6, "ship_s_per_s": 2, "ease_s": [1, 2] })");
+    const Show show{tour, {}, 1, false};
+    const auto ship_s = [&](double seconds) {
+        return advance(touring_at(show), show, {}, std::llround(1e9 * (1 + seconds))).flight.ship.proper_time.total();
+    };
+    const auto rate = [&](double seconds) { return (ship_s(seconds + 1e-4) - ship_s(seconds - 1e-4)) / 2e-4; };
+    EXPECT_NEAR(ship_s(6 - 1e-9), 12, 1e-8);
+    EXPECT_NEAR(rate(2), 12 / 4.5, 1e-6) << "the whole, in a second and a half less";
+    EXPECT_NEAR(rate(3.9), 12 / 4.5, 1e-6);
+    EXPECT_NEAR(rate(0.5), 6 / 4.5, 1e-6) << "half of it in the middle of the ramp";
+    EXPECT_NEAR(rate(5), 6 / 4.5, 1e-6);
+    EXPECT_LT(rate(0.02), 1e-3);
+    EXPECT_LT(rate(5.98), 1e-3);
+    EXPECT_NEAR(rate(1 - 1e-3), rate(1 + 1e-3), 1e-6) << "the ramp joins";
+    EXPECT_NEAR(rate(4 - 1e-3), rate(4 + 1e-3), 1e-6);
+    const Touring end = advance(touring_at(show), show, {}, 7'000'000'000 - 1);
+    EXPECT_NEAR(place_of(end).x, 0.75 * 12, 1e-7) << "the way is that of its time: u = 0.75";
+}
+
 TEST(Tours, AQuestionIsAnsweredFromTheState)
 {
     const Tour tour = tour_of(R"({ "seconds": 1, "cut": { "velocity": { "direction": [0, 0, -1], "gamma": 4 } } },
