@@ -48,6 +48,19 @@ ok
 grep -q 'exposure [^ ]* EV locked' "$folder/log" || fail "desk: L did not hold the exposure"
 ok
 
+# A tour flies by itself: on to its third step, where it speeds up.
+fly desk --tour first-minute
+xdotool key r
+sleep 0.5
+xdotool key r
+sleep 4
+xdotool key Escape
+wait $exhibit || fail "a tour: exit $?"
+ok
+gamma=$(sed -n 's/.*γ \([0-9.]*\).*/\1/p' "$folder/log")
+awk "BEGIN { exit !($gamma > 1.01 && $gamma < 2.2) }" || fail "a tour: gamma $gamma"
+ok
+
 # Stop is at once. The flight is recorded, and flown again it ends the same.
 fly stereo --record "$folder/flight.jsonl"
 xdotool keydown w

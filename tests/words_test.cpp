@@ -4,6 +4,8 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
 
 using namespace starbow;
 using namespace starbow::testing;
@@ -55,6 +57,26 @@ TEST(Words, EachIsSaidSomewhere)
         const bool elsewhere = key.starts_with("tour.") || key.starts_with("flight.") || key == "decimal_sign";
         EXPECT_TRUE(elsewhere || sources.find(std::string("\"").append(key).append("\"")) != sources.npos) << key;
     }
+}
+
+/// And what the sources name is there: whatever looks like a key, of a kind that there is.
+TEST(Words, EachThatIsSaidIsThere)
+{
+    std::set<std::string> kinds;
+    for (const auto& [key, text] : words().texts)
+        if (const std::size_t dot = key.find('.'); dot != key.npos)
+            kinds.insert(key.substr(0, dot));
+    const std::regex quoted("\"([a-z]+)\\.([a-z_]+)\"");
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(source_dir() / "runtime")) {
+        const std::string source = entry.is_regular_file() ? read_text(entry.path()) : "";
+        for (std::sregex_iterator at(source.begin(), source.end(), quoted), end; at != end; ++at)
+            if (kinds.contains((*at)[1]) && (*at)[2] != "json" && (*at)[2] != "h") {
+                EXPECT_TRUE(words().texts.contains((*at)[1].str() + "." + (*at)[2].str())) << at->str() << " in " << entry;
+                ++count;
+            }
+    }
+    EXPECT_GT(count, 30);
 }
 
 TEST(Words, WrongFilesAreRefused)

@@ -62,6 +62,28 @@ private:
     Clock::time_point began_ = Clock::now();
 };
 
+/// Tells a person at a terminal what takes a while.
+struct Busy {
+    explicit Busy(const char* what)
+    {
+        if (isatty(STDERR_FILENO))
+            std::fprintf(stderr, "%s ...", what);
+    }
+    ~Busy()
+    {
+        if (isatty(STDERR_FILENO))
+            std::fprintf(stderr, "\r%78s\r", "");
+    }
+};
+
+/// The exit status of who was interrupted.
+int told_interrupted(const std::string& movie, long drawn, long frames)
+{
+    std::fprintf(stderr, "%sstarbow: %s: interrupted with %ld of %ld frames drawn; the same command goes on from there\n",
+        isatty(STDERR_FILENO) ? "\n" : "", one_line(movie).c_str(), drawn, frames);
+    return 130;
+}
+
 /// When a frame is, from the tour's beginning.
 std::int64_t frame_ns(long frame, long frames_per_s) { return std::llround(double(frame) * 1e9 / double(frames_per_s)); }
 
@@ -181,13 +203,8 @@ int render_tour(const TourOptions& options)
                 continue;
             }
             progress.tell(i, drawn);
-            if (interrupted) {
-                std::fprintf(stderr, "\r%78s\r", "");
-                std::fprintf(stderr,
-                    "starbow: %s: interrupted with %ld of %ld frames drawn; the same command goes on from there\n",
-                    one_line(options.movie).c_str(), i, frames);
-                return 130;
-            }
+            if (interrupted)
+                return told_interrupted(options.movie, i, frames);
             const Touring& touring = player.at(i);
             Readings told = readings(touring.flight.ship, theatre.world.scene, touring.flight.effects);
             told.exposure_ev = touring.flight.exposure_ev;
@@ -204,7 +221,14 @@ int render_tour(const TourOptions& options)
         std::printf("%ld frames were there already, %ld more drawn\n", found, drawn);
     for (const Output& output : layout.outputs) {
         const fs::path file = movie_of(movie, layout, output.name);
-        make_movie(file, kept, output.name, int(options.frames_per_s));
+        const Busy busy("ffmpeg makes the movie");
+        try {
+            make_movie(file, kept, output.name, int(options.frames_per_s));
+        } catch (const InputError&) {
+            if (!interrupted) // which ffmpeg was too
+                throw;
+            return told_interrupted(options.movie, frames, frames);
+        }
         std::printf("%s: %ld frames, %.1f s\n", one_line(file.string()).c_str(), frames,
             double(frames) / double(options.frames_per_s));
     }
