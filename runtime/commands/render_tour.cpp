@@ -117,7 +117,7 @@ public:
     {
         while (frame_ < frame) {
             const std::int64_t before = frame_ns(frame_, frames_per_s_), after = frame_ns(++frame_, frames_per_s_);
-            touring_ = advance(touring_, show_, {}, after - before);
+            touring_ = advance(std::move(touring_), show_, {}, after - before);
         }
         return touring_;
     }
