@@ -425,7 +425,7 @@ TEST(Tours, CaptionsTellTheirNumber)
         + measured_size + "}");
     const Show show{tour, {}, 1, false};
     const Touring end = advance(touring_at(show), show, {}, 10'000'000'000 - 1);
-    EXPECT_NE(caption_of(end, show, words("de"), {}).text.find(" 2,00-mal "), std::string::npos)
+    EXPECT_NE(caption_of(end, show, words("de"), {}).text.find(" 2,00 times "), std::string::npos)
         << caption_of(end, show, words("de"), {}).text;
 }
 
