@@ -53,14 +53,17 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     const Document document = read_document(file);
     const Place top = root(document);
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-    only(top, {"$schema", "layout", "scene", "shot", "profiles", "tutorial", "flying", "exposure"});
+    only(top, {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "flying", "exposure"});
     Exhibit exhibit;
-    for (const auto& [name, value] :
-        {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene}, {"shot", &exhibit.shot}})
+    for (const auto& [name, value] : {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene},
+             {"shot", &exhibit.shot}, {"tour", &exhibit.tour}, {"language", &exhibit.language}})
         if (auto p = find(top, name))
             *value = name_or_path(*p, folder);
     if (auto scene = find(top, "scene"); scene && !exhibit.shot.empty())
         complain(*scene, "is one too many beside a shot, which has a scene of its own; one of them is right");
+    for (const char* other : {"scene", "shot"})
+        if (auto place = find(top, other); place && !exhibit.tour.empty())
+            complain(*place, "is one too many beside a tour, which has a scene of its own; one of them is right");
     if (auto p = find(top, "profiles"))
         exhibit.profiles = folder / text(*p);
     take(top, "tutorial", exhibit.tutorial);

@@ -12,6 +12,8 @@ struct Exhibit {
     std::string layout = "desk", scene = "avenue";
     std::string shot; ///< where the visit begins, in the scene of its own; empty: at the scene's start
     std::filesystem::path profiles; ///< a folder with profiles of this exhibit's own sticks; empty: none
+    std::string tour; ///< that is shown, in a scene of its own; empty: none
+    std::string language = "en"; ///< of what visitors read: a path, or the name of a shipped one
     bool tutorial = true; ///< three prompts for the first minute
     Flying flying;
     Exposing exposure;

@@ -64,6 +64,15 @@ glm::dquat read_orientation(const Place& place)
     return orientation(look, up);
 }
 
+} // namespace
+
+glm::dquat orientation(const glm::dvec3& look, const glm::dvec3& up)
+{
+    const glm::dvec3 ahead = unit(look);
+    const glm::dvec3 right = glm::normalize(glm::cross(ahead, unit(up)));
+    return glm::normalize(glm::quat_cast(glm::dmat3(right, glm::cross(right, ahead), -ahead)));
+}
+
 Effects read_effects(const Place& place)
 {
     only(place, {"aberration", "doppler", "headlight", "false_colours"});
@@ -77,15 +86,6 @@ Effects read_effects(const Place& place)
     if (auto p = find(place, "false_colours"))
         effects.false_colours = boolean(*p);
     return effects;
-}
-
-} // namespace
-
-glm::dquat orientation(const glm::dvec3& look, const glm::dvec3& up)
-{
-    const glm::dvec3 ahead = unit(look);
-    const glm::dvec3 right = glm::normalize(glm::cross(ahead, unit(up)));
-    return glm::normalize(glm::quat_cast(glm::dmat3(right, glm::cross(right, ahead), -ahead)));
 }
 
 glm::dvec3 read_velocity(const Place& place)

@@ -14,4 +14,6 @@ glm::dvec3 read_velocity(const Place& place);
 /// required.
 Shot read_shot(const Place& place, bool with_scene);
 
+Effects read_effects(const Place& place);
+
 } // namespace starbow

@@ -6,6 +6,7 @@
 #include "find.h"
 #include "flight.h"
 #include "frame.h"
+#include "guide.h"
 #include "history.h"
 #include "input/head_tracker.h"
 #include "input/hid.h"
@@ -71,8 +72,8 @@ struct Dashboard {
     int frames = 0;
     double rate = 0;
 
-    const Panel* update(const Flight& flight, const SceneFile& scene, double exposure_ev, bool locked, int width,
-        const std::string& prompt, const std::string& notice)
+    const Panel* update(const Flight& flight, const SceneFile& scene, const Words& words, double exposure_ev, bool locked,
+        int width, const std::string& prompt, const std::optional<Caption>& caption, const std::string& notice)
     {
         Clock::time_point now = Clock::now();
         ++frames;
@@ -84,9 +85,11 @@ struct Dashboard {
             Readings told = readings(flight.ship, scene, flight.effects);
             told.frames_per_s = rate;
             told.mode = flight.mode, told.lever = flight.lever;
+            if (caption && !caption->flying)
+                told.lever.reset();
             told.exposure_ev = exposure_ev, told.exposure_locked = locked;
-            told.prompt = prompt, told.notice = notice;
-            panel = typesetter.draw(told, width);
+            told.prompt = prompt, told.caption = caption, told.notice = notice;
+            panel = typesetter.draw(told, words, width);
             drawn = now;
         }
         return flight.hud ? &panel : nullptr;
@@ -111,6 +114,13 @@ Tape tape_of(const Opening& opening)
     return {std::move(recorder), opening.replay.empty() ? nullptr : std::make_unique<Replay>(opening.replay)};
 }
 
+std::optional<Guide> guide_of(const Opening& opening)
+{
+    if (!opening.tour)
+        return {};
+    return Guide(*opening.tour, opening.rules, load_scene_file(opening.scene).seconds_per_time_unit());
+}
+
 /// What outlasts the loss of a device.
 struct Visit {
     const Opening& opening;
@@ -118,6 +128,7 @@ struct Visit {
     Layout kept = layout; ///< as its file has it: without what was turned since
     FileWatch watch{files_of(layout)};
     std::string refused; ///< why a change of the layout was not taken up, for the head-up display
+    std::optional<Guide> guide = guide_of(opening);
     Flight flight = flight_at(opening.start, opening.rules);
     History history{};
     Exposure exposure{};
@@ -211,6 +222,14 @@ void turn(Visit& visit, Frame& frame, const Controls& controls)
     }
 }
 
+/// What the next picture is exposed with.
+double ev_of(const Visit& visit)
+{
+    const Exposing& rules = visit.opening.exposure;
+    return visit.guide ? visit.guide->shown_ev(visit.exposure, rules)
+                       : shown_ev(visit.exposure, rules, visit.flight.exposure_ev, visit.opening.start.exposure_ev);
+}
+
 bool is_over(const Visit& visit)
 {
     const Opening& opening = visit.opening;
@@ -269,8 +288,9 @@ void fly(Visit& visit, Theatre& theatre)
             continue; // a replay waits to be seen
         if (!visit.tape.play(entry)) // from here on a replay's controls
             break;
-        visit.flight = flown(visit.flight, visit.history, controls, entry.dt_ns, visit.opening.rules,
-            scene.seconds_per_time_unit(), visit.opening.start);
+        visit.flight = visit.guide ? visit.guide->flown(controls, entry.dt_ns)
+                                   : flown(visit.flight, visit.history, controls, entry.dt_ns, visit.opening.rules,
+                                       scene.seconds_per_time_unit(), visit.opening.start);
         visit.exposure.locked ^= controls.lock_exposure;
         if (visit.tape.replays())
             visit.exposure.ev = entry.exposure_ev;
@@ -295,11 +315,15 @@ void fly(Visit& visit, Theatre& theatre)
         frame->meter(visit.opening.exposure.automatic);
         frame->bloom(visit.opening.exposure.bloom);
         Shot shot = shot_of(visit.flight, visit.opening.start.scene);
-        shot.exposure_ev
-            = shown_ev(visit.exposure, visit.opening.exposure, shot.exposure_ev, visit.opening.start.exposure_ev);
+        shot.exposure_ev = ev_of(visit);
         visit.lab.ask(*frame, shot, visit.flight, theatre.world, dashboard.typesetter);
-        const Panel* panel = dashboard.update(visit.flight, scene, shot.exposure_ev, visit.exposure.locked,
-            frame->hud_width(), visit.opening.tutorial ? prompt(visit.tutorial, visit.hid.means()) : "", notice_of(visit));
+        const Means means = visit.hid.means();
+        const Words& words = visit.opening.words;
+        const std::string prompted = visit.guide ? visit.guide->prompt(words)
+            : visit.opening.tutorial             ? prompt(visit.tutorial, means, words)
+                                                 : "";
+        const Panel* panel = dashboard.update(visit.flight, scene, words, shot.exposure_ev, visit.exposure.locked,
+            frame->hud_width(), prompted, visit.guide ? visit.guide->caption(words, means) : std::nullopt, notice_of(visit));
         // A pattern is left alone but for what its builder is being told.
         const bool told = visit.workbench.pattern() == Pattern::none || !visit.workbench.says().empty();
         frame->prepare(shot, told ? panel : nullptr);
@@ -328,10 +352,9 @@ void tell(const Visit& visit, const SceneFile& scene)
 {
     Readings last = readings(visit.flight.ship, scene, visit.flight.effects);
     last.mode = visit.flight.mode;
-    last.exposure_ev
-        = shown_ev(visit.exposure, visit.opening.exposure, visit.flight.exposure_ev, visit.opening.start.exposure_ev);
+    last.exposure_ev = ev_of(visit);
     last.exposure_locked = visit.exposure.locked;
-    for (const auto& [label, value] : hud_fields(last))
+    for (const auto& [label, value] : hud_fields(last, words_in("en")))
         std::printf("%s %s  ", label.c_str(), value.c_str());
     std::printf("\n");
     if (visit.skew.frames() > 0)

@@ -4,10 +4,13 @@
 #include "config/layout.h"
 #include "config/profile.h"
 #include "config/shot.h"
+#include "config/tour.h"
+#include "config/words.h"
 #include "frame.h"
 #include "latency.h"
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 namespace starbow {
 
@@ -16,6 +19,8 @@ struct Opening {
     std::filesystem::path scene;
     Layout layout;
     Shot start; ///< where the visit begins and where reset leads back to
+    Words words; ///< of what the visitor reads
+    std::optional<Tour> tour{}; ///< that is shown, in its own scene
     Flying rules{};
     Exposing exposure{};
     std::vector<Profile> profiles{};

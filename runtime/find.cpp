@@ -69,6 +69,18 @@ fs::path find(const std::string& kind, const std::string& name)
         "There is no " + name + ".json in config/" + kind + "; there are: " + list + "; or give the path of a file");
 }
 
+Words words_in(const std::string& language) { return load_words(find("words", language)); }
+
+Tour tour_in(const std::string& name, const Words& words)
+{
+    return load_tour(find("tours", name), words, [](const std::string& shot) { return find("shots", shot); });
+}
+
+fs::path scene_of(const Tour& tour)
+{
+    return is_path(tour.scene) ? tour.file.parent_path() / tour.scene : find("scenes", tour.scene);
+}
+
 fs::path scene_of(const Shot& shot, const fs::path& shot_file)
 {
     return is_path(shot.scene) ? shot_file.parent_path() / shot.scene : find("scenes", shot.scene);

@@ -1,6 +1,8 @@
 #pragma once
 #include "config/profile.h"
 #include "config/shot.h"
+#include "config/tour.h"
+#include "config/words.h"
 #include <filesystem>
 #include <string>
 
@@ -21,7 +23,14 @@ std::vector<Profile> known_profiles(const std::filesystem::path& exhibits = {});
 /// Throws InputError that lists the shipped names.
 std::filesystem::path find(const std::string& kind, const std::string& name);
 
+/// The words of a language: of a shipped one, or a file. Throws InputError.
+Words words_in(const std::string& language);
+
+/// A tour, a shipped one or a file, in a language. Throws InputError.
+Tour tour_in(const std::string& name, const Words& words);
+
 /// The scene file that a shot names: a shipped one, or a path from the shot's own folder.
 std::filesystem::path scene_of(const Shot& shot, const std::filesystem::path& shot_file);
+std::filesystem::path scene_of(const Tour& tour);
 
 } // namespace starbow

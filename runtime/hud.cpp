@@ -1,4 +1,5 @@
 #include "hud.h"
+#include "find.h"
 #include "config/error.h"
 #include "physics/physics.h"
 #include <algorithm>
@@ -40,36 +41,47 @@ std::string number(double x)
     return text(size >= 1000 ? "%.0f" : size >= 100 ? "%.1f" : size >= 10 ? "%.2f" : "%.3f", x);
 }
 
-std::string duration(double s)
+std::string duration(double s, const Words& words)
 {
     double size = std::abs(s);
-    return size < 600              ? text("%.1f s", s)
-        : size < 36000             ? text("%.1f min", s / 60)
-        : size < 10 * 86400.0      ? text("%.1f h", s / 3600)
-        : size < 2 * julian_year_s ? text("%.1f days", s / 86400)
-                                   : number(s / julian_year_s) + " years";
+    const auto told = [&](const char* key, const std::string& figures) {
+        return words(key, {{"number", words.number(figures)}});
+    };
+    return size < 600              ? told("time.s", text("%.1f", s))
+        : size < 36000             ? told("time.min", text("%.1f", s / 60))
+        : size < 10 * 86400.0      ? told("time.h", text("%.1f", s / 3600))
+        : size < 2 * julian_year_s ? told("time.days", text("%.1f", s / 86400))
+                                   : told("time.years", number(s / julian_year_s));
 }
 
-std::string length(double m, double scene_light_speed_m_s)
+std::string length(double m, double scene_light_speed_m_s, const Words& words)
 {
+    const auto told = [&](const char* key, const std::string& figures) {
+        return words(key, {{"number", words.number(figures)}});
+    };
     if (scene_light_speed_m_s == light_speed_m_s && m > 1e6) {
         double s = m / light_speed_m_s;
-        return s < 600               ? text("%.2f light-s", s)
-            : s < 36000              ? text("%.1f light-min", s / 60)
-            : s < julian_year_s / 10 ? text("%.1f light-h", s / 3600)
-                                     : number(s / julian_year_s) + " light-years";
+        return s < 600               ? told("length.light_s", text("%.2f", s))
+            : s < 36000              ? told("length.light_min", text("%.1f", s / 60))
+            : s < julian_year_s / 10 ? told("length.light_h", text("%.1f", s / 3600))
+                                     : told("length.light_years", number(s / julian_year_s));
     }
-    return m < 1000 ? text("%.1f m", m) : number(m / 1000) + " km";
+    return m < 1000 ? told("length.m", text("%.1f", m)) : told("length.km", number(m / 1000));
 }
 
 } // namespace
 
 std::string shown_number(double x) { return number(x); }
-std::string shown_length(double m, double light_speed_m_s) { return length(m, light_speed_m_s); }
+static const Words& english()
+{
+    static const Words words = load_words(find("words", "en"));
+    return words;
+}
+std::string shown_length(double m, double light_speed_m_s) { return length(m, light_speed_m_s, english()); }
 std::string shown_duration(double s, int decimals)
 {
     if (std::abs(s) >= 600)
-        return duration(s);
+        return duration(s, english());
     const std::string shown = text("%.*f s", decimals, s);
     if (shown.find_first_of("123456789") == shown.npos && shown.starts_with('-')) // no minus before nothing
         return shown.substr(1);
@@ -110,38 +122,39 @@ Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effec
         .effects = effects};
 }
 
-std::string light_name(const Effects& on)
+std::string light_name(const Effects& on, const Words& words)
 {
     if (on.false_colours)
-        return std::string("false colours: infrared red, visible green, ultraviolet blue")
-            + (on.doppler ? "" : ", unshifted");
-    return on.doppler  ? on.headlight ? "spectra shifted, times D³: as eyes see them" : "spectra shifted, without D³"
-        : on.headlight ? "colours unshifted, times D³"
-                       : "colours as at rest";
+        return words(on.doppler ? "light.false_colours" : "light.false_colours_unshifted");
+    return words(on.doppler ? on.headlight ? "light.seen" : "light.without_headlight"
+            : on.headlight  ? "light.without_doppler"
+                            : "light.at_rest");
 }
 
-std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r)
+std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r, const Words& words)
 {
     bool close = r.beta_deficit < 1e-3;
-    auto on = [](bool is) { return std::string(is ? "on" : "off"); };
+    auto on = [&](bool is) { return words(is ? "hud.on" : "hud.off"); };
     std::vector<std::pair<std::string, std::string>> fields = {
-        {close ? "1 − v/c" : "v/c", close ? number(r.beta_deficit) : text("%.4f", 1 - r.beta_deficit)},
-        {"γ", number(r.gamma)},
-        {"D ahead", number(r.doppler_ahead)},
-        {"ship", duration(r.ship_s)},
-        {"world", duration(r.world_s)},
-        {"flown", length(r.distance_m, r.light_speed_m_s)},
-        {"aberration", on(r.effects.aberration)},
-        {"Doppler", on(r.effects.doppler)},
-        {"headlight", on(r.effects.headlight)},
+        {words(close ? "hud.speed_deficit" : "hud.speed"),
+            words.number(close ? number(r.beta_deficit) : text("%.4f", 1 - r.beta_deficit))},
+        {words("hud.gamma"), words.number(number(r.gamma))},
+        {words("hud.doppler_ahead"), words.number(number(r.doppler_ahead))},
+        {words("hud.ship"), duration(r.ship_s, words)},
+        {words("hud.world"), duration(r.world_s, words)},
+        {words("hud.flown"), length(r.distance_m, r.light_speed_m_s, words)},
+        {words("hud.aberration"), on(r.effects.aberration)},
+        {words("hud.doppler"), on(r.effects.doppler)},
+        {words("hud.headlight"), on(r.effects.headlight)},
     };
-    fields.push_back({"flight", std::string(name_of(r.mode))});
+    fields.push_back({words("hud.flight"), words("flight." + std::string(name_of(r.mode)))});
     const double ev = std::round(10 * r.exposure_ev) / 10;
     const std::string sign = ev < 0 ? "−" : ev > 0 ? "+" : "";
-    fields.push_back({"exposure", sign + text("%.1f EV", std::abs(ev)) + (r.exposure_locked ? " locked" : "")});
+    fields.push_back({words("hud.exposure"),
+        words(r.exposure_locked ? "hud.ev_locked" : "hud.ev", {{"ev", sign + words.number(text("%.1f", std::abs(ev)))}})});
     if (r.frames_per_s > 0)
-        fields.push_back({"frames/s", text("%.0f", r.frames_per_s)});
-    fields.push_back({"light", light_name(r.effects)});
+        fields.push_back({words("hud.rate"), text("%.0f", r.frames_per_s)});
+    fields.push_back({words("hud.light"), light_name(r.effects, words)});
     return fields;
 }
 
@@ -231,7 +244,7 @@ void Typesetter::write(Panel& panel, const std::string& line, double x, double b
     }
 }
 
-Panel Typesetter::draw(const Readings& readings, int width) const
+Panel Typesetter::draw(const Readings& readings, const Words& words, int width) const
 {
     const int height = int(width * panel_aspect);
     Panel panel = plate({width, height}, height * 0.12);
@@ -243,9 +256,16 @@ Panel Typesetter::draw(const Readings& readings, int width) const
         for (int x = from.x; x < to.x; ++x)
             panel.texels[2 * (std::size_t(y) * panel.size.x + x)] = y >= filled ? 255 : 64;
 
+    if (readings.caption) {
+        write_caption(panel, *this, *readings.caption,
+            readings.notice.empty() ? hud_fields(readings, words)
+                                    : std::vector<std::pair<std::string, std::string>>{{readings.notice, ""}});
+        return panel;
+    }
+
     // Three rows of three, the speed row greater; a prompt takes the third row's place; beneath them whatever else there is
     // to say.
-    auto fields = hud_fields(readings);
+    auto fields = hud_fields(readings, words);
     double unit = panel.size.y;
     const double rows[] = {0.27, 0.53, 0.76};
     const double columns[] = {0.04, 0.415, 0.64};
@@ -273,14 +293,22 @@ Panel Typesetter::draw(const Readings& readings, int width) const
     int notice_size = small;
     while (notice_size > small / 2 && notice_width(notice_size) > 0.92)
         --notice_size;
+    double room = 0.92 * panel.size.x; // left of the rate
     if (notice_width(notice_size) < 0.7) {
         std::string rate = fields[9].second + "   " + fields[10].second;
         if (readings.frames_per_s > 0)
             rate += "   " + fields[11].second + " " + fields[11].first;
-        write(panel, rate, panel.size.x * 0.96 - width_of(rate, small), 0.93 * unit, small, 0.72);
+        const double width = width_of(rate, small);
+        write(panel, rate, panel.size.x * 0.96 - width, 0.93 * unit, small, 0.72);
+        room -= width + small;
     }
-    if (readings.notice.empty())
-        write(panel, light_name(readings.effects), panel.size.x * 0.04, 0.93 * unit, small, 0.72);
+    if (readings.notice.empty()) {
+        const std::string light = light_name(readings.effects, words);
+        int size = small;
+        while (size > 6 && width_of(light, size) > room)
+            --size;
+        write(panel, light, panel.size.x * 0.04, 0.93 * unit, size, 0.72);
+    }
     write(panel, readings.notice, panel.size.x * 0.04, 0.93 * unit, notice_size, 1);
     return panel;
 }

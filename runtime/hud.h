@@ -1,6 +1,8 @@
 #pragma once
+#include "caption.h"
 #include "config/flying.h"
 #include "config/scene_file.h"
+#include "config/words.h"
 #include "ship.h"
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -42,15 +44,16 @@ struct Readings {
     bool exposure_locked = false; ///< it does not follow the view
     std::optional<double> lever{}; ///< where the throttle is, 0 to 1
     std::string prompt{}; ///< what the visitor is to try now, or empty
+    std::optional<Caption> caption{}; ///< of a tour: takes the place of all but the speed
     std::string notice{}; ///< one line for who looks after the exhibit, or empty
 };
 Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effects);
 
 /// What the light is that is shown, in a few words.
-std::string light_name(const Effects& effects);
+std::string light_name(const Effects& effects, const Words& words);
 
 /// The lines as text, for the log and for tests: label and value in turn.
-std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& readings);
+std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& readings, const Words& words);
 
 /// The display's letters (DejaVu Sans), ready to draw.
 class Typesetter {
@@ -58,7 +61,7 @@ public:
     /// Throws InputError if the font is not installed.
     Typesetter();
     ~Typesetter();
-    Panel draw(const Readings& readings, int width) const;
+    Panel draw(const Readings& readings, const Words& words, int width) const;
 
     /// Adds a line (UTF-8) from x on its baseline, `size` pixels high, at `strength` of full white.
     void write(Panel& panel, const std::string& line, double x, double baseline, int size, double strength) const;

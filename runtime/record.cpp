@@ -1,5 +1,6 @@
 #include "record.h"
 #include "config/exposing_reader.h"
+#include "config/shot_reader.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -80,17 +81,6 @@ Json json_of(const Effects& effects)
 {
     return {{"aberration", effects.aberration}, {"doppler", effects.doppler}, {"headlight", effects.headlight},
         {"false_colours", effects.false_colours}};
-}
-
-Effects read_effects(const Place& place)
-{
-    only(place, {"aberration", "doppler", "headlight", "false_colours"});
-    Effects effects;
-    take(place, "aberration", effects.aberration);
-    take(place, "doppler", effects.doppler);
-    take(place, "headlight", effects.headlight);
-    take(place, "false_colours", effects.false_colours);
-    return effects;
 }
 
 /// Not as a shot's file has it: from a speed and directions there this would come back rounded.

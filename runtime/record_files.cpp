@@ -10,19 +10,6 @@ namespace starbow {
 namespace fs = std::filesystem;
 namespace {
 
-/// Of one after the other; of one that is missing nothing is added.
-std::uint64_t digest_of(const std::vector<fs::path>& files)
-{
-    std::uint64_t sum = digest(std::string_view());
-    std::vector<char> piece(1 << 16);
-    for (const fs::path& file : files) {
-        std::ifstream stream(file, std::ios::binary);
-        while (stream.read(piece.data(), std::streamsize(piece.size())), stream.gcount() > 0)
-            sum = digest({piece.data(), std::size_t(stream.gcount())}, sum);
-    }
-    return sum;
-}
-
 std::uint64_t digest_of_scene(const fs::path& scene) { return digest_of({scene, load_scene_file(scene).gltf}); }
 
 /// A shipped file by its name, wherever this checkout is; any other by its whole path.
@@ -35,6 +22,18 @@ std::string name_of(const std::string& kind, const fs::path& file)
 }
 
 } // namespace
+
+std::uint64_t digest_of(const std::vector<fs::path>& files)
+{
+    std::uint64_t sum = digest(std::string_view());
+    std::vector<char> piece(1 << 16);
+    for (const fs::path& file : files) {
+        std::ifstream stream(file, std::ios::binary);
+        while (stream.read(piece.data(), std::streamsize(piece.size())), stream.gcount() > 0)
+            sum = digest({piece.data(), std::size_t(stream.gcount())}, sum);
+    }
+    return sum;
+}
 
 std::vector<fs::path> files_of(const Layout& layout)
 {

@@ -11,6 +11,9 @@ namespace starbow {
 /// Every file that a layout is made of.
 std::vector<std::filesystem::path> files_of(const Layout& layout);
 
+/// Of one after the other; of one that is missing nothing is added.
+std::uint64_t digest_of(const std::vector<std::filesystem::path>& files);
+
 /// The header of a record of what is flown now. Throws InputError where a file can't be read.
 RecordHeader header_of(const std::filesystem::path& scene, const Layout& layout, const Shot& start, const Flying& rules,
     const Exposing& exposing, const std::string& pattern);

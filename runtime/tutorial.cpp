@@ -25,21 +25,16 @@ Tutorial advance(Tutorial tutorial, const Controls& controls, const Flight& flig
     return tutorial;
 }
 
-std::string prompt(const Tutorial& tutorial, const Means& means)
+std::string prompt(const Tutorial& tutorial, const Means& means, const Words& words)
 {
     switch (tutorial.lesson) {
     case 0:
-        return means.lever  ? "Push the throttle forward: faster"
-            : means.trigger ? "Squeeze the right trigger: faster"
-                            : "Hold W: faster";
+        return words(means.lever ? "tutorial.go_throttle" : means.trigger ? "tutorial.go_trigger" : "tutorial.go_key");
     case 1:
-        return means.stick ? "Move the stick: the ship turns" : "Arrow keys: the ship turns";
-    case 2: {
-        std::string how = "Space";
-        if (means.stop_button > 0)
-            how.assign("Press button ").append(std::to_string(means.stop_button));
-        return how + ": full stop";
-    }
+        return words(means.stick ? "tutorial.turn_stick" : "tutorial.turn_keys");
+    case 2:
+        return means.stop_button > 0 ? words("tutorial.stop_button", {{"button", std::to_string(means.stop_button)}})
+                                     : words("tutorial.stop_key");
     default:
         return "";
     }

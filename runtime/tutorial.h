@@ -1,4 +1,5 @@
 #pragma once
+#include "config/words.h"
 #include "flight.h"
 #include "input/means.h"
 #include <string>
@@ -24,6 +25,6 @@ Tutorial tutorial_at(const Flight& flight);
 Tutorial advance(Tutorial tutorial, const Controls& controls, const Flight& flight, double dt_s);
 
 /// What the visitor is to do now, in the words of what there is to do it with, or "".
-std::string prompt(const Tutorial& tutorial, const Means& means);
+std::string prompt(const Tutorial& tutorial, const Means& means, const Words& words);
 
 } // namespace starbow

@@ -13,11 +13,13 @@ namespace {
 
 constexpr double for_ever = std::numeric_limits<double>::infinity();
 
-/// The leg's frame, made if no leg had its velocity before. What rests in the world is in the world's own frame.
+/// The leg's frame, made if no leg had its velocity before, but for what a file's decimals leave of it. What rests in the
+/// world is in the world's own frame.
 int frame_of(World& world, const SceneFile& scene, const Leg& leg)
 {
-    auto at = std::find_if(
-        world.frames.begin(), world.frames.end(), [&](const RestFrame& frame) { return frame.u == leg.u; });
+    const double alike = 1e-13 * physics::gamma_of(leg.u);
+    auto at = std::find_if(world.frames.begin(), world.frames.end(),
+        [&](const RestFrame& frame) { return glm::length(frame.u - leg.u) <= alike; });
     if (at == world.frames.end()) {
         if (world.frames.size() == MAX_LAYERS)
             throw InputError(scene.file, "/bodies",

@@ -14,12 +14,17 @@ void sky_at(vec3 n, out vec4 numbers[MAX_GROUPS])
         numbers[group] = mix(layered.sky_horizon[group], height > 0.0 ? layered.sky_zenith[group] : layered.sky_nadir[group], part);
 }
 
-// What one layer shows, and how far off in the ship it is: infinite where it shows nothing.
+// What one layer shows, in up to four parts that lie beside each other: how far off in the ship each is, and which part of the
+// pixel it covers. One where the four texels around are of one surface; of several where they are not.
 struct Part {
     Place place;
-    float D, world_angle, way;
-    float covers; // of the pixel
+    float D, world_angle, level;
+    vec4 ways, covers;
 };
+const float infinite = 1.0 / 0.0;
+
+ivec2 texel_of(Place place, int k) { return ivec2(floor(place.atlas * view.origin.zw - 0.5)) + ivec2(k & 1, k >> 1); }
+
 Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
 {
     LayerEntry entry = layered.layers[i];
@@ -32,57 +37,107 @@ Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
         sight.n = reprojected(sight.n, eye_offset(n, layer), part.world_angle, layer);
     part.place = place_of(sight.n, layer);
     part.D = sight.D * D_beside;
-    part.way = intBitsToFloat(0x7f800000);
-    part.covers = 0.0;
+    part.ways = vec4(infinite);
+    part.covers = vec4(0.0);
     vec4 image = slots[part.place.slot].texels;
     vec2 texel = part.place.atlas * view.origin.zw;
     // What moves does not fill its images, and pixels look past them: nothing beyond their edges is filtered in.
     float margin = i == 0 ? 0.5 : 2.0 * exp2(part.place.detail.y);
-    if (image.z > 0.0 && all(greaterThanEqual(texel, image.xy + margin)) && all(lessThanEqual(texel, image.zw + 1.0 - margin))) {
-        vec2 covered = textureLod(covered_atlas, part.place.atlas, level_of(part.place, part.world_angle)).rg;
-        part.covers = min(covered.x, 1.0);
-        if (covered.x > 0.0 && covered.y > 0.0)
-            part.way = sight.D * view.boost.w * sqrt(1.0 + dot(part.place.face, part.place.face)) * covered.x / covered.y;
+    if (!(image.z > 0.0 && all(greaterThanEqual(texel, image.xy + margin)) && all(lessThanEqual(texel, image.zw + 1.0 - margin))))
+        return part;
+    part.level = level_of(part.place, part.world_angle);
+    float per_depth = sight.D * view.boost.w * sqrt(1.0 + dot(part.place.face, part.place.face));
+    vec2 covered = textureLod(covered_atlas, part.place.atlas, part.level).rg;
+    if (covered.x <= 0.0 || covered.y <= 0.0)
+        return part;
+    part.ways.x = per_depth * covered.x / covered.y;
+    part.covers.x = min(covered.x, 1.0);
+    if (part.level >= 0.5)
+        return part;
+    vec4 depths, parts;
+    float least = infinite, most = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        vec2 one = texelFetch(covered_atlas, texel_of(part.place, k), 0).rg;
+        parts[k] = one.x;
+        depths[k] = one.y / max(one.x, 1e-3);
+        if (one.x > 0.0)
+            least = min(least, depths[k]), most = max(most, depths[k]);
+    }
+    if (most > 1.1 * least) {
+        vec2 at = fract(texel - 0.5);
+        part.covers = parts * vec4((1.0 - at.x) * (1.0 - at.y), at.x * (1.0 - at.y), (1.0 - at.x) * at.y, at.x * at.y);
+        part.ways = per_depth / max(depths, vec4(1e-30));
     }
     return part;
 }
 
-// What the ship's direction n0 (the world's motion axes) shows: the light of all layers, the nearest first, and of the sky. sight: the world's; its D, and the distance, become those of
-// what most of the pixel shows of them.
+// How much of a pixel a layer covers nearer than `way`.
+float before(Part part, float way) { return dot(part.covers, vec4(lessThan(part.ways, vec4(way)))); }
+
+// Light of a layer's k-th part, were it alone in the pixel: premultiplied.
+vec3 light_of_part(Part part, int k)
+{
+    vec4 numbers[MAX_GROUPS];
+    if (part.covers.y + part.covers.z + part.covers.w == 0.0) {
+        cube_map(part.place, part.world_angle, numbers);
+        return light_of(numbers, part.D);
+    }
+    ivec2 texel = texel_of(part.place, k);
+    float whole = texelFetch(covered_atlas, texel, 0).r, weight = whole > 0.0 ? part.covers[k] / whole : 0.0;
+    numbers[0] = texelFetch(atlas, texel, 0) * weight;
+    if (GROUPS > 1)
+        numbers[1] = texelFetch(atlas1, texel, 0) * weight;
+    if (GROUPS > 2)
+        numbers[2] = texelFetch(atlas2, texel, 0) * weight;
+    if (GROUPS > 3)
+        numbers[3] = texelFetch(atlas3, texel, 0) * weight;
+    return light_of(numbers, part.D);
+}
+
+// What the ship's direction n0 (the world's motion axes) shows: the light of all layers, each part behind what the other layers
+// cover nearer than it, and of the sky behind them all. No order is needed: a layer's own parts lie side by side. sight: the
+// world's; its D, the distance and the frame become those of what most of the pixel shows of them.
 vec3 light_of_layers(vec3 n0, float pixel_angle, inout Sight sight, out float distance_, out float frame)
 {
-    const float infinite = intBitsToFloat(0x7f800000);
     // Without aberration directions are as in the world, and what moves there is seen as from there; D is the ship's own beside.
     float D_beside = ABERRATION ? 1.0 : sight.D, sky_D = sight.D;
     int count = int(layered.count.x);
     Part parts[MAX_LAYERS];
-    for (int i = 0; i < count; ++i)
-        parts[i] = part_of(i, n0, pixel_angle, D_beside);
+    float left = 1.0; // for the sky
+    int shown = 0;
+    for (int i = 0; i < count; ++i) {
+        Part part = part_of(i, n0, pixel_angle, D_beside);
+        if (isinf(part.ways.x) && part.covers == vec4(0.0))
+            continue;
+        left *= 1.0 - min(dot(part.covers, vec4(1.0)), 1.0);
+        part.level = layered.layers[i].boost.w; // from here on: which frame it is
+        parts[shown++] = part;
+    }
     vec3 light = vec3(0.0);
-    float left = 1.0, before = -1.0, most = 0.0;
+    float most = 0.0;
     distance_ = infinite;
     frame = 0.0;
-    for (int round = 0; round < count && left > 0.002; ++round) {
-        int next = -1;
-        float way = infinite;
-        for (int i = 0; i < count; ++i)
-            if (parts[i].way > before && parts[i].way < way)
-                way = parts[i].way, next = i;
-        if (next < 0)
-            break;
-        before = way;
-        Part part = parts[next];
-        vec4 numbers[MAX_GROUPS];
-        cube_map(part.place, part.world_angle, numbers);
-        light += left * light_of(numbers, part.D);
-        if (left * part.covers > most) {
-            most = left * part.covers;
-            distance_ = way / (ABERRATION ? sky_D : 1.0);
-            sight.D = part.D;
-            frame = layered.layers[next].boost.w;
+    for (int i = 0; i < shown; ++i)
+        for (int k = 0; k < 4; ++k) {
+            float part = parts[i].covers[k], way = parts[i].ways[k];
+            if (part <= 0.0)
+                continue;
+            float seen = 1.0;
+            for (int j = 0; j < shown; ++j)
+                if (j != i)
+                    seen *= 1.0 - min(before(parts[j], way), 1.0);
+            if (seen < 0.002)
+                continue;
+            light += seen * light_of_part(parts[i], k);
+            if (seen * part > most) {
+                most = seen * part;
+                distance_ = way / (ABERRATION ? sky_D : 1.0);
+                sight.D = parts[i].D;
+                frame = parts[i].level;
+            }
         }
-        left *= 1.0 - part.covers;
-    }
+    if (left < 0.002)
+        return light;
     vec4 sky[MAX_GROUPS];
     sky_at(sight.n, sky);
     return light + left * light_of(sky, sky_D);

@@ -208,7 +208,7 @@ void main()
         return;
     // What moves: as it is drawn.
     for (int i = 1; LAYERED && i < int(layered.count.x); ++i)
-        if (!isinf(part_of(i, sight.n, pixel_angle, 1.0).way))
+        if (dot(part_of(i, sight.n, pixel_angle, 1.0).covers, vec4(1.0)) > 0.5)
             return;
     light = starlight(star, sight.D) * (view.boost.z / (pixel_angle * pixel_angle));
     if (GLIMPSE) {

@@ -219,6 +219,12 @@ told '--node: one is no whole number; ' import sgct x --out y --node one
 told '--out is required' render --shot start
 refused 'no first row' warp inspect "$warps/standard_16x9.data" --first-row-on-top
 
+printf '{ "tour": "rainbow" }\n' > "$folder/touring.json"
+told "A tour's flight can't be recorded" run --exhibit "$folder/touring.json" --record "$folder/touring.jsonl"
+told '--record excludes --tour' run --tour rainbow --record "$folder/touring.jsonl"
+told 'There is no none.json in config/tours' run --tour none
+told 'There is no xx.json in config/words; there are: de, en' run --tour rainbow --language xx
+
 # Every subcommand's help ends with an example.
 for command in run render bench check warp import displays; do
     if "$program" $command --help | grep -q "starbow $command "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi

@@ -47,6 +47,7 @@ TEST(ExhibitFileTest, ShippedOnesLeadToWhatIsThere)
         const Exhibit exhibit = load_exhibit(entry.path());
         EXPECT_NO_THROW(load_layout(find("layouts", exhibit.layout)));
         EXPECT_NO_THROW(find("scenes", exhibit.scene));
+        EXPECT_NO_THROW(words_in(exhibit.language));
         ++count;
     }
     EXPECT_GE(count, 3);
@@ -55,7 +56,7 @@ TEST(ExhibitFileTest, ShippedOnesLeadToWhatIsThere)
 TEST(ExhibitFileTest, EveryMemberIsTaken)
 {
     const std::string text
-        = R"({ "layout": "../walls/wall.json", "shot": "gamma100", "profiles": "sticks", "tutorial": false,
+        = R"({ "layout": "../walls/wall.json", "shot": "gamma100", "language": "de", "profiles": "sticks", "tutorial": false,
         "flying": { "mode": "newtonian", "greatest_gamma": 50, "turn_deg_per_s": 11, "roll_deg_per_s": 12,
                     "turn_jerk_deg_per_s3": 13, "rapidity_per_s": 0.14, "rapidity_jerk_per_s2": 0.15 },
         "exposure": { "automatic": false, "least_ev": -16, "greatest_ev": 1.7, "bloom": 0.18 } })";
@@ -65,6 +66,7 @@ TEST(ExhibitFileTest, EveryMemberIsTaken)
     const auto folder = std::filesystem::absolute(file).parent_path();
     EXPECT_EQ(exhibit.layout, (folder / "../walls/wall.json").lexically_normal().string());
     EXPECT_EQ(exhibit.shot, "gamma100");
+    EXPECT_EQ(exhibit.language, "de");
     EXPECT_EQ(exhibit.profiles, folder / "sticks");
     EXPECT_FALSE(exhibit.tutorial);
     const Flying& flying = exhibit.flying;
@@ -130,4 +132,16 @@ TEST(ExhibitFileTest, WrongOnesAreRefusedByBoth)
         EXPECT_NE(text.find("/exposure/"), std::string::npos) << text;
     }
     EXPECT_NE(said(R"({ "scene": "avenue", "shot": "gamma100" })").find("one too many"), std::string::npos);
+    EXPECT_NE(said(R"({ "scene": "avenue", "tour": "rainbow" })").find("one too many beside a tour"), std::string::npos);
+}
+
+TEST(ExhibitFileTest, ATourIsNamedOrAPath)
+{
+    const std::string text = R"({ "tour": "own/tour.json", "language": "own/fr.json" })";
+    EXPECT_TRUE(schema_accepts(json::parse(text)));
+    const auto file = write_text("exhibit.json", text);
+    const auto folder = std::filesystem::absolute(file).parent_path();
+    EXPECT_EQ(load_exhibit(file).tour, (folder / "own/tour.json").string());
+    EXPECT_EQ(load_exhibit(file).language, (folder / "own/fr.json").string());
+    EXPECT_EQ(load_exhibit(write_text("exhibit.json", R"({ "tour": "rainbow" })")).tour, "rainbow");
 }

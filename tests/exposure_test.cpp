@@ -1,4 +1,5 @@
 // The exposure: what is metered, how it adapts; and the curve from light to what a screen shows.
+#include "files.h"
 #include "runtime/colour.h"
 #include "runtime/exposure.h"
 #include "runtime/hud.h"
@@ -207,7 +208,7 @@ TEST(Adaptation, IsToldInEv)
         Readings readings{};
         readings.gamma = readings.doppler_ahead = 1;
         readings.exposure_ev = ev, readings.exposure_locked = locked;
-        for (const auto& [label, value] : hud_fields(readings))
+        for (const auto& [label, value] : hud_fields(readings, starbow::testing::words()))
             if (label == "exposure")
                 return value;
         return std::string();

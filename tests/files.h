@@ -1,5 +1,6 @@
 #pragma once
 #include "config/error.h"
+#include "config/words.h"
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
@@ -7,6 +8,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <map>
 #include <random>
 #include <string>
 #include <unistd.h>
@@ -55,6 +57,15 @@ inline std::vector<std::filesystem::path> shipped(const std::string& folder)
             files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
+}
+
+/// The shipped words of a language.
+inline const Words& words(const std::string& language = "en")
+{
+    static std::map<std::string, Words> read;
+    if (!read.contains(language))
+        read[language] = load_words(source_dir() / "config/words" / (language + ".json"));
+    return read[language];
 }
 
 /// What() of the InputError that `act` throws, or "" with a failure.

@@ -1,3 +1,4 @@
+#include "files.h"
 #include "runtime/hud.h"
 #include <cmath>
 #include <gtest/gtest.h>
@@ -6,9 +7,9 @@ using namespace starbow;
 
 namespace {
 
-std::string field(const Readings& readings, const std::string& label)
+std::string field(const Readings& readings, const std::string& label, const Words& words = starbow::testing::words())
 {
-    for (const auto& [name, value] : hud_fields(readings))
+    for (const auto& [name, value] : hud_fields(readings, words))
         if (name == label)
             return value;
     return "none";
@@ -56,31 +57,45 @@ TEST(Hud, EveryPanelHasLettersInsideItsPlate)
     Typesetter typesetter;
     Readings longest = at_gamma(1e6);
     longest.ship_s = longest.world_s = 16.6 * 60, longest.distance_m = 16.5 * 60 * 299792458.0;
-    for (int width : {160, 400, 1200}) {
-        Panel panel = typesetter.draw(longest, width);
-        // Between two columns stands a gap, whatever the figures.
-        for (double gap : {0.405, 0.63})
-            for (int y = 0; y < panel.size.y * 8 / 10; ++y)
-                EXPECT_LT(panel.texels[2 * (std::size_t(y) * panel.size.x + std::size_t(gap * width))], 128)
-                    << width << " " << y;
-        ASSERT_EQ(panel.texels.size(), std::size_t(panel.size.x) * panel.size.y * 2);
-        long letters = 0, outside = 0;
-        for (std::size_t i = 0; i < panel.texels.size(); i += 2) {
-            letters += panel.texels[i] > 128;
-            outside += panel.texels[i] > 128 && panel.texels[i + 1] < 255;
+    for (const char* language : {"en", "de"})
+        for (int width : {160, 400, 1200}) {
+            SCOPED_TRACE(language + std::string(" ") + std::to_string(width));
+            Panel panel = typesetter.draw(longest, starbow::testing::words(language), width);
+            // Between two columns stands a gap, whatever the figures.
+            for (double gap : {0.405, 0.63})
+                for (int y = 0; y < panel.size.y * 8 / 10; ++y)
+                    EXPECT_LT(panel.texels[2 * (std::size_t(y) * panel.size.x + std::size_t(gap * width))], 128) << y;
+            ASSERT_EQ(panel.texels.size(), std::size_t(panel.size.x) * panel.size.y * 2);
+            long letters = 0, outside = 0;
+            for (std::size_t i = 0; i < panel.texels.size(); i += 2) {
+                letters += panel.texels[i] > 128;
+                outside += panel.texels[i] > 128 && panel.texels[i + 1] < 255;
+            }
+            EXPECT_GT(letters, width * panel.size.y / 60);
+            EXPECT_EQ(outside, 0);
         }
-        EXPECT_GT(letters, width * panel.size.y / 60) << width;
-        EXPECT_EQ(outside, 0) << width;
-    }
+}
+
+TEST(Hud, SpeaksItsLanguage)
+{
+    const Words& german = starbow::testing::words("de");
+    EXPECT_EQ(field(at_gamma(4), "D voraus", german), "7,873");
+    EXPECT_EQ(field(at_gamma(1e6), "1 − v/c", german), "5,0×10⁻¹³");
+    Readings r = at_gamma(1);
+    r.world_s = 5 * 365.25 * 86400, r.distance_m = 3 * 299792458.0, r.exposure_ev = -1.25, r.exposure_locked = true;
+    EXPECT_EQ(field(r, "Welt", german), "5,000 Jahre");
+    EXPECT_EQ(field(r, "Weg", german), "3,00 Licht-s");
+    EXPECT_EQ(field(r, "Belichtung", german), "−1,3 EV fest");
 }
 
 TEST(Hud, TheLightThatIsShownHasAName)
 {
-    EXPECT_EQ(light_name({}), "spectra shifted, times D³: as eyes see them");
-    EXPECT_EQ(light_name({.headlight = false}), "spectra shifted, without D³");
-    EXPECT_EQ(light_name({.doppler = false}), "colours unshifted, times D³");
-    EXPECT_EQ(light_name({.doppler = false, .headlight = false}), "colours as at rest");
-    EXPECT_EQ(light_name({.false_colours = true}), "false colours: infrared red, visible green, ultraviolet blue");
+    EXPECT_EQ(light_name({}, starbow::testing::words()), "spectra shifted, times D³: as eyes see them");
+    EXPECT_EQ(light_name({.headlight = false}, starbow::testing::words()), "spectra shifted, without D³");
+    EXPECT_EQ(light_name({.doppler = false}, starbow::testing::words()), "colours unshifted, times D³");
+    EXPECT_EQ(light_name({.doppler = false, .headlight = false}, starbow::testing::words()), "colours as at rest");
+    EXPECT_EQ(light_name({.false_colours = true}, starbow::testing::words()),
+        "false colours: infrared red, visible green, ultraviolet blue");
     Readings all = at_gamma(4);
     all.effects = {.doppler = false, .false_colours = true};
     EXPECT_EQ(field(all, "light"), "false colours: infrared red, visible green, ultraviolet blue, unshifted");

@@ -24,7 +24,8 @@ TEST(Picture, StillsAreTheSameBytesEachTime)
     dome.outputs[0].size = {128, 128};
     layout.outputs.push_back(dome.outputs[0]);
     const Shot shot = shipped_shot("starbow");
-    const Panel panel = Typesetter().draw(readings(ship_at(shot), avenue().world.scene, shot.effects), 320);
+    const Panel panel
+        = Typesetter().draw(readings(ship_at(shot), avenue().world.scene, shot.effects), starbow::testing::words(), 320);
 
     Studio stage = studio(avenue().world, layout, false);
     const auto first = stage.picture(shot, &panel);

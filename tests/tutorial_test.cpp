@@ -1,5 +1,6 @@
 // The first minute, as visitors live it: prompts come in turn, go once done, and come again for the next visitor.
 #include "config/shot.h"
+#include "files.h"
 #include "runtime/tutorial.h"
 #include <gtest/gtest.h>
 
@@ -39,7 +40,7 @@ TEST(TutorialTest, EachPromptIsGoneOnceDone)
     EXPECT_EQ(visitor.tutorial.lesson, 2);
     visitor.hold({.lever = 0.3, .stop = true}, 1);
     EXPECT_EQ(visitor.tutorial.lesson, lessons);
-    EXPECT_EQ(prompt(visitor.tutorial, {}), "");
+    EXPECT_EQ(prompt(visitor.tutorial, {}, starbow::testing::words()), "");
 }
 
 TEST(TutorialTest, TheNextVisitorBeginsAnew)
@@ -60,12 +61,14 @@ TEST(TutorialTest, TheNextVisitorBeginsAnew)
 TEST(TutorialTest, PromptsNameWhatIsInTheHand)
 {
     Tutorial tutorial;
-    EXPECT_EQ(prompt(tutorial, {}), "Hold W: faster");
-    EXPECT_EQ(prompt(tutorial, {.stick = true, .lever = true}), "Push the throttle forward: faster");
-    EXPECT_EQ(prompt(tutorial, {.stick = true, .trigger = true}), "Squeeze the right trigger: faster");
+    EXPECT_EQ(prompt(tutorial, {}, starbow::testing::words()), "Hold W: faster");
+    EXPECT_EQ(
+        prompt(tutorial, {.stick = true, .lever = true}, starbow::testing::words()), "Push the throttle forward: faster");
+    EXPECT_EQ(
+        prompt(tutorial, {.stick = true, .trigger = true}, starbow::testing::words()), "Squeeze the right trigger: faster");
     tutorial.lesson = 1;
-    EXPECT_EQ(prompt(tutorial, {.stick = true}), "Move the stick: the ship turns");
+    EXPECT_EQ(prompt(tutorial, {.stick = true}, starbow::testing::words()), "Move the stick: the ship turns");
     tutorial.lesson = 2;
-    EXPECT_EQ(prompt(tutorial, {.stick = true, .stop_button = 3}), "Press button 3: full stop");
-    EXPECT_EQ(prompt(tutorial, {}), "Space: full stop");
+    EXPECT_EQ(prompt(tutorial, {.stick = true, .stop_button = 3}, starbow::testing::words()), "Press button 3: full stop");
+    EXPECT_EQ(prompt(tutorial, {}, starbow::testing::words()), "Space: full stop");
 }

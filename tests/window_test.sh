@@ -76,6 +76,19 @@ said=$(timeout 20 "$program" run --log "$folder/other.csv" 2>&1 >/dev/null)
 [ $? = 2 ] && [[ $said == *"other.csv: 1: begins otherwise"* ]] || fail "a file that is no log: $said"
 ok
 
+# A tour flies by itself: on to its third step, where it speeds up.
+fly desk --tour first-minute
+xdotool key r
+sleep 0.5
+xdotool key r
+sleep 4
+xdotool key Escape
+wait $exhibit || fail "a tour: exit $?"
+ok
+gamma=$(sed -n 's/.*γ \([0-9.]*\).*/\1/p' "$folder/log")
+awk "BEGIN { exit !($gamma > 1.01 && $gamma < 2.2) }" || fail "a tour: gamma $gamma"
+ok
+
 # Stop is at once. The flight is recorded, and flown again it ends the same.
 fly stereo --record "$folder/flight.jsonl"
 xdotool keydown w

@@ -84,7 +84,8 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
     Device& device = theatre.device;
     Studio studio(device, theatre.pipelines, theatre.world, layout, default_quality(device, false), false);
     CubePass plain(device, theatre.pipelines, theatre.world, 1, false);
-    Panel panel = Typesetter().draw(readings(ship_at(shot), theatre.world.scene, shot.effects), studio.frame().hud_width());
+    Panel panel = Typesetter().draw(
+        readings(ship_at(shot), theatre.world.scene, shot.effects), words_in("en"), studio.frame().hud_width());
     Target target = studio.target(0);
     studio.frame().meter(true); // as the exhibit flies
     studio.picture(shot, &panel); // warms every cache and leaves the target in a known layout

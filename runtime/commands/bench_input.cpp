@@ -68,6 +68,7 @@ int bench_input(const std::string& layout, double seconds)
     Opening opening{
         .scene = find("scenes", "avenue"), .layout = load_layout(find("layouts", layout.empty() ? "desk" : layout))};
     opening.start = load_scene_file(opening.scene).start;
+    opening.words = words_in("en");
     opening.profiles = known_profiles();
     Measurement measurement{seconds};
     opening.timed = [&](const FrameTimes& times) { measurement.add(times); };

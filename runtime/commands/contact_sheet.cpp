@@ -86,6 +86,7 @@ int render_contact_sheet(const fs::path& directory)
 {
     std::vector<Job> all = jobs();
     Typesetter typesetter;
+    const Words words = words_in("en");
     Sheet sheet(int(all.size()));
     std::map<fs::path, std::unique_ptr<Theatre>> theatres;
     auto began = std::chrono::steady_clock::now();
@@ -99,8 +100,8 @@ int render_contact_sheet(const fs::path& directory)
             theatre = std::make_unique<Theatre>(scene, device_options(false));
         Studio studio(
             theatre->device, theatre->pipelines, theatre->world, layout, default_quality(theatre->device, true), false);
-        Panel panel
-            = typesetter.draw(readings(ship_at(shot), theatre->world.scene, shot.effects), studio.frame().hud_width());
+        Panel panel = typesetter.draw(
+            readings(ship_at(shot), theatre->world.scene, shot.effects), words, studio.frame().hud_width());
         fs::path folder = directory / all[i].name();
         auto pictures = render_still(folder, studio, shot, false, &panel);
         sheet.place(int(i), all[i].name(), layout.outputs[0].size, pictures[0], typesetter);

@@ -1,8 +1,10 @@
 #include "commands.h"
 #include "config/error.h"
+#include "language_option.h"
 #include "number_option.h"
 #include "pattern_option.h"
 #include "render_replay.h"
+#include "render_tour.h"
 #include "runtime/find.h"
 #include "runtime/sitting.h"
 #include "runtime/still.h"
@@ -18,8 +20,9 @@ namespace starbow {
 namespace {
 
 struct Options {
-    std::string layout, shot, out, size, pattern = "none", exposure = "shot", spectra = "needed", replay, frames, points, overlay = "off",
-                why = "none";
+    std::string layout, shot, out, size, pattern = "none", exposure = "shot", spectra = "needed", replay, frames,
+                                         language = "en", tour, movie, points, overlay = "off", why = "none";
+    long frames_per_s = 30;
     long every = 1;
     double bloom = 0;
     bool exr = false, hud = false;
@@ -27,11 +30,17 @@ struct Options {
 
 int render(const Options& options)
 {
+    if (options.tour.empty() && options.out.empty())
+        throw InputError("--out is required here; the folder for the pictures, such as out/shot, is right");
     if (!options.replay.empty())
-        return render_replay(
-            {options.replay, options.layout, options.out, options.size, options.frames, options.every, options.hud});
+        return render_replay({options.replay, options.layout, options.out, options.size, options.frames, options.language,
+            options.every, options.hud});
+    if (!options.tour.empty())
+        return render_tour({options.tour, options.layout, options.movie, options.size, options.language,
+            options.frames_per_s, options.bloom});
     if (options.shot.empty())
-        throw InputError("Neither --shot nor --replay is given; what is to be drawn, one of the two, is right");
+        throw InputError("None of --shot, --replay and --tour is given; what is to be drawn, one of them, is right");
+    const Words words = words_in(options.language);
     std::filesystem::path shot_file = find("shots", options.shot);
     Shot shot = load_shot(shot_file);
     Layout layout = load_layout(find("layouts", options.layout.empty() ? "desk" : options.layout));
@@ -39,8 +48,6 @@ int render(const Options& options)
         for (Output& output : layout.outputs)
             output.size = parse_size(options.size);
     const Pattern pattern = pattern_of(options.pattern);
-    if (options.out.empty())
-        throw InputError("--out is empty; give the folder for the pictures, such as out/shot");
     std::vector<std::filesystem::path> pictures;
     for (const Output& output : layout.outputs)
         for (const Viewport& viewport : output.viewports)
@@ -69,7 +76,7 @@ int render(const Options& options)
     if (options.hud) {
         Readings told = readings(ship_at(shot), theatre.world.scene, shot.effects);
         told.exposure_ev = shot.exposure_ev;
-        panel = Typesetter().draw(told, studio.frame().hud_width());
+        panel = Typesetter().draw(told, words, studio.frame().hud_width());
     }
     render_still(options.out, studio, shot, options.exr, panel ? &*panel : nullptr);
     std::printf("%s\n", light_told(theatre).c_str());
@@ -87,14 +94,13 @@ int render(const Options& options)
 void add_render(CLI::App& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("render", "Draw one shot off-screen, the same bytes every time.");
+    CLI::App* command = app.add_subcommand(
+        "render", "Draw one shot off-screen, the same bytes every time; or a flight's record, or a tour's movie.");
     command->add_option(
         "--layout", options->layout, "A layout file, or the name of one in config/layouts [desk; of a replay the record's]");
     CLI::Option* shot = command->add_option("--shot", options->shot, "A shot file, or the name of one in config/shots");
-    command
-        ->add_option("--out", options->out,
-            "The folder for OUTPUT.png (and OUTPUT.exr), or of a replay OUTPUT-FRAME.png; made if it is not there")
-        ->required();
+    CLI::Option* out = command->add_option("--out", options->out,
+        "The folder for OUTPUT.png (and OUTPUT.exr), or of a replay OUTPUT-FRAME.png; made if it is not there");
     command->add_option("--size", options->size, "Pixels of every output, WIDTHxHEIGHT, instead of the layout's");
     CLI::Option* exr = command->add_flag(
         "--exr", options->exr, "Also the numbers: light, directions, Doppler factor and distance of every pixel");
@@ -118,6 +124,7 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
               ->check(CLI::IsMember(std::vector<std::string>(why_names.begin(), why_names.end())))
               ->capture_default_str();
     command->add_flag("--hud", options->hud, "With the head-up display");
+    add_language(*command, options->language);
     CLI::Option* replay = command->add_option(
         "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");
     for (CLI::Option* other : {shot, exr, pattern, points, overlay, why})
@@ -127,9 +134,22 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--every", options->every, "Of a replay: each N-th frame")
         ->check(whole_number(1, 1000000000))
         ->needs(replay);
-    command->footer("Examples:\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome --size 2048x2048 --exr\n"
-                    "  starbow render --replay flight.jsonl --out out/flight --frames 0:599\n"
-                    "  starbow render --shot clocks-passing --out out/clocks --measure \"400,300; 12deg,0deg\" --overlay ring");
+    CLI::Option* tour = command->add_option("--tour", options->tour,
+        "Instead of a shot: a movie of a tour, a file or the name of one in config/tours, as it is shown when nobody flies");
+    CLI::Option* movie
+        = command->add_option("--movie", options->movie, "Of a tour: the movie's file, such as out/tour.mp4")->needs(tour);
+    command->add_option("--fps", options->frames_per_s, "Of a tour: frames a second")
+        ->check(whole_number(1, 240))
+        ->capture_default_str()
+        ->needs(tour);
+    tour->needs(movie);
+    for (CLI::Option* other : {shot, out, exr, pattern, replay, points, overlay, why})
+        tour->excludes(other);
+    command->footer(
+        "Examples:\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome --size 2048x2048 --exr\n"
+        "  starbow render --replay flight.jsonl --out out/flight --frames 0:599\n"
+        "  starbow render --tour first-minute --movie out/first-minute.mp4 --fps 30 --size 1280x720 --language de\n"
+        "  starbow render --shot clocks-passing --out out/clocks --measure \"400,300; 12deg,0deg\" --overlay ring");
     command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
 }
 

@@ -1,6 +1,7 @@
 #include "render_replay.h"
 #include "config/error.h"
 #include "pattern_option.h"
+#include "runtime/find.h"
 #include "runtime/history.h"
 #include "runtime/record_files.h"
 #include "runtime/reel.h"
@@ -81,6 +82,7 @@ int render_replay(const ReplayOptions& options)
         theatre.device, theatre.pipelines, theatre.world, from.layout, default_quality(theatre.device, true), false);
     Reel reel(studio, pattern, header.exposing, header.start.exposure_ev);
     Typesetter typesetter;
+    const Words words = words_in(options.language);
     std::error_code error; // told by write_png
     std::filesystem::create_directories(folder, error);
 
@@ -101,7 +103,7 @@ int render_replay(const ReplayOptions& options)
             continue;
         std::optional<Panel> panel;
         if (options.hud && flight.hud)
-            panel = typesetter.draw(readings(flight.ship, scene, flight.effects), studio.frame().hud_width());
+            panel = typesetter.draw(readings(flight.ship, scene, flight.effects), words, studio.frame().hud_width());
         const auto pictures = reel.picture(flight, header.start.scene, panel ? &*panel : nullptr);
         char name[32];
         std::snprintf(name, sizeof name, "-%06ld.png", number);

@@ -4,7 +4,7 @@
 namespace starbow {
 
 struct ReplayOptions {
-    std::string replay, layout, out, size, frames; ///< size: "" as the layout's; frames: "A:B", "" for all
+    std::string replay, layout, out, size, frames, language; ///< size: "" as the layout's; frames: "A:B", "" for all
     long every = 1;
     bool hud = false;
 };

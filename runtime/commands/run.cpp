@@ -1,7 +1,9 @@
 #include "commands.h"
+#include "config/error.h"
 #include "config/exhibit.h"
 #include "contact_sheet.h"
 #include "input/keyboard.h"
+#include "language_option.h"
 #include "number_option.h"
 #include "pattern_option.h"
 #include "runtime/exhibit.h"
@@ -17,14 +19,14 @@ namespace starbow {
 namespace {
 
 struct Options {
-    std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, log;
+    std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, language, tour, log;
     double log_every_s = 0;
     long frames = 0;
     bool asked = false; ///< for anything of the above
 };
 
 /// What a record was flown in is all that its replay is opened with, but for another layout.
-Opening reopen(const std::filesystem::path& record, const std::string& layout)
+Opening reopen(const std::filesystem::path& record, const std::string& layout, const std::string& language)
 {
     const RecordHeader header = Replay(record).header();
     const auto say = [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); };
@@ -32,6 +34,7 @@ Opening reopen(const std::filesystem::path& record, const std::string& layout)
     return {.scene = flown.scene,
         .layout = flown.layout,
         .start = header.start,
+        .words = words_in(language.empty() ? "en" : language),
         .rules = header.rules,
         .exposure = header.exposing,
         .tutorial = false,
@@ -42,7 +45,7 @@ Opening reopen(const std::filesystem::path& record, const std::string& layout)
 Opening open(const Options& options)
 {
     if (!options.replay.empty())
-        return reopen(options.replay, options.layout);
+        return reopen(options.replay, options.layout, options.language);
     Exhibit exhibit = load_exhibit(find("exhibits", options.exhibit));
     // What the command line names counts; a scene or a shot of its own replaces both of the file's.
     if (!options.layout.empty())
@@ -50,13 +53,23 @@ Opening open(const Options& options)
     if (!options.scene.empty())
         exhibit.scene = options.scene;
     if (!options.scene.empty() || !options.shot.empty())
-        exhibit.shot = options.shot;
+        exhibit.shot = options.shot, exhibit.tour.clear();
+    if (!options.tour.empty())
+        exhibit.tour = options.tour, exhibit.shot.clear();
+    if (!exhibit.tour.empty() && !options.record.empty())
+        throw InputError("A tour's flight can't be recorded; --record without a tour is right");
     Opening opening{.scene = find("scenes", exhibit.scene), .layout = load_layout(find("layouts", exhibit.layout))};
     opening.start = load_scene_file(opening.scene).start;
+    opening.words = words_in(options.language.empty() ? exhibit.language : options.language);
     if (!exhibit.shot.empty()) {
         const std::filesystem::path shot_file = find("shots", exhibit.shot);
         opening.start = load_shot(shot_file);
         opening.scene = scene_of(opening.start, shot_file);
+    }
+    if (!exhibit.tour.empty()) {
+        opening.tour = tour_in(exhibit.tour, opening.words);
+        opening.scene = scene_of(*opening.tour);
+        opening.start = std::get<Cut>(opening.tour->steps[0].motion).shot;
     }
     opening.rules = exhibit.flying;
     opening.exposure = exhibit.exposure;
@@ -102,6 +115,7 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--layout", options->layout, "Instead: a layout file, or the name of one in config/layouts");
     command->add_option("--scene", options->scene, "Instead: a scene file, or the name of one in config/scenes");
     command->add_option("--shot", options->shot, "Instead: start at this shot, in its scene");
+    add_language(*command, options->language);
     command->add_option("--pattern", options->pattern, pattern_help)->capture_default_str();
     command->add_option("--frames", options->frames, "Leave after so many frames")->check(whole_number(0, 1000000000));
     command->add_option("--record", options->record,
@@ -113,12 +127,19 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
         ->add_option("--log-every", options->log_every_s, "With --log: write a line by itself every so many seconds")
         ->check(CLI::Range(0.02, 86400.0))
         ->needs(log);
+    CLI::Option* tour = command->add_option("--tour", options->tour,
+        "Instead: show this tour, a file or the name of one in config/tours; then the visitor flies, and when nobody does "
+        "it "
+        "begins anew. Space: stand still, go on; R: on to the next step; Backspace: back");
+    for (const char* other : {"--scene", "--shot", "--record"})
+        tour->excludes(other);
     CLI::Option* replay = command->add_option("--replay", options->replay,
         "Fly a record again, the same to the bit, in its scene and on its layout (or on --layout's)");
-    for (const char* other : {"--exhibit", "--scene", "--shot", "--pattern", "--record"})
+    for (const char* other : {"--exhibit", "--scene", "--shot", "--tour", "--pattern", "--record"})
         replay->excludes(other);
     command->footer(std::string("Keys:\n") + keyboard_help()
-        + "\n\nExamples:\n  starbow run --layout stereo --shot avenue-gamma4\n  starbow run --exhibit dome");
+        + "\n\nExamples:\n  starbow run --layout stereo --shot avenue-gamma4\n  starbow run --exhibit dome --language de\n  "
+          "starbow run --tour first-minute");
     command->callback([options, command, &chosen] {
         for (const CLI::Option* option : command->get_options())
             options->asked = options->asked || option->count() > 0;

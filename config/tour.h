@@ -1,0 +1,121 @@
+#pragma once
+#include "flying.h"
+#include "shot.h"
+#include "words.h"
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace starbow {
+
+/// A number told by the ship's state. `at`: a place at rest in the world, scene units.
+struct Measure {
+    enum class What {
+        gamma,
+        beta,
+        rapidity,
+        ship_s, ///< the ship's clock, seconds
+        world_s, ///< the world's, seconds
+        distance, ///< to `at` in the world, scene units
+        angle_deg, ///< between the motion and where `at` is seen; straight ahead 0
+        doppler, ///< D of what comes from `at`
+        doppler_ahead, ///< D straight along the motion
+        size, ///< how large a small thing at `at` looks, against when the tour last cut
+        reading_s, ///< what a clock at `at` that keeps the world's time is seen to show, seconds
+        own_colour_deg, ///< angle from the motion at which D is 1
+    };
+    What what = What::gamma;
+    glm::dvec3 at{0};
+    std::optional<glm::dvec3> against; ///< less the same at this place
+};
+inline const std::vector<std::pair<std::string_view, Measure::What>> measures{{"gamma", Measure::What::gamma},
+    {"beta", Measure::What::beta}, {"rapidity", Measure::What::rapidity}, {"ship_s", Measure::What::ship_s},
+    {"world_s", Measure::What::world_s}, {"distance", Measure::What::distance}, {"angle_deg", Measure::What::angle_deg},
+    {"doppler", Measure::What::doppler}, {"doppler_ahead", Measure::What::doppler_ahead}, {"size", Measure::What::size},
+    {"reading_s", Measure::What::reading_s}, {"own_colour_deg", Measure::What::own_colour_deg}};
+constexpr bool has_place(Measure::What what)
+{
+    using enum Measure::What;
+    return what == distance || what == angle_deg || what == doppler || what == size || what == reading_s;
+}
+
+/// A choice is right where the measured number is at least `from` and below `below`.
+struct Choice {
+    std::string text;
+    double from, below;
+};
+/// A number that the visitor sets, right within the tolerance of the measured one.
+struct NumberToSet {
+    double from, to, step, tolerance;
+};
+/// The visitor flies until the measured number is between these.
+struct PlaceToReach {
+    double from, to;
+};
+struct Question {
+    std::string ask, told; ///< `told`: the answer, whatever was said; {measured} stands for the number
+    Measure measure;
+    std::variant<std::vector<Choice>, NumberToSet, PlaceToReach> answer;
+    double told_s = 8; ///< so long it is told
+};
+
+/// At once at a shot.
+struct Cut {
+    Shot shot;
+};
+/// A camera's way, not a ship's: from where the last step ended to a place, a velocity (on the straight line between the two
+/// in velocity space) and a view, without a jerk at either end. What is not given stays. The world's time goes on by gamma
+/// for each second of the ship's, or to `time`.
+struct Glide {
+    std::optional<glm::dvec3> position, u;
+    std::optional<glm::dquat> ship_from_cockpit;
+    std::optional<double> time;
+};
+/// Constant proper acceleration, rapidity per second of the ship's; along the nose as it stands, or a direction among the
+/// ship's axes.
+struct Thrust {
+    double rapidity_per_s;
+    std::optional<glm::dvec3> towards;
+};
+/// Straight on, while the nose turns to a view without a jerk.
+struct Turning {
+    glm::dquat ship_from_cockpit;
+};
+struct Coast { };
+/// The visitor flies, until the time is over or they want to go on.
+struct Try {
+    std::optional<FlightMode> mode; ///< none: the exhibit's
+    std::optional<double> greatest_gamma; ///< no more than the exhibit's
+};
+
+struct Step {
+    double seconds; ///< of the visitor's time
+    double ship_s_per_s = 1; ///< seconds of the ship's in each of them: slow and fast motion; 0: nothing moves on
+    glm::dvec2 ease_s{0}; ///< in which the ship's time gets going at the step's beginning, and stands still at its end
+    std::variant<Coast, Cut, Glide, Thrust, Turning, Try> motion;
+    std::string caption; ///< or empty
+    std::optional<Measure> measure; ///< what {measured} in the caption stands for
+    std::optional<Effects> effects; ///< none: as before
+    std::optional<double> exposure_ev; ///< reached at once with a cut, else by the step's end; none: as before
+    std::optional<Question> question;
+};
+
+/// A timeline: what a visitor is shown, is told, tries and is asked.
+struct Tour {
+    std::filesystem::path file;
+    std::string scene; ///< name or path of a scene file
+    double again_after_s = 90; ///< the tour begins anew when nobody has touched anything for so long after its end
+    std::vector<Step> steps; ///< the first is a cut
+};
+
+/// Finds the file of a shot that is named.
+using FindShot = std::function<std::filesystem::path(const std::string& name)>;
+
+/// Reads and checks a tour, its texts in the words' language. Throws InputError.
+Tour load_tour(const std::filesystem::path& file, const Words& words, const FindShot& find_shot);
+
+} // namespace starbow

@@ -1,0 +1,13 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace starbow {
+
+inline CLI::Option* add_language(CLI::App& command, std::string& language)
+{
+    return command.add_option(
+        "--language", language, "Of what visitors read: the name of one in config/words, or a file of words [en]");
+}
+
+} // namespace starbow

@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+
+namespace starbow {
+
+struct TourOptions {
+    std::string tour, layout, movie, size, language; ///< layout, size: "" for the desk, and as the layout's
+    long frames_per_s = 30;
+    double bloom = 0;
+};
+
+/// Draws a tour frame by frame off-screen and makes a movie of it; goes on with one that was interrupted. Returns the exit
+/// status.
+int render_tour(const TourOptions& options);
+
+} // namespace starbow

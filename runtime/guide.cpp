@@ -1,0 +1,36 @@
+#include "guide.h"
+#include <algorithm>
+
+namespace starbow {
+
+constexpr double fade_s = 1.5, prompt_s = 12;
+
+const Flight& Guide::flown(const Controls& controls, std::int64_t dt_ns)
+{
+    touring_ = advance(std::move(touring_), show_, controls, dt_ns);
+    const double dt_s = 1e-9 * double(dt_ns);
+    automatic_ = std::clamp(automatic_ + (flies(touring_, show_) ? dt_s : -dt_s) / fade_s, 0.0, 1.0);
+    over_s_ = touring_.over ? over_s_ + dt_s : 0;
+    return touring_.flight;
+}
+
+double Guide::shown_ev(const Exposure& adapted, const Exposing& rules) const
+{
+    const double tours = touring_.flight.exposure_ev, turned = std::clamp(tours + touring_.brighter_ev, -60.0, 60.0);
+    return glm::mix(turned, starbow::shown_ev(adapted, rules, turned, tours), glm::smoothstep(0.0, 1.0, automatic_));
+}
+
+std::optional<Caption> Guide::caption(const Words& words, const Means& means) const
+{
+    Caption caption = caption_of(touring_, show_, words, means);
+    if (caption.text.empty())
+        return {};
+    return caption;
+}
+
+std::string Guide::prompt(const Words& words) const
+{
+    return touring_.over && over_s_ < prompt_s ? words("touring.over") : "";
+}
+
+} // namespace starbow

@@ -1,0 +1,36 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace starbow {
+
+/// The frames of a movie that is being drawn: FILE.mp4.frames/ beside it, with a file that tells what they are made from, so
+/// that what was interrupted is gone on with, and what has changed is begun anew.
+class MovieFrames {
+public:
+    /// made_from: everything that the frames depend on, one line. say: is called with a line for the log. Throws InputError
+    /// where the folder can't be made, or is something else.
+    MovieFrames(const std::filesystem::path& movie, const std::string& made_from,
+        const std::function<void(const std::string&)>& say);
+
+    /// The file of a frame of an output.
+    std::filesystem::path file(const std::string& output, long frame) const;
+    bool has(const std::string& output, long frame) const;
+    const std::filesystem::path& folder() const { return folder_; }
+
+    /// Removes the frames and their folder, where nothing else is in it.
+    void remove() const;
+
+private:
+    std::filesystem::path folder_;
+};
+
+/// Throws InputError, one sentence, where ffmpeg can't be started.
+void check_ffmpeg();
+
+/// Makes a movie (H.264) of an output's frames, counted from 0. The whole file or nothing. Throws InputError with ffmpeg's
+/// own reason.
+void make_movie(const std::filesystem::path& movie, const MovieFrames& frames, const std::string& output, int frames_per_s);
+
+} // namespace starbow

@@ -1,0 +1,331 @@
+#include "tour.h"
+#include "measuring.h"
+#include "pilot.h"
+#include "tour_motion.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+constexpr double second_ns = 1e9;
+/// A stick that is held aside goes on to the next number so often.
+constexpr double first_repeat_s = 0.5, repeat_s = 0.1;
+/// Where nobody answers, as in a movie, a question is asked no longer.
+constexpr double longest_asked_of_nobody_s = 7;
+/// The place was reached when it has been so for so long.
+constexpr double reached_s = 0.3;
+
+std::int64_t ns(double seconds) { return std::llround(seconds * second_ns); }
+
+const Step& step_of(const Touring& touring, const Show& show) { return show.tour.steps[touring.step()]; }
+
+bool tries(const Step& step) { return std::holds_alternative<Try>(step.motion); }
+
+/// How long a question is asked, or a step without one takes. Nobody needs long to think.
+double asked_s(const Step& step, bool visitors)
+{
+    return step.question && !visitors ? std::min(step.seconds, longest_asked_of_nobody_s) : step.seconds;
+}
+
+/// How long the step takes as things stand.
+std::int64_t duration_ns(const Touring& now, const Show& show)
+{
+    const Step& step = step_of(now, show);
+    const std::int64_t asked = ns(asked_s(step, show.visitors));
+    if (!step.question)
+        return asked;
+    return (now.told ? now.asked_ns : asked) + ns(step.question->told_s);
+}
+
+/// Of the visitor who flies in this step.
+Flying rules_in(const Step& step, const Flying& exhibits)
+{
+    Flying rules = exhibits;
+    if (const Try* tried = std::get_if<Try>(&step.motion)) {
+        rules.mode = tried->mode.value_or(rules.mode);
+        rules.greatest_gamma = std::min(rules.greatest_gamma, tried->greatest_gamma.value_or(rules.greatest_gamma));
+    }
+    return rules;
+}
+
+/// The controls into the visitor's hands.
+void hand_over(Touring& now, const Flying& rules)
+{
+    Shot here = shot_of(now.flight.ship);
+    const Flight fresh = flight_at(here, rules);
+    now.flight.mode = fresh.mode, now.flight.lever = fresh.lever;
+    now.flight.held_back = rapidity_of(now.flight.ship) == 0; // a throttle that happens to stand open waits
+    now.flight.faster = 0;
+    now.flight.thrust = now.flight.turn_rad_s = now.flight.turn_lead_rad_s = glm::dvec3(0);
+    now.flight.homing.reset();
+    now.idle_s = 0;
+}
+
+/// Begins the step whose start is the last; its motion, effects and exposure from `now.flight`.
+void begin(Touring& now, const Show& show)
+{
+    const Step& step = step_of(now, show);
+    Touring::Start& start = now.starts.back();
+    if (const Cut* cut = std::get_if<Cut>(&step.motion)) {
+        const Ship before = start.flight.ship;
+        start.flight.ship = ship_at(cut->shot);
+        // The log goes on, for who looks at the ship's clock.
+        start.flight.ship.proper_time = before.proper_time, start.flight.ship.distance = before.distance;
+        start.flight.effects = cut->shot.effects;
+        start.flight.exposure_ev = step.exposure_ev.value_or(cut->shot.exposure_ev);
+        start.since = start.flight.ship;
+    }
+    if (step.effects)
+        start.flight.effects = *step.effects;
+    now.into_ns = 0;
+    now.chosen = -1, now.right.reset(), now.told.reset(), now.asked_ns = 0;
+    now.nudged = true; // a stick that still stands aside is no answer
+    now.nudged_s = -1e9;
+    if (step.question)
+        if (const auto* set = std::get_if<NumberToSet>(&step.question->answer))
+            now.number = set->from;
+    const glm::dvec2 look = std::holds_alternative<Cut>(step.motion) ? glm::dvec2(0) : now.flight.look_rad;
+    const bool hud = now.flight.hud;
+    now.flight = start.flight;
+    now.flight.look_rad = look, now.flight.hud = hud;
+    if (tries(step))
+        hand_over(now, rules_in(step, show.rules));
+}
+
+/// As the step's motion has it after now.into_ns.
+void place(Touring& now, const Show& show)
+{
+    const Step& step = step_of(now, show);
+    if (tries(step))
+        return;
+    const Touring::Start& start = now.starts.back();
+    // While the answer is told the motion stands: what was asked about stays in view.
+    const double seconds = double(now.told ? now.asked_ns : now.into_ns) / second_ns;
+    const double part = std::min(1.0, seconds / step.seconds);
+    now.flight.ship = along(step, start.flight.ship, part, show.seconds_per_time_unit);
+    now.flight.exposure_ev = start.flight.exposure_ev;
+    if (step.exposure_ev)
+        now.flight.exposure_ev += eased(part) * (*step.exposure_ev - start.flight.exposure_ev);
+}
+
+void next(Touring& now, const Show& show)
+{
+    place(now, show);
+    std::size_t to = now.step() + 1;
+    while (to < show.tour.steps.size() && !show.visitors && tries(show.tour.steps[to]))
+        now.starts.push_back(now.starts.back()), ++to;
+    if (to == show.tour.steps.size()) {
+        now.over = true;
+        now.told.reset();
+        if (show.visitors)
+            hand_over(now, show.rules);
+        return;
+    }
+    Touring::Start start{now.flight, now.starts.back().since};
+    now.starts.push_back(start);
+    begin(now, show);
+}
+
+double number_now(const Touring& now, const Show& show, const Measure& measure)
+{
+    return measured(measure, now.flight.ship, now.starts.back().since, show.seconds_per_time_unit);
+}
+
+/// Tells the answer from here on.
+void tell(Touring& now, const Show& show, std::optional<bool> right)
+{
+    now.told = number_now(now, show, step_of(now, show).question->measure);
+    now.right = right;
+    now.asked_ns = now.into_ns;
+}
+
+/// The visitor answers.
+void answer(Touring& now, const Show& show)
+{
+    const Question& question = *step_of(now, show).question;
+    const double value = number_now(now, show, question.measure);
+    if (const auto* choices = std::get_if<std::vector<Choice>>(&question.answer)) {
+        if (now.chosen >= 0) {
+            const Choice& choice = (*choices)[std::size_t(now.chosen)];
+            tell(now, show, value >= choice.from && value < choice.below);
+        }
+    } else if (const auto* set = std::get_if<NumberToSet>(&question.answer)) {
+        tell(now, show, std::abs(value - now.number) <= set->tolerance);
+    }
+}
+
+/// What is chosen, or the number that is set, moves by one; to the right is more.
+void nudge(Touring& now, const Show& show, int by)
+{
+    const Question& question = *step_of(now, show).question;
+    if (const auto* choices = std::get_if<std::vector<Choice>>(&question.answer))
+        now.chosen = now.chosen < 0 ? (by > 0 ? 0 : int(choices->size()) - 1)
+                                    : std::clamp(now.chosen + by, 0, int(choices->size()) - 1);
+    else if (const auto* set = std::get_if<NumberToSet>(&question.answer))
+        now.number = std::clamp(now.number + by * set->step, set->from, set->to);
+}
+
+void ask(Touring& now, const Show& show, const Controls& controls, double dt_s)
+{
+    const Question& question = *step_of(now, show).question;
+    const double aside = -controls.turn.y;
+    const int by = aside > 0.5 ? 1 : aside < -0.5 ? -1 : 0;
+    if (by == 0)
+        now.nudged = false, now.nudged_s = 0;
+    else if (!now.nudged)
+        nudge(now, show, by), now.nudged = true, now.nudged_s = 0;
+    else if ((now.nudged_s += dt_s) > first_repeat_s && std::holds_alternative<NumberToSet>(question.answer))
+        nudge(now, show, by), now.nudged_s -= repeat_s;
+    const bool keys[] = {controls.aberration, controls.doppler, controls.headlight};
+    if (const auto* choices = std::get_if<std::vector<Choice>>(&question.answer))
+        for (int i = 0; i < int(choices->size()); ++i)
+            if (keys[i]) {
+                now.chosen = i;
+                answer(now, show);
+                return;
+            }
+    if (controls.stop)
+        answer(now, show);
+}
+
+bool touched(const Controls& controls, double lever, double lever_before)
+{
+    return controls.faster != 0 || controls.push != glm::dvec3(0) || controls.turn != glm::dvec3(0)
+        || controls.look_rad != glm::dvec2(0) || std::abs(lever - lever_before) > 0.005 || controls.stop || controls.home
+        || controls.undo || controls.reset || controls.next_mode;
+}
+
+/// The visitor flies; what leads through the tour is not for the ship.
+void fly_by_hand(Touring& now, const Show& show, Controls controls, std::int64_t dt_ns, const Flying& rules)
+{
+    const double lever = now.flight.lever;
+    controls.home = controls.home && now.over;
+    controls.undo = controls.reset = false;
+    controls.exposure = 0; // counted as everywhere in the tour
+    now.flight = step(
+        now.flight, controls, dt_ns, rules, show.seconds_per_time_unit, std::get<Cut>(show.tour.steps[0].motion).shot);
+    now.idle_s = touched(controls, now.flight.lever, lever) ? 0 : now.idle_s + double(dt_ns) / second_ns;
+}
+
+/// What the visitor may do at any time. True where that leads elsewhere in the tour.
+bool press(Touring& now, const Show& show, const Controls& controls)
+{
+    const bool by_hand = flies(now, show);
+    now.flight.hud ^= controls.hud && !by_hand;
+    if (!by_hand) {
+        constexpr double half_pi = 1.57079632679489662;
+        glm::dvec2& look = now.flight.look_rad;
+        look = controls.look_ahead ? glm::dvec2(0) : look + controls.look_rad;
+        look.y = std::clamp(look.y, -half_pi, half_pi);
+    }
+    if (controls.reset) {
+        now = touring_at(show);
+        return true;
+    }
+    if (controls.undo && !now.over) {
+        // Soon after a step's beginning, to the one before.
+        if (now.into_ns < ns(2) && now.starts.size() > 1)
+            now.starts.pop_back();
+        begin(now, show);
+        now.paused = false;
+        return true;
+    }
+    if (controls.home && !now.over) {
+        now.paused = false;
+        // On to the step's end, where it would have led to.
+        now.into_ns = std::max(now.into_ns, ns(step_of(now, show).seconds));
+        next(now, show);
+        return true;
+    }
+    if (controls.stop && !by_hand && !(step_of(now, show).question && !now.told))
+        now.paused = !now.paused;
+    return false;
+}
+
+/// Ends the telling of a visitor's flight to a place, and counts the time in which it is reached.
+void watch(Touring& now, const Show& show, std::int64_t dt_ns)
+{
+    const Step& step = step_of(now, show);
+    if (!step.question || now.told)
+        return;
+    const auto& reach = std::get<PlaceToReach>(step.question->answer);
+    const double value = number_now(now, show, step.question->measure);
+    now.number = value >= reach.from && value <= reach.to ? now.number + double(dt_ns) / second_ns : 0;
+    if (now.number > reached_s)
+        tell(now, show, true);
+}
+
+} // namespace
+
+bool flies(const Touring& now, const Show& show)
+{
+    return show.visitors && (now.over || (tries(step_of(now, show)) && !now.told));
+}
+
+double left_s(const Touring& now, const Show& show)
+{
+    const Step& step = step_of(now, show);
+    return std::max(
+        0.0, (now.told ? double(duration_ns(now, show)) / second_ns : step.seconds) - double(now.into_ns) / second_ns);
+}
+
+double length_s(const Tour& tour)
+{
+    double sum = 0;
+    for (const Step& step : tour.steps)
+        if (!tries(step))
+            sum += asked_s(step, false) + (step.question ? step.question->told_s : 0);
+    return sum;
+}
+
+Touring touring_at(const Show& show)
+{
+    Touring touring;
+    touring.flight.mode = show.rules.mode;
+    touring.starts.push_back({touring.flight, touring.flight.ship});
+    begin(touring, show);
+    place(touring, show);
+    return touring;
+}
+
+Touring advance(Touring now, const Show& show, const Controls& controls, std::int64_t dt_ns)
+{
+    const double dt_s = double(dt_ns) / second_ns;
+    press(now, show, controls);
+    now.brighter_ev = std::clamp(now.brighter_ev + controls.exposure * exposure_ev_per_s * dt_s, -30.0, 30.0);
+    if (now.over) {
+        if (show.visitors)
+            fly_by_hand(now, show, controls, dt_ns, show.rules);
+        return now.idle_s > show.tour.again_after_s ? touring_at(show) : now;
+    }
+    if (now.paused)
+        return now;
+    if (step_of(now, show).question && !now.told && !tries(step_of(now, show)))
+        ask(now, show, controls, dt_s);
+    for (std::int64_t left = dt_ns; left > 0 && !now.over;) {
+        const Step& step = step_of(now, show);
+        // To the end of the step, but not beyond the end of the time to answer.
+        const std::int64_t asked = ns(asked_s(step, show.visitors));
+        std::int64_t end = duration_ns(now, show);
+        if (step.question && !now.told)
+            end = asked;
+        const std::int64_t some = std::min(left, std::max<std::int64_t>(0, end - now.into_ns));
+        if (flies(now, show)) {
+            fly_by_hand(now, show, controls, some, rules_in(step, show.rules));
+            watch(now, show, some);
+        }
+        now.into_ns += some;
+        left -= some;
+        place(now, show);
+        if (now.into_ns < end)
+            continue;
+        if (step.question && !now.told)
+            tell(now, show, {});
+        else
+            next(now, show);
+    }
+    return now;
+}
+
+} // namespace starbow

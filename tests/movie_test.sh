@@ -1,0 +1,97 @@
+#!/usr/bin/env bash
+# A tour's movie: made, interrupted, gone on with, begun anew, refused. Usage: movie_test.sh PROGRAM
+set -u
+program=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+passed=0 failed=0
+fail() {
+    failed=$((failed + 1))
+    echo "FAILED: $*"
+}
+ok() { if "$@"; then passed=$((passed + 1)); else fail "$*"; fi; }
+
+tour() { # SECONDS TEXT
+    printf '{ "scene": "avenue", "steps": [ { "seconds": %s, "caption": { "en": "%s" }, "cut": {} }, { "seconds": 1, "thrust": { "rapidity_per_s": 1 } } ] }\n' "$1" "$2" >"$folder/tour.json"
+}
+tour 1 "A short one"
+movie="$folder/a movie of 100%.mp4"
+frames="$movie.frames"
+make() { "$program" render --tour "$folder/tour.json" --movie "$movie" --fps 15 --size 64x48 "$@"; }
+count() { ffprobe -v error -count_frames -select_streams v:0 -show_entries stream=nb_read_frames,width,height,r_frame_rate -of csv=p=0 "$1"; }
+
+# Begins, and is interrupted as soon as some frames are there; its status.
+interrupt() {
+    "$program" render --tour "$folder/tour.json" --movie "$movie" --fps 15 --size 64x48 --language de >"$folder/said" 2>"$folder/errors" &
+    local child=$!
+    for _ in $(seq 400); do
+        if [ "$(ls "$frames" 2>/dev/null | grep -c png)" -ge 3 ]; then break; fi
+        sleep 0.02
+    done
+    kill -INT $child
+    wait $child
+}
+
+# In one go: all frames, and nothing else left.
+make >"$folder/said" 2>"$folder/errors" || fail "a movie: $(cat "$folder/errors")"
+ok [ "$(count "$movie")" = 64,48,15/1,30 ]
+ok [ ! -e "$frames" ]
+ok grep -q '30 frames, 2.0 s' "$folder/said"
+ok [ ! -s "$folder/errors" ]
+"$program" render --tour "$folder/tour.json" --movie "$folder/odd.mp4" --fps 5 --size 63x47 >/dev/null || fail "an odd size"
+ok [ "$(count "$folder/odd.mp4")" = 64,48,5/1,10 ]
+
+# Interrupted as soon as some frames are there: they stay, whole, and the movie that was there too.
+before=$(md5sum <"$movie")
+interrupt
+ok [ $? = 130 ]
+ok grep -q 'interrupted with [0-9]* of 30 frames drawn; the same command goes on from there' "$folder/errors"
+kept=$(ls "$frames" | grep -c 'png$')
+ok [ "$kept" -ge 3 -a "$kept" -lt 30 ]
+ok [ "$(md5sum <"$movie")" = "$before" ]
+touch -d '2001-01-01' "$frames"/*-000001.png
+cp "$frames"/*-000001.png "$folder/one.png"
+make --language de >"$folder/said" 2>"$folder/errors" || fail "the rest: $(cat "$folder/errors")"
+ok grep -q "^$kept frames were there already, $((30 - kept)) more drawn$" "$folder/said"
+ok [ "$(count "$movie")" = 64,48,15/1,30 ]
+ok [ ! -e "$frames" ]
+
+# What was made from something else is begun anew, and says so; a frame that is missing is drawn again, the same.
+interrupt
+ok cmp "$frames"/*-000001.png "$folder/one.png"
+tour 1 "Another one"
+make --language de >"$folder/said" 2>"$folder/errors" || fail "another: $(cat "$folder/errors")"
+ok grep -q 'has changed, or how; the movie begins anew$' "$folder/errors"
+ok [ "$(grep -c 'already' "$folder/said")" = 0 ]
+
+# Refused in one line, with nothing drawn.
+refused() { # TEXT STATUS COMMAND...
+    local text=$1 said
+    shift
+    said=$("$@" 2>&1 >/dev/null)
+    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$text"* ]]; then passed=$((passed + 1)); else fail "'$text' is not what is said: $said"; fi
+}
+mkdir "$folder/empty"
+refused "ffmpeg, which makes movies of pictures, can't be started (No such file or directory)" env PATH="$folder/empty" "$program" render --tour "$folder/tour.json" --movie "$folder/none.mp4"
+ok [ ! -e "$folder/none.mp4.frames" ]
+refused 'one that ends in .mp4 is right' "$program" render --tour first-minute --movie "$folder/none.avi"
+refused 'there are: first-minute, rainbow, simultaneity' "$program" render --tour none --movie "$folder/none.mp4"
+refused 'there are: de, en' "$program" render --tour rainbow --movie "$folder/none.mp4" --language xx
+refused 'is no folder' "$program" render --tour rainbow --movie "$folder/tour.json/none.mp4"
+refused '--fps' "$program" render --tour rainbow --movie "$folder/none.mp4" --fps 0
+refused '--movie' "$program" render --tour rainbow
+refused '--shot' "$program" render --tour rainbow --movie "$folder/none.mp4" --shot start
+mkdir -p "$folder/mine.mp4.frames" && echo mine >"$folder/mine.mp4.frames/letter"
+refused 'holds no frames of a movie' "$program" render --tour "$folder/tour.json" --movie "$folder/mine.mp4"
+ok [ "$(cat "$folder/mine.mp4.frames/letter")" = mine ]
+# ffmpeg's own reason, and the frames stay.
+printf '#!/bin/sh\n[ "$1" = -version ] || { echo "first line" >&2; echo "no encoder today" >&2; exit 1; }\n' >"$folder/empty/ffmpeg"
+chmod +x "$folder/empty/ffmpeg"
+refused 'ffmpeg could not make it (no encoder today)' env PATH="$folder/empty:/usr/bin:/bin" "$program" render --tour "$folder/tour.json" --movie "$folder/broken.mp4" --fps 2 --size 32x32
+ok [ "$(ls "$folder/broken.mp4.frames" | grep -c 'png$')" = 4 ]
+ok [ ! -e "$folder/broken.mp4" ]
+"$program" render --tour "$folder/tour.json" --movie "$folder/broken.mp4" --fps 2 --size 32x32 >/dev/null || fail "with ffmpeg again"
+ok [ "$(count "$folder/broken.mp4")" = 32,32,2/1,4 ]
+
+echo "$passed checks passed, $failed failed"
+[ $failed = 0 ]
