@@ -35,6 +35,7 @@ enum class ButtonRole {
     doppler,
     headlight,
     false_colours,
+    comparison,
     hud,
     overlay,
     mark,

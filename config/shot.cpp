@@ -75,7 +75,7 @@ glm::dquat orientation(const glm::dvec3& look, const glm::dvec3& up)
 
 Effects read_effects(const Place& place)
 {
-    only(place, {"aberration", "doppler", "headlight", "false_colours"});
+    only(place, {"aberration", "doppler", "headlight", "comparison", "false_colours"});
     Effects effects;
     if (auto p = find(place, "aberration"))
         effects.aberration = boolean(*p);
@@ -83,6 +83,10 @@ Effects read_effects(const Place& place)
         effects.doppler = boolean(*p);
     if (auto p = find(place, "headlight"))
         effects.headlight = boolean(*p);
+    if (auto p = find(place, "comparison"))
+        effects.comparison = chosen<Comparison>(*p,
+            {{comparison_names[0], Comparison::none}, {comparison_names[1], Comparison::galilean},
+                {comparison_names[2], Comparison::no_light_delay}});
     if (auto p = find(place, "false_colours"))
         effects.false_colours = boolean(*p);
     return effects;

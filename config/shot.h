@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -6,11 +7,17 @@
 
 namespace starbow {
 
+/// What is shown beside what is seen, to compare: velocities that simply add, or everything where it is now in the ship's frame,
+/// as if light came at once.
+enum class Comparison { none, galilean, no_light_delay };
+constexpr std::array<const char*, 3> comparison_names = {"none", "galilean", "no-light-delay"};
+
 /// The paper's switches. Aberration off: directions as in the world. Doppler off: colours as at rest. Headlight off: no D^3.
 struct Effects {
     bool aberration = true;
     bool doppler = true;
     bool headlight = true;
+    Comparison comparison = Comparison::none;
     bool false_colours = false; ///< infrared as red, the visible as green, ultraviolet as blue
 };
 

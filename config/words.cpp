@@ -43,6 +43,8 @@ const std::vector<Known> known{
     {"light.without_headlight"},
     {"light.without_doppler"},
     {"light.at_rest"},
+    {"light.galilean"},
+    {"light.no_light_delay"},
     {"light.false_colours"},
     {"light.false_colours_unshifted"},
     {"time.s", {"number"}},

@@ -31,6 +31,7 @@ struct Controls {
     bool next_mode = false;
     bool aberration = false, doppler = false, headlight = false; ///< effects to switch over
     bool false_colours = false; ///< the infrared and the ultraviolet, for who guides
+    bool comparison = false; ///< the next view to compare with, and back to what is seen
     bool lock_exposure = false; ///< hold the automatic exposure, or let it go
     // For who measures: the next overlay; the thing at the crosshair; a line of the log; the next page that tells why.
     bool overlay = false, mark = false, log = false, why = false;

@@ -30,6 +30,7 @@ const char* keyboard_help()
            "M               the next mode of flight: guided, free, newtonian\n"
            "1, 2, 3         aberration, Doppler effect, headlight effect on and off\n"
            "4               for guides: infrared and ultraviolet in false colours, on and off\n"
+           "5               to compare: velocities that simply add, no light delay, and back to what is seen\n"
            "+, -            brighter, darker; L holds the automatic exposure, or lets it go\n"
            "O               instruments: crosshair, grid, ring of D = 1, distance, time of emission, off\n"
            "X, K            mark what is at the crosshair (the first thing, the second); write a line of the log\n"
@@ -90,6 +91,7 @@ void Keyboard::finish(Controls& controls, bool pads)
     controls.headlight = pressed(GLFW_KEY_3);
     controls.lock_exposure = pressed(GLFW_KEY_L);
     controls.false_colours = pressed(GLFW_KEY_4);
+    controls.comparison = pressed(GLFW_KEY_5);
     controls.overlay = pressed(GLFW_KEY_O);
     controls.mark = pressed(GLFW_KEY_X);
     controls.log = pressed(GLFW_KEY_K);

@@ -242,7 +242,7 @@ void Frame::prepare_eye(std::size_t i)
             layer.shot.time + physics::eye_time(layer.shot.u, offset), layer.motion_from_frame};
         eye.nearest.push_back(
             reprojects() ? std::max(nearest_box(world_.world, vantage.frame, vantage.place), 1e-30) : 1);
-        PlanLayer ask{{}, layer.E};
+        PlanLayer ask{{}, layer.E, shot_.effects.comparison == Comparison::galilean};
         for (const PaneState& pane : panes_)
             if (pane.eye == i)
                 ask.views.push_back({pane.compiled.blocks.get(), layer.motion_from_cockpit,
@@ -470,6 +470,7 @@ WarpVariant Frame::variant(const PaneState& pane) const
         plans_[pane.eye].levels > 1, pane.compiled.channels() == 3, beside, beside && layout_.stereo.turning, stars_.on()};
     variant.numbers = world_.numbers();
     variant.layered = world_.layered();
+    variant.galilean = on.comparison == Comparison::galilean;
     variant.by_table = variant.doppler || on.false_colours || variant.numbers != Numbers{}; // else as at rest, which is told
     return variant;
 }

@@ -124,6 +124,8 @@ Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effec
 
 std::string light_name(const Effects& on, const Words& words)
 {
+    if (on.comparison != Comparison::none)
+        return words(on.comparison == Comparison::galilean ? "light.galilean" : "light.no_light_delay");
     if (on.false_colours)
         return words(on.doppler ? "light.false_colours" : "light.false_colours_unshifted");
     return words(on.doppler ? on.headlight ? "light.seen" : "light.without_headlight"

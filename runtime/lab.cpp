@@ -38,7 +38,7 @@ void Lab::read(const Frame& frame, const Controls& controls, const GpuWorld& wor
     if ((controls.mark || controls.log || every_s_ > 0) && overlay_ == Overlay::off)
         overlay_ = Overlay::aim; // what is marked or logged is seen
     mark_wanted_ |= controls.mark;
-    if (!on()) {
+    if (!on() || effects_.comparison != Comparison::none) { // what they tell holds for what is seen alone
         measured_.reset();
         return;
     }

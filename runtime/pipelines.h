@@ -54,6 +54,7 @@ struct WarpVariant {
     Numbers numbers{};
     bool by_table = true; ///< otherwise the numbers are the colour
     bool layered = false; ///< something moves in the world
+    bool galilean = false; ///< velocities are added
     auto operator<=>(const WarpVariant&) const = default;
 };
 

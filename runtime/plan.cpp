@@ -174,6 +174,7 @@ void ask(Demands& demands, const Held& held, const Disc& disc, int rear_last)
 struct Walk {
     const View& view;
     double E;
+    bool galilean;
     int rear_last;
     const Held& held;
     Demands& demands;
@@ -195,7 +196,11 @@ struct Walk {
         const double radius = cap.radius + 0.5 * cap.coarsest;
         const glm::dvec2 across(centre.x, centre.y);
         const double theta = std::atan2(glm::length(across), centre.z);
-        auto world = [&](double camera) { return 2 * std::atan2(E * std::sin(camera / 2), std::cos(camera / 2)); };
+        const double beta = (E - 1 / E) / (E + 1 / E);
+        auto world = [&](double camera) {
+            return galilean ? camera + std::asin(beta * std::sin(camera))
+                            : 2 * std::atan2(E * std::sin(camera / 2), std::cos(camera / 2));
+        };
         const double low = world(theta - radius), high = world(std::min(theta + radius, theta + pi));
         Disc disc;
         disc.radius = std::min(pi, 0.5 * (high - low));
@@ -209,6 +214,17 @@ struct Walk {
             return 1 / (c * c / E + s * s * E);
         };
         const double D = doppler(theta);
+        if (galilean) {
+            // Stretched by more away from the axis than around it, or less: both bounds hold the disc and its pixels.
+            const glm::dvec2 stretch
+                = physics::galilean_stretch(glm::dvec3(std::sin(theta), 0, std::cos(theta)), E, 1 / E);
+            disc.radius = std::min(pi, std::max(disc.radius, 1.2 * radius * std::max(stretch.x, stretch.y)));
+            disc.finest = std::min(stretch.x, stretch.y) * cap.finest;
+            disc.coarsest = std::max(stretch.x, stretch.y) * cap.coarsest;
+            disc.radius = std::min(pi, disc.radius + view.parallax_rad);
+            ask(demands, held, disc, rear_last);
+            return;
+        }
         // A last block may still hold many pixels: the finest texel is then wanted at its far side.
         disc.finest = (disc.radius > 0.25 ? doppler(std::min(theta + cap.radius, pi)) : D) * cap.finest;
         disc.coarsest = D * cap.coarsest;
@@ -285,7 +301,7 @@ glm::dvec3 face_direction(int face, const glm::dvec2& at)
 
 Plan make_plan(const std::vector<View>& views, double E, const Quality& quality)
 {
-    return make_plan({{views, E}}, quality);
+    return make_plan({PlanLayer{views, E}}, quality);
 }
 
 Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality)
@@ -309,7 +325,7 @@ Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality)
             int level = 0;
             while (level + 1 < blocks.levels() && blocks.side(level) > wanted)
                 ++level;
-            Walk{view, E, rear_last, held, demands[layer], level}.block(0, {0, 0});
+            Walk{view, E, layers[layer].galilean, rear_last, held, demands[layer], level}.block(0, {0, 0});
         }
     }
 

@@ -24,6 +24,7 @@ struct Ball {
 struct PlanLayer {
     std::vector<View> views;
     double E = 1; ///< e^rapidity between it and the ship; 1 where directions are not aberrated
+    bool galilean = false; ///< velocities are added: circles do not stay circles
     std::optional<std::vector<Ball>> things{}; ///< outside which there is nothing to draw; none: everywhere is something
 };
 

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 static_assert(sizeof(Controls) == 200);
 static_assert(sizeof(Flying) == 56);
 static_assert(sizeof(Exposing) == 32);
-static_assert(sizeof(Flight) == 552);
+static_assert(sizeof(Flight) == 560);
 
 /// Wide enough for whatever any device may ask for, narrow enough that nothing overflows.
 constexpr Range any_rate{-1e3, 1e3};
@@ -24,7 +24,7 @@ constexpr double most_ns = 9e15; ///< a hundred days; whole numbers below it are
 constexpr std::pair<const char*, bool Controls::*> switches[] = {{"look_ahead", &Controls::look_ahead},
     {"stop", &Controls::stop}, {"home", &Controls::home}, {"undo", &Controls::undo}, {"reset", &Controls::reset},
     {"next_mode", &Controls::next_mode}, {"aberration", &Controls::aberration}, {"doppler", &Controls::doppler},
-    {"headlight", &Controls::headlight}, {"false_colours", &Controls::false_colours},
+    {"headlight", &Controls::headlight}, {"false_colours", &Controls::false_colours}, {"comparison", &Controls::comparison},
     {"lock_exposure", &Controls::lock_exposure}, {"overlay", &Controls::overlay}, {"mark", &Controls::mark},
     {"log", &Controls::log}, {"why", &Controls::why}, {"hud", &Controls::hud}, {"full_screen", &Controls::full_screen},
     {"quit", &Controls::quit}, {"pattern", &Controls::pattern}, {"save", &Controls::save}};
@@ -80,7 +80,7 @@ std::uint64_t read_digest(const Place& place)
 Json json_of(const Effects& effects)
 {
     return {{"aberration", effects.aberration}, {"doppler", effects.doppler}, {"headlight", effects.headlight},
-        {"false_colours", effects.false_colours}};
+        {"comparison", comparison_names[std::size_t(effects.comparison)]}, {"false_colours", effects.false_colours}};
 }
 
 /// Not as a shot's file has it: from a speed and directions there this would come back rounded.
@@ -301,7 +301,7 @@ std::uint64_t digest(const Flight& flight)
     }
     all.add(flight.look_rad);
     all.add(flight.effects.aberration), all.add(flight.effects.doppler), all.add(flight.effects.headlight);
-    all.add(flight.effects.false_colours);
+    all.add(flight.effects.false_colours), all.add(double(flight.effects.comparison));
     all.add(flight.exposure_ev), all.add(flight.hud), all.add(flight.ticks), all.add(flight.left_ns);
     return all.sum;
 }

@@ -18,7 +18,8 @@ Watcher watcher(const World& world, const Shot& ship, const Onlooker& observer)
 {
     Watcher out{observer, shot_of(ship, observer)};
     out.E = physics::exp_rapidity(glm::length(out.shot.u));
-    const bool aberration = ship.effects.aberration;
+    const bool now = ship.effects.comparison == Comparison::no_light_delay;
+    const bool aberration = ship.effects.aberration || now;
     Shot still = out.shot;
     still.u = glm::dvec3(0);
     for (const RestFrame& frame : world.frames) {
@@ -28,7 +29,14 @@ Watcher watcher(const World& world, const Shot& ship, const Onlooker& observer)
         out.layers.push_back({in_frame(frame, out.shot),
             aberration || !own ? physics::exp_rapidity(glm::length(looks.u)) : 1, turn,
             turn * glm::dmat3(glm::mat3_cast(looks.ship_from_cockpit))});
+        if (!now)
+            continue;
+        Layer& layer = out.layers.back();
+        const double gamma = physics::gamma_of(layer.shot.u);
+        layer.E = 1, layer.contraction = 1 / gamma, layer.beta = glm::length(layer.shot.u) / gamma;
     }
+    if (now)
+        out.E = 1;
     return out;
 }
 

@@ -10,6 +10,8 @@ struct Layer {
     Shot shot; ///< the instant, as that frame has it
     double E = 1; ///< e^rapidity of directions, from that frame to the watcher's
     glm::dmat3 motion_from_frame{1}, motion_from_cockpit{1}; ///< turns
+    double contraction = 1; ///< of places along z, as the picture has them: 1 / gamma where everything is shown where it is now
+    double beta = 0; ///< then: the ship's speed in that frame, along z
 };
 
 /// Someone who looks at the ship's place and time: the visitor, or another observer that a viewport has.
@@ -21,6 +23,7 @@ struct Watcher {
     double most_E() const; ///< of the rapidities in all frames
 };
 
+/// Everything where it is now: what is simultaneous in the ship, contracted there, without aberration or shift.
 /// Without aberration directions are those that someone sees who rests in the world.
 Watcher watcher(const World& world, const Shot& ship, const Onlooker& observer);
 

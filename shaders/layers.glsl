@@ -30,9 +30,9 @@ Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
     LayerEntry entry = layered.layers[i];
     Layer layer = layer_of(entry);
     vec3 n = i == 0 ? n0 : vec3(dot(entry.row0.xyz, n0), dot(entry.row1.xyz, n0), dot(entry.row2.xyz, n0));
-    Sight sight = world_from_camera(n, layer.E.x, layer.E.y);
+    Sight sight = from_camera(n, layer.E);
     Part part;
-    part.world_angle = sight.D * pixel_angle;
+    part.world_angle = growth(sight, n, layer.E) * pixel_angle;
     if (REPROJECT)
         sight.n = reprojected(sight.n, eye_offset(n, layer), part.world_angle, layer);
     part.place = place_of(sight.n, layer);

@@ -3,6 +3,7 @@
 #include "shared.h"
 #include "physics/real.glsl"
 #include "physics/aberration.glsl"
+#include "physics/galilean.glsl"
 #include "view.glsl"
 #include "seen.glsl"
 // The relativistic transform of one output pixel, as numbers: the same light as warp.frag's before exposure. Where colours

@@ -3,6 +3,7 @@
 #include "shared.h"
 #include "physics/real.glsl"
 #include "physics/aberration.glsl"
+#include "physics/galilean.glsl"
 #include "view.glsl"
 #include "seen.glsl"
 // The view at a glance, for the exposure: one pixel stands for zenith.z x zenith.w of the viewport's. Where colours look

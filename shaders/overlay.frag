@@ -3,6 +3,7 @@
 #include "shared.h"
 #include "physics/real.glsl"
 #include "physics/aberration.glsl"
+#include "physics/galilean.glsl"
 #include "view.glsl"
 #include "seen.glsl"
 #include "distance.glsl"
@@ -147,10 +148,10 @@ void main()
         discard;
     vec4 sum = vec4(0.0);
     if (OVERLAY == OVERLAY_GRID) {
-        Sight sight = world_from_camera(n, view.boost.x, view.boost.y);
+        Sight sight = from_camera(n, view.boost.xy);
         vec3 world = ABERRATION ? sight.n : n;
         world = vec3(dot(overlay.world0.xyz, world), dot(overlay.world1.xyz, world), dot(overlay.world2.xyz, world));
-        sum = grid(world, ABERRATION ? sight.D * pixel_angle : pixel_angle);
+        sum = grid(world, world_angle(sight, n, pixel_angle));
     }
     if (OVERLAY == OVERLAY_RING)
         sum = ring(n, pixel_angle);

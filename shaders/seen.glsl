@@ -12,6 +12,7 @@ layout(constant_id = 8) const bool STARS = false;
 layout(constant_id = 11) const int REFLECTED = 3; // numbers of what surfaces reflect: 3 are a colour
 layout(constant_id = 12) const int OWN = 0; // numbers of the world's own spectra
 layout(constant_id = 13) const bool BY_TABLE = true; // otherwise the numbers are the colour itself, seen as it is
+layout(constant_id = 15) const bool GALILEAN = false; // velocities are added: a comparison
 layout(constant_id = 14) const bool LAYERED = false; // something moves: what stands still in each of several frames
 
 const int GROUPS = (REFLECTED + OWN + 3) / 4;
@@ -42,6 +43,16 @@ struct Layer {
 };
 // The world's own.
 Layer world_layer() { return Layer(view.boost.xy, view.eye, view.zenith.y, 0, int(view.row1.w)); }
+
+// The world's direction and D that the camera's n shows, and how many angles of the world one at n is.
+Sight from_camera(vec3 n, vec2 E) { return GALILEAN ? galilean_world_from_camera(n, E.x, E.y) : world_from_camera(n, E.x, E.y); }
+float growth(Sight sight, vec3 n, vec2 E)
+{
+    if (!GALILEAN)
+        return sight.D;
+    vec2 stretch = galilean_stretch(n, E.x, E.y);
+    return sqrt(stretch.x * stretch.y);
+}
 
 struct Place {
     vec2 face;  // face coordinates
@@ -224,14 +235,20 @@ vec3 reprojected(vec3 n, vec3 offset, float texel, Layer layer)
     return best;
 }
 
+// The angle of the world that a pixel at the ship's direction n shows.
+float world_angle(Sight sight, vec3 n, float pixel_angle)
+{
+    return ABERRATION ? growth(sight, n, view.boost.xy) * pixel_angle : pixel_angle;
+}
+
 // Where the cube map holds what the ship's direction n shows: in the world, and D.
 Sight sight_of(vec3 n, float pixel_angle)
 {
-    Sight sight = world_from_camera(n, view.boost.x, view.boost.y);
+    Sight sight = from_camera(n, view.boost.xy);
     if (!ABERRATION)
         sight.n = n;
     if (REPROJECT)
-        sight.n = reprojected(sight.n, eye_offset(n, world_layer()), ABERRATION ? sight.D * pixel_angle : pixel_angle, world_layer());
+        sight.n = reprojected(sight.n, eye_offset(n, world_layer()), world_angle(sight, n, pixel_angle), world_layer());
     return sight;
 }
 
@@ -245,10 +262,10 @@ vec3 light_of(vec4 numbers[MAX_GROUPS], float D)
         light *= headlight(D);
     return light;
 }
-vec3 light_seen(Place place, float D, float pixel_angle)
+vec3 light_seen(Place place, float D, float angle)
 {
     vec4 numbers[MAX_GROUPS];
-    cube_map(place, ABERRATION ? D * pixel_angle : pixel_angle, numbers);
+    cube_map(place, angle, numbers);
     return light_of(numbers, D);
 }
 
@@ -272,7 +289,7 @@ Shown shown_along(vec3 n, float pixel_angle)
         return shown;
     }
     Place place = place_of(shown.sight.n, world_layer());
-    shown.light = light_seen(place, shown.sight.D, pixel_angle);
+    shown.light = light_seen(place, shown.sight.D, world_angle(shown.sight, n, pixel_angle));
     shown.distance = distance_at(place);
     shown.frame = 0.0;
     return shown;

@@ -3,6 +3,7 @@
 #include "shared.h"
 #include "physics/real.glsl"
 #include "physics/aberration.glsl"
+#include "physics/galilean.glsl"
 #include "view.glsl"
 #include "seen.glsl"
 // One star of the sky in one viewport: where the ship sees it, which pixel shows that, and what light comes from it. Stars
@@ -188,7 +189,7 @@ void main()
         dot(turn.row2.xyz, star.direction.xyz));
     Sight sight = Sight(n, 1.0); // as the ship sees it
     if (ABERRATION)
-        sight = camera_from_world(n, view.boost.x, view.boost.y);
+        sight = GALILEAN ? galilean_camera_from_world(n, view.boost.x, view.boost.y) : camera_from_world(n, view.boost.x, view.boost.y);
     else
         sight.D = world_from_camera(n, view.boost.x, view.boost.y).D;
 
@@ -203,7 +204,7 @@ void main()
         return;
     vec3 from_place = n; // of the cube map
     if (REPROJECT)
-        from_place = reprojected(n, eye_offset(sight.n, world_layer()), ABERRATION ? sight.D * pixel_angle : pixel_angle, world_layer());
+        from_place = reprojected(n, eye_offset(sight.n, world_layer()), ABERRATION ? growth(sight, sight.n, view.boost.xy) * pixel_angle : pixel_angle, world_layer());
     if (hidden(place_of(from_place, world_layer())))
         return;
     // What moves: as it is drawn.

@@ -3,6 +3,7 @@
 #include "shared.h"
 #include "physics/real.glsl"
 #include "physics/aberration.glsl"
+#include "physics/galilean.glsl"
 #include "view.glsl"
 #include "seen.glsl"
 #include "tone.glsl"

@@ -298,9 +298,9 @@ TEST(Plan, WhatNoPixelSeesCostsNothing)
     const Blocks blocks(glm::dmat3(glm::dvec3(0.01, 0, 0), glm::dvec3(0, -0.01, 0), glm::dvec3(-0.5, 0.5, -1)), {100, 100});
     const glm::dmat3 turn = motion_from_world({}, glm::dquat(1, 0, 0, 0));
     auto plan_with = [&](const dvec3& centre) {
-        return make_plan({{{{&blocks, turn}}, 1}, {{{&blocks, turn}}, 3, std::vector<Ball>{{turn * centre, 1}}}}, {});
+        return make_plan({PlanLayer{{{&blocks, turn}}, 1}, PlanLayer{{{&blocks, turn}}, 3, false, std::vector<Ball>{{turn * centre, 1}}}}, {});
     };
-    const Plan none = make_plan({{{{&blocks, turn}}, 1}}, {});
+    const Plan none = make_plan({PlanLayer{{{&blocks, turn}}, 1}}, {});
     for (const dvec3& behind : {dvec3(0, 0, 20), dvec3(30, 0, 5)})
         EXPECT_EQ(plan_with(behind).images.size(), none.images.size());
     const Plan seen = plan_with({0, 0, -20});

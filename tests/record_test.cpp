@@ -60,7 +60,7 @@ RecordEntry some_entry(std::mt19937_64& random)
     maybe(c.exposure, -1, 1);
     for (bool Controls::*flag :
         {&Controls::look_ahead, &Controls::stop, &Controls::home, &Controls::undo, &Controls::reset, &Controls::next_mode,
-            &Controls::aberration, &Controls::doppler, &Controls::headlight, &Controls::hud, &Controls::false_colours,
+            &Controls::aberration, &Controls::doppler, &Controls::headlight, &Controls::hud, &Controls::false_colours, &Controls::comparison,
             &Controls::full_screen, &Controls::quit, &Controls::pattern, &Controls::save, &Controls::lock_exposure,
             &Controls::overlay, &Controls::mark, &Controls::log, &Controls::why})
         c.*flag = random() % 200 == 0;
@@ -79,7 +79,7 @@ std::vector<std::uint64_t> bits(const RecordEntry& e)
              c.head.turned.y, c.head.turned.z, c.exposure, e.exposure_ev.value_or(0)})
         all.push_back(std::bit_cast<std::uint64_t>(v));
     for (bool flag : {c.look_ahead, c.stop, c.home, c.undo, c.reset, c.next_mode, c.aberration, c.doppler, c.headlight,
-             c.false_colours, c.hud, c.full_screen, c.quit, c.pattern, c.save, c.lock_exposure, c.overlay, c.mark, c.log, c.why})
+             c.false_colours, c.comparison, c.hud, c.full_screen, c.quit, c.pattern, c.save, c.lock_exposure, c.overlay, c.mark, c.log, c.why})
         all.push_back(flag);
     all.push_back(std::uint64_t(c.choose));
     all.push_back(std::uint64_t(c.turn_by));

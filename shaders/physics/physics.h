@@ -14,6 +14,7 @@ using rvec4 = glm::dvec4;
 #include "aberration.glsl"
 #include "motion.glsl"
 #include "worldline.glsl"
+#include "galilean.glsl"
 } // namespace starbow::physics_double
 
 namespace starbow::physics_float {
@@ -26,6 +27,7 @@ using rvec4 = glm::vec4;
 #include "aberration.glsl"
 #include "motion.glsl"
 #include "worldline.glsl"
+#include "galilean.glsl"
 } // namespace starbow::physics_float
 #undef FN
 
