@@ -127,7 +127,7 @@ void CubePass::upload(std::span<const Vantage> layers, bool plain)
     std::vector<shared::TimeEntry> times;
     for (std::size_t layer = 0; layer < layers.size(); ++layer) {
         shared::CubeConstants constants = constants_of(layers[layer], plain);
-        constants.first = glm::vec4(list_.first[layer], times.size(), 0, 0);
+        constants.first = glm::vec4(list_.first[layer], times.size(), list_.first_pose[layer], 0);
         std::memcpy(static_cast<std::byte*>(constants_.mapped) + layer * stride_, &constants, sizeof constants);
         const auto own = time_entries(world_.world, layers[layer], world_.scene.seconds_per_time_unit());
         times.insert(times.end(), own.begin(), own.end());
@@ -265,6 +265,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
             const Primitive& primitive = world.primitives[draw->primitive];
             SurfaceVariant variant = world_.variant(primitive.material, plain);
             variant.mortal = draw->mortal && !plain;
+            variant.moves = draw->moves && !plain;
             if (vk::Pipeline pipeline = pipelines_.surface(variant, kind); pipeline != bound)
                 commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipeline);
             if (primitive.material != material) {
