@@ -1,4 +1,5 @@
 #include "clock.h"
+#include "moving.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -49,26 +50,41 @@ std::string figures(double reading_s)
 std::vector<shared::TimeEntry> time_entries(const World& world, const Vantage& vantage, double seconds_per_time_unit)
 {
     std::vector<shared::TimeEntry> entries;
+    std::size_t poses = 0;
     const InstanceRange range = instances_of(world, vantage.frame);
     for (std::size_t i = range.first; i < range.last && timed(world, world.instances[i]); ++i) {
         const Instance& instance = world.instances[i];
         const Primitive& primitive = world.primitives[instance.primitive];
+        shared::TimeEntry entry{};
+        glm::dmat4 frame_from_local = instance.frame_from_local;
+        if (instance.motion >= 0) {
+            const SeenPose seen = seen_pose(world, instance, vantage);
+            frame_from_local = seen.frame_from_local;
+            const auto times = pose_times(world, instance, seen);
+            constexpr int half = POSES / 2;
+            auto steps = [](double from, double to) { return half / std::max(to - from, 1e-30); };
+            entry.poses = glm::vec4(POSES * poses++, steps(times.front(), times[half]), steps(times[half], times.back()),
+                times[half] - seen.sent);
+        }
         const glm::dvec3 middle
-            = glm::dvec3(instance.frame_from_local * glm::dvec4(0.5 * (primitive.low + primitive.high), 1)) - vantage.place;
-        const double distance = glm::length(middle);
+            = glm::dvec3(frame_from_local * glm::dvec4(0.5 * (primitive.low + primitive.high), 1)) - vantage.place;
+        const double sent = emission_time(vantage, vantage.motion_from_frame * middle);
         const Life life
             = instance.life < 0 ? Life{-for_ever, for_ever} : world.lives[std::size_t(instance.life)];
-        shared::TimeEntry entry{};
-        entry.middle = glm::vec4(vantage.motion_from_frame * middle, distance);
-        if (const auto& clock = world.materials[std::size_t(primitive.material)].clock) {
-            const double reading = reading_s(*clock, vantage.time - life.zero, distance, seconds_per_time_unit);
+        entry.middle = glm::vec4(vantage.motion_from_frame * middle, glm::length(middle));
+        const Material& material = world.materials[std::size_t(primitive.material)];
+        if (material.clock) {
+            const double reading = reading_s(*material.clock, sent - life.zero, 0, seconds_per_time_unit);
             entry.turns
                 = glm::vec4(turned(reading, 60), turned(reading, 10), turned(reading, 3600), seconds_per_time_unit);
             entry.digits = packed(figures(reading));
         }
-        // Of the light that leaves `distance` from the middle's own.
-        auto bound = [&](double time) { return float(std::clamp(vantage.time - time - distance, -1e30, 1e30)); };
-        entry.there = glm::vec4(bound(life.end), bound(life.begin), 0, 0);
+        if (const auto& blink = material.blink) {
+            const double reading = (sent - life.zero) * seconds_per_time_unit - blink->zero_s;
+            entry.blink = glm::vec4(turned(reading, blink->period_s), seconds_per_time_unit / blink->period_s, blink->on, 0);
+        }
+        auto bound = [&](double time) { return float(std::clamp(time - sent, -1e30, 1e30)); };
+        entry.there = glm::vec4(bound(life.begin), bound(life.end), 0, 0);
         entries.push_back(entry);
     }
     return entries;

@@ -64,6 +64,9 @@ void CubePass::prepare(const Plan& plan, std::span<const Vantage> layers, double
     area_ = plan.atlas_size;
     levels_ = plan.levels;
     list_ = cull(world_.world, layers, images_);
+    contractions_.clear();
+    for (const Vantage& layer : layers)
+        contractions_.push_back(layer.contraction);
     fit(plan.atlas_size, plan.levels);
     upload(layers, false);
     const vk::Extent2D extent = atlases_[0].extent;
@@ -75,6 +78,7 @@ void CubePass::prepare_plain(const PlanImage& image, const Vantage& vantage)
 {
     images_ = {image};
     list_ = cull(world_.world, {&vantage, 1}, images_);
+    contractions_ = {1};
     upload({&vantage, 1}, true);
     if (int(depth_.extent.width) < image.size.x || int(depth_.extent.height) < image.size.y)
         depth_ = make_image(device_,
@@ -127,7 +131,7 @@ void CubePass::upload(std::span<const Vantage> layers, bool plain)
     std::vector<shared::TimeEntry> times;
     for (std::size_t layer = 0; layer < layers.size(); ++layer) {
         shared::CubeConstants constants = constants_of(layers[layer], plain);
-        constants.first = glm::vec4(list_.first[layer], times.size(), 0, 0);
+        constants.first = glm::vec4(list_.first[layer], times.size(), list_.first_pose[layer], 0);
         std::memcpy(static_cast<std::byte*>(constants_.mapped) + layer * stride_, &constants, sizeof constants);
         const auto own = time_entries(world_.world, layers[layer], world_.scene.seconds_per_time_unit());
         times.insert(times.end(), own.begin(), own.end());
@@ -165,6 +169,7 @@ shared::CubeConstants CubePass::constants_of(const Vantage& vantage, bool plain)
         constants.sky_nadir[0] = glm::vec4(scene.sky.nadir * scale, 0);
     }
     constants.world_up = glm::vec4(vantage.motion_from_frame * glm::dvec3(0, 1, 0), 0);
+    constants.now = glm::vec4(0, 0, vantage.beta, vantage.now);
     for (std::size_t i = 0; i < world_.world.lamps.size(); ++i)
         constants.lights[i] = light_entry(world_, world_.world.lamps[i], vantage, scale);
     return constants;
@@ -243,6 +248,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
             commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.surface_layout, 0, *set_,
                 std::uint32_t(std::size_t(image.layer) * stride_));
         glm::dmat4 clip = clip_from_motion(image, near_distance);
+        clip[2] *= contractions_[std::size_t(image.layer)];
         shared::CubePush push{row(clip, 0), row(clip, 1), row(clip, 2), row(clip, 3), {}, {}, {}, {}};
         // Seen through a mirrored pair of face axes a surface's front turns the other way.
         glm::dvec3 a = face_direction(image.face, {1, 0}) - face_direction(image.face, {0, 0});
@@ -265,6 +271,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
             const Primitive& primitive = world.primitives[draw->primitive];
             SurfaceVariant variant = world_.variant(primitive.material, plain);
             variant.mortal = draw->mortal && !plain;
+            variant.moves = draw->moves && !plain;
             if (vk::Pipeline pipeline = pipelines_.surface(variant, kind); pipeline != bound)
                 commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipeline);
             if (primitive.material != material) {

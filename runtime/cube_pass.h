@@ -60,6 +60,7 @@ private:
     std::vector<Image> atlases_, atlas_samples_;
     Image depth_, depth_samples_;
     std::vector<PlanImage> images_;
+    std::vector<double> contractions_; ///< of each layer
     glm::ivec2 area_{0};
     double pre_exposure_ = 1;
     int levels_ = 1;

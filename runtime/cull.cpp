@@ -1,4 +1,5 @@
 #include "cull.h"
+#include "moving.h"
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -103,18 +104,62 @@ bool may_show(const World& world, const Instance& instance, const Vantage& vanta
     if (!mortal(world, instance))
         return true;
     const Life& life = world.lives[std::size_t(instance.life)];
-    const double across = 2 * (glm::length(box.half[0]) + glm::length(box.half[1]) + glm::length(box.half[2]));
-    return vantage.time - box.distance >= life.begin && vantage.time - box.distance - across <= life.end;
+    const double sent = emission_time(vantage, box.centre);
+    const double around = glm::length(box.half[0]) + glm::length(box.half[1]) + glm::length(box.half[2]);
+    return sent + around >= life.begin && sent - around <= life.end;
 }
 
 struct Standing {
     glm::dmat3 turn; ///< motion axes from local
     glm::dvec3 place; ///< of the local origin, from the eye
 };
-Standing standing(const Instance& instance, const Vantage& vantage)
+Standing standing(const glm::dmat4& frame_from_local, const Vantage& vantage)
 {
-    const glm::dmat4& m = instance.frame_from_local;
+    const glm::dmat4& m = frame_from_local;
     return {vantage.motion_from_frame * glm::dmat3(m), vantage.motion_from_frame * (glm::dvec3(m[3]) - vantage.place)};
+}
+
+shared::InstanceEntry entry_of(const Standing& at)
+{
+    const glm::dmat3 rows = glm::transpose(at.turn);
+    return {glm::vec4(rows[0], at.place.x), glm::vec4(rows[1], at.place.y), glm::vec4(rows[2], at.place.z)};
+}
+
+/// How an instance stands before an eye, and a box around all of it that may be seen.
+struct Placed {
+    Standing at;
+    Box box;
+};
+Placed placed(const World& world, const Instance& instance, const Vantage& vantage)
+{
+    const Primitive& primitive = world.primitives[instance.primitive];
+    if (instance.motion < 0) {
+        const Standing at = standing(instance.frame_from_local, vantage);
+        return {at, box_of(primitive, at.turn, at.place)};
+    }
+    const SeenPose seen = seen_pose(world, instance, vantage);
+    Placed out{standing(seen.frame_from_local, vantage), {}};
+    out.box = box_of(primitive, out.at.turn, out.at.place);
+    for (int i = 0; i < 3; ++i)
+        out.box.half[i] = glm::dvec3(0), out.box.half[i][i] = seen.window;
+    out.box.distance = std::max(0.0, glm::length(out.box.centre) - seen.window);
+    return out;
+}
+
+/// Where the picture has it.
+Box as_shown(Box box, const Vantage& vantage)
+{
+    box.centre.z *= vantage.contraction;
+    for (glm::dvec3& half : box.half)
+        half.z *= vantage.contraction;
+    box.distance *= vantage.contraction;
+    return box;
+}
+
+/// What draws apart from others of its primitive.
+std::pair<bool, bool> kind_of(const World& world, const Instance& instance)
+{
+    return {mortal(world, instance), instance.motion >= 0};
 }
 
 } // namespace
@@ -128,8 +173,8 @@ InstanceRange instances_of(const World& world, int frame)
 
 bool timed(const World& world, const Instance& instance)
 {
-    return mortal(world, instance)
-        || world.materials[std::size_t(world.primitives[instance.primitive].material)].clock.has_value();
+    const Material& material = world.materials[std::size_t(world.primitives[instance.primitive].material)];
+    return mortal(world, instance) || instance.motion >= 0 || material.clock || material.blink;
 }
 
 std::vector<Ball> balls(const World& world, const Vantage& vantage)
@@ -138,14 +183,33 @@ std::vector<Ball> balls(const World& world, const Vantage& vantage)
     const InstanceRange range = instances_of(world, vantage.frame);
     for (std::size_t i = range.first; i < range.last; ++i) {
         const Instance& instance = world.instances[i];
-        const Standing at = standing(instance, vantage);
-        const Box box = box_of(world.primitives[instance.primitive], at.turn, at.place);
-        if (may_show(world, instance, vantage, box))
+        const Box rests = placed(world, instance, vantage).box, box = as_shown(rests, vantage);
+        if (may_show(world, instance, vantage, rests))
             balls.push_back({box.centre, std::sqrt(glm::dot(box.half[0], box.half[0]) + glm::dot(box.half[1], box.half[1])
                                              + glm::dot(box.half[2], box.half[2]))});
     }
     return balls;
 }
+
+namespace {
+
+/// How what moves by itself stands around the moment at which it is seen.
+void add_poses(const World& world, std::span<const Vantage> layers, DrawList& list)
+{
+    for (const Vantage& vantage : layers) {
+        list.first_pose.push_back(std::uint32_t(list.instances.size()));
+        const InstanceRange range = instances_of(world, vantage.frame);
+        for (std::size_t i = range.first; i < range.last && !world.motions.empty(); ++i) {
+            const Instance& instance = world.instances[i];
+            if (instance.motion < 0)
+                continue;
+            for (double time : pose_times(world, instance, seen_pose(world, instance, vantage)))
+                list.instances.push_back(entry_of(standing(pose_at(world, instance, time), vantage)));
+        }
+    }
+}
+
+} // namespace
 
 DrawList cull(const World& world, std::span<const Vantage> layers, const std::vector<PlanImage>& images)
 {
@@ -158,14 +222,13 @@ DrawList cull(const World& world, std::span<const Vantage> layers, const std::ve
         list.instances.reserve(list.instances.size() + range.last - range.first);
         for (std::size_t i = range.first; i < range.last; ++i) {
             const Instance& instance = world.instances[i];
-            const Standing at = standing(instance, vantage);
-            const glm::dmat3 rows = glm::transpose(at.turn);
-            list.instances.push_back(
-                {glm::vec4(rows[0], at.place.x), glm::vec4(rows[1], at.place.y), glm::vec4(rows[2], at.place.z)});
-            boxes.push_back(box_of(world.primitives[instance.primitive], at.turn, at.place));
-            shows.push_back(may_show(world, instance, vantage, boxes.back()));
+            const Placed own = placed(world, instance, vantage);
+            list.instances.push_back(entry_of(own.at));
+            boxes.push_back(as_shown(own.box, vantage));
+            shows.push_back(may_show(world, instance, vantage, own.box));
         }
     }
+    add_poses(world, layers, list);
     std::vector<std::vector<std::uint32_t>> by_level;
     for (std::uint32_t i = 0; i < images.size(); ++i) {
         const PlanImage& image = images[i];
@@ -174,10 +237,10 @@ DrawList cull(const World& world, std::span<const Vantage> layers, const std::ve
         const InstanceRange range = instances_of(world, layers[std::size_t(image.layer)].frame);
         for (std::size_t at = range.first; at < range.last;) {
             const std::uint32_t index = world.instances[at].primitive;
-            const bool dies = mortal(world, world.instances[at]);
+            const auto kind = kind_of(world, world.instances[at]);
             const Primitive& primitive = world.primitives[index];
             by_level.resize(std::max(by_level.size(), primitive.coarser.size() + 1));
-            for (; at < range.last && world.instances[at].primitive == index && mortal(world, world.instances[at]) == dies;
+            for (; at < range.last && world.instances[at].primitive == index && kind_of(world, world.instances[at]) == kind;
                  ++at) {
                 const std::uint32_t own = first + std::uint32_t(at - range.first);
                 if (shows[own] && frustum.sees(boxes[own]) && !in_hole(image, boxes[own]))
@@ -192,7 +255,7 @@ DrawList cull(const World& world, std::span<const Vantage> layers, const std::ve
                 DetailLevel detail = level == 0 ? DetailLevel{primitive.first_index, primitive.index_count, 0}
                                                 : primitive.coarser[level - 1];
                 list.draws.push_back({i, index, std::uint32_t(list.visible.size()), std::uint32_t(seen.size()),
-                    detail.first_index, detail.index_count, dies});
+                    detail.first_index, detail.index_count, kind.first, kind.second});
                 list.visible.insert(list.visible.end(), seen.begin(), seen.end());
                 seen.clear();
             }
@@ -201,13 +264,18 @@ DrawList cull(const World& world, std::span<const Vantage> layers, const std::ve
     return list;
 }
 
-double nearest_box(const World& world, int frame, const glm::dvec3& place)
+double nearest_box(const World& world, const Vantage& vantage)
 {
     double nearest = 1e300;
-    const InstanceRange range = instances_of(world, frame);
+    const glm::dvec3& place = vantage.place;
+    const InstanceRange range = instances_of(world, vantage.frame);
     for (std::size_t at = range.first; at < range.last; ++at) {
         const Instance& instance = world.instances[at];
         const Primitive& primitive = world.primitives[instance.primitive];
+        if (instance.motion >= 0) {
+            nearest = std::min(nearest, placed(world, instance, vantage).box.distance);
+            continue;
+        }
         // The corners' own box: larger than the turned one, never nearer than allowed.
         glm::dvec3 low(1e300), high(-1e300);
         for (int i = 0; i < 8; ++i) {
@@ -218,14 +286,14 @@ double nearest_box(const World& world, int frame, const glm::dvec3& place)
         }
         nearest = std::min(nearest, glm::distance(place, glm::clamp(place, low, high)));
     }
-    return nearest;
+    return nearest * vantage.contraction;
 }
 
 void sort_instances(World& world)
 {
     auto key = [&](const Instance& i) {
         const int material = world.primitives[i.primitive].material;
-        return std::tuple(i.frame, !timed(world, i), material, i.primitive, mortal(world, i));
+        return std::tuple(i.frame, !timed(world, i), material, i.primitive, kind_of(world, i));
     };
     std::stable_sort(world.instances.begin(), world.instances.end(),
         [&](const Instance& a, const Instance& b) { return key(a) < key(b); });

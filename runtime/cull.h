@@ -11,18 +11,31 @@ struct Vantage {
     glm::dvec3 place{0}; ///< the eye's event, that frame's place and time
     double time = 0;
     glm::dmat3 motion_from_frame{1}; ///< turn
+    bool now = false; ///< everything is shown where it is now, in the ship's frame: along z as much closer
+    double contraction = 1, beta = 0; ///< then: 1 / gamma, and the ship's speed along z
 };
+
+/// When, by the vantage's own frame, the light left that reaches it now from a place, given from the eye in motion axes; or
+/// what time it is there, where that is what is shown. How much
+/// later light leaves one place than another is at most as large as their distance.
+inline double emission_time(const Vantage& vantage, const glm::dvec3& from_eye)
+{
+    return vantage.time + (vantage.now ? vantage.beta * from_eye.z : -glm::length(from_eye));
+}
 
 /// One indexed draw into one image of a plan: `count` instances, listed in DrawList::visible from `first`.
 struct Draw {
     std::uint32_t image, primitive, first, count;
     std::uint32_t first_index, index_count;
     bool mortal = false; ///< some of it may not be there when its light would have left
+    bool moves = false; ///< by itself
 };
 
 /// What the cube pass of one eye draws.
 struct DrawList {
-    std::vector<shared::InstanceEntry> instances; ///< of all layers, each its frame's in the world's order
+    std::vector<shared::InstanceEntry> instances; ///< of all layers, each its frame's in the world's order; behind them POSES
+                                                  ///< for each that moves by itself, in the same order
+    std::vector<std::uint32_t> first_pose; ///< of each layer, in `instances`
     std::vector<std::uint32_t> first; ///< of each layer, in `instances`
     std::vector<std::uint32_t> visible; ///< indices into `instances`
     std::vector<Draw> draws; ///< by image, then by primitive
@@ -43,11 +56,11 @@ struct InstanceRange {
 };
 InstanceRange instances_of(const World& world, int frame);
 
-/// Whether some of an instance's own times are told: clocks and what is not there for ever. The first of its frame.
+/// Whether some of an instance's own times are told: clocks, what blinks, moves by itself or is not there for ever. The first of its frame.
 bool timed(const World& world, const Instance& instance);
 
-/// Distance from a place of a frame to the nearest of its instances' bounding boxes, scene units: no surface is nearer.
-double nearest_box(const World& world, int frame, const glm::dvec3& place);
+/// Distance to the nearest of the frame's instances' bounding boxes, scene units: no surface is seen nearer.
+double nearest_box(const World& world, const Vantage& vantage);
 
 /// Puts a world's instances in order of their frames, in each those that are timed first, then of their materials and their
 /// primitives.

@@ -239,9 +239,10 @@ void Frame::prepare_eye(std::size_t i)
         const Layer& layer = layers[at];
         const glm::dvec3 offset = layer.shot.ship_from_cockpit * scene_units(eye.now_m);
         const Vantage vantage{int(at), layer.shot.position + physics::eye_place(layer.shot.u, offset),
-            layer.shot.time + physics::eye_time(layer.shot.u, offset), layer.motion_from_frame};
+            layer.shot.time + physics::eye_time(layer.shot.u, offset), layer.motion_from_frame, layer.now, layer.contraction,
+            layer.beta};
         eye.nearest.push_back(
-            reprojects() ? std::max(nearest_box(world_.world, vantage.frame, vantage.place), 1e-30) : 1);
+            reprojects() ? std::max(nearest_box(world_.world, vantage), 1e-30) : 1);
         PlanLayer ask{{}, layer.E, shot_.effects.comparison == Comparison::galilean};
         for (const PaneState& pane : panes_)
             if (pane.eye == i)
@@ -342,7 +343,9 @@ glm::dvec3 Frame::eye_offset(const PaneState& pane, const Layer& layer) const
     const glm::dvec3 offset = layer.shot.ship_from_cockpit * scene_units(pane.beside_m);
     if (layout_.stereo.turning)
         return glm::dvec3(1, 1, physics::gamma_of(layer.shot.u)) * glm::length(offset);
-    return layer.motion_from_frame * physics::eye_place(layer.shot.u, offset);
+    glm::dvec3 apart = layer.motion_from_frame * physics::eye_place(layer.shot.u, offset);
+    apart.z *= layer.contraction;
+    return apart;
 }
 
 /// ViewPush's and LayerEntry's member.

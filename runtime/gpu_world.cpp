@@ -1,5 +1,6 @@
 #include "gpu_world.h"
 #include "cull.h"
+#include "moving.h"
 #include "worldline.h"
 #include <algorithm>
 #include <array>
@@ -70,6 +71,7 @@ SurfaceVariant GpuWorld::variant(int material, bool plain) const
     SurfaceVariant variant{
         m.base_texture >= 0, m.emissive_texture >= 0, m.alpha_cutoff > 0, m.unlit, m.unlit ? 0 : int(world.lamps.size())};
     variant.clock = m.clock.has_value();
+    variant.blink = m.blink.has_value();
     variant.layered = layered() && !plain;
     variant.lamps_move = variant.layered && variant.lights > 0;
     if (!plain)
@@ -110,6 +112,7 @@ GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const S
     const std::vector<Star>& stars, std::optional<SpectralLevel> level)
 {
     GpuWorld gpu;
+    check_speeds(world, scene);
     place_bodies(world, scene);
     sort_instances(world);
     gpu.scene = scene;

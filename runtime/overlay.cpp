@@ -30,7 +30,7 @@ OverlayScale overlay_scale(const World& world, const glm::dvec3& place, double s
     const auto middle = distances.begin() + std::ptrdiff_t(distances.size() / 2);
     std::nth_element(distances.begin(), middle, distances.end());
     const double typical = std::max(*middle, 1e-12) * seconds_per_time_unit;
-    const double nearest = std::max(nearest_box(world, 0, place) * seconds_per_time_unit, typical / 50);
+    const double nearest = std::max(nearest_box(world, {0, place}) * seconds_per_time_unit, typical / 50);
     scale.nearest_s = round_below(nearest);
     scale.farthest_s = std::max(round_below(3 * typical), 10 * scale.nearest_s);
     scale.emission_step_s = round_below(typical / 10);

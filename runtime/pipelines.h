@@ -42,6 +42,8 @@ struct SurfaceVariant {
     bool mortal = false; ///< not there for ever
     bool layered = false; ///< one of several layers
     bool lamps_move = false;
+    bool blink = false;
+    bool moves = false; ///< by itself
     auto operator<=>(const SurfaceVariant&) const = default;
 };
 /// What a viewport needs of the warp pass: constant_ids of view.glsl and seen.glsl.

@@ -7,11 +7,11 @@ using glm::vec4;
 #include "shaders/shared.h"
 static_assert(sizeof(SlotEntry) == 48);
 static_assert(sizeof(LightEntry) == 80);
-static_assert(sizeof(CubeConstants) == 3 * 16 + 3 * MAX_GROUPS * 16 + MAX_LIGHTS * 80);
+static_assert(sizeof(CubeConstants) == 4 * 16 + 3 * MAX_GROUPS * 16 + MAX_LIGHTS * 80);
 static_assert(sizeof(LayerEntry) == 96);
 static_assert(sizeof(LayerConstants) == 2 * 16 + 3 * MAX_GROUPS * 16 + MAX_LAYERS * 96);
 static_assert(sizeof(InstanceEntry) == 48);
-static_assert(sizeof(TimeEntry) == 64);
+static_assert(sizeof(TimeEntry) == 96);
 static_assert(sizeof(CubePush) == 128);
 static_assert(sizeof(ViewPush) == 128);
 static_assert(sizeof(StarEntry) == 32);

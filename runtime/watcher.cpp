@@ -33,7 +33,7 @@ Watcher watcher(const World& world, const Shot& ship, const Onlooker& observer)
             continue;
         Layer& layer = out.layers.back();
         const double gamma = physics::gamma_of(layer.shot.u);
-        layer.E = 1, layer.contraction = 1 / gamma, layer.beta = glm::length(layer.shot.u) / gamma;
+        layer.now = true, layer.E = 1, layer.contraction = 1 / gamma, layer.beta = glm::length(layer.shot.u) / gamma;
     }
     if (now)
         out.E = 1;

@@ -10,8 +10,8 @@ struct Layer {
     Shot shot; ///< the instant, as that frame has it
     double E = 1; ///< e^rapidity of directions, from that frame to the watcher's
     glm::dmat3 motion_from_frame{1}, motion_from_cockpit{1}; ///< turns
-    double contraction = 1; ///< of places along z, as the picture has them: 1 / gamma where everything is shown where it is now
-    double beta = 0; ///< then: the ship's speed in that frame, along z
+    bool now = false; ///< everything is shown where it is now: Vantage's members
+    double contraction = 1, beta = 0;
 };
 
 /// Someone who looks at the ship's place and time: the visitor, or another observer that a viewport has.

@@ -1,4 +1,5 @@
 #pragma once
+#include "animation.h"
 #include "config/body.h"
 #include "config/emission.h"
 #include <cstdint>
@@ -10,8 +11,8 @@
 
 namespace starbow {
 
-/// What the device draws, as plain arrays. Everything is at rest in its own frame, most of it in the world's; lengths in
-/// scene units.
+/// What the device draws, as plain arrays. Everything is at rest in its own frame, most of it in the world's, but for what
+/// moves slowly by itself; lengths in scene units.
 struct Vertex {
     glm::vec3 position;
     glm::vec3 normal; ///< unit
@@ -40,6 +41,13 @@ struct WorldClock {
     bool operator==(const WorldClock&) const = default;
 };
 
+/// A light that is on in the part `on` of each period, from the period's beginning.
+struct Blink {
+    double period_s, on = 0.5; ///< seconds of its own time; 0 to 1
+    double zero_s = 0; ///< the time at which a period begins
+    bool operator==(const Blink&) const = default;
+};
+
 struct Material {
     std::string name;
     glm::vec4 base_colour{1}; ///< Rec. 709 linear, alpha
@@ -57,6 +65,7 @@ struct Material {
     double temperature_K = 0, emissivity = 0; ///< glows as a black body does, in part
     std::optional<WorldClock> clock; ///< a dial is drawn on the surface, across texture coordinates 0 to 1; its marks have
                                      ///< `emissive` for their light, and nothing else has it
+    std::optional<Blink> blink; ///< of what it emits
     std::optional<Emission> emission; ///< the spectrum of what `emissive` tells; its luminance 1 is then as much energy
                                       ///< as a sunlit white surface's. None: a sunlit colour
 };
@@ -95,11 +104,12 @@ struct Life {
 /// Triangles are counter-clockwise from outside in the world, also where `frame_from_local` mirrors: its primitive's are
 /// turned beforehand. Normals go by the inverse transpose; the transform has an inverse.
 struct Instance {
-    glm::dmat4 frame_from_local;
+    glm::dmat4 frame_from_local; ///< of what moves by itself: at its own time 0
     std::uint32_t primitive;
     int node = -1; ///< of World::nodes
     int frame = 0; ///< of World::frames
     int life = -1; ///< of World::lives; none: there always, and its time is the frame's
+    int motion = -1; ///< of World::motions; none: it stands still
 };
 
 /// A node of the file, by which scene files name what hangs below it.
@@ -127,6 +137,10 @@ struct World {
     std::vector<RestFrame> frames{1}; ///< the first is the world's
     std::vector<Life> lives;
     std::vector<Lamp> lamps; ///< empty until place_bodies
+    std::vector<Motion> motions; ///< this and what follows are empty where nothing moves by itself
+    std::vector<Joint> joints;
+    std::vector<Track> tracks;
+    double seconds_per_time_unit = 1; ///< the scene's, from place_bodies on
     std::vector<std::string> notes; ///< optional things in the file that are not supported, each once
 };
 

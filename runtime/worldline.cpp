@@ -120,6 +120,7 @@ glm::dvec3 aberrated(const glm::dvec3& u, const glm::dvec3& towards, double& D)
 
 void place_bodies(World& world, const SceneFile& scene)
 {
+    world.seconds_per_time_unit = scene.seconds_per_time_unit();
     std::vector<Instance> at_rest, moving;
     std::vector<bool> moves(world.instances.size(), false);
     for (const Body& body : scene.bodies) {
@@ -133,6 +134,12 @@ void place_bodies(World& world, const SceneFile& scene)
                 moves[i] = true;
                 instance.frame_from_local = glm::translate(glm::dmat4(1), where.place) * instance.frame_from_local;
                 instance.frame = where.frame, instance.life = where.life;
+                if (instance.motion >= 0) {
+                    Motion motion = world.motions[std::size_t(instance.motion)];
+                    motion.place += where.place;
+                    instance.motion = int(world.motions.size());
+                    world.motions.push_back(motion);
+                }
                 moving.push_back(instance);
             }
         }

@@ -89,8 +89,8 @@ float figures(vec2 at, mat2 pixel, vec4 digits)
 }
 
 /// How much of a pixel is marks, 0 to 1: lines, hands and figures. `pixel`: of `at`, its steps to the right and down.
-/// `later_s`: seconds by which this point's light left after that of the clock's middle; `step_s`: its steps. The steps
-/// come from outside, for where a device works out steps alone it need not read what a clock shows.
+/// `later_s`: seconds by which this point's light left after that of the clock's middle; `step_s`: its steps, as lateness
+/// has them.
 float marks(vec2 at, mat2 pixel, float later_s, vec2 step_s, TimeEntry clock)
 {
     vec2 main_hand = hand(at, pixel, clock.turns.x + later_s / MAIN_S, step_s / MAIN_S, 0.82, 0.16, 0.034, 0.012);

@@ -19,6 +19,7 @@ layout(constant_id = 9) const bool CLOCK = false;
 layout(constant_id = 10) const bool MORTAL = false; // not there for ever
 layout(constant_id = 11) const bool LAYERED = false; // one of several layers: tells what it covers, after the numbers
 layout(constant_id = 12) const bool LAMPS_MOVE = false;
+layout(constant_id = 13) const bool BLINK = false;
 
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 0, binding = 3) uniform Matrices { vec4 columns[MAX_MATRICES]; }; // [set][kind][group][r, g, b, uv, ir]
@@ -31,7 +32,7 @@ layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 colour;
-layout(location = 4) flat in uint instance; // CLOCK, MORTAL
+layout(location = 4) flat in uint instance; // CLOCK, MORTAL, BLINK
 layout(location = 0) out vec4 numbers0;
 layout(location = 1) out vec4 numbers1;
 layout(location = 2) out vec4 numbers2;
@@ -42,7 +43,9 @@ const int GROUPS = (REFLECTED + OWN + 3) / 4;
 const int KEPT = LAMPS_MOVE ? 1 : KINDS; // kinds of light that are summed up before they shine
 const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
 
+#include "later.glsl"
 #include "clock.glsl"
+#include "blink.glsl"
 
 float mean(vec3 v) { return (v.x + v.y + v.z) * (1.0 / 3.0); }
 
@@ -92,19 +95,20 @@ void main()
     vec4 base = colour;
     if (BASE_TEXTURE)
         base *= texture(base_texture, uv);
-    float ink = 0.0;
-    if (CLOCK || MORTAL) {
+    float ink = 0.0, lit_part = 1.0;
+    if (CLOCK || MORTAL || BLINK) {
         TimeEntry time = times[instance - int(cube.first.x) + int(cube.first.y)];
-        float distance_ = length(place);
-        // |place| - |middle| without their difference.
-        float farther = dot(place - time.middle.xyz, place + time.middle.xyz) / (distance_ + time.middle.w);
+        float later_ = later(place, time.middle);
+        float late = lateness(place);
+        vec2 step_ = vec2(dFdx(late), dFdy(late));
         if (CLOCK) {
             vec2 at = vec2(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y);
-            vec2 farther_on = vec2(dFdx(distance_), dFdy(distance_));
-            ink = marks(at, mat2(dFdx(at), dFdy(at)), -farther * time.turns.w, -farther_on * time.turns.w, time);
+            ink = marks(at, mat2(dFdx(at), dFdy(at)), later_ * time.turns.w, step_ * time.turns.w, time);
             base.rgb *= 1.0 - ink;
         }
-        if (MORTAL && (farther < time.there.x || farther >= time.there.y))
+        if (BLINK)
+            lit_part = blinking(time.blink, later_, step_);
+        if (MORTAL && (later_ < time.there.x || later_ >= time.there.y))
             discard;
     }
     if (MASKED && base.a < push.emissive.w)
@@ -114,6 +118,8 @@ void main()
         emitted *= texture(emissive_texture, uv).rgb;
     if (CLOCK)
         emitted *= ink;
+    if (BLINK)
+        emitted *= lit_part;
     vec4 numbers[MAX_GROUPS + 1];
     for (int group = 0; group < GROUPS; ++group)
         numbers[group] = vec4(0.0);
@@ -129,7 +135,7 @@ void main()
             vec3 towards = lamp.place.xyz - lamp.place.w * place;
             float D = 1.0;
             if (LAMPS_MOVE)
-                towards = lamp_seen(lamp, towards, length(place), D);
+                towards = lamp_seen(lamp, towards, -lateness(place), D);
             if (LAMPS_MOVE && towards == vec3(0.0))
                 continue;
             float square = lamp.place.w == 0.0 ? 1.0 : dot(towards, towards);

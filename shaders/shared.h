@@ -13,6 +13,7 @@
 #define REPROJECT_ROUNDS 4
 #define MOST_PARALLAX 0.35 // radians between two eyes' views of a point: nearer surfaces are not told apart
 #define MAX_LIGHTS 8
+#define POSES 17 // odd; of what moves by itself, around the moment at which its middle is seen
 #define MAX_LAYERS 16 // velocities of what moves, and rest
 #define MOST_REFLECTED 12 // numbers of sunlight that surfaces reflect
 #define MAX_OWN 4 // emissions of a scene's own, each a number by itself
@@ -52,7 +53,8 @@ struct CubeConstants {
     vec4 sky_horizon[MAX_GROUPS];
     vec4 sky_nadir[MAX_GROUPS];
     vec4 world_up;    // motion axes
-    vec4 first;       // x: this layer's first instance, y: the first of its instances' times
+    vec4 first;       // x: this layer's first instance, y: the first of its instances' times, z: of their poses
+    vec4 now;         // w: 1 where everything is shown where it is now; xyz: the ship's velocity here
     LightEntry lights[MAX_LIGHTS];
 };
 
@@ -61,12 +63,15 @@ struct InstanceEntry {
     vec4 row0, row1, row2;
 };
 
-// The times of an instance in front of one eye: of clocks and of what is not there for ever.
+// The times of an instance in front of one eye: of clocks, of what blinks or moves by itself and of what is not there for ever.
 struct TimeEntry {
     vec4 middle; // from the eye, motion axes; w: its distance. What follows is as the light left there
     vec4 turns;  // 0 to 1 of a clock's hands: one turn in a minute, in ten seconds, in an hour; w: seconds per scene unit of light
     vec4 digits; // x, y: six figures each, of four bits, the first lowest; 10: a minus, 11: nothing. z: how many there are
-    vec4 there;  // x, y: from how much farther off than the middle, and up to where, light left while it was there
+    vec4 there;  // x, y: after how much later than the middle's, and up to when, light left while it was there
+    vec4 poses;  // of what moves by itself: x: its first pose, from the layer's first; y, z: poses per scene time before the middle
+                 // one, and after it; w: how much later that is
+    vec4 blink;  // x: the part of a period that has gone by, 0 to 1; y: periods per scene unit of time; z: in which part it is on
 };
 
 // Push constants of the cube pass.

@@ -1,4 +1,5 @@
 #include "gltf_fixture.h"
+#include "runtime/moving.h"
 #include <cstdlib>
 #include <iostream>
 #include <random>
@@ -57,6 +58,22 @@ Doc rich()
             {{"emissiveFactor", {1, 0, 0}}, {"emissiveTexture", {{"index", 1}}},
                 {"extras", {{"starbow", "{\"emission\": {\"table\": [[400, 1], [500, 2]]}}"}}},
                 {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 9}}}}}}};
+    // What moves: tracks of each kind on two nodes, one below the other, a spin and a light that blinks.
+    const int times = doc.accessor<float>({0, 1, 3}, "SCALAR"), places = doc.accessor<float>({0, 0, 0, 1, 0, 0, 0, 2, 0}, "VEC3");
+    const int turns = doc.accessor<std::int16_t>({0, 0, 0, 32767, 0, 0, 23170, 23170, 0, 0, 0, 32767}, "VEC4", true);
+    const int two = doc.accessor<float>({1, 2}, "SCALAR");
+    const int curve = doc.accessor<float>({0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 2, 2, 2, 0, 0, 0}, "VEC3");
+    doc.json["animations"] = {{{"samplers",
+                                   {{{"input", times}, {"output", places}, {"interpolation", "STEP"}},
+                                       {{"input", times}, {"output", turns}},
+                                       {{"input", two}, {"output", curve}, {"interpolation", "CUBICSPLINE"}}}},
+                                  {"channels",
+                                      {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}},
+                                          {{"sampler", 1}, {"target", {{"node", 3}, {"path", "rotation"}}}},
+                                          {{"sampler", 2}, {"target", {{"node", 3}, {"path", "scale"}}}}}}}};
+    doc.json["nodes"][4]["extras"] = {{"starbow", {{"spin", {{"axis", {0, 1, 0}}, {"turns_per_s", 0.5}}}}}};
+    doc.json["materials"][1]["extras"]["starbow"]
+        = "{\"emission\": {\"table\": [[400, 1], [500, 2]]}, \"blink\": {\"period_s\": 2, \"on\": 0.25}}";
     doc.json["extensionsUsed"] = {"KHR_texture_transform", "KHR_materials_emissive_strength", "KHR_x"};
     doc.json["extensionsRequired"] = {"KHR_texture_transform"};
     return doc;
@@ -159,6 +176,18 @@ void expect_sound(const World& world)
     ASSERT_FALSE(world.materials.empty());
     for (const Instance& instance : world.instances)
         ASSERT_LT(instance.primitive, world.primitives.size());
+    for (const Instance& instance : world.instances) {
+        ASSERT_LT(instance.motion, int(world.motions.size()));
+        for (int column = 0; column < 4; ++column)
+            ASSERT_TRUE(glm::length(instance.frame_from_local[column]) < 1e32);
+        if (instance.motion < 0)
+            continue;
+        for (double time : {-1e7, -0.3, 0.0, 1.5, 1e7 + 0.1})
+            for (int column = 0; column < 4; ++column)
+                ASSERT_TRUE(glm::length(pose_at(world, instance, time)[column]) < 1e32);
+    }
+    for (std::size_t i = 0; i < world.joints.size(); ++i)
+        ASSERT_LT(world.joints[i].above, int(i));
     for (const Primitive& p : world.primitives) {
         ASSERT_LT(std::size_t(p.material), world.materials.size());
         ASSERT_LE(std::size_t(p.first_index) + p.index_count, world.indices.size());
@@ -181,7 +210,7 @@ TEST_F(WorldFuzzTest, DamagedFilesLoadOrAreRefused)
     const char* wanted = std::getenv("STARBOW_FUZZ_COUNT");
     const auto count = std::uint32_t(wanted ? std::atol(wanted) : 3000);
     MemoryLimit limit(rlim_t(2) << 30);
-    std::uint32_t loaded = 0;
+    std::uint32_t loaded = 0, fast = 0;
     std::string file = (folder / "world.gltf").string();
     for (std::uint32_t n = 0; n < count; ++n) {
         SCOPED_TRACE("mutation " + std::to_string(n));
@@ -189,6 +218,11 @@ TEST_F(WorldFuzzTest, DamagedFilesLoadOrAreRefused)
         try {
             World world = load_world(file);
             expect_sound(world);
+            try {
+                check_speeds(world, {});
+            } catch (const InputError&) {
+                ++fast;
+            }
             ++loaded;
         } catch (const InputError& error) {
             std::string line = error.what();
@@ -200,7 +234,7 @@ TEST_F(WorldFuzzTest, DamagedFilesLoadOrAreRefused)
     }
     // Otherwise the damage would be so coarse that it tests the first check only.
     EXPECT_GT(loaded, count / 20);
-    std::cout << loaded << " of " << count << " damaged files loaded, the others were refused\n";
+    std::cout << loaded << " of " << count << " damaged files loaded (" << fast << " too fast), the others were refused\n";
 }
 
 } // namespace

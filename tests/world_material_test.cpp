@@ -238,7 +238,7 @@ TEST_F(WorldMaterialTest, WrongSurfacesAreNamedByTheirPlace)
         {R"("{\"emissivity\": 1}")", "/emissivity: says how well the surface glows"},
         {R"({"temperature": 288})",
             "/temperature: is not known here; should be one of \"ultraviolet\", \"infrared\", "
-            "\"reflectance\", \"temperature_K\", \"emissivity\", \"emission\", \"clock\""},
+            "\"reflectance\", \"temperature_K\", \"emissivity\", \"emission\", \"clock\", \"blink\""},
         {R"({"a\nb": 288})", "/a?b: is not known here"},
         {R"({"ultraviolet": -0.1})", "/ultraviolet: is -0.1; should be a number from 0.0 to 1.0"},
         {R"({"infrared": 1.5})", "/infrared: is 1.5; should be a number from 0.0 to 1.0"},
@@ -266,7 +266,11 @@ TEST_F(WorldMaterialTest, WrongSurfacesAreNamedByTheirPlace)
         {R"({"clock": true})", "/clock: is true; should be an object"},
         {R"({"clock": {"zero": 1}})", "/clock/zero: is not known here; should be one of \"zero_s\""},
         {R"({"clock": {"zero_s": "noon"}})", "/clock/zero_s: is \"noon\"; should be a number from -10000000000.0 to"},
-        {R"({"clock": {"zero_s": 1e11}})", "/clock/zero_s: is 100000000000.0; should be a number from"}};
+        {R"({"clock": {"zero_s": 1e11}})", "/clock/zero_s: is 100000000000.0; should be a number from"},
+        {R"({"blink": {}})", "/blink: has no \"period_s\"; should say how many seconds"},
+        {R"({"blink": {"period_s": 0}})", "/blink/period_s: is 0; should be a number from"},
+        {R"({"blink": {"period_s": 1, "on": 2}})", "/blink/on: is 2; should be a number from 0.0 to 1.0"},
+        {R"({"blink": {"period_s": 1, "rate": 2}})", "/blink/rate: is not known here; should be one of \"period_s\""}};
     for (const auto& [surface, says] : cases) {
         const std::string line = complaint(with_surface(Json::parse(surface)));
         EXPECT_TRUE(line.starts_with(at + says)) << line << "\n" << at + says;

@@ -281,14 +281,19 @@ TEST_F(WorldMeshTest, WhatIsNotSupportedIsNotedOnce)
         = {"KHR_lights_punctual", "KHR_materials_unlit", "EXT_mesh_gpu_instancing", "KHR_lights_punctual"};
     doc.json["cameras"] = {{{"type", "perspective"}}, {{"type", "perspective"}}};
     doc.json["skins"] = {{{"joints", {0}}}};
-    doc.json["animations"] = {{{"channels", Json::array()}}, Json::object()};
+    const int times = doc.accessor<float>({0, 1}, "SCALAR"), weights = doc.accessor<float>({0, 1}, "SCALAR");
+    doc.json["animations"] = {{{"samplers", {{{"input", times}, {"output", weights}}}},
+        {"channels",
+            {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}},
+                {{"sampler", 0}, {"target", {{"path", "pointer"}}}}}}}};
     doc.json["nodes"][0]["camera"] = 1;
     doc.json["nodes"][0]["skin"] = 0;
     doc.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
     EXPECT_EQ(load(doc).notes,
         (std::vector<std::string>{"extension \"KHR_lights_punctual\" is not supported",
             "extension \"EXT_mesh_gpu_instancing\" is not supported", "morph targets: meshes are drawn as they are stored",
-            "animations: the world is at rest", "skins: meshes are drawn as they are stored", "cameras are not used"}));
+            "animations of morph targets are not supported", "animations of other things than nodes are not supported",
+            "skins: meshes are drawn as they are stored", "cameras are not used"}));
 }
 
 TEST_F(WorldMeshTest, BuffersInFilesBesideIt)

@@ -16,6 +16,9 @@ struct GltfLimits {
     static constexpr std::size_t vertices = 16'000'000;
     static constexpr std::size_t indices = 48'000'000;
     static constexpr std::size_t instances = 1'000'000;
+    static constexpr std::size_t motions = 10'000; ///< instances that move by themselves
+    static constexpr std::size_t keys = 4'000'000; ///< of animations
+    static constexpr int joints_deep = 64; ///< nodes that move, one below another
     static constexpr std::size_t zeros = 1'000'000; ///< elements of an accessor that takes no room in the file
     static constexpr std::size_t sparse_bytes = std::size_t(256) << 20;
     static constexpr int texture_side = 16384;

@@ -39,11 +39,10 @@ void guard_extensions(const Spot& root, GuardedGltf& out)
     });
 }
 
-/// Whole lists that a world at rest, seen by the ship's own eye, has no use for.
+/// Whole lists that a world without skeletons, seen by the ship's own eye, has no use for.
 void note_unused_lists(const Spot& root, GuardedGltf& out)
 {
-    for (auto [key, what] : {std::pair{"animations", "animations: the world is at rest"},
-             {"skins", "skins: meshes are drawn as they are stored"}, {"cameras", "cameras"}})
+    for (auto [key, what] : {std::pair{"skins", "skins: meshes are drawn as they are stored"}, {"cameras", "cameras"}})
         if (count_of(root, key) > 0)
             note_once(out.notes, std::string(what) + (key == std::string("cameras") ? " are not used" : ""));
 }
@@ -109,6 +108,7 @@ GuardedGltf guard_gltf(const std::filesystem::path& path)
     guard_materials(file, root, out);
     guard_meshes(root, out);
     guard_nodes(root, out);
+    guard_animations(root, out);
     note_unused_lists(root, out);
     return out;
 }

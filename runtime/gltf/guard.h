@@ -1,6 +1,7 @@
 #pragma once
 #include "file.h"
 #include "runtime/world.h"
+#include <functional>
 #include <span>
 
 namespace starbow {
@@ -16,6 +17,7 @@ struct GuardedGltf {
     std::vector<Bytes> image_files;
     std::vector<std::span<const std::uint8_t>> images; ///< as stored, in the two above; empty where no colour comes from it
     std::vector<Material> surfaces; ///< one for each material in the file: what its extras tell, the rest not set
+    std::vector<std::optional<Spin>> spins; ///< one for each node in the file
     std::vector<std::string> notes; ///< what is left out, each once
 };
 
@@ -28,6 +30,10 @@ void guard_accessors(const Spot& root, GuardedGltf& out);
 void guard_materials(GltfFile& file, const Spot& root, GuardedGltf& out);
 void guard_meshes(const Spot& root, GuardedGltf& out);
 void guard_nodes(const Spot& root, GuardedGltf& out);
+void guard_animations(const Spot& root, GuardedGltf& out); ///< after nodes and accessors
+
+/// Calls `read` with what something's extras hold under the name "starbow", an object or one as a text; not without any.
+void read_extras(const Spot& owner, const std::function<void(const Spot&)>& read);
 
 /// What a material's extras tell under the name "starbow"; `written` is what has passed of the material's own members.
 Material guard_surface(const Spot& material, const Json& written);

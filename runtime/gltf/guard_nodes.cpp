@@ -32,6 +32,27 @@ void guard_transform(const Spot& node, Json& written)
     }
 }
 
+std::optional<Spin> guard_spin(const Spot& node)
+{
+    std::optional<Spin> out;
+    read_extras(node, [&](const Spot& extras) {
+        only(extras, {"spin"});
+        if (!extras.has("spin"))
+            return;
+        const Spot spin = extras["spin"];
+        only(spin, {"axis", "turns_per_s"});
+        for (const char* key : {"axis", "turns_per_s"})
+            if (!spin.has(key))
+                spin.fail("has no \"" + std::string(key) + "\"; should say about which axis it turns, and how often");
+        const auto axis = numbers(spin["axis"], 3, -1e6, 1e6);
+        const glm::dvec3 way(axis[0], axis[1], axis[2]);
+        if (!(glm::length(way) > 1e-6))
+            spin["axis"].fail("has the length 0; should be a direction");
+        out = Spin{glm::normalize(way), number(spin["turns_per_s"], -1e9, 1e9)};
+    });
+    return out;
+}
+
 /// The specification's strict trees: each node has at most one parent, and following children never comes back.
 void check_trees(const Spot& nodes, const std::vector<std::int64_t>& parent)
 {
@@ -62,6 +83,7 @@ void guard_nodes(const Spot& root, GuardedGltf& out)
     std::int64_t current = 0;
     guard_list(root, "nodes", out.json, [&](const Spot& node, Json& written) {
         guard_transform(node, written);
+        out.spins.push_back(guard_spin(node));
         if (node.has("name"))
             written["name"] = text(node["name"]);
         if (node.has("mesh"))

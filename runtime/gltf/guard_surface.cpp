@@ -8,16 +8,6 @@ namespace {
 /// A dictionary as text: some editors keep nothing else with a material.
 constexpr std::size_t most_text = std::size_t(1) << 20;
 
-void only(const Spot& spot, std::initializer_list<const char*> known)
-{
-    std::string right;
-    for (const char* name : known)
-        right += (right.empty() ? "\"" : ", \"") + std::string(name) + "\"";
-    for (const auto& [name, value] : object(spot).json.items())
-        if (std::ranges::find(known, name) == known.end())
-            spot[name].fail("is not known here; should be one of " + right);
-}
-
 /// Pairs of a wavelength in nm, rising, and a value from 0 to `most`.
 std::vector<std::pair<double, double>> points(const Spot& spot, double most)
 {
@@ -79,9 +69,22 @@ WorldClock clock(const Spot& spot)
     return {spot.has("zero_s") ? number(spot["zero_s"], -1e10, 1e10) : 0};
 }
 
+Blink blink(const Spot& spot)
+{
+    only(spot, {"period_s", "on", "zero_s"});
+    if (!spot.has("period_s"))
+        spot.fail("has no \"period_s\"; should say how many seconds a period lasts");
+    Blink out{number(spot["period_s"], 1e-9, 1e10)};
+    if (spot.has("on"))
+        out.on = number(spot["on"], 0, 1);
+    if (spot.has("zero_s"))
+        out.zero_s = number(spot["zero_s"], -1e10, 1e10);
+    return out;
+}
+
 void read_surface(const Spot& spot, const Json& material, Material& out)
 {
-    only(spot, {"ultraviolet", "infrared", "reflectance", "temperature_K", "emissivity", "emission", "clock"});
+    only(spot, {"ultraviolet", "infrared", "reflectance", "temperature_K", "emissivity", "emission", "clock", "blink"});
     if (spot.has("ultraviolet"))
         out.ultraviolet = number(spot["ultraviolet"], 0, 1);
     if (spot.has("infrared"))
@@ -100,20 +103,23 @@ void read_surface(const Spot& spot, const Json& material, Material& out)
     }
     if (spot.has("clock"))
         out.clock = clock(spot["clock"]);
+    if (spot.has("blink")) {
+        out.blink = blink(spot["blink"]);
+        check_emits(spot["blink"], material);
+    }
 }
 
 } // namespace
 
-Material guard_surface(const Spot& material, const Json& written)
+void read_extras(const Spot& owner, const std::function<void(const Spot&)>& read)
 {
-    Material out;
     // Other people's extras may be anything at all.
-    if (!material.has("extras") || !material.json["extras"].is_object() || !material["extras"].has("starbow"))
-        return out;
-    const Spot spot = material["extras"]["starbow"];
+    if (!owner.has("extras") || !owner.json["extras"].is_object() || !owner["extras"].has("starbow"))
+        return;
+    const Spot spot = owner["extras"]["starbow"];
     if (!spot.json.is_string()) {
-        read_surface(spot, written, out);
-        return out;
+        read(spot);
+        return;
     }
     const std::string& text = spot.json.get_ref<const std::string&>();
     if (text.size() > most_text)
@@ -122,7 +128,13 @@ Material guard_surface(const Spot& material, const Json& written)
     const Json parsed = Json::parse(text, nullptr, false);
     if (parsed.is_discarded())
         spot.fail("is " + in_quotes(text) + ", which is not JSON; should be an object in { } or such an object as a text");
-    read_surface({parsed, spot.at, spot.file}, written, out);
+    read({parsed, spot.at, spot.file});
+}
+
+Material guard_surface(const Spot& material, const Json& written)
+{
+    Material out;
+    read_extras(material, [&](const Spot& spot) { read_surface(spot, written, out); });
     return out;
 }
 

@@ -1,4 +1,5 @@
 #include "json.h"
+#include <algorithm>
 
 namespace starbow {
 namespace {
@@ -91,6 +92,16 @@ bool boolean(const Spot& spot)
     if (!spot.json.is_boolean())
         spot.fail("is " + shown(spot.json) + "; should be true or false");
     return spot.json.get<bool>();
+}
+
+void only(const Spot& spot, std::initializer_list<const char*> known)
+{
+    std::string right;
+    for (const char* name : known)
+        right += (right.empty() ? "\"" : ", \"") + std::string(name) + "\"";
+    for (const auto& [name, value] : object(spot).json.items())
+        if (std::ranges::find(known, name) == known.end())
+            spot[name].fail("is not known here; should be one of " + right);
 }
 
 std::int64_t index_into(const Spot& spot, const char* what, std::size_t size)

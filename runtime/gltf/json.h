@@ -35,6 +35,9 @@ std::vector<double> numbers(const Spot& spot, std::size_t count, double low, dou
 std::string text(const Spot& spot);
 bool boolean(const Spot& spot);
 
+/// Fails where an object has other members than these.
+void only(const Spot& spot, std::initializer_list<const char*> known);
+
 /// An index into one of the file's lists, which holds `size` things.
 std::int64_t index_into(const Spot& spot, const char* what, std::size_t size);
 

@@ -15,6 +15,17 @@ struct UvSource {
     bool operator==(const UvSource&) const = default;
 };
 
+/// What of World::tracks a node has.
+struct NodeTracks {
+    int translations = -1, rotations = -1, scales = -1;
+};
+
+/// Of a joint with all above it.
+struct JointBounds {
+    double scale = 1, place = 0; ///< how much it stretches and how far off its origin is, at most
+    int depth = 0;
+};
+
 /// What is at hand while a world is put together.
 struct WorldBuild {
     const GuardedGltf& file;
@@ -26,6 +37,9 @@ struct WorldBuild {
     std::size_t corners_left = GltfLimits::indices; ///< to be looked at, also those that turn out to cover nothing
     std::vector<std::uint32_t> placed; ///< add_primitive's: where a vertex went, reset after each
     std::map<std::uint32_t, std::uint32_t> turned; ///< primitives and their mirror-side doubles
+
+    std::map<int, NodeTracks> node_tracks; ///< by the node; only of those that are animated
+    std::vector<JointBounds> bounds; ///< one for each of the world's joints
 
     [[noreturn]] void fail(const std::string& place, const std::string& problem) const
     {
@@ -46,5 +60,12 @@ bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::
 
 /// The same triangles with their corners in the other order.
 std::uint32_t turned_primitive(WorldBuild& build, std::uint32_t primitive);
+
+glm::dmat4 local_transform(const tinygltf::Node& node);
+
+/// The animations' tracks, and which node has which.
+void add_tracks(WorldBuild& build);
+/// A node that is animated or spins, below that joint. Returns the new joint.
+int add_joint(WorldBuild& build, int node, int above, const glm::dmat4& above_from_parent);
 
 } // namespace starbow
