@@ -272,6 +272,94 @@ TEST_F(WorldBrokenTest, GlbThatIsNone)
     }).ends_with("ends inside a chunk's header"));
 }
 
+TEST_F(WorldBrokenTest, AnimationsAreNamedByTheirPlace)
+{
+    Doc moving = sound();
+    const int times = moving.accessor<float>({0, 1, 2}, "SCALAR");
+    const int places = moving.accessor<float>({0, 0, 0, 1, 0, 0, 0, 0, 0}, "VEC3");
+    const int turns = moving.accessor<float>({0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 1}, "VEC4");
+    const int back = moving.accessor<float>({0, 2, 2}, "SCALAR"), early = moving.accessor<float>({-1, 0, 1}, "SCALAR");
+    const int one = moving.accessor<float>({1}, "SCALAR"), tangents = moving.accessor<float>({0, 0, 0, 1, 1, 1, 0, 0, 0}, "VEC3");
+    const int skewed = moving.accessor<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 1}, "VEC4");
+    const int endless = moving.accessor<float>({0, 0, 0, 1, 0, INFINITY, 0, 0, 0}, "VEC3");
+    moving.json["nodes"].push_back({{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}});
+    moving.json["animations"] = {{{"samplers",
+                                      {{{"input", times}, {"output", places}}, {{"input", times}, {"output", turns}},
+                                          {{"input", one}, {"output", tangents}, {"interpolation", "CUBICSPLINE"}}}},
+        {"channels",
+            {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}},
+                {{"sampler", 1}, {"target", {{"node", 0}, {"path", "rotation"}}}}}}}};
+    EXPECT_EQ(load(moving).motions.size(), 1u);
+    const std::string a = "/animations/0", sampler = a + "/samplers/0", channel = a + "/channels/0";
+    auto accessor = [](int i) { return "/accessors/" + std::to_string(i); };
+    const std::vector<Damage> damages = {
+        {"/animations", "{}", "/animations: is an object; should be a list"},
+        {a, "3", a + ": is 3; should be an object"},
+        {a + "/samplers", "", a + ": has no \"samplers\""},
+        {a + "/channels", "[]", a + "/channels: is a list of 0; should be a list of 1 or more"},
+        {sampler + "/input", "99", sampler + "/input: names accessor 99"},
+        {sampler + "/input", std::to_string(places), sampler + "/input: names accessor " + std::to_string(places) + " of type VEC3"},
+        {sampler + "/output", "-1", sampler + "/output: names accessor -1"},
+        {sampler + "/output", std::to_string(turns), sampler + "/output: names accessor " + std::to_string(turns) + " of type VEC4 and "
+            "component type 5126; a translation should be VEC3 and 5126"},
+        {a + "/samplers/1/output", std::to_string(places), a + "/samplers/1/output: names accessor"},
+        {sampler + "/interpolation", "\"SPLINE\"", sampler + "/interpolation: is \"SPLINE\"; should be \"STEP\""},
+        {sampler + "/interpolation", "\"CUBICSPLINE\"", sampler + "/output: has 3 values for 3 times; 9 is right"},
+        {channel + "/sampler", "3", channel + "/sampler: names sampler 3; the file has 0 to 2"},
+        {channel + "/sampler", "2", a + "/samplers/2/output: has one key; a cubic spline should have two or more"},
+        {channel + "/target", "", channel + ": has no \"target\""},
+        {channel + "/target/path", "\"colour\"", channel + "/target/path: is \"colour\"; should be \"translation\""},
+        {channel + "/target/node", "9", channel + "/target/node: names node 9; the file has 0 to 2"},
+        {channel + "/target/node", "2", channel + "/target/node: names node 2, which has a matrix"},
+        {a + "/channels/1", "{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"translation\"}}",
+            a + "/channels/1/target: names the translation of node 0 again"},
+        {sampler + "/input", std::to_string(back), accessor(back) + ": element 2 is 2.0; times should rise"},
+        {sampler + "/input", std::to_string(early), accessor(early) + ": element 0 is -1.0; a key's time should be 0 to"},
+        {sampler + "/output", std::to_string(endless), accessor(endless) + ": element 1 is not finite or above 1e30"},
+        {a + "/samplers/1/output", std::to_string(skewed), accessor(skewed) + ": element 1 is no rotation; should be a unit"},
+        {"/nodes/1/extras", "{\"starbow\": 3}", "/nodes/1/extras/starbow: is 3; should be an object"},
+        {"/nodes/1/extras", "{\"starbow\": {\"turn\": 1}}", "/nodes/1/extras/starbow/turn: is not known here"},
+        {"/nodes/1/extras", "{\"starbow\": {\"spin\": {\"axis\": [0, 1, 0]}}}",
+            "/nodes/1/extras/starbow/spin: has no \"turns_per_s\"; should say"},
+        {"/nodes/1/extras", "{\"starbow\": {\"spin\": {\"axis\": [0, 0, 0], \"turns_per_s\": 1}}}",
+            "/nodes/1/extras/starbow/spin/axis: has the length 0; should be a direction"},
+        {"/nodes/1/extras", "{\"starbow\": {\"spin\": {\"axis\": [0, 1], \"turns_per_s\": 1}}}",
+            "/nodes/1/extras/starbow/spin/axis: is a list of 2"},
+        {"/nodes/1/extras", "{\"starbow\": {\"spin\": {\"axis\": [0, 1, 0], \"turns_per_s\": null}}}",
+            "/nodes/1/extras/starbow/spin/turns_per_s: is null; should be a number"},
+    };
+    for (const Damage& damage : damages) {
+        SCOPED_TRACE(damage.at + " = " + damage.value);
+        Doc doc = moving;
+        const Json::json_pointer at(damage.at);
+        if (!damage.value.empty())
+            doc.json[at] = Json::parse(damage.value);
+        else
+            doc.json[at.parent_pointer()].erase(at.back());
+        const std::string line = complaint(doc);
+        EXPECT_TRUE(line.starts_with(damage.complaint)) << line << "\n" << damage.complaint;
+    }
+    // A tower of nodes that spin, deeper than any world.
+    Doc deep = sound();
+    for (int i = 0; i < 70; ++i) {
+        Json node = {{"children", Json::array({deep.json["scenes"][0]["nodes"][0]})}};
+        node["extras"]["starbow"]["spin"] = {{"axis", {0, 1, 0}}, {"turns_per_s", 0.001}};
+        deep.json["scenes"][0]["nodes"] = {deep.put("nodes", node)};
+    }
+    EXPECT_NE(complaint(deep).find("moves below more than 64 nodes that move"), std::string::npos);
+    // Scales that grow beyond what a number can tell, one below the other.
+    deep = sound();
+    const int zero = deep.accessor<float>({0}, "SCALAR"), huge = deep.accessor<float>({1e20f, 1e20f, 1e20f}, "VEC3");
+    const int child = deep.put("nodes", {{"children", Json::array({deep.json["scenes"][0]["nodes"][0]})}});
+    const int parent = deep.put("nodes", {{"children", {child}}});
+    deep.json["scenes"][0]["nodes"] = {parent};
+    deep.json["animations"] = {{{"samplers", {{{"input", zero}, {"output", huge}}}},
+        {"channels",
+            {{{"sampler", 0}, {"target", {{"node", child}, {"path", "scale"}}}},
+                {{"sampler", 0}, {"target", {{"node", parent}, {"path", "scale"}}}}}}}};
+    EXPECT_NE(complaint(deep).find("may lead beyond 1e30"), std::string::npos);
+}
+
 TEST_F(WorldBrokenTest, SmallFilesCannotAskForMuch)
 {
     // A thousand accessors that each unfold a million sparse elements.

@@ -297,6 +297,17 @@ TEST_F(WorldMaterialTest, AnEmissionThatWouldEmitNothingIsRefused)
                     .starts_with(at + "stands beside KHR_materials_unlit"));
 }
 
+TEST_F(WorldMaterialTest, Blinking)
+{
+    Json material = {{"emissiveFactor", {1, 1, 1}}, {"extras", {{"starbow", {{"blink", {{"period_s", 3}}}}}}}};
+    EXPECT_EQ(load(painted(material)).materials[0].blink, (Blink{3, 0.5, 0}));
+    material["extras"]["starbow"]["blink"] = {{"period_s", 3}, {"on", 0.1}, {"zero_s", -2}};
+    EXPECT_EQ(load(painted(material)).materials[0].blink, (Blink{3, 0.1, -2}));
+    material.erase("emissiveFactor");
+    EXPECT_TRUE(complaint(painted(material)).starts_with("/materials/0/extras/starbow/blink: would emit nothing"));
+    EXPECT_FALSE(load(painted(Json::object())).materials[0].blink);
+}
+
 TEST_F(WorldMaterialTest, Clocks)
 {
     EXPECT_EQ(load(with_surface({{"clock", {{"zero_s", -12.5}}}})).materials[0].clock, WorldClock{-12.5});
