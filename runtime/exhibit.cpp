@@ -138,7 +138,7 @@ struct Visit {
     Hid hid{opening.profiles, log_line};
     std::unique_ptr<HeadTracker> tracker = tracker_of(layout);
     Workbench workbench{opening.pattern};
-    Lab lab{opening.log, opening.log_every_s};
+    Lab lab{opening.log, opening.log_every_s, opening.words};
     Skew skew{};
     Clock::time_point began = Clock::now(), last = began;
     long shown = 0;

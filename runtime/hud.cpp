@@ -1,5 +1,4 @@
 #include "hud.h"
-#include "find.h"
 #include "config/error.h"
 #include "physics/physics.h"
 #include <algorithm>
@@ -41,51 +40,41 @@ std::string number(double x)
     return text(size >= 1000 ? "%.0f" : size >= 100 ? "%.1f" : size >= 10 ? "%.2f" : "%.3f", x);
 }
 
-std::string duration(double s, const Words& words)
+/// What C wrote, as people read it: the language's decimal sign, a minus as long as a plus, and none before nothing.
+std::string figures(std::string c, const Words& words)
 {
-    double size = std::abs(s);
-    const auto told = [&](const char* key, const std::string& figures) {
-        return words(key, {{"number", words.number(figures)}});
-    };
-    return size < 600              ? told("time.s", text("%.1f", s))
-        : size < 36000             ? told("time.min", text("%.1f", s / 60))
-        : size < 10 * 86400.0      ? told("time.h", text("%.1f", s / 3600))
-        : size < 2 * julian_year_s ? told("time.days", text("%.1f", s / 86400))
-                                   : told("time.years", number(s / julian_year_s));
-}
-
-std::string length(double m, double scene_light_speed_m_s, const Words& words)
-{
-    const auto told = [&](const char* key, const std::string& figures) {
-        return words(key, {{"number", words.number(figures)}});
-    };
-    if (scene_light_speed_m_s == light_speed_m_s && m > 1e6) {
-        double s = m / light_speed_m_s;
-        return s < 600               ? told("length.light_s", text("%.2f", s))
-            : s < 36000              ? told("length.light_min", text("%.1f", s / 60))
-            : s < julian_year_s / 10 ? told("length.light_h", text("%.1f", s / 3600))
-                                     : told("length.light_years", number(s / julian_year_s));
-    }
-    return m < 1000 ? told("length.m", text("%.1f", m)) : told("length.km", number(m / 1000));
+    if (c.starts_with('-'))
+        c = c.find_first_of("123456789") == c.npos ? c.substr(1) : "−" + c.substr(1);
+    return words.number(c);
 }
 
 } // namespace
 
-std::string shown_number(double x) { return number(x); }
-static const Words& english()
+std::string shown_number(double x, const Words& words) { return figures(number(x), words); }
+std::string shown_number(double x, int decimals, const Words& words) { return figures(text("%.*f", decimals, x), words); }
+
+std::string shown_duration(double s, const Words& words, int decimals)
 {
-    static const Words words = load_words(find("words", "en"));
-    return words;
+    double size = std::abs(s);
+    const auto told = [&](const char* key, const std::string& figures) { return words(key, {{"number", figures}}); };
+    return size < 600              ? told("time.s", shown_number(s, decimals, words))
+        : size < 36000             ? told("time.min", shown_number(s / 60, 1, words))
+        : size < 10 * 86400.0      ? told("time.h", shown_number(s / 3600, 1, words))
+        : size < 2 * julian_year_s ? told("time.days", shown_number(s / 86400, 1, words))
+                                   : told("time.years", shown_number(s / julian_year_s, words));
 }
-std::string shown_length(double m, double light_speed_m_s) { return length(m, light_speed_m_s, english()); }
-std::string shown_duration(double s, int decimals)
+
+std::string shown_length(double m, double scene_light_speed_m_s, const Words& words)
 {
-    if (std::abs(s) >= 600)
-        return duration(s, english());
-    const std::string shown = text("%.*f s", decimals, s);
-    if (shown.find_first_of("123456789") == shown.npos && shown.starts_with('-')) // no minus before nothing
-        return shown.substr(1);
-    return shown.starts_with('-') ? "−" + shown.substr(1) : shown;
+    const auto told = [&](const char* key, const std::string& figures) { return words(key, {{"number", figures}}); };
+    if (scene_light_speed_m_s == light_speed_m_s && m > 1e6) {
+        double s = m / light_speed_m_s;
+        return s < 600               ? told("length.light_s", shown_number(s, 2, words))
+            : s < 36000              ? told("length.light_min", shown_number(s / 60, 1, words))
+            : s < julian_year_s / 10 ? told("length.light_h", shown_number(s / 3600, 1, words))
+                                     : told("length.light_years", shown_number(s / julian_year_s, words));
+    }
+    return m < 1000 ? told("length.m", shown_number(m, 1, words)) : told("length.km", shown_number(m / 1000, words));
 }
 
 Panel plate(glm::ivec2 size, double corner)
@@ -139,12 +128,12 @@ std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r, c
     auto on = [&](bool is) { return words(is ? "hud.on" : "hud.off"); };
     std::vector<std::pair<std::string, std::string>> fields = {
         {words(close ? "hud.speed_deficit" : "hud.speed"),
-            words.number(close ? number(r.beta_deficit) : text("%.4f", 1 - r.beta_deficit))},
-        {words("hud.gamma"), words.number(number(r.gamma))},
-        {words("hud.doppler_ahead"), words.number(number(r.doppler_ahead))},
-        {words("hud.ship"), duration(r.ship_s, words)},
-        {words("hud.world"), duration(r.world_s, words)},
-        {words("hud.flown"), length(r.distance_m, r.light_speed_m_s, words)},
+            close ? shown_number(r.beta_deficit, words) : shown_number(1 - r.beta_deficit, 4, words)},
+        {words("hud.gamma"), shown_number(r.gamma, words)},
+        {words("hud.doppler_ahead"), shown_number(r.doppler_ahead, words)},
+        {words("hud.ship"), shown_duration(r.ship_s, words)},
+        {words("hud.world"), shown_duration(r.world_s, words)},
+        {words("hud.flown"), shown_length(r.distance_m, r.light_speed_m_s, words)},
         {words("hud.aberration"), on(r.effects.aberration)},
         {words("hud.doppler"), on(r.effects.doppler)},
         {words("hud.headlight"), on(r.effects.headlight)},
@@ -153,7 +142,7 @@ std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r, c
     const double ev = std::round(10 * r.exposure_ev) / 10;
     const std::string sign = ev < 0 ? "−" : ev > 0 ? "+" : "";
     fields.push_back({words("hud.exposure"),
-        words(r.exposure_locked ? "hud.ev_locked" : "hud.ev", {{"ev", sign + words.number(text("%.1f", std::abs(ev)))}})});
+        words(r.exposure_locked ? "hud.ev_locked" : "hud.ev", {{"ev", sign + shown_number(std::abs(ev), 1, words)}})});
     if (r.frames_per_s > 0)
         fields.push_back({words("hud.rate"), text("%.0f", r.frames_per_s)});
     fields.push_back({words("hud.light"), light_name(r.effects, words)});

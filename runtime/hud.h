@@ -22,11 +22,12 @@ struct Panel {
 /// An empty plate of these pixels, its corners rounded and its edge soft. corner: their radius, pixels.
 Panel plate(glm::ivec2 size, double corner);
 
-/// Numbers for people: 3 or 4 figures; times with so many decimals while they are told in seconds; lengths in metres or, at
-/// the real speed of light, in what it flies.
-std::string shown_number(double x);
-std::string shown_duration(double s, int decimals = 1);
-std::string shown_length(double m, double light_speed_m_s);
+/// Numbers for people: 3 or 4 figures, or so many decimals; times with so many decimals while they are told in seconds;
+/// lengths in metres or, at the real speed of light, in what it flies.
+std::string shown_number(double x, const Words& words);
+std::string shown_number(double x, int decimals, const Words& words);
+std::string shown_duration(double s, const Words& words, int decimals = 1);
+std::string shown_length(double m, double light_speed_m_s, const Words& words);
 
 /// Height of the panel over its width.
 constexpr double panel_aspect = 0.2;

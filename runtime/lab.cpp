@@ -22,8 +22,9 @@ Measured measured_of(const Lookout& lookout, const Ship& ship, const SceneFile& 
     return m;
 }
 
-Lab::Lab(const std::filesystem::path& log, double every_s)
-    : log_(log.empty() ? nullptr : std::make_unique<LabLog>(log))
+Lab::Lab(const std::filesystem::path& log, double every_s, const Words& words)
+    : words_(words)
+    , log_(log.empty() ? nullptr : std::make_unique<LabLog>(log))
     , every_s_(every_s)
 {
 }
@@ -66,9 +67,9 @@ void Lab::read(const Frame& frame, const Controls& controls, const GpuWorld& wor
 void Lab::keep(const std::function<void(std::string)>& say)
 {
     if (!log_)
-        say(lab_text("no log"));
+        say(words_("lab.no_log"));
     else if (log_->write(*measured_, overlay_names[std::size_t(overlay_)]) && every_s_ == 0)
-        say(lab_text("logged", {{"line", std::to_string(log_->lines())}, {"file", log_->file().filename().string()}}));
+        say(words_("lab.logged", {{"line", std::to_string(log_->lines())}, {"file", log_->file().filename().string()}}));
 }
 
 void Lab::ask(Frame& frame, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter)
@@ -88,7 +89,7 @@ void Lab::ask(Frame& frame, const Shot& shot, const Flight& flight, const GpuWor
         const double aspect = lab_aspect(overlay_, why_);
         const int width = frame.lab_panel_width(aspect);
         if (again || panel_.size != glm::ivec2(width, int(width * aspect)))
-            panel_ = draw_lab_panel(typesetter, *measured_, overlay_, scale_, why_, width);
+            panel_ = draw_lab_panel(typesetter, words_, *measured_, overlay_, scale_, why_, width);
         what.panel = &panel_;
         what.scale = scale_place(overlay_, why_);
     }

@@ -14,8 +14,9 @@ Measured measured_of(const Lookout& lookout, const Ship& ship, const SceneFile& 
 /// The instruments of a running exhibit: what their keys have chosen, what was marked, and the log.
 class Lab {
 public:
-    /// log: the CSV file, or empty. every_s: writes by itself so often, 0: never. Throws InputError as LabLog does.
-    Lab(const std::filesystem::path& log, double every_s);
+    /// log: the CSV file, or empty. every_s: writes by itself so often, 0: never. words: must outlive this. Throws
+    /// InputError as LabLog does.
+    Lab(const std::filesystem::path& log, double every_s, const Words& words);
 
     /// What the last frame's probe has seen, which the device must have finished; then the keys. say: for the display.
     void read(const Frame& frame, const Controls& controls, const GpuWorld& world, double dt_s,
@@ -27,6 +28,7 @@ private:
     bool on() const { return overlay_ != Overlay::off || why_ != Why::none; }
     void keep(const std::function<void(std::string)>& say);
 
+    const Words& words_;
     std::unique_ptr<LabLog> log_;
     double every_s_, waited_s_ = 0;
     Overlay overlay_ = Overlay::off;

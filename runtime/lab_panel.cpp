@@ -20,41 +20,45 @@ void write_within(const Typesetter& typesetter, Panel& panel, const std::string&
 }
 
 /// Without zeros at a fraction's end: 2.000 s says no more than 2 s.
-std::string rounded(const std::string& label)
+std::string rounded(const std::string& label, const Words& words)
 {
-    const auto point = label.find('.'), end = label.find(' ');
+    const auto point = label.find(words("decimal_sign")), end = label.find(' ');
     if (point == label.npos || end == label.npos || point > end)
         return label;
     const auto last = label.find_last_not_of('0', end - 1);
     return label.substr(0, last == point ? point : last + 1) + label.substr(end);
 }
 
-std::string overlay_line(Overlay overlay, const Measured& measured, const OverlayScale& scale)
+std::string rounded_s(double s, const Words& words)
+{
+    return rounded(words("time.s", {{"number", shown_number(s, words)}}), words);
+}
+
+std::string overlay_line(Overlay overlay, const Measured& measured, const OverlayScale& scale, const Words& words)
 {
     const auto unshifted = unshifted_angle(measured.lookout);
-    std::array<char, 32> angle{};
-    if (unshifted)
-        std::snprintf(angle.data(), angle.size(), "%.2f°", *unshifted / degree);
+    const std::string angle
+        = unshifted ? words("angle.degrees", {{"number", shown_number(*unshifted / degree, 2, words)}}) : "";
     switch (overlay) {
     case Overlay::grid:
-        return lab_text("overlay grid");
+        return words("overlay.grid");
     case Overlay::ring:
-        return unshifted ? lab_text("overlay ring", {{"unshifted", angle.data()}}) : lab_text("overlay ring rest");
+        return unshifted ? words("overlay.ring", {{"unshifted", angle}}) : words("overlay.ring_rest");
     case Overlay::distance:
-        return lab_text("overlay distance");
+        return words("overlay.distance");
     case Overlay::emission:
-        return lab_text("overlay emission",
-            {{"step", rounded(shown_number(scale.emission_step_s) + " s")},
-                {"five", rounded(shown_number(5 * scale.emission_step_s) + " s")}});
+        return words("overlay.emission",
+            {{"step", rounded_s(scale.emission_step_s, words)}, {"five", rounded_s(5 * scale.emission_step_s, words)}});
     case Overlay::off:
     case Overlay::aim:
         break;
     }
-    return unshifted ? lab_text("overlay aim", {{"unshifted", angle.data()}}) : lab_text("overlay aim rest");
+    return unshifted ? words("overlay.aim", {{"unshifted", angle}}) : words("overlay.aim_rest");
 }
 
 /// Numbers under the scale of colours: at 1, 2 and 5 times powers of ten.
-void write_scale(const Typesetter& typesetter, Panel& panel, Overlay overlay, const OverlayScale& scale, double speed_m_s)
+void write_scale(const Typesetter& typesetter, Panel& panel, Overlay overlay, const OverlayScale& scale, double speed_m_s,
+    const Words& words)
 {
     const glm::vec4 place = scale_place(overlay, Why::none);
     const double left = place.x * panel.size.x, wide = (place.z - place.x) * panel.size.x, top = 1 - place.y;
@@ -78,16 +82,17 @@ void write_scale(const Typesetter& typesetter, Panel& panel, Overlay overlay, co
                 continue;
             before = x;
             write_at(at,
-                rounded(overlay == Overlay::emission ? shown_number(at) + " s" : shown_length(at * speed_m_s, speed_m_s)));
+                overlay == Overlay::emission ? rounded_s(at, words)
+                                             : rounded(shown_length(at * speed_m_s, speed_m_s, words), words));
         }
 }
 
-Panel draw_readings(
-    const Typesetter& typesetter, const Measured& measured, Overlay overlay, const OverlayScale& scale, int width)
+Panel draw_readings(const Typesetter& typesetter, const Words& words, const Measured& measured, Overlay overlay,
+    const OverlayScale& scale, int width)
 {
     const int height = int(width * lab_aspect(overlay, Why::none)), unit = int(width * readings_aspect);
     Panel panel = plate({width, height}, unit * 0.12);
-    const auto fields = reading_fields(measured);
+    const auto fields = reading_fields(measured, words);
     const double rows[] = {0.26, 0.50, 0.74}, columns[] = {margin, 0.36, 0.71};
     for (int i = 0; i < 9; ++i) {
         const double x = width * columns[i % 3], room = width * (i % 3 < 2 ? columns[i % 3 + 1] - 0.02 : 1 - margin) - x;
@@ -99,10 +104,10 @@ Panel draw_readings(
         typesetter.write(panel, fields[i].first, x, rows[i / 3] * unit, label(), 0.72);
         typesetter.write(panel, fields[i].second, x + value_at(), rows[i / 3] * unit, size, 1);
     }
-    write_within(typesetter, panel, overlay_line(overlay, measured, scale), width * margin, 0.93 * unit, int(0.14 * unit),
-        width * (1 - 2 * margin), 0.85);
+    write_within(typesetter, panel, overlay_line(overlay, measured, scale, words), width * margin, 0.93 * unit,
+        int(0.14 * unit), width * (1 - 2 * margin), 0.85);
     if (has_scale(overlay))
-        write_scale(typesetter, panel, overlay, scale, measured.light_speed_m_s);
+        write_scale(typesetter, panel, overlay, scale, measured.light_speed_m_s, words);
     return panel;
 }
 
@@ -115,11 +120,11 @@ Panel draw_page(const Typesetter& typesetter, const WhyPage& page, int width)
     double at = 0.14;
     const auto block = [&](const std::vector<std::string>& lines, double size, double apart, double strength) {
         int pixels = int(size * width);
-        for (const std::string& words : lines)
-            while (pixels > 6 && typesetter.width_of(words, pixels) > room)
+        for (const std::string& line : lines)
+            while (pixels > 6 && typesetter.width_of(line, pixels) > room)
                 --pixels;
-        for (const std::string& words : lines) {
-            typesetter.write(panel, words, x, at * height, pixels, strength);
+        for (const std::string& line : lines) {
+            typesetter.write(panel, line, x, at * height, pixels, strength);
             at += apart;
         }
     };
@@ -145,11 +150,11 @@ glm::vec4 scale_place(Overlay overlay, Why why)
     return {0.06, 0.155, 0.94, 0.215};
 }
 
-Panel draw_lab_panel(
-    const Typesetter& typesetter, const Measured& measured, Overlay overlay, const OverlayScale& scale, Why why, int width)
+Panel draw_lab_panel(const Typesetter& typesetter, const Words& words, const Measured& measured, Overlay overlay,
+    const OverlayScale& scale, Why why, int width)
 {
-    return why != Why::none ? draw_page(typesetter, why_page(why, measured), width)
-                            : draw_readings(typesetter, measured, overlay, scale, width);
+    return why != Why::none ? draw_page(typesetter, why_page(why, measured, words), width)
+                            : draw_readings(typesetter, words, measured, overlay, scale, width);
 }
 
 } // namespace starbow

@@ -13,7 +13,7 @@ double lab_aspect(Overlay overlay, Why why);
 glm::vec4 scale_place(Overlay overlay, Why why);
 
 /// The readings, or the page, `width` pixels across.
-Panel draw_lab_panel(
-    const Typesetter& typesetter, const Measured& measured, Overlay overlay, const OverlayScale& scale, Why why, int width);
+Panel draw_lab_panel(const Typesetter& typesetter, const Words& words, const Measured& measured, Overlay overlay,
+    const OverlayScale& scale, Why why, int width);
 
 } // namespace starbow

@@ -1,6 +1,7 @@
 #include "sitting.h"
 #include "config/error.h"
 #include "config/reader.h"
+#include "find.h"
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -53,12 +54,12 @@ Point parse_point(std::string part, glm::ivec2 size)
     return glm::dvec2(x, y);
 }
 
-std::string told(const SpotReading& reading, const Measured& measured)
+std::string told(const SpotReading& reading, const Measured& measured, const Words& english)
 {
     Measured one = measured;
     one.aim = reading;
     one.pair.reset();
-    const auto fields = reading_fields(one);
+    const auto fields = reading_fields(one, english);
     std::string line;
     for (std::size_t i = 0; i < 6; ++i)
         if (!fields[i].first.empty())
@@ -84,7 +85,7 @@ std::vector<Point> parse_points(const std::string& text, const Layout& layout)
 }
 
 Sitting sit(Studio& studio, const GpuWorld& world, const Shot& shot, const std::vector<Point>& points,
-    const std::string& overlay, const std::string& why)
+    const std::string& overlay, const std::string& why, const Words& words)
 {
     Sitting sitting;
     const auto which = [](const auto& names, const std::string& name) {
@@ -118,14 +119,16 @@ Sitting sit(Studio& studio, const GpuWorld& world, const Shot& shot, const std::
     for (std::size_t i = 1; i < std::min<std::size_t>(probed.size(), 3); ++i)
         marks[i - 1] = snapped(spot_of(i), world.world);
     const Ship ship = ship_at(shot);
+    const Words english = words_in("en");
     for (std::size_t i = 0; i < probed.size(); ++i) {
         const Measured measured
             = measured_of(frame.head(), ship, world.scene, world.world, shot.effects, spot_of(i), probed[i].light, marks);
-        sitting.lines.push_back((i == 0 ? "ahead: " : "point " + std::to_string(i) + ": ") + told(measured.aim, measured));
+        sitting.lines.push_back(
+            (i == 0 ? "ahead: " : "point " + std::to_string(i) + ": ") + told(measured.aim, measured, english));
         sitting.points.push_back(measured);
     }
     if (sitting.points[0].pair) {
-        const auto fields = reading_fields(sitting.points[0]);
+        const auto fields = reading_fields(sitting.points[0], english);
         std::string line;
         for (std::size_t i = 6; i < 9; ++i)
             if (!fields[i].first.empty())
@@ -136,7 +139,7 @@ Sitting sit(Studio& studio, const GpuWorld& world, const Shot& shot, const std::
     what.over = {over == Overlay::off && page != Why::none ? Overlay::aim : over, marks, scale};
     if (over != Overlay::off || page != Why::none) {
         sitting.panel = std::make_shared<Panel>(draw_lab_panel(
-            Typesetter(), sitting.points[0], over, scale, page, frame.lab_panel_width(lab_aspect(over, page))));
+            Typesetter(), words, sitting.points[0], over, scale, page, frame.lab_panel_width(lab_aspect(over, page))));
         what.panel = sitting.panel.get();
         what.scale = scale_place(over, page);
     }

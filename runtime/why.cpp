@@ -8,216 +8,144 @@ namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180;
 
-std::string text(const char* format, double value)
-{
-    std::array<char, 64> buffer;
-    std::snprintf(buffer.data(), buffer.size(), format, value);
-    std::string shown = buffer.data();
-    if (shown.find_first_not_of("-0.") == shown.npos && shown.starts_with('-')) // no minus before nothing
-        return shown.substr(1);
-    return shown.starts_with('-') ? "−" + shown.substr(1) : shown;
-}
+/// The title, the two lines of the sentence, and the formula.
+constexpr std::array<std::array<const char*, 4>, why_names.size()> page_words = {{
+    {},
+    {"why.aberration", "why.aberration_rain", "why.aberration_abeam", "why.aberration_formula"},
+    {"why.doppler", "why.doppler_waves", "why.doppler_abeam", "why.doppler_formula"},
+    {"why.headlight", "why.headlight_more", "why.headlight_photons", "why.headlight_formula"},
+    {"why.delay", "why.delay_seen", "why.delay_moving", "why.delay_formula"},
+    {"why.dilation", "why.dilation_slow", "why.dilation_clocks", "why.dilation_formula"},
+    {"why.length", "why.length_shorter", "why.length_seen", "why.length_formula"},
+}};
 
-std::string angle(double radians) { return text("%.2f°", radians / degree); }
-std::string angle(const std::optional<double>& radians) { return radians ? angle(*radians) : "—"; }
-std::string seconds(const std::optional<double>& s) { return s ? shown_duration(*s, 2) : "—"; }
+/// Measured numbers as they are told.
+struct Teller {
+    const Words& words;
+    double light_speed_m_s;
 
-std::string length(const std::optional<double>& s, double light_speed_m_s)
-{
-    return s ? shown_length(*s * light_speed_m_s, light_speed_m_s) : "—";
-}
-
-/// What eyes, or instruments, call a wavelength; nm.
-std::string wavelength(double nm)
-{
-    return nm < 10   ? lab_text("beyond ultraviolet")
-        : nm < 380   ? text("%.0f nm", nm) + " " + lab_text("ultraviolet")
-        : nm < 780   ? text("%.0f nm", nm)
-        : nm < 10000 ? text("%.0f nm", nm) + " " + lab_text("infrared")
-        : nm < 1e9   ? shown_number(nm / 1000) + " µm"
-                     : lab_text("radio");
-}
+    std::string angle(const std::optional<double>& radians) const
+    {
+        return radians ? words("angle.degrees", {{"number", shown_number(*radians / degree, 2, words)}}) : "—";
+    }
+    std::string cosine(const std::optional<double>& radians) const
+    {
+        return shown_number(radians ? std::cos(*radians) : 1, 4, words);
+    }
+    std::string seconds(const std::optional<double>& s) const { return s ? shown_duration(*s, words, 2) : "—"; }
+    std::string length(const std::optional<double>& s) const
+    {
+        return s ? shown_length(*s * light_speed_m_s, light_speed_m_s, words) : "—";
+    }
+    /// What eyes, or instruments, call a wavelength.
+    std::string wavelength(double nm) const
+    {
+        const auto told = [&](const char* key, const std::string& number) { return words(key, {{"number", number}}); };
+        return nm < 10   ? words("wave.x_rays")
+            : nm < 380   ? told("wave.ultraviolet", shown_number(nm, 0, words))
+            : nm < 780   ? told("wave.visible", shown_number(nm, 0, words))
+            : nm < 10000 ? told("wave.infrared", shown_number(nm, 0, words))
+            : nm < 1e9   ? told("wave.far_infrared", shown_number(nm / 1000, words))
+                         : words("wave.radio");
+    }
+};
 
 } // namespace
 
-const std::map<std::string, std::string>& lab_words()
+WhyPage why_page(Why why, const Measured& m, const Words& words)
 {
-    static const std::map<std::string, std::string> words = {
-        // The readings.
-        {"aim D", "D"},
-        {"aim nm", "550 nm →"},
-        {"aim angle", "θ′"},
-        {"at rest", "at rest"},
-        {"aim distance", "distance"},
-        {"aim emitted", "light left"},
-        {"aim clock", "clock"},
-        {"aim light", "light"},
-        {"marks angle", "○–◇"},
-        {"marks length", "long"},
-        {"marks length value", "{apparent} of {rest}"},
-        {"marks clocks", "◇ minus ○"},
-        {"marks first", "mark two things: X"},
-        {"marks second", "mark another: X"},
-        {"ultraviolet", "ultraviolet"},
-        {"infrared", "infrared"},
-        {"beyond ultraviolet", "X-rays"},
-        {"radio", "radio waves"},
-        {"sky", "the sky"},
-        // What is laid over the picture.
-        {"overlay aim", "θ′: angle from the motion, as seen; D = 1 at {unshifted}"},
-        {"overlay aim rest", "at rest: D = 1 everywhere"},
-        {"overlay grid", "the world's directions, every 15°; orange: the horizon"},
-        {"overlay ring", "the ring where D = 1, at {unshifted} from the motion: bluer within, redder beyond"},
-        {"overlay ring rest", "at rest nothing is shifted: D = 1 everywhere"},
-        {"overlay distance", "how far the light came; lines at 1, 2, 5, 10 …"},
-        {"overlay emission", "when the light left; a line every {step}, heavier every {five}"},
-        // The log.
-        {"logged", "line {line} is written to {file}"},
-        {"no log", "nothing is logged: start with --log FILE.csv"},
-        // The pages.
-        {"aberration title", "Why do things crowd together ahead?"},
-        {"aberration 1", "Light falls on a moving ship as rain on who runs: from further ahead."},
-        {"aberration 2", "What stands abeam at rest, or behind, is seen before the ship."},
-        {"aberration formula", "cos θ′ = (cos θ + β) / (1 + β cos θ)"},
-        {"aberration numbers", "({cos} + {beta}) / (1 + {beta} · {cos}) = {result}"},
-        {"aberration numbers 2", "θ = {theta} in the world, seen at θ′ = {seen}; β = v/c"},
-        {"doppler title", "Why do the colours change?"},
-        {"doppler 1", "Flying into the light's waves meets more of them: bluer. Away from them: redder."},
-        {"doppler 2", "Straight abeam they are redder, too: that is time dilation alone."},
-        {"doppler formula", "D = 1 / (γ (1 − β cos θ′)),   λ′ = λ / D"},
-        {"doppler numbers", "1 / ({gamma} · (1 − {beta} · {cos})) = {D}"},
-        {"doppler numbers 2", "so 550 nm are seen as {nm}"},
-        {"headlight title", "Why is it so bright ahead, and dark behind?"},
-        {"headlight 1", "More light arrives in each second, and from a smaller part of the sky."},
-        {"headlight 2", "Together that is D³, for the photons that an eye counts."},
-        {"headlight formula", "L′ = D³ L"},
-        {"headlight numbers", "{D}³ = {cube}: so many times as bright as at rest"},
-        {"headlight numbers off", "the headlight effect is switched off: 3 switches it on"},
-        {"delay title", "Why do the clocks not agree?"},
-        {"delay 1", "You see each clock as it was when its light left. In their world all show the same:"},
-        {"delay 2", "what you see earlier is farther away. Moving, you call that another time there."},
-        {"delay formula", "shows t − r/c,   Δt = γ (Δt′ + β Δx′/c)"},
-        {"delay numbers", "now {now} − {way} on its way = {left}"},
-        {"delay numbers none", "aim at something: the sky tells no distance"},
-        {"delay numbers 2", "○ shows {first}, ◇ {second}: {apart} apart"},
-        {"dilation title", "Why does less time pass on board?"},
-        {"dilation 1", "A moving clock is slow, by the factor γ. So is everything that happens on board."},
-        {"dilation 2", "The clock on board starts at the start; the world's goes on beside it."},
-        {"dilation formula", "Δt = γ Δτ,   γ = 1 / √(1 − β²)"},
-        {"dilation numbers", "γ = {gamma}: one second on board is {gamma} s of the world's"},
-        {"dilation numbers 2", "on board {ship} since the start"},
-        {"length title", "Why do things look shorter, or longer?"},
-        {"length 1", "A moving thing is shorter by 1/γ along the motion. But both its ends are seen"},
-        {"length 2", "as they were when their light left, and that was not at the same time."},
-        {"length formula", "ℓ = | D₁ r₁ n₁ − D₂ r₂ n₂ |,   contracted: L / γ"},
-        {"length numbers", "at rest {rest}, contracted {contracted}"},
-        {"length numbers 2", "seen {apparent}"},
-        {"length numbers none", "mark both its ends: X"},
-    };
-    return words;
-}
-
-std::string lab_text(const std::string& key, const std::map<std::string, std::string>& values)
-{
-    std::string filled = lab_words().at(key);
-    for (const auto& [name, value] : values)
-        for (std::size_t at = 0; (at = filled.find("{" + name + "}", at)) != filled.npos; at += value.size())
-            filled.replace(at, name.size() + 2, value);
-    return filled;
-}
-
-WhyPage why_page(Why why, const Measured& m)
-{
-    const double speed = glm::length(m.lookout.u), gamma = physics::gamma_of(m.lookout.u);
-    const std::string beta = text("%.4f", speed / gamma), gammas = shown_number(gamma), D = shown_number(m.aim.ray.D);
-    const auto cosine = [](const std::optional<double>& a) { return text("%.4f", a ? std::cos(*a) : 1); };
-    const std::string name = why_names[std::size_t(why)];
     if (why == Why::none)
         return {};
-    WhyPage page{lab_text(name + " title"), {lab_text(name + " 1"), lab_text(name + " 2")}, lab_text(name + " formula"), {}};
-    const auto add = [&](const std::string& key, const std::map<std::string, std::string>& values = {}) {
-        page.numbers.push_back(lab_text(key, values));
+    const Teller tell{words, m.light_speed_m_s};
+    const double speed = glm::length(m.lookout.u), gamma = physics::gamma_of(m.lookout.u);
+    const std::string beta = shown_number(speed / gamma, 4, words), gammas = shown_number(gamma, words),
+                      D = shown_number(m.aim.ray.D, words);
+    const auto& [title, first, second, formula] = page_words[std::size_t(why)];
+    WhyPage page{words(title), {words(first), words(second)}, words(formula), {}};
+    const auto add = [&](const char* key, const std::vector<std::pair<std::string_view, std::string>>& with = {}) {
+        page.numbers.push_back(words(key, with));
     };
     const SpotReading& aim = m.aim;
     switch (why) {
     case Why::none:
         break;
     case Why::aberration:
-        add("aberration numbers",
-            {{"cos", cosine(aim.from_motion_world_rad)}, {"beta", beta}, {"result", cosine(aim.from_motion_rad)}});
-        add("aberration numbers 2", {{"theta", angle(aim.from_motion_world_rad)}, {"seen", angle(aim.from_motion_rad)}});
+        add("why.aberration_numbers",
+            {{"cos", tell.cosine(aim.from_motion_world_rad)}, {"beta", beta}, {"result", tell.cosine(aim.from_motion_rad)}});
+        add("why.aberration_angles",
+            {{"theta", tell.angle(aim.from_motion_world_rad)}, {"seen", tell.angle(aim.from_motion_rad)}});
         break;
     case Why::doppler:
-        add("doppler numbers", {{"gamma", gammas}, {"beta", beta}, {"cos", cosine(aim.from_motion_rad)}, {"D", D}});
-        add("doppler numbers 2", {{"nm", wavelength(aim.seen_nm)}});
+        add("why.doppler_numbers", {{"gamma", gammas}, {"beta", beta}, {"cos", tell.cosine(aim.from_motion_rad)}, {"D", D}});
+        add("why.doppler_seen", {{"nm", tell.wavelength(aim.seen_nm)}});
         break;
     case Why::headlight:
-        add("headlight numbers", {{"D", D}, {"cube", shown_number(std::pow(aim.ray.D, 3))}});
+        add("why.headlight_numbers", {{"D", D}, {"cube", shown_number(std::pow(aim.ray.D, 3), words)}});
         if (!m.effects.headlight)
-            add("headlight numbers off");
+            add("why.headlight_off");
         break;
     case Why::delay:
         if (aim.distance_s)
-            add("delay numbers",
-                {{"now", seconds(m.world_s)}, {"way", seconds(aim.distance_s)}, {"left", seconds(aim.emitted_s)}});
+            add("why.delay_numbers",
+                {{"now", tell.seconds(m.world_s)}, {"way", tell.seconds(aim.distance_s)},
+                    {"left", tell.seconds(aim.emitted_s)}});
         else
-            add("delay numbers none");
+            add("why.delay_none");
         if (m.pair && m.pair->clocks_s)
-            add("delay numbers 2",
-                {{"first", seconds(m.marks[0]->clock_s)}, {"second", seconds(m.marks[1]->clock_s)},
-                    {"apart", seconds(std::abs(*m.pair->clocks_s))}});
+            add("why.delay_marks",
+                {{"first", tell.seconds(m.marks[0]->clock_s)}, {"second", tell.seconds(m.marks[1]->clock_s)},
+                    {"apart", tell.seconds(std::abs(*m.pair->clocks_s))}});
         break;
     case Why::dilation:
-        add("dilation numbers", {{"gamma", gammas}});
-        add("dilation numbers 2", {{"ship", shown_duration(m.ship_s, 1)}});
+        add("why.dilation_numbers", {{"gamma", gammas}});
+        add("why.dilation_ship", {{"ship", shown_duration(m.ship_s, words)}});
         break;
     case Why::length:
         if (m.pair && m.pair->apparent_s) {
-            add("length numbers",
-                {{"rest", length(m.pair->rest_s, m.light_speed_m_s)},
-                    {"contracted", length(*m.pair->contracted_s, m.light_speed_m_s)}});
-            add("length numbers 2", {{"apparent", length(m.pair->apparent_s, m.light_speed_m_s)}});
+            add("why.length_numbers",
+                {{"rest", tell.length(m.pair->rest_s)}, {"contracted", tell.length(*m.pair->contracted_s)}});
+            add("why.length_apparent", {{"apparent", tell.length(m.pair->apparent_s)}});
         } else {
-            add("length numbers none");
+            add("why.length_none");
         }
     }
     return page;
 }
 
-std::array<std::pair<std::string, std::string>, 9> reading_fields(const Measured& m)
+std::array<std::pair<std::string, std::string>, 9> reading_fields(const Measured& m, const Words& words)
 {
+    const Teller tell{words, m.light_speed_m_s};
     const SpotReading& aim = m.aim;
-    const std::string sky = lab_text("sky");
+    const std::string sky = words("lab.sky");
     std::array<std::pair<std::string, std::string>, 9> fields = {{
-        {lab_text("aim D"), shown_number(aim.ray.D)},
-        {lab_text("aim nm"), wavelength(aim.seen_nm)},
-        {lab_text("aim angle"), aim.from_motion_rad ? angle(aim.from_motion_rad) : lab_text("at rest")},
-        {lab_text("aim distance"), aim.distance_s ? length(aim.distance_s, m.light_speed_m_s) : sky},
-        {aim.emitted_s ? lab_text("aim emitted") : "", aim.emitted_s ? seconds(aim.emitted_s) : ""},
-        {lab_text("aim light"), aim.light ? shown_number(*aim.light) : "—"},
+        {words("lab.doppler"), shown_number(aim.ray.D, words)},
+        {words("lab.wavelength"), tell.wavelength(aim.seen_nm)},
+        {words("lab.angle"), aim.from_motion_rad ? tell.angle(aim.from_motion_rad) : words("lab.at_rest")},
+        {words("lab.distance"), aim.distance_s ? tell.length(aim.distance_s) : sky},
+        {aim.emitted_s ? words("lab.emitted") : "", aim.emitted_s ? tell.seconds(aim.emitted_s) : ""},
+        {words("lab.light"), aim.light ? shown_number(*aim.light, words) : "—"},
         {"", ""},
         {"", ""},
         {"", ""},
     }};
     if (aim.clock_s)
-        fields[5] = {lab_text("aim clock"), seconds(aim.clock_s)};
+        fields[5] = {words("lab.clock"), tell.seconds(aim.clock_s)};
     if (!m.pair) {
-        fields[6] = {lab_text(m.marks[0] ? "marks second" : "marks first"), ""};
+        fields[6] = {words(m.marks[0] ? "lab.mark_another" : "lab.mark_two"), ""};
         return fields;
     }
-    fields[6] = {lab_text("marks angle"), angle(m.pair->angle_rad)};
-    fields[7] = {lab_text("marks length"), "—"};
+    fields[6] = {words("lab.marks_angle"), tell.angle(m.pair->angle_rad)};
+    fields[7] = {words("lab.marks_length"), "—"};
     if (m.pair->apparent_s) {
-        std::string apparent = length(m.pair->apparent_s, m.light_speed_m_s),
-                    rest = length(m.pair->rest_s, m.light_speed_m_s);
+        std::string apparent = tell.length(m.pair->apparent_s), rest = tell.length(m.pair->rest_s);
         // The unit once, where both have the same.
         const auto unit = apparent.find(' ');
         if (unit != apparent.npos && rest.ends_with(apparent.substr(unit)))
             apparent.erase(unit);
-        fields[7].second = lab_text("marks length value", {{"apparent", apparent}, {"rest", rest}});
+        fields[7].second = words("lab.marks_lengths", {{"apparent", apparent}, {"rest", rest}});
     }
     if (m.pair->clocks_s)
-        fields[8] = {lab_text("marks clocks"), seconds(m.pair->clocks_s)};
+        fields[8] = {words("lab.marks_clocks"), tell.seconds(m.pair->clocks_s)};
     return fields;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
+#include "config/words.h"
 #include "instruments.h"
 #include "ship.h"
 #include <array>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -31,14 +31,9 @@ struct WhyPage {
     std::string formula;
     std::vector<std::string> numbers;
 };
-WhyPage why_page(Why why, const Measured& measured);
+WhyPage why_page(Why why, const Measured& measured, const Words& words);
 
 /// The instruments' readings for people: label and value, three rows of three.
-std::array<std::pair<std::string, std::string>, 9> reading_fields(const Measured& measured);
-
-/// Every word that the instruments and the pages show, by key; {name} stands for what is measured.
-const std::map<std::string, std::string>& lab_words();
-/// The words of a key with their places filled in.
-std::string lab_text(const std::string& key, const std::map<std::string, std::string>& values = {});
+std::array<std::pair<std::string, std::string>, 9> reading_fields(const Measured& measured, const Words& words);
 
 } // namespace starbow

@@ -86,6 +86,9 @@ TEST(Hud, SpeaksItsLanguage)
     EXPECT_EQ(field(r, "Welt", german), "5,000 Jahre");
     EXPECT_EQ(field(r, "Weg", german), "3,00 Licht-s");
     EXPECT_EQ(field(r, "Belichtung", german), "−1,3 EV fest");
+    EXPECT_EQ(shown_duration(-2.5, german), "−2,5 s");
+    EXPECT_EQ(shown_duration(-720, german), "−12,0 min");
+    EXPECT_EQ(shown_duration(-0.001, german, 2), "0,00 s"); // no minus before nothing
 }
 
 TEST(Hud, TheLightThatIsShownHasAName)

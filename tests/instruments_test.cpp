@@ -11,6 +11,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <random>
+#include <regex>
 #include <sstream>
 
 using namespace starbow;
@@ -20,6 +21,7 @@ using glm::dvec3;
 namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180;
+constexpr const char* languages[] = {"en", "de"};
 
 const World& clocks()
 {
@@ -194,9 +196,9 @@ TEST(Instruments, ADialIsAimedAtAnywhereOnIt)
     EXPECT_LT(glm::distance(aimed.at, at), 1e-12);
     EXPECT_LT(glm::distance(snapped(aimed, clocks()).at, clock_at(5).at), 1e-12);
     const dvec3 beside = clock_at(5).at + dvec3(2.4, 0, 0);
-    EXPECT_FALSE(
-        spot_at(ship, {ray_from_world(ship, glm::normalize(beside - ship.place)), glm::distance(beside, ship.place)}, clocks())
-            .clock);
+    EXPECT_FALSE(spot_at(
+        ship, {ray_from_world(ship, glm::normalize(beside - ship.place)), glm::distance(beside, ship.place)}, clocks())
+                     .clock);
 }
 
 TEST(Instruments, ALogIsATableOfOneShape)
@@ -267,22 +269,28 @@ TEST(Instruments, EveryPageHasItsWordsAndNumbers)
 {
     Measured full = some_measured(), bare;
     bare.aim.distance_s.reset();
-    for (std::size_t k = 1; k < why_names.size(); ++k)
-        for (const Measured& m : {full, bare}) {
-            const WhyPage page = why_page(Why(k), m);
-            std::vector<std::string> all = page.sentence;
-            all.insert(all.end(), page.numbers.begin(), page.numbers.end());
-            all.insert(all.end(), {page.title, page.formula});
-            EXPECT_FALSE(page.numbers.empty()) << why_names[k];
-            for (const std::string& line : all) {
-                EXPECT_FALSE(line.empty()) << why_names[k];
-                EXPECT_EQ(line.find_first_of("{}"), line.npos) << line;
-                EXPECT_EQ(line.find("nan"), line.npos) << line;
+    const Typesetter typesetter;
+    const std::regex c_number("[0-9][.][0-9]"), german_number("[0-9],[0-9]");
+    for (const char* language : languages)
+        for (std::size_t k = 1; k < why_names.size(); ++k)
+            for (const Measured& m : {full, bare}) {
+                SCOPED_TRACE(why_names[k] + std::string(" ") + language);
+                const WhyPage page = why_page(Why(k), m, words(language));
+                std::vector<std::string> all = page.sentence;
+                all.insert(all.end(), page.numbers.begin(), page.numbers.end());
+                all.insert(all.end(), {page.title, page.formula});
+                EXPECT_FALSE(page.numbers.empty());
+                for (const std::string& line : all) {
+                    EXPECT_LT(typesetter.width_of(line, 20), 930) << line << " is smaller than a fiftieth of its panel";
+                    EXPECT_FALSE(line.empty());
+                    EXPECT_EQ(line.find_first_of("{}"), line.npos) << line;
+                    EXPECT_EQ(line.find("nan"), line.npos) << line;
+                    EXPECT_FALSE(std::regex_search(line, language == std::string("de") ? c_number : german_number)) << line;
+                }
             }
-        }
-    const auto holds = [&](Why why, const std::string& words) {
-        for (const std::string& line : why_page(why, full).numbers)
-            if (line.find(words) != line.npos)
+    const auto holds = [&](Why why, const std::string& text, const char* language = "en") {
+        for (const std::string& line : why_page(why, full, words(language)).numbers)
+            if (line.find(text) != line.npos)
                 return true;
         return false;
     };
@@ -295,28 +303,50 @@ TEST(Instruments, EveryPageHasItsWordsAndNumbers)
     EXPECT_TRUE(holds(Why::dilation, "γ = 1.155"));
     EXPECT_TRUE(holds(Why::length, "contracted 17.32 light-s"));
     EXPECT_TRUE(holds(Why::length, "seen 17.49 light-s"));
+    EXPECT_TRUE(holds(Why::delay, "○ zeigt −5,91 s, ◇ 3,81 s: 9,71 s Unterschied", "de"));
+    EXPECT_TRUE(holds(Why::length, "in Ruhe 20,00 Licht-s, verkürzt 17,32 Licht-s", "de"));
+}
+
+TEST(Instruments, ReadingsSpeakTheirLanguage)
+{
+    using Field = std::pair<std::string, std::string>;
+    Measured m = some_measured();
+    const auto english = reading_fields(m, words()), german = reading_fields(m, words("de"));
+    EXPECT_EQ(english[1], Field("550 nm →", "635 nm"));
+    EXPECT_EQ(english[3], Field("distance", "35.80 light-s"));
+    EXPECT_EQ(english[7], Field("long", "17.49 of 20.00 light-s"));
+    EXPECT_EQ(german[0], Field("D", "0,866"));
+    EXPECT_EQ(german[3], Field("Entfernung", "35,80 Licht-s"));
+    EXPECT_EQ(german[6], Field("○–◇", "31,49°"));
+    EXPECT_EQ(german[7], Field("Länge", "17,49 von 20,00 Licht-s"));
+    m.pair.reset(), m.marks = {};
+    m.aim.seen_nm = 4321;
+    EXPECT_EQ(reading_fields(m, words("de"))[1].second, "4321 nm infrarot");
+    EXPECT_EQ(reading_fields(m, words("de"))[6], Field("zwei Dinge markieren: X", ""));
 }
 
 // Nothing is cut off, on a panel of any width, and letters stand on the plate.
 TEST(Instruments, LettersStayOnTheirPlate)
 {
     Typesetter typesetter;
-    for (int width : {300, 800, 1600})
-        for (std::size_t why = 0; why < why_names.size(); ++why)
-            for (std::size_t overlay = 1; overlay < overlay_names.size(); ++overlay) {
-                const Panel panel
-                    = draw_lab_panel(typesetter, some_measured(), Overlay(overlay), {0.5, 100, 2}, Why(why), width);
-                ASSERT_EQ(panel.size, glm::ivec2(width, int(width * lab_aspect(Overlay(overlay), Why(why)))));
-                long letters = 0;
-                for (int y = 0; y < panel.size.y; ++y)
-                    for (int x = 0; x < width; ++x) {
-                        const std::size_t at = 2 * (std::size_t(y) * width + x);
-                        letters += panel.texels[at] > 128;
-                        const bool edge = x < width / 100 || x >= width - width / 100 || y == 0 || y == panel.size.y - 1;
-                        EXPECT_TRUE(!edge || panel.texels[at] < 128) << width << ' ' << why << ' ' << overlay << ' ' << x;
-                    }
-                EXPECT_GT(letters, width * panel.size.y / 80);
-            }
+    for (const char* language : languages)
+        for (int width : {300, 800, 1600})
+            for (std::size_t why = 0; why < why_names.size(); ++why)
+                for (std::size_t overlay = 1; overlay < overlay_names.size(); ++overlay) {
+                    const Panel panel = draw_lab_panel(
+                        typesetter, words(language), some_measured(), Overlay(overlay), {0.5, 100, 2}, Why(why), width);
+                    ASSERT_EQ(panel.size, glm::ivec2(width, int(width * lab_aspect(Overlay(overlay), Why(why)))));
+                    long letters = 0;
+                    for (int y = 0; y < panel.size.y; ++y)
+                        for (int x = 0; x < width; ++x) {
+                            const std::size_t at = 2 * (std::size_t(y) * width + x);
+                            letters += panel.texels[at] > 128;
+                            const bool edge = x < width / 100 || x >= width - width / 100 || y == 0 || y == panel.size.y - 1;
+                            EXPECT_TRUE(!edge || panel.texels[at] < 128)
+                                << language << ' ' << width << ' ' << why << ' ' << overlay << ' ' << x;
+                        }
+                    EXPECT_GT(letters, width * panel.size.y / 80);
+                }
 }
 
 // A portrait picture that looks down has no room across from its display: right above it is.

@@ -142,12 +142,12 @@ TEST(Lab, TheSessionGivesTheTheorysValues)
         const std::vector<Point> points = parse_points(row.cells[3], desk);
         for (const auto& [right, up] : {std::pair(0.0, 0.0), std::pair(0.1, 0.06), std::pair(-0.08, -0.1)}) {
             const std::vector<Point> aimed = unsteady(points, right, up);
-            const Sitting sitting = sit(studio, world, pressed, aimed, "off", "none");
+            const Sitting sitting = sit(studio, world, pressed, aimed, "off", "none", testing::words());
             const std::optional<double> read = readings.at(row.cells[4])(sitting);
             ASSERT_TRUE(read);
             double value = *read;
             if (row.no()[0] == 'H')
-                value /= *readings.at(row.cells[4])(sit(studio, world, shot, aimed, "off", "none"));
+                value /= *readings.at(row.cells[4])(sit(studio, world, shot, aimed, "off", "none", testing::words()));
             EXPECT_NEAR(value, told, error) << "aimed off by " << right << ", " << up;
         }
         ++measured;
@@ -168,7 +168,8 @@ TEST(Lab, BackwardsAtFirst)
     Theatre theatre(folder / "scenes/clocks.json", Device::Options{.validation = true, .name = device_options(false).name});
     const Layout desk = one_view(Planar{60}, {400, 300});
     Studio studio(theatre.device, theatre.pipelines, theatre.world, desk, default_quality(theatre.device, false), false);
-    const Sitting first = sit(studio, theatre.world, start, parse_points("0deg,0deg; 9.2deg,0deg", desk), "off", "none");
+    const Sitting first
+        = sit(studio, theatre.world, start, parse_points("0deg,0deg; 9.2deg,0deg", desk), "off", "none", testing::words());
     ASSERT_TRUE(first.points[0].pair);
     const World& world = theatre.world.world;
     Flying rules;

@@ -72,7 +72,8 @@ int render(const Options& options)
         shot.exposure_ev = std::clamp(studio.metered(shot).value_or(shot.exposure_ev), rules.least_ev, rules.greatest_ev);
     }
     std::optional<Panel> panel;
-    const Sitting sitting = sit(studio, theatre.world, shot, parse_points(options.points, layout), options.overlay, options.why);
+    const Sitting sitting
+        = sit(studio, theatre.world, shot, parse_points(options.points, layout), options.overlay, options.why, words);
     if (options.hud) {
         Readings told = readings(ship_at(shot), theatre.world.scene, shot.effects);
         told.exposure_ev = shot.exposure_ev;
@@ -113,16 +114,18 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
         ->capture_default_str();
     add_spectra(*command, options->spectra);
     CLI::Option* points = command->add_option("--measure", options->points, measure_help);
-    CLI::Option* overlay
-        = command->add_option("--overlay", options->overlay, "With instruments over the picture, and their readings: off, "
-                                                             "aim, grid, ring (D = 1), distance or emission")
-              ->check(CLI::IsMember(std::vector<std::string>(overlay_names.begin(), overlay_names.end())))
-              ->capture_default_str();
-    CLI::Option* why
-        = command->add_option("--why", options->why, "With the page that tells why: aberration, doppler, headlight, delay, "
-                                                     "dilation or length")
-              ->check(CLI::IsMember(std::vector<std::string>(why_names.begin(), why_names.end())))
-              ->capture_default_str();
+    CLI::Option* overlay = command
+                               ->add_option("--overlay", options->overlay,
+                                   "With instruments over the picture, and their readings: off, "
+                                   "aim, grid, ring (D = 1), distance or emission")
+                               ->check(CLI::IsMember(std::vector<std::string>(overlay_names.begin(), overlay_names.end())))
+                               ->capture_default_str();
+    CLI::Option* why = command
+                           ->add_option("--why", options->why,
+                               "With the page that tells why: aberration, doppler, headlight, delay, "
+                               "dilation or length")
+                           ->check(CLI::IsMember(std::vector<std::string>(why_names.begin(), why_names.end())))
+                           ->capture_default_str();
     command->add_flag("--hud", options->hud, "With the head-up display");
     add_language(*command, options->language);
     CLI::Option* replay = command->add_option(
