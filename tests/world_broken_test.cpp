@@ -346,7 +346,8 @@ TEST_F(WorldBrokenTest, AnimationsAreNamedByTheirPlace)
         node["extras"]["starbow"]["spin"] = {{"axis", {0, 1, 0}}, {"turns_per_s", 0.001}};
         deep.json["scenes"][0]["nodes"] = {deep.put("nodes", node)};
     }
-    EXPECT_NE(complaint(deep).find("moves below more than 64 nodes that move"), std::string::npos);
+    std::string line = complaint(deep);
+    EXPECT_NE(line.find("moves below more than 64 nodes that move"), std::string::npos) << line;
     // Scales that grow beyond what a number can tell, one below the other.
     deep = sound();
     const int zero = deep.accessor<float>({0}, "SCALAR"), huge = deep.accessor<float>({1e20f, 1e20f, 1e20f}, "VEC3");
@@ -357,7 +358,8 @@ TEST_F(WorldBrokenTest, AnimationsAreNamedByTheirPlace)
         {"channels",
             {{{"sampler", 0}, {"target", {{"node", child}, {"path", "scale"}}}},
                 {{"sampler", 0}, {"target", {{"node", parent}, {"path", "scale"}}}}}}}};
-    EXPECT_NE(complaint(deep).find("may lead beyond 1e30"), std::string::npos);
+    line = complaint(deep);
+    EXPECT_NE(line.find("may lead beyond 1e30"), std::string::npos) << line;
 }
 
 TEST_F(WorldBrokenTest, SmallFilesCannotAskForMuch)
