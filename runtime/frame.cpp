@@ -257,8 +257,7 @@ void Frame::prepare_eye(std::size_t i)
         const glm::dvec3 offset = layer.shot.ship_from_cockpit * scene_units(eye.now_m);
         const Vantage vantage{int(at), layer.shot.position + physics::eye_place(layer.shot.u, offset),
             layer.shot.time + physics::eye_time(layer.shot.u, offset), layer.motion_from_frame};
-        eye.nearest.push_back(
-            reprojects() ? std::max(nearest_box(world_.world, vantage), 1e-30) : 1);
+        eye.nearest.push_back(reprojects() ? std::max(nearest_box(world_.world, vantage), 1e-30) : 1);
         PlanLayer ask{{}, layer.E};
         for (const PaneState& pane : panes_)
             if (pane.eye == i)

@@ -154,9 +154,8 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
                 .layout = *surface_layout,
                 .targets = target.colours,
                 .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights),
-                    std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), std::uint32_t(v.kinds), v.matrices, v.clock,
-                    v.mortal, v.layered, v.lamps_move, v.blink,
-                    v.moves},
+                    std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), std::uint32_t(v.kinds), v.matrices,
+                    v.clock, v.mortal, v.layered, v.lamps_move, v.blink, v.moves},
                 .depth = true,
                 .vertices = true,
                 .samples = target.samples});
