@@ -24,11 +24,12 @@ std::vector<Event> read_worldline(const Place& place)
             const double passed = event.time - events.back().time;
             const double way = glm::distance(event.position, events.back().position);
             if (!(passed > 0))
-                complain(member(at, "time"), "is not after the event before it; a time above " + shown(events.back().time)
-                        + " is right");
+                complain(member(at, "time"),
+                    "is not after the event before it; a time above " + shown(events.back().time) + " is right");
             if (!(way < passed))
-                complain(at, "can't be reached at less than the speed of light, " + shown(way) + " in a time of "
-                        + shown(passed) + "; a time above " + shown(events.back().time + way) + " is right");
+                complain(at,
+                    "can't be reached at less than the speed of light, " + shown(way) + " in a time of " + shown(passed)
+                        + "; a time above " + shown(events.back().time + way) + " is right");
         }
         events.push_back(event);
     }

@@ -7,8 +7,8 @@
 
 namespace starbow {
 
-/// What is shown beside what is seen, to compare: velocities that simply add, or everything where it is now in the ship's frame,
-/// as if light came at once.
+/// What is shown beside what is seen, to compare: velocities that simply add, or everything where it is now in the ship's
+/// frame, as if light came at once.
 enum class Comparison { none, galilean, no_light_delay };
 constexpr std::array<const char*, 3> comparison_names = {"none", "galilean", "no-light-delay"};
 

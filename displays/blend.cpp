@@ -286,7 +286,8 @@ std::vector<std::vector<float>> blend_ramps(const Layout& layout, std::span<cons
     for (std::size_t i = 0; i < fields.size(); ++i) {
         const Pane& own = fields[i].pane->pane;
         for (const Field& other : fields)
-            if (other.pane->pane.eye == own.eye && other.pane->pane.observer == own.observer && !share_pixels(other.pane->pane, own))
+            if (other.pane->pane.eye == own.eye && other.pane->pane.observer == own.observer
+                && !share_pixels(other.pane->pane, own))
                 others[i].push_back(&other);
     }
     for (std::size_t i = 0; i < fields.size(); ++i)

@@ -57,9 +57,9 @@ constexpr std::pair<ButtonRole, bool Controls::*> switches[] = {{ButtonRole::sto
     {ButtonRole::home, &Controls::home}, {ButtonRole::undo, &Controls::undo}, {ButtonRole::next_mode, &Controls::next_mode},
     {ButtonRole::look_ahead, &Controls::look_ahead}, {ButtonRole::aberration, &Controls::aberration},
     {ButtonRole::doppler, &Controls::doppler}, {ButtonRole::headlight, &Controls::headlight},
-    {ButtonRole::false_colours, &Controls::false_colours}, {ButtonRole::comparison, &Controls::comparison}, {ButtonRole::hud, &Controls::hud},
-    {ButtonRole::overlay, &Controls::overlay}, {ButtonRole::mark, &Controls::mark}, {ButtonRole::log, &Controls::log},
-    {ButtonRole::why, &Controls::why}};
+    {ButtonRole::false_colours, &Controls::false_colours}, {ButtonRole::comparison, &Controls::comparison},
+    {ButtonRole::hud, &Controls::hud}, {ButtonRole::overlay, &Controls::overlay}, {ButtonRole::mark, &Controls::mark},
+    {ButtonRole::log, &Controls::log}, {ButtonRole::why, &Controls::why}};
 /// What a button does for as long as it is held.
 struct Held {
     ButtonRole role;

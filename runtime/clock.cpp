@@ -69,14 +69,12 @@ std::vector<shared::TimeEntry> time_entries(const World& world, const Vantage& v
         const glm::dvec3 middle
             = glm::dvec3(frame_from_local * glm::dvec4(0.5 * (primitive.low + primitive.high), 1)) - vantage.place;
         const double sent = emission_time(vantage, vantage.motion_from_frame * middle);
-        const Life life
-            = instance.life < 0 ? Life{-for_ever, for_ever} : world.lives[std::size_t(instance.life)];
+        const Life life = instance.life < 0 ? Life{-for_ever, for_ever} : world.lives[std::size_t(instance.life)];
         entry.middle = glm::vec4(vantage.motion_from_frame * middle, glm::length(middle));
         const Material& material = world.materials[std::size_t(primitive.material)];
         if (material.clock) {
             const double reading = reading_s(*material.clock, sent - life.zero, 0, seconds_per_time_unit);
-            entry.turns
-                = glm::vec4(turned(reading, 60), turned(reading, 10), turned(reading, 3600), seconds_per_time_unit);
+            entry.turns = glm::vec4(turned(reading, 60), turned(reading, 10), turned(reading, 3600), seconds_per_time_unit);
             entry.digits = packed(figures(reading));
         }
         if (const auto& blink = material.blink) {

@@ -139,9 +139,10 @@ void CubePass::upload(std::span<const Vantage> layers, bool plain)
     if (!times.empty())
         put(times_, times);
 
-    vk::DescriptorBufferInfo buffers[] = {{*constants_.buffer, 0, sizeof(shared::CubeConstants)}, {*instances_.buffer, 0, VK_WHOLE_SIZE},
-        {*visible_.buffer, 0, VK_WHOLE_SIZE}, {*world_.columns.buffer, 0, VK_WHOLE_SIZE},
-        {*(*times_.buffer ? times_ : instances_).buffer, 0, VK_WHOLE_SIZE}}; // without any none is read
+    vk::DescriptorBufferInfo buffers[]
+        = {{*constants_.buffer, 0, sizeof(shared::CubeConstants)}, {*instances_.buffer, 0, VK_WHOLE_SIZE},
+            {*visible_.buffer, 0, VK_WHOLE_SIZE}, {*world_.columns.buffer, 0, VK_WHOLE_SIZE},
+            {*(*times_.buffer ? times_ : instances_).buffer, 0, VK_WHOLE_SIZE}}; // without any none is read
     device_.device.updateDescriptorSets(
         {vk::WriteDescriptorSet(*set_, 0, 0, vk::DescriptorType::eUniformBufferDynamic, {}, buffers[0]),
             vk::WriteDescriptorSet(*set_, 1, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[1]),

@@ -75,8 +75,8 @@ Box box_of(const Primitive& primitive, const glm::dmat3& turn, const glm::dvec3&
     Box box{turn * middle + place, {turn[0] * half.x, turn[1] * half.y, turn[2] * half.z}, 0, 0};
     const glm::dvec3 lengths(glm::length(turn[0]), glm::length(turn[1]), glm::length(turn[2]));
     const double longest = std::max({lengths.x, lengths.y, lengths.z});
-    const double skew = std::abs(glm::dot(turn[0], turn[1])) + std::abs(glm::dot(turn[1], turn[2]))
-        + std::abs(glm::dot(turn[2], turn[0]));
+    const double skew
+        = std::abs(glm::dot(turn[0], turn[1])) + std::abs(glm::dot(turn[1], turn[2])) + std::abs(glm::dot(turn[2], turn[0]));
     if (skew < 1e-9 * longest * longest) {
         // The eye in the instance's own frame, to its box.
         const glm::dvec3 eye_local = -(place * turn) / (lengths * lengths);
@@ -185,8 +185,9 @@ std::vector<Ball> balls(const World& world, const Vantage& vantage)
         const Instance& instance = world.instances[i];
         const Box rests = placed(world, instance, vantage).box, box = as_shown(rests, vantage);
         if (may_show(world, instance, vantage, rests))
-            balls.push_back({box.centre, std::sqrt(glm::dot(box.half[0], box.half[0]) + glm::dot(box.half[1], box.half[1])
-                                             + glm::dot(box.half[2], box.half[2]))});
+            balls.push_back({box.centre,
+                std::sqrt(glm::dot(box.half[0], box.half[0]) + glm::dot(box.half[1], box.half[1])
+                    + glm::dot(box.half[2], box.half[2]))});
     }
     return balls;
 }

@@ -16,8 +16,8 @@ struct Vantage {
 };
 
 /// When, by the vantage's own frame, the light left that reaches it now from a place, given from the eye in motion axes; or
-/// what time it is there, where that is what is shown. How much
-/// later light leaves one place than another is at most as large as their distance.
+/// what time it is there, where that is what is shown. How much later light leaves one place than another is at most as
+/// large as their distance.
 inline double emission_time(const Vantage& vantage, const glm::dvec3& from_eye)
 {
     return vantage.time + (vantage.now ? vantage.beta * from_eye.z : -glm::length(from_eye));
@@ -33,8 +33,8 @@ struct Draw {
 
 /// What the cube pass of one eye draws.
 struct DrawList {
-    std::vector<shared::InstanceEntry> instances; ///< of all layers, each its frame's in the world's order; behind them POSES
-                                                  ///< for each that moves by itself, in the same order
+    std::vector<shared::InstanceEntry> instances; ///< of all layers, each its frame's in the world's order; behind them
+                                                  ///< POSES for each that moves by itself, in the same order
     std::vector<std::uint32_t> first_pose; ///< of each layer, in `instances`
     std::vector<std::uint32_t> first; ///< of each layer, in `instances`
     std::vector<std::uint32_t> visible; ///< indices into `instances`
@@ -56,7 +56,8 @@ struct InstanceRange {
 };
 InstanceRange instances_of(const World& world, int frame);
 
-/// Whether some of an instance's own times are told: clocks, what blinks, moves by itself or is not there for ever. The first of its frame.
+/// Whether some of an instance's own times are told: clocks, what blinks, moves by itself or is not there for ever. The
+/// first of its frame.
 bool timed(const World& world, const Instance& instance);
 
 /// Distance to the nearest of the frame's instances' bounding boxes, scene units: no surface is seen nearer.

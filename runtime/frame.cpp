@@ -4,8 +4,8 @@
 #include "displays/inverse_map.h"
 #include "hud_place.h"
 #include "label.h"
-#include "worldline.h"
 #include "physics/physics.h"
+#include "worldline.h"
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -35,8 +35,8 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
     , pipelines_(pipelines)
     , world_(world)
     , layout_(layout)
-    , keeps_depth_(keeps_depth || layout.stereo.method == StereoMethod::reprojected || world.star_count > 0
-          || world.layered())
+    , keeps_depth_(
+          keeps_depth || layout.stereo.method == StereoMethod::reprojected || world.star_count > 0 || world.layered())
     , stars_(device, pipelines, world)
 {
     linear_ = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eLinear,
@@ -177,8 +177,8 @@ std::size_t Frame::eye_for(const Pane& pane)
     const std::size_t own = std::size_t(whose - watchers_.begin());
     if (whose == watchers_.end())
         watchers_.push_back({pane.observer});
-    auto same = std::find_if(
-        eyes_.begin(), eyes_.end(), [&](const Eye& e) { return e.place_m == place && e.watcher == own; });
+    auto same
+        = std::find_if(eyes_.begin(), eyes_.end(), [&](const Eye& e) { return e.place_m == place && e.watcher == own; });
     if (same == eyes_.end()) {
         eyes_.push_back({place, own, CubePass(device_, pipelines_, world_, quality_.samples, keeps_depth_), place});
         same = eyes_.end() - 1;
@@ -241,8 +241,7 @@ void Frame::prepare_eye(std::size_t i)
         const Vantage vantage{int(at), layer.shot.position + physics::eye_place(layer.shot.u, offset),
             layer.shot.time + physics::eye_time(layer.shot.u, offset), layer.motion_from_frame, layer.now, layer.contraction,
             layer.beta};
-        eye.nearest.push_back(
-            reprojects() ? std::max(nearest_box(world_.world, vantage), 1e-30) : 1);
+        eye.nearest.push_back(reprojects() ? std::max(nearest_box(world_.world, vantage), 1e-30) : 1);
         PlanLayer ask{{}, layer.E, shot_.effects.comparison == Comparison::galilean};
         for (const PaneState& pane : panes_)
             if (pane.eye == i)
@@ -361,16 +360,15 @@ glm::vec4 Frame::eye_told(const PaneState& pane, const Layer& layer) const
 void Frame::put_layers(PaneState& pane)
 {
     if (!*pane.layers.buffer)
-        pane.layers = make_mapped_buffer(
-            device_, sizeof(shared::LayerConstants), vk::BufferUsageFlagBits::eUniformBuffer);
+        pane.layers = make_mapped_buffer(device_, sizeof(shared::LayerConstants), vk::BufferUsageFlagBits::eUniformBuffer);
     const Eye& eye = eyes_[pane.eye];
     const Plan& plan = plans_[pane.eye];
     const std::vector<Layer>& layers = watcher_of(pane).layers;
     shared::LayerConstants all{};
     std::size_t count = 0;
     for (std::size_t at = 0; at < layers.size(); ++at) {
-        const bool seen = std::any_of(plan.images.begin(), plan.images.end(),
-            [&](const PlanImage& image) { return std::size_t(image.layer) == at; });
+        const bool seen = std::any_of(
+            plan.images.begin(), plan.images.end(), [&](const PlanImage& image) { return std::size_t(image.layer) == at; });
         if (at > 0 && !seen)
             continue;
         const Layer& layer = layers[at];
@@ -432,7 +430,8 @@ void Frame::write_sets()
         buffer(pane.warp_set, 12, vk::DescriptorType::eUniformBuffer, response.own_rows);
         if (world_.layered())
             put_layers(pane);
-        image(pane.warp_set, 13, world_.layered() ? atlases.back() : nothing_, plans_[pane.eye].levels > 1 ? linear_ : finest_);
+        image(pane.warp_set, 13, world_.layered() ? atlases.back() : nothing_,
+            plans_[pane.eye].levels > 1 ? linear_ : finest_);
         buffer(pane.warp_set, 14, vk::DescriptorType::eUniformBuffer, world_.layered() ? pane.layers : no_layers_);
         image(pane.warp_set, 4, keeps_depth_ ? eye.cube.depth() : nothing_, nearest_);
         image(pane.warp_set, 5, stars_.on() ? stars_.picture() : nothing_, nearest_);
@@ -533,7 +532,8 @@ void Frame::draw_stars(vk::CommandBuffer commands, std::size_t output, int layer
         commands.pushConstants<shared::ViewPush>(
             *pipelines_.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
         const int places = pane.map != no_map && maps_[pane.map].closes ? 2 : 1;
-        stars_.draw(commands, eyes_[pane.eye].watcher, pane.pane().corner, pane.pane().size, places * (own.channels ? 3 : 1), eyes_[pane.eye].stars);
+        stars_.draw(commands, eyes_[pane.eye].watcher, pane.pane().corner, pane.pane().size, places * (own.channels ? 3 : 1),
+            eyes_[pane.eye].stars);
     }
     stars_.end(commands);
 }
@@ -709,8 +709,8 @@ std::vector<Frame::Axes> Frame::measured_axes(std::size_t output) const
     std::vector<Axes> axes;
     for (const PaneState& pane : panes_)
         if (pane.output == output && pane.pane().layer == 0)
-            axes.push_back({pane.pane().corner, pane.pane().size,
-                glm::transpose(watcher_of(pane).layers[0].motion_from_frame)});
+            axes.push_back(
+                {pane.pane().corner, pane.pane().size, glm::transpose(watcher_of(pane).layers[0].motion_from_frame)});
     return axes;
 }
 

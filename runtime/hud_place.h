@@ -10,10 +10,9 @@ namespace starbow {
 glm::dmat3 panel_from_cockpit(const HudPlacement& hud, std::span<const std::vector<CompiledPane>> panes);
 
 /// The same for a panel of another shape (height over width) that shows what was measured: across from the head-up display,
-/// its far edge where the display's would be; where that is not seen whole, right above the display, or right below. It never
-/// lies on the display. panes: of each output; none: as if all were seen.
-HudPlacement instruments_place(
-    const HudPlacement& hud, double aspect, std::span<const std::vector<CompiledPane>> panes);
+/// its far edge where the display's would be; where that is not seen whole, right above the display, or right below. It
+/// never lies on the display. panes: of each output; none: as if all were seen.
+HudPlacement instruments_place(const HudPlacement& hud, double aspect, std::span<const std::vector<CompiledPane>> panes);
 
 /// A box around all pixels that may show a panel of half the extent `half` on its plane z = 1.
 PixelBox panel_box(const Blocks& blocks, const glm::dmat3& panel_from_cockpit, const glm::dvec2& half);

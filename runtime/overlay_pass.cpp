@@ -59,7 +59,8 @@ void OverlayPass::draw(vk::CommandBuffer commands, std::size_t pane, const WarpV
 {
     constexpr int kinds[] = {OVERLAY_NONE, OVERLAY_NONE, OVERLAY_GRID, OVERLAY_RING, OVERLAY_DISTANCE, OVERLAY_EMISSION};
     WarpVariant own{variant.map, variant.aberration, false, false, false};
-    own.layered = variant.layered, own.galilean = variant.galilean, own.channels = variant.channels, own.reproject = variant.reproject, own.turning = variant.turning;
+    own.layered = variant.layered, own.galilean = variant.galilean, own.channels = variant.channels,
+    own.reproject = variant.reproject, own.turning = variant.turning;
     set_area(commands, corner, size);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.overlay(own, kinds[std::size_t(overlay)], target));
     commands.bindDescriptorSets(

@@ -132,12 +132,14 @@ Pipelines::Pipelines(Device& device)
     constexpr auto both = fragment | vk::ShaderStageFlagBits::eVertex;
     constexpr Type picture = Type::eCombinedImageSampler;
     constexpr Type constants = Type::eUniformBuffer;
-    eye_set = make_set_layout(device, both, {Type::eUniformBufferDynamic, Type::eStorageBuffer, Type::eStorageBuffer, constants, Type::eStorageBuffer});
+    eye_set = make_set_layout(device, both,
+        {Type::eUniformBufferDynamic, Type::eStorageBuffer, Type::eStorageBuffer, constants, Type::eStorageBuffer});
     material_set = make_set_layout(device, fragment, {picture, picture});
     warp_set = make_set_layout(device, both,
         {picture, picture, constants, constants, picture, picture, picture, picture, picture, picture, constants, constants,
             constants, picture, constants});
-    star_set = make_set_layout(device, vk::ShaderStageFlagBits::eVertex, {Type::eUniformBufferDynamic, Type::eStorageBuffer, constants});
+    star_set = make_set_layout(
+        device, vk::ShaderStageFlagBits::eVertex, {Type::eUniformBufferDynamic, Type::eStorageBuffer, constants});
     picture_set = make_set_layout(device, fragment, {picture, picture});
     overlay_set = make_set_layout(device, fragment, {constants});
     finish_set = make_set_layout(device, fragment, {picture, picture, picture, picture, picture});
@@ -158,9 +160,8 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
                 .layout = *surface_layout,
                 .targets = target.colours,
                 .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights),
-                    std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), std::uint32_t(v.kinds), v.matrices, v.clock,
-                    v.mortal, v.layered, v.lamps_move, v.blink,
-                    v.moves},
+                    std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), std::uint32_t(v.kinds), v.matrices,
+                    v.clock, v.mortal, v.layered, v.lamps_move, v.blink, v.moves},
                 .depth = true,
                 .vertices = true,
                 .samples = target.samples});

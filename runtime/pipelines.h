@@ -99,7 +99,8 @@ public:
     vk::Pipeline finish(const FinishVariant& variant, vk::Format target);
     vk::Pipeline pattern(bool map, int pattern, vk::Format target);
 
-    vk::raii::DescriptorSetLayout eye_set = nullptr; ///< 0 constants, 1 instances, 2 visible, 3 columns of the spectra, 4 times
+    vk::raii::DescriptorSetLayout eye_set
+        = nullptr; ///< 0 constants, 1 instances, 2 visible, 3 columns of the spectra, 4 times
     vk::raii::DescriptorSetLayout material_set = nullptr; ///< 0 base, 1 emissive texture
     vk::raii::DescriptorSetLayout warp_set = nullptr; ///< 0 direction map, 1 atlas, 2 slots, 3 rows of the response for red,
                                                       ///< 4 depth atlas, 5 picture of the stars, 6 inverse of the direction
@@ -111,7 +112,7 @@ public:
     vk::raii::DescriptorSetLayout overlay_set = nullptr; ///< 0 constants
     vk::raii::PipelineLayout surface_layout = nullptr, warp_layout = nullptr, picture_layout = nullptr,
                              finish_layout = nullptr, star_layout = nullptr, ///< star_layout: warp_set, star_set
-                             overlay_layout = nullptr; ///< warp_set, overlay_set
+        overlay_layout = nullptr; ///< warp_set, overlay_set
 
 private:
     Device& device_;

@@ -216,8 +216,7 @@ struct Walk {
         const double D = doppler(theta);
         if (galilean) {
             // Stretched by more away from the axis than around it, or less: both bounds hold the disc and its pixels.
-            const glm::dvec2 stretch
-                = physics::galilean_stretch(glm::dvec3(std::sin(theta), 0, std::cos(theta)), E, 1 / E);
+            const glm::dvec2 stretch = physics::galilean_stretch(glm::dvec3(std::sin(theta), 0, std::cos(theta)), E, 1 / E);
             disc.radius = std::min(pi, std::max(disc.radius, 1.2 * radius * std::max(stretch.x, stretch.y)));
             disc.finest = std::min(stretch.x, stretch.y) * cap.finest;
             disc.coarsest = std::max(stretch.x, stretch.y) * cap.coarsest;
@@ -252,10 +251,9 @@ void pack(Plan& plan, int align)
         area += double(image.size.x) * image.size.y;
         widest = std::max(widest, image.size.x);
     }
-    std::sort(order.begin(), order.end(),
-        [](auto* a, auto* b) {
-            return std::tuple(a->size.y, b->layer, b->slot) > std::tuple(b->size.y, a->layer, a->slot);
-        });
+    std::sort(order.begin(), order.end(), [](auto* a, auto* b) {
+        return std::tuple(a->size.y, b->layer, b->slot) > std::tuple(b->size.y, a->layer, a->slot);
+    });
     int width = std::max(widest, (int(1.1 * std::sqrt(area)) + 63) / 64 * 64);
     glm::ivec2 pen(0);
     int shelf = 0;
@@ -409,8 +407,8 @@ std::vector<shared::SlotEntry> slot_table(const Plan& plan, glm::ivec2 atlas_ext
     for (const PlanImage& image : plan.images) {
         glm::dvec2 scale = glm::dvec2(image.size) / (image.high - image.low) / glm::dvec2(atlas_extent);
         glm::dvec2 offset = glm::dvec2(image.atlas) / glm::dvec2(atlas_extent) - image.low * scale;
-        table[std::size_t(image.layer * SLOT_COUNT + image.slot)] = {glm::vec4(scale, offset), glm::vec4(image.texels_per_unit, image.levels - 1, 0, 0),
-            glm::vec4(image.atlas, image.atlas + image.size - 1)};
+        table[std::size_t(image.layer * SLOT_COUNT + image.slot)] = {glm::vec4(scale, offset),
+            glm::vec4(image.texels_per_unit, image.levels - 1, 0, 0), glm::vec4(image.atlas, image.atlas + image.size - 1)};
     }
     return table;
 }

@@ -62,7 +62,8 @@ struct Plan {
     double pixels = 0; ///< served
 };
 
-/// Decides which faces are looked at, in which rectangle and how finely. Pure. Every texel that a pixel of the views reads, the neighbours of its filter included, lies inside an image.
+/// Decides which faces are looked at, in which rectangle and how finely. Pure. Every texel that a pixel of the views reads,
+/// the neighbours of its filter included, lies inside an image.
 ///
 /// The cut: one image ahead; each side in three bands across the motion, so that D varies less than twofold in each; behind,
 /// nested squares shrinking by sqrt 2 (D varies as the square of the angle there). A slot that nobody looks at is left out,
@@ -84,7 +85,8 @@ glm::dvec3 face_direction(int face, const glm::dvec2& at);
 /// clip_from_motion of an image: reversed z, infinite far plane, near plane at `near_distance` along the face's normal.
 glm::dmat4 clip_from_motion(const PlanImage& image, double near_distance);
 
-/// The table that the warp shader reads: for each layer one entry per slot. atlas_extent: the texture's size, at least the plan's.
+/// The table that the warp shader reads: for each layer one entry per slot. atlas_extent: the texture's size, at least the
+/// plan's.
 std::vector<shared::SlotEntry> slot_table(const Plan& plan, glm::ivec2 atlas_extent);
 
 /// Turn from world axes to motion axes: z along u, y as near as possible to the cockpit's up; at rest z is the cockpit's

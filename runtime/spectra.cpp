@@ -71,7 +71,8 @@ std::vector<OwnSpectrum> own_spectra(const World& world, const SceneFile& scene)
                 const bool even = shift->lowest == shift->highest;
                 if (line && !even)
                     throw InputError(scene.file, "/lights/" + std::to_string(i),
-                        "is a line, and it passes what does not move with it, at wavelengths that change; a \"temperature_K\" "
+                        "is a line, and it passes what does not move with it, at wavelengths that change; a "
+                        "\"temperature_K\" "
                         "or a \"spectrum\" is right there");
                 if (even && (line || own.size() < MAX_OWN - 1))
                     add({shifted(spectrum, shift->lowest)});
@@ -123,8 +124,7 @@ std::vector<glm::vec4> by_colour(const SpectralBasis& basis, int groups, const K
 }
 
 /// The same of a reflectance of its own, which the base colour's luminance scales.
-std::vector<glm::vec4> by_table(
-    const SpectralBasis& basis, int groups, const Kind& light, const Reflectance& reflectance)
+std::vector<glm::vec4> by_table(const SpectralBasis& basis, int groups, const Kind& light, const Reflectance& reflectance)
 {
     constexpr double luminance[3] = {0.2126, 0.7152, 0.0722}; // Rec. 709
     std::vector<glm::vec4> columns(std::size_t(groups * 5), glm::vec4(0));

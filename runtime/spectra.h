@@ -49,8 +49,8 @@ struct Spectra {
     double most = 0; ///< the greatest number of the world's own
 };
 
-/// world: after place_bodies. Throws InputError where a world has more spectra of its own than MAX_OWN, or a line shines from
-/// something that moves on something that doesn't move with it.
+/// world: after place_bodies. Throws InputError where a world has more spectra of its own than MAX_OWN, or a line shines
+/// from something that moves on something that doesn't move with it.
 Spectra spectra_of(const World& world, const SceneFile& scene, SpectralLevel level);
 
 } // namespace starbow

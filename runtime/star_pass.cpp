@@ -30,9 +30,8 @@ StarPass::StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& w
         return;
     const vk::DeviceSize step = device.properties.limits.minUniformBufferOffsetAlignment;
     stride_ = (sizeof(shared::StarConstants) + step - 1) / step * step;
-    std::vector<vk::DescriptorPoolSize> sizes
-        = {{vk::DescriptorType::eUniformBufferDynamic, 2}, {vk::DescriptorType::eUniformBuffer, 2},
-            {vk::DescriptorType::eStorageBuffer, 2}};
+    std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBufferDynamic, 2},
+        {vk::DescriptorType::eUniformBuffer, 2}, {vk::DescriptorType::eStorageBuffer, 2}};
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2, sizes});
     for (vk::raii::DescriptorSet& set : sets_)
         set = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.star_set}).front());
@@ -95,8 +94,8 @@ void StarPass::begin(vk::CommandBuffer commands, vk::Extent2D extent)
     commands.beginRendering({{}, {{0, 0}, extent}, 1, 0, colour});
 }
 
-void StarPass::draw(
-    vk::CommandBuffer commands, std::size_t watcher, glm::ivec2 corner, glm::ivec2 size, int instances, std::span<const StarRun> stars)
+void StarPass::draw(vk::CommandBuffer commands, std::size_t watcher, glm::ivec2 corner, glm::ivec2 size, int instances,
+    std::span<const StarRun> stars)
 {
     bind(commands, watcher);
     // Wider by a spot's radius: a point whose middle lies outside would not be drawn at all.
@@ -108,7 +107,8 @@ void StarPass::draw(
         commands.draw(run.count, std::uint32_t(instances), run.first, 0);
 }
 
-void StarPass::glance(vk::CommandBuffer commands, std::size_t watcher, glm::ivec2 corner, glm::ivec2 size, int every, bool channels) const
+void StarPass::glance(
+    vk::CommandBuffer commands, std::size_t watcher, glm::ivec2 corner, glm::ivec2 size, int every, bool channels) const
 {
     bind(commands, watcher);
     set_area(commands, corner, size);

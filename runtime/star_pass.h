@@ -22,13 +22,14 @@ public:
     /// From begin to end the viewports are drawn: bind a pipeline of Pipelines::stars for format(), its set 0 and the push
     /// constants, then draw() of those stars that may be seen. The picture is then for fragment shaders to read.
     void begin(vk::CommandBuffer commands, vk::Extent2D extent);
-    void draw(vk::CommandBuffer commands, std::size_t watcher, glm::ivec2 corner, glm::ivec2 size, int instances, std::span<const StarRun> stars);
+    void draw(vk::CommandBuffer commands, std::size_t watcher, glm::ivec2 corner, glm::ivec2 size, int instances,
+        std::span<const StarRun> stars);
     void end(vk::CommandBuffer commands);
 
     /// For the meter, into its own picture: each `every`-th star is a pixel of the rectangle, row by row. Bind a pipeline of
     /// Pipelines::star_meter and the rest as above, with the push constant `pane` telling the rectangle's size and `every`.
-    void glance(vk::CommandBuffer commands, std::size_t watcher, glm::ivec2 corner, glm::ivec2 size, int every,
-        bool channels) const;
+    void glance(
+        vk::CommandBuffer commands, std::size_t watcher, glm::ivec2 corner, glm::ivec2 size, int every, bool channels) const;
 
     const Image& picture() const { return picture_; }
     vk::Format format() const { return format_; }

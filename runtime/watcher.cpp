@@ -26,9 +26,9 @@ Watcher watcher(const World& world, const Shot& ship, const Onlooker& observer)
         const bool own = out.layers.empty(); // the world's: its axes are those of the motion in any case
         const Shot looks = in_frame(frame, aberration || own ? out.shot : still);
         const glm::dmat3 turn = motion_from_world(looks.u, looks.ship_from_cockpit);
-        out.layers.push_back({in_frame(frame, out.shot),
-            aberration || !own ? physics::exp_rapidity(glm::length(looks.u)) : 1, turn,
-            turn * glm::dmat3(glm::mat3_cast(looks.ship_from_cockpit))});
+        out.layers.push_back(
+            {in_frame(frame, out.shot), aberration || !own ? physics::exp_rapidity(glm::length(looks.u)) : 1, turn,
+                turn * glm::dmat3(glm::mat3_cast(looks.ship_from_cockpit))});
         if (!now)
             continue;
         Layer& layer = out.layers.back();

@@ -1,7 +1,7 @@
 #pragma once
 #include "config/layout.h"
-#include "world.h"
 #include "config/shot.h"
+#include "world.h"
 
 namespace starbow {
 

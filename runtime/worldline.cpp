@@ -156,8 +156,8 @@ void place_bodies(World& world, const SceneFile& scene)
             world.lamps.push_back({i, 0, point ? point->position : glm::dvec3(0)});
             continue;
         }
-        const auto body = std::find_if(
-            scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) { return b.name == point->body; });
+        const auto body
+            = std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) { return b.name == point->body; });
         for (const Leg& leg : legs_of(*body)) {
             const Standing where = standing(world, scene, leg);
             world.lamps.push_back({i, where.frame, where.place + point->position, where.life});

@@ -23,9 +23,9 @@ Shot in_frame(const RestFrame& frame, const Shot& shot);
 /// its light, that frame's frequency over the world's.
 glm::dvec3 aberrated(const glm::dvec3& u, const glm::dvec3& towards, double& D);
 
-/// What of a scene moves is taken out of the world at rest: each instance below one of a body's nodes is put, for every leg of
-/// the body, into that leg's rest frame; each light becomes a lamp, or for every leg one. Once for a world. Throws InputError
-/// where a node is missing or there are more than MAX_LAYERS velocities or MAX_LIGHTS lamps.
+/// What of a scene moves is taken out of the world at rest: each instance below one of a body's nodes is put, for every leg
+/// of the body, into that leg's rest frame; each light becomes a lamp, or for every leg one. Once for a world. Throws
+/// InputError where a node is missing or there are more than MAX_LAYERS velocities or MAX_LIGHTS lamps.
 void place_bodies(World& world, const SceneFile& scene);
 
 } // namespace starbow

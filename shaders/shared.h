@@ -26,35 +26,36 @@
 #define STAR_STEPS_PER_OCTAVE 64
 #define STAR_STEPS 769 // 12 octaves: to 2 million K, from where a black body's visible light only grows as its temperature
 #define STAR_RADIUS 2.0 // of the spot that a star is shown as, pixels
-#define STAR_SPOT (3.14159265 * STAR_RADIUS * STAR_RADIUS / 5.0) // pixels of a spot as bright everywhere as in its middle: the
-                                                                // integral of (1 - r^2 / R^2)^4
+#define STAR_SPOT                                                                                                           \
+    (3.14159265 * STAR_RADIUS * STAR_RADIUS / 5.0) // pixels of a spot as bright everywhere as in its middle: the
+// integral of (1 - r^2 / R^2)^4
 
 // One image of the plan, as the warp pass reads it: atlas coordinate = face coordinate * scale + offset.
 struct SlotEntry {
     vec4 atlas_from_face; // scale x, y; offset x, y (normalised atlas coordinates)
-    vec4 detail;          // x: texels per unit of face coordinate, y: coarsest mip level, z, w: unused
-    vec4 texels;          // of the atlas: the image's first x, y and last x, y; 0 of a slot that is not drawn
+    vec4 detail; // x: texels per unit of face coordinate, y: coarsest mip level, z, w: unused
+    vec4 texels; // of the atlas: the image's first x, y and last x, y; 0 of a slot that is not drawn
 };
 
 struct LightEntry {
-    vec4 place;    // w = 0: unit direction towards the light; w = 1: its place from the eye, at the eye's time. Motion axes.
+    vec4 place; // w = 0: unit direction towards the light; w = 1: its place from the eye, at the eye's time. Motion axes.
     vec4 radiance; // Rec. 709 linear, pre-exposed; w: square of the distance at which it holds, 0 for a direction
-    vec4 kind;     // x: which of the spectra that shine here, 0 for sunlight: of one that moves the first of `shifts`; y, z:
-                   // what was sent before and after these own times of the lamp's, from that at `place` on, is none; w: of a
-                   // direction that moves, D
-    vec4 way;      // of one that moves: unit direction of its motion; w: its gamma beta, 0: it doesn't
-    vec4 shifts;   // of one that moves: x: log2 D of the first, y: how many an octave, z: how many; w: gamma
+    vec4 kind; // x: which of the spectra that shine here, 0 for sunlight: of one that moves the first of `shifts`; y, z:
+               // what was sent before and after these own times of the lamp's, from that at `place` on, is none; w: of a
+               // direction that moves, D
+    vec4 way; // of one that moves: unit direction of its motion; w: its gamma beta, 0: it doesn't
+    vec4 shifts; // of one that moves: x: log2 D of the first, y: how many an octave, z: how many; w: gamma
 };
 
 // The cube pass, one per eye, layer and frame.
 struct CubeConstants {
-    vec4 ambient;     // Rec. 709 linear, w: pre-exposure
+    vec4 ambient; // Rec. 709 linear, w: pre-exposure
     vec4 sky_zenith[MAX_GROUPS]; // numbers of the light, pre-exposed
     vec4 sky_horizon[MAX_GROUPS];
     vec4 sky_nadir[MAX_GROUPS];
-    vec4 world_up;    // motion axes
-    vec4 first;       // x: this layer's first instance, y: the first of its instances' times, z: of their poses
-    vec4 now;         // w: 1 where everything is shown where it is now; xyz: the ship's velocity here
+    vec4 world_up; // motion axes
+    vec4 first; // x: this layer's first instance, y: the first of its instances' times, z: of their poses
+    vec4 now; // w: 1 where everything is shown where it is now; xyz: the ship's velocity here
     LightEntry lights[MAX_LIGHTS];
 };
 
@@ -63,15 +64,18 @@ struct InstanceEntry {
     vec4 row0, row1, row2;
 };
 
-// The times of an instance in front of one eye: of clocks, of what blinks or moves by itself and of what is not there for ever.
+// The times of an instance in front of one eye: of clocks, of what blinks or moves by itself and of what is not there for
+// ever.
 struct TimeEntry {
     vec4 middle; // from the eye, motion axes; w: its distance. What follows is as the light left there
-    vec4 turns;  // 0 to 1 of a clock's hands: one turn in a minute, in ten seconds, in an hour; w: seconds per scene unit of light
+    vec4 turns; // 0 to 1 of a clock's hands: one turn in a minute, in ten seconds, in an hour; w: seconds per scene unit of
+                // light
     vec4 digits; // x, y: six figures each, of four bits, the first lowest; 10: a minus, 11: nothing. z: how many there are
-    vec4 there;  // x, y: after how much later than the middle's, and up to when, light left while it was there
-    vec4 poses;  // of what moves by itself: x: its first pose, from the layer's first; y, z: poses per scene time before the middle
-                 // one, and after it; w: how much later that is
-    vec4 blink;  // x: the part of a period that has gone by, 0 to 1; y: periods per scene unit of time; z: in which part it is on
+    vec4 there; // x, y: after how much later than the middle's, and up to when, light left while it was there
+    vec4 poses; // of what moves by itself: x: its first pose, from the layer's first; y, z: poses per scene time before the
+                // middle one, and after it; w: how much later that is
+    vec4 blink; // x: the part of a period that has gone by, 0 to 1; y: periods per scene unit of time; z: in which part it
+                // is on
 };
 
 // Push constants of the cube pass.
@@ -79,9 +83,9 @@ struct CubePush {
     vec4 clip_row0, clip_row1, clip_row2, clip_row3; // rows of clip_from_motion
     vec4 base_colour;
     vec4 emissive; // pre-exposed; w: alpha cut-off
-    vec4 beyond;   // reflectance in the ultraviolet and the infrared, below 0: the colour's mean; z: which set of matrices; w:
-                   // which of the world's own spectra the emissive light has, -1: a sunlit colour
-    vec4 own;      // how much it glows with each of them, pre-exposed
+    vec4 beyond; // reflectance in the ultraviolet and the infrared, below 0: the colour's mean; z: which set of matrices; w:
+                 // which of the world's own spectra the emissive light has, -1: a sunlit colour
+    vec4 own; // how much it glows with each of them, pre-exposed
 };
 
 // Push constants of the passes that run once per output pixel.
@@ -89,23 +93,23 @@ struct ViewPush {
     vec4 row0, row1, row2; // planar: rows of direction_from_pixel; map: of the turn from the map's axes. w of row0: planar:
                            // a pixel's step on the plane at distance 1; of row1: the finest image behind. The stars' pass
                            // has the inverse: rows of pixel_from_direction; of the turn to the map's axes
-    vec4 boost;            // E, 1/E, exposure gain / pre-exposure (the stars: pre-exposure), near plane
-    vec4 origin;           // viewport's top left corner in the target, pixels; z, w: atlas size in texels
-    vec4 eye;              // REPROJECT: the eye's place from the cube map's, world, motion axes. TURNING: xyz: the cockpit's
-                           // up in motion axes; w: the eye's distance from the middle, to the right
-    vec4 zenith;           // x: TURNING: sine of the angle from the zenith at which the separation is full; y:
-                           // REPROJECT: distance of the nearest surface that there may be, scene units; z, w: the
-                           // viewport's size, pixels; the meter: pixels of the viewport for one of its samples
-    vec4 pane;             // xy: the viewport's top left corner in the output, pixels, also where it is drawn elsewhere; the
-                           // stars at a glance: pixels across and down, and z: of how many stars each is one
+    vec4 boost; // E, 1/E, exposure gain / pre-exposure (the stars: pre-exposure), near plane
+    vec4 origin; // viewport's top left corner in the target, pixels; z, w: atlas size in texels
+    vec4 eye; // REPROJECT: the eye's place from the cube map's, world, motion axes. TURNING: xyz: the cockpit's
+              // up in motion axes; w: the eye's distance from the middle, to the right
+    vec4 zenith; // x: TURNING: sine of the angle from the zenith at which the separation is full; y:
+                 // REPROJECT: distance of the nearest surface that there may be, scene units; z, w: the
+                 // viewport's size, pixels; the meter: pixels of the viewport for one of its samples
+    vec4 pane; // xy: the viewport's top left corner in the output, pixels, also where it is drawn elsewhere; the
+               // stars at a glance: pixels across and down, and z: of how many stars each is one
 };
 
 // What the warp pass knows of one rest frame, as one pane's eye looks at it: as ViewPush, which has the world's.
 struct LayerEntry {
     vec4 row0, row1, row2; // rows of the turn from the world's motion axes, both in the ship; w of row1: as ViewPush's
-    vec4 boost;            // E, 1/E; z: its first slot's index, w: which of the world's frames it is
+    vec4 boost; // E, 1/E; z: its first slot's index, w: which of the world's frames it is
     vec4 eye;
-    vec4 nearest;          // y: as ViewPush's zenith
+    vec4 nearest; // y: as ViewPush's zenith
 };
 
 // Where something moves: the layers of one pane, and the sky behind them.
@@ -121,8 +125,8 @@ struct LayerConstants {
 // A star, in the scene's world at rest.
 struct StarEntry {
     vec4 direction; // unit, towards it; w: temperature, K
-    vec4 light;     // illuminance at rest, in the scene's white times steradians: x: over the luminance of its
-                    // temperature (black_body_xyz), y: as it is
+    vec4 light; // illuminance at rest, in the scene's white times steradians: x: over the luminance of its
+                // temperature (black_body_xyz), y: as it is
 };
 
 // The stars' pass, one per frame.
@@ -133,13 +137,13 @@ struct StarConstants {
 // What is laid over a viewport for who measures.
 struct OverlayConstants {
     vec4 world0, world1, world2; // rows of world_from_motion
-    vec4 ring;                   // x: cosine, y: sine of the angle from the motion where D = 1; z: 1 where there is one
-    vec4 scale;                  // of the colours: x: lowest log10 of a distance in seconds of light, y: 1 over their range; z:
-                                 // log10 of seconds of light per scene unit
-    vec4 steps;                  // emission: x: seconds between contours, y: the eye's time beyond a heavier one, seconds; z:
-                                 // seconds of light per scene unit
-    vec4 aim, right, up;         // of the look, motion axes; aim.w: 1 where the crosshair is drawn
-    vec4 marks[2];               // directions in the ship, motion axes; w: 1 where there is one
+    vec4 ring; // x: cosine, y: sine of the angle from the motion where D = 1; z: 1 where there is one
+    vec4 scale; // of the colours: x: lowest log10 of a distance in seconds of light, y: 1 over their range; z:
+                // log10 of seconds of light per scene unit
+    vec4 steps; // emission: x: seconds between contours, y: the eye's time beyond a heavier one, seconds; z:
+                // seconds of light per scene unit
+    vec4 aim, right, up; // of the look, motion axes; aim.w: 1 where the crosshair is drawn
+    vec4 marks[2]; // directions in the ship, motion axes; w: 1 where there is one
 };
 
 #define OVERLAY_NONE 0
@@ -150,25 +154,25 @@ struct OverlayConstants {
 
 // Push constants of the finish pass: from light to the screen's input. Rows of matrices.
 struct FinishPush {
-    vec4 left0, left1, left2;    // of the first picture, or the only one
+    vec4 left0, left1, left2; // of the first picture, or the only one
     vec4 right0, right1, right2; // of the second, where both are added
-    vec4 curve;                  // x: 1 / gamma or the table's last index; y: headroom under the black level
+    vec4 curve; // x: 1 / gamma or the table's last index; y: headroom under the black level
 };
 
 // Push constants of the glow.
 struct BloomPush {
-    vec4 step;  // xy: 1 / size of what is drawn, pixels
+    vec4 step; // xy: 1 / size of what is drawn, pixels
     vec4 texel; // xy: 1 / size of what is read, texels
-    vec4 part;  // x: of the light that is taken; zw: the viewport's top left corner in the target, pixels
+    vec4 part; // x: of the light that is taken; zw: the viewport's top left corner in the target, pixels
 };
 
 // Push constants of the test patterns.
 struct PatternPush {
     vec4 row0, row1, row2; // as ViewPush's, to the cockpit's axes
-    vec4 origin;           // xy: as ViewPush's; zw: pixels of the pane
-    vec4 tint;             // rgb: this output's, or this eye's
-    vec4 label;            // xy: size of the label in pixels; z: part of the pane around its middle that is
-                           // shown; w: gamma of the output, 0: sRGB's curve
+    vec4 origin; // xy: as ViewPush's; zw: pixels of the pane
+    vec4 tint; // rgb: this output's, or this eye's
+    vec4 label; // xy: size of the label in pixels; z: part of the pane around its middle that is
+                // shown; w: gamma of the output, 0: sRGB's curve
 };
 
 // Test patterns, by number.

@@ -17,10 +17,7 @@ dvec3 random_way(std::mt19937& random)
 }
 
 Json numbers_of(const dvec3& v) { return {v.x, v.y, v.z}; }
-Json velocity_of(const dvec3& u)
-{
-    return {{"direction", numbers_of(u)}, {"rapidity", std::asinh(glm::length(u))}};
-}
+Json velocity_of(const dvec3& u) { return {{"direction", numbers_of(u)}, {"rapidity", std::asinh(glm::length(u))}}; }
 
 /// A flat thing of one body.
 struct Plate {
@@ -79,8 +76,8 @@ TEST(BodiesGpuTest, EveryRayMeetsWhatIsNearest)
             random_way(random), random_way(random));
         shot.time = 2 * part(random) - 1;
         const ivec2 size(320, 240);
-        Studio stage(device(), pipelines(), world, one_view(round % 2 ? Projection(Fisheye{}) : Projection(Planar{100}), size),
-            as_fine_as_asked(), true);
+        Studio stage(device(), pipelines(), world,
+            one_view(round % 2 ? Projection(Fisheye{}) : Projection(Planar{100}), size), as_fine_as_asked(), true);
         const Numbers numbers(stage, shot);
 
         // One frame for each way of being: u, its origin's event, and when it is there.
@@ -108,8 +105,8 @@ TEST(BodiesGpuTest, EveryRayMeetsWhatIsNearest)
             for (const Being& being : beings) {
                 // The event and the light's 4-momentum, from the ship to the world to the body.
                 const quad::V4 p = into(being.u, quad::boosted(quad::of(shot.u), {1, quad::of(n) * -1}));
-                const quad::V4 e = into(
-                    being.u, {shot.time - being.at.time, quad::of(shot.position) + quad::of(-being.at.position)});
+                const quad::V4 e
+                    = into(being.u, {shot.time - being.at.time, quad::of(shot.position) + quad::of(-being.at.position)});
                 const dvec3 from = vec(e.x), way = vec(p.x * (-1 / p.t));
                 for (const Plate& plate : plates) {
                     if (plate.body != being.body)
@@ -137,7 +134,8 @@ TEST(BodiesGpuTest, EveryRayMeetsWhatIsNearest)
                 continue;
             const Hit hit = truth(numbers.camera(i));
             bool edge = false;
-            double nearest = hit.distance, farthest = hit.distance; // within a pixel: a plate may be seen nearly from its edge
+            double nearest = hit.distance,
+                   farthest = hit.distance; // within a pixel: a plate may be seen nearly from its edge
             // Texels are filtered, as wide as a pixel or two.
             for (int k = 0; k < 25 && !edge; ++k) {
                 const int beside = i + (k / 5 - 2) * size.x + k % 5 - 2;
@@ -151,18 +149,20 @@ TEST(BodiesGpuTest, EveryRayMeetsWhatIsNearest)
                 continue;
             ++compared;
             if (!hit.plate) {
-                wrong += glm::length(numbers.light(i)) > 0.02; // coarser texels, beyond these pixels, at a weight of nearly nought
+                wrong += glm::length(numbers.light(i))
+                    > 0.02; // coarser texels, beyond these pixels, at a weight of nearly nought
                 continue;
             }
             ++hits;
             ++of_body[hit.plate->body];
             const bool same = glm::length(numbers.light(i) - hit.colour) < 0.01 * glm::length(hit.colour)
-                && std::abs(numbers.D(i) / hit.D - 1) < 2e-5 && numbers.depth(i) > 0.999 * nearest && numbers.depth(i) < 1.001 * farthest;
+                && std::abs(numbers.D(i) / hit.D - 1) < 2e-5 && numbers.depth(i) > 0.999 * nearest
+                && numbers.depth(i) < 1.001 * farthest;
             wrong += !same;
             if (!same && wrong < 4)
-                ADD_FAILURE() << "round " << round << " pixel " << x << ", " << y << " body " << hit.plate->body << ": light "
-                              << numbers.light(i).x << " not " << hit.colour.x << ", D " << numbers.D(i) << " not " << hit.D
-                              << ", distance " << numbers.depth(i) << " not " << hit.distance;
+                ADD_FAILURE() << "round " << round << " pixel " << x << ", " << y << " body " << hit.plate->body
+                              << ": light " << numbers.light(i).x << " not " << hit.colour.x << ", D " << numbers.D(i)
+                              << " not " << hit.D << ", distance " << numbers.depth(i) << " not " << hit.distance;
         }
         EXPECT_EQ(wrong, 0) << "round " << round << " of " << compared;
         EXPECT_GT(hits, compared / 10);
@@ -182,9 +182,10 @@ Doc still_life()
         const double angle = 2 * pi * i / 12;
         const int material = doc.put("materials",
             {{"doubleSided", true},
-                {"pbrMetallicRoughness", {{"baseColorFactor", {0.2 + 0.8 * part(random), 0.2 + 0.8 * part(random), 0.5, 1}}}}});
-        quad(doc, {4 * std::cos(angle), 4 * std::sin(angle), -9 + 5 * part(random)}, random_way(random), random_way(random) * 0.8,
-            material, {{"name", "things"}});
+                {"pbrMetallicRoughness",
+                    {{"baseColorFactor", {0.2 + 0.8 * part(random), 0.2 + 0.8 * part(random), 0.5, 1}}}}});
+        quad(doc, {4 * std::cos(angle), 4 * std::sin(angle), -9 + 5 * part(random)}, random_way(random),
+            random_way(random) * 0.8, material, {{"name", "things"}});
     }
     return doc;
 }
@@ -202,8 +203,8 @@ std::vector<dvec3> softened(const Numbers& numbers)
                 for (int dy : {-1, 0, 1})
                     for (int dx : {-1, 0, 1}) {
                         const ivec2 at = glm::clamp(ivec2(x + dx, y + dy), ivec2(0), size - 1);
-                        out[std::size_t(y * size.x + x)] += from[std::size_t(at.y * size.x + at.x)]
-                            * ((2 - std::abs(dx)) * (2 - std::abs(dy)) / 16.0);
+                        out[std::size_t(y * size.x + x)]
+                            += from[std::size_t(at.y * size.x + at.x)] * ((2 - std::abs(dx)) * (2 - std::abs(dy)) / 16.0);
                     }
     }
     return out;
@@ -222,8 +223,7 @@ TEST(BodiesGpuTest, WhoMovesDoesNotMatter)
         Json riding = lamp;
         riding["body"] = "all";
         const GpuWorld moving = open_world("moving", still_life(),
-            {{"lights", {riding}},
-                {"bodies", {{{"name", "all"}, {"nodes", {"things"}}, {"velocity", velocity_of(-u)}}}}});
+            {{"lights", {riding}}, {"bodies", {{{"name", "all"}, {"nodes", {"things"}}, {"velocity", velocity_of(-u)}}}}});
         const Layout layout = one_view(Planar{80}, {400, 300});
         Shot passing = shot_at({0, 0, 0}, u, {0, 0, -1});
         passing.effects = {};
@@ -285,8 +285,8 @@ TEST(BodiesGpuTest, ASphereKeepsACircularOutline)
                 indices.push_back(std::uint16_t(j * sides + (k >= sides ? sides : 0) + (i + k % sides) % sides));
     Json primitive = {{"attributes", {{"POSITION", doc.accessor(positions, "VEC3")}}},
         {"indices", doc.accessor(indices, "SCALAR")}, {"material", material}};
-    doc.json["scenes"][0]["nodes"].push_back(doc.put("nodes",
-        {{"name", "ball"}, {"mesh", doc.put("meshes", {{"primitives", {primitive}}})}}));
+    doc.json["scenes"][0]["nodes"].push_back(
+        doc.put("nodes", {{"name", "ball"}, {"mesh", doc.put("meshes", {{"primitives", {primitive}}})}}));
     // The ball's frame sees the eye at its own origin's side, at right angles to the motion.
     const double beta = 0.9, distance = 1 / std::sin(20 * degree);
     const dvec3 u(0, 0, u_of_beta(beta)); // the ball comes from ahead, moving backwards
@@ -322,8 +322,8 @@ TEST(BodiesGpuTest, ASphereKeepsACircularOutline)
 
 TEST(BodiesGpuTest, ABodySeenAbeamSeemsTurned)
 {
-    // Terrell: a small body that passes, seen at right angles to its way, shows itself turned by asin(beta): of its marks, one
-    // ahead by a of its own length and one nearer by a, the first appears a cos and the second a sin further on.
+    // Terrell: a small body that passes, seen at right angles to its way, shows itself turned by asin(beta): of its marks,
+    // one ahead by a of its own length and one nearer by a, the first appears a cos and the second a sin further on.
     constexpr double a = 0.1, L = 20;
     for (auto [beta, turn_deg] : {std::pair(0.5, 30.0), {0.8, 53.1301}, {0.99, 81.8904}}) {
         Doc doc;

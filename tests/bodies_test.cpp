@@ -167,8 +167,8 @@ TEST(Worldline, AFrameSeesTheShipByTwoBoosts)
         shot.time = 7, shot.position = random_way(random) * 20.0, shot.u = random_way(random) * 2.0;
         shot.ship_from_cockpit = glm::normalize(glm::dquat(1, 0.2, -0.4, 0.7));
         const Shot moved = in_frame(frame, shot);
-        const quad::V4 event = into(quad::of(frame.u),
-            {shot.time - frame.origin.time, quad::of(shot.position - frame.origin.position)});
+        const quad::V4 event
+            = into(quad::of(frame.u), {shot.time - frame.origin.time, quad::of(shot.position - frame.origin.position)});
         EXPECT_NEAR(moved.time, double(event.t), 1e-12);
         EXPECT_LT(off(moved.position, event.x), 1e-12);
         // Where a light ray of the cockpit comes from, by way of the frame and directly.
@@ -186,13 +186,14 @@ TEST(Worldline, LightFromInfinity)
     std::mt19937 random(4);
     for (double gamma : {1.0, 2.0, 50.0, 1e5})
         for (int i = 0; i < 50; ++i) {
-            const dvec3 way = random_way(random), u = (i % 2 ? random_way(random) : -way + 1e-3 / gamma * random_way(random))
-                * u_of_gamma(gamma);
+            const dvec3 way = random_way(random),
+                        u = (i % 2 ? random_way(random) : -way + 1e-3 / gamma * random_way(random)) * u_of_gamma(gamma);
             double D;
             const dvec3 n = aberrated(u, way, D);
             const quad::V4 p = into(quad::of(u), {1, quad::unit(quad::of(way)) * -1});
             EXPECT_NEAR(D / double(p.t), 1, 1e-9) << gamma;
-            EXPECT_LT(quad::angle(quad::of(n), p.x * -1), 4e-15 * gamma + 1e-14) << gamma; // a few roundings, seen 2 gamma times as large behind
+            EXPECT_LT(quad::angle(quad::of(n), p.x * -1), 4e-15 * gamma + 1e-14)
+                << gamma; // a few roundings, seen 2 gamma times as large behind
         }
 }
 
@@ -202,7 +203,8 @@ TEST(Bodies, FilesSayWhatIsWrong)
     const std::vector<std::pair<std::string, std::string>> wrong = {
         {R"({"name": "a", "nodes": ["x"]})", "lacks \"velocity\""},
         {R"({"name": "a", "nodes": [], "velocity": {"direction": [1,0,0], "beta": 0.5}})", "/bodies/0/nodes"},
-        {R"({"name": "a", "nodes": ["x"], "velocity": {"direction": [1,0,0], "beta": 1}})", "nothing reaches the speed of light"},
+        {R"({"name": "a", "nodes": ["x"], "velocity": {"direction": [1,0,0], "beta": 1}})",
+            "nothing reaches the speed of light"},
         {R"({"name": "a", "nodes": ["x"], "worldline": [{"time": 0}]})", "/bodies/0/worldline"},
         {R"({"name": "a", "nodes": ["x"], "worldline": [{"time": 1}, {"time": 1}]})", "is not after the event before it"},
         {R"({"name": "a", "nodes": ["x"], "worldline": [{"time": 0}, {"time": 1, "position": [0, 1, 0]}]})",
@@ -298,7 +300,9 @@ TEST(Plan, WhatNoPixelSeesCostsNothing)
     const Blocks blocks(glm::dmat3(glm::dvec3(0.01, 0, 0), glm::dvec3(0, -0.01, 0), glm::dvec3(-0.5, 0.5, -1)), {100, 100});
     const glm::dmat3 turn = motion_from_world({}, glm::dquat(1, 0, 0, 0));
     auto plan_with = [&](const dvec3& centre) {
-        return make_plan({PlanLayer{{{&blocks, turn}}, 1}, PlanLayer{{{&blocks, turn}}, 3, false, std::vector<Ball>{{turn * centre, 1}}}}, {});
+        return make_plan(
+            {PlanLayer{{{&blocks, turn}}, 1}, PlanLayer{{{&blocks, turn}}, 3, false, std::vector<Ball>{{turn * centre, 1}}}},
+            {});
     };
     const Plan none = make_plan({PlanLayer{{{&blocks, turn}}, 1}}, {});
     for (const dvec3& behind : {dvec3(0, 0, 20), dvec3(30, 0, 5)})

@@ -63,9 +63,10 @@ TEST(ComparisonTest, GalileanFormulasAddVelocities)
             if (theta == 0 || theta == 180)
                 continue;
             const double step = 1e-6;
-            const auto turned = physics::galilean_world_from_camera(
-                {camera.n.x * std::cos(step) + camera.n.z * std::sin(step), 0, camera.n.z * std::cos(step) - camera.n.x * std::sin(step)},
-                E, 1 / E);
+            const auto turned
+                = physics::galilean_world_from_camera({camera.n.x * std::cos(step) + camera.n.z * std::sin(step), 0,
+                                                          camera.n.z * std::cos(step) - camera.n.x * std::sin(step)},
+                    E, 1 / E);
             const dvec2 stretch = physics::galilean_stretch(camera.n, E, 1 / E);
             EXPECT_NEAR(between(turned.n, back.n) / step / stretch.x, 1, 1e-4 / (1 - beta)) << beta << " " << theta;
             EXPECT_NEAR(world.x / camera.n.x / stretch.y, 1, 1e-9 / (1 - beta));
@@ -86,13 +87,13 @@ TEST(ComparisonTest, GalileanPicture)
 
 TEST(ComparisonTest, EverythingWhereItIsNow)
 {
-    // At rest before a ship that moves: contracted along the motion. On a body that moves with the ship, as it is; on one that
-    // moves past a ship at rest, contracted too.
+    // At rest before a ship that moves: contracted along the motion. On a body that moves with the ship, as it is; on one
+    // that moves past a ship at rest, contracted too.
     const dvec3 way = glm::normalize(dvec3(0.4, 0.2, -1)), u = way * u_of_beta(0.9);
     const double gamma = std::sqrt(1 + glm::dot(u, u));
     auto contracted = [&](const dvec3& x) { return x - way * glm::dot(way, x) * (1 - 1 / gamma); };
-    const Json riding = {{{"name", "all"}, {"nodes", {"quads"}},
-        {"velocity", {{"direction", {way.x, way.y, way.z}}, {"beta", 0.9}}}}};
+    const Json riding
+        = {{{"name", "all"}, {"nodes", {"quads"}}, {"velocity", {{"direction", {way.x, way.y, way.z}}, {"beta", 0.9}}}}};
     for (int kind = 0; kind < 3; ++kind) {
         const GpuWorld world = three(kind == 0 ? Json::object() : Json{{"bodies", riding}});
         Studio stage = studio(world, one_view(Planar{100}, {900, 600}));

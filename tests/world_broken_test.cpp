@@ -279,7 +279,8 @@ TEST_F(WorldBrokenTest, AnimationsAreNamedByTheirPlace)
     const int places = moving.accessor<float>({0, 0, 0, 1, 0, 0, 0, 0, 0}, "VEC3");
     const int turns = moving.accessor<float>({0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 1}, "VEC4");
     const int back = moving.accessor<float>({0, 2, 2}, "SCALAR"), early = moving.accessor<float>({-1, 0, 1}, "SCALAR");
-    const int one = moving.accessor<float>({1}, "SCALAR"), tangents = moving.accessor<float>({0, 0, 0, 1, 1, 1, 0, 0, 0}, "VEC3");
+    const int one = moving.accessor<float>({1}, "SCALAR"),
+              tangents = moving.accessor<float>({0, 0, 0, 1, 1, 1, 0, 0, 0}, "VEC3");
     const int skewed = moving.accessor<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 1}, "VEC4");
     const int endless = moving.accessor<float>({0, 0, 0, 1, 0, INFINITY, 0, 0, 0}, "VEC3");
     moving.json["nodes"].push_back({{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}});
@@ -298,10 +299,13 @@ TEST_F(WorldBrokenTest, AnimationsAreNamedByTheirPlace)
         {a + "/samplers", "", a + ": has no \"samplers\""},
         {a + "/channels", "[]", a + "/channels: is a list of 0; should be a list of 1 or more"},
         {sampler + "/input", "99", sampler + "/input: names accessor 99"},
-        {sampler + "/input", std::to_string(places), sampler + "/input: names accessor " + std::to_string(places) + " of type VEC3"},
+        {sampler + "/input", std::to_string(places),
+            sampler + "/input: names accessor " + std::to_string(places) + " of type VEC3"},
         {sampler + "/output", "-1", sampler + "/output: names accessor -1"},
-        {sampler + "/output", std::to_string(turns), sampler + "/output: names accessor " + std::to_string(turns) + " of type VEC4 and "
-            "component type 5126; a translation should be VEC3 and 5126"},
+        {sampler + "/output", std::to_string(turns),
+            sampler + "/output: names accessor " + std::to_string(turns)
+                + " of type VEC4 and "
+                  "component type 5126; a translation should be VEC3 and 5126"},
         {a + "/samplers/1/output", std::to_string(places), a + "/samplers/1/output: names accessor"},
         {sampler + "/interpolation", "\"SPLINE\"", sampler + "/interpolation: is \"SPLINE\"; should be \"STEP\""},
         {sampler + "/interpolation", "\"CUBICSPLINE\"", sampler + "/output: has 3 values for 3 times; 9 is right"},
@@ -316,7 +320,8 @@ TEST_F(WorldBrokenTest, AnimationsAreNamedByTheirPlace)
         {sampler + "/input", std::to_string(back), accessor(back) + ": element 2 is 2.0; times should rise"},
         {sampler + "/input", std::to_string(early), accessor(early) + ": element 0 is -1.0; a key's time should be 0 to"},
         {sampler + "/output", std::to_string(endless), accessor(endless) + ": element 1 is not finite or above 1e30"},
-        {a + "/samplers/1/output", std::to_string(skewed), accessor(skewed) + ": element 1 is no rotation; should be a unit"},
+        {a + "/samplers/1/output", std::to_string(skewed),
+            accessor(skewed) + ": element 1 is no rotation; should be a unit"},
         {"/nodes/1/extras", "{\"starbow\": 3}", "/nodes/1/extras/starbow: is 3; should be an object"},
         {"/nodes/1/extras", "{\"starbow\": {\"turn\": 1}}", "/nodes/1/extras/starbow/turn: is not known here"},
         {"/nodes/1/extras", "{\"starbow\": {\"spin\": {\"axis\": [0, 1, 0]}}}",
@@ -346,7 +351,8 @@ TEST_F(WorldBrokenTest, AnimationsAreNamedByTheirPlace)
         node["extras"]["starbow"]["spin"] = {{"axis", {0, 1, 0}}, {"turns_per_s", 0.001}};
         deep.json["scenes"][0]["nodes"] = {deep.put("nodes", node)};
     }
-    EXPECT_NE(complaint(deep).find("moves below more than 64 nodes that move"), std::string::npos);
+    std::string line = complaint(deep);
+    EXPECT_NE(line.find("moves below more than 64 nodes that move"), std::string::npos) << line;
     // Scales that grow beyond what a number can tell, one below the other.
     deep = sound();
     const int zero = deep.accessor<float>({0}, "SCALAR"), huge = deep.accessor<float>({1e20f, 1e20f, 1e20f}, "VEC3");
@@ -357,7 +363,8 @@ TEST_F(WorldBrokenTest, AnimationsAreNamedByTheirPlace)
         {"channels",
             {{{"sampler", 0}, {"target", {{"node", child}, {"path", "scale"}}}},
                 {{"sampler", 0}, {"target", {{"node", parent}, {"path", "scale"}}}}}}}};
-    EXPECT_NE(complaint(deep).find("may lead beyond 1e30"), std::string::npos);
+    line = complaint(deep);
+    EXPECT_NE(line.find("may lead beyond 1e30"), std::string::npos) << line;
 }
 
 TEST_F(WorldBrokenTest, SmallFilesCannotAskForMuch)

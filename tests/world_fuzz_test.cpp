@@ -59,18 +59,19 @@ Doc rich()
                 {"extras", {{"starbow", "{\"emission\": {\"table\": [[400, 1], [500, 2]]}}"}}},
                 {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 9}}}}}}};
     // What moves: tracks of each kind on two nodes, one below the other, a spin and a light that blinks.
-    const int times = doc.accessor<float>({0, 1, 3}, "SCALAR"), places = doc.accessor<float>({0, 0, 0, 1, 0, 0, 0, 2, 0}, "VEC3");
+    const int times = doc.accessor<float>({0, 1, 3}, "SCALAR"),
+              places = doc.accessor<float>({0, 0, 0, 1, 0, 0, 0, 2, 0}, "VEC3");
     const int turns = doc.accessor<std::int16_t>({0, 0, 0, 32767, 0, 0, 23170, 23170, 0, 0, 0, 32767}, "VEC4", true);
     const int two = doc.accessor<float>({1, 2}, "SCALAR");
     const int curve = doc.accessor<float>({0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 2, 2, 2, 0, 0, 0}, "VEC3");
-    doc.json["animations"] = {{{"samplers",
-                                   {{{"input", times}, {"output", places}, {"interpolation", "STEP"}},
-                                       {{"input", times}, {"output", turns}},
-                                       {{"input", two}, {"output", curve}, {"interpolation", "CUBICSPLINE"}}}},
-                                  {"channels",
-                                      {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}},
-                                          {{"sampler", 1}, {"target", {{"node", 3}, {"path", "rotation"}}}},
-                                          {{"sampler", 2}, {"target", {{"node", 3}, {"path", "scale"}}}}}}}};
+    doc.json["animations"]
+        = {{{"samplers",
+                {{{"input", times}, {"output", places}, {"interpolation", "STEP"}}, {{"input", times}, {"output", turns}},
+                    {{"input", two}, {"output", curve}, {"interpolation", "CUBICSPLINE"}}}},
+            {"channels",
+                {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}},
+                    {{"sampler", 1}, {"target", {{"node", 3}, {"path", "rotation"}}}},
+                    {{"sampler", 2}, {"target", {{"node", 3}, {"path", "scale"}}}}}}}};
     doc.json["nodes"][4]["extras"] = {{"starbow", {{"spin", {{"axis", {0, 1, 0}}, {"turns_per_s", 0.5}}}}}};
     doc.json["materials"][1]["extras"]["starbow"]
         = "{\"emission\": {\"table\": [[400, 1], [500, 2]]}, \"blink\": {\"period_s\": 2, \"on\": 0.25}}";

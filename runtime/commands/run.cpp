@@ -123,8 +123,7 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
         "frames a second takes 70 kB at rest, 0.4 MB with a stick in hand, 1.2 MB with a head tracker");
     CLI::Option* log = command->add_option("--log", options->log,
         "Write what the instruments read into this CSV file, a line each time K is pressed; one that is there is continued");
-    command
-        ->add_option("--log-every", options->log_every_s, "With --log: write a line by itself every so many seconds")
+    command->add_option("--log-every", options->log_every_s, "With --log: write a line by itself every so many seconds")
         ->check(CLI::Range(0.02, 86400.0))
         ->needs(log);
     CLI::Option* tour = command->add_option("--tour", options->tour,

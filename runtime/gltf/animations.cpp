@@ -54,15 +54,27 @@ void read_values(WorldBuild& build, int accessor, Track& track)
     }
 }
 
-/// How large a track's values get, at most.
-double bound(const Track& track)
+/// How large a track's values get, at most, measured by `size`.
+template <class Size> double bound(const Track& track, Size size)
 {
     double most = 0, step = 0;
     for (std::size_t i = 1; i < track.times_s.size(); ++i)
         step = std::max(step, track.times_s[i] - track.times_s[i - 1]);
     for (const glm::dvec4& value : track.values)
-        most = std::max(most, glm::length(value));
+        most = std::max(most, size(value));
     return track.interpolation == Interpolation::cubic ? most * (2 + step) : most;
+}
+
+double far_off(const glm::dvec4& place) { return glm::length(place); }
+double largest(const glm::dvec4& scale) { return std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)}); }
+
+/// How much a matrix stretches, at most.
+double stretch(const glm::dmat3& m)
+{
+    const glm::dvec3 lengths(glm::length(m[0]), glm::length(m[1]), glm::length(m[2]));
+    const double longest = largest(glm::dvec4(lengths, 0));
+    const double skew = std::abs(glm::dot(m[0], m[1])) + std::abs(glm::dot(m[1], m[2])) + std::abs(glm::dot(m[2], m[0]));
+    return skew < 1e-9 * longest * longest ? longest : glm::length(lengths);
 }
 
 } // namespace
@@ -122,16 +134,15 @@ int add_joint(WorldBuild& build, int node, int above, const glm::dmat4& above_fr
     }
     // What it may grow to and where it may get, with all above it, at any time.
     const JointBounds up = above < 0 ? JointBounds{} : build.bounds[std::size_t(above)];
-    auto told = [&](int track, const glm::dvec3& rest) {
-        return track < 0 ? glm::length(rest) : bound(world.tracks[std::size_t(track)]);
+    auto told = [&](int track, const glm::dvec3& rest, auto size) {
+        return track < 0 ? size(glm::dvec4(rest, 0)) : bound(world.tracks[std::size_t(track)], size);
     };
-    double across = 0;
-    for (int i = 0; i < 3; ++i)
-        across += glm::length(joint.above_from_parent[i]);
+    const double across = stretch(glm::dmat3(joint.above_from_parent));
     JointBounds own;
-    own.scale = up.scale * across * told(joint.scales, joint.scale);
+    own.scale = up.scale * across * told(joint.scales, joint.scale, largest);
     own.place = up.place
-        + up.scale * (glm::length(joint.above_from_parent[3]) + across * told(joint.translations, joint.translation));
+        + up.scale
+            * (glm::length(joint.above_from_parent[3]) + across * told(joint.translations, joint.translation, far_off));
     own.depth = up.depth + 1;
     if (!(own.scale < far && own.place < far))
         build.fail(place, "with its animation and its parents' transforms may lead beyond 1e30; should stay below");

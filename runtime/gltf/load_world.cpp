@@ -72,7 +72,8 @@ void add_moving(WorldBuild& build, int node, const Motion& motion, const std::ve
     for (std::uint32_t primitive : primitives) {
         if (world.motions.size() >= GltfLimits::motions)
             build.fail("/nodes/" + std::to_string(node),
-                "brings the world above " + std::to_string(GltfLimits::motions) + " things that move by themselves; use fewer");
+                "brings the world above " + std::to_string(GltfLimits::motions)
+                    + " things that move by themselves; use fewer");
         Instance instance{pose_of(world, motion, 0), determinant < 0 ? turned_primitive(build, primitive) : primitive, node};
         instance.motion = int(world.motions.size());
         world.instances.push_back(instance);

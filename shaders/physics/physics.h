@@ -10,11 +10,11 @@ using real = double;
 using rvec2 = glm::dvec2;
 using rvec3 = glm::dvec3;
 using rvec4 = glm::dvec4;
-#include "boost.glsl"
 #include "aberration.glsl"
+#include "boost.glsl"
+#include "galilean.glsl"
 #include "motion.glsl"
 #include "worldline.glsl"
-#include "galilean.glsl"
 } // namespace starbow::physics_double
 
 namespace starbow::physics_float {
@@ -23,11 +23,11 @@ using real = float;
 using rvec2 = glm::vec2;
 using rvec3 = glm::vec3;
 using rvec4 = glm::vec4;
-#include "boost.glsl"
 #include "aberration.glsl"
+#include "boost.glsl"
+#include "galilean.glsl"
 #include "motion.glsl"
 #include "worldline.glsl"
-#include "galilean.glsl"
 } // namespace starbow::physics_float
 #undef FN
 
