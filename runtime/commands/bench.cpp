@@ -1,3 +1,4 @@
+#include "bench_bodies.h"
 #include "bench_input.h"
 #include "bench_layout.h"
 #include "bench_spectra.h"
@@ -22,7 +23,7 @@ struct Options {
     int rounds = 25, seconds = 60;
     bool input = false;
     std::string json, layout, shot = "avenue-gamma4";
-    bool stars = false;
+    bool stars = false, bodies = false;
 };
 
 using Stage = vk::PipelineStageFlagBits2;
@@ -155,6 +156,8 @@ int bench(const Options& options)
         return bench_input(options.layout, options.seconds);
     if (options.stars)
         return bench_stars(options.rounds);
+    if (options.bodies)
+        return bench_bodies(options.rounds);
     if (!options.layout.empty())
         return bench_layout(options.layout, options.shot, options.rounds);
     if (!options.json.empty())
@@ -246,6 +249,7 @@ void add_bench(CLI::App& app, std::function<int()>& chosen)
         "stereo methods");
     command->add_option("--shot", options->shot, "With --layout: the shot to time")->capture_default_str();
     command->add_flag("--stars", options->stars, "Instead: what the stars cost, the avenue's own and a million");
+    command->add_flag("--bodies", options->bodies, "Instead: what bodies that move cost, in view and out of it");
     command->add_flag("--input", options->input,
         "Instead: in the exhibit's windows (on --layout), the time from a stick's report to the return of the present call "
         "that shows it");
