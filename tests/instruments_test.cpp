@@ -7,6 +7,7 @@
 #include "runtime/hud_place.h"
 #include "runtime/lab_log.h"
 #include "runtime/lab_panel.h"
+#include "runtime/worldline.h"
 #include "tests/quad.h"
 #include <fstream>
 #include <gtest/gtest.h>
@@ -199,6 +200,57 @@ TEST(Instruments, ADialIsAimedAtAnywhereOnIt)
     EXPECT_FALSE(spot_at(
         ship, {ray_from_world(ship, glm::normalize(beside - ship.place)), glm::distance(beside, ship.place)}, clocks())
                      .clock);
+}
+
+TEST(Instruments, AClockOnABodyThatMoves)
+{
+    // The middle clock passes the ship, which flies itself; where and when its light left is found by halving, in 33 digits.
+    SceneFile scene = load_scene_file(source_dir() / "config/scenes/clocks.json");
+    const dvec3 u(0.9, 0.2, -0.4);
+    scene.bodies = {{"clock", {"dial 3"}, u, {2, {1, -1, 4}}, {}}};
+    World world = load_world(scene.gltf);
+    place_bodies(world, scene);
+    sort_instances(world);
+    ASSERT_EQ(world.frames.size(), 2u);
+    const std::size_t dial = instances_of(world, 1).first;
+    const dvec3 middle = snapped({.clock = dial}, world).at; // in its own frame
+    Lookout ship{{3, 2, 20}, 40, {-0.3, 0.5, 1.2}};
+
+    const quad::V3 qu = quad::of(u);
+    auto event = [&](quad::Q tau) { // in the world, of its own time since it was at (2, 1, -1, 4)
+        const quad::V4 from = quad::boosted(qu, {tau, quad::of(middle)});
+        return quad::V4{2 + from.t, quad::V3{1, -1, 4} + from.x};
+    };
+    quad::Q low = -1e4, high = 1e3;
+    for (int i = 0; i < 150; ++i) {
+        const quad::Q tau = (low + high) / 2;
+        const quad::V4 e = event(tau);
+        (e.t + quad::length(e.x - quad::of(ship.place)) > ship.time ? high : low) = tau;
+    }
+    const quad::V4 left = event(low);
+    const quad::V3 way = left.x - quad::of(ship.place);
+    const double delay = double(quad::length(way));
+    const auto on_board = quad::camera_from_world(way, quad::of(ship.u));
+    const dvec3 seen(double(on_board.n.x), double(on_board.n.y), double(on_board.n.z));
+    // D of both: what the ship has over the world's, over what the body has.
+    const auto body = quad::camera_from_world(way, qu);
+    const double D = double(on_board.D / body.D);
+
+    const Spot spot = spot_at(ship, {.ray = {seen}, .distance = delay, .frame = 1}, world);
+    ASSERT_TRUE(spot.clock);
+    EXPECT_EQ(*spot.clock, dial);
+    EXPECT_LT(glm::distance(spot.at, middle), 1e-9);
+    const SpotReading reading = read_spot(ship, snapped(spot, world), world, 1);
+    EXPECT_NEAR(*reading.clock_s, double(low), 1e-9);
+    EXPECT_NEAR(*reading.distance_s, delay, 1e-9);
+    EXPECT_NEAR(*reading.emitted_s, ship.time - delay, 1e-9);
+    EXPECT_NEAR(reading.ray.D / D, 1, 1e-12);
+    EXPECT_LT(angle_between(reading.ray.ship, seen), 1e-12);
+    // What moves against each other has no length at rest.
+    const Spot still{.at = {0, 0, 0}};
+    const PairReading pair = read_pair(ship, spot, still, world, 1);
+    EXPECT_FALSE(pair.rest_s || pair.contracted_s);
+    EXPECT_TRUE(pair.apparent_s);
 }
 
 TEST(Instruments, ALogIsATableOfOneShape)
