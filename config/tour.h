@@ -26,6 +26,8 @@ struct Measure {
         doppler_ahead, ///< D straight along the motion
         size, ///< how large a small thing at `at` looks, against when the tour last cut
         reading_s, ///< what a clock at `at` that keeps the world's time is seen to show, seconds
+        now_s, ///< what a clock at `at` that keeps the world's time shows at the ship's now, by the ship's own reckoning,
+               ///< seconds
         own_colour_deg, ///< angle from the motion at which D is 1
     };
     What what = What::gamma;
@@ -36,11 +38,12 @@ inline const std::vector<std::pair<std::string_view, Measure::What>> measures{{"
     {"beta", Measure::What::beta}, {"rapidity", Measure::What::rapidity}, {"ship_s", Measure::What::ship_s},
     {"world_s", Measure::What::world_s}, {"distance", Measure::What::distance}, {"angle_deg", Measure::What::angle_deg},
     {"doppler", Measure::What::doppler}, {"doppler_ahead", Measure::What::doppler_ahead}, {"size", Measure::What::size},
-    {"reading_s", Measure::What::reading_s}, {"own_colour_deg", Measure::What::own_colour_deg}};
+    {"reading_s", Measure::What::reading_s}, {"now_s", Measure::What::now_s},
+    {"own_colour_deg", Measure::What::own_colour_deg}};
 constexpr bool has_place(Measure::What what)
 {
     using enum Measure::What;
-    return what == distance || what == angle_deg || what == doppler || what == size || what == reading_s;
+    return what == distance || what == angle_deg || what == doppler || what == size || what == reading_s || what == now_s;
 }
 
 /// A choice is right where the measured number is at least `from` and below `below`.

@@ -1,12 +1,17 @@
 // Tours as they are shown: against closed forms, at any frame rate, with visitors and without.
+#include "dial.h"
 #include "files.h"
 #include "runtime/caption.h"
+#include "runtime/clock.h"
+#include "runtime/cull.h"
 #include "runtime/find.h"
 #include "runtime/measuring.h"
 #include "runtime/tour.h"
+#include "runtime/worldline.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <set>
 
 using namespace starbow;
 using namespace starbow::testing;
@@ -154,6 +159,114 @@ TEST(Tours, SimultaneityShowsThePapersReadings)
     EXPECT_NEAR(touring.flight.ship.time.total(), 35.79571668975679, 1e-9) << "at the same instant";
 }
 
+/// One flies 8 light-seconds out and back at 0.8 c: gamma is 5/3, 6 s on board are 10 at home.
+TEST(Tours, TheTwinsMeetAtTwentyAndTwelve)
+{
+    const Tour tour = shipped_tour("twins");
+    const Show show{tour, {}, 1, false};
+    const SceneFile scene = load_scene_file(source_dir() / "config/scenes/twins.json");
+    World world = load_world(scene.gltf);
+    place_bodies(world, scene);
+    sort_instances(world);
+    constexpr double deep = 0.08 * 0.62; // of each dial from its ship's middle: those that face astern, and those ahead
+
+    // What the clocks on screen show, of those dials whose light is here. Where the traveller stops it may be seen twice.
+    const auto shown = [&](const Flight& flight, const std::string& material, double way) {
+        std::set<std::string> figures;
+        const Shot shot = shot_of(flight, "twins");
+        for (int frame = 0; frame < int(world.frames.size()); ++frame) {
+            const Shot eye = in_frame(world.frames[std::size_t(frame)], shot);
+            const auto entries = time_entries(world, {frame, eye.position, eye.time}, 1);
+            for (std::size_t i = 0; i < entries.size(); ++i) {
+                const Instance& instance = world.instances[instances_of(world, frame).first + i];
+                const int index = world.primitives[instance.primitive].material;
+                if (world.materials[std::size_t(index)].name == material && instance.frame_from_local[2].z * way > 0
+                    && entries[i].there.x <= 0 && entries[i].there.y > 0)
+                    figures.insert(said(entries[i]));
+            }
+        }
+        return figures.size() == 1 ? *figures.begin() : std::to_string(figures.size()) + " readings";
+    };
+    // The same by light that starts earlier and earlier from the dial's way in the world: by hand, out and back.
+    const auto traveller = [&](double own, double way) {
+        const double ahead = -way * deep, on = own < 6 ? own : own - 6, g = 5.0 / 3, v = own < 6 ? 0.8 : -0.8;
+        return std::pair(
+            glm::dvec3(1.3, 0, -(own < 6 ? 0.0 : 8.0) - g * (ahead + v * on)), (own < 6 ? 0 : 10) + g * (on + v * ahead));
+    };
+    const auto seen = [&](const Flight& flight, double way) {
+        double low = 0, high = 12;
+        for (int i = 0; i < 60; ++i) {
+            const double own = 0.5 * (low + high);
+            const auto [place, time] = traveller(own, way);
+            (time + glm::distance(flight.ship.position.total(), place) < flight.ship.time.total() ? low : high) = own;
+        }
+        return low;
+    };
+    const auto home = [&](const Touring& touring, double way) { return reading(touring, {-1.3, 0, way * deep}); };
+    const auto tenths = [](double x) {
+        std::array<char, 16> text;
+        std::snprintf(text.data(), text.size(), "%.1f", x);
+        return text.data() == std::string("-0.0") ? "0.0" : std::string(text.data());
+    };
+
+    // Each step as it begins, and as it ends: a hundredth of a second before the next one.
+    std::vector<Touring> first, last;
+    for (Touring touring = touring_at(show); !touring.over; touring = advance(touring, show, {}, 10'000'000)) {
+        if (touring.step() == first.size())
+            first.push_back(touring), last.push_back(touring);
+        last[touring.step()] = touring;
+    }
+    enum { here, leaves, far, asked, returns, nearer, meet, aboard, before, turn, leap, homeward };
+    ASSERT_GT(first.size(), std::size_t(homeward));
+
+    EXPECT_EQ(shown(last[here].flight, "home dial", 1), "0.0");
+    EXPECT_EQ(shown(last[here].flight, "traveller's dial", 1), "0.0");
+    const struct {
+        int step;
+        double way; // which of the dials is seen
+        double rate; // of the traveller's clock against that at home, on the line between the two
+    } flights[] = {{leaves, 1, 1 / 3.0}, {aboard, -1, 3}, {homeward, -1, 1 / 3.0}};
+    for (const auto& [step, way, rate] : flights) {
+        SCOPED_TRACE(step);
+        const Touring &begun = first[std::size_t(step)], &ended = last[std::size_t(step)];
+        for (const Touring& touring : {begun, ended}) {
+            if (touring.flight.ship.time.total() > 4) { // it has left
+                EXPECT_EQ(shown(touring.flight, "traveller's dial", way), tenths(seen(touring.flight, way)));
+            }
+            EXPECT_EQ(shown(touring.flight, "home dial", way), tenths(home(touring, way)));
+        }
+        const double board = seen(ended.flight, way) - seen(begun.flight, way), stayed = home(ended, way) - home(begun, way);
+        EXPECT_NEAR(board / stayed / rate, 1, 0.1) << "the eye stands a little aside of the line";
+    }
+
+    // The turn is seen, all of the dial still on the way out. When that was at home, and which answer that makes right.
+    EXPECT_EQ(shown(first[asked].flight, "traveller's dial", 1), "6.0");
+    EXPECT_EQ(shown(first[asked].flight, "home dial", 1), "17.8");
+    const Question& question = *tour.steps[asked].question;
+    const auto [place, time] = traveller(seen(first[asked].flight, 1), 1);
+    const double told = measured(question.measure, first[asked].flight.ship, first[asked].flight.ship, 1);
+    EXPECT_NEAR(told, time, 1e-5) << "the tour names the place to 1e-6";
+    EXPECT_NEAR(told, 10, 0.14) << "0.04 s on board and the dial's depth before the turn";
+    const auto& choices = std::get<std::vector<Choice>>(question.answer);
+    ASSERT_EQ(choices.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_EQ(told >= choices[i].from && told < choices[i].below, i == 1);
+
+    EXPECT_EQ(shown(first[meet].flight, "home dial", 1), "20.5");
+    EXPECT_EQ(shown(first[meet].flight, "traveller's dial", 1), "12.5");
+
+    // Aboard, at the turn itself, 10 s at home: now is t - 0.8 * 8 there before it, t + 0.8 * 8 after, in the same light.
+    const auto now_at_home = [&](const Touring& touring, int step) {
+        return measured(*tour.steps[std::size_t(step)].measure, touring.flight.ship, touring.flight.ship, 1);
+    };
+    EXPECT_NEAR(first[turn].starts[turn].flight.ship.time.total(), 10, 1e-9);
+    EXPECT_NEAR(first[turn].starts[turn].flight.ship.position.total().z, -8, 1e-9);
+    EXPECT_NEAR(now_at_home(first[turn], turn), 3.6, 1e-9);
+    EXPECT_NEAR(now_at_home(first[leap], leap), 16.4, 1e-9);
+    for (const Touring& touring : {first[turn], first[leap]})
+        EXPECT_EQ(shown(touring.flight, "home dial", -1), "2.0");
+}
+
 /// physics.md: at beta = 0.5 nothing is shifted 74.45773 degrees from the motion.
 TEST(Tours, TheRainbowsOwnColourIsWhereItShouldBe)
 {
@@ -195,6 +308,7 @@ TEST(Tours, MeasuresAreTheTextbooks)
     EXPECT_NEAR(value(doppler_ahead), 3, 1e-12);
     EXPECT_NEAR(value(own_colour_deg), 60, 1e-9);
     EXPECT_NEAR(value(reading_s), 2 * (50 - 5), 1e-12);
+    EXPECT_NEAR(value(now_s), 2 * (50 + 0.8 * 4), 1e-12) << "4 along the motion";
     EXPECT_NEAR(value(size), std::sqrt(16 + 36 + 9) / (5 * g * (1 + 0.8 * 0.8)), 1e-12) << "since: at rest at the origin";
     EXPECT_NEAR(measured({distance, at, glm::dvec3(1, 2, 4)}, ship, since, 2), 4, 1e-12);
 }
