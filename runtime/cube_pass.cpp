@@ -32,27 +32,26 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
     , world_(world)
     , samples_(samples)
     , keeps_depth_(keeps_depth)
-    , layered_(world.layered())
 {
     const Sky& sky = world.scene.sky;
-    sky_ = !layered_ && (sky.zenith != sky.horizon || sky.nadir != sky.horizon);
+    sky_ = sky.zenith != sky.horizon || sky.nadir != sky.horizon;
     const vk::DeviceSize step = device.properties.limits.minUniformBufferOffsetAlignment;
     stride_ = (sizeof(shared::CubeConstants) + step - 1) / step * step;
     const std::size_t layers = world.world.frames.size();
     constants_ = make_mapped_buffer(device, layers * stride_, vk::BufferUsageFlagBits::eUniformBuffer);
     slots_ = make_mapped_buffer(
         device, MAX_LAYERS * SLOT_COUNT * sizeof(shared::SlotEntry), vk::BufferUsageFlagBits::eUniformBuffer);
-    atlases_.resize(formats().size());
+    atlases_.resize(formats(world.layered()).size());
     std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBufferDynamic, 1},
         {vk::DescriptorType::eUniformBuffer, 1}, {vk::DescriptorType::eStorageBuffer, 3}};
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
     set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.eye_set}).front());
 }
 
-std::vector<vk::Format> CubePass::formats() const
+std::vector<vk::Format> CubePass::formats(bool layered) const
 {
     std::vector<vk::Format> formats = world_.numbers().formats();
-    if (layered_)
+    if (layered)
         formats.push_back(vk::Format::eR32G32Sfloat); // near / distance is small
     return formats;
 }
@@ -61,6 +60,7 @@ void CubePass::prepare(const Plan& plan, std::span<const Vantage> layers, double
 {
     pre_exposure_ = pre_exposure;
     images_ = plan.images;
+    layered_ = !images_.empty() && images_.back().layer > 0;
     area_ = plan.atlas_size;
     levels_ = plan.levels;
     list_ = cull(world_.world, layers, images_);
@@ -77,6 +77,7 @@ void CubePass::prepare(const Plan& plan, std::span<const Vantage> layers, double
 void CubePass::prepare_plain(const PlanImage& image, const Vantage& vantage)
 {
     images_ = {image};
+    layered_ = false;
     list_ = cull(world_.world, {&vantage, 1}, images_);
     contractions_ = {1};
     upload({&vantage, 1}, true);
@@ -104,7 +105,7 @@ void CubePass::fit(glm::ivec2 size, int levels)
         atlas = {};
     depth_ = {}, atlas_samples_.clear(), depth_samples_ = {};
     auto copied = most > 1 ? Usage::eTransferSrc | Usage::eTransferDst : vk::ImageUsageFlags();
-    const std::vector<vk::Format> formats = this->formats();
+    const std::vector<vk::Format> formats = this->formats(world_.layered());
     for (std::size_t i = 0; i < atlases_.size(); ++i)
         atlases_[i] = make_image(device_, {formats[i], extent, Usage::eColorAttachment | Usage::eSampled | copied, most});
     depth_ = make_image(device_, {depth_format, extent, Usage::eDepthStencilAttachment | Usage::eSampled});
@@ -179,8 +180,9 @@ shared::CubeConstants CubePass::constants_of(const Vantage& vantage, bool plain)
 void CubePass::record(vk::CommandBuffer commands)
 {
     bool sampled = samples_ > 1;
+    const std::span used(atlases_.data(), formats(layered_).size());
     const Image& depth = sampled ? depth_samples_ : depth_;
-    for (const Image& atlas : atlases_)
+    for (const Image& atlas : used)
         transition(commands, atlas, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eColorAttachmentOptimal,
             Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
     constexpr auto depth_access = Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite;
@@ -189,7 +191,7 @@ void CubePass::record(vk::CommandBuffer commands)
         Layout_::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
         depth_access | Access::eColorAttachmentWrite);
     if (sampled) {
-        for (const Image& colour : atlas_samples_)
+        for (const Image& colour : std::span(atlas_samples_.data(), used.size()))
             transition(commands, colour, Layout_::eUndefined, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
                 Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
                 Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
@@ -197,7 +199,7 @@ void CubePass::record(vk::CommandBuffer commands)
             depth_tests, depth_access);
     }
     std::vector<vk::RenderingAttachmentInfo> colours;
-    for (std::size_t group = 0; group < atlases_.size(); ++group) {
+    for (std::size_t group = 0; group < used.size(); ++group) {
         const glm::vec4 sky(layered_ ? glm::dvec4(0) : world_.spectra.sky[1][group] * pre_exposure_);
         const vk::ClearColorValue clear(std::array<float, 4>{sky.x, sky.y, sky.z, sky.w});
         colours.push_back({*(sampled ? atlas_samples_ : atlases_)[group].view, Layout_::eColorAttachmentOptimal, {}, {}, {},
@@ -219,9 +221,9 @@ void CubePass::record(vk::CommandBuffer commands)
         depth_info.resolveImageLayout = Layout_::eDepthAttachmentOptimal;
     }
     commands.beginRendering({{}, rect_of({0, 0}, area_), 1, 0, colours, &depth_info});
-    draw_images(commands, {formats(), sample_bits(samples_)}, false);
+    draw_images(commands, {formats(layered_), sample_bits(samples_)}, false);
     commands.endRendering();
-    for (const Image& atlas : atlases_)
+    for (const Image& atlas : used)
         if (levels_ > 1)
             make_mips(commands, atlas);
         else
@@ -272,6 +274,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
             const Primitive& primitive = world.primitives[draw->primitive];
             SurfaceVariant variant = world_.variant(primitive.material, plain);
             variant.mortal = draw->mortal && !plain;
+            variant.layered = layered_;
             variant.moves = draw->moves && !plain;
             if (vk::Pipeline pipeline = pipelines_.surface(variant, kind); pipeline != bound)
                 commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipeline);
@@ -290,7 +293,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
             }
             commands.drawIndexed(draw->index_count, draw->count, draw->first_index, primitive.vertex_offset, draw->first);
         }
-        if (sky_) {
+        if (sky_ && !layered_) {
             commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipelines_.sky(kind));
             glm::dvec3 origin = face_direction(image.face, image.low);
             push.clip_row0 = glm::vec4(origin, 0);

@@ -36,6 +36,7 @@ public:
     /// Of the light's numbers four each; where something moves one more: how much of a texel is covered.
     const std::vector<Image>& atlases() const { return atlases_; }
     const Image& depth() const { return depth_; }
+    bool layered() const { return layered_; } ///< what is covered is told
     const Buffer& slots() const { return slots_; }
     std::size_t triangles() const { return triangles_; } ///< sent to the device, all images
     vk::DeviceSize memory() const;
@@ -44,7 +45,7 @@ private:
     void fit(glm::ivec2 atlas_size, int levels);
     void upload(std::span<const Vantage> layers, bool plain);
     shared::CubeConstants constants_of(const Vantage& vantage, bool plain) const;
-    std::vector<vk::Format> formats() const;
+    std::vector<vk::Format> formats(bool layered) const;
     void draw_images(vk::CommandBuffer commands, const TargetKind& kind, bool plain);
     void make_mips(vk::CommandBuffer commands, const Image& atlas);
 
@@ -52,7 +53,8 @@ private:
     Pipelines& pipelines_;
     const GpuWorld& world_;
     int samples_;
-    bool keeps_depth_, layered_, sky_; ///< layered_: something may move; the sky is then the warp's
+    bool keeps_depth_, sky_;
+    bool layered_ = false; ///< something that moves is in view; the sky is then the warp's
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::raii::DescriptorSet set_ = nullptr;
     Buffer constants_, instances_, visible_, slots_, times_; ///< times_: null without any

@@ -428,11 +428,11 @@ void Frame::write_sets()
         buffer(pane.warp_set, 10, vk::DescriptorType::eUniformBuffer, response.rows[1]);
         buffer(pane.warp_set, 11, vk::DescriptorType::eUniformBuffer, response.rows[2]);
         buffer(pane.warp_set, 12, vk::DescriptorType::eUniformBuffer, response.own_rows);
-        if (world_.layered())
+        const bool layered = eye.cube.layered();
+        if (layered)
             put_layers(pane);
-        image(pane.warp_set, 13, world_.layered() ? atlases.back() : nothing_,
-            plans_[pane.eye].levels > 1 ? linear_ : finest_);
-        buffer(pane.warp_set, 14, vk::DescriptorType::eUniformBuffer, world_.layered() ? pane.layers : no_layers_);
+        image(pane.warp_set, 13, layered ? atlases.back() : nothing_, plans_[pane.eye].levels > 1 ? linear_ : finest_);
+        buffer(pane.warp_set, 14, vk::DescriptorType::eUniformBuffer, layered ? pane.layers : no_layers_);
         image(pane.warp_set, 4, keeps_depth_ ? eye.cube.depth() : nothing_, nearest_);
         image(pane.warp_set, 5, stars_.on() ? stars_.picture() : nothing_, nearest_);
         image(pane.warp_set, 6, pane.map != no_map && stars_.on() ? maps_[pane.map].inverse : no_map_, nearest_);
@@ -465,13 +465,13 @@ void Frame::draw_cubes(vk::CommandBuffer commands)
 
 WarpVariant Frame::variant(const PaneState& pane) const
 {
-    const bool moves = watcher_of(pane).E != 1 || world_.layered(); // otherwise there is nothing to shift
+    const bool moves = watcher_of(pane).E != 1 || eyes_[pane.eye].cube.layered(); // otherwise there is nothing to shift
     const bool beside = reprojects() && pane.beside_m != glm::dvec3(0);
     const Effects& on = shot_.effects;
     WarpVariant variant{pane.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
         plans_[pane.eye].levels > 1, pane.compiled.channels() == 3, beside, beside && layout_.stereo.turning, stars_.on()};
     variant.numbers = world_.numbers();
-    variant.layered = world_.layered();
+    variant.layered = eyes_[pane.eye].cube.layered();
     variant.galilean = on.comparison == Comparison::galilean;
     variant.by_table = variant.doppler || on.false_colours || variant.numbers != Numbers{}; // else as at rest, which is told
     return variant;

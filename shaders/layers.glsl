@@ -74,13 +74,12 @@ Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
 // How much of a pixel a layer covers nearer than `way`.
 float before(Part part, float way) { return dot(part.covers, vec4(lessThan(part.ways, vec4(way)))); }
 
-// Light of a layer's k-th part, were it alone in the pixel: premultiplied.
-vec3 light_of_part(Part part, int k)
+// Light's numbers of a layer's k-th part, were it alone in the pixel: premultiplied.
+void numbers_of_part(Part part, int k, out vec4 numbers[MAX_GROUPS])
 {
-    vec4 numbers[MAX_GROUPS];
     if (part.covers.y + part.covers.z + part.covers.w == 0.0) {
         cube_map(part.place, part.world_angle, numbers);
-        return light_of(numbers, part.D);
+        return;
     }
     ivec2 texel = texel_of(part.place, k);
     float whole = texelFetch(covered_atlas, texel, 0).r, weight = whole > 0.0 ? part.covers[k] / whole : 0.0;
@@ -91,7 +90,6 @@ vec3 light_of_part(Part part, int k)
         numbers[2] = texelFetch(atlas2, texel, 0) * weight;
     if (GROUPS > 3)
         numbers[3] = texelFetch(atlas3, texel, 0) * weight;
-    return light_of(numbers, part.D);
 }
 
 // What the ship's direction n0 (the world's motion axes) shows: the light of all layers, each part behind what the other layers
@@ -113,11 +111,20 @@ vec3 light_of_layers(vec3 n0, float pixel_angle, inout Sight sight, out float di
         part.level = layered.layers[i].boost.w; // from here on: which frame it is
         parts[shown++] = part;
     }
+    // What rests in the world has the sky's D: one look at the tables for both, and one for each layer that moves.
+    vec4 world[MAX_GROUPS];
+    sky_at(sight.n, world);
+    for (int group = 0; group < GROUPS; ++group)
+        world[group] *= left;
     vec3 light = vec3(0.0);
     float most = 0.0;
     distance_ = infinite;
     frame = 0.0;
-    for (int i = 0; i < shown; ++i)
+    for (int i = 0; i < shown; ++i) {
+        bool rests = parts[i].level == 0.0, any_seen = false;
+        vec4 moving[MAX_GROUPS];
+        for (int group = 0; group < GROUPS; ++group)
+            moving[group] = vec4(0.0);
         for (int k = 0; k < 4; ++k) {
             float part = parts[i].covers[k], way = parts[i].ways[k];
             if (part <= 0.0)
@@ -128,7 +135,11 @@ vec3 light_of_layers(vec3 n0, float pixel_angle, inout Sight sight, out float di
                     seen *= 1.0 - min(before(parts[j], way), 1.0);
             if (seen < 0.002)
                 continue;
-            light += seen * light_of_part(parts[i], k);
+            vec4 numbers[MAX_GROUPS];
+            numbers_of_part(parts[i], k, numbers);
+            any_seen = true;
+            for (int group = 0; group < GROUPS; ++group)
+                moving[group] += seen * numbers[group];
             if (seen * part > most) {
                 most = seen * part;
                 distance_ = way / (ABERRATION ? sky_D : 1.0);
@@ -136,9 +147,11 @@ vec3 light_of_layers(vec3 n0, float pixel_angle, inout Sight sight, out float di
                 frame = parts[i].level;
             }
         }
-    if (left < 0.002)
-        return light;
-    vec4 sky[MAX_GROUPS];
-    sky_at(sight.n, sky);
-    return light + left * light_of(sky, sky_D);
+        if (rests)
+            for (int group = 0; group < GROUPS; ++group)
+                world[group] += moving[group];
+        else if (any_seen)
+            light += light_of(moving, parts[i].D);
+    }
+    return light + light_of(world, sky_D);
 }
