@@ -117,8 +117,8 @@ Frame::Parts Frame::parts(bool refuses_dark)
 
 void Frame::take_up(Parts parts)
 {
-    panel_from_cockpit_ = panel_from_cockpit(layout_.hud, parts.panes);
-    panel_half_ = std::tan(0.5 * layout_.hud.width_deg * degree) * glm::dvec2(1, panel_aspect);
+    hud_place_ = {panel_from_cockpit(layout_.hud, parts.panes),
+        std::tan(0.5 * layout_.hud.width_deg * degree) * glm::dvec2(1, panel_aspect)};
     std::vector<PaneState> before = std::exchange(panes_, {}); // whose maps are found again
     std::vector<Map> maps_before = std::exchange(maps_, {});
     for (std::size_t output = 0; output < outputs_.size(); ++output)
@@ -151,14 +151,13 @@ void Frame::take_up(Parts parts)
     before.clear();
     pool_ = nullptr;
     std::vector<vk::DescriptorPoolSize> sizes
-        = {{vk::DescriptorType::eUniformBuffer, 6 * count}, {vk::DescriptorType::eCombinedImageSampler, 13 * count}};
-    pool_ = device_.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 3 * count, sizes});
+        = {{vk::DescriptorType::eUniformBuffer, 6 * count}, {vk::DescriptorType::eCombinedImageSampler, 11 * count}};
+    pool_ = device_.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2 * count, sizes});
     auto make_set = [&](const vk::raii::DescriptorSetLayout& set_layout) {
         return std::move(device_.device.allocateDescriptorSets({*pool_, *set_layout}).front());
     };
     for (PaneState& pane : panes_) {
         pane.warp_set = make_set(pipelines_.warp_set);
-        pane.hud_set = make_set(pipelines_.picture_set);
         pane.label_set = make_set(pipelines_.picture_set);
     }
 }
@@ -212,7 +211,13 @@ std::size_t Frame::map_for(const CompiledPane& pane, std::vector<Map>& before)
     return maps_.size() - 1;
 }
 
-PixelBox Frame::panel_in(const Blocks& blocks) const { return panel_box(blocks, panel_from_cockpit_, panel_half_); }
+PixelBox Frame::panel_in(const Blocks& blocks) const
+{
+    return panel_box(blocks, hud_place_.panel_from_cockpit, hud_place_.half);
+}
+
+/// Or what stands in for one.
+const Image& Frame::map_of(const PaneState& pane) const { return pane.map == no_map ? no_map_ : maps_[pane.map].image; }
 
 void Frame::find_hud_box(PaneState& pane) const
 {
@@ -225,7 +230,7 @@ int Frame::hud_width() const
     double finest = 1;
     for (const PaneState& pane : panes_)
         finest = std::min(finest, double(panel_in(*pane.compiled.blocks).finest));
-    return std::clamp(int(2 * panel_half_.x / finest), 160, 4096);
+    return std::clamp(int(2 * hud_place_.half.x / finest), 160, 4096);
 }
 
 void Frame::prepare_eye(std::size_t i)
@@ -290,12 +295,6 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
             turns.push_back(one.layers[0].motion_from_frame);
         stars_.prepare(turns, shot.effects.false_colours);
     }
-    if (hud && (panel_.extent.width != std::uint32_t(hud->size.x) || panel_.extent.height != std::uint32_t(hud->size.y))) {
-        panel_ = make_image(device_,
-            {vk::Format::eR8G8Unorm, {std::uint32_t(hud->size.x), std::uint32_t(hud->size.y)},
-                vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
-        grow(device_, panel_pixels_, hud->texels.size(), vk::BufferUsageFlagBits::eTransferSrc);
-    }
     for (PaneState& pane : panes_)
         if (bloom_ == 0)
             pane.bloom.reset();
@@ -308,8 +307,13 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
         meter_ = std::make_unique<Meter>(device_, sizes, world_.star_count);
     }
     hud_on_ = hud;
-    if ((panel_new_ = hud))
-        std::memcpy(panel_pixels_.mapped, hud->texels.data(), hud->texels.size());
+    if (hud) {
+        if (!hud_)
+            hud_ = std::make_unique<PanelPass>(device_, pipelines_, panes_.size());
+        hud_->prepare(*hud, hud_place_);
+        for (std::size_t i = 0; i < panes_.size(); ++i)
+            hud_->prepare_pane(i, map_of(panes_[i]), *nearest_);
+    }
     if (pattern_ != Pattern::none)
         for (PaneState& pane : panes_)
             if (!*pane.label.view) {
@@ -396,7 +400,7 @@ void Frame::write_sets()
     std::vector<vk::DescriptorBufferInfo> buffers;
     std::vector<vk::DescriptorImageInfo> images;
     buffers.reserve(6 * panes_.size());
-    images.reserve(13 * panes_.size());
+    images.reserve(11 * panes_.size());
     std::vector<vk::WriteDescriptorSet> writes;
     auto buffer = [&](const vk::raii::DescriptorSet& set, std::uint32_t binding, vk::DescriptorType type, const Buffer& b) {
         buffers.push_back({*b.buffer, 0, VK_WHOLE_SIZE});
@@ -408,9 +412,7 @@ void Frame::write_sets()
               writes.push_back({*set, binding, 0, 1, vk::DescriptorType::eCombinedImageSampler, &images.back()});
           };
     for (PaneState& pane : panes_) {
-        const Image& map = pane.map == no_map ? no_map_ : maps_[pane.map].image;
-        image(pane.hud_set, 0, map, nearest_);
-        image(pane.hud_set, 1, hud_on_ ? panel_ : nothing_, linear_);
+        const Image& map = map_of(pane);
         image(pane.label_set, 0, map, nearest_);
         image(pane.label_set, 1, *pane.label.view ? pane.label : nothing_, linear_);
         if (pattern_ != Pattern::none)
@@ -714,20 +716,9 @@ std::vector<Frame::Axes> Frame::measured_axes(std::size_t output) const
     return axes;
 }
 
-void Frame::draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& last)
+void Frame::lay_over(vk::CommandBuffer commands, std::size_t output, const Target& last,
+    const std::function<void(std::size_t pane, vk::Format target)>& draw) const
 {
-    if (!hud_on_)
-        return;
-    if (panel_new_) {
-        transition(commands, panel_, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eTransferDstOptimal,
-            Stage::eTransfer, Access::eTransferWrite);
-        commands.copyBufferToImage(*panel_pixels_.buffer, *panel_.image, Layout_::eTransferDstOptimal,
-            vk::BufferImageCopy(
-                0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {panel_.extent.width, panel_.extent.height, 1}));
-        transition(commands, panel_, Layout_::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
-            Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
-        panel_new_ = false;
-    }
     for (int layer = 0; layer < layers(layout_.outputs[output].packing); ++layer) {
         const Target target = picture_of(output, layer, last);
         vk::ImageMemoryBarrier2 after_warp(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
@@ -738,23 +729,23 @@ void Frame::draw_hud(vk::CommandBuffer commands, std::size_t output, const Targe
         vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
             vk::AttachmentLoadOp::eLoad, vk::AttachmentStoreOp::eStore);
         commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
-        for (const PaneState& pane : panes_) {
-            const bool here = pane.output == output && pane.pane().layer == layer;
-            if (!here || pane.hud_box.extent.width == 0 || pane.hud_box.extent.height == 0)
-                continue;
-            shared::ViewPush constants = push(pane, panel_from_cockpit_);
-            constants.boost = glm::vec4(panel_half_, 0, 0);
-            set_area(commands, pane.pane().corner, pane.pane().size);
-            commands.setScissor(0, pane.hud_box);
-            commands.bindPipeline(
-                vk::PipelineBindPoint::eGraphics, pipelines_.hud(pane.compiled.map != nullptr, target.format));
-            commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, *pane.hud_set, {});
-            commands.pushConstants<shared::ViewPush>(
-                *pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
-            commands.draw(3, 1, 0, 0);
-        }
+        for (std::size_t i = 0; i < panes_.size(); ++i)
+            if (panes_[i].output == output && panes_[i].pane().layer == layer)
+                draw(i, target.format);
         commands.endRendering();
     }
+}
+
+void Frame::draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& last)
+{
+    if (!hud_on_)
+        return;
+    hud_->upload(commands);
+    lay_over(commands, output, last, [&](std::size_t i, vk::Format target) {
+        const PaneState& pane = panes_[i];
+        hud_->draw(commands, i, pane.compiled.map != nullptr, push(pane, hud_place_.panel_from_cockpit), pane.pane().corner,
+            pane.pane().size, pane.hud_box, {}, target);
+    });
 }
 
 void Frame::look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeline pipeline, vk::DescriptorSet set)
@@ -795,7 +786,7 @@ std::size_t Frame::triangles() const
 
 vk::DeviceSize Frame::memory() const
 {
-    vk::DeviceSize bytes = panel_.bytes + stars_.picture().bytes;
+    vk::DeviceSize bytes = stars_.picture().bytes + (hud_ ? hud_->memory() : 0);
     for (const Eye& eye : eyes_)
         bytes += eye.cube.memory();
     for (const Map& map : maps_)

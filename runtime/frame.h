@@ -9,6 +9,7 @@
 #include "plan.h"
 #include "star_pass.h"
 #include "watcher.h"
+#include <functional>
 
 namespace starbow {
 
@@ -119,7 +120,7 @@ private:
         std::size_t map = 0; ///< index into maps_, or none
         Image label; ///< of test patterns, once they were shown
         float shown_part = 1; ///< for them too
-        vk::raii::DescriptorSet warp_set = nullptr, hud_set = nullptr, label_set = nullptr;
+        vk::raii::DescriptorSet warp_set = nullptr, label_set = nullptr;
         vk::Rect2D hud_box;
         std::unique_ptr<BloomPass> bloom; ///< once it was asked for
         glm::dvec3 beside_m{0}; ///< the eye's place from its cube map's, in the cockpit
@@ -145,6 +146,10 @@ private:
     Parts parts(bool refuses_dark);
     void take_up(Parts parts);
     void find_hud_box(PaneState& pane) const;
+    const Image& map_of(const PaneState& pane) const;
+    /// Draws over what an output shows already, pane by pane of each of its pictures.
+    void lay_over(vk::CommandBuffer commands, std::size_t output, const Target& last,
+        const std::function<void(std::size_t pane, vk::Format target)>& draw) const;
     glm::dvec3 place_of_eye(const Pane& pane) const;
     std::size_t eye_for(const Pane& pane);
     std::size_t map_for(const CompiledPane& pane, std::vector<Map>& before);
@@ -203,11 +208,9 @@ private:
     bool meters_ = false;
     std::unique_ptr<Meter> meter_; ///< once it was asked for
     std::unique_ptr<LabPasses> lab_; ///< while something is measured
-    Image panel_;
-    Buffer panel_pixels_;
-    bool panel_new_ = false, hud_on_ = false;
-    glm::dmat3 panel_from_cockpit_{1};
-    glm::dvec2 panel_half_{1};
+    std::unique_ptr<PanelPass> hud_; ///< once it was asked for
+    bool hud_on_ = false;
+    PanelPass::Place hud_place_;
 };
 
 } // namespace starbow

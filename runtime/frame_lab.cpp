@@ -112,7 +112,7 @@ void Frame::prepare_lab()
     lab.panel->prepare(*panel, place);
     lab.boxes.clear();
     for (std::size_t i = 0; i < panes_.size(); ++i) {
-        lab.panel->prepare_pane(i, panes_[i].map == ~std::size_t(0) ? no_map_ : maps_[panes_[i].map].image, *nearest_);
+        lab.panel->prepare_pane(i, map_of(panes_[i]), *nearest_);
         const PixelBox box = panel_box(*panes_[i].compiled.blocks, place.panel_from_cockpit, place.half);
         lab.boxes.push_back(rect_of(panes_[i].pane().corner + box.low, box.high - box.low));
     }
@@ -152,33 +152,18 @@ void Frame::draw_lab(vk::CommandBuffer commands, std::size_t output, const Targe
         return;
     if (lab_->what.panel)
         lab_->panel->upload(commands);
-    for (int layer = 0; layer < layers(layout_.outputs[output].packing); ++layer) {
-        const Target target = picture_of(output, layer, last);
-        vk::ImageMemoryBarrier2 after_warp(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
-            Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead,
-            Layout_::eColorAttachmentOptimal, Layout_::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED,
-            VK_QUEUE_FAMILY_IGNORED, target.image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
-        commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, after_warp));
-        vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
-            vk::AttachmentLoadOp::eLoad, vk::AttachmentStoreOp::eStore);
-        commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
-        for (std::size_t i = 0; i < panes_.size(); ++i) {
-            const PaneState& pane = panes_[i];
-            if (pane.output != output || pane.pane().layer != layer)
-                continue;
-            const glm::ivec2 corner = pane.pane().corner, size = pane.pane().size;
-            shared::ViewPush constants = push(pane, watcher_of(pane).layers[0].motion_from_cockpit);
-            constants.boost = boost(pane, 1);
-            if (lab_->what.over.overlay != Overlay::off)
-                lab_->overlay->draw(commands, i, variant(pane), lab_->what.over.overlay, *pane.warp_set, constants, corner,
-                    size, target.format);
-            if (lab_->what.panel && lab_->boxes[i].extent.width > 0 && lab_->boxes[i].extent.height > 0)
-                lab_->panel->draw(commands, i, pane.compiled.map != nullptr,
-                    push(pane, lab_->panel->place().panel_from_cockpit), corner, size, lab_->boxes[i], lab_->what.scale,
-                    target.format);
-        }
-        commands.endRendering();
-    }
+    lay_over(commands, output, last, [&](std::size_t i, vk::Format target) {
+        const PaneState& pane = panes_[i];
+        const glm::ivec2 corner = pane.pane().corner, size = pane.pane().size;
+        shared::ViewPush constants = push(pane, watcher_of(pane).layers[0].motion_from_cockpit);
+        constants.boost = boost(pane, 1);
+        if (lab_->what.over.overlay != Overlay::off)
+            lab_->overlay->draw(
+                commands, i, variant(pane), lab_->what.over.overlay, *pane.warp_set, constants, corner, size, target);
+        if (lab_->what.panel)
+            lab_->panel->draw(commands, i, pane.compiled.map != nullptr, push(pane, lab_->panel->place().panel_from_cockpit),
+                corner, size, lab_->boxes[i], lab_->what.scale, target);
+    });
 }
 
 std::optional<glm::dvec3> Frame::direction(std::size_t output, const glm::dvec2& pixel) const

@@ -73,7 +73,9 @@ SurfaceVariant GpuWorld::variant(int material, bool plain) const
     variant.clock = m.clock.has_value();
     variant.blink = m.blink.has_value();
     variant.layered = layered() && !plain;
-    variant.lamps_move = variant.layered && variant.lights > 0;
+    const auto told = [](const Lamp& lamp) { return lamp.frame > 0 || lamp.life >= 0; };
+    variant.lamps_move
+        = !plain && variant.lights > 0 && (layered() || std::any_of(world.lamps.begin(), world.lamps.end(), told));
     if (!plain)
         variant.numbers = numbers(), variant.kinds = spectra.kinds, variant.matrices = spectra.matrices;
     return variant;

@@ -35,10 +35,11 @@ There in_frame_of(const Lookout& lookout, const World& world, int frame)
     const RestFrame& rest = world.frames[std::size_t(frame)];
     if (rest == RestFrame{})
         return {lookout};
-    const Event event = in_frame(rest, Event{lookout.time, lookout.place});
-    const physics::Relative relative = physics::relative(rest.u, lookout.u);
-    const glm::dquat turn(relative.turn.w, relative.turn.x, relative.turn.y, relative.turn.z);
-    return {{event.position, event.time, relative.u, turn * lookout.ship_from_cockpit, lookout.aberration}, turn};
+    Shot shot;
+    shot.time = lookout.time, shot.position = lookout.place, shot.u = lookout.u;
+    const Shot there = in_frame(rest, shot); // its cockpit is then the turn
+    const glm::dquat& turn = there.ship_from_cockpit;
+    return {{there.position, there.time, there.u, turn * lookout.ship_from_cockpit, lookout.aberration}, turn};
 }
 
 /// In the ship's frame, from the lookout: where a spot was when the light left it that is seen now. The 4-vector (-r, r n)

@@ -61,6 +61,8 @@ void PanelPass::upload(vk::CommandBuffer commands)
 void PanelPass::draw(vk::CommandBuffer commands, std::size_t pane, bool map, shared::ViewPush constants, glm::ivec2 corner,
     glm::ivec2 size, const vk::Rect2D& box, const glm::vec4& scale, vk::Format target)
 {
+    if (box.extent.width == 0 || box.extent.height == 0)
+        return;
     constants.boost = glm::vec4(place_.half, 0, 0);
     constants.eye = scale;
     set_area(commands, corner, size);

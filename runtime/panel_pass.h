@@ -23,7 +23,8 @@ public:
 
     void upload(vk::CommandBuffer commands); ///< before the first pane
     /// Draws into the rendering under way; constants: the pane's, with rows that lead to the panel's axes. scale: where on
-    /// the panel colours stand, from its lower left to its upper right corner, 0 to 1; none if empty.
+    /// the panel colours stand, from its lower left to its upper right corner, 0 to 1; none if empty. box: the pixels that
+    /// it may cover; nothing where there are none.
     void draw(vk::CommandBuffer commands, std::size_t pane, bool map, shared::ViewPush constants, glm::ivec2 corner,
         glm::ivec2 size, const vk::Rect2D& box, const glm::vec4& scale, vk::Format target);
 

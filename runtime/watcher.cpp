@@ -48,8 +48,7 @@ Shot shot_of(const Shot& ship, const Onlooker& observer)
     if (observer.passing_u != glm::dvec3(0)) {
         const glm::dvec3 w = ship.ship_from_cockpit * observer.passing_u;
         shot.u = physics::composed(ship.u, w);
-        const glm::dvec4 turn = physics::wigner_turn(ship.u, w);
-        shot.ship_from_cockpit = glm::dquat(turn.w, turn.x, turn.y, turn.z) * ship.ship_from_cockpit;
+        shot.ship_from_cockpit = quaternion(physics::wigner_turn(ship.u, w)) * ship.ship_from_cockpit;
     }
     return shot;
 }

@@ -104,8 +104,7 @@ Shot in_frame(const RestFrame& frame, const Shot& shot)
     moved.position = event.position;
     const physics::Relative relative = physics::relative(frame.u, shot.u);
     moved.u = relative.u;
-    moved.ship_from_cockpit
-        = glm::dquat(relative.turn.w, relative.turn.x, relative.turn.y, relative.turn.z) * shot.ship_from_cockpit;
+    moved.ship_from_cockpit = quaternion(relative.turn) * shot.ship_from_cockpit;
     return moved;
 }
 

@@ -15,6 +15,9 @@ std::vector<Leg> legs_of(const Body& body);
 /// A world's event as a rest frame has it, from its own origin.
 Event in_frame(const RestFrame& frame, const Event& world);
 
+/// A formula's unit quaternion (x, y, z; w last).
+inline glm::dquat quaternion(const glm::dvec4& q) { return {q.w, q.x, q.y, q.z}; }
+
 /// The same instant as a rest frame has it: place and time from its origin, the proper velocity there, and the cockpit among
 /// the axes that the pure boost from there carries, which the two boosts in turn have turned (Thomas-Wigner).
 Shot in_frame(const RestFrame& frame, const Shot& shot);

@@ -204,7 +204,7 @@ void main()
         return;
     vec3 from_place = n; // of the cube map
     if (REPROJECT)
-        from_place = reprojected(n, eye_offset(sight.n, world_layer()), ABERRATION ? growth(sight, sight.n, view.boost.xy) * pixel_angle : pixel_angle, world_layer());
+        from_place = reprojected(n, eye_offset(sight.n, world_layer()), world_angle(sight, sight.n, pixel_angle), world_layer());
     if (hidden(place_of(from_place, world_layer())))
         return;
     // What moves: as it is drawn.

@@ -7,15 +7,6 @@ namespace {
 
 constexpr double far = 1e30;
 
-Elements open(WorldBuild& build, int accessor)
-{
-    Elements out;
-    const char* problem = nullptr;
-    if (!open_accessor(build.model, accessor, build.sparse_bytes_left, out, problem))
-        build.fail("/accessors/" + std::to_string(accessor), problem);
-    return out;
-}
-
 void read_times(WorldBuild& build, int accessor, std::vector<double>& times)
 {
     const Elements from = open(build, accessor);

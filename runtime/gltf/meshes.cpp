@@ -13,15 +13,6 @@ struct Attributes {
     bool has_normal = false, has_uv = false, has_colour = false;
 };
 
-Elements open(WorldBuild& build, int accessor)
-{
-    Elements out;
-    const char* problem = nullptr;
-    if (!open_accessor(build.model, accessor, build.sparse_bytes_left, out, problem))
-        build.fail("/accessors/" + std::to_string(accessor), problem);
-    return out;
-}
-
 glm::dvec3 read3(WorldBuild& build, const Elements& from, std::uint32_t i, const std::string& place, const char* attribute)
 {
     glm::dvec3 value(from.component(i, 0), from.component(i, 1), from.component(i, 2));
@@ -133,6 +124,15 @@ void make_room(WorldBuild& build, const std::string& place, std::size_t vertices
 }
 
 } // namespace
+
+Elements open(WorldBuild& build, int accessor)
+{
+    Elements out;
+    const char* problem = nullptr;
+    if (!open_accessor(build.model, accessor, build.sparse_bytes_left, out, problem))
+        build.fail("/accessors/" + std::to_string(accessor), problem);
+    return out;
+}
 
 bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::Primitive& from)
 {

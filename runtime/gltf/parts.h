@@ -1,4 +1,5 @@
 #pragma once
+#include "accessor.h"
 #include "guard.h"
 #include "runtime/world.h"
 #include <map>
@@ -46,6 +47,9 @@ struct WorldBuild {
         throw InputError(file.name, place, problem);
     }
 };
+
+/// An accessor's elements; fails as open_accessor does.
+Elements open(WorldBuild& build, int accessor);
 
 /// Decodes a PNG or JPEG after a look at the size it claims, which must fit `bytes_left` as RGBA.
 Texture decode_image(

@@ -1,24 +1,33 @@
 // What one would see if velocities simply added (light at 1 in the world, and its velocity less the ship's on board): Bradley's
 // aberration. For comparison only. Axes whose z is the motion; beta = (E - 1/E) / (E + 1/E).
 
+FN real galilean_beta(real E, real inverse_E) { return (E - inverse_E) / (E + inverse_E); }
+
+// The speed on board of light that comes from the camera's direction n (x): |n x - beta z| = 1. y: the root on the
+// way there, x less beta n.z.
+FN rvec2 galilean_speed(rvec3 n, real E, real inverse_E)
+{
+    real gamma_inverse = real(2.0) / (E + inverse_E);
+    real along = galilean_beta(E, inverse_E) * n.z;
+    real root = sqrt(along * along + gamma_inverse * gamma_inverse);
+    // Where along < 0 without cancelling.
+    real speed = along >= real(0.0) ? along + root : gamma_inverse * gamma_inverse / (root - along);
+    return rvec2(speed, root);
+}
+
 // As world_from_camera: the world's direction n_w with n along n_w + beta z, and the frequency of who meets the crests sooner.
 FN Sight galilean_world_from_camera(rvec3 n, real E, real inverse_E)
 {
-    real beta = (E - inverse_E) / (E + inverse_E);
-    real gamma_inverse = real(2.0) / (E + inverse_E);
-    real along = beta * n.z;
-    real root = sqrt(along * along + gamma_inverse * gamma_inverse);
-    // The light's speed on board; where along < 0 without cancelling.
-    real speed = along >= real(0.0) ? along + root : gamma_inverse * gamma_inverse / (root - along);
+    real beta = galilean_beta(E, inverse_E);
     Sight sight;
-    sight.n = rvec3(n.x * speed, n.y * speed, n.z * speed - beta);
+    sight.n = n * galilean_speed(n, E, inverse_E).x - rvec3(real(0.0), real(0.0), beta);
     sight.D = real(1.0) + beta * sight.n.z;
     return sight;
 }
 
 FN Sight galilean_camera_from_world(rvec3 n, real E, real inverse_E)
 {
-    real beta = (E - inverse_E) / (E + inverse_E);
+    real beta = galilean_beta(E, inverse_E);
     rvec3 on_board = rvec3(n.x, n.y, n.z + beta);
     Sight sight;
     sight.n = on_board / sqrt(dot(on_board, on_board));
@@ -30,10 +39,6 @@ FN Sight galilean_camera_from_world(rvec3 n, real E, real inverse_E)
 // Circles do not stay circles.
 FN rvec2 galilean_stretch(rvec3 n, real E, real inverse_E)
 {
-    real beta = (E - inverse_E) / (E + inverse_E);
-    real gamma_inverse = real(2.0) / (E + inverse_E);
-    real along = beta * n.z;
-    real root = sqrt(along * along + gamma_inverse * gamma_inverse);
-    real speed = along >= real(0.0) ? along + root : gamma_inverse * gamma_inverse / (root - along);
-    return rvec2(speed / root, speed);
+    rvec2 speed = galilean_speed(n, E, inverse_E);
+    return rvec2(speed.x / speed.y, speed.x);
 }
