@@ -286,7 +286,7 @@ CompiledPane MapStore::compile(const Layout& layout, const Pane& pane)
             throw InputError(place_in(layout, viewport), "",
                 "has no projection, and " + warp->file.filename().string()
                     + " does not say what its picture shows; a \"projection\" beside \"warp\" is right");
-    } else {
+    } else if (matrices_) {
         compiled.matrix = pane_matrix(pane);
     }
     if (compiled.matrix) {

@@ -25,6 +25,8 @@ public:
 
     /// Whether new maps go to the folder: not while a hand turns a dome's tilt.
     void keep(bool on_disk) { keep_ = on_disk; }
+    /// Whether what is linear in the pixel gets a matrix; otherwise a map too.
+    void matrices(bool on) { matrices_ = on; }
 
     /// Throws InputError for a warp file that is wrong.
     CompiledPane compile(const Layout& layout, const Pane& pane);
@@ -34,7 +36,7 @@ private:
     std::shared_ptr<const DirectionMap> map(const Pane& pane, const WarpMesh* mesh, const std::string& key);
 
     std::filesystem::path folder_;
-    bool keep_ = true;
+    bool keep_ = true, matrices_ = true;
     struct Kept;
     std::shared_ptr<Kept> kept_;
 };

@@ -26,11 +26,12 @@ glm::vec4 row(const glm::dmat4& m, int i) { return glm::vec4(m[0][i], m[1][i], m
 
 } // namespace
 
-CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, int samples, bool keeps_depth)
+CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, const Quality& quality, bool keeps_depth)
     : device_(device)
     , pipelines_(pipelines)
     , world_(world)
-    , samples_(samples)
+    , samples_(quality.cube_samples)
+    , half_floats_(quality.half_floats)
     , keeps_depth_(keeps_depth)
 {
     const Sky& sky = world.scene.sky;
@@ -50,7 +51,7 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
 
 std::vector<vk::Format> CubePass::formats(bool layered) const
 {
-    std::vector<vk::Format> formats = world_.numbers().formats();
+    std::vector<vk::Format> formats = world_.numbers().formats(half_floats_);
     if (layered)
         formats.push_back(vk::Format::eR32G32Sfloat); // near / distance is small
     return formats;

@@ -20,7 +20,7 @@ struct Target {
 /// plan: the atlas that the warp pass reads. Holds the device's memory for it; nothing of one frame is needed by the next.
 class CubePass {
 public:
-    CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, int samples, bool keeps_depth);
+    CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, const Quality& quality, bool keeps_depth);
 
     /// What the processor does: culls, makes room, uploads. The device must have finished the frame before. Every radiance
     /// is stored times pre_exposure. layers: the plan's.
@@ -53,7 +53,7 @@ private:
     Pipelines& pipelines_;
     const GpuWorld& world_;
     int samples_;
-    bool keeps_depth_, sky_;
+    bool half_floats_, keeps_depth_, sky_;
     bool layered_ = false; ///< something that moves is in view; the sky is then the warp's
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::raii::DescriptorSet set_ = nullptr;

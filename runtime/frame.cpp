@@ -34,9 +34,8 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
     , device_(device)
     , pipelines_(pipelines)
     , world_(world)
-    , layout_(layout)
-    , keeps_depth_(
-          keeps_depth || layout.stereo.method == StereoMethod::reprojected || world.star_count > 0 || world.layered())
+    , layout_(with_stereo(layout, quality))
+    , keeps_depth_(keeps_depth || reprojects() || world.star_count > 0 || world.layered())
     , stars_(device, pipelines, world)
 {
     linear_ = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eLinear,
@@ -51,6 +50,7 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
     no_map_ = make_texture_array(device, map_format, {1, 1}, 1, std::as_bytes(std::span(zeros, 2)));
     for (const Output& output : layout_.outputs)
         outputs_.emplace_back().size = output.size;
+    store_.matrices(quality.matrices || layout.head_tracker); // a map does not follow a head
     take_up(parts(true));
 }
 
@@ -65,7 +65,7 @@ void Frame::resize(std::size_t output, glm::ivec2 size)
 void Frame::adopt(const Layout& layout)
 {
     store_.keep(false);
-    const Layout before = std::exchange(layout_, layout);
+    const Layout before = std::exchange(layout_, with_stereo(layout, quality_));
     try {
         take_up(parts(true));
     } catch (const InputError&) {
@@ -74,6 +74,16 @@ void Frame::adopt(const Layout& layout)
         throw;
     }
     store_.keep(true);
+}
+
+void Frame::adopt(const Quality& quality)
+{
+    const Quality before = std::exchange(quality_, quality);
+    cubes_drawn_ = false;
+    if (quality.cube_samples == before.cube_samples && quality.half_floats == before.half_floats)
+        return;
+    eyes_.clear(), watchers_.clear();
+    take_up(parts(false));
 }
 
 void Frame::move_head(const Head& head)
@@ -144,6 +154,7 @@ void Frame::take_up(Parts parts)
         find_hud_box(pane);
     }
     plans_.resize(eyes_.size());
+    cubes_drawn_ = false;
     meter_.reset();
     forget_lab();
 
@@ -179,7 +190,7 @@ std::size_t Frame::eye_for(const Pane& pane)
     auto same
         = std::find_if(eyes_.begin(), eyes_.end(), [&](const Eye& e) { return e.place_m == place && e.watcher == own; });
     if (same == eyes_.end()) {
-        eyes_.push_back({place, own, CubePass(device_, pipelines_, world_, quality_.samples, keeps_depth_), place});
+        eyes_.push_back({place, own, CubePass(device_, pipelines_, world_, quality_, keeps_depth_), place});
         same = eyes_.end() - 1;
     }
     same->now_m = place;
@@ -233,13 +244,12 @@ int Frame::hud_width() const
     return std::clamp(int(2 * hud_place_.half.x / finest), 160, 4096);
 }
 
-void Frame::prepare_eye(std::size_t i)
+Frame::Asked Frame::asked_of(std::size_t i)
 {
     Eye& eye = eyes_[i];
-    const std::vector<Layer>& layers = watchers_[eye.watcher].layers;
-    std::vector<PlanLayer> asked;
-    std::vector<Vantage> vantages;
+    Asked asked;
     eye.nearest.clear();
+    const std::vector<Layer>& layers = watchers_[eye.watcher].layers;
     for (std::size_t at = 0; at < layers.size(); ++at) {
         const Layer& layer = layers[at];
         const glm::dvec3 offset = layer.shot.ship_from_cockpit * scene_units(eye.now_m);
@@ -256,16 +266,57 @@ void Frame::prepare_eye(std::size_t i)
             ask_for_probes(i, layer.motion_from_cockpit, ask.views);
         if (at > 0)
             ask.things = balls(world_.world, vantage);
-        asked.push_back(std::move(ask));
-        vantages.push_back(vantage);
+        asked.layers.push_back(std::move(ask));
+        asked.vantages.push_back(vantage);
     }
-    plans_[i] = make_plan(asked, quality_);
-    eye.cube.prepare(plans_[i], vantages, pre_exposure_);
-    if (!stars_.on())
-        return;
-    const auto& images = plans_[i].images;
-    const auto own = std::find_if(images.begin(), images.end(), [](const PlanImage& image) { return image.layer > 0; });
-    eye.stars = stars_in({images.begin(), own}, world_.star_patches, layers[0].motion_from_frame);
+    return asked;
+}
+
+/// Whether what an eye's cube map holds may be shown once more: from where it was drawn, and as fast as may be now, but along
+/// the same axes.
+bool Frame::still_serves(std::size_t i, const Plan& wanted, std::span<const Vantage> vantages) const
+{
+    const std::vector<Vantage>& drawn = eyes_[i].drawn;
+    for (std::size_t at = 0; at < drawn.size(); ++at) {
+        const glm::dmat3 turned = drawn[at].motion_from_frame - vantages[at].motion_from_frame;
+        double most = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            most = std::max(most, glm::length(turned[axis]));
+        if (most > 1e-9 || drawn[at].now != vantages[at].now || drawn[at].contraction != vantages[at].contraction)
+            return false;
+    }
+    return serves(plans_[i], wanted);
+}
+
+/// pre_exposure: for cube maps that are drawn now.
+void Frame::prepare_eyes(double pre_exposure)
+{
+    std::vector<Asked> asked;
+    std::vector<Plan> wanted;
+    bool keep = cubes_drawn_ && cubes_shown_ < quality_.frames_per_cube;
+    for (std::size_t i = 0; i < eyes_.size(); ++i) {
+        asked.push_back(asked_of(i));
+        wanted.push_back(make_plan(asked[i].layers, quality_));
+        keep = keep && still_serves(i, wanted[i], asked[i].vantages);
+    }
+    cubes_shown_ = keep ? cubes_shown_ + 1 : 1;
+    if (!keep) {
+        cubes_drawn_ = false;
+        plans_ = std::move(wanted);
+        pre_exposure_ = pre_exposure;
+    }
+    for (std::size_t i = 0; i < eyes_.size(); ++i) {
+        Eye& eye = eyes_[i];
+        if (!keep) {
+            eye.cube.prepare(plans_[i], asked[i].vantages, pre_exposure_);
+            eye.drawn = std::move(asked[i].vantages);
+        }
+        if (!stars_.on())
+            continue;
+        const auto& images = plans_[i].images;
+        const auto own = std::find_if(images.begin(), images.end(), [](const PlanImage& image) { return image.layer > 0; });
+        eye.stars = stars_in({images.begin(), own}, world_.star_patches, watchers_[eye.watcher].layers[0].motion_from_frame);
+    }
 }
 
 void Frame::prepare(const Shot& shot, const Panel* hud)
@@ -279,12 +330,12 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
     const bool gains = shot.effects.headlight || shot.effects.doppler;
     // Red-shifted, sunlight also leaves the visible: by Wien's law its part at 360 nm falls as exp(-6.92 (1/D - 1)).
     const double leaves = shot.effects.doppler ? std::exp(6.92 * (most_E - 1)) : 1;
-    pre_exposure_ = pre_exposure(world_.brightest, shot.exposure_ev, (gains ? most_E * most_E * most_E : 1) * leaves);
+    double light = pre_exposure(world_.brightest, shot.exposure_ev, (gains ? most_E * most_E * most_E : 1) * leaves);
     // A glow's number may stand for light of any strength: only that it fits counts.
     if (world_.spectra.most > 0)
-        pre_exposure_ = std::min(pre_exposure_, pre_exposure(world_.spectra.most, -1000, 1));
-    for (std::size_t i = 0; pattern_ == Pattern::none && i < eyes_.size(); ++i)
-        prepare_eye(i);
+        light = std::min(light, pre_exposure(world_.spectra.most, -1000, 1));
+    if (pattern_ == Pattern::none)
+        prepare_eyes(light);
     if (stars_.on()) {
         glm::ivec2 size(1);
         for (const OutputState& output : outputs_)
@@ -461,8 +512,19 @@ void Frame::record(vk::CommandBuffer commands, std::span<const Target> targets)
 
 void Frame::draw_cubes(vk::CommandBuffer commands)
 {
+    if (cubes_drawn_)
+        return;
     for (Eye& eye : eyes_)
         eye.cube.record(commands);
+    cubes_drawn_ = quality_.frames_per_cube > 1;
+}
+
+/// Of the passes that show light, each pixel along all its rays.
+WarpVariant Frame::variant_shown(const PaneState& pane) const
+{
+    WarpVariant all = variant(pane);
+    all.rays = quality_.pixel_rays;
+    return all;
 }
 
 WarpVariant Frame::variant(const PaneState& pane) const
@@ -568,7 +630,7 @@ void Frame::bloom_pane(vk::CommandBuffer commands, const PaneState& pane)
     shared::ViewPush constants = push(pane, watcher_of(pane).layers[0].motion_from_cockpit);
     constants.boost = boost(pane, std::exp2(shot_.exposure_ev));
     constants.origin.x = constants.origin.y = 0;
-    WarpVariant linear = variant(pane);
+    WarpVariant linear = variant_shown(pane);
     linear.linear = true;
     set_warp(commands, pane, pipelines_.warp(linear, light.format), constants, {0, 0}, pane.pane().size);
     commands.endRendering();
@@ -669,7 +731,7 @@ void Frame::warp_output(vk::CommandBuffer commands, std::size_t output, const Ta
             else if (glows)
                 pane.bloom->show(commands, pane.pane().corner, bloom_, target.format);
             else
-                warp_pane(commands, pane, pipelines_.warp(variant(pane), target.format), std::exp2(shot_.exposure_ev));
+                warp_pane(commands, pane, pipelines_.warp(variant_shown(pane), target.format), std::exp2(shot_.exposure_ev));
         }
         commands.endRendering();
     }
@@ -699,7 +761,7 @@ void Frame::record_measured(vk::CommandBuffer commands, std::size_t output, cons
     commands.beginRendering({{}, {{0, 0}, target.camera.extent}, 1, 0, colours});
     for (const PaneState& pane : panes_)
         if (pane.output == output && pane.pane().layer == 0)
-            warp_pane(commands, pane, pipelines_.measure(variant(pane)), 1);
+            warp_pane(commands, pane, pipelines_.measure(variant_shown(pane)), 1);
     commands.endRendering();
     for (const Image* image : {&target.light_and_depth, &target.camera, &target.world})
         transition(commands, *image, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,

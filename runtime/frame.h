@@ -22,7 +22,8 @@ struct MeasureTarget {
 enum class Pattern { none, grid, rings, names, wedges, overlap };
 constexpr std::array<const char*, 6> pattern_names = {"none", "grid", "rings", "names", "wedges", "overlap"};
 
-/// Draws a layout's outputs for a shot. Holds the device's memory that frames share; no frame depends on an earlier one.
+/// Draws a layout's outputs for a shot. Holds the device's memory that frames share; no frame depends on an earlier one, but
+/// for the cube maps that Quality::frames_per_cube keeps.
 /// One frame at a time: the caller waits for the device before the next prepare().
 class Frame {
 public:
@@ -42,6 +43,10 @@ public:
     /// Moves every head from where the layout has it, and turns its eyes: what is seen through walls follows, but for a wall
     /// that would be seen from behind. Maps (mirrors, measured points) stay as they are.
     void move_head(const Head& head);
+
+    /// Another quality from the next frame on, with the same light, stereo and maps. What only the plan and the warp need
+    /// changes at no cost; other samples or formats as a change of the layout.
+    void adopt(const Quality& quality);
 
     void show(Pattern pattern) { pattern_ = pattern; }
 
@@ -110,6 +115,7 @@ private:
         std::size_t watcher; ///< whose: index into watchers_
         CubePass cube;
         glm::dvec3 now_m; ///< where it is
+        std::vector<Vantage> drawn{}; ///< from where its cube map was, of each layer
         std::vector<StarRun> stars{}; ///< that its panes may show
         std::vector<double> nearest{}; ///< of each layer: distance of the nearest surface that there may be, scene units; 1
                                        ///< where it does not count
@@ -159,7 +165,14 @@ private:
     glm::dvec3 eye_offset(const PaneState& pane, const Layer& layer) const;
     glm::vec4 eye_told(const PaneState& pane, const Layer& layer) const;
     const Watcher& watcher_of(const PaneState& pane) const { return watchers_[eyes_[pane.eye].watcher]; }
-    void prepare_eye(std::size_t eye);
+    /// What an eye's cube map is asked for, and from where.
+    struct Asked {
+        std::vector<PlanLayer> layers;
+        std::vector<Vantage> vantages;
+    };
+    Asked asked_of(std::size_t eye);
+    bool still_serves(std::size_t eye, const Plan& wanted, std::span<const Vantage> vantages) const;
+    void prepare_eyes(double pre_exposure);
     void put_layers(PaneState& pane);
     void write_sets();
     glm::vec4 boost(const PaneState& pane, double exposure) const;
@@ -172,6 +185,7 @@ private:
     void bloom_pane(vk::CommandBuffer commands, const PaneState& pane);
     void pattern_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Format target);
     WarpVariant variant(const PaneState& pane) const;
+    WarpVariant variant_shown(const PaneState& pane) const;
     shared::ViewPush push(const PaneState& pane, const glm::dmat3& axes_from_cockpit) const;
     Target picture_of(std::size_t output, int layer, const Target& last) const;
     bool reprojects() const { return layout_.stereo.method == StereoMethod::reprojected; }
@@ -200,6 +214,8 @@ private:
     std::vector<PaneState> panes_;
     std::vector<OutputState> outputs_;
     std::vector<Plan> plans_;
+    bool cubes_drawn_ = false; ///< and shown so often already
+    int cubes_shown_ = 0;
     Shot shot_;
     double pre_exposure_ = 1;
     std::vector<Watcher> watchers_; ///< one for each observer that a pane has

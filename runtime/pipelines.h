@@ -18,14 +18,14 @@ constexpr vk::Format inverse_format = vk::Format::eR32G32B32A32Uint; // InverseM
 struct Numbers {
     int reflected = 3, own = 0;
     /// Of the images that hold them, four each.
-    std::vector<vk::Format> formats() const
+    std::vector<vk::Format> formats(bool half_floats) const
     {
         const int all = reflected + own;
-        std::vector<vk::Format> formats(std::size_t((all + 3) / 4), light_format);
+        std::vector<vk::Format> formats(std::size_t((all + 3) / 4), half_floats ? light_format : exact_format);
         if (all > 4 && all % 4 == 1)
-            formats.back() = vk::Format::eR16Sfloat;
+            formats.back() = half_floats ? vk::Format::eR16Sfloat : vk::Format::eR32Sfloat;
         if (all > 4 && all % 4 == 2)
-            formats.back() = vk::Format::eR16G16Sfloat;
+            formats.back() = half_floats ? vk::Format::eR16G16Sfloat : vk::Format::eR32G32Sfloat;
         return formats;
     }
     auto operator<=>(const Numbers&) const = default;
@@ -57,6 +57,7 @@ struct WarpVariant {
     bool by_table = true; ///< otherwise the numbers are the colour
     bool layered = false; ///< something moves in the world
     bool galilean = false; ///< velocities are added
+    int rays = 1; ///< along each side of a pixel
     auto operator<=>(const WarpVariant&) const = default;
 };
 

@@ -309,7 +309,8 @@ Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality)
     for (std::size_t layer = 0; layer < layers.size(); ++layer) {
         const double E = layers[layer].E;
         // Behind, D stops falling at 1/gamma from the axis: finer images would only repeat the last one.
-        const int rear_last = std::clamp(int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0, REAR_LEVELS - 1);
+        const int rear_last = std::clamp(int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0,
+            std::min(quality.rear_images, REAR_LEVELS - 1));
         plan.rear_last.push_back(rear_last);
         const Held held = layers[layer].things ? Held(*layers[layer].things, rear_last) : Held();
         for (const View& view : layers[layer].views) {
@@ -328,7 +329,7 @@ Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality)
     }
 
     constexpr int least = 8, most = 8192; // texels across one image
-    constexpr int most_levels = 5;
+    const int most_levels = quality.mips ? 5 : 1;
     auto lay_out = [&](double density) {
         plan.images.clear();
         plan.texels = 0;
@@ -373,7 +374,7 @@ Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality)
     int seen = 0;
     for (std::size_t i = 0; i < plan.images.size(); ++i)
         seen += i == 0 || plan.images[i].layer != plan.images[i - 1].layer;
-    double most_texels = std::min(quality.max_texels_per_pixel * plan.pixels * std::max(seen, 1), quality.max_texels);
+    double most_texels = std::min(quality.most_texels_per_pixel * plan.pixels * std::max(seen, 1), quality.max_texels);
     for (int i = 0; i < 4 && plan.texels > 1.02 * most_texels; ++i) {
         density *= std::sqrt(most_texels / plan.texels);
         lay_out(density);
@@ -385,6 +386,19 @@ Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality)
         pack(plan, 1 << plan.levels);
     }
     return plan;
+}
+
+bool serves(const Plan& drawn, const Plan& wanted)
+{
+    constexpr double hardly_less = 0.8;
+    return drawn.rear_last == wanted.rear_last
+        && std::all_of(wanted.images.begin(), wanted.images.end(), [&](const PlanImage& image) {
+               const auto same = std::find_if(drawn.images.begin(), drawn.images.end(),
+                   [&](const PlanImage& own) { return own.layer == image.layer && own.slot == image.slot; });
+               return same != drawn.images.end() && glm::all(glm::lessThanEqual(same->low, image.low))
+                   && glm::all(glm::greaterThanEqual(same->high, image.high)) && same->hole <= image.hole
+                   && same->levels >= image.levels && same->texels_per_unit >= hardly_less * image.texels_per_unit;
+           });
 }
 
 glm::dmat4 clip_from_motion(const PlanImage& image, double near_distance)

@@ -1,4 +1,5 @@
 #pragma once
+#include "config/quality.h"
 #include "displays/blocks.h"
 #include "runtime/shared.h"
 #include <glm/glm.hpp>
@@ -26,15 +27,6 @@ struct PlanLayer {
     double E = 1; ///< e^rapidity between it and the ship; 1 where directions are not aberrated
     bool galilean = false; ///< velocities are added: circles do not stay circles
     std::optional<std::vector<Ball>> things{}; ///< outside which there is nothing to draw; none: everywhere is something
-};
-
-/// The trade of speed for accuracy.
-struct Quality {
-    double texels_per_pixel = 1; ///< linear density of the cube map where it is looked at
-    double max_texels_per_pixel = 6; ///< area: where the whole plan would hold more, all of it is drawn coarser
-    double max_texels = 24e6; ///< of the whole plan: some devices end an image at 1 GiB, all samples counted
-    int max_atlas_side = 16384; ///< of the device's images, texels
-    int samples = 1; ///< of the cube pass, per texel, for edges
 };
 
 /// One picture to draw: a rectangle of one face of the cube around the eye, at one resolution, and its place in the atlas.
@@ -71,6 +63,9 @@ struct Plan {
 Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality);
 /// Of a world in which nothing moves.
 Plan make_plan(const std::vector<View>& views, double E, const Quality& quality);
+
+/// Whether what is drawn for one plan serves another, at hardly less density: it may then be shown once more.
+bool serves(const Plan& drawn, const Plan& wanted);
 
 /// The slot that shows the unit direction n (motion axes) and n's face coordinates there: what the warp shader does.
 struct SlotPlace {

@@ -1,4 +1,5 @@
 #pragma once
+#include "config/quality.h"
 #include "config/scene_file.h"
 #include "runtime/shared.h"
 #include "spectral_basis.h"
@@ -8,10 +9,7 @@
 
 namespace starbow {
 
-/// How finely light that surfaces reflect is told, in numbers: 3, the base colours' own; 5, with the ultraviolet and the
-/// infrared; 12, a spectrum. Lamps, glows and lines are exact at every level.
-enum class SpectralLevel { colours, middle, fine };
-constexpr std::array<const char*, 3> spectral_level_names = {"colours", "middle", "fine"};
+/// Of each SpectralLevel.
 constexpr std::array<int, 3> reflected_numbers = {3, 5, 12};
 
 /// The coarsest level that is exact for a world, or the finest.

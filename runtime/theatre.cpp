@@ -1,5 +1,6 @@
 #include "theatre.h"
 #include "detail.h"
+#include "find.h"
 #include <cstdlib>
 
 namespace starbow {
@@ -47,18 +48,20 @@ Device::Options device_options(bool windows)
     return {.windows = windows, .validation = validation && *validation == '1', .name = name ? name : ""};
 }
 
+Quality within(const Device& device, Quality quality)
+{
+    const vk::PhysicalDeviceLimits& limits = device.properties.limits;
+    const auto counts = std::uint32_t(limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts);
+    while (quality.cube_samples > 1 && !(counts & std::uint32_t(quality.cube_samples)))
+        quality.cube_samples /= 2;
+    // The atlas grows in steps of 256.
+    quality.max_atlas_side = int(limits.maxImageDimension2D) / 256 * 256;
+    return quality;
+}
+
 Quality default_quality(const Device& device, bool still)
 {
-    Quality quality;
-    if (still)
-        quality = {.texels_per_pixel = 1.25, .max_texels_per_pixel = 8, .samples = 4};
-    else if (device.on_processor())
-        quality = {.texels_per_pixel = 0.8, .max_texels_per_pixel = 1.5, .samples = 1};
-    else
-        quality = {.texels_per_pixel = 1.25, .max_texels_per_pixel = 16, .samples = 4};
-    // The atlas grows in steps of 256.
-    quality.max_atlas_side = int(device.properties.limits.maxImageDimension2D) / 256 * 256;
-    return quality;
+    return within(device, load_quality(find("qualities", still || !device.on_processor() ? "fine" : "balanced")));
 }
 
 } // namespace starbow

@@ -28,7 +28,9 @@ std::string light_told(const Theatre& theatre);
 /// Device options as the environment asks: STARBOW_VALIDATION=1, STARBOW_GPU=part of a name.
 Device::Options device_options(bool windows);
 
-/// The quality that a device affords without measuring: more on a GPU than in software, most for stills.
+/// A quality as far as a device can have it.
+Quality within(const Device& device, Quality quality);
+/// The shipped quality that counts where none is asked for: `fine` for stills and on a GPU, `balanced` in software.
 Quality default_quality(const Device& device, bool still);
 
 } // namespace starbow

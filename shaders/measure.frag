@@ -24,7 +24,8 @@ void main()
         Shown shown = shown_at(pixel, channel, 1.0, pixel_angle);
         if (MAP && pixel_angle == 0.0)
             continue;
-        vec3 seen = shown.light;
+        float same_angle;
+        vec3 seen = RAYS == 1 ? shown.light : light_at(pixel, channel, same_angle);
         if (STARS)
             seen += texelFetch(stars_picture, ivec2(gl_FragCoord.xy), 0).rgb;
         seen *= view.boost.z;

@@ -4,6 +4,7 @@ layout(constant_id = 1) const bool ABERRATION = true;
 layout(constant_id = 2) const bool DOPPLER = true;
 layout(constant_id = 3) const bool HEADLIGHT = true;
 layout(constant_id = 4) const bool MIPS = false;
+layout(constant_id = 16) const int RAYS = 1; // along each side of a pixel
 layout(constant_id = 5) const bool CHANNELS = false; // red, green and blue look different ways
 layout(constant_id = 6) const bool REPROJECT = false; // the eye is not where the cube map was drawn
 layout(constant_id = 7) const bool TURNING = false; // and on which side of it depends on the azimuth
@@ -302,4 +303,20 @@ Shown shown_at(vec2 pixel, int channel, float coarser, out float pixel_angle)
     if (!MAP || pixel_angle > 0.0)
         return shown_along(n, pixel_angle * coarser);
     return Shown(n, Sight(n, 1.0), 0.0, 0.0, vec3(0.0)); // nothing
+}
+
+// The light of a pixel: the mean along RAYS x RAYS directions that share it evenly. As Shown's; nothing where the angle is 0.
+vec3 light_at(vec2 pixel, int channel, out float pixel_angle)
+{
+    if (RAYS == 1)
+        return shown_at(pixel, channel, 1.0, pixel_angle).light;
+    vec3 sum = vec3(0.0);
+    for (int ray = 0; ray < RAYS * RAYS; ++ray) {
+        vec2 offset = (vec2(ray % RAYS, ray / RAYS) + 0.5) / float(RAYS) - 0.5;
+        vec3 n = look_within(view.row0, view.row1, view.row2, pixel, offset, channel, pixel_angle);
+        if (MAP && pixel_angle == 0.0)
+            return sum;
+        sum += shown_along(n, pixel_angle / float(RAYS)).light;
+    }
+    return sum / float(RAYS * RAYS);
 }

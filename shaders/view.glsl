@@ -35,3 +35,31 @@ vec3 look(vec4 row0, vec4 row1, vec4 row2, vec2 pixel, int channel, out float pi
     }
     return n;
 }
+
+// By how much a map's direction differs one pixel further along `way`; where the map ends, what it differs by the other way.
+vec3 map_step(vec3 here, ivec2 pixel, ivec2 way, int channel)
+{
+    ivec2 size = textureSize(direction_map, 0).xy;
+    for (int side = 1; side >= -1; side -= 2) {
+        ivec2 at = pixel + side * way;
+        if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size)))
+            continue;
+        vec4 there = unpacked(texelFetch(direction_map, ivec3(at, channel), 0).rg);
+        if (there.w > 0.0)
+            return (there.xyz - here) * float(side);
+    }
+    return vec3(0.0);
+}
+
+// As look, at an offset from the pixel's centre of at most half a pixel. A map's directions run straight to its neighbours.
+vec3 look_within(vec4 row0, vec4 row1, vec4 row2, vec2 pixel, vec2 offset, int channel, out float pixel_angle)
+{
+    if (!MAP)
+        return look(row0, row1, row2, pixel + offset, channel, pixel_angle);
+    vec4 here = unpacked(texelFetch(direction_map, ivec3(pixel, channel), 0).rg);
+    pixel_angle = here.w;
+    vec3 from = here.xyz + abs(offset.x) * map_step(here.xyz, ivec2(pixel), ivec2(sign(offset.x), 0), channel)
+        + abs(offset.y) * map_step(here.xyz, ivec2(pixel), ivec2(0, sign(offset.y)), channel);
+    vec3 n = vec3(dot(row0.xyz, from), dot(row1.xyz, from), dot(row2.xyz, from));
+    return n * inversesqrt(dot(n, n));
+}

@@ -18,7 +18,7 @@ layout(location = 0) out vec4 shown;
 vec3 light_along(int channel)
 {
     float pixel_angle;
-    vec3 light = shown_at(gl_FragCoord.xy - view.origin.xy, channel, 1.0, pixel_angle).light;
+    vec3 light = light_at(gl_FragCoord.xy - view.origin.xy, channel, pixel_angle);
     if (MAP && pixel_angle == 0.0)
         return vec3(0.0);
     return STARS ? light + texelFetch(stars_picture, ivec2(gl_FragCoord.xy - view.origin.xy + view.pane.xy), 0).rgb : light;

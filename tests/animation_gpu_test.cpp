@@ -45,7 +45,7 @@ TEST(Blinking, SweepsOverAWallAsItsLightArrives)
                 Shot shot = shot_at({0.3, -0.2, 0}, u, {0, 0, -1});
                 shot.time = time;
                 Quality quality = default_quality(device(), true);
-                quality.max_texels_per_pixel = 1000; // as fine as asked
+                quality.most_texels_per_pixel = 1000; // as fine as asked
                 Studio stage(device(), pipelines(), world, one_view(Planar{100}, {320, 240}), quality, true);
                 const Numbers numbers(stage, shot);
                 long lit = 0, dark = 0, wrong = 0;

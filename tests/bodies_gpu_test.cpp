@@ -31,7 +31,7 @@ dvec3 vec(const quad::V3& v) { return {double(v.x), double(v.y), double(v.z)}; }
 Quality as_fine_as_asked()
 {
     Quality quality = default_quality(device(), true);
-    quality.max_texels_per_pixel = 1000;
+    quality.most_texels_per_pixel = 1000;
     return quality;
 }
 

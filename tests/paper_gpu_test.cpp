@@ -423,7 +423,7 @@ Outline earth_outline(const Shot& shot, const Projection& projection, bool over_
 {
     constexpr ivec2 size(256, 256);
     Studio stage(device(), pipelines(), avenue().world, one_view(projection, size),
-        {.texels_per_pixel = 3, .max_texels_per_pixel = 40, .samples = 1}, true);
+        {.texels_per_pixel = 3, .most_texels_per_pixel = 40, .cube_samples = 1}, true);
     const Numbers numbers(stage, shot);
     auto earth = [&](int i) {
         return numbers.shown(i) && std::isfinite(numbers.depth(i))

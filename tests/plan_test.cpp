@@ -79,7 +79,7 @@ TEST(Plan, EveryTexelThatAnyPixelReadsWasDrawn)
         for (double gamma : gammas)
             for (int turned = 0; turned < 5; ++turned) {
                 long missing = 0, outside = 0, pixels = 0;
-                each_pixel(c, gamma, turned, {.texels_per_pixel = 1, .max_texels_per_pixel = 6},
+                each_pixel(c, gamma, turned, {.texels_per_pixel = 1, .most_texels_per_pixel = 6},
                     [&](const Plan&, const SlotPlace& place, double world_angle, const PlanImage* image) {
                         ++pixels;
                         if (!image)
@@ -131,7 +131,7 @@ TEST(Plan, HoldsTheDensityThatWasAskedFor)
     // and its edge (cells of 24 pixels: 15 %), nor, mips counted, by more than about two across.
     for (double gamma : {1.0, 4.0, 100.0}) {
         double least = 1e9, most = 0;
-        each_pixel(cases[0], gamma, 0, {.texels_per_pixel = 1, .max_texels_per_pixel = 1e9},
+        each_pixel(cases[0], gamma, 0, {.texels_per_pixel = 1, .most_texels_per_pixel = 1e9},
             [&](const Plan&, const SlotPlace& place, double world_angle, const PlanImage* image) {
                 double texels = world_angle * image->texels_per_unit * std::pow(1 + glm::dot(place.at, place.at), 0.75);
                 least = std::min(least, texels);
@@ -146,7 +146,7 @@ TEST(Plan, StaysUnderTheCeiling)
 {
     for (double gamma : {1.0, 4.0, 10.0, 100.0, 1e4})
         for (int turned = 0; turned < 5; ++turned)
-            each_pixel(cases[0], gamma, turned, {.texels_per_pixel = 1, .max_texels_per_pixel = 2},
+            each_pixel(cases[0], gamma, turned, {.texels_per_pixel = 1, .most_texels_per_pixel = 2},
                 [&, once = false](const Plan& plan, auto&&...) mutable {
                     if (std::exchange(once, true))
                         return;
@@ -162,7 +162,7 @@ TEST(Plan, FitsTheDeviceHoweverLargeTheOutput)
         // As flat as a dome of 16384 pixels is large: its map would fill the test's memory.
         Plan plan
             = make_plan({{&blocks, motion_from_world(u, glm::dquat(1, 0, 0, 0))}}, physics::exp_rapidity(glm::length(u)),
-                {.texels_per_pixel = 1.25, .max_texels_per_pixel = 8, .max_texels = 48e6, .max_atlas_side = 4096});
+                {.texels_per_pixel = 1.25, .most_texels_per_pixel = 8, .max_texels = 48e6, .max_atlas_side = 4096});
         EXPECT_LE(std::max(plan.atlas_size.x, plan.atlas_size.y), 4096) << gamma;
         EXPECT_GT(plan.texels, 4096.0 * 4096 / 4) << gamma;
     }

@@ -84,7 +84,7 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
 {
     Device& device = theatre.device;
     Studio studio(device, theatre.pipelines, theatre.world, layout, default_quality(device, false), false);
-    CubePass plain(device, theatre.pipelines, theatre.world, 1, false);
+    CubePass plain(device, theatre.pipelines, theatre.world, {}, false);
     Panel panel = Typesetter().draw(
         readings(ship_at(shot), theatre.world.scene, shot.effects), words_in("en"), studio.frame().hud_width());
     Target target = studio.target(0);

@@ -14,6 +14,7 @@ void add_devices(CLI::App& app, std::function<int()>& chosen);
 void add_calibrate(CLI::App& app, std::function<int()>& chosen);
 void add_displays(CLI::App& app, std::function<int()>& chosen);
 void add_bench(CLI::App& app, std::function<int()>& chosen);
+void add_measure(CLI::App& app, std::function<int()>& chosen);
 void add_check(CLI::App& app, std::function<int()>& chosen);
 void add_warp(CLI::App& app, std::function<int()>& chosen);
 void add_import(CLI::App& app, std::function<int()>& chosen);

@@ -1,0 +1,326 @@
+#include "measure_settings.h"
+#include "bench_timing.h"
+#include "config/error.h"
+#include "physics/physics.h"
+#include "runtime/reference/reference.h"
+#include "runtime/still.h"
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+/// One output of one shot as it should be.
+struct Truth {
+    std::vector<std::uint8_t> picture;
+    glm::ivec2 size;
+    std::vector<Reference::Numbers> numbers;
+};
+using Truths = std::vector<std::vector<Truth>>; // of each shot, of each output
+
+/// A line that replaces itself where a person watches.
+void say(const std::string& line)
+{
+    if (isatty(STDERR_FILENO))
+        std::fprintf(stderr, "\r%-78s", line.c_str());
+}
+
+std::string left_told(double seconds)
+{
+    char text[64];
+    if (seconds < 90)
+        std::snprintf(text, sizeof text, "about %.0f s left", seconds);
+    else
+        std::snprintf(text, sizeof text, "about %.0f min left", seconds / 60);
+    return text;
+}
+
+using Clock = std::chrono::steady_clock;
+double since(Clock::time_point began) { return std::chrono::duration<double>(Clock::now() - began).count(); }
+
+Truths truths_of(const Trial& trial)
+{
+    const ReferenceWorld world = open_reference_world(trial.scene);
+    const std::string key = key_of_files({trial.scene, world.scene.gltf, trial.layout.file});
+    Truths truths;
+    for (const auto& [name, shot] : trial.shots) {
+        std::vector<Truth>& of_shot = truths.emplace_back();
+        for (std::size_t output = 0; output < trial.layout.outputs.size(); ++output) {
+            const Output& own = trial.layout.outputs[output];
+            const auto began = Clock::now();
+            const std::string what = "reference of " + name + ", " + own.name;
+            int first = -1;
+            ReferenceOptions options;
+            options.samples = trial.samples;
+            options.kept = trial.folder / ("reference-" + name + "-" + own.name + ".rows");
+            options.key = key;
+            options.progress = [&](int done, int rows) {
+                if (first < 0)
+                    first = done;
+                if (done > first && since(began) > 1)
+                    say(what + ": " + left_told(since(began) / (done - first) * (rows - done)));
+            };
+            const Reference truth = reference(world.input(), trial.layout, shot, output, options);
+            of_shot.push_back({shown(truth), truth.size, truth.numbers});
+        }
+    }
+    say("");
+    return truths;
+}
+
+/// The shot so many frames of a sixtieth of a second on board earlier.
+Shot earlier(const Shot& shot, int frames, double seconds_per_time_unit)
+{
+    const double passed = frames / 60.0 / seconds_per_time_unit;
+    Shot before = shot;
+    before.position -= shot.u * passed;
+    before.time -= physics::gamma_of(shot.u) * passed;
+    return before;
+}
+
+double angle(const glm::dvec3& a, const glm::dvec3& b) { return 2 * std::asin(std::min(1.0, 0.5 * glm::length(a - b))); }
+
+/// How far pixels look from where they should, in pixels, and the same of D, relative: of each that shows something.
+void compare(const Truth& truth, const Channels& live, std::vector<double>& directions, std::vector<double>& dopplers)
+{
+    std::map<std::string, const std::vector<float>*> planes;
+    for (const auto& [name, values] : live)
+        planes[name] = &values;
+    const auto& x = *planes.at("worldDirection.X");
+    const auto &y = *planes.at("worldDirection.Y"), &z = *planes.at("worldDirection.Z"), &D = *planes.at("doppler");
+    for (int row = 0; row < truth.size.y; ++row)
+        for (int column = 0; column + 1 < truth.size.x; ++column) {
+            const std::size_t i = std::size_t(row) * std::size_t(truth.size.x) + std::size_t(column);
+            const Reference::Numbers &here = truth.numbers[i], &beside = truth.numbers[i + 1];
+            if (!here.shown || !beside.shown || std::isnan(x[i]))
+                continue;
+            const double pixel = angle(here.world, beside.world);
+            if (pixel <= 0)
+                continue;
+            directions.push_back(angle(here.world, glm::normalize(glm::dvec3(x[i], y[i], z[i]))) / pixel);
+            dopplers.push_back(std::abs(D[i] / here.D - 1));
+        }
+}
+
+/// One theatre for each level of light that is tried.
+class Theatres {
+public:
+    Theatres(std::filesystem::path scene, Device::Options options)
+        : scene_(std::move(scene))
+        , options_(std::move(options))
+    {
+    }
+    Theatre& with(std::optional<SpectralLevel> level)
+    {
+        std::unique_ptr<Theatre>& theatre = made_[level];
+        if (!theatre)
+            theatre = std::make_unique<Theatre>(scene_, options_, level);
+        return *theatre;
+    }
+
+private:
+    std::filesystem::path scene_;
+    Device::Options options_;
+    std::map<std::optional<SpectralLevel>, std::unique_ptr<Theatre>> made_;
+};
+
+/// A quality's frames, off-screen.
+struct Drawer {
+    Device& device;
+    Studio studio;
+    std::vector<Target> targets;
+    int block; ///< frames, after which all is as before
+
+    Drawer(Theatre& theatre, const Layout& layout, const Quality& quality)
+        : device(theatre.device)
+        , studio(theatre.device, theatre.pipelines, theatre.world, layout, within(theatre.device, quality), false)
+        , block(quality.frames_per_cube)
+    {
+        for (std::size_t i = 0; i < layout.outputs.size(); ++i)
+            targets.push_back(studio.target(i));
+    }
+    double frame_ms(const Shot& shot)
+    {
+        return milliseconds([&] {
+            for (int i = 0; i < block; ++i) {
+                studio.frame().prepare(shot, nullptr);
+                device.now([&](vk::CommandBuffer c) {
+                    for (const Target& target : targets)
+                        make_writable(c, target);
+                    studio.frame().record(c, targets);
+                });
+            }
+        }) / block;
+    }
+};
+
+/// Its time of each shot, each frame beside one of the standard's.
+void time(const Trial& trial, Theatre& theatre, Theatre& standards, Measured& one, double& standard_ms)
+{
+    Drawer own(theatre, trial.layout, one.setting.quality), standard(standards, trial.layout, trial.standard);
+    one.ms = standard_ms = 0;
+    double ratios = 0;
+    for (const auto& [name, shot] : trial.shots) {
+        std::vector<double> mine, its;
+        for (int round = -1; round < trial.rounds; ++round) {
+            const double a = own.frame_ms(shot), b = standard.frame_ms(shot);
+            if (round >= 0)
+                mine.push_back(a), its.push_back(b);
+        }
+        const double count = double(trial.shots.size());
+        one.ms += median(mine) / count, standard_ms += median(its) / count;
+        ratios += std::log(median(mine) / median(its)) / count;
+        double texels = 0, pixels = 0;
+        int images = 0;
+        for (const Plan& plan : own.studio.frame().plans())
+            texels += plan.texels, pixels += plan.pixels, images += int(plan.images.size());
+        one.texels_per_pixel = std::max(one.texels_per_pixel, texels / pixels);
+        one.images = std::max(one.images, images);
+    }
+    one.ratio = std::exp(ratios);
+    one.megabytes = double(own.studio.frame().memory()) / (1 << 20);
+}
+
+void find_errors(const Trial& trial, Theatre& theatre, const Truths& truths, Measured& one)
+{
+    const Quality quality = within(theatre.device, one.setting.quality);
+    double noise = 0, count = 0;
+    std::vector<double> directions, dopplers;
+    one.errors = {};
+    for (std::size_t i = 0; i < trial.shots.size(); ++i) {
+        const Shot& shot = trial.shots[i].second;
+        Studio studio(theatre.device, theatre.pipelines, theatre.world, trial.layout, quality, false);
+        if (quality.frames_per_cube > 1)
+            (void)studio.picture(
+                earlier(shot, quality.frames_per_cube - 1, theatre.world.scene.seconds_per_time_unit()));
+        const auto pictures = studio.picture(shot);
+        Studio measured(theatre.device, theatre.pipelines, theatre.world, trial.layout, quality, true);
+        directions.clear(), dopplers.clear();
+        for (std::size_t output = 0; output < pictures.size(); ++output) {
+            const Truth& truth = truths[i][output];
+            const PictureErrors errors = picture_errors({truth.size, pictures[output]}, {truth.size, truth.picture});
+            noise += std::pow(10, -errors.psnr_dB / 10);
+            one.errors.flip += errors.flip;
+            one.errors.ciede2000_mean += errors.ciede2000_mean;
+            one.errors.ciede2000_95 += errors.ciede2000_95;
+            one.errors.edges_95_px = std::max(one.errors.edges_95_px, errors.edges_95_px);
+            ++count;
+            if (layers(trial.layout.outputs[output].packing) == 1)
+                compare(truth, measured.numbers(shot, output), directions, dopplers);
+        }
+        one.direction_px = std::max(one.direction_px, quantile(directions, 0.99));
+        one.doppler = std::max(one.doppler, quantile(dopplers, 0.99));
+    }
+    one.errors.psnr_dB = -10 * std::log10(noise / count);
+    one.errors.flip /= count;
+    one.errors.ciede2000_mean /= count;
+    one.errors.ciede2000_95 /= count;
+}
+
+/// What an interrupted run had measured.
+class Kept {
+public:
+    Kept(std::filesystem::path file, std::string key)
+        : file_(std::move(file))
+        , key_(std::move(key))
+    {
+        std::ifstream in(file_);
+        nlohmann::json before = nlohmann::json::parse(in, nullptr, false);
+        if (before.is_object() && before.value("key", "") == key_)
+            all_ = before;
+        else
+            all_ = {{"key", key_}, {"settings", nlohmann::json::object()}};
+    }
+    bool find(Measured& one) const
+    {
+        const auto& settings = all_.at("settings");
+        const auto at = settings.find(quality_text(one.setting.quality));
+        if (at == settings.end())
+            return false;
+        const std::vector<double> v = at->get<std::vector<double>>();
+        one.ms = v.at(0), one.ratio = v.at(1), one.megabytes = v.at(2), one.texels_per_pixel = v.at(3),
+        one.images = int(v.at(4));
+        one.errors = {v.at(5), v.at(6), v.at(7), v.at(8), v.at(9)};
+        one.direction_px = v.at(10), one.doppler = v.at(11);
+        return true;
+    }
+    void keep(const Measured& one)
+    {
+        const PictureErrors& e = one.errors;
+        all_["settings"][quality_text(one.setting.quality)]
+            = {one.ms, one.ratio, one.megabytes, one.texels_per_pixel, one.images, std::min(e.psnr_dB, 1e3), e.flip,
+                e.ciede2000_mean, e.ciede2000_95, e.edges_95_px, one.direction_px, one.doppler};
+        const std::filesystem::path beside = file_.string() + ".new";
+        std::ofstream(beside) << all_.dump();
+        std::error_code ignored;
+        std::filesystem::rename(beside, file_, ignored);
+    }
+    void forget() const
+    {
+        std::error_code ignored;
+        std::filesystem::remove(file_, ignored);
+    }
+
+private:
+    std::filesystem::path file_;
+    std::string key_;
+    nlohmann::json all_;
+};
+
+std::string key_of(const Trial& trial, const std::string& machine)
+{
+    std::string key = machine + key_of_files({trial.scene, trial.layout.file}) + std::to_string(trial.rounds) + ","
+        + std::to_string(trial.samples) + quality_text(trial.standard);
+    for (const Output& output : trial.layout.outputs)
+        key += "," + std::to_string(output.size.x) + "x" + std::to_string(output.size.y);
+    for (const auto& [name, shot] : trial.shots)
+        key += "," + name;
+    return key;
+}
+
+} // namespace
+
+std::vector<Measured> measure_settings(
+    const Trial& trial, const std::vector<Setting>& settings, const Device::Options& options, std::string& machine)
+{
+    Theatres theatres(trial.scene, options);
+    Theatre& standards = theatres.with(trial.standard.spectra);
+    machine = standards.device.properties.deviceName.data();
+    const Truths truths = truths_of(trial);
+    Kept kept(trial.folder / "measured.json", key_of(trial, machine));
+    std::vector<Measured> all;
+    std::vector<double> standard_ms;
+    int measured = 0;
+    const auto began = Clock::now();
+    for (const Setting& setting : settings) {
+        Measured one{setting};
+        if (!kept.find(one)) {
+            say("setting " + std::to_string(all.size() + 1) + " of " + std::to_string(settings.size()) + ": " + setting.name
+                + (measured > 0 ? ", " + left_told(since(began) / measured * double(settings.size() - all.size())) : ""));
+            Theatre& theatre = theatres.with(setting.quality.spectra);
+            double beside = 0;
+            time(trial, theatre, standards, one, beside);
+            find_errors(trial, theatre, truths, one);
+            kept.keep(one);
+            ++measured;
+        }
+        standard_ms.push_back(one.ms / one.ratio);
+        all.push_back(one);
+    }
+    // The machine's speed drifts, ratios hardly: all times are told for the speed that it mostly had.
+    if (!standard_ms.empty())
+        for (Measured& one : all)
+            one.ms = one.ratio * quantile(standard_ms, 0.5);
+    kept.forget();
+    say("");
+    if (isatty(STDERR_FILENO))
+        std::fprintf(stderr, "\r");
+    return all;
+}
+
+} // namespace starbow
