@@ -1,4 +1,5 @@
 #include "finish_pass.h"
+#include "displays/anaglyph.h"
 #include <glm/gtc/packing.hpp>
 
 namespace starbow {
@@ -7,19 +8,6 @@ namespace {
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 using Layout_ = vk::ImageLayout;
-
-/// Two eyes in one colour picture. Rows of the left and of the right eye's matrix, linear Rec. 709.
-struct Anaglyph {
-    glm::dmat3 left, right; ///< rows as columns: transposed when used
-};
-
-// Red-cyan keeps every channel as it is. The other two are Eric Dubois's least-squares matrices for sRGB primaries and
-// typical glasses (A projection method to generate anaglyph stereo images, 2001, and its tables), made for linear light.
-const Anaglyph red_cyan{{1, 0, 0, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 1, 0, 0, 0, 1}};
-const Anaglyph dubois{{0.4561, 0.500484, 0.176381, -0.0400822, -0.0378246, -0.0157589, -0.0152161, -0.0205971, -0.00546856},
-    {-0.0434706, -0.0879388, -0.00155529, 0.378476, 0.73364, -0.0184503, -0.0721527, -0.112961, 1.2264}};
-const Anaglyph amber_blue{{1.062, -0.205, 0.299, -0.026, 0.908, 0.068, -0.038, -0.173, 0.022},
-    {-0.016, -0.123, -0.017, 0.006, 0.062, -0.017, 0.094, 0.185, 0.911}};
 
 int combine_of(Packing packing)
 {
@@ -74,11 +62,9 @@ FinishPass::FinishPass(Device& device, Pipelines& pipelines, const Output& outpu
     variant_.curve = !colour.lut.empty() ? 2 : colour.gamma != 0 ? 1 : 0;
     glm::dmat3 left = colour.matrix, right(0);
     if (variant_.combine == 4) {
-        const Anaglyph& anaglyph = output.packing == Packing::anaglyph_dubois ? dubois
-            : output.packing == Packing::anaglyph_amber_blue                  ? amber_blue
-                                                                              : red_cyan;
-        left = colour.matrix * glm::transpose(anaglyph.left);
-        right = colour.matrix * glm::transpose(anaglyph.right);
+        const Anaglyph mixed = *anaglyph(output.packing);
+        left = colour.matrix * mixed.left;
+        right = colour.matrix * mixed.right;
     }
     push_.left0 = row(left, 0), push_.left1 = row(left, 1), push_.left2 = row(left, 2);
     push_.right0 = row(right, 0), push_.right1 = row(right, 1), push_.right2 = row(right, 2);

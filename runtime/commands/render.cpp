@@ -3,6 +3,7 @@
 #include "language_option.h"
 #include "number_option.h"
 #include "pattern_option.h"
+#include "render_reference.h"
 #include "render_replay.h"
 #include "render_tour.h"
 #include "runtime/find.h"
@@ -23,9 +24,9 @@ struct Options {
     std::string layout, shot, out, size, pattern = "none", exposure = "shot", spectra = "needed", replay, frames,
                                          language = "en", tour, movie, points, overlay = "off", why = "none";
     long frames_per_s = 30;
-    long every = 1;
+    long every = 1, samples = 16;
     double bloom = 0;
-    bool exr = false, hud = false;
+    bool exr = false, hud = false, reference = false;
 };
 
 int render(const Options& options)
@@ -40,6 +41,10 @@ int render(const Options& options)
             options.frames_per_s, options.bloom});
     if (options.shot.empty())
         throw InputError("None of --shot, --replay and --tour is given; what is to be drawn, one of them, is right");
+    if (options.reference && options.exposure != "shot")
+        throw InputError("--exposure " + options.exposure + " is not known to --reference; shot is right there");
+    if (options.reference)
+        return render_reference({options.layout, options.shot, options.out, options.size, options.samples, options.exr});
     const Words words = words_in(options.language);
     std::filesystem::path shot_file = find("shots", options.shot);
     Shot shot = load_shot(shot_file);
@@ -109,9 +114,10 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--exposure", options->exposure, "The shot's own exposure (shot), or after what is seen (auto)")
         ->check(CLI::IsMember({"shot", "auto"}))
         ->capture_default_str();
-    command->add_option("--bloom", options->bloom, "The part of the light that glows around what shines, 0 to 1")
-        ->check(CLI::Range(0.0, 1.0))
-        ->capture_default_str();
+    CLI::Option* bloom
+        = command->add_option("--bloom", options->bloom, "The part of the light that glows around what shines, 0 to 1")
+              ->check(CLI::Range(0.0, 1.0))
+              ->capture_default_str();
     add_spectra(*command, options->spectra);
     CLI::Option* points = command->add_option("--measure", options->points, measure_help);
     CLI::Option* overlay = command
@@ -126,7 +132,7 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
                                "dilation or length")
                            ->check(CLI::IsMember(std::vector<std::string>(why_names.begin(), why_names.end())))
                            ->capture_default_str();
-    command->add_flag("--hud", options->hud, "With the head-up display");
+    CLI::Option* hud = command->add_flag("--hud", options->hud, "With the head-up display");
     add_language(*command, options->language);
     CLI::Option* replay = command->add_option(
         "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");
@@ -148,8 +154,17 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
     tour->needs(movie);
     for (CLI::Option* other : {shot, out, exr, pattern, replay, points, overlay, why})
         tour->excludes(other);
+    CLI::Option* reference = command->add_flag("--reference", options->reference,
+        "By rays, in double and with whole spectra, without a device: slow, and what the others should look like");
+    for (CLI::Option* other : {replay, tour, hud, pattern, bloom, points, overlay, why})
+        reference->excludes(other);
+    command->add_option("--samples", options->samples, "Of --reference: rays of each pixel")
+        ->check(whole_number(1, 4096))
+        ->capture_default_str()
+        ->needs(reference);
     command->footer(
         "Examples:\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome --size 2048x2048 --exr\n"
+        "  starbow render --shot gamma100 --out out/right --reference --samples 64\n"
         "  starbow render --replay flight.jsonl --out out/flight --frames 0:599\n"
         "  starbow render --tour first-minute --movie out/first-minute.mp4 --fps 30 --size 1280x720 --language de\n"
         "  starbow render --shot clocks-passing --out out/clocks --measure \"400,300; 12deg,0deg\" --overlay ring");

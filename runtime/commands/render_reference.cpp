@@ -1,0 +1,92 @@
+#include "render_reference.h"
+#include "config/error.h"
+#include "runtime/capture.h"
+#include "runtime/find.h"
+#include "runtime/reference/reference.h"
+#include "size_option.h"
+#include <chrono>
+#include <cstdio>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+/// Tells a person at a terminal how far a picture is, and about how long the rest may take.
+class Rows {
+public:
+    explicit Rows(const std::string& output)
+        : output_(output)
+    {
+    }
+    ~Rows()
+    {
+        if (told_)
+            std::fprintf(stderr, "\r%70s\r", "");
+    }
+    void tell(int done, int rows)
+    {
+        using namespace std::chrono;
+        const auto now = steady_clock::now();
+        if (first_ == 0)
+            first_ = done, began_ = now;
+        if (!isatty(STDERR_FILENO) || now - last_ < milliseconds(200))
+            return;
+        last_ = now, told_ = true;
+        std::fprintf(stderr, "\r%-30.30s %d of %d rows", output_.c_str(), done, rows);
+        if (done > first_)
+            std::fprintf(
+                stderr, ", about %.0f s left ", duration<double>(now - began_).count() / (done - first_) * (rows - done));
+        std::fflush(stderr);
+    }
+
+private:
+    std::string output_;
+    int first_ = 0;
+    bool told_ = false;
+    std::chrono::steady_clock::time_point began_, last_;
+};
+
+} // namespace
+
+int render_reference(const ReferenceCommand& command)
+{
+    const std::filesystem::path shot_file = find("shots", command.shot);
+    const Shot shot = load_shot(shot_file);
+    Layout layout = load_layout(find("layouts", command.layout.empty() ? "desk" : command.layout));
+    if (!command.size.empty())
+        for (Output& output : layout.outputs)
+            output.size = parse_size(command.size);
+    std::vector<std::filesystem::path> pictures;
+    for (const Output& output : layout.outputs)
+        for (const Viewport& viewport : output.viewports)
+            pictures.insert(pictures.end(), {viewport.alpha_mask, viewport.black_level});
+    const std::filesystem::path folder = command.out;
+    for (const Output& output : layout.outputs)
+        for (const char* kind : {".png", ".exr", ".rows"}) {
+            check_not_read(folder / (output.name + kind), pictures);
+            check_writable(folder / (output.name + kind));
+        }
+    const ReferenceWorld world = open_reference_world(scene_of(shot, shot_file));
+    for (const std::string& note : world.world.notes)
+        std::fprintf(stderr, "starbow: %s: %s\n", world.scene.gltf.c_str(), note.c_str());
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw InputError(folder.string(), "", "can't be made (" + error.message() + "); give a folder that can be written");
+    for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
+        const Output& output = layout.outputs[i];
+        const std::filesystem::path kept = folder / (output.name + ".rows");
+        Rows rows(output.name);
+        const Reference drawn = reference(world.input(), layout, shot, i,
+            {.samples = int(command.samples), .progress = [&](int done, int all) { rows.tell(done, all); }, .kept = kept});
+        write_png(folder / (output.name + ".png"), drawn.size, shown(drawn));
+        if (command.exr)
+            write_exr(folder / (output.name + ".exr"), drawn.size, channels(drawn));
+        std::filesystem::remove(kept, error);
+    }
+    for (const Output& output : layout.outputs)
+        std::printf("%s/%s.png%s\n", command.out.c_str(), output.name.c_str(), command.exr ? " and .exr" : "");
+    return 0;
+}
+
+} // namespace starbow

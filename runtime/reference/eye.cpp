@@ -1,0 +1,134 @@
+#include "eye.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+
+TracingEye::TracingEye(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours,
+    const Watcher& watcher, const glm::dvec3& place, double beside)
+    : scene_(scene)
+    , colours_(colours)
+    , watcher_(watcher)
+    , place_(place)
+{
+    for (std::size_t i = 0; i < watcher_.layers.size(); ++i) {
+        const Layer& layer = watcher_.layers[i];
+        const glm::dvec3 offset = layer.shot.ship_from_cockpit * place;
+        const Vantage vantage{int(i), layer.shot.position + physics::eye_place(layer.shot.u, offset),
+            layer.shot.time + physics::eye_time(layer.shot.u, offset), layer.motion_from_frame, layer.now, layer.contraction,
+            layer.beta};
+        // What is beside in the ship is further beside in the frame.
+        const double reach = beside * physics::gamma_of(layer.shot.u);
+        views_.push_back(
+            {&layer, Tracer(world, pictures, vantage, reach), Lighting(world, scene, pictures, colours, vantage)});
+    }
+}
+
+std::size_t TracingEye::triangles() const
+{
+    std::size_t all = 0;
+    for (const View& view : views_)
+        all += view.tracer.triangles();
+    return all;
+}
+
+/// From a direction in the ship, motion axes, to the one in a frame.
+physics::Sight TracingEye::sight(const glm::dvec3& n, double E) const
+{
+    return watcher_.shot.effects.comparison == Comparison::galilean ? physics::galilean_world_from_camera(n, E, 1 / E)
+                                                                    : physics::world_from_camera(n, E, 1 / E);
+}
+
+TracingEye::Nearest TracingEye::nearest(const glm::dvec3& way, const glm::dvec3& beside, const physics::Sight& world) const
+{
+    // Without aberration directions are as in the world, and what moves there is seen as from there; D is the ship's beside.
+    const bool aberration = watcher_.shot.effects.aberration;
+    const double D_beside = aberration ? 1 : world.D;
+    Nearest found;
+    for (const View& view : views_) {
+        if (view.tracer.triangles() == 0)
+            continue;
+        const Layer& layer = *view.layer;
+        const glm::dvec3 n = glm::normalize(layer.motion_from_cockpit * way);
+        physics::Sight own = sight(n, layer.E);
+        const bool worlds = view.tracer.vantage().frame == 0;
+        if (worlds)
+            own = world;
+        glm::dvec3 stretched = own.n;
+        stretched.z /= layer.contraction;
+        const double stretch = glm::length(stretched);
+        const glm::dvec3 apart = layer.shot.ship_from_cockpit * beside;
+        SightLine line{
+            glm::dvec3(0), glm::transpose(layer.motion_from_frame) * (stretched / stretch), view.tracer.vantage().time};
+        if (beside != glm::dvec3(0)) {
+            line.from = physics::eye_place(layer.shot.u, apart);
+            line.time += physics::eye_time(layer.shot.u, apart);
+        }
+        const auto met = view.tracer.nearest(line);
+        if (!met)
+            continue;
+        const double D = worlds ? world.D : own.D * D_beside;
+        const double in_ship = (worlds && !aberration ? 1 : own.D) * met->distance / stretch;
+        if (in_ship < found.way)
+            found = {&view, *met, D, in_ship};
+    }
+    return found;
+}
+
+LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside) const
+{
+    const Effects& effects = watcher_.shot.effects;
+    const Layer& layer = watcher_.layers.front();
+    const glm::dvec3 n = glm::normalize(layer.motion_from_cockpit * way);
+    physics::Sight world = sight(n, watcher_.E);
+    if (!effects.aberration)
+        world.n = n;
+    LookedAt out;
+    out.world = glm::transpose(layer.motion_from_frame) * world.n;
+    out.D = world.D;
+    out.distance = INFINITY;
+    const Nearest found = nearest(way, beside, world);
+    if (found.view) {
+        out.D = found.D;
+        out.distance = found.way / (effects.aberration ? world.D : 1);
+    }
+    const double shift = effects.doppler ? out.D : 1;
+    if (found.view) {
+        out.light = found.view->lighting.seen(found.met, shift);
+    } else {
+        const double height = out.world.y, h = std::min(std::abs(height), 1.0), part = h * h * (3 - 2 * h);
+        const Sky& sky = scene_.sky;
+        out.light = colours_.sky(glm::mix(sky.horizon, height > 0 ? sky.zenith : sky.nadir, part), shift);
+    }
+    if (effects.headlight)
+        out.light *= out.D * out.D * out.D;
+    return out;
+}
+
+bool TracingEye::covered(const glm::dvec3& way, const glm::dvec3& beside) const
+{
+    const glm::dvec3 n = glm::normalize(watcher_.layers.front().motion_from_cockpit * way);
+    physics::Sight world = sight(n, watcher_.E);
+    if (!watcher_.shot.effects.aberration)
+        world.n = n;
+    return nearest(way, beside, world).view;
+}
+
+physics::Sight TracingEye::from_world(const glm::dvec3& towards) const
+{
+    const Effects& effects = watcher_.shot.effects;
+    const Layer& layer = watcher_.layers.front();
+    const glm::dvec3 n = layer.motion_from_frame * towards;
+    const double E = watcher_.E;
+    physics::Sight seen{n, 1};
+    if (!effects.aberration)
+        seen.D = sight(n, E).D;
+    else if (effects.comparison == Comparison::galilean)
+        seen = physics::galilean_camera_from_world(n, E, 1 / E);
+    else
+        seen = physics::camera_from_world(n, E, 1 / E);
+    seen.n = glm::transpose(layer.motion_from_cockpit) * seen.n;
+    return seen;
+}
+
+} // namespace starbow

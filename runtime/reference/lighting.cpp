@@ -1,0 +1,143 @@
+#include "lighting.h"
+#include "clock_face.h"
+#include "physics/physics.h"
+#include "runtime/clock.h"
+#include "runtime/moving.h"
+#include "runtime/worldline.h"
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+const Life for_ever{-INFINITY, INFINITY};
+
+/// What an instance's own clock is at its frame's time 0.
+double zero_of(const World& world, const Instance& instance)
+{
+    return instance.life < 0 ? 0 : world.lives[std::size_t(instance.life)].zero;
+}
+
+/// When the light of the middle of an instance's box left that the eye gets.
+double middle_sent(const World& world, const Instance& instance, const Vantage& vantage)
+{
+    if (instance.motion >= 0)
+        return seen_pose(world, instance, vantage).sent;
+    const Primitive& primitive = world.primitives[instance.primitive];
+    const glm::dvec4 middle(0.5 * (primitive.low + primitive.high), 1);
+    return emission_time(
+        vantage, vantage.motion_from_frame * (glm::dvec3(instance.frame_from_local * middle) - vantage.place));
+}
+
+} // namespace
+
+Lighting::Lighting(
+    const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours, const Vantage& vantage)
+    : world_(world)
+    , scene_(scene)
+    , pictures_(pictures)
+    , colours_(colours)
+    , vantage_(vantage)
+{
+    for (const Lamp& lamp : world.lamps) {
+        const Light& light = scene.lights[lamp.light];
+        Source source{&light, {}, {}, true, 0};
+        std::visit([&](const auto& l) { source.radiance = l.radiance, source.kind.light = l.spectrum; }, light);
+        if (lamp.frame != vantage.frame) {
+            if (const auto* far = std::get_if<DirectionalLight>(&light))
+                aberrated(world.frames[std::size_t(vantage.frame)].u, far->towards, source.kind.D);
+            else
+                source.same_D = false;
+        }
+        if (source.same_D)
+            source.ready = colours.kind(source.kind);
+        sources_.push_back(source);
+    }
+}
+
+Lighting::Shine Lighting::shine(std::size_t index, const glm::dvec3& place, double time) const
+{
+    const Lamp& lamp = world_.lamps[index];
+    const RestFrame &here = world_.frames[std::size_t(vantage_.frame)], &there = world_.frames[std::size_t(lamp.frame)];
+    const bool moves = lamp.frame != vantage_.frame;
+    Shine shine;
+    if (const auto* far = std::get_if<DirectionalLight>(sources_[index].light)) {
+        shine.towards = moves ? aberrated(here.u, far->towards, shine.D) : far->towards;
+        shine.strength = shine.D; // a point's flux per frequency
+        return shine;
+    }
+    const double at_distance = std::get<PointLight>(*sources_[index].light).distance;
+    glm::dvec3 way = lamp.position - place;
+    double own = time - glm::length(way); // the lamp's time when the light left
+    double distance = glm::length(way); // in its own frame
+    if (moves) {
+        // The event of its own time 0, and its motion, as the surface's frame has them.
+        const Event zero_in_world{there.origin.time + physics::world_time(there.u, 0, lamp.position),
+            there.origin.position + physics::world_place(there.u, 0, lamp.position)};
+        const Event zero = in_frame(here, zero_in_world);
+        const glm::dvec3 u = physics::relative(here.u, there.u).u;
+        const double gamma = physics::gamma_of(u), speed = glm::length(u);
+        const glm::dvec3 now = zero.position + u / gamma * (time - zero.time) - place;
+        const physics::Seen seen = physics::seen_moving(now, u / speed, speed, gamma);
+        shine.D = seen.D;
+        way = seen.place;
+        own = (time - zero.time) / gamma + seen.tau;
+        distance = seen.delay / seen.D; // the light's way goes as its frequency does not
+    }
+    const Life& life = lamp.life < 0 ? for_ever : world_.lives[std::size_t(lamp.life)];
+    if (own < life.begin || own > life.end || distance == 0)
+        return shine;
+    shine.towards = way / glm::length(way);
+    shine.strength = shine.D * (at_distance / distance) * (at_distance / distance);
+    return shine;
+}
+
+glm::dvec3 Lighting::seen(const Met& met, double D) const
+{
+    const Instance& instance = world_.instances[met.instance];
+    const int index = world_.primitives[instance.primitive].material;
+    const Material& material = world_.materials[std::size_t(index)];
+    const glm::dvec4 coloured = base_of(world_, pictures_, met);
+    glm::dvec3 base(coloured);
+    glm::dvec3 emitted(material.emissive);
+    if (material.emissive_texture >= 0)
+        emitted *= glm::dvec3(pictures_.at(material.emissive_texture, uv_of(world_, met)));
+    const double own_s = (met.sent - zero_of(world_, instance)) * world_.seconds_per_time_unit;
+    if (material.clock) {
+        const glm::dvec2 uv = uv_of(world_, met);
+        const double middle_s
+            = (middle_sent(world_, instance, vantage_) - zero_of(world_, instance)) * world_.seconds_per_time_unit;
+        const double ink
+            = mark({2 * uv.x - 1, 1 - 2 * uv.y}, own_s - material.clock->zero_s, figures(middle_s - material.clock->zero_s));
+        base *= 1 - ink;
+        emitted *= ink;
+    }
+    if (material.blink) {
+        const double periods = (own_s - material.blink->zero_s) / material.blink->period_s;
+        if (periods - std::floor(periods) >= material.blink->on)
+            emitted = glm::dvec3(0);
+    }
+    const glm::dvec3 sent = colours_.sent(index, emitted, D);
+    if (material.unlit)
+        return sent + colours_.lit(index, Colours::sunlight, base, glm::dvec3(1), D);
+
+    glm::dvec3 all = sent + colours_.lit(index, Colours::sunlight, base, scene_.ambient, D);
+    glm::dvec3 local(0);
+    for (int k = 0; k < 3; ++k)
+        local += met.weights[k] * glm::dvec3(world_.vertices[met.corners[k]].normal);
+    const glm::dmat3 m(instance.motion >= 0 ? pose_at(world_, instance, met.sent) : instance.frame_from_local);
+    const glm::dvec3 normal = glm::normalize(glm::transpose(glm::inverse(m)) * local) * (met.front ? 1.0 : -1.0);
+    const glm::dvec3 place = vantage_.place + met.place;
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+        const Shine light = shine(i, place, met.sent);
+        const double facing = glm::dot(normal, light.towards);
+        if (light.strength == 0 || !(facing > 0))
+            continue;
+        const Source& source = sources_[i];
+        const glm::dvec3 falling = source.radiance * (light.strength * facing);
+        all += source.same_D ? colours_.lit(index, source.ready, base, falling, D)
+                             : colours_.lit(index, Colours::Kind{source.kind.light, light.D}, base, falling, D);
+    }
+    return all;
+}
+
+} // namespace starbow

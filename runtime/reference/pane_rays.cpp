@@ -1,0 +1,136 @@
+#include "pane_rays.h"
+#include "config/turn.h"
+#include <cmath>
+#include <cstdint>
+
+namespace starbow {
+namespace {
+
+constexpr int columns = 16; ///< of samples on a pixel of a bent pane
+
+/// The base 2 digits of i mirrored at the point (van der Corput).
+double mirrored(std::uint32_t i)
+{
+    double value = 0, digit = 0.5;
+    for (; i > 0; i >>= 1, digit *= 0.5)
+        value += (i & 1) * digit;
+    return value;
+}
+
+Picture source_of(const CompiledPane& pane)
+{
+    return pane.mesh ? bent_picture(pane.pane, *pane.mesh, pane.pane.projection_given) : pane.pane.picture;
+}
+
+glm::dmat3 turn_of(const Projection& projection)
+{
+    if (auto* planar = std::get_if<Planar>(&projection))
+        return cockpit_from_picture(planar->turn);
+    if (auto* lens = std::get_if<Lens>(&projection))
+        return cockpit_from_picture(lens->turn);
+    return glm::dmat3(1);
+}
+
+} // namespace
+
+std::vector<glm::dvec2> sample_places(int count)
+{
+    std::vector<glm::dvec2> places;
+    for (int i = 0; i < count; ++i)
+        places.emplace_back(std::fmod(mirrored(std::uint32_t(i)) + 0.5 / count, 1.0), (i + 0.5) / count);
+    return places;
+}
+
+PaneRays::PaneRays(const CompiledPane& pane, const std::vector<glm::dvec2>& samples)
+    : pane_(pane)
+    , places_(samples)
+    , channels_(pane.channels())
+    , source_(source_of(pane))
+    , rays_(source_)
+    , turn_(turn_of(source_.projection))
+{
+    if (!pane.mesh)
+        return;
+    const glm::ivec2 size = pane.pane.size;
+    centres_ = std::make_unique<WarpRaster>(*pane.mesh, size);
+    fine_ = std::make_unique<WarpRaster>(*pane.mesh, glm::ivec2(size.x * columns, size.y * int(samples.size())));
+}
+
+std::optional<glm::dvec3> PaneRays::bent(const WarpSample& sample, int channel) const
+{
+    if (!sample.shown)
+        return {};
+    switch (pane_.mesh->kind) {
+    case WarpMesh::Kind::picture:
+        return rays_.direction(glm::dvec2(sample.sees[0]) * glm::dvec2(source_.size),
+            splits_colours(source_.projection) ? Channel(channel) : Channel::green);
+    case WarpMesh::Kind::points: {
+        const glm::dvec3 way = sample.sees[0] - source_.eye_m;
+        return glm::length(way) > 0 ? std::optional(glm::normalize(way)) : std::nullopt;
+    }
+    case WarpMesh::Kind::colours:
+        return turn_ * glm::normalize(sample.sees[std::size_t(channel)]);
+    }
+    return {};
+}
+
+std::optional<glm::dvec3> PaneRays::direction(const glm::dvec2& pixel, int channel) const
+{
+    if (!pane_.mesh)
+        return rays_.direction(pixel * pane_.pane.picture_from_pixel, channels_ == 3 ? Channel(channel) : Channel::green);
+    const DirectionMap& map = *pane_.map;
+    const glm::ivec2 at = glm::clamp(glm::ivec2(glm::floor(pixel)), glm::ivec2(0), map.size - 1);
+    const glm::dvec4 here = map.at(at.x, at.y, channel);
+    if (here.w == 0)
+        return {};
+    glm::dvec3 way(here);
+    for (int axis = 0; axis < 2; ++axis) {
+        glm::dvec3 step(0);
+        int count = 0;
+        for (int sign : {-1, 1}) {
+            glm::ivec2 beside = at;
+            beside[axis] += sign;
+            if (beside[axis] < 0 || beside[axis] >= map.size[axis])
+                continue;
+            const glm::dvec4 there = map.at(beside.x, beside.y, channel);
+            if (there.w > 0)
+                step += double(sign) * (glm::dvec3(there) - glm::dvec3(here)), ++count;
+        }
+        if (count > 0)
+            way += step / double(count) * (pixel[axis] - at[axis] - 0.5);
+    }
+    return glm::normalize(way);
+}
+
+PaneRays::Row PaneRays::row(int y) const
+{
+    Row row;
+    row.rays = this;
+    row.y = y;
+    if (!pane_.mesh)
+        return row;
+    const std::size_t width = std::size_t(pane_.pane.size.x), count = places_.size();
+    row.centres_.resize(width);
+    centres_->row(y, row.centres_);
+    row.samples_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        row.samples_[i].resize(width * columns);
+        fine_->row(y * int(count) + int(i), row.samples_[i]);
+    }
+    return row;
+}
+
+std::optional<glm::dvec3> PaneRays::Row::centre(int x, int channel) const
+{
+    return rays->pane_.mesh ? rays->bent(centres_[std::size_t(x)], channel) : rays->direction({x + 0.5, y + 0.5}, channel);
+}
+
+std::optional<glm::dvec3> PaneRays::Row::sample(int x, std::size_t i, int channel) const
+{
+    const glm::dvec2& place = rays->places_[i];
+    if (!rays->pane_.mesh)
+        return rays->direction(glm::dvec2(x, y) + place, channel);
+    return rays->bent(samples_[i][std::size_t(x * columns + int(place.x * columns))], channel);
+}
+
+} // namespace starbow

@@ -1,0 +1,49 @@
+#pragma once
+#include "displays/compiled.h"
+#include <memory>
+
+namespace starbow {
+
+/// Where on each pixel `count` samples lie, fractions of it from its top left: Hammersley's points, one in each of `count`
+/// rows, the same in every pixel and every run.
+std::vector<glm::dvec2> sample_places(int count);
+
+/// A pane's directions in double, also between its pixels' centres. Of a pane that a calibration bends the columns of
+/// samples are rounded to sixteenths of a pixel.
+class PaneRays {
+public:
+    PaneRays(const CompiledPane& pane, const std::vector<glm::dvec2>& samples); ///< both must outlive it
+
+    int channels() const { return channels_; }
+
+    /// One row of pixels: unit directions in the cockpit, nothing where none is shown.
+    class Row {
+    public:
+        std::optional<glm::dvec3> centre(int x, int channel) const;
+        std::optional<glm::dvec3> sample(int x, std::size_t sample, int channel) const;
+
+    private:
+        friend PaneRays;
+        const PaneRays* rays = nullptr;
+        int y = 0;
+        std::vector<WarpSample> centres_;
+        std::vector<std::vector<WarpSample>> samples_;
+    };
+    Row row(int y) const;
+
+    /// Anywhere, pixels from the pane's corner. Of a pane that is bent only as far as a plane through the pixel and those
+    /// beside it goes.
+    std::optional<glm::dvec3> direction(const glm::dvec2& pixel, int channel) const;
+
+private:
+    std::optional<glm::dvec3> bent(const WarpSample& sample, int channel) const;
+    const CompiledPane& pane_;
+    const std::vector<glm::dvec2>& places_;
+    int channels_;
+    Picture source_;
+    PictureRays rays_;
+    glm::dmat3 turn_;
+    std::unique_ptr<WarpRaster> centres_, fine_;
+};
+
+} // namespace starbow

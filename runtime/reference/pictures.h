@@ -1,0 +1,21 @@
+#pragma once
+#include "runtime/world.h"
+#include <array>
+
+namespace starbow {
+
+/// A world's textures as they are told, without levels of detail.
+class Pictures {
+public:
+    explicit Pictures(const World& world); ///< which must outlive it
+
+    /// Linear light and alpha at a texture coordinate, between the four texels around, or of the nearest where the sampler
+    /// says so; texture -1: white.
+    glm::dvec4 at(int texture, const glm::dvec2& uv) const;
+
+private:
+    const World& world_;
+    std::array<double, 256> linear_; ///< of sRGB's bytes
+};
+
+} // namespace starbow

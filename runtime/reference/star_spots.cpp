@@ -1,0 +1,129 @@
+#include "star_spots.h"
+#include "displays/rows.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+constexpr double pi = 3.14159265358979323846, radius = 2; // of a spot, pixels
+
+/// The part of a spot's light that falls on a pixel so far from its middle.
+double profile(double square)
+{
+    const double inside = std::max(1 - square / (radius * radius), 0.0);
+    return std::pow(inside, 4) * 5 / (pi * radius * radius);
+}
+
+} // namespace
+
+StarSpots::StarSpots(const std::vector<Star>& stars, const StarSky& sky, const TracingEye& eye, const Colours& colours,
+    const std::function<glm::dvec3(const glm::dvec3& way)>& beside)
+{
+    const glm::dmat3 world_from_sky = world_from_equatorial(sky.ahead_deg);
+    const double magnitude_0 = sky.brightness_arcmin2 * std::pow(pi / 180 / 60, 2);
+    const Effects& effects = eye.watcher().shot.effects;
+    std::vector<Spot> all(stars.size());
+    by_rows(int(stars.size()), [&](int first, int end) {
+        for (int i = first; i < end; ++i) {
+            const Star& star = stars[std::size_t(i)];
+            const physics::Sight seen = eye.from_world(world_from_sky * star.direction);
+            if (eye.covered(seen.n, beside(seen.n)))
+                continue;
+            glm::dvec3 light = colours.star(star.temperature_K, effects.doppler ? seen.D : 1)
+                * (magnitude_0 * std::pow(10, -0.4 * star.magnitude));
+            if (effects.headlight)
+                light *= seen.D; // a point's
+            all[std::size_t(i)] = {seen.n, light};
+        }
+    });
+    std::copy_if(all.begin(), all.end(), std::back_inserter(spots_), [](const Spot& s) { return s.light != glm::dvec3(0); });
+    sort(0, spots_.size(), 0);
+}
+
+void StarSpots::sort(std::size_t first, std::size_t end, int axis)
+{
+    if (end - first < 2)
+        return;
+    const std::size_t middle = (first + end) / 2;
+    auto at = [&](std::size_t i) { return spots_.begin() + std::ptrdiff_t(i); };
+    std::nth_element(
+        at(first), at(middle), at(end), [&](const Spot& a, const Spot& b) { return a.way[axis] < b.way[axis]; });
+    sort(first, middle, (axis + 1) % 3);
+    sort(middle + 1, end, (axis + 1) % 3);
+}
+
+void StarSpots::near(
+    std::size_t first, std::size_t end, int axis, const glm::dvec3& way, double reach, std::vector<std::size_t>& found) const
+{
+    if (first >= end)
+        return;
+    const std::size_t middle = (first + end) / 2;
+    const double apart = spots_[middle].way[axis] - way[axis];
+    if (glm::length(spots_[middle].way - way) <= reach)
+        found.push_back(middle);
+    if (apart >= -reach)
+        near(first, middle, (axis + 1) % 3, way, reach, found);
+    if (apart <= reach)
+        near(middle + 1, end, (axis + 1) % 3, way, reach, found);
+}
+
+glm::dvec3 StarSpots::light(const PaneRays& rays, const glm::ivec2& pixel, int channel) const
+{
+    const glm::dvec2 centre = glm::dvec2(pixel) + 0.5;
+    const auto here = rays.direction(centre, channel);
+    if (!here || spots_.empty())
+        return glm::dvec3(0);
+    /// Steps of a pixel about a point, each from what is shown on either side.
+    auto steps = [&](const glm::dvec2& at, glm::dvec3& right, glm::dvec3& down) {
+        for (int axis = 0; axis < 2; ++axis) {
+            glm::dvec2 half(0);
+            half[axis] = 0.5;
+            auto low = rays.direction(at - half, channel), high = rays.direction(at + half, channel);
+            auto middle = rays.direction(at, channel);
+            glm::dvec3& step = axis == 0 ? right : down;
+            step = low && high   ? *high - *low
+                : low && middle  ? 2.0 * (*middle - *low)
+                : high && middle ? 2.0 * (*high - *middle)
+                                 : glm::dvec3(0);
+        }
+        return glm::length(glm::cross(right, down)) > 0;
+    };
+    glm::dvec3 right, down;
+    if (!steps(centre, right, down))
+        return glm::dvec3(0);
+    std::vector<std::size_t> found;
+    near(0, spots_.size(), 0, *here, 1.5 * radius * (glm::length(right) + glm::length(down)), found);
+    glm::dvec3 all(0);
+    for (std::size_t i : found) {
+        // The point that shows the star, from this pixel on by Newton's method.
+        glm::dvec2 at = centre;
+        glm::dvec3 shown = *here, r = right, d = down;
+        bool lost = false;
+        for (int round = 0; round < 4 && !lost; ++round) {
+            const glm::dvec3 across = glm::cross(r, d), off = spots_[i].way - shown;
+            const double area_square = glm::dot(across, across);
+            const glm::dvec2 move
+                = glm::dvec2(glm::dot(glm::cross(off, d), across), glm::dot(glm::cross(r, off), across)) / area_square;
+            lost = !(glm::length(at + move - centre) < 3 * radius);
+            if (lost)
+                break;
+            at += move;
+            const auto next = rays.direction(at, channel);
+            if (!next || glm::length(move) < 1e-7)
+                break; // beyond what is shown: as a plane goes on
+            glm::dvec3 right_there, down_there;
+            if (!steps(at, right_there, down_there))
+                break;
+            shown = *next, r = right_there, d = down_there;
+        }
+        if (lost)
+            continue;
+        const double off = glm::dot(at - centre, at - centre);
+        if (off < radius * radius)
+            all += spots_[i].light * (profile(off) / glm::length(glm::cross(r, d)));
+    }
+    return all;
+}
+
+} // namespace starbow

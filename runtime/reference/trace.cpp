@@ -1,0 +1,304 @@
+#include "trace.h"
+#include "runtime/moving.h"
+#include <algorithm>
+#include <cmath>
+#include <embree3/rtcore.h>
+#include <limits>
+#include <stdexcept>
+#include <unordered_map>
+
+namespace starbow {
+namespace {
+
+constexpr double tiny = std::numeric_limits<double>::epsilon();
+
+struct Triangle {
+    std::uint32_t instance;
+    std::uint32_t corners[3]; ///< of World::vertices
+    glm::dvec3 places[3]; ///< from the vantage's; of what moves by itself, as each is seen
+};
+
+/// Where a line meets a triangle: the parts of the corners, none below 0, which sum up to 1, and how far off.
+struct Crossing {
+    glm::dvec3 weights;
+    double distance;
+    bool front, inside;
+};
+
+/// Corners from the line's beginning. The volumes that the line spans with the edges: two triangles at an edge get the same
+/// number with opposite signs, so no line passes between them. `inside` false: the plane is met beyond the edges.
+std::optional<Crossing> crossing(const glm::dvec3 (&p)[3], const glm::dvec3& way)
+{
+    const glm::dvec3 volumes(
+        glm::dot(way, glm::cross(p[1], p[2])), glm::dot(way, glm::cross(p[2], p[0])), glm::dot(way, glm::cross(p[0], p[1])));
+    const double sum = volumes.x + volumes.y + volumes.z;
+    if (sum == 0 || !std::isfinite(sum))
+        return {};
+    const bool none_above = volumes.x <= 0 && volumes.y <= 0 && volumes.z <= 0;
+    const bool none_below = volumes.x >= 0 && volumes.y >= 0 && volumes.z >= 0;
+    const glm::dvec3 weights = volumes / sum;
+    const double distance = glm::dot(way, p[0] * weights.x + p[1] * weights.y + p[2] * weights.z);
+    return Crossing{weights, distance, sum < 0, none_above || none_below};
+}
+
+float below(double x) { return std::nextafter(float(std::clamp(x, -1e37, 1e37)), -1e38f); }
+float above(double x) { return std::nextafter(float(std::clamp(x, -1e37, 1e37)), 1e38f); }
+
+} // namespace
+
+struct Tracer::Scene {
+    const World& world;
+    const Pictures& pictures;
+    Vantage vantage;
+    double farthest_eye;
+    std::vector<Triangle> triangles;
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+
+    ~Scene()
+    {
+        if (scene)
+            rtcReleaseScene(scene);
+        if (device)
+            rtcReleaseDevice(device);
+    }
+
+    struct Asked {
+        RTCIntersectContext embree; // first: Embree hands it on
+        const Scene* scene;
+        const SightLine* line;
+        std::optional<Met> met;
+    };
+
+    double sent(const SightLine& line, const glm::dvec3& place) const
+    {
+        const glm::dvec3 from_eye = place - line.from;
+        return line.time + (vantage.now ? vantage.beta * (vantage.motion_from_frame * from_eye).z : -glm::length(from_eye));
+    }
+
+    /// Where a corner of what moves by itself is seen from the vantage's place.
+    glm::dvec3 seen_corner(const Instance& instance, const glm::dvec3& local) const
+    {
+        const SightLine line{glm::dvec3(0), glm::dvec3(0), vantage.time};
+        glm::dvec3 place(0);
+        double time = vantage.time;
+        for (int round = 0; round < 60; ++round) {
+            place = glm::dvec3(pose_at(world, instance, time) * glm::dvec4(local, 1)) - vantage.place;
+            const double next = sent(line, place);
+            if (std::abs(next - time) <= 4 * tiny * std::abs(time) || next == time)
+                break;
+            time = next;
+        }
+        return place;
+    }
+
+    void add(std::uint32_t index)
+    {
+        const Instance& instance = world.instances[index];
+        const Primitive& primitive = world.primitives[instance.primitive];
+        std::unordered_map<std::uint32_t, glm::dvec3> places;
+        auto place_of = [&](std::uint32_t vertex) {
+            const auto [at, is_new] = places.try_emplace(vertex);
+            if (is_new) {
+                const glm::dvec3 local(world.vertices[vertex].position);
+                at->second = instance.motion >= 0
+                    ? seen_corner(instance, local)
+                    : glm::dvec3(instance.frame_from_local * glm::dvec4(local, 1)) - vantage.place;
+            }
+            return at->second;
+        };
+        for (std::uint32_t i = 0; i + 2 < primitive.index_count; i += 3) {
+            Triangle triangle{index, {}, {}};
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const std::uint32_t vertex
+                    = world.indices[primitive.first_index + i + k] + std::uint32_t(primitive.vertex_offset);
+                triangle.corners[k] = vertex;
+                triangle.places[k] = place_of(vertex);
+            }
+            triangles.push_back(triangle);
+        }
+    }
+
+    /// Whether any of an instance may be seen: whether light left it while it was there.
+    bool may_be_seen(const Instance& instance) const
+    {
+        if (instance.life < 0)
+            return true;
+        const Life& life = world.lives[std::size_t(instance.life)];
+        const Primitive& primitive = world.primitives[instance.primitive];
+        if (instance.motion >= 0)
+            return true;
+        const glm::dvec3 middle = glm::dvec3(instance.frame_from_local * glm::dvec4(primitive.centre, 1)) - vantage.place;
+        const glm::dmat3 m(instance.frame_from_local);
+        const double stretch = std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+        const double around = primitive.radius * stretch + 2 * farthest_eye;
+        const double time = emission_time(vantage, vantage.motion_from_frame * middle);
+        return time + around >= life.begin && time - around < life.end;
+    }
+
+    void bounds(std::uint32_t index, RTCBounds& box) const
+    {
+        const Triangle& triangle = triangles[index];
+        glm::dvec3 low = glm::min(glm::min(triangle.places[0], triangle.places[1]), triangle.places[2]);
+        glm::dvec3 high = glm::max(glm::max(triangle.places[0], triangle.places[1]), triangle.places[2]);
+        if (world.instances[triangle.instance].motion >= 0) {
+            // Light leaves two of its points at most as much apart as these are seen; and in that time, and in as much again
+            // that the eye's place may differ, none moves further than a fifth of it.
+            const double size = glm::length(high - low);
+            const double bend = 0.5 * size + 2 * most_own_speed * farthest_eye;
+            low -= bend, high += bend;
+        }
+        // A float line is off by its place's rounding and by its direction's, as far out as the box reaches.
+        const glm::dvec3 most = glm::max(glm::abs(low), glm::abs(high));
+        const double lost = 4e-7 * (std::max({most.x, most.y, most.z}) + farthest_eye) + 1e-30;
+        low -= lost, high += lost;
+        box.lower_x = below(low.x), box.lower_y = below(low.y), box.lower_z = below(low.z);
+        box.upper_x = above(high.x), box.upper_y = above(high.y), box.upper_z = above(high.z);
+    }
+
+    std::optional<Crossing> crossing_of(const Triangle& triangle, const SightLine& line, double& time) const
+    {
+        glm::dvec3 p[3] = {triangle.places[0] - line.from, triangle.places[1] - line.from, triangle.places[2] - line.from};
+        std::optional<Crossing> at = crossing(p, line.way);
+        if (!at)
+            return {};
+        const Instance& instance = world.instances[triangle.instance];
+        auto time_at = [&](const Crossing& c) { return sent(line, line.from + line.way * c.distance); };
+        time = time_at(*at);
+        if (instance.motion < 0)
+            return at;
+        // As it stood when the light left: the time at which its plane is met where light leaves at that time.
+        auto met_at = [&](double t) {
+            const glm::dmat4 pose = pose_at(world, instance, t);
+            for (int k = 0; k < 3; ++k)
+                p[k] = glm::dvec3(pose * glm::dvec4(glm::dvec3(world.vertices[triangle.corners[k]].position), 1))
+                    - vantage.place - line.from;
+            return crossing(p, line.way);
+        };
+        double before = 0, off_before = 0;
+        for (int round = 0; round < 60; ++round) {
+            at = met_at(time);
+            if (!at)
+                return {};
+            const double off = time_at(*at) - time;
+            if (std::abs(off) <= 4 * tiny * (std::abs(time) + std::abs(at->distance)))
+                return at;
+            const double slope = round == 0 ? -1 : (off - off_before) / (time - before);
+            const double next = time - off / (std::abs(slope) > 0.2 && std::isfinite(slope) ? slope : -1);
+            before = time, off_before = off;
+            if (next == time || !std::isfinite(next))
+                return at;
+            time = next;
+        }
+        return {};
+    }
+
+    bool there(const Met& met) const
+    {
+        const Instance& instance = world.instances[met.instance];
+        if (instance.life >= 0) {
+            const Life& life = world.lives[std::size_t(instance.life)];
+            if (met.sent < life.begin || met.sent >= life.end)
+                return false;
+        }
+        const Material& material = world.materials[std::size_t(world.primitives[instance.primitive].material)];
+        if (!met.front && !material.double_sided)
+            return false;
+        return material.alpha_cutoff <= 0 || base_of(world, pictures, met).a >= double(material.alpha_cutoff);
+    }
+
+    void meet(std::uint32_t index, Asked& asked, float& farthest) const
+    {
+        const Triangle& triangle = triangles[index];
+        const SightLine& line = *asked.line;
+        double time = 0;
+        const auto at = crossing_of(triangle, line, time);
+        if (!at || !at->inside || !(at->distance > 0) || (asked.met && asked.met->distance <= at->distance))
+            return;
+        const Met met{triangle.instance, {triangle.corners[0], triangle.corners[1], triangle.corners[2]}, at->weights,
+            line.from + line.way * at->distance, at->distance, time, at->front};
+        if (!there(met))
+            return;
+        asked.met = met;
+        farthest = above(met.distance * (1 + 1e-6));
+    }
+};
+
+glm::dvec2 uv_of(const World& world, const Met& met)
+{
+    glm::dvec2 uv(0);
+    for (int k = 0; k < 3; ++k)
+        uv += met.weights[k] * glm::dvec2(world.vertices[met.corners[k]].uv);
+    return uv;
+}
+
+glm::dvec4 base_of(const World& world, const Pictures& pictures, const Met& met)
+{
+    const Material& material
+        = world.materials[std::size_t(world.primitives[world.instances[met.instance].primitive].material)];
+    glm::dvec4 colour(0);
+    for (int k = 0; k < 3; ++k) {
+        const std::uint32_t packed = world.vertices[met.corners[k]].colour;
+        colour += met.weights[k] * glm::dvec4(packed & 255, packed >> 8 & 255, packed >> 16 & 255, packed >> 24) / 255.0;
+    }
+    return colour * glm::dvec4(material.base_colour) * pictures.at(material.base_texture, uv_of(world, met));
+}
+
+Tracer::Tracer(const World& world, const Pictures& pictures, const Vantage& vantage, double farthest_eye)
+    : scene_(new Scene{world, pictures, vantage, farthest_eye, {}, nullptr, nullptr})
+{
+    for (std::uint32_t i = 0; i < world.instances.size(); ++i)
+        if (world.instances[i].frame == vantage.frame && scene_->may_be_seen(world.instances[i]))
+            scene_->add(i);
+    scene_->device = rtcNewDevice(nullptr);
+    if (!scene_->device)
+        throw std::runtime_error("rtcNewDevice: error " + std::to_string(rtcGetDeviceError(nullptr)));
+    scene_->scene = rtcNewScene(scene_->device);
+    rtcSetSceneFlags(scene_->scene, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry all = rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(all, unsigned(scene_->triangles.size()));
+    rtcSetGeometryUserData(all, scene_.get());
+    rtcSetGeometryBoundsFunction(
+        all,
+        [](const RTCBoundsFunctionArguments* asked) {
+            static_cast<const Scene*>(asked->geometryUserPtr)->bounds(asked->primID, *asked->bounds_o);
+        },
+        nullptr);
+    rtcSetGeometryIntersectFunction(all, [](const RTCIntersectFunctionNArguments* asked) {
+        if (asked->N != 1 || !asked->valid[0])
+            return;
+        auto& own = *reinterpret_cast<Scene::Asked*>(asked->context);
+        auto& hit = *reinterpret_cast<RTCRayHit*>(asked->rayhit);
+        own.scene->meet(asked->primID, own, hit.ray.tfar);
+    });
+    rtcCommitGeometry(all);
+    rtcAttachGeometry(scene_->scene, all);
+    rtcReleaseGeometry(all);
+    rtcCommitScene(scene_->scene);
+    if (const RTCError error = rtcGetDeviceError(scene_->device); error != RTC_ERROR_NONE)
+        throw std::runtime_error("rtcCommitScene: error " + std::to_string(error));
+}
+
+Tracer::~Tracer() = default;
+Tracer::Tracer(Tracer&&) noexcept = default;
+
+std::optional<Met> Tracer::nearest(const SightLine& line) const
+{
+    if (scene_->triangles.empty())
+        return {};
+    Scene::Asked asked{{}, scene_.get(), &line, {}};
+    rtcInitIntersectContext(&asked.embree);
+    RTCRayHit hit{};
+    hit.ray.org_x = float(line.from.x), hit.ray.org_y = float(line.from.y), hit.ray.org_z = float(line.from.z);
+    hit.ray.dir_x = float(line.way.x), hit.ray.dir_y = float(line.way.y), hit.ray.dir_z = float(line.way.z);
+    hit.ray.tfar = std::numeric_limits<float>::infinity();
+    hit.ray.mask = ~0u;
+    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_->scene, &asked.embree, &hit);
+    return asked.met;
+}
+
+const Vantage& Tracer::vantage() const { return scene_->vantage; }
+std::size_t Tracer::triangles() const { return scene_->triangles.size(); }
+
+} // namespace starbow
