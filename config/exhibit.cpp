@@ -53,10 +53,12 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     const Document document = read_document(file);
     const Place top = root(document);
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-    only(top, {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "flying", "exposure"});
+    only(top, {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "quality", "hold_ms", "ladder", "flying",
+                  "exposure"});
     Exhibit exhibit;
     for (const auto& [name, value] : {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene},
-             {"shot", &exhibit.shot}, {"tour", &exhibit.tour}, {"language", &exhibit.language}})
+             {"shot", &exhibit.shot}, {"tour", &exhibit.tour}, {"language", &exhibit.language},
+             {"quality", &exhibit.quality}, {"ladder", &exhibit.ladder}})
         if (auto p = find(top, name))
             *value = name_or_path(*p, folder);
     if (auto scene = find(top, "scene"); scene && !exhibit.shot.empty())
@@ -67,6 +69,9 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     if (auto p = find(top, "profiles"))
         exhibit.profiles = folder / text(*p);
     take(top, "tutorial", exhibit.tutorial);
+    take(top, "hold_ms", exhibit.hold_ms, {0, 1000});
+    if (auto p = find(top, "quality"); p && exhibit.hold_ms > 0)
+        complain(*p, "is one too many beside hold_ms, which chooses it; one of them is right");
     if (auto p = find(top, "flying"))
         exhibit.flying = read_flying(*p);
     if (auto p = find(top, "exposure"))

@@ -22,13 +22,9 @@ void take_whole(const Place& place, const std::string& name, int& value, int low
         value = integer(*p, low, high);
 }
 
-} // namespace
-
-Quality load_quality(const std::filesystem::path& file)
+Quality read_quality(const Place& top)
 {
-    const Document document = read_document(file);
-    const Place top = root(document);
-    only(top, {"$schema", "texels_per_pixel", "most_texels_per_pixel", "cube_samples", "pixel_rays", "rear_images", "mips",
+    only(top, {"$schema", "texels_per_pixel", "most_texels_per_pixel", "cube_samples", "stray_texels", "pixel_rays", "rear_images", "mips",
                   "half_floats", "matrices", "frames_per_cube", "spectra", "stereo"});
     Quality quality;
     take(top, "texels_per_pixel", quality.texels_per_pixel, {0.05, 16});
@@ -36,6 +32,7 @@ Quality load_quality(const std::filesystem::path& file)
     take_whole(top, "cube_samples", quality.cube_samples, 1, 8);
     if (quality.cube_samples & (quality.cube_samples - 1))
         complain(member(top, "cube_samples"), "is no number of samples that devices have; 1, 2, 4 or 8 is right");
+    take(top, "stray_texels", quality.stray_texels, {0, 100});
     take_whole(top, "pixel_rays", quality.pixel_rays, 1, 8);
     take_whole(top, "rear_images", quality.rear_images, 0, 42);
     take(top, "mips", quality.mips);
@@ -49,14 +46,56 @@ Quality load_quality(const std::filesystem::path& file)
     return quality;
 }
 
-std::string quality_text(const Quality& quality)
+nlohmann::ordered_json json_of(const Quality& quality)
 {
-    const nlohmann::ordered_json json = {{"texels_per_pixel", quality.texels_per_pixel},
+    return {{"texels_per_pixel", quality.texels_per_pixel},
         {"most_texels_per_pixel", quality.most_texels_per_pixel}, {"cube_samples", quality.cube_samples},
-        {"pixel_rays", quality.pixel_rays}, {"rear_images", quality.rear_images}, {"mips", quality.mips},
+        {"stray_texels", quality.stray_texels}, {"pixel_rays", quality.pixel_rays}, {"rear_images", quality.rear_images}, {"mips", quality.mips},
         {"half_floats", quality.half_floats}, {"matrices", quality.matrices}, {"frames_per_cube", quality.frames_per_cube},
         {"spectra", name_of(quality.spectra, levels)}, {"stereo", name_of(quality.stereo, methods)}};
-    return json.dump(4) + "\n";
+}
+
+} // namespace
+
+Quality load_quality(const std::filesystem::path& file)
+{
+    const Document document = read_document(file);
+    return read_quality(root(document));
+}
+
+std::string quality_text(const Quality& quality) { return json_of(quality).dump(4) + "\n"; }
+
+std::vector<Rung> load_ladder(const std::filesystem::path& file)
+{
+    const Document document = read_document(file);
+    const Place top = root(document);
+    only(top, {"$schema", "rungs"});
+    std::vector<Rung> ladder;
+    for (const Place& place : items(member(top, "rungs"), 1, 100, "qualities")) {
+        only(place, {"quality", "ms", "flip", "edges_px"});
+        Rung rung{read_quality(member(place, "quality"))};
+        rung.ms = number(member(place, "ms"), {0, 1e6, true});
+        take(place, "flip", rung.flip, {0, 1});
+        take(place, "edges_px", rung.edges_px, {0, 1e4});
+        if (!ladder.empty() && rung.ms <= ladder.back().ms)
+            complain(member(place, "ms"), "is no more than the rung's before, " + shown(ladder.back().ms)
+                    + "; rungs from the fastest to the slowest are right");
+        if (!ladder.empty() && (rung.quality.spectra != ladder[0].quality.spectra || rung.quality.stereo != ladder[0].quality.stereo
+                                   || rung.quality.matrices != ladder[0].quality.matrices))
+            complain(member(place, "quality"), "has other spectra, stereo or matrices than the first rung, which can't change in "
+                                               "flight; the same are right");
+        ladder.push_back(rung);
+    }
+    return ladder;
+}
+
+std::string ladder_text(const std::vector<Rung>& ladder)
+{
+    nlohmann::ordered_json rungs = nlohmann::ordered_json::array();
+    for (const Rung& rung : ladder)
+        rungs.push_back(
+            {{"ms", rung.ms}, {"flip", rung.flip}, {"edges_px", rung.edges_px}, {"quality", json_of(rung.quality)}});
+    return nlohmann::ordered_json{{"rungs", rungs}}.dump(4) + "\n";
 }
 
 Layout with_stereo(Layout layout, const Quality& quality)
@@ -81,6 +120,7 @@ std::string differences(const Quality& quality, const Quality& other)
     differs(q.texels_per_pixel, o.texels_per_pixel, shown(q.texels_per_pixel) + " texels along a pixel");
     differs(q.most_texels_per_pixel, o.most_texels_per_pixel, "at most " + shown(q.most_texels_per_pixel) + " in one");
     differs(q.cube_samples, o.cube_samples, count(q.cube_samples, "sample of a texel", "samples of a texel"));
+    differs(q.stray_texels, o.stray_texels, "surfaces within " + shown(q.stray_texels) + " texels");
     differs(q.pixel_rays, o.pixel_rays, count(q.pixel_rays * q.pixel_rays, "ray a pixel", "rays a pixel"));
     differs(q.rear_images, o.rear_images, count(q.rear_images, "nested image behind", "nested images behind"));
     differs(q.mips, o.mips, q.mips ? "mips" : "no mips");

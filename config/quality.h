@@ -3,6 +3,8 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace starbow {
 
@@ -16,6 +18,7 @@ struct Quality {
     double texels_per_pixel = 1; ///< linear density of the cube map where it is looked at
     double most_texels_per_pixel = 3; ///< area: where the whole plan would hold more, all of it is drawn coarser
     int cube_samples = 1; ///< of each texel, for edges: 1, 2, 4 or 8
+    double stray_texels = 1; ///< how far surfaces in fewer triangles may stray; 0: all triangles, always
     int pixel_rays = 1; ///< along each side of an output pixel: its square look up the cube map
     int rear_images = 42; ///< nested ones behind, at most: with none of them, one image holds all that lies behind
     bool mips = true; ///< where several texels fall into one pixel
@@ -36,6 +39,17 @@ struct Quality {
 Quality load_quality(const std::filesystem::path& file);
 /// The file that load_quality reads as this.
 std::string quality_text(const Quality& quality);
+
+/// One quality of a ladder that a frame's time is held by: what it takes, and how far its pictures are from the reference,
+/// as `starbow measure` found them.
+struct Rung {
+    Quality quality;
+    double ms; ///< only how they stand to each other counts
+    double flip = 0, edges_px = 0;
+};
+/// From the fastest to the slowest. Throws InputError as load_quality does.
+std::vector<Rung> load_ladder(const std::filesystem::path& file);
+std::string ladder_text(const std::vector<Rung>& ladder);
 
 /// A layout with the stereo method that a quality asks for, where it has two eyes and can have that.
 Layout with_stereo(Layout layout, const Quality& quality);

@@ -148,6 +148,8 @@ std::vector<Setting> settings_to_try(
         with([&](Quality& q) { q.most_texels_per_pixel = most; });
     for (int samples : {1, 2, 4, 8})
         with([&](Quality& q) { q.cube_samples = samples; });
+    for (double texels : {0.0, 0.25, 0.5, 1.0, 2.0})
+        with([&](Quality& q) { q.stray_texels = texels; });
     for (int rays : {1, 2, 3})
         with([&](Quality& q) { q.pixel_rays = rays; });
     for (int images : {0, 2})
@@ -202,18 +204,37 @@ const Measured* best_within(const std::vector<Measured>& all, double budget_ms)
     return best;
 }
 
+std::vector<Rung> ladder_of(const std::vector<Measured>& all)
+{
+    const std::vector<bool> best = frontier(all);
+    std::vector<Rung> ladder;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Measured& one = all[i];
+        const Quality &own = one.setting.quality, &first = all[0].setting.quality;
+        if (best[i] && own.spectra == first.spectra && own.stereo == first.stereo && own.matrices == first.matrices)
+            ladder.push_back({own, one.ms, one.errors.flip, one.errors.edges_95_px});
+    }
+    std::sort(ladder.begin(), ladder.end(), [](const Rung& a, const Rung& b) { return a.ms < b.ms; });
+    // A step that hardly changes anything is none.
+    std::vector<Rung> steps;
+    for (const Rung& rung : ladder)
+        if (steps.empty() || rung.ms > 1.08 * steps.back().ms)
+            steps.push_back(rung);
+    return steps;
+}
+
 std::string accuracy_csv(const std::vector<Measured>& all)
 {
     const std::vector<bool> best = frontier(all);
-    std::string out = "setting,texels_per_pixel,most_texels_per_pixel,cube_samples,pixel_rays,rear_images,mips,half_floats,"
+    std::string out = "setting,texels_per_pixel,most_texels_per_pixel,cube_samples,stray_texels,pixel_rays,rear_images,mips,half_floats,"
                       "matrices,frames_per_cube,ms,ratio,megabytes,texels_drawn_per_pixel,images,flip,psnr_dB,ciede2000_mean,"
                       "ciede2000_95,edges_95_px,direction_99_px,doppler_99,frontier\n";
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Measured& m = all[i];
         const Quality& q = m.setting.quality;
         out += quoted(m.setting.name)
-            + text(",%g,%g,%d,%d,%d,%d,%d,%d,%d,%.4f,%.4f,%.2f,%.3f,%d,%.6f,%.3f,%.4f,%.4f,%.4f,%.6f,%.3g,%d\n",
-                q.texels_per_pixel, q.most_texels_per_pixel, q.cube_samples, q.pixel_rays, q.rear_images, q.mips,
+            + text(",%g,%g,%d,%g,%d,%d,%d,%d,%d,%d,%.4f,%.4f,%.2f,%.3f,%d,%.6f,%.3f,%.4f,%.4f,%.4f,%.6f,%.3g,%d\n",
+                q.texels_per_pixel, q.most_texels_per_pixel, q.cube_samples, q.stray_texels, q.pixel_rays, q.rear_images, q.mips,
                 q.half_floats, q.matrices, q.frames_per_cube, m.ms, m.ratio, m.megabytes, m.texels_per_pixel, m.images,
                 m.errors.flip, m.errors.psnr_dB, m.errors.ciede2000_mean, m.errors.ciede2000_95, m.errors.edges_95_px,
                 m.direction_px, m.doppler, int(best[i]));

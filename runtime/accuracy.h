@@ -40,6 +40,9 @@ const Measured* better_than(const Measured& one, const std::vector<Measured>& al
 /// The most accurate within a frame's time; null where none is.
 const Measured* best_within(const std::vector<Measured>& all, double budget_ms);
 
+/// What a frame's time may be held by: the frontier's settings between which a flight can change, from the fastest.
+std::vector<Rung> ladder_of(const std::vector<Measured>& all);
+
 /// What was measured, for the page's head.
 struct MeasuredOn {
     std::string what; ///< scene, layout, shots

@@ -32,6 +32,7 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
     , world_(world)
     , samples_(quality.cube_samples)
     , half_floats_(quality.half_floats)
+    , stray_texels_(quality.stray_texels)
     , keeps_depth_(keeps_depth)
 {
     const Sky& sky = world.scene.sky;
@@ -64,7 +65,7 @@ void CubePass::prepare(const Plan& plan, std::span<const Vantage> layers, double
     layered_ = !images_.empty() && images_.back().layer > 0;
     area_ = plan.atlas_size;
     levels_ = plan.levels;
-    list_ = cull(world_.world, layers, images_);
+    list_ = cull(world_.world, layers, images_, stray_texels_);
     contractions_.clear();
     for (const Vantage& layer : layers)
         contractions_.push_back(layer.contraction);

@@ -53,7 +53,9 @@ private:
     Pipelines& pipelines_;
     const GpuWorld& world_;
     int samples_;
-    bool half_floats_, keeps_depth_, sky_;
+    bool half_floats_;
+    double stray_texels_;
+    bool keeps_depth_, sky_;
     bool layered_ = false; ///< something that moves is in view; the sky is then the warp's
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::raii::DescriptorSet set_ = nullptr;

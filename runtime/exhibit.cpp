@@ -6,6 +6,8 @@
 #include "find.h"
 #include "flight.h"
 #include "frame.h"
+#include "frame_timer.h"
+#include "governor.h"
 #include "guide.h"
 #include "history.h"
 #include "input/head_tracker.h"
@@ -114,6 +116,13 @@ Tape tape_of(const Opening& opening)
     return {std::move(recorder), opening.replay.empty() ? nullptr : std::make_unique<Replay>(opening.replay)};
 }
 
+std::optional<Governor> governor_of(const Opening& opening)
+{
+    if (opening.hold_ms <= 0)
+        return {};
+    return Governor(opening.ladder, opening.hold_ms);
+}
+
 std::optional<Guide> guide_of(const Opening& opening)
 {
     if (!opening.tour)
@@ -140,6 +149,7 @@ struct Visit {
     Workbench workbench{opening.pattern};
     Lab lab{opening.log, opening.log_every_s, opening.words};
     Skew skew{};
+    std::optional<Governor> governor = governor_of(opening);
     Clock::time_point began = Clock::now(), last = began;
     long shown = 0;
     bool complaints = false;
@@ -159,6 +169,14 @@ std::string told(const Skew& skew)
     return text.data();
 }
 
+/// What the next frame may spend.
+Quality quality_of(const Visit& visit, const Device& device)
+{
+    if (visit.governor)
+        return within(device, visit.governor->ladder()[visit.governor->rung()].quality);
+    return visit.opening.quality ? within(device, *visit.opening.quality) : default_quality(device, false);
+}
+
 /// What the head-up display says beneath its figures.
 std::string notice_of(const Visit& visit)
 {
@@ -170,6 +188,8 @@ std::string notice_of(const Visit& visit)
         return trouble;
     if (visit.tracker && !visit.tracker->heard(Clock::now()))
         return "no head tracker is heard on port " + std::to_string(visit.tracker->tracking().port);
+    if (visit.governor)
+        return told(*visit.governor);
     return visit.skew.frames() > 0 ? told(visit.skew) : "";
 }
 
@@ -188,7 +208,7 @@ void take_up_changes(Visit& visit, Theatre& theatre, std::unique_ptr<Frame>& fra
         if (!same_tracker)
             tracker = tracker_of(layout);
         frame = std::make_unique<Frame>(
-            theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, false));
+            theatre.device, theatre.pipelines, theatre.world, layout, quality_of(visit, theatre.device));
         if (!same_tracker)
             visit.tracker = std::move(tracker);
         visit.layout = std::move(layout);
@@ -241,8 +261,10 @@ void fly(Visit& visit, Theatre& theatre)
 {
     Device& device = theatre.device;
     const SceneFile& scene = theatre.world.scene;
-    auto frame
-        = std::make_unique<Frame>(device, theatre.pipelines, theatre.world, visit.layout, default_quality(device, false));
+    auto frame = std::make_unique<Frame>(
+        device, theatre.pipelines, theatre.world, visit.layout, quality_of(visit, device));
+    FrameTimer timer(device);
+    double prepared_ms = 0;
     Screens screens(device, visit.layout);
     Dashboard dashboard;
     Pace pace;
@@ -256,6 +278,9 @@ void fly(Visit& visit, Theatre& theatre)
         pace.wait(screens.refresh_hz());
         (void)device.device.waitForFences(*done, true, UINT64_MAX);
         const std::optional<double> metered = frame->metered(); // of the frame before this one, always
+        if (const auto ms = timer.ms(); ms && visit.governor)
+            if (visit.governor->drawn(seconds(Clock::now() - visit.began), prepared_ms + *ms))
+                frame->adopt(quality_of(visit, device));
 
         // What has changed around the exhibit, and which pictures to draw into. This waits for the screens.
         take_up_changes(visit, theatre, frame, screens);
@@ -326,9 +351,11 @@ void fly(Visit& visit, Theatre& theatre)
             frame->hud_width(), prompted, visit.guide ? visit.guide->caption(words, means) : std::nullopt, notice_of(visit));
         // A pattern is left alone but for what its builder is being told.
         const bool told = visit.workbench.pattern() == Pattern::none || !visit.workbench.says().empty();
+        const Clock::time_point asked = Clock::now();
         frame->prepare(shot, told ? panel : nullptr);
         commands.reset();
         commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+        timer.begin(*commands);
         for (const Target& target : targets)
             if (target.view)
                 present_barrier(*commands, target, true);
@@ -336,7 +363,9 @@ void fly(Visit& visit, Theatre& theatre)
         for (const Target& target : targets)
             if (target.view)
                 present_barrier(*commands, target, false);
+        timer.end(*commands);
         commands.end();
+        prepared_ms = 1e3 * seconds(Clock::now() - asked);
         device.device.resetFences(*done);
         screens.submit(*commands, *done);
         const Clock::time_point handed = Clock::now();
@@ -371,7 +400,10 @@ int fly_exhibit(const Opening& opening)
         std::unique_ptr<Theatre> theatre;
         std::string lost;
         try {
-            theatre = std::make_unique<Theatre>(opening.scene, device_options(true));
+            theatre = std::make_unique<Theatre>(opening.scene, device_options(true),
+                opening.hold_ms > 0 ? opening.ladder[0].quality.spectra
+                    : opening.quality ? opening.quality->spectra
+                                      : std::nullopt);
             for (const std::string& note : theatre->world.world.notes)
                 if (losses == 0)
                     std::fprintf(stderr, "starbow: %s: %s\n", theatre->world.scene.gltf.c_str(), note.c_str());

@@ -25,6 +25,9 @@ struct Opening {
     Exposing exposure{};
     std::vector<Profile> profiles{};
     bool tutorial = true;
+    std::optional<Quality> quality{}; ///< none: what the device affords
+    double hold_ms = 0; ///< of a whole frame; 0: the quality stays
+    std::vector<Rung> ladder{}; ///< by which it is held
     long frames = 0; ///< to be shown; 0: until the visitor leaves
     Pattern pattern = Pattern::none; ///< what the outputs show first
     std::filesystem::path record{}; ///< where to keep the flight; empty: nowhere

@@ -80,7 +80,8 @@ void Frame::adopt(const Quality& quality)
 {
     const Quality before = std::exchange(quality_, quality);
     cubes_drawn_ = false;
-    if (quality.cube_samples == before.cube_samples && quality.half_floats == before.half_floats)
+    if (quality.cube_samples == before.cube_samples && quality.half_floats == before.half_floats
+        && quality.stray_texels == before.stray_texels)
         return;
     eyes_.clear(), watchers_.clear();
     take_up(parts(false));

@@ -57,6 +57,7 @@ TEST(ExhibitFileTest, EveryMemberIsTaken)
 {
     const std::string text
         = R"({ "layout": "../walls/wall.json", "shot": "gamma100", "language": "de", "profiles": "sticks", "tutorial": false,
+        "hold_ms": 16.5, "ladder": "own/ladder.json",
         "flying": { "mode": "newtonian", "greatest_gamma": 50, "turn_deg_per_s": 11, "roll_deg_per_s": 12,
                     "turn_jerk_deg_per_s3": 13, "rapidity_per_s": 0.14, "rapidity_jerk_per_s2": 0.15 },
         "exposure": { "automatic": false, "least_ev": -16, "greatest_ev": 1.7, "bloom": 0.18 } })";
@@ -69,6 +70,9 @@ TEST(ExhibitFileTest, EveryMemberIsTaken)
     EXPECT_EQ(exhibit.language, "de");
     EXPECT_EQ(exhibit.profiles, folder / "sticks");
     EXPECT_FALSE(exhibit.tutorial);
+    EXPECT_EQ(exhibit.hold_ms, 16.5);
+    EXPECT_EQ(exhibit.ladder, folder / "own/ladder.json");
+    EXPECT_EQ(load_exhibit(write_text("exhibit.json", R"({ "quality": "draft" })")).quality, "draft");
     const Flying& flying = exhibit.flying;
     EXPECT_EQ(flying.mode, FlightMode::newtonian);
     EXPECT_EQ(flying.greatest_gamma, 50);
@@ -98,6 +102,8 @@ TEST(ExhibitFileTest, TheSchemasDefaultsAreTheReaders)
     EXPECT_EQ(told.layout, own.layout);
     EXPECT_EQ(told.scene, own.scene);
     EXPECT_EQ(told.tutorial, own.tutorial);
+    EXPECT_EQ(told.hold_ms, own.hold_ms);
+    EXPECT_EQ(told.ladder, own.ladder);
     EXPECT_EQ(told.flying.mode, own.flying.mode);
     EXPECT_EQ(told.flying.greatest_gamma, own.flying.greatest_gamma);
     EXPECT_EQ(told.flying.turn_deg_per_s, own.flying.turn_deg_per_s);
@@ -115,7 +121,7 @@ TEST(ExhibitFileTest, WrongOnesAreRefusedByBoth)
 {
     for (const auto& [text, problem] : std::vector<std::pair<std::string, std::string>>{
              {R"({ "layuot": "desk" })", "layuot"}, {R"({ "layout": "" })", "/layout"},
-             {R"({ "tutorial": "yes" })", "/tutorial"}, {R"({ "flying": { "mode": "easy" } })", "/flying/mode: \"easy\""},
+             {R"({ "tutorial": "yes" })", "/tutorial"}, {R"({ "hold_ms": -1 })", "/hold_ms: -1"}, {R"({ "flying": { "mode": "easy" } })", "/flying/mode: \"easy\""},
              {R"({ "flying": { "greatest_gamma": 1 } })", "/flying/greatest_gamma: 1 is too small"},
              {R"({ "flying": { "greatest_gamma": 1e7 } })", "/flying/greatest_gamma: 10000000"},
              {R"({ "flying": { "turn_deg_per_s": 0 } })", "/flying/turn_deg_per_s: 0"},

@@ -69,7 +69,7 @@ int main(int count, char** arguments)
                "  starbow check my/wall.json --svg out/wall.svg\n  starbow COMMAND --help");
     std::function<int()> chosen;
     for (auto add : {starbow::add_run, starbow::add_render, starbow::add_check, starbow::add_displays, starbow::add_devices,
-             starbow::add_calibrate, starbow::add_warp, starbow::add_import, starbow::add_bench})
+             starbow::add_calibrate, starbow::add_warp, starbow::add_import, starbow::add_bench, starbow::add_measure})
         add(app, chosen);
     try {
         app.parse(count, arguments);

@@ -1,13 +1,16 @@
 #include "commands.h"
 #include "config/error.h"
+#include "config/whole_file.h"
+#include "measure_extremes.h"
 #include "measure_settings.h"
 #include "number_option.h"
+#include "runtime/capture.h"
 #include "runtime/find.h"
+#include "runtime/reference/reference.h"
 #include "size_option.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 
 namespace starbow {
@@ -18,6 +21,7 @@ struct Options {
     std::vector<std::string> shots, qualities;
     long rounds = 9, samples = 64;
     double budget_ms = 0;
+    bool extremes = false;
 };
 
 constexpr std::array shipped_qualities = {"draft", "balanced", "fine"};
@@ -49,14 +53,15 @@ std::vector<std::pair<std::string, Shot>> shots_of(const Options& options, const
 
 void write(const std::filesystem::path& file, const std::string& text)
 {
-    std::ofstream out(file);
-    out << text;
-    if (!out.flush())
-        throw InputError(file.string(), "", "can't be written; a folder with room is right");
+    write_whole(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
 }
 
 int measure(const Options& options)
 {
+    if (options.extremes)
+        return measure_extremes(options.out);
+    if (options.out.empty())
+        throw InputError("--out is required here; the folder for the results, such as out/accuracy, is right");
     Trial trial;
     trial.scene = find("scenes", options.scene);
     trial.layout = load_layout(find("layouts", options.layout));
@@ -81,8 +86,9 @@ int measure(const Options& options)
     bool two_eyes = false;
     for (const Output& output : trial.layout.outputs)
         for (const Viewport& viewport : output.viewports)
-            two_eyes |= viewport.eye != Eye::centre;
-    const SpectralLevel needed = SpectralLevel::colours; // TODO
+            two_eyes |= viewport.eye != Eye::middle;
+    const ReferenceWorld world = open_reference_world(trial.scene);
+    const SpectralLevel needed = needed_level(world.world, world.scene).level;
     const std::vector<Setting> settings
         = options.which == "shipped" ? shipped : settings_to_try(shipped, trial.standard, two_eyes, needed);
     MeasuredOn on{options.scene + ", " + options.layout, "", trial.rounds, trial.samples};
@@ -91,6 +97,7 @@ int measure(const Options& options)
     const std::vector<Measured> all = measure_settings(trial, settings, device_options(false), on.machine);
     write(trial.folder / "accuracy.csv", accuracy_csv(all));
     write(trial.folder / "accuracy.svg", accuracy_chart(all, on.what));
+    write(trial.folder / "ladder.json", ladder_text(ladder_of(all)));
     write(trial.folder / "accuracy.html", accuracy_page(all, on));
 
     const std::vector<bool> best = frontier(all);
@@ -135,8 +142,7 @@ void add_measure(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--shot", options->shots, "A shot file, or the name of one in config/shots; more than one may be "
                                                   "given [all shipped ones of the scene]");
     command->add_option("--size", options->size, "Pixels of every output, WIDTHxHEIGHT, instead of the layout's");
-    command->add_option("--out", options->out, "The folder for accuracy.html, .csv and .svg; made if it is not there")
-        ->required();
+    command->add_option("--out", options->out, "The folder for accuracy.html, .csv and .svg, ladder.json; or for extremes.md; made if it is not there");
     command
         ->add_option("--quality", options->qualities,
             "A quality file of your own to try too; more than one may be given")
@@ -156,9 +162,12 @@ void add_measure(CLI::App& app, std::function<int()>& chosen)
         ->add_option("--budget-ms", options->budget_ms,
             "Also choose: the most accurate setting whose frame takes no longer, as quality.json")
         ->check(CLI::Range(0.01, 1e6));
+    command->add_flag("--extremes", options->extremes,
+        "Instead: at the ends of what there is (speeds, places, times, sizes, views, light), whether all is finite and within "
+        "its stated error, or refused");
     command->footer("Examples:\n  starbow measure --scene avenue --layout desk --out out/accuracy\n"
                     "  starbow measure --layout dome --size 1024x1024 --shot starbow --out out/dome --budget-ms 16\n"
-                    "  starbow run --quality out/dome/quality.json");
+                    "  starbow run --quality out/dome/quality.json\n  starbow measure --extremes");
     command->callback([options, &chosen] { chosen = [options] { return measure(*options); }; });
 }
 

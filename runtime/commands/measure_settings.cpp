@@ -1,8 +1,9 @@
 #include "measure_settings.h"
 #include "bench_timing.h"
-#include "config/error.h"
+#include "config/reader.h"
+#include "config/whole_file.h"
 #include "physics/physics.h"
-#include "runtime/reference/reference.h"
+#include "runtime/reference/number_errors.h"
 #include "runtime/still.h"
 #include <chrono>
 #include <cmath>
@@ -18,8 +19,7 @@ namespace {
 /// One output of one shot as it should be.
 struct Truth {
     std::vector<std::uint8_t> picture;
-    glm::ivec2 size;
-    std::vector<Reference::Numbers> numbers;
+    Reference all;
 };
 using Truths = std::vector<std::vector<Truth>>; // of each shot, of each output
 
@@ -46,7 +46,6 @@ double since(Clock::time_point began) { return std::chrono::duration<double>(Clo
 Truths truths_of(const Trial& trial)
 {
     const ReferenceWorld world = open_reference_world(trial.scene);
-    const std::string key = key_of_files({trial.scene, world.scene.gltf, trial.layout.file});
     Truths truths;
     for (const auto& [name, shot] : trial.shots) {
         std::vector<Truth>& of_shot = truths.emplace_back();
@@ -58,15 +57,15 @@ Truths truths_of(const Trial& trial)
             ReferenceOptions options;
             options.samples = trial.samples;
             options.kept = trial.folder / ("reference-" + name + "-" + own.name + ".rows");
-            options.key = key;
             options.progress = [&](int done, int rows) {
                 if (first < 0)
                     first = done;
                 if (done > first && since(began) > 1)
                     say(what + ": " + left_told(since(began) / (done - first) * (rows - done)));
             };
-            const Reference truth = reference(world.input(), trial.layout, shot, output, options);
-            of_shot.push_back({shown(truth), truth.size, truth.numbers});
+            Reference truth = reference(world.input(), trial.layout, shot, output, options);
+            std::vector<std::uint8_t> picture = shown(truth);
+            of_shot.push_back({std::move(picture), std::move(truth)});
         }
     }
     say("");
@@ -81,30 +80,6 @@ Shot earlier(const Shot& shot, int frames, double seconds_per_time_unit)
     before.position -= shot.u * passed;
     before.time -= physics::gamma_of(shot.u) * passed;
     return before;
-}
-
-double angle(const glm::dvec3& a, const glm::dvec3& b) { return 2 * std::asin(std::min(1.0, 0.5 * glm::length(a - b))); }
-
-/// How far pixels look from where they should, in pixels, and the same of D, relative: of each that shows something.
-void compare(const Truth& truth, const Channels& live, std::vector<double>& directions, std::vector<double>& dopplers)
-{
-    std::map<std::string, const std::vector<float>*> planes;
-    for (const auto& [name, values] : live)
-        planes[name] = &values;
-    const auto& x = *planes.at("worldDirection.X");
-    const auto &y = *planes.at("worldDirection.Y"), &z = *planes.at("worldDirection.Z"), &D = *planes.at("doppler");
-    for (int row = 0; row < truth.size.y; ++row)
-        for (int column = 0; column + 1 < truth.size.x; ++column) {
-            const std::size_t i = std::size_t(row) * std::size_t(truth.size.x) + std::size_t(column);
-            const Reference::Numbers &here = truth.numbers[i], &beside = truth.numbers[i + 1];
-            if (!here.shown || !beside.shown || std::isnan(x[i]))
-                continue;
-            const double pixel = angle(here.world, beside.world);
-            if (pixel <= 0)
-                continue;
-            directions.push_back(angle(here.world, glm::normalize(glm::dvec3(x[i], y[i], z[i]))) / pixel);
-            dopplers.push_back(std::abs(D[i] / here.D - 1));
-        }
 }
 
 /// One theatre for each level of light that is tried.
@@ -203,15 +178,16 @@ void find_errors(const Trial& trial, Theatre& theatre, const Truths& truths, Mea
         directions.clear(), dopplers.clear();
         for (std::size_t output = 0; output < pictures.size(); ++output) {
             const Truth& truth = truths[i][output];
-            const PictureErrors errors = picture_errors({truth.size, pictures[output]}, {truth.size, truth.picture});
+            const PictureErrors errors = picture_errors({truth.all.size, pictures[output]}, {truth.all.size, truth.picture});
             noise += std::pow(10, -errors.psnr_dB / 10);
             one.errors.flip += errors.flip;
             one.errors.ciede2000_mean += errors.ciede2000_mean;
             one.errors.ciede2000_95 += errors.ciede2000_95;
             one.errors.edges_95_px = std::max(one.errors.edges_95_px, errors.edges_95_px);
             ++count;
-            if (layers(trial.layout.outputs[output].packing) == 1)
-                compare(truth, measured.numbers(shot, output), directions, dopplers);
+            const NumberErrors numbers = number_errors(truth.all, measured.numbers(shot, output), shot.u);
+            directions.insert(directions.end(), numbers.directions_px.begin(), numbers.directions_px.end());
+            dopplers.insert(dopplers.end(), numbers.doppler.begin(), numbers.doppler.end());
         }
         one.direction_px = std::max(one.direction_px, quantile(directions, 0.99));
         one.doppler = std::max(one.doppler, quantile(dopplers, 0.99));
@@ -255,10 +231,8 @@ public:
         all_["settings"][quality_text(one.setting.quality)]
             = {one.ms, one.ratio, one.megabytes, one.texels_per_pixel, one.images, std::min(e.psnr_dB, 1e3), e.flip,
                 e.ciede2000_mean, e.ciede2000_95, e.edges_95_px, one.direction_px, one.doppler};
-        const std::filesystem::path beside = file_.string() + ".new";
-        std::ofstream(beside) << all_.dump();
-        std::error_code ignored;
-        std::filesystem::rename(beside, file_, ignored);
+        const std::string text = all_.dump();
+        write_whole(file_, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
     }
     void forget() const
     {
@@ -274,8 +248,10 @@ private:
 
 std::string key_of(const Trial& trial, const std::string& machine)
 {
-    std::string key = machine + key_of_files({trial.scene, trial.layout.file}) + std::to_string(trial.rounds) + ","
-        + std::to_string(trial.samples) + quality_text(trial.standard);
+    std::string key = machine + "," + std::to_string(trial.rounds) + "," + std::to_string(trial.samples)
+        + quality_text(trial.standard);
+    for (const std::filesystem::path& file : {trial.scene, trial.layout.file})
+        key += read_document(file).text;
     for (const Output& output : trial.layout.outputs)
         key += "," + std::to_string(output.size.x) + "x" + std::to_string(output.size.y);
     for (const auto& [name, shot] : trial.shots)

@@ -3,6 +3,7 @@
 #include "language_option.h"
 #include "number_option.h"
 #include "pattern_option.h"
+#include "quality_option.h"
 #include "render_reference.h"
 #include "render_replay.h"
 #include "render_tour.h"
@@ -22,7 +23,7 @@ namespace {
 
 struct Options {
     std::string layout, shot, out, size, pattern = "none", exposure = "shot", spectra = "needed", replay, frames,
-                                         language = "en", tour, movie, points, overlay = "off", why = "none";
+                                         language = "en", tour, movie, points, overlay = "off", why = "none", quality;
     long frames_per_s = 30;
     long every = 1, samples = 16;
     double bloom = 0;
@@ -65,11 +66,15 @@ int render(const Options& options)
                 check_writable(picture);
             }
     parse_points(options.points, layout);
-    Theatre theatre(scene_of(shot, shot_file), device_options(false), level_of(options.spectra));
+    // What is wrong with its file is told before the device is touched.
+    const std::optional<Quality> asked = asked_quality(options.quality);
+    const auto level = options.spectra == "needed" && asked ? asked->spectra : level_of(options.spectra);
+    Theatre theatre(scene_of(shot, shot_file), device_options(false), level);
     for (const std::string& note : theatre.world.world.notes)
         std::fprintf(stderr, "starbow: %s: %s\n", theatre.world.scene.gltf.c_str(), note.c_str());
     Studio studio(
-        theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, true), options.exr);
+        theatre.device, theatre.pipelines, theatre.world, layout,
+        asked ? within(theatre.device, *asked) : default_quality(theatre.device, true), options.exr);
     studio.frame().show(pattern);
     studio.frame().bloom(options.bloom);
     if (options.exposure == "auto") {
@@ -119,6 +124,7 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
               ->check(CLI::Range(0.0, 1.0))
               ->capture_default_str();
     add_spectra(*command, options->spectra);
+    command->add_option("--quality", options->quality, quality_help + std::string(" [fine]"));
     CLI::Option* points = command->add_option("--measure", options->points, measure_help);
     CLI::Option* overlay = command
                                ->add_option("--overlay", options->overlay,

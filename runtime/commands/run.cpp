@@ -6,6 +6,7 @@
 #include "language_option.h"
 #include "number_option.h"
 #include "pattern_option.h"
+#include "quality_option.h"
 #include "runtime/exhibit.h"
 #include "runtime/find.h"
 #include "runtime/outputs.h"
@@ -19,7 +20,8 @@ namespace starbow {
 namespace {
 
 struct Options {
-    std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, language, tour, log;
+    std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, language, tour, log, quality, ladder;
+    double hold_ms = -1; ///< below 0: the exhibit's
     double log_every_s = 0;
     long frames = 0;
     bool asked = false; ///< for anything of the above
@@ -75,6 +77,17 @@ Opening open(const Options& options)
     opening.exposure = exhibit.exposure;
     opening.profiles = known_profiles(exhibit.profiles);
     opening.tutorial = exhibit.tutorial;
+    if (!options.quality.empty())
+        exhibit.quality = options.quality, exhibit.hold_ms = 0;
+    if (options.hold_ms >= 0)
+        exhibit.hold_ms = options.hold_ms;
+    if (!options.ladder.empty())
+        exhibit.ladder = options.ladder;
+    if (!exhibit.quality.empty())
+        opening.quality = load_quality(find("qualities", exhibit.quality));
+    opening.hold_ms = exhibit.hold_ms;
+    if (opening.hold_ms > 0)
+        opening.ladder = load_ladder(find("qualities", exhibit.ladder));
     opening.pattern = pattern_of(options.pattern);
     opening.record = options.record;
     return opening;
@@ -126,6 +139,17 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--log-every", options->log_every_s, "With --log: write a line by itself every so many seconds")
         ->check(CLI::Range(0.02, 86400.0))
         ->needs(log);
+    CLI::Option* quality
+        = command->add_option("--quality", options->quality, quality_help + std::string(" [the exhibit's]"));
+    CLI::Option* hold = command
+                            ->add_option("--hold-ms", options->hold_ms,
+                                "Hold the time of a whole frame by moving along the ladder of measured qualities; 0: don't")
+                            ->check(CLI::Range(0.0, 1000.0))
+                            ->excludes(quality);
+    command
+        ->add_option("--ladder", options->ladder,
+            "For --hold-ms: a ladder that starbow measure wrote, or the name of one in config/qualities [ladder]")
+        ->needs(hold);
     CLI::Option* tour = command->add_option("--tour", options->tour,
         "Instead: show this tour, a file or the name of one in config/tours; then the visitor flies, and when nobody does "
         "it "

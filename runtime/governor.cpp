@@ -1,0 +1,76 @@
+#include "governor.h"
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace starbow {
+namespace {
+
+constexpr double moves_apart_s = 0.5; // at least
+constexpr double room_down = 0.85, room_up = 0.75; // of the time that is held
+constexpr double longest_wait_s = 64;
+constexpr double up_in_vain_s = 12; // who comes down so soon after going up should not have gone
+
+} // namespace
+
+Governor::Governor(std::vector<Rung> ladder, double hold_ms)
+    : ladder_(std::move(ladder))
+    , hold_ms_(hold_ms)
+    , rung_(ladder_.size() / 2)
+{
+}
+
+/// load: milliseconds for each of the ladder's.
+std::size_t Governor::finest_within(double load, double part) const
+{
+    std::size_t finest = 0;
+    for (std::size_t i = 0; i < ladder_.size(); ++i)
+        if (load * ladder_[i].ms <= part * hold_ms_)
+            finest = i;
+    return finest;
+}
+
+bool Governor::drawn(double now_s, double ms)
+{
+    last_[2] = last_[1], last_[1] = last_[0], last_[0] = ms / ladder_[rung_].ms;
+    told_ = std::min(told_ + 1, 3);
+    if (told_ < 2)
+        return false;
+    const std::size_t before = rung_;
+    // What two frames in a row took at least; and, before going up, what none of three exceeded.
+    const double load = std::min(last_[0], last_[1]), most = *std::max_element(last_, last_ + told_);
+    const bool late = load * ladder_[rung_].ms > hold_ms_;
+    const std::size_t up = finest_within(most, room_up);
+    if (up <= rung_)
+        calm_since_s_ = -1;
+    else if (calm_since_s_ < 0)
+        calm_since_s_ = now_s;
+    if (now_s - moved_s_ < moves_apart_s)
+        return false;
+    if (late && rung_ > 0) {
+        rung_ = std::min(rung_, finest_within(load, room_down));
+        if (rung_ < before && now_s - up_s_ < up_in_vain_s)
+            wait_s_ = std::min(2 * wait_s_, longest_wait_s);
+    } else if (calm_since_s_ >= 0 && told_ == 3 && now_s - calm_since_s_ > wait_s_) {
+        rung_ = up;
+        up_s_ = now_s;
+    }
+    // After a long peace the past is forgotten.
+    if (now_s - moved_s_ > 4 * longest_wait_s)
+        wait_s_ = 1;
+    if (rung_ == before)
+        return false;
+    moved_s_ = now_s, calm_since_s_ = -1, told_ = 0;
+    return true;
+}
+
+std::string told(const Governor& governor)
+{
+    const Rung& rung = governor.ladder()[governor.rung()];
+    std::array<char, 96> text;
+    std::snprintf(text.data(), text.size(), "quality %zu of %zu: FLIP %.3f, edges within %.2f px", governor.rung() + 1,
+        governor.ladder().size(), rung.flip, rung.edges_px);
+    return text.data();
+}
+
+} // namespace starbow
