@@ -12,6 +12,8 @@ using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 using Layout_ = vk::ImageLayout;
 
+/// Those of the stars' pass too: where things move its vertices ask what these cover.
+constexpr auto readers = Stage::eVertexShader | Stage::eFragmentShader;
 constexpr auto depth_tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
 
 vk::SampleCountFlagBits sample_bits(int samples)
@@ -185,7 +187,7 @@ void CubePass::record(vk::CommandBuffer commands)
     const std::span used(atlases_.data(), formats(layered_).size());
     const Image& depth = sampled ? depth_samples_ : depth_;
     for (const Image& atlas : used)
-        transition(commands, atlas, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eColorAttachmentOptimal,
+        transition(commands, atlas, Layout_::eUndefined, readers, {}, Layout_::eColorAttachmentOptimal,
             Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
     constexpr auto depth_access = Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite;
     transition(commands, depth_, Layout_::eUndefined,
@@ -230,8 +232,7 @@ void CubePass::record(vk::CommandBuffer commands)
             make_mips(commands, atlas);
         else
             transition(commands, atlas, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
-                Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader,
-                Access::eShaderSampledRead);
+                Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal, readers, Access::eShaderSampledRead);
     if (keeps_depth_)
         transition(commands, depth_, Layout_::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
             depth_access | Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal,
@@ -309,8 +310,9 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
 
 void CubePass::make_mips(vk::CommandBuffer commands, const Image& atlas)
 {
-    auto level_barrier = [&](std::uint32_t first, std::uint32_t count, Layout_ from, Stage from_stage,
-                             vk::AccessFlags2 from_access, Layout_ to, Stage to_stage, vk::AccessFlags2 to_access) {
+    auto level_barrier = [&](std::uint32_t first, std::uint32_t count, Layout_ from, vk::PipelineStageFlags2 from_stage,
+                             vk::AccessFlags2 from_access, Layout_ to, vk::PipelineStageFlags2 to_stage,
+                             vk::AccessFlags2 to_access) {
         vk::ImageMemoryBarrier2 barrier(from_stage, from_access, to_stage, to_access, from, to, VK_QUEUE_FAMILY_IGNORED,
             VK_QUEUE_FAMILY_IGNORED, *atlas.image, {vk::ImageAspectFlagBits::eColor, first, count, 0, 1});
         commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
@@ -338,11 +340,11 @@ void CubePass::make_mips(vk::CommandBuffer commands, const Image& atlas)
         level_barrier(level, 1, Layout_::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
             Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
     }
-    level_barrier(0, levels, Layout_::eTransferSrcOptimal, Stage::eTransfer, {}, Layout_::eShaderReadOnlyOptimal,
-        Stage::eFragmentShader, Access::eShaderSampledRead);
+    level_barrier(0, levels, Layout_::eTransferSrcOptimal, Stage::eTransfer, {}, Layout_::eShaderReadOnlyOptimal, readers,
+        Access::eShaderSampledRead);
     if (atlas.levels > levels)
         level_barrier(levels, atlas.levels - levels, Layout_::eTransferDstOptimal, Stage::eTransfer, {},
-            Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
+            Layout_::eShaderReadOnlyOptimal, readers, Access::eShaderSampledRead);
 }
 
 void CubePass::record_plain(vk::CommandBuffer commands, const Target& target)

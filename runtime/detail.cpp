@@ -1,5 +1,6 @@
 #include "detail.h"
 #include <algorithm>
+#include <cmath>
 #include <meshoptimizer.h>
 
 namespace starbow {
@@ -26,6 +27,74 @@ std::size_t pieces(const std::vector<std::uint32_t>& indices, std::size_t vertex
     return count;
 }
 
+/// The point of a triangle that is closest to p, as parts of its corners (Ericson, Real-Time Collision Detection, 5.1.5).
+glm::vec3 closest(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
+{
+    const glm::vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
+    const float d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
+    if (d1 <= 0 && d2 <= 0)
+        return {1, 0, 0};
+    const float d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
+    if (d3 >= 0 && d4 <= d3)
+        return {0, 1, 0};
+    const float d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
+    if (d6 >= 0 && d5 <= d6)
+        return {0, 0, 1};
+    const float vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0)
+        return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
+    if (vb <= 0 && d2 >= 0 && d6 <= 0)
+        return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+        const float w = (d4 - d3) / (d4 - d3 + d5 - d6);
+        return {0, 1 - w, w};
+    }
+    const float sum = va + vb + vc;
+    return {va / sum, vb / sum, vc / sum};
+}
+
+glm::vec3 colour_of(const Vertex& vertex)
+{
+    return glm::vec3(vertex.colour & 255, vertex.colour >> 8 & 255, vertex.colour >> 16 & 255) / 255.0f;
+}
+
+/// How wide a level looks other than the full surface where it lies no deeper: in its shading and its colours. A vertex that
+/// is gone takes its normal with it, as far as to the next one that stays; what differs little counts as little of that way.
+/// Asked of some of the vertices, of so many that it takes milliseconds.
+double looks_other(
+    const Vertex* vertices, const std::vector<std::uint32_t>& full, const std::vector<std::uint32_t>& level, float extent)
+{
+    const float same = 1e-5f * extent;
+    constexpr std::size_t most_asked = 4'000'000; // triangles
+    const std::size_t step = std::max<std::size_t>(1, full.size() * (level.size() / 3) / most_asked);
+    double most = 0;
+    for (std::size_t i = 0; i < full.size(); i += step) {
+        const Vertex& vertex = vertices[full[i]];
+        float nearest = INFINITY, other = 0, way = 0;
+        for (std::size_t k = 0; k < level.size(); k += 3) {
+            const Vertex *a = vertices + level[k], *b = vertices + level[k + 1], *c = vertices + level[k + 2];
+            const glm::vec3 parts = closest(vertex.position, a->position, b->position, c->position);
+            const float distance
+                = glm::length(parts.x * a->position + parts.y * b->position + parts.z * c->position - vertex.position);
+            if (!(distance <= nearest + same))
+                continue;
+            const glm::vec3 normal = parts.x * a->normal + parts.y * b->normal + parts.z * c->normal;
+            const float length = glm::length(normal);
+            const glm::vec3 colour = parts.x * colour_of(*a) + parts.y * colour_of(*b) + parts.z * colour_of(*c);
+            const float off = glm::length(length > 0 ? normal / length - vertex.normal : vertex.normal)
+                + glm::length(colour - colour_of(vertex));
+            // At a sharp edge several lie equally near: the one that it belongs to.
+            if (distance >= nearest - same && off >= other)
+                continue;
+            nearest = std::min(nearest, distance), other = off;
+            way = std::min({glm::length(a->position - vertex.position), glm::length(b->position - vertex.position),
+                glm::length(c->position - vertex.position)});
+        }
+        most = std::max(most, double(std::min(other, 1.0f) * way));
+    }
+    return most;
+}
+
 } // namespace
 
 void add_detail_levels(World& world)
@@ -45,7 +114,8 @@ void add_detail_levels(World& world)
             continue;
         const float* positions = &vertices->position.x;
         double extent = meshopt_simplifyScale(positions, vertex_count, sizeof(Vertex));
-        double error = 0;
+        double error = 0, shading = 0;
+        const std::vector<std::uint32_t> full = from;
         while (from.size() > 3 * 16) {
             level.resize(from.size());
             float added = 0;
@@ -54,10 +124,12 @@ void add_detail_levels(World& world)
             if (count == 0 || count > from.size() * 4 / 5)
                 break;
             level.resize(count);
+            shading = std::max(shading, looks_other(vertices, full, level, float(extent)));
             meshopt_optimizeVertexCache(level.data(), level.data(), count, vertex_count);
             // Each step is measured against the one before it, so the errors add up at worst.
             error += added * extent;
-            primitive.coarser.push_back({std::uint32_t(world.indices.size()), std::uint32_t(count), error});
+            primitive.coarser.push_back(
+                {std::uint32_t(world.indices.size()), std::uint32_t(count), std::max(error, shading)});
             world.indices.insert(world.indices.end(), level.begin(), level.end());
             from = level;
         }

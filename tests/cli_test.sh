@@ -45,6 +45,13 @@ refused '--size' render --shot start --size 800x600x2
 refused '--size' render --shot start --size 99999x99999
 refused '--size' render --shot start --size -800x600
 refused '8192x8192' render --shot start --size 16384x16384 --exr
+refused '8192x8192' render --shot start --size 16384x16384 --reference
+refused '--samples' render --shot start --reference --samples 0
+refused '--samples' render --shot start --samples 4
+refused '--exposure' render --shot start --reference --exposure auto
+refused '--hud' render --shot start --reference --hud
+refused '--overlay' render --shot start --reference --overlay ring
+refused '--spectra' render --shot start --reference --spectra fine
 shot fast '{ "direction": [0, 0, -1], "beta": 1 }'
 refused '/velocity/beta' render --shot "$folder/fast.json"
 shot slow '{ "direction": [0, 0, -1], "gamma": 0.5 }'
@@ -244,6 +251,13 @@ said=$(env -u DISPLAY -u WAYLAND_DISPLAY "$program" displays 2>&1)
 if [ $? = 0 ] && [[ $said == *"GPU "*": is used"*"no display server"* ]]; then passed=$((passed + 1)); else fail "displays: $said"; fi
 
 # The same bytes twice, and the numbers beside the picture.
+# By rays no device is asked for, and there is nothing left to go on from.
+for time in once twice; do
+    VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent "$program" render --shot starbow --size 40x30 --reference \
+        --samples 2 --out "$folder/rays-$time" --exr >/dev/null || fail "rays want a device"
+done
+cmp -s "$folder/rays-once/desk.png" "$folder/rays-twice/desk.png" && cmp -s "$folder/rays-once/desk.exr" "$folder/rays-twice/desk.exr" \
+    && [ ! -e "$folder/rays-once/desk.rows" ] && passed=$((passed + 1)) || fail "rays draw another picture each time"
 "$program" render --shot starbow --size 160x120 --out "$folder/once" --exr >/dev/null || fail "a good shot is refused"
 "$program" render --shot starbow --size 160x120 --out "$folder/twice" --exr >/dev/null
 for file in desk.png desk.exr; do

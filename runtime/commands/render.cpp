@@ -123,8 +123,8 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
         = command->add_option("--bloom", options->bloom, "The part of the light that glows around what shines, 0 to 1")
               ->check(CLI::Range(0.0, 1.0))
               ->capture_default_str();
-    add_spectra(*command, options->spectra);
-    command->add_option("--quality", options->quality, quality_help + std::string(" [fine]"));
+    CLI::Option* spectra = add_spectra(*command, options->spectra);
+    CLI::Option* quality = command->add_option("--quality", options->quality, quality_help + std::string(" [fine]"));
     CLI::Option* points = command->add_option("--measure", options->points, measure_help);
     CLI::Option* overlay = command
                                ->add_option("--overlay", options->overlay,
@@ -162,7 +162,7 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
         tour->excludes(other);
     CLI::Option* reference = command->add_flag("--reference", options->reference,
         "By rays, in double and with whole spectra, without a device: slow, and what the others should look like");
-    for (CLI::Option* other : {replay, tour, hud, pattern, bloom, points, overlay, why})
+    for (CLI::Option* other : {replay, tour, hud, pattern, bloom, spectra, quality, points, overlay, why})
         reference->excludes(other);
     command->add_option("--samples", options->samples, "Of --reference: rays of each pixel")
         ->check(whole_number(1, 4096))

@@ -60,6 +60,12 @@ int render_reference(const ReferenceCommand& command)
     for (const Output& output : layout.outputs)
         for (const Viewport& viewport : output.viewports)
             pictures.insert(pictures.end(), {viewport.alpha_mask, viewport.black_level});
+    for (const Output& output : layout.outputs) {
+        constexpr double most = 1 << 26; // pixels: with their numbers and two eyes they are 8 GB
+        if (double(output.size.x) * output.size.y > most)
+            throw InputError("--reference of " + std::to_string(output.size.x) + "x" + std::to_string(output.size.y)
+                + " pixels is too large; at most 8192x8192, or as many in another shape, is right");
+    }
     const std::filesystem::path folder = command.out;
     for (const Output& output : layout.outputs)
         for (const char* kind : {".png", ".exr", ".rows"}) {
@@ -78,7 +84,10 @@ int render_reference(const ReferenceCommand& command)
         const std::filesystem::path kept = folder / (output.name + ".rows");
         Rows rows(output.name);
         const Reference drawn = reference(world.input(), layout, shot, i,
-            {.samples = int(command.samples), .progress = [&](int done, int all) { rows.tell(done, all); }, .kept = kept});
+            {.samples = int(command.samples),
+                .numbers = command.exr,
+                .progress = [&](int done, int all) { rows.tell(done, all); },
+                .kept = kept});
         write_png(folder / (output.name + ".png"), drawn.size, shown(drawn));
         if (command.exr)
             write_exr(folder / (output.name + ".exr"), drawn.size, channels(drawn));

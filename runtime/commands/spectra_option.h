@@ -5,11 +5,11 @@
 
 namespace starbow {
 
-inline void add_spectra(CLI::App& command, std::string& name)
+inline CLI::Option* add_spectra(CLI::App& command, std::string& name)
 {
     std::vector<std::string> names(spectral_level_names.begin(), spectral_level_names.end());
     names.insert(names.begin(), "needed");
-    command
+    return command
         .add_option("--spectra", name,
             "How finely light is told: in 3 numbers (colours), 5 (middle), 12 (fine), or as the scene needs")
         ->check(CLI::IsMember(names))

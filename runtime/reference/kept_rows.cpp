@@ -20,8 +20,7 @@ static std::uint64_t sum_of(const std::byte* bytes, std::size_t count)
 KeptRows::KeptRows(const std::filesystem::path& file, const std::string& key, std::size_t bytes_per_row, int rows)
     : file_(file)
     , bytes_(bytes_per_row)
-    , done_(std::size_t(rows), false)
-    , rows_(std::size_t(rows) * bytes_per_row)
+    , rows_(std::size_t(rows))
 {
     const std::string head = key + '\n';
     std::size_t whole = 0; // bytes of the file that count
@@ -37,8 +36,7 @@ KeptRows::KeptRows(const std::filesystem::path& file, const std::string& key, st
                 && in.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes_))
                 && in.read(reinterpret_cast<char*>(&sum), sizeof sum) && row < std::uint32_t(rows)
                 && sum == sum_of(bytes.data(), bytes_)) {
-                std::copy(bytes.begin(), bytes.end(), rows_.begin() + std::ptrdiff_t(row * bytes_));
-                done_[row] = true;
+                rows_[row] = bytes;
                 whole += sizeof row + bytes_ + sizeof sum;
             }
         }
@@ -50,16 +48,17 @@ KeptRows::KeptRows(const std::filesystem::path& file, const std::string& key, st
         std::ofstream out(file, std::ios::binary | std::ios::trunc);
         if (!out.write(head.data(), std::streamsize(head.size())).flush())
             throw InputError(file.string(), "", "can't be written; a folder that can be written is right");
-        done_.assign(std::size_t(rows), false);
+        rows_.assign(std::size_t(rows), {});
     }
 }
 
-int KeptRows::count() const { return int(std::count(done_.begin(), done_.end(), true)); }
+int KeptRows::count() const
+{
+    return int(std::count_if(rows_.begin(), rows_.end(), [](const auto& row) { return !row.empty(); }));
+}
 
 void KeptRows::put(int row, const std::byte* bytes)
 {
-    if (file_.empty())
-        return;
     const std::scoped_lock lock(mutex_);
     const std::uint32_t number = std::uint32_t(row);
     const std::uint64_t sum = sum_of(bytes, bytes_);
@@ -69,13 +68,6 @@ void KeptRows::put(int row, const std::byte* bytes)
     out.write(reinterpret_cast<const char*>(&sum), sizeof sum);
     if (!out.flush())
         throw InputError(file_.string(), "", "can't be written; a disk with room is right");
-}
-
-void KeptRows::remove()
-{
-    std::error_code ignored;
-    if (!file_.empty())
-        std::filesystem::remove(file_, ignored);
 }
 
 } // namespace starbow

@@ -97,7 +97,7 @@ public:
             for (int x = 0; x < own.size.x; ++x) {
                 const std::size_t at = std::size_t(own.corner.x + x);
                 light[std::size_t(own.layer)][at] = pixel(pane, ways, {x, inside}) * exposure_;
-                if (own.layer == 0)
+                if (own.layer == 0 && numbers)
                     numbers[at] = numbers_at(pane, ways, x);
             }
         }
@@ -282,10 +282,12 @@ Reference reference(
     out.shade = std::move(shades[output]);
     const std::size_t width = std::size_t(of.size.x), rows = std::size_t(of.size.y);
     out.light.assign(std::size_t(layers(out.packing)), std::vector<glm::dvec3>(width * rows, glm::dvec3(0)));
-    out.numbers.resize(width * rows);
+    if (options.numbers)
+        out.numbers.resize(width * rows);
 
     const Picture_ picture(input, layout, shot, own, options.samples);
-    const std::size_t light_bytes = width * sizeof(glm::dvec3), numbers_bytes = width * sizeof(Reference::Numbers);
+    const std::size_t light_bytes = width * sizeof(glm::dvec3),
+                      numbers_bytes = options.numbers ? width * sizeof(Reference::Numbers) : 0;
     const std::size_t row_bytes = out.light.size() * light_bytes + numbers_bytes;
     std::optional<KeptRows> kept;
     if (!options.kept.empty())
@@ -305,20 +307,22 @@ Reference reference(
             const std::size_t first = std::size_t(y) * width;
             for (std::size_t i = 0; i < light.size(); ++i)
                 light[i] = &out.light[i][first];
-            if (kept && kept->has(y)) {
-                const std::byte* from = kept->row(y);
+            Reference::Numbers* numbers = options.numbers ? &out.numbers[first] : nullptr;
+            if (const std::byte* from = kept ? kept->row(y) : nullptr) {
                 for (glm::dvec3* one : light)
                     std::memcpy(one, from, light_bytes), from += light_bytes;
-                std::memcpy(&out.numbers[first], from, numbers_bytes);
+                if (numbers)
+                    std::memcpy(numbers, from, numbers_bytes);
                 continue;
             }
             try {
-                picture.row(y, light, &out.numbers[first]);
+                picture.row(y, light, numbers);
                 if (kept) {
                     std::byte* to = bytes.data();
                     for (const glm::dvec3* one : light)
                         std::memcpy(to, one, light_bytes), to += light_bytes;
-                    std::memcpy(to, &out.numbers[first], numbers_bytes);
+                    if (numbers)
+                        std::memcpy(to, numbers, numbers_bytes);
                     kept->put(y, bytes.data());
                 }
                 const std::scoped_lock lock(mutex);

@@ -39,7 +39,7 @@ struct Reference {
     glm::ivec2 size{0};
     std::vector<std::vector<glm::dvec3>> light; ///< of each picture: one, or two where eyes share pixels. Rec. 709 linear,
                                                 ///< exposed, before the tone curve; 0 where nothing is shown
-    std::vector<Numbers> numbers;
+    std::vector<Numbers> numbers; ///< where they were asked for
     double exposure = 1; ///< that `light` was multiplied by
     Packing packing = Packing::mono;
     Colour colour;
@@ -49,6 +49,7 @@ struct Reference {
 
 struct ReferenceOptions {
     int samples = 16; ///< rays of a pixel, the same places in each; at least 1
+    bool numbers = true; ///< whether they are found too
     std::function<void(int done, int rows)> progress{}; ///< after each row, from any thread, one at a time
     std::filesystem::path kept{}; ///< a file of finished rows, from which an interrupted picture goes on; of one made from
                                   ///< other things none are taken. Empty: none

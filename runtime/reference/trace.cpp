@@ -96,15 +96,14 @@ struct Tracer::Scene {
     {
         const Instance& instance = world.instances[index];
         const Primitive& primitive = world.primitives[instance.primitive];
-        std::unordered_map<std::uint32_t, glm::dvec3> places;
+        std::unordered_map<std::uint32_t, glm::dvec3> seen; // what moves by itself takes a while for each
         auto place_of = [&](std::uint32_t vertex) {
-            const auto [at, is_new] = places.try_emplace(vertex);
-            if (is_new) {
-                const glm::dvec3 local(world.vertices[vertex].position);
-                at->second = instance.motion >= 0
-                    ? seen_corner(instance, local)
-                    : glm::dvec3(instance.frame_from_local * glm::dvec4(local, 1)) - vantage.place;
-            }
+            const glm::dvec3 local(world.vertices[vertex].position);
+            if (instance.motion < 0)
+                return glm::dvec3(instance.frame_from_local * glm::dvec4(local, 1)) - vantage.place;
+            const auto [at, is_new] = seen.try_emplace(vertex);
+            if (is_new)
+                at->second = seen_corner(instance, local);
             return at->second;
         };
         for (std::uint32_t i = 0; i + 2 < primitive.index_count; i += 3) {

@@ -1,0 +1,142 @@
+// The live picture against the one by rays, which shares neither the cube map nor the warp with it: in every shipped layout,
+// in worlds with clocks, bodies, lines and glows, and the closer the finer the cube map is.
+#include "runtime/reference/reference.h"
+#include "tests/stage.h"
+
+using namespace starbow;
+using namespace starbow::gpu_test;
+
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Decibels over the root mean square difference of two pictures' bytes.
+double psnr(const Bytes& a, const Bytes& b)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (i % 4 < 3)
+            sum += std::pow(double(a[i]) - double(b[i]), 2);
+    return 10 * std::log10(255.0 * 255.0 / std::max(sum / (0.75 * double(a.size())), 1e-10));
+}
+
+double mean(const Bytes& a)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (i % 4 < 3)
+            sum += a[i];
+    return sum / (0.75 * double(a.size()));
+}
+
+/// A layout whose longer sides are so many pixels.
+Layout small_layout(const std::filesystem::path& file, int side)
+{
+    Layout layout = load_layout(file);
+    for (Output& output : layout.outputs) {
+        const double scale = double(side) / std::max(output.size.x, output.size.y);
+        output.size = glm::max(ivec2(glm::round(dvec2(output.size) * scale)), 16);
+    }
+    return layout;
+}
+
+Shot shipped_shot(const std::string& name)
+{
+    return load_shot(starbow::testing::source_dir() / "config/shots" / (name + ".json"));
+}
+
+const ReferenceWorld& avenue_by_rays()
+{
+    static const ReferenceWorld world = open_reference_world(starbow::testing::source_dir() / "config/scenes/avenue.json");
+    return world;
+}
+
+} // namespace
+
+TEST(LivePicture, IsTheOneByRaysInEveryShippedLayout)
+{
+    const Shot shot = shipped_shot("avenue-gamma4");
+    for (const auto& file : starbow::testing::shipped("config/layouts")) {
+        const Layout layout = small_layout(file, 128);
+        Studio live = studio(avenue().world, layout, false);
+        const auto pictures = live.picture(shot);
+        for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
+            const Bytes truth = shown(reference(avenue_by_rays().input(), layout, shot, i, {.samples = 4}));
+            ASSERT_EQ(pictures[i].size(), truth.size());
+            const std::string name = file.stem().string() + ", " + layout.outputs[i].name;
+            // Edges, thinner than a pixel here, are told by four samples of a texel there and of a pixel here. A
+            // picture that is moved by one pixel, or another eye's, has 20 dB or less.
+            std::printf("%s: %.2f dB\n", name.c_str(), psnr(pictures[i], truth));
+            EXPECT_GT(psnr(pictures[i], truth), 24.5) << name;
+            EXPECT_NEAR(mean(pictures[i]), mean(truth), 0.02 * mean(truth) + 0.5) << name;
+        }
+    }
+}
+
+TEST(LivePicture, IsTheOneByRaysInEveryWorld)
+{
+    struct Case {
+        const char* shot;
+        double floor_db;
+    };
+    // Bodies, clocks, lives; what spins; a line, a glow, pigments under lamps, all of it shifted.
+    for (const Case& one :
+        {Case{"alice-and-bob", 30}, {"train-aboard-long", 30}, {"light-clock-flying", 30}, {"twins-turn", 28},
+            {"clocks-passing", 30}, {"gamow-cycling", 28}, {"rainbow-line", 30}, {"warm-wall-4", 30}, {"chart-0.5", 30}}) {
+        const Shot shot = shipped_shot(one.shot);
+        const auto file = starbow::testing::source_dir() / "config/scenes" / (shot.scene + ".json");
+        const ReferenceWorld world = open_reference_world(file);
+        World again = load_world(world.scene.gltf);
+        const GpuWorld gpu = upload(device(), pipelines(), std::move(again), world.scene, world.stars);
+        const Layout layout = one_view(Planar{.fov_y_deg = 60}, {240, 180});
+        Studio live = studio(gpu, layout, true);
+        const Bytes picture = live.picture(shot)[0];
+        const Reference truth = reference(world.input(), layout, shot, 0, {.samples = 8});
+        std::printf("%s: %.2f dB\n", one.shot, psnr(picture, shown(truth)));
+        EXPECT_GT(psnr(picture, shown(truth)), one.floor_db) << one.shot;
+        // Light as numbers, D and distances, where neither edge nor grain is: the middle one of all pixels.
+        const gpu_test::Numbers numbers(live, shot);
+        std::vector<double> light, D, distance;
+        for (int i = 0; i < numbers.count(); ++i) {
+            const Reference::Numbers& own = truth.numbers[std::size_t(i)];
+            const dvec3 rays = truth.light[0][std::size_t(i)] / truth.exposure;
+            light.push_back(glm::length(numbers.light(i) - rays) / std::max(glm::length(rays), 1e-9));
+            D.push_back(std::abs(numbers.D(i) / own.D - 1));
+            distance.push_back(std::isinf(own.distance) != std::isinf(numbers.depth(i)) ? 1
+                    : std::isinf(own.distance)                                          ? 0
+                                               : std::abs(numbers.depth(i) / own.distance - 1));
+            EXPECT_LT(between(numbers.camera(i), own.camera), 1e-6);
+        }
+        auto part = [](std::vector<double>& all, double at) {
+            const auto middle = all.begin() + std::ptrdiff_t(at * double(all.size() - 1));
+            std::nth_element(all.begin(), middle, all.end());
+            return *middle;
+        };
+        // 12 numbers tell shifted pigments within 1 % mostly; halves and the table's steps 0.1 %.
+        std::printf("   light %.5f D %.2e distance %.5f\n", part(light, 0.5), part(D, 0.9), part(distance, 0.5));
+        EXPECT_LT(part(light, 0.5), 0.012) << one.shot;
+        EXPECT_LT(part(D, 0.9), 1e-4) << one.shot;
+        // A texel's distance is that of its middle, half a pixel off on slanting ground.
+        EXPECT_LT(part(distance, 0.5), 0.01) << one.shot;
+    }
+}
+
+TEST(LivePicture, ComesCloserToTheOneByRaysAsItsQualityRises)
+{
+    const Shot shot = shipped_shot("avenue-gamma4");
+    for (const char* name : {"desk", "dome"}) {
+        const Layout layout
+            = small_layout(starbow::testing::source_dir() / "config/layouts" / (std::string(name) + ".json"), 160);
+        const Bytes truth = shown(reference(avenue_by_rays().input(), layout, shot, 0, {.samples = 32}));
+        double before = 0;
+        for (double texels : {0.5, 1.0, 2.0, 4.0}) {
+            Quality quality = default_quality(device(), true);
+            quality.texels_per_pixel = texels, quality.max_texels_per_pixel = 200;
+            Studio live(device(), pipelines(), avenue().world, layout, quality, false);
+            const double now = psnr(live.picture(shot)[0], truth);
+            std::printf("%s: %.1f texels a pixel: %.2f dB\n", name, texels, now);
+            EXPECT_GT(now, before + 0.5) << name << ", " << texels << " texels a pixel";
+            before = now;
+        }
+    }
+}
