@@ -89,6 +89,7 @@ public:
     // The stages of record(), one by one, for those who time them.
     void draw_cubes(vk::CommandBuffer commands);
     void draw_meter(vk::CommandBuffer commands);
+    void draw_stars(vk::CommandBuffer commands, std::size_t output, int layer); ///< the first part of warp_output
     void warp_output(vk::CommandBuffer commands, std::size_t output, const Target& target);
     void draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& target);
     void finish_output(vk::CommandBuffer commands, std::size_t output, const Target& target);
@@ -179,7 +180,6 @@ private:
     void set_warp(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline,
         const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size);
     shared::ViewPush star_push(const PaneState& pane) const;
-    void draw_stars(vk::CommandBuffer commands, std::size_t output, int layer);
     void glance_at_stars(vk::CommandBuffer commands, const PaneState& pane, const Meter::Cell& cell);
     void warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline, double exposure);
     void bloom_pane(vk::CommandBuffer commands, const PaneState& pane);

@@ -1,12 +1,15 @@
 #include "bench_bodies.h"
+#include "bench_cubes.h"
 #include "bench_input.h"
 #include "bench_layout.h"
+#include "bench_scaling.h"
 #include "bench_spectra.h"
 #include "bench_stars.h"
 #include "bench_timing.h"
 #include "commands.h"
 #include "config/error.h"
 #include "number_option.h"
+#include "runtime/detail.h"
 #include "runtime/find.h"
 #include "runtime/still.h"
 #include "runtime/theatre.h"
@@ -23,7 +26,7 @@ struct Options {
     int rounds = 25, seconds = 60;
     bool input = false;
     std::string json, layout, shot = "avenue-gamma4";
-    bool stars = false, bodies = false;
+    bool stars = false, bodies = false, cubes = false, scaling = false;
 };
 
 using Stage = vk::PipelineStageFlagBits2;
@@ -65,9 +68,9 @@ struct Lookup {
     }
 };
 
-const char* const stage_names[] = {
-    "plan and cull", "cube pass", "warp pass", "head-up display", "whole frame", "plain frame", "look-up pass", "metering"};
-constexpr int stage_count = 8;
+const char* const stage_names[] = {"plan and cull", "cube pass", "warp pass", "head-up display", "whole frame",
+    "plain frame", "look-up pass", "metering", "warp, geometry alone", "warp, with colour", "stars"};
+constexpr int stage_count = 11;
 
 struct Result {
     std::string name;
@@ -77,10 +80,14 @@ struct Result {
     double megabytes;
     double frame_over_plain() const { return ms[4] / ms[5]; }
     double warp_over_lookup() const { return ms[2] / ms[6]; }
+    double geometry_over_lookup() const { return ms[8] / ms[6]; }
+    double colour_over_lookup() const { return ms[9] / ms[6]; }
     double metering_over_frame() const { return ms[7] / ms[4]; }
 };
 
-Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Shot& shot, const std::string& name, int rounds)
+/// starless: the same world without its stars.
+Result measure(Theatre& theatre, const GpuWorld& starless, Lookup& lookup, const Layout& layout, const Shot& shot,
+    const std::string& name, int rounds)
 {
     Device& device = theatre.device;
     Studio studio(device, theatre.pipelines, theatre.world, layout, default_quality(device, false), false);
@@ -91,6 +98,20 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
     studio.frame().meter(true); // as the exhibit flies
     studio.picture(shot, &panel); // warms every cache and leaves the target in a known layout
     vk::Pipeline lookup_pipeline = theatre.pipelines.lookup(target.format);
+    Shot grey = shot; // what its pixels see is where it would be, and as bright and coloured as at rest
+    grey.effects.doppler = grey.effects.headlight = false;
+    Studio geometry(device, theatre.pipelines, starless, layout, default_quality(device, false), false);
+    Studio colour(device, theatre.pipelines, starless, layout, default_quality(device, false), false);
+    geometry.picture(grey);
+    colour.picture(shot);
+    auto warp = [&](Studio& of) {
+        return milliseconds([&] {
+            device.now([&](vk::CommandBuffer c) {
+                make_writable(c, of.target(0));
+                of.frame().warp_output(c, 0, of.target(0));
+            });
+        });
+    };
 
     // Every stage in turn within each round, so that whatever else the machine does falls on all alike.
     std::vector<double> times[stage_count];
@@ -98,12 +119,10 @@ Result measure(Theatre& theatre, Lookup& lookup, const Layout& layout, const Sho
         double ms[stage_count];
         ms[0] = milliseconds([&] { studio.frame().prepare(shot, &panel); });
         ms[1] = milliseconds([&] { device.now([&](vk::CommandBuffer c) { studio.frame().draw_cubes(c); }); });
-        ms[2] = milliseconds([&] {
-            device.now([&](vk::CommandBuffer c) {
-                make_writable(c, target);
-                studio.frame().warp_output(c, 0, target);
-            });
-        });
+        ms[2] = warp(studio);
+        ms[8] = warp(geometry);
+        ms[9] = warp(colour);
+        ms[10] = milliseconds([&] { device.now([&](vk::CommandBuffer c) { studio.frame().draw_stars(c, 0, 0); }); });
         ms[6] = milliseconds([&] {
             device.now([&](vk::CommandBuffer c) {
                 make_writable(c, target);
@@ -158,6 +177,8 @@ int bench(const Options& options)
         return bench_stars(options.rounds);
     if (options.bodies)
         return bench_bodies(options.rounds);
+    if (options.scaling)
+        return bench_scaling(options.rounds);
     if (!options.layout.empty())
         return bench_layout(options.layout, options.shot, options.rounds);
     if (!options.json.empty())
@@ -165,6 +186,14 @@ int bench(const Options& options)
     Layout layout = load_layout(find("layouts", "desk"));
     layout.outputs[0].size = {800, 600};
     Theatre theatre(find("scenes", "avenue"), device_options(false));
+    World world = load_world(theatre.world.scene.gltf);
+    add_detail_levels(world);
+    const GpuWorld starless
+        = upload(theatre.device, theatre.pipelines, std::move(world), theatre.world.scene, {}, theatre.world.spectra.level);
+    if (options.cubes) {
+        bench_cubes(theatre, starless, options.rounds);
+        return 0;
+    }
     Lookup lookup(theatre.device, theatre.pipelines);
     std::printf("%s; avenue at 800x600, all effects on; medians of %d rounds, milliseconds\n\n",
         theatre.device.properties.deviceName.data(), options.rounds);
@@ -180,7 +209,7 @@ int bench(const Options& options)
             shot.u = {0, 0, -std::sqrt((c.gamma - 1) * (c.gamma + 1))};
         }
         shot.exposure_ev = c.gamma > 1 ? -3 : 0;
-        results.push_back(measure(theatre, lookup, layout, shot, c.name, options.rounds));
+        results.push_back(measure(theatre, starless, lookup, layout, shot, c.name, options.rounds));
         std::fprintf(stderr, "%s measured\n", c.name);
     }
     std::printf("%-22s", "");
@@ -198,6 +227,8 @@ int bench(const Options& options)
     };
     line("frame / plain", "%12.2f", [](const Result& r) { return r.frame_over_plain(); });
     line("warp / look-up", "%12.2f", [](const Result& r) { return r.warp_over_lookup(); });
+    line("  geometry alone", "%12.2f", [](const Result& r) { return r.geometry_over_lookup(); });
+    line("  with colour", "%12.2f", [](const Result& r) { return r.colour_over_lookup(); });
     line("metering / frame", "%12.3f", [](const Result& r) { return r.metering_over_frame(); });
     line("warp, Mpixel/s", "%12.1f", [](const Result& r) { return 0.48e3 / r.ms[2]; });
     line("frames/s", "%12.1f", [](const Result& r) { return 1e3 / r.ms[4]; });
@@ -216,6 +247,8 @@ int bench(const Options& options)
                 json["milliseconds"][r.name][stage_names[i]] = r.ms[i];
             json["texels_per_pixel"][r.name] = r.texels_per_pixel;
             json["ratios"]["frame_over_plain"][r.name] = r.frame_over_plain();
+            json["ratios"]["geometry_over_lookup"][r.name] = r.geometry_over_lookup();
+            json["ratios"]["colour_over_lookup"][r.name] = r.colour_over_lookup();
             json["ratios"]["metering_over_frame"][r.name] = r.metering_over_frame();
         }
         json["ratios"]["warp_over_lookup"] = results[1].warp_over_lookup();
@@ -250,6 +283,10 @@ void add_bench(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--shot", options->shot, "With --layout: the shot to time")->capture_default_str();
     command->add_flag("--stars", options->stars, "Instead: what the stars cost, the avenue's own and a million");
     command->add_flag("--bodies", options->bodies, "Instead: what bodies that move cost, in view and out of it");
+    command->add_flag("--cubes", options->cubes,
+        "Instead: a dome beside a plain picture, and the planned images beside six full faces as fine");
+    command->add_flag(
+        "--scaling", options->scaling, "Instead: the cost of a pixel, a triangle and an object as they grow many");
     command->add_flag("--input", options->input,
         "Instead: in the exhibit's windows (on --layout), the time from a stick's report to the return of the present call "
         "that shows it");
