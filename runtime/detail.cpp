@@ -65,19 +65,30 @@ double looks_other(
     const Vertex* vertices, const std::vector<std::uint32_t>& full, const std::vector<std::uint32_t>& level, float extent)
 {
     const float same = 1e-5f * extent;
-    constexpr std::size_t most_asked = 4'000'000; // triangles
-    const std::size_t step = std::max<std::size_t>(1, full.size() * (level.size() / 3) / most_asked);
+    constexpr std::size_t most_asked = 8'000'000; // triangles, nearly all of which lie too far off
+    struct Box {
+        glm::vec3 low, high;
+    };
+    std::vector<Box> boxes;
+    for (std::size_t k = 0; k < level.size(); k += 3) {
+        const glm::vec3 &a = vertices[level[k]].position, &b = vertices[level[k + 1]].position,
+                        &c = vertices[level[k + 2]].position;
+        boxes.push_back({glm::min(glm::min(a, b), c) - same, glm::max(glm::max(a, b), c) + same});
+    }
+    const std::size_t step = std::max<std::size_t>(1, full.size() * boxes.size() / most_asked);
     double most = 0;
+    std::size_t first = 0; // what was nearest to the vertex before
     for (std::size_t i = 0; i < full.size(); i += step) {
         const Vertex& vertex = vertices[full[i]];
         float nearest = INFINITY, other = 0, way = 0;
-        for (std::size_t k = 0; k < level.size(); k += 3) {
-            const Vertex *a = vertices + level[k], *b = vertices + level[k + 1], *c = vertices + level[k + 2];
+        auto ask = [&](std::size_t triangle) {
+            const Vertex *a = vertices + level[3 * triangle], *b = vertices + level[3 * triangle + 1],
+                         *c = vertices + level[3 * triangle + 2];
             const glm::vec3 parts = closest(vertex.position, a->position, b->position, c->position);
             const float distance
                 = glm::length(parts.x * a->position + parts.y * b->position + parts.z * c->position - vertex.position);
             if (!(distance <= nearest + same))
-                continue;
+                return;
             const glm::vec3 normal = parts.x * a->normal + parts.y * b->normal + parts.z * c->normal;
             const float length = glm::length(normal);
             const glm::vec3 colour = parts.x * colour_of(*a) + parts.y * colour_of(*b) + parts.z * colour_of(*c);
@@ -85,11 +96,16 @@ double looks_other(
                 + glm::length(colour - colour_of(vertex));
             // At a sharp edge several lie equally near: the one that it belongs to.
             if (distance >= nearest - same && off >= other)
-                continue;
-            nearest = std::min(nearest, distance), other = off;
+                return;
+            nearest = std::min(nearest, distance), other = off, first = triangle;
             way = std::min({glm::length(a->position - vertex.position), glm::length(b->position - vertex.position),
                 glm::length(c->position - vertex.position)});
-        }
+        };
+        ask(first);
+        for (std::size_t k = 0; k < boxes.size(); ++k)
+            if (glm::all(glm::greaterThanEqual(vertex.position, boxes[k].low - nearest))
+                && glm::all(glm::lessThanEqual(vertex.position, boxes[k].high + nearest)))
+                ask(k);
         most = std::max(most, double(std::min(other, 1.0f) * way));
     }
     return most;
@@ -115,7 +131,9 @@ void add_detail_levels(World& world)
         const float* positions = &vertices->position.x;
         double extent = meshopt_simplifyScale(positions, vertex_count, sizeof(Vertex));
         double error = 0, shading = 0;
-        const std::vector<std::uint32_t> full = from;
+        std::vector<std::uint32_t> full = from; // each vertex once
+        std::sort(full.begin(), full.end());
+        full.erase(std::unique(full.begin(), full.end()), full.end());
         while (from.size() > 3 * 16) {
             level.resize(from.size());
             float added = 0;
