@@ -131,7 +131,7 @@ TEST(LivePicture, ComesCloserToTheOneByRaysAsItsQualityRises)
         double before = 0;
         for (double texels : {0.5, 1.0, 2.0, 4.0}) {
             Quality quality = default_quality(device(), true);
-            quality.texels_per_pixel = texels, quality.max_texels_per_pixel = 200;
+            quality.texels_per_pixel = texels, quality.most_texels_per_pixel = 200;
             Studio live(device(), pipelines(), avenue().world, layout, quality, false);
             const double now = psnr(live.picture(shot)[0], truth);
             std::printf("%s: %.1f texels a pixel: %.2f dB\n", name, texels, now);

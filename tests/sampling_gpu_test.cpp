@@ -84,7 +84,9 @@ TEST(Sampling, StraightBackAndAheadIsAsGoodAtEverySpeed)
 // Faces, nested images and outputs meet where nobody sees it: light is the sky's everywhere, within a 255th of white.
 TEST(Sampling, NoSeamOnASmoothSky)
 {
-    const GpuWorld world = open_world("seams", Doc(), {{"sky", smooth_sky}});
+    Doc doc;
+    quad(doc, dvec3(0, -1e4, 0), dvec3(0.001, 0, 0), dvec3(0, 0, 0.001), unlit(doc, dvec3(0.3, 0.2, 0.55))); // a world needs one
+    const GpuWorld world = open_world("seams", doc, {{"sky", smooth_sky}});
     for (const char* name : {"desk", "dome", "cave5", "wall3"}) {
         Layout layout = load_layout(starbow::testing::source_dir() / "config/layouts" / (std::string(name) + ".json"));
         for (Output& output : layout.outputs)

@@ -1,5 +1,6 @@
 #include "bench_bodies.h"
 #include "bench_cubes.h"
+#include "bench_governor.h"
 #include "bench_input.h"
 #include "bench_layout.h"
 #include "bench_scaling.h"
@@ -26,7 +27,9 @@ struct Options {
     int rounds = 25, seconds = 60;
     bool input = false;
     std::string json, layout, shot = "avenue-gamma4";
-    bool stars = false, bodies = false, cubes = false, scaling = false;
+    bool stars = false, bodies = false, cubes = false, scaling = false, governor = false;
+    std::string ladder = "ladder";
+    double hold_ms = 0;
 };
 
 using Stage = vk::PipelineStageFlagBits2;
@@ -177,6 +180,8 @@ int bench(const Options& options)
         return bench_stars(options.rounds);
     if (options.bodies)
         return bench_bodies(options.rounds);
+    if (options.governor)
+        return bench_governor(options.ladder, options.hold_ms, options.seconds);
     if (options.scaling)
         return bench_scaling(options.rounds);
     if (!options.layout.empty())
@@ -290,7 +295,11 @@ void add_bench(CLI::App& app, std::function<int()>& chosen)
     command->add_flag("--input", options->input,
         "Instead: in the exhibit's windows (on --layout), the time from a stick's report to the return of the present call "
         "that shows it");
-    command->add_option("--seconds", options->seconds, "With --input: how long")
+    command->add_flag("--governor", options->governor,
+        "Instead: how well a frame's time is held under a load that doubles and halves every 5 s");
+    command->add_option("--ladder", options->ladder, "With --governor: the ladder")->capture_default_str();
+    command->add_option("--hold-ms", options->hold_ms, "With --governor: the time that is held [1.5 of the middle rung's]");
+    command->add_option("--seconds", options->seconds, "With --input and --governor: how long")
         ->check(whole_number(1, 3600))
         ->capture_default_str();
     command->footer("Examples:\n  starbow bench --json out/bench.json\n  starbow bench --input --seconds 60");

@@ -62,7 +62,7 @@ void bench_cubes(Theatre& theatre, const GpuWorld& starless, int rounds)
     const Layout window_layout = one_view(Planar{2 * half_deg}, size);
     Quality quality = default_quality(device, false);
     quality.texels_per_pixel = 1;
-    quality.max_texels_per_pixel = 6;
+    quality.most_texels_per_pixel = 6;
 
     std::printf(
         "\nA dome of 1024x1024 with all effects, a texel for each pixel, beside a plain picture of 1024x1024 whose middle "
@@ -77,8 +77,8 @@ void bench_cubes(Theatre& theatre, const GpuWorld& starless, int rounds)
         Layout desk = load_layout(find("layouts", "desk"));
         desk.outputs[0].size = {800, 600};
         Studio own(device, theatre.pipelines, starless, desk, default_quality(device, false), false);
-        CubePass plain(device, theatre.pipelines, starless, 1, false);
-        CubePass six(device, theatre.pipelines, starless, 1, false);
+        CubePass plain(device, theatre.pipelines, starless, Quality{}, false);
+        CubePass six(device, theatre.pipelines, starless, Quality{}, false);
         for (Studio* studio : {&dome, &starry, &window, &own})
             studio->picture(shot); // leaves the target in a known layout
         const Plan& plan = own.frame().plans()[0];

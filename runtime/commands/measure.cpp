@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "config/error.h"
 #include "config/whole_file.h"
+#include "measure_explain.h"
 #include "measure_extremes.h"
 #include "measure_settings.h"
 #include "number_option.h"
@@ -21,7 +22,7 @@ struct Options {
     std::vector<std::string> shots, qualities;
     long rounds = 9, samples = 64;
     double budget_ms = 0;
-    bool extremes = false;
+    bool extremes = false, explain = false;
 };
 
 constexpr std::array shipped_qualities = {"draft", "balanced", "fine"};
@@ -60,7 +61,7 @@ int measure(const Options& options)
 {
     if (options.extremes)
         return measure_extremes(options.out);
-    if (options.out.empty())
+    if (options.out.empty() && !options.explain)
         throw InputError("--out is required here; the folder for the results, such as out/accuracy, is right");
     Trial trial;
     trial.scene = find("scenes", options.scene);
@@ -71,6 +72,10 @@ int measure(const Options& options)
     trial.shots = shots_of(options, trial.scene);
     trial.standard = load_quality(find("qualities", options.standard));
     trial.rounds = int(options.rounds), trial.samples = int(options.samples);
+    if (options.explain) {
+        explain(trial, device_options(false));
+        return 0;
+    }
     trial.folder = options.out;
     std::vector<Setting> shipped;
     for (const char* name : shipped_qualities)
@@ -165,9 +170,12 @@ void add_measure(CLI::App& app, std::function<int()>& chosen)
     command->add_flag("--extremes", options->extremes,
         "Instead: at the ends of what there is (speeds, places, times, sizes, views, light), whether all is finite and within "
         "its stated error, or refused");
+    command->add_flag("--explain", options->explain,
+        "Instead: every part of a frame that the scene, the layout and the first shot switch on, why, and its cost; and what "
+        "is off");
     command->footer("Examples:\n  starbow measure --scene avenue --layout desk --out out/accuracy\n"
                     "  starbow measure --layout dome --size 1024x1024 --shot starbow --out out/dome --budget-ms 16\n"
-                    "  starbow run --quality out/dome/quality.json\n  starbow measure --extremes");
+                    "  starbow run --quality out/dome/quality.json\n  starbow measure --scene clocks --shot clocks-passing --explain\n  starbow measure --extremes");
     command->callback([options, &chosen] { chosen = [options] { return measure(*options); }; });
 }
 
