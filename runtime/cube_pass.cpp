@@ -44,7 +44,8 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
     const std::size_t layers = world.world.frames.size();
     constants_ = make_mapped_buffer(device, layers * stride_, vk::BufferUsageFlagBits::eUniformBuffer);
     slots_ = make_mapped_buffer(
-        device, MAX_LAYERS * SLOT_COUNT * sizeof(shared::SlotEntry), vk::BufferUsageFlagBits::eUniformBuffer);
+        device, MAX_LAYERS * SLOT_COUNT * sizeof(shared::SlotEntry), vk::BufferUsageFlagBits::eUniformTexelBuffer);
+    slots_view_ = device.device.createBufferView({{}, *slots_.buffer, exact_format, 0, VK_WHOLE_SIZE});
     atlases_.resize(formats(world.layered()).size());
     std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBufferDynamic, 1},
         {vk::DescriptorType::eUniformBuffer, 1}, {vk::DescriptorType::eStorageBuffer, 3}};
@@ -73,8 +74,7 @@ void CubePass::prepare(const Plan& plan, std::span<const Vantage> layers, double
         contractions_.push_back(layer.contraction);
     fit(plan.atlas_size, plan.levels);
     upload(layers, false);
-    const vk::Extent2D extent = atlases_[0].extent;
-    auto table = slot_table(plan, {extent.width, extent.height});
+    const auto table = slot_table(plan);
     std::memcpy(slots_.mapped, table.data(), table.size() * sizeof(table[0]));
 }
 

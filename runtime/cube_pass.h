@@ -37,7 +37,7 @@ public:
     const std::vector<Image>& atlases() const { return atlases_; }
     const Image& depth() const { return depth_; }
     bool layered() const { return layered_; } ///< what is covered is told
-    const Buffer& slots() const { return slots_; }
+    vk::BufferView slots() const { return *slots_view_; } ///< slot_table, as texels
     std::size_t triangles() const { return triangles_; } ///< sent to the device, all images
     vk::DeviceSize memory() const;
 
@@ -60,6 +60,7 @@ private:
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::raii::DescriptorSet set_ = nullptr;
     Buffer constants_, instances_, visible_, slots_, times_; ///< times_: null without any
+    vk::raii::BufferView slots_view_ = nullptr;
     vk::DeviceSize stride_; ///< of constants_: one for each layer
     std::vector<Image> atlases_, atlas_samples_;
     Image depth_, depth_samples_;

@@ -162,8 +162,8 @@ void Frame::take_up(Parts parts)
     const std::uint32_t count = std::uint32_t(panes_.size());
     before.clear();
     pool_ = nullptr;
-    std::vector<vk::DescriptorPoolSize> sizes
-        = {{vk::DescriptorType::eUniformBuffer, 6 * count}, {vk::DescriptorType::eCombinedImageSampler, 11 * count}};
+    std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBuffer, 2 * count},
+        {vk::DescriptorType::eUniformTexelBuffer, 2 * count}, {vk::DescriptorType::eCombinedImageSampler, 11 * count}};
     pool_ = device_.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2 * count, sizes});
     auto make_set = [&](const vk::raii::DescriptorSetLayout& set_layout) {
         return std::move(device_.device.allocateDescriptorSets({*pool_, *set_layout}).front());
@@ -453,6 +453,8 @@ void Frame::write_sets()
     std::vector<vk::DescriptorImageInfo> images;
     buffers.reserve(6 * panes_.size());
     images.reserve(11 * panes_.size());
+    std::vector<vk::BufferView> texels;
+    texels.reserve(2 * panes_.size());
     std::vector<vk::WriteDescriptorSet> writes;
     auto buffer = [&](const vk::raii::DescriptorSet& set, std::uint32_t binding, vk::DescriptorType type, const Buffer& b) {
         buffers.push_back({*b.buffer, 0, VK_WHOLE_SIZE});
@@ -476,17 +478,18 @@ void Frame::write_sets()
         for (std::size_t group = 0; group < MAX_GROUPS; ++group)
             image(pane.warp_set, atlas_bindings[group], atlases[std::min(group, std::size_t(world_.spectra.groups) - 1)],
                 plans_[pane.eye].levels > 1 ? linear_ : finest_);
-        buffer(pane.warp_set, 2, vk::DescriptorType::eUniformBuffer, eye.cube.slots());
-        const ResponseBuffers& response = shot_.effects.false_colours ? world_.false_colours : world_.eye;
-        buffer(pane.warp_set, 3, vk::DescriptorType::eUniformBuffer, response.rows[0]);
-        buffer(pane.warp_set, 10, vk::DescriptorType::eUniformBuffer, response.rows[1]);
-        buffer(pane.warp_set, 11, vk::DescriptorType::eUniformBuffer, response.rows[2]);
-        buffer(pane.warp_set, 12, vk::DescriptorType::eUniformBuffer, response.own_rows);
+        const ResponseBuffers& response = this->response();
+        for (auto [binding, view] : {std::pair(2u, eye.cube.slots()), std::pair(3u, *response.texels)}) {
+            texels.push_back(view);
+            writes.push_back(
+                {*pane.warp_set, binding, 0, 1, vk::DescriptorType::eUniformTexelBuffer, nullptr, nullptr, &texels.back()});
+        }
+        buffer(pane.warp_set, 10, vk::DescriptorType::eUniformBuffer, response.own_rows);
         const bool layered = eye.cube.layered();
         if (layered)
             put_layers(pane);
-        image(pane.warp_set, 13, layered ? atlases.back() : nothing_, plans_[pane.eye].levels > 1 ? linear_ : finest_);
-        buffer(pane.warp_set, 14, vk::DescriptorType::eUniformBuffer, layered ? pane.layers : no_layers_);
+        image(pane.warp_set, 11, layered ? atlases.back() : nothing_, plans_[pane.eye].levels > 1 ? linear_ : finest_);
+        buffer(pane.warp_set, 12, vk::DescriptorType::eUniformBuffer, layered ? pane.layers : no_layers_);
         image(pane.warp_set, 4, keeps_depth_ ? eye.cube.depth() : nothing_, nearest_);
         image(pane.warp_set, 5, stars_.on() ? stars_.picture() : nothing_, nearest_);
         image(pane.warp_set, 6, pane.map != no_map && stars_.on() ? maps_[pane.map].inverse : no_map_, nearest_);
@@ -528,6 +531,14 @@ WarpVariant Frame::variant_shown(const PaneState& pane) const
     return all;
 }
 
+/// The image ahead, if the plan has no other: at rest it often shows all. Null otherwise.
+const PlanImage* Frame::single_image(const PaneState& pane) const
+{
+    const std::vector<PlanImage>& images = plans_[pane.eye].images;
+    const bool beside = reprojects() && pane.beside_m != glm::dvec3(0);
+    return images.size() == 1 && images[0].layer == 0 && images[0].slot == SLOT_FRONT && !beside ? &images[0] : nullptr;
+}
+
 WarpVariant Frame::variant(const PaneState& pane) const
 {
     const bool moves = watcher_of(pane).E != 1 || eyes_[pane.eye].cube.layered(); // otherwise there is nothing to shift
@@ -537,6 +548,7 @@ WarpVariant Frame::variant(const PaneState& pane) const
         plans_[pane.eye].levels > 1, pane.compiled.channels() == 3, beside, beside && layout_.stereo.turning, stars_.on()};
     variant.numbers = world_.numbers();
     variant.layered = eyes_[pane.eye].cube.layered();
+    variant.single = single_image(pane);
     variant.galilean = on.comparison == Comparison::galilean;
     variant.by_table = variant.doppler || on.false_colours || variant.numbers != Numbers{}; // else as at rest, which is told
     return variant;
@@ -549,11 +561,12 @@ shared::ViewPush Frame::push(const PaneState& pane, const glm::dmat3& axes_from_
     shared::ViewPush push{};
     push.row0 = row(m, 0, unit_of(pane.compiled));
     push.row1 = row(m, 1, pattern_ == Pattern::none ? plans_[pane.eye].rear_last[0] : 0);
-    push.row2 = row(m, 2);
-    push.origin = glm::vec4(pane.pane().corner, atlas.width, atlas.height);
-    push.pane = glm::vec4(pane.pane().corner, 0, 0);
+    push.row2 = row(m, 2, response().first_log2_D);
+    push.origin = glm::vec4(pane.pane().corner, 1.0 / atlas.width, 1.0 / atlas.height);
+    push.pane = glm::vec4(pane.pane().corner, 0, response().per_octave);
     if (pattern_ == Pattern::none) {
-        push.eye = eye_told(pane, watcher_of(pane).layers[0]);
+        const PlanImage* single = single_image(pane);
+        push.eye = single ? slot_entry(*single).texel_from_face : eye_told(pane, watcher_of(pane).layers[0]);
         push.zenith.y = float(eyes_[pane.eye].nearest[0]);
     }
     push.zenith.x = float(std::sin(layout_.stereo.full_from_zenith_deg * degree));

@@ -176,6 +176,7 @@ private:
     void prepare_eyes(double pre_exposure);
     void put_layers(PaneState& pane);
     void write_sets();
+    const ResponseBuffers& response() const { return shot_.effects.false_colours ? world_.false_colours : world_.eye; }
     glm::vec4 boost(const PaneState& pane, double exposure) const;
     void set_warp(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline,
         const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size);
@@ -186,6 +187,7 @@ private:
     void pattern_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Format target);
     WarpVariant variant(const PaneState& pane) const;
     WarpVariant variant_shown(const PaneState& pane) const;
+    const PlanImage* single_image(const PaneState& pane) const;
     shared::ViewPush push(const PaneState& pane, const glm::dmat3& axes_from_cockpit) const;
     Target picture_of(std::size_t output, int layer, const Target& last) const;
     bool reprojects() const { return layout_.stereo.method == StereoMethod::reprojected; }

@@ -92,8 +92,11 @@ void put_spectra(Device& device, GpuWorld& world, SpectralLevel level)
     world.columns = constants(columns);
     for (auto [observer, buffers] : {std::pair(&eye(), &world.eye), std::pair(&false_colours(), &world.false_colours)}) {
         const Response response = response_of(world.spectra.basis, *observer);
-        for (std::size_t c = 0; c < 3; ++c)
-            buffers->rows[c] = constants(response.rows[c]);
+        buffers->texels = nullptr;
+        buffers->rows = make_static_buffer(
+            device, std::as_bytes(std::span(response.rows)), vk::BufferUsageFlagBits::eUniformTexelBuffer);
+        buffers->texels = device.device.createBufferView({{}, *buffers->rows.buffer, words_format, 0, VK_WHOLE_SIZE});
+        buffers->first_log2_D = float(response.first_log2_D), buffers->per_octave = float(response.per_octave);
         buffers->own_rows = constants(response.own_rows);
         buffers->black_bodies = constants(black_body_table(*observer));
     }

@@ -11,7 +11,9 @@ namespace starbow {
 
 /// What an observer sees of a world's numbers, Response on the device, and of its stars.
 struct ResponseBuffers {
-    std::array<Buffer, 3> rows;
+    Buffer rows;
+    vk::raii::BufferView texels = nullptr; ///< of rows
+    float first_log2_D = 0, per_octave = 1;
     Buffer own_rows;
     Buffer black_bodies; ///< the table of black_body_table
 };

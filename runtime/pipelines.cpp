@@ -111,7 +111,7 @@ std::vector<std::uint32_t> constants(const WarpVariant& v)
     constexpr std::uint32_t of_the_pass = 0; // constant_id 10, each pass's own
     return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear,
         of_the_pass, std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), v.by_table, v.layered, v.galilean,
-        std::uint32_t(v.rays)};
+        v.single, std::uint32_t(v.rays)};
 }
 
 /// The pipeline of a key, made by `make` if it is new.
@@ -137,8 +137,8 @@ Pipelines::Pipelines(Device& device)
         {Type::eUniformBufferDynamic, Type::eStorageBuffer, Type::eStorageBuffer, constants, Type::eStorageBuffer});
     material_set = make_set_layout(device, fragment, {picture, picture});
     warp_set = make_set_layout(device, both,
-        {picture, picture, constants, constants, picture, picture, picture, picture, picture, picture, constants, constants,
-            constants, picture, constants});
+        {picture, picture, Type::eUniformTexelBuffer, Type::eUniformTexelBuffer, picture, picture, picture, picture, picture,
+            picture, constants, picture, constants});
     star_set = make_set_layout(
         device, vk::ShaderStageFlagBits::eVertex, {Type::eUniformBufferDynamic, Type::eStorageBuffer, constants});
     picture_set = make_set_layout(device, fragment, {picture, picture});

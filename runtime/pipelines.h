@@ -10,6 +10,7 @@ namespace starbow {
 constexpr vk::Format light_format = vk::Format::eR16G16B16A16Sfloat;
 constexpr vk::Format depth_format = vk::Format::eD32Sfloat;
 constexpr vk::Format exact_format = vk::Format::eR32G32B32A32Sfloat;
+constexpr vk::Format words_format = vk::Format::eR32G32B32A32Uint;
 constexpr vk::Format meter_format = vk::Format::eR32G32Sfloat; // luminance, solid angle
 constexpr vk::Format map_format = vk::Format::eR32G32Uint; // a direction map's texel, packed
 constexpr vk::Format inverse_format = vk::Format::eR32G32B32A32Uint; // InverseMap's cell
@@ -58,6 +59,7 @@ struct WarpVariant {
     bool layered = false; ///< something moves in the world
     bool galilean = false; ///< velocities are added
     int rays = 1; ///< along each side of a pixel
+    bool single = false; ///< one image of the plan, ahead, shows all
     auto operator<=>(const WarpVariant&) const = default;
 };
 
@@ -103,10 +105,10 @@ public:
     vk::raii::DescriptorSetLayout eye_set
         = nullptr; ///< 0 constants, 1 instances, 2 visible, 3 columns of the spectra, 4 times
     vk::raii::DescriptorSetLayout material_set = nullptr; ///< 0 base, 1 emissive texture
-    vk::raii::DescriptorSetLayout warp_set = nullptr; ///< 0 direction map, 1 atlas, 2 slots, 3 rows of the response for red,
-                                                      ///< 4 depth atlas, 5 picture of the stars, 6 inverse of the direction
-                                                      ///< map, 7 to 9 further atlases, 10, 11 rows for green and blue, 12
-                                                      ///< for the world's own spectra, 13 what is covered, 14 layers
+    vk::raii::DescriptorSetLayout warp_set = nullptr; ///< 0 direction map, 1 atlas, 2 slots, 3 rows of the response, 4 depth
+                                                      ///< atlas, 5 picture of the stars, 6 inverse of the direction map, 7
+                                                      ///< to 9 further atlases, 10 rows for the world's own spectra, 11
+                                                      ///< what is covered, 12 layers
     vk::raii::DescriptorSetLayout star_set = nullptr; ///< 0 constants, 1 stars, 2 black bodies
     vk::raii::DescriptorSetLayout picture_set = nullptr; ///< 0 direction map, 1 panel, label or cube
     vk::raii::DescriptorSetLayout finish_set = nullptr; ///< 0 left, 1 right picture, 2 weights, 3 black level, 4 table

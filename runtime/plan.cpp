@@ -415,15 +415,18 @@ glm::dmat4 clip_from_motion(const PlanImage& image, double near_distance)
     return m;
 }
 
-std::vector<shared::SlotEntry> slot_table(const Plan& plan, glm::ivec2 atlas_extent)
+shared::SlotEntry slot_entry(const PlanImage& image)
+{
+    const glm::dvec2 offset = glm::dvec2(image.atlas) - image.low * image.texels_per_unit;
+    return {
+        glm::vec4(image.texels_per_unit, offset, image.levels - 1), glm::vec4(image.atlas, image.atlas + image.size - 1)};
+}
+
+std::vector<shared::SlotEntry> slot_table(const Plan& plan)
 {
     std::vector<shared::SlotEntry> table(plan.rear_last.size() * SLOT_COUNT, shared::SlotEntry{});
-    for (const PlanImage& image : plan.images) {
-        glm::dvec2 scale = glm::dvec2(image.size) / (image.high - image.low) / glm::dvec2(atlas_extent);
-        glm::dvec2 offset = glm::dvec2(image.atlas) / glm::dvec2(atlas_extent) - image.low * scale;
-        table[std::size_t(image.layer * SLOT_COUNT + image.slot)] = {glm::vec4(scale, offset),
-            glm::vec4(image.texels_per_unit, image.levels - 1, 0, 0), glm::vec4(image.atlas, image.atlas + image.size - 1)};
-    }
+    for (const PlanImage& image : plan.images)
+        table[std::size_t(image.layer * SLOT_COUNT + image.slot)] = slot_entry(image);
     return table;
 }
 

@@ -80,9 +80,9 @@ glm::dvec3 face_direction(int face, const glm::dvec2& at);
 /// clip_from_motion of an image: reversed z, infinite far plane, near plane at `near_distance` along the face's normal.
 glm::dmat4 clip_from_motion(const PlanImage& image, double near_distance);
 
-/// The table that the warp shader reads: for each layer one entry per slot. atlas_extent: the texture's size, at least the
-/// plan's.
-std::vector<shared::SlotEntry> slot_table(const Plan& plan, glm::ivec2 atlas_extent);
+/// What the warp shader reads of one image, and of all: for each layer one entry per slot.
+shared::SlotEntry slot_entry(const PlanImage& image);
+std::vector<shared::SlotEntry> slot_table(const Plan& plan);
 
 /// Turn from world axes to motion axes: z along u, y as near as possible to the cockpit's up; at rest z is the cockpit's
 /// straight ahead. The same turn leads from the ship's axes to the motion axes in the ship's frame.

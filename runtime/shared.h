@@ -5,7 +5,7 @@
 namespace starbow::shared {
 using glm::vec4;
 #include "shaders/shared.h"
-static_assert(sizeof(SlotEntry) == 48);
+static_assert(sizeof(SlotEntry) == 32);
 static_assert(sizeof(LightEntry) == 80);
 static_assert(sizeof(CubeConstants) == 4 * 16 + 3 * MAX_GROUPS * 16 + MAX_LIGHTS * 80);
 static_assert(sizeof(LayerEntry) == 96);

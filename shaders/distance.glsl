@@ -4,8 +4,9 @@
 // As distance_at, but smooth on surfaces. Where the four texels around belong to different surfaces, the nearest alone.
 float smooth_distance_at(Place place)
 {
-    vec2 at = place.atlas * view.origin.zw - 0.5;
-    vec2 low = slots[place.slot].texels.xy, high = slots[place.slot].texels.zw;
+    vec2 at = place.texel - 0.5;
+    vec4 image = texelFetch(slots, 2 * place.slot + 1);
+    vec2 low = image.xy, high = image.zw;
     ivec2 t = ivec2(clamp(floor(at), low, max(low, high - 1.0)));
     vec2 part = clamp(at - vec2(t), 0.0, 1.0);
     ivec2 next = min(t + 1, ivec2(high));

@@ -10,9 +10,11 @@ vec3 dither(ivec2 pixel)
     return (vec3(of_channel) * (1.0 / 16777216.0) - 0.5) * (0.96 / 255.0);
 }
 
-// Linear light for a target that encodes it by sRGB's curve. A fit of that curve's slope, within 6 %.
+// Linear light for a target that encodes it by sRGB's curve. That curve's slope, within 5 %: it is 2.4 / 1.055 times the light to
+// the power 1.4 / 2.4, and a float's bits, read as a whole number, rise nearly as its logarithm.
 vec3 dithered_srgb(vec3 light, ivec2 pixel)
 {
-    vec3 slope = max(1.65 * sqrt(light) + 0.64 * light - 0.011, vec3(1.0 / 12.92));
+    vec3 power = intBitsToFloat(ivec3(vec3(floatBitsToInt(light)) * (1.4 / 2.4) + 453659763.0));
+    vec3 slope = max(power, vec3(1.0 / 12.92));
     return light + dither(pixel) * slope;
 }

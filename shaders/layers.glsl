@@ -23,7 +23,7 @@ struct Part {
 };
 const float infinite = 1.0 / 0.0;
 
-ivec2 texel_of(Place place, int k) { return ivec2(floor(place.atlas * view.origin.zw - 0.5)) + ivec2(k & 1, k >> 1); }
+ivec2 texel_of(Place place, int k) { return ivec2(floor(place.texel - 0.5)) + ivec2(k & 1, k >> 1); }
 
 Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
 {
@@ -39,15 +39,15 @@ Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
     part.D = sight.D * D_beside;
     part.ways = vec4(infinite);
     part.covers = vec4(0.0);
-    vec4 image = slots[part.place.slot].texels;
-    vec2 texel = part.place.atlas * view.origin.zw;
+    vec4 image = texelFetch(slots, 2 * part.place.slot + 1);
+    vec2 texel = part.place.texel;
     // What moves does not fill its images, and pixels look past them: nothing beyond their edges is filtered in.
-    float margin = i == 0 ? 0.5 : 2.0 * exp2(part.place.detail.y);
+    float margin = i == 0 ? 0.5 : 2.0 * exp2(part.place.last_level);
     if (!(image.z > 0.0 && all(greaterThanEqual(texel, image.xy + margin)) && all(lessThanEqual(texel, image.zw + 1.0 - margin))))
         return part;
     part.level = level_of(part.place, part.world_angle);
     float per_depth = sight.D * view.boost.w * sqrt(1.0 + dot(part.place.face, part.place.face));
-    vec2 covered = textureLod(covered_atlas, part.place.atlas, part.level).rg;
+    vec2 covered = textureLod(covered_atlas, texel * view.origin.zw, part.level).rg;
     if (covered.x <= 0.0 || covered.y <= 0.0)
         return part;
     part.ways.x = per_depth * covered.x / covered.y;

@@ -4,7 +4,6 @@ layout(constant_id = 1) const bool ABERRATION = true;
 layout(constant_id = 2) const bool DOPPLER = true;
 layout(constant_id = 3) const bool HEADLIGHT = true;
 layout(constant_id = 4) const bool MIPS = false;
-layout(constant_id = 16) const int RAYS = 1; // along each side of a pixel
 layout(constant_id = 5) const bool CHANNELS = false; // red, green and blue look different ways
 layout(constant_id = 6) const bool REPROJECT = false; // the eye is not where the cube map was drawn
 layout(constant_id = 7) const bool TURNING = false; // and on which side of it depends on the azimuth
@@ -14,6 +13,8 @@ layout(constant_id = 11) const int REFLECTED = 3; // numbers of what surfaces re
 layout(constant_id = 12) const int OWN = 0; // numbers of the world's own spectra
 layout(constant_id = 13) const bool BY_TABLE = true; // otherwise the numbers are the colour itself, seen as it is
 layout(constant_id = 15) const bool GALILEAN = false; // velocities are added: a comparison
+layout(constant_id = 16) const bool SINGLE = false; // one image of the plan, ahead, shows all: view.eye is its SlotEntry's first
+layout(constant_id = 17) const int RAYS = 1; // along each side of a pixel
 layout(constant_id = 14) const bool LAYERED = false; // something moves: what stands still in each of several frames
 
 const int GROUPS = (REFLECTED + OWN + 3) / 4;
@@ -21,19 +22,17 @@ const int GROUPS = (REFLECTED + OWN + 3) / 4;
 layout(push_constant) uniform Push { ViewPush view; };
 
 layout(set = 0, binding = 1) uniform sampler2D atlas; // four numbers of the light
-layout(set = 0, binding = 2) uniform Slots { SlotEntry slots[MAX_LAYERS * SLOT_COUNT]; };
-layout(set = 0, binding = 3) uniform Red { uvec4 red[2 * RESPONSE_ROWS]; }; // Response's rows
+layout(set = 0, binding = 2) uniform samplerBuffer slots; // SlotEntry each
+layout(set = 0, binding = 3) uniform usamplerBuffer response; // Response's rows
 layout(set = 0, binding = 4) uniform sampler2D depth_atlas; // near / distance along the face's normal, 0 at infinity
 layout(set = 0, binding = 5) uniform sampler2D stars_picture; // pixel for pixel the target's; light as the atlas's
 layout(set = 0, binding = 7) uniform sampler2D atlas1; // four more numbers, and more
 layout(set = 0, binding = 8) uniform sampler2D atlas2;
 layout(set = 0, binding = 9) uniform sampler2D atlas3;
-layout(set = 0, binding = 10) uniform Green { uvec4 green[2 * RESPONSE_ROWS]; };
-layout(set = 0, binding = 11) uniform Blue { uvec4 blue[2 * RESPONSE_ROWS]; };
-layout(set = 0, binding = 12) uniform Own { vec4 own_rows[MOST_OWN_ROWS]; };
+layout(set = 0, binding = 10) uniform Own { vec4 own_rows[MOST_OWN_ROWS]; };
 
-layout(set = 0, binding = 13) uniform sampler2D covered_atlas; // which part of a texel is covered; times its depth
-layout(set = 0, binding = 14) uniform Layers { LayerConstants layered; };
+layout(set = 0, binding = 11) uniform sampler2D covered_atlas; // which part of a texel is covered; times its depth
+layout(set = 0, binding = 12) uniform Layers { LayerConstants layered; };
 
 // One frame's part of the cube map and the eye before it, motion axes there.
 struct Layer {
@@ -57,8 +56,8 @@ float growth(Sight sight, vec3 n, vec2 E)
 
 struct Place {
     vec2 face;  // face coordinates
-    vec2 atlas; // normalised
-    vec4 detail;
+    vec2 texel; // of the atlas
+    float texels_per_unit, last_level; // of the image
     int slot;
 };
 
@@ -70,7 +69,10 @@ Place place_of(vec3 n, Layer layer)
     float across = max(m.x, m.y);
     Place place;
     int slot;
-    if (m.z >= across) {
+    if (SINGLE) {
+        place.face = n.xy / n.z;
+        slot = SLOT_FRONT;
+    } else if (m.z >= across) {
         place.face = n.xy / m.z;
         float larger = across / m.z;
         // floor(-log2(larger^2)) from the exponent's bits; 126: an exact power of two goes to the coarser image.
@@ -83,9 +85,10 @@ Place place_of(vec3 n, Layer layer)
     }
     slot += layer.slots;
     place.slot = slot;
-    vec4 to_atlas = slots[slot].atlas_from_face;
-    place.atlas = place.face * to_atlas.xy + to_atlas.zw;
-    place.detail = MIPS ? slots[slot].detail : vec4(0.0);
+    vec4 to_texel = SINGLE ? view.eye : texelFetch(slots, 2 * slot);
+    place.texel = place.face * to_texel.x + to_texel.yz;
+    place.texels_per_unit = to_texel.x;
+    place.last_level = to_texel.w;
     return place;
 }
 
@@ -95,47 +98,55 @@ float level_of(Place place, float world_angle)
     if (!MIPS)
         return 0.0;
     float distance_square = 1.0 + dot(place.face, place.face);
-    float texels = world_angle * place.detail.x * pow(distance_square, 0.75);
-    return clamp(log2(texels), 0.0, place.detail.y);
+    float at_middle = min(world_angle * place.texels_per_unit, 1e9), square = at_middle * at_middle; // of texels
+    return clamp(0.25 * log2(square * square * (distance_square * distance_square * distance_square)), 0.0, place.last_level);
 }
 void cube_map(Place place, float world_angle, out vec4 numbers[MAX_GROUPS])
 {
     float level = level_of(place, world_angle);
-    numbers[0] = textureLod(atlas, place.atlas, level);
+    vec2 at = place.texel * view.origin.zw;
+    numbers[0] = textureLod(atlas, at, level);
     if (GROUPS > 1)
-        numbers[1] = textureLod(atlas1, place.atlas, level);
+        numbers[1] = textureLod(atlas1, at, level);
     if (GROUPS > 2)
-        numbers[2] = textureLod(atlas2, place.atlas, level);
+        numbers[2] = textureLod(atlas2, at, level);
     if (GROUPS > 3)
-        numbers[3] = textureLod(atlas3, place.atlas, level);
+        numbers[3] = textureLod(atlas3, at, level);
 }
 
-// Sum of a row's halves, of one colour, times the numbers of what is reflected.
-float sum_of(uvec4 first, uvec4 second, vec4 numbers[MAX_GROUPS])
+// Of a pair of halves, a value and what is added to it up to the next row.
+float halves(uint word, float part)
 {
-    float sum = 0.0;
-    for (int i = 0; i < (REFLECTED + 1) / 2; ++i) {
-        vec2 two = unpackHalf2x16(i < 4 ? first[i % 4] : second[i % 4]);
-        sum += two.x * numbers[i / 2][i % 2 * 2];
-        if (2 * i + 1 < REFLECTED)
-            sum += two.y * numbers[i / 2][i % 2 * 2 + 1];
-    }
-    return sum;
+    vec2 pair = unpackHalf2x16(word);
+    return pair.x + part * pair.y;
 }
 
 // The colour of light that is shifted by D: response.cpp's seen.
 vec3 shifted(vec4 numbers[MAX_GROUPS], float D)
 {
-    float first = uintBitsToFloat(red[1].w), per_octave = uintBitsToFloat(red[3].w);
-    float asked = (log2(D) - first) * per_octave;
+    float per_octave = view.pane.w;
+    float asked = (log2(D) - view.row2.w) * per_octave;
     float at = clamp(asked, 0.0, float(RESPONSE_ROWS) - 1.001);
-    int i = 2 * int(at);
     float part = fract(at);
-    vec3 here = vec3(sum_of(red[i], red[i + 1], numbers), sum_of(green[i], green[i + 1], numbers),
-        sum_of(blue[i], blue[i + 1], numbers));
-    vec3 next = vec3(sum_of(red[i + 2], red[i + 3], numbers), sum_of(green[i + 2], green[i + 3], numbers),
-        sum_of(blue[i + 2], blue[i + 3], numbers));
-    vec3 light = mix(here, next, part) * exp2(mix(uintBitsToFloat(red[i + 1].z), uintBitsToFloat(red[i + 3].z), part));
+    int row = int(at) * RESPONSE_TEXELS(REFLECTED);
+    vec3 light = vec3(0.0);
+    // Four numbers' parts of three colours are three texels.
+    for (int group = 0; group < (REFLECTED + 3) / 4; ++group) {
+        vec4 own = numbers[group];
+        uvec4 first = texelFetch(response, row + 3 * group), second = texelFetch(response, row + 3 * group + 1);
+        uvec4 third = texelFetch(response, row + 3 * group + 2);
+        light += own.x * vec3(halves(first.x, part), halves(first.y, part), halves(first.z, part));
+        if (4 * group + 1 < REFLECTED)
+            light += own.y * vec3(halves(first.w, part), halves(second.x, part), halves(second.y, part));
+        if (4 * group + 2 < REFLECTED)
+            light += own.z * vec3(halves(second.z, part), halves(second.w, part), halves(third.x, part));
+        if (4 * group + 3 < REFLECTED)
+            light += own.w * vec3(halves(third.y, part), halves(third.z, part), halves(third.w, part));
+    }
+    const int scale = 3 * REFLECTED;
+    float here = uintBitsToFloat(texelFetch(response, row + scale / 4)[scale % 4]);
+    float added = uintBitsToFloat(texelFetch(response, row + (scale + 1) / 4)[(scale + 1) % 4]);
+    light *= exp2(here + part * added);
     if (OWN > 0) {
         float own_at = min(at / float(RESPONSE_OWN_STEP(OWN)), float(RESPONSE_ROWS / RESPONSE_OWN_STEP(OWN)) - 1.001);
         int j = int(own_at) * OWN;
@@ -161,7 +172,7 @@ float depth_of(ivec2 texel)
 // Distance of what a place of the cube map shows, from where it was drawn, scene units; infinite for the sky.
 float distance_at(Place place)
 {
-    float depth = depth_of(ivec2(place.atlas * view.origin.zw));
+    float depth = depth_of(ivec2(place.texel));
     return depth > 0.0 ? view.boost.w * sqrt(1.0 + dot(place.face, place.face)) / depth : intBitsToFloat(0x7f800000);
 }
 

@@ -20,6 +20,7 @@
 #define MAX_GROUPS 4 // of four numbers: an image of the cube map each
 #define MAX_MATRICES 4096 // columns of a group: 64 KiB, the least that devices of today let a shader read as constants
 #define RESPONSE_ROWS 2048 // over log2 D; see response.h
+#define RESPONSE_TEXELS(reflected) ((3 * (reflected) + 5) / 4) // of a row
 #define RESPONSE_OWN_STEP(own) ((own) > 2 ? 2 : 1) // rows of the world's own spectra: all or each second, as they fit
 #define MOST_OWN_ROWS 4096 // of all together
 #define STAR_COLDEST 512.0 // K: colder black bodies give no light to speak of (1e-9 of the Sun's surface at 550 K)
@@ -30,10 +31,9 @@
     (3.14159265 * STAR_RADIUS * STAR_RADIUS / 5.0) // pixels of a spot as bright everywhere as in its middle: the
 // integral of (1 - r^2 / R^2)^4
 
-// One image of the plan, as the warp pass reads it: atlas coordinate = face coordinate * scale + offset.
+// One image of the plan, as the warp pass reads it: texel of the atlas = face coordinate * scale + offset.
 struct SlotEntry {
-    vec4 atlas_from_face; // scale x, y; offset x, y (normalised atlas coordinates)
-    vec4 detail; // x: texels per unit of face coordinate, y: coarsest mip level, z, w: unused
+    vec4 texel_from_face; // x: texels per unit of face coordinate; y, z: offset; w: coarsest mip level
     vec4 texels; // of the atlas: the image's first x, y and last x, y; 0 of a slot that is not drawn
 };
 
@@ -91,17 +91,19 @@ struct CubePush {
 // Push constants of the passes that run once per output pixel.
 struct ViewPush {
     vec4 row0, row1, row2; // planar: rows of direction_from_pixel; map: of the turn from the map's axes. w of row0: planar:
-                           // a pixel's step on the plane at distance 1; of row1: the finest image behind. The stars' pass
-                           // has the inverse: rows of pixel_from_direction; of the turn to the map's axes
+                           // a pixel's step on the plane at distance 1; of row1: the finest image behind; of row2: log2 D
+                           // of the response's first row. The stars' pass has the inverse: rows of pixel_from_direction;
+                           // of the turn to the map's axes
     vec4 boost; // E, 1/E, exposure gain / pre-exposure (the stars: pre-exposure), near plane
-    vec4 origin; // viewport's top left corner in the target, pixels; z, w: atlas size in texels
+    vec4 origin; // viewport's top left corner in the target, pixels; z, w: 1 / the atlas's size in texels
     vec4 eye; // REPROJECT: the eye's place from the cube map's, world, motion axes. TURNING: xyz: the cockpit's
-              // up in motion axes; w: the eye's distance from the middle, to the right
+              // up in motion axes; w: the eye's distance from the middle, to the right. SINGLE: a SlotEntry's first
     vec4 zenith; // x: TURNING: sine of the angle from the zenith at which the separation is full; y:
                  // REPROJECT: distance of the nearest surface that there may be, scene units; z, w: the
                  // viewport's size, pixels; the meter: pixels of the viewport for one of its samples
     vec4 pane; // xy: the viewport's top left corner in the output, pixels, also where it is drawn elsewhere; the
-               // stars at a glance: pixels across and down, and z: of how many stars each is one
+               // stars at a glance: pixels across and down, and z: of how many stars each is one. w: rows of the response
+               // per octave of D
 };
 
 // What the warp pass knows of one rest frame, as one pane's eye looks at it: as ViewPush, which has the world's.

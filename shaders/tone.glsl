@@ -11,9 +11,11 @@ FN rvec3 tone_map(rvec3 light)
     const real knee = real(0.76);
     const real half_white = real(4.0); // above the knee half of the way to white
     real peak = max(light.x, max(light.y, light.z));
-    real above = max(peak - knee, real(0.0));
-    real shown = min(peak, knee) + (real(1.0) - knee) * above / (above + real(1.0) - knee);
-    real w = above / (above + half_white);
+    real above = min(max(peak - knee, real(0.0)), real(1e15)); // its square stays a number
+    real from_shoulder = above + real(1.0) - knee, from_white = above + half_white;
+    real part = above / (from_shoulder * from_white); // a division is dear without a GPU
+    real shown = min(peak, knee) + (real(1.0) - knee) * part * from_white;
+    real w = part * from_shoulder;
     real v = real(1.0) - w;
 
     rvec3 hue = light * (real(1.0) / max(peak, real(1e-30)));
