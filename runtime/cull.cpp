@@ -59,12 +59,13 @@ bool in_hole(const PlanImage& image, const Box& box)
 }
 
 /// The level of detail for an instance: -1 is the full surface.
-int level_of(const Primitive& primitive, const Box& box, double texels_per_unit)
+int level_of(const Primitive& primitive, const Box& box, const PlanImage& image)
 {
     int level = -1;
     constexpr double texels = 1;
-    while (level + 1 < int(primitive.coarser.size())
-        && primitive.coarser[level + 1].error * box.scale * texels_per_unit <= texels * box.distance)
+    auto fits = [&](double error, double most) { return error * box.scale * image.texels_per_unit <= most * box.distance; };
+    while (level + 1 < int(primitive.coarser.size()) && fits(primitive.coarser[level + 1].error, texels)
+        && fits(primitive.coarser[level + 1].shading, image.shading_texels))
         ++level;
     return level;
 }
@@ -245,7 +246,7 @@ DrawList cull(const World& world, std::span<const Vantage> layers, const std::ve
                  ++at) {
                 const std::uint32_t own = first + std::uint32_t(at - range.first);
                 if (shows[own] && frustum.sees(boxes[own]) && !in_hole(image, boxes[own]))
-                    by_level[std::size_t(level_of(primitive, boxes[own], image.texels_per_unit) + 1)].push_back(own);
+                    by_level[std::size_t(level_of(primitive, boxes[own], image) + 1)].push_back(own);
             }
             for (std::size_t level = 0; level < by_level.size(); ++level) {
                 std::vector<std::uint32_t>& seen = by_level[level];

@@ -773,6 +773,7 @@ PlanImage Frame::plain_image(const Shot& shot, glm::dmat3& straight_from_world) 
     glm::dvec2 one = glm::dvec2(low) / low.z, other = glm::dvec2(high) / high.z;
     PlanImage image{SLOT_FRONT, 0, glm::min(one, other), glm::max(one, other), pane.pane().size, {0, 0}, 0, 1};
     image.texels_per_unit = image.size.y / (image.high.y - image.low.y);
+    image.shading_texels = quality_.shading_texels;
     return image;
 }
 

@@ -364,6 +364,7 @@ Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality)
                 image.hole = std::max(0.0, std::exp2(-0.5 * (slot + 1 - SLOT_REAR)) - (gutter + 1) * unit);
             plan.levels = std::max(plan.levels, image.levels);
             plan.texels += double(image.size.x) * image.size.y;
+            image.shading_texels = quality.shading_texels;
             plan.images.push_back(image);
         }
     };

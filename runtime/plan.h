@@ -35,6 +35,8 @@ struct Quality {
     double max_texels = 24e6; ///< of the whole plan: some devices end an image at 1 GiB, all samples counted
     int max_atlas_side = 16384; ///< of the device's images, texels
     int samples = 1; ///< of the cube pass, per texel, for edges
+    double shading_texels = 16; ///< as far what a vertex shades otherwise may lie from the next one that is drawn; a surface
+                                ///< of 64 keeps its flutes where they are some texels wide, one of 128 loses them
 };
 
 /// One picture to draw: a rectangle of one face of the cube around the eye, at one resolution, and its place in the atlas.
@@ -50,6 +52,7 @@ struct PlanImage {
     int levels; ///< mip levels the warp pass reads
     double hole = 0; ///< half the side of the square in the middle that no pixel reads: a finer image holds it
     int layer = 0;
+    double shading_texels = 16; ///< Quality's
 };
 
 /// What the cube map of one eye must hold for one frame.

@@ -51,11 +51,11 @@ Quality default_quality(const Device& device, bool still)
 {
     Quality quality;
     if (still)
-        quality = {.texels_per_pixel = 1.25, .max_texels_per_pixel = 8, .samples = 4};
+        quality = {.texels_per_pixel = 1.25, .max_texels_per_pixel = 8, .samples = 4, .shading_texels = 2};
     else if (device.on_processor())
-        quality = {.texels_per_pixel = 0.8, .max_texels_per_pixel = 1.5, .samples = 1};
+        quality = {.texels_per_pixel = 0.8, .max_texels_per_pixel = 1.5, .samples = 1, .shading_texels = 64};
     else
-        quality = {.texels_per_pixel = 1.25, .max_texels_per_pixel = 16, .samples = 4};
+        quality = {.texels_per_pixel = 1.25, .max_texels_per_pixel = 16, .samples = 4, .shading_texels = 16};
     // The atlas grows in steps of 256.
     quality.max_atlas_side = int(device.properties.limits.maxImageDimension2D) / 256 * 256;
     return quality;
