@@ -19,6 +19,8 @@ struct Quality {
     double most_texels_per_pixel = 3; ///< area: where the whole plan would hold more, all of it is drawn coarser
     int cube_samples = 1; ///< of each texel, for edges: 1, 2, 4 or 8
     double stray_texels = 1; ///< how far surfaces in fewer triangles may stray; 0: all triangles, always
+    double shading_texels = 16; ///< and as far what a vertex shades otherwise may lie from the next one that is drawn; a
+                                ///< surface of 64 keeps its flutes where they are some texels wide, one of 128 loses them
     int pixel_rays = 1; ///< along each side of an output pixel: its square look up the cube map
     int rear_images = 42; ///< nested ones behind, at most: with none of them, one image holds all that lies behind
     bool mips = true; ///< where several texels fall into one pixel

@@ -148,8 +148,10 @@ std::vector<Setting> settings_to_try(
         with([&](Quality& q) { q.most_texels_per_pixel = most; });
     for (int samples : {1, 2, 4, 8})
         with([&](Quality& q) { q.cube_samples = samples; });
-    for (double texels : {0.0, 0.25, 0.5, 1.0, 2.0})
+    for (double texels : {0.0, 0.5, 1.0, 2.0, 4.0})
         with([&](Quality& q) { q.stray_texels = texels; });
+    for (double texels : {2.0, 8.0, 16.0, 32.0, 64.0, 128.0})
+        with([&](Quality& q) { q.shading_texels = texels; });
     for (int rays : {1, 2, 3})
         with([&](Quality& q) { q.pixel_rays = rays; });
     for (int images : {0, 2})
@@ -166,13 +168,15 @@ std::vector<Setting> settings_to_try(
         for (StereoMethod method : {StereoMethod::shared, StereoMethod::reprojected, StereoMethod::exact})
             with([&](Quality& q) { q.stereo = method; });
     // What matters most, together.
-    for (double density : {0.5, 0.8, 1.25, 2.0})
+    for (double density : {0.5, 0.8, 1.0, 1.25, 2.0})
         for (int samples : {1, 4})
             for (int rays : {1, 2})
-                with([&](Quality& q) {
-                    q.texels_per_pixel = density, q.most_texels_per_pixel = 3 * density * density;
-                    q.cube_samples = samples, q.pixel_rays = rays;
-                });
+                for (double texels : {standard.shading_texels, 16.0})
+                    if (density >= 1.25 || (samples == 1 && rays == 1))
+                        with([&](Quality& q) {
+                            q.texels_per_pixel = density, q.most_texels_per_pixel = 3 * density * density;
+                            q.cube_samples = samples, q.pixel_rays = rays, q.shading_texels = texels;
+                        });
     return all;
 }
 
@@ -226,15 +230,15 @@ std::vector<Rung> ladder_of(const std::vector<Measured>& all)
 std::string accuracy_csv(const std::vector<Measured>& all)
 {
     const std::vector<bool> best = frontier(all);
-    std::string out = "setting,texels_per_pixel,most_texels_per_pixel,cube_samples,stray_texels,pixel_rays,rear_images,mips,half_floats,"
+    std::string out = "setting,texels_per_pixel,most_texels_per_pixel,cube_samples,stray_texels,shading_texels,pixel_rays,rear_images,mips,half_floats,"
                       "matrices,frames_per_cube,ms,ratio,megabytes,texels_drawn_per_pixel,images,flip,psnr_dB,ciede2000_mean,"
                       "ciede2000_95,edges_95_px,direction_99_px,doppler_99,frontier\n";
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Measured& m = all[i];
         const Quality& q = m.setting.quality;
         out += quoted(m.setting.name)
-            + text(",%g,%g,%d,%g,%d,%d,%d,%d,%d,%d,%.4f,%.4f,%.2f,%.3f,%d,%.6f,%.3f,%.4f,%.4f,%.4f,%.6f,%.3g,%d\n",
-                q.texels_per_pixel, q.most_texels_per_pixel, q.cube_samples, q.stray_texels, q.pixel_rays, q.rear_images, q.mips,
+            + text(",%g,%g,%d,%g,%g,%d,%d,%d,%d,%d,%d,%.4f,%.4f,%.2f,%.3f,%d,%.6f,%.3f,%.4f,%.4f,%.4f,%.6f,%.3g,%d\n",
+                q.texels_per_pixel, q.most_texels_per_pixel, q.cube_samples, q.stray_texels, q.shading_texels, q.pixel_rays, q.rear_images, q.mips,
                 q.half_floats, q.matrices, q.frames_per_cube, m.ms, m.ratio, m.megabytes, m.texels_per_pixel, m.images,
                 m.errors.flip, m.errors.psnr_dB, m.errors.ciede2000_mean, m.errors.ciede2000_95, m.errors.edges_95_px,
                 m.direction_px, m.doppler, int(best[i]));

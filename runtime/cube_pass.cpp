@@ -32,9 +32,7 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
     : device_(device)
     , pipelines_(pipelines)
     , world_(world)
-    , samples_(quality.cube_samples)
-    , half_floats_(quality.half_floats)
-    , stray_texels_(quality.stray_texels)
+    , quality_(quality)
     , keeps_depth_(keeps_depth)
 {
     const Sky& sky = world.scene.sky;
@@ -55,7 +53,7 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
 
 std::vector<vk::Format> CubePass::formats(bool layered) const
 {
-    std::vector<vk::Format> formats = world_.numbers().formats(half_floats_);
+    std::vector<vk::Format> formats = world_.numbers().formats(quality_.half_floats);
     if (layered)
         formats.push_back(vk::Format::eR32G32Sfloat); // near / distance is small
     return formats;
@@ -68,7 +66,7 @@ void CubePass::prepare(const Plan& plan, std::span<const Vantage> layers, double
     layered_ = !images_.empty() && images_.back().layer > 0;
     area_ = plan.atlas_size;
     levels_ = plan.levels;
-    list_ = cull(world_.world, layers, images_, stray_texels_);
+    list_ = cull(world_.world, layers, images_, quality_);
     contractions_.clear();
     for (const Vantage& layer : layers)
         contractions_.push_back(layer.contraction);
@@ -82,7 +80,7 @@ void CubePass::prepare_plain(const PlanImage& image, const Vantage& vantage)
 {
     images_ = {image};
     layered_ = false;
-    list_ = cull(world_.world, {&vantage, 1}, images_);
+    list_ = cull(world_.world, {&vantage, 1}, images_, quality_);
     contractions_ = {1};
     upload({&vantage, 1}, true);
     if (int(depth_.extent.width) < image.size.x || int(depth_.extent.height) < image.size.y)
@@ -113,8 +111,8 @@ void CubePass::fit(glm::ivec2 size, int levels)
     for (std::size_t i = 0; i < atlases_.size(); ++i)
         atlases_[i] = make_image(device_, {formats[i], extent, Usage::eColorAttachment | Usage::eSampled | copied, most});
     depth_ = make_image(device_, {depth_format, extent, Usage::eDepthStencilAttachment | Usage::eSampled});
-    if (samples_ > 1) {
-        vk::SampleCountFlagBits samples = sample_bits(samples_);
+    if (quality_.cube_samples > 1) {
+        vk::SampleCountFlagBits samples = sample_bits(quality_.cube_samples);
         for (vk::Format format : formats)
             atlas_samples_.push_back(make_image(device_, {format, extent, Usage::eColorAttachment, 1, 1, samples}));
         depth_samples_ = make_image(device_, {depth_format, extent, Usage::eDepthStencilAttachment, 1, 1, samples});
@@ -183,7 +181,7 @@ shared::CubeConstants CubePass::constants_of(const Vantage& vantage, bool plain)
 
 void CubePass::record(vk::CommandBuffer commands)
 {
-    bool sampled = samples_ > 1;
+    bool sampled = quality_.cube_samples > 1;
     const std::span used(atlases_.data(), formats(layered_).size());
     const Image& depth = sampled ? depth_samples_ : depth_;
     for (const Image& atlas : used)
@@ -225,7 +223,7 @@ void CubePass::record(vk::CommandBuffer commands)
         depth_info.resolveImageLayout = Layout_::eDepthAttachmentOptimal;
     }
     commands.beginRendering({{}, rect_of({0, 0}, area_), 1, 0, colours, &depth_info});
-    draw_images(commands, {formats(layered_), sample_bits(samples_)}, false);
+    draw_images(commands, {formats(layered_), sample_bits(quality_.cube_samples)}, false);
     commands.endRendering();
     for (const Image& atlas : used)
         if (levels_ > 1)

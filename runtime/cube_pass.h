@@ -22,6 +22,9 @@ class CubePass {
 public:
     CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, const Quality& quality, bool keeps_depth);
 
+    /// Another quality from the next prepare() on, with as many samples and the same formats.
+    void adopt(const Quality& quality) { quality_ = quality; }
+
     /// What the processor does: culls, makes room, uploads. The device must have finished the frame before. Every radiance
     /// is stored times pre_exposure. layers: the plan's.
     void prepare(const Plan& plan, std::span<const Vantage> layers, double pre_exposure);
@@ -52,9 +55,7 @@ private:
     Device& device_;
     Pipelines& pipelines_;
     const GpuWorld& world_;
-    int samples_;
-    bool half_floats_;
-    double stray_texels_;
+    Quality quality_;
     bool keeps_depth_, sky_;
     bool layered_ = false; ///< something that moves is in view; the sky is then the warp's
     vk::raii::DescriptorPool pool_ = nullptr;

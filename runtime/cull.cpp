@@ -59,11 +59,12 @@ bool in_hole(const PlanImage& image, const Box& box)
 }
 
 /// The level of detail for an instance: -1 is the full surface.
-int level_of(const Primitive& primitive, const Box& box, double texels_per_unit, double stray_texels)
+int level_of(const Primitive& primitive, const Box& box, const PlanImage& image, const Quality& quality)
 {
     int level = -1;
-    while (level + 1 < int(primitive.coarser.size())
-        && primitive.coarser[level + 1].error * box.scale * texels_per_unit <= stray_texels * box.distance)
+    auto fits = [&](double error, double most) { return error * box.scale * image.texels_per_unit <= most * box.distance; };
+    while (level + 1 < int(primitive.coarser.size()) && fits(primitive.coarser[level + 1].error, quality.stray_texels)
+        && fits(primitive.coarser[level + 1].shading, quality.shading_texels))
         ++level;
     return level;
 }
@@ -212,7 +213,7 @@ void add_poses(const World& world, std::span<const Vantage> layers, DrawList& li
 } // namespace
 
 DrawList cull(
-    const World& world, std::span<const Vantage> layers, const std::vector<PlanImage>& images, double stray_texels)
+    const World& world, std::span<const Vantage> layers, const std::vector<PlanImage>& images, const Quality& quality)
 {
     DrawList list;
     std::vector<Box> boxes; // empty where nothing is there
@@ -245,7 +246,7 @@ DrawList cull(
                  ++at) {
                 const std::uint32_t own = first + std::uint32_t(at - range.first);
                 if (shows[own] && frustum.sees(boxes[own]) && !in_hole(image, boxes[own]))
-                    by_level[std::size_t(level_of(primitive, boxes[own], image.texels_per_unit, stray_texels) + 1)].push_back(own);
+                    by_level[std::size_t(level_of(primitive, boxes[own], image, quality) + 1)].push_back(own);
             }
             for (std::size_t level = 0; level < by_level.size(); ++level) {
                 std::vector<std::uint32_t>& seen = by_level[level];

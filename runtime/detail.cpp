@@ -146,8 +146,7 @@ void add_detail_levels(World& world)
             meshopt_optimizeVertexCache(level.data(), level.data(), count, vertex_count);
             // Each step is measured against the one before it, so the errors add up at worst.
             error += added * extent;
-            primitive.coarser.push_back(
-                {std::uint32_t(world.indices.size()), std::uint32_t(count), std::max(error, shading)});
+            primitive.coarser.push_back({std::uint32_t(world.indices.size()), std::uint32_t(count), error, shading});
             world.indices.insert(world.indices.end(), level.begin(), level.end());
             from = level;
         }

@@ -80,8 +80,9 @@ void Frame::adopt(const Quality& quality)
 {
     const Quality before = std::exchange(quality_, quality);
     cubes_drawn_ = false;
-    if (quality.cube_samples == before.cube_samples && quality.half_floats == before.half_floats
-        && quality.stray_texels == before.stray_texels)
+    for (Eye& eye : eyes_)
+        eye.cube.adopt(quality);
+    if (quality.cube_samples == before.cube_samples && quality.half_floats == before.half_floats)
         return;
     eyes_.clear(), watchers_.clear();
     take_up(parts(false));

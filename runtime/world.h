@@ -73,7 +73,8 @@ struct Material {
 /// The same surface in fewer triangles.
 struct DetailLevel {
     std::uint32_t first_index, index_count;
-    double error; ///< how far it strays from the full surface, or how wide it is shaded otherwise, local units
+    double error; ///< how far it strays from the full surface, local units
+    double shading = 0; ///< how wide it is shaded otherwise, local units; less where it differs little
 };
 
 /// A run of triangles (always a list) with one material, a bounding box and a bounding sphere in its own frame.

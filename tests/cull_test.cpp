@@ -144,6 +144,47 @@ TEST(Detail, CoarserSurfacesStayWithinTheirError)
     }
 }
 
+TEST(Detail, TellsWhereItIsShadedOtherwise)
+{
+    // Two pipes alike in depth but for ripples of a thousandth, whose normals turn by 30 degrees either way.
+    auto pipe = [](double tilt) {
+        World world;
+        world.materials.push_back({});
+        constexpr int around = 192, along = 8;
+        for (int j = 0; j <= along; ++j)
+            for (int i = 0; i <= around; ++i) {
+                const double f = 2 * 3.14159265358979 * i / around, lean = tilt * std::sin(24 * f);
+                const double r = 1 - 0.001 * (tilt > 0) * std::cos(24 * f);
+                world.vertices.push_back({glm::vec3(r * std::cos(f), 0.05 * j, r * std::sin(f)),
+                    glm::vec3(std::cos(f + lean), 0, std::sin(f + lean)), {0, 0}, 0xffffffff});
+            }
+        for (std::uint32_t j = 0; j < along; ++j)
+            for (std::uint32_t i = 0; i < around; ++i) {
+                const std::uint32_t a = j * (around + 1) + i, b = a + 1, c = a + around + 1, d = c + 1;
+                for (std::uint32_t k : {a, c, b, b, c, d})
+                    world.indices.push_back(k);
+            }
+        world.primitives.push_back({.first_index = 0,
+            .index_count = std::uint32_t(world.indices.size()),
+            .vertex_offset = 0,
+            .material = 0,
+            .low = glm::dvec3(-1, 0, -1),
+            .high = glm::dvec3(1, 0.4, 1),
+            .centre = {0, 0.2, 0},
+            .radius = 1.1,
+            .coarser = {}});
+        add_detail_levels(world);
+        return world.primitives[0].coarser;
+    };
+    const auto smooth = pipe(0), rippled = pipe(30 * 3.14159265358979 / 180);
+    ASSERT_GE(smooth.size(), 3u);
+    ASSERT_GE(rippled.size(), 3u);
+    // With an eighth of the triangles the ripples, 0.26 from one to the next, are gone; a round pipe shades as before.
+    EXPECT_LT(smooth[2].shading, 0.004);
+    EXPECT_GT(rippled[2].shading, 0.02);
+    EXPECT_LT(rippled[0].error, 0.01);
+}
+
 TEST(Detail, LeavesCloudsOfSmallThingsAlone)
 {
     World world;

@@ -37,7 +37,7 @@ template <class Load> std::string said(Load&& load)
     }
 }
 
-const char* const all_members = R"({ "texels_per_pixel": 1.5, "most_texels_per_pixel": 2.5, "cube_samples": 8, "stray_texels": 0.5,
+const char* const all_members = R"({ "texels_per_pixel": 1.5, "most_texels_per_pixel": 2.5, "cube_samples": 8, "stray_texels": 0.5, "shading_texels": 8,
     "pixel_rays": 3, "rear_images": 7, "mips": false, "half_floats": false, "matrices": false, "frames_per_cube": 4,
     "spectra": "fine", "stereo": "reprojected" })";
 
@@ -63,6 +63,7 @@ TEST(QualityTest, EveryMemberIsTakenAndWrittenAgain)
     EXPECT_EQ(q.most_texels_per_pixel, 2.5);
     EXPECT_EQ(q.cube_samples, 8);
     EXPECT_EQ(q.stray_texels, 0.5);
+    EXPECT_EQ(q.shading_texels, 8);
     EXPECT_EQ(q.pixel_rays, 3);
     EXPECT_EQ(q.rear_images, 7);
     EXPECT_FALSE(q.mips || q.half_floats || q.matrices);

@@ -94,7 +94,7 @@ Result measure(Theatre& theatre, const GpuWorld& starless, Lookup& lookup, const
 {
     Device& device = theatre.device;
     Studio studio(device, theatre.pipelines, theatre.world, layout, default_quality(device, false), false);
-    CubePass plain(device, theatre.pipelines, theatre.world, {}, false);
+    CubePass plain(device, theatre.pipelines, theatre.world, default_quality(device, false), false);
     Panel panel = Typesetter().draw(
         readings(ship_at(shot), theatre.world.scene, shot.effects), words_in("en"), studio.frame().hud_width());
     Target target = studio.target(0);

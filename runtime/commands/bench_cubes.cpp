@@ -77,8 +77,8 @@ void bench_cubes(Theatre& theatre, const GpuWorld& starless, int rounds)
         Layout desk = load_layout(find("layouts", "desk"));
         desk.outputs[0].size = {800, 600};
         Studio own(device, theatre.pipelines, starless, desk, default_quality(device, false), false);
-        CubePass plain(device, theatre.pipelines, starless, Quality{}, false);
-        CubePass six(device, theatre.pipelines, starless, Quality{}, false);
+        CubePass plain(device, theatre.pipelines, starless, default_quality(device, false), false);
+        CubePass six(device, theatre.pipelines, starless, default_quality(device, false), false);
         for (Studio* studio : {&dome, &starry, &window, &own})
             studio->picture(shot); // leaves the target in a known layout
         const Plan& plan = own.frame().plans()[0];
