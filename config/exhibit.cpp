@@ -53,12 +53,13 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     const Document document = read_document(file);
     const Place top = root(document);
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-    only(top, {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "quality", "hold_ms", "ladder", "flying",
-                  "exposure"});
+    only(top,
+        {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "quality", "hold_ms", "ladder",
+            "flying", "exposure"});
     Exhibit exhibit;
-    for (const auto& [name, value] : {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene},
-             {"shot", &exhibit.shot}, {"tour", &exhibit.tour}, {"language", &exhibit.language},
-             {"quality", &exhibit.quality}, {"ladder", &exhibit.ladder}})
+    for (const auto& [name, value] :
+        {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene}, {"shot", &exhibit.shot}, {"tour", &exhibit.tour},
+            {"language", &exhibit.language}, {"quality", &exhibit.quality}, {"ladder", &exhibit.ladder}})
         if (auto p = find(top, name))
             *value = name_or_path(*p, folder);
     if (auto scene = find(top, "scene"); scene && !exhibit.shot.empty())

@@ -5,15 +5,16 @@
 namespace starbow {
 namespace {
 
-const std::vector<std::pair<std::string_view, std::optional<SpectralLevel>>> levels = {{"needed", {}},
-    {"colours", SpectralLevel::colours}, {"middle", SpectralLevel::middle}, {"fine", SpectralLevel::fine}};
+const std::vector<std::pair<std::string_view, std::optional<SpectralLevel>>> levels = {
+    {"needed", {}}, {"colours", SpectralLevel::colours}, {"middle", SpectralLevel::middle}, {"fine", SpectralLevel::fine}};
 const std::vector<std::pair<std::string_view, std::optional<StereoMethod>>> methods = {{"layout", {}},
     {"shared", StereoMethod::shared}, {"exact", StereoMethod::exact}, {"reprojected", StereoMethod::reprojected}};
 
 template <class Value>
 std::string name_of(const Value& value, const std::vector<std::pair<std::string_view, Value>>& choices)
 {
-    return std::string(std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.second == value; })->first);
+    return std::string(
+        std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.second == value; })->first);
 }
 
 void take_whole(const Place& place, const std::string& name, int& value, int low, int high)
@@ -24,8 +25,9 @@ void take_whole(const Place& place, const std::string& name, int& value, int low
 
 Quality read_quality(const Place& top)
 {
-    only(top, {"$schema", "texels_per_pixel", "most_texels_per_pixel", "cube_samples", "stray_texels", "shading_texels", "pixel_rays", "rear_images", "mips",
-                  "half_floats", "matrices", "frames_per_cube", "spectra", "stereo"});
+    only(top,
+        {"$schema", "texels_per_pixel", "most_texels_per_pixel", "cube_samples", "stray_texels", "shading_texels",
+            "pixel_rays", "rear_images", "mips", "half_floats", "matrices", "frames_per_cube", "spectra", "stereo"});
     Quality quality;
     take(top, "texels_per_pixel", quality.texels_per_pixel, {0.05, 16});
     take(top, "most_texels_per_pixel", quality.most_texels_per_pixel, {0.05, 1000});
@@ -49,11 +51,12 @@ Quality read_quality(const Place& top)
 
 nlohmann::ordered_json json_of(const Quality& quality)
 {
-    return {{"texels_per_pixel", quality.texels_per_pixel},
-        {"most_texels_per_pixel", quality.most_texels_per_pixel}, {"cube_samples", quality.cube_samples},
-        {"stray_texels", quality.stray_texels}, {"shading_texels", quality.shading_texels}, {"pixel_rays", quality.pixel_rays}, {"rear_images", quality.rear_images}, {"mips", quality.mips},
-        {"half_floats", quality.half_floats}, {"matrices", quality.matrices}, {"frames_per_cube", quality.frames_per_cube},
-        {"spectra", name_of(quality.spectra, levels)}, {"stereo", name_of(quality.stereo, methods)}};
+    return {{"texels_per_pixel", quality.texels_per_pixel}, {"most_texels_per_pixel", quality.most_texels_per_pixel},
+        {"cube_samples", quality.cube_samples}, {"stray_texels", quality.stray_texels},
+        {"shading_texels", quality.shading_texels}, {"pixel_rays", quality.pixel_rays}, {"rear_images", quality.rear_images},
+        {"mips", quality.mips}, {"half_floats", quality.half_floats}, {"matrices", quality.matrices},
+        {"frames_per_cube", quality.frames_per_cube}, {"spectra", name_of(quality.spectra, levels)},
+        {"stereo", name_of(quality.stereo, methods)}};
 }
 
 } // namespace
@@ -79,12 +82,15 @@ std::vector<Rung> load_ladder(const std::filesystem::path& file)
         take(place, "flip", rung.flip, {0, 1});
         take(place, "edges_px", rung.edges_px, {0, 1e4});
         if (!ladder.empty() && rung.ms <= ladder.back().ms)
-            complain(member(place, "ms"), "is no more than the rung's before, " + shown(ladder.back().ms)
+            complain(member(place, "ms"),
+                "is no more than the rung's before, " + shown(ladder.back().ms)
                     + "; rungs from the fastest to the slowest are right");
-        if (!ladder.empty() && (rung.quality.spectra != ladder[0].quality.spectra || rung.quality.stereo != ladder[0].quality.stereo
-                                   || rung.quality.matrices != ladder[0].quality.matrices))
-            complain(member(place, "quality"), "has other spectra, stereo or matrices than the first rung, which can't change in "
-                                               "flight; the same are right");
+        if (!ladder.empty()
+            && (rung.quality.spectra != ladder[0].quality.spectra || rung.quality.stereo != ladder[0].quality.stereo
+                || rung.quality.matrices != ladder[0].quality.matrices))
+            complain(member(place, "quality"),
+                "has other spectra, stereo or matrices than the first rung, which can't change in "
+                "flight; the same are right");
         ladder.push_back(rung);
     }
     return ladder;

@@ -77,7 +77,8 @@ struct Chart {
     }
 };
 
-std::string drawn(const std::vector<Measured>& all, const std::vector<bool>& best, const Metric& metric, double left, double top)
+std::string drawn(
+    const std::vector<Measured>& all, const std::vector<bool>& best, const Metric& metric, double left, double top)
 {
     double first = 1e300, last = 0, low = 1e300, high = -1e300;
     for (const Measured& one : all) {
@@ -87,9 +88,10 @@ std::string drawn(const std::vector<Measured>& all, const std::vector<bool>& bes
     const double room = std::max(1e-9, 0.08 * (high - low));
     const Chart c{left + 62, top + 34, 400, 260, first / 1.12, last * 1.12,
         metric.less_is_better ? std::max(0.0, low - room) : low - room, high + room, !metric.less_is_better};
-    std::string out = text("<text x=\"%.0f\" y=\"%.0f\" class=\"head\">%s <tspan class=\"unit\">%s</tspan></text>\n", left + 62,
-        top + 18, metric.name, metric.unit);
-    out += text("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" class=\"box\"/>\n", c.left, c.top, c.width, c.height);
+    std::string out = text("<text x=\"%.0f\" y=\"%.0f\" class=\"head\">%s <tspan class=\"unit\">%s</tspan></text>\n",
+        left + 62, top + 18, metric.name, metric.unit);
+    out += text(
+        "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" class=\"box\"/>\n", c.left, c.top, c.width, c.height);
     for (double at : steps(c.low, c.high, 6))
         out += text("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"grid\"/><text x=\"%.1f\" y=\"%.1f\" "
                     "class=\"tick\" text-anchor=\"end\">%.4g</text>\n",
@@ -97,8 +99,9 @@ std::string drawn(const std::vector<Measured>& all, const std::vector<bool>& bes
     for (double decade = std::pow(10, std::floor(std::log10(c.first_ms))); decade < c.last_ms; decade *= 10)
         for (double factor : {1.0, 2.0, 3.0, 5.0, 7.0})
             if (const double at = decade * factor; at >= c.first_ms && at <= c.last_ms)
-                out += text("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"grid\"/><text x=\"%.1f\" y=\"%.1f\" "
-                            "class=\"tick\" text-anchor=\"middle\">%.4g</text>\n",
+                out += text(
+                    "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"grid\"/><text x=\"%.1f\" y=\"%.1f\" "
+                    "class=\"tick\" text-anchor=\"middle\">%.4g</text>\n",
                     c.x(at), c.x(at), c.top, c.top + c.height, c.x(at), c.top + c.height + 16, at);
     out += text("<text x=\"%.1f\" y=\"%.1f\" class=\"tick\" text-anchor=\"middle\">milliseconds a frame</text>\n",
         c.left + c.width / 2, c.top + c.height + 32);
@@ -230,18 +233,20 @@ std::vector<Rung> ladder_of(const std::vector<Measured>& all)
 std::string accuracy_csv(const std::vector<Measured>& all)
 {
     const std::vector<bool> best = frontier(all);
-    std::string out = "setting,texels_per_pixel,most_texels_per_pixel,cube_samples,stray_texels,shading_texels,pixel_rays,rear_images,mips,half_floats,"
-                      "matrices,frames_per_cube,ms,ratio,megabytes,texels_drawn_per_pixel,images,flip,psnr_dB,ciede2000_mean,"
-                      "ciede2000_95,edges_95_px,direction_99_px,doppler_99,frontier\n";
+    std::string out
+        = "setting,texels_per_pixel,most_texels_per_pixel,cube_samples,stray_texels,shading_texels,pixel_rays,rear_images,"
+          "mips,half_floats,"
+          "matrices,frames_per_cube,ms,ratio,megabytes,texels_drawn_per_pixel,images,flip,psnr_dB,ciede2000_mean,"
+          "ciede2000_95,edges_95_px,direction_99_px,doppler_99,frontier\n";
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Measured& m = all[i];
         const Quality& q = m.setting.quality;
         out += quoted(m.setting.name)
             + text(",%g,%g,%d,%g,%g,%d,%d,%d,%d,%d,%d,%.4f,%.4f,%.2f,%.3f,%d,%.6f,%.3f,%.4f,%.4f,%.4f,%.6f,%.3g,%d\n",
-                q.texels_per_pixel, q.most_texels_per_pixel, q.cube_samples, q.stray_texels, q.shading_texels, q.pixel_rays, q.rear_images, q.mips,
-                q.half_floats, q.matrices, q.frames_per_cube, m.ms, m.ratio, m.megabytes, m.texels_per_pixel, m.images,
-                m.errors.flip, m.errors.psnr_dB, m.errors.ciede2000_mean, m.errors.ciede2000_95, m.errors.edges_95_px,
-                m.direction_px, m.doppler, int(best[i]));
+                q.texels_per_pixel, q.most_texels_per_pixel, q.cube_samples, q.stray_texels, q.shading_texels, q.pixel_rays,
+                q.rear_images, q.mips, q.half_floats, q.matrices, q.frames_per_cube, m.ms, m.ratio, m.megabytes,
+                m.texels_per_pixel, m.images, m.errors.flip, m.errors.psnr_dB, m.errors.ciede2000_mean,
+                m.errors.ciede2000_95, m.errors.edges_95_px, m.direction_px, m.doppler, int(best[i]));
     }
     return out;
 }
@@ -249,14 +254,16 @@ std::string accuracy_csv(const std::vector<Measured>& all)
 std::string accuracy_chart(const std::vector<Measured>& all, const std::string& title)
 {
     const std::vector<bool> best = frontier(all);
-    std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1000 760\" font-family=\"sans-serif\">\n"
-                      "<style>.box{fill:none;stroke:#888}.grid{stroke:#ddd}.tick{font-size:12px;fill:#333}.head{font-size:16px;"
-                      "font-weight:bold}.unit{font-size:13px;font-weight:normal;fill:#555}.name{font-size:13px;font-weight:bold;"
-                      "fill:#a33c00}.frontier{fill:none;stroke:#0072b2;stroke-width:2}.other{fill:#999;fill-opacity:.55}"
-                      ".best{fill:#0072b2}.shipped{fill:#d55e00;stroke:#fff;stroke-width:1.5}</style>\n"
-                      "<rect width=\"1000\" height=\"760\" fill=\"#fff\"/>\n";
+    std::string out
+        = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1000 760\" font-family=\"sans-serif\">\n"
+          "<style>.box{fill:none;stroke:#888}.grid{stroke:#ddd}.tick{font-size:12px;fill:#333}.head{font-size:16px;"
+          "font-weight:bold}.unit{font-size:13px;font-weight:normal;fill:#555}.name{font-size:13px;font-weight:bold;"
+          "fill:#a33c00}.frontier{fill:none;stroke:#0072b2;stroke-width:2}.other{fill:#999;fill-opacity:.55}"
+          ".best{fill:#0072b2}.shipped{fill:#d55e00;stroke:#fff;stroke-width:1.5}</style>\n"
+          "<rect width=\"1000\" height=\"760\" fill=\"#fff\"/>\n";
     out += "<text x=\"62\" y=\"30\" class=\"head\">" + safe(title) + "</text>\n";
-    out += "<text x=\"62\" y=\"50\" class=\"unit\">Lower is better, further left is faster. Orange: the shipped settings; blue: what "
+    out += "<text x=\"62\" y=\"50\" class=\"unit\">Lower is better, further left is faster. Orange: the shipped settings; "
+           "blue: what "
            "no other setting beats in FLIP and time.</text>\n";
     for (std::size_t i = 0; i < 4; ++i)
         out += drawn(all, best, metrics[i], i % 2 == 0 ? 0 : 500, i < 2 ? 62 : 408);
@@ -270,14 +277,16 @@ std::string accuracy_page(const std::vector<Measured>& all, const MeasuredOn& on
     for (std::size_t i = 0; i < order.size(); ++i)
         order[i] = i;
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return all[a].ms < all[b].ms; });
-    std::string out = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Starbow: speed and "
-                      "accuracy</title>\n<style>body{font:15px/1.45 sans-serif;max-width:1100px;margin:2em auto;padding:0 1em}"
-                      "table{border-collapse:collapse;font-size:13px}td,th{padding:3px 9px;border-bottom:1px solid #ddd;"
-                      "text-align:right}td:first-child,th:first-child{text-align:left}tr.best td:first-child{color:#0072b2;"
-                      "font-weight:bold}tr.shipped td:first-child{color:#a33c00;font-weight:bold}svg{width:100%}</style>"
-                      "</head><body>\n<h1>Speed and accuracy</h1>\n";
+    std::string out
+        = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Starbow: speed and "
+          "accuracy</title>\n<style>body{font:15px/1.45 sans-serif;max-width:1100px;margin:2em auto;padding:0 1em}"
+          "table{border-collapse:collapse;font-size:13px}td,th{padding:3px 9px;border-bottom:1px solid #ddd;"
+          "text-align:right}td:first-child,th:first-child{text-align:left}tr.best td:first-child{color:#0072b2;"
+          "font-weight:bold}tr.shipped td:first-child{color:#a33c00;font-weight:bold}svg{width:100%}</style>"
+          "</head><body>\n<h1>Speed and accuracy</h1>\n";
     out += "<p>" + safe(on.what) + ". " + safe(on.machine)
-        + text(". Frame times are medians of %d rounds, each in turn with the default setting. Errors are against the reference, "
+        + text(". Frame times are medians of %d rounds, each in turn with the default setting. Errors are against the "
+               "reference, "
                "%d rays a pixel, on the picture as it is shown.</p>\n",
             on.rounds, on.samples);
     out += accuracy_chart(all, on.what);
@@ -286,14 +295,20 @@ std::string accuracy_page(const std::vector<Measured>& all, const MeasuredOn& on
            "<th>D</th></tr>\n";
     for (std::size_t i : order) {
         const Measured& m = all[i];
-        out += text("<tr class=\"%s\"><td>", m.setting.shipped ? "shipped" : best[i] ? "best" : "other") + safe(m.setting.name)
-            + text("</td><td>%.1f</td><td>%.2f</td><td>%.0f</td><td>%.2f</td><td>%d</td><td>%.4f</td><td>%.1f</td><td>%.2f</td>"
-                   "<td>%.2f</td><td>%.3f</td><td>%.4f</td><td>%.1e</td></tr>\n",
+        out += text("<tr class=\"%s\"><td>",
+                   m.setting.shipped ? "shipped"
+                       : best[i]     ? "best"
+                                     : "other")
+            + safe(m.setting.name)
+            + text(
+                "</td><td>%.1f</td><td>%.2f</td><td>%.0f</td><td>%.2f</td><td>%d</td><td>%.4f</td><td>%.1f</td><td>%.2f</td>"
+                "<td>%.2f</td><td>%.3f</td><td>%.4f</td><td>%.1e</td></tr>\n",
                 m.ms, m.ratio, m.megabytes, m.texels_per_pixel, m.images, m.errors.flip, m.errors.psnr_dB,
                 m.errors.ciede2000_mean, m.errors.ciede2000_95, m.errors.edges_95_px, m.direction_px, m.doppler);
     }
     return out
-        + "</table>\n<p>FLIP: 0 where nobody could tell the pictures apart, 1 at worst. Edges: how far an edge stands from where it "
+        + "</table>\n<p>FLIP: 0 where nobody could tell the pictures apart, 1 at worst. Edges: how far an edge stands from "
+          "where it "
           "should. Direction: how far a pixel looks from where it should, 99th percentile. D: the same of the Doppler "
           "factor, relative.</p>\n</body></html>\n";
 }

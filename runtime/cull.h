@@ -44,8 +44,8 @@ struct DrawList {
 /// Moves what rests in each vantage's frame around the eye (in double, rounded to float only there) and sorts out which
 /// instance each image of that layer can see. Each is drawn at the coarsest level of detail that the quality lets
 /// stray. The instances of a world stand in sort_instances' order.
-DrawList cull(const World& world, std::span<const Vantage> layers, const std::vector<PlanImage>& images,
-    const Quality& quality = {});
+DrawList cull(
+    const World& world, std::span<const Vantage> layers, const std::vector<PlanImage>& images, const Quality& quality = {});
 
 /// Balls around what may be seen of a frame's instances: those whose light, had it left, would have left while they were
 /// there.

@@ -261,8 +261,7 @@ void fly(Visit& visit, Theatre& theatre)
 {
     Device& device = theatre.device;
     const SceneFile& scene = theatre.world.scene;
-    auto frame = std::make_unique<Frame>(
-        device, theatre.pipelines, theatre.world, visit.layout, quality_of(visit, device));
+    auto frame = std::make_unique<Frame>(device, theatre.pipelines, theatre.world, visit.layout, quality_of(visit, device));
     FrameTimer timer(device);
     double prepared_ms = 0;
     Screens screens(device, visit.layout);
@@ -401,7 +400,7 @@ int fly_exhibit(const Opening& opening)
         std::string lost;
         try {
             theatre = std::make_unique<Theatre>(opening.scene, device_options(true),
-                opening.hold_ms > 0 ? opening.ladder[0].quality.spectra
+                opening.hold_ms > 0   ? opening.ladder[0].quality.spectra
                     : opening.quality ? opening.quality->spectra
                                       : std::nullopt);
             for (const std::string& note : theatre->world.world.notes)

@@ -274,8 +274,8 @@ Frame::Asked Frame::asked_of(std::size_t i)
     return asked;
 }
 
-/// Whether what an eye's cube map holds may be shown once more: from where it was drawn, and as fast as may be now, but along
-/// the same axes.
+/// Whether what an eye's cube map holds may be shown once more: from where it was drawn, and as fast as may be now, but
+/// along the same axes.
 bool Frame::still_serves(std::size_t i, const Plan& wanted, std::span<const Vantage> vantages) const
 {
     const std::vector<Vantage>& drawn = eyes_[i].drawn;

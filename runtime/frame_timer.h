@@ -10,7 +10,8 @@ public:
     explicit FrameTimer(const Device& device);
     void begin(vk::CommandBuffer commands);
     void end(vk::CommandBuffer commands);
-    /// Milliseconds of the last one, which the device must have finished; nothing before the first, or where it has no clock.
+    /// Milliseconds of the last one, which the device must have finished; nothing before the first, or where it has no
+    /// clock.
     std::optional<double> ms() const;
 
 private:

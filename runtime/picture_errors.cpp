@@ -21,7 +21,8 @@ struct Plane {
     }
     double operator()(int x, int y) const
     {
-        return at[std::size_t(std::clamp(y, 0, size.y - 1)) * std::size_t(size.x) + std::size_t(std::clamp(x, 0, size.x - 1))];
+        return at[std::size_t(std::clamp(y, 0, size.y - 1)) * std::size_t(size.x)
+            + std::size_t(std::clamp(x, 0, size.x - 1))];
     }
 };
 
@@ -107,7 +108,8 @@ double hyab(const glm::dvec3& one, const glm::dvec3& two)
     return std::abs(one.x - two.x) + std::hypot(one.y - two.y, one.z - two.z);
 }
 
-/// What of a picture the eye can tell apart: each opponent channel blurred by its contrast sensitivity, and in Hunt's colours.
+/// What of a picture the eye can tell apart: each opponent channel blurred by its contrast sensitivity, and in Hunt's
+/// colours.
 std::vector<glm::dvec3> perceived(const std::vector<glm::dvec3>& rgb, glm::ivec2 size, double pixels_per_degree)
 {
     struct Part {
@@ -187,7 +189,8 @@ double psnr_dB(const Shown8& picture, const Shown8& reference)
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t c = 0; c < 3; ++c)
             squares += std::pow(double(picture.rgba[4 * i + c]) - double(reference.rgba[4 * i + c]), 2);
-    return squares == 0 ? std::numeric_limits<double>::infinity() : 10 * std::log10(255.0 * 255 * 3 * double(count) / squares);
+    return squares == 0 ? std::numeric_limits<double>::infinity()
+                        : 10 * std::log10(255.0 * 255 * 3 * double(count) / squares);
 }
 
 std::vector<double> flip(const Shown8& picture, const Shown8& reference, double pixels_per_degree)
@@ -204,8 +207,9 @@ std::vector<double> flip(const Shown8& picture, const Shown8& reference, double 
     for (std::size_t i = 0; i < all.size(); ++i) {
         const double difference = std::pow(hyab(own_colours[i], its_colours[i]), colour_power);
         // Large differences are pressed together.
-        const double colour = difference < low * most ? difference * low_to / (low * most)
-                                                      : low_to + (difference - low * most) / (most - low * most) * (1 - low_to);
+        const double colour = difference < low * most
+            ? difference * low_to / (low * most)
+            : low_to + (difference - low * most) / (most - low * most) * (1 - low_to);
         const double feature = std::max(std::abs(own_edges[i] - its_edges[i]), std::abs(own_points[i] - its_points[i]));
         all[i] = std::pow(colour, 1 - std::min(1.0, std::pow(feature / std::sqrt(2.0), feature_power)));
     }
@@ -225,9 +229,8 @@ std::vector<double> edge_displacements_px(const Shown8& picture, const Shown8& r
         return filtered(plane, soft, soft);
     };
     const Plane own = brightness(picture), its = brightness(reference);
-    const auto slope = [&](int x, int y) {
-        return 0.5 * glm::dvec2(its(x + 1, y) - its(x - 1, y), its(x, y + 1) - its(x, y - 1));
-    };
+    const auto slope
+        = [&](int x, int y) { return 0.5 * glm::dvec2(its(x + 1, y) - its(x - 1, y), its(x, y + 1) - its(x, y - 1)); };
     std::vector<double> moved;
     for (int y = reach; y < size.y - reach; ++y)
         for (int x = reach; x < size.x - reach; ++x) {
@@ -261,8 +264,7 @@ PictureErrors picture_errors(const Shown8& picture, const Shown8& reference)
     const std::vector<glm::dvec3> own = linear_of(picture), its = linear_of(reference);
     std::vector<double> differences;
     for (std::size_t i = 0; i < own.size(); ++i) {
-        differences.push_back(
-            ciede2000(cielab(xyz_from_rec709 * own[i], white), cielab(xyz_from_rec709 * its[i], white)));
+        differences.push_back(ciede2000(cielab(xyz_from_rec709 * own[i], white), cielab(xyz_from_rec709 * its[i], white)));
         errors.ciede2000_mean += differences.back() / double(own.size());
     }
     errors.ciede2000_95 = quantile(std::move(differences), 0.95);

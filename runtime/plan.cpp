@@ -309,8 +309,8 @@ Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality)
     for (std::size_t layer = 0; layer < layers.size(); ++layer) {
         const double E = layers[layer].E;
         // Behind, D stops falling at 1/gamma from the axis: finer images would only repeat the last one.
-        const int rear_last = std::clamp(int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0,
-            std::min(quality.rear_images, REAR_LEVELS - 1));
+        const int rear_last = std::clamp(
+            int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0, std::min(quality.rear_images, REAR_LEVELS - 1));
         plan.rear_last.push_back(rear_last);
         const Held held = layers[layer].things ? Held(*layers[layer].things, rear_last) : Held();
         for (const View& view : layers[layer].views) {

@@ -17,9 +17,9 @@ Measured made_up(const std::string& name, double ms, double flip, Quality qualit
     return one;
 }
 
-const std::vector<Measured> some = {made_up("a", 10, 0.2, {.texels_per_pixel = 0.5}), made_up("b", 20, 0.1),
-    made_up("worse than b", 21, 0.11), made_up("c", 40, 0.05, {.cube_samples = 4}),
-    made_up("other light", 15, 0.01, {.spectra = SpectralLevel::fine})};
+const std::vector<Measured> some
+    = {made_up("a", 10, 0.2, {.texels_per_pixel = 0.5}), made_up("b", 20, 0.1), made_up("worse than b", 21, 0.11),
+        made_up("c", 40, 0.05, {.cube_samples = 4}), made_up("other light", 15, 0.01, {.spectra = SpectralLevel::fine})};
 
 } // namespace
 

@@ -22,7 +22,8 @@ struct Flown {
     std::vector<std::size_t> rungs; ///< of each second's end
 };
 
-/// So many seconds at 60 Hz. load: what a millisecond of the ladder takes, by the time. A frame that is late holds up the next.
+/// So many seconds at 60 Hz. load: what a millisecond of the ladder takes, by the time. A frame that is late holds up the
+/// next.
 Flown fly(Governor& governor, double seconds, const std::function<double(double)>& load, double noise = 0.03)
 {
     constexpr double turn = 1000.0 / 60;

@@ -70,8 +70,8 @@ TEST(PictureErrorsTest, FlipSpansItsWholeRange)
 {
     // Green against blue is what its colour difference is normalised by.
     EXPECT_NEAR(mean(flip(Picture({32, 32}, {0, 255, 0}), Picture({32, 32}, {0, 0, 255}))), 1, 1e-9);
-    // Black against white, by hand: HyAB 100; of green and blue, with Hunt's factor on their L*a*b* (87.73, -86.18, 83.18) and
-    // (32.30, 79.19, -107.86), 203.3. To the power 0.7 that is 25.12 and 41.26: above 0.4 of it, 16.50.
+    // Black against white, by hand: HyAB 100; of green and blue, with Hunt's factor on their L*a*b* (87.73, -86.18, 83.18)
+    // and (32.30, 79.19, -107.86), 203.3. To the power 0.7 that is 25.12 and 41.26: above 0.4 of it, 16.50.
     EXPECT_NEAR(mean(flip(Picture({32, 32}, {0, 0, 0}), Picture({32, 32}, {255, 255, 255}))),
         0.95 + 0.05 * (25.12 - 16.50) / (41.26 - 16.50), 2e-3);
     // sRGB 100 and 101 are 0.41 apart in L*: 0.41^0.7 * 0.95 / 16.50.
@@ -86,7 +86,8 @@ TEST(PictureErrorsTest, FlipSpansItsWholeRange)
 
 TEST(PictureErrorsTest, FlipForgivesWhatTheEyeBlursAndPunishesEdges)
 {
-    // A checkerboard of single pixels against its mean grey: 67 pixels in a degree blur most of it away; one of 16 pixels not.
+    // A checkerboard of single pixels against its mean grey: 67 pixels in a degree blur most of it away; one of 16 pixels
+    // not.
     const auto board = [](int square, int low, int high) {
         Picture picture({96, 96});
         for (int y = 0; y < 96; ++y)
@@ -118,11 +119,11 @@ TEST(PictureErrorsTest, EdgesAreFoundToATenthOfAPixel)
 {
     for (double lean : {0.0, 0.3, -0.7})
         for (double moved : {0.25, -0.5, 0.9}) {
-            const std::vector<double> found = edge_displacements_px(
-                edge({120, 60}, 60 + moved, lean), edge({120, 60}, 60, lean));
+            const std::vector<double> found
+                = edge_displacements_px(edge({120, 60}, 60 + moved, lean), edge({120, 60}, 60, lean));
             ASSERT_GT(found.size(), 30u);
-            // Across itself a leaning edge moves by less than along the row. Towards brighter pixels is positive. The pixels'
-            // own steps are what the tenth allows for.
+            // Across itself a leaning edge moves by less than along the row. Towards brighter pixels is positive. The
+            // pixels' own steps are what the tenth allows for.
             EXPECT_NEAR(quantile(found, 0.5), moved / std::hypot(1, lean), 0.1) << lean << " " << moved;
         }
     // Blur alone moves nothing.

@@ -193,3 +193,26 @@ TEST(Plan, ClipMapsTheRectangleToTheSquare)
         EXPECT_NEAR(low.z / low.w, 1e-6 / 7, 1e-18); // reversed z: near over distance
     }
 }
+
+TEST(Plan, ServesOnceMoreWhatItHolds)
+{
+    const Quality quality{.texels_per_pixel = 1, .most_texels_per_pixel = 50};
+    const CompiledPane pane = compiled(Planar{60}, {400, 300});
+    const auto plan_at = [&](double gamma, double yaw) {
+        const glm::dvec3 u(0, 0, -std::sqrt((gamma - 1) * (gamma + 1)));
+        const glm::dquat turned = glm::angleAxis(yaw, glm::dvec3(0, 1, 0));
+        return make_plan({{pane.blocks.get(), motion_from_world(u, turned) * glm::dmat3(glm::mat3_cast(turned))}},
+            physics::exp_rapidity(glm::length(u)), quality);
+    };
+    const Plan plan = plan_at(2, 0.3);
+    EXPECT_TRUE(serves(plan, plan));
+    EXPECT_TRUE(serves(plan, plan_at(2, 0.3 + 1e-6)));
+    // Whoever turns on looks past its edges; faster, other images are wanted, and finer ones.
+    EXPECT_FALSE(serves(plan, plan_at(2, 0.8)));
+    EXPECT_FALSE(serves(plan, plan_at(8, 0.3)));
+    // And what is as wide but coarser does not do.
+    Plan coarse = plan;
+    coarse.images[0].texels_per_unit *= 0.5;
+    EXPECT_FALSE(serves(coarse, plan));
+    EXPECT_TRUE(serves(plan, coarse));
+}

@@ -1,6 +1,6 @@
 // Quality files and ladders: the shipped ones, what each member does, and wrong ones; the schema that editors use agrees.
-#include "config/quality.h"
 #include "config/error.h"
+#include "config/quality.h"
 #include "runtime/find.h"
 #include "tests/files.h"
 #include <gtest/gtest.h>
@@ -37,7 +37,8 @@ template <class Load> std::string said(Load&& load)
     }
 }
 
-const char* const all_members = R"({ "texels_per_pixel": 1.5, "most_texels_per_pixel": 2.5, "cube_samples": 8, "stray_texels": 0.5, "shading_texels": 8,
+const char* const all_members
+    = R"({ "texels_per_pixel": 1.5, "most_texels_per_pixel": 2.5, "cube_samples": 8, "stray_texels": 0.5, "shading_texels": 8,
     "pixel_rays": 3, "rear_images": 7, "mips": false, "half_floats": false, "matrices": false, "frames_per_cube": 4,
     "spectra": "fine", "stereo": "reprojected" })";
 
@@ -95,10 +96,11 @@ TEST(QualityTest, TheSchemasDefaultsAreTheReaders)
 
 TEST(QualityTest, WrongOnesAreRefusedByBoth)
 {
-    for (const auto& [text, problem] : std::vector<std::pair<std::string, std::string>>{
-             {R"({ "texels": 1 })", "texels"}, {R"({ "texels_per_pixel": 0.01 })", "/texels_per_pixel: 0.01 is too small"},
+    for (const auto& [text, problem] : std::vector<std::pair<std::string, std::string>>{{R"({ "texels": 1 })", "texels"},
+             {R"({ "texels_per_pixel": 0.01 })", "/texels_per_pixel: 0.01 is too small"},
              {R"({ "most_texels_per_pixel": 1e4 })", "/most_texels_per_pixel: 10000"},
-             {R"({ "cube_samples": 3 })", "/cube_samples: 3 is no number of samples that devices have; 1, 2, 4 or 8 is right"},
+             {R"({ "cube_samples": 3 })",
+                 "/cube_samples: 3 is no number of samples that devices have; 1, 2, 4 or 8 is right"},
              {R"({ "cube_samples": 16 })", "/cube_samples: 16"}, {R"({ "stray_texels": -1 })", "/stray_texels: -1"},
              {R"({ "pixel_rays": 1.5 })", "/pixel_rays: 1.5"}, {R"({ "rear_images": 43 })", "/rear_images: 43"},
              {R"({ "mips": 1 })", "/mips: 1"}, {R"({ "frames_per_cube": 0 })", "/frames_per_cube: 0"},
@@ -122,9 +124,8 @@ TEST(QualityTest, ALadderRisesAndIsWrittenAgain)
         EXPECT_EQ(again[i].flip, ladder[i].flip);
         EXPECT_EQ(again[i].edges_px, ladder[i].edges_px);
     }
-    for (const auto& [text, problem] : std::vector<std::pair<std::string, std::string>>{
-             {R"({ "rungs": [] })", "/rungs"}, {R"({})", "rungs"},
-             {R"({ "rungs": [{ "ms": 0, "quality": {} }] })", "/rungs/0/ms: 0"},
+    for (const auto& [text, problem] : std::vector<std::pair<std::string, std::string>>{{R"({ "rungs": [] })", "/rungs"},
+             {R"({})", "rungs"}, {R"({ "rungs": [{ "ms": 0, "quality": {} }] })", "/rungs/0/ms: 0"},
              {R"({ "rungs": [{ "ms": 2, "quality": {} }, { "ms": 2, "quality": {} }] })", "/rungs/1/ms: 2 is no more than"},
              {R"({ "rungs": [{ "ms": 1 }] })", "quality"},
              {R"({ "rungs": [{ "ms": 1, "quality": { "mips": 2 } }] })", "/rungs/0/quality/mips: 2"},

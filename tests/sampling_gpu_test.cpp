@@ -38,7 +38,8 @@ World self_similar_world()
         }
     for (int ring = 0; ring + 1 < rings; ++ring)
         for (int sector = 0; sector < sectors; ++sector) {
-            const std::uint32_t a = std::uint32_t(ring * sectors + sector), b = std::uint32_t(ring * sectors + (sector + 1) % sectors);
+            const std::uint32_t a = std::uint32_t(ring * sectors + sector),
+                                b = std::uint32_t(ring * sectors + (sector + 1) % sectors);
             for (std::uint32_t i : {a, b, b + sectors, a, b + sectors, a + sectors})
                 world.indices.push_back(i);
         }
@@ -85,7 +86,8 @@ TEST(Sampling, StraightBackAndAheadIsAsGoodAtEverySpeed)
 TEST(Sampling, NoSeamOnASmoothSky)
 {
     Doc doc;
-    quad(doc, dvec3(0, -1e4, 0), dvec3(0.001, 0, 0), dvec3(0, 0, 0.001), unlit(doc, dvec3(0.3, 0.2, 0.55))); // a world needs one
+    quad(doc, dvec3(0, -1e4, 0), dvec3(0.001, 0, 0), dvec3(0, 0, 0.001),
+        unlit(doc, dvec3(0.3, 0.2, 0.55))); // a world needs one
     const GpuWorld world = open_world("seams", doc, {{"sky", smooth_sky}});
     for (const char* name : {"desk", "dome", "cave5", "wall3"}) {
         Layout layout = load_layout(starbow::testing::source_dir() / "config/layouts" / (std::string(name) + ".json"));

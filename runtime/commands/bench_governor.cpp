@@ -48,14 +48,16 @@ int bench_governor(const std::string& ladder_name, double hold_ms, int seconds)
         hold_ms = 1.5 * middle;
     Governor governor(ladder, hold_ms);
     studio.frame().adopt(within(device, ladder[governor.rung()].quality));
-    std::printf("%s; the starbow at 800x600, %.1f ms a frame held over %zu rungs, a load that doubles and halves every 5 s\n",
+    std::printf(
+        "%s; the starbow at 800x600, %.1f ms a frame held over %zu rungs, a load that doubles and halves every 5 s\n",
         device.properties.deviceName.data(), hold_ms, ladder.size());
     const auto began = Clock::now();
     const auto now_s = [&] { return std::chrono::duration<double>(Clock::now() - began).count(); };
     int frames = 0, late = 0, moves = 0, most_moves = 0;
     std::vector<double> moved;
     for (int second = 0; now_s() < seconds;) {
-        const auto turn = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(hold_ms / 1000));
+        const auto turn
+            = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(hold_ms / 1000));
         const double ms = frame_ms(int(now_s() / 5) % 2 ? 2 : 1);
         ++frames;
         late += ms > 1.5 * hold_ms;
@@ -71,7 +73,8 @@ int bench_governor(const std::string& ladder_name, double hold_ms, int seconds)
         std::this_thread::sleep_until(turn);
         if (int(now_s()) / 5 > second) {
             second = int(now_s()) / 5;
-            std::printf("%4d s: rung %zu, %d frames, %d late, %d moves\n", 5 * second, governor.rung() + 1, frames, late, moves);
+            std::printf(
+                "%4d s: rung %zu, %d frames, %d late, %d moves\n", 5 * second, governor.rung() + 1, frames, late, moves);
             std::fflush(stdout);
         }
     }

@@ -35,7 +35,8 @@ std::vector<std::pair<std::string, Shot>> shots_of(const Options& options, const
         const std::filesystem::path file = find("shots", name);
         const Shot shot = load_shot(file);
         if (!std::filesystem::equivalent(scene_of(shot, file), scene))
-            throw InputError("--shot " + name + " is in the scene " + shot.scene + "; one in " + options.scene + " is right");
+            throw InputError(
+                "--shot " + name + " is in the scene " + shot.scene + "; one in " + options.scene + " is right");
         shots.emplace_back(file.stem().string(), shot);
     }
     if (!shots.empty())
@@ -119,6 +120,11 @@ int measure(const Options& options)
                 m.errors.psnr_dB, m.errors.ciede2000_95, m.errors.edges_95_px, m.direction_px, m.megabytes,
                 best[i] ? "*" : " ", m.setting.name.c_str());
     }
+    constexpr double noise = 0.15; // what times of one run may differ by
+    for (const Measured& m : all)
+        if (const Measured* better = m.setting.shipped ? better_than(m, all, noise) : nullptr)
+            std::printf("%s is beaten: %s takes %.2f of its time with %.2f of its FLIP\n", m.setting.name.c_str(),
+                better->setting.name.c_str(), better->ms / m.ms, better->errors.flip / m.errors.flip);
     std::printf("\n%s/accuracy.html\n", options.out.c_str());
     if (options.budget_ms > 0) {
         const Measured* chosen = best_within(all, options.budget_ms);
@@ -141,16 +147,17 @@ void add_measure(CLI::App& app, std::function<int()>& chosen)
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("measure",
         "Speed for accuracy: each setting's time, memory and error against the reference, as a table and a chart.");
-    command->add_option("--scene", options->scene, "A scene file, or the name of one in config/scenes")->capture_default_str();
+    command->add_option("--scene", options->scene, "A scene file, or the name of one in config/scenes")
+        ->capture_default_str();
     command->add_option("--layout", options->layout, "A layout file, or the name of one in config/layouts")
         ->capture_default_str();
-    command->add_option("--shot", options->shots, "A shot file, or the name of one in config/shots; more than one may be "
-                                                  "given [all shipped ones of the scene]");
+    command->add_option("--shot", options->shots,
+        "A shot file, or the name of one in config/shots; more than one may be "
+        "given [all shipped ones of the scene]");
     command->add_option("--size", options->size, "Pixels of every output, WIDTHxHEIGHT, instead of the layout's");
-    command->add_option("--out", options->out, "The folder for accuracy.html, .csv and .svg, ladder.json; or for extremes.md; made if it is not there");
-    command
-        ->add_option("--quality", options->qualities,
-            "A quality file of your own to try too; more than one may be given")
+    command->add_option("--out", options->out,
+        "The folder for accuracy.html, .csv and .svg, ladder.json; or for extremes.md; made if it is not there");
+    command->add_option("--quality", options->qualities, "A quality file of your own to try too; more than one may be given")
         ->type_name("FILE");
     command->add_option("--default", options->standard, "The quality whose knobs are turned, and that all times are told by")
         ->capture_default_str();
@@ -168,14 +175,17 @@ void add_measure(CLI::App& app, std::function<int()>& chosen)
             "Also choose: the most accurate setting whose frame takes no longer, as quality.json")
         ->check(CLI::Range(0.01, 1e6));
     command->add_flag("--extremes", options->extremes,
-        "Instead: at the ends of what there is (speeds, places, times, sizes, views, light), whether all is finite and within "
+        "Instead: at the ends of what there is (speeds, places, times, sizes, views, light), whether all is finite and "
+        "within "
         "its stated error, or refused");
     command->add_flag("--explain", options->explain,
-        "Instead: every part of a frame that the scene, the layout and the first shot switch on, why, and its cost; and what "
+        "Instead: every part of a frame that the scene, the layout and the first shot switch on, why, and its cost; and "
+        "what "
         "is off");
     command->footer("Examples:\n  starbow measure --scene avenue --layout desk --out out/accuracy\n"
                     "  starbow measure --layout dome --size 1024x1024 --shot starbow --out out/dome --budget-ms 16\n"
-                    "  starbow run --quality out/dome/quality.json\n  starbow measure --scene clocks --shot clocks-passing --explain\n  starbow measure --extremes");
+                    "  starbow run --quality out/dome/quality.json\n  starbow measure --scene clocks --shot clocks-passing "
+                    "--explain\n  starbow measure --extremes");
     command->callback([options, &chosen] { chosen = [options] { return measure(*options); }; });
 }
 

@@ -53,13 +53,15 @@ std::vector<Part> parts_of(const Made& made, const Theatre& theatre, const Plan&
     const std::string at_rest = moves ? "the shot's effects leave it out" : "the shot is at rest";
     const NeededLevel needed = needed_level(world, scene);
     const int numbers = reflected_numbers[std::size_t(theatre.world.spectra.level)];
-    const std::size_t clocks = materials_that(world, [](const Material& m) { return m.clock.has_value(); }),
-                      blinks = materials_that(world, [](const Material& m) { return m.blink.has_value(); }),
-                      base = materials_that(world, [](const Material& m) { return m.base_texture >= 0; }),
-                      masked = materials_that(world, [](const Material& m) { return m.alpha_cutoff > 0; });
+    const std::size_t clocks = materials_that(world, [](const Material&m) { return m.clock.has_value(); }),
+                      blinks = materials_that(world, [](const Material&m) { return m.blink.has_value(); }),
+                      base = materials_that(world, [](const Material&m) { return m.base_texture >= 0; }),
+                      masked = materials_that(world, [](const Material&m) { return m.alpha_cutoff > 0; });
     std::vector<Part> all;
     const auto add = [&](const std::string& name, bool on, const std::string& why, const std::string& why_not,
-                         std::function<void(Made&)> turn) { all.push_back({name, on, on ? why : why_not, std::move(turn)}); };
+                         std::function<void(Made&)> turn) {
+        all.push_back({name, on, on ? why : why_not, std::move(turn)});
+    };
     add("aberration", moves && effects.aberration, "the ship moves", at_rest,
         [](Made& m) { m.shot.effects.aberration = !m.shot.effects.aberration; });
     add("Doppler shift of spectra", moves && effects.doppler, "the ship moves", at_rest,
@@ -69,12 +71,13 @@ std::vector<Part> parts_of(const Made& made, const Theatre& theatre, const Plan&
     add("light in more than 3 numbers", numbers > 3, std::to_string(numbers) + ": " + told(needed), told(needed),
         [](Made& m) { m.quality.spectra = m.quality.spectra ? std::nullopt : std::optional(SpectralLevel::colours); });
     add("emissions of the scene's own", !theatre.world.spectra.basis.own.empty(),
-        count(theatre.world.spectra.basis.own.size(), "lamp, glow or line", "lamps, glows or lines") + " each a number by itself",
+        count(theatre.world.spectra.basis.own.size(), "lamp, glow or line", "lamps, glows or lines")
+            + " each a number by itself",
         "the scene has no lamp, glow or line but sunlit colours", {});
     add("stars", theatre.world.star_count > 0, count(theatre.world.star_count, "star", "stars") + " in the scene's sky",
         "the scene names no catalogue", [](Made& m) { m.stars.clear(), m.scene.stars.reset(); });
-    add("lamps", !scene.lights.empty(), count(scene.lights.size(), "light", "lights") + " in the scene", "the scene has none",
-        [](Made& m) { m.scene.lights.clear(); });
+    add("lamps", !scene.lights.empty(), count(scene.lights.size(), "light", "lights") + " in the scene",
+        "the scene has none", [](Made& m) { m.scene.lights.clear(); });
     add("clocks, with light delay", clocks > 0, count(clocks, "dial", "dials") + " in the world", "no surface is a clock",
         [](Made& m) {
             for (Material& material : m.world.materials)
@@ -98,10 +101,11 @@ std::vector<Part> parts_of(const Made& made, const Theatre& theatre, const Plan&
                 return point && !point->body.empty();
             });
         });
-    add("pictures on surfaces", base > 0, count(base, "surface has", "surfaces have") + " one", "no surface has one", [](Made& m) {
-        for (Material& material : m.world.materials)
-            material.base_texture = -1;
-    });
+    add("pictures on surfaces", base > 0, count(base, "surface has", "surfaces have") + " one", "no surface has one",
+        [](Made& m) {
+            for (Material& material : m.world.materials)
+                material.base_texture = -1;
+        });
     add("holes in surfaces", masked > 0, count(masked, "surface has", "surfaces have") + " them", "no surface is masked",
         [](Made& m) {
             for (Material& material : m.world.materials)
@@ -135,7 +139,8 @@ std::vector<Part> parts_of(const Made& made, const Theatre& theatre, const Plan&
     add("rays of a pixel", made.quality.pixel_rays > 1,
         std::to_string(made.quality.pixel_rays * made.quality.pixel_rays) + ", by the quality", "the quality has one",
         [](Made& m) { m.quality.pixel_rays = m.quality.pixel_rays > 1 ? 1 : 2; });
-    add("metering of the exposure", made.meter, "", "a still has its own; starbow run meters", [](Made& m) { m.meter = !m.meter; });
+    add("metering of the exposure", made.meter, "", "a still has its own; starbow run meters",
+        [](Made& m) { m.meter = !m.meter; });
     add("glow around what shines", made.bloom > 0, "", "the exhibit or --bloom asks for it", [](Made& m) { m.bloom = 0.1; });
     return all;
 }
@@ -193,8 +198,7 @@ void explain(const Trial& trial, const Device::Options& options)
             colours_part |= pane.channels() == 3;
         }
     const std::vector<Plan>& plans = all.studio.frame().plans();
-    const std::vector<Part> parts
-        = parts_of(made, theatre, plans[0], maps, count_of_panes, plans.size(), colours_part);
+    const std::vector<Part> parts = parts_of(made, theatre, plans[0], maps, count_of_panes, plans.size(), colours_part);
     std::printf("%s, %s, %s, on %s\n\nOn, and what a frame with it takes over one without:\n", trial.scene.stem().c_str(),
         trial.layout.file.stem().c_str(), trial.shots[0].first.c_str(), theatre.device.properties.deviceName.data());
     for (const Part& part : parts) {

@@ -80,15 +80,16 @@ void fly_far(Table& table)
     const glm::dquat before = ship.ship_from_cockpit;
     for (int i = 0; i < 3600; ++i)
         ship = fly(ship, {}, {0, 360 * degree / 3600, 0}, 1);
-    table.add("state: a turn of 360 degrees at gamma 1e6", "radians:",
-        2 * std::acos(std::min(1.0, std::abs(glm::dot(before, ship.ship_from_cockpit)))), 1e-7);
+    table.add("state: a turn of 360 degrees at gamma 1e6",
+        "radians:", 2 * std::acos(std::min(1.0, std::abs(glm::dot(before, ship.ship_from_cockpit)))), 1e-7);
     table.add("state: its speed meanwhile", "u, relative:", std::abs(glm::length(ship.u.total()) / 1e6 - 1), 1e-15);
     Ship reversed;
     reversed.u = Sum3({0, 0, -1e6});
     const double eta = 2 * std::asinh(1e6);
     for (int i = 0; i < 4000; ++i)
         reversed = fly(reversed, {0, 0, eta / 4000}, {}, 1);
-    table.add("state: reversed at gamma 1e6", "u, relative:", glm::length(reversed.u.total() - glm::dvec3(0, 0, 1e6)) / 1e6, 1e-9);
+    table.add(
+        "state: reversed at gamma 1e6", "u, relative:", glm::length(reversed.u.total() - glm::dvec3(0, 0, 1e6)) / 1e6, 1e-9);
     // A month of frames.
     Sum time;
     const long frames = 30L * 86400 * 60;
@@ -100,8 +101,8 @@ void fly_far(Table& table)
     const long hour = 3600 * 60;
     for (long i = 0; i < hour; ++i)
         flown = fly(flown, {}, {}, 1.0 / 60);
-    table.add("state: the ship's place after an hour at gamma 4", "light-seconds:",
-        std::abs(flown.position.total().z + std::sqrt(15.0) * 3600), 1e-8);
+    table.add("state: the ship's place after an hour at gamma 4",
+        "light-seconds:", std::abs(flown.position.total().z + std::sqrt(15.0) * 3600), 1e-8);
 }
 
 /// A world that may be changed, and how it is seen.
@@ -145,7 +146,8 @@ struct Stage {
         const double psnr = psnr_dB({truth.size, picture[0]}, {truth.size, should}),
                      direction = quantile(errors.directions_px, 1), D = quantile(errors.doppler, 1);
         table.add(c.what, text("finite, 0.001 px, D 1e-6, %.0f dB", c.least_dB),
-            text("%s, %.1e px, D %.1e, %.0f dB", errors.finite ? "finite" : "NOT FINITE", direction, D, std::min(psnr, 99.0)),
+            text(
+                "%s, %.1e px, D %.1e, %.0f dB", errors.finite ? "finite" : "NOT FINITE", direction, D, std::min(psnr, 99.0)),
             errors.finite && direction <= 0.001 && D <= 1e-6 && psnr >= c.least_dB && device.complaints.empty());
     }
 };
@@ -186,15 +188,18 @@ void refuse(Table& table)
     const auto expect = [&](const std::string& what, const std::string& why) {
         table.add(what, "refused in a sentence", why, !why.empty());
     };
-    expect("a shot at gamma 1e10", refusal(R"({ "scene": "avenue", "position": [0, 0, 0], "look": [0, 0, -1],
+    expect("a shot at gamma 1e10",
+        refusal(R"({ "scene": "avenue", "position": [0, 0, 0], "look": [0, 0, -1],
         "velocity": { "direction": [0, 0, -1], "gamma": 1e10 } })",
-                                       [](const auto& file) { load_shot(file); }));
-    expect("a view of 0.01 degrees", refusal(R"({ "outputs": [{ "name": "a", "size": [8, 8],
+            [](const auto& file) { load_shot(file); }));
+    expect("a view of 0.01 degrees",
+        refusal(R"({ "outputs": [{ "name": "a", "size": [8, 8],
         "viewports": [{ "projection": { "type": "planar", "fov_y_deg": 0.01 } }] }] })",
-                                         [](const auto& file) { load_layout(file); }));
-    expect("a fisheye of 361 degrees", refusal(R"({ "outputs": [{ "name": "a", "size": [8, 8],
+            [](const auto& file) { load_layout(file); }));
+    expect("a fisheye of 361 degrees",
+        refusal(R"({ "outputs": [{ "name": "a", "size": [8, 8],
         "viewports": [{ "projection": { "type": "fisheye", "aperture_deg": 361 } }] }] })",
-                                           [](const auto& file) { load_layout(file); }));
+            [](const auto& file) { load_layout(file); }));
     expect("an output of 16385 pixels", refusal("", [](const auto&) { parse_size("16385x1"); }));
     expect("an exposure of 61 EV",
         refusal(R"({ "exposure": { "greatest_ev": 61 } })", [](const auto& file) { load_exhibit(file); }));
@@ -241,7 +246,8 @@ void see_far(Table& table)
         stage.show(table, c);
     }
     {
-        // Everything a thousandth as large, so that columns stand a thousandth of a light-second away, and 1e9 from the origin.
+        // Everything a thousandth as large, so that columns stand a thousandth of a light-second away, and 1e9 from the
+        // origin.
         Case c{"picture: 1e9 light-seconds out, columns at 1e-3", scene, world, window(small), start};
         const glm::dvec3 out(1e9, 0, 0);
         for (Instance& instance : c.world.instances) {

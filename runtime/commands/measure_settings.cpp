@@ -171,8 +171,7 @@ void find_errors(const Trial& trial, Theatre& theatre, const Truths& truths, Mea
         const Shot& shot = trial.shots[i].second;
         Studio studio(theatre.device, theatre.pipelines, theatre.world, trial.layout, quality, false);
         if (quality.frames_per_cube > 1)
-            (void)studio.picture(
-                earlier(shot, quality.frames_per_cube - 1, theatre.world.scene.seconds_per_time_unit()));
+            (void)studio.picture(earlier(shot, quality.frames_per_cube - 1, theatre.world.scene.seconds_per_time_unit()));
         const auto pictures = studio.picture(shot);
         Studio measured(theatre.device, theatre.pipelines, theatre.world, trial.layout, quality, true);
         directions.clear(), dopplers.clear();
@@ -248,8 +247,8 @@ private:
 
 std::string key_of(const Trial& trial, const std::string& machine)
 {
-    std::string key = machine + "," + std::to_string(trial.rounds) + "," + std::to_string(trial.samples)
-        + quality_text(trial.standard);
+    std::string key
+        = machine + "," + std::to_string(trial.rounds) + "," + std::to_string(trial.samples) + quality_text(trial.standard);
     for (const std::filesystem::path& file : {trial.scene, trial.layout.file})
         key += read_document(file).text;
     for (const Output& output : trial.layout.outputs)

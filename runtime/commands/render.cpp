@@ -72,8 +72,7 @@ int render(const Options& options)
     Theatre theatre(scene_of(shot, shot_file), device_options(false), level);
     for (const std::string& note : theatre.world.world.notes)
         std::fprintf(stderr, "starbow: %s: %s\n", theatre.world.scene.gltf.c_str(), note.c_str());
-    Studio studio(
-        theatre.device, theatre.pipelines, theatre.world, layout,
+    Studio studio(theatre.device, theatre.pipelines, theatre.world, layout,
         asked ? within(theatre.device, *asked) : default_quality(theatre.device, true), options.exr);
     studio.frame().show(pattern);
     studio.frame().bloom(options.bloom);

@@ -20,7 +20,8 @@ namespace starbow {
 namespace {
 
 struct Options {
-    std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, language, tour, log, quality, ladder;
+    std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, language, tour, log, quality,
+                ladder;
     double hold_ms = -1; ///< below 0: the exhibit's
     double log_every_s = 0;
     long frames = 0;

@@ -39,13 +39,14 @@ NumberErrors number_errors(const Reference& truth, const Channels& live, const g
                 errors.finite = errors.finite && std::isfinite((*planes.at(name))[i]);
             const double theta = angle(ahead, here.camera);
             const double greatest = doppler_at(std::max(0.0, theta - slack_rad)), least = doppler_at(theta + slack_rad);
-            errors.doppler.push_back(
-                std::max({0.0, D[i] / here.D - std::max(1.0, greatest / here.D), std::min(1.0, least / here.D) - D[i] / here.D}));
+            errors.doppler.push_back(std::max(
+                {0.0, D[i] / here.D - std::max(1.0, greatest / here.D), std::min(1.0, least / here.D) - D[i] / here.D}));
             if (column + 1 == truth.size.x || !truth.numbers[i + 1].shown)
                 continue;
             if (const double pixel = angle(here.world, truth.numbers[i + 1].world); pixel > 0)
-                errors.directions_px.push_back(
-                    std::max(0.0, angle(here.world, glm::normalize(glm::dvec3(x[i], y[i], z[i]))) - resolved_rad - slack_rad * greatest)
+                errors.directions_px.push_back(std::max(0.0,
+                                                   angle(here.world, glm::normalize(glm::dvec3(x[i], y[i], z[i])))
+                                                       - resolved_rad - slack_rad * greatest)
                     / pixel);
         }
     return errors;
