@@ -46,9 +46,10 @@ const Metric metrics[] = {
     {"edges", "pixels, 95th percentile", [](const Measured& m) { return m.errors.edges_95_px; }, true},
 };
 
-/// Round steps for an axis, at most `most` of them.
-std::vector<double> steps(double low, double high, int most)
+/// Round steps for an axis, some of them.
+std::vector<double> even_steps(double low, double high)
 {
+    constexpr int most = 6;
     double step = std::pow(10, std::floor(std::log10((high - low) / most)));
     for (double factor : {1.0, 2.0, 5.0, 10.0})
         if ((high - low) / (step * factor) <= most) {
@@ -60,20 +61,27 @@ std::vector<double> steps(double low, double high, int most)
         all.push_back(at);
     return all;
 }
+std::vector<double> log_steps(double low, double high)
+{
+    std::vector<double> all;
+    for (double decade = std::pow(10, std::floor(std::log10(low))); decade < high; decade *= 10)
+        for (double factor : {1.0, 2.0, 3.0, 5.0, 7.0})
+            if (const double at = decade * factor; at >= low && at <= high)
+                all.push_back(at);
+    return all;
+}
 
-/// A chart's inside, in a box of its own from (left, top).
+/// A chart's inside. What is better is always below: errors on a logarithmic scale, or decibels upside down.
 struct Chart {
     double left, top, width, height;
     double first_ms, last_ms, low, high;
-    bool upside_down; ///< what is better is always below
-    double x(double ms) const
-    {
-        return left + width * (std::log(ms) - std::log(first_ms)) / (std::log(last_ms) - std::log(first_ms));
-    }
+    bool decibels;
+    double x(double ms) const { return left + width * std::log(ms / first_ms) / std::log(last_ms / first_ms); }
     double y(double value) const
     {
-        const double part = (value - low) / (high - low);
-        return top + height * (upside_down ? part : 1 - part);
+        return top
+            + height
+            * (decibels ? (value - low) / (high - low) : std::log(high / std::max(value, low)) / std::log(high / low));
     }
 };
 
@@ -85,24 +93,22 @@ std::string drawn(
         first = std::min(first, one.ms), last = std::max(last, one.ms);
         low = std::min(low, metric.of(one)), high = std::max(high, metric.of(one));
     }
-    const double room = std::max(1e-9, 0.08 * (high - low));
-    const Chart c{left + 62, top + 34, 400, 260, first / 1.12, last * 1.12,
-        metric.less_is_better ? std::max(0.0, low - room) : low - room, high + room, !metric.less_is_better};
+    const bool decibels = !metric.less_is_better;
+    const double room = 0.08 * (high - low) + 1e-3;
+    low = decibels ? low - room : std::max(low, 1e-4) / 1.15, high = decibels ? high + room : std::max(high, 2e-4) * 1.15;
+    const Chart c{left + 62, top + 34, 400, 260, first / 1.12, last * 1.12, low, high, decibels};
     std::string out = text("<text x=\"%.0f\" y=\"%.0f\" class=\"head\">%s <tspan class=\"unit\">%s</tspan></text>\n",
         left + 62, top + 18, metric.name, metric.unit);
     out += text(
         "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" class=\"box\"/>\n", c.left, c.top, c.width, c.height);
-    for (double at : steps(c.low, c.high, 6))
+    for (double at : decibels ? even_steps(low, high) : log_steps(low, high))
         out += text("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"grid\"/><text x=\"%.1f\" y=\"%.1f\" "
                     "class=\"tick\" text-anchor=\"end\">%.4g</text>\n",
             c.left, c.left + c.width, c.y(at), c.y(at), c.left - 6, c.y(at) + 4, at);
-    for (double decade = std::pow(10, std::floor(std::log10(c.first_ms))); decade < c.last_ms; decade *= 10)
-        for (double factor : {1.0, 2.0, 3.0, 5.0, 7.0})
-            if (const double at = decade * factor; at >= c.first_ms && at <= c.last_ms)
-                out += text(
-                    "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"grid\"/><text x=\"%.1f\" y=\"%.1f\" "
+    for (double at : log_steps(c.first_ms, c.last_ms))
+        out += text("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"grid\"/><text x=\"%.1f\" y=\"%.1f\" "
                     "class=\"tick\" text-anchor=\"middle\">%.4g</text>\n",
-                    c.x(at), c.x(at), c.top, c.top + c.height, c.x(at), c.top + c.height + 16, at);
+            c.x(at), c.x(at), c.top, c.top + c.height, c.x(at), c.top + c.height + 16, at);
     out += text("<text x=\"%.1f\" y=\"%.1f\" class=\"tick\" text-anchor=\"middle\">milliseconds a frame</text>\n",
         c.left + c.width / 2, c.top + c.height + 32);
     std::vector<const Measured*> line;
@@ -121,9 +127,11 @@ std::string drawn(
             one.setting.shipped ? "6" : "4", kind);
         out += safe(one.setting.name) + text(": %.1f ms, %.4g</title></circle>\n", one.ms, metric.of(one));
     }
+    double below = -7; // the names in turn above and below their points, as neighbours would overlap
     for (const Measured& one : all)
         if (one.setting.shipped)
-            out += text("<text x=\"%.1f\" y=\"%.1f\" class=\"name\">", c.x(one.ms) + 9, c.y(metric.of(one)) - 7)
+            out += text("<text x=\"%.1f\" y=\"%.1f\" class=\"name\">", c.x(one.ms) + 5,
+                       c.y(metric.of(one)) + (below = 8 - below))
                 + safe(one.setting.name) + "</text>\n";
     return out;
 }
@@ -217,8 +225,12 @@ std::vector<Rung> ladder_of(const std::vector<Measured>& all)
     std::vector<Rung> ladder;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Measured& one = all[i];
-        const Quality &own = one.setting.quality, &first = all[0].setting.quality;
-        if (best[i] && own.spectra == first.spectra && own.stereo == first.stereo && own.matrices == first.matrices)
+        const Quality& own = one.setting.quality;
+        const Quality& first = all[0].setting.quality;
+        // Other samples or formats would take other memory, which takes longer than a frame; and a cube map that lags behind
+        // is no quality to come to unasked.
+        if (best[i] && own.spectra == first.spectra && own.stereo == first.stereo && own.matrices == first.matrices
+            && own.cube_samples == first.cube_samples && own.half_floats == first.half_floats && own.frames_per_cube == 1)
             ladder.push_back({own, one.ms, one.errors.flip, one.errors.edges_95_px});
     }
     std::sort(ladder.begin(), ladder.end(), [](const Rung& a, const Rung& b) { return a.ms < b.ms; });

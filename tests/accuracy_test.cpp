@@ -19,7 +19,7 @@ Measured made_up(const std::string& name, double ms, double flip, Quality qualit
 
 const std::vector<Measured> some
     = {made_up("a", 10, 0.2, {.texels_per_pixel = 0.5}), made_up("b", 20, 0.1), made_up("worse than b", 21, 0.11),
-        made_up("c", 40, 0.05, {.cube_samples = 4}), made_up("other light", 15, 0.01, {.spectra = SpectralLevel::fine})};
+        made_up("c", 40, 0.05, {.pixel_rays = 2}), made_up("other light", 15, 0.01, {.spectra = SpectralLevel::fine})};
 
 } // namespace
 
@@ -56,6 +56,10 @@ TEST(AccuracyTest, ALadderHasWhatAFlightCanChange)
         EXPECT_GT(ladder[i].ms, ladder[i - 1].ms);
         EXPECT_LT(ladder[i].flip, ladder[i - 1].flip);
     }
+    EXPECT_EQ(ladder_of({made_up("x", 9, 0.2), made_up("y", 10, 0.1, {.cube_samples = 4}),
+                            made_up("z", 5, 0.3, {.frames_per_cube = 2})})
+                  .size(),
+        1u);
     for (const Rung& rung : ladder_of(some))
         EXPECT_EQ(rung.quality.spectra, std::nullopt);
 }
