@@ -67,7 +67,7 @@ TEST(LivePicture, IsTheOneByRaysInEveryShippedLayout)
             // Edges, thinner than a pixel here, are told by four samples of a texel there and of a pixel here. A
             // picture that is moved by one pixel, or another eye's, has 20 dB or less.
             std::printf("%s: %.2f dB\n", name.c_str(), psnr(pictures[i], truth));
-            EXPECT_GT(psnr(pictures[i], truth), 24.5) << name;
+            EXPECT_GT(psnr(pictures[i], truth), 25.5) << name;
             EXPECT_NEAR(mean(pictures[i]), mean(truth), 0.02 * mean(truth) + 0.5) << name;
         }
     }
@@ -135,8 +135,10 @@ TEST(LivePicture, ComesCloserToTheOneByRaysAsItsQualityRises)
             Studio live(device(), pipelines(), avenue().world, layout, quality, false);
             const double now = psnr(live.picture(shot)[0], truth);
             std::printf("%s: %.1f texels a pixel: %.2f dB\n", name, texels, now);
-            EXPECT_GT(now, before + 0.5) << name << ", " << texels << " texels a pixel";
+            // From two on it is the rays' own grain and the edges' four samples of a texel that are left.
+            EXPECT_GT(now, texels > 2 ? before - 0.3 : before + 2) << name << ", " << texels << " texels a pixel";
             before = now;
         }
+        EXPECT_GT(before, 37) << name;
     }
 }
