@@ -92,15 +92,14 @@ void CubePass::prepare_plain(const PlanImage& image, const Vantage& vantage)
 void CubePass::fit(glm::ivec2 size, int levels)
 {
     const Image& first = atlases_[0];
-    bool enough = *first.view && int(first.extent.width) >= size.x && int(first.extent.height) >= size.y
-        && int(first.levels) >= levels;
-    if (enough)
-        return;
     // A plan without images, where no pane shows anything, has a texture all the same.
-    auto grown = [](int needed, std::uint32_t had) {
-        return std::max((std::uint32_t(std::max(needed, 1)) + 255) / 256 * 256, had);
+    const auto grown = [&](int needed, std::uint32_t had) {
+        const std::uint32_t whole = (std::uint32_t(std::max(needed, 1)) + 255) / 256 * 256;
+        return repeatable_ ? whole : std::max(whole, had);
     };
-    vk::Extent2D extent(grown(size.x, first.extent.width), grown(size.y, first.extent.height));
+    const vk::Extent2D extent(grown(size.x, first.extent.width), grown(size.y, first.extent.height));
+    if (*first.view && first.extent == extent && int(first.levels) >= levels)
+        return;
     auto most = std::max(std::uint32_t(levels), first.levels);
     using Usage = vk::ImageUsageFlagBits;
     for (Image& atlas : atlases_)

@@ -22,6 +22,10 @@ class CubePass {
 public:
     CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, const Quality& quality, bool keeps_depth);
 
+    /// Whether the atlas is as large as the plan alone asks for, even where a larger one is there: coordinates in it are
+    /// rounded alike each time, and so is what is shown. Otherwise it only grows, which takes less time.
+    void repeatable(bool on) { repeatable_ = on; }
+
     /// Another quality from the next prepare() on, with as many samples and the same formats.
     void adopt(const Quality& quality) { quality_ = quality; }
 
@@ -70,6 +74,7 @@ private:
     glm::ivec2 area_{0};
     double pre_exposure_ = 1;
     int levels_ = 1;
+    bool repeatable_ = false;
     DrawList list_;
     std::size_t triangles_ = 0;
 };

@@ -76,6 +76,13 @@ void Frame::adopt(const Layout& layout)
     store_.keep(true);
 }
 
+void Frame::repeatable(bool on)
+{
+    repeatable_ = on;
+    for (Eye& eye : eyes_)
+        eye.cube.repeatable(on);
+}
+
 void Frame::adopt(const Quality& quality)
 {
     const Quality before = std::exchange(quality_, quality);
@@ -194,6 +201,7 @@ std::size_t Frame::eye_for(const Pane& pane)
     if (same == eyes_.end()) {
         eyes_.push_back({place, own, CubePass(device_, pipelines_, world_, quality_, keeps_depth_), place});
         same = eyes_.end() - 1;
+        same->cube.repeatable(repeatable_);
     }
     same->now_m = place;
     return std::size_t(same - eyes_.begin());

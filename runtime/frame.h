@@ -44,6 +44,9 @@ public:
     /// that would be seen from behind. Maps (mirrors, measured points) stay as they are.
     void move_head(const Head& head);
 
+    /// Whether the same shot has the same bytes whatever was drawn before; takes longer where the plan changes.
+    void repeatable(bool on);
+
     /// Another quality from the next frame on, with the same light, stereo and maps. What only the plan and the warp need
     /// changes at no cost; other samples or formats as a change of the layout.
     void adopt(const Quality& quality);
@@ -216,6 +219,7 @@ private:
     std::vector<PaneState> panes_;
     std::vector<OutputState> outputs_;
     std::vector<Plan> plans_;
+    bool repeatable_ = false;
     bool cubes_drawn_ = false; ///< and shown so often already
     int cubes_shown_ = 0;
     Shot shot_;

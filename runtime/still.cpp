@@ -55,6 +55,7 @@ Studio::Studio(
     , layout_(layout)
     , frame_(device, pipelines, world, layout, quality, measured)
 {
+    frame_.repeatable(true);
     for (const Output& output : layout.outputs) {
         constexpr double most_measured = 1 << 26; // pixels: 11 channels of them are 3 GiB
         if (measured && double(output.size.x) * output.size.y > most_measured)

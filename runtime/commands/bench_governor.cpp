@@ -21,6 +21,7 @@ int bench_governor(const std::string& ladder_name, double hold_ms, int seconds)
     const Shot shot = load_shot(find("shots", "starbow"));
     Studio studio(device, theatre.pipelines, theatre.world, layout, within(device, ladder.back().quality), false);
     const Target target = studio.target(0);
+    studio.frame().repeatable(false); // as the exhibit flies
     FrameTimer timer(device);
     const auto frame_ms = [&](int times) {
         const double prepared = milliseconds([&] { studio.frame().prepare(shot, nullptr); });
