@@ -44,7 +44,7 @@ TEST(Blinking, SweepsOverAWallAsItsLightArrives)
             for (double time : {0.4, 1.1, rides ? 0.0 : 1e7}) {
                 Shot shot = shot_at({0.3, -0.2, 0}, u, {0, 0, -1});
                 shot.time = time;
-                Quality quality = default_quality(device(), true);
+                Quality quality = test_quality();
                 quality.most_texels_per_pixel = 1000; // as fine as asked
                 Studio stage(device(), pipelines(), world, one_view(Planar{100}, {320, 240}), quality, true);
                 const Numbers numbers(stage, shot);

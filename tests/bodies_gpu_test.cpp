@@ -30,7 +30,7 @@ dvec3 vec(const quad::V3& v) { return {double(v.x), double(v.y), double(v.z)}; }
 /// Otherwise a plan with much to show draws all of it coarser.
 Quality as_fine_as_asked()
 {
-    Quality quality = default_quality(device(), true);
+    Quality quality = test_quality();
     quality.most_texels_per_pixel = 1000;
     return quality;
 }

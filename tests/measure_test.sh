@@ -50,8 +50,9 @@ check "a ladder of several rungs" test "$(grep -c '"ms"' "$work/a/ladder.json")"
 check "nothing within no time" bash -c "! timeout 100 '$starbow' measure --shot starbow --size 64x48 --samples 1 --rounds 1 --settings shipped --out '$work/c' --budget-ms 0.01"
 
 check "what a scene asks for" measure --explain --scene clocks --shot clocks-passing --size 160x120 --rounds 3
-check "and why" has "clocks, with light delay .* 1 dial" "$work/said"
-check "and what is off" has "what blinks .* nothing blinks" "$work/said"
+cp "$work/said" "$work/explained"
+check "and why" has "clocks, with light delay .* 1 dial" "$work/explained"
+check "and what is off" has "what blinks .* nothing blinks" "$work/explained"
 
 check "a shot of another scene" refused "is in the scene clocks; one in avenue is right" measure --shot clocks-rest --out "$work/d"
 check "no folder" refused "--out is required here" measure
@@ -61,7 +62,8 @@ check "a wrong quality" refused "/cube_samples: 3 is no number of samples" "$sta
 check "nothing was written" test ! -e "$work/d"
 
 check "the ends of everything" measure --extremes --out "$work/e"
-check "all hold" has "^0 of these fail" "$work/said"
+cp "$work/said" "$work/ends"
+check "all hold" has "^0 of these fail" "$work/ends"
 check "their table" has "30 days" "$work/e/extremes.md"
 
 echo "$checks checks"

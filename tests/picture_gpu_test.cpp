@@ -36,7 +36,7 @@ TEST(Picture, StillsAreTheSameBytesEachTime)
     Theatre again(testing::source_dir() / "config/scenes/avenue.json",
         Device::Options{.validation = true, .name = device_options(false).name});
     {
-        Studio afresh(again.device, again.pipelines, again.world, layout, default_quality(again.device, true), false);
+        Studio afresh(again.device, again.pipelines, again.world, layout, test_quality(), false);
         EXPECT_EQ(afresh.picture(shot, &panel), first);
     }
     Stage::expect_no_complaints(again.device);

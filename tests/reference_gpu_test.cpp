@@ -130,7 +130,7 @@ TEST(LivePicture, ComesCloserToTheOneByRaysAsItsQualityRises)
         const Bytes truth = shown(reference(avenue_by_rays().input(), layout, shot, 0, {.samples = 32}));
         double before = 0;
         for (double texels : {0.5, 1.0, 2.0, 4.0}) {
-            Quality quality = default_quality(device(), true);
+            Quality quality = test_quality();
             quality.texels_per_pixel = texels, quality.most_texels_per_pixel = 200;
             Studio live(device(), pipelines(), avenue().world, layout, quality, false);
             const double now = psnr(live.picture(shot)[0], truth);

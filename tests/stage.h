@@ -74,9 +74,15 @@ inline Layout one_view(const Projection& projection, ivec2 size)
     return layout;
 }
 
+/// What tests of shapes and numbers are drawn with, and their bounds made for: smooth edges, and one ray a pixel.
+inline Quality test_quality()
+{
+    return within(device(), {.texels_per_pixel = 1.25, .most_texels_per_pixel = 8, .cube_samples = 4, .shading_texels = 2});
+}
+
 inline Studio studio(const GpuWorld& world, const Layout& layout, bool measured = true)
 {
-    return Studio(device(), pipelines(), world, layout, default_quality(device(), true), measured);
+    return Studio(device(), pipelines(), world, layout, test_quality(), measured);
 }
 
 inline double u_of_gamma(double gamma) { return std::sqrt((gamma - 1) * (gamma + 1)); }
