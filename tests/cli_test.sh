@@ -215,7 +215,7 @@ told() { # TEXT ARGUMENTS...
     said=$("$program" "$@" 2>&1 >/dev/null)
     if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == "starbow: $text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not say '$text': $said"; fi
 }
-told 'fly is no command; run, render, check, displays, devices, calibrate, warp, import and bench are' fly
+told 'fly is no command; run, render, check, displays, devices, calibrate, warp, import, bench and measure are' fly
 told 'look is no command; inspect and convert are' warp look
 told "--ouput is no option of 'starbow render'; --help, --layout, --shot, --out," render --shot start --ouput o1
 told "--sizes is no option of 'starbow warp inspect'; " warp inspect x --sizes 3
@@ -233,7 +233,7 @@ told 'There is no none.json in config/tours' run --tour none
 told 'There is no xx.json in config/words; there are: de, en' run --tour rainbow --language xx
 
 # Every subcommand's help ends with an example.
-for command in run render bench check warp import displays; do
+for command in run render bench check warp import displays measure; do
     if "$program" $command --help | grep -q "starbow $command "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
 done
 
