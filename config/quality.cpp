@@ -124,7 +124,8 @@ std::string differences(const Quality& quality, const Quality& other)
         return std::to_string(n) + " " + (n == 1 ? one : many);
     };
     const auto& [q, o] = std::tie(quality, other);
-    differs(q.texels_per_pixel, o.texels_per_pixel, shown(q.texels_per_pixel) + " texels along a pixel");
+    differs(q.texels_per_pixel, o.texels_per_pixel,
+        shown(q.texels_per_pixel) + (q.texels_per_pixel == 1 ? " texel" : " texels") + " along a pixel");
     differs(q.most_texels_per_pixel, o.most_texels_per_pixel, "at most " + shown(q.most_texels_per_pixel) + " in one");
     differs(q.cube_samples, o.cube_samples, count(q.cube_samples, "sample of a texel", "samples of a texel"));
     differs(q.stray_texels, o.stray_texels, "surfaces within " + shown(q.stray_texels) + " texels");

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 namespace starbow {
 
@@ -14,5 +15,11 @@ enum class Lasting { as_the_system_likes, power_cut };
 /// link stays a link. Throws InputError.
 void write_whole(
     const std::filesystem::path& file, std::span<const unsigned char> bytes, Lasting lasting = Lasting::as_the_system_likes);
+
+inline void write_whole(
+    const std::filesystem::path& file, std::string_view text, Lasting lasting = Lasting::as_the_system_likes)
+{
+    write_whole(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()}, lasting);
+}
 
 } // namespace starbow

@@ -30,22 +30,6 @@ struct Bent {
     const PictureRays rays;
     glm::dmat3 turn;
 
-    std::optional<glm::dvec3> direction_of(const WarpSample& sample, int channel) const
-    {
-        switch (mesh.kind) {
-        case WarpMesh::Kind::picture:
-            return rays.direction(glm::dvec2(sample.sees[0]) * glm::dvec2(source.size),
-                splits_colours(source.projection) ? Channel(channel) : Channel::green);
-        case WarpMesh::Kind::points: {
-            const glm::dvec3 way = sample.sees[0] - source.eye_m;
-            return glm::length(way) > 0 ? std::optional(glm::normalize(way)) : std::nullopt;
-        }
-        case WarpMesh::Kind::colours:
-            return turn * glm::normalize(sample.sees[channel]);
-        }
-        return {};
-    }
-
     void rows(DirectionMap& map, int first, int end) const
     {
         std::vector<WarpSample> samples(map.size.x);
@@ -57,7 +41,7 @@ struct Bent {
                 const std::size_t at = std::size_t(y) * map.size.x + x;
                 map.intensity[at] = float(samples[x].intensity);
                 for (int channel = 0; channel < map.channels; ++channel)
-                    if (auto seen = direction_of(samples[x], channel))
+                    if (auto seen = bent_direction(mesh, source, rays, turn, samples[x], channel))
                         map.texels[std::size_t(channel) * map.size.x * map.size.y + at] = glm::vec4(*seen, 1);
             }
         }
@@ -119,6 +103,25 @@ glm::uvec2 packed(const glm::vec4& texel)
 }
 
 } // namespace
+
+std::optional<glm::dvec3> bent_direction(const WarpMesh& mesh, const Picture& source, const PictureRays& rays,
+    const glm::dmat3& turn, const WarpSample& sample, int channel)
+{
+    if (!sample.shown)
+        return {};
+    switch (mesh.kind) {
+    case WarpMesh::Kind::picture:
+        return rays.direction(glm::dvec2(sample.sees[0]) * glm::dvec2(source.size),
+            splits_colours(source.projection) ? Channel(channel) : Channel::green);
+    case WarpMesh::Kind::points: {
+        const glm::dvec3 way = sample.sees[0] - source.eye_m;
+        return glm::length(way) > 0 ? std::optional(glm::normalize(way)) : std::nullopt;
+    }
+    case WarpMesh::Kind::colours:
+        return turn * glm::normalize(sample.sees[std::size_t(channel)]);
+    }
+    return {};
+}
 
 Picture bent_picture(const Pane& pane, const WarpMesh& mesh, bool projection_given)
 {

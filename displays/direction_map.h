@@ -33,6 +33,11 @@ std::vector<glm::uvec2> packed(const DirectionMap& map);
 /// fisheye the square around it.
 Picture bent_picture(const Pane& pane, const WarpMesh& mesh, bool projection_given);
 
+/// The unit direction in the cockpit that a calibration shows at one of its samples; source: bent_picture, rays: of it;
+/// turn: from the axes of a calibration that tells directions. Nothing where none is shown.
+std::optional<glm::dvec3> bent_direction(const WarpMesh& mesh, const Picture& source, const PictureRays& rays,
+    const glm::dmat3& turn, const WarpSample& sample, int channel);
+
 /// For panes whose direction is linear in the pixel and that nothing bends: direction is along M (x, y, 1), x and y in
 /// pixels from the pane's corner. Nothing for the others.
 std::optional<glm::dmat3> pane_matrix(const Pane& pane);

@@ -1,5 +1,6 @@
 #include "cull.h"
 #include "moving.h"
+#include "physics/physics.h"
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -163,6 +164,14 @@ std::pair<bool, bool> kind_of(const World& world, const Instance& instance)
 }
 
 } // namespace
+
+Vantage vantage_of(const Layer& layer, int frame, const glm::dvec3& place)
+{
+    const glm::dvec3 offset = layer.shot.ship_from_cockpit * place;
+    return {frame, layer.shot.position + physics::eye_place(layer.shot.u, offset),
+        layer.shot.time + physics::eye_time(layer.shot.u, offset), layer.motion_from_frame, layer.now, layer.contraction,
+        layer.beta};
+}
 
 InstanceRange instances_of(const World& world, int frame)
 {

@@ -1,5 +1,6 @@
 #pragma once
 #include "plan.h"
+#include "watcher.h"
 #include "world.h"
 #include <span>
 
@@ -14,6 +15,9 @@ struct Vantage {
     bool now = false; ///< everything is shown where it is now, in the ship's frame: along z as much closer
     double contraction = 1, beta = 0; ///< then: 1 / gamma, and the ship's speed along z
 };
+
+/// An eye of someone who looks: its place in his cockpit, scene units. frame: which of his layers it is.
+Vantage vantage_of(const Layer& layer, int frame, const glm::dvec3& place);
 
 /// When, by the vantage's own frame, the light left that reaches it now from a place, given from the eye in motion axes; or
 /// what time it is there, where that is what is shown. How much later light leaves one place than another is at most as

@@ -262,10 +262,7 @@ Frame::Asked Frame::asked_of(std::size_t i)
     const std::vector<Layer>& layers = watchers_[eye.watcher].layers;
     for (std::size_t at = 0; at < layers.size(); ++at) {
         const Layer& layer = layers[at];
-        const glm::dvec3 offset = layer.shot.ship_from_cockpit * scene_units(eye.now_m);
-        const Vantage vantage{int(at), layer.shot.position + physics::eye_place(layer.shot.u, offset),
-            layer.shot.time + physics::eye_time(layer.shot.u, offset), layer.motion_from_frame, layer.now, layer.contraction,
-            layer.beta};
+        const Vantage vantage = vantage_of(layer, int(at), scene_units(eye.now_m));
         eye.nearest.push_back(reprojects() ? std::max(nearest_box(world_.world, vantage), 1e-30) : 1);
         PlanLayer ask{{}, layer.E, shot_.effects.comparison == Comparison::galilean};
         for (const PaneState& pane : panes_)

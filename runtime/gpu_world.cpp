@@ -1,6 +1,7 @@
 #include "gpu_world.h"
 #include "cull.h"
 #include "moving.h"
+#include "srgb.h"
 #include "worldline.h"
 #include <algorithm>
 #include <array>
@@ -40,7 +41,7 @@ Image make_colour_texture(Device& device, const Texture& texture)
     std::array<std::uint16_t, 256> linear, alpha;
     for (int i = 0; i < 256; ++i) {
         double x = i / 255.0;
-        linear[i] = glm::packHalf1x16(float(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4))); // IEC 61966-2-1
+        linear[i] = glm::packHalf1x16(float(light_of_srgb(x)));
         alpha[i] = glm::packHalf1x16(float(x));
     }
     std::vector<std::uint16_t> texels(texture.rgba.size());

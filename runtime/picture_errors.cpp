@@ -1,5 +1,6 @@
 #include "picture_errors.h"
 #include "colour_difference.h"
+#include "srgb.h"
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -64,12 +65,6 @@ Plane filtered(const Plane& from, const Kernel& across, const Kernel& down)
     return whole;
 }
 
-double linear(std::uint8_t byte)
-{
-    const double v = byte / 255.0;
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
 const glm::dmat3 xyz_from_rec709 = glm::transpose(glm::dmat3( // IEC 61966-2-1
     0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505));
 const glm::dvec3 white = xyz_from_rec709 * glm::dvec3(1);
@@ -78,7 +73,7 @@ std::vector<glm::dvec3> linear_of(const Shown8& picture)
 {
     double table[256];
     for (int i = 0; i < 256; ++i)
-        table[i] = linear(std::uint8_t(i));
+        table[i] = light_of_srgb(i / 255.0);
     std::vector<glm::dvec3> all(std::size_t(picture.size.x) * std::size_t(picture.size.y));
     for (std::size_t i = 0; i < all.size(); ++i)
         all[i] = {table[picture.rgba[4 * i]], table[picture.rgba[4 * i + 1]], table[picture.rgba[4 * i + 2]]};

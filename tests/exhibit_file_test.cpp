@@ -2,13 +2,9 @@
 #include "config/exhibit.h"
 #include "config/layout.h"
 #include "runtime/find.h"
-#include "tests/files.h"
+#include "tests/schema_check.h"
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 using namespace starbow;
 using namespace starbow::testing;
@@ -16,14 +12,7 @@ using nlohmann::json;
 
 namespace {
 
-bool schema_accepts(const json& exhibit)
-{
-    valijson::Schema schema;
-    const json text = json::parse(read_text(source_dir() / "config/schema/exhibit.schema.json"));
-    valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(text), schema);
-    valijson::Validator validator(valijson::Validator::kStrongTypes);
-    return validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(exhibit), nullptr);
-}
+bool schema_accepts(const json& exhibit) { return testing::schema_accepts("exhibit", exhibit); }
 
 /// What the reader says; "" where it reads it.
 std::string said(const std::string& text)

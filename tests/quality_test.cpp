@@ -2,13 +2,9 @@
 #include "config/error.h"
 #include "config/quality.h"
 #include "runtime/find.h"
-#include "tests/files.h"
+#include "tests/schema_check.h"
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 using namespace starbow;
 using namespace starbow::testing;
@@ -18,14 +14,7 @@ namespace {
 
 json schema_json() { return json::parse(read_text(source_dir() / "config/schema/quality.schema.json")); }
 
-bool schema_accepts(const json& quality)
-{
-    valijson::Schema schema;
-    const json text = schema_json();
-    valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(text), schema);
-    valijson::Validator validator(valijson::Validator::kStrongTypes);
-    return validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(quality), nullptr);
-}
+bool schema_accepts(const json& quality) { return testing::schema_accepts("quality", quality); }
 
 template <class Load> std::string said(Load&& load)
 {

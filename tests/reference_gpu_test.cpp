@@ -1,5 +1,6 @@
 // The live picture against the one by rays, which shares neither the cube map nor the warp with it: in every shipped layout,
 // in worlds with clocks, bodies, lines and glows, and the closer the finer the cube map is.
+#include "runtime/picture_errors.h"
 #include "runtime/reference/reference.h"
 #include "tests/stage.h"
 
@@ -10,14 +11,10 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Decibels over the root mean square difference of two pictures' bytes.
 double psnr(const Bytes& a, const Bytes& b)
 {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        if (i % 4 < 3)
-            sum += std::pow(double(a[i]) - double(b[i]), 2);
-    return 10 * std::log10(255.0 * 255.0 / std::max(sum / (0.75 * double(a.size())), 1e-10));
+    const ivec2 size(int(a.size() / 4), 1);
+    return psnr_dB({size, a}, {size, b});
 }
 
 double mean(const Bytes& a)

@@ -1,5 +1,6 @@
 // The picture by rays, against what can be said of simple worlds without any renderer: formulas in closed form, retarded
 // places by bisection in 33 digits, published colours.
+#include "config/one_view.h"
 #include "physics/physics.h"
 #include "runtime/colour.h"
 #include "runtime/moving.h"
@@ -66,16 +67,6 @@ private:
     bool placed_ = false;
 };
 
-Layout flat(glm::ivec2 size, double fov_y_deg)
-{
-    Layout layout;
-    layout.outputs.resize(1);
-    layout.outputs[0].name = "view";
-    layout.outputs[0].size = size;
-    layout.outputs[0].viewports = {{.projection = Planar{.fov_y_deg = fov_y_deg}}};
-    return layout;
-}
-
 /// Shapes alone.
 Shot shot_at(const dvec3& position, const dvec3& u, const dvec3& look = {0, 0, -1}, const dvec3& up = {0, 1, 0})
 {
@@ -113,7 +104,7 @@ TEST(Reference, LampsFallOnASurfaceAsTheySay)
     const dvec3 sun(1, 0.5, 0.25), lamp(0.3, 0.6, 0.9);
     plates.scene.lights = {
         DirectionalLight{{0, std::sin(60 * degree), std::cos(60 * degree)}, sun, {}}, PointLight{{3, 0, -1}, 2, lamp, {}}};
-    const Reference picture = plates.seen(shot_at(dvec3(0), dvec3(0)), flat({1, 1}, 0.01));
+    const Reference picture = plates.seen(shot_at(dvec3(0), dvec3(0)), one_view(Planar{.fov_y_deg = 0.01}, {1, 1}));
     // The lamp is 5 away, its light falls at an angle whose cosine is 4/5.
     const dvec3 light = base * (plates.scene.ambient + sun * 0.5 + lamp * (0.8 * 4.0 / 25));
     const dvec3 seen = picture.light[0][0];
@@ -132,7 +123,7 @@ TEST(Reference, DirectionsAreAberratedAsTheTextbookSays)
         // Straight aside of a motion along -z.
         plates.shining({1, 0, 0}, {0, 0, small}, {0, small, 0});
         const double expected = std::acos(beta) / degree; // from the motion, of what stands 90 degrees aside
-        const Layout layout = flat({101, 101}, 0.067);
+        const Layout layout = one_view(Planar{.fov_y_deg = 0.067}, {101, 101});
         const dvec3 look(std::sin(expected * degree), 0, -std::cos(expected * degree));
         const dvec3 at = middle(plates.seen(shot_at(dvec3(0), {0, 0, -u_of_beta(beta)}, look), layout, {.samples = 16}));
         // Its own size bends it by its square, 1e-8; a pixel is 1e-5 rad, an edge off by 1/16 of one.
@@ -149,7 +140,7 @@ TEST(Reference, StraightBehindAtGamma1000ALineIsSharpToAThousandthOfAPixel)
     Plates plates;
     const double from = 4.1234567e-5, to = 8.7654321e-5; // from the axis; to the right of who looks behind is -x
     plates.shining({-0.5 * (from + to) * 7, 0, 7}, {-3.5 * (to - from), 0, 0}, {0, 1, 0});
-    const Layout layout = flat({400, 1}, 2.0 / 3);
+    const Layout layout = one_view(Planar{.fov_y_deg = 2.0 / 3}, {400, 1});
     const Reference picture = plates.seen(shot_at(dvec3(0), {0, 0, -u}, {0, 0, 1}), layout, {.samples = 4096});
     const double focal = 0.5 / std::tan(1.0 / 3 * degree);
     auto pixel_of
@@ -192,7 +183,7 @@ TEST(Reference, ShiftedBlackBodiesHaveTheColoursOfTheirNewTemperature)
             material.base_colour = glm::vec4(0, 0, 0, 1);
             Shot shot = shot_at(dvec3(0), {0, 0, -u_of_beta(beta)});
             shot.effects = {true, true, true};
-            const dvec3 rgb = plates.seen(shot, flat({1, 1}, 0.001)).light[0][0];
+            const dvec3 rgb = plates.seen(shot, one_view(Planar{.fov_y_deg = 0.001}, {1, 1})).light[0][0];
             const dvec3 xyz = glm::inverse(rec709_from_sunlit_xyz()) * rgb;
             const double sum = xyz.x + xyz.y + xyz.z;
             // Four digits are published.
@@ -202,7 +193,8 @@ TEST(Reference, ShiftedBlackBodiesHaveTheColoursOfTheirNewTemperature)
             Plates rest;
             rest.add({0, 0, -5}, {1, 0, 0}, {0, 1, 0}).temperature_K = known.kelvin;
             rest.world.materials[0].emissivity = 1, rest.world.materials[0].base_colour = glm::vec4(0, 0, 0, 1);
-            const dvec3 still = rest.seen(shot_at(dvec3(0), dvec3(0)), flat({1, 1}, 0.001)).light[0][0];
+            const dvec3 still
+                = rest.seen(shot_at(dvec3(0), dvec3(0)), one_view(Planar{.fov_y_deg = 0.001}, {1, 1})).light[0][0];
             EXPECT_NEAR(rgb.g / still.g, 1, 2e-4);
         }
 }
@@ -244,7 +236,7 @@ TEST(Reference, AStarBehindSomethingIsHidden)
         plates.stars = {{equatorial(0, 0), 0, 5772}};
         Material& plate = plates.shining({hidden ? 0.0 : 0.1, 0, -9}, {0.05, 0, 0}, {0, 0.05, 0});
         plate.base_colour = glm::vec4(0, 0, 0, 1);
-        const double sum = middle(plates.seen(shot_at(dvec3(0), dvec3(0)), flat({15, 15}, 1))).z;
+        const double sum = middle(plates.seen(shot_at(dvec3(0), dvec3(0)), one_view(Planar{.fov_y_deg = 1}, {15, 15}))).z;
         EXPECT_EQ(sum > 0, !hidden);
     }
 }
@@ -317,7 +309,7 @@ TEST(Reference, WhatMovesIsSeenWhereItWas)
     const dvec3 look(double(way.x.x), double(way.x.y), double(way.x.z));
     Shot shot = shot_at(dvec3(0), ship_u, look, {0, 0, 1});
     shot.time = now;
-    const Reference picture = plates.seen(shot, flat({201, 201}, 1), {.samples = 16});
+    const Reference picture = plates.seen(shot, one_view(Planar{.fov_y_deg = 1}, {201, 201}), {.samples = 16});
     const dvec3 seen = middle(picture);
     ASSERT_GT(seen.z, 4);
     // A pixel is 9e-5 rad; the plate is seen a few of them wide, bent by their squares.
@@ -344,7 +336,7 @@ TEST(Reference, WhatSpinsIsSeenAsItStood)
     plates.place();
     Shot shot = shot_at(dvec3(0), dvec3(0));
     shot.time = 20;
-    const Reference picture = plates.seen(shot, flat({251, 251}, 100), {.samples = 4});
+    const Reference picture = plates.seen(shot, one_view(Planar{.fov_y_deg = 100}, {251, 251}), {.samples = 4});
     const double focal = 125.5 / std::tan(50 * degree);
     for (double r : {2.0, 4.0, 5.5}) {
         const double angle = 2 * pi * turns * (20 - std::hypot(r, far)); // a circle around the line of sight: r stays
@@ -367,7 +359,7 @@ TEST(Reference, GoesOnWhereItWasInterrupted)
     Plates plates;
     plates.add({0, 0, -5}, {1, 0.3, 0}, {0, 1, 0}).unlit = true;
     plates.scene.sky.zenith = {0.2, 0.4, 0.8};
-    const Layout layout = flat({40, 32}, 60);
+    const Layout layout = one_view(Planar{.fov_y_deg = 60}, {40, 32});
     const Shot shot = shot_at(dvec3(0), {0.3, 0, -1});
     const Reference whole = plates.seen(shot, layout);
     const auto kept = starbow::testing::scratch("picture.rows");

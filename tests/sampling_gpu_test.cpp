@@ -77,8 +77,9 @@ TEST(Sampling, StraightBackAndAheadIsAsGoodAtEverySpeed)
             least = std::min(least, dB), most = std::max(most, dB);
         }
         EXPECT_GT(least, back ? 36 : 30);
-        if (back)
+        if (back) {
             EXPECT_LT(most - least, 2);
+        }
     }
 }
 
@@ -114,8 +115,9 @@ TEST(Sampling, NoSeamOnASmoothSky)
                             ++compared;
                         }
                     EXPECT_LT(worst, 1.0 / 255) << name << ", gamma " << gamma << ", output " << output;
-                    if (gamma < 10)
+                    if (gamma < 10) {
                         EXPECT_GT(compared, 1000) << name << ", gamma " << gamma << ", output " << output;
+                    }
                 }
             }
     }

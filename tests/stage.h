@@ -2,6 +2,7 @@
 // What the tests that need a GPU share: one device with the validation layers on for the whole run, worlds on it, and
 // pictures' numbers by name.
 #include "config/error.h"
+#include "config/one_view.h"
 #include "runtime/still.h"
 #include "runtime/theatre.h"
 #include "tests/files.h"
@@ -62,17 +63,6 @@ struct WithoutStars {
     WithoutStars() { put_stars(device(), avenue().world, {}); }
     ~WithoutStars() { put_stars(device(), avenue().world, load_stars(avenue().world.scene.stars->catalogue)); }
 };
-
-inline Layout one_view(const Projection& projection, ivec2 size)
-{
-    Layout layout;
-    layout.name = "test";
-    layout.outputs.resize(1);
-    layout.outputs[0].name = "view";
-    layout.outputs[0].size = size;
-    layout.outputs[0].viewports = {{.projection = projection}};
-    return layout;
-}
 
 /// What tests of shapes and numbers are drawn with, and their bounds made for: smooth edges, and one ray a pixel.
 inline Quality test_quality()

@@ -7,10 +7,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 using namespace starbow;
 using namespace starbow::testing;
@@ -18,17 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-bool schema_accepts(const json& tour)
-{
-    static const valijson::Schema& compiled = []() -> const valijson::Schema& {
-        static valijson::Schema made;
-        const json text = json::parse(read_text(source_dir() / "config/schema/tour.schema.json"));
-        valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(text), made);
-        return made;
-    }();
-    valijson::Validator validator(valijson::Validator::kStrongTypes);
-    return validator.validate(compiled, valijson::adapters::NlohmannJsonAdapter(tour), nullptr);
-}
+bool schema_accepts(const json& tour) { return testing::schema_accepts("tour", tour); }
 
 std::filesystem::path shipped_shot(const std::string& name) { return source_dir() / "config/shots" / (name + ".json"); }
 

@@ -1,5 +1,6 @@
 #include "bench_cubes.h"
 #include "bench_timing.h"
+#include "config/one_view.h"
 #include "runtime/find.h"
 #include "runtime/still.h"
 #include <cmath>
@@ -7,16 +8,6 @@
 
 namespace starbow {
 namespace {
-
-Layout one_view(const Projection& projection, glm::ivec2 size)
-{
-    Layout layout;
-    layout.outputs.resize(1);
-    layout.outputs[0].name = "bench";
-    layout.outputs[0].size = size;
-    layout.outputs[0].viewports = {{.projection = projection}};
-    return layout;
-}
 
 /// All directions at one density: a plan for each part of a face that a device draws at once.
 std::vector<Plan> full_faces(double texels_per_unit)

@@ -1,5 +1,6 @@
 #include "bench_layout.h"
 #include "bench_timing.h"
+#include "config/one_view.h"
 #include "runtime/disparity.h"
 #include "runtime/find.h"
 #include "runtime/theatre.h"
@@ -89,16 +90,6 @@ Case make_case(Theatre& theatre, const std::string& name, const Layout& layout)
         theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, false), false);
     one.studio->frame().meter(true); // as the exhibit flies
     return one;
-}
-
-Layout one_view(const Projection& projection, glm::ivec2 size)
-{
-    Layout layout;
-    layout.outputs.resize(1);
-    layout.outputs[0].name = "bench";
-    layout.outputs[0].size = size;
-    layout.outputs[0].viewports = {{.projection = projection}};
-    return layout;
 }
 
 void bench_kinds(Theatre& theatre, const Shot& shot, int rounds)

@@ -1,5 +1,5 @@
 #pragma once
-#include "runtime/cube_pass.h"
+#include "runtime/still.h"
 #include <algorithm>
 #include <chrono>
 #include <vector>
@@ -32,6 +32,22 @@ inline void make_writable(vk::CommandBuffer commands, const Target& target)
         vk::ImageLayout::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, target.image,
         {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
     commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
+}
+
+/// A whole frame of a studio, off-screen: planned, drawn and finished.
+inline double frame_ms(Device& device, Studio& studio, const Shot& shot)
+{
+    return milliseconds([&] {
+        studio.frame().prepare(shot, nullptr);
+        std::vector<Target> targets;
+        for (std::size_t i = 0; i < studio.layout().outputs.size(); ++i)
+            targets.push_back(studio.target(i));
+        device.now([&](vk::CommandBuffer c) {
+            for (const Target& target : targets)
+                make_writable(c, target);
+            studio.frame().record(c, targets);
+        });
+    });
 }
 
 } // namespace starbow

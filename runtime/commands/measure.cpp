@@ -53,11 +53,6 @@ std::vector<std::pair<std::string, Shot>> shots_of(const Options& options, const
     return shots;
 }
 
-void write(const std::filesystem::path& file, const std::string& text)
-{
-    write_whole(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
-}
-
 int measure(const Options& options)
 {
     if (options.extremes)
@@ -101,10 +96,10 @@ int measure(const Options& options)
     for (const auto& [name, shot] : trial.shots)
         on.what += ", " + name;
     const std::vector<Measured> all = measure_settings(trial, settings, device_options(false), on.machine);
-    write(trial.folder / "accuracy.csv", accuracy_csv(all));
-    write(trial.folder / "accuracy.svg", accuracy_chart(all, on.what));
-    write(trial.folder / "ladder.json", ladder_text(ladder_of(all)));
-    write(trial.folder / "accuracy.html", accuracy_page(all, on));
+    write_whole(trial.folder / "accuracy.csv", accuracy_csv(all));
+    write_whole(trial.folder / "accuracy.svg", accuracy_chart(all, on.what));
+    write_whole(trial.folder / "ladder.json", ladder_text(ladder_of(all)));
+    write_whole(trial.folder / "accuracy.html", accuracy_page(all, on));
 
     const std::vector<bool> best = frontier(all);
     std::vector<std::size_t> order(all.size());
@@ -133,7 +128,7 @@ int measure(const Options& options)
             return 1;
         }
         const std::filesystem::path file = trial.folder / "quality.json";
-        write(file, quality_text(chosen->setting.quality));
+        write_whole(file, quality_text(chosen->setting.quality));
         std::printf("within %g ms: %s, %.1f ms; %s has it\n", options.budget_ms, chosen->setting.name.c_str(), chosen->ms,
             file.c_str());
     }

@@ -149,7 +149,6 @@ std::vector<Part> parts_of(const Made& made, const Theatre& theatre, const Plan&
 struct Stage {
     GpuWorld world;
     Studio studio;
-    std::vector<Target> targets;
     Shot shot;
     Stage(Device& device, Pipelines& pipelines, const Made& made)
         : world(upload(device, pipelines, made.world, made.scene, made.stars, made.quality.spectra))
@@ -158,20 +157,8 @@ struct Stage {
     {
         studio.frame().meter(made.meter);
         studio.frame().bloom(made.bloom);
-        for (std::size_t i = 0; i < made.layout.outputs.size(); ++i)
-            targets.push_back(studio.target(i));
     }
-    double ms(Device& device)
-    {
-        return milliseconds([&] {
-            studio.frame().prepare(shot, nullptr);
-            device.now([&](vk::CommandBuffer c) {
-                for (const Target& target : targets)
-                    make_writable(c, target);
-                studio.frame().record(c, targets);
-            });
-        });
-    }
+    double ms(Device& device) { return frame_ms(device, studio, shot); }
 };
 
 } // namespace

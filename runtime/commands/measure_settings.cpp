@@ -3,6 +3,7 @@
 #include "config/reader.h"
 #include "config/whole_file.h"
 #include "physics/physics.h"
+#include "rows.h"
 #include "runtime/reference/number_errors.h"
 #include "runtime/still.h"
 #include <chrono>
@@ -51,24 +52,16 @@ Truths truths_of(const Trial& trial)
         std::vector<Truth>& of_shot = truths.emplace_back();
         for (std::size_t output = 0; output < trial.layout.outputs.size(); ++output) {
             const Output& own = trial.layout.outputs[output];
-            const auto began = Clock::now();
-            const std::string what = "reference of " + name + ", " + own.name;
-            int first = -1;
+            Rows rows("reference of " + name + ", " + own.name);
             ReferenceOptions options;
             options.samples = trial.samples;
             options.kept = trial.folder / ("reference-" + name + "-" + own.name + ".rows");
-            options.progress = [&](int done, int rows) {
-                if (first < 0)
-                    first = done;
-                if (done > first && since(began) > 1)
-                    say(what + ": " + left_told(since(began) / (done - first) * (rows - done)));
-            };
+            options.progress = [&](int done, int all) { rows.tell(done, all); };
             Reference truth = reference(world.input(), trial.layout, shot, output, options);
             std::vector<std::uint8_t> picture = shown(truth);
             of_shot.push_back({std::move(picture), std::move(truth)});
         }
     }
-    say("");
     return truths;
 }
 
@@ -108,7 +101,6 @@ private:
 struct Drawer {
     Device& device;
     Studio studio;
-    std::vector<Target> targets;
     int block; ///< frames, after which all is as before
 
     Drawer(Theatre& theatre, const Layout& layout, const Quality& quality)
@@ -116,21 +108,13 @@ struct Drawer {
         , studio(theatre.device, theatre.pipelines, theatre.world, layout, within(theatre.device, quality), false)
         , block(quality.frames_per_cube)
     {
-        for (std::size_t i = 0; i < layout.outputs.size(); ++i)
-            targets.push_back(studio.target(i));
     }
-    double frame_ms(const Shot& shot)
+    double mean_ms(const Shot& shot)
     {
-        return milliseconds([&] {
-            for (int i = 0; i < block; ++i) {
-                studio.frame().prepare(shot, nullptr);
-                device.now([&](vk::CommandBuffer c) {
-                    for (const Target& target : targets)
-                        make_writable(c, target);
-                    studio.frame().record(c, targets);
-                });
-            }
-        }) / block;
+        double sum = 0;
+        for (int i = 0; i < block; ++i)
+            sum += frame_ms(device, studio, shot);
+        return sum / block;
     }
 };
 
@@ -143,7 +127,7 @@ void time(const Trial& trial, Theatre& theatre, Theatre& standards, Measured& on
     for (const auto& [name, shot] : trial.shots) {
         std::vector<double> mine, its;
         for (int round = -1; round < trial.rounds; ++round) {
-            const double a = own.frame_ms(shot), b = standard.frame_ms(shot);
+            const double a = own.mean_ms(shot), b = standard.mean_ms(shot);
             if (round >= 0)
                 mine.push_back(a), its.push_back(b);
         }
@@ -230,8 +214,7 @@ public:
         all_["settings"][quality_text(one.setting.quality)]
             = {one.ms, one.ratio, one.megabytes, one.texels_per_pixel, one.images, std::min(e.psnr_dB, 1e3), e.flip,
                 e.ciede2000_mean, e.ciede2000_95, e.edges_95_px, one.direction_px, one.doppler};
-        const std::string text = all_.dump();
-        write_whole(file_, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+        write_whole(file_, all_.dump());
     }
     void forget() const
     {

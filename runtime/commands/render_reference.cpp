@@ -1,53 +1,13 @@
 #include "render_reference.h"
 #include "config/error.h"
+#include "rows.h"
 #include "runtime/capture.h"
 #include "runtime/find.h"
 #include "runtime/reference/reference.h"
 #include "size_option.h"
-#include <chrono>
 #include <cstdio>
-#include <unistd.h>
 
 namespace starbow {
-namespace {
-
-/// Tells a person at a terminal how far a picture is, and about how long the rest may take.
-class Rows {
-public:
-    explicit Rows(const std::string& output)
-        : output_(output)
-    {
-    }
-    ~Rows()
-    {
-        if (told_)
-            std::fprintf(stderr, "\r%70s\r", "");
-    }
-    void tell(int done, int rows)
-    {
-        using namespace std::chrono;
-        const auto now = steady_clock::now();
-        if (first_ == 0)
-            first_ = done, began_ = now;
-        if (!isatty(STDERR_FILENO) || now - last_ < milliseconds(200))
-            return;
-        last_ = now, told_ = true;
-        std::fprintf(stderr, "\r%-30.30s %d of %d rows", output_.c_str(), done, rows);
-        if (done > first_)
-            std::fprintf(
-                stderr, ", about %.0f s left ", duration<double>(now - began_).count() / (done - first_) * (rows - done));
-        std::fflush(stderr);
-    }
-
-private:
-    std::string output_;
-    int first_ = 0;
-    bool told_ = false;
-    std::chrono::steady_clock::time_point began_, last_;
-};
-
-} // namespace
-
 int render_reference(const ReferenceCommand& command)
 {
     const std::filesystem::path shot_file = find("shots", command.shot);

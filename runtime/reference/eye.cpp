@@ -13,10 +13,7 @@ TracingEye::TracingEye(const World& world, const SceneFile& scene, const Picture
 {
     for (std::size_t i = 0; i < watcher_.layers.size(); ++i) {
         const Layer& layer = watcher_.layers[i];
-        const glm::dvec3 offset = layer.shot.ship_from_cockpit * place;
-        const Vantage vantage{int(i), layer.shot.position + physics::eye_place(layer.shot.u, offset),
-            layer.shot.time + physics::eye_time(layer.shot.u, offset), layer.motion_from_frame, layer.now, layer.contraction,
-            layer.beta};
+        const Vantage vantage = vantage_of(layer, int(i), place);
         // What is beside in the ship is further beside in the frame.
         const double reach = beside * physics::gamma_of(layer.shot.u);
         views_.push_back(

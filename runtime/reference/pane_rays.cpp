@@ -58,20 +58,7 @@ PaneRays::PaneRays(const CompiledPane& pane, const std::vector<glm::dvec2>& samp
 
 std::optional<glm::dvec3> PaneRays::bent(const WarpSample& sample, int channel) const
 {
-    if (!sample.shown)
-        return {};
-    switch (pane_.mesh->kind) {
-    case WarpMesh::Kind::picture:
-        return rays_.direction(glm::dvec2(sample.sees[0]) * glm::dvec2(source_.size),
-            splits_colours(source_.projection) ? Channel(channel) : Channel::green);
-    case WarpMesh::Kind::points: {
-        const glm::dvec3 way = sample.sees[0] - source_.eye_m;
-        return glm::length(way) > 0 ? std::optional(glm::normalize(way)) : std::nullopt;
-    }
-    case WarpMesh::Kind::colours:
-        return turn_ * glm::normalize(sample.sees[std::size_t(channel)]);
-    }
-    return {};
+    return bent_direction(*pane_.mesh, source_, rays_, turn_, sample, channel);
 }
 
 std::optional<glm::dvec3> PaneRays::direction(const glm::dvec2& pixel, int channel) const

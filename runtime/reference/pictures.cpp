@@ -1,4 +1,5 @@
 #include "pictures.h"
+#include "runtime/srgb.h"
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +22,7 @@ Pictures::Pictures(const World& world)
 {
     for (std::size_t i = 0; i < linear_.size(); ++i) {
         const double x = double(i) / 255;
-        linear_[i] = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); // IEC 61966-2-1
+        linear_[i] = light_of_srgb(x);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "kept_rows.h"
 #include "runtime/colour.h"
 #include "runtime/moving.h"
+#include "runtime/srgb.h"
 #include "runtime/worldline.h"
 #include "star_spots.h"
 #include <algorithm>
@@ -225,11 +226,6 @@ std::uint64_t sum_of(const ReferenceInput& input, const Layout& layout)
     return sum.value();
 }
 
-double encoded(double light)
-{
-    return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055; // IEC 61966-2-1
-}
-
 double tabled(const std::vector<glm::dvec3>& table, double light, int channel)
 {
     const double at = light * double(table.size() - 1);
@@ -380,7 +376,7 @@ std::vector<std::uint8_t> shown(const Reference& r)
         for (int c = 0; c < 3; ++c) {
             const double value = !r.colour.lut.empty() ? tabled(r.colour.lut, light[c], c)
                 : r.colour.gamma != 0                  ? std::pow(light[c], 1 / r.colour.gamma)
-                                                       : encoded(light[c]);
+                                                       : srgb_of_light(light[c]);
             bytes[4 * i + std::size_t(c)] = std::uint8_t(std::lround(255 * std::clamp(value, 0.0, 1.0)));
         }
     }
