@@ -237,8 +237,10 @@ void Frame::prepare_eye(std::size_t i)
 {
     Eye& eye = eyes_[i];
     const std::vector<Layer>& layers = watchers_[eye.watcher].layers;
-    std::vector<PlanLayer> asked;
-    std::vector<Vantage> vantages;
+    std::vector<PlanLayer>& asked = eye.asked;
+    std::vector<Vantage>& vantages = eye.vantages;
+    asked.resize(layers.size());
+    vantages.clear();
     eye.nearest.clear();
     for (std::size_t at = 0; at < layers.size(); ++at) {
         const Layer& layer = layers[at];
@@ -247,7 +249,10 @@ void Frame::prepare_eye(std::size_t i)
             layer.shot.time + physics::eye_time(layer.shot.u, offset), layer.motion_from_frame, layer.now, layer.contraction,
             layer.beta};
         eye.nearest.push_back(reprojects() ? std::max(nearest_box(world_.world, vantage), 1e-30) : 1);
-        PlanLayer ask{{}, layer.E, shot_.effects.comparison == Comparison::galilean};
+        PlanLayer& ask = asked[at];
+        ask.views.clear();
+        ask.E = layer.E;
+        ask.galilean = shot_.effects.comparison == Comparison::galilean;
         for (const PaneState& pane : panes_)
             if (pane.eye == i)
                 ask.views.push_back({pane.compiled.blocks.get(), layer.motion_from_cockpit,
@@ -256,16 +261,15 @@ void Frame::prepare_eye(std::size_t i)
             ask_for_probes(i, layer.motion_from_cockpit, ask.views);
         if (at > 0)
             ask.things = balls(world_.world, vantage);
-        asked.push_back(std::move(ask));
         vantages.push_back(vantage);
     }
-    plans_[i] = make_plan(asked, quality_);
+    plans_[i] = make_plan(asked, quality_, std::move(plans_[i]));
     eye.cube.prepare(plans_[i], vantages, pre_exposure_);
     if (!stars_.on())
         return;
     const auto& images = plans_[i].images;
     const auto own = std::find_if(images.begin(), images.end(), [](const PlanImage& image) { return image.layer > 0; });
-    eye.stars = stars_in({images.begin(), own}, world_.star_patches, layers[0].motion_from_frame);
+    eye.stars = stars_in({images.begin(), own}, world_.star_patches, layers[0].motion_from_frame, std::move(eye.stars));
 }
 
 void Frame::prepare(const Shot& shot, const Panel* hud)
@@ -273,7 +277,7 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
     shot_ = shot;
     double most_E = 1;
     for (Watcher& one : watchers_) {
-        one = watcher(world_.world, shot, one.observer);
+        one = watcher(world_.world, shot, one.observer, std::move(one.layers));
         most_E = std::max(most_E, one.most_E());
     }
     const bool gains = shot.effects.headlight || shot.effects.doppler;
@@ -290,10 +294,10 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
         for (const OutputState& output : outputs_)
             size = glm::max(size, output.size);
         stars_.fit({std::uint32_t(size.x), std::uint32_t(size.y)});
-        std::vector<glm::dmat3> turns;
+        star_turns_.clear();
         for (const Watcher& one : watchers_)
-            turns.push_back(one.layers[0].motion_from_frame);
-        stars_.prepare(turns, shot.effects.false_colours);
+            star_turns_.push_back(one.layers[0].motion_from_frame);
+        stars_.prepare(star_turns_, shot.effects.false_colours);
     }
     for (PaneState& pane : panes_)
         if (bloom_ == 0)
@@ -397,13 +401,15 @@ void Frame::put_layers(PaneState& pane)
 
 void Frame::write_sets()
 {
-    std::vector<vk::DescriptorBufferInfo> buffers;
-    std::vector<vk::DescriptorImageInfo> images;
+    // Each write points at its part of these, which must not move.
+    auto& buffers = told_buffers_;
+    auto& images = told_images_;
+    auto& texels = told_texels_;
+    auto& writes = writes_;
+    buffers.clear(), images.clear(), texels.clear(), writes.clear();
     buffers.reserve(6 * panes_.size());
     images.reserve(11 * panes_.size());
-    std::vector<vk::BufferView> texels;
     texels.reserve(2 * panes_.size());
-    std::vector<vk::WriteDescriptorSet> writes;
     auto buffer = [&](const vk::raii::DescriptorSet& set, std::uint32_t binding, vk::DescriptorType type, const Buffer& b) {
         buffers.push_back({*b.buffer, 0, VK_WHOLE_SIZE});
         writes.push_back({*set, binding, 0, 1, type, nullptr, &buffers.back()});

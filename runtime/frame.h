@@ -112,6 +112,8 @@ private:
         CubePass cube;
         glm::dvec3 now_m; ///< where it is
         std::vector<StarRun> stars{}; ///< that its panes may show
+        std::vector<PlanLayer> asked{}; ///< of its plan
+        std::vector<Vantage> vantages{}; ///< of its layers
         std::vector<double> nearest{}; ///< of each layer: distance of the nearest surface that there may be, scene units; 1
                                        ///< where it does not count
     };
@@ -202,6 +204,11 @@ private:
     std::vector<PaneState> panes_;
     std::vector<OutputState> outputs_;
     std::vector<Plan> plans_;
+    std::vector<glm::dmat3> star_turns_; ///< these and what follows are kept for their room
+    std::vector<vk::DescriptorBufferInfo> told_buffers_;
+    std::vector<vk::DescriptorImageInfo> told_images_;
+    std::vector<vk::BufferView> told_texels_;
+    std::vector<vk::WriteDescriptorSet> writes_;
     Shot shot_;
     double pre_exposure_ = 1;
     std::vector<Watcher> watchers_; ///< one for each observer that a pane has
