@@ -51,9 +51,9 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
     set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.eye_set}).front());
 }
 
-std::vector<vk::Format> CubePass::formats(bool layered) const
+Formats CubePass::formats(bool layered) const
 {
-    std::vector<vk::Format> formats = world_.numbers().formats(quality_.half_floats);
+    Formats formats = world_.numbers().formats(quality_.half_floats);
     if (layered)
         formats.push_back(vk::Format::eR32G32Sfloat); // near / distance is small
     return formats;
@@ -66,21 +66,20 @@ void CubePass::prepare(const Plan& plan, std::span<const Vantage> layers, double
     layered_ = !images_.empty() && images_.back().layer > 0;
     area_ = plan.atlas_size;
     levels_ = plan.levels;
-    list_ = cull(world_.world, layers, images_, quality_);
+    list_ = cull(world_.world, layers, images_, quality_, std::move(list_));
     contractions_.clear();
     for (const Vantage& layer : layers)
         contractions_.push_back(layer.contraction);
     fit(plan.atlas_size, plan.levels);
     upload(layers, false);
-    const auto table = slot_table(plan);
-    std::memcpy(slots_.mapped, table.data(), table.size() * sizeof(table[0]));
+    put_slots(plan, {static_cast<shared::SlotEntry*>(slots_.mapped), MAX_LAYERS * SLOT_COUNT});
 }
 
 void CubePass::prepare_plain(const PlanImage& image, const Vantage& vantage)
 {
     images_ = {image};
     layered_ = false;
-    list_ = cull(world_.world, {&vantage, 1}, images_, quality_);
+    list_ = cull(world_.world, {&vantage, 1}, images_, quality_, std::move(list_));
     contractions_ = {1};
     upload({&vantage, 1}, true);
     if (int(depth_.extent.width) < image.size.x || int(depth_.extent.height) < image.size.y)
@@ -106,7 +105,7 @@ void CubePass::fit(glm::ivec2 size, int levels)
         atlas = {};
     depth_ = {}, atlas_samples_.clear(), depth_samples_ = {};
     auto copied = most > 1 ? Usage::eTransferSrc | Usage::eTransferDst : vk::ImageUsageFlags();
-    const std::vector<vk::Format> formats = this->formats(world_.layered());
+    Formats formats = this->formats(world_.layered());
     for (std::size_t i = 0; i < atlases_.size(); ++i)
         atlases_[i] = make_image(device_, {formats[i], extent, Usage::eColorAttachment | Usage::eSampled | copied, most});
     depth_ = make_image(device_, {depth_format, extent, Usage::eDepthStencilAttachment | Usage::eSampled});
@@ -130,7 +129,8 @@ void CubePass::upload(std::span<const Vantage> layers, bool plain)
     };
     put(instances_, list_.instances);
     put(visible_, list_.visible);
-    std::vector<shared::TimeEntry> times;
+    std::vector<shared::TimeEntry>& times = told_times_;
+    times.clear();
     for (std::size_t layer = 0; layer < layers.size(); ++layer) {
         shared::CubeConstants constants = constants_of(layers[layer], plain);
         constants.first = glm::vec4(list_.first[layer], times.size(), list_.first_pose[layer], 0);
@@ -199,17 +199,17 @@ void CubePass::record(vk::CommandBuffer commands)
         transition(commands, depth, Layout_::eUndefined, depth_tests, depth_access, Layout_::eDepthAttachmentOptimal,
             depth_tests, depth_access);
     }
-    std::vector<vk::RenderingAttachmentInfo> colours;
+    std::array<vk::RenderingAttachmentInfo, MAX_GROUPS + 1> colours;
     for (std::size_t group = 0; group < used.size(); ++group) {
         const glm::vec4 sky(layered_ ? glm::dvec4(0) : world_.spectra.sky[1][group] * pre_exposure_);
         const vk::ClearColorValue clear(std::array<float, 4>{sky.x, sky.y, sky.z, sky.w});
-        colours.push_back({*(sampled ? atlas_samples_ : atlases_)[group].view, Layout_::eColorAttachmentOptimal, {}, {}, {},
-            vk::AttachmentLoadOp::eClear, sampled ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore,
-            clear});
+        vk::RenderingAttachmentInfo& colour = colours[group];
+        colour = {*(sampled ? atlas_samples_ : atlases_)[group].view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+            vk::AttachmentLoadOp::eClear, sampled ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore, clear};
         if (sampled) {
-            colours.back().resolveMode = vk::ResolveModeFlagBits::eAverage;
-            colours.back().resolveImageView = *atlases_[group].view;
-            colours.back().resolveImageLayout = Layout_::eColorAttachmentOptimal;
+            colour.resolveMode = vk::ResolveModeFlagBits::eAverage;
+            colour.resolveImageView = *atlases_[group].view;
+            colour.resolveImageLayout = Layout_::eColorAttachmentOptimal;
         }
     }
     vk::RenderingAttachmentInfo depth_info(*depth.view, Layout_::eDepthAttachmentOptimal, {}, {}, {},
@@ -221,7 +221,7 @@ void CubePass::record(vk::CommandBuffer commands)
         depth_info.resolveImageView = *depth_.view;
         depth_info.resolveImageLayout = Layout_::eDepthAttachmentOptimal;
     }
-    commands.beginRendering({{}, rect_of({0, 0}, area_), 1, 0, colours, &depth_info});
+    commands.beginRendering({{}, rect_of({0, 0}, area_), 1, 0, std::uint32_t(used.size()), colours.data(), &depth_info});
     draw_images(commands, {formats(layered_), sample_bits(quality_.cube_samples)}, false);
     commands.endRendering();
     for (const Image& atlas : used)
@@ -322,17 +322,17 @@ void CubePass::make_mips(vk::CommandBuffer commands, const Image& atlas)
     level_barrier(1, atlas.levels - 1, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, {},
         Layout_::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite);
     for (std::uint32_t level = 1; level < levels; ++level) {
-        std::vector<vk::ImageBlit> blits;
+        blits_.clear();
         for (const PlanImage& image : images_)
             if (image.levels >= int(level)) {
                 auto box = [&](std::uint32_t l) {
                     glm::ivec2 low = image.atlas >> glm::ivec2(l), high = (image.atlas + image.size) >> glm::ivec2(l);
                     return std::array<vk::Offset3D, 2>{vk::Offset3D(low.x, low.y, 0), vk::Offset3D(high.x, high.y, 1)};
                 };
-                blits.push_back({{vk::ImageAspectFlagBits::eColor, level - 1, 0, 1}, box(level - 1),
+                blits_.push_back({{vk::ImageAspectFlagBits::eColor, level - 1, 0, 1}, box(level - 1),
                     {vk::ImageAspectFlagBits::eColor, level, 0, 1}, box(level)});
             }
-        commands.blitImage(*atlas.image, Layout_::eTransferSrcOptimal, *atlas.image, Layout_::eTransferDstOptimal, blits,
+        commands.blitImage(*atlas.image, Layout_::eTransferSrcOptimal, *atlas.image, Layout_::eTransferDstOptimal, blits_,
             vk::Filter::eLinear);
         level_barrier(level, 1, Layout_::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
             Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);

@@ -52,7 +52,7 @@ private:
     void fit(glm::ivec2 atlas_size, int levels);
     void upload(std::span<const Vantage> layers, bool plain);
     shared::CubeConstants constants_of(const Vantage& vantage, bool plain) const;
-    std::vector<vk::Format> formats(bool layered) const;
+    Formats formats(bool layered) const;
     void draw_images(vk::CommandBuffer commands, const TargetKind& kind, bool plain);
     void make_mips(vk::CommandBuffer commands, const Image& atlas);
 
@@ -70,6 +70,8 @@ private:
     std::vector<Image> atlases_, atlas_samples_;
     Image depth_, depth_samples_;
     std::vector<PlanImage> images_;
+    std::vector<shared::TimeEntry> told_times_; ///< kept for their room, as are blits_
+    std::vector<vk::ImageBlit> blits_;
     std::vector<double> contractions_; ///< of each layer
     glm::ivec2 area_{0};
     double pre_exposure_ = 1;

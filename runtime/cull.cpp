@@ -8,18 +8,14 @@
 namespace starbow {
 namespace {
 
-/// An instance's bounding box around the eye, motion axes.
-struct Box {
-    glm::dvec3 centre, half[3]; // half: from the centre to the middle of each side
-    double scale; // world units per local unit, at most
-    double distance; // from the eye, at least
+/// An instance's bounding box.
+using Box = DrawList::Seat;
 
-    /// How far it reaches along a unit vector from its centre.
-    double reach(const glm::dvec3& n) const
-    {
-        return std::abs(glm::dot(n, half[0])) + std::abs(glm::dot(n, half[1])) + std::abs(glm::dot(n, half[2]));
-    }
-};
+/// How far it reaches along a unit vector from its centre.
+double reach(const Box& box, const glm::dvec3& n)
+{
+    return std::abs(glm::dot(n, box.half[0])) + std::abs(glm::dot(n, box.half[1])) + std::abs(glm::dot(n, box.half[2]));
+}
 
 /// A face's axes as planes through the eye, whose normals point inwards: a box is out if it is wholly behind one.
 struct Frustum {
@@ -38,7 +34,7 @@ struct Frustum {
     bool sees(const Box& box) const
     {
         for (const glm::dvec3& plane : planes)
-            if (glm::dot(plane, box.centre) < -box.reach(plane))
+            if (glm::dot(plane, box.centre) < -reach(box, plane))
                 return false;
         return true;
     }
@@ -53,7 +49,7 @@ bool in_hole(const PlanImage& image, const Box& box)
     glm::dvec3 a = face_direction(image.face, {1, 0}) - normal, b = face_direction(image.face, {0, 1}) - normal;
     for (const glm::dvec3& side : {a, -a, b, -b}) {
         glm::dvec3 plane = image.hole * normal - side;
-        if (glm::dot(plane, box.centre) < box.reach(plane))
+        if (glm::dot(plane, box.centre) < reach(box, plane))
             return false;
     }
     return true;
@@ -73,7 +69,7 @@ int level_of(const Primitive& primitive, const Box& box, const PlanImage& image,
 Box box_of(const Primitive& primitive, const glm::dmat3& turn, const glm::dvec3& place)
 {
     const glm::dvec3 half = 0.5 * (primitive.high - primitive.low), middle = 0.5 * (primitive.high + primitive.low);
-    Box box{turn * middle + place, {turn[0] * half.x, turn[1] * half.y, turn[2] * half.z}, 0, 0};
+    Box box{turn * middle + place, {turn[0] * half.x, turn[1] * half.y, turn[2] * half.z}, 0, 0, true};
     const glm::dvec3 lengths(glm::length(turn[0]), glm::length(turn[1]), glm::length(turn[2]));
     const double longest = std::max({lengths.x, lengths.y, lengths.z});
     const double skew
@@ -221,12 +217,12 @@ void add_poses(const World& world, std::span<const Vantage> layers, DrawList& li
 
 } // namespace
 
-DrawList cull(
-    const World& world, std::span<const Vantage> layers, const std::vector<PlanImage>& images, const Quality& quality)
+DrawList cull(const World& world, std::span<const Vantage> layers, const std::vector<PlanImage>& images,
+    const Quality& quality, DrawList before)
 {
-    DrawList list;
-    std::vector<Box> boxes; // empty where nothing is there
-    std::vector<char> shows;
+    DrawList list = std::move(before);
+    list.instances.clear(), list.first_pose.clear(), list.first.clear(), list.visible.clear(), list.draws.clear();
+    list.seats.clear();
     for (const Vantage& vantage : layers) {
         list.first.push_back(std::uint32_t(list.instances.size()));
         const InstanceRange range = instances_of(world, vantage.frame);
@@ -235,12 +231,13 @@ DrawList cull(
             const Instance& instance = world.instances[i];
             const Placed own = placed(world, instance, vantage);
             list.instances.push_back(entry_of(own.at));
-            boxes.push_back(as_shown(own.box, vantage));
-            shows.push_back(may_show(world, instance, vantage, own.box));
+            list.seats.push_back(as_shown(own.box, vantage));
+            list.seats.back().shows = may_show(world, instance, vantage, own.box);
         }
     }
     add_poses(world, layers, list);
-    std::vector<std::vector<std::uint32_t>> by_level;
+    const std::vector<Box>& boxes = list.seats;
+    std::vector<std::vector<std::uint32_t>>& by_level = list.by_level;
     for (std::uint32_t i = 0; i < images.size(); ++i) {
         const PlanImage& image = images[i];
         const Frustum frustum(image);
@@ -254,7 +251,7 @@ DrawList cull(
             for (; at < range.last && world.instances[at].primitive == index && kind_of(world, world.instances[at]) == kind;
                  ++at) {
                 const std::uint32_t own = first + std::uint32_t(at - range.first);
-                if (shows[own] && frustum.sees(boxes[own]) && !in_hole(image, boxes[own]))
+                if (boxes[own].shows && frustum.sees(boxes[own]) && !in_hole(image, boxes[own]))
                     by_level[std::size_t(level_of(primitive, boxes[own], image, quality) + 1)].push_back(own);
             }
             for (std::size_t level = 0; level < by_level.size(); ++level) {

@@ -43,13 +43,23 @@ struct DrawList {
     std::vector<std::uint32_t> first; ///< of each layer, in `instances`
     std::vector<std::uint32_t> visible; ///< indices into `instances`
     std::vector<Draw> draws; ///< by image, then by primitive
+
+    /// What cull works with; kept for its room.
+    struct Seat {
+        glm::dvec3 centre, half[3]; ///< of an instance's box around the eye, motion axes: to the middle of each side
+        double scale; ///< world units per local unit, at most
+        double distance; ///< from the eye, at least
+        bool shows; ///< light of it may arrive
+    };
+    std::vector<Seat> seats;
+    std::vector<std::vector<std::uint32_t>> by_level;
 };
 
 /// Moves what rests in each vantage's frame around the eye (in double, rounded to float only there) and sorts out which
 /// instance each image of that layer can see. Each is drawn at the coarsest level of detail that the quality lets
-/// stray. The instances of a world stand in sort_instances' order.
-DrawList cull(
-    const World& world, std::span<const Vantage> layers, const std::vector<PlanImage>& images, const Quality& quality = {});
+/// stray. The instances of a world stand in sort_instances' order. before: a list whose memory is taken over.
+DrawList cull(const World& world, std::span<const Vantage> layers, const std::vector<PlanImage>& images,
+    const Quality& quality = {}, DrawList before = {});
 
 /// Balls around what may be seen of a frame's instances: those whose light, had it left, would have left while they were
 /// there.

@@ -254,17 +254,22 @@ int Frame::hud_width() const
     return std::clamp(int(2 * hud_place_.half.x / finest), 160, 4096);
 }
 
-Frame::Asked Frame::asked_of(std::size_t i)
+/// What an eye's cube map is asked for, and from where.
+void Frame::ask(std::size_t i)
 {
     Eye& eye = eyes_[i];
-    Asked asked;
-    eye.nearest.clear();
     const std::vector<Layer>& layers = watchers_[eye.watcher].layers;
+    eye.asked.resize(layers.size());
+    eye.vantages.clear();
+    eye.nearest.clear();
     for (std::size_t at = 0; at < layers.size(); ++at) {
         const Layer& layer = layers[at];
         const Vantage vantage = vantage_of(layer, int(at), scene_units(eye.now_m));
         eye.nearest.push_back(reprojects() ? std::max(nearest_box(world_.world, vantage), 1e-30) : 1);
-        PlanLayer ask{{}, layer.E, shot_.effects.comparison == Comparison::galilean};
+        PlanLayer& ask = eye.asked[at];
+        ask.views.clear();
+        ask.E = layer.E;
+        ask.galilean = shot_.effects.comparison == Comparison::galilean;
         for (const PaneState& pane : panes_)
             if (pane.eye == i)
                 ask.views.push_back({pane.compiled.blocks.get(), layer.motion_from_cockpit,
@@ -273,56 +278,54 @@ Frame::Asked Frame::asked_of(std::size_t i)
             ask_for_probes(i, layer.motion_from_cockpit, ask.views);
         if (at > 0)
             ask.things = balls(world_.world, vantage);
-        asked.layers.push_back(std::move(ask));
-        asked.vantages.push_back(vantage);
+        eye.vantages.push_back(vantage);
     }
-    return asked;
 }
 
 /// Whether what an eye's cube map holds may be shown once more: from where it was drawn, and as fast as may be now, but
 /// along the same axes.
-bool Frame::still_serves(std::size_t i, const Plan& wanted, std::span<const Vantage> vantages) const
+bool Frame::still_serves(std::size_t i) const
 {
-    const std::vector<Vantage>& drawn = eyes_[i].drawn;
-    for (std::size_t at = 0; at < drawn.size(); ++at) {
-        const glm::dmat3 turned = drawn[at].motion_from_frame - vantages[at].motion_from_frame;
+    const Eye& eye = eyes_[i];
+    for (std::size_t at = 0; at < eye.drawn.size(); ++at) {
+        const Vantage &drawn = eye.drawn[at], &now = eye.vantages[at];
+        const glm::dmat3 turned = drawn.motion_from_frame - now.motion_from_frame;
         double most = 0;
         for (int axis = 0; axis < 3; ++axis)
             most = std::max(most, glm::length(turned[axis]));
-        if (most > 1e-9 || drawn[at].now != vantages[at].now || drawn[at].contraction != vantages[at].contraction)
+        if (most > 1e-9 || drawn.now != now.now || drawn.contraction != now.contraction)
             return false;
     }
-    return serves(plans_[i], wanted);
+    return serves(plans_[i], eye.wanted);
 }
 
 /// pre_exposure: for cube maps that are drawn now.
 void Frame::prepare_eyes(double pre_exposure)
 {
-    std::vector<Asked> asked;
-    std::vector<Plan> wanted;
     bool keep = cubes_drawn_ && cubes_shown_ < quality_.frames_per_cube;
     for (std::size_t i = 0; i < eyes_.size(); ++i) {
-        asked.push_back(asked_of(i));
-        wanted.push_back(make_plan(asked[i].layers, quality_));
-        keep = keep && still_serves(i, wanted[i], asked[i].vantages);
+        ask(i);
+        eyes_[i].wanted = make_plan(eyes_[i].asked, quality_, std::move(eyes_[i].wanted));
+        keep = keep && still_serves(i);
     }
     cubes_shown_ = keep ? cubes_shown_ + 1 : 1;
     if (!keep) {
         cubes_drawn_ = false;
-        plans_ = std::move(wanted);
         pre_exposure_ = pre_exposure;
     }
     for (std::size_t i = 0; i < eyes_.size(); ++i) {
         Eye& eye = eyes_[i];
         if (!keep) {
-            eye.cube.prepare(plans_[i], asked[i].vantages, pre_exposure_);
-            eye.drawn = std::move(asked[i].vantages);
+            std::swap(plans_[i], eye.wanted);
+            eye.cube.prepare(plans_[i], eye.vantages, pre_exposure_);
+            std::swap(eye.drawn, eye.vantages);
         }
         if (!stars_.on())
             continue;
         const auto& images = plans_[i].images;
         const auto own = std::find_if(images.begin(), images.end(), [](const PlanImage& image) { return image.layer > 0; });
-        eye.stars = stars_in({images.begin(), own}, world_.star_patches, watchers_[eye.watcher].layers[0].motion_from_frame);
+        eye.stars = stars_in({images.begin(), own}, world_.star_patches,
+            watchers_[eye.watcher].layers[0].motion_from_frame, std::move(eye.stars));
     }
 }
 
@@ -331,7 +334,7 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
     shot_ = shot;
     double most_E = 1;
     for (Watcher& one : watchers_) {
-        one = watcher(world_.world, shot, one.observer);
+        one = watcher(world_.world, shot, one.observer, std::move(one.layers));
         most_E = std::max(most_E, one.most_E());
     }
     const bool gains = shot.effects.headlight || shot.effects.doppler;
@@ -348,10 +351,10 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
         for (const OutputState& output : outputs_)
             size = glm::max(size, output.size);
         stars_.fit({std::uint32_t(size.x), std::uint32_t(size.y)});
-        std::vector<glm::dmat3> turns;
+        star_turns_.clear();
         for (const Watcher& one : watchers_)
-            turns.push_back(one.layers[0].motion_from_frame);
-        stars_.prepare(turns, shot.effects.false_colours);
+            star_turns_.push_back(one.layers[0].motion_from_frame);
+        stars_.prepare(star_turns_, shot.effects.false_colours);
     }
     for (PaneState& pane : panes_)
         if (bloom_ == 0)
@@ -455,13 +458,15 @@ void Frame::put_layers(PaneState& pane)
 
 void Frame::write_sets()
 {
-    std::vector<vk::DescriptorBufferInfo> buffers;
-    std::vector<vk::DescriptorImageInfo> images;
+    // Each write points at its part of these, which must not move.
+    auto& buffers = told_buffers_;
+    auto& images = told_images_;
+    auto& texels = told_texels_;
+    auto& writes = writes_;
+    buffers.clear(), images.clear(), texels.clear(), writes.clear();
     buffers.reserve(6 * panes_.size());
     images.reserve(11 * panes_.size());
-    std::vector<vk::BufferView> texels;
     texels.reserve(2 * panes_.size());
-    std::vector<vk::WriteDescriptorSet> writes;
     auto buffer = [&](const vk::raii::DescriptorSet& set, std::uint32_t binding, vk::DescriptorType type, const Buffer& b) {
         buffers.push_back({*b.buffer, 0, VK_WHOLE_SIZE});
         writes.push_back({*set, binding, 0, 1, type, nullptr, &buffers.back()});

@@ -121,6 +121,9 @@ private:
         glm::dvec3 now_m; ///< where it is
         std::vector<Vantage> drawn{}; ///< from where its cube map was, of each layer
         std::vector<StarRun> stars{}; ///< that its panes may show
+        std::vector<PlanLayer> asked{}; ///< of its plan
+        std::vector<Vantage> vantages{}; ///< from where its cube map would be drawn now
+        Plan wanted{}; ///< and what it would hold
         std::vector<double> nearest{}; ///< of each layer: distance of the nearest surface that there may be, scene units; 1
                                        ///< where it does not count
     };
@@ -169,13 +172,8 @@ private:
     glm::dvec3 eye_offset(const PaneState& pane, const Layer& layer) const;
     glm::vec4 eye_told(const PaneState& pane, const Layer& layer) const;
     const Watcher& watcher_of(const PaneState& pane) const { return watchers_[eyes_[pane.eye].watcher]; }
-    /// What an eye's cube map is asked for, and from where.
-    struct Asked {
-        std::vector<PlanLayer> layers;
-        std::vector<Vantage> vantages;
-    };
-    Asked asked_of(std::size_t eye);
-    bool still_serves(std::size_t eye, const Plan& wanted, std::span<const Vantage> vantages) const;
+    void ask(std::size_t eye);
+    bool still_serves(std::size_t eye) const;
     void prepare_eyes(double pre_exposure);
     void put_layers(PaneState& pane);
     void write_sets();
@@ -222,6 +220,11 @@ private:
     bool repeatable_ = false;
     bool cubes_drawn_ = false; ///< and shown so often already
     int cubes_shown_ = 0;
+    std::vector<glm::dmat3> star_turns_; ///< these and what follows are kept for their room
+    std::vector<vk::DescriptorBufferInfo> told_buffers_;
+    std::vector<vk::DescriptorImageInfo> told_images_;
+    std::vector<vk::BufferView> told_texels_;
+    std::vector<vk::WriteDescriptorSet> writes_;
     Shot shot_;
     double pre_exposure_ = 1;
     std::vector<Watcher> watchers_; ///< one for each observer that a pane has

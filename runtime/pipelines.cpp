@@ -159,7 +159,7 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
             {.vertex = cube_vert,
                 .fragment = cube_frag,
                 .layout = *surface_layout,
-                .targets = target.colours,
+                .targets = {target.colours.begin(), target.colours.end()},
                 .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights),
                     std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), std::uint32_t(v.kinds), v.matrices,
                     v.clock, v.mortal, v.layered, v.lamps_move, v.blink, v.moves},
@@ -176,7 +176,7 @@ vk::Pipeline Pipelines::sky(const TargetKind& target)
             {.vertex = sky_vert,
                 .fragment = sky_frag,
                 .layout = *surface_layout,
-                .targets = target.colours,
+                .targets = {target.colours.begin(), target.colours.end()},
                 .constants = {std::uint32_t(target.colours.size())},
                 .depth = true,
                 .samples = target.samples});
@@ -185,9 +185,9 @@ vk::Pipeline Pipelines::sky(const TargetKind& target)
 
 vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
 {
-    std::vector<std::uint32_t> all = constants(v);
-    all[10] = target != light_format; // has 8 bits: dithered
     return find(warps_, std::pair(v, target), [&] {
+        std::vector<std::uint32_t> all = constants(v);
+        all[10] = target != light_format; // has 8 bits: dithered
         return make_pipeline(device_,
             {.vertex = screen_vert, .fragment = warp_frag, .layout = *warp_layout, .targets = {target}, .constants = all});
     });
@@ -233,9 +233,9 @@ vk::Pipeline Pipelines::probe(const WarpVariant& v)
 
 vk::Pipeline Pipelines::overlay(const WarpVariant& v, int overlay, vk::Format target)
 {
-    std::vector<std::uint32_t> all = constants(v);
-    all[10] = std::uint32_t(overlay);
     return find(overlays_, std::tuple(v, overlay, target), [&] {
+        std::vector<std::uint32_t> all = constants(v);
+        all[10] = std::uint32_t(overlay);
         return make_pipeline(device_,
             {.vertex = screen_vert,
                 .fragment = overlay_frag,
@@ -260,9 +260,9 @@ vk::Pipeline Pipelines::meter(const WarpVariant& v)
 
 vk::Pipeline Pipelines::star_meter(const WarpVariant& v)
 {
-    std::vector<std::uint32_t> all = constants(v);
-    all[10] = true; // at a glance
     return find(star_meters_, v, [&] {
+        std::vector<std::uint32_t> all = constants(v);
+        all[10] = true; // at a glance
         return make_pipeline(device_,
             {.vertex = star_vert,
                 .fragment = star_meter_frag,

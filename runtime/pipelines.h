@@ -1,5 +1,6 @@
 #pragma once
 #include "resources.h"
+#include "runtime/shared.h"
 #include <array>
 #include <map>
 #include <tuple>
@@ -15,18 +16,39 @@ constexpr vk::Format meter_format = vk::Format::eR32G32Sfloat; // luminance, sol
 constexpr vk::Format map_format = vk::Format::eR32G32Uint; // a direction map's texel, packed
 constexpr vk::Format inverse_format = vk::Format::eR32G32B32A32Uint; // InverseMap's cell
 
+/// Of the pictures that a pass draws into at once. On the stack: passes are looked up by them many times a frame.
+struct Formats {
+    std::array<vk::Format, MAX_GROUPS + 1> list{};
+    std::size_t count = 0;
+
+    Formats() = default;
+    Formats(std::initializer_list<vk::Format> formats)
+    {
+        for (vk::Format format : formats)
+            push_back(format);
+    }
+    void push_back(vk::Format format) { list[count++] = format; }
+    std::size_t size() const { return count; }
+    auto begin() const { return list.begin(); }
+    auto end() const { return list.begin() + std::ptrdiff_t(count); }
+    vk::Format& operator[](std::size_t i) { return list[i]; }
+    auto operator<=>(const Formats&) const = default;
+};
+
 /// The numbers that light is told by: constants of the passes that write and read the cube map.
 struct Numbers {
     int reflected = 3, own = 0;
     /// Of the images that hold them, four each.
-    std::vector<vk::Format> formats(bool half_floats) const
+    Formats formats(bool half_floats) const
     {
         const int all = reflected + own;
-        std::vector<vk::Format> formats(std::size_t((all + 3) / 4), half_floats ? light_format : exact_format);
+        Formats formats;
+        for (int first = 0; first < all; first += 4)
+            formats.push_back(half_floats ? light_format : exact_format);
         if (all > 4 && all % 4 == 1)
-            formats.back() = half_floats ? vk::Format::eR16Sfloat : vk::Format::eR32Sfloat;
+            formats[formats.size() - 1] = half_floats ? vk::Format::eR16Sfloat : vk::Format::eR32Sfloat;
         if (all > 4 && all % 4 == 2)
-            formats.back() = half_floats ? vk::Format::eR16G16Sfloat : vk::Format::eR32G32Sfloat;
+            formats[formats.size() - 1] = half_floats ? vk::Format::eR16G16Sfloat : vk::Format::eR32G32Sfloat;
         return formats;
     }
     auto operator<=>(const Numbers&) const = default;
@@ -74,7 +96,7 @@ struct FinishVariant {
 
 /// Where a pass draws.
 struct TargetKind {
-    std::vector<vk::Format> colours;
+    Formats colours;
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     auto operator<=>(const TargetKind&) const = default;
 };

@@ -243,21 +243,23 @@ struct Walk {
 /// Shelves, tallest first; the atlas is about square. Corners stay on multiples of `align` so that mips stay apart.
 void pack(Plan& plan, int align)
 {
-    std::vector<PlanImage*> order;
+    std::array<PlanImage*, MAX_LAYERS * SLOT_COUNT> order;
+    std::size_t count = 0;
     double area = 0;
     int widest = 0;
     for (PlanImage& image : plan.images) {
-        order.push_back(&image);
+        order[count++] = &image;
         area += double(image.size.x) * image.size.y;
         widest = std::max(widest, image.size.x);
     }
-    std::sort(order.begin(), order.end(), [](auto* a, auto* b) {
+    const std::span all(order.data(), count);
+    std::sort(all.begin(), all.end(), [](auto* a, auto* b) {
         return std::tuple(a->size.y, b->layer, b->slot) > std::tuple(b->size.y, a->layer, a->slot);
     });
     int width = std::max(widest, (int(1.1 * std::sqrt(area)) + 63) / 64 * 64);
     glm::ivec2 pen(0);
     int shelf = 0;
-    for (PlanImage* image : order) {
+    for (PlanImage* image : all) {
         if (pen.x + image->size.x > width)
             pen = {0, pen.y + shelf}, shelf = 0;
         image->atlas = pen;
@@ -302,10 +304,12 @@ Plan make_plan(const std::vector<View>& views, double E, const Quality& quality)
     return make_plan({PlanLayer{views, E}}, quality);
 }
 
-Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality)
+Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality, Plan before)
 {
-    std::vector<Demands> demands(layers.size());
+    std::array<Demands, MAX_LAYERS> demands;
     Plan plan;
+    std::swap(plan.images, before.images), plan.images.clear();
+    std::swap(plan.rear_last, before.rear_last), plan.rear_last.clear();
     for (std::size_t layer = 0; layer < layers.size(); ++layer) {
         const double E = layers[layer].E;
         // Behind, D stops falling at 1/gamma from the axis: finer images would only repeat the last one.
@@ -422,12 +426,11 @@ shared::SlotEntry slot_entry(const PlanImage& image)
         glm::vec4(image.texels_per_unit, offset, image.levels - 1), glm::vec4(image.atlas, image.atlas + image.size - 1)};
 }
 
-std::vector<shared::SlotEntry> slot_table(const Plan& plan)
+void put_slots(const Plan& plan, std::span<shared::SlotEntry> table)
 {
-    std::vector<shared::SlotEntry> table(plan.rear_last.size() * SLOT_COUNT, shared::SlotEntry{});
+    std::fill_n(table.begin(), plan.rear_last.size() * SLOT_COUNT, shared::SlotEntry{});
     for (const PlanImage& image : plan.images)
         table[std::size_t(image.layer * SLOT_COUNT + image.slot)] = slot_entry(image);
-    return table;
 }
 
 glm::dmat3 motion_from_world(const glm::dvec3& u, const glm::dquat& ship_from_cockpit)

@@ -4,6 +4,7 @@
 #include "runtime/shared.h"
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace starbow {
@@ -59,8 +60,8 @@ struct Plan {
 ///
 /// The cut: one image ahead; each side in three bands across the motion, so that D varies less than twofold in each; behind,
 /// nested squares shrinking by sqrt 2 (D varies as the square of the angle there). A slot that nobody looks at is left out,
-/// and so is one in which nothing stands.
-Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality);
+/// and so is one in which nothing stands. before: a plan whose memory is taken over.
+Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality, Plan before = {});
 /// Of a world in which nothing moves.
 Plan make_plan(const std::vector<View>& views, double E, const Quality& quality);
 
@@ -80,9 +81,10 @@ glm::dvec3 face_direction(int face, const glm::dvec2& at);
 /// clip_from_motion of an image: reversed z, infinite far plane, near plane at `near_distance` along the face's normal.
 glm::dmat4 clip_from_motion(const PlanImage& image, double near_distance);
 
-/// What the warp shader reads of one image, and of all: for each layer one entry per slot.
+/// What the warp shader reads of one image, and of all: for each layer one entry per slot, into a table that has room for
+/// them.
 shared::SlotEntry slot_entry(const PlanImage& image);
-std::vector<shared::SlotEntry> slot_table(const Plan& plan);
+void put_slots(const Plan& plan, std::span<shared::SlotEntry> table);
 
 /// Turn from world axes to motion axes: z along u, y as near as possible to the cockpit's up; at rest z is the cockpit's
 /// straight ahead. The same turn leads from the ship's axes to the motion axes in the ship's frame.

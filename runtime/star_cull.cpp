@@ -52,13 +52,14 @@ std::vector<StarPatch> star_patches(std::span<const shared::StarEntry> stars)
     return patches;
 }
 
-std::vector<StarRun> stars_in(
-    std::span<const PlanImage> images, std::span<const StarPatch> patches, const glm::dmat3& motion_from_world)
+std::vector<StarRun> stars_in(std::span<const PlanImage> images, std::span<const StarPatch> patches,
+    const glm::dmat3& motion_from_world, std::vector<StarRun> before)
 {
-    std::vector<Pyramid> pyramids;
-    for (const PlanImage& image : images)
-        pyramids.push_back(pyramid_of(image));
-    std::vector<StarRun> runs;
+    std::array<Pyramid, SLOT_COUNT> all; // of one layer
+    const std::span pyramids(all.data(), images.size());
+    std::transform(images.begin(), images.end(), pyramids.begin(), pyramid_of);
+    std::vector<StarRun> runs = std::move(before);
+    runs.clear();
     for (const StarPatch& patch : patches) {
         const glm::dvec3 axis = motion_from_world * patch.axis;
         const bool seen = std::any_of(pyramids.begin(), pyramids.end(), [&](const Pyramid& pyramid) {

@@ -14,9 +14,10 @@ double Watcher::most_E() const
     return most;
 }
 
-Watcher watcher(const World& world, const Shot& ship, const Onlooker& observer)
+Watcher watcher(const World& world, const Shot& ship, const Onlooker& observer, std::vector<Layer> before)
 {
-    Watcher out{observer, shot_of(ship, observer)};
+    before.clear();
+    Watcher out{observer, shot_of(ship, observer), 1, std::move(before)};
     out.E = physics::exp_rapidity(glm::length(out.shot.u));
     const bool now = ship.effects.comparison == Comparison::no_light_delay;
     const bool aberration = ship.effects.aberration || now;

@@ -25,7 +25,8 @@ struct Watcher {
 
 /// Everything where it is now: what is simultaneous in the ship, contracted there, without aberration or shift.
 /// Without aberration directions are those that someone sees who rests in the world.
-Watcher watcher(const World& world, const Shot& ship, const Onlooker& observer);
+Watcher watcher(const World& world, const Shot& ship, const Onlooker& observer,
+    std::vector<Layer> before = {}); ///< before: whose memory is taken over
 
 /// The ship's instant for an observer: its event, another velocity, the axes carried there by the boost between them.
 Shot shot_of(const Shot& ship, const Onlooker& observer);
