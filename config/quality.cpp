@@ -27,7 +27,7 @@ Quality read_quality(const Place& top)
 {
     only(top,
         {"$schema", "texels_per_pixel", "most_texels_per_pixel", "cube_samples", "stray_texels", "shading_texels",
-            "pixel_rays", "rear_images", "mips", "half_floats", "matrices", "frames_per_cube", "spectra", "stereo"});
+            "image_cost_texels", "pixel_rays", "rear_images", "mips", "half_floats", "matrices", "frames_per_cube", "spectra", "stereo"});
     Quality quality;
     take(top, "texels_per_pixel", quality.texels_per_pixel, {0.05, 16});
     take(top, "most_texels_per_pixel", quality.most_texels_per_pixel, {0.05, 1000});
@@ -36,6 +36,7 @@ Quality read_quality(const Place& top)
         complain(member(top, "cube_samples"), "is no number of samples that devices have; 1, 2, 4 or 8 is right");
     take(top, "stray_texels", quality.stray_texels, {0, 100});
     take(top, "shading_texels", quality.shading_texels, {0, 1000});
+    take(top, "image_cost_texels", quality.image_cost_texels, {0, 1e12});
     take_whole(top, "pixel_rays", quality.pixel_rays, 1, 8);
     take_whole(top, "rear_images", quality.rear_images, 0, 42);
     take(top, "mips", quality.mips);
@@ -53,7 +54,8 @@ nlohmann::ordered_json json_of(const Quality& quality)
 {
     return {{"texels_per_pixel", quality.texels_per_pixel}, {"most_texels_per_pixel", quality.most_texels_per_pixel},
         {"cube_samples", quality.cube_samples}, {"stray_texels", quality.stray_texels},
-        {"shading_texels", quality.shading_texels}, {"pixel_rays", quality.pixel_rays}, {"rear_images", quality.rear_images},
+        {"shading_texels", quality.shading_texels},
+        {"image_cost_texels", quality.image_cost_texels}, {"pixel_rays", quality.pixel_rays}, {"rear_images", quality.rear_images},
         {"mips", quality.mips}, {"half_floats", quality.half_floats}, {"matrices", quality.matrices},
         {"frames_per_cube", quality.frames_per_cube}, {"spectra", name_of(quality.spectra, levels)},
         {"stereo", name_of(quality.stereo, methods)}};
@@ -130,6 +132,7 @@ std::string differences(const Quality& quality, const Quality& other)
     differs(q.cube_samples, o.cube_samples, count(q.cube_samples, "sample of a texel", "samples of a texel"));
     differs(q.stray_texels, o.stray_texels, "surfaces within " + shown(q.stray_texels) + " texels");
     differs(q.shading_texels, o.shading_texels, "shading within " + shown(q.shading_texels) + " texels");
+    differs(q.image_cost_texels, o.image_cost_texels, "an image for " + shown(q.image_cost_texels) + " texels");
     differs(q.pixel_rays, o.pixel_rays, count(q.pixel_rays * q.pixel_rays, "ray a pixel", "rays a pixel"));
     differs(q.rear_images, o.rear_images, count(q.rear_images, "nested image behind", "nested images behind"));
     differs(q.mips, o.mips, q.mips ? "mips" : "no mips");

@@ -21,6 +21,7 @@ struct Quality {
     double stray_texels = 1; ///< how far surfaces in fewer triangles may stray; 0: all triangles, always
     double shading_texels = 16; ///< and as far what a vertex shades otherwise may lie from the next one that is drawn; a
                                 ///< surface of 64 keeps its flutes where they are some texels wide, one of 128 loses them
+    double image_cost_texels = 4096; ///< what one more image of the cube map costs beside its texels: how finely it is cut
     int pixel_rays = 1; ///< along each side of an output pixel: its square look up the cube map
     int rear_images = 42; ///< nested ones behind, at most: with none of them, one image holds all that lies behind
     bool mips = true; ///< where several texels fall into one pixel

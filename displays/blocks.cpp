@@ -115,11 +115,15 @@ Cap Blocks::flat_cap(glm::ivec2 low, glm::ivec2 high) const
     Cap cap;
     // Less than half a sphere is convex: the rectangle lies within any cap that holds its corners.
     cap.centre = glm::normalize(at(0.5 * (first + last)));
-    double farthest = 0;
+    double farthest = 0, chord_square = 0;
+    const glm::dvec3 centre(cap.centre);
     for (const glm::dvec3& corner : corners) {
-        cap.radius = std::max(cap.radius, angle(cap.centre, glm::normalize(corner)) + slack);
-        farthest = std::max(farthest, glm::length(corner));
+        const double length = glm::length(corner);
+        const glm::dvec3 off = corner / length - centre;
+        chord_square = std::max(chord_square, glm::dot(off, off));
+        farthest = std::max(farthest, length);
     }
+    cap.radius = float(2 * std::asin(std::min(1.0, 0.5 * std::sqrt(chord_square)))) + slack;
     // The solid angle of a pixel is det M / length^3.
     const double nearest = glm::length(at(glm::clamp(foot_, first, last)));
     cap.finest = float(unit_ / (farthest * std::sqrt(farthest)));

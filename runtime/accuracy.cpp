@@ -163,6 +163,8 @@ std::vector<Setting> settings_to_try(
         with([&](Quality& q) { q.stray_texels = texels; });
     for (double texels : {2.0, 8.0, 16.0, 32.0, 64.0, 128.0})
         with([&](Quality& q) { q.shading_texels = texels; });
+    for (double texels : {2048.0, 8192.0, 32768.0, 131072.0, 1e12})
+        with([&](Quality& q) { q.image_cost_texels = texels; });
     for (int rays : {1, 2, 3})
         with([&](Quality& q) { q.pixel_rays = rays; });
     for (int images : {0, 2})
@@ -246,7 +248,8 @@ std::string accuracy_csv(const std::vector<Measured>& all)
 {
     const std::vector<bool> best = frontier(all);
     std::string out
-        = "setting,texels_per_pixel,most_texels_per_pixel,cube_samples,stray_texels,shading_texels,pixel_rays,rear_images,"
+        = "setting,texels_per_pixel,most_texels_per_pixel,cube_samples,stray_texels,shading_texels,image_cost_texels,pixel_"
+          "rays,rear_images,"
           "mips,half_floats,"
           "matrices,frames_per_cube,ms,ratio,megabytes,texels_drawn_per_pixel,images,flip,psnr_dB,ciede2000_mean,"
           "ciede2000_95,edges_95_px,direction_99_px,doppler_99,frontier\n";
@@ -254,10 +257,10 @@ std::string accuracy_csv(const std::vector<Measured>& all)
         const Measured& m = all[i];
         const Quality& q = m.setting.quality;
         out += quoted(m.setting.name)
-            + text(",%g,%g,%d,%g,%g,%d,%d,%d,%d,%d,%d,%.4f,%.4f,%.2f,%.3f,%d,%.6f,%.3f,%.4f,%.4f,%.4f,%.6f,%.3g,%d\n",
-                q.texels_per_pixel, q.most_texels_per_pixel, q.cube_samples, q.stray_texels, q.shading_texels, q.pixel_rays,
-                q.rear_images, q.mips, q.half_floats, q.matrices, q.frames_per_cube, m.ms, m.ratio, m.megabytes,
-                m.texels_per_pixel, m.images, m.errors.flip, m.errors.psnr_dB, m.errors.ciede2000_mean,
+            + text(",%g,%g,%d,%g,%g,%g,%d,%d,%d,%d,%d,%d,%.4f,%.4f,%.2f,%.3f,%d,%.6f,%.3f,%.4f,%.4f,%.4f,%.6f,%.3g,%d\n",
+                q.texels_per_pixel, q.most_texels_per_pixel, q.cube_samples, q.stray_texels, q.shading_texels,
+                q.image_cost_texels, q.pixel_rays, q.rear_images, q.mips, q.half_floats, q.matrices, q.frames_per_cube, m.ms,
+                m.ratio, m.megabytes, m.texels_per_pixel, m.images, m.errors.flip, m.errors.psnr_dB, m.errors.ciede2000_mean,
                 m.errors.ciede2000_95, m.errors.edges_95_px, m.direction_px, m.doppler, int(best[i]));
     }
     return out;

@@ -41,8 +41,7 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
     stride_ = (sizeof(shared::CubeConstants) + step - 1) / step * step;
     const std::size_t layers = world.world.frames.size();
     constants_ = make_mapped_buffer(device, layers * stride_, vk::BufferUsageFlagBits::eUniformBuffer);
-    slots_ = make_mapped_buffer(
-        device, MAX_LAYERS * SLOT_COUNT * sizeof(shared::SlotEntry), vk::BufferUsageFlagBits::eUniformTexelBuffer);
+    slots_ = make_mapped_buffer(device, sizeof(shared::SlotTable), vk::BufferUsageFlagBits::eUniformTexelBuffer);
     slots_view_ = device.device.createBufferView({{}, *slots_.buffer, exact_format, 0, VK_WHOLE_SIZE});
     atlases_.resize(formats(world.layered()).size());
     std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBufferDynamic, 1},
@@ -72,7 +71,7 @@ void CubePass::prepare(const Plan& plan, std::span<const Vantage> layers, double
         contractions_.push_back(layer.contraction);
     fit(plan.atlas_size, plan.levels);
     upload(layers, false);
-    put_slots(plan, {static_cast<shared::SlotEntry*>(slots_.mapped), MAX_LAYERS * SLOT_COUNT});
+    put_slots(plan, *static_cast<shared::SlotTable*>(slots_.mapped));
 }
 
 void CubePass::prepare_plain(const PlanImage& image, const Vantage& vantage)

@@ -44,7 +44,7 @@ public:
     const std::vector<Image>& atlases() const { return atlases_; }
     const Image& depth() const { return depth_; }
     bool layered() const { return layered_; } ///< what is covered is told
-    vk::BufferView slots() const { return *slots_view_; } ///< slot_table, as texels
+    vk::BufferView slots() const { return *slots_view_; } ///< SlotTable, as texels
     std::size_t triangles() const { return triangles_; } ///< sent to the device, all images
     vk::DeviceSize memory() const;
 

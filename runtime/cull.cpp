@@ -1,6 +1,7 @@
 #include "cull.h"
 #include "moving.h"
 #include "physics/physics.h"
+#include "room.h"
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -265,10 +266,13 @@ DrawList cull(const World& world, std::span<const Vantage> layers, const std::ve
                 list.draws.push_back({i, index, std::uint32_t(list.visible.size()), std::uint32_t(seen.size()),
                     detail.first_index, detail.index_count, kind.first, kind.second});
                 list.visible.insert(list.visible.end(), seen.begin(), seen.end());
+                keep_room(seen);
                 seen.clear();
             }
         }
     }
+    keep_room(list.draws);
+    keep_room(list.visible);
     return list;
 }
 

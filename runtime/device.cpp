@@ -1,5 +1,6 @@
 #include "device.h"
 #include "config/error.h"
+#include "shared.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <algorithm>
@@ -66,6 +67,8 @@ std::string lacks(const vk::raii::PhysicalDevice& physical, bool windows)
         return "the feature largePoints";
     if (physical.getProperties().limits.maxUniformBufferRange < 65536)
         return "64 KiB of constants at once (maxUniformBufferRange)";
+    if (physical.getProperties().limits.maxTexelBufferElements < sizeof(shared::SlotTable) / sizeof(glm::vec4))
+        return "texel buffers of 7 MiB (maxTexelBufferElements)";
     auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>()
                         .get<vk::PhysicalDeviceVulkan13Features>();
     if (!features.dynamicRendering)

@@ -324,8 +324,8 @@ void Frame::prepare_eyes(double pre_exposure)
             continue;
         const auto& images = plans_[i].images;
         const auto own = std::find_if(images.begin(), images.end(), [](const PlanImage& image) { return image.layer > 0; });
-        eye.stars = stars_in({images.begin(), own}, world_.star_patches,
-            watchers_[eye.watcher].layers[0].motion_from_frame, std::move(eye.stars));
+        eye.stars = stars_in({images.begin(), own}, world_.star_patches, watchers_[eye.watcher].layers[0].motion_from_frame,
+            std::move(eye.stars));
     }
 }
 
@@ -560,6 +560,7 @@ WarpVariant Frame::variant(const PaneState& pane) const
     variant.numbers = world_.numbers();
     variant.layered = eyes_[pane.eye].cube.layered();
     variant.single = single_image(pane);
+    variant.cut = plans_[pane.eye].cut;
     variant.galilean = on.comparison == Comparison::galilean;
     variant.by_table = variant.doppler || on.false_colours || variant.numbers != Numbers{}; // else as at rest, which is told
     return variant;

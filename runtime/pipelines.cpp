@@ -111,7 +111,7 @@ std::vector<std::uint32_t> constants(const WarpVariant& v)
     constexpr std::uint32_t of_the_pass = 0; // constant_id 10, each pass's own
     return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear,
         of_the_pass, std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), v.by_table, v.layered, v.galilean,
-        v.single, std::uint32_t(v.rays)};
+        v.single, std::uint32_t(v.rays), v.cut};
 }
 
 /// The pipeline of a key, made by `make` if it is new.

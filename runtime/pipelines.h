@@ -82,6 +82,7 @@ struct WarpVariant {
     bool galilean = false; ///< velocities are added
     int rays = 1; ///< along each side of a pixel
     bool single = false; ///< one image of the plan, ahead, shows all
+    bool cut = false; ///< slots may have several images
     auto operator<=>(const WarpVariant&) const = default;
 };
 

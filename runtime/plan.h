@@ -1,38 +1,11 @@
 #pragma once
 #include "config/quality.h"
-#include "displays/blocks.h"
-#include "runtime/shared.h"
-#include <glm/glm.hpp>
-#include <optional>
-#include <span>
+#include "demand.h"
 #include <vector>
 
 namespace starbow {
 
-/// What one pane asks of its eye's cube map.
-struct View {
-    const Blocks* blocks;
-    glm::dmat3 motion_from_cockpit; ///< turn into the axes whose z is the direction of motion
-    double parallax_rad = 0; ///< by how much the place that a pixel reads may lie off its direction, in the world
-};
-
-/// A ball around something that is drawn, from the eye in motion axes, scene units.
-struct Ball {
-    glm::dvec3 centre;
-    double radius;
-};
-
-/// One rest frame's part of a cube map: how the panes look at it, boosted by its own motion.
-struct PlanLayer {
-    std::vector<View> views;
-    double E = 1; ///< e^rapidity between it and the ship; 1 where directions are not aberrated
-    bool galilean = false; ///< velocities are added: circles do not stay circles
-    std::optional<std::vector<Ball>> things{}; ///< outside which there is nothing to draw; none: everywhere is something
-};
-
 /// One picture to draw: a rectangle of one face of the cube around the eye, at one resolution, and its place in the atlas.
-/// Faces are numbered +z (ahead), -z (behind), +x, -x, +y, -y of the motion axes; a face's coordinates (a, b) are the two
-/// other components (x before y before z) over the distance along its normal.
 struct PlanImage {
     int slot; ///< of its layer
     int face;
@@ -43,24 +16,40 @@ struct PlanImage {
     int levels; ///< mip levels the warp pass reads
     double hole = 0; ///< half the side of the square in the middle that no pixel reads: a finer image holds it
     int layer = 0;
+    Cells cells{}; ///< of its slot, for which it stands
+};
+
+/// What is wanted of each rectangle that halving a slot leads to, along either side and again and again. Intervals of a side
+/// are a binary heap: 0 is the whole, 2 n + 1 and 2 n + 2 are the halves of n.
+struct SlotDemands {
+    static constexpr int intervals = 2 * SLOT_CELLS - 1;
+    int layer, slot;
+    Demand demands[intervals][intervals]; ///< [along b][along a]
+    double wanted[intervals][intervals]; ///< texels, at a density of 1 and if each cell had just what it wants
 };
 
 /// What the cube map of one eye must hold for one frame.
 struct Plan {
-    std::vector<PlanImage> images; ///< by layer
+    std::vector<PlanImage> images; ///< by layer, then by slot
     glm::ivec2 atlas_size{0};
     std::vector<int> rear_last; ///< of each layer: the finest nested image behind that differs from the one before
     int levels = 1; ///< of the atlas: the most that any image needs
     double texels = 0; ///< drawn, all images
     double pixels = 0; ///< served
+    bool cut = false; ///< some slot has more than one image
+
+    // What make_plan works with; kept for its room.
+    std::vector<Demands> demands;
+    std::vector<SlotDemands> by_slot;
+    std::vector<std::size_t> by_height;
 };
 
 /// Decides which faces are looked at, in which rectangle and how finely. Pure. Every texel that a pixel of the views reads,
 /// the neighbours of its filter included, lies inside an image.
 ///
-/// The cut: one image ahead; each side in three bands across the motion, so that D varies less than twofold in each; behind,
-/// nested squares shrinking by sqrt 2 (D varies as the square of the angle there). A slot that nobody looks at is left out,
-/// and so is one in which nothing stands. before: a plan whose memory is taken over.
+/// A slot that nobody looks at is left out, and so is one in which nothing stands. Any other is cut into as many images,
+/// each with its own resolution, as cost least: Quality::image_cost_texels for each, and its texels. before: a plan whose
+/// memory is taken over.
 Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality, Plan before = {});
 /// Of a world in which nothing moves.
 Plan make_plan(const std::vector<View>& views, double E, const Quality& quality);
@@ -68,23 +57,15 @@ Plan make_plan(const std::vector<View>& views, double E, const Quality& quality)
 /// Whether what is drawn for one plan serves another, at hardly less density: it may then be shown once more.
 bool serves(const Plan& drawn, const Plan& wanted);
 
-/// The slot that shows the unit direction n (motion axes) and n's face coordinates there: what the warp shader does.
-struct SlotPlace {
-    int slot, face;
-    glm::dvec2 at;
-};
-SlotPlace slot_of(const glm::dvec3& n, int rear_last);
-
-/// Unit direction (not normalised: length of the face's plane) of a face coordinate.
-glm::dvec3 face_direction(int face, const glm::dvec2& at);
+/// The image that a place is read from: of its slot's the nearest. Null where the slot is left out.
+const PlanImage* image_at(const Plan& plan, int layer, const SlotPlace& place);
 
 /// clip_from_motion of an image: reversed z, infinite far plane, near plane at `near_distance` along the face's normal.
 glm::dmat4 clip_from_motion(const PlanImage& image, double near_distance);
 
-/// What the warp shader reads of one image, and of all: for each layer one entry per slot, into a table that has room for
-/// them.
+/// What the warp shader reads of one image, and of all.
 shared::SlotEntry slot_entry(const PlanImage& image);
-void put_slots(const Plan& plan, std::span<shared::SlotEntry> table);
+void put_slots(const Plan& plan, shared::SlotTable& table);
 
 /// Turn from world axes to motion axes: z along u, y as near as possible to the cockpit's up; at rest z is the cockpit's
 /// straight ahead. The same turn leads from the ship's axes to the motion axes in the ship's frame.

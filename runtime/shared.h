@@ -6,6 +6,13 @@ namespace starbow::shared {
 using glm::vec4;
 #include "shaders/shared.h"
 static_assert(sizeof(SlotEntry) == 32);
+
+/// All that the warp pass reads of a plan: for each layer each slot, drawn or not.
+struct SlotTable {
+    vec4 cells_from_face[MAX_LAYERS * SLOT_COUNT]; ///< as slots.h's; all 0: one image is the whole slot's
+    SlotEntry entries[MAX_LAYERS * SLOT_COUNT * SLOT_CELLS * SLOT_CELLS];
+};
+static_assert(sizeof(SlotTable) == 16 * SLOT_ENTRY(MAX_LAYERS * SLOT_COUNT, 0));
 static_assert(sizeof(LightEntry) == 80);
 static_assert(sizeof(CubeConstants) == 4 * 16 + 3 * MAX_GROUPS * 16 + MAX_LIGHTS * 80);
 static_assert(sizeof(LayerEntry) == 96);

@@ -1,4 +1,5 @@
 #include "star_cull.h"
+#include "room.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,13 +17,13 @@ struct Pyramid {
     double margin_rad;
 };
 
-Pyramid pyramid_of(const PlanImage& image)
+Pyramid pyramid_of(int face, const Rect& rect, double texels_per_unit)
 {
-    const glm::dvec2 &low = image.low, &high = image.high;
-    const glm::dvec3 corners[] = {face_direction(image.face, low), face_direction(image.face, {high.x, low.y}),
-        face_direction(image.face, high), face_direction(image.face, {low.x, high.y})};
+    const glm::dvec2 &low = rect.low, &high = rect.high;
+    const glm::dvec3 corners[] = {face_direction(face, low), face_direction(face, {high.x, low.y}),
+        face_direction(face, high), face_direction(face, {low.x, high.y})};
     const glm::dvec3 middle = corners[0] + corners[2];
-    Pyramid pyramid{{}, spot_texels / image.texels_per_unit};
+    Pyramid pyramid{{}, spot_texels / texels_per_unit};
     for (std::size_t i = 0; i < 4; ++i) {
         const glm::dvec3 side = glm::normalize(glm::cross(corners[i], corners[(i + 1) % 4]));
         pyramid.sides[i] = glm::dot(side, middle) < 0 ? -side : side;
@@ -55,9 +56,19 @@ std::vector<StarPatch> star_patches(std::span<const shared::StarEntry> stars)
 std::vector<StarRun> stars_in(std::span<const PlanImage> images, std::span<const StarPatch> patches,
     const glm::dmat3& motion_from_world, std::vector<StarRun> before)
 {
-    std::array<Pyramid, SLOT_COUNT> all; // of one layer
-    const std::span pyramids(all.data(), images.size());
-    std::transform(images.begin(), images.end(), pyramids.begin(), pyramid_of);
+    std::array<Pyramid, SLOT_COUNT> all; // around each slot's images
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < images.size();) {
+        const PlanImage& first = images[i];
+        Rect rect;
+        double coarsest = first.texels_per_unit;
+        for (; i < images.size() && images[i].slot == first.slot; ++i) {
+            rect.add({images[i].low, images[i].high});
+            coarsest = std::min(coarsest, images[i].texels_per_unit);
+        }
+        all[count++] = pyramid_of(first.face, rect, coarsest);
+    }
+    const std::span pyramids(all.data(), count);
     std::vector<StarRun> runs = std::move(before);
     runs.clear();
     for (const StarPatch& patch : patches) {
@@ -75,6 +86,7 @@ std::vector<StarRun> stars_in(std::span<const PlanImage> images, std::span<const
         else
             runs.push_back({patch.first, patch.count});
     }
+    keep_room(runs);
     return runs;
 }
 

@@ -39,7 +39,7 @@ Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
     part.D = sight.D * D_beside;
     part.ways = vec4(infinite);
     part.covers = vec4(0.0);
-    vec4 image = texelFetch(slots, 2 * part.place.slot + 1);
+    vec4 image = texelFetch(slots, part.place.entry + 1);
     vec2 texel = part.place.texel;
     // What moves does not fill its images, and pixels look past them: nothing beyond their edges is filtered in.
     float margin = i == 0 ? 0.5 : 2.0 * exp2(part.place.last_level);

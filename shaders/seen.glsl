@@ -15,6 +15,7 @@ layout(constant_id = 13) const bool BY_TABLE = true; // otherwise the numbers ar
 layout(constant_id = 15) const bool GALILEAN = false; // velocities are added: a comparison
 layout(constant_id = 16) const bool SINGLE = false; // one image of the plan, ahead, shows all: view.eye is its SlotEntry's first
 layout(constant_id = 17) const int RAYS = 1; // along each side of a pixel
+layout(constant_id = 18) const bool CUT = false; // some slot of the plan has more than one image
 layout(constant_id = 14) const bool LAYERED = false; // something moves: what stands still in each of several frames
 
 const int GROUPS = (REFLECTED + OWN + 3) / 4;
@@ -22,7 +23,7 @@ const int GROUPS = (REFLECTED + OWN + 3) / 4;
 layout(push_constant) uniform Push { ViewPush view; };
 
 layout(set = 0, binding = 1) uniform sampler2D atlas; // four numbers of the light
-layout(set = 0, binding = 2) uniform samplerBuffer slots; // SlotEntry each
+layout(set = 0, binding = 2) uniform samplerBuffer slots; // SlotTable
 layout(set = 0, binding = 3) uniform usamplerBuffer response; // Response's rows
 layout(set = 0, binding = 4) uniform sampler2D depth_atlas; // near / distance along the face's normal, 0 at infinity
 layout(set = 0, binding = 5) uniform sampler2D stars_picture; // pixel for pixel the target's; light as the atlas's
@@ -58,10 +59,10 @@ struct Place {
     vec2 face;  // face coordinates
     vec2 texel; // of the atlas
     float texels_per_unit, last_level; // of the image
-    int slot;
+    int entry; // of the image in `slots`
 };
 
-// The image of the plan that holds the direction n: plan.cpp's slot_of, in float.
+// The image of the plan that holds the direction n: slots.cpp's slot_of, in float.
 Place place_of(vec3 n, Layer layer)
 {
     vec3 m = abs(n);
@@ -84,8 +85,14 @@ Place place_of(vec3 n, Layer layer)
         slot = SLOT_SIDES + side * SIDE_BANDS + int(place.face.y > -0.5) + int(place.face.y > 0.0);
     }
     slot += layer.slots;
-    place.slot = slot;
-    vec4 to_texel = SINGLE ? view.eye : texelFetch(slots, 2 * slot);
+    ivec2 cell = ivec2(0);
+    if (CUT) {
+        vec4 cells_from_face = texelFetch(slots, slot);
+        vec2 spread = m.z >= across && n.z < 0.0 ? place.face * abs(place.face) : place.face;
+        cell = min(ivec2(spread * cells_from_face.xy + cells_from_face.zw), SLOT_CELLS - 1);
+    }
+    place.entry = SLOT_ENTRY(slot, cell.y * SLOT_CELLS + cell.x);
+    vec4 to_texel = SINGLE ? view.eye : texelFetch(slots, place.entry);
     place.texel = place.face * to_texel.x + to_texel.yz;
     place.texels_per_unit = to_texel.x;
     place.last_level = to_texel.w;

@@ -8,6 +8,7 @@
 #define SLOT_REAR 13
 #define REAR_LEVELS 43
 #define SLOT_COUNT 56
+#define SLOT_CELLS 16 // along each side of a slot, a power of 2: what its images are rectangles of
 
 #define REPROJECT_STEPS 12
 #define REPROJECT_ROUNDS 4
@@ -31,11 +32,14 @@
     (3.14159265 * STAR_RADIUS * STAR_RADIUS / 5.0) // pixels of a spot as bright everywhere as in its middle: the
 // integral of (1 - r^2 / R^2)^4
 
-// One image of the plan, as the warp pass reads it: texel of the atlas = face coordinate * scale + offset.
+// One image of the plan, as the warp pass reads it: texel of the atlas = face coordinate * scale + offset. Each slot has one
+// for each of its cells, rows along the second coordinate, in a texel buffer after the layers' cells_from_face.
 struct SlotEntry {
     vec4 texel_from_face; // x: texels per unit of face coordinate; y, z: offset; w: coarsest mip level
     vec4 texels; // of the atlas: the image's first x, y and last x, y; 0 of a slot that is not drawn
 };
+
+#define SLOT_ENTRY(slot, cell) (MAX_LAYERS * SLOT_COUNT + 2 * (SLOT_CELLS * SLOT_CELLS * (slot) + (cell)))
 
 struct LightEntry {
     vec4 place; // w = 0: unit direction towards the light; w = 1: its place from the eye, at the eye's time. Motion axes.

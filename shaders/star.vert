@@ -175,7 +175,7 @@ bool find(vec3 n, int channel, bool second, out vec2 point, out float pixel_angl
 // Whether something stands before the sky. A star outside the viewport, whose spot reaches in, may lie beyond the image's edge.
 bool hidden(Place place)
 {
-    vec4 image = texelFetch(slots, 2 * place.slot + 1);
+    vec4 image = texelFetch(slots, place.entry + 1);
     vec2 texel = clamp(place.texel, image.xy, image.zw);
     return image.z > 0.0 && texelFetch(depth_atlas, ivec2(texel), 0).r > 0.0;
 }

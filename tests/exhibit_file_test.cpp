@@ -12,7 +12,7 @@ using nlohmann::json;
 
 namespace {
 
-bool schema_accepts(const json& exhibit) { return testing::schema_accepts("exhibit", exhibit); }
+bool schema_accepts(const json& exhibit) { return starbow::testing::schema_accepts("exhibit", exhibit); }
 
 /// What the reader says; "" where it reads it.
 std::string said(const std::string& text)

@@ -14,7 +14,7 @@ namespace {
 
 json schema_json() { return json::parse(read_text(source_dir() / "config/schema/quality.schema.json")); }
 
-bool schema_accepts(const json& quality) { return testing::schema_accepts("quality", quality); }
+bool schema_accepts(const json& quality) { return starbow::testing::schema_accepts("quality", quality); }
 
 template <class Load> std::string said(Load&& load)
 {
@@ -27,7 +27,7 @@ template <class Load> std::string said(Load&& load)
 }
 
 const char* const all_members
-    = R"({ "texels_per_pixel": 1.5, "most_texels_per_pixel": 2.5, "cube_samples": 8, "stray_texels": 0.5, "shading_texels": 8,
+    = R"({ "texels_per_pixel": 1.5, "most_texels_per_pixel": 2.5, "cube_samples": 8, "stray_texels": 0.5, "shading_texels": 8, "image_cost_texels": 5000,
     "pixel_rays": 3, "rear_images": 7, "mips": false, "half_floats": false, "matrices": false, "frames_per_cube": 4,
     "spectra": "fine", "stereo": "reprojected" })";
 
@@ -54,6 +54,7 @@ TEST(QualityTest, EveryMemberIsTakenAndWrittenAgain)
     EXPECT_EQ(q.cube_samples, 8);
     EXPECT_EQ(q.stray_texels, 0.5);
     EXPECT_EQ(q.shading_texels, 8);
+    EXPECT_EQ(q.image_cost_texels, 5000);
     EXPECT_EQ(q.pixel_rays, 3);
     EXPECT_EQ(q.rear_images, 7);
     EXPECT_FALSE(q.mips || q.half_floats || q.matrices);

@@ -213,7 +213,7 @@ TEST(Reference, AStarGivesAllItsLight)
         Shot shot = shot_at(dvec3(0), {0, 0, flying ? -u_of_beta(beta) : 0.0});
         shot.effects = {true, true, true};
         const glm::ivec2 size(21, 16); // its middle lies in a pixel's middle one way, between two the other
-        const Reference picture = plates.seen(shot, flat(size, 1));
+        const Reference picture = plates.seen(shot, one_view(Planar{.fov_y_deg = 1}, size));
         const double pixel = 2 * std::tan(0.5 * degree) / size.y;
         dvec3 light(0); // all of it near the axis
         for (const dvec3& one : picture.light[0])
@@ -273,7 +273,7 @@ TEST(Reference, AClockShowsWhenItsLightLeft)
     Shot shot = shot_at(dvec3(0), dvec3(0));
     shot.time = 100;
     const glm::ivec2 size(201, 201);
-    const Reference picture = plates.seen(shot, flat(size, 2 * std::atan(1.0 / 31) / degree));
+    const Reference picture = plates.seen(shot, one_view(Planar{.fov_y_deg = 2 * std::atan(1.0 / 31) / degree}, size));
     // The hand's middle beyond the small dials and the figures, before the strokes.
     dvec2 sum(0);
     for (int y = 0; y < size.y; ++y)

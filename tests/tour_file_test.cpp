@@ -4,6 +4,7 @@
 #include "runtime/find.h"
 #include "runtime/hud.h"
 #include "runtime/tour.h"
+#include "schema_check.h"
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -14,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-bool schema_accepts(const json& tour) { return testing::schema_accepts("tour", tour); }
+bool schema_accepts(const json& tour) { return starbow::testing::schema_accepts("tour", tour); }
 
 std::filesystem::path shipped_shot(const std::string& name) { return source_dir() / "config/shots" / (name + ".json"); }
 

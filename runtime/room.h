@@ -1,0 +1,13 @@
+#pragma once
+#include <vector>
+
+namespace starbow {
+
+/// Of a list that is filled anew in each frame: room for twice as much, so that a flight soon takes no more memory.
+template <class T> void keep_room(std::vector<T>& list)
+{
+    if (2 * list.capacity() < 3 * list.size())
+        list.reserve(2 * list.size());
+}
+
+} // namespace starbow
