@@ -219,8 +219,8 @@ void add_demands(Demands& demands, const PlanLayer& layer, int rear_last, int pi
     const double spread = 0.71 * (1 - 1.0 / pixel_rays) + 0.02;
     for (const View& view : layer.views) {
         const Blocks& blocks = *view.blocks;
-        // No fewer than 24 blocks across: what they are too coarse for is drawn in vain.
-        const double wanted = std::max(blocks.size().x, blocks.size().y) / 24.0;
+        // No fewer than 20 blocks across: what they are too coarse for is drawn in vain.
+        const double wanted = std::max(blocks.size().x, blocks.size().y) / 20.0;
         int level = 0;
         while (level + 1 < blocks.levels() && blocks.side(level) > wanted)
             ++level;
