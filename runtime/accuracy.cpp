@@ -230,9 +230,10 @@ std::vector<Rung> ladder_of(const std::vector<Measured>& all)
         const Quality& own = one.setting.quality;
         const Quality& first = all[0].setting.quality;
         // Other samples or formats would take other memory, which takes longer than a frame; and a cube map that lags behind
-        // is no quality to come to unasked.
+        // is no quality to come to unasked; nor is one that leaves out what the measured shots may just not have shown.
         if (best[i] && own.spectra == first.spectra && own.stereo == first.stereo && own.matrices == first.matrices
-            && own.cube_samples == first.cube_samples && own.half_floats == first.half_floats && own.frames_per_cube == 1)
+            && own.cube_samples == first.cube_samples && own.half_floats == first.half_floats && own.frames_per_cube == 1
+            && own.mips == first.mips && own.rear_images == first.rear_images)
             ladder.push_back({own, one.ms, one.errors.flip, one.errors.edges_95_px});
     }
     std::sort(ladder.begin(), ladder.end(), [](const Rung& a, const Rung& b) { return a.ms < b.ms; });

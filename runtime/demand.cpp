@@ -135,7 +135,7 @@ struct Walk {
         auto doppler = [&](double tangent) { return E * (1 + tangent * tangent) / (1 + E * E * tangent * tangent); };
         const double near = doppler(std::max(turned(-own_reach), 0.0)), far = doppler(std::min(turned(own_reach), 1e100));
         const double varies = near * cap.coarsest / (far * cap.finest);
-        if (!galilean && !last && varies > (few ? 1.2 : 1.5))
+        if (!galilean && !last && varies > (few ? 1.22 : 1.5))
             return false;
         if (!galilean && varies > 1.5 && cap.radius > 0.03 * cap.coarsest) {
             cut(centre, cap);

@@ -191,7 +191,7 @@ void main()
     if (ABERRATION)
         sight = GALILEAN ? galilean_camera_from_world(n, view.boost.x, view.boost.y) : camera_from_world(n, view.boost.x, view.boost.y);
     else
-        sight.D = world_from_camera(n, view.boost.x, view.boost.y).D;
+        sight.D = from_camera(n, view.boost.xy).D;
 
     gl_Position = vec4(2.0, 2.0, 0.0, 1.0); // outside
     gl_PointSize = 2.0 * STAR_RADIUS;

@@ -56,6 +56,15 @@ template <class Check> void each_pixel(const Case& c, double gamma, int turned, 
     glm::dmat3 motion_from_cockpit = motion_from_world(u, ship_from_cockpit) * glm::dmat3(glm::mat3_cast(ship_from_cockpit));
     const CompiledPane pane = compiled(c.projection, c.size);
     Plan plan = make_plan({{pane.blocks.get(), motion_from_cockpit}}, E, quality);
+    // The same for all places of a cell, and looked for once.
+    std::vector<std::optional<const PlanImage*>> known(SLOT_COUNT * CELL_COUNT);
+    auto image = [&](const SlotPlace& place) {
+        const glm::ivec2 cell = cells_in(place.slot, {place.at, place.at}).first;
+        auto& own = known[std::size_t(place.slot * CELL_COUNT + cell.y * SLOT_CELLS + cell.x)];
+        if (!own)
+            own = image_at(plan, 0, place);
+        return *own;
+    };
     for (int y = 0; y < c.size.y; ++y)
         for (int x = 0; x < c.size.x; ++x) {
             glm::dvec2 pixel(x + 0.5, y + 0.5);
@@ -64,7 +73,7 @@ template <class Check> void each_pixel(const Case& c, double gamma, int turned, 
                 continue;
             auto sight = physics::world_from_camera(motion_from_cockpit * *n, E, 1 / E);
             SlotPlace place = slot_of(sight.n, plan.rear_last[0]);
-            check(plan, place, sight.D * pixel_angle(pane.pane.picture, pixel), image_at(plan, 0, place));
+            check(plan, place, sight.D * pixel_angle(pane.pane.picture, pixel), image(place));
         }
 }
 

@@ -1,0 +1,51 @@
+// The formulas themselves, in double; direction maps; the reference's rays.
+#include "config/one_view.h"
+#include "displays/compiled.h"
+#include "physics/physics.h"
+#include "runtime/find.h"
+#include "runtime/reference/reference.h"
+#include <benchmark/benchmark.h>
+
+namespace starbow {
+namespace {
+
+void boost(benchmark::State& state)
+{
+    const double E = physics::exp_rapidity(std::sqrt(15.0));
+    glm::dvec3 n = glm::normalize(glm::dvec3(0.3, 0.4, 0.5));
+    for (auto _ : state) {
+        const auto sight = physics::world_from_camera(n, E, 1 / E);
+        benchmark::DoNotOptimize(sight);
+        n.x = -n.x;
+    }
+}
+BENCHMARK(boost);
+
+void map(benchmark::State& state)
+{
+    const Layout layout = one_view(Fisheye{180, 0}, {512, 512});
+    for (auto _ : state) {
+        MapStore store{std::filesystem::path()};
+        benchmark::DoNotOptimize(compile_output(store, layout, 0, {512, 512}));
+    }
+    state.SetItemsProcessed(state.iterations() * 512 * 512);
+}
+BENCHMARK(map)->Unit(benchmark::kMillisecond);
+
+/// The avenue at gamma 4, one ray a pixel.
+void rays(benchmark::State& state)
+{
+    const ReferenceWorld world = open_reference_world(find("scenes", "avenue"));
+    const Layout layout = one_view(Planar{60}, {80, 60});
+    Shot shot;
+    shot.position = {0, 0, -8};
+    shot.u = {0, 0, -std::sqrt(15.0)};
+    shot.effects = {true, true, true};
+    for (auto _ : state)
+        benchmark::DoNotOptimize(reference(world.input(), layout, shot, 0, {.samples = 1}));
+    state.SetItemsProcessed(state.iterations() * 80 * 60);
+}
+BENCHMARK(rays)->Unit(benchmark::kMillisecond);
+
+} // namespace
+} // namespace starbow
