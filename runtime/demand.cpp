@@ -123,8 +123,9 @@ struct Walk {
     }
 
     /// A boost maps circles to circles, so the world's disc follows exactly from its two ends on the meridian. False where
-    /// what its pixels want varies by much, which the last of them is cut for. few: there are not many as large.
-    bool disc(const glm::dvec3& centre, const Cap& cap, bool last, bool few = false) const
+    /// what its pixels want varies by much, which the last of them is cut for, but for those that are left whole. few: there
+    /// are not many as large.
+    bool disc(const glm::dvec3& centre, const Cap& cap, bool last, bool few = false, bool whole = false) const
     {
         const double radius = cap.radius + spread * cap.coarsest;
         const double across = std::hypot(centre.x, centre.y);
@@ -137,7 +138,7 @@ struct Walk {
         const double varies = near * cap.coarsest / (far * cap.finest);
         if (!galilean && !last && varies > (few ? 1.22 : 1.5))
             return false;
-        if (!galilean && varies > 1.5 && cap.radius > 0.03 * cap.coarsest) {
+        if (!whole && !galilean && near > 1.5 * far && cap.radius < 1) {
             cut(centre, cap);
             return true;
         }
@@ -179,7 +180,8 @@ struct Walk {
         return true;
     }
 
-    /// A disc of a last block as four that hold it together, of the square around it.
+    /// A disc of a last block as those of the square around it, halved again and again where D varies over them: down to the
+    /// place of a single pixel, or to where D is the same all about straight ahead.
     void cut(const glm::dvec3& centre, const Cap& cap) const
     {
         const glm::dvec3 aside = std::abs(centre.z) > 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
@@ -190,11 +192,18 @@ struct Walk {
     {
         Cap part = cap;
         part.radius = float(std::sqrt(0.5) * half);
-        const bool last = part.radius <= 0.03 * cap.coarsest;
+        const double smallest = std::max(0.03 * cap.coarsest, 0.3 / E);
         for (int i = -1; i <= 1; i += 2)
             for (int j = -1; j <= 1; j += 2) {
                 const glm::dvec3 there = centre + 0.5 * half * (double(i) * right + double(j) * up);
-                if (!disc(glm::normalize(there), part, false) && (!last || !disc(glm::normalize(there), part, true)))
+                const glm::dvec3 n = glm::normalize(there);
+                // D as of small angles from straight ahead, the only ones at which it varies so fast.
+                auto times = [&](double angle) { return 1 + 0.25 * E * E * angle * angle; };
+                const double across = std::hypot(n.x, n.y);
+                const bool even = times(across + part.radius) < 1.5 * times(std::max(across - part.radius, 0.0)) || n.z < 0;
+                if (even || part.radius < smallest)
+                    disc(n, part, true, false, true);
+                else
                     cut(there, right, up, 0.5 * half, cap);
             }
     }

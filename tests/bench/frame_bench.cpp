@@ -98,8 +98,9 @@ void stars(benchmark::State& state)
     std::mt19937 random(7);
     std::normal_distribution<double> normal;
     for (int i = 0; i < state.range(0); ++i)
-        entries.push_back({glm::vec4(glm::vec3(glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)))), 5772),
-            glm::vec4(1)});
+        entries.push_back(
+            {glm::vec4(glm::vec3(glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)))), 5772),
+                glm::vec4(1)});
     const std::vector<StarPatch> patches = star_patches(entries);
     const CompiledPane pane = pane_of(Planar{60}, {800, 600});
     const Plan plan = make_plan({looking(pane, 4)}, quality);
