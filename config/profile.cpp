@@ -195,7 +195,7 @@ void save_profile(const Profile& profile, const std::filesystem::path& file)
     if (file.has_parent_path())
         std::filesystem::create_directories(file.parent_path(), problem);
     // Exhibits are switched off at the wall.
-    write_whole(file, std::string_view(text), Lasting::power_cut);
+    write_whole(file, text, Lasting::power_cut);
 }
 
 } // namespace starbow

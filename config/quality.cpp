@@ -27,7 +27,8 @@ Quality read_quality(const Place& top)
 {
     only(top,
         {"$schema", "texels_per_pixel", "most_texels_per_pixel", "cube_samples", "stray_texels", "shading_texels",
-            "image_cost_texels", "pixel_rays", "rear_images", "mips", "half_floats", "matrices", "frames_per_cube", "spectra", "stereo"});
+            "image_cost_texels", "pixel_rays", "rear_images", "mips", "half_floats", "matrices", "frames_per_cube",
+            "spectra", "stereo"});
     Quality quality;
     take(top, "texels_per_pixel", quality.texels_per_pixel, {0.05, 16});
     take(top, "most_texels_per_pixel", quality.most_texels_per_pixel, {0.05, 1000});
@@ -54,11 +55,10 @@ nlohmann::ordered_json json_of(const Quality& quality)
 {
     return {{"texels_per_pixel", quality.texels_per_pixel}, {"most_texels_per_pixel", quality.most_texels_per_pixel},
         {"cube_samples", quality.cube_samples}, {"stray_texels", quality.stray_texels},
-        {"shading_texels", quality.shading_texels},
-        {"image_cost_texels", quality.image_cost_texels}, {"pixel_rays", quality.pixel_rays}, {"rear_images", quality.rear_images},
-        {"mips", quality.mips}, {"half_floats", quality.half_floats}, {"matrices", quality.matrices},
-        {"frames_per_cube", quality.frames_per_cube}, {"spectra", name_of(quality.spectra, levels)},
-        {"stereo", name_of(quality.stereo, methods)}};
+        {"shading_texels", quality.shading_texels}, {"image_cost_texels", quality.image_cost_texels},
+        {"pixel_rays", quality.pixel_rays}, {"rear_images", quality.rear_images}, {"mips", quality.mips},
+        {"half_floats", quality.half_floats}, {"matrices", quality.matrices}, {"frames_per_cube", quality.frames_per_cube},
+        {"spectra", name_of(quality.spectra, levels)}, {"stereo", name_of(quality.stereo, methods)}};
 }
 
 } // namespace

@@ -121,7 +121,7 @@ MovieFrames::MovieFrames(
     if (error)
         throw InputError(
             folder_.string(), "", "can't be made (" + error.message() + "); a place that can be written to is right");
-    write_whole(told, std::string_view(made_from));
+    write_whole(told, made_from);
 }
 
 fs::path MovieFrames::file(const std::string& output, long frame) const
