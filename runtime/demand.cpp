@@ -1,5 +1,6 @@
 #include "demand.h"
 #include "physics/physics.h"
+#include <algorithm>
 #include <cmath>
 
 namespace starbow {
@@ -14,7 +15,60 @@ struct Disc {
     double finest, coarsest; // one texel per pixel, radians
     double finest_pixel = 0, coarsest_pixel = 1e300; // the same in the ship; 0 and without end where D does not tell them
     double least_cos_half_square = 0; // of its outermost point's angle from straight ahead; 0 where that is not known
+    double times = 1; // by how much D varies over its pixels
 };
+
+/// Range of tan(angle) of a disc seen along a face's normal and one of its axes, clamped to the face. False if it misses.
+/// sine: of its radius; from 1 on of a disc that may be everywhere.
+bool face_range(double along_axis, double along_normal, double sine, double& low, double& high)
+{
+    const double c_square = along_axis * along_axis + along_normal * along_normal - sine * sine;
+    low = -1, high = 1;
+    if (c_square <= 0)
+        return true;
+    // Both ends, turned from the middle; within the face's quarter of the circle or not.
+    const double c = std::sqrt(c_square);
+    const double low_x = along_normal * c + along_axis * sine, low_y = along_axis * c - along_normal * sine;
+    const double high_x = along_normal * c - along_axis * sine, high_y = along_axis * c + along_normal * sine;
+    const bool low_within = std::abs(low_y) <= low_x, high_within = std::abs(high_y) <= high_x;
+    if (low_within)
+        low = low_y / low_x;
+    if (high_within)
+        high = high_y / high_x;
+    return low_within || high_within || std::abs(along_axis) <= along_normal;
+}
+
+/// Calls each(slot, the part of its face's plane) for the slots that a circle may touch. No part is empty.
+template <class Each> void each_slot(const glm::dvec3& centre, double radius, int rear_last, Each&& each)
+{
+    const double sine = radius < 1.57 ? std::sin(radius) : 2;
+    for (int face = 0; face < 6; ++face) {
+        const double normal = centre[face_axis[face]] * face_sign[face];
+        Rect wanted;
+        if (!face_range(centre[face_a[face]], normal, sine, wanted.low.x, wanted.high.x)
+            || !face_range(centre[face_b[face]], normal, sine, wanted.low.y, wanted.high.y))
+            continue;
+        auto part = [&](int slot) {
+            const Rect part = intersection(slot_rect(slot), wanted);
+            if (!part.empty())
+                each(slot, part);
+        };
+        if (face == 0) {
+            part(SLOT_FRONT);
+        } else if (face == 1) {
+            // The nested squares from the one that holds the circle's outermost point to the one of its innermost.
+            const glm::dvec2 far = glm::max(glm::abs(wanted.low), glm::abs(wanted.high));
+            const glm::dvec2 near = glm::max(glm::max(wanted.low, -wanted.high), glm::dvec2(0));
+            const int outer = rear_level(std::max(far.x, far.y), rear_last),
+                      inner = rear_level(std::max(near.x, near.y), rear_last);
+            for (int level = outer; level <= inner; ++level)
+                part(SLOT_REAR + level);
+        } else {
+            for (int band = 0; band < SIDE_BANDS; ++band)
+                part(SLOT_SIDES + (face - 2) * SIDE_BANDS + band);
+        }
+    }
+}
 
 /// Where a layer's things are: in each slot, and all together.
 struct Held {
@@ -118,66 +172,65 @@ struct Walk {
             return split(level, at);
 
         const glm::dvec3 centre = view.motion_from_cockpit * glm::dvec3(cap.centre);
-        if (!disc(centre, cap, last, level <= coarsest_level) && !last)
+        const Disc disc = in_the_world(centre, cap);
+        // There are not many of the largest: they may well be finer.
+        const double most_varied = level <= coarsest_level ? 1.22 : 1.5;
+        if (!last && (disc.radius > 0.25 || (!galilean && disc.coarsest > most_varied * disc.finest)))
             split(level, at);
+        else if (disc.times > most_uneven && cap.radius < 1)
+            cut(centre, cap);
+        else
+            ask_for(disc);
     }
+    static constexpr double most_uneven = 1.5;
 
-    /// A boost maps circles to circles, so the world's disc follows exactly from its two ends on the meridian. False where
-    /// what its pixels want varies by much, which the last of them is cut for, but for those that are left whole. few: there
-    /// are not many as large.
-    bool disc(const glm::dvec3& centre, const Cap& cap, bool last, bool few = false, bool whole = false) const
+    /// A boost maps circles to circles, so the world's disc follows exactly from its two ends on the meridian.
+    Disc in_the_world(const glm::dvec3& centre, const Cap& cap) const
     {
         const double radius = cap.radius + spread * cap.coarsest;
         const double across = std::hypot(centre.x, centre.y);
-        // Of half the angles, tangents: from the motion, of the disc, and of its pixels' centres.
-        const double middle = centre.z > 0 ? across / (1 + centre.z) : (1 - centre.z) / std::max(across, 1e-100);
-        const double reach = std::tan(0.5 * radius), own_reach = std::tan(0.5 * double(cap.radius));
-        auto turned = [&](double by) { return (middle + by) / std::max(1 - middle * by, 1e-100); };
-        auto doppler = [&](double tangent) { return E * (1 + tangent * tangent) / (1 + E * E * tangent * tangent); };
-        const double near = doppler(std::max(turned(-own_reach), 0.0)), far = doppler(std::min(turned(own_reach), 1e100));
-        const double varies = near * cap.coarsest / (far * cap.finest);
-        if (!galilean && !last && varies > (few ? 1.22 : 1.5))
-            return false;
-        if (!whole && !galilean && near > 1.5 * far && cap.radius < 1) {
-            cut(centre, cap);
-            return true;
-        }
-        double low, high, outermost = 0; // angles in the world
+        Disc disc;
+        double low, high; // angles in the world
         if (galilean) {
             const double beta = (E - 1 / E) / (E + 1 / E), theta = std::atan2(across, centre.z);
             auto world = [&](double camera) { return camera + std::asin(beta * std::sin(camera)); };
             low = world(theta - radius), high = world(std::min(theta + radius, theta + pi));
-        } else {
-            const double past = 1 - middle * reach;
-            low = 2 * std::atan(E * turned(-reach));
-            high = 2 * std::atan2(E * (middle + reach), past); // beyond the axis behind it goes on
-            if (past > 0)
-                outermost = past * past / (past * past + E * E * (middle + reach) * (middle + reach));
-        }
-        Disc disc;
-        disc.radius = std::min(pi, 0.5 * (high - low));
-        if (!last && disc.radius > 0.25)
-            return false;
-        const double world_theta = 0.5 * (low + high);
-        const glm::dvec2 meridian = across > 0 ? glm::dvec2(centre) / across : glm::dvec2(1, 0);
-        disc.centre = glm::dvec3(meridian * std::sin(world_theta), std::cos(world_theta));
-        if (galilean) {
             // Stretched by more away from the axis than around it, or less: both bounds hold the disc and its pixels.
             const glm::dvec2 stretch = physics::galilean_stretch(glm::dvec3(across, 0, centre.z), E, 1 / E);
-            disc.radius = std::min(pi, std::max(disc.radius, 1.2 * radius * std::max(stretch.x, stretch.y)));
+            disc.radius = std::max(0.5 * (high - low), 1.2 * radius * std::max(stretch.x, stretch.y));
             disc.finest = std::min(stretch.x, stretch.y) * cap.finest;
             disc.coarsest = std::max(stretch.x, stretch.y) * cap.coarsest;
         } else {
+            // Of half the angles, tangents: from the motion, of the disc, and of its pixels' centres.
+            const double middle = centre.z > 0 ? across / (1 + centre.z) : (1 - centre.z) / std::max(across, 1e-100);
+            const double reach = std::tan(0.5 * radius), own_reach = std::tan(0.5 * double(cap.radius));
+            auto turned = [&](double by) { return (middle + by) / std::max(1 - middle * by, 1e-100); };
+            auto doppler = [&](double tangent) { return E * (1 + tangent * tangent) / (1 + E * E * tangent * tangent); };
+            const double past = 1 - middle * reach;
+            low = 2 * std::atan(E * turned(-reach));
+            high = 2 * std::atan2(E * (middle + reach), past); // beyond the axis behind it goes on
+            disc.radius = 0.5 * (high - low);
+            const double near = doppler(std::max(turned(-own_reach), 0.0)),
+                         far = doppler(std::min(turned(own_reach), 1e100));
+            disc.times = near / far;
             disc.finest = far * cap.finest;
             disc.coarsest = near * cap.coarsest;
             if (view.parallax_rad == 0) {
                 disc.finest_pixel = cap.finest, disc.coarsest_pixel = cap.coarsest;
-                disc.least_cos_half_square = outermost;
+                if (past > 0)
+                    disc.least_cos_half_square = past * past / (past * past + E * E * (middle + reach) * (middle + reach));
             }
         }
+        const double world_theta = 0.5 * (low + high);
+        const glm::dvec2 meridian = across > 0 ? glm::dvec2(centre) / across : glm::dvec2(1, 0);
+        disc.centre = glm::dvec3(meridian * std::sin(world_theta), std::cos(world_theta));
+        return disc;
+    }
+
+    void ask_for(Disc disc) const
+    {
         disc.radius = std::min(pi, disc.radius + view.parallax_rad);
         ask(demands, held, disc, E, rear_last);
-        return true;
     }
 
     /// A disc of a last block as those of the square around it, halved again and again where D varies over them: down to the
@@ -196,15 +249,11 @@ struct Walk {
         for (int i = -1; i <= 1; i += 2)
             for (int j = -1; j <= 1; j += 2) {
                 const glm::dvec3 there = centre + 0.5 * half * (double(i) * right + double(j) * up);
-                const glm::dvec3 n = glm::normalize(there);
-                // D as of small angles from straight ahead, the only ones at which it varies so fast.
-                auto times = [&](double angle) { return 1 + 0.25 * E * E * angle * angle; };
-                const double across = std::hypot(n.x, n.y);
-                const bool even = times(across + part.radius) < 1.5 * times(std::max(across - part.radius, 0.0)) || n.z < 0;
-                if (even || part.radius < smallest)
-                    disc(n, part, true, false, true);
-                else
+                const Disc disc = in_the_world(glm::normalize(there), part);
+                if (disc.times > most_uneven && part.radius >= smallest)
                     cut(there, right, up, 0.5 * half, cap);
+                else
+                    ask_for(disc);
             }
     }
 

@@ -305,7 +305,7 @@ void Frame::prepare_eyes(double pre_exposure)
     bool keep = cubes_drawn_ && cubes_shown_ < quality_.frames_per_cube;
     for (std::size_t i = 0; i < eyes_.size(); ++i) {
         ask(i);
-        eyes_[i].wanted = make_plan(eyes_[i].asked, quality_, std::move(eyes_[i].wanted));
+        eyes_[i].wanted = make_plan(eyes_[i].asked, quality_, plan_room_, std::move(eyes_[i].wanted));
         keep = keep && still_serves(i);
     }
     cubes_shown_ = keep ? cubes_shown_ + 1 : 1;

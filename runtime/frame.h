@@ -220,6 +220,7 @@ private:
     bool repeatable_ = false;
     bool cubes_drawn_ = false; ///< and shown so often already
     int cubes_shown_ = 0;
+    PlanRoom plan_room_;
     std::vector<glm::dmat3> star_turns_; ///< these and what follows are kept for their room
     std::vector<vk::DescriptorBufferInfo> told_buffers_;
     std::vector<vk::DescriptorImageInfo> told_images_;

@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
-#include <span>
 #include <tuple>
 
 namespace starbow {
@@ -62,10 +61,8 @@ struct Draft {
 
 constexpr int halved = SLOT_CELLS - 1; // of the halvings' intervals, those below have halves
 
-SlotDemands merged(int layer, int slot, const Demands::Slot& demand)
+void merge(SlotDemands& all, const Demands::Slot& demand)
 {
-    SlotDemands all;
-    all.layer = layer, all.slot = slot;
     for (int b = SlotDemands::intervals - 1; b >= 0; --b)
         for (int a = SlotDemands::intervals - 1; a >= 0; --a) {
             Demand& own = all.demands[b][a];
@@ -84,7 +81,6 @@ SlotDemands merged(int layer, int slot, const Demands::Slot& demand)
                 wanted = own.rect.empty() ? 0 : extent.x * extent.y / (own.finest * own.finest);
             }
         }
-    return all;
 }
 
 /// A slot cut into the rectangles of cells that cost least together.
@@ -171,10 +167,8 @@ private:
 };
 
 /// Shelves, tallest first; the atlas is about square. Corners stay on multiples of `align` so that mips stay apart.
-void pack(Plan& plan, int align)
+void pack(Plan& plan, std::vector<std::size_t>& order, int align)
 {
-    std::vector<std::size_t>& order = plan.by_height;
-    keep_room(plan.images);
     order.clear();
     double area = 0;
     int widest = 0;
@@ -208,35 +202,42 @@ Plan make_plan(const std::vector<View>& views, double E, const Quality& quality)
     return make_plan({PlanLayer{views, E}}, quality);
 }
 
-Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality, Plan before)
+Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality)
+{
+    PlanRoom room;
+    return make_plan(layers, quality, room);
+}
+
+Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality, PlanRoom& room, Plan before)
 {
     Plan plan;
-    std::swap(plan.images, before.images), plan.images.clear();
+    std::swap(plan.images, before.images);
     std::swap(plan.rear_last, before.rear_last), plan.rear_last.clear();
-    std::swap(plan.by_height, before.by_height);
-    std::swap(plan.demands, before.demands);
-    std::swap(plan.by_slot, before.by_slot), plan.by_slot.clear();
-    if (plan.demands.size() < layers.size())
-        plan.demands.resize(layers.size());
+    room.by_slot.clear();
+    if (room.demands.size() < layers.size())
+        room.demands.resize(layers.size());
     for (std::size_t layer = 0; layer < layers.size(); ++layer) {
         const double E = layers[layer].E;
         // Behind, D stops falling at 1/gamma from the axis: finer images would only repeat the last one.
         const int rear_last = std::clamp(
             int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0, std::min(quality.rear_images, REAR_LEVELS - 1));
         plan.rear_last.push_back(rear_last);
-        plan.demands[layer].clear();
-        add_demands(plan.demands[layer], layers[layer], rear_last, quality.pixel_rays);
+        room.demands[layer].clear();
+        add_demands(room.demands[layer], layers[layer], rear_last, quality.pixel_rays);
         for (int slot = 0; slot < SLOT_COUNT; ++slot)
-            if (const Demands::Slot& demand = plan.demands[layer].slots[std::size_t(slot)]; demand.any)
-                plan.by_slot.push_back(merged(int(layer), slot, demand));
+            if (const Demands::Slot& demand = room.demands[layer].slots[std::size_t(slot)]; demand.any) {
+                SlotDemands& all = room.by_slot.emplace_back();
+                all.layer = int(layer), all.slot = slot;
+                merge(all, demand);
+            }
     }
-    keep_room(plan.by_slot);
+    keep_room(room.by_slot);
     for (const View& view : layers[0].views)
         plan.pixels += double(view.blocks->size().x) * view.blocks->size().y;
 
     auto lay_out = [&](double density) {
         plan.images.clear();
-        for (const SlotDemands& demands : plan.by_slot) {
+        for (const SlotDemands& demands : room.by_slot) {
             const std::size_t layer = std::size_t(demands.layer);
             const Draft draft{quality, density, demands.layer, layers[layer].things.has_value(), plan.rear_last[layer]};
             Cut(draft, demands).add_images(plan.images);
@@ -261,11 +262,12 @@ Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality, Pla
         density *= std::sqrt(most_texels / plan.texels);
         lay_out(density);
     }
-    pack(plan, 1 << plan.levels);
+    keep_room(plan.images);
+    pack(plan, room.by_height, 1 << plan.levels);
     for (int i = 0; i < 8 && std::max(plan.atlas_size.x, plan.atlas_size.y) > quality.max_atlas_side; ++i) {
         density *= 0.9 * quality.max_atlas_side / std::max(plan.atlas_size.x, plan.atlas_size.y);
         lay_out(density);
-        pack(plan, 1 << plan.levels);
+        pack(plan, room.by_height, 1 << plan.levels);
     }
     return plan;
 }
@@ -318,25 +320,13 @@ const PlanImage& nearest_image(std::span<const PlanImage> images, const glm::ive
         images.begin(), images.end(), [&](const PlanImage& a, const PlanImage& b) { return off(a) < off(b); });
 }
 
-/// How many images from one on are of its slot.
-std::size_t images_of_slot(const Plan& plan, std::size_t first)
-{
-    const PlanImage& one = plan.images[first];
-    std::size_t end = first + 1;
-    while (end < plan.images.size() && plan.images[end].layer == one.layer && plan.images[end].slot == one.slot)
-        ++end;
-    return end - first;
-}
-
 } // namespace
 
-const PlanImage* image_at(const Plan& plan, int layer, const SlotPlace& place)
+std::span<const PlanImage> of_first_slot(std::span<const PlanImage> images)
 {
-    for (std::size_t i = 0; i < plan.images.size(); ++i)
-        if (plan.images[i].layer == layer && plan.images[i].slot == place.slot)
-            return &nearest_image(
-                {&plan.images[i], images_of_slot(plan, i)}, cells_in(place.slot, {place.at, place.at}).first);
-    return nullptr;
+    const auto other
+        = [&](const PlanImage& image) { return image.layer != images[0].layer || image.slot != images[0].slot; };
+    return images.first(std::size_t(std::find_if(images.begin(), images.end(), other) - images.begin()));
 }
 
 void put_slots(const Plan& plan, shared::SlotTable& table)
@@ -345,19 +335,18 @@ void put_slots(const Plan& plan, shared::SlotTable& table)
         table.cells_from_face[slot] = glm::vec4(0);
         table.entries[slot * CELL_COUNT] = {};
     }
-    for (std::size_t first = 0, end; first < plan.images.size(); first = end) {
-        const PlanImage& one = plan.images[first];
-        const std::size_t slot = std::size_t(one.layer * SLOT_COUNT + one.slot);
-        end = first + images_of_slot(plan, first);
+    for (std::span<const PlanImage> left = plan.images; !left.empty();) {
+        const std::span<const PlanImage> images = of_first_slot(left);
+        left = left.subspan(images.size());
+        const std::size_t slot = std::size_t(images[0].layer * SLOT_COUNT + images[0].slot);
         shared::SlotEntry* entries = table.entries + slot * CELL_COUNT;
-        if (one.cells.all()) {
-            *entries = slot_entry(one);
+        if (images[0].cells.all()) {
+            *entries = slot_entry(images[0]);
             continue;
         }
-        table.cells_from_face[slot] = glm::vec4(cells_from_face(one.slot));
+        table.cells_from_face[slot] = glm::vec4(cells_from_face(images[0].slot));
         std::array<bool, CELL_COUNT> told{};
-        for (std::size_t i = first; i < end; ++i) {
-            const PlanImage& image = plan.images[i];
+        for (const PlanImage& image : images) {
             const shared::SlotEntry entry = slot_entry(image);
             for (int y = image.cells.first.y; y < image.cells.first.y + image.cells.count.y; ++y)
                 for (int x = image.cells.first.x; x < image.cells.first.x + image.cells.count.x; ++x) {
@@ -368,8 +357,7 @@ void put_slots(const Plan& plan, shared::SlotTable& table)
         // A cell at which no pixel looks is told as the nearest that is drawn: rounding may lead there.
         for (int cell = 0; cell < CELL_COUNT; ++cell)
             if (!told[std::size_t(cell)])
-                entries[cell]
-                    = slot_entry(nearest_image({&plan.images[first], end - first}, {cell % SLOT_CELLS, cell / SLOT_CELLS}));
+                entries[cell] = slot_entry(nearest_image(images, {cell % SLOT_CELLS, cell / SLOT_CELLS}));
     }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "config/quality.h"
 #include "demand.h"
+#include <span>
 #include <vector>
 
 namespace starbow {
@@ -37,9 +38,11 @@ struct Plan {
     double texels = 0; ///< drawn, all images
     double pixels = 0; ///< served
     bool cut = false; ///< some slot has more than one image
+};
 
-    // What make_plan works with; kept for its room.
-    std::vector<Demands> demands;
+/// What make_plan works with; kept for its room, from frame to frame and for all eyes.
+struct PlanRoom {
+    std::vector<Demands> demands; ///< of each layer
     std::vector<SlotDemands> by_slot;
     std::vector<std::size_t> by_height;
 };
@@ -50,18 +53,19 @@ struct Plan {
 /// A slot that nobody looks at is left out, and so is one in which nothing stands. Any other is cut into as many images,
 /// each with its own resolution, as cost least: Quality::image_cost_texels for each, and its texels. before: a plan whose
 /// memory is taken over.
-Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality, Plan before = {});
+Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality, PlanRoom& room, Plan before = {});
+Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality);
 /// Of a world in which nothing moves.
 Plan make_plan(const std::vector<View>& views, double E, const Quality& quality);
 
 /// Whether what is drawn for one plan serves another, at hardly less density: it may then be shown once more.
 bool serves(const Plan& drawn, const Plan& wanted);
 
-/// The image that a place is read from: of its slot's the nearest. Null where the slot is left out.
-const PlanImage* image_at(const Plan& plan, int layer, const SlotPlace& place);
-
 /// clip_from_motion of an image: reversed z, infinite far plane, near plane at `near_distance` along the face's normal.
 glm::dmat4 clip_from_motion(const PlanImage& image, double near_distance);
+
+/// Of a plan's images, or those left of it, the ones of the same layer and slot as the first. images: not none.
+std::span<const PlanImage> of_first_slot(std::span<const PlanImage> images);
 
 /// What the warp shader reads of one image, and of all.
 shared::SlotEntry slot_entry(const PlanImage& image);

@@ -1,4 +1,5 @@
 #include "slots.h"
+#include <algorithm>
 #include <cmath>
 
 namespace starbow {
@@ -142,24 +143,6 @@ const CellTable& cell_table(int slot)
         return all;
     }();
     return all[std::size_t(slot)];
-}
-
-bool face_range(double along_axis, double along_normal, double sine, double& low, double& high)
-{
-    const double c_square = along_axis * along_axis + along_normal * along_normal - sine * sine;
-    low = -1, high = 1;
-    if (c_square <= 0)
-        return true;
-    // Both ends, turned from the middle; within the face's quarter of the circle or not.
-    const double c = std::sqrt(c_square);
-    const double low_x = along_normal * c + along_axis * sine, low_y = along_axis * c - along_normal * sine;
-    const double high_x = along_normal * c - along_axis * sine, high_y = along_axis * c + along_normal * sine;
-    const bool low_within = std::abs(low_y) <= low_x, high_within = std::abs(high_y) <= high_x;
-    if (low_within)
-        low = low_y / low_x;
-    if (high_within)
-        high = high_y / high_x;
-    return low_within || high_within || std::abs(along_axis) <= along_normal;
 }
 
 } // namespace starbow

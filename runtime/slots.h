@@ -1,6 +1,5 @@
 #pragma once
 #include "runtime/shared.h"
-#include <algorithm>
 #include <array>
 #include <glm/glm.hpp>
 
@@ -67,43 +66,5 @@ const CellTable& cell_table(int slot);
 
 /// Which nested slot a point behind belongs to, from the larger of its coordinates.
 int rear_level(double larger, int rear_last);
-
-/// Calls each(slot, the part of its face's plane) for the slots that a circle may touch. No part is empty.
-template <class Each> void each_slot(const glm::dvec3& centre, double radius, int rear_last, Each&& each);
-
-/// Range of tan(angle) of a disc seen along a face's normal and one of its axes, clamped to the face. False if it misses.
-/// sine: of its radius; from 1 on of a disc that may be everywhere.
-bool face_range(double along_axis, double along_normal, double sine, double& low, double& high);
-
-template <class Each> void each_slot(const glm::dvec3& centre, double radius, int rear_last, Each&& each)
-{
-    const double sine = radius < 1.57 ? std::sin(radius) : 2;
-    for (int face = 0; face < 6; ++face) {
-        const double normal = centre[face_axis[face]] * face_sign[face];
-        Rect wanted;
-        if (!face_range(centre[face_a[face]], normal, sine, wanted.low.x, wanted.high.x)
-            || !face_range(centre[face_b[face]], normal, sine, wanted.low.y, wanted.high.y))
-            continue;
-        auto part = [&](int slot) {
-            const Rect part = intersection(slot_rect(slot), wanted);
-            if (!part.empty())
-                each(slot, part);
-        };
-        if (face == 0) {
-            part(SLOT_FRONT);
-        } else if (face == 1) {
-            // The nested squares from the one that holds the circle's outermost point to the one of its innermost.
-            const glm::dvec2 far = glm::max(glm::abs(wanted.low), glm::abs(wanted.high));
-            const glm::dvec2 near = glm::max(glm::max(wanted.low, -wanted.high), glm::dvec2(0));
-            const int outer = rear_level(std::max(far.x, far.y), rear_last),
-                      inner = rear_level(std::max(near.x, near.y), rear_last);
-            for (int level = outer; level <= inner; ++level)
-                part(SLOT_REAR + level);
-        } else {
-            for (int band = 0; band < SIDE_BANDS; ++band)
-                part(SLOT_SIDES + (face - 2) * SIDE_BANDS + band);
-        }
-    }
-}
 
 } // namespace starbow

@@ -58,15 +58,16 @@ std::vector<StarRun> stars_in(std::span<const PlanImage> images, std::span<const
 {
     std::array<Pyramid, SLOT_COUNT> all; // around each slot's images
     std::size_t count = 0;
-    for (std::size_t i = 0; i < images.size();) {
-        const PlanImage& first = images[i];
+    for (std::span<const PlanImage> left = images; !left.empty();) {
+        const std::span<const PlanImage> own = of_first_slot(left);
+        left = left.subspan(own.size());
         Rect rect;
-        double coarsest = first.texels_per_unit;
-        for (; i < images.size() && images[i].slot == first.slot; ++i) {
-            rect.add({images[i].low, images[i].high});
-            coarsest = std::min(coarsest, images[i].texels_per_unit);
+        double coarsest = own[0].texels_per_unit;
+        for (const PlanImage& image : own) {
+            rect.add({image.low, image.high});
+            coarsest = std::min(coarsest, image.texels_per_unit);
         }
-        all[count++] = pyramid_of(first.face, rect, coarsest);
+        all[count++] = pyramid_of(own[0].face, rect, coarsest);
     }
     const std::span pyramids(all.data(), count);
     std::vector<StarRun> runs = std::move(before);

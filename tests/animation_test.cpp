@@ -8,6 +8,7 @@
 #include "runtime/worldline.h"
 #include "tests/gltf_fixture.h"
 #include "tests/quad.h"
+#include "tests/speeds.h"
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <random>
@@ -17,7 +18,7 @@ using glm::dvec3;
 
 namespace {
 
-double u_of_beta(double beta) { return beta / std::sqrt((1 - beta) * (1 + beta)); }
+using starbow::testing::u_of_beta;
 
 /// One small box on a node "thing" whose material blinks.
 World lamp(const Blink& blink)

@@ -6,6 +6,7 @@
 #include "runtime/worldline.h"
 #include "tests/files.h"
 #include "tests/quad.h"
+#include "tests/speeds.h"
 #include <gtest/gtest.h>
 #include <random>
 
@@ -16,8 +17,7 @@ using glm::dvec3;
 namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180;
-double u_of_beta(double beta) { return beta / std::sqrt((1 - beta) * (1 + beta)); }
-double u_of_gamma(double gamma) { return std::sqrt((gamma - 1) * (gamma + 1)); }
+using starbow::testing::u_of_beta, starbow::testing::u_of_gamma;
 
 dvec3 random_way(std::mt19937& random)
 {

@@ -1,7 +1,7 @@
 // Wherever a picture shows a direction, its inverse begins the search near by, on the right side of every seam.
-#include "displays/compiled.h"
 #include "displays/inverse_map.h"
 #include "files.h"
+#include "tests/pane.h"
 #include <cmath>
 
 using namespace starbow;
@@ -20,16 +20,6 @@ glm::ivec2 cell_of(const glm::dvec3& n, int side)
     return glm::min(glm::ivec2((x + 1) / 2 * side, (y + 1) / 2 * side), side - 1);
 }
 
-std::shared_ptr<const DirectionMap> map_of(const Projection& projection, glm::ivec2 size)
-{
-    Layout layout;
-    layout.outputs.resize(1);
-    layout.outputs[0].size = size;
-    layout.outputs[0].viewports = {{.projection = projection}};
-    MapStore store{std::filesystem::path()};
-    return compile_output(store, layout, 0, size).front().map;
-}
-
 } // namespace
 
 TEST(InverseMapTest, EveryPixelIsNearWhereTheSearchForItBegins)
@@ -43,7 +33,7 @@ TEST(InverseMapTest, EveryPixelIsNearWhereTheSearchForItBegins)
     for (const Case& c : {Case{"fisheye", Fisheye{180, 30}, {400, 400}, 90}, {"small", Fisheye{220, 30}, {60, 60}, 90},
              {"panorama", Equirectangular{}, {600, 300}, 60}, {"cylinder", Cylinder{}, {600, 190}, 90},
              {"cube", CubeFaces{}, {900, 150}, 90}}) {
-        const auto map = map_of(c.projection, c.size);
+        const auto map = starbow::testing::pane_of(c.projection, c.size).map;
         const InverseMap inverse = starbow::inverse(*map);
         ASSERT_EQ(inverse.cells.size(), std::size_t(inverse.side) * inverse.side);
         double farthest = 0;
@@ -67,7 +57,7 @@ TEST(InverseMapTest, EveryPixelIsNearWhereTheSearchForItBegins)
 
 TEST(InverseMapTest, WhereNothingIsShownNothingIsFound)
 {
-    const auto map = map_of(Fisheye{180, 90}, {400, 400}); // the half of the sky ahead
+    const auto map = starbow::testing::pane_of(Fisheye{180, 90}, {400, 400}).map; // the half of the sky ahead
     const InverseMap inverse = starbow::inverse(*map);
     int empty = 0;
     for (const glm::uvec4& cell : inverse.cells)

@@ -3,6 +3,7 @@
 #include "physics/physics.h"
 #include "tests/quad.h"
 
+#include "tests/speeds.h"
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,8 +30,7 @@ constexpr double round_float = 0x1p-24;
 
 const std::vector<double> gammas = {1, 1 + 1e-7, 2, 4, 10, 1e2, 1e3, 1e4, 1e6};
 
-double u_of_gamma(double gamma) { return std::sqrt((gamma - 1) * (gamma + 1)); }
-double u_of_beta(double beta) { return beta / std::sqrt(1 - beta * beta); }
+using starbow::testing::u_of_beta, starbow::testing::u_of_gamma;
 double E_of_gamma(double gamma) { return pd::exp_rapidity(u_of_gamma(gamma)); }
 
 dvec3 at(double theta, double phi = 0) // radians from the motion

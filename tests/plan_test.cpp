@@ -1,11 +1,12 @@
 // The plan by itself: whatever a pixel reads of the atlas was drawn, at the density that was asked for.
-#include "displays/compiled.h"
 #include "physics/physics.h"
 #include "runtime/plan.h"
+#include "tests/pane.h"
 #include <gtest/gtest.h>
 #include <random>
 
 using namespace starbow;
+using starbow::testing::pane_of;
 
 namespace {
 
@@ -23,17 +24,6 @@ const Case cases[] = {
     {"whole sky", Fisheye{360, 0}, {255, 255}},
     {"pixel", Planar{60}, {1, 1}},
 };
-/// A display of one pane, compiled as an exhibit's.
-CompiledPane compiled(const Projection& projection, glm::ivec2 size)
-{
-    Layout layout;
-    layout.outputs.resize(1);
-    layout.outputs[0].size = size;
-    layout.outputs[0].viewports = {{.projection = projection}};
-    MapStore store{std::filesystem::path()};
-    return compile_output(store, layout, 0, size).front();
-}
-
 const double gammas[] = {1, 1 + 1e-7, 1.5, 4, 10, 100, 1e4, 1e6};
 
 glm::dquat turn(int i)
@@ -54,16 +44,18 @@ template <class Check> void each_pixel(const Case& c, double gamma, int turned, 
     double E = physics::exp_rapidity(glm::length(u));
     glm::dquat ship_from_cockpit = turn(turned);
     glm::dmat3 motion_from_cockpit = motion_from_world(u, ship_from_cockpit) * glm::dmat3(glm::mat3_cast(ship_from_cockpit));
-    const CompiledPane pane = compiled(c.projection, c.size);
+    const CompiledPane pane = pane_of(c.projection, c.size);
     Plan plan = make_plan({{pane.blocks.get(), motion_from_cockpit}}, E, quality);
-    // The same for all places of a cell, and looked for once.
-    std::vector<std::optional<const PlanImage*>> known(SLOT_COUNT * CELL_COUNT);
+    std::vector<const PlanImage*> by_cell(SLOT_COUNT * CELL_COUNT, nullptr);
+    for (const PlanImage& image : plan.images)
+        for (int y = 0; y < image.cells.count.y; ++y)
+            for (int x = 0; x < image.cells.count.x; ++x) {
+                const glm::ivec2 cell = image.cells.first + glm::ivec2(x, y);
+                by_cell[std::size_t(image.slot * CELL_COUNT + cell.y * SLOT_CELLS + cell.x)] = &image;
+            }
     auto image = [&](const SlotPlace& place) {
         const glm::ivec2 cell = cells_in(place.slot, {place.at, place.at}).first;
-        auto& own = known[std::size_t(place.slot * CELL_COUNT + cell.y * SLOT_CELLS + cell.x)];
-        if (!own)
-            own = image_at(plan, 0, place);
-        return *own;
+        return by_cell[std::size_t(place.slot * CELL_COUNT + cell.y * SLOT_CELLS + cell.x)];
     };
     for (int y = 0; y < c.size.y; ++y)
         for (int x = 0; x < c.size.x; ++x) {
@@ -159,7 +151,7 @@ TEST(Plan, SpendsAtMostThreeTexelsOnAPixel)
     for (double gamma : speeds)
         std::printf("%12g", gamma);
     for (const Case& c : displays) {
-        const CompiledPane pane = compiled(c.projection, c.size);
+        const CompiledPane pane = pane_of(c.projection, c.size);
         std::printf("\n  %-22s", c.name);
         for (double gamma : speeds) {
             double most = 0;
@@ -184,7 +176,7 @@ TEST(Plan, SpendsAtMostThreeTexelsOnAPixel)
 
 TEST(Plan, WeighsTexelsAgainstImages)
 {
-    const CompiledPane pane = compiled(Planar{60}, {800, 600});
+    const CompiledPane pane = pane_of(Planar{60}, {800, 600});
     const glm::dvec3 u(0, 0, -std::sqrt(15.0));
     std::size_t images = 1000;
     double texels = 0;
@@ -205,7 +197,7 @@ TEST(Plan, TableLeadsToTheImageOfADirection)
 {
     const auto table = std::make_unique<shared::SlotTable>();
     for (double gamma : gammas) {
-        const CompiledPane pane = compiled(Planar{100}, {800, 600});
+        const CompiledPane pane = pane_of(Planar{100}, {800, 600});
         const glm::dvec3 u(0, 0, -std::sqrt((gamma - 1) * (gamma + 1)));
         const double E = physics::exp_rapidity(glm::length(u));
         const glm::dmat3 turned = motion_from_world(u, turn(3)) * glm::dmat3(glm::mat3_cast(turn(3)));
@@ -258,7 +250,7 @@ TEST(Plan, FitsTheDeviceHoweverLargeTheOutput)
 
 TEST(Plan, AtRestLookingAheadIsOneImage)
 {
-    const CompiledPane pane = compiled(Planar{60}, {800, 600});
+    const CompiledPane pane = pane_of(Planar{60}, {800, 600});
     Plan plan = make_plan({{pane.blocks.get(), motion_from_world({}, glm::dquat(1, 0, 0, 0))}}, 1, {});
     ASSERT_EQ(plan.images.size(), 1u);
     EXPECT_EQ(plan.images[0].slot, SLOT_FRONT);
@@ -285,7 +277,7 @@ TEST(Plan, ClipMapsTheRectangleToTheSquare)
 TEST(Plan, ServesOnceMoreWhatItHolds)
 {
     const Quality quality{.texels_per_pixel = 1, .most_texels_per_pixel = 50};
-    const CompiledPane pane = compiled(Planar{60}, {400, 300});
+    const CompiledPane pane = pane_of(Planar{60}, {400, 300});
     const auto plan_at = [&](double gamma, double yaw) {
         const glm::dvec3 u(0, 0, -std::sqrt((gamma - 1) * (gamma + 1)));
         const glm::dquat turned = glm::angleAxis(yaw, glm::dvec3(0, 1, 0));

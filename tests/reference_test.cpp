@@ -9,6 +9,7 @@
 #include "runtime/worldline.h"
 #include "tests/files.h"
 #include "tests/quad.h"
+#include "tests/speeds.h"
 #include <gtest/gtest.h>
 
 using namespace starbow;
@@ -18,7 +19,7 @@ using glm::dvec3;
 namespace {
 
 constexpr double pi = 3.14159265358979323846, degree = pi / 180;
-double u_of_beta(double beta) { return beta / std::sqrt((1 - beta) * (1 + beta)); }
+using starbow::testing::u_of_beta;
 
 /// A world of flat plates, one material each.
 struct Plates {

@@ -6,6 +6,7 @@
 #include "runtime/still.h"
 #include "runtime/theatre.h"
 #include "tests/files.h"
+#include "tests/speeds.h"
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
@@ -75,8 +76,7 @@ inline Studio studio(const GpuWorld& world, const Layout& layout, bool measured 
     return Studio(device(), pipelines(), world, layout, test_quality(), measured);
 }
 
-inline double u_of_gamma(double gamma) { return std::sqrt((gamma - 1) * (gamma + 1)); }
-inline double u_of_beta(double beta) { return beta / std::sqrt((1 - beta) * (1 + beta)); }
+using starbow::testing::u_of_beta, starbow::testing::u_of_gamma;
 
 /// A shot without colour effects: shapes alone.
 inline Shot shot_at(const dvec3& position, const dvec3& u, const dvec3& look, const dvec3& up = {0, 1, 0})

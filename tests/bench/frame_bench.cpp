@@ -1,32 +1,22 @@
 // What the processor does for a frame: plans, culling, stars, a step of the flight.
-#include "displays/compiled.h"
 #include "physics/physics.h"
 #include "runtime/cull.h"
 #include "runtime/flight.h"
 #include "runtime/plan.h"
 #include "runtime/star_cull.h"
+#include "tests/boxes.h"
+#include "tests/pane.h"
+#include "tests/speeds.h"
 #include <benchmark/benchmark.h>
 #include <random>
 
 namespace starbow {
 namespace {
 
-double u_of_gamma(double gamma) { return std::sqrt((gamma - 1) * (gamma + 1)); }
-
-CompiledPane pane_of(const Projection& projection, glm::ivec2 size)
-{
-    Layout layout;
-    layout.outputs.resize(1);
-    layout.outputs[0].size = size;
-    layout.outputs[0].viewports = {{.projection = projection}};
-    MapStore store{std::filesystem::path()};
-    return compile_output(store, layout, 0, size).front();
-}
-
 /// How one view along -z flies.
 PlanLayer looking(const CompiledPane& pane, double gamma)
 {
-    const glm::dvec3 u(0, 0, -u_of_gamma(gamma));
+    const glm::dvec3 u(0, 0, -testing::u_of_gamma(gamma));
     return {{{pane.blocks.get(), motion_from_world(u, glm::dquat(1, 0, 0, 0))}}, physics::exp_rapidity(glm::length(u))};
 }
 /// As `balanced`.
@@ -34,11 +24,12 @@ const Quality quality{.texels_per_pixel = 0.8, .most_texels_per_pixel = 1, .imag
 
 void plan(benchmark::State& state, const Projection& projection, glm::ivec2 size)
 {
-    const CompiledPane pane = pane_of(projection, size);
+    const CompiledPane pane = testing::pane_of(projection, size);
     const std::vector<PlanLayer> layers{looking(pane, double(state.range(0)))};
+    PlanRoom room;
     Plan plan;
     for (auto _ : state)
-        plan = make_plan(layers, quality, std::move(plan));
+        plan = make_plan(layers, quality, room, std::move(plan));
     state.counters["images"] = double(plan.images.size());
     state.counters["texels a pixel"] = plan.texels / plan.pixels;
 }
@@ -51,7 +42,7 @@ BENCHMARK_CAPTURE(plan, dome, Fisheye{180, 0}, glm::ivec2(1024, 1024))
 
 void table(benchmark::State& state)
 {
-    const CompiledPane pane = pane_of(Planar{60}, {800, 600});
+    const CompiledPane pane = testing::pane_of(Planar{60}, {800, 600});
     const Plan plan = make_plan({looking(pane, double(state.range(0)))}, quality);
     const auto table = std::make_unique<shared::SlotTable>();
     for (auto _ : state) {
@@ -61,30 +52,14 @@ void table(benchmark::State& state)
 }
 BENCHMARK(table)->Arg(4)->Arg(100)->Unit(benchmark::kMicrosecond);
 
-/// As many instances of a small thing, about the way of a window at gamma 4.
+/// As many instances of a box, about a window at gamma 4.
 void culling(benchmark::State& state)
 {
-    World world;
-    world.materials.push_back({});
-    world.primitives.push_back({.first_index = 0,
-        .index_count = 3,
-        .vertex_offset = 0,
-        .material = 0,
-        .low = glm::dvec3(-0.5),
-        .high = glm::dvec3(0.5),
-        .centre = glm::dvec3(0),
-        .radius = 0.87,
-        .coarser = {}});
-    std::mt19937 random(7);
-    std::normal_distribution<double> normal;
-    for (int i = 0; i < state.range(0); ++i)
-        world.instances.push_back(
-            {glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 20 * normal(random), 5 * normal(random), 40 * normal(random), 1),
-                0});
-    const CompiledPane pane = pane_of(Planar{60}, {800, 600});
+    const World world = testing::boxes(int(state.range(0)), 7);
+    const CompiledPane pane = testing::pane_of(Planar{60}, {800, 600});
     const Plan plan = make_plan({looking(pane, 4)}, quality);
     Vantage vantage;
-    vantage.motion_from_frame = motion_from_world({0, 0, -u_of_gamma(4)}, glm::dquat(1, 0, 0, 0));
+    vantage.motion_from_frame = motion_from_world({0, 0, -testing::u_of_gamma(4)}, glm::dquat(1, 0, 0, 0));
     DrawList list;
     for (auto _ : state)
         list = cull(world, {&vantage, 1}, plan.images, quality, std::move(list));
@@ -102,7 +77,7 @@ void stars(benchmark::State& state)
             {glm::vec4(glm::vec3(glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)))), 5772),
                 glm::vec4(1)});
     const std::vector<StarPatch> patches = star_patches(entries);
-    const CompiledPane pane = pane_of(Planar{60}, {800, 600});
+    const CompiledPane pane = testing::pane_of(Planar{60}, {800, 600});
     const Plan plan = make_plan({looking(pane, 4)}, quality);
     std::vector<StarRun> runs;
     for (auto _ : state)

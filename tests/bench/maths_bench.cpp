@@ -1,9 +1,10 @@
 // The formulas themselves, in double; direction maps; the reference's rays.
 #include "config/one_view.h"
-#include "displays/compiled.h"
 #include "physics/physics.h"
 #include "runtime/find.h"
 #include "runtime/reference/reference.h"
+#include "tests/pane.h"
+#include "tests/speeds.h"
 #include <benchmark/benchmark.h>
 
 namespace starbow {
@@ -11,7 +12,7 @@ namespace {
 
 void boost(benchmark::State& state)
 {
-    const double E = physics::exp_rapidity(std::sqrt(15.0));
+    const double E = physics::exp_rapidity(testing::u_of_gamma(4));
     glm::dvec3 n = glm::normalize(glm::dvec3(0.3, 0.4, 0.5));
     for (auto _ : state) {
         const auto sight = physics::world_from_camera(n, E, 1 / E);
@@ -23,11 +24,8 @@ BENCHMARK(boost);
 
 void map(benchmark::State& state)
 {
-    const Layout layout = one_view(Fisheye{180, 0}, {512, 512});
-    for (auto _ : state) {
-        MapStore store{std::filesystem::path()};
-        benchmark::DoNotOptimize(compile_output(store, layout, 0, {512, 512}));
-    }
+    for (auto _ : state)
+        benchmark::DoNotOptimize(testing::pane_of(Fisheye{180, 0}, {512, 512}));
     state.SetItemsProcessed(state.iterations() * 512 * 512);
 }
 BENCHMARK(map)->Unit(benchmark::kMillisecond);
@@ -39,7 +37,7 @@ void rays(benchmark::State& state)
     const Layout layout = one_view(Planar{60}, {80, 60});
     Shot shot;
     shot.position = {0, 0, -8};
-    shot.u = {0, 0, -std::sqrt(15.0)};
+    shot.u = {0, 0, -testing::u_of_gamma(4)};
     shot.effects = {true, true, true};
     for (auto _ : state)
         benchmark::DoNotOptimize(reference(world.input(), layout, shot, 0, {.samples = 1}));
