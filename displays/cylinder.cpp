@@ -1,4 +1,5 @@
 #include "cylinder.h"
+#include "config/angles.h"
 #include "config/turn.h"
 #include <cmath>
 #include <glm/gtc/constants.hpp>
@@ -28,7 +29,7 @@ std::optional<glm::dvec2> CylinderRays::pixel(const glm::dvec3& direction) const
     const double across = std::hypot(d.x, d.z), y = (top_ - d.y / across) / step_.y;
     if (!(across > 0) || !std::isfinite(y))
         return {};
-    const double beside = std::remainder(std::atan2(d.x, -d.z) - middle_, 2 * glm::pi<double>());
+    const double beside = std::remainder(std::atan2(d.x, -d.z) - middle_, 2 * pi);
     return glm::dvec2(half_width_ + beside / step_.x, y);
 }
 

@@ -1,4 +1,5 @@
 #include "equirectangular.h"
+#include "config/angles.h"
 #include "config/turn.h"
 #include <algorithm>
 #include <cmath>
@@ -7,10 +8,8 @@
 namespace starbow {
 namespace {
 
-constexpr double pi = glm::pi<double>();
-
 /// A little beyond the poles, for rows whose elevation was rounded.
-constexpr double slack = 1e-12;
+constexpr double pole_slack = 1e-12;
 
 } // namespace
 
@@ -27,7 +26,7 @@ EquirectangularRays::EquirectangularRays(const Equirectangular& equirectangular,
 std::optional<glm::dvec3> EquirectangularRays::direction(glm::dvec2 pixel) const
 {
     const double azimuth = middle_ + (pixel.x - half_width_) * step_.x, elevation = top_ - pixel.y * step_.y;
-    if (std::abs(elevation) > pi / 2 + slack)
+    if (std::abs(elevation) > pi / 2 + pole_slack)
         return {};
     const double across = std::cos(elevation);
     return turned_ * glm::dvec3(across * std::sin(azimuth), std::sin(elevation), -across * std::cos(azimuth));
@@ -44,7 +43,7 @@ std::optional<glm::dvec2> EquirectangularRays::pixel(const glm::dvec3& direction
 double EquirectangularRays::pixel_angle(glm::dvec2 pixel) const
 {
     const double elevation = std::abs(top_ - pixel.y * step_.y);
-    if (elevation > pi / 2 + slack)
+    if (elevation > pi / 2 + pole_slack)
         return 0;
     // sin(upper edge) - sin(lower edge), a width of one step. On a pole itself the mean over the last half pixel stands in.
     const double across = std::cos(std::min(elevation, pi / 2 - step_.y / 4));

@@ -1,4 +1,5 @@
 #include "fisheye.h"
+#include "config/angles.h"
 #include "config/turn.h"
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,7 @@ namespace starbow {
 namespace {
 
 /// A little beyond the rim, so that a direction computed for a point on the rim is still found on it.
-constexpr double slack = 1e-12;
+constexpr double rim_slack = 1e-12;
 
 double g(FisheyeMapping mapping, double angle)
 {
@@ -44,7 +45,7 @@ std::optional<glm::dvec3> FisheyeRays::direction(glm::dvec2 pixel) const
 {
     const glm::dvec2 offset = pixel - centre_;
     const double r = glm::length(offset);
-    if (r > radius_ * (1 + slack))
+    if (r > radius_ * (1 + rim_slack))
         return {};
     // The cosine of the angle from the zenith, and its sine over g.
     double along, across;
@@ -80,7 +81,7 @@ std::optional<glm::dvec2> FisheyeRays::pixel(const glm::dvec3& direction) const
 {
     const glm::dvec2 side(glm::dot(direction, right_), glm::dot(direction, down_));
     const double across = glm::length(side), angle = std::atan2(across, glm::dot(direction, zenith_));
-    if (!(angle <= rim_ * (1 + slack)))
+    if (!(angle <= rim_ * (1 + rim_slack)))
         return {};
     const double r = g(mapping_, angle) / scale_;
     // Straight below the zenith every rim point of a whole sphere shows the direction: the front one stands for them.
@@ -91,14 +92,14 @@ std::optional<glm::dvec2> FisheyeRays::pixel(const glm::dvec3& direction) const
 double FisheyeRays::pixel_angle(glm::dvec2 pixel) const
 {
     const double r = glm::distance(pixel, centre_);
-    if (r > radius_ * (1 + slack))
+    if (r > radius_ * (1 + rim_slack))
         return 0;
     // Solid angle / area in units of g = sin(a) / (g g').
     switch (mapping_) {
     case FisheyeMapping::equidistant: {
         // Where a whole sphere closes, the sine vanishes at the rim though its pixels still show something: there its mean
         // over the last half pixel stands in.
-        const double angle = std::min(r * scale_, glm::pi<double>() - scale_ / 4);
+        const double angle = std::min(r * scale_, pi - scale_ / 4);
         const double shrink = angle > 1e-4 ? std::sin(angle) / angle : 1 - angle * angle / 6;
         return scale_ * std::sqrt(std::max(shrink, 0.0));
     }

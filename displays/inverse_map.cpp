@@ -1,4 +1,5 @@
 #include "inverse_map.h"
+#include "config/angles.h"
 #include <algorithm>
 #include <cmath>
 
@@ -58,7 +59,7 @@ InverseMap inverse(const DirectionMap& map)
     }
     InverseMap inverse;
     inverse.channels = map.channels;
-    const double cells = 4 * 3.14159265358979323846 / (pixels_per_cell * pixel * pixel);
+    const double cells = 4 * pi / (pixels_per_cell * pixel * pixel);
     inverse.side = int(std::clamp(std::sqrt(cells), double(least_side), double(most_side)));
     const int side = inverse.side;
     const std::size_t count = std::size_t(side) * side;

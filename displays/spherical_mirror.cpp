@@ -1,4 +1,5 @@
 #include "spherical_mirror.h"
+#include "config/angles.h"
 #include "config/turn.h"
 #include "planar.h"
 #include <algorithm>
@@ -7,8 +8,6 @@
 
 namespace starbow {
 namespace {
-
-constexpr double pi = glm::pi<double>();
 
 /// Where a ray meets a sphere: its way to the middle of the chord, and half the chord.
 struct Chord {

@@ -1,4 +1,5 @@
 #include "mapping.h"
+#include "config/angles.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -297,7 +298,7 @@ void Mapping::add(const DeviceState& state, std::int64_t now_ns, double dt_s, Co
     if (hat_)
         if (const auto value = raw(*hat_))
             if (const auto degrees = hat_degrees(descriptor_.fields[*hat_], *value)) {
-                const double a = *degrees * 3.14159265358979323846 / 180;
+                const double a = *degrees * pi / 180;
                 add_role(profile_.hat_x.value_or(AxisRole::none), std::round(std::sin(a)), dt_s, controls);
                 add_role(profile_.hat_y.value_or(AxisRole::none), std::round(std::cos(a)), dt_s, controls);
             }

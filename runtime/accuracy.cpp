@@ -35,15 +35,15 @@ std::string quoted(const std::string& plain) { return '"' + plain + '"'; }
 struct Metric {
     const char* name;
     const char* unit;
-    double (*of)(const Measured&);
+    double (*of)(const MeasuredSetting&);
     bool less_is_better;
 };
 constexpr double greatest_dB = 99; // stands for "nothing differs"
 const Metric metrics[] = {
-    {"FLIP", "mean", [](const Measured& m) { return m.errors.flip; }, true},
-    {"PSNR", "dB", [](const Measured& m) { return std::min(m.errors.psnr_dB, greatest_dB); }, false},
-    {"CIEDE2000", "95th percentile", [](const Measured& m) { return m.errors.ciede2000_95; }, true},
-    {"edges", "pixels, 95th percentile", [](const Measured& m) { return m.errors.edges_95_px; }, true},
+    {"FLIP", "mean", [](const MeasuredSetting& m) { return m.errors.flip; }, true},
+    {"PSNR", "dB", [](const MeasuredSetting& m) { return std::min(m.errors.psnr_dB, greatest_dB); }, false},
+    {"CIEDE2000", "95th percentile", [](const MeasuredSetting& m) { return m.errors.ciede2000_95; }, true},
+    {"edges", "pixels, 95th percentile", [](const MeasuredSetting& m) { return m.errors.edges_95_px; }, true},
 };
 
 /// Round steps for an axis, some of them.
@@ -86,10 +86,10 @@ struct Chart {
 };
 
 std::string drawn(
-    const std::vector<Measured>& all, const std::vector<bool>& best, const Metric& metric, double left, double top)
+    const std::vector<MeasuredSetting>& all, const std::vector<bool>& best, const Metric& metric, double left, double top)
 {
     double first = 1e300, last = 0, low = 1e300, high = -1e300;
-    for (const Measured& one : all) {
+    for (const MeasuredSetting& one : all) {
         first = std::min(first, one.ms), last = std::max(last, one.ms);
         low = std::min(low, metric.of(one)), high = std::max(high, metric.of(one));
     }
@@ -111,24 +111,24 @@ std::string drawn(
             c.x(at), c.x(at), c.top, c.top + c.height, c.x(at), c.top + c.height + 16, at);
     out += text("<text x=\"%.1f\" y=\"%.1f\" class=\"tick\" text-anchor=\"middle\">milliseconds a frame</text>\n",
         c.left + c.width / 2, c.top + c.height + 32);
-    std::vector<const Measured*> line;
+    std::vector<const MeasuredSetting*> line;
     for (std::size_t i = 0; i < all.size(); ++i)
         if (best[i])
             line.push_back(&all[i]);
     std::sort(line.begin(), line.end(), [](auto* a, auto* b) { return a->ms < b->ms; });
     out += "<polyline class=\"frontier\" points=\"";
-    for (const Measured* one : line)
+    for (const MeasuredSetting* one : line)
         out += text("%.1f,%.1f ", c.x(one->ms), c.y(metric.of(*one)));
     out += "\"/>\n";
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const Measured& one = all[i];
+        const MeasuredSetting& one = all[i];
         const char* kind = one.setting.shipped ? "shipped" : best[i] ? "best" : "other";
         out += text("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\" class=\"%s\"><title>", c.x(one.ms), c.y(metric.of(one)),
             one.setting.shipped ? "6" : "4", kind);
         out += safe(one.setting.name) + text(": %.1f ms, %.4g</title></circle>\n", one.ms, metric.of(one));
     }
     double below = -7; // the names in turn above and below their points, as neighbours would overlap
-    for (const Measured& one : all)
+    for (const MeasuredSetting& one : all)
         if (one.setting.shipped)
             out += text("<text x=\"%.1f\" y=\"%.1f\" class=\"name\">", c.x(one.ms) + 5,
                        c.y(metric.of(one)) + (below = 8 - below))
@@ -193,40 +193,40 @@ std::vector<Setting> settings_to_try(
     return all;
 }
 
-std::vector<bool> frontier(const std::vector<Measured>& all)
+std::vector<bool> frontier(const std::vector<MeasuredSetting>& all)
 {
     std::vector<bool> best;
-    for (const Measured& one : all)
-        best.push_back(std::none_of(all.begin(), all.end(), [&](const Measured& other) {
+    for (const MeasuredSetting& one : all)
+        best.push_back(std::none_of(all.begin(), all.end(), [&](const MeasuredSetting& other) {
             return other.ms <= one.ms && other.errors.flip <= one.errors.flip
                 && (other.ms < one.ms || other.errors.flip < one.errors.flip);
         }));
     return best;
 }
 
-const Measured* better_than(const Measured& one, const std::vector<Measured>& all, double part)
+const MeasuredSetting* better_than(const MeasuredSetting& one, const std::vector<MeasuredSetting>& all, double part)
 {
-    for (const Measured& other : all)
+    for (const MeasuredSetting& other : all)
         if (other.ms < one.ms / (1 + part) && other.errors.flip < one.errors.flip / (1 + part))
             return &other;
     return nullptr;
 }
 
-const Measured* best_within(const std::vector<Measured>& all, double budget_ms)
+const MeasuredSetting* best_within(const std::vector<MeasuredSetting>& all, double budget_ms)
 {
-    const Measured* best = nullptr;
-    for (const Measured& one : all)
+    const MeasuredSetting* best = nullptr;
+    for (const MeasuredSetting& one : all)
         if (one.ms <= budget_ms && (!best || one.errors.flip < best->errors.flip))
             best = &one;
     return best;
 }
 
-std::vector<Rung> ladder_of(const std::vector<Measured>& all)
+std::vector<Rung> ladder_of(const std::vector<MeasuredSetting>& all)
 {
     const std::vector<bool> best = frontier(all);
     std::vector<Rung> ladder;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const Measured& one = all[i];
+        const MeasuredSetting& one = all[i];
         const Quality& own = one.setting.quality;
         const Quality& first = all[0].setting.quality;
         // Other samples or formats would take other memory, which takes longer than a frame; and a cube map that lags behind
@@ -245,7 +245,7 @@ std::vector<Rung> ladder_of(const std::vector<Measured>& all)
     return steps;
 }
 
-std::string accuracy_csv(const std::vector<Measured>& all)
+std::string accuracy_csv(const std::vector<MeasuredSetting>& all)
 {
     const std::vector<bool> best = frontier(all);
     std::string out
@@ -255,7 +255,7 @@ std::string accuracy_csv(const std::vector<Measured>& all)
           "matrices,frames_per_cube,ms,ratio,megabytes,texels_drawn_per_pixel,images,flip,psnr_dB,ciede2000_mean,"
           "ciede2000_95,edges_95_px,direction_99_px,doppler_99,frontier\n";
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const Measured& m = all[i];
+        const MeasuredSetting& m = all[i];
         const Quality& q = m.setting.quality;
         out += quoted(m.setting.name)
             + text(",%g,%g,%d,%g,%g,%g,%d,%d,%d,%d,%d,%d,%.4f,%.4f,%.2f,%.3f,%d,%.6f,%.3f,%.4f,%.4f,%.4f,%.6f,%.3g,%d\n",
@@ -267,7 +267,7 @@ std::string accuracy_csv(const std::vector<Measured>& all)
     return out;
 }
 
-std::string accuracy_chart(const std::vector<Measured>& all, const std::string& title)
+std::string accuracy_chart(const std::vector<MeasuredSetting>& all, const std::string& title)
 {
     const std::vector<bool> best = frontier(all);
     std::string out
@@ -286,7 +286,7 @@ std::string accuracy_chart(const std::vector<Measured>& all, const std::string& 
     return out + "</svg>\n";
 }
 
-std::string accuracy_page(const std::vector<Measured>& all, const MeasuredOn& on)
+std::string accuracy_page(const std::vector<MeasuredSetting>& all, const MeasuredOn& on)
 {
     const std::vector<bool> best = frontier(all);
     std::vector<std::size_t> order(all.size());
@@ -310,7 +310,7 @@ std::string accuracy_page(const std::vector<Measured>& all, const MeasuredOn& on
            "<th>FLIP</th><th>PSNR, dB</th><th>CIEDE2000 mean</th><th>95 %</th><th>edges, px</th><th>direction, px</th>"
            "<th>D</th></tr>\n";
     for (std::size_t i : order) {
-        const Measured& m = all[i];
+        const MeasuredSetting& m = all[i];
         out += text("<tr class=\"%s\"><td>",
                    m.setting.shipped ? "shipped"
                        : best[i]     ? "best"

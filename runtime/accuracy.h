@@ -14,7 +14,7 @@ struct Setting {
 };
 
 /// What it costs, and how far its pictures are from the reference: of all shots and outputs together.
-struct Measured {
+struct MeasuredSetting {
     Setting setting;
     double ms = 0; ///< of a frame: the mean of the shots' medians
     double ratio = 1; ///< to the default setting's, each time measured in turn with it
@@ -32,16 +32,16 @@ std::vector<Setting> settings_to_try(
     const std::vector<Setting>& shipped, const Quality& standard, bool two_eyes, SpectralLevel needed);
 
 /// Which of them none of the others beats: by being as fast and more accurate (FLIP), or faster and as accurate.
-std::vector<bool> frontier(const std::vector<Measured>& all);
+std::vector<bool> frontier(const std::vector<MeasuredSetting>& all);
 
 /// Whether another of them is better than one in both by more than a part: what noise may hide.
-const Measured* better_than(const Measured& one, const std::vector<Measured>& all, double part);
+const MeasuredSetting* better_than(const MeasuredSetting& one, const std::vector<MeasuredSetting>& all, double part);
 
 /// The most accurate within a frame's time; null where none is.
-const Measured* best_within(const std::vector<Measured>& all, double budget_ms);
+const MeasuredSetting* best_within(const std::vector<MeasuredSetting>& all, double budget_ms);
 
 /// What a frame's time may be held by: the frontier's settings between which a flight can change, from the fastest.
-std::vector<Rung> ladder_of(const std::vector<Measured>& all);
+std::vector<Rung> ladder_of(const std::vector<MeasuredSetting>& all);
 
 /// What was measured, for the page's head.
 struct MeasuredOn {
@@ -49,10 +49,10 @@ struct MeasuredOn {
     std::string machine; ///< device, driver
     int rounds, samples;
 };
-std::string accuracy_csv(const std::vector<Measured>& all);
+std::string accuracy_csv(const std::vector<MeasuredSetting>& all);
 /// Error against milliseconds, a point a setting, the frontier a line. Stands by itself in an .svg file or in a page.
-std::string accuracy_chart(const std::vector<Measured>& all, const std::string& title);
+std::string accuracy_chart(const std::vector<MeasuredSetting>& all, const std::string& title);
 /// A page that needs nothing but itself.
-std::string accuracy_page(const std::vector<Measured>& all, const MeasuredOn& on);
+std::string accuracy_page(const std::vector<MeasuredSetting>& all, const MeasuredOn& on);
 
 } // namespace starbow

@@ -1,12 +1,9 @@
 #include "animation.h"
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace starbow {
 namespace {
-
-constexpr double for_ever = std::numeric_limits<double>::infinity();
 
 /// The time within one round.
 double within(const Track& track, double time_s)

@@ -1,6 +1,7 @@
 #pragma once
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct Track {
 
 /// At any time: before the first key, and after the last until its animation begins again, it holds.
 glm::dvec4 value_at(const Track& track, double time_s);
+
+constexpr double for_ever = std::numeric_limits<double>::infinity();
 
 /// Times around a time between which a track does not jump: its steps and, where its end is not its beginning, its rounds.
 struct Unbroken {

@@ -2,12 +2,9 @@
 #include "moving.h"
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace starbow {
 namespace {
-
-constexpr double for_ever = std::numeric_limits<double>::infinity();
 
 /// The part of a turn, 0 to 1: in double, for a float would lose the hands after months.
 double turned(double reading_s, double turn_s)

@@ -1,4 +1,5 @@
 #pragma once
+#include "config/angles.h"
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
@@ -20,7 +21,6 @@ inline glm::dvec3 cielab(const glm::dvec3& xyz, const glm::dvec3& white)
 /// Research and Application 30 (2005).
 inline double ciede2000(const glm::dvec3& one, const glm::dvec3& two)
 {
-    constexpr double degree = 3.14159265358979323846 / 180;
     const double mean_C = 0.5 * (std::hypot(one.y, one.z) + std::hypot(two.y, two.z));
     const double C7 = std::pow(mean_C, 7), G = 0.5 * (1 - std::sqrt(C7 / (C7 + 6103515625.0)));
     const double a1 = (1 + G) * one.y, a2 = (1 + G) * two.y;

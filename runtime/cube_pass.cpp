@@ -24,8 +24,6 @@ vk::SampleCountFlagBits sample_bits(int samples)
                         : vk::SampleCountFlagBits::e1;
 }
 
-glm::vec4 row(const glm::dmat4& m, int i) { return glm::vec4(m[0][i], m[1][i], m[2][i], m[3][i]); }
-
 } // namespace
 
 CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, const Quality& quality, bool keeps_depth)
@@ -251,7 +249,8 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
                 std::uint32_t(std::size_t(image.layer) * stride_));
         glm::dmat4 clip = clip_from_motion(image, near_distance);
         clip[2] *= contractions_[std::size_t(image.layer)];
-        shared::CubePush push{row(clip, 0), row(clip, 1), row(clip, 2), row(clip, 3), {}, {}, {}, {}};
+        shared::CubePush push{
+            shared::row(clip, 0), shared::row(clip, 1), shared::row(clip, 2), shared::row(clip, 3), {}, {}, {}, {}};
         // Seen through a mirrored pair of face axes a surface's front turns the other way.
         glm::dvec3 a = face_direction(image.face, {1, 0}) - face_direction(image.face, {0, 0});
         glm::dvec3 b = face_direction(image.face, {0, 1}) - face_direction(image.face, {0, 0});

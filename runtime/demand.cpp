@@ -1,12 +1,11 @@
 #include "demand.h"
+#include "config/angles.h"
 #include "physics/physics.h"
 #include <algorithm>
 #include <cmath>
 
 namespace starbow {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// A circle on the sphere and what its pixels need.
 struct Disc {

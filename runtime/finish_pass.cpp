@@ -27,8 +27,6 @@ int combine_of(Packing packing)
     }
 }
 
-glm::vec4 row(const glm::dmat3& m, int i) { return glm::vec4(m[0][i], m[1][i], m[2][i], 0); }
-
 Image shade_texture(Device& device, glm::ivec2 size, const std::vector<glm::vec3>& values)
 {
     std::vector<glm::u16vec4> halves;
@@ -66,8 +64,8 @@ FinishPass::FinishPass(Device& device, Pipelines& pipelines, const Output& outpu
         left = colour.matrix * mixed.left;
         right = colour.matrix * mixed.right;
     }
-    push_.left0 = row(left, 0), push_.left1 = row(left, 1), push_.left2 = row(left, 2);
-    push_.right0 = row(right, 0), push_.right1 = row(right, 1), push_.right2 = row(right, 2);
+    push_.left0 = shared::row(left, 0), push_.left1 = shared::row(left, 1), push_.left2 = shared::row(left, 2);
+    push_.right0 = shared::row(right, 0), push_.right1 = shared::row(right, 1), push_.right2 = shared::row(right, 2);
     const double curve = variant_.curve == 2 ? double(colour.lut.size() - 1) : variant_.curve == 1 ? 1 / colour.gamma : 0;
     push_.curve = glm::vec4(curve, headroom, 0, 0);
 

@@ -1,4 +1,5 @@
 #include "frame.h"
+#include "config/angles.h"
 #include "cull.h"
 #include "displays/blend.h"
 #include "displays/inverse_map.h"
@@ -16,10 +17,6 @@ namespace {
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 using Layout_ = vk::ImageLayout;
-
-constexpr double degree = 3.14159265358979323846 / 180;
-
-glm::vec4 row(const glm::dmat3& m, int i, double w = 0) { return glm::vec4(m[0][i], m[1][i], m[2][i], w); }
 
 /// Root of the determinant of a flat pane's matrix: its pixels' solid angle is det M / length^3.
 double unit_of(const CompiledPane& pane) { return pane.matrix ? std::sqrt(std::abs(glm::determinant(*pane.matrix))) : 0; }
@@ -439,9 +436,9 @@ void Frame::put_layers(PaneState& pane)
         const Layer& layer = layers[at];
         const glm::dmat3 turn = layer.motion_from_cockpit * glm::transpose(layers[0].motion_from_cockpit);
         shared::LayerEntry& entry = all.layers[count++];
-        entry.row0 = row(turn, 0);
-        entry.row1 = row(turn, 1, plan.rear_last[at]);
-        entry.row2 = row(turn, 2);
+        entry.row0 = shared::row(turn, 0);
+        entry.row1 = shared::row(turn, 1, plan.rear_last[at]);
+        entry.row2 = shared::row(turn, 2);
         entry.boost = glm::vec4(layer.E, 1 / layer.E, at * SLOT_COUNT, at);
         entry.eye = eye_told(pane, layer);
         entry.nearest.y = float(eye.nearest[at]);
@@ -571,9 +568,9 @@ shared::ViewPush Frame::push(const PaneState& pane, const glm::dmat3& axes_from_
     const glm::dmat3 m = axes_from_cockpit * pane.compiled.matrix.value_or(glm::dmat3(1));
     const vk::Extent2D atlas = eyes_[pane.eye].cube.atlases()[0].extent;
     shared::ViewPush push{};
-    push.row0 = row(m, 0, unit_of(pane.compiled));
-    push.row1 = row(m, 1, pattern_ == Pattern::none ? plans_[pane.eye].rear_last[0] : 0);
-    push.row2 = row(m, 2, response().first_log2_D);
+    push.row0 = shared::row(m, 0, unit_of(pane.compiled));
+    push.row1 = shared::row(m, 1, pattern_ == Pattern::none ? plans_[pane.eye].rear_last[0] : 0);
+    push.row2 = shared::row(m, 2, response().first_log2_D);
     push.origin = glm::vec4(pane.pane().corner, 1.0 / atlas.width, 1.0 / atlas.height);
     push.pane = glm::vec4(pane.pane().corner, 0, response().per_octave);
     if (pattern_ == Pattern::none) {
@@ -601,9 +598,9 @@ shared::ViewPush Frame::star_push(const PaneState& pane) const
     shared::ViewPush constants = push(pane, own.layers[0].motion_from_cockpit);
     constants.boost = glm::vec4(own.E, 1 / own.E, pre_exposure_, near_distance);
     const glm::dmat3 back = glm::inverse(own.layers[0].motion_from_cockpit * pane.compiled.matrix.value_or(glm::dmat3(1)));
-    constants.row0 = row(back, 0, constants.row0.w);
-    constants.row1 = row(back, 1, constants.row1.w);
-    constants.row2 = row(back, 2);
+    constants.row0 = shared::row(back, 0, constants.row0.w);
+    constants.row1 = shared::row(back, 1, constants.row1.w);
+    constants.row2 = shared::row(back, 2);
     return constants;
 }
 

@@ -1,4 +1,5 @@
 // What a frame does for who measures: probes, overlays, the panel of readings.
+#include "config/angles.h"
 #include "frame.h"
 #include "hud_place.h"
 #include "physics/physics.h"
@@ -11,10 +12,6 @@ namespace {
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 using Layout_ = vk::ImageLayout;
-
-constexpr double degree = 3.14159265358979323846 / 180;
-
-glm::vec4 row(const glm::dmat3& m, int i, float w) { return glm::vec4(m[0][i], m[1][i], m[2][i], w); }
 
 } // namespace
 
@@ -129,9 +126,9 @@ void Frame::draw_probes(vk::CommandBuffer commands)
     lab_->probe->record(commands, [&](std::size_t i, const glm::dmat3& cockpit_from_pixel) {
         shared::ViewPush constants = push(pane, watcher_of(pane).layers[0].motion_from_cockpit);
         const glm::dmat3 m = watcher_of(pane).layers[0].motion_from_cockpit * cockpit_from_pixel;
-        constants.row0 = row(m, 0, float(std::sqrt(std::abs(glm::determinant(m)))));
-        constants.row1 = row(m, 1, constants.row1.w);
-        constants.row2 = row(m, 2, constants.row2.w);
+        constants.row0 = shared::row(m, 0, float(std::sqrt(std::abs(glm::determinant(m)))));
+        constants.row1 = shared::row(m, 1, constants.row1.w);
+        constants.row2 = shared::row(m, 2, constants.row2.w);
         constants.boost = boost(pane, 1);
         constants.origin.x = float(i), constants.origin.y = 0;
         set_warp(commands, pane, pipeline, constants, {int(i), 0}, {1, 1});

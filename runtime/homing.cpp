@@ -5,8 +5,6 @@
 namespace starbow {
 namespace {
 
-double rapidity_of(const Ship& ship) { return std::asinh(glm::length(ship.u.total())); }
-
 /// Greatest rapidity of a straight way of `distance` in the proper time `tau`, half of it speeding up, half slowing down:
 /// distance = tau (cosh w - 1) / w. The right side grows with w.
 double greatest_rapidity(double distance, double tau)

@@ -1,12 +1,11 @@
 #include "hud_place.h"
+#include "config/angles.h"
 #include "hud.h"
 #include <array>
 #include <cmath>
 
 namespace starbow {
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 glm::dvec3 panel_middle(const HudPlacement& hud)
 {

@@ -1,4 +1,5 @@
 #include "lab_log.h"
+#include "config/angles.h"
 #include "config/error.h"
 #include "config/reader.h"
 #include "physics/physics.h"
@@ -14,7 +15,6 @@
 namespace starbow {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
 constexpr const char* line_end = "\r\n"; // RFC 4180
 
 using Columns = std::vector<std::pair<std::string, std::string>>;

@@ -1,11 +1,11 @@
 #include "lab_panel.h"
+#include "config/angles.h"
 #include <algorithm>
 #include <cmath>
 
 namespace starbow {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
 constexpr double margin = 0.035; ///< of the width
 
 bool has_scale(Overlay overlay) { return overlay == Overlay::distance || overlay == Overlay::emission; }

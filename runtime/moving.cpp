@@ -1,4 +1,5 @@
 #include "moving.h"
+#include "config/angles.h"
 #include "config/error.h"
 #include <algorithm>
 #include <cmath>
@@ -9,7 +10,7 @@
 namespace starbow {
 namespace {
 
-constexpr double pi = 3.14159265358979323846, tiny = 2.2e-16;
+constexpr double tiny = 2.2e-16;
 
 /// Where a joint stands at its own time.
 glm::dmat4 pose(const World& world, int index, double own_s)

@@ -11,8 +11,6 @@ namespace {
 constexpr vk::DeviceSize stride = 256;
 static_assert(sizeof(shared::OverlayConstants) <= stride);
 
-glm::vec4 row(const glm::dmat3& m, int i) { return glm::vec4(m[0][i], m[1][i], m[2][i], 0); }
-
 } // namespace
 
 OverlayPass::OverlayPass(const Device& device, Pipelines& pipelines, std::size_t panes)
@@ -38,7 +36,7 @@ void OverlayPass::prepare(std::size_t pane, const What& what, const Lookout& loo
     const OverlayScale& scale = what.scale;
     const double seconds_per_time_unit = world.scene.seconds_per_time_unit();
     shared::OverlayConstants c{};
-    c.world0 = row(to_world, 0), c.world1 = row(to_world, 1), c.world2 = row(to_world, 2);
+    c.world0 = shared::row(to_world, 0), c.world1 = shared::row(to_world, 1), c.world2 = shared::row(to_world, 2);
     if (const auto angle = unshifted_angle(lookout))
         c.ring = glm::vec4(std::cos(*angle), std::sin(*angle), 1, 0);
     const double low = std::log10(scale.nearest_s);

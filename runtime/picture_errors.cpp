@@ -1,5 +1,6 @@
 #include "picture_errors.h"
 #include "colour_difference.h"
+#include "config/angles.h"
 #include "srgb.h"
 #include <algorithm>
 #include <cmath>
@@ -9,13 +10,11 @@
 namespace starbow {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 /// Numbers of all pixels, rows from the top.
-struct Plane {
+struct Brightness {
     glm::ivec2 size;
     std::vector<double> at;
-    explicit Plane(glm::ivec2 s)
+    explicit Brightness(glm::ivec2 s)
         : size(s)
         , at(std::size_t(s.x) * std::size_t(s.y))
     {
@@ -47,10 +46,10 @@ double sum(const Kernel& k)
 }
 
 /// The edge's pixels go on beyond it.
-Plane filtered(const Plane& from, const Kernel& across, const Kernel& down)
+Brightness filtered(const Brightness& from, const Kernel& across, const Kernel& down)
 {
-    Plane half(from.size), whole(from.size);
-    const auto pass = [&](const Plane& in, Plane& out, const Kernel& k, glm::ivec2 step) {
+    Brightness half(from.size), whole(from.size);
+    const auto pass = [&](const Brightness& in, Brightness& out, const Kernel& k, glm::ivec2 step) {
         const int radius = int(k.size() / 2);
         for (int y = 0; y < in.size.y; ++y)
             for (int x = 0; x < in.size.x; ++x) {
@@ -114,7 +113,7 @@ std::vector<glm::dvec3> perceived(const std::vector<glm::dvec3>& rgb, glm::ivec2
     const int radius = int(std::ceil(3 * std::sqrt(0.04 / (2 * pi * pi)) * pixels_per_degree));
     std::vector<glm::dvec3> blurred(rgb.size(), glm::dvec3(0));
     for (int channel = 0; channel < 3; ++channel) {
-        Plane own(size);
+        Brightness own(size);
         for (std::size_t i = 0; i < rgb.size(); ++i)
             own.at[i] = opponents(rgb[i])[channel];
         double all = 0;
@@ -126,7 +125,7 @@ std::vector<glm::dvec3> perceived(const std::vector<glm::dvec3>& rgb, glm::ivec2
             all += parts.back().first * std::pow(sum(parts.back().second), 2);
         }
         for (const auto& [weight, k] : parts) {
-            const Plane one = filtered(own, k, k);
+            const Brightness one = filtered(own, k, k);
             for (std::size_t i = 0; i < rgb.size(); ++i)
                 blurred[i][channel] += one.at[i] * weight / all;
         }
@@ -142,7 +141,7 @@ std::pair<std::vector<double>, std::vector<double>> features(
 {
     const double sigma = 0.5 * 0.082 * pixels_per_degree;
     const int radius = int(std::ceil(3 * sigma));
-    Plane lightness(size);
+    Brightness lightness(size);
     for (std::size_t i = 0; i < rgb.size(); ++i)
         lightness.at[i] = (opponents(rgb[i]).x + 16) / 116;
     const Kernel bell = kernel(radius, [&](double x) { return std::exp(-x * x / (2 * sigma * sigma)); });
@@ -154,7 +153,7 @@ std::pair<std::vector<double>, std::vector<double>> features(
             (w > 0 ? above : below) += w;
         for (double& w : k)
             w /= (w > 0 ? above : -below) * sum(bell);
-        const Plane x = filtered(lightness, k, bell), y = filtered(lightness, bell, k);
+        const Brightness x = filtered(lightness, k, bell), y = filtered(lightness, bell, k);
         std::vector<double> both(rgb.size());
         for (std::size_t i = 0; i < both.size(); ++i)
             both[i] = std::hypot(x.at[i], y.at[i]);
@@ -217,13 +216,13 @@ std::vector<double> edge_displacements_px(const Shown8& picture, const Shown8& r
     constexpr double steep = 0.04; // of full brightness, in a pixel
     const glm::ivec2 size = picture.size;
     const auto brightness = [&](const Shown8& from) {
-        Plane plane(size);
+        Brightness plane(size);
         for (std::size_t i = 0; i < plane.at.size(); ++i)
             plane.at[i] = (0.299 * from.rgba[4 * i] + 0.587 * from.rgba[4 * i + 1] + 0.114 * from.rgba[4 * i + 2]) / 255;
         const Kernel soft = {0.25, 0.5, 0.25};
         return filtered(plane, soft, soft);
     };
-    const Plane own = brightness(picture), its = brightness(reference);
+    const Brightness own = brightness(picture), its = brightness(reference);
     const auto slope
         = [&](int x, int y) { return 0.5 * glm::dvec2(its(x + 1, y) - its(x - 1, y), its(x, y + 1) - its(x, y - 1)); };
     std::vector<double> moved;

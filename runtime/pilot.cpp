@@ -1,11 +1,11 @@
 #include "pilot.h"
+#include "config/angles.h"
 #include <algorithm>
 #include <cmath>
 
 namespace starbow {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
 const glm::dvec3 nose(0, 0, -1); ///< cockpit axes
 
 /// The part of the way that a smoothed value goes in one tick.
@@ -92,8 +92,6 @@ Push by_thrust(Flight& flight, const Controls& controls, const Flying& rules)
 }
 
 } // namespace
-
-double rapidity_of(const Ship& ship) { return std::asinh(glm::length(ship.u.total())); }
 
 Push pilot(Flight& flight, const Controls& told, const Flying& rules)
 {

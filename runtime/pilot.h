@@ -12,7 +12,4 @@ struct Push {
 /// The flight's smoothed controls (turn_rad_s, faster, thrust, lever) move on by a tick; the ship does not yet.
 Push pilot(Flight& flight, const Controls& controls, const Flying& rules);
 
-/// Rapidity of the ship's velocity in the world.
-double rapidity_of(const Ship& ship);
-
 } // namespace starbow

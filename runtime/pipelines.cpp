@@ -25,10 +25,10 @@
 namespace starbow {
 namespace {
 
-using Words = std::span<const std::uint32_t>;
+using Spirv = std::span<const std::uint32_t>;
 
 struct Pass {
-    Words vertex, fragment;
+    Spirv vertex, fragment;
     vk::PipelineLayout layout;
     std::vector<vk::Format> targets;
     std::vector<std::uint32_t> constants; ///< constant_id = index, either stage
@@ -39,7 +39,7 @@ struct Pass {
 
 vk::raii::Pipeline make_pipeline(const Device& device, const Pass& pass)
 {
-    auto module = [&](Words words) { return device.device.createShaderModule({{}, words.size_bytes(), words.data()}); };
+    auto module = [&](Spirv words) { return device.device.createShaderModule({{}, words.size_bytes(), words.data()}); };
     vk::raii::ShaderModule vertex = module(pass.vertex), fragment = module(pass.fragment);
     std::vector<vk::SpecializationMapEntry> entries;
     for (std::uint32_t i = 0; i < pass.constants.size(); ++i)

@@ -84,9 +84,9 @@ void merge(SlotDemands& all, const Demands::Slot& demand)
 }
 
 /// A slot cut into the rectangles of cells that cost least together.
-class Cut {
+class Cutting {
 public:
-    Cut(const Draft& draft, const SlotDemands& demands)
+    Cutting(const Draft& draft, const SlotDemands& demands)
         : draft_(draft)
         , demands_(demands)
     {
@@ -240,7 +240,7 @@ Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality, Pla
         for (const SlotDemands& demands : room.by_slot) {
             const std::size_t layer = std::size_t(demands.layer);
             const Draft draft{quality, density, demands.layer, layers[layer].things.has_value(), plan.rear_last[layer]};
-            Cut(draft, demands).add_images(plan.images);
+            Cutting(draft, demands).add_images(plan.images);
         }
         plan.texels = 0;
         plan.levels = 1;

@@ -19,17 +19,17 @@ struct Scaled {
 Scaled scale_of(double value) { return {std::max(std::log2(value), least_log2)}; }
 
 /// A row's colours over its scale, number by number, as the halves have them; and the scale's logarithm.
-struct Row {
+struct ScaledRow {
     std::array<float, 3 * MOST_REFLECTED> values{};
     float log2 = 0;
 };
-Row row_of(const glm::dvec3* seen, int reflected, const Observer& observer)
+ScaledRow row_of(const glm::dvec3* seen, int reflected, const Observer& observer)
 {
     glm::dvec3 grey(0);
     for (int k = 0; k < reflected; ++k)
         grey += seen[k];
     const Scaled scale = scale_of(peak(grey));
-    Row row;
+    ScaledRow row;
     row.log2 = float(scale.log2);
     for (int k = 0; k < reflected; ++k)
         for (int c = 0; c < 3; ++c)
@@ -51,11 +51,11 @@ Response response_of(const SpectralBasis& basis, const Observer& observer)
     Response response{basis.reflected, int(basis.own.size()), table.first_log2_D, table.per_octave, {}, {}};
     response.rows.assign(std::size_t(RESPONSE_ROWS * RESPONSE_TEXELS(basis.reflected)), glm::uvec4(0));
     response.own_rows.assign(MOST_OWN_ROWS, glm::vec4(0, 0, 0, float(least_log2)));
-    std::vector<Row> rows;
+    std::vector<ScaledRow> rows;
     for (int row = 0; row < RESPONSE_ROWS; ++row)
         rows.push_back(row_of(&table.seen[std::size_t(row * table.numbers)], basis.reflected, observer));
     for (int row = 0; row < RESPONSE_ROWS; ++row) {
-        const Row &here = rows[std::size_t(row)], &next = rows[std::size_t(std::min(row + 1, RESPONSE_ROWS - 1))];
+        const ScaledRow &here = rows[std::size_t(row)], &next = rows[std::size_t(std::min(row + 1, RESPONSE_ROWS - 1))];
         for (int k = 0; k < 3 * basis.reflected; ++k) {
             const float value = here.values[std::size_t(k)];
             word(response, row, k) = glm::packHalf2x16({value, next.values[std::size_t(k)] - value});

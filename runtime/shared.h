@@ -27,4 +27,9 @@ static_assert(sizeof(OverlayConstants) == 176);
 static_assert(sizeof(FinishPush) == 112);
 static_assert(sizeof(BloomPush) == 48);
 static_assert(sizeof(PatternPush) == 96);
+
+/// A row of a matrix, as shaders read it.
+inline vec4 row(const glm::dmat3& m, int i, double w = 0) { return vec4(m[0][i], m[1][i], m[2][i], w); }
+inline vec4 row(const glm::dmat4& m, int i) { return vec4(m[0][i], m[1][i], m[2][i], m[3][i]); }
+
 } // namespace starbow::shared

@@ -61,6 +61,8 @@ Shot shot_of(const Ship& ship)
     return shot;
 }
 
+double rapidity_of(const Ship& ship) { return std::asinh(glm::length(ship.u.total())); }
+
 Ship fly(Ship ship, const glm::dvec3& acceleration, const glm::dvec3& turn, double dtau)
 {
     // Thrust in the mean direction of the step: half of the turn before it and half behind leaves no error of first order.

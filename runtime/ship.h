@@ -36,6 +36,9 @@ Ship ship_at(const Shot& shot);
 /// The ship's instant as a shot: the picture is a function of this.
 Shot shot_of(const Ship& ship);
 
+/// Rapidity of its velocity in the world.
+double rapidity_of(const Ship& ship);
+
 /// One step of proper time dtau (>= 0) under a proper acceleration that is constant in the cockpit (cockpit axes, rapidity
 /// per unit of proper time) while the cockpit turns by `turn` (rotation vector, radians, cockpit axes). The cockpit is
 /// carried along by the boost (Thomas-Wigner).

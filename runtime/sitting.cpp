@@ -1,4 +1,5 @@
 #include "sitting.h"
+#include "config/angles.h"
 #include "config/error.h"
 #include "config/reader.h"
 #include "find.h"
@@ -8,8 +9,6 @@
 
 namespace starbow {
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 [[noreturn]] void refuse(const std::string& part, const std::string& problem)
 {

@@ -99,7 +99,7 @@ std::size_t index_of(const SpectralBasis& basis, const Emission& emission)
     return std::size_t(std::find(basis.own.begin(), basis.own.end(), OwnSpectrum{emission}) - basis.own.begin());
 }
 
-std::vector<double> lit(const SpectralBasis& basis, const Kind& kind, const std::function<double(double nm)>& reflectance)
+std::vector<double> lit_as(const SpectralBasis& basis, const Kind& kind, const std::function<double(double nm)>& reflectance)
 {
     return kind.D == 1 ? lit(basis, kind.light, reflectance) : lit_shifted(basis, kind.light, kind.D, reflectance);
 }
@@ -114,7 +114,7 @@ std::vector<glm::vec4> by_colour(const SpectralBasis& basis, int groups, const K
             rgb[column] = 1;
         std::vector<double> numbers(std::size_t(basis.size()), 0.0);
         if (light != Kind{} || basis.reflected > 5)
-            numbers = lit(basis, light, [&](double nm) { return base_reflectance(rgb, column == 3, column == 4, nm); });
+            numbers = lit_as(basis, light, [&](double nm) { return base_reflectance(rgb, column == 3, column == 4, nm); });
         else if (column < basis.reflected) // these are its numbers
             numbers[std::size_t(column)] = 1;
         for (std::size_t k = 0; k < numbers.size(); ++k)
@@ -128,7 +128,7 @@ std::vector<glm::vec4> by_table(const SpectralBasis& basis, int groups, const Ki
 {
     constexpr double luminance[3] = {0.2126, 0.7152, 0.0722}; // Rec. 709
     std::vector<glm::vec4> columns(std::size_t(groups * 5), glm::vec4(0));
-    const std::vector<double> numbers = lit(basis, light, reflectance);
+    const std::vector<double> numbers = lit_as(basis, light, reflectance);
     for (std::size_t column = 0; column < 3; ++column)
         for (std::size_t k = 0; k < numbers.size(); ++k)
             columns[k / 4 * 5 + column][int(k % 4)] = float(luminance[column] * numbers[k]);

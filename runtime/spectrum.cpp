@@ -1,5 +1,6 @@
 #include "spectrum.h"
 #include "colour.h"
+#include "config/angles.h"
 #include "primaries.h"
 #include <algorithm>
 #include <cmath>
@@ -29,11 +30,7 @@ glm::dvec3 sum(const Observer& observer, const Spectrum& light, double D)
 }
 
 /// A black body's radiance over all frequencies, in units of c / nm (Stefan and Boltzmann).
-double energy(double kelvin)
-{
-    constexpr double pi = 3.14159265358979323846;
-    return std::pow(pi, 4) / 15 * std::pow(500 * kelvin / second_radiation_nm_K, 4) / 500;
-}
+double energy(double kelvin) { return std::pow(pi, 4) / 15 * std::pow(500 * kelvin / second_radiation_nm_K, 4) / 500; }
 
 double straight(const std::vector<std::pair<double, double>>& points, double nm)
 {

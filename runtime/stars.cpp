@@ -1,4 +1,5 @@
 #include "stars.h"
+#include "config/angles.h"
 #include "config/reader.h"
 #include "spectrum.h"
 #include <algorithm>
@@ -10,7 +11,6 @@
 namespace starbow {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
 constexpr double sun_b_v = 0.65; // for stars whose B-V is not known
 constexpr std::size_t most_stars = 4'000'000; // 128 MB on the device
 

@@ -1,12 +1,11 @@
 #include "why.h"
+#include "config/angles.h"
 #include "hud.h"
 #include "physics/physics.h"
 #include <cmath>
 
 namespace starbow {
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 /// The title, the two lines of the sentence, and the formula.
 constexpr std::array<std::array<const char*, 4>, why_names.size()> page_words = {{

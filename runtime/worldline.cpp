@@ -6,12 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
-#include <limits>
 
 namespace starbow {
 namespace {
-
-constexpr double for_ever = std::numeric_limits<double>::infinity();
 
 /// The leg's frame, made if no leg had its velocity before, but for what a file's decimals leave of it. What rests in the
 /// world is in the world's own frame.

@@ -8,16 +8,16 @@ using namespace starbow;
 
 namespace {
 
-Measured made_up(const std::string& name, double ms, double flip, Quality quality = {})
+MeasuredSetting made_up(const std::string& name, double ms, double flip, Quality quality = {})
 {
-    Measured one{{name, quality}};
+    MeasuredSetting one{{name, quality}};
     one.ms = ms;
     one.errors.flip = flip;
     one.errors.psnr_dB = 30;
     return one;
 }
 
-const std::vector<Measured> some
+const std::vector<MeasuredSetting> some
     = {made_up("a", 10, 0.2, {.texels_per_pixel = 0.5}), made_up("b", 20, 0.1), made_up("worse than b", 21, 0.11),
         made_up("c", 40, 0.05, {.pixel_rays = 2}), made_up("other light", 15, 0.01, {.spectra = SpectralLevel::fine})};
 
@@ -26,16 +26,16 @@ const std::vector<Measured> some
 TEST(AccuracyTest, TheFrontierIsWhatNothingBeats)
 {
     EXPECT_EQ(frontier(some), (std::vector<bool>{true, false, false, false, true}));
-    const std::vector<Measured> same_light(some.begin(), some.end() - 1);
+    const std::vector<MeasuredSetting> same_light(some.begin(), some.end() - 1);
     EXPECT_EQ(frontier(same_light), (std::vector<bool>{true, true, false, true}));
     EXPECT_EQ(frontier({made_up("x", 1, 1), made_up("y", 1, 1)}), (std::vector<bool>{true, true}));
 }
 
 TEST(AccuracyTest, BetterByMoreThanNoise)
 {
-    const std::vector<Measured> all = {made_up("a", 10, 0.1), made_up("b", 9.5, 0.095), made_up("c", 8, 0.08)};
+    const std::vector<MeasuredSetting> all = {made_up("a", 10, 0.1), made_up("b", 9.5, 0.095), made_up("c", 8, 0.08)};
     EXPECT_EQ(better_than(all[0], {all[0], all[1]}, 0.1), nullptr);
-    const Measured* better = better_than(all[0], all, 0.1);
+    const MeasuredSetting* better = better_than(all[0], all, 0.1);
     ASSERT_NE(better, nullptr);
     EXPECT_EQ(better->setting.name, "c");
 }
@@ -49,7 +49,7 @@ TEST(AccuracyTest, TheBestWithinATime)
 
 TEST(AccuracyTest, ALadderHasWhatAFlightCanChange)
 {
-    const std::vector<Measured> same_light(some.begin(), some.end() - 1);
+    const std::vector<MeasuredSetting> same_light(some.begin(), some.end() - 1);
     const std::vector<Rung> ladder = ladder_of(same_light);
     ASSERT_EQ(ladder.size(), 3u);
     for (std::size_t i = 1; i < ladder.size(); ++i) {
@@ -89,7 +89,7 @@ TEST(AccuracyTest, EveryKnobIsTriedOnce)
 
 TEST(AccuracyTest, PageAndTableHoldEverySetting)
 {
-    std::vector<Measured> all = some;
+    std::vector<MeasuredSetting> all = some;
     all[1].setting.name = "a <b> & \"c\"";
     all[1].setting.shipped = true;
     const std::string page = accuracy_page(all, {"avenue, desk", "a GPU", 9, 64}), csv = accuracy_csv(all);

@@ -1,4 +1,5 @@
 // What blinks, spins or is animated, in the picture.
+#include "config/angles.h"
 #include "runtime/cull.h"
 #include "tests/quad.h"
 #include "tests/small_world.h"
@@ -113,8 +114,6 @@ TEST(Blinking, RingsMoveOutwards)
 }
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846, degree = pi / 180;
 
 /// Small bright octahedra in one mesh, each in its own colour.
 int blobs(Doc& doc, const std::vector<std::pair<dvec3, dvec3>>& places_and_colours, double radius)

@@ -1,5 +1,6 @@
 // Bodies that move, in the picture: against rays that are sent into each body's frame in 33 digits, against the same things
 // at rest before a ship that moves, and against what books say of spheres that pass.
+#include "config/angles.h"
 #include "runtime/worldline.h"
 #include "tests/quad.h"
 #include "tests/small_world.h"
@@ -7,8 +8,6 @@
 
 namespace starbow::gpu_test {
 namespace {
-
-constexpr double pi = 3.14159265358979323846, degree = pi / 180;
 
 dvec3 random_way(std::mt19937& random)
 {

@@ -1,5 +1,6 @@
 // What moves, in numbers: frames against boosts in 33 digits, retarded times against bisection, worldlines, and what a scene
 // file may say of bodies.
+#include "config/angles.h"
 #include "config/error.h"
 #include "physics/physics.h"
 #include "runtime/cull.h"
@@ -16,7 +17,6 @@ using glm::dvec3;
 
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
 using starbow::testing::u_of_beta, starbow::testing::u_of_gamma;
 
 dvec3 random_way(std::mt19937& random)

@@ -1,5 +1,6 @@
 // Clocks in the picture, read as a visitor reads them: by the hands' directions and the lit segments of the figures, in
 // pixels alone. Where a pixel looks is a textbook's pinhole and boost, where that meets a dial a plane's geometry.
+#include "config/angles.h"
 #include "tests/quad.h"
 #include "tests/small_world.h"
 #include <algorithm>
@@ -9,9 +10,6 @@
 
 namespace starbow::gpu_test {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-constexpr double degree = pi / 180;
 
 /// A flat dial in the world.
 struct Dial {

@@ -1,4 +1,5 @@
 // The views to compare with: velocities that simply add, and everything where it is now in the ship's frame.
+#include "config/angles.h"
 #include "physics/physics.h"
 #include "runtime/clock.h"
 #include "runtime/watcher.h"
@@ -7,8 +8,6 @@
 
 namespace starbow::gpu_test {
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 /// Where a colour's light is seen, by its middle.
 dvec3 seen_at(const Numbers& numbers, int channel)

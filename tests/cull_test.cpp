@@ -1,4 +1,5 @@
 // Culling and detail by themselves: nothing that a pixel could see is left out, and coarser surfaces stay close.
+#include "config/angles.h"
 #include "runtime/cull.h"
 #include "runtime/detail.h"
 #include "tests/boxes.h"
@@ -79,7 +80,7 @@ TEST(Detail, CoarserSurfacesStayWithinTheirError)
     constexpr int n = 48;
     for (int j = 0; j <= n; ++j)
         for (int i = 0; i <= 2 * n; ++i) {
-            double t = 3.14159265358979 * j / n, f = 3.14159265358979 * i / n;
+            double t = pi * j / n, f = pi * i / n;
             glm::vec3 d(std::sin(t) * std::cos(f), std::cos(t), std::sin(t) * std::sin(f));
             world.vertices.push_back({d, d, {float(i) / (2 * n), float(j) / n}, 0xffffffff});
         }
@@ -128,7 +129,7 @@ TEST(Detail, TellsWhereItIsShadedOtherwise)
         constexpr int around = 192, along = 8;
         for (int j = 0; j <= along; ++j)
             for (int i = 0; i <= around; ++i) {
-                const double f = 2 * 3.14159265358979 * i / around, lean = tilt * std::sin(24 * f);
+                const double f = 2 * pi * i / around, lean = tilt * std::sin(24 * f);
                 const double r = 1 - 0.001 * (tilt > 0) * std::cos(24 * f);
                 world.vertices.push_back({glm::vec3(r * std::cos(f), 0.05 * j, r * std::sin(f)),
                     glm::vec3(std::cos(f + lean), 0, std::sin(f + lean)), {0, 0}, 0xffffffff});
@@ -151,7 +152,7 @@ TEST(Detail, TellsWhereItIsShadedOtherwise)
         add_detail_levels(world);
         return world.primitives[0].coarser;
     };
-    const auto smooth = pipe(0), rippled = pipe(30 * 3.14159265358979 / 180);
+    const auto smooth = pipe(0), rippled = pipe(30 * pi / 180);
     ASSERT_GE(smooth.size(), 3u);
     ASSERT_GE(rippled.size(), 3u);
     // With an eighth of the triangles the ripples, 0.26 from one to the next, are gone; a round pipe shades as before.

@@ -1,4 +1,5 @@
 // What befalls devices in months of use: worn axes, short taps, several levers, and who of them is at the helm.
+#include "config/angles.h"
 #include "input/health.h"
 #include "input/lever.h"
 #include "input/mapping.h"
@@ -11,7 +12,7 @@ using namespace starbow;
 namespace {
 
 constexpr std::int64_t ms = 1'000'000, s = 1000 * ms;
-constexpr double two_pi = 6.28318530717958648;
+constexpr double two_pi = 2 * pi;
 
 /// An axis of eight bits and a button, in one report of two bytes.
 const Descriptor stick{.fields = {{.usage = {1, 0x30}, .bits = 8, .logical_max = 255},

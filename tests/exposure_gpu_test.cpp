@@ -1,12 +1,11 @@
 // Brightness through the whole path: light as numbers and as pictures, its range, its sum over the sky, the meter, and the
 // last step to bytes.
+#include "config/angles.h"
 #include "runtime/exposure.h"
 #include "tests/small_world.h"
 
 namespace starbow::gpu_test {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 Json even_sky(double r, double g, double b)
 {

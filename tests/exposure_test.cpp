@@ -1,4 +1,5 @@
 // The exposure: what is metered, how it adapts; and the curve from light to what a screen shows.
+#include "config/angles.h"
 #include "files.h"
 #include "runtime/colour.h"
 #include "runtime/exposure.h"
@@ -169,7 +170,7 @@ TEST(Adaptation, TheFirstViewIsTakenAtOnceAndDarknessChangesNothing)
 // What config/exposing.h says of the greatest exposure, from SI's constants.
 TEST(Adaptation, TheGreatestExposureIsForTheEyesThreshold)
 {
-    const double h = 6.62607015e-34, c = 299792458, k = 1.380649e-23, kelvin = 5772, pi = 3.14159265358979;
+    const double h = 6.62607015e-34, c = 299792458, k = 1.380649e-23, kelvin = 5772;
     double all = 0, seen = 0;
     for (double nm = 50.5; nm < 1e5; ++nm) {
         const double m = 1e-9 * nm, power = 1 / (std::pow(m, 5) * std::expm1(h * c / (m * k * kelvin)));
@@ -222,8 +223,6 @@ TEST(Adaptation, IsToldInEv)
 // ---------------------------------------------------------------- the curve
 
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 /// Fully bright and saturated colours and paler ones: white where saturation is 0.
 glm::dvec3 colour_of(double hue_deg, double saturation)

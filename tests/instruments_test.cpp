@@ -1,5 +1,6 @@
 // What the instruments read, without a device: the paper's clocks by pencil, directions and lengths against the tests' own
 // boosts in 33 digits, the log as a spreadsheet reads it, and the pages' words.
+#include "config/angles.h"
 #include "config/error.h"
 #include "config/scene_file.h"
 #include "files.h"
@@ -21,7 +22,6 @@ using glm::dvec3;
 
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
 constexpr const char* languages[] = {"en", "de"};
 
 const World& clocks()

@@ -1,5 +1,6 @@
 // docs/lab.md played through: every number that it asks for, measured on the real scenes with the instruments, as with a
 // hand that aims to 0.1 degrees. The theory's values are worked out here once more, without the formulas of shaders/physics.
+#include "config/angles.h"
 #include "runtime/flight.h"
 #include "runtime/sitting.h"
 #include "tests/quad.h"
@@ -11,8 +12,6 @@
 
 namespace starbow::gpu_test {
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 struct Row {
     std::vector<std::string> cells;

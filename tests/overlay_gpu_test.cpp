@@ -1,5 +1,6 @@
 // What is laid over the picture, found in its pixels, and what the probe reads, beside the EXR's numbers. Where a line
 // should be is worked out from where pixels look, by the tests' own boosts.
+#include "config/angles.h"
 #include "runtime/lab_panel.h"
 #include "runtime/sitting.h"
 #include "tests/quad.h"
@@ -7,8 +8,6 @@
 
 namespace starbow::gpu_test {
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 /// A grey sky, and a wall that faces the origin from 8 units.
 GpuWorld wall_world()

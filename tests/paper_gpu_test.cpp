@@ -1,5 +1,6 @@
 // The figures of the paper through the whole path: the numbers that `starbow render --exr` writes for the shipped shots and
 // for some of our own, against relativity done with 4-vectors (quad.h) and geometry done with pencil.
+#include "config/angles.h"
 #include "displays/direction_map.h"
 #include "runtime/find.h"
 #include "runtime/spectrum.h"
@@ -10,9 +11,6 @@
 
 namespace starbow::gpu_test {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-constexpr double degree = pi / 180;
 
 // ---------------------------------------------------------------- the avenue as scenes/avenue/make.py describes it
 

@@ -1,12 +1,11 @@
 // Test patterns: that lines, letters and fields are where who lines up projectors takes them to be. Where a direction is on
 // a screen is worked out here by itself.
+#include "config/angles.h"
 #include "tests/small_world.h"
 #include <functional>
 
 namespace starbow::gpu_test {
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 using Bytes = std::vector<std::uint8_t>;
 

@@ -1,5 +1,6 @@
 // The formulas of shaders/physics as the device computes them, against the same text compiled as float and as double. That
 // the double build is right, physics_test shows.
+#include "config/angles.h"
 #include "physics/physics.h"
 #include "spirv/physics_probe_comp.h"
 #include "tests/quad.h"
@@ -68,7 +69,7 @@ std::vector<vec4> directions()
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> one(0, 1);
     for (int i = 0; i < 40000; ++i) {
-        double phi = 2 * glm::pi<double>() * one(random), z = 2 * one(random) - 1, across = std::sqrt((1 - z) * (1 + z));
+        double phi = 2 * pi * one(random), z = 2 * one(random) - 1, across = std::sqrt((1 - z) * (1 + z));
         list.push_back(vec4(dvec3(across * std::cos(phi), across * std::sin(phi), z), 0));
         double theta = std::pow(1e-18, one(random)); // down to what a float's square still holds
         list.push_back(vec4(
@@ -133,7 +134,7 @@ TEST(PhysicsOnTheDevice, BoostsAndMotionAgreeWithDouble)
     std::mt19937_64 random(6);
     std::uniform_real_distribution<double> one(0, 1);
     auto somewhere = [&] {
-        double phi = 2 * glm::pi<double>() * one(random), z = 2 * one(random) - 1, across = std::sqrt((1 - z) * (1 + z));
+        double phi = 2 * pi * one(random), z = 2 * one(random) - 1, across = std::sqrt((1 - z) * (1 + z));
         return dvec3(across * std::cos(phi), across * std::sin(phi), z);
     };
     std::vector<vec4> inputs;

@@ -1,8 +1,8 @@
 // The formulas of shaders/physics against relativity done another way: double against boosts in 33 digits (quad.h), float
 // against double, and the numbers that the literature and pencil give.
+#include "config/angles.h"
 #include "physics/physics.h"
 #include "tests/quad.h"
-
 #include "tests/speeds.h"
 #include <gtest/gtest.h>
 
@@ -15,14 +15,14 @@
 
 namespace {
 
+using starbow::pi, starbow::degree;
+
 using glm::dvec2;
 using glm::dvec3;
 using glm::dvec4;
 using glm::vec3;
 namespace pd = starbow::physics_double;
 namespace pf = starbow::physics_float;
-
-constexpr double degree = glm::pi<double>() / 180;
 
 // One rounding. A bound of "k roundings" counts the operations between the input and the result.
 constexpr double round_double = 0x1p-53;
@@ -70,7 +70,7 @@ std::vector<dvec3> directions(int count, double closest)
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> one(0, 1);
     for (int i = 0; i < count; ++i) {
-        const double phi = 2 * glm::pi<double>() * one(random);
+        const double phi = 2 * pi * one(random);
         const double z = 2 * one(random) - 1;
         const double across = std::sqrt((1 - z) * (1 + z));
         list.push_back({across * std::cos(phi), across * std::sin(phi), z});
@@ -773,7 +773,7 @@ TEST(Boost, ThomasTurnOfOneCircularOrbit)
             glm::dquat q(1, 0, 0, 0);
             double total = 0;
             for (int i = 0; i < steps; ++i) {
-                const double a = 2 * glm::pi<double>() * i / steps, b = 2 * glm::pi<double>() * (i + 1) / steps;
+                const double a = 2 * pi * i / steps, b = 2 * pi * (i + 1) / steps;
                 const dvec3 u(speed * std::cos(a), speed * std::sin(a), 0),
                     next(speed * std::cos(b), speed * std::sin(b), 0);
                 const auto w = quad::boosted(quad::of(u) * -1, {quad::gamma(quad::of(next)), quad::of(next)}).x;

@@ -1,5 +1,6 @@
 // What a picture must be whatever the world: the same bytes each time, no seams, no mirror images, the right thing in front;
 // in small worlds made for the purpose.
+#include "config/angles.h"
 #include "displays/direction_map.h"
 #include "physics/physics.h"
 #include "runtime/find.h"
@@ -8,9 +9,6 @@
 
 namespace starbow::gpu_test {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-constexpr double degree = pi / 180;
 
 Shot shipped_shot(const std::string& name) { return load_shot(testing::source_dir() / "config/shots" / (name + ".json")); }
 

@@ -1,4 +1,5 @@
 // The plan by itself: whatever a pixel reads of the atlas was drawn, at the density that was asked for.
+#include "config/angles.h"
 #include "physics/physics.h"
 #include "runtime/plan.h"
 #include "tests/pane.h"
@@ -31,7 +32,7 @@ glm::dquat turn(int i)
     if (i == 0)
         return {1, 0, 0, 0};
     if (i == 1)
-        return glm::angleAxis(3.14159265358979, glm::dvec3(0, 1, 0)); // straight back
+        return glm::angleAxis(pi, glm::dvec3(0, 1, 0)); // straight back
     std::mt19937 random(unsigned(i) * 77);
     std::normal_distribution<double> normal;
     return glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random)));

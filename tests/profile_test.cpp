@@ -2,13 +2,10 @@
 #include "config/profile.h"
 #include "input/mapping.h"
 #include "tests/files.h"
+#include "tests/schema_check.h"
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 using namespace starbow;
 using namespace starbow::testing;
@@ -69,15 +66,12 @@ std::size_t field(const Descriptor& descriptor, Usage usage)
 
 TEST(ProfileTest, ShippedProfilesAreValidAndFitTheirDevices)
 {
-    valijson::Schema schema;
-    const json text = json_of(source_dir() / "config/schema/profile.schema.json");
-    valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(text), schema);
     int on_devices = 0;
     EXPECT_GE(shipped().size(), 8u);
     for (const auto& file : shipped()) {
         SCOPED_TRACE(file.filename().string());
         const json own = json_of(file);
-        EXPECT_TRUE(valijson::Validator().validate(schema, valijson::adapters::NlohmannJsonAdapter(own), nullptr));
+        EXPECT_TRUE(schema_accepts("profile", own));
         const Profile profile = load_profile(file);
         const auto real = device(own["vendor"], own["product"]);
         if (!real)
@@ -238,9 +232,6 @@ TEST(ProfileTest, WrongProfilesAreRefused)
 
 TEST(ProfileTest, WhatIsWrittenReadsBackTheSame)
 {
-    valijson::Schema schema;
-    const json text = json_of(source_dir() / "config/schema/profile.schema.json");
-    valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(text), schema);
     std::vector<Profile> all;
     for (const auto& file : shipped())
         all.push_back(load_profile(file));
@@ -259,7 +250,7 @@ TEST(ProfileTest, WhatIsWrittenReadsBackTheSame)
     for (const Profile& profile : all) {
         SCOPED_TRACE(profile.name);
         save_profile(profile, file);
-        EXPECT_TRUE(valijson::Validator().validate(schema, valijson::adapters::NlohmannJsonAdapter(json_of(file)), nullptr));
+        EXPECT_TRUE(schema_accepts("profile", json_of(file)));
         const Profile back = load_profile(file);
         EXPECT_EQ(back.name, profile.name);
         EXPECT_EQ(back.vendor, profile.vendor);

@@ -2,6 +2,7 @@
 #include "config/error.h"
 #include "config/quality.h"
 #include "runtime/find.h"
+#include "tests/files.h"
 #include "tests/schema_check.h"
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,6 @@
 // The picture by rays, against what can be said of simple worlds without any renderer: formulas in closed form, retarded
 // places by bisection in 33 digits, published colours.
+#include "config/angles.h"
 #include "config/one_view.h"
 #include "physics/physics.h"
 #include "runtime/colour.h"
@@ -18,7 +19,6 @@ using glm::dvec3;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846, degree = pi / 180;
 using starbow::testing::u_of_beta;
 
 /// A world of flat plates, one material each.

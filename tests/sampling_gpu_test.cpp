@@ -1,4 +1,5 @@
 // How finely the cube map holds what is looked at: straight ahead, straight back, and across what its images meet at.
+#include "config/angles.h"
 #include "displays/compiled.h"
 #include "physics/physics.h"
 #include "runtime/picture_errors.h"
@@ -10,8 +11,6 @@ using namespace starbow;
 using namespace starbow::gpu_test;
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// A ball around the eye, painted in ln tan(theta / 2) and the azimuth about the z axis. A boost along z is a plain shift
 /// there, so the picture is as rich at every speed; an ideal sampling is as good at every speed.

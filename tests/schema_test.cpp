@@ -1,14 +1,11 @@
 // The schema that editors complete layouts from, and the reader: each is held against the other.
 #include "config/layout_reader.h"
 #include "files.h"
+#include "schema_check.h"
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 using namespace starbow;
 using namespace starbow::testing;
@@ -24,16 +21,7 @@ const json& schema()
     return loaded;
 }
 
-bool schema_accepts(const json& layout)
-{
-    static const valijson::Schema& compiled = [&]() -> const valijson::Schema& {
-        static valijson::Schema made;
-        valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema()), made);
-        return made;
-    }();
-    valijson::Validator validator(valijson::Validator::kStrongTypes);
-    return validator.validate(compiled, valijson::adapters::NlohmannJsonAdapter(layout), nullptr);
-}
+bool schema_accepts(const json& layout) { return starbow::testing::schema_accepts("layout", layout); }
 
 /// What the reader says about it; "" where it reads it.
 std::string reader_says(const std::string& text)

@@ -1,4 +1,5 @@
 // The flight against the closed form, the equations of motion integrated and Thomas' precession, all in 33 digits.
+#include "config/angles.h"
 #include "runtime/ship.h"
 #include "tests/quad.h"
 
@@ -18,6 +19,7 @@ using glm::dvec3;
 using quad::Q;
 using quad::V3;
 using starbow::fly;
+using starbow::pi;
 using starbow::Ship;
 
 constexpr double one_g = 9.80665 * 365.25 * 86400 / 299792458; // rapidity per year
@@ -393,7 +395,7 @@ TEST(Fly, CircularOrbitCloses)
 {
     const double R = 2;
     for (double gamma : {1.02, 1.25, 2.0, 4.0}) {
-        const double u = std::sqrt((gamma - 1) * (gamma + 1)), tau = 2 * glm::pi<double>() * R / u;
+        const double u = std::sqrt((gamma - 1) * (gamma + 1)), tau = 2 * pi * R / u;
         double away[2], off[2], facing[2];
         for (int fine = 0; fine < 2; ++fine) {
             const int steps = 4000 << fine;
@@ -403,14 +405,14 @@ TEST(Fly, CircularOrbitCloses)
             away[fine] = glm::length(ship.position.total()) / R;
             off[fine] = glm::length(ship.u.total() - dvec3(0, 0, -u)) / u;
             facing[fine] = 2 * std::hypot(ship.ship_from_cockpit.x, ship.ship_from_cockpit.y, ship.ship_from_cockpit.z);
-            const double cut = std::pow(2 * glm::pi<double>() * gamma / steps, 2) * 2 * glm::pi<double>() * gamma;
+            const double cut = std::pow(2 * pi * gamma / steps, 2) * 2 * pi * gamma;
             EXPECT_NEAR(ship.time.total() / (gamma * tau), 1, cut);
-            EXPECT_NEAR(ship.distance.total() / (2 * glm::pi<double>() * R), 1, cut);
+            EXPECT_NEAR(ship.distance.total() / (2 * pi * R), 1, cut);
         }
         std::printf(
             "  orbit at gamma %.2f: off by %.1e R, %.1e u, %.1e rad in 8000 steps\n", gamma, away[1], off[1], facing[1]);
         // The cut into 8000 steps: (2 pi gamma / 8000)^2 of the turn, times the 2 pi gamma of the orbit.
-        const double cut = std::pow(2 * glm::pi<double>() * gamma, 3) / 8000 / 8000;
+        const double cut = std::pow(2 * pi * gamma, 3) / 8000 / 8000;
         EXPECT_LE(std::max({away[1], off[1], facing[1]}), cut);
         EXPECT_LE(away[1], .3 * away[0] + 1e-12);
     }
@@ -426,7 +428,7 @@ TEST(Fly, ThomasTurnOfAnOrbitOfBoosts)
             const double u = std::sqrt((gamma - 1) * (gamma + 1));
             const int steps = 10000 << fine;
             const auto on_orbit = [&](int i) {
-                const double a = 2 * glm::pi<double>() * i / steps;
+                const double a = 2 * pi * i / steps;
                 return dvec3(u * std::cos(a), u * std::sin(a), 0);
             };
             Ship ship = flying(on_orbit(0));
@@ -442,7 +444,7 @@ TEST(Fly, ThomasTurnOfAnOrbitOfBoosts)
                 turned += std::asin(glm::cross(mark, now).z);
                 mark = now;
             }
-            turn_deg[fine] = turned * 180 / glm::pi<double>();
+            turn_deg[fine] = turned * 180 / pi;
         }
         // A polygon of n velocities is 1/n^2 off the circle, here 2e-5 degrees; Richardson leaves 1/n^4 and rounding.
         EXPECT_NEAR(turn_deg[1] + (turn_deg[1] - turn_deg[0]) / 3, -360 * (gamma - 1), 1e-8) << gamma;

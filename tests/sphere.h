@@ -1,4 +1,5 @@
 #pragma once
+#include "config/angles.h"
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
@@ -9,7 +10,7 @@
 /// Geometry on the unit sphere for tests of displays, by other formulas than theirs.
 namespace sphere {
 
-constexpr double pi = glm::pi<double>();
+using starbow::pi;
 
 inline void expect_near(const std::optional<glm::dvec3>& seen, const glm::dvec3& expected, double tolerance = 1e-14)
 {

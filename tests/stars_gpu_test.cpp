@@ -1,5 +1,6 @@
 // The stars in the picture: at their places, as bright as a point is and no larger at any speed, hidden by what stands
 // before them; on every kind of display.
+#include "config/angles.h"
 #include "runtime/colour.h"
 #include "runtime/spectrum.h"
 #include "tests/planck.h"
@@ -11,8 +12,6 @@
 namespace starbow::gpu_test {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double degree = pi / 180;
 constexpr double arcmin2_sr = degree * degree / 3600;
 constexpr double brightness_arcmin2 = 1e4;
 

@@ -1,4 +1,5 @@
 // The stars before any device: the catalogue, its reader, black bodies, how the sky is turned.
+#include "config/angles.h"
 #include "runtime/spectrum.h"
 #include "runtime/stars.h"
 #include "tests/files.h"
@@ -173,7 +174,7 @@ TEST(StarsTest, MagnitudesAreLight)
     const StarSky sky{"", 500, {0, 0}};
     const std::vector<Star> stars = {{{1, 0, 0}, 0, 5772}, {{1, 0, 0}, 5, 9000}};
     const auto entries = star_entries(stars, sky);
-    const double arcmin = 3.14159265358979 / 10800;
+    const double arcmin = pi / 10800;
     EXPECT_NEAR(entries[0].light.y / (500 * arcmin * arcmin), 1, 1e-6);
     EXPECT_NEAR(entries[0].light.y / entries[1].light.y, 100, 1e-4);
     for (std::size_t i = 0; i < 2; ++i) // a star gives its light at rest whatever its temperature

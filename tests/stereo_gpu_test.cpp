@@ -1,14 +1,12 @@
 // Two eyes: that each packing puts each eye's pixel where a display of its kind wants it, and that each method puts things
 // where the eye would see them. Where that is, is worked out here in double from the places of things alone.
+#include "config/angles.h"
 #include "runtime/disparity.h"
 #include "tests/small_world.h"
 #include <functional>
 
 namespace starbow::gpu_test {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-constexpr double degree = pi / 180;
 
 // ---------------------------------------------------------------- packings
 

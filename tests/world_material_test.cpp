@@ -1,3 +1,4 @@
+#include "config/angles.h"
 #include "gltf_fixture.h"
 #include <numbers>
 
@@ -79,8 +80,7 @@ TEST_F(WorldMaterialTest, TextureTransformsAreBaked)
     // The extension's own example: the lower left quarter of the image, turned clockwise by 90 degrees.
     Doc doc = painted(textured);
     Json& info = doc.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
-    info["extensions"]["KHR_texture_transform"]
-        = {{"offset", {0, 1}}, {"rotation", std::numbers::pi / 2}, {"scale", {0.5, 0.5}}};
+    info["extensions"]["KHR_texture_transform"] = {{"offset", {0, 1}}, {"rotation", pi / 2}, {"scale", {0.5, 0.5}}};
     doc.json["extensionsUsed"] = {"KHR_texture_transform"};
     World world = load(doc);
     EXPECT_NEAR(glm::distance(world.vertices[0].uv, glm::vec2(0, 1)), 0, 1e-7);

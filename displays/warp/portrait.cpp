@@ -1,3 +1,4 @@
+#include "config/angles.h"
 #include "parts.h"
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,6 @@ Seen seen(const WarpMesh& mesh, const std::array<glm::dvec3, 3>& sees)
     case WarpMesh::Kind::points: {
         const glm::dvec3 way = sees[0] - mesh.eye_m.value_or(glm::dvec3(0));
         const glm::dvec2 angles(std::atan2(way.x, -way.z), std::atan2(way.y, std::hypot(way.x, way.z)));
-        constexpr double pi = std::numbers::pi;
         return {{angles.x / (2 * pi) + 0.5, 0.5 - angles.y / pi}, angles * (18 / pi)}; // each 10 degrees
     }
     case WarpMesh::Kind::colours:

@@ -1,5 +1,6 @@
 #include "bench_cubes.h"
 #include "bench_timing.h"
+#include "config/angles.h"
 #include "config/one_view.h"
 #include "runtime/find.h"
 #include "runtime/still.h"
@@ -49,7 +50,7 @@ void bench_cubes(Theatre& theatre, const GpuWorld& starless, int rounds)
     const glm::ivec2 size(1024);
     const Layout dome_layout = one_view(Fisheye{.aperture_deg = 180, .tilt_deg = 30}, size);
     // Its middle's pixels are as wide as the dome's, pi / 1024.
-    const double half_deg = glm::degrees(std::atan(3.14159265358979323846 / 2));
+    const double half_deg = glm::degrees(std::atan(pi / 2));
     const Layout window_layout = one_view(Planar{2 * half_deg}, size);
     Quality quality = default_quality(device, false);
     quality.texels_per_pixel = 1;

@@ -1,5 +1,6 @@
 #include "bench_scaling.h"
 #include "bench_timing.h"
+#include "config/angles.h"
 #include "runtime/find.h"
 #include "runtime/still.h"
 #include <cmath>
@@ -25,7 +26,7 @@ World balls(int count)
     world.materials.resize(1);
     for (int j = 0; j <= down; ++j)
         for (int i = 0; i <= around; ++i) {
-            const double a = 6.283185307179586 * i / around, b = 3.14159265358979323846 * j / down;
+            const double a = 2 * pi * i / around, b = pi * j / down;
             const glm::vec3 n(std::sin(b) * std::cos(a), std::cos(b), std::sin(b) * std::sin(a));
             world.vertices.push_back({n, n, {0, 0}, 0xffffffff});
         }

@@ -1,5 +1,6 @@
 #include "bench_stars.h"
 #include "bench_timing.h"
+#include "config/angles.h"
 #include "runtime/detail.h"
 #include "runtime/find.h"
 #include "runtime/still.h"
@@ -18,7 +19,7 @@ std::vector<Star> swarm(int count)
     std::uniform_real_distribution<double> one(0, 1);
     std::vector<Star> stars;
     for (int i = 0; i < count; ++i) {
-        const double z = 2 * one(random) - 1, a = 6.283185307179586 * one(random), across = std::sqrt(1 - z * z);
+        const double z = 2 * one(random) - 1, a = 2 * pi * one(random), across = std::sqrt(1 - z * z);
         const double magnitude = 12 + std::log(1 - one(random)) / std::log(4.0);
         stars.push_back({{across * std::cos(a), across * std::sin(a), z}, magnitude,
             temperature_of(-0.2 + 0.01 * double(random() % 180))});

@@ -95,7 +95,7 @@ int measure(const Options& options)
     MeasuredOn on{options.scene + ", " + options.layout, "", trial.rounds, trial.samples};
     for (const auto& [name, shot] : trial.shots)
         on.what += ", " + name;
-    const std::vector<Measured> all = measure_settings(trial, settings, device_options(false), on.machine);
+    const std::vector<MeasuredSetting> all = measure_settings(trial, settings, device_options(false), on.machine);
     write_whole(trial.folder / "accuracy.csv", accuracy_csv(all));
     write_whole(trial.folder / "accuracy.svg", accuracy_chart(all, on.what));
     write_whole(trial.folder / "ladder.json", ladder_text(ladder_of(all)));
@@ -109,20 +109,20 @@ int measure(const Options& options)
     std::printf("%s; * what no other setting beats\n\n%8s %7s %8s %8s %8s %9s %9s %8s\n", on.machine.c_str(), "ms", "ratio",
         "FLIP", "PSNR dB", "dE00 95", "edges px", "dir. px", "MiB");
     for (std::size_t i : order) {
-        const Measured& m = all[i];
+        const MeasuredSetting& m = all[i];
         if (m.setting.shipped || best[i])
             std::printf("%8.1f %7.2f %8.4f %8.1f %8.2f %9.3f %9.4f %8.0f %s %s\n", m.ms, m.ratio, m.errors.flip,
                 m.errors.psnr_dB, m.errors.ciede2000_95, m.errors.edges_95_px, m.direction_px, m.megabytes,
                 best[i] ? "*" : " ", m.setting.name.c_str());
     }
     constexpr double noise = 0.15; // what times of one run may differ by
-    for (const Measured& m : all)
-        if (const Measured* better = m.setting.shipped ? better_than(m, all, noise) : nullptr)
+    for (const MeasuredSetting& m : all)
+        if (const MeasuredSetting* better = m.setting.shipped ? better_than(m, all, noise) : nullptr)
             std::printf("%s is beaten: %s takes %.2f of its time with %.2f of its FLIP\n", m.setting.name.c_str(),
                 better->setting.name.c_str(), better->ms / m.ms, better->errors.flip / m.errors.flip);
     std::printf("\n%s/accuracy.html\n", options.out.c_str());
     if (options.budget_ms > 0) {
-        const Measured* chosen = best_within(all, options.budget_ms);
+        const MeasuredSetting* chosen = best_within(all, options.budget_ms);
         if (!chosen) {
             std::printf("nothing is within %g ms; the fastest takes %.1f ms\n", options.budget_ms, all[order[0]].ms);
             return 1;

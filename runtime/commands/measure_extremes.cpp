@@ -1,4 +1,5 @@
 #include "measure_extremes.h"
+#include "config/angles.h"
 #include "config/error.h"
 #include "config/exhibit.h"
 #include "config/one_view.h"
@@ -26,7 +27,6 @@ namespace {
 
 /// Directions on board are floats: each of three sums may be rounded by as much.
 constexpr double resolved_rad = 1.5e-7;
-constexpr double degree = 3.14159265358979323846 / 180;
 
 template <class... Values> std::string text(const char* format, Values... values)
 {

@@ -119,7 +119,7 @@ struct Drawer {
 };
 
 /// Its time of each shot, each frame beside one of the standard's.
-void time(const Trial& trial, Theatre& theatre, Theatre& standards, Measured& one, double& standard_ms)
+void time(const Trial& trial, Theatre& theatre, Theatre& standards, MeasuredSetting& one, double& standard_ms)
 {
     Drawer own(theatre, trial.layout, one.setting.quality), standard(standards, trial.layout, trial.standard);
     one.ms = standard_ms = 0;
@@ -145,7 +145,7 @@ void time(const Trial& trial, Theatre& theatre, Theatre& standards, Measured& on
     one.megabytes = double(own.studio.frame().memory()) / (1 << 20);
 }
 
-void find_errors(const Trial& trial, Theatre& theatre, const Truths& truths, Measured& one)
+void find_errors(const Trial& trial, Theatre& theatre, const Truths& truths, MeasuredSetting& one)
 {
     const Quality quality = within(theatre.device, one.setting.quality);
     double noise = 0, count = 0;
@@ -195,7 +195,7 @@ public:
         else
             all_ = {{"key", key_}, {"settings", nlohmann::json::object()}};
     }
-    bool find(Measured& one) const
+    bool find(MeasuredSetting& one) const
     {
         const auto& settings = all_.at("settings");
         const auto at = settings.find(quality_text(one.setting.quality));
@@ -208,7 +208,7 @@ public:
         one.direction_px = v.at(10), one.doppler = v.at(11);
         return true;
     }
-    void keep(const Measured& one)
+    void keep(const MeasuredSetting& one)
     {
         const PictureErrors& e = one.errors;
         all_["settings"][quality_text(one.setting.quality)]
@@ -243,7 +243,7 @@ std::string key_of(const Trial& trial, const std::string& machine)
 
 } // namespace
 
-std::vector<Measured> measure_settings(
+std::vector<MeasuredSetting> measure_settings(
     const Trial& trial, const std::vector<Setting>& settings, const Device::Options& options, std::string& machine)
 {
     Theatres theatres(trial.scene, options);
@@ -251,12 +251,12 @@ std::vector<Measured> measure_settings(
     machine = standards.device.properties.deviceName.data();
     const Truths truths = truths_of(trial);
     Kept kept(trial.folder / "measured.json", key_of(trial, machine));
-    std::vector<Measured> all;
+    std::vector<MeasuredSetting> all;
     std::vector<double> standard_ms;
     int measured = 0;
     const auto began = Clock::now();
     for (const Setting& setting : settings) {
-        Measured one{setting};
+        MeasuredSetting one{setting};
         if (!kept.find(one)) {
             say("setting " + std::to_string(all.size() + 1) + " of " + std::to_string(settings.size()) + ": " + setting.name
                 + (measured > 0 ? ", " + left_told(since(began) / measured * double(settings.size() - all.size())) : ""));
@@ -272,7 +272,7 @@ std::vector<Measured> measure_settings(
     }
     // The machine's speed drifts, ratios hardly: all times are told for the speed that it mostly had.
     if (!standard_ms.empty())
-        for (Measured& one : all)
+        for (MeasuredSetting& one : all)
             one.ms = one.ratio * quantile(standard_ms, 0.5);
     kept.forget();
     say("");

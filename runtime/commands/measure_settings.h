@@ -18,7 +18,7 @@ struct Trial {
 
 /// Measures each setting's time, memory and error on the device. What takes long is kept in the folder, so that an
 /// interrupted run goes on where it was. Throws InputError.
-std::vector<Measured> measure_settings(
+std::vector<MeasuredSetting> measure_settings(
     const Trial& trial, const std::vector<Setting>& settings, const Device::Options& options, std::string& machine);
 
 } // namespace starbow

@@ -5,7 +5,6 @@
 namespace starbow {
 namespace {
 
-constexpr double far = 1e30;
 
 void read_times(WorldBuild& build, int accessor, std::vector<double>& times)
 {
@@ -34,7 +33,7 @@ void read_values(WorldBuild& build, int accessor, Track& track)
         auto fail = [&](const char* problem) {
             build.fail("/accessors/" + std::to_string(accessor), "element " + std::to_string(i) + " " + problem);
         };
-        if (!(glm::length(value) < far))
+        if (!(glm::length(value) < too_far))
             fail("is not finite or above 1e30; should be smaller");
         if (track.rotation && (track.interpolation != Interpolation::cubic || i % 3 == 1)) {
             if (std::abs(glm::length(value) - 1) > 0.01)
@@ -135,7 +134,7 @@ int add_joint(WorldBuild& build, int node, int above, const glm::dmat4& above_fr
         + up.scale
             * (glm::length(joint.above_from_parent[3]) + across * told(joint.translations, joint.translation, far_off));
     own.depth = up.depth + 1;
-    if (!(own.scale < far && own.place < far))
+    if (!(own.scale < too_far && own.place < too_far))
         build.fail(place, "with its animation and its parents' transforms may lead beyond 1e30; should stay below");
     if (own.depth > GltfLimits::joints_deep)
         build.fail(place,

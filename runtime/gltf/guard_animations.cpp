@@ -5,8 +5,6 @@
 namespace starbow {
 namespace {
 
-constexpr int byte_type = 5120, ubyte_type = 5121, short_type = 5122, ushort_type = 5123, float_type = 5126;
-
 struct Use {
     const Spot& root;
     const Json& accessors;

@@ -5,9 +5,6 @@
 namespace starbow {
 namespace {
 
-constexpr int byte_type = 5120, ubyte_type = 5121, short_type = 5122, ushort_type = 5123, uint_type = 5125,
-              float_type = 5126;
-
 std::int64_t component_bytes(const Spot& spot)
 {
     switch (integer(spot, 0, 65535)) {

@@ -3,7 +3,6 @@
 namespace starbow {
 namespace {
 
-constexpr double far = 1e30; ///< beyond it a float's square, and so a length, is no number any more
 
 void guard_transform(const Spot& node, Json& written)
 {
@@ -11,16 +10,16 @@ void guard_transform(const Spot& node, Json& written)
     if (node.has("matrix")) {
         if (parts)
             node.fail("has a matrix and also translation, rotation or scale; should have one or the other");
-        auto matrix = numbers(node["matrix"], 16, -far, far);
+        auto matrix = numbers(node["matrix"], 16, -too_far, too_far);
         if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1)
             node["matrix"].fail("has another last row than 0 0 0 1; glTF requires that one");
         written["matrix"] = matrix;
         return;
     }
     if (node.has("translation"))
-        written["translation"] = numbers(node["translation"], 3, -far, far);
+        written["translation"] = numbers(node["translation"], 3, -too_far, too_far);
     if (node.has("scale"))
-        written["scale"] = numbers(node["scale"], 3, -far, far);
+        written["scale"] = numbers(node["scale"], 3, -too_far, too_far);
     if (node.has("rotation")) {
         auto q = numbers(node["rotation"], 4, -1.01, 1.01);
         double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);

@@ -1,12 +1,11 @@
 #include "clock_face.h"
+#include "config/angles.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace starbow {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 bool between(double low, double x, double high) { return x >= low && x <= high; }
 

@@ -9,7 +9,7 @@
 namespace starbow {
 namespace {
 
-const Life for_ever{-INFINITY, INFINITY};
+const Life always{-for_ever, for_ever};
 
 /// What an instance's own clock is at its frame's time 0.
 double zero_of(const World& world, const Instance& instance)
@@ -83,7 +83,7 @@ Lighting::Shine Lighting::shine(std::size_t index, const glm::dvec3& place, doub
         own = (time - zero.time) / gamma + seen.tau;
         distance = seen.delay / seen.D; // the light's way goes as its frequency does not
     }
-    const Life& life = lamp.life < 0 ? for_ever : world_.lives[std::size_t(lamp.life)];
+    const Life& life = lamp.life < 0 ? always : world_.lives[std::size_t(lamp.life)];
     if (own < life.begin || own > life.end || distance == 0)
         return shine;
     shine.towards = way / glm::length(way);

@@ -1,4 +1,5 @@
 #include "reference.h"
+#include "config/angles.h"
 #include "displays/anaglyph.h"
 #include "displays/blend.h"
 #include "kept_rows.h"
@@ -28,8 +29,6 @@ using rvec3 = glm::dvec3;
 
 namespace starbow {
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 /// One pane and the eye that looks through it.
 struct PaneAt {

@@ -1,4 +1,5 @@
 #include "star_spots.h"
+#include "config/angles.h"
 #include "displays/rows.h"
 #include <algorithm>
 #include <cmath>
@@ -6,7 +7,7 @@
 namespace starbow {
 namespace {
 
-constexpr double pi = 3.14159265358979323846, radius = 2; // of a spot, pixels
+constexpr double radius = 2; // of a spot, pixels
 
 /// The part of a spot's light that falls on a pixel so far from its middle.
 double profile(double square)
