@@ -41,7 +41,12 @@ void expect_slices_parse_back(const std::string& text)
 {
     SCOPED_TRACE(text.substr(0, 300));
     const Document d = parse_document("a.json", text);
+    // Each takes as long as the file is: of a long one's values only some.
+    std::size_t index = 0;
+    const std::size_t step = 1 + text.size() / 4096;
     each(root(d), [&](const Place& place) {
+        if (index++ % step != 0)
+            return;
         const auto span = find_span(d, place.pointer);
         ASSERT_TRUE(span) << place.pointer;
         ASSERT_LT(span->begin, span->end);
@@ -150,12 +155,13 @@ TEST(SpanTest, ShippedFilesAndMutatedOnes)
     std::vector<std::string> seeds;
     for (const char* folder : {"config/layouts", "config/scenes", "config/shots"})
         for (const auto& file : shipped(folder)) {
-            seeds.push_back(read_text(file));
-            expect_slices_parse_back(seeds.back());
+            const std::string text = read_text(file);
+            expect_slices_parse_back(text);
             std::string windows = "\xef\xbb\xbf";
-            for (char c : seeds.back())
+            for (char c : text)
                 windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
             expect_slices_parse_back(windows);
+            seeds.push_back(text);
         }
     std::mt19937 random(1905);
     int parsed = 0;
