@@ -244,9 +244,12 @@ TEST(Meter, WeighsTheWholeViewOfAllOutputsBySolidAngle)
     Layout watched = layout;
     watched.outputs.push_back({});
     watched.outputs[2].name = "preview", watched.outputs[2].preview = true, watched.outputs[2].size = {200, 100};
-    Studio with_preview = studio(world, watched, false);
-    EXPECT_NEAR(*with_preview.metered(flown(4)), *both.metered(flown(4)),
-        5e-3); // its plan is another: between its texels, as wide as pixels, the sky bends by half a percent
+    // Its plan is another, so where texels are as wide as pixels the sky bends otherwise between them: finer ones.
+    Quality fine = test_quality();
+    fine.texels_per_pixel = 3, fine.most_texels_per_pixel = 100;
+    Studio with_preview(device(), pipelines(), world, watched, fine, false);
+    Studio without(device(), pipelines(), world, layout, fine, false);
+    EXPECT_NEAR(*with_preview.metered(flown(4)), *without.metered(flown(4)), 2e-3);
     // Each alone wants something else.
     Layout up = layout;
     up.outputs.erase(up.outputs.begin());
