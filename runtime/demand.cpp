@@ -189,14 +189,15 @@ struct Walk {
         const double radius = cap.radius + spread * cap.coarsest;
         const double across = std::hypot(centre.x, centre.y);
         Disc disc;
-        double low, high; // angles in the world
+        glm::dvec2 middle_in_world; // cosine and sine of its angle from the motion
         if (galilean) {
             const double beta = (E - 1 / E) / (E + 1 / E), theta = std::atan2(across, centre.z);
             auto world = [&](double camera) { return camera + std::asin(beta * std::sin(camera)); };
-            low = world(theta - radius), high = world(std::min(theta + radius, theta + pi));
+            const double low = world(theta - radius), high = world(std::min(theta + radius, theta + pi));
             // Stretched by more away from the axis than around it, or less: both bounds hold the disc and its pixels.
             const glm::dvec2 stretch = physics::galilean_stretch(glm::dvec3(across, 0, centre.z), E, 1 / E);
-            disc.radius = std::max(0.5 * (high - low), 1.2 * radius * std::max(stretch.x, stretch.y));
+            disc.radius = std::min(pi, std::max(0.5 * (high - low), 1.2 * radius * std::max(stretch.x, stretch.y)));
+            middle_in_world = {std::cos(0.5 * (low + high)), std::sin(0.5 * (low + high))};
             disc.finest = std::min(stretch.x, stretch.y) * cap.finest;
             disc.coarsest = std::max(stretch.x, stretch.y) * cap.coarsest;
         } else {
@@ -205,10 +206,13 @@ struct Walk {
             const double reach = std::tan(0.5 * radius), own_reach = std::tan(0.5 * double(cap.radius));
             auto turned = [&](double by) { return (middle + by) / std::max(1 - middle * by, 1e-100); };
             auto doppler = [&](double tangent) { return E * (1 + tangent * tangent) / (1 + E * E * tangent * tangent); };
-            const double past = 1 - middle * reach;
-            low = 2 * std::atan(E * turned(-reach));
-            high = 2 * std::atan2(E * (middle + reach), past); // beyond the axis behind it goes on
-            disc.radius = 0.5 * (high - low);
+            // Half of its two ends' angles in the world, as points of the circle; beyond the axis behind it goes on. Their
+            // sum is the middle's angle, their difference the radius: no angle is worked out but the last.
+            const double low_tangent = E * turned(-reach), past = 1 - middle * reach, beyond = E * (middle + reach);
+            const double low_length = std::sqrt(1 + low_tangent * low_tangent), high_square = past * past + beyond * beyond;
+            const double lengths = 1 / (low_length * std::sqrt(high_square));
+            middle_in_world = lengths * glm::dvec2(past - low_tangent * beyond, beyond + low_tangent * past);
+            disc.radius = radius < pi ? std::atan2(beyond - low_tangent * past, past + low_tangent * beyond) : pi;
             const double near = doppler(std::max(turned(-own_reach), 0.0)),
                          far = doppler(std::min(turned(own_reach), 1e100));
             disc.times = near / far;
@@ -217,12 +221,11 @@ struct Walk {
             if (view.parallax_rad == 0) {
                 disc.finest_pixel = cap.finest, disc.coarsest_pixel = cap.coarsest;
                 if (past > 0)
-                    disc.least_cos_half_square = past * past / (past * past + E * E * (middle + reach) * (middle + reach));
+                    disc.least_cos_half_square = past * past / high_square;
             }
         }
-        const double world_theta = 0.5 * (low + high);
         const glm::dvec2 meridian = across > 0 ? glm::dvec2(centre) / across : glm::dvec2(1, 0);
-        disc.centre = glm::dvec3(meridian * std::sin(world_theta), std::cos(world_theta));
+        disc.centre = glm::dvec3(meridian * middle_in_world.y, middle_in_world.x);
         return disc;
     }
 

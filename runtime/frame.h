@@ -130,7 +130,7 @@ private:
     struct PaneState {
         std::size_t output = 0, eye = 0;
         CompiledPane compiled;
-        std::size_t map = 0; ///< index into maps_, or none
+        std::optional<std::size_t> map; ///< index into maps_
         Image label; ///< of test patterns, once they were shown
         float shown_part = 1; ///< for them too
         vk::raii::DescriptorSet warp_set = nullptr, label_set = nullptr;
@@ -165,7 +165,7 @@ private:
         const std::function<void(std::size_t pane, vk::Format target)>& draw) const;
     glm::dvec3 place_of_eye(const Pane& pane) const;
     std::size_t eye_for(const Pane& pane);
-    std::size_t map_for(const CompiledPane& pane, std::vector<Map>& before);
+    std::optional<std::size_t> map_for(const CompiledPane& pane, std::vector<Map>& before);
     PixelBox panel_in(const Blocks& blocks) const;
     glm::ivec2 sent_pixels(const PaneState& pane) const;
     glm::dvec3 scene_units(const glm::dvec3& place_m) const;

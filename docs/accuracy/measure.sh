@@ -10,31 +10,31 @@ root=$here/../..
 starbow=$root/build/release/starbow
 work=$root/build/accuracy
 
-# name, scene, layout, pixels, shots
+# name, scene, layout, pixels, rays for a pixel, rounds, shots
 views="
-alice-and-bob alice-and-bob desk 800x600 alice-and-bob
-chart chart desk 800x600 chart-0.5
-clocks clocks desk 800x600 clocks-passing
-gamow gamow desk 800x600 gamow-cycling
-light-clock light-clock desk 800x600 light-clock-flying
-rainbow rainbow desk 800x600 rainbow-line
-train train desk 800x600 train-aboard-long
-twins twins desk 800x600 twins-turn
-warm-wall warm-wall desk 800x600 warm-wall-4
-wall avenue wall3 640x400 avenue-gamma4
-dome avenue dome 1024x1024 avenue-gamma4
-headset avenue headset 1080x600 avenue-gamma4
-avenue avenue desk 800x600 avenue-rest avenue-gamma4
+alice-and-bob alice-and-bob desk 800x600 16 7 alice-and-bob
+chart chart desk 800x600 16 7 chart-0.5
+clocks clocks desk 800x600 16 7 clocks-passing
+gamow gamow desk 800x600 16 5 gamow-cycling
+light-clock light-clock desk 480x360 16 3 light-clock-flying
+rainbow rainbow desk 480x360 16 3 rainbow-line
+train train desk 480x360 16 3 train-aboard-long
+twins twins desk 480x360 16 3 twins-turn
+warm-wall warm-wall desk 480x360 16 3 warm-wall-4
+wall avenue wall3 640x400 16 3 avenue-gamma4
+dome avenue dome 1024x1024 16 3 avenue-gamma4
+headset avenue headset 1080x600 16 3 avenue-gamma4
+avenue avenue desk 800x600 25 9 avenue-rest avenue-gamma4
 "
 
-while read -r name scene layout size shots; do
+while read -r name scene layout size samples rounds shots; do
     [ -n "$name" ] || continue
     [ $# = 0 ] || [[ " $* " = *" $name "* ]] || continue
     options=()
     for shot in $shots; do
         options+=(--shot "$shot")
     done
-    "$starbow" measure --scene "$scene" --layout "$layout" --size "$size" "${options[@]}" --samples 16 --rounds 7 \
+    "$starbow" measure --scene "$scene" --layout "$layout" --size "$size" "${options[@]}" --samples "$samples" --rounds "$rounds" \
         --out "$work/$name" >&2 </dev/null
     cp "$work/$name/accuracy.svg" "$here/$name.svg"
     awk -F, -v name="$name" '
