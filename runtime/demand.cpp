@@ -41,8 +41,13 @@ bool face_range(double along_axis, double along_normal, double sine, double& low
 template <class Each> void each_slot(const glm::dvec3& centre, double radius, int rear_last, Each&& each)
 {
     const double sine = radius < 1.57 ? std::sin(radius) : 2;
+    // A face reaches to acos(1 / sqrt(3)) from its middle.
+    const double least_normal
+        = sine < 1 ? std::sqrt(1 / 3.0) * std::sqrt(1 - sine * sine) - std::sqrt(2 / 3.0) * sine - 1e-9 : -2;
     for (int face = 0; face < 6; ++face) {
         const double normal = centre[face_axis[face]] * face_sign[face];
+        if (normal < least_normal)
+            continue;
         Rect wanted;
         if (!face_range(centre[face_a[face]], normal, sine, wanted.low.x, wanted.high.x)
             || !face_range(centre[face_b[face]], normal, sine, wanted.low.y, wanted.high.y))

@@ -213,7 +213,7 @@ Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality, Pla
     Plan plan;
     std::swap(plan.images, before.images);
     std::swap(plan.rear_last, before.rear_last), plan.rear_last.clear();
-    room.by_slot.clear();
+    std::size_t used = 0; // of room.by_slot: whose 54 kB each are filled in place
     if (room.demands.size() < layers.size())
         room.demands.resize(layers.size());
     for (std::size_t layer = 0; layer < layers.size(); ++layer) {
@@ -226,18 +226,21 @@ Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality, Pla
         add_demands(room.demands[layer], layers[layer], rear_last, quality.pixel_rays);
         for (int slot = 0; slot < SLOT_COUNT; ++slot)
             if (const Demands::Slot& demand = room.demands[layer].slots[std::size_t(slot)]; demand.any) {
-                SlotDemands& all = room.by_slot.emplace_back();
+                if (used == room.by_slot.size())
+                    room.by_slot.emplace_back();
+                SlotDemands& all = room.by_slot[used++];
                 all.layer = int(layer), all.slot = slot;
                 merge(all, demand);
             }
     }
     keep_room(room.by_slot);
+    const std::span<const SlotDemands> by_slot = std::span(room.by_slot).first(used);
     for (const View& view : layers[0].views)
         plan.pixels += double(view.blocks->size().x) * view.blocks->size().y;
 
     auto lay_out = [&](double density) {
         plan.images.clear();
-        for (const SlotDemands& demands : room.by_slot) {
+        for (const SlotDemands& demands : by_slot) {
             const std::size_t layer = std::size_t(demands.layer);
             const Draft draft{quality, density, demands.layer, layers[layer].things.has_value(), plan.rear_last[layer]};
             Cutting(draft, demands).add_images(plan.images);

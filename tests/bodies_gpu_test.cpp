@@ -50,9 +50,11 @@ TEST(BodiesGpuTest, EveryRayMeetsWhatIsNearest)
             velocities.push_back(random_way(random) * std::pow(10, 1.5 * part(random) - 0.7));
         const dvec3 turn_place = random_way(random) * 3.0;
         Json bodies = Json::array();
-        for (std::size_t i = 1; i < velocities.size(); ++i)
-            bodies.push_back({{"name", "body " + std::to_string(i)}, {"nodes", {"b" + std::to_string(i)}},
-                {"velocity", velocity_of(velocities[i])}});
+        for (std::size_t i = 1; i < velocities.size(); ++i) {
+            const std::string number = std::to_string(i);
+            bodies.push_back(
+                {{"name", "body " + number}, {"nodes", {"b" + number}}, {"velocity", velocity_of(velocities[i])}});
+        }
         bodies.push_back({{"name", "turns"}, {"nodes", {"b4"}},
             {"worldline",
                 {{{"time", -14}, {"position", {0, 0, 0}}}, {{"time", -7}, {"position", numbers_of(turn_place)}},

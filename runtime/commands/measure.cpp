@@ -117,9 +117,12 @@ int measure(const Options& options)
     }
     constexpr double noise = 0.15; // what times of one run may differ by
     for (const MeasuredSetting& m : all)
-        if (const MeasuredSetting* better = m.setting.shipped ? better_than(m, all, noise) : nullptr)
-            std::printf("%s is beaten: %s takes %.2f of its time with %.2f of its FLIP\n", m.setting.name.c_str(),
-                better->setting.name.c_str(), better->ms / m.ms, better->errors.flip / m.errors.flip);
+        if (const MeasuredSetting* better = m.setting.shipped ? better_than(m, all, noise) : nullptr) {
+            const double ratio = time_ratio(trial, better->setting.quality, m.setting.quality, device_options(false));
+            if (ratio < 1 / (1 + noise))
+                std::printf("%s is beaten: %s takes %.2f of its time with %.2f of its FLIP\n", m.setting.name.c_str(),
+                    better->setting.name.c_str(), ratio, better->errors.flip / m.errors.flip);
+        }
     std::printf("\n%s/accuracy.html\n", options.out.c_str());
     if (options.budget_ms > 0) {
         const MeasuredSetting* chosen = best_within(all, options.budget_ms);

@@ -281,4 +281,15 @@ std::vector<MeasuredSetting> measure_settings(
     return all;
 }
 
+double time_ratio(const Trial& trial, const Quality& one, const Quality& other, const Device::Options& options)
+{
+    Theatres theatres(trial.scene, options);
+    Trial pair = trial;
+    pair.standard = other;
+    MeasuredSetting measured{{.name = {}, .quality = one}};
+    double other_ms = 0;
+    time(pair, theatres.with(one.spectra), theatres.with(other.spectra), measured, other_ms);
+    return measured.ratio;
+}
+
 } // namespace starbow

@@ -21,4 +21,8 @@ struct Trial {
 std::vector<MeasuredSetting> measure_settings(
     const Trial& trial, const std::vector<Setting>& settings, const Device::Options& options, std::string& machine);
 
+/// How long one quality's frames take, as a ratio to another's, in turn with them: two times of a long run lie minutes
+/// apart, and the machine's own ups and downs between them.
+double time_ratio(const Trial& trial, const Quality& one, const Quality& other, const Device::Options& options);
+
 } // namespace starbow
