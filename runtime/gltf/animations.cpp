@@ -5,7 +5,6 @@
 namespace starbow {
 namespace {
 
-
 void read_times(WorldBuild& build, int accessor, std::vector<double>& times)
 {
     const Elements from = open(build, accessor);

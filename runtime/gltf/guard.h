@@ -7,7 +7,8 @@
 namespace starbow {
 
 /// Component types of accessors (glTF 2.0, 5.1.3).
-constexpr int byte_type = 5120, ubyte_type = 5121, short_type = 5122, ushort_type = 5123, uint_type = 5125, float_type = 5126;
+constexpr int byte_type = 5120, ubyte_type = 5121, short_type = 5122, ushort_type = 5123, uint_type = 5125,
+              float_type = 5126;
 
 constexpr double too_far = 1e30; ///< beyond it a float's square, and so a length, is no number any more
 

@@ -3,7 +3,6 @@
 namespace starbow {
 namespace {
 
-
 void guard_transform(const Spot& node, Json& written)
 {
     bool parts = node.has("translation") || node.has("rotation") || node.has("scale");
