@@ -2,7 +2,6 @@
 #include "config/angles.h"
 #include "config/turn.h"
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 
 namespace starbow {
 

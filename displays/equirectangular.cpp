@@ -3,7 +3,6 @@
 #include "config/turn.h"
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 
 namespace starbow {
 namespace {

@@ -4,7 +4,6 @@
 #include "planar.h"
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 
 namespace starbow {
 namespace {

@@ -274,8 +274,8 @@ std::string accuracy_chart(const std::vector<MeasuredSetting>& all, const std::s
         = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1000 760\" font-family=\"sans-serif\">\n"
           "<style>.box{fill:none;stroke:#888}.grid{stroke:#ddd}.tick{font-size:12px;fill:#333}.head{font-size:16px;"
           "font-weight:bold}.unit{font-size:13px;font-weight:normal;fill:#555}.name{font-size:13px;font-weight:bold;"
-          "fill:#a33c00;stroke:#fff;stroke-width:3;paint-order:stroke}.frontier{fill:none;stroke:#0072b2;stroke-width:2}."
-          "other{fill:#999;fill-opacity:.55}"
+          "fill:#a33c00;stroke:#fff;stroke-width:3;paint-order:stroke}"
+          ".frontier{fill:none;stroke:#0072b2;stroke-width:2}.other{fill:#999;fill-opacity:.55}"
           ".best{fill:#0072b2}.shipped{fill:#d55e00;stroke:#fff;stroke-width:1.5}</style>\n"
           "<rect width=\"1000\" height=\"760\" fill=\"#fff\"/>\n";
     out += "<text x=\"62\" y=\"30\" class=\"head\">" + safe(title) + "</text>\n";

@@ -3,11 +3,12 @@
 #include "physics/physics.h"
 #include "runtime/plan.h"
 #include "tests/pane.h"
+#include "tests/speeds.h"
 #include <gtest/gtest.h>
 #include <random>
 
 using namespace starbow;
-using starbow::testing::pane_of;
+using starbow::testing::pane_of, starbow::testing::u_of_gamma;
 
 namespace {
 
@@ -41,7 +42,7 @@ glm::dquat turn(int i)
 /// Calls check(slot place, world angle of the pixel, image or null) for every pixel centre.
 template <class Check> void each_pixel(const Case& c, double gamma, int turned, const Quality& quality, Check&& check)
 {
-    glm::dvec3 u(0, 0, -std::sqrt((gamma - 1) * (gamma + 1)));
+    glm::dvec3 u(0, 0, -u_of_gamma(gamma));
     double E = physics::exp_rapidity(glm::length(u));
     glm::dquat ship_from_cockpit = turn(turned);
     glm::dmat3 motion_from_cockpit = motion_from_world(u, ship_from_cockpit) * glm::dmat3(glm::mat3_cast(ship_from_cockpit));
@@ -158,7 +159,7 @@ TEST(Plan, SpendsAtMostThreeTexelsOnAPixel)
             double most = 0;
             std::size_t images = 0;
             for (int degrees = 0; degrees <= 180; degrees += 15) {
-                const glm::dvec3 u(0, 0, -std::sqrt((gamma - 1) * (gamma + 1)));
+                const glm::dvec3 u(0, 0, -u_of_gamma(gamma));
                 const glm::dquat turned
                     = glm::angleAxis(glm::radians(double(degrees)), glm::normalize(glm::dvec3(0.3, 1, 0)));
                 const Plan plan = make_plan(
@@ -178,7 +179,7 @@ TEST(Plan, SpendsAtMostThreeTexelsOnAPixel)
 TEST(Plan, WeighsTexelsAgainstImages)
 {
     const CompiledPane pane = pane_of(Planar{60}, {800, 600});
-    const glm::dvec3 u(0, 0, -std::sqrt(15.0));
+    const glm::dvec3 u(0, 0, -u_of_gamma(4));
     std::size_t images = 1000;
     double texels = 0;
     for (double cost : {0.0, 4096.0, 32768.0, 1e6, 1e12}) {
@@ -199,7 +200,7 @@ TEST(Plan, TableLeadsToTheImageOfADirection)
     const auto table = std::make_unique<shared::SlotTable>();
     for (double gamma : gammas) {
         const CompiledPane pane = pane_of(Planar{100}, {800, 600});
-        const glm::dvec3 u(0, 0, -std::sqrt((gamma - 1) * (gamma + 1)));
+        const glm::dvec3 u(0, 0, -u_of_gamma(gamma));
         const double E = physics::exp_rapidity(glm::length(u));
         const glm::dmat3 turned = motion_from_world(u, turn(3)) * glm::dmat3(glm::mat3_cast(turn(3)));
         const Plan plan = make_plan({{pane.blocks.get(), turned}}, E, {.texels_per_pixel = 1, .most_texels_per_pixel = 1e9});
@@ -239,7 +240,7 @@ TEST(Plan, FitsTheDeviceHoweverLargeTheOutput)
 {
     const Blocks blocks(*planar_matrix({Planar{120}, {16384, 16384}}), {16384, 16384});
     for (double gamma : {1.0, 4.0, 1000.0}) {
-        glm::dvec3 u(0, 0, -std::sqrt((gamma - 1) * (gamma + 1)));
+        glm::dvec3 u(0, 0, -u_of_gamma(gamma));
         // As flat as a dome of 16384 pixels is large: its map would fill the test's memory.
         Plan plan
             = make_plan({{&blocks, motion_from_world(u, glm::dquat(1, 0, 0, 0))}}, physics::exp_rapidity(glm::length(u)),
@@ -280,7 +281,7 @@ TEST(Plan, ServesOnceMoreWhatItHolds)
     const Quality quality{.texels_per_pixel = 1, .most_texels_per_pixel = 50};
     const CompiledPane pane = pane_of(Planar{60}, {400, 300});
     const auto plan_at = [&](double gamma, double yaw) {
-        const glm::dvec3 u(0, 0, -std::sqrt((gamma - 1) * (gamma + 1)));
+        const glm::dvec3 u(0, 0, -u_of_gamma(gamma));
         const glm::dquat turned = glm::angleAxis(yaw, glm::dvec3(0, 1, 0));
         return make_plan({{pane.blocks.get(), motion_from_world(u, turned) * glm::dmat3(glm::mat3_cast(turned))}},
             physics::exp_rapidity(glm::length(u)), quality);

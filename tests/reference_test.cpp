@@ -19,7 +19,7 @@ using glm::dvec3;
 
 namespace {
 
-using starbow::testing::u_of_beta;
+using starbow::testing::u_of_beta, starbow::testing::u_of_gamma;
 
 /// A world of flat plates, one material each.
 struct Plates {
@@ -137,7 +137,7 @@ TEST(Reference, DirectionsAreAberratedAsTheTextbookSays)
 TEST(Reference, StraightBehindAtGamma1000ALineIsSharpToAThousandthOfAPixel)
 {
     // tan of half the angle from straight behind: E times as large in the ship. A pixel here is 0.7e-6 rad of the world.
-    const double gamma = 1000, u = std::sqrt((gamma - 1) * (gamma + 1)), E = u + gamma;
+    const double gamma = 1000, u = u_of_gamma(gamma), E = u + gamma;
     Plates plates;
     const double from = 4.1234567e-5, to = 8.7654321e-5; // from the axis; to the right of who looks behind is -x
     plates.shining({-0.5 * (from + to) * 7, 0, 7}, {-3.5 * (to - from), 0, 0}, {0, 1, 0});

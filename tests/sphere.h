@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
-#include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 #include <optional>
 

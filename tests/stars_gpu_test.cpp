@@ -261,7 +261,7 @@ TEST(Stars, TheSkyCrowdsAhead)
                 const double a = between(numbers.camera(i), {0, 0, -1});
                 sum += luminance(numbers.light(i)) * std::pow(pi / 2 / 200, 2) * (a > 0 ? std::sin(a) / a : 1);
             }
-        const double beta = std::sqrt((gamma - 1) * (gamma + 1)) / gamma;
+        const double beta = u_of_gamma(gamma) / gamma;
         const double share = sum / (count * brightness_arcmin2 * arcmin2_sr);
         std::printf("  gamma %g: %.5f of the sky in the front half, (1 + beta) / 2 = %.5f\n", gamma, share, (1 + beta) / 2);
         EXPECT_NEAR(share, (1 + beta) / 2, 0.004); // the packed pixel angles' 0.4 %

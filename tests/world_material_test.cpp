@@ -1,6 +1,5 @@
 #include "config/angles.h"
 #include "gltf_fixture.h"
-#include <numbers>
 
 namespace starbow::gltf_test {
 namespace {

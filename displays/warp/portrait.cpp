@@ -2,7 +2,6 @@
 #include "parts.h"
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace starbow {
 namespace {

@@ -43,6 +43,6 @@ while read -r name scene layout size samples rounds shots; do
         $1 == "draft" || $1 == "balanced" || $1 == "fine" {
             cell[$1] = sprintf("%.0f ms, %.1f dB, %.3f", $column["ms"], $column["psnr_dB"], $column["flip"])
         }
-        END { printf "| %s | %s | %s | %s |\n", name, cell["draft"], cell["balanced"], cell["fine"] }
+        END { printf "| %s | %s | %s | %s | [chart](accuracy/%s.svg) |\n", name, cell["draft"], cell["balanced"], cell["fine"], name }
     ' "$work/$name/accuracy.csv"
 done <<<"$views"
