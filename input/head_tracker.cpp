@@ -1,5 +1,5 @@
 #include "head_tracker.h"
-#include "config/error.h"
+#include "config/json/error.h"
 #include <algorithm>
 #include <arpa/inet.h>
 #include <array>

@@ -1,5 +1,5 @@
 #pragma once
-#include "config/layout.h"
+#include "config/model/layout.h"
 #include "controls.h"
 #include <chrono>
 #include <optional>

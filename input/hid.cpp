@@ -111,7 +111,7 @@ void Hid::Shared::open(const hid_device_info& found)
         if (std::find(refused.begin(), refused.end(), path) == refused.end()) {
             refused.push_back(path);
             say(told(device->info) + " at " + path
-                + (why == EACCES ? " may not be read: copy config/70-starbow.rules to /etc/udev/rules.d and plug it in again"
+                + (why == EACCES ? " may not be read: copy config/udev/70-starbow.rules to /etc/udev/rules.d and plug it in again"
                                  : " can't be opened"));
         }
         return;

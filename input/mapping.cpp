@@ -1,5 +1,5 @@
 #include "mapping.h"
-#include "config/angles.h"
+#include "config/model/angles.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

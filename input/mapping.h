@@ -1,9 +1,9 @@
 #pragma once
-#include "config/profile.h"
+#include "capabilities.h"
+#include "config/model/profile.h"
 #include "controls.h"
 #include "health.h"
 #include "lever.h"
-#include "means.h"
 #include "report.h"
 
 namespace starbow {

@@ -1,4 +1,4 @@
-// What the processor writes and the shaders read: one text for both. C++ sees it through runtime/shared.h, which asserts
+// What the processor writes and the shaders read: one text for both. C++ sees it through shaders/shared_structs.h, which asserts
 // the sizes. Only 16-byte aligned members, so that std140, std430 and C++ agree.
 
 // Images of one plan, at most. Slots are the places of the cut (see plan.h); every slot has an entry, drawn or not.

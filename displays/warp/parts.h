@@ -1,5 +1,5 @@
 #pragma once
-#include "config/reader.h"
+#include "config/json/reader.h"
 #include "formats.h"
 #include <functional>
 

@@ -1,4 +1,4 @@
-#include "config/angles.h"
+#include "config/model/angles.h"
 #include "parts.h"
 #include <algorithm>
 #include <cmath>

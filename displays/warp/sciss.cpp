@@ -1,4 +1,4 @@
-#include "config/turn.h"
+#include "config/model/turn.h"
 #include "parts.h"
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 #include "contact_sheet.h"
-#include "runtime/find.h"
-#include "runtime/still.h"
-#include "runtime/theatre.h"
+#include "config/model/shipped.h"
+#include "runtime/render/offscreen.h"
+#include "runtime/render/render_context.h"
 #include <algorithm>
 #include <chrono>
 #include <cmath>

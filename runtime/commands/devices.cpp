@@ -1,8 +1,8 @@
 #include "commands.h"
-#include "config/error.h"
-#include "config/reader.h"
+#include "config/json/error.h"
+#include "config/json/reader.h"
+#include "config/model/shipped.h"
 #include "input/hid.h"
-#include "runtime/find.h"
 #include <CLI/CLI.hpp>
 #include <cctype>
 #include <chrono>

@@ -1,7 +1,7 @@
 #include "commands.h"
-#include "runtime/desktop.h"
-#include "runtime/outputs.h"
-#include "runtime/theatre.h"
+#include "runtime/exhibit/desktop.h"
+#include "runtime/exhibit/outputs.h"
+#include "runtime/render/render_context.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
 

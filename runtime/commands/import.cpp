@@ -1,10 +1,10 @@
 #include "commands.h"
-#include "config/import_sgct.h"
-#include "config/layout_reader.h"
-#include "displays/shade.h"
-#include "number_option.h"
-#include "runtime/capture.h"
-#include "runtime/find.h"
+#include "config/import/import_sgct.h"
+#include "config/model/layout_reader.h"
+#include "config/model/shipped.h"
+#include "displays/finish/shade.h"
+#include "runtime/commands/options/number.h"
+#include "runtime/images/capture.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>

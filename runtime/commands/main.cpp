@@ -1,5 +1,5 @@
 #include "commands.h"
-#include "config/error.h"
+#include "config/json/error.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>

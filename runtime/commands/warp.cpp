@@ -1,7 +1,7 @@
 #include "commands.h"
-#include "config/reader.h"
+#include "config/json/reader.h"
 #include "displays/warp/formats.h"
-#include "runtime/capture.h"
+#include "runtime/images/capture.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>

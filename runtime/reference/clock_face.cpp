@@ -1,5 +1,5 @@
 #include "clock_face.h"
-#include "config/angles.h"
+#include "config/model/angles.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

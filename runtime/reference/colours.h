@@ -1,7 +1,7 @@
 #pragma once
-#include "config/scene_file.h"
-#include "runtime/spectrum.h"
-#include "runtime/world.h"
+#include "config/model/scene_file.h"
+#include "runtime/light/spectrum.h"
+#include "runtime/world/world.h"
 #include <array>
 #include <atomic>
 #include <functional>

@@ -1,7 +1,7 @@
 #pragma once
 #include "lighting.h"
-#include "physics/physics.h"
-#include "runtime/watcher.h"
+#include "runtime/world/observer.h"
+#include "shaders/physics/physics.h"
 
 namespace starbow {
 

@@ -1,5 +1,5 @@
 #include "kept_rows.h"
-#include "config/error.h"
+#include "config/json/error.h"
 #include <algorithm>
 #include <cstdint>
 #include <cstring>

@@ -1,9 +1,9 @@
 #include "lighting.h"
 #include "clock_face.h"
-#include "physics/physics.h"
-#include "runtime/clock.h"
-#include "runtime/moving.h"
-#include "runtime/worldline.h"
+#include "runtime/world/clock.h"
+#include "runtime/world/moving.h"
+#include "runtime/world/worldline.h"
+#include "shaders/physics/physics.h"
 #include <cmath>
 
 namespace starbow {

@@ -1,5 +1,5 @@
 #include "number_errors.h"
-#include "physics/physics.h"
+#include "shaders/physics/physics.h"
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -1,5 +1,5 @@
 #include "pane_rays.h"
-#include "config/turn.h"
+#include "config/model/turn.h"
 #include <cmath>
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "displays/compiled.h"
+#include "displays/compile/compiled.h"
 #include <memory>
 
 namespace starbow {

@@ -1,5 +1,5 @@
 #include "pictures.h"
-#include "runtime/srgb.h"
+#include "runtime/light/srgb.h"
 #include <algorithm>
 #include <cmath>
 

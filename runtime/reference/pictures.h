@@ -1,5 +1,5 @@
 #pragma once
-#include "runtime/world.h"
+#include "runtime/world/world.h"
 #include <array>
 
 namespace starbow {

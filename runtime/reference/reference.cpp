@@ -1,12 +1,12 @@
 #include "reference.h"
-#include "config/angles.h"
-#include "displays/anaglyph.h"
-#include "displays/blend.h"
+#include "config/model/angles.h"
+#include "displays/finish/anaglyph.h"
+#include "displays/finish/blend.h"
 #include "kept_rows.h"
-#include "runtime/colour.h"
-#include "runtime/moving.h"
-#include "runtime/srgb.h"
-#include "runtime/worldline.h"
+#include "runtime/light/colour.h"
+#include "runtime/light/srgb.h"
+#include "runtime/world/moving.h"
+#include "runtime/world/worldline.h"
 #include "star_spots.h"
 #include <algorithm>
 #include <atomic>
@@ -23,7 +23,7 @@ namespace starbow::tone {
 using namespace glm;
 using real = double;
 using rvec3 = glm::dvec3;
-#include "tone.glsl"
+#include "shaders/tone.glsl"
 } // namespace starbow::tone
 #undef FN
 

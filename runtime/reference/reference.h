@@ -1,9 +1,9 @@
 #pragma once
-#include "config/scene_file.h"
-#include "displays/shade.h"
-#include "runtime/capture.h"
-#include "runtime/stars.h"
-#include "runtime/world.h"
+#include "config/model/scene_file.h"
+#include "displays/finish/shade.h"
+#include "runtime/images/capture.h"
+#include "runtime/world/stars.h"
+#include "runtime/world/world.h"
 #include <filesystem>
 #include <functional>
 

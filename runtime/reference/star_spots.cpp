@@ -1,6 +1,6 @@
 #include "star_spots.h"
-#include "config/angles.h"
-#include "displays/rows.h"
+#include "config/model/angles.h"
+#include "displays/compile/rows.h"
 #include <algorithm>
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "eye.h"
 #include "pane_rays.h"
-#include "runtime/stars.h"
+#include "runtime/world/stars.h"
 
 namespace starbow {
 

@@ -1,5 +1,5 @@
 #include "trace.h"
-#include "runtime/moving.h"
+#include "runtime/world/moving.h"
 #include <algorithm>
 #include <cmath>
 #include <embree3/rtcore.h>

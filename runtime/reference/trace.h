@@ -1,6 +1,6 @@
 #pragma once
 #include "pictures.h"
-#include "runtime/cull.h"
+#include "runtime/world/vantage.h"
 #include <memory>
 #include <optional>
 

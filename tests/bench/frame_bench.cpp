@@ -1,12 +1,12 @@
 // What the processor does for a frame: plans, culling, stars, a step of the flight.
-#include "physics/physics.h"
-#include "runtime/cull.h"
-#include "runtime/flight.h"
-#include "runtime/plan.h"
-#include "runtime/star_cull.h"
-#include "tests/boxes.h"
-#include "tests/pane.h"
-#include "tests/speeds.h"
+#include "runtime/flight/flight.h"
+#include "runtime/plan/cube_map_plan.h"
+#include "runtime/plan/cull.h"
+#include "runtime/plan/star_cull.h"
+#include "shaders/physics/physics.h"
+#include "tests/support/boxes.h"
+#include "tests/support/pane.h"
+#include "tests/support/speeds.h"
 #include <benchmark/benchmark.h>
 #include <random>
 

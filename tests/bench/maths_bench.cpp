@@ -1,10 +1,10 @@
 // The formulas themselves, in double; direction maps; the reference's rays.
-#include "config/one_view.h"
-#include "physics/physics.h"
-#include "runtime/find.h"
+#include "config/model/one_view.h"
+#include "config/model/shipped.h"
 #include "runtime/reference/reference.h"
-#include "tests/pane.h"
-#include "tests/speeds.h"
+#include "shaders/physics/physics.h"
+#include "tests/support/pane.h"
+#include "tests/support/speeds.h"
 #include <benchmark/benchmark.h>
 
 namespace starbow {

@@ -1,0 +1,239 @@
+#pragma once
+#include "config/json/error.h"
+#include <array>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace starbow {
+
+// Directions and places are in the cockpit's frame, metres: the visitor looks along -z, +x is right, +y is up.
+
+/// A turn away from straight ahead, in this order: yaw to the right, then pitch up, then roll, which leans the picture's
+/// upper edge to the right as the viewer sees it.
+struct Turn {
+    double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
+};
+
+/// Where a picture's edges lie, as angles from its axis: to the right and up count above 0, so that left and down are
+/// negative in a picture that holds its axis.
+struct Sides {
+    double left_deg, right_deg, down_deg, up_deg;
+};
+
+/// A flat window. Without `sides` it is looked at from its axis and the horizontal angle follows from the pixels' aspect.
+struct Planar {
+    double fov_y_deg = 60;
+    std::optional<Sides> sides;
+    Turn turn;
+};
+
+/// A flat wall or screen that stands in the room: what the eye sees through it, from wherever the eye is (Kooima 2008).
+struct Wall {
+    glm::dvec3 lower_left_m{0}, lower_right_m{0}, upper_left_m{0};
+};
+
+enum class FisheyeMapping { equidistant, equisolid, stereographic, orthographic };
+
+/// A domemaster: a circle whose centre is the zenith. The zenith is the cockpit's up tilted forward: tilt_deg 0 looks
+/// straight up, 90 straight ahead; the bottom of the picture is towards the visitor's front.
+struct Fisheye {
+    double aperture_deg = 180; ///< across the circle
+    double tilt_deg = 0;
+    double rotation_deg = 0; ///< turns the picture counterclockwise about the circle's centre
+    FisheyeMapping mapping = FisheyeMapping::equidistant;
+    glm::dvec2 centre{0.5, 0.5}; ///< of the circle, in fractions of the picture from its top left
+    double diameter = 1; ///< of the circle, in the picture's shorter side; more than 1 is cropped by the picture's edges
+};
+
+/// A cylinder about the upright axis: columns are evenly spaced in azimuth, rows in height on the cylinder's wall.
+struct Cylinder {
+    Sides sides{-180, 180, -45, 45};
+    Turn turn;
+};
+
+/// Columns evenly spaced in azimuth, rows in elevation.
+struct Equirectangular {
+    Sides sides{-180, 180, -90, 90};
+    Turn turn;
+};
+
+/// The six faces of a cube in one picture. row: 6 x 1: +x -x +y -y +z -z as cube map files have them, seen from inside;
+/// their axes are left-handed, +z is straight ahead: right, left, up, down, front, back (displays/cube_faces.h has the
+/// edges). cross: 4 x 3, up above and down below the front, the middle row left, front, right, back.
+struct CubeFaces {
+    enum class Arrangement { row, cross } arrangement = Arrangement::row;
+    Turn turn;
+};
+
+/// A projector that lights a dome by way of a spherical mirror, as the eye at the viewport's eye_m sees the dome.
+struct SphericalMirror {
+    glm::dvec3 projector_m{0}; ///< its lens
+    Planar projector; ///< what the projector's picture spans, from its lens
+    glm::dvec3 mirror_m{0}; ///< the sphere's centre
+    double mirror_radius_m = 0.3;
+    glm::dvec3 dome_m{0}; ///< the dome's centre
+    double dome_radius_m = 3;
+    double dome_tilt_deg = 0; ///< as a fisheye's
+    double dome_aperture_deg = 180; ///< light that lands on the sphere beyond it is not shown
+};
+
+/// A headset's lens: each colour of each pixel looks in a direction of its own. With p the place in the picture from
+/// `centre`, in halves of its height, y up, and r = |p|, the lens shows the point p f(r) of a flat picture of fov_y_deg.
+struct Lens {
+    enum class Form {
+        panotools, ///< f = k0 r^3 + k1 r^2 + k2 r + k3
+        vive ///< f = 1 / (1 + k0 r^2 + k1 r^4 + k2 r^6) + k3
+    } form
+        = Form::vive;
+    struct Colour {
+        glm::dvec2 centre{0.5, 0.5}; ///< in fractions of the picture from its top left
+        std::array<double, 4> k{0, 0, 0, 0};
+    };
+    std::array<Colour, 3> colours; ///< red, green, blue
+    double fov_y_deg = 90;
+    Turn turn;
+};
+
+using Projection = std::variant<Planar, Wall, Fisheye, Cylinder, Equirectangular, CubeFaces, SphericalMirror, Lens>;
+
+/// A file of a calibration that bends the viewport's projection, or brings one of its own.
+struct Warp {
+    std::filesystem::path file;
+    std::filesystem::path frustum; ///< domeprojection's second file; empty: NAME_frustum.csv beside NAME_mesh.csv if there
+    std::string region; ///< of an MPCDI file with several
+    bool first_row_on_top = false; ///< of a PFM: against the standard
+};
+
+/// Whose sky a viewport shows. All are at the ship's event.
+struct Onlooker {
+    bool at_rest = false; ///< in the world, the head turned as in the ship
+    glm::dvec3 passing_u{0}; ///< or who passes the ship with this proper velocity, cockpit's axes
+    bool operator==(const Onlooker&) const = default;
+};
+
+enum class Eye { middle, left, right };
+struct Viewport {
+    glm::dvec4 rect{0, 0, 1, 1}; ///< x, y, width, height as fractions of the output, from its top left
+    Projection projection;
+    bool projection_given = true; ///< false: the warp file's own, where it has one
+    std::optional<Warp> warp;
+    std::filesystem::path alpha_mask; ///< picture over the viewport that multiplies its light, or empty
+    std::filesystem::path black_level; ///< picture over the viewport that is added to its light, or empty
+    double mask_gamma = 1; ///< of both pictures' values: light = value^gamma
+    Eye eye = Eye::middle;
+    glm::dvec3 eye_m{0}; ///< where the head is; the left and right eye are half the separation beside it
+    Onlooker observer;
+};
+
+/// How an output shows two eyes. The half forms squeeze each eye's picture; rows and columns: the first is the left eye's;
+/// checkerboard: the top left pixel is.
+enum class Packing {
+    mono,
+    side_by_side,
+    side_by_side_half,
+    top_and_bottom,
+    top_and_bottom_half,
+    rows,
+    columns,
+    checkerboard,
+    anaglyph_red_cyan,
+    anaglyph_dubois,
+    anaglyph_amber_blue
+};
+
+/// From linear light to what a screen's or projector's input wants.
+struct Colour {
+    glm::dmat3 matrix{1}; ///< on linear Rec. 709 light
+    double gamma = 0; ///< input = light^(1 / gamma); 0: sRGB's curve
+    std::vector<glm::dvec3> lut; ///< instead: inputs for evenly spaced linear light from 0 to 1; empty: none
+};
+
+/// Which screen an output belongs to. Every member that is given must fit.
+struct MonitorName {
+    std::string connector; ///< as the system names it: "HDMI-1"
+    std::string model, serial; ///< from its EDID
+    std::optional<glm::ivec2> position; ///< of its top left corner on the desktop, pixels
+    bool empty() const { return connector.empty() && model.empty() && serial.empty() && !position; }
+};
+
+struct Output {
+    std::string name;
+    glm::ivec2 size{800, 600}; ///< pixels
+    bool resizable = false;
+    std::vector<Viewport> viewports; ///< none in a preview, where every other output is shown small
+    bool preview = false; ///< the operator's window
+    Packing packing = Packing::mono;
+    Colour colour;
+    MonitorName monitor;
+    bool whole_monitor = false; ///< a borderless window over all of it
+    std::optional<glm::ivec2> place; ///< of the window's top left corner from the monitor's, pixels
+};
+
+enum class StereoMethod { shared, exact, reprojected };
+
+struct Stereo {
+    StereoMethod method = StereoMethod::exact;
+    double separation_m = 0.065; ///< between the eyes
+    double hyper_stereo = 1; ///< multiplies every distance of an eye, for worlds measured in light-seconds
+    bool turning = false; ///< the eyes' baseline turns with the azimuth: for domes
+    double full_from_zenith_deg = 40; ///< turning: closer to the zenith the separation fades
+};
+
+/// Ramps where outputs overlap, computed from what they show.
+struct Blend {
+    bool ramps = false;
+    double power = 1; ///< of the ramps before they are made to add up to 1; more is steeper in the middle
+};
+
+/// Where the head-up display floats in the cockpit: its centre's direction and its width as seen.
+struct HudPlacement {
+    double azimuth_deg = 0; ///< to the right of straight ahead
+    double elevation_deg = 0; ///< above straight ahead
+    double width_deg = 40;
+};
+
+/// Where a tracker tells of a visitor's head, over UDP.
+struct HeadTracking {
+    int port = 4242;
+    std::string address = "127.0.0.1"; ///< of this computer: where to listen
+    bool operator==(const HeadTracking&) const = default;
+};
+
+/// What the exhibit is made of.
+struct Layout {
+    std::string name;
+    std::filesystem::path file;
+    Stereo stereo;
+    Blend blend;
+    HudPlacement hud;
+    std::optional<HeadTracking> head_tracker;
+    std::vector<Output> outputs;
+};
+
+/// The pixels of a viewport in an output of `size`: x, y, width, height. Its edges are rounded, so that neighbours meet.
+glm::ivec4 pixel_rect(const Viewport& viewport, glm::ivec2 size);
+
+/// Reads and checks a layout. Throws InputError with file, line, JSON pointer, value and what would be right. Paths in it
+/// are taken from the layout's folder.
+Layout load_layout(const std::filesystem::path& file);
+
+/// For what goes wrong only when a layout is put to use: "FILE:LINE: POINTER" of its file as it is now; without the line
+/// where the file does not have the pointer any more.
+std::string place_in(const Layout& layout, const std::string& pointer);
+std::string viewport_pointer(std::size_t output, std::size_t viewport);
+
+/// What work() returns; where it throws an InputError, one that names the layout's place before that.
+template <class Work> auto on_behalf_of(const Layout& layout, const std::string& pointer, Work&& work)
+{
+    try {
+        return work();
+    } catch (const InputError& error) {
+        throw InputError(place_in(layout, pointer), "", error.what());
+    }
+}
+
+} // namespace starbow

@@ -1,0 +1,89 @@
+#include "shipped.h"
+#include "config/json/error.h"
+#include <algorithm>
+#include <vector>
+
+namespace starbow {
+namespace fs = std::filesystem;
+namespace {
+
+bool is_path(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(".json"); }
+
+} // namespace
+
+fs::path home()
+{
+    std::error_code error;
+    for (fs::path start : {fs::read_symlink("/proc/self/exe", error).parent_path(), fs::current_path(error)})
+        for (fs::path folder = start; !folder.empty(); folder = folder.parent_path()) {
+            if (fs::is_directory(folder / "config" / "layouts", error))
+                return folder;
+            if (folder == folder.root_path())
+                break;
+        }
+    throw InputError("The folder config/layouts is neither above the program nor above the current folder: "
+                     "run starbow from its own checkout");
+}
+
+fs::path own_profiles()
+{
+    const char *config = std::getenv("XDG_CONFIG_HOME"), *person = std::getenv("HOME");
+    return (config && *config ? fs::path(config) : fs::path(person ? person : "/") / ".config") / "starbow" / "profiles";
+}
+
+std::vector<Profile> known_profiles(const fs::path& exhibits)
+{
+    std::error_code error;
+    if (!exhibits.empty() && !fs::is_directory(exhibits, error))
+        throw InputError(exhibits.string(), "", "is no folder; a folder with profiles is right");
+    std::vector<Profile> all;
+    for (const fs::path& folder : {home() / "config" / "profiles", own_profiles(), exhibits}) {
+        std::vector<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(folder, error))
+            if (entry.path().extension() == ".json")
+                files.push_back(entry.path());
+        std::sort(files.begin(), files.end());
+        for (const fs::path& file : files)
+            all.push_back(load_profile(file));
+    }
+    return all;
+}
+
+fs::path find(const std::string& kind, const std::string& name)
+{
+    std::error_code error;
+    if (is_path(name))
+        return name;
+    fs::path folder = home() / "config" / kind, file = folder / (name + ".json");
+    if (fs::is_regular_file(file, error))
+        return file;
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+        if (entry.path().extension() == ".json")
+            names.push_back(entry.path().stem());
+    std::sort(names.begin(), names.end());
+    std::string list;
+    for (const std::string& known : names)
+        list += (list.empty() ? "" : ", ") + known;
+    throw InputError(
+        "There is no " + name + ".json in config/" + kind + "; there are: " + list + "; or give the path of a file");
+}
+
+Words words_in(const std::string& language) { return load_words(find("words", language)); }
+
+Tour tour_in(const std::string& name, const Words& words)
+{
+    return load_tour(find("tours", name), words, [](const std::string& shot) { return find("shots", shot); });
+}
+
+fs::path scene_of(const Tour& tour)
+{
+    return is_path(tour.scene) ? tour.file.parent_path() / tour.scene : find("scenes", tour.scene);
+}
+
+fs::path scene_of(const Shot& shot, const fs::path& shot_file)
+{
+    return is_path(shot.scene) ? shot_file.parent_path() / shot.scene : find("scenes", shot.scene);
+}
+
+} // namespace starbow

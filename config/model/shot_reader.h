@@ -1,0 +1,19 @@
+#pragma once
+#include "config/json/reader.h"
+#include "shot.h"
+
+namespace starbow {
+
+/// Large enough for any world, small enough that squares and sums stay far from overflow.
+constexpr double farthest = 1e15;
+
+/// gamma beta from a direction and exactly one of "gamma", "beta" and "rapidity".
+glm::dvec3 read_velocity(const Place& place);
+
+/// The part of a shot that its file and a scene's start share. `with_scene`: also the member "scene", which then is
+/// required.
+Shot read_shot(const Place& place, bool with_scene);
+
+Effects read_effects(const Place& place);
+
+} // namespace starbow

@@ -1,0 +1,232 @@
+#include "words.h"
+#include "config/json/reader.h"
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+namespace starbow {
+namespace {
+
+/// Keys of tours begin so: which there are is the tours' business.
+constexpr std::string_view of_tours = "tour.";
+
+struct Known {
+    std::string_view key;
+    std::vector<std::string_view> placeholders{};
+};
+
+/// Every text that the program says. Whoever adds one adds it to each file in config/words too.
+const std::vector<Known> known{
+    {"decimal_sign"},
+    {"hud.speed"},
+    {"hud.speed_deficit"},
+    {"hud.gamma"},
+    {"hud.doppler_ahead"},
+    {"hud.ship"},
+    {"hud.world"},
+    {"hud.flown"},
+    {"hud.aberration"},
+    {"hud.doppler"},
+    {"hud.headlight"},
+    {"hud.on"},
+    {"hud.off"},
+    {"hud.flight"},
+    {"hud.exposure"},
+    {"hud.ev", {"ev"}},
+    {"hud.ev_locked", {"ev"}},
+    {"hud.rate"},
+    {"hud.light"},
+    {"flight.guided"},
+    {"flight.free"},
+    {"flight.newtonian"},
+    {"light.seen"},
+    {"light.without_headlight"},
+    {"light.without_doppler"},
+    {"light.at_rest"},
+    {"light.galilean"},
+    {"light.no_light_delay"},
+    {"light.false_colours"},
+    {"light.false_colours_unshifted"},
+    {"time.s", {"number"}},
+    {"time.min", {"number"}},
+    {"time.h", {"number"}},
+    {"time.days", {"number"}},
+    {"time.years", {"number"}},
+    {"length.m", {"number"}},
+    {"length.km", {"number"}},
+    {"length.light_s", {"number"}},
+    {"length.light_min", {"number"}},
+    {"length.light_h", {"number"}},
+    {"length.light_years", {"number"}},
+    {"lab.doppler"},
+    {"lab.wavelength"},
+    {"lab.angle"},
+    {"lab.at_rest"},
+    {"lab.distance"},
+    {"lab.sky"},
+    {"lab.emitted"},
+    {"lab.clock"},
+    {"lab.light"},
+    {"lab.marks_angle"},
+    {"lab.marks_length"},
+    {"lab.marks_lengths", {"apparent", "rest"}},
+    {"lab.marks_clocks"},
+    {"lab.mark_two"},
+    {"lab.mark_another"},
+    {"lab.logged", {"file", "line"}},
+    {"lab.no_log"},
+    {"angle.degrees", {"number"}},
+    {"wave.x_rays"},
+    {"wave.ultraviolet", {"number"}},
+    {"wave.visible", {"number"}},
+    {"wave.infrared", {"number"}},
+    {"wave.far_infrared", {"number"}},
+    {"wave.radio"},
+    {"overlay.aim", {"unshifted"}},
+    {"overlay.aim_rest"},
+    {"overlay.grid"},
+    {"overlay.ring", {"unshifted"}},
+    {"overlay.ring_rest"},
+    {"overlay.distance"},
+    {"overlay.emission", {"five", "step"}},
+    {"why.aberration"},
+    {"why.aberration_rain"},
+    {"why.aberration_abeam"},
+    {"why.aberration_formula"},
+    {"why.aberration_numbers", {"beta", "beta", "cos", "cos", "result"}},
+    {"why.aberration_angles", {"seen", "theta"}},
+    {"why.doppler"},
+    {"why.doppler_waves"},
+    {"why.doppler_abeam"},
+    {"why.doppler_formula"},
+    {"why.doppler_numbers", {"D", "beta", "cos", "gamma"}},
+    {"why.doppler_seen", {"nm"}},
+    {"why.headlight"},
+    {"why.headlight_more"},
+    {"why.headlight_photons"},
+    {"why.headlight_formula"},
+    {"why.headlight_numbers", {"D", "cube"}},
+    {"why.headlight_off"},
+    {"why.delay"},
+    {"why.delay_seen"},
+    {"why.delay_moving"},
+    {"why.delay_formula"},
+    {"why.delay_numbers", {"left", "now", "way"}},
+    {"why.delay_none"},
+    {"why.delay_marks", {"apart", "first", "second"}},
+    {"why.dilation"},
+    {"why.dilation_slow"},
+    {"why.dilation_clocks"},
+    {"why.dilation_formula"},
+    {"why.dilation_numbers", {"gamma", "gamma"}},
+    {"why.dilation_ship", {"ship"}},
+    {"why.length"},
+    {"why.length_shorter"},
+    {"why.length_seen"},
+    {"why.length_formula"},
+    {"why.length_numbers", {"contracted", "rest"}},
+    {"why.length_apparent", {"apparent"}},
+    {"why.length_none"},
+    {"touring.right"},
+    {"touring.wrong"},
+    {"touring.answer"},
+    {"touring.fly", {"left"}},
+    {"touring.choose_stick", {"button", "left"}},
+    {"touring.choose_keys", {"left"}},
+    {"touring.paused"},
+    {"touring.over"},
+    {"tutorial.go_throttle"},
+    {"tutorial.go_trigger"},
+    {"tutorial.go_key"},
+    {"tutorial.turn_stick"},
+    {"tutorial.turn_keys"},
+    {"tutorial.stop_button", {"button"}},
+    {"tutorial.stop_key"},
+};
+
+std::vector<std::string_view> known_keys()
+{
+    std::vector<std::string_view> keys;
+    for (const Known& one : known)
+        keys.push_back(one.key);
+    return keys;
+}
+
+std::string in_braces(const std::vector<std::string_view>& names)
+{
+    std::string list;
+    for (std::string_view name : names)
+        list.append(list.empty() ? "{" : ", {").append(name).append("}");
+    return list.empty() ? "no { }" : list;
+}
+
+} // namespace
+
+std::string filled(std::string text, const std::vector<std::pair<std::string_view, std::string>>& with)
+{
+    for (const auto& [name, value] : with) {
+        const std::string hole = std::string("{").append(name).append("}");
+        for (std::size_t at = 0; (at = text.find(hole, at)) != text.npos; at += value.size())
+            text.replace(at, hole.size(), value);
+    }
+    return text;
+}
+
+std::vector<std::string> placeholders(const std::string& text)
+{
+    std::vector<std::string> names;
+    for (std::size_t at = 0; (at = text.find('{', at)) != text.npos; ++at)
+        if (const std::size_t end = text.find('}', at); end != text.npos)
+            names.push_back(text.substr(at + 1, end - at - 1));
+    return names;
+}
+
+std::string Words::operator()(std::string_view key, const std::vector<std::pair<std::string_view, std::string>>& with) const
+{
+    const auto found = texts.find(key);
+    if (found == texts.end()) {
+        std::fprintf(stderr, "starbow: no words for %s among %zu texts\n", std::string(key).c_str(), texts.size());
+        std::abort();
+    }
+    return filled(found->second, with);
+}
+
+const std::string* Words::tour(const std::string& key) const
+{
+    const auto found = key.starts_with(of_tours) ? texts.find(key) : texts.end();
+    return found == texts.end() ? nullptr : &found->second;
+}
+
+std::string Words::number(std::string c) const
+{
+    if (const std::size_t point = c.find('.'); point != c.npos)
+        c.replace(point, 1, (*this)("decimal_sign"));
+    return c;
+}
+
+Words load_words(const std::filesystem::path& file)
+{
+    const Document document = read_document(file);
+    const Place top = root(document);
+    if (!top.json->is_object())
+        complain(top, "is not an object; an object in { } is right");
+    std::vector<std::string_view> keys = known_keys();
+    for (const auto& [key, value] : top.json->items())
+        if (key.starts_with(of_tours))
+            keys.push_back(key);
+    only(top, keys);
+    Words words{.language = file.stem(), .file = file, .texts = {}};
+    for (const auto& [key, value] : top.json->items())
+        words.texts[key] = text(member(top, key));
+    for (const Known& one : known) {
+        const Place at = member(top, std::string(one.key));
+        std::vector<std::string> there = placeholders(words.texts.find(one.key)->second);
+        std::sort(there.begin(), there.end());
+        if (!std::equal(there.begin(), there.end(), one.placeholders.begin(), one.placeholders.end()))
+            complain(
+                at, "has other places to fill than are filled; a text with " + in_braces(one.placeholders) + " is right");
+    }
+    return words;
+}
+
+} // namespace starbow

@@ -1,0 +1,317 @@
+#include "compiled.h"
+#include "config/json/error.h"
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+/// Changes with whatever changes compiled maps.
+constexpr std::uint64_t version = 1;
+
+/// FNV-1a, 64 bits: names files of our own making, guards against nothing.
+struct Hash {
+    std::uint64_t value = 14695981039346656037u;
+    void add(const void* data, std::size_t size)
+    {
+        for (std::size_t i = 0; i < size; ++i)
+            value = (value ^ static_cast<const unsigned char*>(data)[i]) * 1099511628211u;
+    }
+    void add(std::uint64_t word) { value = (value ^ word) * 1099511628211u; }
+    void add(const std::string& text) { add(text.data(), text.size() + 1); }
+};
+
+/// Everything that a pane's map depends on, as text.
+struct Key {
+    std::ostringstream text;
+    Key() { text.precision(17); }
+    void operator()(double v) { text << v << ' '; }
+    void operator()(const glm::dvec2& v) { text << v.x << ' ' << v.y << ' '; }
+    void operator()(const glm::dvec3& v) { text << v.x << ' ' << v.y << ' ' << v.z << ' '; }
+    void operator()(const Turn& t) { text << t.yaw_deg << ' ' << t.pitch_deg << ' ' << t.roll_deg << ' '; }
+    void operator()(const Sides& s)
+    {
+        text << s.left_deg << ' ' << s.right_deg << ' ' << s.down_deg << ' ' << s.up_deg << ' ';
+    }
+    void operator()(const Planar& p)
+    {
+        text << "planar " << p.fov_y_deg << ' ' << p.sides.has_value() << ' ';
+        if (p.sides)
+            (*this)(*p.sides);
+        (*this)(p.turn);
+    }
+    void operator()(const Wall& w)
+    {
+        text << "wall ";
+        (*this)(w.lower_left_m), (*this)(w.lower_right_m), (*this)(w.upper_left_m);
+    }
+    void operator()(const Fisheye& f)
+    {
+        text << "fisheye " << int(f.mapping) << ' ' << f.aperture_deg << ' ' << f.tilt_deg << ' ' << f.rotation_deg << ' '
+             << f.diameter << ' ';
+        (*this)(f.centre);
+    }
+    void operator()(const Cylinder& c)
+    {
+        text << "cylinder ";
+        (*this)(c.sides), (*this)(c.turn);
+    }
+    void operator()(const Equirectangular& e)
+    {
+        text << "equirectangular ";
+        (*this)(e.sides), (*this)(e.turn);
+    }
+    void operator()(const CubeFaces& c)
+    {
+        text << "cube " << int(c.arrangement) << ' ';
+        (*this)(c.turn);
+    }
+    void operator()(const SphericalMirror& m)
+    {
+        text << "mirror ";
+        (*this)(m.projector_m), (*this)(m.projector), (*this)(m.mirror_m), (*this)(m.mirror_radius_m), (*this)(m.dome_m);
+        (*this)(m.dome_radius_m), (*this)(m.dome_tilt_deg), (*this)(m.dome_aperture_deg);
+    }
+    void operator()(const Lens& l)
+    {
+        text << "lens " << int(l.form) << ' ' << l.fov_y_deg << ' ';
+        for (const Lens::Colour& colour : l.colours) {
+            (*this)(colour.centre);
+            for (double k : colour.k)
+                (*this)(k);
+        }
+        (*this)(l.turn);
+    }
+};
+
+std::string key_of(const Pane& pane, const std::string& warp)
+{
+    Key key;
+    key.text << version << ' ' << pane.size.x << ' ' << pane.size.y << ' ' << pane.picture.size.x << ' '
+             << pane.picture.size.y << ' ' << pane.projection_given << ' ';
+    key(pane.picture_from_pixel), key(pane.picture.eye_m);
+    std::visit(key, pane.picture.projection);
+    Hash hash;
+    hash.add(key.text.str());
+    hash.add(warp);
+    char name[32];
+    std::snprintf(name, sizeof name, "%016llx", (unsigned long long)hash.value);
+    return name;
+}
+
+std::string contents(const std::filesystem::path& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::filesystem::path default_folder()
+{
+    auto set = [](const char* name) -> std::filesystem::path {
+        const char* value = std::getenv(name);
+        return value ? value : "";
+    };
+    if (!set("STARBOW_CACHE").empty())
+        return set("STARBOW_CACHE");
+    if (!set("XDG_CACHE_HOME").empty())
+        return set("XDG_CACHE_HOME") / "starbow";
+    return set("HOME").empty() ? std::filesystem::path() : set("HOME") / ".cache" / "starbow";
+}
+
+struct Header {
+    char magic[8] = {'S', 't', 'a', 'r', 'b', 'o', 'w', 'M'};
+    std::int32_t width = 0, height = 0, channels = 0, intensities = 0;
+    std::uint64_t hash = 0; ///< of what follows: a damaged file is not believed
+};
+
+/// Of every word, so that no single fault passes; in four chains side by side, which is as fast as memory.
+std::uint64_t content_hash(const DirectionMap& map)
+{
+    std::array<Hash, 4> lanes;
+    auto all = [&](const void* data, std::size_t bytes) {
+        const char* from = static_cast<const char*>(data);
+        std::uint64_t words[4];
+        for (; bytes >= sizeof words; bytes -= sizeof words, from += sizeof words) {
+            std::memcpy(words, from, sizeof words);
+            for (int i = 0; i < 4; ++i)
+                lanes[i].add(words[i]);
+        }
+        lanes[0].add(from, bytes);
+    };
+    all(map.texels.data(), map.texels.size() * sizeof(glm::vec4));
+    all(map.intensity.data(), map.intensity.size() * sizeof(float));
+    for (int i = 1; i < 4; ++i)
+        lanes[0].add(lanes[i].value);
+    return lanes[0].value;
+}
+
+std::shared_ptr<DirectionMap> read_map(const std::filesystem::path& file, const Pane& pane)
+{
+    std::ifstream stream(file, std::ios::binary);
+    Header header;
+    const Header right;
+    if (!stream.read(reinterpret_cast<char*>(&header), sizeof header) || std::memcmp(header.magic, right.magic, 8) != 0
+        || header.width != pane.size.x || header.height != pane.size.y || (header.channels != 1 && header.channels != 3))
+        return {};
+    const std::size_t pixels = std::size_t(header.width) * header.height;
+    auto map = std::make_shared<DirectionMap>();
+    map->size = pane.size;
+    map->channels = header.channels;
+    map->texels.resize(pixels * header.channels);
+    map->intensity.resize(header.intensities ? pixels : 0);
+    stream.read(reinterpret_cast<char*>(map->texels.data()), std::streamsize(map->texels.size() * sizeof(glm::vec4)));
+    stream.read(reinterpret_cast<char*>(map->intensity.data()), std::streamsize(map->intensity.size() * sizeof(float)));
+    if (!stream || content_hash(*map) != header.hash)
+        return {};
+    std::error_code ignored;
+    std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), ignored); // read just now
+    return map;
+}
+
+void make_room(const std::filesystem::path& folder)
+{
+    constexpr std::uintmax_t most = std::uintmax_t(4) << 30;
+    std::error_code error;
+    std::map<std::filesystem::file_time_type, std::pair<std::filesystem::path, std::uintmax_t>> by_age;
+    std::uintmax_t sum = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+        if (entry.path().extension() == ".map") {
+            const std::uintmax_t size = entry.file_size(error);
+            by_age[entry.last_write_time(error)] = {entry.path(), size};
+            sum += size;
+        }
+    for (const auto& [age, entry] : by_age)
+        if (sum > most) {
+            std::filesystem::remove(entry.first, error);
+            sum -= entry.second;
+        }
+}
+
+/// Written beside and renamed, so that several exhibits may share the folder. A disk that is full only costs time.
+void write_map(const std::filesystem::path& file, const DirectionMap& map)
+{
+    std::error_code error;
+    std::filesystem::create_directories(file.parent_path(), error);
+    const std::filesystem::path beside = file.string() + "." + std::to_string(getpid());
+    {
+        std::ofstream stream(beside, std::ios::binary);
+        Header header;
+        header.width = map.size.x, header.height = map.size.y, header.channels = map.channels;
+        header.intensities = !map.intensity.empty();
+        header.hash = content_hash(map);
+        stream.write(reinterpret_cast<const char*>(&header), sizeof header);
+        stream.write(
+            reinterpret_cast<const char*>(map.texels.data()), std::streamsize(map.texels.size() * sizeof(glm::vec4)));
+        stream.write(
+            reinterpret_cast<const char*>(map.intensity.data()), std::streamsize(map.intensity.size() * sizeof(float)));
+        if (!stream.flush()) {
+            stream.close();
+            std::filesystem::remove(beside, error);
+            return;
+        }
+    }
+    std::filesystem::rename(beside, file, error);
+    make_room(file.parent_path());
+}
+
+} // namespace
+
+struct MapStore::Kept {
+    std::map<std::string, std::weak_ptr<const DirectionMap>> maps;
+    std::map<std::string, std::weak_ptr<const WarpMesh>> meshes;
+};
+
+MapStore::MapStore()
+    : MapStore(default_folder())
+{
+}
+
+MapStore::MapStore(std::filesystem::path folder)
+    : folder_(std::move(folder))
+    , kept_(std::make_shared<Kept>())
+{
+}
+
+std::shared_ptr<const WarpMesh> MapStore::mesh(const Warp& warp, std::string& content)
+{
+    content = warp.region + '\n' + (warp.first_row_on_top ? "top" : "bottom") + '\n' + warp.file.filename().string() + '\n'
+        + contents(warp.file);
+    // domeprojection's second file may be named or found beside the first; its content counts either way.
+    std::filesystem::path beside = warp.frustum;
+    if (beside.empty()) {
+        std::string name = warp.file.string();
+        if (auto at = name.rfind("_mesh.csv"); at != name.npos)
+            beside = name.replace(at, 9, "_frustum.csv");
+    }
+    content += contents(beside);
+    std::weak_ptr<const WarpMesh>& kept = kept_->meshes[content];
+    std::shared_ptr<const WarpMesh> mesh = kept.lock();
+    if (!mesh)
+        kept = mesh = std::make_shared<WarpMesh>(load_warp(warp));
+    return mesh;
+}
+
+std::shared_ptr<const DirectionMap> MapStore::map(const Pane& pane, const WarpMesh* mesh, const std::string& key)
+{
+    std::weak_ptr<const DirectionMap>& kept = kept_->maps[key];
+    if (auto map = kept.lock())
+        return map;
+    // A small map is made sooner than found.
+    const bool on_disk = !folder_.empty() && std::size_t(pane.size.x) * pane.size.y > (1u << 18);
+    const std::filesystem::path file = folder_ / (key + ".map");
+    std::shared_ptr<DirectionMap> map = on_disk ? read_map(file, pane) : nullptr;
+    if (!map) {
+        map = std::make_shared<DirectionMap>(starbow::compile(pane, mesh));
+        if (on_disk && keep_)
+            write_map(file, *map);
+    }
+    kept = map;
+    return map;
+}
+
+CompiledPane MapStore::compile(const Layout& layout, const Pane& pane)
+{
+    CompiledPane compiled;
+    compiled.pane = pane;
+    std::string content;
+    if (const auto& warp = layout.outputs[pane.output].viewports[pane.viewport].warp) {
+        const std::string viewport = viewport_pointer(pane.output, pane.viewport);
+        compiled.mesh = on_behalf_of(layout, viewport + "/warp", [&] { return mesh(*warp, content); });
+        if (!pane.projection_given && compiled.mesh->kind == WarpMesh::Kind::picture && !compiled.mesh->frustum)
+            throw InputError(place_in(layout, viewport), "",
+                "has no projection, and " + warp->file.filename().string()
+                    + " does not say what its picture shows; a \"projection\" beside \"warp\" is right");
+    } else if (matrices_) {
+        compiled.matrix = pane_matrix(pane);
+    }
+    if (compiled.matrix) {
+        compiled.blocks = std::make_shared<Blocks>(*compiled.matrix, pane.size);
+    } else {
+        compiled.map = map(pane, compiled.mesh.get(), key_of(pane, content));
+        compiled.blocks = std::make_shared<Blocks>(*compiled.map);
+    }
+    return compiled;
+}
+
+std::vector<CompiledPane> compile_output(MapStore& store, const Layout& layout, std::size_t output, glm::ivec2 size)
+{
+    std::vector<CompiledPane> compiled;
+    for (const Pane& pane : panes(layout, output, size))
+        compiled.push_back(store.compile(layout, pane));
+    return compiled;
+}
+
+void refuse_dark(const Layout& layout, std::span<const CompiledPane> panes)
+{
+    for (const CompiledPane& pane : panes)
+        if (pane.blocks->cap(0, {0, 0}).empty())
+            throw InputError(place_in(layout, viewport_pointer(pane.pane.output, pane.pane.viewport)), "",
+                "shows nothing: no pixel looks anywhere; a projection, and a warp, that lie within the picture are right");
+}
+
+} // namespace starbow

@@ -1,0 +1,187 @@
+#include "direction_map.h"
+#include "config/model/turn.h"
+#include "rows.h"
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+void straight_rows(const Pane& pane, DirectionMap& map, int first, int end)
+{
+    const double squeeze = std::sqrt(pane.picture_from_pixel.x * pane.picture_from_pixel.y);
+    const PictureRays rays(pane.picture);
+    for (int channel = 0; channel < map.channels; ++channel)
+        for (int y = first; y < end; ++y)
+            for (int x = 0; x < map.size.x; ++x) {
+                const glm::dvec2 at = (glm::dvec2(x, y) + 0.5) * pane.picture_from_pixel;
+                const Channel colour = map.channels == 3 ? Channel(channel) : Channel::green;
+                if (auto seen = rays.direction(at, colour))
+                    map.texels[(std::size_t(channel) * map.size.y + y) * map.size.x + x]
+                        = glm::vec4(*seen, std::max(rays.pixel_angle(at, colour) * squeeze, 1e-12));
+            }
+}
+
+struct Bent {
+    const WarpMesh& mesh;
+    const WarpRaster& raster;
+    const Picture& source;
+    const PictureRays rays;
+    glm::dmat3 turn;
+
+    void rows(DirectionMap& map, int first, int end) const
+    {
+        std::vector<WarpSample> samples(map.size.x);
+        for (int y = first; y < end; ++y) {
+            raster.row(y, samples);
+            for (int x = 0; x < map.size.x; ++x) {
+                if (!samples[x].shown)
+                    continue;
+                const std::size_t at = std::size_t(y) * map.size.x + x;
+                map.intensity[at] = float(samples[x].intensity);
+                for (int channel = 0; channel < map.channels; ++channel)
+                    if (auto seen = bent_direction(mesh, source, rays, turn, samples[x], channel))
+                        map.texels[std::size_t(channel) * map.size.x * map.size.y + at] = glm::vec4(*seen, 1);
+            }
+        }
+    }
+};
+
+/// A step of the picture at a pixel along x or y, from its neighbours that show something; 0 where none does.
+glm::vec3 step(const DirectionMap& map, int x, int y, int channel, glm::ivec2 way)
+{
+    const glm::vec4& here = map.at(x, y, channel);
+    glm::vec3 sum(0);
+    int count = 0;
+    for (int sign : {-1, 1}) {
+        const glm::ivec2 p = glm::ivec2(x, y) + sign * way;
+        if (p.x < 0 || p.y < 0 || p.x >= map.size.x || p.y >= map.size.y)
+            continue;
+        if (const glm::vec4& there = map.at(p.x, p.y, channel); there.w > 0)
+            sum += float(sign) * (glm::vec3(there) - glm::vec3(here)), ++count;
+    }
+    return count > 0 ? sum / float(count) : sum;
+}
+
+/// bent: the angle is not known yet; else it is only held against slivers.
+void angle_rows(DirectionMap& map, std::vector<float>& angles, bool bent, int channel, int first, int end)
+{
+    for (int y = first; y < end; ++y)
+        for (int x = 0; x < map.size.x; ++x) {
+            const float known = map.at(x, y, channel).w;
+            if (known == 0)
+                continue;
+            const glm::vec3 across = step(map, x, y, channel, {1, 0}), down = step(map, x, y, channel, {0, 1});
+            const float longest = std::max(glm::length(across), glm::length(down));
+            // Bent and alone in a hole: as large as the sky, so that it asks for nothing.
+            const float own = !bent ? known : longest > 0 ? std::sqrt(glm::length(glm::cross(across, down))) : 1;
+            angles[std::size_t(y) * map.size.x + x] = std::max(own, 0.5f * longest);
+        }
+}
+
+/// What a measured headset's directions are turned by.
+glm::dmat3 turn_of(const Projection& projection)
+{
+    if (auto* planar = std::get_if<Planar>(&projection))
+        return cockpit_from_picture(planar->turn);
+    if (auto* lens = std::get_if<Lens>(&projection))
+        return cockpit_from_picture(lens->turn);
+    return glm::dmat3(1);
+}
+
+glm::uvec2 packed(const glm::vec4& texel)
+{
+    const glm::dvec3 n(texel);
+    glm::dvec2 at = glm::dvec2(n) / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+    if (n.z < 0)
+        at = {std::copysign(1 - std::abs(at.y), at.x), std::copysign(1 - std::abs(at.x), at.y)};
+    const glm::uvec2 net(at * double(0x7fffff) + (0x800000 + 0.5));
+    // Rounded to the upper 16 bits; an angle is never so small that they are 0.
+    const std::uint32_t angle = (std::bit_cast<std::uint32_t>(texel.w) + 0x8000u) >> 16;
+    return {net.x << 8 | (angle & 0xff), net.y << 8 | angle >> 8};
+}
+
+} // namespace
+
+std::optional<glm::dvec3> bent_direction(const WarpMesh& mesh, const Picture& source, const PictureRays& rays,
+    const glm::dmat3& turn, const WarpSample& sample, int channel)
+{
+    if (!sample.shown)
+        return {};
+    switch (mesh.kind) {
+    case WarpMesh::Kind::picture:
+        return rays.direction(glm::dvec2(sample.sees[0]) * glm::dvec2(source.size),
+            splits_colours(source.projection) ? Channel(channel) : Channel::green);
+    case WarpMesh::Kind::points: {
+        const glm::dvec3 way = sample.sees[0] - source.eye_m;
+        return glm::length(way) > 0 ? std::optional(glm::normalize(way)) : std::nullopt;
+    }
+    case WarpMesh::Kind::colours:
+        return turn * glm::normalize(sample.sees[std::size_t(channel)]);
+    }
+    return {};
+}
+
+Picture bent_picture(const Pane& pane, const WarpMesh& mesh, bool projection_given)
+{
+    Picture picture = pane.picture;
+    if (!projection_given && mesh.frustum)
+        picture.projection = *mesh.frustum;
+    if (std::holds_alternative<Fisheye>(picture.projection))
+        picture.size = glm::ivec2(std::min(picture.size.x, picture.size.y));
+    return picture;
+}
+
+std::optional<glm::dmat3> pane_matrix(const Pane& pane)
+{
+    std::optional<glm::dmat3> m = planar_matrix(pane.picture);
+    if (m) {
+        (*m)[0] *= pane.picture_from_pixel.x;
+        (*m)[1] *= pane.picture_from_pixel.y;
+    }
+    return m;
+}
+
+std::vector<glm::uvec2> packed(const DirectionMap& map)
+{
+    std::vector<glm::uvec2> all(map.texels.size());
+    const int rows = map.size.y * map.channels;
+    by_rows(rows, [&](int first, int end) {
+        for (std::size_t i = std::size_t(first) * map.size.x; i < std::size_t(end) * map.size.x; ++i)
+            if (map.texels[i].w > 0)
+                all[i] = packed(map.texels[i]);
+    });
+    return all;
+}
+
+DirectionMap compile(const Pane& pane, const WarpMesh* mesh)
+{
+    DirectionMap map;
+    map.size = pane.size;
+    const Picture source = mesh ? bent_picture(pane, *mesh, pane.projection_given) : pane.picture;
+    map.channels = splits_colours(source.projection) || (mesh && mesh->kind == WarpMesh::Kind::colours) ? 3 : 1;
+    const std::size_t pixels = std::size_t(map.size.x) * map.size.y;
+    map.texels.assign(pixels * map.channels, glm::vec4(0));
+    if (mesh) {
+        map.intensity.assign(pixels, 0.0f);
+        const WarpRaster raster(*mesh, map.size);
+        const Bent bent{*mesh, raster, source, PictureRays(source), turn_of(source.projection)};
+        by_rows(map.size.y, [&](int first, int end) { bent.rows(map, first, end); });
+        if (std::all_of(map.intensity.begin(), map.intensity.end(), [](float i) { return i == 1; }))
+            map.intensity.clear();
+    } else {
+        by_rows(map.size.y, [&](int first, int end) { straight_rows(pane, map, first, end); });
+    }
+    std::vector<float> angles(pixels);
+    for (int channel = 0; channel < map.channels; ++channel) {
+        by_rows(map.size.y, [&](int first, int end) { angle_rows(map, angles, mesh, channel, first, end); });
+        glm::vec4* texels = map.texels.data() + pixels * channel;
+        for (std::size_t i = 0; i < pixels; ++i)
+            if (texels[i].w > 0)
+                texels[i].w = angles[i];
+    }
+    return map;
+}
+
+} // namespace starbow

@@ -1,0 +1,302 @@
+#include "blend.h"
+#include "displays/compile/rows.h"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace starbow {
+namespace {
+
+/// Squared distances along one line to the nearest of the parabolas f (Felzenszwalb and Huttenlocher 2012), in place.
+void transform(std::vector<double>& f, std::vector<int>& vertex, std::vector<double>& border)
+{
+    const int n = int(f.size());
+    int k = 0;
+    vertex[0] = 0;
+    border[0] = -std::numeric_limits<double>::infinity();
+    border[1] = -border[0];
+    for (int q = 1; q < n; ++q) {
+        double s;
+        for (;; --k) {
+            const int v = vertex[k];
+            s = ((f[q] + double(q) * q) - (f[v] + double(v) * v)) / (2.0 * (q - v));
+            if (s > border[k])
+                break;
+        }
+        vertex[++k] = q;
+        border[k] = s;
+        border[k + 1] = std::numeric_limits<double>::infinity();
+    }
+    std::vector<double> out(n);
+    for (int q = 0, at = 0; q < n; ++q) {
+        while (border[at + 1] < q)
+            ++at;
+        out[q] = double(q - vertex[at]) * (q - vertex[at]) + f[vertex[at]];
+    }
+    f = std::move(out);
+}
+
+/// How far a pane's pixels are from where its light must have faded: the part of its edge beyond which another's goes on.
+/// Towards an edge beyond which nothing is lit, that of a wall or a dome's rim, no one's light needs to fade.
+struct Field {
+    const CompiledPane* pane;
+    std::shared_ptr<const DirectionMap> map;
+    std::shared_ptr<const Blocks> blocks;
+    std::vector<float> to_fade; ///< from each pixel's centre, radians of an average pixel; with one row of nothing all round
+    float pixel = 0; ///< average pixel angle
+
+    bool shows(glm::ivec2 p) const
+    {
+        return p.x >= 0 && p.y >= 0 && p.x < map->size.x && p.y < map->size.y && map->at(p.x, p.y).w > 0;
+    }
+    std::size_t index(int x, int y) const { return std::size_t(y + 1) * (map->size.x + 2) + x + 1; }
+    float at(int x, int y) const { return to_fade[index(x, y)]; }
+    /// Between pixels, 0 where the direction is not shown.
+    float along(const glm::dvec3& direction) const
+    {
+        const auto p = find(*map, *blocks, direction);
+        if (!p)
+            return 0;
+        const glm::dvec2 from = *p - 0.5, low = glm::floor(from);
+        const glm::vec2 f = from - low;
+        const int x = int(low.x), y = int(low.y);
+        return glm::mix(glm::mix(at(x, y), at(x + 1, y), f.x), glm::mix(at(x, y + 1), at(x + 1, y + 1), f.x), f.y);
+    }
+};
+
+Field field_of(const CompiledPane& pane)
+{
+    Field field;
+    field.pane = &pane;
+    field.map = pane.map ? pane.map : std::make_shared<DirectionMap>(compile(pane.pane));
+    field.blocks = pane.map ? pane.blocks : std::make_shared<Blocks>(*field.map);
+    double sum = 0;
+    long shown = 0;
+    for (const glm::vec4& texel : std::span(field.map->texels).first(std::size_t(field.map->size.x) * field.map->size.y))
+        if (texel.w > 0)
+            sum += texel.w, ++shown;
+    field.pixel = shown > 0 ? float(sum / double(shown)) : 0;
+    return field;
+}
+
+/// Edges that lie on each other count as one, though a calibration has them some pixels apart.
+constexpr double beyond_px = 4;
+
+/// Which way, in pixels of length 1, the light of the shown pixel p ends, beside a pixel `out` from it that shows nothing:
+/// square to the picture's own edge, and to any other as the pixels around draw it.
+glm::dvec2 outwards(const Field& field, glm::ivec2 p, glm::ivec2 out)
+{
+    const glm::ivec2 beside = p + out;
+    if (beside.x < 0 || beside.y < 0 || beside.x >= field.map->size.x || beside.y >= field.map->size.y)
+        return out;
+    glm::dvec2 sum(0);
+    constexpr int around = 4;
+    for (int y = -around; y <= around; ++y)
+        for (int x = -around; x <= around; ++x)
+            if (x * x + y * y <= around * around && field.shows(p + glm::ivec2(x, y)))
+                sum -= glm::dvec2(x, y);
+    const double length = glm::length(sum);
+    return length > 0 ? sum / length : glm::dvec2(out);
+}
+
+/// Where the map would look at p + way, way in pixels, if it went on as at the shown pixel p.
+glm::dvec3 going_on(const Field& field, glm::ivec2 p, const glm::dvec2& way)
+{
+    const auto look = [&](glm::ivec2 q) { return glm::dvec3(field.map->at(q.x, q.y)); };
+    glm::dvec3 to = look(p);
+    for (int axis = 0; axis < 2; ++axis) {
+        const glm::ivec2 step(axis == 0, axis == 1), before = p - step, after = p + step;
+        if (field.shows(before))
+            to += way[axis] * (look(p) - look(before));
+        else if (field.shows(after))
+            to += way[axis] * (look(after) - look(p));
+    }
+    return glm::normalize(to);
+}
+
+/// The places beside a field's pixels where it shows nothing: whether another pane lights what lies beyond them.
+std::vector<char> fades(const Field& own, const std::vector<const Field*>& others)
+{
+    std::vector<char> ends(std::size_t(own.map->size.x + 2) * (own.map->size.y + 2), 0);
+    by_rows(own.map->size.y + 2, [&](int first, int end) {
+        for (int y = first - 1; y < end - 1; ++y)
+            for (int x = -1; x <= own.map->size.x; ++x) {
+                if (own.shows({x, y}))
+                    continue;
+                char& fade = ends[own.index(x, y)];
+                for (glm::ivec2 out : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
+                    const glm::ivec2 p = glm::ivec2(x, y) - out;
+                    if (fade || !own.shows(p))
+                        continue;
+                    const glm::dvec3 beyond = going_on(own, p, (0.5 + beyond_px) * outwards(own, p, out));
+                    fade = std::any_of(others.begin(), others.end(),
+                        [&](const Field* other) { return find(*other->map, *other->blocks, beyond).has_value(); });
+                }
+            }
+    });
+    return ends;
+}
+
+void measure(Field& field, const std::vector<const Field*>& others)
+{
+    const int width = field.map->size.x + 2, height = field.map->size.y + 2;
+    const std::vector<char> ends = fades(field, others);
+    // A picture that reaches over all that its neighbours light has no such edge: then all of its edge counts.
+    const bool any = std::find(ends.begin(), ends.end(), 1) != ends.end();
+    constexpr double far = 1e12;
+    std::vector<double> square(ends.size());
+    for (int y = -1; y < height - 1; ++y)
+        for (int x = -1; x < width - 1; ++x)
+            square[field.index(x, y)] = (any ? ends[field.index(x, y)] : !field.shows({x, y})) ? 0 : far;
+    std::vector<double> line, border(std::max(width, height) + 1);
+    std::vector<int> vertex(std::max(width, height));
+    for (int x = 0; x < width; ++x) {
+        line.resize(height);
+        for (int y = 0; y < height; ++y)
+            line[y] = square[std::size_t(y) * width + x];
+        transform(line, vertex, border);
+        for (int y = 0; y < height; ++y)
+            square[std::size_t(y) * width + x] = line[y];
+    }
+    for (int y = 0; y < height; ++y) {
+        line.assign(square.begin() + std::ptrdiff_t(y) * width, square.begin() + std::ptrdiff_t(y + 1) * width);
+        transform(line, vertex, border);
+        std::copy(line.begin(), line.end(), square.begin() + std::ptrdiff_t(y) * width);
+    }
+    field.to_fade.resize(square.size());
+    // The edge lies half way to the first pixel that shows nothing.
+    std::transform(square.begin(), square.end(), field.to_fade.begin(),
+        [&](double away) { return float(std::max(std::sqrt(away) - 0.5, 0.0)) * field.pixel; });
+}
+
+/// Every so many pixels the others' fields are looked up, between these points they are interpolated.
+constexpr int stride = 4;
+/// Nearer to an edge than so many pixels each pixel is looked up: there a small error is a large part.
+constexpr float sharp = 16;
+/// And where the field bends by more than this part of itself from node to node: half way between two edges it has a ridge.
+constexpr float bend = 0.01f;
+
+/// Whether the field is straight enough around the cell with the node (x, y) at its top left to be interpolated.
+bool straight(const std::vector<float>& nodes, glm::ivec2 count, int x, int y)
+{
+    auto node = [&](int i, int j) {
+        return nodes[std::size_t(std::clamp(j, 0, count.y - 1)) * count.x + std::clamp(i, 0, count.x - 1)];
+    };
+    const float most = bend * node(x, y);
+    for (int j = y; j <= y + 1; ++j)
+        for (int i = x; i <= x + 1; ++i)
+            if (std::abs(node(i - 1, j) - 2 * node(i, j) + node(i + 1, j)) > most
+                || std::abs(node(i, j - 1) - 2 * node(i, j) + node(i, j + 1)) > most)
+                return false;
+    return std::abs(node(x, y) - node(x + 1, y) - node(x, y + 1) + node(x + 1, y + 1)) <= most;
+}
+
+std::vector<float> ramp(const Field& own, const std::vector<const Field*>& others, double power)
+{
+    const glm::ivec2 size = own.map->size, nodes = (size - 2) / stride + 2;
+    const std::size_t pixels = std::size_t(size.x) * size.y, count = std::size_t(nodes.x) * nodes.y;
+    auto look = [&](const Field& other, int x, int y) {
+        const glm::vec4& texel = own.map->at(std::min(x, size.x - 1), std::min(y, size.y - 1));
+        return texel.w > 0 ? other.along(glm::vec3(texel)) : -1.0f;
+    };
+    std::vector<float> sum(pixels, 0.0f);
+    bool any = false;
+    for (const Field* other : others) {
+        std::vector<float> coarse(count);
+        by_rows(nodes.y, [&](int first, int end) {
+            for (int y = first; y < end; ++y)
+                for (int x = 0; x < nodes.x; ++x)
+                    coarse[std::size_t(y) * nodes.x + x] = look(*other, x * stride, y * stride);
+        });
+        if (std::none_of(coarse.begin(), coarse.end(), [](float a) { return a > 0; }))
+            continue;
+        any = true;
+        const float near_own = sharp * own.pixel, near_other = sharp * other->pixel;
+        std::vector<char> exact(count, 0); // cells whose pixels are all looked up
+        by_rows(nodes.y - 1, [&](int first, int end) {
+            for (int y = first; y < end; ++y)
+                for (int x = 0; x + 1 < nodes.x; ++x) {
+                    const std::size_t at = std::size_t(y) * nodes.x + x;
+                    const float least
+                        = std::min({coarse[at], coarse[at + 1], coarse[at + nodes.x], coarse[at + nodes.x + 1]});
+                    exact[at] = least < near_other || !straight(coarse, nodes, x, y);
+                }
+        });
+        by_rows(size.y, [&](int first, int end) {
+            for (int y = first; y < end; ++y)
+                for (int x = 0; x < size.x; ++x) {
+                    const std::size_t at = std::size_t(y) * size.x + x;
+                    if (own.map->texels[at].w <= 0)
+                        continue;
+                    const int i = x / stride, j = y / stride;
+                    const float* corner = &coarse[std::size_t(j) * nodes.x + i];
+                    const float a = corner[0], b = corner[1], c = corner[nodes.x], d = corner[nodes.x + 1];
+                    float value;
+                    if (std::max({a, b, c, d}) == 0)
+                        value = 0; // -1, a corner that this pane does not show, is not 0
+                    else if (exact[std::size_t(j) * nodes.x + i] || own.at(x, y) < near_own)
+                        value = std::max(0.0f, look(*other, x, y));
+                    else {
+                        const float u = float(x % stride) / stride, v = float(y % stride) / stride;
+                        value = (a * (1 - u) + b * u) * (1 - v) + (c * (1 - u) + d * u) * v;
+                    }
+                    sum[at] += float(std::pow(value, power));
+                }
+        });
+    }
+    if (!any)
+        return {};
+    std::vector<float> weight(pixels, 0.0f);
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const std::size_t at = std::size_t(y) * size.x + x;
+            const double mine = std::pow(own.at(x, y), power);
+            if (own.map->texels[at].w > 0 && mine > 0)
+                weight[at] = float(mine / (mine + sum[at]));
+        }
+    return weight;
+}
+
+bool has_mask(const Layout& layout, const CompiledPane& pane)
+{
+    return !layout.outputs[pane.pane.output].viewports[pane.pane.viewport].alpha_mask.empty()
+        || (pane.mesh && pane.mesh->alpha);
+}
+
+/// Whether two panes are drawn on the same pixels: then one covers the other. Beside each other they may well be for two
+/// projectors on one desktop.
+bool share_pixels(const Pane& a, const Pane& b)
+{
+    return a.output == b.output && a.layer == b.layer && glm::all(glm::lessThan(a.corner, b.corner + b.size))
+        && glm::all(glm::lessThan(b.corner, a.corner + a.size));
+}
+
+} // namespace
+
+std::vector<std::vector<float>> blend_ramps(const Layout& layout, std::span<const CompiledPane> panes, double power)
+{
+    std::vector<Field> fields;
+    std::vector<int> field_of_pane(panes.size(), -1);
+    for (std::size_t i = 0; i < panes.size(); ++i)
+        if (!has_mask(layout, panes[i])) {
+            field_of_pane[i] = int(fields.size());
+            fields.push_back(field_of(panes[i]));
+        }
+    std::vector<std::vector<const Field*>> others(fields.size());
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        const Pane& own = fields[i].pane->pane;
+        for (const Field& other : fields)
+            if (other.pane->pane.eye == own.eye && other.pane->pane.observer == own.observer
+                && !share_pixels(other.pane->pane, own))
+                others[i].push_back(&other);
+    }
+    for (std::size_t i = 0; i < fields.size(); ++i)
+        measure(fields[i], others[i]);
+    std::vector<std::vector<float>> ramps(panes.size());
+    for (std::size_t i = 0; i < panes.size(); ++i)
+        if (const int own = field_of_pane[i]; own >= 0)
+            ramps[i] = ramp(fields[own], others[own], power);
+    return ramps;
+}
+
+} // namespace starbow

@@ -1,0 +1,22 @@
+#pragma once
+#include "displays/compile/compiled.h"
+
+namespace starbow {
+
+/// What the light of an output's pixels is multiplied by, and what is added to it. Linear light, rows from the top; both
+/// empty where nothing is to be done.
+struct Shade {
+    glm::ivec2 size{0};
+    std::vector<glm::vec3> weight, black;
+    bool empty() const { return weight.empty() && black.empty(); }
+};
+
+/// The masks, the black levels and the calibrations' intensities of one output, and the blend ramps of all: ramps[i] belongs
+/// to panes[i] (blend.h), empty where there is none. Throws InputError for a picture that can't be read.
+Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::span<const CompiledPane> panes,
+    std::span<const std::vector<float>> ramps);
+
+/// By how much the light of all outputs is turned down so that the highest black level of any still has room above it.
+double headroom(std::span<const Shade> shades);
+
+} // namespace starbow

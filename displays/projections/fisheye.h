@@ -1,0 +1,30 @@
+#pragma once
+#include "config/model/layout.h"
+#include <optional>
+
+namespace starbow {
+
+/// A domemaster: the dome as seen from its middle looking up at the zenith, in a circle, with some function g of the angle a
+/// from the zenith growing evenly from the centre to the rim: g = a (equidistant), 2 sin(a/2) (equisolid), 2 tan(a/2)
+/// (stereographic), sin(a) (orthographic). Who faces the front and tilts the head back sees the front below the zenith and
+/// the right hand still on the right; so in the picture (no mirror image) the visitor's front is at the bottom and the right
+/// is on the right. picture.h tells what each function returns.
+class FisheyeRays {
+public:
+    FisheyeRays(const Fisheye& fisheye, glm::ivec2 size);
+    std::optional<glm::dvec3> direction(glm::dvec2 pixel) const;
+    std::optional<glm::dvec2> pixel(const glm::dvec3& direction) const;
+
+    /// Taken at the point `pixel`; up to 170 degrees from the zenith (75 in an orthographic one) the solid angle over the
+    /// whole pixel differs from its square by less than step² of itself, step being the angle from one pixel to the next at
+    /// the centre; a tenth of that in equidistant ones: 5e-6 in a domemaster of 1024 pixels.
+    double pixel_angle(glm::dvec2 pixel) const;
+
+private:
+    FisheyeMapping mapping_;
+    glm::dvec3 zenith_, right_, down_; ///< of the picture
+    glm::dvec2 centre_;
+    double radius_, rim_, scale_; ///< pixels; radians from the zenith; of g from one pixel to the next
+};
+
+} // namespace starbow

@@ -1,0 +1,87 @@
+#include "governor.h"
+#include "config/model/shipped.h"
+#include "runtime/commands/timing.h"
+#include "runtime/operation/governor.h"
+#include "runtime/render/frame_timer.h"
+#include "runtime/render/offscreen.h"
+#include "runtime/render/render_context.h"
+#include <chrono>
+#include <cstdio>
+#include <thread>
+
+namespace starbow {
+
+int bench_governor(const std::string& ladder_name, double hold_ms, int seconds)
+{
+    using Clock = std::chrono::steady_clock;
+    const std::vector<Rung> ladder = load_ladder(find("qualities", ladder_name));
+    Layout layout = load_layout(find("layouts", "desk"));
+    Theatre theatre(find("scenes", "avenue"), device_options(false), ladder[0].quality.spectra);
+    Device& device = theatre.device;
+    const Shot shot = load_shot(find("shots", "starbow"));
+    Studio studio(device, theatre.pipelines, theatre.world, layout, within(device, ladder.back().quality), false);
+    const Target target = studio.target(0);
+    studio.frame().repeatable(false); // as the exhibit flies
+    FrameTimer timer(device);
+    const auto frame_ms = [&](int times) {
+        const double prepared = milliseconds([&] { studio.frame().prepare(shot, nullptr); });
+        device.now([&](vk::CommandBuffer c) {
+            timer.begin(c);
+            for (int i = 0; i < times; ++i) {
+                make_writable(c, target);
+                studio.frame().record(c, std::span(&target, 1));
+            }
+            timer.end(c);
+        });
+        return prepared + timer.ms().value_or(0);
+    };
+    // Every rung once, so that its pipelines are made; and the middle one's time.
+    double middle = 0;
+    for (std::size_t rung = 0; rung < ladder.size(); ++rung) {
+        studio.frame().adopt(within(device, ladder[rung].quality));
+        std::vector<double> times;
+        for (int i = 0; i < 5; ++i)
+            times.push_back(frame_ms(1));
+        if (rung == ladder.size() / 2)
+            middle = median(times);
+    }
+    if (hold_ms <= 0)
+        hold_ms = 1.5 * middle;
+    Governor governor(ladder, hold_ms);
+    studio.frame().adopt(within(device, ladder[governor.rung()].quality));
+    std::printf(
+        "%s; the starbow at 800x600, %.1f ms a frame held over %zu rungs, a load that doubles and halves every 5 s\n",
+        device.properties.deviceName.data(), hold_ms, ladder.size());
+    const auto began = Clock::now();
+    const auto now_s = [&] { return std::chrono::duration<double>(Clock::now() - began).count(); };
+    int frames = 0, late = 0, moves = 0, most_moves = 0;
+    std::vector<double> moved;
+    for (int second = 0; now_s() < seconds;) {
+        const auto turn
+            = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(hold_ms / 1000));
+        const double ms = frame_ms(int(now_s() / 5) % 2 ? 2 : 1);
+        ++frames;
+        late += ms > 1.5 * hold_ms;
+        if (governor.drawn(now_s(), ms)) {
+            studio.frame().adopt(within(device, ladder[governor.rung()].quality));
+            ++moves;
+            moved.push_back(now_s());
+            int near = 0;
+            for (double at : moved)
+                near += now_s() - at < 1;
+            most_moves = std::max(most_moves, near);
+        }
+        std::this_thread::sleep_until(turn);
+        if (int(now_s()) / 5 > second) {
+            second = int(now_s()) / 5;
+            std::printf(
+                "%4d s: rung %zu, %d frames, %d late, %d moves\n", 5 * second, governor.rung() + 1, frames, late, moves);
+            std::fflush(stdout);
+        }
+    }
+    std::printf("%d of %d frames late by more than half a frame (%.2f %%), %d moves, at most %d in a second\n", late, frames,
+        100.0 * late / std::max(frames, 1), moves, most_moves);
+    return late <= 0.01 * frames && most_moves <= 2 ? 0 : 1;
+}
+
+} // namespace starbow

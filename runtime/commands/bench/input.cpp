@@ -1,0 +1,90 @@
+#include "input.h"
+#include "config/json/error.h"
+#include "config/model/scene_file.h"
+#include "config/model/shipped.h"
+#include "runtime/exhibit/exhibit.h"
+#include "runtime/exhibit/outputs.h"
+#include "runtime/operation/latency.h"
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// So long a device may be silent at the start: time to find it, and to take it into the hand.
+constexpr double grace_s = 4;
+/// And so many frames: where shaders are still being compiled seconds pass between two of them.
+constexpr int grace_frames = 60;
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// Counts from the first report on, and tells on standard error how far it is.
+struct Measurement {
+    double seconds;
+    Latency latency{};
+    Clock::time_point told = Clock::now();
+    int frames = 0;
+    std::optional<Clock::time_point> drawn{}, began{}; ///< the first frame, and the first with a report
+
+    static double since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
+
+    void add(const FrameTimes& times)
+    {
+        if (frames++ == 0)
+            drawn = Clock::now();
+        if (times.told_ns == 0)
+            return;
+        if (!began) {
+            began = Clock::now();
+            std::fprintf(stderr, "A device reports; keep it moving for %.0f s (Ctrl-C: no longer)\n", seconds);
+        }
+        latency.add(times);
+    }
+
+    bool over()
+    {
+        const bool terminal = isatty(STDERR_FILENO);
+        if (began && since(told) > (terminal ? 1 : 10)) {
+            told = Clock::now();
+            std::fprintf(stderr, "%s%.0f of %.0f s, %zu reports shown, %.0f s left%s", terminal ? "\r" : "", since(*began),
+                seconds, latency.reports(), std::max(0.0, seconds - since(*began)), terminal ? "   " : "\n");
+        }
+        return interrupted || (began ? since(*began) > seconds : frames > grace_frames && since(*drawn) > grace_s);
+    }
+};
+
+} // namespace
+
+int bench_input(const std::string& layout, double seconds)
+{
+    if (!has_display())
+        throw InputError(
+            "There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere), so no present call can "
+            "be timed; a desktop session is right");
+    Opening opening{
+        .scene = find("scenes", "avenue"), .layout = load_layout(find("layouts", layout.empty() ? "desk" : layout))};
+    opening.start = load_scene_file(opening.scene).start;
+    opening.words = words_in("en");
+    opening.profiles = known_profiles();
+    Measurement measurement{seconds};
+    opening.timed = [&](const FrameTimes& times) { measurement.add(times); };
+    opening.over = [&] { return measurement.over(); };
+    struct sigaction act { };
+    act.sa_handler = [](int) { interrupted = 1; };
+    act.sa_flags = int(SA_RESETHAND); // twice: at once
+    sigaction(SIGINT, &act, nullptr);
+    WindowSystem window_system;
+    std::fprintf(stderr, "Move a stick, a throttle or a pad: it is timed from its first report on\n");
+    const int status = fly_exhibit(opening);
+    if (measurement.latency.reports() == 0)
+        throw InputError("No stick, throttle or pad has told anything within " + std::to_string(int(grace_s))
+            + " s, and a keyboard does not count; one that is plugged in ('starbow devices' lists them) and moved is right");
+    std::printf("\n%s", measurement.latency.told().c_str());
+    return status;
+}
+
+} // namespace starbow

@@ -1,0 +1,249 @@
+#include "layout.h"
+#include "config/model/one_view.h"
+#include "config/model/shipped.h"
+#include "runtime/commands/timing.h"
+#include "runtime/render/disparity.h"
+#include "runtime/render/render_context.h"
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+double pixels_of(const Layout& layout)
+{
+    double sum = 0;
+    for (std::size_t output = 0; output < layout.outputs.size(); ++output)
+        for (const Pane& pane : panes(layout, output, layout.outputs[output].size))
+            sum += double(pane.size.x) * pane.size.y;
+    return sum;
+}
+
+constexpr int stages = 6;
+const char* const stage_names[stages]
+    = {"plan and cull", "cube passes", "warp passes", "finish passes", "whole frame", "metering"};
+
+/// One layout to time among others.
+struct Case {
+    std::string name;
+    std::unique_ptr<Studio> studio;
+    std::vector<double> times[stages];
+    double ms(int stage) const { return median(times[stage]); }
+
+    void round(Device& device, const Shot& shot, bool counts)
+    {
+        Frame& frame = studio->frame();
+        const std::size_t outputs = studio->layout().outputs.size();
+        std::vector<Target> targets;
+        for (std::size_t i = 0; i < outputs; ++i)
+            targets.push_back(studio->target(i));
+        auto each = [&](auto&& work) {
+            return milliseconds([&] {
+                device.now([&](vk::CommandBuffer c) {
+                    for (std::size_t i = 0; i < outputs; ++i) {
+                        make_writable(c, targets[i]);
+                        work(c, i);
+                    }
+                });
+            });
+        };
+        double ms[stages];
+        ms[0] = milliseconds([&] { frame.prepare(shot, nullptr); });
+        ms[1] = milliseconds([&] { device.now([&](vk::CommandBuffer c) { frame.draw_cubes(c); }); });
+        ms[2] = each([&](vk::CommandBuffer c, std::size_t i) { frame.warp_output(c, i, targets[i]); });
+        ms[3] = each([&](vk::CommandBuffer c, std::size_t i) { frame.finish_output(c, i, targets[i]); });
+        ms[5] = milliseconds([&] {
+            device.now([&](vk::CommandBuffer c) { frame.draw_meter(c); });
+            (void)frame.metered();
+        });
+        ms[4] = milliseconds([&] {
+            frame.prepare(shot, nullptr);
+            device.now([&](vk::CommandBuffer c) {
+                for (const Target& target : targets)
+                    make_writable(c, target);
+                frame.record(c, targets);
+            });
+            (void)frame.metered();
+        });
+        for (int i = 0; counts && i < stages; ++i)
+            times[i].push_back(ms[i]);
+    }
+};
+
+/// Times cases in turn within each round, so that whatever else the machine does falls on all alike.
+void time(Theatre& theatre, std::vector<Case>& cases, const Shot& shot, int rounds)
+{
+    for (int round = -2; round < rounds; ++round)
+        for (Case& one : cases)
+            one.round(theatre.device, shot, round >= 0);
+}
+
+Case make_case(Theatre& theatre, const std::string& name, const Layout& layout)
+{
+    Case one;
+    one.name = name;
+    one.studio = std::make_unique<Studio>(
+        theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, false), false);
+    one.studio->frame().meter(true); // as the exhibit flies
+    return one;
+}
+
+void bench_kinds(Theatre& theatre, const Shot& shot, int rounds)
+{
+    constexpr glm::ivec2 size(800, 600);
+    // The same window bent by a mesh that bends nothing, and the fisheye whose circle covers the whole picture: every pixel
+    // shows something in all of them.
+    const std::filesystem::path file
+        = std::filesystem::temp_directory_path() / ("starbow-bench-" + std::to_string(::getpid()) + ".data");
+    std::ofstream(file) << "2\n2 2\n-1 -1 0 0 1\n1 -1 1 0 1\n-1 1 0 1 1\n1 1 1 1 1\n";
+    Layout mesh = one_view(Planar{90}, size);
+    mesh.outputs[0].viewports[0].warp = Warp{file};
+    Lens lens;
+    lens.fov_y_deg = 90;
+    for (int i = 0; i < 3; ++i)
+        lens.colours[std::size_t(i)].k = {0.1 + 0.01 * i, 0, 0, 0};
+    Fisheye fisheye{.aperture_deg = 110, .tilt_deg = 90, .diameter = 5.0 / 3};
+    std::vector<Case> cases;
+    cases.push_back(make_case(theatre, "planar", one_view(Planar{90}, size)));
+    cases.push_back(make_case(theatre, "fisheye", one_view(fisheye, size)));
+    cases.push_back(make_case(theatre, "mesh", mesh));
+    cases.push_back(make_case(theatre, "lens, three colours", one_view(lens, size)));
+    std::filesystem::remove(file);
+    time(theatre, cases, shot, rounds);
+    std::printf("\nThe warp pass by kind of display, 800x600:\n");
+    for (const Case& one : cases)
+        std::printf("  %-22s %7.2f ms  %6.1f ns per pixel  %5.2f of planar\n", one.name.c_str(), one.ms(2),
+            one.ms(2) * 1e6 / (size.x * size.y), one.ms(2) / cases[0].ms(2));
+}
+
+void bench_viewports(Theatre& theatre, const Shot& shot, int rounds)
+{
+    // The same directions twice: a window of 1600 x 600 whole, and as eight windows of 400 x 300.
+    const double half_y = 30, unit = std::tan(glm::radians(half_y)) / 300;
+    auto angle = [&](double pixels) { return glm::degrees(std::atan(pixels * unit)); };
+    Layout whole = one_view(Planar{60}, {1600, 600}), eight = whole;
+    eight.outputs[0].viewports.clear();
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 4; ++x) {
+            Planar part;
+            part.sides = Sides{angle(400 * x - 800), angle(400 * x - 400), angle(-300 * y), angle(300 - 300 * y)};
+            eight.outputs[0].viewports.push_back({.rect = {0.25 * x, 0.5 * y, 0.25, 0.5}, .projection = part});
+        }
+    std::vector<Case> cases;
+    cases.push_back(make_case(theatre, "one viewport", whole));
+    cases.push_back(make_case(theatre, "eight viewports", eight));
+    time(theatre, cases, shot, rounds);
+    std::printf("\nEight viewports of 400x300 that share an eye, beside one of 1600x600:\n");
+    for (const Case& one : cases)
+        std::printf("  %-22s %7.2f ms whole frame  %7.2f ms warp  %5.2f of one\n", one.name.c_str(), one.ms(4), one.ms(2),
+            one.ms(4) / cases[0].ms(4));
+}
+
+void bench_stereo(Theatre& theatre, const Shot& shot, int rounds)
+{
+    Layout stereo = one_view(Planar{60}, {1600, 600});
+    stereo.outputs[0].packing = Packing::side_by_side;
+    stereo.stereo.hyper_stereo = 1.5e8 * theatre.world.scene.unit_m / 299792458;
+    Layout turning = one_view(Fisheye{.aperture_deg = 180, .tilt_deg = 30}, {1200, 600});
+    turning.outputs[0].packing = Packing::side_by_side;
+    turning.stereo = stereo.stereo;
+    turning.stereo.method = StereoMethod::reprojected;
+    Layout still_dome = turning, turned = turning;
+    turned.stereo.turning = true;
+    still_dome.stereo.method = StereoMethod::exact;
+
+    struct Method {
+        const char* name;
+        StereoMethod method;
+    };
+    std::vector<Case> cases;
+    std::vector<Layout> layouts;
+    for (Method m : {Method{"exact", StereoMethod::exact}, Method{"reprojected", StereoMethod::reprojected},
+             Method{"shared", StereoMethod::shared}}) {
+        layouts.push_back(stereo);
+        layouts.back().stereo.method = m.method;
+        cases.push_back(make_case(theatre, m.name, layouts.back()));
+    }
+    layouts.push_back(still_dome);
+    cases.push_back(make_case(theatre, "dome, exact", still_dome));
+    layouts.push_back(turned);
+    cases.push_back(make_case(theatre, "dome, turning", turned));
+    time(theatre, cases, shot, rounds);
+    // Errors at the quality of stills, where the depth map is as fine as the picture.
+    const Quality quality = default_quality(theatre.device, true);
+    auto measured = [&](const Layout& layout) {
+        return Studio(theatre.device, theatre.pipelines, theatre.world, layout, quality, true);
+    };
+    std::printf("\nTwo eyes of 800x600 (domes 600x600), %.4g scene units apart:\n",
+        stereo.stereo.separation_m * stereo.stereo.hyper_stereo / theatre.world.scene.unit_m);
+    std::printf("  %-22s %10s %8s %9s   %s\n", "", "frame, ms", "of exact", "warp, ms",
+        "disparity error, pixels: median, 99 %, most; hidden wrongly");
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        Studio tested = measured(layouts[i]);
+        const bool turns = layouts[i].stereo.turning;
+        Layout exact_layout = layouts[i];
+        exact_layout.stereo.method = StereoMethod::exact;
+        std::unique_ptr<Studio> exact = turns ? nullptr : std::make_unique<Studio>(measured(exact_layout));
+        const Disparity off = disparity(tested, exact.get(), shot, 0, theatre.world.scene.unit_m);
+        const std::size_t base = i < 3 ? 0 : 3;
+        std::printf("  %-22s %10.2f %8.2f %9.2f   %8.3f %8.3f %8.2f  %6.2f %%\n", cases[i].name.c_str(), cases[i].ms(4),
+            cases[i].ms(4) / cases[base].ms(4), cases[i].ms(2), off.median, off.high, off.most, 100 * off.hidden);
+    }
+}
+
+} // namespace
+
+int bench_layout(const std::string& name, const std::string& shot_name, int rounds)
+{
+    const Layout layout = load_layout(find("layouts", name));
+    const std::filesystem::path shot_file = find("shots", shot_name);
+    const Shot shot = load_shot(shot_file);
+    Theatre theatre(scene_of(shot, shot_file), device_options(false));
+    std::printf("%s; layout %s, shot %s; medians of %d rounds\n\n", theatre.device.properties.deviceName.data(),
+        name.c_str(), shot_name.c_str(), rounds);
+
+    // Compiling the maps: without a cache, and from a folder that holds them.
+    const std::filesystem::path folder
+        = std::filesystem::temp_directory_path() / ("starbow-bench-" + std::to_string(::getpid()));
+    auto compile_all = [&](MapStore store) {
+        return milliseconds([&] {
+            for (std::size_t output = 0; output < layout.outputs.size(); ++output)
+                compile_output(store, layout, output, layout.outputs[output].size);
+        });
+    };
+    const double cold = compile_all(MapStore(std::filesystem::path()));
+    compile_all(MapStore(folder));
+    const double warm = compile_all(MapStore(folder));
+    std::error_code ignored;
+    std::filesystem::remove_all(folder, ignored);
+    const double pixels = pixels_of(layout);
+    std::printf("  %-22s %10.1f ms  (%.1f ns per pixel), %.1f ms from the cache\n", "direction maps", cold,
+        cold * 1e6 / pixels, warm);
+
+    std::vector<Case> cases;
+    cases.push_back(make_case(theatre, name, layout));
+    time(theatre, cases, shot, rounds);
+    const Case& own = cases.front();
+    for (int i = 0; i < stages; ++i)
+        std::printf("  %-22s %10.2f ms  %6.1f ns per pixel\n", stage_names[i], own.ms(i), own.ms(i) * 1e6 / pixels);
+    double texels = 0;
+    std::size_t images = 0;
+    for (const Plan& plan : own.studio->frame().plans())
+        texels += plan.texels, images += plan.images.size();
+    std::printf("  %-22s %10.2f Mpixel, %.2f texels each in %zu images of %zu cube maps, %.1f MiB of images\n", "drawn",
+        pixels * 1e-6, texels / pixels, images, own.studio->frame().plans().size(),
+        double(own.studio->frame().memory()) / (1 << 20));
+    std::fflush(stdout);
+    bench_kinds(theatre, shot, rounds);
+    std::fflush(stdout);
+    bench_viewports(theatre, shot, rounds);
+    std::fflush(stdout);
+    bench_stereo(theatre, shot, std::max(3, rounds / 3));
+    return 0;
+}
+
+} // namespace starbow

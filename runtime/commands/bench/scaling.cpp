@@ -1,0 +1,158 @@
+#include "scaling.h"
+#include "config/model/angles.h"
+#include "config/model/shipped.h"
+#include "runtime/commands/timing.h"
+#include "runtime/render/offscreen.h"
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <random>
+
+namespace starbow {
+namespace {
+
+Layout window(glm::ivec2 size)
+{
+    Layout layout = load_layout(find("layouts", "desk"));
+    layout.outputs[0].size = size;
+    return layout;
+}
+
+/// Balls of 960 triangles all over a wall ahead, together always as large: the more there are, the smaller.
+World balls(int count)
+{
+    constexpr int around = 32, down = 16;
+    World world;
+    world.materials.resize(1);
+    for (int j = 0; j <= down; ++j)
+        for (int i = 0; i <= around; ++i) {
+            const double a = 2 * pi * i / around, b = pi * j / down;
+            const glm::vec3 n(std::sin(b) * std::cos(a), std::cos(b), std::sin(b) * std::sin(a));
+            world.vertices.push_back({n, n, {0, 0}, 0xffffffff});
+        }
+    for (std::uint32_t j = 0; j < down; ++j)
+        for (std::uint32_t i = 0; i < around; ++i) {
+            const std::uint32_t at = j * (around + 1) + i, below = at + around + 1;
+            if (j > 0)
+                world.indices.insert(world.indices.end(), {at, at + 1, below + 1});
+            if (j + 1 < down)
+                world.indices.insert(world.indices.end(), {at, below + 1, below});
+        }
+    world.primitives.push_back({0, std::uint32_t(world.indices.size()), 0, 0, {-1, -1, -1}, {1, 1, 1}, {0, 0, 0}, 1, {}});
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> one(-1, 1);
+    const double radius = 4 / std::sqrt(double(count));
+    for (int i = 0; i < count; ++i) {
+        const double x = 4 * one(random), y = 3 * one(random), z = -10 + one(random);
+        Instance instance{};
+        instance.frame_from_local = glm::dmat4(radius);
+        instance.frame_from_local[3] = {x, y, z, 1};
+        world.instances.push_back(instance);
+    }
+    return world;
+}
+
+struct Case {
+    std::string name;
+    double units; ///< pixels, triangles
+    std::unique_ptr<GpuWorld> world{}; ///< none: the theatre's
+    std::unique_ptr<Studio> studio{};
+    std::vector<double> prepare{}, record{}, cube{}, warp{};
+};
+
+/// In turn within each round, so that whatever else the machine does falls on all alike.
+void time(Device& device, std::vector<Case>& cases, const Shot& shot, int rounds)
+{
+    for (Case& c : cases)
+        c.studio->picture(shot); // leaves the target in a known layout
+    for (int round = -1; round < rounds; ++round)
+        for (Case& c : cases) {
+            Frame& frame = c.studio->frame();
+            const Target target = c.studio->target(0);
+            double record = 0;
+            const double prepare = milliseconds([&] { frame.prepare(shot, nullptr); });
+            const double cube = milliseconds([&] {
+                device.now([&](vk::CommandBuffer commands) { record = milliseconds([&] { frame.draw_cubes(commands); }); });
+            });
+            const double warp = milliseconds([&] {
+                device.now([&](vk::CommandBuffer commands) {
+                    make_writable(commands, target);
+                    frame.warp_output(commands, 0, target);
+                });
+            });
+            if (round < 0)
+                continue;
+            c.prepare.push_back(prepare);
+            c.record.push_back(record);
+            c.cube.push_back(cube);
+            c.warp.push_back(warp);
+        }
+}
+
+void bench_pixels(int rounds)
+{
+    Theatre theatre(find("scenes", "avenue"), device_options(false));
+    Shot shot = theatre.world.scene.start;
+    shot.position.z = -8;
+    shot.u = {0, 0, -std::sqrt(15.0)};
+    shot.exposure_ev = -3;
+    std::printf("%s; the avenue at gamma 4, all effects on; medians of %d rounds\n\n%-14s%14s%14s%14s%14s\n",
+        theatre.device.properties.deviceName.data(), rounds, "Mpixel", "texels/pixel", "cube, ns/px", "warp, ns/px",
+        "frame, ns/px");
+    std::vector<Case> cases;
+    for (double pixels : {0.5e6, 1e6, 2e6, 4e6, 8e6, 16e6}) {
+        const int height = int(std::sqrt(pixels * 0.75) / 4) * 4, width = height / 3 * 4;
+        cases.push_back({"", double(width) * height});
+        Quality quality = default_quality(theatre.device, false);
+        quality.max_texels = 1e9; // as fine for all
+        cases.back().studio = std::make_unique<Studio>(
+            theatre.device, theatre.pipelines, theatre.world, window({width, height}), quality, false);
+    }
+    time(theatre.device, cases, shot, rounds);
+    for (const Case& c : cases) {
+        const Plan& plan = c.studio->frame().plans()[0];
+        const double cube = median(c.cube) * 1e6 / c.units, warp = median(c.warp) * 1e6 / c.units;
+        std::printf("%-14.2f%14.2f%14.2f%14.2f%14.2f\n", c.units * 1e-6, plan.texels / plan.pixels, cube, warp,
+            cube + warp + median(c.prepare) * 1e6 / c.units);
+    }
+}
+
+void bench_triangles(int rounds)
+{
+    Device device(device_options(false));
+    Pipelines pipelines(device);
+    SceneFile scene;
+    scene.lights = {};
+    scene.ambient = glm::dvec3(1);
+    const Layout layout = window({800, 600});
+    std::printf("\nBalls of 960 triangles that fill the same part of the view at rest, without coarser levels\n%-14s%14s%14s"
+                "%14s%20s%20s\n",
+        "triangles", "sent", "cube, ms", "ns/triangle", "plan and cull, ms", "and record, ms");
+    std::vector<Case> cases;
+    for (double triangles : {1e4, 1e5, 1e6, 1e7}) {
+        const int count = std::max(1, int(std::lround(triangles / 960)));
+        cases.push_back({"", triangles});
+        cases.back().world = std::make_unique<GpuWorld>(upload(device, pipelines, balls(count), scene));
+        cases.back().studio = std::make_unique<Studio>(
+            device, pipelines, *cases.back().world, layout, default_quality(device, false), false);
+    }
+    Shot shot;
+    time(device, cases, shot, rounds);
+    for (const Case& c : cases) {
+        const double sent = double(c.studio->frame().triangles());
+        std::printf("%-14g%14g%14.2f%14.1f%20.3f%20.3f\n", c.units, sent, median(c.cube), median(c.cube) * 1e6 / sent,
+            median(c.prepare), median(c.prepare) + median(c.record));
+    }
+}
+
+} // namespace
+
+int bench_scaling(int rounds)
+{
+    bench_pixels(rounds);
+    std::fflush(stdout);
+    bench_triangles(rounds);
+    return 0;
+}
+
+} // namespace starbow

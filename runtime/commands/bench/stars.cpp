@@ -1,0 +1,93 @@
+#include "stars.h"
+#include "config/model/angles.h"
+#include "config/model/shipped.h"
+#include "runtime/commands/timing.h"
+#include "runtime/render/offscreen.h"
+#include "runtime/render/render_context.h"
+#include "runtime/world/detail.h"
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+namespace starbow {
+namespace {
+
+/// Evenly all around; four times as many with each magnitude (of an endless even swarm), the faintest of magnitude 12.
+std::vector<Star> swarm(int count)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> one(0, 1);
+    std::vector<Star> stars;
+    for (int i = 0; i < count; ++i) {
+        const double z = 2 * one(random) - 1, a = 2 * pi * one(random), across = std::sqrt(1 - z * z);
+        const double magnitude = 12 + std::log(1 - one(random)) / std::log(4.0);
+        stars.push_back({{across * std::cos(a), across * std::sin(a), z}, magnitude,
+            temperature_of(-0.2 + 0.01 * double(random() % 180))});
+    }
+    return stars;
+}
+
+struct Case {
+    const char* name;
+    GpuWorld world;
+    std::vector<double> ms;
+};
+
+} // namespace
+
+int bench_stars(int rounds)
+{
+    Device device(device_options(false));
+    Pipelines pipelines(device);
+    const SceneFile scene = load_scene_file(find("scenes", "avenue"));
+    Layout layout = load_layout(find("layouts", "desk"));
+    layout.outputs[0].size = {800, 600};
+    auto under = [&](const char* name, const std::vector<Star>& stars) {
+        World world = load_world(scene.gltf);
+        add_detail_levels(world);
+        return Case{name, upload(device, pipelines, std::move(world), scene, stars), {}};
+    };
+    std::vector<Case> cases;
+    cases.push_back(under("no stars", {}));
+    cases.push_back(under("5,044 stars", load_stars(scene.stars.value().catalogue)));
+    cases.push_back(under("100,000 stars", swarm(100'000)));
+    cases.push_back(under("1,000,000 stars", swarm(1'000'000)));
+    std::printf(
+        "%s; avenue at 800x600 from above, all effects on; medians of %d rounds, whole frames, milliseconds\n\n%-12s",
+        device.properties.deviceName.data(), rounds, "");
+    for (const Case& c : cases)
+        std::printf("%26s", c.name);
+    for (double gamma : {1.0, 4.0, 100.0}) {
+        Shot shot = load_shot(find("shots", "orion"));
+        shot.u = shot.ship_from_cockpit * glm::dvec3(0, 0, -std::sqrt((gamma - 1) * (gamma + 1)));
+        shot.exposure_ev = gamma > 1 ? -3 : 0;
+        std::vector<Studio> studios;
+        for (Case& c : cases) {
+            c.ms.clear();
+            studios.emplace_back(device, pipelines, c.world, layout, default_quality(device, false), false);
+            studios.back().picture(shot); // leaves the target in a known layout
+        }
+        // In turn within each round, so that whatever else the machine does falls on all alike.
+        for (int round = -1; round < rounds; ++round)
+            for (std::size_t i = 0; i < cases.size(); ++i) {
+                const Target target = studios[i].target(0);
+                const double ms = milliseconds([&] {
+                    studios[i].frame().prepare(shot, nullptr);
+                    device.now([&](vk::CommandBuffer commands) {
+                        make_writable(commands, target);
+                        studios[i].frame().record(commands, std::span(&target, 1));
+                    });
+                });
+                if (round >= 0)
+                    cases[i].ms.push_back(ms);
+            }
+        std::printf("\ngamma %-6g", gamma);
+        for (const Case& c : cases)
+            std::printf("%14.2f (x %7.2f)", median(c.ms), median(c.ms) / median(cases[0].ms));
+        std::fflush(stdout);
+    }
+    std::printf("\n");
+    return 0;
+}
+
+} // namespace starbow

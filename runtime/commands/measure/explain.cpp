@@ -1,0 +1,218 @@
+#include "explain.h"
+#include "runtime/commands/timing.h"
+#include "runtime/render/offscreen.h"
+#include "runtime/world/detail.h"
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <memory>
+
+namespace starbow {
+namespace {
+
+/// All that a frame is made from.
+struct Made {
+    World world;
+    SceneFile scene;
+    std::vector<Star> stars;
+    Layout layout;
+    Shot shot;
+    Quality quality;
+    bool meter = false;
+    double bloom = 0;
+};
+
+struct Part {
+    std::string name;
+    bool on;
+    std::string why; ///< it is on, or off
+    std::function<void(Made&)> turn; ///< makes it the other way; none where there is no other way
+};
+
+std::string count(std::size_t n, const std::string& one, const std::string& many)
+{
+    return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+template <class Is> std::size_t materials_that(const World& world, Is&& is)
+{
+    std::size_t n = 0;
+    for (const Material& material : world.materials)
+        n += is(material);
+    return n;
+}
+
+/// The parts, from what is looked at to what is shown.
+std::vector<Part> parts_of(const Made& made, const Theatre& theatre, const Plan& plan, std::size_t maps, std::size_t panes,
+    std::size_t eyes, bool colours_part)
+{
+    const World& world = theatre.world.world;
+    const SceneFile& scene = made.scene;
+    const Effects& effects = made.shot.effects;
+    const bool moves = made.shot.u != glm::dvec3(0);
+    const std::string at_rest = moves ? "the shot's effects leave it out" : "the shot is at rest";
+    const NeededLevel needed = needed_level(world, scene);
+    const int numbers = reflected_numbers[std::size_t(theatre.world.spectra.level)];
+    const std::size_t clocks = materials_that(world, [](const Material&m) { return m.clock.has_value(); }),
+                      blinks = materials_that(world, [](const Material&m) { return m.blink.has_value(); }),
+                      base = materials_that(world, [](const Material&m) { return m.base_texture >= 0; }),
+                      masked = materials_that(world, [](const Material&m) { return m.alpha_cutoff > 0; });
+    std::vector<Part> all;
+    const auto add = [&](const std::string& name, bool on, const std::string& why, const std::string& why_not,
+                         std::function<void(Made&)> turn) {
+        all.push_back({name, on, on ? why : why_not, std::move(turn)});
+    };
+    add("aberration", moves && effects.aberration, "the ship moves", at_rest,
+        [](Made& m) { m.shot.effects.aberration = !m.shot.effects.aberration; });
+    add("Doppler shift of spectra", moves && effects.doppler, "the ship moves", at_rest,
+        [](Made& m) { m.shot.effects.doppler = !m.shot.effects.doppler; });
+    add("headlight, D^3", moves && effects.headlight, "the ship moves", at_rest,
+        [](Made& m) { m.shot.effects.headlight = !m.shot.effects.headlight; });
+    add("light in more than 3 numbers", numbers > 3, std::to_string(numbers) + ": " + told(needed), told(needed),
+        [](Made& m) { m.quality.spectra = m.quality.spectra ? std::nullopt : std::optional(SpectralLevel::colours); });
+    add("emissions of the scene's own", !theatre.world.spectra.basis.own.empty(),
+        count(theatre.world.spectra.basis.own.size(), "lamp, glow or line", "lamps, glows or lines")
+            + " each a number by itself",
+        "the scene has no lamp, glow or line but sunlit colours", {});
+    add("stars", theatre.world.star_count > 0, count(theatre.world.star_count, "star", "stars") + " in the scene's sky",
+        "the scene names no catalogue", [](Made& m) { m.stars.clear(), m.scene.stars.reset(); });
+    add("lamps", !scene.lights.empty(), count(scene.lights.size(), "light", "lights") + " in the scene",
+        "the scene has none", [](Made& m) { m.scene.lights.clear(); });
+    add("clocks, with light delay", clocks > 0, count(clocks, "dial", "dials") + " in the world", "no surface is a clock",
+        [](Made& m) {
+            for (Material& material : m.world.materials)
+                material.clock.reset();
+        });
+    add("what blinks", blinks > 0, count(blinks, "surface", "surfaces"), "nothing blinks", [](Made& m) {
+        for (Material& material : m.world.materials)
+            material.blink.reset();
+    });
+    add("what moves by itself", !world.motions.empty(), count(world.motions.size(), "motion", "motions") + " in the world",
+        "nothing spins and nothing is animated", [](Made& m) {
+            for (Instance& instance : m.world.instances)
+                instance.motion = -1;
+        });
+    add("bodies in frames of their own", world.frames.size() > 1,
+        count(world.frames.size() - 1, "velocity", "velocities") + " beside rest", "every body of the scene stands still",
+        [](Made& m) {
+            m.scene.bodies.clear();
+            std::erase_if(m.scene.lights, [](const Light& light) {
+                const PointLight* point = std::get_if<PointLight>(&light);
+                return point && !point->body.empty();
+            });
+        });
+    add("pictures on surfaces", base > 0, count(base, "surface has", "surfaces have") + " one", "no surface has one",
+        [](Made& m) {
+            for (Material& material : m.world.materials)
+                material.base_texture = -1;
+        });
+    add("holes in surfaces", masked > 0, count(masked, "surface has", "surfaces have") + " them", "no surface is masked",
+        [](Made& m) {
+            for (Material& material : m.world.materials)
+                material.alpha_cutoff = 0;
+        });
+    add("one cube map for each eye", eyes > 1, std::to_string(eyes) + ": the eyes of the layout see from so many places",
+        "the layout has one eye, or all share one map", [](Made& m) { m.quality.stereo = StereoMethod::shared; });
+    add("reprojection of two eyes", made.layout.stereo.method == StereoMethod::reprojected && panes > 1,
+        "the layout's stereo method", "the layout's stereo method is another",
+        [](Made& m) { m.layout.stereo.turning = false, m.quality.stereo = StereoMethod::shared; });
+    add("maps of directions", maps > 0,
+        std::to_string(maps) + " of " + count(panes, "view is", "views are") + " not linear in the pixel",
+        "every view is flat: a matrix tells it", [](Made& m) { m.quality.matrices = !m.quality.matrices; });
+    add("a way of its own for each colour", colours_part, "a lens parts them", "no lens parts them", {});
+    bool shades = made.layout.blend.ramps;
+    for (const Output& output : made.layout.outputs)
+        shades |= needs_finish(output, {});
+    add("blend, colour and packing of outputs", shades, "the layout asks for it", "each output shows its picture as it is",
+        [](Made& m) {
+            m.layout.blend.ramps = false;
+            for (Output& output : m.layout.outputs)
+                output.colour = {};
+        });
+    add("images nested behind", plan.rear_last[0] > 0 && plan.images.size() > 1,
+        count(plan.images.size(), "image", "images") + " of the cube map, D varies over the sky", "D is the same everywhere",
+        [](Made& m) { m.quality.rear_images = m.quality.rear_images > 0 ? 0 : 42; });
+    add("coarser images, mips", plan.levels > 1, "several texels fall into one pixel somewhere", "nowhere more than two",
+        [](Made& m) { m.quality.mips = !m.quality.mips; });
+    add("samples of a texel", made.quality.cube_samples > 1, std::to_string(made.quality.cube_samples) + ", by the quality",
+        "the quality has one", [](Made& m) { m.quality.cube_samples = m.quality.cube_samples > 1 ? 1 : 4; });
+    add("rays of a pixel", made.quality.pixel_rays > 1,
+        std::to_string(made.quality.pixel_rays * made.quality.pixel_rays) + ", by the quality", "the quality has one",
+        [](Made& m) { m.quality.pixel_rays = m.quality.pixel_rays > 1 ? 1 : 2; });
+    add("metering of the exposure", made.meter, "", "a still has its own; starbow run meters",
+        [](Made& m) { m.meter = !m.meter; });
+    add("glow around what shines", made.bloom > 0, "", "the exhibit or --bloom asks for it", [](Made& m) { m.bloom = 0.1; });
+    return all;
+}
+
+/// A way a frame may be made, on the device.
+struct Stage {
+    GpuWorld world;
+    Studio studio;
+    Shot shot;
+    Stage(Device& device, Pipelines& pipelines, const Made& made)
+        : world(upload(device, pipelines, made.world, made.scene, made.stars, made.quality.spectra))
+        , studio(device, pipelines, world, made.layout, within(device, made.quality), false)
+        , shot(made.shot)
+    {
+        studio.frame().meter(made.meter);
+        studio.frame().bloom(made.bloom);
+    }
+    double ms(Device& device) { return frame_ms(device, studio, shot); }
+};
+
+} // namespace
+
+void explain(const Trial& trial, const Device::Options& options)
+{
+    Made made{{}, load_scene_file(trial.scene), {}, trial.layout, trial.shots[0].second, trial.standard};
+    made.world = load_world(made.scene.gltf);
+    add_detail_levels(made.world);
+    if (made.scene.stars)
+        made.stars = load_stars(made.scene.stars->catalogue);
+    Theatre theatre(trial.scene, options, trial.standard.spectra);
+    Stage all(theatre.device, theatre.pipelines, made);
+    all.ms(theatre.device);
+
+    std::size_t maps = 0, count_of_panes = 0;
+    bool colours_part = false;
+    MapStore store;
+    store.matrices(trial.standard.matrices);
+    for (std::size_t output = 0; output < made.layout.outputs.size(); ++output)
+        for (const CompiledPane& pane : compile_output(store, made.layout, output, made.layout.outputs[output].size)) {
+            ++count_of_panes;
+            maps += pane.map != nullptr;
+            colours_part |= pane.channels() == 3;
+        }
+    const std::vector<Plan>& plans = all.studio.frame().plans();
+    const std::vector<Part> parts = parts_of(made, theatre, plans[0], maps, count_of_panes, plans.size(), colours_part);
+    std::printf("%s, %s, %s, on %s\n\nOn, and what a frame with it takes over one without:\n", trial.scene.stem().c_str(),
+        trial.layout.file.stem().c_str(), trial.shots[0].first.c_str(), theatre.device.properties.deviceName.data());
+    for (const Part& part : parts) {
+        if (!part.on)
+            continue;
+        std::string cost = "   -";
+        if (part.turn) {
+            Made without = made;
+            part.turn(without);
+            Stage other(theatre.device, theatre.pipelines, without);
+            std::vector<double> mine, its;
+            for (int round = -2; round < trial.rounds; ++round) {
+                const double a = all.ms(theatre.device), b = other.ms(theatre.device);
+                if (round >= 0)
+                    mine.push_back(a), its.push_back(b);
+            }
+            char text[32];
+            std::snprintf(text, sizeof text, "%.2f", median(mine) / median(its));
+            cost = text;
+        }
+        std::printf("  %-38s %6s   %s\n", part.name.c_str(), cost.c_str(), part.why.c_str());
+        std::fflush(stdout);
+    }
+    std::printf("\nOff, at no cost:\n");
+    for (const Part& part : parts)
+        if (!part.on)
+            std::printf("  %-38s          %s\n", part.name.c_str(), part.why.c_str());
+}
+
+} // namespace starbow

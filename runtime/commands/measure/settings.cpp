@@ -1,0 +1,295 @@
+#include "settings.h"
+#include "config/json/reader.h"
+#include "config/json/whole_file.h"
+#include "runtime/commands/rows.h"
+#include "runtime/commands/timing.h"
+#include "runtime/reference/number_errors.h"
+#include "runtime/render/offscreen.h"
+#include "shaders/physics/physics.h"
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+/// One output of one shot as it should be.
+struct Truth {
+    std::vector<std::uint8_t> picture;
+    Reference all;
+};
+using Truths = std::vector<std::vector<Truth>>; // of each shot, of each output
+
+/// A line that replaces itself where a person watches.
+void say(const std::string& line)
+{
+    if (isatty(STDERR_FILENO))
+        std::fprintf(stderr, "\r%-78s", line.c_str());
+}
+
+std::string left_told(double seconds)
+{
+    char text[64];
+    if (seconds < 90)
+        std::snprintf(text, sizeof text, "about %.0f s left", seconds);
+    else
+        std::snprintf(text, sizeof text, "about %.0f min left", seconds / 60);
+    return text;
+}
+
+using Clock = std::chrono::steady_clock;
+double since(Clock::time_point began) { return std::chrono::duration<double>(Clock::now() - began).count(); }
+
+Truths truths_of(const Trial& trial)
+{
+    const ReferenceWorld world = open_reference_world(trial.scene);
+    Truths truths;
+    for (const auto& [name, shot] : trial.shots) {
+        std::vector<Truth>& of_shot = truths.emplace_back();
+        for (std::size_t output = 0; output < trial.layout.outputs.size(); ++output) {
+            const Output& own = trial.layout.outputs[output];
+            Rows rows("reference of " + name + ", " + own.name);
+            ReferenceOptions options;
+            options.samples = trial.samples;
+            options.kept = trial.folder / ("reference-" + name + "-" + own.name + ".rows");
+            options.progress = [&](int done, int all) { rows.tell(done, all); };
+            Reference truth = reference(world.input(), trial.layout, shot, output, options);
+            std::vector<std::uint8_t> picture = shown(truth);
+            of_shot.push_back({std::move(picture), std::move(truth)});
+        }
+    }
+    return truths;
+}
+
+/// The shot so many frames of a sixtieth of a second on board earlier.
+Shot earlier(const Shot& shot, int frames, double seconds_per_time_unit)
+{
+    const double passed = frames / 60.0 / seconds_per_time_unit;
+    Shot before = shot;
+    before.position -= shot.u * passed;
+    before.time -= physics::gamma_of(shot.u) * passed;
+    return before;
+}
+
+/// One theatre for each level of light that is tried.
+class Theatres {
+public:
+    Theatres(std::filesystem::path scene, Device::Options options)
+        : scene_(std::move(scene))
+        , options_(std::move(options))
+    {
+    }
+    Theatre& with(std::optional<SpectralLevel> level)
+    {
+        std::unique_ptr<Theatre>& theatre = made_[level];
+        if (!theatre)
+            theatre = std::make_unique<Theatre>(scene_, options_, level);
+        return *theatre;
+    }
+
+private:
+    std::filesystem::path scene_;
+    Device::Options options_;
+    std::map<std::optional<SpectralLevel>, std::unique_ptr<Theatre>> made_;
+};
+
+/// A quality's frames, off-screen.
+struct Drawer {
+    Device& device;
+    Studio studio;
+    int block; ///< frames, after which all is as before
+
+    Drawer(Theatre& theatre, const Layout& layout, const Quality& quality)
+        : device(theatre.device)
+        , studio(theatre.device, theatre.pipelines, theatre.world, layout, within(theatre.device, quality), false)
+        , block(quality.frames_per_cube)
+    {
+    }
+    double mean_ms(const Shot& shot)
+    {
+        double sum = 0;
+        for (int i = 0; i < block; ++i)
+            sum += frame_ms(device, studio, shot);
+        return sum / block;
+    }
+};
+
+/// Its time of each shot, each frame beside one of the standard's.
+void time(const Trial& trial, Theatre& theatre, Theatre& standards, MeasuredSetting& one, double& standard_ms)
+{
+    Drawer own(theatre, trial.layout, one.setting.quality), standard(standards, trial.layout, trial.standard);
+    one.ms = standard_ms = 0;
+    double ratios = 0;
+    for (const auto& [name, shot] : trial.shots) {
+        std::vector<double> mine, its;
+        for (int round = -1; round < trial.rounds; ++round) {
+            const double a = own.mean_ms(shot), b = standard.mean_ms(shot);
+            if (round >= 0)
+                mine.push_back(a), its.push_back(b);
+        }
+        const double count = double(trial.shots.size());
+        one.ms += median(mine) / count, standard_ms += median(its) / count;
+        ratios += std::log(median(mine) / median(its)) / count;
+        double texels = 0, pixels = 0;
+        int images = 0;
+        for (const Plan& plan : own.studio.frame().plans())
+            texels += plan.texels, pixels += plan.pixels, images += int(plan.images.size());
+        one.texels_per_pixel = std::max(one.texels_per_pixel, texels / pixels);
+        one.images = std::max(one.images, images);
+    }
+    one.ratio = std::exp(ratios);
+    one.megabytes = double(own.studio.frame().memory()) / (1 << 20);
+}
+
+void find_errors(const Trial& trial, Theatre& theatre, const Truths& truths, MeasuredSetting& one)
+{
+    const Quality quality = within(theatre.device, one.setting.quality);
+    double noise = 0, count = 0;
+    std::vector<double> directions, dopplers;
+    one.errors = {};
+    for (std::size_t i = 0; i < trial.shots.size(); ++i) {
+        const Shot& shot = trial.shots[i].second;
+        Studio studio(theatre.device, theatre.pipelines, theatre.world, trial.layout, quality, false);
+        if (quality.frames_per_cube > 1)
+            (void)studio.picture(earlier(shot, quality.frames_per_cube - 1, theatre.world.scene.seconds_per_time_unit()));
+        const auto pictures = studio.picture(shot);
+        Studio measured(theatre.device, theatre.pipelines, theatre.world, trial.layout, quality, true);
+        directions.clear(), dopplers.clear();
+        for (std::size_t output = 0; output < pictures.size(); ++output) {
+            const Truth& truth = truths[i][output];
+            const PictureErrors errors = picture_errors({truth.all.size, pictures[output]}, {truth.all.size, truth.picture});
+            noise += std::pow(10, -errors.psnr_dB / 10);
+            one.errors.flip += errors.flip;
+            one.errors.ciede2000_mean += errors.ciede2000_mean;
+            one.errors.ciede2000_95 += errors.ciede2000_95;
+            one.errors.edges_95_px = std::max(one.errors.edges_95_px, errors.edges_95_px);
+            ++count;
+            const NumberErrors numbers = number_errors(truth.all, measured.numbers(shot, output), shot.u);
+            directions.insert(directions.end(), numbers.directions_px.begin(), numbers.directions_px.end());
+            dopplers.insert(dopplers.end(), numbers.doppler.begin(), numbers.doppler.end());
+        }
+        one.direction_px = std::max(one.direction_px, quantile(directions, 0.99));
+        one.doppler = std::max(one.doppler, quantile(dopplers, 0.99));
+    }
+    one.errors.psnr_dB = -10 * std::log10(noise / count);
+    one.errors.flip /= count;
+    one.errors.ciede2000_mean /= count;
+    one.errors.ciede2000_95 /= count;
+}
+
+/// What an interrupted run had measured.
+class Kept {
+public:
+    Kept(std::filesystem::path file, std::string key)
+        : file_(std::move(file))
+        , key_(std::move(key))
+    {
+        std::ifstream in(file_);
+        nlohmann::json before = nlohmann::json::parse(in, nullptr, false);
+        if (before.is_object() && before.value("key", "") == key_)
+            all_ = before;
+        else
+            all_ = {{"key", key_}, {"settings", nlohmann::json::object()}};
+    }
+    bool find(MeasuredSetting& one) const
+    {
+        const auto& settings = all_.at("settings");
+        const auto at = settings.find(quality_text(one.setting.quality));
+        if (at == settings.end())
+            return false;
+        const std::vector<double> v = at->get<std::vector<double>>();
+        one.ms = v.at(0), one.ratio = v.at(1), one.megabytes = v.at(2), one.texels_per_pixel = v.at(3),
+        one.images = int(v.at(4));
+        one.errors = {v.at(5), v.at(6), v.at(7), v.at(8), v.at(9)};
+        one.direction_px = v.at(10), one.doppler = v.at(11);
+        return true;
+    }
+    void keep(const MeasuredSetting& one)
+    {
+        const PictureErrors& e = one.errors;
+        all_["settings"][quality_text(one.setting.quality)]
+            = {one.ms, one.ratio, one.megabytes, one.texels_per_pixel, one.images, std::min(e.psnr_dB, 1e3), e.flip,
+                e.ciede2000_mean, e.ciede2000_95, e.edges_95_px, one.direction_px, one.doppler};
+        write_whole(file_, all_.dump());
+    }
+    void forget() const
+    {
+        std::error_code ignored;
+        std::filesystem::remove(file_, ignored);
+    }
+
+private:
+    std::filesystem::path file_;
+    std::string key_;
+    nlohmann::json all_;
+};
+
+std::string key_of(const Trial& trial, const std::string& machine)
+{
+    std::string key
+        = machine + "," + std::to_string(trial.rounds) + "," + std::to_string(trial.samples) + quality_text(trial.standard);
+    for (const std::filesystem::path& file : {trial.scene, trial.layout.file})
+        key += read_document(file).text;
+    for (const Output& output : trial.layout.outputs)
+        key += "," + std::to_string(output.size.x) + "x" + std::to_string(output.size.y);
+    for (const auto& [name, shot] : trial.shots)
+        key += "," + name;
+    return key;
+}
+
+} // namespace
+
+std::vector<MeasuredSetting> measure_settings(
+    const Trial& trial, const std::vector<Setting>& settings, const Device::Options& options, std::string& machine)
+{
+    Theatres theatres(trial.scene, options);
+    Theatre& standards = theatres.with(trial.standard.spectra);
+    machine = standards.device.properties.deviceName.data();
+    const Truths truths = truths_of(trial);
+    Kept kept(trial.folder / "measured.json", key_of(trial, machine));
+    std::vector<MeasuredSetting> all;
+    std::vector<double> standard_ms;
+    int measured = 0;
+    const auto began = Clock::now();
+    for (const Setting& setting : settings) {
+        MeasuredSetting one{setting};
+        if (!kept.find(one)) {
+            say("setting " + std::to_string(all.size() + 1) + " of " + std::to_string(settings.size()) + ": " + setting.name
+                + (measured > 0 ? ", " + left_told(since(began) / measured * double(settings.size() - all.size())) : ""));
+            Theatre& theatre = theatres.with(setting.quality.spectra);
+            double beside = 0;
+            time(trial, theatre, standards, one, beside);
+            find_errors(trial, theatre, truths, one);
+            kept.keep(one);
+            ++measured;
+        }
+        standard_ms.push_back(one.ms / one.ratio);
+        all.push_back(one);
+    }
+    // The machine's speed drifts, ratios hardly: all times are told for the speed that it mostly had.
+    if (!standard_ms.empty())
+        for (MeasuredSetting& one : all)
+            one.ms = one.ratio * quantile(standard_ms, 0.5);
+    kept.forget();
+    say("");
+    if (isatty(STDERR_FILENO))
+        std::fprintf(stderr, "\r");
+    return all;
+}
+
+double time_ratio(const Trial& trial, const Quality& one, const Quality& other, const Device::Options& options)
+{
+    Theatres theatres(trial.scene, options);
+    Trial pair = trial;
+    pair.standard = other;
+    MeasuredSetting measured{{.name = {}, .quality = one}};
+    double other_ms = 0;
+    time(pair, theatres.with(one.spectra), theatres.with(other.spectra), measured, other_ms);
+    return measured.ratio;
+}
+
+} // namespace starbow

@@ -1,0 +1,25 @@
+#pragma once
+#include "config/json/error.h"
+#include <charconv>
+#include <glm/glm.hpp>
+#include <string>
+
+namespace starbow {
+
+/// "800x600". Throws InputError.
+inline glm::ivec2 parse_size(const std::string& text)
+{
+    glm::ivec2 size(0);
+    const char* end = text.data() + text.size();
+    auto width = std::from_chars(text.data(), end, size.x);
+    if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
+        auto height = std::from_chars(width.ptr + 1, end, size.y);
+        if (height.ec == std::errc() && height.ptr == end && size.x >= 1 && size.y >= 1 && size.x <= 16384
+            && size.y <= 16384)
+            return size;
+    }
+    throw InputError(
+        "--size " + text + " is no size; give width x height in pixels, each from 1 to 16384, such as 1280x720");
+}
+
+} // namespace starbow

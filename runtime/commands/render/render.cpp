@@ -1,0 +1,179 @@
+#include "config/json/error.h"
+#include "config/model/shipped.h"
+#include "reference.h"
+#include "replay.h"
+#include "runtime/commands/commands.h"
+#include "runtime/commands/options/language.h"
+#include "runtime/commands/options/number.h"
+#include "runtime/commands/options/pattern.h"
+#include "runtime/commands/options/quality.h"
+#include "runtime/commands/options/size.h"
+#include "runtime/commands/options/spectra.h"
+#include "runtime/exhibit/still_measurement.h"
+#include "runtime/render/offscreen.h"
+#include "runtime/render/render_context.h"
+#include "tour.h"
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+namespace starbow {
+namespace {
+
+struct Options {
+    std::string layout, shot, out, size, pattern = "none", exposure = "shot", spectra = "needed", replay, frames,
+                                         language = "en", tour, movie, points, overlay = "off", why = "none", quality;
+    long frames_per_s = 30;
+    long every = 1, samples = 16;
+    double bloom = 0;
+    bool exr = false, hud = false, reference = false;
+};
+
+int render(const Options& options)
+{
+    if (options.tour.empty() && options.out.empty())
+        throw InputError("--out is required here; the folder for the pictures, such as out/shot, is right");
+    if (!options.replay.empty())
+        return render_replay({options.replay, options.layout, options.out, options.size, options.frames, options.language,
+            options.every, options.hud});
+    if (!options.tour.empty())
+        return render_tour({options.tour, options.layout, options.movie, options.size, options.language,
+            options.frames_per_s, options.bloom});
+    if (options.shot.empty())
+        throw InputError("None of --shot, --replay and --tour is given; what is to be drawn, one of them, is right");
+    if (options.reference && options.exposure != "shot")
+        throw InputError("--exposure " + options.exposure + " is not known to --reference; shot is right there");
+    if (options.reference)
+        return render_reference({options.layout, options.shot, options.out, options.size, options.samples, options.exr});
+    const Words words = words_in(options.language);
+    std::filesystem::path shot_file = find("shots", options.shot);
+    Shot shot = load_shot(shot_file);
+    Layout layout = load_layout(find("layouts", options.layout.empty() ? "desk" : options.layout));
+    if (!options.size.empty())
+        for (Output& output : layout.outputs)
+            output.size = parse_size(options.size);
+    const Pattern pattern = pattern_of(options.pattern);
+    std::vector<std::filesystem::path> pictures;
+    for (const Output& output : layout.outputs)
+        for (const Viewport& viewport : output.viewports)
+            pictures.insert(pictures.end(), {viewport.alpha_mask, viewport.black_level});
+    for (const Output& output : layout.outputs)
+        for (const char* kind : {".png", ".exr"})
+            if (options.exr || kind == std::string(".png")) {
+                const std::filesystem::path picture = std::filesystem::path(options.out) / (output.name + kind);
+                check_not_read(picture, pictures);
+                check_writable(picture);
+            }
+    parse_points(options.points, layout);
+    // What is wrong with its file is told before the device is touched.
+    const std::optional<Quality> asked = asked_quality(options.quality);
+    const auto level = options.spectra == "needed" && asked ? asked->spectra : level_of(options.spectra);
+    Theatre theatre(scene_of(shot, shot_file), device_options(false), level);
+    for (const std::string& note : theatre.world.world.notes)
+        std::fprintf(stderr, "starbow: %s: %s\n", theatre.world.scene.gltf.c_str(), note.c_str());
+    Studio studio(theatre.device, theatre.pipelines, theatre.world, layout,
+        asked ? within(theatre.device, *asked) : default_quality(theatre.device, true), options.exr);
+    studio.frame().show(pattern);
+    studio.frame().bloom(options.bloom);
+    if (options.exposure == "auto") {
+        const Exposing rules;
+        shot.exposure_ev = std::clamp(studio.metered(shot).value_or(shot.exposure_ev), rules.least_ev, rules.greatest_ev);
+    }
+    std::optional<Panel> panel;
+    const Sitting sitting
+        = sit(studio, theatre.world, shot, parse_points(options.points, layout), options.overlay, options.why, words);
+    if (options.hud) {
+        Readings told = readings(ship_at(shot), theatre.world.scene, shot.effects);
+        told.exposure_ev = shot.exposure_ev;
+        panel = Typesetter().draw(told, words, studio.frame().hud_width());
+    }
+    render_still(options.out, studio, shot, options.exr, panel ? &*panel : nullptr);
+    std::printf("%s\n", light_told(theatre).c_str());
+    for (const std::string& line : sitting.lines)
+        std::printf("%s\n", line.c_str());
+    if (options.exposure == "auto")
+        std::printf("exposure %.2f EV\n", shot.exposure_ev);
+    for (const Output& output : layout.outputs)
+        std::printf("%s/%s.png%s\n", options.out.c_str(), output.name.c_str(), options.exr ? " and .exr" : "");
+    return theatre.device.complaints.empty() ? 0 : 1;
+}
+
+} // namespace
+
+void add_render(CLI::App& app, std::function<int()>& chosen)
+{
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand(
+        "render", "Draw one shot off-screen, the same bytes every time; or a flight's record, or a tour's movie.");
+    command->add_option(
+        "--layout", options->layout, "A layout file, or the name of one in config/layouts [desk; of a replay the record's]");
+    CLI::Option* shot = command->add_option("--shot", options->shot, "A shot file, or the name of one in config/shots");
+    CLI::Option* out = command->add_option("--out", options->out,
+        "The folder for OUTPUT.png (and OUTPUT.exr), or of a replay OUTPUT-FRAME.png; made if it is not there");
+    command->add_option("--size", options->size, "Pixels of every output, WIDTHxHEIGHT, instead of the layout's");
+    CLI::Option* exr = command->add_flag(
+        "--exr", options->exr, "Also the numbers: light, directions, Doppler factor and distance of every pixel");
+    CLI::Option* pattern = command->add_option("--pattern", options->pattern, pattern_help)->capture_default_str();
+    command->add_option("--exposure", options->exposure, "The shot's own exposure (shot), or after what is seen (auto)")
+        ->check(CLI::IsMember({"shot", "auto"}))
+        ->capture_default_str();
+    CLI::Option* bloom
+        = command->add_option("--bloom", options->bloom, "The part of the light that glows around what shines, 0 to 1")
+              ->check(CLI::Range(0.0, 1.0))
+              ->capture_default_str();
+    CLI::Option* spectra = add_spectra(*command, options->spectra);
+    CLI::Option* quality = command->add_option("--quality", options->quality, quality_help + std::string(" [fine]"));
+    CLI::Option* points = command->add_option("--measure", options->points, measure_help);
+    CLI::Option* overlay = command
+                               ->add_option("--overlay", options->overlay,
+                                   "With instruments over the picture, and their readings: off, "
+                                   "aim, grid, ring (D = 1), distance or emission")
+                               ->check(CLI::IsMember(std::vector<std::string>(overlay_names.begin(), overlay_names.end())))
+                               ->capture_default_str();
+    CLI::Option* why = command
+                           ->add_option("--why", options->why,
+                               "With the page that tells why: aberration, doppler, headlight, delay, "
+                               "dilation or length")
+                           ->check(CLI::IsMember(std::vector<std::string>(why_names.begin(), why_names.end())))
+                           ->capture_default_str();
+    CLI::Option* hud = command->add_flag("--hud", options->hud, "With the head-up display");
+    add_language(*command, options->language);
+    CLI::Option* replay = command->add_option(
+        "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");
+    for (CLI::Option* other : {shot, exr, pattern, points, overlay, why})
+        replay->excludes(other);
+    command->add_option("--frames", options->frames, "Of a replay: the frames from A to B, counted from 0, as A:B")
+        ->needs(replay);
+    command->add_option("--every", options->every, "Of a replay: each N-th frame")
+        ->check(whole_number(1, 1000000000))
+        ->needs(replay);
+    CLI::Option* tour = command->add_option("--tour", options->tour,
+        "Instead of a shot: a movie of a tour, a file or the name of one in config/tours, as it is shown when nobody flies");
+    CLI::Option* movie
+        = command->add_option("--movie", options->movie, "Of a tour: the movie's file, such as out/tour.mp4")->needs(tour);
+    command->add_option("--fps", options->frames_per_s, "Of a tour: frames a second")
+        ->check(whole_number(1, 240))
+        ->capture_default_str()
+        ->needs(tour);
+    tour->needs(movie);
+    for (CLI::Option* other : {shot, out, exr, pattern, replay, points, overlay, why})
+        tour->excludes(other);
+    CLI::Option* reference = command->add_flag("--reference", options->reference,
+        "By rays, in double and with whole spectra, without a device: slow, and what the others should look like");
+    for (CLI::Option* other : {replay, tour, hud, pattern, bloom, spectra, quality, points, overlay, why})
+        reference->excludes(other);
+    command->add_option("--samples", options->samples, "Of --reference: rays of each pixel")
+        ->check(whole_number(1, 4096))
+        ->capture_default_str()
+        ->needs(reference);
+    command->footer(
+        "Examples:\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome --size 2048x2048 --exr\n"
+        "  starbow render --shot gamma100 --out out/right --reference --samples 64\n"
+        "  starbow render --replay flight.jsonl --out out/flight --frames 0:599\n"
+        "  starbow render --tour first-minute --movie out/first-minute.mp4 --fps 30 --size 1280x720 --language de\n"
+        "  starbow render --shot clocks-passing --out out/clocks --measure \"400,300; 12deg,0deg\" --overlay ring");
+    command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
+}
+
+} // namespace starbow

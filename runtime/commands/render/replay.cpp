@@ -1,0 +1,118 @@
+#include "replay.h"
+#include "config/json/error.h"
+#include "config/model/shipped.h"
+#include "runtime/commands/options/pattern.h"
+#include "runtime/commands/options/size.h"
+#include "runtime/exhibit/replay_renderer.h"
+#include "runtime/flight/history.h"
+#include "runtime/flight/record_files.h"
+#include "runtime/flight/replay.h"
+#include "runtime/render/render_context.h"
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// The first and the last frame of "A:B".
+std::pair<long, long> parse_frames(const std::string& text)
+{
+    std::pair<long, long> frames{0, std::numeric_limits<long>::max()};
+    if (text.empty())
+        return frames;
+    const char* end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, frames.first);
+    if (first.ec == std::errc() && first.ptr != end && *first.ptr == ':') {
+        const auto last = std::from_chars(first.ptr + 1, end, frames.second);
+        if (last.ec == std::errc() && last.ptr == end && frames.first >= 0 && frames.second >= frames.first)
+            return frames;
+    }
+    throw InputError("--frames " + text
+        + " is no range; the first and the last frame, counted from 0, such as 600:659, are "
+          "right");
+}
+
+/// Tells a person at a terminal how far it is, once a second.
+struct Progress {
+    Clock::time_point began = Clock::now(), told = began;
+    void tell(const Replay& replay, long drawn)
+    {
+        const Clock::time_point now = Clock::now();
+        if (!isatty(STDERR_FILENO) || now - told < std::chrono::seconds(1))
+            return;
+        told = now;
+        const double passed = std::chrono::duration<double>(now - began).count(), part = replay.part_read();
+        std::fprintf(stderr, "\rframe %lld, %ld drawn", static_cast<long long>(replay.frames()), drawn);
+        if (part > 0)
+            std::fprintf(stderr, ", about %.0f s left   ", passed / part * (1 - part));
+        std::fflush(stderr);
+    }
+    ~Progress()
+    {
+        if (told != began)
+            std::fprintf(stderr, "\r%60s\r", "");
+    }
+};
+
+} // namespace
+
+int render_replay(const ReplayOptions& options)
+{
+    if (options.out.empty())
+        throw InputError("--out is empty; give the folder for the pictures, such as out/flight");
+    const auto [first, last] = parse_frames(options.frames);
+    Replay replay(options.replay);
+    const RecordHeader& header = replay.header();
+    Flown from = find_flown(options.replay, header, options.layout,
+        [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); });
+    if (!options.size.empty())
+        for (Output& output : from.layout.outputs)
+            output.size = parse_size(options.size);
+    const std::filesystem::path folder = options.out;
+    check_writable(folder / (from.layout.outputs[0].name + ".png"));
+    const Pattern pattern = pattern_of(header.pattern);
+    Theatre theatre(from.scene, device_options(false));
+    const SceneFile& scene = theatre.world.scene;
+    Studio studio(
+        theatre.device, theatre.pipelines, theatre.world, from.layout, default_quality(theatre.device, true), false);
+    Reel reel(studio, pattern, header.exposing, header.start.exposure_ev);
+    Typesetter typesetter;
+    const Words words = words_in(options.language);
+    std::error_code error; // told by write_png
+    std::filesystem::create_directories(folder, error);
+
+    Flight flight = flight_at(header.start, header.rules);
+    History history;
+    long frame = 0, drawn = 0; // of those that were seen
+    Progress progress;
+    while (const auto entry = replay.next()) {
+        flight = flown(
+            flight, history, entry->controls, entry->dt_ns, header.rules, header.seconds_per_time_unit, header.start);
+        replay.compare(flight);
+        reel.take(*entry);
+        if (!entry->shown)
+            continue;
+        const long number = frame++;
+        progress.tell(replay, drawn);
+        if (number < first || number > last || (number - first) % options.every != 0)
+            continue;
+        std::optional<Panel> panel;
+        if (options.hud && flight.hud)
+            panel = typesetter.draw(readings(flight.ship, scene, flight.effects), words, studio.frame().hud_width());
+        const auto pictures = reel.picture(flight, header.start.scene, panel ? &*panel : nullptr);
+        char name[32];
+        std::snprintf(name, sizeof name, "-%06ld.png", number);
+        for (std::size_t i = 0; i < pictures.size(); ++i)
+            write_png(folder / (from.layout.outputs[i].name + name), from.layout.outputs[i].size, pictures[i]);
+        ++drawn;
+    }
+    std::printf("%ld of %ld frames drawn into %s; %s\n", drawn, frame, options.out.c_str(), replay.verdict().c_str());
+    return replay.differs() || !theatre.device.complaints.empty() ? 1 : 0;
+}
+
+} // namespace starbow

@@ -1,0 +1,239 @@
+#include "tour.h"
+#include "config/json/error.h"
+#include "config/json/reader.h"
+#include "config/model/shipped.h"
+#include "runtime/commands/options/size.h"
+#include "runtime/flight/record_files.h"
+#include "runtime/flight/tour.h"
+#include "runtime/hud/caption.h"
+#include "runtime/images/movie.h"
+#include "runtime/render/offscreen.h"
+#include "runtime/render/render_context.h"
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+volatile std::sig_atomic_t interrupted = 0;
+void interrupt(int) { interrupted = 1; }
+
+/// A bar for a person at a terminal, and about how long the rest takes.
+class Progress {
+public:
+    explicit Progress(long frames)
+        : frames_(frames)
+    {
+    }
+    ~Progress()
+    {
+        if (told_)
+            std::fprintf(stderr, "\r%78s\r", "");
+    }
+    /// drawn: in this run.
+    void tell(long frame, long drawn)
+    {
+        if (!isatty(STDERR_FILENO))
+            return;
+        const double passed = std::chrono::duration<double>(Clock::now() - began_).count();
+        constexpr int cells = 30;
+        const int full = int(double(cells) * double(frame) / double(std::max(1L, frames_)));
+        std::fprintf(stderr, "\r[%s%s] frame %ld of %ld", std::string(std::size_t(full), '#').c_str(),
+            std::string(std::size_t(cells - full), ' ').c_str(), frame, frames_);
+        if (drawn > 0) {
+            const double left = passed / double(drawn) * double(frames_ - frame);
+            std::fprintf(
+                stderr, left < 90 ? ", about %.0f s left   " : ", about %.0f min left   ", left < 90 ? left : left / 60);
+        }
+        std::fflush(stderr);
+        told_ = true;
+    }
+
+private:
+    long frames_;
+    bool told_ = false;
+    Clock::time_point began_ = Clock::now();
+};
+
+/// Tells a person at a terminal what takes a while.
+struct Busy {
+    explicit Busy(const char* what)
+    {
+        if (isatty(STDERR_FILENO))
+            std::fprintf(stderr, "%s ...", what);
+    }
+    ~Busy()
+    {
+        if (isatty(STDERR_FILENO))
+            std::fprintf(stderr, "\r%78s\r", "");
+    }
+};
+
+/// The exit status of who was interrupted.
+int told_interrupted(const std::string& movie, long drawn, long frames)
+{
+    std::fprintf(stderr, "%sstarbow: %s: interrupted with %ld of %ld frames drawn; the same command goes on from there\n",
+        isatty(STDERR_FILENO) ? "\n" : "", one_line(movie).c_str(), drawn, frames);
+    return 130;
+}
+
+/// When a frame is, from the tour's beginning.
+std::int64_t frame_ns(long frame, long frames_per_s) { return std::llround(double(frame) * 1e9 / double(frames_per_s)); }
+
+/// All that a frame shows beside the world.
+std::string told_of(const Caption& caption)
+{
+    std::string all = caption.text;
+    for (const std::string& choice : caption.choices)
+        all += '\n' + choice;
+    return all;
+}
+
+/// Where the frames of an output go: of several each has a movie of its own.
+fs::path movie_of(const fs::path& movie, const Layout& layout, const std::string& output)
+{
+    if (layout.outputs.size() == 1)
+        return movie;
+    return movie.parent_path() / (movie.stem().string() + "-" + output + movie.extension().string());
+}
+
+/// Plays a tour to nobody.
+class Player {
+public:
+    Player(const Show& show, long frames_per_s)
+        : show_(show)
+        , frames_per_s_(frames_per_s)
+        , touring_(touring_at(show))
+    {
+    }
+    const Touring& at(long frame)
+    {
+        while (frame_ < frame) {
+            const std::int64_t before = frame_ns(frame_, frames_per_s_), after = frame_ns(++frame_, frames_per_s_);
+            touring_ = advance(std::move(touring_), show_, {}, after - before);
+        }
+        return touring_;
+    }
+
+private:
+    const Show& show_;
+    long frames_per_s_, frame_ = 0;
+    Touring touring_;
+};
+
+/// Everything that the frames depend on: two movies of which this is the same have the same frames.
+std::string made_from(const TourOptions& options, const Show& show, const Words& words, const fs::path& scene,
+    const Layout& layout, const std::string& device, long frames)
+{
+    std::uint64_t shown = digest(std::string_view());
+    Player player(show, options.frames_per_s);
+    for (long i = 0; i < frames; ++i) {
+        const Touring& touring = player.at(i);
+        const std::uint64_t flight = digest(touring.flight);
+        shown = digest({reinterpret_cast<const char*>(&flight), sizeof flight}, shown);
+        shown = digest(told_of(caption_of(touring, show, words, {})), shown);
+    }
+    std::error_code error;
+    nlohmann::ordered_json json;
+    json["tour"] = show.tour.file.stem().string();
+    json["language"] = words.language;
+    json["frames"] = frames;
+    json["frames_per_s"] = options.frames_per_s;
+    json["states"] = shown_digest(shown);
+    json["words"] = shown_digest(digest_of({words.file}));
+    json["scene"] = shown_digest(digest_of({scene, load_scene_file(scene).gltf}));
+    json["layout"] = shown_digest(digest_of(files_of(layout)));
+    for (const Output& output : layout.outputs)
+        json["sizes"].push_back(std::to_string(output.size.x) + "x" + std::to_string(output.size.y));
+    json["bloom"] = options.bloom;
+    json["device"] = device;
+    json["program"] = shown_digest(digest_of({fs::read_symlink("/proc/self/exe", error)}));
+    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+void log_line(const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); }
+
+} // namespace
+
+int render_tour(const TourOptions& options)
+{
+    if (options.movie.empty())
+        throw InputError("--tour is given without --movie; the movie's file, such as out/tour.mp4, is right");
+    const fs::path movie = options.movie;
+    if (movie.extension() != ".mp4")
+        throw InputError(one_line(options.movie), "", "is no name of a movie here; one that ends in .mp4 is right");
+    const Words words = words_in(options.language);
+    const Tour tour = tour_in(options.tour, words);
+    const fs::path scene = scene_of(tour);
+    Layout layout = load_layout(find("layouts", options.layout.empty() ? "desk" : options.layout));
+    if (!options.size.empty())
+        for (Output& output : layout.outputs)
+            output.size = parse_size(options.size);
+    for (const Output& output : layout.outputs)
+        check_writable(movie_of(movie, layout, output.name));
+    check_ffmpeg();
+    const Show show{tour, {}, load_scene_file(scene).seconds_per_time_unit(), false};
+    const long frames = std::lround(std::ceil(length_s(tour) * double(options.frames_per_s) - 1e-6));
+    Theatre theatre(scene, device_options(false));
+    const std::string device = theatre.device.properties.deviceName.data();
+    const MovieFrames kept(movie, made_from(options, show, words, scene, layout, device, frames), log_line);
+
+    std::signal(SIGINT, interrupt);
+    std::signal(SIGTERM, interrupt);
+    Studio studio(theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, true), false);
+    studio.frame().bloom(options.bloom);
+    const Typesetter typesetter;
+    Player player(show, options.frames_per_s);
+    long drawn = 0, found = 0;
+    {
+        Progress progress(frames);
+        for (long i = 0; i < frames; ++i) {
+            bool there = true;
+            for (const Output& output : layout.outputs)
+                there = there && kept.has(output.name, i);
+            if (there) {
+                ++found;
+                continue;
+            }
+            progress.tell(i, drawn);
+            if (interrupted)
+                return told_interrupted(options.movie, i, frames);
+            const Touring& touring = player.at(i);
+            Readings told = readings(touring.flight.ship, theatre.world.scene, touring.flight.effects);
+            told.exposure_ev = touring.flight.exposure_ev;
+            told.caption = caption_of(touring, show, words, {});
+            const Panel panel = typesetter.draw(told, words, studio.frame().hud_width());
+            const auto pictures
+                = studio.picture(shot_of(touring.flight, tour.scene), told.caption->text.empty() ? nullptr : &panel);
+            for (std::size_t k = 0; k < pictures.size(); ++k)
+                write_png(kept.file(layout.outputs[k].name, i), layout.outputs[k].size, pictures[k]);
+            ++drawn;
+        }
+    }
+    if (found > 0 && drawn > 0)
+        std::printf("%ld frames were there already, %ld more drawn\n", found, drawn);
+    for (const Output& output : layout.outputs) {
+        const fs::path file = movie_of(movie, layout, output.name);
+        const Busy busy("ffmpeg makes the movie");
+        try {
+            make_movie(file, kept, output.name, int(options.frames_per_s));
+        } catch (const InputError&) {
+            if (!interrupted) // which ffmpeg was too
+                throw;
+            return told_interrupted(options.movie, frames, frames);
+        }
+        std::printf("%s: %ld frames, %.1f s\n", one_line(file.string()).c_str(), frames,
+            double(frames) / double(options.frames_per_s));
+    }
+    kept.remove();
+    return theatre.device.complaints.empty() ? 0 : 1;
+}
+
+} // namespace starbow

@@ -1,0 +1,57 @@
+#include "alignment_mode.h"
+#include "config/json/error.h"
+#include "config/json/reader.h"
+#include <cstdio>
+
+namespace starbow {
+
+void Workbench::say(std::string line)
+{
+    std::fprintf(stderr, "starbow: %s\n", line.c_str());
+    says_ = std::move(line);
+    until_ = Clock::now() + std::chrono::seconds(8);
+}
+
+void Workbench::save(const Layout& layout)
+{
+    try {
+        // Against the file as it is now: whatever else someone has changed in it stays.
+        const std::vector<Change> turned = changes(load_layout(layout.file), layout);
+        if (turned.empty())
+            return say("Nothing has been turned since the layout was kept");
+        patch_file(layout.file, turned);
+        std::string line = "Kept in " + layout.file.filename().string();
+        for (const Change& change : turned)
+            line += ": " + change.pointer + " " + change.value.dump();
+        say(line);
+    } catch (const InputError& error) {
+        say(one_line(error.what()));
+    }
+}
+
+bool Workbench::apply(const Controls& controls, Layout& layout)
+{
+    if (controls.pattern) {
+        pattern_ = Pattern((int(pattern_) + 1) % int(pattern_names.size()));
+        std::fprintf(stderr, "starbow: test pattern: %s\n", pattern_names[std::size_t(pattern_)]);
+    }
+    if (controls.save)
+        save(layout);
+    const std::vector<Adjustable> all = adjustables(layout);
+    const std::size_t count = all.size();
+    chosen_ = std::min(chosen_, count - 1);
+    // The first press shows what is chosen, further ones go on.
+    if (controls.choose != 0 && std::exchange(choosing_, true))
+        chosen_ = (chosen_ + count + std::size_t(controls.choose + int(count))) % count;
+    const bool turned = controls.turn_by != 0;
+    if (turned) {
+        layout = adjusted(std::move(layout), all[chosen_], controls.turn_by);
+        choosing_ = true;
+    }
+    if (turned || controls.choose != 0)
+        say(all[chosen_].name + ": " + shown(value_of(layout, all[chosen_]))
+            + (turned ? "   (F5 keeps it)" : "   (Page Up, Page Down)"));
+    return turned;
+}
+
+} // namespace starbow

@@ -1,0 +1,278 @@
+#include "outputs.h"
+#include "config/json/error.h"
+#include "desktop.h"
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <algorithm>
+
+namespace starbow {
+namespace {
+
+std::string glfw_says()
+{
+    const char* text = nullptr;
+    glfwGetError(&text);
+    return text ? text : "no reason given";
+}
+
+/// A window greater than its screen would hide a part of its picture, and of a dome the front.
+glm::ivec2 fit_to_screen(glm::ivec2 size)
+{
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    if (!monitor)
+        return size;
+    glm::ivec2 corner, area;
+    glfwGetMonitorWorkarea(monitor, &corner.x, &corner.y, &area.x, &area.y);
+    double shrink = std::min({1.0, double(area.x) / size.x, double(area.y) / size.y});
+    return shrink > 0 ? glm::max(glm::ivec2(glm::dvec2(size) * shrink), 1) : size;
+}
+
+} // namespace
+
+WindowSystem::WindowSystem()
+{
+    const auto server = forget_dead_window_manager();
+    if (!glfwInit())
+        throw InputError("No window can be opened (" + glfw_says()
+            + "): start a desktop session, or set DISPLAY, or use 'starbow render'");
+}
+
+WindowSystem::~WindowSystem() { glfwTerminate(); }
+
+bool has_display()
+{
+    const auto server = forget_dead_window_manager();
+    return glfwInit();
+}
+
+void settle(Device& device) noexcept
+{
+    try {
+        device.device.waitIdle();
+    } catch (const vk::SystemError&) { // lost: it does nothing any more
+    }
+}
+
+Window::Window(Device& device, const Output& output, const std::optional<WindowPlace>& place)
+    : device_(&device)
+    , name_(output.name)
+    , bare_(place.has_value())
+{
+    if (!glfwVulkanSupported())
+        throw InputError(
+            "The window system shows no Vulkan pictures: install mesa-vulkan-drivers or the GPU maker's Vulkan driver");
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    glfwWindowHint(GLFW_RESIZABLE, output.resizable && !place);
+    glfwWindowHint(GLFW_DECORATED, !place);
+    glfwWindowHint(GLFW_FLOATING, output.whole_monitor); // above the desktop's panels
+    glfwWindowHint(GLFW_VISIBLE, !place); // a bare one is seen first where it belongs
+    const glm::ivec2 size = place ? place->size : fit_to_screen(output.size);
+    window_ = glfwCreateWindow(size.x, size.y, ("Starbow " + name_).c_str(), nullptr, nullptr);
+    if (!window_)
+        throw InputError("The window '" + name_ + "' can't be opened: " + glfw_says());
+    glfwSetInputMode(window_, GLFW_STICKY_KEYS, GLFW_TRUE); // a tap shorter than a frame counts too
+    if (output.whole_monitor && !output.preview)
+        glfwSetInputMode(window_, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
+    if (place) {
+        glfwSetWindowPos(window_, place->corner.x, place->corner.y);
+        glfwShowWindow(window_);
+        put(*place);
+    }
+    size_ = size;
+    if (device.tells_when_shown)
+        clock_ = std::make_unique<PresentClock>(device);
+    try {
+        make_surface();
+    } catch (...) {
+        surface_ = nullptr;
+        glfwDestroyWindow(window_);
+        throw;
+    }
+}
+
+Window::Window(Window&& other) noexcept
+    : device_(other.device_)
+    , name_(std::move(other.name_))
+    , window_(std::exchange(other.window_, nullptr))
+    , surface_(std::move(other.surface_))
+    , swapchain_(std::move(other.swapchain_))
+    , format_(other.format_)
+    , size_(other.size_)
+    , windowed_place_(other.windowed_place_)
+    , windowed_size_(other.windowed_size_)
+    , bare_(other.bare_)
+    , stale_(other.stale_)
+    , lost_(other.lost_)
+    , late_(other.late_)
+    , made_(other.made_)
+    , images_(std::move(other.images_))
+    , views_(std::move(other.views_))
+    , acquired_(std::move(other.acquired_))
+    , drawn_(std::move(other.drawn_))
+    , image_(other.image_)
+    , clock_(std::move(other.clock_))
+{
+}
+
+Window::~Window()
+{
+    if (!window_)
+        return;
+    let_go();
+    glfwDestroyWindow(window_);
+}
+
+void Window::let_go()
+{
+    if (clock_)
+        clock_->rest();
+    settle(*device_);
+    views_.clear();
+    swapchain_ = nullptr;
+    surface_ = nullptr;
+}
+
+void Window::make_surface()
+{
+    let_go();
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    if (glfwCreateWindowSurface(*device_->instance, window_, nullptr, &surface) != VK_SUCCESS)
+        throw InputError("The window '" + name_ + "' has no Vulkan surface: " + glfw_says());
+    surface_ = vk::raii::SurfaceKHR(device_->instance, surface);
+    if (!device_->physical.getSurfaceSupportKHR(device_->family, *surface_))
+        throw InputError("The GPU '" + std::string(device_->properties.deviceName.data())
+            + "' can't show pictures in this desktop's windows: choose another with STARBOW_GPU");
+    format_ = vk::Format::eUndefined;
+    for (vk::SurfaceFormatKHR offered : device_->physical.getSurfaceFormatsKHR(*surface_))
+        if (format_ == vk::Format::eUndefined && offered.colorSpace == vk::ColorSpaceKHR::eSrgbNonlinear
+            && (offered.format == vk::Format::eB8G8R8A8Srgb || offered.format == vk::Format::eR8G8B8A8Srgb))
+            format_ = offered.format;
+    if (format_ == vk::Format::eUndefined)
+        throw InputError("The window '" + name_ + "' offers no 8-bit sRGB pictures: use another GPU driver");
+    stale_ = true;
+    lost_ = false;
+}
+
+bool Window::closed() const { return glfwWindowShouldClose(window_); }
+
+void Window::switch_full_screen()
+{
+    if (bare_)
+        return;
+    if (glfwGetWindowMonitor(window_)) {
+        glfwSetWindowMonitor(
+            window_, nullptr, windowed_place_.x, windowed_place_.y, windowed_size_.x, windowed_size_.y, GLFW_DONT_CARE);
+    } else if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) {
+        glfwGetWindowPos(window_, &windowed_place_.x, &windowed_place_.y);
+        glfwGetWindowSize(window_, &windowed_size_.x, &windowed_size_.y);
+        const GLFWvidmode* mode = glfwGetVideoMode(monitor);
+        glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    }
+    stale_ = true;
+}
+
+void Window::put(const WindowPlace& place)
+{
+    WindowPlace now;
+    glfwGetWindowPos(window_, &now.corner.x, &now.corner.y);
+    glfwGetWindowSize(window_, &now.size.x, &now.size.y);
+    if (now.size != place.size)
+        glfwSetWindowSize(window_, place.size.x, place.size.y);
+    if (now.corner != place.corner)
+        glfwSetWindowPos(window_, place.corner.x, place.corner.y);
+}
+
+bool Window::make_swapchain()
+{
+    if (clock_)
+        clock_->rest();
+    settle(*device_);
+    auto limits = device_->physical.getSurfaceCapabilitiesKHR(*surface_);
+    glm::ivec2 wanted;
+    glfwGetFramebufferSize(window_, &wanted.x, &wanted.y);
+    vk::Extent2D extent = limits.currentExtent;
+    if (extent.width == UINT32_MAX)
+        extent = vk::Extent2D(std::clamp(std::uint32_t(wanted.x), limits.minImageExtent.width, limits.maxImageExtent.width),
+            std::clamp(std::uint32_t(wanted.y), limits.minImageExtent.height, limits.maxImageExtent.height));
+    if (extent.width == 0 || extent.height == 0)
+        return false;
+    std::uint32_t count = limits.minImageCount + 1;
+    if (limits.maxImageCount > 0)
+        count = std::min(count, limits.maxImageCount);
+    views_.clear();
+    drawn_.clear();
+    auto alpha = limits.supportedCompositeAlpha & vk::CompositeAlphaFlagBitsKHR::eOpaque
+        ? vk::CompositeAlphaFlagBitsKHR::eOpaque
+        : vk::CompositeAlphaFlagBitsKHR::eInherit;
+    swapchain_ = device_->device.createSwapchainKHR({{}, *surface_, count, format_, vk::ColorSpaceKHR::eSrgbNonlinear,
+        extent, 1, vk::ImageUsageFlagBits::eColorAttachment, vk::SharingMode::eExclusive, {}, limits.currentTransform, alpha,
+        vk::PresentModeKHR::eFifo, true, *std::exchange(swapchain_, nullptr)});
+    for (VkImage image : swapchain_.getImages()) {
+        images_.resize(views_.size());
+        images_.push_back(image);
+        views_.push_back(device_->device.createImageView(
+            {{}, image, vk::ImageViewType::e2D, format_, {}, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1}}));
+        drawn_.push_back(device_->device.createSemaphore({}));
+    }
+    acquired_ = device_->device.createSemaphore({});
+    made_ = Clock::now();
+    size_ = {extent.width, extent.height};
+    stale_ = false;
+    return true;
+}
+
+vk::Result Window::try_acquire()
+{
+    constexpr auto patience = std::chrono::nanoseconds(std::chrono::milliseconds(100));
+    if (lost_)
+        make_surface();
+    if (stale_ && !make_swapchain())
+        return vk::Result::eNotReady;
+    auto [result, image] = swapchain_.acquireNextImage(late_ ? 0 : std::uint64_t(patience.count()), *acquired_);
+    image_ = image;
+    return result;
+}
+
+bool Window::acquire()
+{
+    glm::ivec2 now;
+    glfwGetFramebufferSize(window_, &now.x, &now.y);
+    if (now.x == 0 || now.y == 0 || glfwGetWindowAttrib(window_, GLFW_ICONIFIED))
+        return false;
+    stale_ |= now != size_;
+    // A second try with what was made anew; a window that still changes waits for the next frame.
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        try {
+            const vk::Result result = try_acquire();
+            late_ = result == vk::Result::eTimeout || result == vk::Result::eNotReady;
+            if (result == vk::Result::eSuboptimalKHR)
+                presented(result);
+            return !late_;
+        } catch (const vk::OutOfDateKHRError&) {
+            stale_ = true;
+        } catch (const vk::SurfaceLostKHRError&) {
+            lost_ = true;
+        } catch (const vk::NativeWindowInUseKHRError&) {
+            lost_ = true; // the window system is not done with the surface before
+        }
+    }
+    return false;
+}
+
+Target Window::target() const
+{
+    return {images_[image_], *views_[image_], {std::uint32_t(size_.x), std::uint32_t(size_.y)}, format_};
+}
+
+void Window::presented(vk::Result result)
+{
+    if (result == vk::Result::eErrorSurfaceLostKHR)
+        lost_ = true;
+    else if (result == vk::Result::eSuboptimalKHR) // some desktops never have enough of saying it
+        stale_ |= Clock::now() - made_ > std::chrono::seconds(1);
+    else if (result != vk::Result::eSuccess)
+        stale_ = true;
+}
+
+} // namespace starbow

@@ -1,0 +1,234 @@
+#include "screens.h"
+#include "config/json/error.h"
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <cstdio>
+
+namespace starbow {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+
+bool same_window(const Output& a, const Output& b)
+{
+    auto identity = [](const Output& o) {
+        return std::tuple(o.name, o.size, o.resizable, o.preview, o.monitor.connector, o.monitor.model, o.monitor.serial,
+            o.monitor.position, o.whole_monitor, o.place);
+    };
+    return identity(a) == identity(b);
+}
+
+} // namespace
+
+Screens::Screens(Device& device, const Layout& layout)
+    : device_(device)
+{
+    for (const Output& output : layout.outputs)
+        screens_.push_back({output});
+    settle_on_monitors(true);
+}
+
+void Screens::adopt(const Layout& layout)
+{
+    asked_.clear();
+    std::vector<Screen> screens;
+    for (const Output& output : layout.outputs) {
+        auto same = std::find_if(
+            screens_.begin(), screens_.end(), [&](const Screen& screen) { return same_window(screen.output, output); });
+        if (same != screens_.end())
+            screens.push_back(std::move(*same));
+        else
+            screens.push_back({output});
+        screens.back().output = output;
+    }
+    screens_ = std::move(screens);
+    settle_on_monitors(false);
+}
+
+void Screens::follow()
+{
+    // A quarter of a second is how long a window manager's idea of a window's place may last.
+    const Clock::time_point now = Clock::now();
+    if (desktop_.look() || now - looked_ > std::chrono::milliseconds(250)) {
+        settle_on_monitors(false);
+        looked_ = now;
+    }
+}
+
+void Screens::settle_on_monitors(bool starting)
+{
+    const std::vector<Monitor>& monitors = desktop_.monitors();
+    // First away with what is on a wrong screen now.
+    std::vector<MonitorChoice> choices;
+    for (Screen& screen : screens_) {
+        choices.push_back(choose_monitor(screen.output.monitor, monitors));
+        if (has_place(screen.output) && !choices.back().monitor)
+            close(screen, choices.back().problem);
+    }
+    for (std::size_t i = 0; i < screens_.size(); ++i) {
+        Screen& screen = screens_[i];
+        std::optional<WindowPlace> place;
+        if (has_place(screen.output)) {
+            if (!choices[i].monitor)
+                continue;
+            place = place_on(monitors[*choices[i].monitor], screen.output);
+        }
+        if (!screen.window)
+            open(screen, place, starting);
+        else if (place)
+            screen.window->put(*place);
+    }
+    list_handles();
+}
+
+void Screens::open(Screen& screen, const std::optional<WindowPlace>& place, bool starting)
+{
+    try {
+        screen.window.emplace(device_, screen.output, place);
+        if (!screen.told.empty())
+            std::fprintf(stderr, "starbow: output '%s' is shown again\n", screen.output.name.c_str());
+        screen.told.clear();
+    } catch (const InputError& error) {
+        if (starting)
+            throw;
+        close(screen, error.what());
+    }
+}
+
+void Screens::close(Screen& screen, const std::string& why)
+{
+    asked_.clear();
+    screen.window.reset();
+    const std::string short_of_it = why.substr(0, why.find(';')); // what else is there may change often meanwhile
+    if (screen.told != short_of_it)
+        std::fprintf(stderr, "starbow: output '%s' is not shown: %s\n", screen.output.name.c_str(), why.c_str());
+    screen.told = short_of_it;
+}
+
+void Screens::list_handles()
+{
+    handles_.clear();
+    for (const Screen& screen : screens_)
+        if (screen.window)
+            handles_.push_back(screen.window->handle());
+}
+
+bool Screens::acquire()
+{
+    targets_.assign(screens_.size(), {});
+    acquired_.clear();
+    for (std::size_t i = 0; i < screens_.size(); ++i) {
+        Screen& screen = screens_[i];
+        try {
+            if (screen.window && screen.window->acquire()) {
+                targets_[i] = screen.window->target();
+                acquired_.push_back(&*screen.window);
+            }
+        } catch (const InputError& error) { // its surface is lost for good: with a new window, perhaps
+            close(screen, error.what());
+            list_handles();
+        }
+    }
+    return !acquired_.empty();
+}
+
+void Screens::submit(vk::CommandBuffer commands, vk::Fence done)
+{
+    std::vector<vk::SemaphoreSubmitInfo> wait, signal;
+    for (const Window* window : acquired_) {
+        wait.push_back({window->acquired(), 0, Stage::eColorAttachmentOutput});
+        signal.push_back({window->drawn(), 0, Stage::eAllCommands});
+    }
+    vk::CommandBufferSubmitInfo buffer(commands);
+    device_.queue.submit2(vk::SubmitInfo2({}, wait, buffer, signal), done);
+    done_ = done;
+}
+
+void Screens::present(Skew& skew)
+{
+    std::vector<vk::Semaphore> drawn;
+    std::vector<vk::SwapchainKHR> swapchains;
+    std::vector<std::uint32_t> images;
+    for (const Window* window : acquired_) {
+        drawn.push_back(window->drawn());
+        swapchains.push_back(window->swapchain());
+        images.push_back(window->image());
+    }
+    std::vector<vk::Result> results(swapchains.size(), vk::Result::eSuccess);
+    vk::PresentInfoKHR present(drawn, swapchains, images, results);
+    const std::vector<std::uint64_t> ids(swapchains.size(), ++frame_);
+    const vk::PresentIdKHR present_id(ids);
+    const bool several = acquired_.size() > 1;
+    skew.on_screen = device_.tells_when_shown;
+    if (skew.on_screen)
+        present.pNext = &present_id;
+    else if (several) // timed below is the handing over alone, not the drawing that some drivers wait for in it
+        (void)device_.device.waitForFences(done_, true, UINT64_MAX);
+
+    const Clock::time_point began = Clock::now();
+    vk::Result worst;
+    try {
+        worst = device_.queue.presentKHR(present);
+    } catch (const vk::OutOfDateKHRError&) {
+        worst = vk::Result::eErrorOutOfDateKHR;
+    } catch (const vk::SurfaceLostKHRError&) {
+        worst = vk::Result::eErrorSurfaceLostKHR;
+    }
+    if (several && skew.on_screen)
+        time_on_screen(skew);
+    else if (several)
+        skew.add(std::chrono::duration<double>(Clock::now() - began).count());
+    // Which window it was is told in `results`; a driver that does not tell means them all.
+    const bool untold
+        = std::all_of(results.begin(), results.end(), [](vk::Result result) { return result == vk::Result::eSuccess; });
+    for (std::size_t i = 0; i < acquired_.size(); ++i)
+        acquired_[i]->presented(untold ? worst : results[i]);
+}
+
+void Screens::time_on_screen(Skew& skew)
+{
+    if (std::any_of(asked_.begin(), asked_.end(), [](const PresentClock* clock) { return clock->asking(); }))
+        return; // the next frame is asked about
+    std::vector<Clock::time_point> shown;
+    for (const PresentClock* clock : asked_)
+        if (const auto at = clock->shown())
+            shown.push_back(*at);
+    if (shown.size() > 1 && shown.size() == asked_.size()) {
+        const auto [first, last] = std::minmax_element(shown.begin(), shown.end());
+        skew.add(std::chrono::duration<double>(*last - *first).count());
+    }
+    asked_.clear();
+    for (Window* window : acquired_) {
+        asked_.push_back(window->clock());
+        asked_.back()->ask(window->swapchain(), frame_);
+    }
+}
+
+bool Screens::closed() const
+{
+    return std::any_of(
+        screens_.begin(), screens_.end(), [](const Screen& screen) { return screen.window && screen.window->closed(); });
+}
+
+void Screens::switch_full_screen()
+{
+    for (Screen& screen : screens_)
+        if (screen.window)
+            screen.window->switch_full_screen();
+}
+
+double Screens::refresh_hz() const
+{
+    double fastest = 0;
+    for (const Screen& screen : screens_) {
+        if (!screen.window)
+            continue;
+        const MonitorChoice choice = choose_monitor(screen.output.monitor, desktop_.monitors());
+        if (choice.monitor)
+            fastest = std::max(fastest, desktop_.monitors()[*choice.monitor].refresh_hz);
+    }
+    return fastest > 0 ? fastest : 60;
+}
+
+} // namespace starbow

@@ -1,0 +1,76 @@
+#include "measuring.h"
+#include "shaders/physics/physics.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+struct Seen {
+    double distance; ///< in the world
+    double angle_rad; ///< from the motion, as seen
+    double D;
+};
+
+Seen seen(const Ship& ship, const glm::dvec3& at)
+{
+    const glm::dvec3 u = ship.u.total(), way = at - ship.position.total();
+    const double speed = glm::length(u), distance = glm::length(way), E = physics::exp_rapidity(speed);
+    if (!(distance > 0))
+        return {0, 0, 1};
+    const glm::dvec3 n = way / distance, ahead = speed > 0 ? u / speed : glm::dvec3(0, 0, -1);
+    const glm::dvec3 in_motion(glm::length(glm::cross(n, ahead)), 0, glm::dot(n, ahead));
+    const physics::Sight sight = physics::camera_from_world(in_motion, E, 1 / E);
+    return {distance, std::atan2(sight.n.x, sight.n.z), sight.D};
+}
+
+double at_place(Measure::What what, const glm::dvec3& at, const Ship& ship, const Ship& since, double seconds_per_time_unit)
+{
+    const Seen now = seen(ship, at);
+    switch (what) {
+    case Measure::What::distance:
+        return now.distance;
+    case Measure::What::angle_deg:
+        return glm::degrees(now.angle_rad);
+    case Measure::What::doppler:
+        return now.D;
+    case Measure::What::size: { // aberration makes small things 1 / D as large
+        const Seen then = seen(since, at);
+        return then.distance * then.D / (now.distance * now.D);
+    }
+    case Measure::What::now_s: // the Lorentz transformation's: v.dx later in the world, where the ship's time is one
+        return (ship.time.total() + glm::dot(ship.u.total(), at - ship.position.total()) / physics::gamma_of(ship.u.total()))
+            * seconds_per_time_unit;
+    default: // light that is seen now left the place a distance ago
+        return (ship.time.total() - now.distance) * seconds_per_time_unit;
+    }
+}
+
+} // namespace
+
+double measured(const Measure& measure, const Ship& ship, const Ship& since, double seconds_per_time_unit)
+{
+    const double speed = glm::length(ship.u.total()), E = physics::exp_rapidity(speed);
+    switch (measure.what) {
+    case Measure::What::gamma:
+        return physics::gamma_of(ship.u.total());
+    case Measure::What::beta:
+        return speed / physics::gamma_of(ship.u.total());
+    case Measure::What::rapidity:
+        return std::asinh(speed);
+    case Measure::What::ship_s:
+        return ship.proper_time.total() * seconds_per_time_unit;
+    case Measure::What::world_s:
+        return ship.time.total() * seconds_per_time_unit;
+    case Measure::What::doppler_ahead:
+        return E;
+    case Measure::What::own_colour_deg:
+        return glm::degrees(std::acos(physics::unshifted_cosine(E)));
+    default:
+        break;
+    }
+    const double value = at_place(measure.what, measure.at, ship, since, seconds_per_time_unit);
+    return measure.against ? value - at_place(measure.what, *measure.against, ship, since, seconds_per_time_unit) : value;
+}
+
+} // namespace starbow

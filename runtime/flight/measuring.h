@@ -1,0 +1,10 @@
+#pragma once
+#include "config/model/tour_file.h"
+#include "ship.h"
+
+namespace starbow {
+
+/// The number of a measure for a ship. since: the ship that sizes are compared with. seconds_per_time_unit: of the scene.
+double measured(const Measure& measure, const Ship& ship, const Ship& since, double seconds_per_time_unit);
+
+} // namespace starbow

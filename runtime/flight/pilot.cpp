@@ -1,0 +1,118 @@
+#include "pilot.h"
+#include "config/model/angles.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+const glm::dvec3 nose(0, 0, -1); ///< cockpit axes
+
+/// The part of the way that a smoothed value goes in one tick.
+double share(double seconds) { return seconds > 0 ? -std::expm1(-tick_s / seconds) : 1; }
+
+/// A thrust that goes to its new value by a share of the way in each tick changes fastest at once, by the way's length over
+/// the time; no way is longer than from end to end.
+double gain_share(const Flying& rules) { return share(2 * rules.rapidity_per_s / rules.rapidity_jerk_per_s2); }
+
+/// A turn goes its way in two such stages, each of time T, so that its acceleration has no steps either: after a step of
+/// the stick by w the rate is w (1 - (1 + t/T) exp(-t/T)), whose second derivative is greatest at once, w / T^2.
+void turn(double& rate, double& lead, double wanted, double greatest, double jerk)
+{
+    const double part = share(std::sqrt(2 * greatest / jerk));
+    lead += part * (wanted - lead);
+    rate += part * (lead - rate);
+}
+
+/// The velocity's direction in the cockpit as it stands in the middle of the tick, where its thrust acts; the nose's at
+/// rest.
+glm::dvec3 heading(const Flight& flight)
+{
+    const glm::dvec3 u = flight.ship.u.total(), half = 0.5 * tick_s * flight.turn_rad_s;
+    const double length = glm::length(u), angle = glm::length(half);
+    if (!(length > 0))
+        return nose;
+    const glm::dvec3 way = glm::inverse(flight.ship.ship_from_cockpit) * (u / length);
+    return glm::normalize(angle > 0 ? glm::angleAxis(-angle, half / angle) * way : way);
+}
+
+/// Across `way`, towards `to`; where that is straight behind, upwards: there is no better reason for any way round.
+glm::dvec3 across(const glm::dvec3& way, const glm::dvec3& to)
+{
+    glm::dvec3 side = to - way * glm::dot(to, way);
+    if (!(glm::length(side) > 1e-9)) {
+        const glm::dvec3 up(0, 1, 0), right(1, 0, 0);
+        side = std::abs(way.y) < 0.9 ? up - way * way.y : right - way * way.x;
+    }
+    return glm::normalize(side);
+}
+
+/// Guided and free: the throttle's place is the speed.
+Push by_lever(Flight& flight, const Flying& rules)
+{
+    const double speed = rapidity_of(flight.ship),
+                 target = flight.held_back ? 0 : flight.lever * std::acosh(rules.greatest_gamma);
+    const double wanted = std::clamp((target - speed) / settle_s, -rules.rapidity_per_s, rules.rapidity_per_s);
+    flight.faster += gain_share(rules) * (wanted - flight.faster);
+    const double gain = flight.faster * tick_s;
+    Push push;
+    if (target == 0 && speed + gain < 2e-3) { // slower than anyone can see, and then for ever less
+        flight.faster = 0;
+        push.stop = speed > 0;
+        return push;
+    }
+    const glm::dvec3 way = heading(flight);
+    push.rapidity = std::max(gain, -speed) * way;
+    if (flight.mode == FlightMode::guided) {
+        // A thrust across the flight turns what is ahead, as the ship sees it, by itself over v/c; and it adds a speed of
+        // the second order, cosh w' = cosh(thrust) cosh w, which is taken off again.
+        const double angle = std::atan2(glm::length(glm::cross(way, nose)), glm::dot(way, nose));
+        const double turned = share(follow_s) * angle;
+        push.rapidity += (across(way, nose) * turned - way * (0.5 * turned * turned)) * std::tanh(speed);
+    }
+    return push;
+}
+
+/// Newtonian: the throttle is the engine.
+Push by_thrust(Flight& flight, const Controls& controls, const Flying& rules)
+{
+    const double engine = controls.lever ? *controls.lever * rules.rapidity_per_s : 0;
+    glm::dvec3 wanted = (nose * controls.faster + controls.push) * key_rapidity_per_s + nose * engine;
+    if (flight.held_back)
+        wanted = glm::dvec3(0);
+    flight.thrust += gain_share(rules) * (wanted - flight.thrust);
+    if (wanted == glm::dvec3(0) && glm::length(flight.thrust) < 1e-4)
+        flight.thrust = glm::dvec3(0);
+    Push push{flight.thrust * tick_s};
+    // At the limit nothing more is gained along the flight; turning it stays possible, and what that adds is taken off.
+    const glm::dvec3 way = heading(flight);
+    const double room = std::acosh(rules.greatest_gamma) - rapidity_of(flight.ship);
+    push.rapidity -= way * std::max(0.0, glm::dot(push.rapidity, way) - room);
+    return push;
+}
+
+} // namespace
+
+Push pilot(Flight& flight, const Controls& told, const Flying& rules)
+{
+    Controls controls = told;
+    if (flight.mode != FlightMode::newtonian) // who has thrusters alone, as on a space mouse, has a speed all the same
+        controls.faster -= told.push.z;
+    const glm::dvec3 rates = degree * glm::dvec3(rules.turn_deg_per_s, rules.turn_deg_per_s, rules.roll_deg_per_s);
+    for (int i = 0; i < 3; ++i)
+        turn(flight.turn_rad_s[i], flight.turn_lead_rad_s[i], std::clamp(controls.turn[i], -1.0, 1.0) * rates[i], rates[i],
+            degree * rules.turn_jerk_deg_per_s3);
+    if (controls.lever)
+        flight.lever = std::clamp(*controls.lever, 0.0, 1.0);
+    else if (flight.mode != FlightMode::newtonian)
+        flight.lever = std::clamp(flight.lever + controls.faster * lever_per_s * tick_s, 0.0, 1.0);
+    const bool let_go = flight.mode == FlightMode::newtonian
+        ? controls.faster == 0 && controls.push == glm::dvec3(0) && controls.lever.value_or(0) < 0.02
+        : (controls.lever ? flight.lever < 0.02 : controls.faster <= 0);
+    flight.held_back = flight.held_back && !let_go;
+    if (flight.held_back && !controls.lever)
+        flight.lever = 0;
+    return flight.mode == FlightMode::newtonian ? by_thrust(flight, controls, rules) : by_lever(flight, rules);
+}
+
+} // namespace starbow

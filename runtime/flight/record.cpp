@@ -1,0 +1,316 @@
+#include "record.h"
+#include "config/model/exposing_reader.h"
+#include "config/model/shot_reader.h"
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Whoever adds a member to one of these adds it to the record, or to the digest, as well.
+static_assert(sizeof(Controls) == 200);
+static_assert(sizeof(Flying) == 56);
+static_assert(sizeof(Exposing) == 32);
+static_assert(sizeof(Flight) == 560);
+
+/// Wide enough for whatever any device may ask for, narrow enough that nothing overflows.
+constexpr Range any_rate{-1e3, 1e3};
+constexpr Range any_place{-1e15, 1e15};
+constexpr double most_ns = 9e15; ///< a hundred days; whole numbers below it are doubles
+
+constexpr std::pair<const char*, bool Controls::*> switches[] = {{"look_ahead", &Controls::look_ahead},
+    {"stop", &Controls::stop}, {"home", &Controls::home}, {"undo", &Controls::undo}, {"reset", &Controls::reset},
+    {"next_mode", &Controls::next_mode}, {"aberration", &Controls::aberration}, {"doppler", &Controls::doppler},
+    {"headlight", &Controls::headlight}, {"false_colours", &Controls::false_colours}, {"comparison", &Controls::comparison},
+    {"lock_exposure", &Controls::lock_exposure}, {"overlay", &Controls::overlay}, {"mark", &Controls::mark},
+    {"log", &Controls::log}, {"why", &Controls::why}, {"hud", &Controls::hud}, {"full_screen", &Controls::full_screen},
+    {"quit", &Controls::quit}, {"pattern", &Controls::pattern}, {"save", &Controls::save}};
+
+/// Not ==: -0 must come back as -0.
+bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+template <class Vector> std::vector<double> components(const Vector& v)
+{
+    std::vector<double> all;
+    for (int i = 0; i < Vector::length(); ++i)
+        all.push_back(v[i]);
+    return all;
+}
+std::vector<double> components(const glm::dquat& q) { return {q.w, q.x, q.y, q.z}; }
+std::vector<double> components(double v) { return {v}; }
+
+template <class Value> void put(Json& json, const char* name, const Value& value, const Value& usual)
+{
+    const std::vector<double> a = components(value), b = components(usual);
+    if (!std::equal(a.begin(), a.end(), b.begin(), same))
+        json[name] = a.size() == 1 ? Json(a[0]) : Json(a);
+}
+
+/// w first.
+void take_turn(const Place& place, const std::string& name, glm::dquat& turn)
+{
+    const auto p = find(place, name);
+    if (!p)
+        return;
+    const glm::dvec4 v = vec4(*p, {-1.001, 1.001});
+    if (std::abs(glm::length(v) - 1) > 0.001)
+        complain(*p, "is no turn; a list of four numbers whose squares add up to 1 is right");
+    turn = glm::dquat(v[0], v[1], v[2], v[3]);
+}
+
+std::int64_t whole(const Place& place, double most)
+{
+    const double value = number(place, {0, most});
+    if (value != std::floor(value))
+        complain(place, "is not a whole number; one from 0 to " + shown(most) + " is right");
+    return std::int64_t(value);
+}
+
+std::uint64_t read_digest(const Place& place)
+{
+    const std::string digits = text(place);
+    if (digits.size() != 16 || digits.find_first_not_of("0123456789abcdef") != digits.npos)
+        complain(place, "is no digest; a text of 16 hexadecimal digits is right");
+    return std::stoull(digits, nullptr, 16);
+}
+
+Json json_of(const Effects& effects)
+{
+    return {{"aberration", effects.aberration}, {"doppler", effects.doppler}, {"headlight", effects.headlight},
+        {"comparison", comparison_names[std::size_t(effects.comparison)]}, {"false_colours", effects.false_colours}};
+}
+
+/// Not as a shot's file has it: from a speed and directions there this would come back rounded.
+Shot read_start(const Place& place)
+{
+    only(place, {"time", "position", "u", "ship_from_cockpit", "effects", "exposure_ev"});
+    Shot start;
+    take(place, "time", start.time, any_place);
+    take(place, "position", start.position, any_place);
+    take(place, "u", start.u, any_place);
+    take_turn(place, "ship_from_cockpit", start.ship_from_cockpit);
+    if (auto p = find(place, "effects"))
+        start.effects = read_effects(*p);
+    take(place, "exposure_ev", start.exposure_ev, {-60, 60});
+    return start;
+}
+
+Flying read_rules(const Place& place)
+{
+    only(place,
+        {"mode", "greatest_gamma", "turn_deg_per_s", "roll_deg_per_s", "turn_jerk_deg_per_s3", "rapidity_per_s",
+            "rapidity_jerk_per_s2"});
+    Flying rules;
+    rules.mode = chosen(member(place, "mode"), flight_modes);
+    constexpr Range any{0, 1e9};
+    take(place, "greatest_gamma", rules.greatest_gamma, {1, 1e9, true});
+    take(place, "turn_deg_per_s", rules.turn_deg_per_s, any);
+    take(place, "roll_deg_per_s", rules.roll_deg_per_s, any);
+    take(place, "turn_jerk_deg_per_s3", rules.turn_jerk_deg_per_s3, any);
+    take(place, "rapidity_per_s", rules.rapidity_per_s, any);
+    take(place, "rapidity_jerk_per_s2", rules.rapidity_jerk_per_s2, any);
+    return rules;
+}
+
+RecordEntry read_entry(const Place& top)
+{
+    std::vector<std::string_view> known{"dt_ns", "skipped_ns", "unseen", "lever", "faster", "push", "turn", "look_rad",
+        "head_m", "head_turned", "exposure", "exposure_ev", "choose", "turn_by"};
+    for (const auto& [name, flag] : switches)
+        known.emplace_back(name);
+    only(top, known);
+    RecordEntry entry;
+    entry.dt_ns = whole(member(top, "dt_ns"), 1e9);
+    if (auto p = find(top, "skipped_ns"))
+        entry.skipped_ns = whole(*p, most_ns);
+    if (auto p = find(top, "exposure_ev"))
+        entry.exposure_ev = number(*p, {-1e3, 1e3});
+    bool unseen = false;
+    take(top, "unseen", unseen);
+    entry.shown = !unseen;
+    Controls& controls = entry.controls;
+    controls.time_ns = entry.dt_ns + entry.skipped_ns;
+    if (auto p = find(top, "lever"))
+        controls.lever = number(*p, {0, 1});
+    take(top, "faster", controls.faster, any_rate);
+    take(top, "push", controls.push, any_rate);
+    take(top, "turn", controls.turn, any_rate);
+    take(top, "look_rad", controls.look_rad, any_rate);
+    take(top, "head_m", controls.head.moved_m, any_rate);
+    take_turn(top, "head_turned", controls.head.turned);
+    take(top, "exposure", controls.exposure, any_rate);
+    if (auto p = find(top, "choose"))
+        controls.choose = integer(*p, -1000, 1000);
+    if (auto p = find(top, "turn_by"))
+        controls.turn_by = integer(*p, -1000, 1000);
+    for (const auto& [name, flag] : switches)
+        take(top, name, controls.*flag);
+    return entry;
+}
+
+RecordCheck read_check(const Place& top)
+{
+    only(top, {"ticks", "digest", "last"});
+    RecordCheck check;
+    check.ticks = whole(member(top, "ticks"), most_ns);
+    check.digest = read_digest(member(top, "digest"));
+    take(top, "last", check.last);
+    return check;
+}
+
+/// Adds numbers to a digest, byte by byte.
+struct Digester {
+    std::uint64_t sum = digest(std::string_view());
+    void add(std::uint64_t bits) { sum = digest({reinterpret_cast<const char*>(&bits), sizeof bits}, sum); }
+    void add(std::int64_t value) { add(std::uint64_t(value)); }
+    void add(bool value) { add(std::uint64_t(value)); }
+    void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+    void add(const Sum& sums) { add(sums.value), add(sums.carry); }
+    void add(const Sum3& sums) { add(sums.x), add(sums.y), add(sums.z); }
+    void add(const glm::dvec2& v) { add(v.x), add(v.y); }
+    void add(const glm::dvec3& v) { add(v.x), add(v.y), add(v.z); }
+    void add(const glm::dquat& q) { add(q.w), add(q.x), add(q.y), add(q.z); }
+    void add(const Ship& ship)
+    {
+        add(ship.position), add(ship.time), add(ship.u), add(ship.ship_from_cockpit);
+        add(ship.proper_time), add(ship.distance);
+    }
+};
+
+} // namespace
+
+std::string text_of(const RecordHeader& header)
+{
+    const Shot& start = header.start;
+    const Flying& rules = header.rules;
+    Json json;
+    json["starbow_record"] = record_version;
+    json["scene"] = header.scene;
+    json["scene_digest"] = shown_digest(header.scene_digest);
+    json["layout"] = header.layout;
+    json["layout_digest"] = shown_digest(header.layout_digest);
+    json["pattern"] = header.pattern;
+    json["seconds_per_time_unit"] = header.seconds_per_time_unit;
+    json["start"] = {{"time", start.time}, {"position", components(start.position)}, {"u", components(start.u)},
+        {"ship_from_cockpit", components(start.ship_from_cockpit)}, {"effects", json_of(start.effects)},
+        {"exposure_ev", start.exposure_ev}};
+    json["flying"]
+        = {{"mode", name_of(rules.mode)}, {"greatest_gamma", rules.greatest_gamma}, {"turn_deg_per_s", rules.turn_deg_per_s},
+            {"roll_deg_per_s", rules.roll_deg_per_s}, {"turn_jerk_deg_per_s3", rules.turn_jerk_deg_per_s3},
+            {"rapidity_per_s", rules.rapidity_per_s}, {"rapidity_jerk_per_s2", rules.rapidity_jerk_per_s2}};
+    json["exposure"] = {{"automatic", header.exposing.automatic}, {"least_ev", header.exposing.least_ev},
+        {"greatest_ev", header.exposing.greatest_ev}, {"bloom", header.exposing.bloom}};
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string text_of(const RecordEntry& entry)
+{
+    const Controls& controls = entry.controls;
+    static const Controls usual;
+    Json json;
+    json["dt_ns"] = entry.dt_ns;
+    if (entry.skipped_ns != 0)
+        json["skipped_ns"] = entry.skipped_ns;
+    if (!entry.shown)
+        json["unseen"] = true;
+    if (entry.exposure_ev)
+        json["exposure_ev"] = *entry.exposure_ev;
+    if (controls.lever)
+        json["lever"] = *controls.lever;
+    put(json, "faster", controls.faster, usual.faster);
+    put(json, "push", controls.push, usual.push);
+    put(json, "turn", controls.turn, usual.turn);
+    put(json, "look_rad", controls.look_rad, usual.look_rad);
+    put(json, "head_m", controls.head.moved_m, usual.head.moved_m);
+    put(json, "head_turned", controls.head.turned, usual.head.turned);
+    put(json, "exposure", controls.exposure, usual.exposure);
+    if (controls.choose != 0)
+        json["choose"] = controls.choose;
+    if (controls.turn_by != 0)
+        json["turn_by"] = controls.turn_by;
+    for (const auto& [name, flag] : switches)
+        if (controls.*flag)
+            json[name] = true;
+    return json.dump() + "\n";
+}
+
+std::string text_of(const RecordCheck& check)
+{
+    Json json{{"ticks", check.ticks}, {"digest", shown_digest(check.digest)}};
+    if (check.last)
+        json["last"] = true;
+    return json.dump() + "\n";
+}
+
+RecordHeader parse_record_header(const std::string& file, std::string line)
+{
+    const Document document = parse_document(file, std::move(line));
+    const Place top = root(document);
+    if (!top.json->is_object() || !find(top, "starbow_record"))
+        complain(top, "is not how a record begins; a file that starbow run --record has written is right");
+    const Place version = member(top, "starbow_record");
+    if (number(version, {0, 1e9}) != record_version)
+        complain(version, "is a version of records that is not known here; " + std::to_string(record_version) + " is right");
+    only(top,
+        {"starbow_record", "scene", "scene_digest", "layout", "layout_digest", "pattern", "seconds_per_time_unit", "start",
+            "flying", "exposure"});
+    RecordHeader header;
+    header.scene = text(member(top, "scene"));
+    header.scene_digest = read_digest(member(top, "scene_digest"));
+    header.layout = text(member(top, "layout"));
+    header.layout_digest = read_digest(member(top, "layout_digest"));
+    header.pattern = text(member(top, "pattern"));
+    header.seconds_per_time_unit = number(member(top, "seconds_per_time_unit"), {0, 1e60, true});
+    header.start = read_start(member(top, "start"));
+    header.start.scene = header.scene;
+    header.rules = read_rules(member(top, "flying"));
+    header.exposing = read_exposing(member(top, "exposure"));
+    return header;
+}
+
+std::variant<RecordEntry, RecordCheck> parse_record_line(const std::string& file, int line, std::string content)
+{
+    const Document document = parse_document(file, std::move(content), line);
+    const Place top = root(document);
+    if (top.json->is_object() && find(top, "digest"))
+        return read_check(top);
+    return read_entry(top);
+}
+
+std::uint64_t digest(std::string_view bytes, std::uint64_t before)
+{
+    for (unsigned char byte : bytes)
+        before = (before ^ byte) * 0x100000001b3u;
+    return before;
+}
+
+std::uint64_t digest(const Flight& flight)
+{
+    Digester all;
+    all.add(flight.ship);
+    all.add(std::int64_t(flight.mode));
+    all.add(flight.lever), all.add(flight.held_back), all.add(flight.faster), all.add(flight.thrust);
+    all.add(flight.turn_rad_s), all.add(flight.turn_lead_rad_s);
+    all.add(flight.homing.has_value());
+    if (flight.homing) {
+        all.add(flight.homing->braking), all.add(flight.homing->elapsed_s), all.add(flight.homing->from);
+        all.add(flight.homing->rapidity_per_s), all.add(flight.homing->arrived);
+    }
+    all.add(flight.look_rad);
+    all.add(flight.effects.aberration), all.add(flight.effects.doppler), all.add(flight.effects.headlight);
+    all.add(flight.effects.false_colours), all.add(double(flight.effects.comparison));
+    all.add(flight.exposure_ev), all.add(flight.hud), all.add(flight.ticks), all.add(flight.left_ns);
+    return all.sum;
+}
+
+std::string shown_digest(std::uint64_t digest)
+{
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(digest));
+    return text;
+}
+
+} // namespace starbow

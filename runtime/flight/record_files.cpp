@@ -1,0 +1,91 @@
+#include "record_files.h"
+#include "config/json/error.h"
+#include "config/json/reader.h"
+#include "config/model/scene_file.h"
+#include "config/model/shipped.h"
+#include <array>
+#include <fstream>
+
+namespace starbow {
+namespace fs = std::filesystem;
+namespace {
+
+std::uint64_t digest_of_scene(const fs::path& scene) { return digest_of({scene, load_scene_file(scene).gltf}); }
+
+/// A shipped file by its name, wherever this checkout is; any other by its whole path.
+std::string name_of(const std::string& kind, const fs::path& file)
+{
+    std::error_code error;
+    if (fs::equivalent(file.parent_path(), home() / "config" / kind, error))
+        return file.stem().string();
+    return fs::absolute(file).lexically_normal().string();
+}
+
+} // namespace
+
+std::uint64_t digest_of(const std::vector<fs::path>& files)
+{
+    std::uint64_t sum = digest(std::string_view());
+    std::vector<char> piece(1 << 16);
+    for (const fs::path& file : files) {
+        std::ifstream stream(file, std::ios::binary);
+        while (stream.read(piece.data(), std::streamsize(piece.size())), stream.gcount() > 0)
+            sum = digest({piece.data(), std::size_t(stream.gcount())}, sum);
+    }
+    return sum;
+}
+
+std::vector<fs::path> files_of(const Layout& layout)
+{
+    std::vector<fs::path> files;
+    auto add = [&](const fs::path& file) {
+        if (!file.empty())
+            files.push_back(file);
+    };
+    add(layout.file);
+    for (const Output& output : layout.outputs)
+        for (const Viewport& viewport : output.viewports) {
+            if (viewport.warp) {
+                add(viewport.warp->file);
+                add(viewport.warp->frustum);
+            }
+            add(viewport.alpha_mask);
+            add(viewport.black_level);
+        }
+    return files;
+}
+
+RecordHeader header_of(const fs::path& scene, const Layout& layout, const Shot& start, const Flying& rules,
+    const Exposing& exposing, const std::string& pattern)
+{
+    return {.scene = name_of("scenes", scene),
+        .layout = name_of("layouts", layout.file),
+        .scene_digest = digest_of_scene(scene),
+        .layout_digest = digest_of(files_of(layout)),
+        .pattern = pattern,
+        .seconds_per_time_unit = load_scene_file(scene).seconds_per_time_unit(),
+        .start = start,
+        .rules = rules,
+        .exposing = exposing};
+}
+
+Flown find_flown(const fs::path& record, const RecordHeader& header, const std::string& layout,
+    const std::function<void(const std::string&)>& say)
+{
+    const std::string file = one_line(record.string());
+    Flown flown{find("scenes", header.scene), load_layout(find("layouts", layout.empty() ? header.layout : layout))};
+    const double unit = load_scene_file(flown.scene).seconds_per_time_unit();
+    if (unit != header.seconds_per_time_unit)
+        throw InputError(file + ":1", "/seconds_per_time_unit",
+            shown(header.seconds_per_time_unit) + " is not the scene's any more, which has " + shown(unit) + " ("
+                + one_line(flown.scene.string()) + "); the scene as it was when it was flown is right");
+    if (digest_of_scene(flown.scene) != header.scene_digest)
+        say(file + ": the scene " + header.scene
+            + " has changed since; the flight will be the same, the pictures may not be");
+    if (layout.empty() && digest_of(files_of(flown.layout)) != header.layout_digest)
+        say(file + ": the layout " + header.layout
+            + " has changed since; the flight will be the same, the pictures may not be");
+    return flown;
+}
+
+} // namespace starbow

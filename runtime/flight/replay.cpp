@@ -1,0 +1,115 @@
+#include "replay.h"
+#include "config/json/error.h"
+#include "config/json/reader.h"
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+namespace starbow {
+namespace fs = std::filesystem;
+namespace {
+
+/// Far longer than any line that is written: what is longer is no record, and is not read to its end.
+constexpr std::size_t longest_line = 1 << 16;
+
+} // namespace
+
+Replay::Replay(const fs::path& file)
+    : file_(one_line(file.string()))
+{
+    std::error_code error;
+    if (fs::is_directory(file, error))
+        throw InputError(file_, "", "is a folder; a record of a flight is right");
+    stream_.open(file, std::ios::binary);
+    if (!stream_)
+        throw InputError(
+            file_, "", std::string("can't be opened (") + std::strerror(errno) + "); a record of a flight is right");
+    bytes_ = fs::file_size(file, error); // of a pipe there is none
+    if (error)
+        bytes_ = 0;
+    const auto first = line();
+    if (!first && !cut_)
+        throw InputError(file_, "", "is empty; a record of a flight is right");
+    if (!first)
+        throw InputError(file_ + ":1", "", "is cut off; a record of a flight is right");
+    header_ = parse_record_header(file_, *first);
+    look_ahead();
+    compare_here(flight_at(header_.start, header_.rules));
+}
+
+/// A line without its end; nothing at the end of the file, or where a last line without an end is left out: it was being
+/// written when the machine went.
+std::optional<std::string> Replay::line()
+{
+    std::string text;
+    for (int c; (c = stream_.rdbuf()->sbumpc()) != std::char_traits<char>::eof();) {
+        ++read_;
+        if (c == '\n') {
+            ++line_;
+            return text;
+        }
+        text += char(c);
+        if (text.size() > longest_line)
+            throw InputError(file_ + ":" + std::to_string(line_ + 1), "",
+                "is longer than " + std::to_string(longest_line) + " bytes; a line that starbow has written is right");
+    }
+    cut_ = !text.empty();
+    return {};
+}
+
+void Replay::look_ahead()
+{
+    ahead_.reset();
+    auto text = line();
+    if (!text)
+        return;
+    if (whole_)
+        throw InputError(file_ + ":" + std::to_string(line_), "", "comes after the last line; nothing more is right");
+    ahead_ = parse_record_line(file_, line_, std::move(*text));
+}
+
+std::optional<RecordEntry> Replay::next()
+{
+    if (!ahead_)
+        return {};
+    RecordEntry entry = std::get<RecordEntry>(*ahead_);
+    entry.controls.time_ns = time_ns_ += entry.controls.time_ns;
+    ++frames_;
+    return entry;
+}
+
+void Replay::compare(const Flight& flight)
+{
+    look_ahead();
+    compare_here(flight);
+}
+
+/// With all checks before the next frame.
+void Replay::compare_here(const Flight& flight)
+{
+    while (ahead_ && std::holds_alternative<RecordCheck>(*ahead_)) {
+        const RecordCheck check = std::get<RecordCheck>(*ahead_);
+        ++checks_;
+        if (differs_.empty() && (check.ticks != flight.ticks || check.digest != digest(flight)))
+            differs_ = "by " + shown(double(flight.ticks) * tick_s) + " s of flight (" + file_ + ":" + std::to_string(line_)
+                + "): " + shown_digest(digest(flight)) + " instead of " + shown_digest(check.digest);
+        whole_ = check.last;
+        look_ahead();
+    }
+}
+
+double Replay::part_read() const { return bytes_ > 0 ? std::min(1.0, double(read_) / double(bytes_)) : 0; }
+
+std::string Replay::verdict() const
+{
+    std::string text = differs() ? "the replay differs from the record " + differs_
+        : checks_ > 0            ? "the same to the bit at " + std::to_string(checks_) + (checks_ > 1 ? " checks" : " check")
+                                 : "replayed, with nothing to compare: the record ends before its first check";
+    if (cut_)
+        text += "; the last line is incomplete and was left out";
+    else if (!whole_)
+        text += "; the record has no last line: its flight was cut off";
+    return text;
+}
+
+} // namespace starbow

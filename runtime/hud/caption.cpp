@@ -1,0 +1,121 @@
+#include "caption.h"
+#include "hud.h"
+#include "runtime/flight/measuring.h"
+#include "runtime/flight/tour.h"
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace starbow {
+namespace {
+
+/// Three figures or so: what a caption needs.
+std::string figures(double x, const Words& words)
+{
+    std::array<char, 32> text;
+    const double size = std::abs(x);
+    std::snprintf(text.data(), text.size(), size < 9.995 ? "%.2f" : size < 99.95 ? "%.1f" : "%.0f", size);
+    return (x < 0 ? "−" : "") + words.number(text.data());
+}
+
+std::string whole(double seconds) { return std::to_string(std::lround(std::ceil(seconds))); }
+
+} // namespace
+
+Caption caption_of(const Touring& now, const Show& show, const Words& words, const Means& means)
+{
+    if (now.over)
+        return {};
+    const Step& step = show.tour.steps[now.step()];
+    const bool tries = std::holds_alternative<Try>(step.motion);
+    Caption caption{step.caption};
+    const auto number = [&](const Measure& measure) {
+        return figures(measured(measure, now.flight.ship, now.starts.back().since, show.seconds_per_time_unit), words);
+    };
+    if (step.measure)
+        caption.text = filled(caption.text, {{"measured", number(*step.measure)}});
+    const std::string left = whole(left_s(now, show));
+    caption.flying = tries && !now.told;
+    if (caption.flying)
+        caption.aside = words("touring.fly", {{"left", left}});
+    if (step.question && now.told) {
+        caption.text = words(now.right ? *now.right ? "touring.right" : "touring.wrong" : "touring.answer") + " "
+            + filled(step.question->told, {{"measured", figures(*now.told, words)}});
+    } else if (step.question) {
+        caption.text = step.question->ask;
+        if (const auto* choices = std::get_if<std::vector<Choice>>(&step.question->answer)) {
+            for (const Choice& choice : *choices)
+                caption.choices.push_back(choice.text);
+            caption.chosen = now.chosen;
+        } else if (std::holds_alternative<NumberToSet>(step.question->answer)) {
+            caption.choices = {"← " + figures(now.number, words) + " →"};
+            caption.chosen = 0;
+        }
+        if (!tries && show.visitors)
+            caption.aside = means.stick && means.stop_button > 0
+                ? words("touring.choose_stick", {{"button", std::to_string(means.stop_button)}, {"left", left}})
+                : words("touring.choose_keys", {{"left", left}});
+    }
+    if (now.paused)
+        caption.aside = words("touring.paused");
+    return caption;
+}
+
+void write_caption(Panel& panel, const Typesetter& typesetter, const Caption& caption,
+    const std::vector<std::pair<std::string, std::string>>& fields)
+{
+    const double width = panel.size.x, height = panel.size.y, left = 0.04 * width, right = 0.97 * width;
+    // Above: what there is to do at the right, and as many of the figures as there is room for at the left.
+    const int small = std::max(6, int(0.13 * height));
+    const double line = 0.18 * height;
+    const double aside = right - typesetter.width_of(caption.aside, small);
+    typesetter.write(panel, caption.aside, aside, line, small, 1);
+    double x = left;
+    for (std::size_t i = 0; i < fields.size() && i < 5; ++i) {
+        const std::string field = fields[i].first + " " + fields[i].second;
+        int size = small;
+        while (fields.size() == 1 && size > 6 && x + typesetter.width_of(field, size) > aside - small)
+            --size; // a notice stands alone, and is told whole
+        const double end = x + typesetter.width_of(field, size);
+        if (i > 0 && end > aside - small)
+            break;
+        typesetter.write(panel, field, x, line, size, 0.72);
+        x = end + 1.2 * small;
+    }
+
+    // The largest letters with which all lines fit.
+    const double top = 0.23 * height, room = 0.72 * height, pitch = 1.18;
+    int size = int(0.21 * height);
+    std::vector<std::string> lines;
+    const int rows = caption.choices.empty() ? 0 : 1;
+    for (;; --size) {
+        lines
+            = wrapped(caption.text, right - left, [&](const std::string& text) { return typesetter.width_of(text, size); });
+        double widest = 0;
+        for (const std::string& text : lines)
+            widest = std::max(widest, typesetter.width_of(text, size));
+        if (size <= 6 || (double(lines.size() + rows) * pitch * size <= room && widest <= right - left))
+            break;
+    }
+    const double slack = std::max(0.0, room - double(lines.size() + rows) * pitch * size);
+    double baseline = top + (rows ? 0 : 0.5 * slack) + 0.9 * size;
+    for (const std::string& text : lines) {
+        typesetter.write(panel, text, left, baseline, size, 1);
+        baseline += pitch * size;
+    }
+    if (!rows)
+        return;
+
+    // The choices side by side, all of one size.
+    const double column = (right - left) / double(caption.choices.size());
+    const auto shown = [&](std::size_t i) { return (int(i) == caption.chosen ? "▸ " : "   ") + caption.choices[i]; };
+    int choice_size = size;
+    for (std::size_t i = 0; i < caption.choices.size(); ++i)
+        while (choice_size > 6 && typesetter.width_of(shown(i), choice_size) > column - 0.3 * size)
+            --choice_size;
+    for (std::size_t i = 0; i < caption.choices.size(); ++i)
+        typesetter.write(panel, shown(i), left + double(i) * column, 0.90 * height, choice_size,
+            caption.chosen < 0 || int(i) == caption.chosen ? 1 : 0.6);
+}
+
+} // namespace starbow

@@ -1,0 +1,307 @@
+#include "hud.h"
+#include "config/json/error.h"
+#include "shaders/physics/physics.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <stb/stb_truetype.h>
+
+namespace starbow {
+namespace {
+
+constexpr double light_speed_m_s = 299792458; // exact, SI
+constexpr double julian_year_s = 365.25 * 86400;
+
+template <class... Values> std::string text(const char* format, Values... values)
+{
+    std::array<char, 96> buffer;
+    std::snprintf(buffer.data(), buffer.size(), format, values...);
+    return buffer.data();
+}
+
+/// 3 or 4 figures: 0.25, 12.3, 4567; beyond a million as 1.23×10⁷.
+std::string number(double x)
+{
+    double size = std::abs(x);
+    if (size != 0 && (size >= 999999.5 || size < 1e-3)) { // six figures, once rounded, is the most that fits
+        int exponent = int(std::floor(std::log10(size)));
+        double mantissa = x / std::pow(10.0, exponent);
+        if (std::abs(mantissa) >= 9.95)
+            mantissa /= 10, ++exponent;
+        static const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+        std::string power = exponent < 0 ? "⁻" : "";
+        for (char c : std::to_string(std::abs(exponent)))
+            power += digits[c - '0'];
+        return text("%.1f×10", mantissa) + power;
+    }
+    return text(size >= 1000 ? "%.0f" : size >= 100 ? "%.1f" : size >= 10 ? "%.2f" : "%.3f", x);
+}
+
+/// What C wrote, as people read it: the language's decimal sign, a minus as long as a plus, and none before nothing.
+std::string figures(std::string c, const Words& words)
+{
+    if (c.starts_with('-'))
+        c = c.find_first_of("123456789") == c.npos ? c.substr(1) : "−" + c.substr(1);
+    return words.number(c);
+}
+
+} // namespace
+
+std::string shown_number(double x, const Words& words) { return figures(number(x), words); }
+std::string shown_number(double x, int decimals, const Words& words) { return figures(text("%.*f", decimals, x), words); }
+
+std::string shown_duration(double s, const Words& words, int decimals)
+{
+    double size = std::abs(s);
+    const auto told = [&](const char* key, const std::string& figures) { return words(key, {{"number", figures}}); };
+    return size < 600              ? told("time.s", shown_number(s, decimals, words))
+        : size < 36000             ? told("time.min", shown_number(s / 60, 1, words))
+        : size < 10 * 86400.0      ? told("time.h", shown_number(s / 3600, 1, words))
+        : size < 2 * julian_year_s ? told("time.days", shown_number(s / 86400, 1, words))
+                                   : told("time.years", shown_number(s / julian_year_s, words));
+}
+
+std::string shown_length(double m, double scene_light_speed_m_s, const Words& words)
+{
+    const auto told = [&](const char* key, const std::string& figures) { return words(key, {{"number", figures}}); };
+    if (scene_light_speed_m_s == light_speed_m_s && m > 1e6) {
+        double s = m / light_speed_m_s;
+        return s < 600               ? told("length.light_s", shown_number(s, 2, words))
+            : s < 36000              ? told("length.light_min", shown_number(s / 60, 1, words))
+            : s < julian_year_s / 10 ? told("length.light_h", shown_number(s / 3600, 1, words))
+                                     : told("length.light_years", shown_number(s / julian_year_s, words));
+    }
+    return m < 1000 ? told("length.m", shown_number(m, 1, words)) : told("length.km", shown_number(m / 1000, words));
+}
+
+Panel plate(glm::ivec2 size, double corner)
+{
+    Panel panel;
+    panel.size = size;
+    panel.texels.assign(std::size_t(panel.size.x) * panel.size.y * 2, 0);
+    for (int y = 0; y < panel.size.y; ++y)
+        for (int x = 0; x < panel.size.x; ++x) {
+            glm::dvec2 half = 0.5 * glm::dvec2(panel.size);
+            glm::dvec2 out = glm::max(glm::abs(glm::dvec2(x + 0.5, y + 0.5) - half) - (half - corner), 0.0);
+            panel.texels[2 * (std::size_t(y) * panel.size.x + x) + 1]
+                = std::uint8_t(255 * std::clamp(corner - glm::length(out) + 0.5, 0.0, 1.0));
+        }
+    return panel;
+}
+
+Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effects)
+{
+    double seconds_per_time_unit = scene.seconds_per_time_unit(), unit_m = scene.unit_m;
+    glm::dvec3 u = ship.u.total();
+    double speed = glm::length(u), gamma = physics::gamma_of(u), E = physics::exp_rapidity(speed);
+    glm::dvec3 ahead = ship.ship_from_cockpit * glm::dvec3(0, 0, -1);
+    double cosine = speed > 0 ? std::clamp(glm::dot(ahead, u) / speed, -1.0, 1.0) : 1;
+    double sine = speed > 0 ? glm::length(glm::cross(ahead, u)) / speed : 0;
+    return {.beta_deficit = 1 / (gamma * (gamma + speed)),
+        .gamma = gamma,
+        .doppler_ahead = physics::world_from_camera({sine, 0, cosine}, E, 1 / E).D,
+        .ship_s = ship.proper_time.total() * seconds_per_time_unit,
+        .world_s = ship.time.total() * seconds_per_time_unit,
+        .distance_m = ship.distance.total() * unit_m,
+        .light_speed_m_s = scene.light_speed_m_s,
+        .frames_per_s = 0,
+        .effects = effects};
+}
+
+std::string light_name(const Effects& on, const Words& words)
+{
+    if (on.comparison != Comparison::none)
+        return words(on.comparison == Comparison::galilean ? "light.galilean" : "light.no_light_delay");
+    if (on.false_colours)
+        return words(on.doppler ? "light.false_colours" : "light.false_colours_unshifted");
+    return words(on.doppler ? on.headlight ? "light.seen" : "light.without_headlight"
+            : on.headlight  ? "light.without_doppler"
+                            : "light.at_rest");
+}
+
+std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r, const Words& words)
+{
+    bool close = r.beta_deficit < 1e-3;
+    auto on = [&](bool is) { return words(is ? "hud.on" : "hud.off"); };
+    std::vector<std::pair<std::string, std::string>> fields = {
+        {words(close ? "hud.speed_deficit" : "hud.speed"),
+            close ? shown_number(r.beta_deficit, words) : shown_number(1 - r.beta_deficit, 4, words)},
+        {words("hud.gamma"), shown_number(r.gamma, words)},
+        {words("hud.doppler_ahead"), shown_number(r.doppler_ahead, words)},
+        {words("hud.ship"), shown_duration(r.ship_s, words)},
+        {words("hud.world"), shown_duration(r.world_s, words)},
+        {words("hud.flown"), shown_length(r.distance_m, r.light_speed_m_s, words)},
+        {words("hud.aberration"), on(r.effects.aberration)},
+        {words("hud.doppler"), on(r.effects.doppler)},
+        {words("hud.headlight"), on(r.effects.headlight)},
+    };
+    fields.push_back({words("hud.flight"), words("flight." + std::string(name_of(r.mode)))});
+    const double ev = std::round(10 * r.exposure_ev) / 10;
+    const std::string sign = ev < 0 ? "−" : ev > 0 ? "+" : "";
+    fields.push_back({words("hud.exposure"),
+        words(r.exposure_locked ? "hud.ev_locked" : "hud.ev", {{"ev", sign + shown_number(std::abs(ev), 1, words)}})});
+    if (r.frames_per_s > 0)
+        fields.push_back({words("hud.rate"), text("%.0f", r.frames_per_s)});
+    fields.push_back({words("hud.light"), light_name(r.effects, words)});
+    return fields;
+}
+
+struct Typesetter::Font {
+    std::vector<unsigned char> file;
+    stbtt_fontinfo info{};
+
+    struct Glyph {
+        std::vector<std::uint8_t> coverage;
+        int width = 0, height = 0, left = 0, top = 0;
+        float advance = 0;
+    };
+    mutable std::map<std::pair<int, int>, Glyph> glyphs; ///< by size in pixels and code point
+
+    const Glyph& glyph(int size, int code) const
+    {
+        auto [at, is_new] = glyphs.try_emplace({size, code});
+        Glyph& g = at->second;
+        if (is_new) {
+            float scale = stbtt_ScaleForPixelHeight(&info, float(size));
+            int advance, bearing;
+            stbtt_GetCodepointHMetrics(&info, code, &advance, &bearing);
+            g.advance = advance * scale;
+            if (unsigned char* bitmap
+                = stbtt_GetCodepointBitmap(&info, scale, scale, code, &g.width, &g.height, &g.left, &g.top)) {
+                g.coverage.assign(bitmap, bitmap + g.width * g.height);
+                stbtt_FreeBitmap(bitmap, nullptr);
+            }
+        }
+        return g;
+    }
+};
+
+namespace {
+
+/// The code points of UTF-8 text that we wrote ourselves.
+std::vector<int> code_points(const std::string& utf8)
+{
+    std::vector<int> codes;
+    for (std::size_t i = 0; i < utf8.size();) {
+        auto lead = static_cast<unsigned char>(utf8[i]);
+        int more = lead >= 0xf0 ? 3 : lead >= 0xe0 ? 2 : lead >= 0xc0 ? 1 : 0;
+        int code = more == 0 ? lead : lead & (0x3f >> more);
+        for (++i; more > 0 && i < utf8.size(); --more, ++i)
+            code = code << 6 | (utf8[i] & 0x3f);
+        codes.push_back(code);
+    }
+    return codes;
+}
+
+} // namespace
+
+Typesetter::Typesetter()
+    : font_(std::make_unique<Font>())
+{
+    const char* path = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+    std::ifstream stream(path, std::ios::binary);
+    font_->file.assign(std::istreambuf_iterator<char>(stream), {});
+    if (font_->file.empty()
+        || !stbtt_InitFont(&font_->info, font_->file.data(), stbtt_GetFontOffsetForIndex(font_->file.data(), 0)))
+        throw InputError(path, "", "is not there or no font; install fonts-dejavu-core");
+}
+
+Typesetter::~Typesetter() = default;
+
+double Typesetter::width_of(const std::string& line, int size) const
+{
+    double x = 0;
+    for (int code : code_points(line))
+        x += font_->glyph(size, code).advance;
+    return x;
+}
+
+void Typesetter::write(Panel& panel, const std::string& line, double x, double baseline, int size, double strength) const
+{
+    for (int code : code_points(line)) {
+        const Font::Glyph& glyph = font_->glyph(size, code);
+        for (int j = 0; j < glyph.height; ++j)
+            for (int i = 0; i < glyph.width; ++i) {
+                int px = int(std::lround(x)) + glyph.left + i, py = int(std::lround(baseline)) + glyph.top + j;
+                if (px < 0 || py < 0 || px >= panel.size.x || py >= panel.size.y)
+                    continue;
+                std::uint8_t& letter = panel.texels[2 * (std::size_t(py) * panel.size.x + px)];
+                letter = std::max(letter, std::uint8_t(strength * glyph.coverage[std::size_t(j) * glyph.width + i]));
+            }
+        x += glyph.advance;
+    }
+}
+
+Panel Typesetter::draw(const Readings& readings, const Words& words, int width) const
+{
+    const int height = int(width * panel_aspect);
+    Panel panel = plate({width, height}, height * 0.12);
+
+    // The lever's way along the left edge, filled up to where it stands. A still has none.
+    const glm::ivec2 from(panel.size.x * 0.016, panel.size.y * 0.13), to(panel.size.x * 0.023, panel.size.y * 0.87);
+    const int filled = to.y - int(std::lround((to.y - from.y) * std::clamp(readings.lever.value_or(0), 0.0, 1.0)));
+    for (int y = from.y; readings.lever && y < to.y; ++y)
+        for (int x = from.x; x < to.x; ++x)
+            panel.texels[2 * (std::size_t(y) * panel.size.x + x)] = y >= filled ? 255 : 64;
+
+    if (readings.caption) {
+        write_caption(panel, *this, *readings.caption,
+            readings.notice.empty() ? hud_fields(readings, words)
+                                    : std::vector<std::pair<std::string, std::string>>{{readings.notice, ""}});
+        return panel;
+    }
+
+    // Three rows of three, the speed row greater; a prompt takes the third row's place; beneath them whatever else there is
+    // to say.
+    auto fields = hud_fields(readings, words);
+    double unit = panel.size.y;
+    const double rows[] = {0.27, 0.53, 0.76};
+    const double columns[] = {0.04, 0.415, 0.64};
+    const double sizes[] = {0.26, 0.20, 0.20};
+    for (int i = 0; i < (readings.prompt.empty() ? 9 : 6); ++i) {
+        int column = i % 3;
+        double x = panel.size.x * columns[column],
+               room = panel.size.x * (column < 2 ? columns[column + 1] - 0.02 : 0.97) - x;
+        int size = int(sizes[i / 3] * unit);
+        auto label = [&] { return int(0.7 * size); };
+        auto value_at = [&] { return width_of(fields[i].first, label()) + 0.3 * size; };
+        while (size > 6
+            && value_at() + width_of(fields[i].second, size) > room) // long figures get smaller, never into the next
+            --size;
+        write(panel, fields[i].first, x, rows[i / 3] * unit, label(), 0.72);
+        write(panel, fields[i].second, x + value_at(), rows[i / 3] * unit, size, 1);
+    }
+    int prompt_size = int(0.24 * unit);
+    while (prompt_size > 6 && width_of(readings.prompt, prompt_size) > 0.93 * panel.size.x)
+        --prompt_size;
+    write(panel, readings.prompt, panel.size.x * columns[0], 0.785 * unit, prompt_size, 1);
+    // A long notice gets smaller, down to half, and takes the place of the rate.
+    const int small = int(0.15 * unit);
+    const auto notice_width = [&](int size) { return width_of(readings.notice, size) / panel.size.x; };
+    int notice_size = small;
+    while (notice_size > small / 2 && notice_width(notice_size) > 0.92)
+        --notice_size;
+    double room = 0.92 * panel.size.x; // left of the rate
+    if (notice_width(notice_size) < 0.7) {
+        std::string rate = fields[9].second + "   " + fields[10].second;
+        if (readings.frames_per_s > 0)
+            rate += "   " + fields[11].second + " " + fields[11].first;
+        const double width = width_of(rate, small);
+        write(panel, rate, panel.size.x * 0.96 - width, 0.93 * unit, small, 0.72);
+        room -= width + small;
+    }
+    if (readings.notice.empty()) {
+        const std::string light = light_name(readings.effects, words);
+        int size = small;
+        while (size > 6 && width_of(light, size) > room)
+            --size;
+        write(panel, light, panel.size.x * 0.04, 0.93 * unit, size, 0.72);
+    }
+    write(panel, readings.notice, panel.size.x * 0.04, 0.93 * unit, notice_size, 1);
+    return panel;
+}
+
+} // namespace starbow

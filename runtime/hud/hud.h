@@ -1,0 +1,76 @@
+#pragma once
+#include "caption.h"
+#include "config/model/flying.h"
+#include "config/model/scene_file.h"
+#include "config/model/words.h"
+#include "runtime/flight/ship.h"
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace starbow {
+
+/// A picture of text: two bytes per pixel, how much letter and how much plate, rows from the top.
+struct Panel {
+    glm::ivec2 size{0};
+    std::vector<std::uint8_t> texels;
+};
+
+/// An empty plate of these pixels, its corners rounded and its edge soft. corner: their radius, pixels.
+Panel plate(glm::ivec2 size, double corner);
+
+/// Numbers for people: 3 or 4 figures, or so many decimals; times with so many decimals while they are told in seconds;
+/// lengths in metres or, at the real speed of light, in what it flies.
+std::string shown_number(double x, const Words& words);
+std::string shown_number(double x, int decimals, const Words& words);
+std::string shown_duration(double s, const Words& words, int decimals = 1);
+std::string shown_length(double m, double light_speed_m_s, const Words& words);
+
+/// Height of the panel over its width.
+constexpr double panel_aspect = 0.2;
+
+/// What the head-up display tells.
+struct Readings {
+    double beta_deficit; ///< 1 - v/c, without cancellation
+    double gamma, doppler_ahead;
+    double ship_s, world_s, distance_m;
+    double light_speed_m_s;
+    double frames_per_s;
+    Effects effects;
+    FlightMode mode = FlightMode::guided;
+    double exposure_ev = 0;
+    bool exposure_locked = false; ///< it does not follow the view
+    std::optional<double> lever{}; ///< where the throttle is, 0 to 1
+    std::string prompt{}; ///< what the visitor is to try now, or empty
+    std::optional<Caption> caption{}; ///< of a tour: takes the place of all but the speed
+    std::string notice{}; ///< one line for who looks after the exhibit, or empty
+};
+Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effects);
+
+/// What the light is that is shown, in a few words.
+std::string light_name(const Effects& effects, const Words& words);
+
+/// The lines as text, for the log and for tests: label and value in turn.
+std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& readings, const Words& words);
+
+/// The display's letters (DejaVu Sans), ready to draw.
+class Typesetter {
+public:
+    /// Throws InputError if the font is not installed.
+    Typesetter();
+    ~Typesetter();
+    Panel draw(const Readings& readings, const Words& words, int width) const;
+
+    /// Adds a line (UTF-8) from x on its baseline, `size` pixels high, at `strength` of full white.
+    void write(Panel& panel, const std::string& line, double x, double baseline, int size, double strength) const;
+    double width_of(const std::string& line, int size) const;
+
+private:
+    struct Font;
+    std::unique_ptr<Font> font_;
+};
+
+} // namespace starbow

@@ -1,0 +1,164 @@
+#include "lab_log.h"
+#include "config/json/error.h"
+#include "config/json/reader.h"
+#include "config/model/angles.h"
+#include "shaders/physics/physics.h"
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <ctime>
+#include <fcntl.h>
+#include <fstream>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+constexpr const char* line_end = "\r\n"; // RFC 4180
+
+using Columns = std::vector<std::pair<std::string, std::string>>;
+
+/// The same decimals whatever the computer's language.
+std::string csv_number(double value)
+{
+    std::array<char, 40> text;
+    std::snprintf(text.data(), text.size(), "%.12g", value);
+    for (char& c : text)
+        if (c == ',')
+            c = '.';
+    return text.data();
+}
+
+std::string csv_number(const std::optional<double>& value, double unit = 1)
+{
+    return value ? csv_number(*value / unit) : "";
+}
+
+void add_spot(Columns& columns, const std::string& name, const std::optional<SpotReading>& spot)
+{
+    const SpotReading& s = spot ? *spot : SpotReading{};
+    const auto known = [&](const std::string& text) { return spot ? text : std::string(); };
+    columns.insert(columns.end(),
+        {{name + "_from_motion_deg", csv_number(s.from_motion_rad, degree)},
+            {name + "_from_motion_in_world_deg", csv_number(s.from_motion_world_rad, degree)},
+            {name + "_doppler", known(csv_number(s.ray.D))}, {name + "_550_nm_seen_as_nm", known(csv_number(s.seen_nm))},
+            {name + "_distance_light_s", csv_number(s.distance_s)},
+            {name + "_distance_in_ship_light_s", csv_number(s.ship_distance_s)},
+            {name + "_emitted_world_s", csv_number(s.emitted_s)}, {name + "_clock_s", csv_number(s.clock_s)}});
+}
+
+Columns columns_of(const Measured& m, const std::string& overlay, const std::string& utc)
+{
+    const Lookout& o = m.lookout;
+    const double speed = glm::length(o.u), gamma = physics::gamma_of(o.u);
+    Columns all = {{"utc", utc}, {"ship_time_s", csv_number(m.ship_s)}, {"world_time_s", csv_number(m.world_s)}};
+    const double unit = m.seconds_per_time_unit;
+    constexpr std::array<const char*, 3> places = {"place_x_light_s", "place_y_light_s", "place_z_light_s"},
+                                         velocities = {"gamma_beta_x", "gamma_beta_y", "gamma_beta_z"};
+    for (int i = 0; i < 3; ++i)
+        all.emplace_back(places[std::size_t(i)], csv_number(o.place[i] * unit));
+    for (int i = 0; i < 3; ++i)
+        all.emplace_back(velocities[std::size_t(i)], csv_number(o.u[i]));
+    all.insert(all.end(),
+        {{"gamma", csv_number(gamma)}, {"beta", csv_number(speed / gamma)},
+            {"one_minus_beta", csv_number(1 / (gamma * (gamma + speed)))},
+            {"aberration_on", m.effects.aberration ? "1" : "0"}, {"doppler_on", m.effects.doppler ? "1" : "0"},
+            {"headlight_on", m.effects.headlight ? "1" : "0"}, {"overlay", overlay},
+            {"doppler_1_from_motion_deg", csv_number(unshifted_angle(o), degree)}});
+    add_spot(all, "aim", m.aim);
+    all.emplace_back("aim_light", csv_number(m.aim.light));
+    add_spot(all, "mark_1", m.marks[0]);
+    add_spot(all, "mark_2", m.marks[1]);
+    const PairReading pair = m.pair.value_or(PairReading{});
+    all.insert(all.end(),
+        {{"marks_angle_deg", m.pair ? csv_number(pair.angle_rad / degree) : ""},
+            {"marks_apparent_length_light_s", csv_number(pair.apparent_s)},
+            {"marks_rest_length_light_s", csv_number(pair.rest_s)}, {"marks_clock_2_minus_1_s", csv_number(pair.clocks_s)}});
+    return all;
+}
+
+std::string joined(const Columns& columns, std::string Columns::value_type::*member)
+{
+    std::string line;
+    for (const auto& column : columns)
+        line.append(&column == &columns.front() ? "" : ",").append(column.*member);
+    return line;
+}
+
+std::string utc_now()
+{
+    const auto now = std::chrono::system_clock::now();
+    const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
+    const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() % 1000;
+    std::tm utc{};
+    gmtime_r(&seconds, &utc);
+    std::array<char, 40> day, part;
+    std::strftime(day.data(), day.size(), "%Y-%m-%dT%H:%M:%S", &utc);
+    std::snprintf(part.data(), part.size(), ".%03dZ", int(ms));
+    return std::string(day.data()) + part.data();
+}
+
+} // namespace
+
+std::string log_header() { return joined(columns_of({}, "", ""), &Columns::value_type::first); }
+
+std::string log_line(const Measured& measured, const std::string& overlay, const std::string& utc)
+{
+    return joined(columns_of(measured, overlay, utc), &Columns::value_type::second);
+}
+
+LabLog::LabLog(const std::filesystem::path& file)
+    : file_(file)
+{
+    const std::string name = one_line(file.string());
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored))
+        throw InputError(name, "", "is a folder; the name of a CSV file is right");
+    std::string first, line;
+    bool cut = false; // in the middle of a line, by a loss of power
+    if (std::ifstream stream(file, std::ios::binary); stream) {
+        while (std::getline(stream, line)) {
+            if (first.empty())
+                first = line;
+            ++lines_;
+            cut = stream.eof();
+        }
+        if (!first.empty() && first != log_header() + "\r" && first != log_header())
+            throw InputError(name, "1",
+                "begins otherwise than a log of this program does; a new file, or one that starbow run --log has written, "
+                "is "
+                "right");
+    }
+    stream_ = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+    if (stream_ < 0)
+        throw InputError(name, "",
+            std::string("can't be written (") + std::strerror(errno) + "); a CSV file in a folder that can be is right");
+    if (first.empty())
+        write_out(log_header() + line_end), lines_ = 1;
+    else if (cut)
+        write_out(line_end);
+    --lines_;
+}
+
+LabLog::~LabLog() { close(stream_); }
+
+bool LabLog::write(const Measured& measured, const std::string& overlay)
+{
+    if (!write_out(log_line(measured, overlay, utc_now()) + line_end))
+        return false;
+    ++lines_;
+    return true;
+}
+
+bool LabLog::write_out(const std::string& text)
+{
+    if (!failed_ && ::write(stream_, text.data(), text.size()) != ssize_t(text.size())) {
+        failed_ = true;
+        std::fprintf(stderr, "starbow: %s: can't be written (%s); the log ends here, the flight goes on\n",
+            one_line(file_.string()).c_str(), std::strerror(errno));
+    }
+    return !failed_;
+}
+
+} // namespace starbow

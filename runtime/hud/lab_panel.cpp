@@ -1,0 +1,160 @@
+#include "lab_panel.h"
+#include "config/model/angles.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+constexpr double margin = 0.035; ///< of the width
+
+bool has_scale(Overlay overlay) { return overlay == Overlay::distance || overlay == Overlay::emission; }
+
+/// A line in no more than `room` pixels: long ones get smaller.
+void write_within(const Typesetter& typesetter, Panel& panel, const std::string& line, double x, double baseline, int size,
+    double room, double strength)
+{
+    while (size > 6 && typesetter.width_of(line, size) > room)
+        --size;
+    typesetter.write(panel, line, x, baseline, size, strength);
+}
+
+/// Without zeros at a fraction's end: 2.000 s says no more than 2 s.
+std::string rounded(const std::string& label, const Words& words)
+{
+    const auto point = label.find(words("decimal_sign")), end = label.find(' ');
+    if (point == label.npos || end == label.npos || point > end)
+        return label;
+    const auto last = label.find_last_not_of('0', end - 1);
+    return label.substr(0, last == point ? point : last + 1) + label.substr(end);
+}
+
+std::string rounded_s(double s, const Words& words)
+{
+    return rounded(words("time.s", {{"number", shown_number(s, words)}}), words);
+}
+
+std::string overlay_line(Overlay overlay, const Measured& measured, const OverlayScale& scale, const Words& words)
+{
+    const auto unshifted = unshifted_angle(measured.lookout);
+    const std::string angle
+        = unshifted ? words("angle.degrees", {{"number", shown_number(*unshifted / degree, 2, words)}}) : "";
+    switch (overlay) {
+    case Overlay::grid:
+        return words("overlay.grid");
+    case Overlay::ring:
+        return unshifted ? words("overlay.ring", {{"unshifted", angle}}) : words("overlay.ring_rest");
+    case Overlay::distance:
+        return words("overlay.distance");
+    case Overlay::emission:
+        return words("overlay.emission",
+            {{"step", rounded_s(scale.emission_step_s, words)}, {"five", rounded_s(5 * scale.emission_step_s, words)}});
+    case Overlay::off:
+    case Overlay::aim:
+        break;
+    }
+    return unshifted ? words("overlay.aim", {{"unshifted", angle}}) : words("overlay.aim_rest");
+}
+
+/// Numbers under the scale of colours: at 1, 2 and 5 times powers of ten.
+void write_scale(const Typesetter& typesetter, Panel& panel, Overlay overlay, const OverlayScale& scale, double speed_m_s,
+    const Words& words)
+{
+    const glm::vec4 place = scale_place(overlay, Why::none);
+    const double left = place.x * panel.size.x, wide = (place.z - place.x) * panel.size.x, top = 1 - place.y;
+    const double octaves = std::log10(scale.farthest_s / scale.nearest_s);
+    const int size = int(0.10 * panel.size.y);
+    const auto write_at = [&](double at_s, const std::string& label) {
+        const double x = left + wide * std::log10(at_s / scale.nearest_s) / octaves;
+        const double half = 0.5 * typesetter.width_of(label, size);
+        typesetter.write(panel, label, std::clamp(x - half, 0.015 * panel.size.x, 0.985 * panel.size.x - 2 * half),
+            (top + 0.11) * panel.size.y, size, 1);
+        // A tick in the colours.
+        for (int y = int((1 - place.w) * panel.size.y); y < int(top * panel.size.y); ++y)
+            if (x > left + 1 && x < left + wide - 1)
+                panel.texels[2 * (std::size_t(y) * panel.size.x + std::size_t(x))] = 200;
+    };
+    double before = -1;
+    for (int k = int(std::floor(std::log10(scale.nearest_s))); k <= int(std::ceil(std::log10(scale.farthest_s))); ++k)
+        for (int step : {1, 2, 5}) {
+            const double at = step * std::pow(10.0, k), x = std::log10(at / scale.nearest_s) / octaves;
+            if (x < -1e-6 || x > 1 + 1e-6 || x - before < 0.13)
+                continue;
+            before = x;
+            write_at(at,
+                overlay == Overlay::emission ? rounded_s(at, words)
+                                             : rounded(shown_length(at * speed_m_s, speed_m_s, words), words));
+        }
+}
+
+Panel draw_readings(const Typesetter& typesetter, const Words& words, const Measured& measured, Overlay overlay,
+    const OverlayScale& scale, int width)
+{
+    const int height = int(width * lab_aspect(overlay, Why::none)), unit = int(width * readings_aspect);
+    Panel panel = plate({width, height}, unit * 0.12);
+    const auto fields = reading_fields(measured, words);
+    const double rows[] = {0.26, 0.50, 0.74}, columns[] = {margin, 0.36, 0.71};
+    for (int i = 0; i < 9; ++i) {
+        const double x = width * columns[i % 3], room = width * (i % 3 < 2 ? columns[i % 3 + 1] - 0.02 : 1 - margin) - x;
+        int size = int((i < 3 ? 0.22 : 0.18) * unit);
+        const auto label = [&] { return int(0.72 * size); };
+        const auto value_at = [&] { return typesetter.width_of(fields[i].first, label()) + 0.3 * size; };
+        while (size > 6 && value_at() + typesetter.width_of(fields[i].second, size) > room)
+            --size;
+        typesetter.write(panel, fields[i].first, x, rows[i / 3] * unit, label(), 0.72);
+        typesetter.write(panel, fields[i].second, x + value_at(), rows[i / 3] * unit, size, 1);
+    }
+    write_within(typesetter, panel, overlay_line(overlay, measured, scale, words), width * margin, 0.93 * unit,
+        int(0.14 * unit), width * (1 - 2 * margin), 0.85);
+    if (has_scale(overlay))
+        write_scale(typesetter, panel, overlay, scale, measured.light_speed_m_s, words);
+    return panel;
+}
+
+Panel draw_page(const Typesetter& typesetter, const WhyPage& page, int width)
+{
+    const int height = int(width * why_aspect);
+    Panel panel = plate({width, height}, width * readings_aspect * 0.12);
+    const double room = width * (1 - 2 * margin), x = width * margin;
+    // Lines of one block have one size.
+    double at = 0.14;
+    const auto block = [&](const std::vector<std::string>& lines, double size, double apart, double strength) {
+        int pixels = int(size * width);
+        for (const std::string& line : lines)
+            while (pixels > 6 && typesetter.width_of(line, pixels) > room)
+                --pixels;
+        for (const std::string& line : lines) {
+            typesetter.write(panel, line, x, at * height, pixels, strength);
+            at += apart;
+        }
+    };
+    block({page.title}, 0.052, 0.13, 1);
+    block(page.sentence, 0.036, 0.105, 0.85);
+    at += 0.075;
+    block({page.formula}, 0.052, 0.14, 1);
+    block(page.numbers, 0.042, 0.125, 1);
+    return panel;
+}
+
+} // namespace
+
+double lab_aspect(Overlay overlay, Why why)
+{
+    return why != Why::none ? why_aspect : has_scale(overlay) ? scaled_aspect : readings_aspect;
+}
+
+glm::vec4 scale_place(Overlay overlay, Why why)
+{
+    if (why != Why::none || !has_scale(overlay))
+        return glm::vec4(0);
+    return {0.06, 0.155, 0.94, 0.215};
+}
+
+Panel draw_lab_panel(const Typesetter& typesetter, const Words& words, const Measured& measured, Overlay overlay,
+    const OverlayScale& scale, Why why, int width)
+{
+    return why != Why::none ? draw_page(typesetter, why_page(why, measured, words), width)
+                            : draw_readings(typesetter, words, measured, overlay, scale, width);
+}
+
+} // namespace starbow

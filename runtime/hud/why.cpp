@@ -1,0 +1,151 @@
+#include "why.h"
+#include "config/model/angles.h"
+#include "hud.h"
+#include "shaders/physics/physics.h"
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+/// The title, the two lines of the sentence, and the formula.
+constexpr std::array<std::array<const char*, 4>, why_names.size()> page_words = {{
+    {},
+    {"why.aberration", "why.aberration_rain", "why.aberration_abeam", "why.aberration_formula"},
+    {"why.doppler", "why.doppler_waves", "why.doppler_abeam", "why.doppler_formula"},
+    {"why.headlight", "why.headlight_more", "why.headlight_photons", "why.headlight_formula"},
+    {"why.delay", "why.delay_seen", "why.delay_moving", "why.delay_formula"},
+    {"why.dilation", "why.dilation_slow", "why.dilation_clocks", "why.dilation_formula"},
+    {"why.length", "why.length_shorter", "why.length_seen", "why.length_formula"},
+}};
+
+/// Measured numbers as they are told.
+struct Teller {
+    const Words& words;
+    double light_speed_m_s;
+
+    std::string angle(const std::optional<double>& radians) const
+    {
+        return radians ? words("angle.degrees", {{"number", shown_number(*radians / degree, 2, words)}}) : "—";
+    }
+    std::string cosine(const std::optional<double>& radians) const
+    {
+        return shown_number(radians ? std::cos(*radians) : 1, 4, words);
+    }
+    std::string seconds(const std::optional<double>& s) const { return s ? shown_duration(*s, words, 2) : "—"; }
+    std::string length(const std::optional<double>& s) const
+    {
+        return s ? shown_length(*s * light_speed_m_s, light_speed_m_s, words) : "—";
+    }
+    /// What eyes, or instruments, call a wavelength.
+    std::string wavelength(double nm) const
+    {
+        const auto told = [&](const char* key, const std::string& number) { return words(key, {{"number", number}}); };
+        return nm < 10   ? words("wave.x_rays")
+            : nm < 380   ? told("wave.ultraviolet", shown_number(nm, 0, words))
+            : nm < 780   ? told("wave.visible", shown_number(nm, 0, words))
+            : nm < 10000 ? told("wave.infrared", shown_number(nm, 0, words))
+            : nm < 1e9   ? told("wave.far_infrared", shown_number(nm / 1000, words))
+                         : words("wave.radio");
+    }
+};
+
+} // namespace
+
+WhyPage why_page(Why why, const Measured& m, const Words& words)
+{
+    if (why == Why::none)
+        return {};
+    const Teller tell{words, m.light_speed_m_s};
+    const double speed = glm::length(m.lookout.u), gamma = physics::gamma_of(m.lookout.u);
+    const std::string beta = shown_number(speed / gamma, 4, words), gammas = shown_number(gamma, words),
+                      D = shown_number(m.aim.ray.D, words);
+    const auto& [title, first, second, formula] = page_words[std::size_t(why)];
+    WhyPage page{words(title), {words(first), words(second)}, words(formula), {}};
+    const auto add = [&](const char* key, const std::vector<std::pair<std::string_view, std::string>>& with = {}) {
+        page.numbers.push_back(words(key, with));
+    };
+    const SpotReading& aim = m.aim;
+    switch (why) {
+    case Why::none:
+        break;
+    case Why::aberration:
+        add("why.aberration_numbers",
+            {{"cos", tell.cosine(aim.from_motion_world_rad)}, {"beta", beta}, {"result", tell.cosine(aim.from_motion_rad)}});
+        add("why.aberration_angles",
+            {{"theta", tell.angle(aim.from_motion_world_rad)}, {"seen", tell.angle(aim.from_motion_rad)}});
+        break;
+    case Why::doppler:
+        add("why.doppler_numbers", {{"gamma", gammas}, {"beta", beta}, {"cos", tell.cosine(aim.from_motion_rad)}, {"D", D}});
+        add("why.doppler_seen", {{"nm", tell.wavelength(aim.seen_nm)}});
+        break;
+    case Why::headlight:
+        add("why.headlight_numbers", {{"D", D}, {"cube", shown_number(std::pow(aim.ray.D, 3), words)}});
+        if (!m.effects.headlight)
+            add("why.headlight_off");
+        break;
+    case Why::delay:
+        if (aim.distance_s)
+            add("why.delay_numbers",
+                {{"now", tell.seconds(m.world_s)}, {"way", tell.seconds(aim.distance_s)},
+                    {"left", tell.seconds(aim.emitted_s)}});
+        else
+            add("why.delay_none");
+        if (m.pair && m.pair->clocks_s)
+            add("why.delay_marks",
+                {{"first", tell.seconds(m.marks[0]->clock_s)}, {"second", tell.seconds(m.marks[1]->clock_s)},
+                    {"apart", tell.seconds(std::abs(*m.pair->clocks_s))}});
+        break;
+    case Why::dilation:
+        add("why.dilation_numbers", {{"gamma", gammas}});
+        add("why.dilation_ship", {{"ship", shown_duration(m.ship_s, words)}});
+        break;
+    case Why::length:
+        if (m.pair && m.pair->apparent_s) {
+            add("why.length_numbers",
+                {{"rest", tell.length(m.pair->rest_s)}, {"contracted", tell.length(*m.pair->contracted_s)}});
+            add("why.length_apparent", {{"apparent", tell.length(m.pair->apparent_s)}});
+        } else {
+            add("why.length_none");
+        }
+    }
+    return page;
+}
+
+std::array<std::pair<std::string, std::string>, 9> reading_fields(const Measured& m, const Words& words)
+{
+    const Teller tell{words, m.light_speed_m_s};
+    const SpotReading& aim = m.aim;
+    const std::string sky = words("lab.sky");
+    std::array<std::pair<std::string, std::string>, 9> fields = {{
+        {words("lab.doppler"), shown_number(aim.ray.D, words)},
+        {words("lab.wavelength"), tell.wavelength(aim.seen_nm)},
+        {words("lab.angle"), aim.from_motion_rad ? tell.angle(aim.from_motion_rad) : words("lab.at_rest")},
+        {words("lab.distance"), aim.distance_s ? tell.length(aim.distance_s) : sky},
+        {aim.emitted_s ? words("lab.emitted") : "", aim.emitted_s ? tell.seconds(aim.emitted_s) : ""},
+        {words("lab.light"), aim.light ? shown_number(*aim.light, words) : "—"},
+        {"", ""},
+        {"", ""},
+        {"", ""},
+    }};
+    if (aim.clock_s)
+        fields[5] = {words("lab.clock"), tell.seconds(aim.clock_s)};
+    if (!m.pair) {
+        fields[6] = {words(m.marks[0] ? "lab.mark_another" : "lab.mark_two"), ""};
+        return fields;
+    }
+    fields[6] = {words("lab.marks_angle"), tell.angle(m.pair->angle_rad)};
+    fields[7] = {words("lab.marks_length"), "—"};
+    if (m.pair->apparent_s) {
+        std::string apparent = tell.length(m.pair->apparent_s), rest = tell.length(m.pair->rest_s);
+        // The unit once, where both have the same.
+        const auto unit = apparent.find(' ');
+        if (unit != apparent.npos && rest.ends_with(apparent.substr(unit)))
+            apparent.erase(unit);
+        fields[7].second = words("lab.marks_lengths", {{"apparent", apparent}, {"rest", rest}});
+    }
+    if (m.pair->clocks_s)
+        fields[8] = {words("lab.marks_clocks"), tell.seconds(m.pair->clocks_s)};
+    return fields;
+}
+
+} // namespace starbow

@@ -1,0 +1,39 @@
+#pragma once
+#include "config/model/words.h"
+#include "instruments.h"
+#include "runtime/flight/ship.h"
+#include <array>
+#include <string>
+#include <vector>
+
+namespace starbow {
+
+/// The pages that tell why something looks as it does, in the order of the key that steps through them.
+enum class Why { none, aberration, doppler, headlight, delay, dilation, length };
+constexpr std::array<const char*, 7> why_names
+    = {"none", "aberration", "doppler", "headlight", "delay", "dilation", "length"};
+
+/// All that is measured at one instant.
+struct Measured {
+    Lookout lookout;
+    double ship_s = 0, world_s = 0; ///< the clock on board since the start, and the world's
+    double light_speed_m_s = 299792458, seconds_per_time_unit = 1; ///< of the scene
+    Effects effects;
+    SpotReading aim;
+    std::array<std::optional<SpotReading>, 2> marks;
+    std::optional<PairReading> pair;
+};
+
+/// A page: the effect in a sentence or two, its formula in the field's symbols, and that with the numbers now on screen.
+struct WhyPage {
+    std::string title;
+    std::vector<std::string> sentence;
+    std::string formula;
+    std::vector<std::string> numbers;
+};
+WhyPage why_page(Why why, const Measured& measured, const Words& words);
+
+/// The instruments' readings for people: label and value, three rows of three.
+std::array<std::pair<std::string, std::string>, 9> reading_fields(const Measured& measured, const Words& words);
+
+} // namespace starbow

@@ -1,0 +1,333 @@
+#include "accuracy.h"
+#include "config/json/reader.h"
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+namespace starbow {
+namespace {
+
+std::string text(const char* format, ...) __attribute__((format(printf, 1, 2)));
+std::string text(const char* format, ...)
+{
+    char buffer[1024];
+    std::va_list list;
+    va_start(list, format);
+    std::vsnprintf(buffer, sizeof buffer, format, list);
+    va_end(list);
+    return buffer;
+}
+
+/// For XML and HTML.
+std::string safe(const std::string& plain)
+{
+    std::string all;
+    for (char c : plain)
+        all += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+    return all;
+}
+
+/// A CSV field: quoted, since names hold commas.
+std::string quoted(const std::string& plain) { return '"' + plain + '"'; }
+
+/// One error as charts and tables show it.
+struct Metric {
+    const char* name;
+    const char* unit;
+    double (*of)(const MeasuredSetting&);
+    bool less_is_better;
+};
+constexpr double greatest_dB = 99; // stands for "nothing differs"
+const Metric metrics[] = {
+    {"FLIP", "mean", [](const MeasuredSetting& m) { return m.errors.flip; }, true},
+    {"PSNR", "dB", [](const MeasuredSetting& m) { return std::min(m.errors.psnr_dB, greatest_dB); }, false},
+    {"CIEDE2000", "95th percentile", [](const MeasuredSetting& m) { return m.errors.ciede2000_95; }, true},
+    {"edges", "pixels, 95th percentile", [](const MeasuredSetting& m) { return m.errors.edges_95_px; }, true},
+};
+
+/// Round steps for an axis, some of them.
+std::vector<double> even_steps(double low, double high)
+{
+    constexpr int most = 6;
+    double step = std::pow(10, std::floor(std::log10((high - low) / most)));
+    for (double factor : {1.0, 2.0, 5.0, 10.0})
+        if ((high - low) / (step * factor) <= most) {
+            step *= factor;
+            break;
+        }
+    std::vector<double> all;
+    for (double at = std::ceil(low / step) * step; at <= high + 1e-9 * step; at += step)
+        all.push_back(at);
+    return all;
+}
+std::vector<double> log_steps(double low, double high)
+{
+    std::vector<double> all;
+    for (double decade = std::pow(10, std::floor(std::log10(low))); decade < high; decade *= 10)
+        for (double factor : {1.0, 2.0, 3.0, 5.0, 7.0})
+            if (const double at = decade * factor; at >= low && at <= high)
+                all.push_back(at);
+    return all;
+}
+
+/// A chart's inside. What is better is always below: errors on a logarithmic scale, or decibels upside down.
+struct Chart {
+    double left, top, width, height;
+    double first_ms, last_ms, low, high;
+    bool decibels;
+    double x(double ms) const { return left + width * std::log(ms / first_ms) / std::log(last_ms / first_ms); }
+    double y(double value) const
+    {
+        return top
+            + height
+            * (decibels ? (value - low) / (high - low) : std::log(high / std::max(value, low)) / std::log(high / low));
+    }
+};
+
+std::string drawn(
+    const std::vector<MeasuredSetting>& all, const std::vector<bool>& best, const Metric& metric, double left, double top)
+{
+    double first = 1e300, last = 0, low = 1e300, high = -1e300;
+    for (const MeasuredSetting& one : all) {
+        first = std::min(first, one.ms), last = std::max(last, one.ms);
+        low = std::min(low, metric.of(one)), high = std::max(high, metric.of(one));
+    }
+    const bool decibels = !metric.less_is_better;
+    const double room = 0.08 * (high - low) + 1e-3;
+    low = decibels ? low - room : std::max(low, 1e-4) / 1.15, high = decibels ? high + room : std::max(high, 2e-4) * 1.15;
+    const Chart c{left + 62, top + 34, 400, 260, first / 1.12, last * 1.12, low, high, decibels};
+    std::string out = text("<text x=\"%.0f\" y=\"%.0f\" class=\"head\">%s <tspan class=\"unit\">%s</tspan></text>\n",
+        left + 62, top + 18, metric.name, metric.unit);
+    out += text(
+        "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" class=\"box\"/>\n", c.left, c.top, c.width, c.height);
+    for (double at : decibels ? even_steps(low, high) : log_steps(low, high))
+        out += text("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"grid\"/><text x=\"%.1f\" y=\"%.1f\" "
+                    "class=\"tick\" text-anchor=\"end\">%.4g</text>\n",
+            c.left, c.left + c.width, c.y(at), c.y(at), c.left - 6, c.y(at) + 4, at);
+    for (double at : log_steps(c.first_ms, c.last_ms))
+        out += text("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"grid\"/><text x=\"%.1f\" y=\"%.1f\" "
+                    "class=\"tick\" text-anchor=\"middle\">%.4g</text>\n",
+            c.x(at), c.x(at), c.top, c.top + c.height, c.x(at), c.top + c.height + 16, at);
+    out += text("<text x=\"%.1f\" y=\"%.1f\" class=\"tick\" text-anchor=\"middle\">milliseconds a frame</text>\n",
+        c.left + c.width / 2, c.top + c.height + 32);
+    std::vector<const MeasuredSetting*> line;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (best[i])
+            line.push_back(&all[i]);
+    std::sort(line.begin(), line.end(), [](auto* a, auto* b) { return a->ms < b->ms; });
+    out += "<polyline class=\"frontier\" points=\"";
+    for (const MeasuredSetting* one : line)
+        out += text("%.1f,%.1f ", c.x(one->ms), c.y(metric.of(*one)));
+    out += "\"/>\n";
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const MeasuredSetting& one = all[i];
+        const char* kind = one.setting.shipped ? "shipped" : best[i] ? "best" : "other";
+        out += text("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\" class=\"%s\"><title>", c.x(one.ms), c.y(metric.of(one)),
+            one.setting.shipped ? "6" : "4", kind);
+        out += safe(one.setting.name) + text(": %.1f ms, %.4g</title></circle>\n", one.ms, metric.of(one));
+    }
+    double below = -7; // the names in turn above and below their points, as neighbours would overlap
+    for (const MeasuredSetting& one : all)
+        if (one.setting.shipped)
+            out += text("<text x=\"%.1f\" y=\"%.1f\" class=\"name\">", c.x(one.ms) + 5,
+                       c.y(metric.of(one)) + (below = 8 - below))
+                + safe(one.setting.name) + "</text>\n";
+    return out;
+}
+
+} // namespace
+
+std::vector<Setting> settings_to_try(
+    const std::vector<Setting>& shipped, const Quality& standard, bool two_eyes, SpectralLevel needed)
+{
+    std::vector<Setting> all = shipped;
+    const auto add = [&](const Quality& quality) {
+        const auto same = [&](const Setting& one) { return one.quality == quality; };
+        if (std::none_of(all.begin(), all.end(), same))
+            all.push_back({differences(quality, standard), quality});
+    };
+    const auto with = [&](const auto& change) {
+        Quality quality = standard;
+        change(quality);
+        add(quality);
+    };
+    // Each by itself.
+    for (double density : {0.35, 0.5, 0.65, 1.0, 1.25, 1.6, 2.0})
+        with([&](Quality& q) { q.texels_per_pixel = density, q.most_texels_per_pixel = 3 * density * density; });
+    for (double most : {0.75, 1.0, 2.0, 4.0, 8.0})
+        with([&](Quality& q) { q.most_texels_per_pixel = most; });
+    for (int samples : {1, 2, 4, 8})
+        with([&](Quality& q) { q.cube_samples = samples; });
+    for (double texels : {0.0, 0.5, 1.0, 2.0, 4.0})
+        with([&](Quality& q) { q.stray_texels = texels; });
+    for (double texels : {2.0, 8.0, 16.0, 32.0, 64.0, 128.0})
+        with([&](Quality& q) { q.shading_texels = texels; });
+    for (double texels : {2048.0, 8192.0, 32768.0, 131072.0, 1e12})
+        with([&](Quality& q) { q.image_cost_texels = texels; });
+    for (int rays : {1, 2, 3})
+        with([&](Quality& q) { q.pixel_rays = rays; });
+    for (int images : {0, 2})
+        with([&](Quality& q) { q.rear_images = images; });
+    with([&](Quality& q) { q.mips = !q.mips; });
+    with([&](Quality& q) { q.half_floats = !q.half_floats; });
+    with([&](Quality& q) { q.matrices = !q.matrices; });
+    for (int frames : {2, 4})
+        with([&](Quality& q) { q.frames_per_cube = frames; });
+    for (SpectralLevel level : {SpectralLevel::colours, SpectralLevel::middle, SpectralLevel::fine})
+        if (level != needed)
+            with([&](Quality& q) { q.spectra = level; });
+    if (two_eyes)
+        for (StereoMethod method : {StereoMethod::shared, StereoMethod::reprojected, StereoMethod::exact})
+            with([&](Quality& q) { q.stereo = method; });
+    // What matters most, together.
+    for (double density : {0.5, 0.8, 1.0, 1.25, 2.0})
+        for (int samples : {1, 4})
+            for (int rays : {1, 2})
+                for (double texels : {standard.shading_texels, 16.0})
+                    if (density >= 1.25 || (samples == 1 && rays == 1))
+                        with([&](Quality& q) {
+                            q.texels_per_pixel = density, q.most_texels_per_pixel = 3 * density * density;
+                            q.cube_samples = samples, q.pixel_rays = rays, q.shading_texels = texels;
+                        });
+    return all;
+}
+
+std::vector<bool> frontier(const std::vector<MeasuredSetting>& all)
+{
+    std::vector<bool> best;
+    for (const MeasuredSetting& one : all)
+        best.push_back(std::none_of(all.begin(), all.end(), [&](const MeasuredSetting& other) {
+            return other.ms <= one.ms && other.errors.flip <= one.errors.flip
+                && (other.ms < one.ms || other.errors.flip < one.errors.flip);
+        }));
+    return best;
+}
+
+const MeasuredSetting* better_than(const MeasuredSetting& one, const std::vector<MeasuredSetting>& all, double part)
+{
+    for (const MeasuredSetting& other : all)
+        if (other.ms < one.ms / (1 + part) && other.errors.flip < one.errors.flip / (1 + part))
+            return &other;
+    return nullptr;
+}
+
+const MeasuredSetting* best_within(const std::vector<MeasuredSetting>& all, double budget_ms)
+{
+    const MeasuredSetting* best = nullptr;
+    for (const MeasuredSetting& one : all)
+        if (one.ms <= budget_ms && (!best || one.errors.flip < best->errors.flip))
+            best = &one;
+    return best;
+}
+
+std::vector<Rung> ladder_of(const std::vector<MeasuredSetting>& all)
+{
+    const std::vector<bool> best = frontier(all);
+    std::vector<Rung> ladder;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const MeasuredSetting& one = all[i];
+        const Quality& own = one.setting.quality;
+        const Quality& first = all[0].setting.quality;
+        // Other samples or formats would take other memory, which takes longer than a frame; and a cube map that lags behind
+        // is no quality to come to unasked; nor is one that leaves out what the measured shots may just not have shown.
+        if (best[i] && own.spectra == first.spectra && own.stereo == first.stereo && own.matrices == first.matrices
+            && own.cube_samples == first.cube_samples && own.half_floats == first.half_floats && own.frames_per_cube == 1
+            && own.mips == first.mips && own.rear_images == first.rear_images)
+            ladder.push_back({own, one.ms, one.errors.flip, one.errors.edges_95_px});
+    }
+    std::sort(ladder.begin(), ladder.end(), [](const Rung& a, const Rung& b) { return a.ms < b.ms; });
+    // A step that hardly changes anything is none.
+    std::vector<Rung> steps;
+    for (const Rung& rung : ladder)
+        if (steps.empty() || rung.ms > 1.08 * steps.back().ms)
+            steps.push_back(rung);
+    return steps;
+}
+
+std::string accuracy_csv(const std::vector<MeasuredSetting>& all)
+{
+    const std::vector<bool> best = frontier(all);
+    std::string out
+        = "setting,texels_per_pixel,most_texels_per_pixel,cube_samples,stray_texels,shading_texels,image_cost_texels,pixel_"
+          "rays,rear_images,"
+          "mips,half_floats,"
+          "matrices,frames_per_cube,ms,ratio,megabytes,texels_drawn_per_pixel,images,flip,psnr_dB,ciede2000_mean,"
+          "ciede2000_95,edges_95_px,direction_99_px,doppler_99,frontier\n";
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const MeasuredSetting& m = all[i];
+        const Quality& q = m.setting.quality;
+        out += quoted(m.setting.name)
+            + text(",%g,%g,%d,%g,%g,%g,%d,%d,%d,%d,%d,%d,%.4f,%.4f,%.2f,%.3f,%d,%.6f,%.3f,%.4f,%.4f,%.4f,%.6f,%.3g,%d\n",
+                q.texels_per_pixel, q.most_texels_per_pixel, q.cube_samples, q.stray_texels, q.shading_texels,
+                q.image_cost_texels, q.pixel_rays, q.rear_images, q.mips, q.half_floats, q.matrices, q.frames_per_cube, m.ms,
+                m.ratio, m.megabytes, m.texels_per_pixel, m.images, m.errors.flip, m.errors.psnr_dB, m.errors.ciede2000_mean,
+                m.errors.ciede2000_95, m.errors.edges_95_px, m.direction_px, m.doppler, int(best[i]));
+    }
+    return out;
+}
+
+std::string accuracy_chart(const std::vector<MeasuredSetting>& all, const std::string& title)
+{
+    const std::vector<bool> best = frontier(all);
+    std::string out
+        = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1000 760\" font-family=\"sans-serif\">\n"
+          "<style>.box{fill:none;stroke:#888}.grid{stroke:#ddd}.tick{font-size:12px;fill:#333}.head{font-size:16px;"
+          "font-weight:bold}.unit{font-size:13px;font-weight:normal;fill:#555}.name{font-size:13px;font-weight:bold;"
+          "fill:#a33c00;stroke:#fff;stroke-width:3;paint-order:stroke}"
+          ".frontier{fill:none;stroke:#0072b2;stroke-width:2}.other{fill:#999;fill-opacity:.55}"
+          ".best{fill:#0072b2}.shipped{fill:#d55e00;stroke:#fff;stroke-width:1.5}</style>\n"
+          "<rect width=\"1000\" height=\"760\" fill=\"#fff\"/>\n";
+    out += "<text x=\"62\" y=\"30\" class=\"head\">" + safe(title) + "</text>\n";
+    out += "<text x=\"62\" y=\"50\" class=\"unit\">Lower is better, further left is faster. Orange: the shipped settings; "
+           "blue: what "
+           "no other setting beats in FLIP and time.</text>\n";
+    for (std::size_t i = 0; i < 4; ++i)
+        out += drawn(all, best, metrics[i], i % 2 == 0 ? 0 : 500, i < 2 ? 62 : 408);
+    return out + "</svg>\n";
+}
+
+std::string accuracy_page(const std::vector<MeasuredSetting>& all, const MeasuredOn& on)
+{
+    const std::vector<bool> best = frontier(all);
+    std::vector<std::size_t> order(all.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        order[i] = i;
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return all[a].ms < all[b].ms; });
+    std::string out
+        = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Starbow: speed and "
+          "accuracy</title>\n<style>body{font:15px/1.45 sans-serif;max-width:1100px;margin:2em auto;padding:0 1em}"
+          "table{border-collapse:collapse;font-size:13px}td,th{padding:3px 9px;border-bottom:1px solid #ddd;"
+          "text-align:right}td:first-child,th:first-child{text-align:left}tr.best td:first-child{color:#0072b2;"
+          "font-weight:bold}tr.shipped td:first-child{color:#a33c00;font-weight:bold}svg{width:100%}</style>"
+          "</head><body>\n<h1>Speed and accuracy</h1>\n";
+    out += "<p>" + safe(on.what) + ". " + safe(on.machine)
+        + text(". Frame times are medians of %d rounds, each in turn with the default setting. Errors are against the "
+               "reference, "
+               "%d rays a pixel, on the picture as it is shown.</p>\n",
+            on.rounds, on.samples);
+    out += accuracy_chart(all, on.what);
+    out += "<table><tr><th>setting</th><th>ms</th><th>of the default</th><th>MiB</th><th>texels a pixel</th><th>images</th>"
+           "<th>FLIP</th><th>PSNR, dB</th><th>CIEDE2000 mean</th><th>95 %</th><th>edges, px</th><th>direction, px</th>"
+           "<th>D</th></tr>\n";
+    for (std::size_t i : order) {
+        const MeasuredSetting& m = all[i];
+        out += text("<tr class=\"%s\"><td>",
+                   m.setting.shipped ? "shipped"
+                       : best[i]     ? "best"
+                                     : "other")
+            + safe(m.setting.name)
+            + text(
+                "</td><td>%.1f</td><td>%.2f</td><td>%.0f</td><td>%.2f</td><td>%d</td><td>%.4f</td><td>%.1f</td><td>%.2f</td>"
+                "<td>%.2f</td><td>%.3f</td><td>%.4f</td><td>%.1e</td></tr>\n",
+                m.ms, m.ratio, m.megabytes, m.texels_per_pixel, m.images, m.errors.flip, m.errors.psnr_dB,
+                m.errors.ciede2000_mean, m.errors.ciede2000_95, m.errors.edges_95_px, m.direction_px, m.doppler);
+    }
+    return out
+        + "</table>\n<p>FLIP: 0 where nobody could tell the pictures apart, 1 at worst. Edges: how far an edge stands from "
+          "where it "
+          "should. Direction: how far a pixel looks from where it should, 99th percentile. D: the same of the Doppler "
+          "factor, relative.</p>\n</body></html>\n";
+}
+
+} // namespace starbow

@@ -1,0 +1,191 @@
+#include "movie.h"
+#include "config/json/error.h"
+#include "config/json/reader.h"
+#include "config/json/whole_file.h"
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <iterator>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+extern char** environ;
+
+namespace starbow {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* told_in = "made-from.json";
+
+std::string text_of(const fs::path& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+bool is_frame(const fs::path& file)
+{
+    const std::string name = file.filename().string();
+    return name.ends_with(".png") && name.size() > 11 && name[name.size() - 11] == '-'
+        && name.find_first_not_of("0123456789", name.size() - 10) == name.size() - 4;
+}
+
+struct Ended {
+    int status; ///< as waitpid tells it; -1: not started
+    int error; ///< why not
+    std::string said; ///< on its standard error, the last of it
+};
+
+/// Starts a program from the PATH in a folder, without a shell, and waits for it.
+Ended ran(const std::vector<std::string>& arguments, const fs::path& folder)
+{
+    std::vector<char*> pointers;
+    for (const std::string& argument : arguments)
+        pointers.push_back(const_cast<char*>(argument.c_str()));
+    pointers.push_back(nullptr);
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        return {-1, errno, ""};
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], 2);
+    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+    pid_t child = 0;
+    const int error = posix_spawnp(&child, pointers[0], &actions, nullptr, pointers.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+    Ended ended{-1, error, ""};
+    if (error == 0) {
+        std::array<char, 4096> piece;
+        for (ssize_t got; (got = read(ends[0], piece.data(), piece.size())) > 0 || (got < 0 && errno == EINTR);) {
+            ended.said.append(piece.data(), std::size_t(std::max<ssize_t>(got, 0)));
+            if (ended.said.size() > 65536)
+                ended.said.erase(0, ended.said.size() - 32768);
+        }
+        while (waitpid(child, &ended.status, 0) < 0 && errno == EINTR) { }
+    }
+    close(ends[0]);
+    return ended;
+}
+
+/// The last line that says something.
+std::string last_line(const std::string& said)
+{
+    const std::size_t end = said.find_last_not_of(" \r\n");
+    if (end == said.npos)
+        return "";
+    const std::size_t begin = said.find_last_of("\r\n", end);
+    return one_line(said.substr(begin == said.npos ? 0 : begin + 1, end - (begin == said.npos ? -1 : begin)));
+}
+
+std::string how(const Ended& ended)
+{
+    if (ended.status == -1)
+        return std::strerror(ended.error);
+    if (const std::string said = last_line(ended.said); !said.empty())
+        return said;
+    return WIFSIGNALED(ended.status) ? "ended by signal " + std::to_string(WTERMSIG(ended.status))
+                                     : "exit status " + std::to_string(WEXITSTATUS(ended.status));
+}
+
+} // namespace
+
+MovieFrames::MovieFrames(
+    const fs::path& movie, const std::string& made_from, const std::function<void(const std::string&)>& say)
+    : folder_(fs::absolute(movie).lexically_normal())
+{
+    folder_ += ".frames";
+    std::error_code error;
+    const fs::path told = folder_ / told_in;
+    if (fs::exists(folder_, error)) {
+        if (!fs::is_regular_file(told, error) && (!fs::is_directory(folder_, error) || !fs::is_empty(folder_, error)))
+            throw InputError(folder_.string(), "",
+                "is there and holds no frames of a movie; another name for the movie, or another place for that, is right");
+        if (text_of(told) == made_from)
+            return;
+        if (fs::exists(told, error)) {
+            say(one_line(folder_.string())
+                + ": what these frames were made from has changed, or how; the movie begins anew");
+            remove();
+        }
+    }
+    fs::create_directories(folder_, error);
+    if (error)
+        throw InputError(
+            folder_.string(), "", "can't be made (" + error.message() + "); a place that can be written to is right");
+    write_whole(told, made_from);
+}
+
+fs::path MovieFrames::file(const std::string& output, long frame) const
+{
+    std::array<char, 16> number;
+    std::snprintf(number.data(), number.size(), "-%06ld.png", frame);
+    return folder_ / (output + number.data());
+}
+
+bool MovieFrames::has(const std::string& output, long frame) const
+{
+    std::error_code error;
+    return fs::is_regular_file(file(output, frame), error);
+}
+
+void MovieFrames::remove() const
+{
+    std::error_code error;
+    std::vector<fs::path> ours;
+    for (const auto& entry : fs::directory_iterator(folder_, error))
+        if (is_frame(entry.path()))
+            ours.push_back(entry.path());
+    for (const fs::path& file : ours)
+        fs::remove(file, error);
+    fs::remove(folder_ / told_in, error);
+    fs::remove(folder_, error); // stays where something else is in it
+}
+
+void check_ffmpeg()
+{
+    const Ended ended = ran({"ffmpeg", "-version"}, "/");
+    if (ended.status != 0)
+        throw InputError("ffmpeg, which makes movies of pictures, can't be started (" + how(ended)
+            + "); Debian's package ffmpeg, installed, is right");
+}
+
+void make_movie(const fs::path& movie, const MovieFrames& frames, const std::string& output, int frames_per_s)
+{
+    const fs::path whole = fs::absolute(movie).lexically_normal();
+    fs::path part = whole;
+    part += '.' + std::to_string(getpid()) + ".part";
+    std::string pattern; // in ffmpeg's a % stands for a number
+    for (char c : output)
+        pattern += c == '%' ? std::string("%%") : std::string(1, c);
+    // Frames are sRGB in full range; movies are Rec. 709 in the range of television, and of even width and height.
+    const Ended ended
+        = ran({"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y", "-framerate", std::to_string(frames_per_s),
+                  "-start_number", "0", "-i", "file:" + pattern + "-%06d.png", "-vf",
+                  "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-c:v", "libx264", "-preset",
+                  "medium", "-crf", "16", "-pix_fmt", "yuv420p", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1",
+                  "-colorspace", "bt709", "-movflags", "+faststart", "-f", "mp4", "file:" + part.string()},
+            frames.folder());
+    std::error_code error;
+    if (ended.status != 0) {
+        fs::remove(part, error);
+        throw InputError(one_line(movie.string()), "",
+            "ffmpeg could not make it (" + how(ended) + "); its frames are kept, and the same command goes on from there");
+    }
+    fs::rename(part, whole, error);
+    if (error) {
+        const int why = error.value();
+        fs::remove(part, error);
+        refuse_writing(movie, why);
+    }
+}
+
+} // namespace starbow

@@ -1,0 +1,367 @@
+#include "cube_map_plan.h"
+#include "headroom.h"
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <tuple>
+
+namespace starbow {
+namespace {
+
+constexpr int least_side = 16, most_side = 8192; // texels across one image, gutter aside
+
+/// The image of a part of a slot.
+struct Draft {
+    const Quality& quality;
+    double density;
+    int layer;
+    bool spreads; ///< what pixels filter in reaches past the image
+    int rear_last;
+
+    PlanImage image(int slot, const Cells& cells, const Demand& demand) const
+    {
+        const glm::dvec2 extent = demand.rect.high - demand.rect.low;
+        const double longest = std::max(extent.x, extent.y);
+        double unit = std::min(demand.finest / density, std::max(longest, 1e-300) / least_side);
+        unit = std::max(unit, longest / most_side);
+        PlanImage image;
+        image.slot = slot;
+        image.cells = cells;
+        image.face = slot_face(slot);
+        image.layer = layer;
+        image.texels_per_unit = 1 / unit;
+        // Up to twofold shrinking is what bilinear filtering holds; beyond it the image needs mips.
+        const int most_levels = quality.mips ? 5 : 1;
+        image.levels = std::clamp(1 + int(std::floor(std::log2(demand.coarsest / unit) - 0.2)), 1, most_levels);
+        // Twice as wide where pixels look past the image: what they filter in is then all told.
+        const int gutter = (spreads ? 4 : 2) << (image.levels - 1);
+        const int grid = 1 << image.levels;
+        for (int i = 0; i < 2; ++i) {
+            // Edges on the texel grid of the whole face, so that a rectangle that grows does not shift its texels.
+            const double first = std::floor(demand.rect.low[i] / (grid * unit)) * grid - gutter;
+            const double last = std::ceil(demand.rect.high[i] / (grid * unit)) * grid + gutter;
+            image.low[i] = first * unit;
+            image.high[i] = last * unit;
+            image.size[i] = int(last - first);
+        }
+        if (const double hole = slot_hole(slot, rear_last); hole > 0)
+            image.hole = std::max(0.0, hole - (gutter + 1) * unit);
+        return image;
+    }
+
+    /// What an image costs, in texels.
+    double cost(const PlanImage& image) const
+    {
+        constexpr double with_mips = 4.0 / 3;
+        return double(image.size.x) * image.size.y * (image.levels > 1 ? with_mips : 1) + quality.image_cost_texels;
+    }
+};
+
+constexpr int halved = SLOT_CELLS - 1; // of the halvings' intervals, those below have halves
+
+void merge(SlotDemands& all, const Demands::Slot& demand)
+{
+    for (int b = SlotDemands::intervals - 1; b >= 0; --b)
+        for (int a = SlotDemands::intervals - 1; a >= 0; --a) {
+            Demand& own = all.demands[b][a];
+            double& wanted = all.wanted[b][a];
+            if (a < halved) {
+                own = all.demands[b][2 * a + 1];
+                own.add(all.demands[b][2 * a + 2]);
+                wanted = all.wanted[b][2 * a + 1] + all.wanted[b][2 * a + 2];
+            } else if (b < halved) {
+                own = all.demands[2 * b + 1][a];
+                own.add(all.demands[2 * b + 2][a]);
+                wanted = all.wanted[2 * b + 1][a] + all.wanted[2 * b + 2][a];
+            } else {
+                own = demand.cells[std::size_t((b - halved) * SLOT_CELLS + a - halved)];
+                const glm::dvec2 extent = own.rect.high - own.rect.low;
+                wanted = own.rect.empty() ? 0 : extent.x * extent.y / (own.finest * own.finest);
+            }
+        }
+}
+
+/// A slot cut into the rectangles of cells that cost least together.
+class Cutting {
+public:
+    Cutting(const Draft& draft, const SlotDemands& demands)
+        : draft_(draft)
+        , demands_(demands)
+    {
+        for (auto& row : ways_)
+            std::fill(std::begin(row), std::end(row), Way::unknown);
+    }
+
+    void add_images(std::vector<PlanImage>& images)
+    {
+        if (!demands_.demands[0][0].rect.empty())
+            add(0, 0, images);
+    }
+
+private:
+    enum class Way : char { unknown, whole, along_a, along_b };
+
+    /// Of an interval of the heap, its cells.
+    static void cells_of(int interval, int& first, int& count)
+    {
+        const int level = std::bit_width(unsigned(interval + 1)) - 1;
+        count = SLOT_CELLS >> level;
+        first = (interval + 1 - (1 << level)) * count;
+    }
+    static Cells cells(int a, int b)
+    {
+        Cells cells;
+        cells_of(a, cells.first.x, cells.count.x);
+        cells_of(b, cells.first.y, cells.count.y);
+        return cells;
+    }
+
+    /// What a part costs at least, cut as it may; its way is known then.
+    double cost(int a, int b)
+    {
+        const Demand& demand = demands_.demands[b][a];
+        if (demand.rect.empty())
+            return 0;
+        double& cost = costs_[b][a];
+        Way& way = ways_[b][a];
+        if (way != Way::unknown)
+            return cost;
+        way = Way::whole;
+        cost = draft_.cost(draft_.image(demands_.slot, {}, demand));
+        // Another image, and the texels without any waste, cost no less than any cut.
+        const double least = demands_.wanted[b][a] * draft_.density * draft_.density + 2 * draft_.quality.image_cost_texels;
+        if (cost <= least)
+            return cost;
+        if (a < halved)
+            if (const double cut = this->cost(2 * a + 1, b) + this->cost(2 * a + 2, b); cut < cost)
+                cost = cut, way = Way::along_a;
+        if (b < halved)
+            if (const double cut = this->cost(a, 2 * b + 1) + this->cost(a, 2 * b + 2); cut < cost)
+                cost = cut, way = Way::along_b;
+        return cost;
+    }
+
+    void add(int a, int b, std::vector<PlanImage>& images)
+    {
+        if (demands_.demands[b][a].rect.empty())
+            return;
+        cost(a, b);
+        switch (ways_[b][a]) {
+        case Way::along_a:
+            add(2 * a + 1, b, images), add(2 * a + 2, b, images);
+            return;
+        case Way::along_b:
+            add(a, 2 * b + 1, images), add(a, 2 * b + 2, images);
+            return;
+        default:
+            images.push_back(draft_.image(demands_.slot, cells(a, b), demands_.demands[b][a]));
+        }
+    }
+
+    const Draft& draft_;
+    const SlotDemands& demands_;
+    double costs_[SlotDemands::intervals][SlotDemands::intervals];
+    Way ways_[SlotDemands::intervals][SlotDemands::intervals];
+};
+
+/// Shelves, tallest first; the atlas is about square. Corners stay on multiples of `align` so that mips stay apart.
+void pack(Plan& plan, std::vector<std::size_t>& order, int align)
+{
+    order.clear();
+    double area = 0;
+    int widest = 0;
+    for (const PlanImage& image : plan.images) {
+        order.push_back(order.size());
+        area += double(image.size.x) * image.size.y;
+        widest = std::max(widest, image.size.x);
+    }
+    keep_room(order);
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::tuple(plan.images[a].size.y, b) > std::tuple(plan.images[b].size.y, a);
+    });
+    int width = std::max(widest, (int(1.1 * std::sqrt(area)) + 63) / 64 * 64);
+    glm::ivec2 pen(0);
+    int shelf = 0;
+    for (std::size_t at : order) {
+        PlanImage& image = plan.images[at];
+        if (pen.x + image.size.x > width)
+            pen = {0, pen.y + shelf}, shelf = 0;
+        image.atlas = pen;
+        pen.x = (pen.x + image.size.x + align - 1) / align * align;
+        shelf = std::max(shelf, (image.size.y + align - 1) / align * align);
+    }
+    plan.atlas_size = {width, std::max(1, pen.y + shelf)};
+}
+
+} // namespace
+
+Plan make_plan(const std::vector<View>& views, double E, const Quality& quality)
+{
+    return make_plan({PlanLayer{views, E}}, quality);
+}
+
+Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality)
+{
+    PlanRoom room;
+    return make_plan(layers, quality, room);
+}
+
+Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality, PlanRoom& room, Plan before)
+{
+    Plan plan;
+    std::swap(plan.images, before.images);
+    std::swap(plan.rear_last, before.rear_last), plan.rear_last.clear();
+    std::size_t used = 0; // of room.by_slot: whose 54 kB each are filled in place
+    if (room.demands.size() < layers.size())
+        room.demands.resize(layers.size());
+    for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+        const double E = layers[layer].E;
+        // Behind, D stops falling at 1/gamma from the axis: finer images would only repeat the last one.
+        const int rear_last = std::clamp(
+            int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0, std::min(quality.rear_images, REAR_LEVELS - 1));
+        plan.rear_last.push_back(rear_last);
+        room.demands[layer].clear();
+        add_demands(room.demands[layer], layers[layer], rear_last, quality.pixel_rays);
+        for (int slot = 0; slot < SLOT_COUNT; ++slot)
+            if (const Demands::Slot& demand = room.demands[layer].slots[std::size_t(slot)]; demand.any) {
+                if (used == room.by_slot.size())
+                    room.by_slot.emplace_back();
+                SlotDemands& all = room.by_slot[used++];
+                all.layer = int(layer), all.slot = slot;
+                merge(all, demand);
+            }
+    }
+    keep_room(room.by_slot);
+    const std::span<const SlotDemands> by_slot = std::span(room.by_slot).first(used);
+    for (const View& view : layers[0].views)
+        plan.pixels += double(view.blocks->size().x) * view.blocks->size().y;
+
+    auto lay_out = [&](double density) {
+        plan.images.clear();
+        for (const SlotDemands& demands : by_slot) {
+            const std::size_t layer = std::size_t(demands.layer);
+            const Draft draft{quality, density, demands.layer, layers[layer].things.has_value(), plan.rear_last[layer]};
+            Cutting(draft, demands).add_images(plan.images);
+        }
+        plan.texels = 0;
+        plan.levels = 1;
+        plan.cut = false;
+        for (const PlanImage& image : plan.images) {
+            plan.levels = std::max(plan.levels, image.levels);
+            plan.texels += double(image.size.x) * image.size.y;
+            plan.cut = plan.cut || !image.cells.all();
+        }
+    };
+    double density = quality.texels_per_pixel;
+    lay_out(density);
+    // What moves may fill the view as well as the world behind it.
+    int seen = 0;
+    for (std::size_t i = 0; i < plan.images.size(); ++i)
+        seen += i == 0 || plan.images[i].layer != plan.images[i - 1].layer;
+    double most_texels = std::min(quality.most_texels_per_pixel * plan.pixels * std::max(seen, 1), quality.max_texels);
+    for (int i = 0; i < 4 && plan.texels > 1.02 * most_texels; ++i) {
+        density *= std::sqrt(most_texels / plan.texels);
+        lay_out(density);
+    }
+    keep_room(plan.images);
+    pack(plan, room.by_height, 1 << plan.levels);
+    for (int i = 0; i < 8 && std::max(plan.atlas_size.x, plan.atlas_size.y) > quality.max_atlas_side; ++i) {
+        density *= 0.9 * quality.max_atlas_side / std::max(plan.atlas_size.x, plan.atlas_size.y);
+        lay_out(density);
+        pack(plan, room.by_height, 1 << plan.levels);
+    }
+    return plan;
+}
+
+bool serves(const Plan& drawn, const Plan& wanted)
+{
+    constexpr double hardly_less = 0.8;
+    return drawn.rear_last == wanted.rear_last
+        && std::all_of(wanted.images.begin(), wanted.images.end(), [&](const PlanImage& image) {
+               const auto same = std::find_if(drawn.images.begin(), drawn.images.end(), [&](const PlanImage& own) {
+                   return own.layer == image.layer && own.slot == image.slot && own.cells == image.cells;
+               });
+               return same != drawn.images.end() && glm::all(glm::lessThanEqual(same->low, image.low))
+                   && glm::all(glm::greaterThanEqual(same->high, image.high)) && same->hole <= image.hole
+                   && same->levels >= image.levels && same->texels_per_unit >= hardly_less * image.texels_per_unit;
+           });
+}
+
+glm::dmat4 clip_from_motion(const PlanImage& image, double near_distance)
+{
+    // x_clip / w runs from -1 to 1 over the picture, depth is near / distance.
+    glm::dvec2 scale = 2.0 / (image.high - image.low), offset = -(image.high + image.low) / (image.high - image.low);
+    glm::dmat4 m(0);
+    m[face_a[image.face]][0] = scale.x;
+    m[face_axis[image.face]][0] = offset.x * face_sign[image.face];
+    m[face_b[image.face]][1] = scale.y;
+    m[face_axis[image.face]][1] = offset.y * face_sign[image.face];
+    m[3][2] = near_distance;
+    m[face_axis[image.face]][3] = face_sign[image.face];
+    return m;
+}
+
+shared::SlotEntry slot_entry(const PlanImage& image)
+{
+    const glm::dvec2 offset = glm::dvec2(image.atlas) - image.low * image.texels_per_unit;
+    return {
+        glm::vec4(image.texels_per_unit, offset, image.levels - 1), glm::vec4(image.atlas, image.atlas + image.size - 1)};
+}
+
+namespace {
+
+/// Of a slot's images the one whose cells lie nearest.
+const PlanImage& nearest_image(std::span<const PlanImage> images, const glm::ivec2& cell)
+{
+    const auto off = [&](const PlanImage& image) {
+        const glm::ivec2 past = glm::max(image.cells.first - cell, cell - (image.cells.first + image.cells.count - 1));
+        return std::max({past.x, past.y, 0});
+    };
+    return *std::min_element(
+        images.begin(), images.end(), [&](const PlanImage& a, const PlanImage& b) { return off(a) < off(b); });
+}
+
+} // namespace
+
+std::span<const PlanImage> of_first_slot(std::span<const PlanImage> images)
+{
+    const auto other
+        = [&](const PlanImage& image) { return image.layer != images[0].layer || image.slot != images[0].slot; };
+    return images.first(std::size_t(std::find_if(images.begin(), images.end(), other) - images.begin()));
+}
+
+void put_slots(const Plan& plan, shared::SlotTable& table)
+{
+    for (std::size_t slot = 0; slot < plan.rear_last.size() * SLOT_COUNT; ++slot) {
+        table.cells_from_face[slot] = glm::vec4(0);
+        table.entries[slot * CELL_COUNT] = {};
+    }
+    for (std::span<const PlanImage> left = plan.images; !left.empty();) {
+        const std::span<const PlanImage> images = of_first_slot(left);
+        left = left.subspan(images.size());
+        const std::size_t slot = std::size_t(images[0].layer * SLOT_COUNT + images[0].slot);
+        shared::SlotEntry* entries = table.entries + slot * CELL_COUNT;
+        if (images[0].cells.all()) {
+            *entries = slot_entry(images[0]);
+            continue;
+        }
+        table.cells_from_face[slot] = glm::vec4(cells_from_face(images[0].slot));
+        std::array<bool, CELL_COUNT> told{};
+        for (const PlanImage& image : images) {
+            const shared::SlotEntry entry = slot_entry(image);
+            for (int y = image.cells.first.y; y < image.cells.first.y + image.cells.count.y; ++y)
+                for (int x = image.cells.first.x; x < image.cells.first.x + image.cells.count.x; ++x) {
+                    entries[y * SLOT_CELLS + x] = entry;
+                    told[std::size_t(y * SLOT_CELLS + x)] = true;
+                }
+        }
+        // A cell at which no pixel looks is told as the nearest that is drawn: rounding may lead there.
+        for (int cell = 0; cell < CELL_COUNT; ++cell)
+            if (!told[std::size_t(cell)])
+                entries[cell] = slot_entry(nearest_image(images, {cell % SLOT_CELLS, cell / SLOT_CELLS}));
+    }
+}
+
+} // namespace starbow

@@ -1,0 +1,270 @@
+#include "cull.h"
+#include "headroom.h"
+#include "runtime/world/instances.h"
+#include "runtime/world/moving.h"
+#include "shaders/physics/physics.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+/// An instance's bounding box.
+using Box = DrawList::Seat;
+
+/// How far it reaches along a unit vector from its centre.
+double reach(const Box& box, const glm::dvec3& n)
+{
+    return std::abs(glm::dot(n, box.half[0])) + std::abs(glm::dot(n, box.half[1])) + std::abs(glm::dot(n, box.half[2]));
+}
+
+/// A face's axes as planes through the eye, whose normals point inwards: a box is out if it is wholly behind one.
+struct Frustum {
+    glm::dvec3 planes[5];
+
+    explicit Frustum(const PlanImage& image)
+    {
+        glm::dvec3 normal = face_direction(image.face, {0, 0});
+        glm::dvec3 a = face_direction(image.face, {1, 0}) - normal, b = face_direction(image.face, {0, 1}) - normal;
+        planes[0] = normal;
+        planes[1] = glm::normalize(a - image.low.x * normal);
+        planes[2] = glm::normalize(image.high.x * normal - a);
+        planes[3] = glm::normalize(b - image.low.y * normal);
+        planes[4] = glm::normalize(image.high.y * normal - b);
+    }
+    bool sees(const Box& box) const
+    {
+        for (const glm::dvec3& plane : planes)
+            if (glm::dot(plane, box.centre) < -reach(box, plane))
+                return false;
+        return true;
+    }
+};
+
+/// Whether a box lies wholly where no pixel reads: inside the hole that the next finer image behind fills.
+bool in_hole(const PlanImage& image, const Box& box)
+{
+    if (image.hole <= 0)
+        return false;
+    glm::dvec3 normal = face_direction(image.face, {0, 0});
+    glm::dvec3 a = face_direction(image.face, {1, 0}) - normal, b = face_direction(image.face, {0, 1}) - normal;
+    for (const glm::dvec3& side : {a, -a, b, -b}) {
+        glm::dvec3 plane = image.hole * normal - side;
+        if (glm::dot(plane, box.centre) < reach(box, plane))
+            return false;
+    }
+    return true;
+}
+
+/// The level of detail for an instance: -1 is the full surface.
+int level_of(const Primitive& primitive, const Box& box, const PlanImage& image, const Quality& quality)
+{
+    int level = -1;
+    auto fits = [&](double error, double most) { return error * box.scale * image.texels_per_unit <= most * box.distance; };
+    while (level + 1 < int(primitive.coarser.size()) && fits(primitive.coarser[level + 1].error, quality.stray_texels)
+        && fits(primitive.coarser[level + 1].shading, quality.shading_texels))
+        ++level;
+    return level;
+}
+
+Box box_of(const Primitive& primitive, const glm::dmat3& turn, const glm::dvec3& place)
+{
+    const glm::dvec3 half = 0.5 * (primitive.high - primitive.low), middle = 0.5 * (primitive.high + primitive.low);
+    Box box{turn * middle + place, {turn[0] * half.x, turn[1] * half.y, turn[2] * half.z}, 0, 0, true};
+    const glm::dvec3 lengths(glm::length(turn[0]), glm::length(turn[1]), glm::length(turn[2]));
+    const double longest = std::max({lengths.x, lengths.y, lengths.z});
+    const double skew
+        = std::abs(glm::dot(turn[0], turn[1])) + std::abs(glm::dot(turn[1], turn[2])) + std::abs(glm::dot(turn[2], turn[0]));
+    if (skew < 1e-9 * longest * longest) {
+        // The eye in the instance's own frame, to its box.
+        const glm::dvec3 eye_local = -(place * turn) / (lengths * lengths);
+        box.scale = longest;
+        box.distance = std::min({lengths.x, lengths.y, lengths.z})
+            * glm::distance(eye_local, glm::clamp(eye_local, primitive.low, primitive.high));
+    } else {
+        // A sheared node can stretch more than any of its axes; the root of the sum of squares bounds it.
+        box.scale = glm::length(lengths);
+        box.distance = std::max(0.0, glm::length(turn * primitive.centre + place) - box.scale * primitive.radius);
+    }
+    return box;
+}
+
+/// Whether any of its light that arrives at the vantage may have left while it was there.
+bool may_show(const World& world, const Instance& instance, const Vantage& vantage, const Box& box)
+{
+    if (!mortal(world, instance))
+        return true;
+    const Life& life = world.lives[std::size_t(instance.life)];
+    const double sent = emission_time(vantage, box.centre);
+    const double around = glm::length(box.half[0]) + glm::length(box.half[1]) + glm::length(box.half[2]);
+    return sent + around >= life.begin && sent - around <= life.end;
+}
+
+struct Standing {
+    glm::dmat3 turn; ///< motion axes from local
+    glm::dvec3 place; ///< of the local origin, from the eye
+};
+Standing standing(const glm::dmat4& frame_from_local, const Vantage& vantage)
+{
+    const glm::dmat4& m = frame_from_local;
+    return {vantage.motion_from_frame * glm::dmat3(m), vantage.motion_from_frame * (glm::dvec3(m[3]) - vantage.place)};
+}
+
+shared::InstanceEntry entry_of(const Standing& at)
+{
+    const glm::dmat3 rows = glm::transpose(at.turn);
+    return {glm::vec4(rows[0], at.place.x), glm::vec4(rows[1], at.place.y), glm::vec4(rows[2], at.place.z)};
+}
+
+/// How an instance stands before an eye, and a box around all of it that may be seen.
+struct Placed {
+    Standing at;
+    Box box;
+};
+Placed placed(const World& world, const Instance& instance, const Vantage& vantage)
+{
+    const Primitive& primitive = world.primitives[instance.primitive];
+    if (instance.motion < 0) {
+        const Standing at = standing(instance.frame_from_local, vantage);
+        return {at, box_of(primitive, at.turn, at.place)};
+    }
+    const SeenPose seen = seen_pose(world, instance, vantage);
+    Placed out{standing(seen.frame_from_local, vantage), {}};
+    out.box = box_of(primitive, out.at.turn, out.at.place);
+    for (int i = 0; i < 3; ++i)
+        out.box.half[i] = glm::dvec3(0), out.box.half[i][i] = seen.window;
+    out.box.distance = std::max(0.0, glm::length(out.box.centre) - seen.window);
+    return out;
+}
+
+/// Where the picture has it.
+Box as_shown(Box box, const Vantage& vantage)
+{
+    box.centre.z *= vantage.contraction;
+    for (glm::dvec3& half : box.half)
+        half.z *= vantage.contraction;
+    box.distance *= vantage.contraction;
+    return box;
+}
+
+} // namespace
+
+std::vector<Ball> balls(const World& world, const Vantage& vantage)
+{
+    std::vector<Ball> balls;
+    const InstanceRange range = instances_of(world, vantage.frame);
+    for (std::size_t i = range.first; i < range.last; ++i) {
+        const Instance& instance = world.instances[i];
+        const Box rests = placed(world, instance, vantage).box, box = as_shown(rests, vantage);
+        if (may_show(world, instance, vantage, rests))
+            balls.push_back({box.centre,
+                std::sqrt(glm::dot(box.half[0], box.half[0]) + glm::dot(box.half[1], box.half[1])
+                    + glm::dot(box.half[2], box.half[2]))});
+    }
+    return balls;
+}
+
+namespace {
+
+/// How what moves by itself stands around the moment at which it is seen.
+void add_poses(const World& world, std::span<const Vantage> layers, DrawList& list)
+{
+    for (const Vantage& vantage : layers) {
+        list.first_pose.push_back(std::uint32_t(list.instances.size()));
+        const InstanceRange range = instances_of(world, vantage.frame);
+        for (std::size_t i = range.first; i < range.last && !world.motions.empty(); ++i) {
+            const Instance& instance = world.instances[i];
+            if (instance.motion < 0)
+                continue;
+            for (double time : pose_times(world, instance, seen_pose(world, instance, vantage)))
+                list.instances.push_back(entry_of(standing(pose_at(world, instance, time), vantage)));
+        }
+    }
+}
+
+} // namespace
+
+DrawList cull(const World& world, std::span<const Vantage> layers, const std::vector<PlanImage>& images,
+    const Quality& quality, DrawList before)
+{
+    DrawList list = std::move(before);
+    list.instances.clear(), list.first_pose.clear(), list.first.clear(), list.visible.clear(), list.draws.clear();
+    list.seats.clear();
+    for (const Vantage& vantage : layers) {
+        list.first.push_back(std::uint32_t(list.instances.size()));
+        const InstanceRange range = instances_of(world, vantage.frame);
+        list.instances.reserve(list.instances.size() + range.last - range.first);
+        for (std::size_t i = range.first; i < range.last; ++i) {
+            const Instance& instance = world.instances[i];
+            const Placed own = placed(world, instance, vantage);
+            list.instances.push_back(entry_of(own.at));
+            list.seats.push_back(as_shown(own.box, vantage));
+            list.seats.back().shows = may_show(world, instance, vantage, own.box);
+        }
+    }
+    add_poses(world, layers, list);
+    const std::vector<Box>& boxes = list.seats;
+    std::vector<std::vector<std::uint32_t>>& by_level = list.by_level;
+    for (std::uint32_t i = 0; i < images.size(); ++i) {
+        const PlanImage& image = images[i];
+        const Frustum frustum(image);
+        const std::uint32_t first = list.first[std::size_t(image.layer)];
+        const InstanceRange range = instances_of(world, layers[std::size_t(image.layer)].frame);
+        for (std::size_t at = range.first; at < range.last;) {
+            const std::uint32_t index = world.instances[at].primitive;
+            const auto kind = kind_of(world, world.instances[at]);
+            const Primitive& primitive = world.primitives[index];
+            by_level.resize(std::max(by_level.size(), primitive.coarser.size() + 1));
+            for (; at < range.last && world.instances[at].primitive == index && kind_of(world, world.instances[at]) == kind;
+                 ++at) {
+                const std::uint32_t own = first + std::uint32_t(at - range.first);
+                if (boxes[own].shows && frustum.sees(boxes[own]) && !in_hole(image, boxes[own]))
+                    by_level[std::size_t(level_of(primitive, boxes[own], image, quality) + 1)].push_back(own);
+            }
+            for (std::size_t level = 0; level < by_level.size(); ++level) {
+                std::vector<std::uint32_t>& seen = by_level[level];
+                if (seen.empty())
+                    continue;
+                // Nearest first: what stands behind fails the depth test before it is shaded.
+                std::sort(seen.begin(), seen.end(), [&](auto a, auto b) { return boxes[a].distance < boxes[b].distance; });
+                DetailLevel detail = level == 0 ? DetailLevel{primitive.first_index, primitive.index_count, 0}
+                                                : primitive.coarser[level - 1];
+                list.draws.push_back({i, index, std::uint32_t(list.visible.size()), std::uint32_t(seen.size()),
+                    detail.first_index, detail.index_count, kind.first, kind.second});
+                list.visible.insert(list.visible.end(), seen.begin(), seen.end());
+                keep_room(seen);
+                seen.clear();
+            }
+        }
+    }
+    keep_room(list.draws);
+    keep_room(list.visible);
+    return list;
+}
+
+double nearest_box(const World& world, const Vantage& vantage)
+{
+    double nearest = 1e300;
+    const glm::dvec3& place = vantage.place;
+    const InstanceRange range = instances_of(world, vantage.frame);
+    for (std::size_t at = range.first; at < range.last; ++at) {
+        const Instance& instance = world.instances[at];
+        const Primitive& primitive = world.primitives[instance.primitive];
+        if (instance.motion >= 0) {
+            nearest = std::min(nearest, placed(world, instance, vantage).box.distance);
+            continue;
+        }
+        // The corners' own box: larger than the turned one, never nearer than allowed.
+        glm::dvec3 low(1e300), high(-1e300);
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 corner(i & 1 ? primitive.high.x : primitive.low.x, i & 2 ? primitive.high.y : primitive.low.y,
+                i & 4 ? primitive.high.z : primitive.low.z);
+            const glm::dvec3 moved = glm::dvec3(instance.frame_from_local * glm::dvec4(corner, 1));
+            low = glm::min(low, moved), high = glm::max(high, moved);
+        }
+        nearest = std::min(nearest, glm::distance(place, glm::clamp(place, low, high)));
+    }
+    return nearest * vantage.contraction;
+}
+
+} // namespace starbow

@@ -1,0 +1,296 @@
+#include "demand.h"
+#include "config/model/angles.h"
+#include "shaders/physics/physics.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+/// A circle on the sphere and what its pixels need.
+struct Disc {
+    glm::dvec3 centre;
+    double radius; // radians, up to pi
+    double finest, coarsest; // one texel per pixel, radians
+    double finest_pixel = 0, coarsest_pixel = 1e300; // the same in the ship; 0 and without end where D does not tell them
+    double least_cos_half_square = 0; // of its outermost point's angle from straight ahead; 0 where that is not known
+    double times = 1; // by how much D varies over its pixels
+};
+
+/// Range of tan(angle) of a disc seen along a face's normal and one of its axes, clamped to the face. False if it misses.
+/// sine: of its radius; from 1 on of a disc that may be everywhere.
+bool face_range(double along_axis, double along_normal, double sine, double& low, double& high)
+{
+    const double c_square = along_axis * along_axis + along_normal * along_normal - sine * sine;
+    low = -1, high = 1;
+    if (c_square <= 0)
+        return true;
+    // Both ends, turned from the middle; within the face's quarter of the circle or not.
+    const double c = std::sqrt(c_square);
+    const double low_x = along_normal * c + along_axis * sine, low_y = along_axis * c - along_normal * sine;
+    const double high_x = along_normal * c - along_axis * sine, high_y = along_axis * c + along_normal * sine;
+    const bool low_within = std::abs(low_y) <= low_x, high_within = std::abs(high_y) <= high_x;
+    if (low_within)
+        low = low_y / low_x;
+    if (high_within)
+        high = high_y / high_x;
+    return low_within || high_within || std::abs(along_axis) <= along_normal;
+}
+
+/// Calls each(slot, the part of its face's plane) for the slots that a circle may touch. No part is empty.
+template <class Each> void each_slot(const glm::dvec3& centre, double radius, int rear_last, Each&& each)
+{
+    const double sine = radius < 1.57 ? std::sin(radius) : 2;
+    // A face reaches to acos(1 / sqrt(3)) from its middle.
+    const double least_normal
+        = sine < 1 ? std::sqrt(1 / 3.0) * std::sqrt(1 - sine * sine) - std::sqrt(2 / 3.0) * sine - 1e-9 : -2;
+    for (int face = 0; face < 6; ++face) {
+        const double normal = centre[face_axis[face]] * face_sign[face];
+        if (normal < least_normal)
+            continue;
+        Rect wanted;
+        if (!face_range(centre[face_a[face]], normal, sine, wanted.low.x, wanted.high.x)
+            || !face_range(centre[face_b[face]], normal, sine, wanted.low.y, wanted.high.y))
+            continue;
+        auto part = [&](int slot) {
+            const Rect part = intersection(slot_rect(slot), wanted);
+            if (!part.empty())
+                each(slot, part);
+        };
+        if (face == 0) {
+            part(SLOT_FRONT);
+        } else if (face == 1) {
+            // The nested squares from the one that holds the circle's outermost point to the one of its innermost.
+            const glm::dvec2 far = glm::max(glm::abs(wanted.low), glm::abs(wanted.high));
+            const glm::dvec2 near = glm::max(glm::max(wanted.low, -wanted.high), glm::dvec2(0));
+            const int outer = rear_level(std::max(far.x, far.y), rear_last),
+                      inner = rear_level(std::max(near.x, near.y), rear_last);
+            for (int level = outer; level <= inner; ++level)
+                part(SLOT_REAR + level);
+        } else {
+            for (int band = 0; band < SIDE_BANDS; ++band)
+                part(SLOT_SIDES + (face - 2) * SIDE_BANDS + band);
+        }
+    }
+}
+
+/// Where a layer's things are: in each slot, and all together.
+struct Held {
+    std::array<Rect, SLOT_COUNT> rects;
+    glm::dvec3 axis{0, 0, 1};
+    double radius = pi; ///< of the circle around `axis` that holds them all; below 0 where there are none
+
+    /// Everywhere.
+    Held()
+    {
+        for (int slot = 0; slot < SLOT_COUNT; ++slot)
+            rects[std::size_t(slot)] = slot_rect(slot);
+    }
+    Held(const std::vector<Ball>& things, int rear_last)
+    {
+        glm::dvec3 sum(0);
+        for (const Ball& thing : things)
+            if (const double distance = glm::length(thing.centre); distance > thing.radius)
+                sum += thing.centre / distance * (thing.radius / distance);
+        if (glm::length(sum) > 0)
+            axis = glm::normalize(sum);
+        radius = -1;
+        for (const Ball& thing : things) {
+            const double distance = glm::length(thing.centre);
+            const bool inside = !(distance > thing.radius * 1.0001);
+            const glm::dvec3 way = inside ? axis : thing.centre / distance;
+            const double spread = inside ? pi : std::asin(thing.radius / distance);
+            radius = std::max(radius, std::min(pi, angle(axis, way) + spread));
+            each_slot(way, spread, rear_last, [&](int slot, const Rect& part) { rects[std::size_t(slot)].add(part); });
+        }
+    }
+
+    static double angle(const glm::dvec3& a, const glm::dvec3& b)
+    {
+        return 2 * std::asin(std::min(1.0, 0.5 * glm::length(a - b)));
+    }
+    bool touches(const glm::dvec3& centre, double r) const
+    {
+        return radius >= pi || (radius >= 0 && angle(axis, centre) <= radius + r);
+    }
+};
+
+void ask(Demands& demands, const Held& held, const Disc& disc, double E, int rear_last)
+{
+    if (!held.touches(disc.centre, disc.radius))
+        return;
+    each_slot(disc.centre, disc.radius, rear_last, [&](int slot, const Rect& wanted) {
+        const Rect part = intersection(held.rects[std::size_t(slot)], wanted);
+        if (part.empty())
+            return;
+        Demands::Slot& own = demands.slots[std::size_t(slot)];
+        if (!own.any) {
+            own.any = true;
+            own.cells.fill({});
+        }
+        const bool hole = slot_hole(slot, rear_last) > 0;
+        const CellTable& all = cell_table(slot);
+        const Cells cells = cells_in(slot, part);
+        for (int j = 0; j < cells.count.y; ++j)
+            for (int i = 0; i < cells.count.x; ++i) {
+                const glm::ivec2 at_cell = cells.first + glm::ivec2(i, j);
+                const std::size_t cell = std::size_t(at_cell.y * SLOT_CELLS + at_cell.x);
+                const Rect here = intersection(part, all.rects[cell]);
+                // A disc of most of the sky leaves out what lies behind.
+                if (here.empty() || (hole && all.in_hole[cell])
+                    || all.most_cos_half_square[cell] < disc.least_cos_half_square)
+                    continue;
+                // The solid angle of a texel at (a, b) is its area over (1 + a^2 + b^2)^(3/2).
+                const glm::dvec2 at = 0.5 * (here.low + here.high);
+                const double square = 1 + glm::dot(at, at), per_angle = std::sqrt(square * std::sqrt(square));
+                // What looks here has a D of this cell's: the disc's own bounds may be of elsewhere.
+                const double least = all.least_cos_half_square[cell], most = all.most_cos_half_square[cell];
+                const double above = disc.finest_pixel * (E * least + (1 - least) / E);
+                const double below = disc.coarsest_pixel * (E * most + (1 - most) / E);
+                own.cells[cell].add({here, std::clamp(disc.finest, above, below) * per_angle,
+                    std::clamp(disc.coarsest, above, below) * per_angle});
+            }
+    });
+}
+
+/// Walks a view's blocks of pixels, finer where the boost spreads one over much of the sky.
+struct Walk {
+    const View& view;
+    double E;
+    bool galilean;
+    int rear_last;
+    const Held& held;
+    Demands& demands;
+    double spread; ///< how far from its centre a pixel looks, pixels
+    int coarsest_level; ///< that is fine enough to follow the view's outline
+
+    void block(int level, glm::ivec2 at) const
+    {
+        const bool last = level + 1 == view.blocks->levels();
+        if (view.blocks->flat() && level < coarsest_level)
+            return split(level, at);
+        const Cap cap = view.blocks->cap(level, at);
+        if (cap.empty())
+            return;
+        if (!last && (level < coarsest_level || cap.radius > 0.3))
+            return split(level, at);
+
+        const glm::dvec3 centre = view.motion_from_cockpit * glm::dvec3(cap.centre);
+        const Disc disc = in_the_world(centre, cap);
+        // There are not many of the largest: they may well be finer.
+        const double most_varied = level <= coarsest_level ? 1.22 : 1.5;
+        if (!last && (disc.radius > 0.25 || (!galilean && disc.coarsest > most_varied * disc.finest)))
+            split(level, at);
+        else if (disc.times > most_uneven && cap.radius < 1)
+            cut(centre, cap);
+        else
+            ask_for(disc);
+    }
+    static constexpr double most_uneven = 1.5;
+
+    /// A boost maps circles to circles, so the world's disc follows exactly from its two ends on the meridian.
+    Disc in_the_world(const glm::dvec3& centre, const Cap& cap) const
+    {
+        const double radius = cap.radius + spread * cap.coarsest;
+        const double across = std::hypot(centre.x, centre.y);
+        Disc disc;
+        glm::dvec2 middle_in_world; // cosine and sine of its angle from the motion
+        if (galilean) {
+            const double beta = (E - 1 / E) / (E + 1 / E), theta = std::atan2(across, centre.z);
+            auto world = [&](double camera) { return camera + std::asin(beta * std::sin(camera)); };
+            const double low = world(theta - radius), high = world(std::min(theta + radius, theta + pi));
+            // Stretched by more away from the axis than around it, or less: both bounds hold the disc and its pixels.
+            const glm::dvec2 stretch = physics::galilean_stretch(glm::dvec3(across, 0, centre.z), E, 1 / E);
+            disc.radius = std::min(pi, std::max(0.5 * (high - low), 1.2 * radius * std::max(stretch.x, stretch.y)));
+            middle_in_world = {std::cos(0.5 * (low + high)), std::sin(0.5 * (low + high))};
+            disc.finest = std::min(stretch.x, stretch.y) * cap.finest;
+            disc.coarsest = std::max(stretch.x, stretch.y) * cap.coarsest;
+        } else {
+            // Of half the angles, tangents: from the motion, of the disc, and of its pixels' centres.
+            const double middle = centre.z > 0 ? across / (1 + centre.z) : (1 - centre.z) / std::max(across, 1e-100);
+            const double reach = std::tan(0.5 * radius), own_reach = std::tan(0.5 * double(cap.radius));
+            auto turned = [&](double by) { return (middle + by) / std::max(1 - middle * by, 1e-100); };
+            auto doppler = [&](double tangent) { return E * (1 + tangent * tangent) / (1 + E * E * tangent * tangent); };
+            // Half of its two ends' angles in the world, as points of the circle; beyond the axis behind it goes on. Their
+            // sum is the middle's angle, their difference the radius: no angle is worked out but the last.
+            const double low_tangent = E * turned(-reach), past = 1 - middle * reach, beyond = E * (middle + reach);
+            const double low_length = std::sqrt(1 + low_tangent * low_tangent), high_square = past * past + beyond * beyond;
+            const double lengths = 1 / (low_length * std::sqrt(high_square));
+            middle_in_world = lengths * glm::dvec2(past - low_tangent * beyond, beyond + low_tangent * past);
+            disc.radius = radius < pi ? std::atan2(beyond - low_tangent * past, past + low_tangent * beyond) : pi;
+            const double near = doppler(std::max(turned(-own_reach), 0.0)),
+                         far = doppler(std::min(turned(own_reach), 1e100));
+            disc.times = near / far;
+            disc.finest = far * cap.finest;
+            disc.coarsest = near * cap.coarsest;
+            if (view.parallax_rad == 0) {
+                disc.finest_pixel = cap.finest, disc.coarsest_pixel = cap.coarsest;
+                if (past > 0)
+                    disc.least_cos_half_square = past * past / high_square;
+            }
+        }
+        const glm::dvec2 meridian = across > 0 ? glm::dvec2(centre) / across : glm::dvec2(1, 0);
+        disc.centre = glm::dvec3(meridian * middle_in_world.y, middle_in_world.x);
+        return disc;
+    }
+
+    void ask_for(Disc disc) const
+    {
+        disc.radius = std::min(pi, disc.radius + view.parallax_rad);
+        ask(demands, held, disc, E, rear_last);
+    }
+
+    /// A disc of a last block as those of the square around it, halved again and again where D varies over them: down to the
+    /// place of a single pixel, or to where D is the same all about straight ahead.
+    void cut(const glm::dvec3& centre, const Cap& cap) const
+    {
+        const glm::dvec3 aside = std::abs(centre.z) > 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
+        const glm::dvec3 right = glm::normalize(glm::cross(aside, centre)), up = glm::cross(centre, right);
+        cut(centre, right, up, std::tan(double(cap.radius)), cap);
+    }
+    void cut(const glm::dvec3& centre, const glm::dvec3& right, const glm::dvec3& up, double half, const Cap& cap) const
+    {
+        Cap part = cap;
+        part.radius = float(std::sqrt(0.5) * half);
+        const double smallest = std::max(0.03 * cap.coarsest, 0.3 / E);
+        for (int i = -1; i <= 1; i += 2)
+            for (int j = -1; j <= 1; j += 2) {
+                const glm::dvec3 there = centre + 0.5 * half * (double(i) * right + double(j) * up);
+                const Disc disc = in_the_world(glm::normalize(there), part);
+                if (disc.times > most_uneven && part.radius >= smallest)
+                    cut(there, right, up, 0.5 * half, cap);
+                else
+                    ask_for(disc);
+            }
+    }
+
+    void split(int level, glm::ivec2 at) const
+    {
+        const glm::ivec2 finer = view.blocks->count(level + 1);
+        for (int j = 2 * at.y; j < std::min(2 * at.y + 2, finer.y); ++j)
+            for (int i = 2 * at.x; i < std::min(2 * at.x + 2, finer.x); ++i)
+                block(level + 1, {i, j});
+    }
+};
+
+} // namespace
+
+void add_demands(Demands& demands, const PlanLayer& layer, int rear_last, int pixel_rays)
+{
+    const Held held = layer.things ? Held(*layer.things, rear_last) : Held();
+    if (held.radius < 0)
+        return;
+    // The corners of a square; and float arithmetic's errors.
+    const double spread = 0.71 * (1 - 1.0 / pixel_rays) + 0.02;
+    for (const View& view : layer.views) {
+        const Blocks& blocks = *view.blocks;
+        // No fewer than 20 blocks across: what they are too coarse for is drawn in vain.
+        const double wanted = std::max(blocks.size().x, blocks.size().y) / 20.0;
+        int level = 0;
+        while (level + 1 < blocks.levels() && blocks.side(level) > wanted)
+            ++level;
+        Walk{view, layer.E, layer.galilean, rear_last, held, demands, spread, level}.block(0, {0, 0});
+    }
+}
+
+} // namespace starbow

@@ -1,0 +1,263 @@
+#include "device.h"
+#include "config/json/error.h"
+#include "shaders/shared_structs.h"
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <cstdlib>
+
+namespace starbow {
+namespace {
+
+VKAPI_ATTR VkBool32 VKAPI_CALL complain(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+    const VkDebugUtilsMessengerCallbackDataEXT* data, void* complaints)
+{
+    static_cast<std::vector<std::string>*>(complaints)->push_back(data->pMessage);
+    std::fprintf(stderr, "validation: %s\n", data->pMessage);
+    return VK_FALSE;
+}
+
+vk::raii::Instance make_instance(Device& device, const Device::Options& options)
+{
+    if (device.context.enumerateInstanceVersion() < VK_API_VERSION_1_3)
+        throw InputError("The Vulkan loader is older than 1.3: install Debian 12's libvulkan1");
+    std::vector<const char*> extensions, layers;
+    if (options.windows) {
+        std::uint32_t count = 0;
+        const char** names = glfwGetRequiredInstanceExtensions(&count);
+        if (!names)
+            throw InputError(
+                "No Vulkan window can be opened here: install mesa-vulkan-drivers or the GPU maker's Vulkan driver");
+        extensions.assign(names, names + count);
+    }
+    vk::DebugUtilsMessengerCreateInfoEXT messenger({},
+        vk::DebugUtilsMessageSeverityFlagBitsEXT::eWarning | vk::DebugUtilsMessageSeverityFlagBitsEXT::eError,
+        vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation | vk::DebugUtilsMessageTypeFlagBitsEXT::ePerformance, complain,
+        &device.complaints);
+    vk::ValidationFeatureEnableEXT synchronization = vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
+    vk::ValidationFeaturesEXT features(1, &synchronization, 0, nullptr, &messenger);
+    if (options.validation) {
+        layers.push_back("VK_LAYER_KHRONOS_validation");
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+        extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+    }
+    vk::ApplicationInfo application("Starbow", 1, nullptr, 0, VK_API_VERSION_1_3);
+    vk::InstanceCreateInfo info({}, &application, layers, extensions);
+    if (options.validation)
+        info.pNext = &features;
+    try {
+        vk::raii::Instance instance(device.context, info);
+        if (options.validation)
+            device.messenger = instance.createDebugUtilsMessengerEXT(messenger);
+        return instance;
+    } catch (const vk::LayerNotPresentError&) {
+        throw InputError("The Vulkan validation layers are not installed: install vulkan-validationlayers");
+    } catch (const vk::SystemError& error) {
+        throw InputError(std::string("Vulkan does not start (") + error.what()
+            + "): install mesa-vulkan-drivers or the GPU maker's Vulkan driver");
+    }
+}
+
+/// What the device lacks, in words; empty if it will do.
+std::string lacks(const vk::raii::PhysicalDevice& physical, bool windows)
+{
+    if (physical.getProperties().apiVersion < VK_API_VERSION_1_3)
+        return "Vulkan 1.3";
+    if (!physical.getFeatures().largePoints)
+        return "the feature largePoints";
+    if (physical.getProperties().limits.maxUniformBufferRange < 65536)
+        return "64 KiB of constants at once (maxUniformBufferRange)";
+    if (physical.getProperties().limits.maxTexelBufferElements < sizeof(shared::SlotTable) / sizeof(glm::vec4))
+        return "texel buffers of 7 MiB (maxTexelBufferElements)";
+    auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>()
+                        .get<vk::PhysicalDeviceVulkan13Features>();
+    if (!features.dynamicRendering)
+        return "the feature dynamicRendering";
+    if (!features.synchronization2)
+        return "the feature synchronization2";
+    auto extensions = physical.enumerateDeviceExtensionProperties();
+    if (windows && std::none_of(extensions.begin(), extensions.end(), [](const vk::ExtensionProperties& extension) {
+            return std::string_view(extension.extensionName) == VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+        }))
+        return "windows (VK_KHR_swapchain)";
+    auto families = physical.getQueueFamilyProperties();
+    if (std::none_of(
+            families.begin(), families.end(), [](auto& f) { return bool(f.queueFlags & vk::QueueFlagBits::eGraphics); }))
+        return "graphics";
+    return {};
+}
+
+const char* kind_of(vk::PhysicalDeviceType type)
+{
+    switch (type) {
+    case vk::PhysicalDeviceType::eDiscreteGpu:
+        return "a card of its own";
+    case vk::PhysicalDeviceType::eIntegratedGpu:
+        return "part of the processor";
+    case vk::PhysicalDeviceType::eVirtualGpu:
+        return "virtual";
+    case vk::PhysicalDeviceType::eCpu:
+        return "software";
+    default:
+        return "of no known kind";
+    }
+}
+
+/// Whether the device can tell when a picture is seen on its screen.
+bool can_tell_when_shown(const vk::raii::PhysicalDevice& physical)
+{
+    int offered = 0;
+    for (const vk::ExtensionProperties& extension : physical.enumerateDeviceExtensionProperties())
+        for (const char* name : {VK_KHR_PRESENT_ID_EXTENSION_NAME, VK_KHR_PRESENT_WAIT_EXTENSION_NAME})
+            offered += std::string_view(extension.extensionName) == name;
+    if (offered != 2)
+        return false;
+    const auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDevicePresentIdFeaturesKHR,
+        vk::PhysicalDevicePresentWaitFeaturesKHR>();
+    return features.get<vk::PhysicalDevicePresentIdFeaturesKHR>().presentId
+        && features.get<vk::PhysicalDevicePresentWaitFeaturesKHR>().presentWait;
+}
+
+int rank(vk::PhysicalDeviceType type)
+{
+    switch (type) {
+    case vk::PhysicalDeviceType::eDiscreteGpu:
+        return 4;
+    case vk::PhysicalDeviceType::eIntegratedGpu:
+        return 3;
+    case vk::PhysicalDeviceType::eVirtualGpu:
+        return 2;
+    case vk::PhysicalDeviceType::eCpu:
+        return 1;
+    default:
+        return 0;
+    }
+}
+
+std::vector<vk::raii::PhysicalDevice> all_of(const vk::raii::Instance& instance)
+{
+    std::vector<vk::raii::PhysicalDevice> all;
+    try {
+        for (auto& physical : vk::raii::PhysicalDevices(instance))
+            all.push_back(std::move(physical));
+    } catch (const vk::SystemError&) { // no driver at all is an error to some loaders
+    }
+    return all;
+}
+
+/// Why a device is not taken; empty if it may be.
+std::string refusal(const vk::raii::PhysicalDevice& physical, const Device::Options& options)
+{
+    const std::string name(physical.getProperties().deviceName.data());
+    if (name.find(options.name) == std::string::npos)
+        return "is not called '" + options.name + "'";
+    const std::string missing = lacks(physical, options.windows);
+    return missing.empty() ? "" : "lacks " + missing;
+}
+
+/// The fastest kind of those that are not refused, or nothing.
+std::optional<std::size_t> best_of(const std::vector<vk::raii::PhysicalDevice>& all, const Device::Options& options)
+{
+    std::optional<std::size_t> best;
+    int best_rank = -1;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const int its_rank = rank(all[i].getProperties().deviceType);
+        if (its_rank > best_rank && refusal(all[i], options).empty())
+            best = i, best_rank = its_rank;
+    }
+    return best;
+}
+
+vk::raii::PhysicalDevice choose(const vk::raii::Instance& instance, const Device::Options& options)
+{
+    std::vector<vk::raii::PhysicalDevice> all = all_of(instance);
+    if (const auto best = best_of(all, options))
+        return std::move(all[*best]);
+    std::string refused;
+    for (const auto& physical : all)
+        refused += "; " + std::string(physical.getProperties().deviceName.data()) + " " + refusal(physical, options);
+    throw InputError("No usable Vulkan device" + refused
+        + ": install mesa-vulkan-drivers (software) or the GPU maker's Vulkan 1.3 driver");
+}
+
+} // namespace
+
+Device::Device(const Options& options)
+{
+    instance = make_instance(*this, options);
+    physical = choose(instance, options);
+    properties = physical.getProperties();
+    memory = physical.getMemoryProperties();
+    auto families = physical.getQueueFamilyProperties();
+    for (family = 0; !(families[family].queueFlags & vk::QueueFlagBits::eGraphics);)
+        ++family;
+
+    vk::PhysicalDeviceVulkan13Features features13;
+    features13.dynamicRendering = features13.synchronization2 = true;
+    vk::PhysicalDeviceFeatures features;
+    features.largePoints = true; // a star's spot
+    features.samplerAnisotropy = physical.getFeatures().samplerAnisotropy;
+    float priority = 1;
+    vk::DeviceQueueCreateInfo queue_info({}, family, 1, &priority);
+    std::vector<const char*> extensions;
+    if (options.windows)
+        extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    vk::PhysicalDevicePresentIdFeaturesKHR present_id(true);
+    vk::PhysicalDevicePresentWaitFeaturesKHR present_wait(true, &present_id);
+    if (options.windows && can_tell_when_shown(physical)) {
+        tells_when_shown = true;
+        extensions.push_back(VK_KHR_PRESENT_ID_EXTENSION_NAME);
+        extensions.push_back(VK_KHR_PRESENT_WAIT_EXTENSION_NAME);
+        features13.pNext = &present_wait;
+    }
+    device = physical.createDevice({{}, queue_info, {}, extensions, &features, &features13});
+    queue = device.getQueue(family, 0);
+    pool = device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family});
+    cache = device.createPipelineCache({});
+}
+
+std::vector<GpuListing> list_gpus(const Device::Options& options)
+{
+    const vk::raii::Context context;
+    const vk::ApplicationInfo application("Starbow", 1, nullptr, 0, VK_API_VERSION_1_3);
+    std::vector<GpuListing> list;
+    try {
+        const vk::raii::Instance instance(context, vk::InstanceCreateInfo({}, &application));
+        const auto all = all_of(instance);
+        const auto best = best_of(all, options);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const vk::PhysicalDeviceProperties properties = all[i].getProperties();
+            std::string driver = "Vulkan " + std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "."
+                + std::to_string(VK_API_VERSION_MINOR(properties.apiVersion));
+            if (properties.apiVersion >= VK_API_VERSION_1_2) {
+                const auto told = all[i]
+                                      .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
+                                      .get<vk::PhysicalDeviceDriverProperties>();
+                driver = std::string(told.driverName.data()) + " " + told.driverInfo.data() + ", " + driver;
+            }
+            list.push_back(
+                {properties.deviceName.data(), driver, kind_of(properties.deviceType), refusal(all[i], options), best == i});
+        }
+    } catch (const vk::SystemError&) { // no driver at all
+    }
+    return list;
+}
+
+vk::raii::CommandBuffer Device::begin()
+{
+    vk::raii::CommandBuffer commands
+        = std::move(device.allocateCommandBuffers({*pool, vk::CommandBufferLevel::ePrimary, 1}).front());
+    commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    return commands;
+}
+
+void Device::finish(vk::raii::CommandBuffer& commands)
+{
+    commands.end();
+    vk::raii::Fence fence = device.createFence({});
+    vk::CommandBufferSubmitInfo buffer(*commands);
+    queue.submit2(vk::SubmitInfo2({}, {}, buffer, {}), *fence);
+    (void)device.waitForFences(*fence, true, UINT64_MAX);
+}
+
+} // namespace starbow

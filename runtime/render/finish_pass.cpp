@@ -1,0 +1,136 @@
+#include "finish_pass.h"
+#include "displays/finish/anaglyph.h"
+#include <glm/gtc/packing.hpp>
+
+namespace starbow {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+using Layout_ = vk::ImageLayout;
+
+int combine_of(Packing packing)
+{
+    switch (packing) {
+    case Packing::rows:
+        return 1;
+    case Packing::columns:
+        return 2;
+    case Packing::checkerboard:
+        return 3;
+    case Packing::anaglyph_red_cyan:
+    case Packing::anaglyph_dubois:
+    case Packing::anaglyph_amber_blue:
+        return 4;
+    default:
+        return 0;
+    }
+}
+
+Image shade_texture(Device& device, glm::ivec2 size, const std::vector<glm::vec3>& values)
+{
+    std::vector<glm::u16vec4> halves;
+    halves.reserve(values.size());
+    for (const glm::vec3& v : values)
+        halves.push_back(glm::packHalf(glm::vec4(v, 1)));
+    return make_texture(device, vk::Format::eR16G16B16A16Sfloat, size, std::as_bytes(std::span(halves)), false);
+}
+
+} // namespace
+
+bool needs_finish(const Output& output, const Shade& shade)
+{
+    const Colour& colour = output.colour;
+    return layers(output.packing) > 1 || colour.matrix != glm::dmat3(1) || colour.gamma != 0 || !colour.lut.empty()
+        || !shade.empty();
+}
+
+FinishPass::FinishPass(Device& device, Pipelines& pipelines, const Output& output, const Shade& shade, double headroom)
+    : device_(device)
+    , pipelines_(pipelines)
+{
+    const vk::Extent2D extent(std::uint32_t(output.size.x), std::uint32_t(output.size.y));
+    using Usage = vk::ImageUsageFlagBits;
+    for (int i = 0; i < starbow::layers(output.packing); ++i)
+        pictures_.push_back(make_image(device, {light_format, extent, Usage::eColorAttachment | Usage::eSampled}));
+
+    const Colour& colour = output.colour;
+    variant_.combine = combine_of(output.packing);
+    variant_.masked = !shade.empty() || headroom != 1;
+    variant_.curve = !colour.lut.empty() ? 2 : colour.gamma != 0 ? 1 : 0;
+    glm::dmat3 left = colour.matrix, right(0);
+    if (variant_.combine == 4) {
+        const Anaglyph mixed = *anaglyph(output.packing);
+        left = colour.matrix * mixed.left;
+        right = colour.matrix * mixed.right;
+    }
+    push_.left0 = shared::row(left, 0), push_.left1 = shared::row(left, 1), push_.left2 = shared::row(left, 2);
+    push_.right0 = shared::row(right, 0), push_.right1 = shared::row(right, 1), push_.right2 = shared::row(right, 2);
+    const double curve = variant_.curve == 2 ? double(colour.lut.size() - 1) : variant_.curve == 1 ? 1 / colour.gamma : 0;
+    push_.curve = glm::vec4(curve, headroom, 0, 0);
+
+    const std::vector<glm::vec3> one(1, glm::vec3(1)), none(1, glm::vec3(0));
+    weight_ = shade.weight.empty() ? shade_texture(device, {1, 1}, one) : shade_texture(device, shade.size, shade.weight);
+    black_ = shade.black.empty() ? shade_texture(device, {1, 1}, none) : shade_texture(device, shade.size, shade.black);
+    std::vector<glm::vec4> entries;
+    for (const glm::dvec3& entry : colour.lut)
+        entries.emplace_back(entry, 1);
+    if (entries.empty())
+        entries.resize(2);
+    table_ = make_texture(device, exact_format, {int(entries.size()), 1}, std::as_bytes(std::span(entries)), false);
+
+    sampler_ = device.device.createSampler({});
+    vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 5);
+    pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size});
+    set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.finish_set}).front());
+    std::vector<vk::DescriptorImageInfo> images;
+    for (const Image* image : {&pictures_.front(), &pictures_.back(), &weight_, &black_, &table_})
+        images.push_back({*sampler_, *image->view, Layout_::eShaderReadOnlyOptimal});
+    std::vector<vk::WriteDescriptorSet> writes;
+    for (std::uint32_t i = 0; i < images.size(); ++i)
+        writes.push_back({*set_, i, 0, 1, vk::DescriptorType::eCombinedImageSampler, &images[i]});
+    device.device.updateDescriptorSets(writes, {});
+}
+
+Target FinishPass::picture(std::size_t layer) const
+{
+    const Image& image = pictures_[layer];
+    return {*image.image, *image.view, image.extent, image.format};
+}
+
+void FinishPass::begin(vk::CommandBuffer commands)
+{
+    for (const Image& picture : pictures_)
+        transition(commands, picture, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eColorAttachmentOptimal,
+            Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
+}
+
+void FinishPass::record(vk::CommandBuffer commands, const Target& target, bool plain)
+{
+    for (const Image& picture : pictures_)
+        transition(commands, picture, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+            Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader,
+            Access::eShaderSampledRead);
+    FinishVariant variant = variant_;
+    variant.masked = variant.masked && !plain;
+    variant.dithered = !plain; // a pattern's steps are exact
+    vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eStore);
+    commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
+    set_area(commands, {0, 0}, {int(target.extent.width), int(target.extent.height)});
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.finish(variant, target.format));
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.finish_layout, 0, *set_, {});
+    commands.pushConstants<shared::FinishPush>(*pipelines_.finish_layout, vk::ShaderStageFlagBits::eFragment, 0, push_);
+    commands.draw(3, 1, 0, 0);
+    commands.endRendering();
+}
+
+vk::DeviceSize FinishPass::memory() const
+{
+    vk::DeviceSize bytes = weight_.bytes + black_.bytes + table_.bytes;
+    for (const Image& picture : pictures_)
+        bytes += picture.bytes;
+    return bytes;
+}
+
+} // namespace starbow

@@ -1,0 +1,162 @@
+#include "gpu_world.h"
+#include "runtime/light/srgb.h"
+#include "runtime/world/instances.h"
+#include "runtime/world/moving.h"
+#include "runtime/world/worldline.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+
+namespace starbow {
+namespace {
+
+vk::raii::Sampler make_sampler(const Device& device, const Sampler& s)
+{
+    auto wrap = [](Wrap w) {
+        return w == Wrap::repeat ? vk::SamplerAddressMode::eRepeat
+            : w == Wrap::mirror  ? vk::SamplerAddressMode::eMirroredRepeat
+                                 : vk::SamplerAddressMode::eClampToEdge;
+    };
+    auto filter = [](bool linear) { return linear ? vk::Filter::eLinear : vk::Filter::eNearest; };
+    vk::SamplerCreateInfo info({}, filter(s.magnify_linear), filter(s.minify_linear),
+        s.mip_linear ? vk::SamplerMipmapMode::eLinear : vk::SamplerMipmapMode::eNearest, wrap(s.u), wrap(s.v),
+        vk::SamplerAddressMode::eRepeat);
+    info.maxLod = s.mipmaps ? VK_LOD_CLAMP_NONE : 0;
+    // Surfaces stand at every angle to the eye; software pays too much for it.
+    if (s.mipmaps && s.mip_linear && !device.on_processor() && device.physical.getFeatures().samplerAnisotropy) {
+        info.anisotropyEnable = true;
+        info.maxAnisotropy = std::min(8.0f, device.properties.limits.maxSamplerAnisotropy);
+    }
+    return device.device.createSampler(info);
+}
+
+/// In software the decoding of sRGB costs more than the memory of linear fp16; everywhere else the hardware does it for
+/// nothing.
+Image make_colour_texture(Device& device, const Texture& texture)
+{
+    bool mips = texture.sampler.mipmaps;
+    if (!device.on_processor())
+        return make_texture(device, vk::Format::eR8G8B8A8Srgb, texture.size, std::as_bytes(std::span(texture.rgba)), mips);
+    std::array<std::uint16_t, 256> linear, alpha;
+    for (int i = 0; i < 256; ++i) {
+        double x = i / 255.0;
+        linear[i] = glm::packHalf1x16(float(light_of_srgb(x)));
+        alpha[i] = glm::packHalf1x16(float(x));
+    }
+    std::vector<std::uint16_t> texels(texture.rgba.size());
+    for (std::size_t i = 0; i < texels.size(); ++i)
+        texels[i] = (i % 4 == 3 ? alpha : linear)[texture.rgba[i]];
+    return make_texture(device, vk::Format::eR16G16B16A16Sfloat, texture.size, std::as_bytes(std::span(texels)), mips);
+}
+
+/// The greatest radiance that a surface of this world can send, before any lamp comes closer than its distance.
+double brightest(const World& world, const SceneFile& scene)
+{
+    auto peak = [](const glm::dvec3& c) { return std::max({c.x, c.y, c.z}); };
+    double light = peak(scene.ambient);
+    for (const Light& lamp : scene.lights)
+        light += std::visit([&](const auto& l) { return peak(l.radiance); }, lamp);
+    double most = std::max({light, peak(scene.sky.zenith), peak(scene.sky.horizon), peak(scene.sky.nadir)});
+    for (const Material& material : world.materials)
+        most = std::max(
+            most, peak(glm::dvec3(material.emissive)) + peak(glm::dvec3(material.base_colour)) * std::max(light, 1.0));
+    return most;
+}
+
+} // namespace
+
+SurfaceVariant GpuWorld::variant(int material, bool plain) const
+{
+    const Material& m = world.materials[material];
+    SurfaceVariant variant{
+        m.base_texture >= 0, m.emissive_texture >= 0, m.alpha_cutoff > 0, m.unlit, m.unlit ? 0 : int(world.lamps.size())};
+    variant.clock = m.clock.has_value();
+    variant.blink = m.blink.has_value();
+    variant.layered = layered() && !plain;
+    const auto told = [](const Lamp& lamp) { return lamp.frame > 0 || lamp.life >= 0; };
+    variant.lamps_move
+        = !plain && variant.lights > 0 && (layered() || std::any_of(world.lamps.begin(), world.lamps.end(), told));
+    if (!plain)
+        variant.numbers = numbers(), variant.kinds = spectra.kinds, variant.matrices = spectra.matrices;
+    return variant;
+}
+
+void put_spectra(Device& device, GpuWorld& world, SpectralLevel level)
+{
+    world.spectra = spectra_of(world.world, world.scene, level);
+    std::vector<glm::vec4> columns = world.spectra.columns;
+    columns.resize(MAX_MATRICES); // as large as the shader says
+    auto constants = [&](const auto& values) {
+        return make_static_buffer(device, std::as_bytes(std::span(values)), vk::BufferUsageFlagBits::eUniformBuffer);
+    };
+    world.columns = constants(columns);
+    for (auto [observer, buffers] : {std::pair(&eye(), &world.eye), std::pair(&false_colours(), &world.false_colours)}) {
+        const Response response = response_of(world.spectra.basis, *observer);
+        buffers->texels = nullptr;
+        buffers->rows = make_static_buffer(
+            device, std::as_bytes(std::span(response.rows)), vk::BufferUsageFlagBits::eUniformTexelBuffer);
+        buffers->texels = device.device.createBufferView({{}, *buffers->rows.buffer, words_format, 0, VK_WHOLE_SIZE});
+        buffers->first_log2_D = float(response.first_log2_D), buffers->per_octave = float(response.per_octave);
+        buffers->own_rows = constants(response.own_rows);
+        buffers->black_bodies = constants(black_body_table(*observer));
+    }
+}
+
+void put_stars(Device& device, GpuWorld& world, const std::vector<Star>& stars)
+{
+    world.star_count = world.scene.stars ? std::uint32_t(stars.size()) : 0;
+    world.stars = {};
+    if (world.star_count == 0)
+        return;
+    const auto entries = star_entries(stars, *world.scene.stars);
+    world.star_patches = star_patches(entries);
+    world.stars = make_static_buffer(device, std::as_bytes(std::span(entries)), vk::BufferUsageFlagBits::eStorageBuffer);
+}
+
+GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const SceneFile& scene,
+    const std::vector<Star>& stars, std::optional<SpectralLevel> level)
+{
+    GpuWorld gpu;
+    check_speeds(world, scene);
+    place_bodies(world, scene);
+    sort_instances(world);
+    gpu.scene = scene;
+    gpu.brightest = brightest(world, scene);
+    gpu.vertices
+        = make_static_buffer(device, std::as_bytes(std::span(world.vertices)), vk::BufferUsageFlagBits::eVertexBuffer);
+    gpu.indices = make_static_buffer(device, std::as_bytes(std::span(world.indices)), vk::BufferUsageFlagBits::eIndexBuffer);
+    const std::uint32_t white = 0xffffffff;
+    gpu.white = make_texture(device, vk::Format::eR8G8B8A8Unorm, {1, 1}, std::as_bytes(std::span(&white, 1)), false);
+    gpu.samplers.push_back(make_sampler(device, {}));
+    for (const Texture& texture : world.textures) {
+        gpu.textures.push_back(make_colour_texture(device, texture));
+        gpu.samplers.push_back(make_sampler(device, texture.sampler));
+    }
+    auto count = std::uint32_t(world.materials.size());
+    vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 2 * count);
+    gpu.pool = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, size});
+    std::vector<vk::DescriptorSetLayout> layouts(count, *pipelines.material_set);
+    gpu.materials = device.device.allocateDescriptorSets({*gpu.pool, layouts});
+    for (std::uint32_t i = 0; i < count; ++i) {
+        auto picture = [&](int texture) {
+            return vk::DescriptorImageInfo(*gpu.samplers[texture + 1],
+                *(texture < 0 ? gpu.white : gpu.textures[texture]).view, vk::ImageLayout::eShaderReadOnlyOptimal);
+        };
+        vk::DescriptorImageInfo base = picture(world.materials[i].base_texture),
+                                emissive = picture(world.materials[i].emissive_texture);
+        device.device.updateDescriptorSets(
+            {vk::WriteDescriptorSet(*gpu.materials[i], 0, 0, vk::DescriptorType::eCombinedImageSampler, base),
+                vk::WriteDescriptorSet(*gpu.materials[i], 1, 0, vk::DescriptorType::eCombinedImageSampler, emissive)},
+            {});
+    }
+    put_stars(device, gpu, stars);
+    world.vertices = {}, world.indices = {};
+    for (Texture& texture : world.textures)
+        texture.rgba = {};
+    gpu.world = std::move(world);
+    put_spectra(device, gpu, level.value_or(needed_level(gpu.world, scene).level));
+    return gpu;
+}
+
+} // namespace starbow

@@ -1,0 +1,195 @@
+#include "offscreen.h"
+#include "config/json/error.h"
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+
+constexpr vk::Format picture_format = vk::Format::eR8G8B8A8Srgb;
+
+/// Tells a person at a terminal what a long still is busy with, and about how long the rest may take.
+class Progress {
+public:
+    explicit Progress(std::size_t steps)
+        : steps_(steps)
+    {
+    }
+    ~Progress()
+    {
+        if (told_)
+            std::fprintf(stderr, "\r%60s\r", "");
+    }
+    void next(const std::string& what)
+    {
+        double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+        if (isatty(STDERR_FILENO)) {
+            told_ = true;
+            std::fprintf(stderr, "\r%zu of %zu: %-30s", done_ + 1, steps_, what.c_str());
+            if (done_ > 0)
+                std::fprintf(stderr, " about %.0f s left ", passed / double(done_) * double(steps_ - done_));
+            std::fflush(stderr);
+        }
+        ++done_;
+    }
+
+private:
+    std::size_t steps_, done_ = 0;
+    bool told_ = false;
+    std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+};
+
+vk::Extent2D extent_of(glm::ivec2 size) { return {std::uint32_t(size.x), std::uint32_t(size.y)}; }
+
+} // namespace
+
+Studio::Studio(
+    Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality, bool measured)
+    : device_(device)
+    , layout_(layout)
+    , frame_(device, pipelines, world, layout, quality, measured)
+{
+    frame_.repeatable(true);
+    for (const Output& output : layout.outputs) {
+        constexpr double most_measured = 1 << 26; // pixels: 11 channels of them are 3 GiB
+        if (measured && double(output.size.x) * output.size.y > most_measured)
+            throw InputError("The numbers of " + std::to_string(output.size.x) + "x" + std::to_string(output.size.y)
+                + " pixels are too many for one EXR file: at most 8192x8192, or as many in another shape");
+        images_.push_back(make_image(device,
+            {picture_format, extent_of(output.size),
+                vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc}));
+    }
+}
+
+Target Studio::target(std::size_t output) const
+{
+    const Image& image = images_[output];
+    return {*image.image, *image.view, image.extent, image.format};
+}
+
+std::vector<std::vector<std::uint8_t>> Studio::picture(const Shot& shot, const Panel* hud)
+{
+    frame_.prepare(shot, hud);
+    std::vector<Target> targets;
+    for (std::size_t i = 0; i < images_.size(); ++i)
+        targets.push_back(target(i));
+    device_.now([&](vk::CommandBuffer commands) {
+        for (const Image& image : images_)
+            transition(commands, image, vk::ImageLayout::eUndefined, Stage::eNone, {},
+                vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+        frame_.record(commands, targets);
+        for (const Image& image : images_)
+            transition(commands, image, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+                Access::eColorAttachmentWrite, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer,
+                Access::eTransferRead);
+    });
+    std::vector<std::vector<std::uint8_t>> pictures;
+    for (const Image& image : images_) {
+        std::vector<std::byte> bytes = read_back(device_, image, 4);
+        auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data());
+        pictures.emplace_back(first, first + bytes.size());
+    }
+    return pictures;
+}
+
+std::optional<double> Studio::metered(const Shot& shot)
+{
+    frame_.meter(true);
+    frame_.prepare(shot, nullptr);
+    device_.now([&](vk::CommandBuffer commands) {
+        frame_.draw_cubes(commands);
+        frame_.draw_meter(commands);
+    });
+    const std::optional<double> ev = frame_.metered();
+    frame_.meter(false);
+    return ev;
+}
+
+std::vector<Probed> Studio::probed(const Shot& shot)
+{
+    frame_.prepare(shot, nullptr);
+    device_.now([&](vk::CommandBuffer commands) {
+        frame_.draw_cubes(commands);
+        frame_.draw_probes(commands);
+    });
+    return frame_.probed();
+}
+
+Channels Studio::numbers(const Shot& shot, std::size_t output)
+{
+    MeasureTarget target;
+    for (Image* image : {&target.light_and_depth, &target.camera, &target.world})
+        *image = make_image(device_,
+            {exact_format, images_[output].extent,
+                vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
+    Shot unexposed = shot; // numbers are of light, not of pictures: all of it counts, and it is the same at any exposure
+    unexposed.exposure_ev = -60;
+    frame_.prepare(unexposed, nullptr);
+    device_.now([&](vk::CommandBuffer commands) { frame_.record_measured(commands, output, target); });
+
+    std::size_t count = std::size_t(images_[output].extent.width) * images_[output].extent.height;
+    auto texels = [&](const Image& image) {
+        std::vector<glm::vec4> values(count);
+        std::vector<std::byte> bytes = read_back(device_, image, sizeof(glm::vec4));
+        std::memcpy(values.data(), bytes.data(), bytes.size());
+        return values;
+    };
+    std::vector<glm::vec4> light = texels(target.light_and_depth), camera = texels(target.camera),
+                           world = texels(target.world);
+    const char* names[] = {"R", "G", "B", "cameraDirection.X", "cameraDirection.Y", "cameraDirection.Z", "worldDirection.X",
+        "worldDirection.Y", "worldDirection.Z", "doppler", "depth"};
+    Channels channels;
+    for (const char* name : names)
+        channels.emplace_back(name, std::vector<float>(count));
+    const float nothing = std::nanf("");
+    for (auto& [name, values] : channels)
+        std::fill(values.begin(), values.end(), nothing);
+    const int width = int(images_[output].extent.width);
+    for (const Frame::Axes& axes : frame_.measured_axes(output))
+        for (int y = axes.corner.y; y < axes.corner.y + axes.size.y; ++y)
+            for (int x = axes.corner.x; x < axes.corner.x + axes.size.x; ++x) {
+                const std::size_t i = std::size_t(y * width + x);
+                const glm::vec3 c = axes.world_from_motion * glm::dvec3(camera[i]),
+                                w = axes.world_from_motion * glm::dvec3(world[i]);
+                const float values[]
+                    = {light[i].r, light[i].g, light[i].b, c.x, c.y, c.z, w.x, w.y, w.z, camera[i].w, light[i].w};
+                for (std::size_t k = 0; k < 11; ++k)
+                    channels[k].second[i] = values[k];
+            }
+    return channels;
+}
+
+std::vector<std::vector<std::uint8_t>> render_still(
+    const std::filesystem::path& directory, Studio& studio, const Shot& shot, bool exr, const Panel* hud)
+{
+    const auto& outputs = studio.layout().outputs;
+    Progress progress(exr ? 2 + 2 * outputs.size() : 2);
+    progress.next("drawing");
+    auto pictures = studio.picture(shot, hud);
+    std::vector<Channels> numbers;
+    for (std::size_t i = 0; exr && i < outputs.size(); ++i) {
+        progress.next("measuring " + outputs[i].name);
+        numbers.push_back(studio.numbers(shot, i));
+    }
+    std::error_code error;
+    std::filesystem::create_directories(directory, error);
+    if (error)
+        throw InputError(
+            directory.string(), "", "can't be made (" + error.message() + "); give a folder that can be written");
+    progress.next("writing");
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        write_png(directory / (outputs[i].name + ".png"), outputs[i].size, pictures[i]);
+        if (exr)
+            progress.next("compressing " + outputs[i].name),
+                write_exr(directory / (outputs[i].name + ".exr"), outputs[i].size, numbers[i]);
+    }
+    return pictures;
+}
+
+} // namespace starbow

@@ -1,0 +1,35 @@
+#pragma once
+#include "gpu_world.h"
+#include "pipelines.h"
+#include "runtime/hud/instruments.h"
+#include "runtime/hud/overlay.h"
+#include "shaders/shared_structs.h"
+
+namespace starbow {
+
+/// Draws overlays, the crosshair and the marks. Holds the constants of each pane.
+class OverlayPass {
+public:
+    OverlayPass(const Device& device, Pipelines& pipelines, std::size_t panes);
+
+    struct What {
+        Overlay overlay = Overlay::off;
+        std::array<std::optional<Spot>, 2> marks;
+        OverlayScale scale;
+    };
+    /// lookout: the pane's own eye. The device must have finished the frame before.
+    void prepare(std::size_t pane, const What& what, const Lookout& lookout, const GpuWorld& world);
+
+    /// Draws into the rendering under way; warp_set, constants: as for the pane's warp.
+    void draw(vk::CommandBuffer commands, std::size_t pane, const WarpVariant& variant, Overlay overlay,
+        vk::DescriptorSet warp_set, const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size,
+        vk::Format target);
+
+private:
+    Pipelines& pipelines_;
+    Buffer constants_;
+    vk::raii::DescriptorPool pool_ = nullptr;
+    std::vector<vk::raii::DescriptorSet> sets_;
+};
+
+} // namespace starbow

@@ -1,0 +1,158 @@
+#pragma once
+#include "resources.h"
+#include "shaders/shared_structs.h"
+#include <array>
+#include <map>
+#include <tuple>
+
+namespace starbow {
+
+/// Formats of the images between the passes.
+constexpr vk::Format light_format = vk::Format::eR16G16B16A16Sfloat;
+constexpr vk::Format depth_format = vk::Format::eD32Sfloat;
+constexpr vk::Format exact_format = vk::Format::eR32G32B32A32Sfloat;
+constexpr vk::Format words_format = vk::Format::eR32G32B32A32Uint;
+constexpr vk::Format meter_format = vk::Format::eR32G32Sfloat; // luminance, solid angle
+constexpr vk::Format map_format = vk::Format::eR32G32Uint; // a direction map's texel, packed
+constexpr vk::Format inverse_format = vk::Format::eR32G32B32A32Uint; // InverseMap's cell
+
+/// Of the pictures that a pass draws into at once. On the stack: passes are looked up by them many times a frame.
+struct Formats {
+    std::array<vk::Format, MAX_GROUPS + 1> list{};
+    std::size_t count = 0;
+
+    Formats() = default;
+    Formats(std::initializer_list<vk::Format> formats)
+    {
+        for (vk::Format format : formats)
+            push_back(format);
+    }
+    void push_back(vk::Format format) { list[count++] = format; }
+    std::size_t size() const { return count; }
+    auto begin() const { return list.begin(); }
+    auto end() const { return list.begin() + std::ptrdiff_t(count); }
+    vk::Format& operator[](std::size_t i) { return list[i]; }
+    auto operator<=>(const Formats&) const = default;
+};
+
+/// The numbers that light is told by: constants of the passes that write and read the cube map.
+struct Numbers {
+    int reflected = 3, own = 0;
+    /// Of the images that hold them, four each.
+    Formats formats(bool half_floats) const
+    {
+        const int all = reflected + own;
+        Formats formats;
+        for (int first = 0; first < all; first += 4)
+            formats.push_back(half_floats ? light_format : exact_format);
+        if (all > 4 && all % 4 == 1)
+            formats[formats.size() - 1] = half_floats ? vk::Format::eR16Sfloat : vk::Format::eR32Sfloat;
+        if (all > 4 && all % 4 == 2)
+            formats[formats.size() - 1] = half_floats ? vk::Format::eR16G16Sfloat : vk::Format::eR32G32Sfloat;
+        return formats;
+    }
+    auto operator<=>(const Numbers&) const = default;
+};
+
+/// What a material needs of the cube pass: constant_ids of cube.frag.
+struct SurfaceVariant {
+    bool base_texture, emissive_texture, masked, unlit;
+    int lights;
+    Numbers numbers{};
+    int kinds = 1; ///< of spectra that shine
+    bool matrices = false; ///< otherwise the numbers are the colour and what is beyond it
+    bool clock = false;
+    bool mortal = false; ///< not there for ever
+    bool layered = false; ///< one of several layers
+    bool lamps_move = false;
+    bool blink = false;
+    bool moves = false; ///< by itself
+    auto operator<=>(const SurfaceVariant&) const = default;
+};
+/// What a viewport needs of the warp pass: constant_ids of view.glsl and seen.glsl.
+struct WarpVariant {
+    bool map, aberration, doppler, headlight, mips;
+    bool channels = false; ///< red, green and blue look different ways
+    bool reproject = false, turning = false; ///< stereo from one cube map; by the azimuth
+    bool stars = false; ///< added to what the cube map shows
+    bool linear = false; ///< exposed light, for the glow, instead of what is shown
+    Numbers numbers{};
+    bool by_table = true; ///< otherwise the numbers are the colour
+    bool layered = false; ///< something moves in the world
+    bool galilean = false; ///< velocities are added
+    int rays = 1; ///< along each side of a pixel
+    bool single = false; ///< one image of the plan, ahead, shows all
+    bool cut = false; ///< slots may have several images
+    auto operator<=>(const WarpVariant&) const = default;
+};
+
+/// How an output's pictures become its screen's: constant_ids of finish.frag.
+struct FinishVariant {
+    int combine = 0; ///< 0 one picture; two by rows 1, columns 2, checkerboard 3; added 4
+    bool masked = false;
+    int curve = 0; ///< 0 sRGB, 1 gamma, 2 table
+    bool dithered = true;
+    auto operator<=>(const FinishVariant&) const = default;
+};
+
+/// Where a pass draws.
+struct TargetKind {
+    Formats colours;
+    vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
+    auto operator<=>(const TargetKind&) const = default;
+};
+
+/// Every pipeline of the program, made when first asked for.
+class Pipelines {
+public:
+    explicit Pipelines(Device& device);
+
+    vk::Pipeline surface(const SurfaceVariant& variant, const TargetKind& target);
+    vk::Pipeline sky(const TargetKind& target);
+    vk::Pipeline warp(const WarpVariant& variant, vk::Format target);
+    vk::Pipeline stars(const WarpVariant& variant, vk::Format target);
+    vk::Pipeline measure(const WarpVariant& variant);
+    vk::Pipeline probe(const WarpVariant& variant);
+    /// overlay: OVERLAY_ of shared.h.
+    vk::Pipeline overlay(const WarpVariant& variant, int overlay, vk::Format target);
+    vk::Pipeline meter(const WarpVariant& variant);
+    vk::Pipeline star_meter(const WarpVariant& variant);
+    vk::Pipeline bloom(bool up);
+    vk::Pipeline bloomed(vk::Format target);
+    /// scale: with the colours of a scale beside its letters.
+    vk::Pipeline hud(bool map, vk::Format target, bool scale = false);
+    vk::Pipeline lookup(vk::Format target);
+    vk::Pipeline finish(const FinishVariant& variant, vk::Format target);
+    vk::Pipeline pattern(bool map, int pattern, vk::Format target);
+
+    vk::raii::DescriptorSetLayout eye_set
+        = nullptr; ///< 0 constants, 1 instances, 2 visible, 3 columns of the spectra, 4 times
+    vk::raii::DescriptorSetLayout material_set = nullptr; ///< 0 base, 1 emissive texture
+    vk::raii::DescriptorSetLayout warp_set = nullptr; ///< 0 direction map, 1 atlas, 2 slots, 3 rows of the response, 4 depth
+                                                      ///< atlas, 5 picture of the stars, 6 inverse of the direction map, 7
+                                                      ///< to 9 further atlases, 10 rows for the world's own spectra, 11
+                                                      ///< what is covered, 12 layers
+    vk::raii::DescriptorSetLayout star_set = nullptr; ///< 0 constants, 1 stars, 2 black bodies
+    vk::raii::DescriptorSetLayout picture_set = nullptr; ///< 0 direction map, 1 panel, label or cube
+    vk::raii::DescriptorSetLayout finish_set = nullptr; ///< 0 left, 1 right picture, 2 weights, 3 black level, 4 table
+    vk::raii::DescriptorSetLayout overlay_set = nullptr; ///< 0 constants
+    vk::raii::PipelineLayout surface_layout = nullptr, warp_layout = nullptr, picture_layout = nullptr,
+                             finish_layout = nullptr, star_layout = nullptr, ///< star_layout: warp_set, star_set
+        overlay_layout = nullptr; ///< warp_set, overlay_set
+
+private:
+    Device& device_;
+    std::map<std::pair<SurfaceVariant, TargetKind>, vk::raii::Pipeline> surfaces_;
+    std::map<TargetKind, vk::raii::Pipeline> skies_;
+    std::map<std::pair<WarpVariant, vk::Format>, vk::raii::Pipeline> warps_;
+    std::map<WarpVariant, vk::raii::Pipeline> measures_, probes_, meters_, star_meters_;
+    std::map<std::tuple<WarpVariant, int, vk::Format>, vk::raii::Pipeline> overlays_;
+    std::map<std::pair<WarpVariant, vk::Format>, vk::raii::Pipeline> stars_;
+    std::map<std::tuple<bool, vk::Format, bool>, vk::raii::Pipeline> huds_;
+    std::map<bool, vk::raii::Pipeline> blooms_;
+    std::map<vk::Format, vk::raii::Pipeline> lookups_, bloomed_;
+    std::map<std::pair<FinishVariant, vk::Format>, vk::raii::Pipeline> finishes_;
+    std::map<std::tuple<bool, int, vk::Format>, vk::raii::Pipeline> patterns_;
+};
+
+} // namespace starbow

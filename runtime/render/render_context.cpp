@@ -1,0 +1,67 @@
+#include "render_context.h"
+#include "config/model/shipped.h"
+#include "runtime/world/detail.h"
+#include <cstdlib>
+
+namespace starbow {
+
+struct LoadedScene {
+    SceneFile scene;
+    World world;
+    std::vector<Star> stars;
+};
+
+static LoadedScene load(const std::filesystem::path& file)
+{
+    SceneFile scene = load_scene_file(file);
+    World world = load_world(scene.gltf);
+    add_detail_levels(world);
+    std::vector<Star> stars;
+    if (scene.stars)
+        stars = load_stars(scene.stars->catalogue);
+    return {std::move(scene), std::move(world), std::move(stars)};
+}
+
+Theatre::Theatre(const std::filesystem::path& scene, const Device::Options& options, std::optional<SpectralLevel> level)
+    : Theatre(load(scene), options, level)
+{
+}
+
+Theatre::Theatre(LoadedScene&& loaded, const Device::Options& options, std::optional<SpectralLevel> level)
+    : device(options)
+    , pipelines(device)
+    , world(upload(device, pipelines, std::move(loaded.world), loaded.scene, loaded.stars, level))
+{
+}
+
+std::string light_told(const Theatre& theatre)
+{
+    const NeededLevel needed = needed_level(theatre.world.world, theatre.world.scene);
+    const SpectralLevel level = theatre.world.spectra.level;
+    return told(level == needed.level ? needed : NeededLevel{level, "as was asked"});
+}
+
+Device::Options device_options(bool windows)
+{
+    const char* validation = std::getenv("STARBOW_VALIDATION");
+    const char* name = std::getenv("STARBOW_GPU");
+    return {.windows = windows, .validation = validation && *validation == '1', .name = name ? name : ""};
+}
+
+Quality within(const Device& device, Quality quality)
+{
+    const vk::PhysicalDeviceLimits& limits = device.properties.limits;
+    const auto counts = std::uint32_t(limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts);
+    while (quality.cube_samples > 1 && !(counts & std::uint32_t(quality.cube_samples)))
+        quality.cube_samples /= 2;
+    // The atlas grows in steps of 256.
+    quality.max_atlas_side = int(limits.maxImageDimension2D) / 256 * 256;
+    return quality;
+}
+
+Quality default_quality(const Device& device, bool still)
+{
+    return within(device, load_quality(find("qualities", still || !device.on_processor() ? "fine" : "balanced")));
+}
+
+} // namespace starbow

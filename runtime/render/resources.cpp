@@ -1,0 +1,209 @@
+#include "resources.h"
+#include "config/json/error.h"
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace starbow {
+namespace {
+
+std::uint32_t memory_type(const Device& device, std::uint32_t allowed, vk::MemoryPropertyFlags wanted)
+{
+    for (std::uint32_t i = 0; i < device.memory.memoryTypeCount; ++i)
+        if ((allowed >> i & 1) && (device.memory.memoryTypes[i].propertyFlags & wanted) == wanted)
+            return i;
+    throw InputError(
+        "The GPU offers no memory of the kind " + vk::to_string(wanted) + ": use another GPU or a newer driver");
+}
+
+/// Gives a buffer or an image its memory; software devices find out only when it is bound.
+template <class Resource>
+vk::raii::DeviceMemory bind(const Device& device, const Resource& resource, vk::MemoryPropertyFlags wanted)
+{
+    vk::MemoryRequirements needs = resource.getMemoryRequirements();
+    try {
+        vk::raii::DeviceMemory memory
+            = device.device.allocateMemory({needs.size, memory_type(device, needs.memoryTypeBits, wanted)});
+        resource.bindMemory(*memory, 0);
+        return memory;
+    } catch (const vk::SystemError&) {
+        throw InputError("The GPU has no " + std::to_string(needs.size >> 20)
+            + " MiB in one piece: use smaller outputs, a smaller world, or a GPU with more memory");
+    }
+}
+
+Buffer make_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage, vk::MemoryPropertyFlags wanted)
+{
+    Buffer buffer;
+    buffer.size = std::max<vk::DeviceSize>(size, 16);
+    buffer.buffer = device.device.createBuffer({{}, buffer.size, usage});
+    buffer.memory = bind(device, buffer.buffer, wanted);
+    if (wanted & vk::MemoryPropertyFlagBits::eHostVisible)
+        buffer.mapped = buffer.memory.mapMemory(0, buffer.size);
+    return buffer;
+}
+
+} // namespace
+
+Buffer make_mapped_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage)
+{
+    return make_buffer(
+        device, size, usage, vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent);
+}
+
+Buffer make_static_buffer(Device& device, std::span<const std::byte> data, vk::BufferUsageFlags usage)
+{
+    Buffer staging = make_mapped_buffer(device, data.size(), vk::BufferUsageFlagBits::eTransferSrc);
+    if (!data.empty())
+        std::memcpy(staging.mapped, data.data(), data.size());
+    Buffer buffer = make_buffer(
+        device, data.size(), usage | vk::BufferUsageFlagBits::eTransferDst, vk::MemoryPropertyFlagBits::eDeviceLocal);
+    device.now([&](vk::CommandBuffer commands) {
+        commands.copyBuffer(*staging.buffer, *buffer.buffer, vk::BufferCopy(0, 0, buffer.size));
+    });
+    return buffer;
+}
+
+void grow(const Device& device, Buffer& buffer, vk::DeviceSize size, vk::BufferUsageFlags usage)
+{
+    if (buffer.size < size || !*buffer.buffer)
+        buffer = make_mapped_buffer(device, size + size / 2, usage);
+}
+
+vk::ImageAspectFlags aspect_of(vk::Format format)
+{
+    return format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
+}
+
+Image make_image(const Device& device, const ImageSpec& spec)
+{
+    std::uint32_t limit
+        = spec.cube ? device.properties.limits.maxImageDimensionCube : device.properties.limits.maxImageDimension2D;
+    if (std::max(spec.extent.width, spec.extent.height) > limit)
+        throw InputError("A picture of " + std::to_string(spec.extent.width) + "x" + std::to_string(spec.extent.height)
+            + " is more than this GPU can hold: at most " + std::to_string(limit) + " on a side");
+    Image image;
+    image.format = spec.format, image.extent = spec.extent, image.levels = spec.levels, image.layers = spec.layers;
+    vk::ImageCreateInfo info(spec.cube ? vk::ImageCreateFlagBits::eCubeCompatible : vk::ImageCreateFlags(),
+        vk::ImageType::e2D, spec.format, {spec.extent.width, spec.extent.height, 1}, spec.levels, spec.layers, spec.samples,
+        vk::ImageTiling::eOptimal, spec.usage);
+    image.image = device.device.createImage(info);
+    image.bytes = image.image.getMemoryRequirements().size;
+    image.memory = bind(device, image.image, vk::MemoryPropertyFlagBits::eDeviceLocal);
+    image.view = device.device.createImageView({{}, *image.image,
+        spec.cube        ? vk::ImageViewType::eCube
+            : spec.array ? vk::ImageViewType::e2DArray
+                         : vk::ImageViewType::e2D,
+        spec.format, {}, {aspect_of(spec.format), 0, spec.levels, 0, spec.layers}});
+    return image;
+}
+
+void transition(vk::CommandBuffer commands, const Image& image, vk::ImageLayout from, vk::PipelineStageFlags2 from_stage,
+    vk::AccessFlags2 from_access, vk::ImageLayout to, vk::PipelineStageFlags2 to_stage, vk::AccessFlags2 to_access)
+{
+    vk::ImageMemoryBarrier2 barrier(from_stage, from_access, to_stage, to_access, from, to, VK_QUEUE_FAMILY_IGNORED,
+        VK_QUEUE_FAMILY_IGNORED, *image.image, {aspect_of(image.format), 0, image.levels, 0, image.layers});
+    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
+}
+
+Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::span<const std::byte> pixels, bool mips)
+{
+    std::uint32_t levels = mips ? std::bit_width(std::uint32_t(std::max(size.x, size.y))) : 1;
+    Image image = make_image(device,
+        {format, {std::uint32_t(size.x), std::uint32_t(size.y)},
+            vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst,
+            levels});
+    Buffer staging = make_mapped_buffer(device, pixels.size(), vk::BufferUsageFlagBits::eTransferSrc);
+    std::memcpy(staging.mapped, pixels.data(), pixels.size());
+
+    using Stage = vk::PipelineStageFlagBits2;
+    using Access = vk::AccessFlagBits2;
+    using Layout = vk::ImageLayout;
+    device.now([&](vk::CommandBuffer commands) {
+        auto level_barrier = [&](std::uint32_t level, std::uint32_t count, Layout from, Access from_access, Layout to,
+                                 Access to_access, vk::PipelineStageFlags2 to_stage) {
+            vk::ImageMemoryBarrier2 barrier(Stage::eTransfer, from_access, to_stage, to_access, from, to,
+                VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *image.image,
+                {vk::ImageAspectFlagBits::eColor, level, count, 0, 1});
+            commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
+        };
+        level_barrier(
+            0, levels, Layout::eUndefined, {}, Layout::eTransferDstOptimal, Access::eTransferWrite, Stage::eTransfer);
+        commands.copyBufferToImage(*staging.buffer, *image.image, Layout::eTransferDstOptimal,
+            vk::BufferImageCopy(
+                0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {image.extent.width, image.extent.height, 1}));
+        glm::ivec2 from = size;
+        for (std::uint32_t level = 1; level < levels; ++level) {
+            level_barrier(level - 1, 1, Layout::eTransferDstOptimal, Access::eTransferWrite, Layout::eTransferSrcOptimal,
+                Access::eTransferRead, Stage::eTransfer);
+            glm::ivec2 to = glm::max(from / 2, 1);
+            vk::ImageBlit blit({vk::ImageAspectFlagBits::eColor, level - 1, 0, 1}, {vk::Offset3D{}, {from.x, from.y, 1}},
+                {vk::ImageAspectFlagBits::eColor, level, 0, 1}, {vk::Offset3D{}, {to.x, to.y, 1}});
+            commands.blitImage(*image.image, Layout::eTransferSrcOptimal, *image.image, Layout::eTransferDstOptimal, blit,
+                vk::Filter::eLinear);
+            from = to;
+        }
+        if (levels > 1)
+            level_barrier(0, levels - 1, Layout::eTransferSrcOptimal, Access::eTransferRead, Layout::eShaderReadOnlyOptimal,
+                Access::eShaderSampledRead, Stage::eFragmentShader);
+        level_barrier(levels - 1, 1, Layout::eTransferDstOptimal, Access::eTransferWrite, Layout::eShaderReadOnlyOptimal,
+            Access::eShaderSampledRead, Stage::eFragmentShader);
+    });
+    return image;
+}
+
+Image make_texture_array(
+    Device& device, vk::Format format, glm::ivec2 size, std::uint32_t layers, std::span<const std::byte> pixels)
+{
+    Image image = make_image(device,
+        {.format = format,
+            .extent = {std::uint32_t(size.x), std::uint32_t(size.y)},
+            .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst,
+            .layers = layers,
+            .array = true});
+    Buffer staging = make_mapped_buffer(device, pixels.size(), vk::BufferUsageFlagBits::eTransferSrc);
+    std::memcpy(staging.mapped, pixels.data(), pixels.size());
+    using Stage = vk::PipelineStageFlagBits2;
+    using Access = vk::AccessFlagBits2;
+    device.now([&](vk::CommandBuffer commands) {
+        transition(commands, image, vk::ImageLayout::eUndefined, Stage::eNone, {}, vk::ImageLayout::eTransferDstOptimal,
+            Stage::eTransfer, Access::eTransferWrite);
+        commands.copyBufferToImage(*staging.buffer, *image.image, vk::ImageLayout::eTransferDstOptimal,
+            vk::BufferImageCopy(
+                0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, layers}, {}, {image.extent.width, image.extent.height, 1}));
+        transition(commands, image, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
+            vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eVertexShader | Stage::eFragmentShader,
+            Access::eShaderSampledRead);
+    });
+    return image;
+}
+
+vk::Rect2D rect_of(glm::ivec2 corner, glm::ivec2 size)
+{
+    return {{corner.x, corner.y}, {std::uint32_t(size.x), std::uint32_t(size.y)}};
+}
+
+void set_area(vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size)
+{
+    commands.setViewport(0, vk::Viewport(corner.x, corner.y, size.x, size.y, 0, 1));
+    commands.setScissor(0, rect_of(corner, size));
+}
+
+std::vector<std::byte> read_back(Device& device, const Image& image, std::uint32_t bytes_per_texel)
+{
+    std::size_t size = std::size_t(image.extent.width) * image.extent.height * bytes_per_texel;
+    Buffer staging = make_mapped_buffer(device, size, vk::BufferUsageFlagBits::eTransferDst);
+    device.now([&](vk::CommandBuffer commands) {
+        commands.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, *staging.buffer,
+            vk::BufferImageCopy(
+                0, 0, 0, {aspect_of(image.format), 0, 0, 1}, {}, {image.extent.width, image.extent.height, 1}));
+        vk::MemoryBarrier2 to_host(vk::PipelineStageFlagBits2::eTransfer, vk::AccessFlagBits2::eTransferWrite,
+            vk::PipelineStageFlagBits2::eHost, vk::AccessFlagBits2::eHostRead);
+        commands.pipelineBarrier2(vk::DependencyInfo({}, to_host));
+    });
+    std::vector<std::byte> data(size);
+    std::memcpy(data.data(), staging.mapped, size);
+    return data;
+}
+
+} // namespace starbow

@@ -1,0 +1,125 @@
+#include "star_pass.h"
+#include "shaders/shared_structs.h"
+#include <algorithm>
+#include <cstring>
+
+namespace starbow {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+using Layout_ = vk::ImageLayout;
+
+/// Where a sky of a million stars crowds into a few pixels, fp16 would stop adding; a device that can't add up floats has it
+/// all the same.
+vk::Format summing_format(const Device& device)
+{
+    const auto can = device.physical.getFormatProperties(exact_format).optimalTilingFeatures;
+    return can & vk::FormatFeatureFlagBits::eColorAttachmentBlend ? exact_format : light_format;
+}
+
+} // namespace
+
+StarPass::StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& world)
+    : device_(device)
+    , pipelines_(pipelines)
+    , world_(world)
+    , format_(summing_format(device))
+{
+    if (!on())
+        return;
+    const vk::DeviceSize step = device.properties.limits.minUniformBufferOffsetAlignment;
+    stride_ = (sizeof(shared::StarConstants) + step - 1) / step * step;
+    std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBufferDynamic, 2},
+        {vk::DescriptorType::eUniformBuffer, 2}, {vk::DescriptorType::eStorageBuffer, 2}};
+    pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2, sizes});
+    for (vk::raii::DescriptorSet& set : sets_)
+        set = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.star_set}).front());
+}
+
+void StarPass::write_sets()
+{
+    for (std::size_t i = 0; i < sets_.size(); ++i) {
+        const Buffer& black_bodies = (i == 0 ? world_.eye : world_.false_colours).black_bodies;
+        const vk::DescriptorBufferInfo buffers[] = {{*constants_.buffer, 0, sizeof(shared::StarConstants)},
+            {*world_.stars.buffer, 0, VK_WHOLE_SIZE}, {*black_bodies.buffer, 0, VK_WHOLE_SIZE}};
+        device_.device.updateDescriptorSets(
+            {vk::WriteDescriptorSet(*sets_[i], 0, 0, vk::DescriptorType::eUniformBufferDynamic, {}, buffers[0]),
+                vk::WriteDescriptorSet(*sets_[i], 1, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[1]),
+                vk::WriteDescriptorSet(*sets_[i], 2, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[2])},
+            {});
+    }
+}
+
+void StarPass::bind(vk::CommandBuffer commands, std::size_t watcher) const
+{
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 1, *sets_[false_colours_],
+        std::uint32_t(watcher * stride_));
+}
+
+void StarPass::fit(vk::Extent2D extent)
+{
+    if (*picture_.view && picture_.extent.width >= extent.width && picture_.extent.height >= extent.height)
+        return;
+    extent.width = std::max(extent.width, picture_.extent.width);
+    extent.height = std::max(extent.height, picture_.extent.height);
+    picture_ = {};
+    picture_ = make_image(
+        device_, {format_, extent, vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled});
+}
+
+void StarPass::prepare(std::span<const glm::dmat3> motion_from_world, bool false_colours)
+{
+    false_colours_ = false_colours;
+    const vk::Buffer before = *constants_.buffer;
+    grow(device_, constants_, motion_from_world.size() * stride_, vk::BufferUsageFlagBits::eUniformBuffer);
+    if (*constants_.buffer != before)
+        write_sets();
+    for (std::size_t at = 0; at < motion_from_world.size(); ++at) {
+        const glm::dmat3& turn = motion_from_world[at];
+        shared::StarConstants constants{};
+        glm::vec4* rows[] = {&constants.row0, &constants.row1, &constants.row2};
+        for (int i = 0; i < 3; ++i)
+            *rows[i] = glm::vec4(turn[0][i], turn[1][i], turn[2][i], 0);
+        std::memcpy(static_cast<std::byte*>(constants_.mapped) + at * stride_, &constants, sizeof constants);
+    }
+}
+
+void StarPass::begin(vk::CommandBuffer commands, vk::Extent2D extent)
+{
+    transition(commands, picture_, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eColorAttachmentOptimal,
+        Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
+    const vk::RenderingAttachmentInfo colour(*picture_.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore, vk::ClearColorValue(std::array<float, 4>{}));
+    commands.beginRendering({{}, {{0, 0}, extent}, 1, 0, colour});
+}
+
+void StarPass::draw(vk::CommandBuffer commands, std::size_t watcher, glm::ivec2 corner, glm::ivec2 size, int instances,
+    std::span<const StarRun> stars)
+{
+    bind(commands, watcher);
+    // Wider by a spot's radius: a point whose middle lies outside would not be drawn at all.
+    const glm::ivec2 radius(STAR_RADIUS);
+    const glm::vec2 low = corner - radius, wide = size + 2 * radius;
+    commands.setViewport(0, vk::Viewport(low.x, low.y, wide.x, wide.y, 0, 1));
+    commands.setScissor(0, rect_of(corner, size));
+    for (const StarRun& run : stars)
+        commands.draw(run.count, std::uint32_t(instances), run.first, 0);
+}
+
+void StarPass::glance(
+    vk::CommandBuffer commands, std::size_t watcher, glm::ivec2 corner, glm::ivec2 size, int every, bool channels) const
+{
+    bind(commands, watcher);
+    set_area(commands, corner, size);
+    commands.draw((world_.star_count + std::uint32_t(every) - 1) / std::uint32_t(every), 1, 0, channels ? 1 : 0);
+}
+
+void StarPass::end(vk::CommandBuffer commands)
+{
+    commands.endRendering();
+    transition(commands, picture_, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+        Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
+}
+
+} // namespace starbow

@@ -1,0 +1,50 @@
+#pragma once
+#include "config/json/error.h"
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace starbow {
+
+using Json = nlohmann::json;
+
+/// A text from a file, fit for one line of a message: printable ASCII, not long, in quotes.
+std::string in_quotes(const std::string& text);
+
+/// A value of a glTF file's JSON together with where it stands, so that every complaint can say it.
+struct Spot {
+    const Json& json;
+    std::string at; ///< JSON pointer
+    const std::string& file;
+
+    [[noreturn]] void fail(const std::string& problem) const { throw InputError(file, at.empty() ? "/" : at, problem); }
+    bool has(const char* key) const { return json.contains(key); }
+    Spot operator[](const std::string& key) const;
+    Spot operator[](std::size_t i) const { return {json[i], at + "/" + std::to_string(i), file}; }
+    std::size_t size() const { return json.size(); }
+};
+
+/// Each of these returns the value, or fails with what would be right.
+const Spot& object(const Spot& spot);
+const Spot& list(const Spot& spot, std::size_t at_least = 1);
+std::int64_t integer(const Spot& spot, std::int64_t low, std::int64_t high);
+double number(const Spot& spot, double low, double high);
+std::vector<double> numbers(const Spot& spot, std::size_t count, double low, double high);
+std::string text(const Spot& spot);
+bool boolean(const Spot& spot);
+
+/// Fails where an object has other members than these.
+void only(const Spot& spot, std::initializer_list<const char*> known);
+
+/// An index into one of the file's lists, which holds `size` things.
+std::int64_t index_into(const Spot& spot, const char* what, std::size_t size);
+
+/// A member that may be absent.
+inline std::int64_t integer_or(const Spot& spot, const char* key, std::int64_t absent, std::int64_t low, std::int64_t high)
+{
+    return spot.has(key) ? integer(spot[key], low, high) : absent;
+}
+
+} // namespace starbow

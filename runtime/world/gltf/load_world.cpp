@@ -1,0 +1,173 @@
+#include "parts.h"
+#include "runtime/world/moving.h"
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+namespace starbow {
+namespace {
+
+tinygltf::Model read_model(GuardedGltf& file)
+{
+    std::string json = file.json.dump();
+    tinygltf::Model model;
+    tinygltf::TinyGLTF reader;
+    // What it is given names no file; should that ever change, it finds none.
+    reader.SetFsCallbacks(
+        {[](const std::string&, void*) { return false; }, [](const std::string& path, void*) { return path; },
+            [](std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; },
+            [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }, nullptr});
+    reader.RemoveImageLoader();
+    std::string error, warning;
+    if (!reader.LoadASCIIFromString(&model, &error, &warning, json.data(), unsigned(json.size()), ""))
+        throw InputError(file.name, "", "is not understood by tinygltf: " + in_quotes(error));
+    for (std::size_t i = 0; i < model.buffers.size(); ++i)
+        model.buffers[i].data.swap(file.buffers[i]);
+    return model;
+}
+
+/// The nodes that the scene starts from; a file without scenes shows all that it has.
+std::vector<int> roots(const tinygltf::Model& model)
+{
+    if (!model.scenes.empty())
+        return model.scenes[std::size_t(std::max(model.defaultScene, 0))].nodes;
+    std::vector<bool> is_child(model.nodes.size(), false);
+    for (const auto& node : model.nodes)
+        for (int child : node.children)
+            is_child[std::size_t(child)] = true;
+    std::vector<int> out;
+    for (std::size_t i = 0; i < model.nodes.size(); ++i)
+        if (!is_child[i])
+            out.push_back(int(i));
+    return out;
+}
+
+/// A mesh's primitives, made when a node first shows it.
+const std::vector<std::uint32_t>& primitives_of(WorldBuild& build, int mesh, std::map<int, std::vector<std::uint32_t>>& made)
+{
+    auto [known, is_new] = made.try_emplace(mesh);
+    const auto& from = build.model.meshes[std::size_t(mesh)].primitives;
+    for (std::size_t i = 0; is_new && i < from.size(); ++i)
+        if (add_primitive(build, "/meshes/" + std::to_string(mesh) + "/primitives/" + std::to_string(i), from[i]))
+            known->second.push_back(std::uint32_t(build.world.primitives.size()) - 1);
+    return known->second;
+}
+
+/// What hangs below a joint.
+void add_moving(WorldBuild& build, int node, const Motion& motion, const std::vector<std::uint32_t>& primitives)
+{
+    World& world = build.world;
+    // Which side is outside is asked of it at some of its moments: something may begin with no size at all.
+    constexpr int moments = 64;
+    double determinant = 0;
+    for (int i = 0; i < moments; ++i) {
+        const double own = glm::determinant(glm::dmat3(pose_of(world, motion, longest(world, motion.joint) * i / moments)));
+        if (own * determinant < 0)
+            note_once(world.notes, "animated scales through 0 turn surfaces inside out");
+        determinant = determinant == 0 ? own : determinant;
+    }
+    if (determinant == 0) {
+        note_once(world.notes, "nodes scaled to nothing are not drawn");
+        return;
+    }
+    for (std::uint32_t primitive : primitives) {
+        if (world.motions.size() >= GltfLimits::motions)
+            build.fail("/nodes/" + std::to_string(node),
+                "brings the world above " + std::to_string(GltfLimits::motions)
+                    + " things that move by themselves; use fewer");
+        Instance instance{pose_of(world, motion, 0), determinant < 0 ? turned_primitive(build, primitive) : primitive, node};
+        instance.motion = int(world.motions.size());
+        world.instances.push_back(instance);
+        world.motions.push_back(motion);
+    }
+}
+
+void add_instances(WorldBuild& build)
+{
+    struct Visit {
+        int node, parent;
+        glm::dmat4 world_from_parent;
+        int joint; // the next that moves above it
+        glm::dmat4 joint_from_parent;
+    };
+    std::vector<Visit> open;
+    std::map<int, std::vector<std::uint32_t>> made;
+    auto push_backwards = [&](const std::vector<int>& nodes, int parent, const glm::dmat4& world_from_parent, int joint,
+                              const glm::dmat4& joint_from_parent) {
+        for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
+            open.push_back({*node, parent, world_from_parent, joint, joint_from_parent});
+    };
+    for (const auto& node : build.model.nodes)
+        build.world.nodes.push_back({node.name, -1});
+    push_backwards(roots(build.model), -1, glm::dmat4(1), -1, glm::dmat4(1));
+    while (!open.empty()) {
+        auto [index, parent, world_from_parent, joint, joint_from_parent] = open.back();
+        open.pop_back();
+        build.world.nodes[std::size_t(index)].parent = parent;
+        const auto& node = build.model.nodes[std::size_t(index)];
+        glm::dmat4 world_from_local = world_from_parent * local_transform(node);
+        std::string place = "/nodes/" + std::to_string(index);
+        for (int column = 0; column < 4; ++column)
+            if (!(glm::length(world_from_local[column]) < 1e30))
+                build.fail(place, "with its parents' transforms leads beyond 1e30; should stay below");
+        if (build.node_tracks.contains(index) || build.file.spins[std::size_t(index)]) {
+            joint = add_joint(build, index, joint, joint_from_parent);
+            joint_from_parent = glm::dmat4(1);
+        } else
+            joint_from_parent = joint_from_parent * local_transform(node);
+        push_backwards(node.children, index, world_from_local, joint, joint_from_parent);
+        if (node.mesh < 0)
+            continue;
+        if (joint >= 0) {
+            const Motion motion{joint, joint_from_parent};
+            add_moving(build, index, motion, primitives_of(build, node.mesh, made));
+            continue;
+        }
+        double determinant = glm::determinant(glm::dmat3(world_from_local));
+        if (determinant == 0) {
+            note_once(build.world.notes, "nodes scaled to nothing are not drawn");
+            continue;
+        }
+        for (std::uint32_t primitive : primitives_of(build, node.mesh, made)) {
+            if (build.world.instances.size() >= GltfLimits::instances)
+                build.fail(
+                    place, "brings the world above " + std::to_string(GltfLimits::instances) + " instances; use fewer");
+            // A mirror turns clockwise into counter-clockwise. Turning the corners here spares the renderer a second
+            // case.
+            build.world.instances.push_back(
+                {world_from_local, determinant < 0 ? turned_primitive(build, primitive) : primitive, index});
+        }
+    }
+}
+
+} // namespace
+
+glm::dmat4 local_transform(const tinygltf::Node& node)
+{
+    if (node.matrix.size() == 16)
+        return glm::make_mat4(node.matrix.data());
+    glm::dmat4 out(1);
+    if (node.rotation.size() == 4)
+        out = glm::mat4_cast(glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]));
+    for (int i = 0; i < 3 && node.scale.size() == 3; ++i)
+        out[i] *= node.scale[std::size_t(i)];
+    for (int i = 0; i < 3 && node.translation.size() == 3; ++i)
+        out[3][i] = node.translation[std::size_t(i)];
+    return out;
+}
+
+World load_world(const std::filesystem::path& path)
+{
+    GuardedGltf file = guard_gltf(path);
+    tinygltf::Model model = read_model(file);
+    World world;
+    world.notes = std::move(file.notes);
+    WorldBuild build{file, model, world};
+    add_materials(build);
+    add_tracks(build);
+    add_instances(build);
+    if (world.instances.empty())
+        throw InputError(file.name, "/scenes", "shows no triangles; a world needs at least one mesh of triangles");
+    return world;
+}
+
+} // namespace starbow

@@ -1,0 +1,27 @@
+#pragma once
+#include "world.h"
+#include <utility>
+
+namespace starbow {
+
+/// A frame's instances, from first to before last, in sort_instances' order.
+struct InstanceRange {
+    std::size_t first, last;
+};
+InstanceRange instances_of(const World& world, int frame);
+
+/// Whether an instance's picture depends on its own time: clocks, blinking lamps, animated nodes and finite existence.
+/// These instances are the first of their rest frame.
+bool timed(const World& world, const Instance& instance);
+
+/// Whether an instance's existence interval is finite.
+bool mortal(const World& world, const Instance& instance);
+
+/// The part of sort_instances' key that parts a primitive's instances into separate draws: finite existence, own motion.
+std::pair<bool, bool> kind_of(const World& world, const Instance& instance);
+
+/// Puts a world's instances in order of their frames, in each those that are timed first, then of their materials and their
+/// primitives.
+void sort_instances(World& world);
+
+} // namespace starbow

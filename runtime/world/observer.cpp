@@ -1,0 +1,57 @@
+#include "observer.h"
+#include "shaders/physics/physics.h"
+#include "vantage.h"
+#include "worldline.h"
+#include <algorithm>
+
+namespace starbow {
+
+double Watcher::most_E() const
+{
+    double most = 1;
+    for (const Layer& layer : layers)
+        most = std::max(most, physics::exp_rapidity(glm::length(layer.shot.u)));
+    return most;
+}
+
+Watcher watcher(const World& world, const Shot& ship, const Onlooker& observer, std::vector<Layer> before)
+{
+    before.clear();
+    Watcher out{observer, shot_of(ship, observer), 1, std::move(before)};
+    out.E = physics::exp_rapidity(glm::length(out.shot.u));
+    const bool now = ship.effects.comparison == Comparison::no_light_delay;
+    const bool aberration = ship.effects.aberration || now;
+    Shot still = out.shot;
+    still.u = glm::dvec3(0);
+    for (const RestFrame& frame : world.frames) {
+        const bool own = out.layers.empty(); // the world's: its axes are those of the motion in any case
+        const Shot looks = in_frame(frame, aberration || own ? out.shot : still);
+        const glm::dmat3 turn = motion_from_world(looks.u, looks.ship_from_cockpit);
+        out.layers.push_back(
+            {in_frame(frame, out.shot), aberration || !own ? physics::exp_rapidity(glm::length(looks.u)) : 1, turn,
+                turn * glm::dmat3(glm::mat3_cast(looks.ship_from_cockpit))});
+        if (!now)
+            continue;
+        Layer& layer = out.layers.back();
+        const double gamma = physics::gamma_of(layer.shot.u);
+        layer.now = true, layer.E = 1, layer.contraction = 1 / gamma, layer.beta = glm::length(layer.shot.u) / gamma;
+    }
+    if (now)
+        out.E = 1;
+    return out;
+}
+
+Shot shot_of(const Shot& ship, const Onlooker& observer)
+{
+    Shot shot = ship;
+    if (observer.at_rest)
+        shot.u = glm::dvec3(0);
+    if (observer.passing_u != glm::dvec3(0)) {
+        const glm::dvec3 w = ship.ship_from_cockpit * observer.passing_u;
+        shot.u = physics::composed(ship.u, w);
+        shot.ship_from_cockpit = quaternion(physics::wigner_turn(ship.u, w)) * ship.ship_from_cockpit;
+    }
+    return shot;
+}
+
+} // namespace starbow

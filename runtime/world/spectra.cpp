@@ -1,0 +1,274 @@
+#include "spectra.h"
+#include "config/json/reader.h"
+#include "shaders/physics/physics.h"
+#include "worldline.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+const std::optional<Emission>& spectrum_of(const Light& light)
+{
+    return std::visit([](const auto& l) -> const std::optional<Emission>& { return l.spectrum; }, light);
+}
+
+/// Light that shines on surfaces, and by how much it comes shifted.
+struct Kind {
+    std::optional<Emission> light;
+    double D = 1;
+    bool operator==(const Kind&) const = default;
+};
+
+/// What is lit moves against a lamp of this light: with which D its light comes, from lowest to highest.
+struct Shift {
+    double lowest = 1, highest = 1;
+};
+std::optional<Shift> shift_of(const World& world, const SceneFile& scene, std::size_t light, std::size_t frame)
+{
+    std::optional<Shift> shift;
+    for (const Lamp& lamp : world.lamps) {
+        if (lamp.light != light || std::size_t(lamp.frame) == frame)
+            continue;
+        const RestFrame &here = world.frames[frame], &there = world.frames[std::size_t(lamp.frame)];
+        if (const auto* far = std::get_if<DirectionalLight>(&scene.lights[light])) {
+            double D;
+            aberrated(here.u, far->towards, D);
+            return Shift{D, D};
+        }
+        const double E = physics::exp_rapidity(glm::length(physics::relative(here.u, there.u).u));
+        const double most = std::max(E, shift ? shift->highest : 1);
+        shift = {1 / most, most};
+    }
+    return shift;
+}
+
+std::string quoted(const std::string& name) { return '"' + one_line(name, 60) + '"'; }
+
+/// Every emission once, in the order in which they are met.
+std::vector<OwnSpectrum> own_spectra(const World& world, const SceneFile& scene)
+{
+    std::vector<OwnSpectrum> own;
+    auto add = [&](const OwnSpectrum& spectrum) {
+        if (std::find(own.begin(), own.end(), spectrum) == own.end())
+            own.push_back(spectrum);
+    };
+    const bool uneven = std::any_of(world.materials.begin(), world.materials.end(),
+        [](const Material& m) { return m.ultraviolet || m.infrared || !m.reflectance.empty(); });
+    for (const Light& light : scene.lights)
+        if (const auto& spectrum = spectrum_of(light)) {
+            add({*spectrum});
+            if (uneven && !std::holds_alternative<SpectralLine>(*spectrum))
+                add({*spectrum, true});
+        }
+    // Greys are exact where the shifted light of what shines on things that move is a number of its own; beyond that they
+    // are told by those of sunlight. A line can't be.
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        for (std::size_t frame = 0; frame < world.frames.size(); ++frame)
+            if (const auto shift = shift_of(world, scene, i, frame)) {
+                const auto& spectrum = spectrum_of(scene.lights[i]);
+                const bool line = spectrum && std::holds_alternative<SpectralLine>(*spectrum);
+                const bool even = shift->lowest == shift->highest;
+                if (line && !even)
+                    throw InputError(scene.file, "/lights/" + std::to_string(i),
+                        "is a line, and it passes what does not move with it, at wavelengths that change; a "
+                        "\"temperature_K\" "
+                        "or a \"spectrum\" is right there");
+                if (even && (line || own.size() < MAX_OWN - 1))
+                    add({shifted(spectrum, shift->lowest)});
+            }
+    for (const Material& material : world.materials) {
+        if (material.temperature_K > 0)
+            add({BlackBody{material.temperature_K}});
+        if (material.emission)
+            add({*material.emission});
+    }
+    if (scene.sky.temperature_K > 0)
+        add({BlackBody{scene.sky.temperature_K}});
+    if (own.size() > MAX_OWN)
+        throw InputError(scene.gltf.string(), "",
+            "has, with its lights and its sky, " + std::to_string(own.size())
+                + " different spectra beside sunlight (of lamps, glows, lines and tables; a lamp counts twice where a "
+                  "material's ultraviolet, infrared or reflectance is told); at most "
+                + std::to_string(MAX_OWN) + " is right");
+    return own;
+}
+
+std::size_t index_of(const SpectralBasis& basis, const Emission& emission)
+{
+    return std::size_t(std::find(basis.own.begin(), basis.own.end(), OwnSpectrum{emission}) - basis.own.begin());
+}
+
+std::vector<double> lit_as(const SpectralBasis& basis, const Kind& kind, const std::function<double(double nm)>& reflectance)
+{
+    return kind.D == 1 ? lit(basis, kind.light, reflectance) : lit_shifted(basis, kind.light, kind.D, reflectance);
+}
+
+/// A surface's five columns under one light: [group * 5 + column].
+std::vector<glm::vec4> by_colour(const SpectralBasis& basis, int groups, const Kind& light)
+{
+    std::vector<glm::vec4> columns(std::size_t(groups * 5), glm::vec4(0));
+    for (int column = 0; column < 5; ++column) {
+        glm::dvec3 rgb(0);
+        if (column < 3)
+            rgb[column] = 1;
+        std::vector<double> numbers(std::size_t(basis.size()), 0.0);
+        if (light != Kind{} || basis.reflected > 5)
+            numbers = lit_as(basis, light, [&](double nm) { return base_reflectance(rgb, column == 3, column == 4, nm); });
+        else if (column < basis.reflected) // these are its numbers
+            numbers[std::size_t(column)] = 1;
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+            columns[k / 4 * 5 + std::size_t(column)][int(k % 4)] = float(numbers[k]);
+    }
+    return columns;
+}
+
+/// The same of a reflectance of its own, which the base colour's luminance scales.
+std::vector<glm::vec4> by_table(const SpectralBasis& basis, int groups, const Kind& light, const Reflectance& reflectance)
+{
+    constexpr double luminance[3] = {0.2126, 0.7152, 0.0722}; // Rec. 709
+    std::vector<glm::vec4> columns(std::size_t(groups * 5), glm::vec4(0));
+    const std::vector<double> numbers = lit_as(basis, light, reflectance);
+    for (std::size_t column = 0; column < 3; ++column)
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+            columns[k / 4 * 5 + column][int(k % 4)] = float(luminance[column] * numbers[k]);
+    return columns;
+}
+
+} // namespace
+
+NeededLevel needed_level(const World& world, const SceneFile& scene)
+{
+    NeededLevel needed;
+    for (const Material& material : world.materials) {
+        const std::string name = "material " + quoted(material.name);
+        if (!material.reflectance.empty())
+            return {SpectralLevel::fine, name + " has a reflectance of its own"};
+        if ((material.ultraviolet || material.infrared) && needed.level == SpectralLevel::colours)
+            needed = {SpectralLevel::middle, name + " has its own reflectance in the ultraviolet or the infrared"};
+    }
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        if (spectrum_of(scene.lights[i]))
+            return {SpectralLevel::fine, "light " + std::to_string(i) + " is no sunlight"};
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        for (std::size_t frame = 0; frame < world.frames.size(); ++frame)
+            if (shift_of(world, scene, i, frame))
+                return {SpectralLevel::fine, "light " + std::to_string(i) + " shines on what does not move with it"};
+    return needed;
+}
+
+std::string told(const NeededLevel& needed)
+{
+    const std::size_t level = std::size_t(needed.level);
+    return "light as " + std::to_string(reflected_numbers[level]) + " numbers (" + spectral_level_names[level] + "): "
+        + (needed.why.empty()                         ? "here they tell all of it"
+                : needed.level == SpectralLevel::fine ? needed.why
+                                                      : needed.why + "; more would tell no more");
+}
+
+Spectra spectra_of(const World& world, const SceneFile& scene, SpectralLevel level)
+{
+    Spectra spectra;
+    spectra.level = level;
+    const SpectralBasis& basis = spectra.basis
+        = spectral_basis(reflected_numbers[std::size_t(level)], own_spectra(world, scene));
+    spectra.groups = (basis.size() + 3) / 4;
+
+    std::vector<Kind> kinds = {Kind{}};
+    auto kind_of = [&](const Kind& kind) {
+        auto at = std::find(kinds.begin(), kinds.end(), kind);
+        return int((at == kinds.end() ? kinds.insert(at, kind) : at) - kinds.begin());
+    };
+    int sets = 1;
+    for (const Material& material : world.materials)
+        sets += !material.reflectance.empty();
+    // Between two shifts of a sixteenth of an octave light that falls as a black body's tail is straight within 0.5 %.
+    const int fitting = MAX_MATRICES / (sets * spectra.groups * 5);
+    for (double per_octave : {16.0, 8.0, 4.0, 2.0}) {
+        kinds.resize(1);
+        spectra.lamps.clear();
+        for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+            spectra.lamps.emplace_back(world.frames.size());
+            for (std::size_t frame = 0; frame < world.frames.size(); ++frame) {
+                Spectra::Lamp& lamp = spectra.lamps[i][frame];
+                const auto& light = spectrum_of(scene.lights[i]);
+                lamp.kind = kind_of({light});
+                const auto shift = shift_of(world, scene, i, frame);
+                if (!shift)
+                    continue;
+                lamp.per_octave = per_octave;
+                const bool even = shift->lowest == shift->highest;
+                const int least = even ? 0 : int(std::floor(std::log2(shift->lowest) * per_octave));
+                lamp.first_log2_D = even ? std::log2(shift->lowest) : least / per_octave;
+                lamp.shifts = 1 - 2 * least;
+                lamp.first_shift = int(kinds.size());
+                for (int k = 0; k < lamp.shifts; ++k)
+                    kinds.push_back({light, even ? shift->lowest : std::exp2((least + k) / per_octave)});
+            }
+        }
+        if (int(kinds.size()) <= fitting)
+            break;
+    }
+    spectra.kinds = int(kinds.size());
+    auto add_set = [&](auto&& columns_under) {
+        for (const auto& light : kinds) {
+            const std::vector<glm::vec4> columns = columns_under(light);
+            spectra.columns.insert(spectra.columns.end(), columns.begin(), columns.end());
+        }
+    };
+    add_set([&](const auto& light) { return by_colour(basis, spectra.groups, light); });
+    spectra.matrices = basis.reflected > 5 || kinds.size() > 1;
+
+    int set = 1;
+    for (const Material& material : world.materials) {
+        Spectra::Surface surface;
+        surface.beyond = glm::vec4(material.ultraviolet.value_or(-1), material.infrared.value_or(-1), 0, -1);
+        if (!material.reflectance.empty()) {
+            const Reflectance reflectance{material.reflectance};
+            add_set([&](const auto& light) { return by_table(basis, spectra.groups, light, reflectance); });
+            surface.beyond.z = float(set++);
+            spectra.matrices = true;
+            if (material.emissive != glm::vec3(0) && !material.emission)
+                throw InputError(scene.gltf.string(), "material " + quoted(material.name),
+                    "has a reflectance of its own and an emissive colour without a spectrum; an \"emission\" is right");
+        }
+        if (material.emission) {
+            const std::size_t own = index_of(basis, *material.emission);
+            surface.beyond.w = float(own);
+            surface.emission = sunlit_part(*material.emission);
+            spectra.most = std::max(
+                spectra.most, surface.emission * std::max({material.emissive.x, material.emissive.y, material.emissive.z}));
+        }
+        if (material.temperature_K > 0) {
+            surface.own[int(index_of(basis, BlackBody{material.temperature_K}))] += material.emissivity;
+            spectra.most = std::max(spectra.most, material.emissivity);
+        }
+        spectra.surfaces.push_back(surface);
+    }
+    if (spectra.columns.size() > MAX_MATRICES)
+        throw InputError(scene.gltf.string(), "",
+            "has " + std::to_string(sets - 1) + " materials with a reflectance of their own; at most "
+                + std::to_string(MAX_MATRICES / int(spectra.columns.size() / std::size_t(sets)) - 1)
+                + " is right here, the others need a base colour");
+
+    const glm::dvec3* colours[] = {&scene.sky.zenith, &scene.sky.horizon, &scene.sky.nadir};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3& rgb = *colours[i];
+        const double mean = (rgb.r + rgb.g + rgb.b) / 3;
+        for (int group = 0; group < MAX_GROUPS; ++group)
+            spectra.sky[i][std::size_t(group)] = glm::dvec4(0);
+        for (std::size_t group = 0; group < std::size_t(spectra.groups); ++group) {
+            const glm::vec4* columns = &spectra.columns[group * 5];
+            for (int c = 0; c < 5; ++c)
+                spectra.sky[i][group] += glm::dvec4(columns[c]) * (c < 3 ? rgb[c] : mean);
+        }
+        if (scene.sky.temperature_K > 0) {
+            const std::size_t k = std::size_t(basis.reflected) + index_of(basis, BlackBody{scene.sky.temperature_K});
+            spectra.sky[i][k / 4][int(k % 4)] += 1;
+            spectra.most = std::max(spectra.most, 1.0);
+        }
+    }
+    return spectra;
+}
+
+} // namespace starbow

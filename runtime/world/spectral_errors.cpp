@@ -1,0 +1,94 @@
+#include "spectral_errors.h"
+#include "runtime/light/colour_difference.h"
+#include "runtime/light/response.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+/// At equal luminance, half of the white's.
+double difference(const glm::dvec3& one, const glm::dvec3& two)
+{
+    static const glm::dvec3 white = seen_xyz(sunlit_white(), 1);
+    return ciede2000(cielab(one * (0.5 / one.y), white), cielab(two * (0.5 / two.y), white));
+}
+
+/// Twenty-four smooth reflectances after the names and the kinds of a colour chart's fields: a level, steps (s) and bumps
+/// (g). Each goes on beyond the visible as paints do: into a value of its own.
+struct Field {
+    double level;
+    struct Feature {
+        char kind;
+        double height, middle_nm, width_nm;
+    };
+    std::vector<Feature> features;
+
+    double visible(double nm) const
+    {
+        double value = level;
+        for (const Feature& f : features) {
+            const double x = (nm - f.middle_nm) / f.width_nm;
+            value += f.height * (f.kind == 's' ? 1 / (1 + std::exp(-x)) : std::exp(-0.5 * x * x));
+        }
+        return std::clamp(value, 0.005, 0.98);
+    }
+    double operator()(double nm) const
+    {
+        if (features.empty())
+            return level;
+        double mean = 0;
+        for (double at = 400; at <= 700; at += 10)
+            mean += visible(at) / 31;
+        const double uv = 1 / (1 + std::exp(std::log(nm / 360) / 0.035)),
+                     ir = 1 / (1 + std::exp(-std::log(nm / 820) / 0.05));
+        return uv * (0.5 * visible(380) + 0.02) + ir * (0.8 * mean + 0.05)
+            + (1 - uv - ir) * visible(std::clamp(nm, 330.0, 900.0));
+    }
+};
+
+const std::vector<Field>& chart()
+{
+    static const std::vector<Field> fields
+        = {{0.06, {{'s', 0.14, 600, 35}}}, {0.22, {{'s', 0.2, 520, 60}, {'s', 0.28, 590, 15}, {'g', -0.06, 550, 14}}},
+            {0.12, {{'g', 0.24, 450, 60}, {'s', 0.04, 700, 20}}}, {0.05, {{'g', 0.11, 550, 32}, {'s', 0.35, 710, 14}}},
+            {0.2, {{'g', 0.26, 440, 48}, {'s', 0.3, 680, 25}}}, {0.2, {{'g', 0.42, 505, 52}, {'s', 0.15, 720, 20}}},
+            {0.05, {{'s', 0.56, 588, 17}}}, {0.08, {{'g', 0.3, 440, 38}, {'s', 0.35, 700, 20}}},
+            {0.1, {{'s', 0.48, 605, 16}, {'g', 0.04, 430, 30}}}, {0.045, {{'g', 0.15, 425, 32}, {'s', 0.32, 665, 25}}},
+            {0.07, {{'s', 0.45, 520, 18}, {'g', -0.1, 640, 40}, {'s', 0.2, 720, 25}}}, {0.06, {{'s', 0.62, 560, 20}}},
+            {0.05, {{'g', 0.29, 445, 30}, {'s', 0.15, 720, 20}}}, {0.055, {{'g', 0.3, 530, 35}, {'s', 0.15, 715, 25}}},
+            {0.045, {{'s', 0.68, 617, 13}}}, {0.055, {{'s', 0.7, 515, 17}}},
+            {0.1, {{'s', 0.7, 610, 18}, {'g', 0.3, 430, 45}, {'g', -0.03, 540, 25}}},
+            {0.07, {{'g', 0.33, 480, 48}, {'s', 0.1, 720, 20}}}, {0.9, {}}, {0.59, {}}, {0.36, {}}, {0.19, {}}, {0.09, {}},
+            {0.03, {}}};
+    return fields;
+}
+
+} // namespace
+
+SpectralErrors chart_errors(SpectralLevel level, ChartFields fields)
+{
+    const SpectralBasis basis = spectral_basis(reflected_numbers[std::size_t(level)], {});
+    const Response response = response_of(basis, eye());
+    const glm::dmat3 xyz_from_shown = glm::inverse(eye().rec709);
+    const Spectrum sun = sunlit_white();
+    SpectralErrors errors;
+    std::vector<double> all;
+    for (const Field& field : chart())
+        if (field.features.empty() == (fields == ChartFields::greys)) {
+            const std::vector<double> numbers = lit(basis, {}, field);
+            for (int step = -24; step <= 24; ++step) {
+                const double D = std::exp2(step / 8.0 + (step < 0 ? 1 : -1) / 256.0); // between two rows of the table
+                const glm::dvec3 truth = seen_xyz([&](double nm) { return sun(nm) * field(nm); }, D),
+                                 told = xyz_from_shown * seen(response, numbers, D);
+                all.push_back(told.y > 0 ? difference(truth, told) : 100);
+                errors.luminance = std::max(errors.luminance, std::abs(told.y / truth.y - 1));
+            }
+        }
+    errors.worst = *std::max_element(all.begin(), all.end());
+    std::nth_element(all.begin(), all.begin() + std::ptrdiff_t(all.size() / 2), all.end());
+    errors.median = all[all.size() / 2];
+    return errors;
+}
+
+} // namespace starbow

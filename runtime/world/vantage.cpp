@@ -1,0 +1,27 @@
+#include "vantage.h"
+#include "shaders/physics/physics.h"
+
+namespace starbow {
+
+glm::dmat3 motion_from_world(const glm::dvec3& u, const glm::dquat& ship_from_cockpit)
+{
+    double length = glm::length(u);
+    glm::dvec3 z = length > 0 ? u / length : ship_from_cockpit * glm::dvec3(0, 0, -1);
+    z = glm::normalize(z);
+    glm::dvec3 up = ship_from_cockpit * glm::dvec3(0, 1, 0);
+    if (std::abs(glm::dot(up, z)) > 0.99)
+        up = ship_from_cockpit * glm::dvec3(0, 0, 1);
+    glm::dvec3 y = glm::normalize(up - glm::dot(up, z) * z);
+    glm::dvec3 x = glm::cross(y, z);
+    return glm::transpose(glm::dmat3(x, y, z));
+}
+
+Vantage vantage_of(const Layer& layer, int frame, const glm::dvec3& place)
+{
+    const glm::dvec3 offset = layer.shot.ship_from_cockpit * place;
+    return {frame, layer.shot.position + physics::eye_place(layer.shot.u, offset),
+        layer.shot.time + physics::eye_time(layer.shot.u, offset), layer.motion_from_frame, layer.now, layer.contraction,
+        layer.beta};
+}
+
+} // namespace starbow

@@ -1,0 +1,322 @@
+#!/usr/bin/env bash
+# Wrong input at the command line: exit 2, one line, nothing written. Usage: cli_test.sh PROGRAM
+set -u
+program=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+passed=0 failed=0
+
+fail() {
+    failed=$((failed + 1))
+    echo "FAILED: $*"
+}
+
+# refused TEXT ARGUMENTS...: the program says one line that holds TEXT, exits with 2 and writes nothing.
+refused() {
+    local text=$1 said status
+    shift
+    said=$("$program" "$@" --out "$folder/out" 2>&1 >/dev/null)
+    status=$?
+    if [ $status != 2 ]; then
+        fail "$*: exit $status, not 2: $said"
+    elif [ "$(printf '%s\n' "$said" | wc -l)" != 1 ]; then
+        fail "$*: more than one line: $said"
+    elif [[ $said != *"$text"* ]]; then
+        fail "$*: '$text' is not in: $said"
+    elif [ -e "$folder/out" ]; then
+        fail "$*: wrote something"
+        rm -rf "$folder/out"
+    else
+        passed=$((passed + 1))
+    fi
+}
+
+# A shot of our own with one member replaced.
+shot() { # FILE VELOCITY [MORE]
+    printf '{ "scene": "avenue", "velocity": %s %s }\n' "$2" "${3:-}" > "$folder/$1.json"
+}
+
+refused 'there are:' render --shot no-such-shot
+refused 'there are:' render --shot start --layout no-such-layout
+refused 'no-such.json' render --shot "$folder/no-such.json"
+refused '--size' render --shot start --size 800
+refused '--size' render --shot start --size 0x600
+refused '--size' render --shot start --size 800x600x2
+refused '--size' render --shot start --size 99999x99999
+refused '--size' render --shot start --size -800x600
+refused '8192x8192' render --shot start --size 16384x16384 --exr
+refused '8192x8192' render --shot start --size 16384x16384 --reference
+refused '--samples' render --shot start --reference --samples 0
+refused '--samples' render --shot start --samples 4
+refused '--exposure' render --shot start --reference --exposure auto
+refused '--hud' render --shot start --reference --hud
+refused '--overlay' render --shot start --reference --overlay ring
+refused '--spectra' render --shot start --reference --spectra fine
+shot fast '{ "direction": [0, 0, -1], "beta": 1 }'
+refused '/velocity/beta' render --shot "$folder/fast.json"
+shot slow '{ "direction": [0, 0, -1], "gamma": 0.5 }'
+refused '/velocity/gamma' render --shot "$folder/slow.json"
+shot nowhere '{ "direction": [0, 0, 0], "gamma": 2 }'
+refused '/velocity/direction' render --shot "$folder/nowhere.json"
+shot blind '{ "direction": [0, 0, -1], "gamma": 2 }' ', "look": [0, 0, 0]'
+refused '/look' render --shot "$folder/blind.json"
+shot nan '{ "direction": [0, 0, -1], "gamma": NaN }'
+refused 'nan.json:1: column' render --shot "$folder/nan.json"
+shot huge '{ "direction": [0, 0, -1], "gamma": 1e999 }'
+refused 'huge.json' render --shot "$folder/huge.json"
+shot word '{ "direction": [0, 0, -1], "gamma": "four" }'
+refused '/velocity/gamma' render --shot "$folder/word.json"
+mkdir "$folder/folder.json"
+refused 'folder' render --shot "$folder/folder.json"
+: > "$folder/empty.json"
+refused 'empty.json' render --shot "$folder/empty.json"
+echo '{ "scene": "atlantis" }' > "$folder/scene.json"
+refused 'atlantis' render --shot "$folder/scene.json"
+echo '{ "gltf": "missing.glb" }' > "$folder/world.json"
+echo '{ "scene": "./world.json" }' > "$folder/world-shot.json"
+refused 'missing.glb' render --shot "$folder/world-shot.json"
+printf 'glTF\2\0\0\0\20\0\0\0' > "$folder/missing.glb"
+refused 'missing.glb' render --shot "$folder/world-shot.json"
+echo '{ "outputs": [ { "name": "a", "viewports": [ { "projection": { "type": "planar", "fov_y_deg": 190 } } ] } ] }' > "$folder/wide.json"
+refused '/outputs/0/viewports/0/projection/fov_y_deg' render --shot start --layout "$folder/wide.json"
+VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent refused 'install' render --shot start
+STARBOW_GPU=Voodoo refused 'Voodoo' render --shot start
+echo in the way > "$folder/out"
+said=$("$program" render --shot start --size 8x8 --out "$folder/out" 2>&1 >/dev/null)
+if [ $? != 2 ] || [ "$(cat "$folder/out")" != 'in the way' ]; then fail "a file in the way: $said"; else passed=$((passed + 1)); fi
+rm "$folder/out"
+
+mkdir -p "$folder/half/desk.exr"
+said=$("$program" render --shot start --size 8x8 --exr --out "$folder/half" 2>&1 >/dev/null)
+if [ $? != 2 ] || [ -e "$folder/half/desk.png" ]; then fail "a folder in the EXR's place: $said"; else passed=$((passed + 1)); fi
+said=$("$program" bench --json "$folder" 2>&1 >/dev/null)
+if [ $? != 2 ] || [[ $said != *"no file"* ]]; then fail "bench into a folder: $said"; else passed=$((passed + 1)); fi
+refused 'a?b?[31m' render --shot $'a\nb\e[31m'
+
+# A plan of a layout: where it was asked for, and nothing of a wrong one.
+said=$("$program" check desk --svg "$folder/plans/desk.svg")
+if [[ $said == *"desk: window, 60"* && $said == *"plans/desk.svg" ]] && grep -q '</svg>' "$folder/plans/desk.svg"; then passed=$((passed + 1)); else fail "check desk: $said"; fi
+(cd "$folder" && "$program" check dome >/dev/null && [ -s dome-plan.svg ]) && passed=$((passed + 1)) || fail "check dome writes no dome-plan.svg"
+for layout in "$folder/wide.json" no-such-layout; do
+    said=$("$program" check "$layout" --svg "$folder/wrong.svg" 2>&1)
+    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [ ! -e "$folder/wrong.svg" ]; then passed=$((passed + 1)); else fail "check $layout: $said"; fi
+done
+
+# Warp files and imports.
+warps=$(cd "$(dirname "$0")/.." && pwd)/warp
+refused 'no-such.data' warp inspect "$folder/no-such.data"
+echo 'Dear Sir' > "$folder/letter"
+refused 'no warp file that is known' warp inspect "$folder/letter"
+head -c 300 "$warps/channel1_warp_u2.sgc" > "$folder/short.sgc"
+refused 'byte 56' warp inspect "$folder/short.sgc"
+refused '--size' warp inspect "$warps/channel1_warp_u2.sgc" --size 1x1
+refused 'has no regions' warp inspect "$warps/channel1_warp_u2.sgc" --region left
+refused 'lacks "nodes"' import sgct "$folder/scene.json"
+refused 'no node 3' import sgct "$warps/sgct-configs/single.json" --node 3
+said=$("$program" warp convert "$warps/channel1_warp_u2.sgc" "$folder/out.doc" 2>&1 >/dev/null)
+if [ $? = 2 ] && [[ $said == *".csv at its end"* ]]; then passed=$((passed + 1)); else fail "convert to .doc: $said"; fi
+"$program" warp convert "$warps/channel1_warp_u2.sgc" "$folder/one.csv" >/dev/null 2>&1 && "$program" warp convert "$folder/one.csv" "$folder/two.csv" >/dev/null 2>&1
+if cmp -s "$folder/one.csv" "$folder/two.csv" && cmp -s "$folder/one_frustum.csv" "$folder/two_frustum.csv"; then passed=$((passed + 1)); else fail "convert: what is written is not read back"; fi
+if "$program" warp inspect "$folder/one.csv" --out "$folder/one.png" | grep -q '^grid *33 columns x 33 rows$' && [ -s "$folder/one.png" ]; then passed=$((passed + 1)); else fail "inspect"; fi
+if "$program" import sgct "$warps/sgct-configs/single_fisheye.json" --out "$folder/imported.json" | grep -q '^/nodes/0/windows/0/size  -> size$' && [ -s "$folder/imported.json" ]; then passed=$((passed + 1)); else fail "import"; fi
+
+# Sizes are those of the file.
+"$program" warp convert "$warps/channel1_warp_mesh.csv" "$folder/ten.data" --size 10x8 >/dev/null 2>&1
+if [ "$(sed -n 2p "$folder/ten.data")" = '10 8' ] && "$program" warp inspect "$folder/ten.data" | grep -q '^grid *10 columns x 8 rows$'; then passed=$((passed + 1)); else fail "convert --size 10x8 to .data"; fi
+"$program" warp convert "$warps/channel1_warp_mesh.csv" "$folder/ten.pfm" --size 10x8 >/dev/null 2>&1
+if "$program" warp inspect "$folder/ten.pfm" | grep -q '^grid *10 columns x 8 rows$'; then passed=$((passed + 1)); else fail "convert --size 10x8 to .pfm"; fi
+
+# What a conversion loses is said, and nothing else.
+printf 'v -2 0 0\nv 0 -1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n' > "$folder/three.obj"
+loses() { # WHAT FROM TO: the words that are said, "" for none
+    local said
+    said=$("$program" warp convert "$2" "$folder/$3" --force 2>&1 >/dev/null)
+    if [ "$(printf '%s' "$said" | grep -oE 'outline|beyond the viewport|beyond the picture|brightness|frustum' | tr '\n' ' ')" = "$1" ]; then passed=$((passed + 1)); else fail "convert $2 to $3: $said"; fi
+}
+loses 'outline beyond the viewport ' "$folder/three.obj" lost.data
+loses 'outline beyond the viewport ' "$folder/three.obj" lost.pfm
+loses 'outline beyond the viewport ' "$folder/three.obj" lost.csv
+loses '' "$warps/channel1_warp.simcad" lost.csv
+loses 'outline beyond the viewport frustum ' "$warps/channel1_warp_mesh.csv" lost.pfm
+loses 'frustum ' "$warps/channel1_warp_mesh.csv" lost.data
+printf '2\n2 2\n-1 -1 0 0 1\n1 -1 1 0 0.5\n-1 1 0 1 1\n1 1 1 1 1\n' > "$folder/dim.data"
+loses 'brightness ' "$folder/dim.data" lost.csv
+
+# A map whose rows run the other way: the cure is named, and is one.
+said=$("$program" warp inspect "$warps/correction_mesh.mpcdi" 2>&1)
+if [[ $said == *"rows in the other order"*" --first-row-on-top"*'"first_row": "top"'* ]] && ! "$program" warp inspect "$warps/correction_mesh.mpcdi" --first-row-on-top | grep -q 'other order'; then passed=$((passed + 1)); else fail "inspect of rows in the other order: $said"; fi
+
+# Nothing that is read is written over, and nothing else without being asked: exit 2 in one line, and the file as it was.
+kept() { # FILE TEXT ARGUMENTS...
+    local file=$1 text=$2 before said status
+    shift 2
+    before=$(md5sum "$file")
+    said=$("$program" "$@" 2>&1 >/dev/null)
+    status=$?
+    if [ $status = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$text"* ]] && [ "$before" = "$(md5sum "$file")" ]; then passed=$((passed + 1)); else fail "$*: exit $status: $said"; fi
+}
+own=$folder/own
+mkdir "$own"
+cp "$warps/standard_16x9.data" "$warps/channel1_warp_mesh.csv" "$warps/channel1_warp_frustum.csv" "$warps/sgct-configs/single.json" "$own/"
+cp "$warps/../../config/layouts/desk.json" "$own/"
+ln -s standard_16x9.data "$own/link.data"
+kept "$own/single.json" 'is read' import sgct "$own/single.json" --out "$own/../own/single.json"
+kept "$own/single.json" 'is read' import sgct "$own/single.json" --out "$own/single.json" --force
+kept "$own/desk.json" '--force' import sgct "$own/single.json" --out "$own/desk.json"
+kept "$own/desk.json" 'is read' check "$own/desk.json" --svg "$own/desk.json"
+kept "$own/single.json" '.svg' check "$own/desk.json" --svg "$own/single.json"
+kept "$own/standard_16x9.data" 'is read' warp inspect "$own/standard_16x9.data" --out "$own/standard_16x9.data"
+kept "$own/single.json" '.png' warp inspect "$own/standard_16x9.data" --out "$own/single.json"
+kept "$own/standard_16x9.data" 'is read' warp convert "$own/standard_16x9.data" "$own/standard_16x9.data" --size 10x10 --force
+kept "$own/standard_16x9.data" 'is read' warp convert "$own/standard_16x9.data" "$own/link.data" --size 10x10 --force
+kept "$own/standard_16x9.data" '--force' warp convert "$own/channel1_warp_mesh.csv" "$own/standard_16x9.data"
+kept "$own/channel1_warp_frustum.csv" 'is read' warp convert "$own/channel1_warp_mesh.csv" "$own/channel1_warp.csv" --force
+if "$program" warp convert "$own/channel1_warp_mesh.csv" "$own/link.data" --force >/dev/null 2>&1 && "$program" import sgct "$own/single.json" --out "$own/desk.json" --force >/dev/null; then passed=$((passed + 1)); else fail "--force does not replace"; fi
+cp "$warps/../../config/layouts/desk.json" "$own/masked.json"
+"$program" warp inspect "$own/channel1_warp_mesh.csv" --out "$own/desk.PNG" > /dev/null && mv "$own/desk.PNG" "$own/desk.png"
+sed -i 's|"projection"|"alpha_mask": "desk.png", "projection"|' "$own/masked.json"
+kept "$own/desk.png" 'is read' render --layout "$own/masked.json" --shot start --size 8x8 --out "$own"
+
+# A SCISS mesh's own view is what a flat one becomes.
+mkdir -p "$folder/sciss"
+cp "$warps/channel1_warp_u2.sgc" "$folder/sciss/"
+cat > "$folder/sciss/sgct.json" << 'END'
+{ "version": 1, "nodes": [ { "windows": [ { "name": "P1", "size": { "x": 64, "y": 40 }, "viewports": [
+    { "mesh": "channel1_warp_u2.sgc", "projection": { "type": "PlanarProjection", "fov": { "hfov": 95, "vfov": 70 } } } ] } ] } ] }
+END
+said=$("$program" import sgct "$folder/sciss/sgct.json" --out "$folder/sciss/layout.json" 2>&1)
+if [ $? = 0 ] && [[ $said == *"projection  not mapped: replaced by the mesh's own"* ]] && ! grep -q '"projection"' "$folder/sciss/layout.json"; then passed=$((passed + 1)); else fail "import of a SCISS mesh: $said"; fi
+said=$("$program" check "$folder/sciss/layout.json" --svg "$folder/sciss/plan.svg" 2>&1)
+if [[ $said == *"P1: the warp file's own; bent by channel1_warp_u2.sgc"* ]]; then passed=$((passed + 1)); else fail "check of a SCISS mesh: $said"; fi
+
+# It says where it comes from, and leads editors to the schema.
+schema=$(sed -n 's/.*"$schema": "\(.*\)",$/\1/p' "$folder/imported.json")
+if head -1 "$folder/imported.json" | grep -q '^// .*single_fisheye.json' && [ -n "$schema" ] && cmp -s "$folder/$schema" "$warps/../../config/schema/layout.schema.json" && grep -q '"hud"' "$folder/imported.json"; then passed=$((passed + 1)); else fail "import: $(head -5 "$folder/imported.json")"; fi
+
+# What an imported layout still lacks is said last.
+said=$("$program" import sgct "$warps/sgct-configs/spherical_mirror.json" --out "$folder/mirror.json" 2>&1)
+if [ $? = 1 ] && [[ $(printf '%s\n' "$said" | tail -1) == "to mend: "*"/outputs/0/viewports/0/warp/file: "*" names no file in "* ]]; then passed=$((passed + 1)); else fail "import without its mesh: $said"; fi
+mkdir "$folder/mirror"
+sed 's|mesh/||' "$warps/sgct-configs/spherical_mirror.json" > "$folder/mirror/sgct.json"
+cp "$warps/standard_16x9.data" "$folder/mirror/"
+if "$program" import sgct "$folder/mirror/sgct.json" --out "$folder/mirror/layout.json" > "$folder/said" && ! grep -q 'to mend' "$folder/said" && "$program" check "$folder/mirror/layout.json" --svg "$folder/mirror/plan.svg" >/dev/null; then passed=$((passed + 1)); else fail "import with its mesh: $(cat "$folder/said")"; fi
+
+# Unknown options and missing ones are told in one line too, also with exit 2.
+for arguments in '' 'fly' 'render' 'render --shot' 'bench --rounds 0' 'run --frames -1' 'check' 'render --shot start --out x --colour' 'render --shot start --out x --spectra 7' 'warp' 'warp inspect' 'import sgct x'; do
+    # shellcheck disable=SC2086
+    said=$("$program" $arguments 2>&1 >/dev/null)
+    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ]; then passed=$((passed + 1)); else fail "'$arguments' is not refused with 2 in one line: $said"; fi
+done
+
+# What is misspelt is told as that, with what there is.
+told() { # TEXT ARGUMENTS...
+    local text=$1 said
+    shift
+    said=$("$program" "$@" 2>&1 >/dev/null)
+    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == "starbow: $text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not say '$text': $said"; fi
+}
+told 'fly is no command; run, render, check, displays, devices, calibrate, warp, import, bench and measure are' fly
+told 'look is no command; inspect and convert are' warp look
+told "--ouput is no option of 'starbow render'; --help, --layout, --shot, --out," render --shot start --ouput o1
+told "--sizes is no option of 'starbow warp inspect'; " warp inspect x --sizes 3
+told "out is one argument too many for 'starbow run'" run out
+told '--frames: x is no whole number; one from 0 to 1000000000 is right' run --frames x
+told '--frames: -1 is no whole number that fits; one from 0 to 1000000000 is right' run --frames -1
+told '--node: one is no whole number; ' import sgct x --out y --node one
+told '--out is required' render --shot start
+refused 'no first row' warp inspect "$warps/standard_16x9.data" --first-row-on-top
+
+printf '{ "tour": "rainbow" }\n' > "$folder/touring.json"
+told "A tour's flight can't be recorded" run --exhibit "$folder/touring.json" --record "$folder/touring.jsonl"
+told '--record excludes --tour' run --tour rainbow --record "$folder/touring.jsonl"
+told 'There is no none.json in config/tours' run --tour none
+told 'There is no xx.json in config/words; there are: de, en' run --tour rainbow --language xx
+
+# Every subcommand's help ends with an example.
+for command in run render bench check warp import displays measure; do
+    if "$program" $command --help | grep -q "starbow $command "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
+done
+
+for command in '' 'warp inspect' 'warp convert' 'import sgct'; do
+    # shellcheck disable=SC2086
+    if "$program" $command --help | grep -A1 '^Examples\?:' | grep -q "starbow ${command:-run} "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
+done
+
+# Measures are told to the millimetre.
+printf '{ "outputs": [ { "name": "a", "viewports": [ { "projection": { "type": "wall", "lower_left_m": [-1, 0, -2], "lower_right_m": [1, 0, -2], "upper_left_m": [-1, 1.125, -2] } } ] } ] }' > "$folder/wall.json"
+if "$program" check "$folder/wall.json" --svg "$folder/wall.svg" | grep -q 'wall, 2.000 x 1.125 m'; then passed=$((passed + 1)); else fail "check rounds"; fi
+
+# Without a display server the GPUs are listed all the same.
+said=$(env -u DISPLAY -u WAYLAND_DISPLAY "$program" displays 2>&1)
+if [ $? = 0 ] && [[ $said == *"GPU "*": is used"*"no display server"* ]]; then passed=$((passed + 1)); else fail "displays: $said"; fi
+
+# The same bytes twice, and the numbers beside the picture.
+# By rays no device is asked for, and there is nothing left to go on from.
+for time in once twice; do
+    VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent "$program" render --shot starbow --size 40x30 --reference \
+        --samples 2 --out "$folder/rays-$time" --exr >/dev/null || fail "rays want a device"
+done
+cmp -s "$folder/rays-once/desk.png" "$folder/rays-twice/desk.png" && cmp -s "$folder/rays-once/desk.exr" "$folder/rays-twice/desk.exr" \
+    && [ ! -e "$folder/rays-once/desk.rows" ] && passed=$((passed + 1)) || fail "rays draw another picture each time"
+"$program" render --shot starbow --size 160x120 --out "$folder/once" --exr >/dev/null || fail "a good shot is refused"
+"$program" render --shot starbow --size 160x120 --out "$folder/twice" --exr >/dev/null
+for file in desk.png desk.exr; do
+    if cmp -s "$folder/once/$file" "$folder/twice/$file"; then passed=$((passed + 1)); else fail "$file differs the second time"; fi
+done
+
+# Sticks: what a descriptor declares, from raw bytes, hexadecimal text and JSON alike, with the fields that its file lists.
+hid=$(cd "$(dirname "$0")/.." && pwd)/hid
+python3 - "$hid" "$folder" << 'END'
+import json, sys
+device = json.load(open(sys.argv[1] + "/thrustmaster-t16000m.json"))
+raw = bytes.fromhex(device["descriptor_hex"])
+open(sys.argv[2] + "/t16000m.bin", "wb").write(raw)
+open(sys.argv[2] + "/t16000m.txt", "w").write("# as usbhid-dump prints\n" + " ".join("%02X" % b for b in raw) + "\n")
+open(sys.argv[2] + "/lines.json", "w").write('{ "descriptor_hex": "zz" }')
+open(sys.argv[2] + "/empty.bin", "w").write("")
+END
+for file in "$hid/thrustmaster-t16000m.json" "$folder/t16000m.bin" "$folder/t16000m.txt"; do
+    if "$program" devices --describe "$file" | python3 -c '
+import json, sys
+told, wanted = json.load(sys.stdin), json.load(open(sys.argv[1]))
+sys.exit(told["fields"] != wanted["fields"] or told["input_report_bits"] != wanted["input_report_bits"])' \
+        "$hid/thrustmaster-t16000m.json"; then passed=$((passed + 1)); else fail "devices --describe $(basename "$file")"; fi
+done
+# says TEXT ARGUMENTS...: one line that holds TEXT, and exit 2.
+says() {
+    local text=$1 said
+    shift
+    said=$("$program" "$@" 2>&1 >/dev/null)
+    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not say '$text': $said"; fi
+}
+says 'is empty' devices --describe "$folder/empty.bin"
+says "can't be read" devices --describe "$folder/no-such.bin"
+says "can't be read" devices --describe "$folder"
+says '/descriptor_hex' devices --describe "$folder/lines.json"
+printf 'hello' > "$folder/hello.bin"
+says 'declares no input' devices --describe "$folder/hello.bin"
+
+# What is measured.
+refused 'has one number' render --shot start --measure 400
+refused 'is no point' render --shot start --measure '1deg,2'
+refused 'lies outside the picture' render --shot start --measure '100,100;800,5'
+refused 'overlay' render --shot start --overlay none
+said=$("$program" render --shot clocks-passing --size 200x150 --out "$folder/lab" --measure '-14.7deg,0deg; 16.8deg,0deg' --overlay ring --why delay)
+if [[ $said == *"ahead: D 0.866"* && $said == *"long 17.49 of 20.00 light-s, ◇ minus ○ 9.71 s"* ]]; then passed=$((passed + 1)); else fail "render --measure: $said"; fi
+says '--log-every' run --log-every 1
+
+# Exhibits.
+exhibit() { # EXHIBIT_JSON
+    printf '%s\n' "$1" > "$folder/exhibit.json"
+}
+exhibit '{ "flying": { "turn_deg_per_s": 0 } }'
+says 'exhibit.json:1: /flying/turn_deg_per_s: 0' run --exhibit "$folder/exhibit.json"
+exhibit '{ "layout": "no-such" }'
+says 'there are:' run --exhibit "$folder/exhibit.json"
+exhibit '{ "scene": "sub/no-such.json" }'
+says 'no-such.json' run --exhibit "$folder/exhibit.json"
+exhibit '{ "profiles": "no-such" }'
+says 'is no folder' run --exhibit "$folder/exhibit.json"
+
+echo "$passed passed, $failed failed"
+[ $failed = 0 ]

@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# Vulkan's failures on purpose (rig/faults.cpp), and the exhibit flies on. Usage: fault_test.sh PROGRAM FOLDER-OF-THE-RIG
+set -u
+program=$1 tools=$2 rig=$(dirname "$0")/../rig
+. "$rig/monitors.sh"
+export VK_LAYER_PATH=$tools VK_INSTANCE_LAYERS=VK_LAYER_STARBOW_faults
+serve Xvfb -noreset -screen 0 1280x800x24
+
+cat >"$folder/two.json" <<'END'
+{ "outputs": [
+    { "name": "a", "size": [160, 120], "place": [0, 0], "viewports": [{ "projection": { "type": "planar" } }] },
+    { "name": "b", "size": [160, 120], "place": [200, 0], "viewports": [{ "projection": { "type": "planar" } }] }
+] }
+END
+
+# fly FAULTS [FRAMES]: each fault must have happened; the rest is for the caller.
+fly() {
+    STARBOW_FAULTS=$1 timeout 60 "$program" run --layout "$folder/two.json" --frames "${2:-40}" >"$folder/log" 2>&1
+    status=$?
+    local fault
+    for fault in ${1//,/ }; do
+        grep -q "^fault: $fault" "$folder/log" || fail "$1: $fault did not happen (exit $status)"
+    done
+}
+# survives FAULTS [FRAMES [MISSED]]: both windows show all frames but so many.
+survives() {
+    fly "$@"
+    [ $status = 0 ] || fail "$1: exit $status"
+    local shown
+    shown=$(awk '/^fault: shown/ { sum += $3 } END { print sum }' "$folder/log")
+    [ "$shown" -ge $((2 * ${2:-40} - ${3:-2})) ] || fail "$1: of ${2:-40} frames in two windows only $shown pictures were shown"
+    grep -q 'lost' <(grep -v '^fault:' "$folder/log") && [[ $1 != *DEVICE* ]] && fail "$1: told as a loss"
+    ok
+}
+
+for result in OUT_OF_DATE SURFACE_LOST SUBOPTIMAL; do
+    survives "acquire:7:$result"
+    survives "acquire:1:$result"
+done
+survives acquire:7:FROZEN 130 102 # the other window goes on meanwhile, and this one afterwards
+for result in OUT_OF_DATE SURFACE_LOST SUBOPTIMAL; do
+    survives "present:8:$result"
+    survives "present:1:$result,present:2:$result"
+done
+survives "acquire:5:OUT_OF_DATE,acquire:6:SURFACE_LOST,present:9:SURFACE_LOST,swapchain:3:SURFACE_LOST" 40 6
+
+# The whole device: opened anew, and the flight goes on where it was.
+for call in acquire present submit; do
+    survives "$call:20:DEVICE_LOST" 60
+    [ "$(grep -c 'it is opened anew' "$folder/log")" = 1 ] || fail "$call: not told once"
+    # 60 frames at 60 Hz, a hundredth more at most; the 40 after the loss alone would be 0.66 s.
+    flown=$(sed -n 's/.*ship \([0-9.]*\) s.*/\1/p' "$folder/log")
+    awk "BEGIN { exit !($flown >= 0.9) }" || fail "$call: the flight began anew: $flown s"
+    ok
+done
+
+# A device that is lost again and again ends the exhibit: in words, with 1.
+fly submit:20:DEVICE_LOST,submit:21:DEVICE_LOST,submit:22:DEVICE_LOST,submit:23:DEVICE_LOST,submit:24:DEVICE_LOST,submit:25:DEVICE_LOST
+[ $status = 1 ] || fail "lost for ever: exit $status"
+grep -q 'lost again and again' "$folder/log" || fail "lost for ever: no word of it"
+ok
+
+# Where the driver tells when pictures are seen, the skew is what it tells: here the second window's come 7 ms after the first's.
+export STARBOW_SHOWN_LATE_MS=7
+fly '' 60
+[ $status = 0 ] || fail "present wait: exit $status"
+skew=$(sed -n 's/^outputs shown together within \([0-9.]*\) ms.*/\1/p' "$folder/log")
+# A sleep takes its time and at most a little more: the median of 60 on a busy machine.
+awk "BEGIN { exit !($skew >= 6.5 && $skew < 12) }" || fail "present wait: a skew of $skew ms, not 7"
+ok
+echo "$passed passed, 0 failed"

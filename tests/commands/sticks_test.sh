@@ -1,0 +1,127 @@
+#!/usr/bin/env bash
+# A stick and a throttle that are not there, around an unmodified program: found by their profiles, flown to a given speed,
+# one unplugged and plugged in elsewhere in flight. Usage: sticks_test.sh PROGRAM RIG_FOLDER
+set -u
+program=$1 tools=$2 here=$(cd "$(dirname "$0")/.." && pwd)
+. "$here/rig/monitors.sh"
+serve Xvfb -noreset -screen 0 800x600x24
+export STARBOW_VALIDATION=1 XDG_CONFIG_HOME=$folder/own
+
+# Half of the lever's way is half of the rapidity of gamma 100: gamma 7.106.
+cat >"$folder/exhibit.json" <<END
+{ "layout": "desk", "tutorial": false, "flying": { "greatest_gamma": 100 } }
+END
+
+# play SCRIPT_NAME: the log, each line with the time at which it came.
+play() {
+    timeout 120 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/$1" \
+        "$program" run --exhibit "$folder/exhibit.json" --record "$folder/record" 2>&1 </dev/null \
+        | while IFS= read -r line; do echo "$EPOCHREALTIME $line"; done >"$folder/log"
+}
+
+# between FIRST SECOND: milliseconds from the first line that matches the one to the first after it that matches the other.
+between() {
+    awk -v first="$1" -v second="$2" \
+        '!from && $0 ~ first { from = $1; next } from && $0 ~ second { printf "%.0f", 1000 * ($1 - from); exit }' "$folder/log"
+}
+
+# The T.16000M's report: buttons 2, hat and 4 bits 1, x 2, y 2, twist 1, slider 1; the rest is nothing. The TWCS throttle's:
+# its number, x, y, rz, rx, ry, slider, dial 2 each, the lever 2 (65535 is idle), hat.
+stick() { # BUTTONS_HEX X_HEX(little-endian)
+    printf '%s0f%s0020%s' "$1" "$2" 80ff
+    printf '00%.0s' $(seq 55)
+}
+throttle() { # LEVER_HEX(little-endian)
+    printf '01'
+    printf '0002%.0s' $(seq 7)
+    printf '%s0f' "$1"
+    printf '00%.0s' $(seq 46)
+}
+cat >"$folder/visit" <<END
+plug thrustmaster-t16000m 0
+plug thrustmaster-twcs-throttle 1
+start
+run for i in \$(seq 200); do xdotool search --name '^Starbow' >/dev/null 2>&1 && break; sleep 0.1; done
+wait 2
+report thrustmaster-t16000m $(stick 0000 0020)
+report thrustmaster-twcs-throttle $(throttle ffff)
+wait 0.5
+report thrustmaster-twcs-throttle $(throttle 0080)
+report thrustmaster-t16000m $(stick 0000 ff3f)
+wait 6
+say unplugs the throttle
+unplug thrustmaster-twcs-throttle
+wait 1
+say unplugs the stick
+unplug thrustmaster-t16000m
+wait 1
+say plugs in the throttle elsewhere
+plug thrustmaster-twcs-throttle 5
+wait 1
+report thrustmaster-twcs-throttle $(throttle 0080)
+wait 1
+plug thrustmaster-t16000m 0
+wait 0.5
+$(for i in $(seq 40); do echo "report thrustmaster-t16000m $(stick 0000 ff3f)"; echo "report thrustmaster-t16000m $(stick 0000 0020)"; done)
+wait 1
+run xdotool key Escape
+END
+play visit
+
+grep -q 'T.16000M.*flown by the profile Thrustmaster T.16000M' "$folder/log" || fail "the stick was not found by its profile"
+ok
+grep -q 'TWCS.*flown by the profile Thrustmaster TWCS' "$folder/log" || fail "the throttle was not found by its profile"
+ok
+grep -q 'validation' "$folder/log" && fail "the validation layers spoke"
+ok
+for device in TWCS T.16000M; do
+    gone=$(between "rig: unplugs the $([ $device = TWCS ] && echo throttle || echo stick)" "$device.*is unplugged")
+    [ "${gone:-1000}" -le 100 ] || fail "$device: noticed ${gone:-never} ms after it was unplugged"
+    echo "  $device unplugged: noticed after $gone ms"
+    ok
+done
+back=$(between 'rig: plugs in the throttle' 'TWCS.*is plugged in at /dev/hidraw5')
+[ "${back:-10000}" -le 1000 ] || fail "the throttle on another port works ${back:-never} ms later"
+echo "  plugged in again on another port: read after $back ms"
+ok
+# Through it all the ship has kept the speed that the lever stood for.
+grep -q ' γ 7.106 ' "$folder/log" || fail "the last speed is not that of half a lever, gamma 7.106"
+ok
+# What the visitor asked for, frame by frame: the throttle is let go first, the stick a second later, and nothing in between.
+python3 - "$folder/record" <<'END' || fail "the record does not tell of neutral axes"
+import json, sys
+now, frames = 0, []
+for line in list(open(sys.argv[1]))[1:]:
+    entry = json.loads(line)
+    if "dt_ns" in entry:
+        now += (entry["dt_ns"] + entry.get("skipped_ns", 0)) * 1e-9
+        frames.append((now, "lever" in entry, "turn" in entry))
+changes = [(b[0], b[1], b[2]) for a, b in zip(frames, frames[1:]) if a[1:] != b[1:]]
+held = next(i for i, c in enumerate(changes) if c[1] and c[2])
+(gone, *first), (let_go, *second), (back, *third) = changes[held + 1:held + 4]
+print("  the throttle's axes neutral, the stick's %.2f s later, the throttle's back %.2f s after" % (let_go - gone, back - let_go))
+sys.exit(not (first == [False, True] and second == [False, False] and third == [True, False]
+    and abs(let_go - gone - 1) < 0.25 and 0.9 < back - let_go < 3))
+END
+ok
+grep -q 'T.16000M.*axis X jitters and is left out' "$folder/log" || fail "an axis that jumps to and fro was not noticed"
+ok
+
+# Without leave to read it the rule that gives it is named. Only root can try what it is like to have no leave.
+if [ "$(id -u)" = 0 ]; then
+    cat >"$folder/locked" <<END
+plug thrustmaster-t16000m 0
+run chmod -R go+rX \$UMOCKDEV_DIR; find \$UMOCKDEV_DIR -type s -exec chmod 777 {} +
+run chmod 600 \$(readlink \$UMOCKDEV_DIR/dev/hidraw0)
+start
+END
+    # A checkout need not be open to others: a copy of the program and its files is.
+    mkdir "$folder/open"
+    cp -r "$program" "$here/../config" "$folder/open"
+    chmod -R go+rX "$folder"
+    (cd "$folder" && timeout 30 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/locked" \
+        setpriv --reuid=65534 --regid=65534 --clear-groups "$folder/open/starbow" devices) >"$folder/log" 2>&1 </dev/null
+    grep -q 'T.16000M.*may not be read: copy config/udev/70-starbow.rules' "$folder/log" || fail "no leave: the rule is not named"
+    ok
+fi
+echo "$passed passed, 0 failed"

@@ -1,0 +1,157 @@
+#!/usr/bin/env bash
+# The exhibit in a real window under Xvfb, the validation layers listening: flown by the keyboard, resized, left.
+# Usage: window_test.sh PROGRAM
+set -u
+program=$1 rig=$(dirname "$0")/../rig
+. "$rig/monitors.sh"
+serve Xvfb -noreset -screen 0 1280x800x24
+export STARBOW_VALIDATION=1
+
+fly() { # LAYOUT [MORE...]
+    timeout 60 "$program" run --layout "$@" >"$folder/log" 2>&1 &
+    exhibit=$!
+    started+=($exhibit)
+    window=
+    for _ in $(seq 200); do
+        window=$(xdotool search --name '^Starbow' 2>/dev/null | head -n 1)
+        [ -n "$window" ] && break
+        kill -0 $exhibit 2>/dev/null || fail "$1: left before its window opened"
+        sleep 0.1
+    done
+    [ -n "$window" ] || fail "$1: no window"
+    xdotool windowfocus "$window"
+    sleep 2
+}
+
+# Speed up, turn, resize, switch an effect off, leave. The last line tells the state.
+fly desk
+xdotool keydown w
+sleep 3
+xdotool keyup w
+xdotool key 2 l 4
+xdotool windowsize "$window" 500 300
+sleep 1
+xdotool windowsize "$window" 900 700
+sleep 1
+xdotool key Escape
+wait $exhibit || fail "desk: exit $? (validation speaks, or worse)"
+ok
+grep -q 'validation' "$folder/log" && fail "desk: the validation layers spoke"
+ok
+gamma=$(sed -n 's/.*γ \([0-9.]*\).*/\1/p' "$folder/log")
+awk "BEGIN { exit !($gamma > 1.05) }" || fail "desk: W did not speed up: gamma $gamma"
+ok
+grep -q 'Doppler off' "$folder/log" || fail "desk: 2 did not switch the Doppler effect off"
+ok
+grep -q 'light false colours.*unshifted' "$folder/log" || fail "desk: 4 did not switch to false colours, or they are not told"
+ok
+grep -q 'exposure [^ ]* EV locked' "$folder/log" || fail "desk: L did not hold the exposure"
+ok
+
+# The instruments: marked, logged, explained, switched through; what was logged is there, a line for each K.
+fly desk --scene clocks --log "$folder/lab.csv"
+xdotool key o
+sleep 0.5
+for key in x k x k F1 o o k o o F1 o; do
+    xdotool key $key
+    sleep 0.3
+done
+xdotool key Escape
+wait $exhibit || fail "instruments: exit $? (validation speaks, or worse)"
+ok
+[ "$(wc -l <"$folder/lab.csv")" = 4 ] || fail "instruments: not three lines: $(wc -l <"$folder/lab.csv")"
+ok
+python3 - "$folder/lab.csv" <<'CHECK' || fail "instruments: $(cat "$folder/lab.csv")"
+import csv, sys
+rows = list(csv.DictReader(open(sys.argv[1], newline="")))
+assert rows[0]["overlay"] == "aim" and rows[2]["overlay"] == "ring", rows
+assert abs(float(rows[0]["aim_distance_light_s"]) - 31) < 0.1, rows[0]
+assert abs(float(rows[0]["world_time_s"]) - 31 - float(rows[0]["aim_clock_s"])) < 0.1, rows[0]
+assert rows[0]["mark_1_clock_s"] and not rows[0]["mark_2_clock_s"] and rows[1]["mark_2_clock_s"], rows
+assert float(rows[1]["marks_angle_deg"]) == 0 and float(rows[1]["ship_time_s"]) > float(rows[0]["ship_time_s"])
+CHECK
+ok
+printf 'date,weather\n' >"$folder/other.csv"
+said=$(timeout 20 "$program" run --log "$folder/other.csv" 2>&1 >/dev/null)
+[ $? = 2 ] && [[ $said == *"other.csv: 1: begins otherwise"* ]] || fail "a file that is no log: $said"
+ok
+
+# A tour flies by itself: on to its third step, where it speeds up.
+fly desk --tour first-minute
+xdotool key r
+sleep 0.5
+xdotool key r
+sleep 4
+xdotool key Escape
+wait $exhibit || fail "a tour: exit $?"
+ok
+gamma=$(sed -n 's/.*γ \([0-9.]*\).*/\1/p' "$folder/log")
+awk "BEGIN { exit !($gamma > 1.01 && $gamma < 2.2) }" || fail "a tour: gamma $gamma"
+ok
+
+# Stop is at once. The flight is recorded, and flown again it ends the same.
+fly stereo --record "$folder/flight.jsonl"
+xdotool keydown w
+sleep 2
+xdotool keyup w
+sleep 0.3 # a frame without either key
+xdotool key space
+sleep 1
+xdotool key Escape
+wait $exhibit || fail "stereo: exit $?"
+ok
+grep -q 'γ 1.000' "$folder/log" || fail "stereo: Space did not stop the ship"
+ok
+timeout 60 "$program" run --replay "$folder/flight.jsonl" >"$folder/replay-log" 2>&1 || fail "replay: exit $?"
+ok
+grep -q '^the same to the bit at 1 check$' "$folder/replay-log" || fail "replay: not the same"
+ok
+[ "$(grep γ "$folder/log")" = "$(grep γ "$folder/replay-log")" ] || fail "replay: it ended elsewhere"
+ok
+
+# A head tracker's packets move the window in a wall; silent, it is missed on the display, not in the flight.
+cat >"$folder/tracked.json" <<'LAYOUT'
+{
+    "head_tracker": { "port": 42719 },
+    "outputs": [
+        {
+            "name": "wall", "size": [400, 300],
+            "viewports": [{ "projection": { "type": "wall", "lower_left_m": [-1, -0.75, -1], "lower_right_m": [1, -0.75, -1], "upper_left_m": [-1, 0.75, -1] } }]
+        }
+    ]
+}
+LAYOUT
+tell_head() { # CENTIMETRES to the right
+    python3 - "$1" <<'SEND'
+import socket, struct, sys
+socket.socket(socket.AF_INET, socket.SOCK_DGRAM).sendto(struct.pack("<6d", float(sys.argv[1]), 0, 0, 0, 0, 0), ("127.0.0.1", 42719))
+SEND
+}
+view() { import -window "$window" -crop 400x200+0+0 rgb:"$folder/$1"; }
+echo '{ "exposure": { "automatic": false } }' >"$folder/even.json" # it would take seconds to come back
+fly "$folder/tracked.json" --exhibit "$folder/even.json"
+xdotool key h # without the figures, which change by themselves
+sleep 0.5
+view rest
+tell_head 60
+sleep 0.5
+view right
+sleep 4
+view back
+xdotool key Escape
+wait $exhibit || fail "tracked: exit $?"
+ok
+cmp -s "$folder/rest" "$folder/right" && fail "tracked: the picture did not follow the head"
+ok
+cmp -s "$folder/rest" "$folder/back" || fail "tracked: the picture did not come back when the tracker fell silent"
+ok
+
+# Without a display it says so and draws (the first shot is enough here).
+(unset DISPLAY; cd "$folder" && timeout 5 "$program" run >"$folder/log" 2>&1)
+grep -q 'no display server' "$folder/log" || fail "no word of the missing display"
+ok
+# What was asked for can't be shown there: told, with nothing drawn instead.
+said=$(unset DISPLAY; cd "$folder" && "$program" run --layout desk 2>&1)
+[ $? = 2 ] && [[ $said == *"no display server"*"starbow render"* ]] || fail "asked for a layout without a display: $said"
+ok
+echo "$passed passed, 0 failed"

@@ -1,0 +1,110 @@
+// What a builder turns on site: every number found, turned in whole steps within the range its file may have, kept.
+#include "config/model/adjust.h"
+#include "tests/support/files.h"
+#include <fstream>
+#include <gtest/gtest.h>
+#include <set>
+#include <unistd.h>
+
+using namespace starbow;
+
+namespace {
+
+const Adjustable& named(const std::vector<Adjustable>& all, const std::string& name)
+{
+    for (const Adjustable& one : all)
+        if (one.name == name)
+            return one;
+    throw std::runtime_error("no " + name);
+}
+
+} // namespace
+
+TEST(Adjust, EveryShippedLayoutKeepsWhatWasTurned)
+{
+    // A copy of the folder, so that the files that layouts name are found.
+    const std::filesystem::path folder
+        = std::filesystem::temp_directory_path() / ("starbow-adjust-" + std::to_string(::getpid()));
+    struct Gone {
+        const std::filesystem::path& folder;
+        ~Gone() { std::filesystem::remove_all(folder); }
+    } gone{folder};
+    std::filesystem::copy(
+        starbow::testing::source_dir() / "config/layouts", folder, std::filesystem::copy_options::recursive);
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.path().extension() != ".json")
+            continue;
+        SCOPED_TRACE(entry.path().filename().string());
+        const Layout before = load_layout(entry.path());
+        const std::vector<Adjustable> all = adjustables(before);
+        ASSERT_FALSE(all.empty());
+        Layout turned = before;
+        std::set<std::string> pointers;
+        for (const Adjustable& one : all) {
+            if (one.spots.size() > 1)
+                continue;
+            EXPECT_TRUE(pointers.insert(one.spots[0].pointer).second) << one.name;
+            turned = adjusted(turned, one, 3);
+            EXPECT_NEAR(value_of(turned, one) - value_of(before, one), 3 * one.step, 1e-9) << one.name;
+        }
+        EXPECT_EQ(changes(before, turned).size(), pointers.size());
+        EXPECT_TRUE(changes(before, before).empty());
+
+        std::ifstream stream(entry.path());
+        std::string text{std::istreambuf_iterator<char>(stream), {}};
+        for (const Change& change : changes(before, turned))
+            text = patched("layout", text, change);
+        std::ofstream(entry.path()) << text;
+        const Layout after = load_layout(entry.path());
+        for (const Adjustable& one : all)
+            EXPECT_EQ(value_of(after, one), value_of(turned, one)) << one.name;
+    }
+}
+
+TEST(Adjust, StaysInTheRangeAndOnWholeSteps)
+{
+    Layout layout;
+    layout.outputs.resize(1);
+    layout.outputs[0].name = "dome";
+    layout.outputs[0].viewports = {{.projection = Fisheye{.tilt_deg = 29.97}}};
+    layout.blend.ramps = true;
+    const std::vector<Adjustable> all = adjustables(layout);
+    EXPECT_EQ(value_of(adjusted(layout, named(all, "dome, tilt"), 1), named(all, "dome, tilt")), 30.07);
+    EXPECT_EQ(value_of(adjusted(layout, named(all, "dome, tilt"), 1e6), named(all, "dome, tilt")), 180);
+    EXPECT_EQ(value_of(adjusted(layout, named(all, "blend, power"), -1e6), named(all, "blend, power")), 0.1);
+    EXPECT_EQ(value_of(adjusted(layout, named(all, "dome, rotation"), -10), named(all, "dome, rotation")), -1);
+}
+
+TEST(Adjust, ProjectorsOfOneDomeAreTurnedTogether)
+{
+    const Layout before = load_layout(starbow::testing::source_dir() / "config/layouts/dome2.json");
+    const std::vector<Adjustable> all = adjustables(before);
+    const Layout turned = adjusted(before, named(all, "the whole dome, tilt"), 7);
+    for (const char* each : {"left, tilt", "right, tilt"})
+        EXPECT_NEAR(value_of(turned, named(all, each)) - value_of(before, named(all, each)), 0.7, 1e-9);
+    EXPECT_EQ(changes(before, turned).size(), 2u);
+    // Turned apart they have nothing in common any more.
+    const Layout apart = adjusted(before, named(all, "left, tilt"), 1);
+    EXPECT_THROW(named(adjustables(apart), "the whole dome, tilt"), std::runtime_error);
+    EXPECT_NO_THROW(named(adjustables(apart), "the whole dome, rotation"));
+}
+
+TEST(Adjust, WhatWasTurnedOutlastsAReload)
+{
+    const Layout kept = load_layout(starbow::testing::source_dir() / "config/layouts/dome2.json");
+    const std::vector<Adjustable> all = adjustables(kept);
+    const Adjustable &left = named(all, "left, rotation"), &right = named(all, "right, rotation"),
+                     &power = named(all, "blend, power");
+    const Layout turned = adjusted(adjusted(kept, left, 5), right, 3);
+    // Meanwhile the file has changed one of the two, and something else.
+    const Layout fresh = adjusted(adjusted(kept, right, -2), power, 4), again = turned_again(fresh, kept, turned);
+    EXPECT_EQ(value_of(again, left), value_of(turned, left));
+    EXPECT_EQ(value_of(again, right), value_of(fresh, right));
+    EXPECT_EQ(value_of(again, power), value_of(fresh, power));
+    // A layout with another viewport in the place of the turned one.
+    Layout other = fresh;
+    other.outputs.erase(other.outputs.begin());
+    other.outputs[0].viewports[0].projection = Planar{};
+    EXPECT_NO_THROW(turned_again(other, kept, turned));
+    EXPECT_NO_THROW(changes(other, turned));
+}

@@ -1,0 +1,301 @@
+#include "config/import/import_sgct.h"
+#include "config/model/layout_reader.h"
+#include "config/model/turn.h"
+#include "tests/support/files.h"
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+
+using namespace starbow;
+using namespace starbow::testing;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Import imported(const std::string& text, int node = 0)
+{
+    return import_sgct(read_document(write_text("sgct.json", text)), node, "from");
+}
+
+Import sample(const std::string& name)
+{
+    return import_sgct(read_document(source_dir() / "tests/warp/sgct-configs" / (name + ".json")), 0, "from");
+}
+
+/// A configuration of one window of 800 x 400, around its other members and its viewports.
+std::string config(const std::string& viewports, const std::string& members = "", const std::string& users = "[]")
+{
+    return R"({ "version": 1, "masteraddress": "a", "nodes": [{ "address": "a", "port": 1, "windows": [{ "size": { "x": 800, "y": 400 }, )"
+        + members + R"( "viewports": [)" + viewports + R"(] }] }], "users": )" + users + " }";
+}
+std::string with(const std::string& projection, const std::string& more = "")
+{
+    return R"({ "projection": )" + projection + more + " }";
+}
+const std::string sphere = R"({ "type": "EquirectangularProjection" })";
+
+Json viewport(const std::string& text) { return imported(config(text)).layout["outputs"][0]["viewports"][0]; }
+
+bool has(const Import& import, const std::string& line)
+{
+    return std::find(import.lines.begin(), import.lines.end(), line) != import.lines.end();
+}
+
+/// The pointers of all members that hold no further object or list of objects.
+void leaves(const nlohmann::json& json, const std::string& pointer, std::vector<std::string>& out)
+{
+    if (json.is_array() && !json.empty() && json[0].is_object())
+        for (std::size_t i = 0; i < json.size(); ++i)
+            leaves(json[i], pointer + "/" + std::to_string(i), out);
+    else if (json.is_object())
+        for (const auto& [name, value] : json.items())
+            leaves(value, pointer + "/" + escaped(name), out);
+    else
+        out.push_back(pointer);
+}
+
+} // namespace
+
+TEST(ImportSgctTest, EveryMemberOfEverySampleHasItsLine)
+{
+    int members = 0;
+    for (const char* name : {"multi_window", "single", "single_cylindrical", "single_fisheye", "single_sbs_stereo",
+             "single_two_win", "spherical_mirror"}) {
+        SCOPED_TRACE(name);
+        const Import import = sample(name);
+        std::vector<std::string> pointers;
+        leaves(read_document(source_dir() / "tests/warp/sgct-configs" / (std::string(name) + ".json")).root, "", pointers);
+        for (const std::string& pointer : pointers) {
+            ++members;
+            const bool told = std::any_of(import.lines.begin(), import.lines.end(), [&](const std::string& line) {
+                const std::string place = line.substr(0, line.find("  "));
+                return pointer == place || pointer.starts_with(place + "/");
+            });
+            EXPECT_TRUE(told) << pointer;
+        }
+    }
+    EXPECT_GT(members, 100);
+}
+
+TEST(ImportSgctTest, Samples)
+{
+    const Json walls = sample("multi_window").layout;
+    ASSERT_EQ(walls["outputs"].size(), 5u);
+    EXPECT_EQ(walls["stereo"]["separation_m"], 0.06);
+    const Json& wall = walls["outputs"][0]["viewports"][0];
+    EXPECT_EQ(wall["eye_m"], Json::parse("[0.0, 0.0, 4.0]"));
+    EXPECT_EQ(wall["projection"],
+        Json::parse(R"({ "type": "wall", "lower_left_m": [-1.778, 0.0, 0.0], "lower_right_m": [0.0, 0.0, 0.0],
+        "upper_left_m": [-1.778, 1.0, 0.0] })"));
+    EXPECT_EQ(walls["outputs"][4]["place"], Json::parse("[1000, 30]"));
+
+    const Json flat = sample("single").layout["outputs"][0];
+    EXPECT_EQ(flat["size"], Json::parse("[1280, 720]"));
+    EXPECT_EQ(flat["viewports"][0]["projection"]["sides_deg"]["left"], -40.0);
+    EXPECT_EQ(flat["viewports"][0]["projection"]["sides_deg"]["up"], 50.534015846724 / 2);
+    EXPECT_EQ(sample("single_sbs_stereo").layout["outputs"][0]["packing"], "side-by-side");
+    EXPECT_EQ(sample("single_two_win").layout["outputs"][1]["viewports"][0]["projection"]["turn_deg"]["yaw"], 20.0);
+    const Json mirror = sample("spherical_mirror").layout["outputs"][0];
+    EXPECT_EQ(mirror["name"], "Spherical-Projection");
+    EXPECT_EQ(mirror["viewports"][0]["warp"]["file"], "from/mesh/standard_16x9.data");
+    EXPECT_EQ(mirror["viewports"][0]["projection"]["type"], "fisheye");
+}
+
+TEST(ImportSgctTest, ViewportsCountFromTheOtherCorner)
+{
+    // SGCT's upper right quarter, and one that is cut off.
+    EXPECT_EQ(viewport(R"({ "pos": { "x": 0.5, "y": 0.5 }, "size": { "x": 0.5, "y": 0.5 }, "projection": )" + sphere
+                  + "}")["rect"],
+        Json::parse("[0.5, 0.0, 0.5, 0.5]"));
+    EXPECT_EQ(
+        viewport(R"({ "pos": { "x": 0, "y": -0.25 }, "size": { "x": 2, "y": 0.5 }, "projection": )" + sphere + "}")["rect"],
+        Json::parse("[0.0, 0.75, 1.0, 0.25]"));
+}
+
+TEST(ImportSgctTest, PlanarAnglesCountOutwards)
+{
+    const Json p = viewport(
+        with(R"({ "type": "PlanarProjection", "fov": { "down": 35, "up": 15, "left": 10, "right": 70 } })"))["projection"];
+    EXPECT_EQ(p["sides_deg"], Json::parse(R"({ "left": -10.0, "right": 70.0, "down": -35.0, "up": 15.0 })"));
+    // A quaternion of the y-up frame: yaw to the right, then pitch up, then roll clockwise.
+    const auto turn = [](double angle, const glm::dvec3& axis) { return glm::angleAxis(glm::radians(angle), axis); };
+    const glm::dquat q = turn(-40, {0, 1, 0}) * turn(25, {1, 0, 0}) * turn(-10, {0, 0, 1});
+    const Json t = viewport(with(R"({ "type": "PlanarProjection", "fov": { "hfov": 60, "vfov": 40 }, "orientation": { "x": )"
+        + std::to_string(q.x) + ", \"y\": " + std::to_string(q.y) + ", \"z\": " + std::to_string(q.z)
+        + ", \"w\": " + std::to_string(q.w) + " } }"))["projection"]["turn_deg"];
+    EXPECT_NEAR(t["yaw"].get<double>(), 40, 1e-3); // six decimals above
+    EXPECT_NEAR(t["pitch"].get<double>(), 25, 1e-3);
+    EXPECT_NEAR(t["roll"].get<double>(), 10, 1e-3);
+}
+
+TEST(ImportSgctTest, TurnsComeBackFromTheirAxes)
+{
+    for (double yaw : {-170.0, -90.0, 0.0, 33.0, 180.0})
+        for (double pitch : {-89.0, -20.0, 0.0, 70.0})
+            for (double roll : {-150.0, 0.0, 12.0}) {
+                const auto turn = [](double angle, const glm::dvec3& axis) {
+                    return glm::mat3_cast(glm::angleAxis(glm::radians(angle), axis));
+                };
+                const Turn back = turn_of(turn(-yaw, {0, 1, 0}) * turn(pitch, {1, 0, 0}) * turn(-roll, {0, 0, 1}));
+                EXPECT_NEAR(std::remainder(back.yaw_deg - yaw, 360.0), 0, 1e-9);
+                EXPECT_NEAR(back.pitch_deg, pitch, 1e-9);
+                EXPECT_NEAR(back.roll_deg, roll, 1e-9);
+            }
+    // Straight up: the roll goes into the yaw, and the picture's axes stay.
+    const Turn up = turn_of(glm::dmat3({0, 0, 1}, {-1, 0, 0}, {0, -1, 0}));
+    EXPECT_NEAR(up.pitch_deg, 90, 1e-9);
+    const double yaw = glm::radians(up.yaw_deg);
+    EXPECT_NEAR(std::cos(yaw), 0, 1e-9); // its right hand is (0, 0, 1)
+    EXPECT_NEAR(std::sin(yaw), 1, 1e-9);
+}
+
+TEST(ImportSgctTest, FisheyeCrops)
+{
+    // A quarter off the top and the bottom: what is left of the square is twice as wide as high, as the window is.
+    const Json p = viewport(with(
+        R"({ "type": "FisheyeProjection", "fov": 200, "tilt": 27, "crop": { "left": 0, "right": 0, "bottom": 0.25, "top": 0.25 } })"))
+        ["projection"];
+    EXPECT_EQ(p["aperture_deg"], 200.0);
+    EXPECT_EQ(p["tilt_deg"], 27.0);
+    EXPECT_NEAR(p["diameter"].get<double>(), 2, 1e-12); // 800 of the shorter side's 400 pixels
+    EXPECT_NEAR(p["centre"][0].get<double>(), 0.5, 1e-12);
+    EXPECT_NEAR(p["centre"][1].get<double>(), 0.5, 1e-12);
+    // Half off the bottom: the circle's centre lies on the window's lower edge.
+    const Json low = viewport(with(
+        R"({ "type": "FisheyeProjection", "crop": { "left": 0, "right": 0, "bottom": 0.5, "top": 0 } })"))["projection"];
+    EXPECT_NEAR(low["centre"][1].get<double>(), 1, 1e-12);
+    EXPECT_NEAR(low["diameter"].get<double>(), 2, 1e-12);
+}
+
+TEST(ImportSgctTest, CylinderBeginsAhead)
+{
+    const Json p
+        = viewport(with(R"({ "type": "CylindricalProjection", "rotation": 30, "heightoffset": -0.5 })"))["projection"];
+    EXPECT_NEAR(p["turn_deg"]["yaw"].get<double>(), 150, 1e-12);
+    EXPECT_NEAR(p["sides_deg"]["down"].get<double>(), -26.565051177, 1e-9); // atan 1/2
+    EXPECT_NEAR(p["sides_deg"]["up"].get<double>(), 26.565051177, 1e-9);
+}
+
+TEST(ImportSgctTest, UsersMasksEyesAndNodes)
+{
+    const std::string users
+        = R"([{ "eyeseparation": 0.07, "pos": { "x": 0, "y": 1, "z": 0 } }, { "name": "guide", "pos": { "x": 2, "y": 0, "z": 0 } }])";
+    const Import import = imported(config(
+        with(sphere,
+            R"(, "user": "guide", "eye": "left", "blendmask": "m/../a.png", "blacklevelmask": "b.png", "tracked": true)"),
+        R"("fullscreen": true, "monitor": 1, "name": "a", "stereo": "side_by_side_inverted", "shine": 3, "border": false,)",
+        users));
+    const Json output = import.layout["outputs"][0];
+    EXPECT_EQ(output["whole_monitor"], true);
+    EXPECT_EQ(output["packing"], "mono");
+    EXPECT_EQ(output["viewports"][0]["eye"], "left");
+    EXPECT_EQ(output["viewports"][0]["eye_m"], Json::parse("[2.0, 0.0, 0.0]"));
+    EXPECT_EQ(output["viewports"][0]["alpha_mask"], "from/a.png");
+    EXPECT_FALSE(output["viewports"][0].contains("black_level"));
+    EXPECT_TRUE(has(import, "/nodes/0/windows/0/shine  not mapped: SGCT's configurations have no such name here"));
+    EXPECT_TRUE(has(import, "/nodes/0/windows/0/fullscreen  -> whole_monitor"));
+    EXPECT_TRUE(has(import,
+        "/nodes/0/windows/0/border  not mapped: a window has a frame unless it has monitor, whole_monitor or place"));
+
+    const std::string two
+        = R"({ "version": 1, "nodes": [{ "windows": [{ "size": { "x": 10, "y": 10 }, "name": "one", "viewports": [)"
+        + with(sphere) + R"(] }] }, { "windows": [{ "size": { "x": 20, "y": 10 }, "name": "two", "viewports": [)"
+        + with(sphere) + "] }] }] }";
+    EXPECT_EQ(imported(two, 1).layout["outputs"][0]["name"], "two");
+    EXPECT_TRUE(has(imported(two), "/nodes/1  not mapped: node 0 is taken; --node 1 takes this one"));
+    EXPECT_NE(
+        complaint([&] { imported(two, 2); }).find("/nodes: has no node 2; one from 0 to 1 is right"), std::string::npos);
+}
+
+TEST(ImportSgctTest, MeshesBringTheirOwnView)
+{
+    const std::string planar = R"({ "type": "PlanarProjection", "fov": { "hfov": 95, "vfov": 70 } })",
+                      users = R"([{ "pos": { "x": 0, "y": 0, "z": 4 } }])";
+    const auto made = [&](const std::string& mesh, const std::string& projection, const MeshView& view) {
+        const std::string text
+            = config(R"({ "projection": )" + projection + R"(, "mesh": "m/)" + mesh + R"(" })", "", users);
+        return import_sgct(read_document(write_text("sgct.json", text)), 0, "from", [&](const std::filesystem::path& file) {
+            EXPECT_EQ(file, "m/" + mesh);
+            return view;
+        });
+    };
+    // SCISS and SkySkan files place the user too, Scalable's do not.
+    for (const auto& [mesh, eye] : {std::pair("a.sgc", "[1.0, 2.0, 3.0]"), std::pair("a.txt", "[1.0, 2.0, 3.0]"),
+             std::pair("a.skyskan", "[1.0, 2.0, 3.0]"), std::pair("a.ol", "[0.0, 0.0, 4.0]")}) {
+        SCOPED_TRACE(mesh);
+        const Import import = made(mesh, planar, {true, glm::dvec3(1, 2, 3)});
+        const Json viewport = import.layout["outputs"][0]["viewports"][0];
+        EXPECT_FALSE(viewport.contains("projection"));
+        EXPECT_EQ(viewport["warp"]["file"], "from/m/" + std::string(mesh));
+        EXPECT_EQ(viewport["eye_m"], Json::parse(eye));
+        EXPECT_TRUE(has(import, "/nodes/0/windows/0/viewports/0/projection  not mapped: replaced by the mesh's own"));
+    }
+    const auto viewport = [](const Import& import) { return import.layout["outputs"][0]["viewports"][0]; };
+    EXPECT_FALSE(viewport(made("a.sgc", planar, {true, glm::dvec3(0)})).contains("eye_m"));
+    // Files without a view, formats that SGCT takes none from, and what is no flat picture.
+    EXPECT_EQ(viewport(made("a.ol", planar, {false, {}}))["projection"]["type"], "planar");
+    EXPECT_EQ(viewport(made("a.csv", planar, {true, {}}))["projection"]["type"], "planar");
+    EXPECT_EQ(viewport(made("a.sgc", sphere, {true, {}}))["projection"]["type"], "equirectangular");
+}
+
+TEST(ImportSgctTest, FullscreenWindowsAreToldApart)
+{
+    const auto window = [](const std::string& members) {
+        return R"({ "size": { "x": 80, "y": 40 }, )" + members + R"( "viewports": [)" + with(sphere) + "] }";
+    };
+    const auto both = [](const std::string& windows) {
+        const Import import = imported(R"({ "version": 1, "nodes": [{ "windows": [)" + windows + "] }] }");
+        const Document document = parse_document("layout.json", import.layout.dump());
+        read_layout(root(document), scratch("layout.json")); // is one that is read
+        return import;
+    };
+    const Import two = both(window(R"("fullscreen": true, "monitor": 0, "pos": { "x": 0, "y": 0 },)") + ","
+        + window(R"("fullscreen": true, "monitor": 1,)"));
+    EXPECT_EQ(two.layout["outputs"][0]["monitor"]["connector"], "SGCT-monitor-0");
+    EXPECT_EQ(two.layout["outputs"][1]["monitor"]["connector"], "SGCT-monitor-1");
+    EXPECT_FALSE(two.layout["outputs"][0].contains("place"));
+    ASSERT_EQ(two.to_mend.size(), 2u);
+    EXPECT_EQ(two.to_mend[1],
+        "/outputs/1/monitor/connector: SGCT-monitor-1 stands in for the monitor's name; one that 'starbow displays' lists "
+        "is "
+        "right");
+    const Import one = both(window(R"("fullscreen": true, "monitor": 1,)"));
+    EXPECT_FALSE(one.layout["outputs"][0].contains("monitor"));
+    EXPECT_TRUE(one.to_mend.empty());
+    const Import mixed = both(window(R"("pos": { "x": 5, "y": 6 },)") + "," + window(R"("fullscreen": true,)"));
+    EXPECT_FALSE(mixed.layout["outputs"][0].contains("monitor"));
+    EXPECT_EQ(mixed.layout["outputs"][1]["monitor"]["connector"], "SGCT-monitor-0");
+}
+
+TEST(ImportSgctTest, WhatCannotBeMapped)
+{
+    const std::string mirror
+        = R"({ "type": "SphericalMirrorProjection", "geometry": { "bottom": "b", "left": "l", "right": "r", "top": "t" } })";
+    const Import import = imported(config(with(mirror) + ", " + with(sphere)));
+    EXPECT_EQ(import.layout["outputs"][0]["viewports"].size(), 1u);
+    EXPECT_TRUE(has(import,
+        "/nodes/0/windows/0/viewports/0  not mapped: has no projection of a kind that a layout has; the viewport is left "
+        "out"));
+    EXPECT_NE(
+        complaint([&] { imported(config(with(mirror))); }).find("/nodes/0: has no window of which something could be made"),
+        std::string::npos);
+    EXPECT_NE(complaint([&] { imported(R"({ "version": 2, "nodes": [{}] })"); }).find("/version: 2 is too large"),
+        std::string::npos);
+    EXPECT_NE(complaint([&] { imported("{}"); }).find("lacks \"nodes\""), std::string::npos);
+    const auto fov
+        = [](const std::string& value) { return config(with(R"({ "type": "PlanarProjection", "fov": )" + value + " }")); };
+    const std::string at = "/nodes/0/windows/0/viewports/0/projection/fov";
+    EXPECT_NE(complaint([&] { imported(fov(R"({ "hfov": 200, "vfov": 40 })")); }).find(at + "/hfov: 200 is too large"),
+        std::string::npos);
+    EXPECT_NE(complaint([&] { imported(fov(R"({ "left": -20, "right": 10, "up": 1, "down": 1 })")); }).find(at + ": "),
+        std::string::npos);
+    EXPECT_NE(complaint([&] { imported(fov(R"({ "left": 20 })")); }).find("lacks \"right\""), std::string::npos);
+}
+
+TEST(ImportSgctTest, MutatedConfigurationsAreReadOrRefused)
+{
+    std::vector<std::string> seeds;
+    for (const auto& file : shipped("tests/warp/sgct-configs"))
+        seeds.push_back(read_text(file));
+    expect_survives(
+        [](const std::filesystem::path& file) { import_sgct(read_document(file), 0, "from"); }, seeds, fuzz_count() / 10);
+}

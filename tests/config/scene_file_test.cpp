@@ -1,0 +1,178 @@
+#include "config/model/scene_file.h"
+#include "tests/support/files.h"
+
+using namespace starbow;
+using namespace starbow::testing;
+
+namespace {
+
+const std::string whole = R"({
+    "gltf": "worlds/town.glb", // beside this file
+    "unit_m": 2, "light_speed_m_s": 10,
+    "sky": { "zenith": [0.1, 0.2, 0.3], "horizon": [1, 1, 1], "nadir": [0, 0, 0],
+        "temperature_K": 2.725 },
+    "stars": { "catalogue": "skies/few.txt", "brightness_arcmin2": 30, "ahead_deg": [84, -19] },
+    "ambient": [0.25, 0.5, 0.75],
+    "lights": [
+        { "type": "directional", "towards": [0, 3, 4], "radiance": [1, 2, 3] },
+        { "type": "point", "position": [1, 2, 3], "distance": 4, "radiance": [5, 6, 7], "temperature_K": 3000 },
+        { "type": "directional", "towards": [1, 0, 0], "radiance": [1, 1, 1], "line_nm": 589.3 },
+        { "type": "point", "position": [0, 0, 0], "distance": 1, "radiance": [1, 1, 1],
+          "spectrum": [[400, 0], [550.5, 1e3], [700, 0.25]] }
+    ],
+    "start": { "position": [0, 1.7, 0], "velocity": { "direction": [1, 0, 0], "gamma": 2 }, "exposure_ev": 1 }
+})";
+
+std::string with(const std::string& members) { return R"({ "gltf": "a.glb", )" + members + " }"; }
+std::string light(const std::string& members) { return with(R"("lights": [{ )" + members + " }]"); }
+std::string sun(const std::string& members)
+{
+    return light(R"("type": "directional", "towards": [0, 1, 0], "radiance": [1, 1, 1], )" + members);
+}
+
+} // namespace
+
+TEST(SceneFileTest, EveryMember)
+{
+    const auto file = write_text("town.json", whole);
+    const SceneFile scene = load_scene_file(file);
+    EXPECT_EQ(scene.name, "town");
+    EXPECT_EQ(scene.gltf, file.parent_path() / "worlds/town.glb");
+    EXPECT_EQ(scene.seconds_per_time_unit(), 0.2);
+    EXPECT_EQ(scene.sky.zenith, glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(scene.sky.horizon, glm::dvec3(1));
+    EXPECT_EQ(scene.sky.temperature_K, 2.725);
+    EXPECT_EQ(scene.ambient, glm::dvec3(0.25, 0.5, 0.75));
+    ASSERT_TRUE(scene.stars);
+    EXPECT_EQ(scene.stars->catalogue, file.parent_path() / "skies/few.txt");
+    EXPECT_EQ(scene.stars->brightness_arcmin2, 30);
+    EXPECT_EQ(scene.stars->ahead_deg, glm::dvec2(84, -19));
+    ASSERT_EQ(scene.lights.size(), 4u);
+    const auto sun = std::get<DirectionalLight>(scene.lights[0]);
+    EXPECT_NEAR(glm::distance(sun.towards, glm::dvec3(0, 0.6, 0.8)), 0, 1e-15);
+    EXPECT_EQ(sun.radiance, glm::dvec3(1, 2, 3));
+    EXPECT_FALSE(sun.spectrum);
+    const auto lamp = std::get<PointLight>(scene.lights[1]);
+    EXPECT_EQ(lamp.position, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(lamp.distance, 4);
+    EXPECT_EQ(lamp.radiance, glm::dvec3(5, 6, 7));
+    EXPECT_EQ(lamp.spectrum, Emission(BlackBody{3000}));
+    EXPECT_EQ(std::get<DirectionalLight>(scene.lights[2]).spectrum, Emission(SpectralLine{589.3}));
+    EXPECT_EQ(
+        std::get<PointLight>(scene.lights[3]).spectrum, Emission(SpectralTable{{{400, 0}, {550.5, 1e3}, {700, 0.25}}}));
+    EXPECT_EQ(scene.start.scene, "town");
+    EXPECT_EQ(scene.start.position, glm::dvec3(0, 1.7, 0));
+    EXPECT_NEAR(scene.start.u.x, 1.7320508075688772, 1e-15);
+}
+
+TEST(SceneFileTest, Defaults)
+{
+    const SceneFile scene = load_scene_file(write_text("bare.json", R"({ "gltf": "a.glb" })"));
+    EXPECT_EQ(scene.unit_m, 299792458);
+    EXPECT_EQ(scene.light_speed_m_s, 299792458);
+    EXPECT_EQ(scene.seconds_per_time_unit(), 1);
+    EXPECT_TRUE(scene.lights.empty());
+    EXPECT_FALSE(scene.stars);
+    EXPECT_EQ(scene.sky.temperature_K, 0);
+    EXPECT_EQ(scene.start.scene, "bare");
+    EXPECT_EQ(scene.start.u, glm::dvec3(0));
+}
+
+TEST(SceneFileTest, ShippedScenes)
+{
+    if (!std::filesystem::is_directory(source_dir() / "config/scenes"))
+        GTEST_SKIP() << "no config/scenes here";
+    for (const auto& file : shipped("config/scenes")) {
+        SCOPED_TRACE(file);
+        EXPECT_EQ(load_scene_file(file).name, file.stem());
+    }
+}
+
+TEST(SceneFileTest, WrongScenes)
+{
+    std::string nine = R"("lights": [)";
+    for (int i = 0; i < 9; ++i)
+        nine += std::string(i ? "," : "") + R"({ "type": "directional", "towards": [0, 1, 0], "radiance": [1, 1, 1] })";
+    nine += "]";
+    expect_wrong(load_scene_file,
+        {
+            {"\"a.glb\"", "", "\"a.glb\"", "is not an object"},
+            {"{}", "", "{}", "lacks \"gltf\""},
+            {R"({ "gltf": null })", "/gltf", "null", "is not a text"},
+            {R"({ "gltf": "" })", "/gltf", "\"\"", "is empty"},
+            {R"({ "gltf": "a\u0000b" })", "/gltf", "\"a\\u0000b\"", "holds a control character"},
+            {R"({ "glft": "a.glb" })", "/glft", "\"a.glb\"", "\"gltf\""},
+            {with(R"("unit_m": 0)"), "/unit_m", "0", "is too small"},
+            {with(R"("unit_m": -1)"), "/unit_m", "-1", "is too small"},
+            {with(R"("unit_m": "1 m")"), "/unit_m", "\"1 m\"", "is not a number"},
+            {with(R"("unit": 1)"), "/unit", "1", "\"unit_m\""},
+            {with(R"("light_speed_m_s": 0)"), "/light_speed_m_s", "0", "is too small"},
+            {with(R"("light_speed_m_s": 1e31)"), "/light_speed_m_s", "1e+31", "is too large"},
+            {with(R"("light_speed_m_s": 1e309)"), "/light_speed_m_s", "1e309", "is too large for a number"},
+            {with(R"("sky": [0, 0, 0])"), "/sky", "[0,0,0]", "is not an object"},
+            {with(R"("sky": { "top": [0, 0, 0] })"), "/sky/top", "[0,0,0]", "unknown name"},
+            {with(R"("sky": { "zenith": [0, -0.1, 0] })"), "/sky/zenith/1", "-0.1", "is too small"},
+            {with(R"("sky": { "nadir": [0, 0] })"), "/sky/nadir", "[0,0]", "has length 2; "},
+            {with(R"("sky": { "horizon": "#fff" })"), "/sky/horizon", "\"#fff\"", "is not a list"},
+            {with(R"("stars": true)"), "/stars", "true", "is not an object"},
+            {with(R"("stars": {})"), "/stars", "{}", "lacks \"catalogue\""},
+            {with(R"("stars": { "catalogue": "a", "brightness": 1 })"), "/stars/brightness", "1", "unknown name"},
+            {with(R"("stars": { "catalogue": "a", "brightness_arcmin2": 0 })"), "/stars/brightness_arcmin2", "0",
+                "is too small; a number above 0"},
+            {with(R"("stars": { "catalogue": "a", "ahead_deg": [84] })"), "/stars/ahead_deg", "[84]", "has length 1; "},
+            {with(R"("stars": { "catalogue": "a", "ahead_deg": [-1, 0] })"), "/stars/ahead_deg/0", "-1", "is too small"},
+            {with(R"("stars": { "catalogue": "a", "ahead_deg": [0, 91] })"), "/stars/ahead_deg/1", "91", "is too large"},
+            {with(R"("ambient": 0.5)"), "/ambient", "0.5", "is not a list; a list of 3 numbers"},
+            {with(R"("ambient": [0, 0, 1000001])"), "/ambient/2", "1000001", "is too large; a number from 0 to 1000000"},
+            {with(R"("lights": {})"), "/lights", "{}", "is not a list"},
+            {with(nine), "/lights", R"([{"radiance":[1,1,1],"towards":[0,1,0],"type":"directional"}...)",
+                "has length 9; a list of 0 to 8 lights"},
+            {with(R"("lights": [0])"), "/lights/0", "0", "is not an object"},
+            {light(R"("radiance": [1, 1, 1])"), "/lights/0", "{\"radiance\":[1,1,1]}", "lacks \"type\""},
+            {light(R"("type": "spot")"), "/lights/0/type", "\"spot\"", "\"directional\" or \"point\" is right"},
+            {light(R"("type": "directional", "radiance": [1, 1, 1])"), "/lights/0",
+                R"({"radiance":[1,1,1],"type":"directional"})", "lacks \"towards\""},
+            {light(R"("type": "directional", "towards": [0, 0, 0], "radiance": [1, 1, 1])"), "/lights/0/towards", "[0,0,0]",
+                "points nowhere"},
+            {light(R"("type": "directional", "towards": [0, 1, 0], "distance": 2, "radiance": [1, 1, 1])"),
+                "/lights/0/distance", "2", "unknown name"},
+            {light(R"("type": "directional", "towards": [0, 1, 0], "radiance": [1, 1, -1])"), "/lights/0/radiance/2", "-1",
+                "is too small"},
+            {light(R"("type": "point", "position": [0, 1, 0], "radiance": [1, 1, 1])"), "/lights/0",
+                R"({"position":[0,1,0],"radiance":[1,1,1],"type":"point"})", "lacks \"distance\""},
+            {light(R"("type": "point", "position": [0, 1, 0], "distance": 0, "radiance": [1, 1, 1])"), "/lights/0/distance",
+                "0", "is too small; a number above 0"},
+            {light(R"("type": "point", "position": [0, 2e15, 0], "distance": 1, "radiance": [1, 1, 1])"),
+                "/lights/0/position/1", "2e+15", "is too large"},
+            {with(R"("sky": { "temperature_K": -1 })"), "/sky/temperature_K", "-1", "is too small; a number from 0"},
+            {with(R"("sky": { "temperature_K": 0.05 })"), "/sky/temperature_K", "0.05",
+                "is too small; 0 for none, or a number from 0.1 to 1000000"},
+            {with(R"("sky": { "temperature_K": 1e7 })"), "/sky/temperature_K", "10000000.0", "is too large"},
+            {sun(R"("temperature_K": 0)"), "/lights/0/temperature_K", "0", "is too small; a number from 0.1 to 1000000"},
+            {sun(R"("temperature_K": "warm")"), "/lights/0/temperature_K", "\"warm\"", "is not a number"},
+            {sun(R"("temperature": 3000)"), "/lights/0/temperature", "3000", "\"temperature_K\""},
+            {sun(R"("line_nm": 39)"), "/lights/0/line_nm", "39", "is too small; a number from 40 to 12000"},
+            {sun(R"("line_nm": 5.89e5)"), "/lights/0/line_nm", "589000.0", "is too large"},
+            {light(
+                 R"("line_nm": 500, "temperature_K": 3000, "type": "directional", "towards": [0, 1, 0], "radiance": [1, 1, 1])"),
+                "/lights/0", R"({"line_nm":500,)", "has more than one spectrum; at most one of \"temperature_K\""},
+            {sun(R"("spectrum": 589)"), "/lights/0/spectrum", "589", "is not a list; a list of 2 to 4096 pairs"},
+            {sun(R"("spectrum": [[500, 1]])"), "/lights/0/spectrum", "[[500,1]]", "has length 1; "},
+            {sun(R"("spectrum": [[500, 1], 600])"), "/lights/0/spectrum/1", "600", "is not a list; a list of 2 numbers"},
+            {sun(R"("spectrum": [[500, 1], [600]])"), "/lights/0/spectrum/1", "[600]", "has length 1; "},
+            {sun(R"("spectrum": [[500, 1], [500, 2]])"), "/lights/0/spectrum/1/0", "500",
+                "does not rise; a wavelength above the one before, 500,"},
+            {sun(R"("spectrum": [[600, 1], [500, 2]])"), "/lights/0/spectrum/1/0", "500", "does not rise"},
+            {sun(R"("spectrum": [[30, 1], [500, 2]])"), "/lights/0/spectrum/0/0", "30", "is too small"},
+            {sun(R"("spectrum": [[500, 1], [600, -1]])"), "/lights/0/spectrum/1/1", "-1", "is too small"},
+            {sun(R"("spectrum": [[500, 1], [600, 1e31]])"), "/lights/0/spectrum/1/1", "1e+31", "is too large"},
+            {sun(R"("spectrum": [[500, 0], [600, 0]])"), "/lights/0/spectrum", "[[500,0],[600,0]]", "is dark everywhere"},
+            {with(R"("start": [])"), "/start", "[]", "is not an object"},
+            {with(R"("start": { "scene": "a" })"), "/start/scene", "\"a\"", "unknown name"},
+            {with(R"("start": { "velocity": { "direction": [1, 0, 0], "beta": 1 } })"), "/start/velocity/beta", "1",
+                "nothing reaches the speed of light"},
+            {with(R"("start": { "look": [0, 1, 0] })"), "/start/look", "[0,1,0]", "is parallel to \"up\""},
+        });
+}
+
+TEST(SceneFileTest, MutatedScenesLoadOrAreRefused) { expect_survives(load_scene_file, {whole}); }

@@ -1,0 +1,222 @@
+// Tour files: the shipped ones in every language, wrong ones; the schema that editors use agrees with the reader.
+#include "config/model/shipped.h"
+#include "config/model/tour_file.h"
+#include "runtime/flight/tour.h"
+#include "runtime/hud/hud.h"
+#include "tests/support/files.h"
+#include "tests/support/schema_check.h"
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <set>
+
+using namespace starbow;
+using namespace starbow::testing;
+using nlohmann::json;
+
+namespace {
+
+bool schema_accepts(const json& tour) { return starbow::testing::schema_accepts("tour", tour); }
+
+std::filesystem::path shipped_shot(const std::string& name) { return source_dir() / "config/shots" / (name + ".json"); }
+
+Tour tour_of(const std::string& text, const std::string& language = "en")
+{
+    return load_tour(write_text("tour.json", text), words(language), shipped_shot);
+}
+
+/// What the reader says; "" where it reads it.
+std::string said(const std::string& text)
+{
+    try {
+        tour_of(text);
+        return "";
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
+/// A tour whose second step is this one.
+std::string with(const std::string& step)
+{
+    return R"({ "scene": "avenue", "steps": [{ "seconds": 1, "cut": "start" }, { "seconds": 2, )" + step + " }] }";
+}
+
+const std::string question
+    = R"("ask": { "en": "?" }, "told": { "en": "{measured}" }, "measure": { "what": "gamma" }, "number": { "from": 1, "to": 9, "step": 0.5, "tolerance": 0.2 })";
+
+} // namespace
+
+TEST(TourFile, ShippedOnesAreReadInEveryLanguage)
+{
+    int count = 0;
+    for (const auto& file : shipped("config/tours")) {
+        SCOPED_TRACE(file.filename().string());
+        const json text = json::parse(read_text(file), nullptr, true, true);
+        EXPECT_TRUE(schema_accepts(text));
+        for (const auto& language : shipped("config/words")) {
+            const Tour tour = load_tour(file, load_words(language), shipped_shot);
+            EXPECT_EQ(tour.steps.size(), text["steps"].size());
+            EXPECT_TRUE(std::filesystem::exists(source_dir() / "config/scenes" / (tour.scene + ".json")));
+            for (const Step& step : tour.steps)
+                EXPECT_TRUE(step.question || !step.caption.empty()) << "nothing is said";
+        }
+        ++count;
+    }
+    EXPECT_GE(count, 4);
+}
+
+/// No text of a tour is left over: each key stands in some tour.
+TEST(TourFile, EachTextIsSaid)
+{
+    std::string tours;
+    for (const auto& file : shipped("config/tours"))
+        tours += read_text(file);
+    for (const auto& [key, text] : words().texts)
+        EXPECT_TRUE(!key.starts_with("tour.") || tours.find(std::string("\"").append(key).append("\"")) != tours.npos)
+            << key;
+}
+
+/// What is said fits: in three lines of letters no smaller than a ninth of the panel, in every language.
+TEST(TourFile, TextsFitTheDisplay)
+{
+    const Typesetter typesetter;
+    constexpr double height = 200, width = height / panel_aspect, smallest = height / 9;
+    const auto lines = [&](const std::string& text) {
+        return wrapped(filled(text, {{"measured", "0.0000"}}), 0.93 * width, [&](const std::string& line) {
+            return typesetter.width_of(line, int(smallest));
+        }).size();
+    };
+    for (const auto& file : shipped("config/tours"))
+        for (const auto& language : shipped("config/words")) {
+            const Words said = load_words(language);
+            for (const Step& step : load_tour(file, said, shipped_shot).steps) {
+                EXPECT_LE(lines(step.caption), 3u) << step.caption;
+                if (step.question) {
+                    EXPECT_LE(lines(step.question->ask), 2u) << step.question->ask;
+                    for (const char* prefix : {"touring.right", "touring.wrong", "touring.answer"})
+                        EXPECT_LE(lines(said(prefix) + " " + step.question->told), 3u) << step.question->told;
+                }
+            }
+        }
+}
+
+TEST(TourFile, EveryMemberIsTaken)
+{
+    const std::string text = R"({ "scene": "clocks", "again_after_s": 33, "ship_s_per_s": 0.5, "steps": [
+        { "seconds": 1.5, "cut": { "time": 7, "position": [1, 2, 3], "velocity": { "direction": [0, 0, 2], "gamma": 4 } },
+          "caption": { "de": "deutsch", "en": "english" }, "exposure_ev": -2 },
+        { "seconds": 2, "ship_s_per_s": 3, "glide": { "position": [4, 5, 6], "time": 9 },
+          "caption": "tour.first-minute.back", "measure": { "what": "reading_s", "at": [1, 0, 0], "against": [0, 1, 0] } },
+        { "seconds": 3, "ease_s": [0.5, 1], "thrust": { "rapidity_per_s": 0.25, "towards": [0, 3, 0] }, "effects": { "doppler": false } },
+        { "seconds": 4, "turn": { "look": [1, 0, 0] } },
+        { "seconds": 5, "question": { "ask": { "en": "?" }, "told": { "en": "!" }, "told_s": 4, "measure": { "what": "beta" },
+          "choices": [{ "text": { "en": "a" }, "below": 0.5 }, { "text": { "en": "b" }, "from": 0.5 }] } },
+        { "seconds": 6, "try": { "mode": "newtonian", "greatest_gamma": 7 },
+          "question": { "ask": { "en": "?" }, "told": { "en": "!" }, "measure": { "what": "gamma" }, "reach": { "from": 2, "to": 3 } } },
+        { "seconds": 7 } ] })";
+    EXPECT_TRUE(schema_accepts(json::parse(text)));
+    const Tour tour = tour_of(text), german = tour_of(text, "de");
+    EXPECT_EQ(tour.scene, "clocks");
+    EXPECT_EQ(tour.again_after_s, 33);
+    ASSERT_EQ(tour.steps.size(), 7u);
+    const Shot& shot = std::get<Cut>(tour.steps[0].motion).shot;
+    EXPECT_EQ(shot.time, 7);
+    EXPECT_EQ(shot.position, glm::dvec3(1, 2, 3));
+    EXPECT_NEAR(shot.u.z, std::sqrt(15.0), 1e-15 * 15);
+    EXPECT_EQ(tour.steps[0].seconds, 1.5);
+    EXPECT_EQ(tour.steps[0].ship_s_per_s, 0.5);
+    EXPECT_EQ(tour.steps[0].caption, "english");
+    EXPECT_EQ(german.steps[0].caption, "deutsch");
+    EXPECT_EQ(german.steps[4].question->ask, "?") << "English where the language is not there";
+    EXPECT_EQ(tour.steps[0].exposure_ev, -2);
+    const Glide& glide = std::get<Glide>(tour.steps[1].motion);
+    EXPECT_EQ(glide.position, glm::dvec3(4, 5, 6));
+    EXPECT_EQ(glide.time, 9);
+    EXPECT_FALSE(glide.u || glide.ship_from_cockpit) << "what is not named stays";
+    EXPECT_EQ(tour.steps[1].ship_s_per_s, 3);
+    EXPECT_EQ(tour.steps[1].measure->what, Measure::What::reading_s);
+    EXPECT_EQ(tour.steps[1].measure->at, glm::dvec3(1, 0, 0));
+    EXPECT_EQ(tour.steps[1].measure->against, glm::dvec3(0, 1, 0));
+    const Thrust& thrust = std::get<Thrust>(tour.steps[2].motion);
+    EXPECT_EQ(thrust.rapidity_per_s, 0.25);
+    EXPECT_EQ(thrust.towards, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(tour.steps[2].ease_s, glm::dvec2(0.5, 1));
+    EXPECT_FALSE(tour.steps[2].effects->doppler);
+    EXPECT_TRUE(tour.steps[2].effects->headlight);
+    EXPECT_EQ(std::get<Turning>(tour.steps[3].motion).ship_from_cockpit, orientation({1, 0, 0}, {0, 1, 0}));
+    const auto& choices = std::get<std::vector<Choice>>(tour.steps[4].question->answer);
+    ASSERT_EQ(choices.size(), 2u);
+    EXPECT_EQ(choices[0].below, 0.5);
+    EXPECT_EQ(choices[1].from, 0.5);
+    EXPECT_EQ(choices[1].text, "b");
+    EXPECT_EQ(tour.steps[4].question->told_s, 4);
+    EXPECT_EQ(std::get<Try>(tour.steps[5].motion).mode, FlightMode::newtonian);
+    EXPECT_EQ(std::get<Try>(tour.steps[5].motion).greatest_gamma, 7);
+    EXPECT_EQ(std::get<PlaceToReach>(tour.steps[5].question->answer).to, 3);
+    EXPECT_TRUE(std::holds_alternative<Coast>(tour.steps[6].motion));
+}
+
+TEST(TourFile, TheSchemasDefaultsAreTheReaders)
+{
+    const json schema = json::parse(read_text(source_dir() / "config/schema/tour.schema.json"));
+    const Tour tour = tour_of(with("\"question\": { " + question + " }"));
+    EXPECT_EQ(schema["properties"]["again_after_s"]["default"], tour.again_after_s);
+    EXPECT_EQ(schema["properties"]["ship_s_per_s"]["default"], tour.steps[1].ship_s_per_s);
+    EXPECT_EQ(schema["definitions"]["question"]["properties"]["told_s"]["default"], tour.steps[1].question->told_s);
+    EXPECT_EQ(schema["definitions"]["step"]["properties"]["ease_s"]["default"],
+        json::array({tour.steps[0].ease_s.x, tour.steps[0].ease_s.y}));
+    // Every measure, and no other.
+    std::set<std::string> known, described;
+    for (const auto& [name, what] : measures)
+        known.emplace(name);
+    for (const json& name : schema["definitions"]["measure"]["properties"]["what"]["enum"])
+        described.insert(name.get<std::string>());
+    EXPECT_EQ(known, described);
+}
+
+TEST(TourFile, WrongOnesAreRefusedByBoth)
+{
+    for (const auto& [text, problem] :
+        std::vector<std::pair<std::string, std::string>>{
+            {R"({ "steps": [{ "seconds": 1, "cut": "start" }] })", "lacks \"scene\""},
+            {R"({ "scene": "avenue", "steps": [] })", "/steps: [] has length 0"},
+            {R"({ "scene": "avenue", "stops": [], "steps": [{ "seconds": 1, "cut": "start" }] })", "/stops"},
+            {with(R"("seconds_": 3)"), "/steps/1/seconds_"},
+            {with(R"("caption": "hello")"), "/steps/1/caption: \"hello\" is no text in en.json"},
+            {with(R"("caption": {})"), "/steps/1/caption: {} is no text"},
+            {with(R"("measure": { "what": "weight" })"), "/steps/1/measure/what: \"weight\" is not known here"},
+            {with(R"("measure": { "what": "size" })"), "/steps/1/measure: {\"what\":\"size\"} lacks \"at\""},
+            {with(R"("measure": { "what": "gamma", "at": [0, 0, 0] })"), "/steps/1/measure/at: [0,0,0] is a place too many"},
+            {with(R"("cut": "start", "thrust": { "rapidity_per_s": 1 })"), "/steps/1/thrust: "},
+            {with(R"("thrust": { "rapidity_per_s": 0 })"), "/steps/1/thrust/rapidity_per_s: 0 is too small"},
+            {with(R"("turn": {})"), "/steps/1/turn: {} lacks \"look\""},
+            {with(R"("try": { "mode": "easy" })"), "/steps/1/try/mode"},
+            {with(R"("glide": { "effects": {} })"), "/steps/1/glide/effects"},
+            {with(R"("ease_s": 1)"), "/steps/1/ease_s: 1 is not a list"},
+            {with(R"("exposure_ev": 61)"), "/steps/1/exposure_ev: 61 is too large"},
+            {with(R"("question": { "ask": { "en": "?" }, "told": { "en": "!" }, "measure": { "what": "gamma" } })"),
+                "needs one way to answer"},
+            {with(R"("question": { "told": { "en": "!" }, "measure": { "what": "gamma" } })"), "lacks \"ask\""}}) {
+        EXPECT_NE(said(text).find(problem), std::string::npos) << said(text);
+        EXPECT_FALSE(schema_accepts(json::parse(text))) << text;
+    }
+    // What a schema can't say.
+    for (const auto& [text, problem] :
+        std::vector<std::pair<std::string, std::string>>{
+            {R"({ "scene": "avenue", "steps": [{ "seconds": 1 }] })", "/steps/0: {\"seconds\":1} begins nowhere"},
+            {R"({ "scene": "clocks", "steps": [{ "seconds": 1, "cut": "start" }] })",
+                "/steps/0/cut: \"start\" is a shot in the scene avenue"},
+            {with(R"("caption": "tour.no.such")"), "is no text in en.json"},
+            {with(R"("caption": "tour.first-minute.back")"), "has {measured} in its text"},
+            {with(R"("ease_s": [1, 1.1])"), "/steps/1/ease_s: [1,1.1] is longer than the step"},
+            {with(R"("ease_s": [1, 1], "glide": {})"), "/steps/1/ease_s: "},
+            {with(R"("thrust": { "rapidity_per_s": 1, "towards": [0, 0, 0] })"), "points nowhere"},
+            {with(R"("try": {}, "question": { )" + question + " }"), "/steps/1/question: "},
+            {with(
+                 R"("question": { "ask": { "en": "?" }, "told": { "en": "!" }, "measure": { "what": "gamma" }, "reach": { "from": 1, "to": 2 } })"),
+                "wants a place to be reached"},
+            {with(
+                 R"("question": { "ask": { "en": "?" }, "told": { "en": "!" }, "measure": { "what": "gamma" }, "choices": [{ "text": { "en": "a" }, "from": 2, "below": 2 }, { "text": { "en": "b" } }] })"),
+                "/choices/0: "}})
+        EXPECT_NE(said(text).find(problem), std::string::npos) << said(text);
+}

@@ -1,0 +1,104 @@
+// The languages: each says all that the others say, with the same places to fill, and nothing that nobody says.
+#include "config/model/words.h"
+#include "tests/support/files.h"
+#include <functional>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+using namespace starbow;
+using namespace starbow::testing;
+using nlohmann::json;
+
+namespace {
+
+/// A shipped language's file, changed.
+std::string said_of(const std::function<void(json&)>& change)
+{
+    json texts = json::parse(read_text(source_dir() / "config/words/en.json"), nullptr, true, true);
+    change(texts);
+    const std::filesystem::path file = write_text("words.json", texts.dump(1));
+    return complaint([&] { load_words(file); });
+}
+
+} // namespace
+
+TEST(Words, LanguagesSayTheSame)
+{
+    const Words& english = words("en");
+    int languages = 0;
+    for (const auto& file : shipped("config/words")) {
+        SCOPED_TRACE(file.filename().string());
+        const Words other = load_words(file);
+        EXPECT_EQ(other.language, file.stem().string());
+        for (const auto& [key, text] : english.texts) {
+            const auto found = other.texts.find(key);
+            ASSERT_NE(found, other.texts.end()) << key;
+            auto holes = placeholders(text), others = placeholders(found->second);
+            std::sort(holes.begin(), holes.end()), std::sort(others.begin(), others.end());
+            EXPECT_EQ(holes, others) << key;
+        }
+        for (const auto& [key, text] : other.texts)
+            EXPECT_TRUE(english.texts.contains(key)) << key;
+        ++languages;
+    }
+    EXPECT_GE(languages, 2);
+}
+
+/// The program's sources name each key that the files have to have: none is left over, and none stands in the sources alone.
+TEST(Words, EachIsSaidSomewhere)
+{
+    std::string sources;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(source_dir() / "runtime"))
+        if (entry.path().extension() == ".cpp" || entry.path().extension() == ".h")
+            sources += read_text(entry.path());
+    for (const auto& [key, text] : words().texts) {
+        const bool elsewhere = key.starts_with("tour.") || key.starts_with("flight.") || key == "decimal_sign";
+        EXPECT_TRUE(elsewhere || sources.find(std::string("\"").append(key).append("\"")) != sources.npos) << key;
+    }
+}
+
+/// And what the sources name is there: whatever looks like a key, of a kind that there is.
+TEST(Words, EachThatIsSaidIsThere)
+{
+    std::set<std::string> kinds;
+    for (const auto& [key, text] : words().texts)
+        if (const std::size_t dot = key.find('.'); dot != key.npos)
+            kinds.insert(key.substr(0, dot));
+    const std::regex quoted("\"([a-z]+)\\.([a-z_]+)\"");
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(source_dir() / "runtime")) {
+        const std::string source = entry.is_regular_file() ? read_text(entry.path()) : "";
+        for (std::sregex_iterator at(source.begin(), source.end(), quoted), end; at != end; ++at)
+            if (kinds.contains((*at)[1]) && (*at)[2] != "json" && (*at)[2] != "h") {
+                EXPECT_TRUE(words().texts.contains((*at)[1].str() + "." + (*at)[2].str())) << at->str() << " in " << entry;
+                ++count;
+            }
+    }
+    EXPECT_GT(count, 30);
+}
+
+TEST(Words, WrongFilesAreRefused)
+{
+    EXPECT_NE(said_of([](json& t) { t.erase("hud.ship"); }).find("lacks \"hud.ship\""), std::string::npos);
+    EXPECT_NE(
+        said_of([](json& t) { t["hud.shop"] = "x"; }).find("/hud.shop: \"x\" stands under an unknown name; \"hud.ship\""),
+        std::string::npos);
+    EXPECT_NE(said_of([](json& t) {
+        t["tutorial.stop_button"] = "Press it";
+    }).find("/tutorial.stop_button: \"Press it\" has other places to fill than are filled; a text with {button} is right"),
+        std::string::npos);
+    EXPECT_NE(said_of([](json& t) { t["hud.ship"] = "the {ship}"; }).find("a text with no { } is right"), std::string::npos);
+    EXPECT_NE(said_of([](json& t) { t["hud.ship"] = 3; }).find("is not a text"), std::string::npos);
+    EXPECT_NE(said_of([](json& t) { t = json::array(); }).find("is not an object"), std::string::npos);
+}
+
+TEST(Words, FillsPlaces)
+{
+    EXPECT_EQ(filled("{a} and {b}, {a}", {{"a", "one"}, {"b", "2"}}), "one and 2, one");
+    EXPECT_EQ(filled("nothing", {{"a", "1"}}), "nothing");
+    EXPECT_EQ(placeholders("{number} of {all}"), (std::vector<std::string>{"number", "all"}));
+    EXPECT_EQ(words("de").number("-3.25"), "-3,25");
+    EXPECT_EQ(words()("tutorial.stop_button", {{"button", "7"}}), "Press button 7: full stop");
+}

@@ -1,0 +1,210 @@
+// Blocks of a direction map, against every pixel one by one; and the way back from a direction to its pixel, against the
+// projections' formulas, written here again.
+#include "config/model/turn.h"
+#include "displays/compile/blocks.h"
+#include "tests/support/sphere.h"
+#include <functional>
+#include <random>
+
+using namespace starbow;
+
+namespace {
+
+using glm::dvec2;
+using glm::dvec3;
+using glm::ivec2;
+
+Pane pane_of(const Projection& projection, ivec2 size)
+{
+    Layout layout;
+    layout.outputs.resize(1);
+    layout.outputs[0].size = size;
+    layout.outputs[0].viewports = {{.projection = projection}};
+    return panes(layout, 0, size).front();
+}
+
+/// All pixels' directions and angles, 0 where nothing is shown.
+std::vector<std::pair<dvec3, double>> pixels(const Pane& pane)
+{
+    const DirectionMap map = compile(pane);
+    std::vector<std::pair<dvec3, double>> all;
+    for (const glm::vec4& texel : map.texels)
+        all.push_back({dvec3(texel), texel.w});
+    return all;
+}
+
+/// Float's rounding of a unit vector.
+constexpr double rounding = 1e-6;
+
+void expect_caps_hold(const Pane& pane, const Blocks& blocks)
+{
+    // A flat pane's angle is that of the pixel's centre, a map's that of all of it: apart by the next term in its size.
+    const auto room = [&](double angle) { return 1 + rounding + (blocks.flat() ? angle * angle : 0); };
+    const auto all = pixels(pane);
+    ASSERT_EQ(blocks.size(), pane.size);
+    EXPECT_EQ(blocks.count(0), ivec2(1));
+    for (int level = 0; level < blocks.levels(); ++level) {
+        const int side = blocks.side(level);
+        const ivec2 count = blocks.count(level);
+        for (int j = 0; j < count.y; ++j)
+            for (int i = 0; i < count.x; ++i) {
+                const Cap cap = blocks.cap(level, {i, j});
+                bool any = false;
+                double finest = 1e9, coarsest = 0, widest = 0;
+                for (int y = j * side; y < std::min((j + 1) * side, pane.size.y); ++y)
+                    for (int x = i * side; x < std::min((i + 1) * side, pane.size.x); ++x) {
+                        const auto& [n, angle] = all[std::size_t(y) * pane.size.x + x];
+                        if (angle == 0)
+                            continue;
+                        any = true;
+                        finest = std::min(finest, angle), coarsest = std::max(coarsest, angle);
+                        widest = std::max(widest, sphere::angle(glm::normalize(n), glm::normalize(dvec3(cap.centre))));
+                    }
+                ASSERT_EQ(cap.empty(), !any) << level << " " << i << " " << j;
+                if (!any)
+                    continue;
+                ASSERT_LE(widest, cap.radius + rounding);
+                ASSERT_LE(cap.finest, finest * room(finest));
+                ASSERT_GE(cap.coarsest * room(coarsest), coarsest);
+                // And of use: a leaf's cap is about as large as the leaf.
+                if (level + 1 == blocks.levels()) {
+                    ASSERT_LE(cap.radius, 1.2 * widest + 1e-5) << level << " " << i << " " << j;
+                }
+            }
+    }
+}
+
+const Projection projections[] = {Planar{60}, Planar{120, {}, {30, -20, 10}}, Planar{60, Sides{-50, 10, -5, 40}},
+    Fisheye{180, 30}, Fisheye{360, 90}, Cylinder{}, Equirectangular{}};
+
+} // namespace
+
+TEST(BlocksTest, CapsHoldEveryPixel)
+{
+    for (const Projection& projection : projections)
+        for (ivec2 size : {ivec2(61, 40), ivec2(8, 8), ivec2(1, 33)}) {
+            SCOPED_TRACE(std::to_string(projection.index()) + " " + std::to_string(size.x));
+            const Pane pane = pane_of(projection, size);
+            expect_caps_hold(pane, Blocks(compile(pane)));
+            if (const auto matrix = pane_matrix(pane)) {
+                EXPECT_TRUE(Blocks(*matrix, size).flat());
+                if (size.x > 1) // else the map's pixels are slivers
+                    expect_caps_hold(pane, Blocks(*matrix, size));
+            }
+        }
+}
+
+TEST(BlocksTest, FindIsTheWayBack)
+{
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    struct Case {
+        Projection projection;
+        ivec2 size;
+        std::function<std::optional<dvec2>(const dvec3&)> wanted;
+    };
+    const double half = std::tan(glm::radians(30.0));
+    const dvec3 zenith(0, std::cos(glm::radians(30.0)), -std::sin(glm::radians(30.0))),
+        front(0, -std::sin(glm::radians(30.0)), -std::cos(glm::radians(30.0)));
+    const Case cases[] = {
+        {Planar{60}, {200, 150},
+            [&](const dvec3& d) -> std::optional<dvec2> {
+                if (d.z >= 0)
+                    return {};
+                return dvec2(100, 75) + dvec2(d.x, -d.y) / -d.z * (75 / half);
+            }},
+        {Fisheye{180, 30}, {300, 300},
+            [&](const dvec3& d) -> std::optional<dvec2> {
+                const double up = glm::dot(d, zenith), angle = std::acos(up);
+                const dvec2 flat(d.x, glm::dot(d, front));
+                if (up < 0)
+                    return {};
+                return dvec2(150) + flat / glm::length(flat) * (angle / (sphere::pi / 2) * 150);
+            }},
+        {Equirectangular{}, {360, 180},
+            [&](const dvec3& d) -> std::optional<dvec2> {
+                return dvec2(180 + glm::degrees(std::atan2(d.x, -d.z)), 90 - glm::degrees(std::asin(d.y)));
+            }},
+    };
+    for (const Case& c : cases) {
+        const DirectionMap map = compile(pane_of(c.projection, c.size));
+        const Blocks blocks(map);
+        int found = 0;
+        double worst = 0;
+        for (int k = 0; k < 20000; ++k) {
+            const dvec3 d = glm::normalize(dvec3(normal(random), normal(random), normal(random)));
+            const auto at = find(map, blocks, d), wanted = c.wanted(d);
+            const bool inside = wanted && glm::all(glm::greaterThan(*wanted, dvec2(1)))
+                && glm::all(glm::lessThan(*wanted, dvec2(c.size) - 1.0));
+            const bool outside = !wanted || glm::any(glm::lessThan(*wanted, dvec2(-1)))
+                || glm::any(glm::greaterThan(*wanted, dvec2(c.size) + 1.0));
+            if (c.projection.index() == Projection(Equirectangular{}).index() && std::abs(d.y) > 0.98)
+                continue; // towards the poles, where a row ends in one place
+            if (c.projection.index() == Projection(Fisheye{}).index() && std::abs(glm::dot(d, zenith)) < 0.02)
+                continue; // the rim, where the circle cuts pixels
+            if (inside) {
+                ASSERT_TRUE(at) << d.x << " " << d.y << " " << d.z;
+                worst = std::max(worst, glm::distance(*at, *wanted));
+                ++found;
+            }
+            if (outside) {
+                ASSERT_FALSE(at) << d.x << " " << d.y << " " << d.z;
+            }
+        }
+        std::printf("  find: worst %.3f pixels of %d\n", worst, found);
+        EXPECT_LT(worst, 0.02); // taken as straight over half a pixel of a degree: 0.5^2 / 2 of a degree's bend, 0.002
+        EXPECT_GT(found, 1000);
+    }
+}
+
+TEST(BlocksTest, NothingIsFoundInNothing)
+{
+    DirectionMap dark;
+    dark.size = {16, 16};
+    dark.texels.assign(256, glm::vec4(0));
+    EXPECT_FALSE(find(dark, Blocks(dark), {0, 0, -1}));
+    EXPECT_TRUE(Blocks(dark).cap(0, {0, 0}).empty());
+    const dvec3 side(0, 0, -1);
+    EXPECT_EQ(pixels_in_pyramid(Blocks(dark), {&side, 1}).high, ivec2(0));
+}
+
+TEST(BlocksTest, PyramidsHoldTheirPixels)
+{
+    for (const Projection& projection : projections) {
+        const Pane pane = pane_of(projection, {96, 72});
+        const auto all = pixels(pane);
+        const auto matrix = pane_matrix(pane);
+        for (const Blocks& blocks : {Blocks(compile(pane)), matrix ? Blocks(*matrix, pane.size) : Blocks(compile(pane))})
+            for (const Turn& turn : {Turn{0, 0, 0}, Turn{70, 30, 0}, Turn{180, -40, 20}}) {
+                // 20 degrees to each side of the turn's axis.
+                const glm::dmat3 axes = cockpit_from_picture(turn);
+                const double s = std::sin(glm::radians(20.0)), c = std::cos(glm::radians(20.0));
+                const dvec3 sides[]
+                    = {axes * dvec3(c, 0, -s), axes * dvec3(-c, 0, -s), axes * dvec3(0, c, -s), axes * dvec3(0, -c, -s)};
+                const PixelBox box = pixels_in_pyramid(blocks, sides);
+                ivec2 low(1000), high(0);
+                double finest = 1;
+                for (int y = 0; y < pane.size.y; ++y)
+                    for (int x = 0; x < pane.size.x; ++x) {
+                        const auto& [n, angle] = all[std::size_t(y) * pane.size.x + x];
+                        bool in = angle > 0;
+                        for (const dvec3& side : sides)
+                            in &= glm::dot(side, n) >= 0;
+                        if (!in)
+                            continue;
+                        finest = std::min(finest, angle);
+                        low = glm::min(low, ivec2(x, y)), high = glm::max(high, ivec2(x, y) + 1);
+                    }
+                if (high.x == 0)
+                    continue;
+                EXPECT_TRUE(glm::all(glm::lessThanEqual(box.low, low)) && glm::all(glm::greaterThanEqual(box.high, high)));
+                EXPECT_LE(box.finest, finest * (1 + rounding));
+                // Not much more than needed: a block of 8 to each side and its neighbours. At the rim of the whole sphere's
+                // fisheye a block looks all round.
+                if (const auto* fisheye = std::get_if<Fisheye>(&projection); fisheye && fisheye->aperture_deg == 360)
+                    continue;
+                const ivec2 more = glm::max(low - box.low, box.high - high);
+                EXPECT_LE(std::max(more.x, more.y), 24);
+            }
+    }
+}

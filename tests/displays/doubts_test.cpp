@@ -1,0 +1,66 @@
+// What `check` doubts in a layout, and that it doubts none that is shipped.
+#include "displays/check/lint.h"
+#include "tests/support/files.h"
+#include <gtest/gtest.h>
+
+using namespace starbow;
+
+namespace {
+
+Layout of(std::vector<std::pair<Projection, glm::ivec2>> views)
+{
+    Layout layout;
+    for (const auto& [projection, size] : views) {
+        Output output;
+        output.name = std::string(1, char('a' + layout.outputs.size()));
+        output.size = size;
+        output.viewports = {{.projection = projection}};
+        layout.outputs.push_back(output);
+    }
+    return layout;
+}
+
+std::string told(const Layout& layout)
+{
+    std::string all;
+    for (const std::string& line : doubts(layout, coverages(layout)))
+        all += line + "\n";
+    return all;
+}
+
+bool has(const std::string& all, const std::string& part) { return all.find(part) != all.npos; }
+
+} // namespace
+
+TEST(DoubtsTest, NothingShippedIsDoubted)
+{
+    for (const auto& entry : std::filesystem::directory_iterator(starbow::testing::source_dir() / "config/layouts")) {
+        if (entry.path().extension() != ".json" || entry.path().stem() == "dome2") // which wants its meshes compiled
+            continue;
+        const Layout layout = load_layout(entry.path());
+        for (const std::string& line : doubts(layout, coverages(layout)))
+            EXPECT_TRUE(has(line, "monitors are not looked for")) << entry.path() << ": " << line;
+    }
+}
+
+TEST(DoubtsTest, UnitsPixelsLightAndDisplay)
+{
+    const Wall metres{{-2, -1, -3}, {2, -1, -3}, {-2, 1, -3}};
+    EXPECT_EQ(told(of({{metres, {400, 200}}})), "");
+    const Wall millimetres{{-2000, -1000, -3000}, {2000, -1000, -3000}, {-2000, 1000, -3000}};
+    EXPECT_TRUE(has(told(of({{millimetres, {400, 200}}})), "a: its wall is 4000 m wide; lengths are in metres"));
+    EXPECT_TRUE(has(told(of({{Planar{1.0472}, {400, 300}}})), "angles are in degrees"));
+    EXPECT_TRUE(has(told(of({{Fisheye{.aperture_deg = 3.1416}, {300, 300}}})), "angles are in degrees"));
+    EXPECT_TRUE(has(told(of({{metres, {400, 225}}})), "12.5 % wider than high"));
+    EXPECT_TRUE(has(told(of({{metres, {400, 190}}})), "higher than wide"));
+
+    Layout twice = of({{Planar{60, {}, {-30, 0, 0}}, {400, 300}}, {Planar{60, {}, {30, 0, 0}}, {400, 300}}});
+    EXPECT_TRUE(has(told(twice), "light it twice"));
+    twice.blend.ramps = true;
+    EXPECT_EQ(told(twice), "");
+
+    Layout high = of({{Planar{40, {}, {0, 60, 0}}, {400, 300}}});
+    EXPECT_TRUE(has(told(high), "is seen nowhere"));
+    high.hud.elevation_deg = 60;
+    EXPECT_EQ(told(high), "");
+}

@@ -1,0 +1,68 @@
+// Wherever a picture shows a direction, its inverse begins the search near by, on the right side of every seam.
+#include "displays/compile/inverse_map.h"
+#include "tests/support/files.h"
+#include "tests/support/pane.h"
+#include <cmath>
+
+using namespace starbow;
+
+namespace {
+
+/// The octahedron's net over cells, folded out plainly.
+glm::ivec2 cell_of(const glm::dvec3& n, int side)
+{
+    const double sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    double x = n.x / sum, y = n.y / sum;
+    if (n.z < 0) {
+        const double folded_x = (x < 0 ? -1 : 1) * (1 - std::abs(y)), folded_y = (y < 0 ? -1 : 1) * (1 - std::abs(x));
+        x = folded_x, y = folded_y;
+    }
+    return glm::min(glm::ivec2((x + 1) / 2 * side, (y + 1) / 2 * side), side - 1);
+}
+
+} // namespace
+
+TEST(InverseMapTest, EveryPixelIsNearWhereTheSearchForItBegins)
+{
+    struct Case {
+        const char* name;
+        Projection projection;
+        glm::ivec2 size;
+        double pole_deg; ///< towards which a row of pixels shows one point
+    };
+    for (const Case& c : {Case{"fisheye", Fisheye{180, 30}, {400, 400}, 90}, {"small", Fisheye{220, 30}, {60, 60}, 90},
+             {"panorama", Equirectangular{}, {600, 300}, 60}, {"cylinder", Cylinder{}, {600, 190}, 90},
+             {"cube", CubeFaces{}, {900, 150}, 90}}) {
+        const auto map = starbow::testing::pane_of(c.projection, c.size).map;
+        const InverseMap inverse = starbow::inverse(*map);
+        ASSERT_EQ(inverse.cells.size(), std::size_t(inverse.side) * inverse.side);
+        double farthest = 0;
+        for (int y = 0; y < c.size.y; ++y)
+            for (int x = 0; x < c.size.x; ++x) {
+                const glm::dvec3 n(map->at(x, y));
+                if (map->at(x, y).w == 0 || std::abs(n.y) > std::sin(glm::radians(c.pole_deg)))
+                    continue;
+                const glm::ivec2 at = cell_of(n, inverse.side);
+                const glm::uvec4 cell = inverse.cells[std::size_t(at.y) * inverse.side + at.x];
+                double off = 1e9;
+                for (int i = 0; i < 4 && cell[i] != InverseMap::none; ++i)
+                    off = std::min(off, glm::distance(glm::dvec2(cell[i] & 0xffff, cell[i] >> 16), glm::dvec2(x, y)));
+                farthest = std::max(farthest, off);
+            }
+        // Cells hold 16 pixels on average; those of the octahedron differ in size by up to five, a panorama's pixels by two.
+        std::printf("  %s: %d cells a side, %.1f pixels at most\n", c.name, inverse.side, farthest);
+        EXPECT_LT(farthest, 25) << c.name;
+    }
+}
+
+TEST(InverseMapTest, WhereNothingIsShownNothingIsFound)
+{
+    const auto map = starbow::testing::pane_of(Fisheye{180, 90}, {400, 400}).map; // the half of the sky ahead
+    const InverseMap inverse = starbow::inverse(*map);
+    int empty = 0;
+    for (const glm::uvec4& cell : inverse.cells)
+        empty += cell.x == InverseMap::none;
+    // Half of the cells, but for two rows beyond the rim.
+    EXPECT_GT(empty, int(0.35 * double(inverse.cells.size())));
+    EXPECT_LT(empty, int(0.5 * double(inverse.cells.size())));
+}

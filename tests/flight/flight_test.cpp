@@ -1,0 +1,389 @@
+// What a visitor's controls do to the ship: smooth, bounded, and safe whatever is pressed; the same at any frame rate.
+#include "runtime/flight/flight.h"
+#include "runtime/flight/history.h"
+#include "shaders/physics/physics.h"
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace starbow;
+using glm::dvec3;
+
+namespace {
+
+constexpr std::int64_t ms = 1'000'000;
+
+Shot start()
+{
+    Shot shot;
+    shot.position = {1, 2, 3};
+    shot.ship_from_cockpit = orientation({1, 0, -1}, {0, 1, 0});
+    return shot;
+}
+
+Flying with(FlightMode mode, double greatest_gamma = 100)
+{
+    Flying rules;
+    rules.mode = mode, rules.greatest_gamma = greatest_gamma;
+    return rules;
+}
+
+Flight hold(Flight flight, const Controls& controls, double seconds, const Flying& rules, std::int64_t dt = 16 * ms)
+{
+    for (std::int64_t left = std::llround(seconds * 1e9); left > 0; left -= dt)
+        flight = step(flight, controls, std::min(dt, left), rules, 1, start());
+    return flight;
+}
+
+double rapidity(const Flight& flight) { return std::asinh(glm::length(flight.ship.u.total())); }
+dvec3 nose_of(const Flight& flight) { return flight.ship.ship_from_cockpit * dvec3(0, 0, -1); }
+
+/// Angle between where the ship goes and where its nose points, in the ship's axes.
+double drift(const Flight& flight)
+{
+    const dvec3 way = glm::normalize(flight.ship.u.total()), nose = nose_of(flight);
+    return std::atan2(glm::length(glm::cross(way, nose)), glm::dot(way, nose));
+}
+
+Controls some_controls(std::mt19937& random)
+{
+    std::uniform_real_distribution<double> part(-1, 1);
+    Controls controls{.faster = 4 * part(random),
+        .push = {part(random), part(random), part(random)},
+        .turn = {part(random), part(random), part(random)},
+        .look_rad = {part(random), part(random)},
+        .exposure = part(random)};
+    if (random() % 2)
+        controls.lever = 0.5 + 0.5 * part(random);
+    return controls;
+}
+
+class Modes : public ::testing::TestWithParam<FlightMode> { };
+INSTANTIATE_TEST_SUITE_P(Flight, Modes, ::testing::Values(FlightMode::guided, FlightMode::free, FlightMode::newtonian));
+
+} // namespace
+
+// A minute of a visitor whose hand moves ten times a second, seen at 10, 60 and 1000 frames a second.
+TEST_P(Modes, FlyTheSameAtAnyFrameRate)
+{
+    const Flying rules = with(GetParam());
+    const auto flown = [&](std::int64_t dt) {
+        std::mt19937 random(7);
+        Flight flight = flight_at(start(), rules);
+        for (int tenth = 0; tenth < 600; ++tenth) {
+            Controls controls = some_controls(random);
+            controls.home = tenth == 300;
+            controls.stop = tenth == 400;
+            if (tenth == 401) // what a stop waits for
+                controls = {.lever = 0.0};
+            for (std::int64_t left = 100 * ms; left > 0; left -= dt) {
+                flight = step(flight, controls, std::min(dt, left), rules, 1, start());
+                controls.look_rad = {0, 0}, controls.home = controls.stop = false; // what is told once counts once
+            }
+        }
+        return flight;
+    };
+    const Flight slow = flown(100 * ms);
+    for (std::int64_t dt : {1 * ms, 16'666'667l, 333'333l}) {
+        const Flight fast = flown(dt);
+        EXPECT_EQ(slow.ticks, 60'000);
+        EXPECT_EQ(slow.ship.u.total(), fast.ship.u.total()) << dt;
+        EXPECT_EQ(slow.ship.position.total(), fast.ship.position.total());
+        EXPECT_EQ(slow.ship.ship_from_cockpit, fast.ship.ship_from_cockpit);
+        EXPECT_EQ(slow.ship.time.total(), fast.ship.time.total());
+        EXPECT_EQ(slow.turn_rad_s, fast.turn_rad_s);
+        EXPECT_EQ(slow.look_rad, fast.look_rad);
+        EXPECT_EQ(slow.exposure_ev, fast.exposure_ev);
+    }
+    EXPECT_GT(glm::length(slow.ship.u.total()), 0.01); // it went somewhere
+}
+
+// The lever's place is the speed: even in rapidity, reached without a swing beyond, and from above as from below.
+TEST(Flight, TheThrottlesPlaceIsTheSpeed)
+{
+    for (FlightMode mode : {FlightMode::guided, FlightMode::free}) {
+        const Flying rules = with(mode);
+        const double most = std::acosh(100.0);
+        for (double lever : {0.05, 0.25, 0.5, 1.0}) {
+            Flight flight = flight_at(start(), rules);
+            double before = 0;
+            for (int i = 0; i < 1500; ++i) {
+                flight = step(flight, {.lever = lever}, 10 * ms, rules, 1, start());
+                EXPECT_GE(rapidity(flight), before - 1e-9); // never back
+                EXPECT_LE(rapidity(flight) - before, rules.rapidity_per_s * 0.01 + 1e-9);
+                before = rapidity(flight);
+            }
+            EXPECT_NEAR(before, lever * most, 1e-5); // settle_s: e^-18 after what is left of 15 s
+            flight = hold(flight, {.lever = 0.5 * lever}, 15, rules);
+            EXPECT_NEAR(rapidity(flight), 0.5 * lever * most, 1e-5);
+            flight = hold(flight, {.lever = 0.0}, 15, rules);
+            EXPECT_EQ(flight.ship.u.total(), dvec3(0)); // rest, not nearly rest
+        }
+        // Straight ahead, and only there.
+        const Flight flight = hold(flight_at(start(), rules), {.lever = 1.0}, 10, rules);
+        EXPECT_LT(drift(flight), 1e-9);
+    }
+}
+
+TEST(Flight, KeysMoveTheThrottle)
+{
+    const Flying rules = with(FlightMode::guided);
+    Flight flight = hold(flight_at(start(), rules), {.faster = 1}, 2, rules);
+    EXPECT_NEAR(flight.lever, 2 * lever_per_s, 1e-9);
+    flight = hold(flight, {}, 10, rules);
+    EXPECT_NEAR(rapidity(flight), 2 * lever_per_s * std::acosh(100.0), 1e-5);
+    flight = hold(flight, {.faster = -4}, 3, rules);
+    EXPECT_EQ(flight.lever, 0);
+    EXPECT_EQ(hold(flight, {}, 10, rules).ship.u.total(), dvec3(0));
+}
+
+// At any speed the velocity comes to the nose, as the ship sees it, and the speed stays the throttle's.
+TEST(Flight, GuidedVelocityFollowsTheNose)
+{
+    for (double gamma : {1.0005, 1.2, 4.0, 100.0, 1e6}) {
+        SCOPED_TRACE(gamma);
+        const Flying rules = with(FlightMode::guided, gamma);
+        Flight flight = hold(flight_at(start(), rules), {.lever = 1.0}, 20, rules);
+        const dvec3 before = glm::normalize(flight.ship.u.total());
+        flight = hold(flight, {.lever = 1.0, .turn = {0.3, 1, 0}}, 2, rules);
+        EXPECT_GT(drift(flight), 0.1); // still on the way
+        flight = hold(flight, {.lever = 1.0}, 6, rules);
+        EXPECT_LT(drift(flight), 1e-4); // e^-12 of a radian, and what the turn has left
+        EXPECT_NEAR(rapidity(flight), std::acosh(gamma), 1e-4);
+        // In the world a fast ship turns less: what it sees of the way is drawn together ahead.
+        const double turned = std::acos(std::min(1.0, glm::dot(before, glm::normalize(flight.ship.u.total()))));
+        EXPECT_GT(turned, 0.3 / gamma);
+        EXPECT_LT(turned, 3 / gamma + 1e-6);
+    }
+    // A nose turned right round, too.
+    const Flying rules = with(FlightMode::guided);
+    Flight flight = hold(flight_at(start(), rules), {.lever = 0.3}, 10, rules);
+    flight.ship.ship_from_cockpit *= glm::angleAxis(M_PI, dvec3(0, 1, 0));
+    EXPECT_LT(drift(hold(flight, {.lever = 0.3}, 10, rules)), 1e-4);
+}
+
+TEST(Flight, FreeNosesLookWhereTheyLike)
+{
+    const Flying rules = with(FlightMode::free);
+    Flight flight = hold(flight_at(start(), rules), {.lever = 0.4}, 10, rules);
+    const dvec3 way = glm::normalize(flight.ship.u.total());
+    flight = hold(flight, {.lever = 0.4, .turn = {0, 1, 0}}, 3, rules);
+    flight = hold(flight, {.lever = 0.8}, 8, rules);
+    EXPECT_LT(glm::distance(glm::normalize(flight.ship.u.total()), way), 1e-9);
+    EXPECT_GT(drift(flight), 1);
+    EXPECT_NEAR(rapidity(flight), 0.8 * std::acosh(100.0), 1e-4);
+}
+
+// Constant thrust is hyperbolic motion (Misner, Thorne and Wheeler 1973, 6.2); a thrust let go is a speed kept.
+TEST(Flight, NewtonianThrustIsProperAcceleration)
+{
+    Flying rules = with(FlightMode::newtonian, 1e6);
+    rules.rapidity_jerk_per_s2 = 1e12; // at once: the closed form begins with the thrust
+    Flight flight = hold(flight_at(start(), rules), {.lever = 1.0}, 4, rules);
+    const double a = rules.rapidity_per_s, tau = 4;
+    EXPECT_NEAR(rapidity(flight), a * tau, 1e-11);
+    EXPECT_NEAR(flight.ship.time.total(), std::sinh(a * tau) / a, 1e-9 * std::sinh(a * tau));
+    EXPECT_NEAR(glm::distance(flight.ship.position.total(), start().position), (std::cosh(a * tau) - 1) / a,
+        1e-9 * std::cosh(a * tau));
+    const double kept = rapidity(flight);
+    flight = hold(flight, {.lever = 0.0, .turn = {1, 1, 1}}, 5, rules);
+    EXPECT_NEAR(rapidity(flight), kept, 1e-12);
+    // Thrusters to the side act in the cockpit's axes.
+    flight = hold(flight_at(start(), rules), {.push = {1, 0, 0}}, 1, rules);
+    EXPECT_NEAR(glm::dot(glm::normalize(flight.ship.u.total()), start().ship_from_cockpit * dvec3(1, 0, 0)), 1, 1e-12);
+    // A closed square of small boosts turns the cockpit by the area: Thomas-Wigner, w^2 to first order.
+    flight = flight_at(start(), rules);
+    const double w = key_rapidity_per_s * 0.2;
+    for (const dvec3& push : {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(-1, 0, 0), dvec3(0, -1, 0)})
+        flight = hold(flight, {.push = push}, 0.2, rules);
+    const double turned
+        = 2 * std::acos(std::min(1.0, std::abs(glm::dot(flight.ship.ship_from_cockpit, start().ship_from_cockpit))));
+    EXPECT_NEAR(turned, w * w, 0.02 * w * w);
+}
+
+TEST_P(Modes, StopIsAtOnceAndStays)
+{
+    const Flying rules = with(GetParam());
+    Flight flight = hold(flight_at(start(), rules), {.lever = 0.7, .turn = {0, 1, 0}}, 4, rules);
+    ASSERT_GT(rapidity(flight), 1);
+    const dvec3 place = flight.ship.position.total();
+    const glm::dquat axes = flight.ship.ship_from_cockpit;
+    Flight stopped = step(flight, {.lever = 0.7, .stop = true}, 0, rules, 1, start());
+    EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
+    EXPECT_EQ(stopped.ship.position.total(), place);
+    EXPECT_EQ(stopped.ship.ship_from_cockpit, axes);
+    // The throttle, still up, waits until it has been down.
+    stopped = hold(stopped, {.lever = 0.7}, 2, rules);
+    EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
+    stopped = hold(hold(stopped, {.lever = 0.0}, 0.1, rules), {.lever = 0.7}, 2, rules);
+    EXPECT_GT(rapidity(stopped), 0.5);
+    // So does a key.
+    flight = hold(flight_at(start(), rules), {.faster = 4}, 3, rules);
+    stopped = hold(step(flight, {.faster = 4, .stop = true}, 0, rules, 1, start()), {.faster = 4}, 1, rules);
+    EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
+    EXPECT_GT(rapidity(hold(hold(stopped, {}, 0.1, rules), {.faster = 4}, 2, rules)), 0.1);
+    // And a key that was let go before the stop leaves nothing to speed up to, nor does the way home.
+    flight = hold(hold(flight_at(start(), rules), {.faster = 4}, 3, rules), {}, 0.2, rules);
+    stopped = hold(step(flight, {.stop = true}, 0, rules, 1, start()), {}, 2, rules);
+    EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
+    flight = hold(step(flight, {.home = true}, 0, rules, 1, start()), {}, 60, rules);
+    EXPECT_FALSE(flight.homing);
+    EXPECT_EQ(flight.ship.u.total(), dvec3(0));
+}
+
+// A hand that leaves everything: the nose comes to rest, and the ship goes on straight.
+TEST_P(Modes, LettingGoIsSafe)
+{
+    const Flying rules = with(GetParam());
+    Flight flight = hold(flight_at(start(), rules), {.lever = 0.5, .turn = {1, -1, 1}}, 5, rules);
+    const Controls none{.lever = GetParam() == FlightMode::newtonian ? 0.0 : 0.5};
+    flight = hold(flight, none, 12, rules);
+    const dvec3 u = flight.ship.u.total();
+    const glm::dquat axes = flight.ship.ship_from_cockpit;
+    flight = hold(flight, none, 20, rules);
+    EXPECT_LT(glm::length(flight.turn_rad_s), 1e-9);
+    EXPECT_LT(glm::distance(flight.ship.u.total(), u), 1e-4 * glm::length(u));
+    EXPECT_NEAR(std::abs(glm::dot(axes, flight.ship.ship_from_cockpit)), 1, 1e-8);
+}
+
+TEST_P(Modes, BackToTheStartIsFlown)
+{
+    const Flying rules = with(GetParam());
+    for (double seconds : {0.0, 0.5, 20.0}) {
+        SCOPED_TRACE(seconds);
+        Flight flight = hold(flight_at(start(), rules), {.lever = 0.6, .turn = {0.2, 0.5, -0.1}}, seconds, rules);
+        flight = step(flight, {.lever = 0.6, .home = true}, 0, rules, 1, start());
+        for (int i = 0; i < 6000 && flight.homing; ++i) {
+            const Ship before = flight.ship;
+            flight = step(flight, {.lever = 0.6}, ms, rules, 1, start());
+            // No leap: no farther than the step's own flight, at the greater of its speeds, and the snap at the end.
+            const double most = std::max(glm::length(before.u.total()), glm::length(flight.ship.u.total()));
+            ASSERT_LE(glm::distance(before.position.total(), flight.ship.position.total()),
+                1.01 * most * 0.001 + 1e-6 + 1e-9 * glm::length(before.position.total()))
+                << i;
+        }
+        EXPECT_FALSE(flight.homing);
+        EXPECT_EQ(flight.ship.position.total(), start().position);
+        EXPECT_EQ(flight.ship.u.total(), dvec3(0));
+        EXPECT_EQ(flight.ship.ship_from_cockpit, start().ship_from_cockpit);
+        // And there it stays, though the throttle is still up.
+        flight = hold(flight, {.lever = 0.6}, 3, rules);
+        EXPECT_EQ(flight.ship.u.total(), dvec3(0));
+    }
+}
+
+TEST(Flight, UndoLeadsTenSecondsBackAndFurther)
+{
+    const Flying rules = with(FlightMode::guided);
+    Flight flight = flight_at(start(), rules);
+    History history;
+    std::vector<Flight> all;
+    for (int i = 0; i < 600; ++i) { // a minute
+        all.push_back(flight);
+        flight = step(flight, {.lever = 0.3, .turn = {0, 0.2, 0}}, 100 * ms, rules, 1, start());
+        history.keep(flight);
+    }
+    flight = history.back(flight);
+    EXPECT_EQ(flight.ship.position.total(), all[500].ship.position.total());
+    EXPECT_EQ(flight.ship.u.total(), all[500].ship.u.total());
+    EXPECT_EQ(flight.ticks, 60'000);
+    flight = history.back(flight);
+    EXPECT_EQ(flight.ship.position.total(), all[400].ship.position.total());
+    // No further back than is known, and without any history nowhere.
+    flight = history.back(history.back(flight));
+    EXPECT_TRUE(std::isfinite(flight.ship.position.total().x));
+    EXPECT_EQ(History().back(flight).ship.position.total(), flight.ship.position.total());
+}
+
+TEST(Flight, SwitchesAndReset)
+{
+    const Flying rules = with(FlightMode::guided);
+    Flight flight = step(flight_at(start(), rules), {.doppler = true}, 10 * ms, rules, 1, start());
+    EXPECT_TRUE(flight.effects.aberration && !flight.effects.doppler && flight.effects.headlight);
+    flight = step(flight, {.aberration = true, .doppler = true, .headlight = true, .false_colours = true, .hud = true},
+        10 * ms, rules, 1, start());
+    EXPECT_TRUE(!flight.effects.aberration && flight.effects.doppler && !flight.effects.headlight
+        && flight.effects.false_colours && !flight.hud);
+    flight = hold(flight, {.lever = 1.0, .turn = {1, 0, 0}, .exposure = 1}, 2, rules);
+    EXPECT_NEAR(flight.exposure_ev, 2 * exposure_ev_per_s, 1e-9);
+    flight = step(flight, {.next_mode = true}, 0, rules, 1, start());
+    EXPECT_EQ(flight.mode, FlightMode::free);
+    flight = step(flight, {.reset = true}, 10 * ms, rules, 1, start());
+    EXPECT_EQ(flight.ship.position.total(), start().position);
+    EXPECT_EQ(flight.ship.u.total(), dvec3(0));
+    EXPECT_TRUE(flight.effects.aberration && flight.effects.headlight);
+    EXPECT_FALSE(flight.hud) << "a display switched off stays off";
+}
+
+TEST(Flight, LookingAroundTurnsThePictureOnly)
+{
+    const Flying rules;
+    Shot level;
+    Flight flight = step(flight_at(level), {.look_rad = {0.5, 0.2}}, 10 * ms, rules, 1, level);
+    EXPECT_EQ(flight.ship.ship_from_cockpit, level.ship_from_cockpit);
+    dvec3 seen = shot_of(flight, "").ship_from_cockpit * dvec3(0, 0, -1);
+    EXPECT_NEAR(seen.x, -std::sin(0.5) * std::cos(0.2), 1e-12);
+    EXPECT_NEAR(seen.y, std::sin(0.2), 1e-12);
+    flight = step(flight, {.look_ahead = true}, 10 * ms, rules, 1, level);
+    EXPECT_EQ(flight.look_rad, glm::dvec2(0));
+}
+
+namespace {
+
+void expect_sane(const Flight& flight, double most_gamma, const std::string& when)
+{
+    const dvec3 u = flight.ship.u.total(), x = flight.ship.position.total(), t = flight.turn_rad_s;
+    ASSERT_TRUE(std::isfinite(u.x + u.y + u.z + x.x + x.y + x.z + t.x + t.y + t.z + flight.ship.time.total()
+        + flight.ship.proper_time.total() + flight.lever + flight.faster + flight.exposure_ev))
+        << when;
+    ASSERT_LE(physics::gamma_of(u), 1.001 * most_gamma)
+        << when; // a thrust across the flight at the limit still adds a little
+    ASSERT_NEAR(glm::length(flight.ship.ship_from_cockpit), 1, 1e-12) << when;
+}
+
+} // namespace
+
+TEST(Flight, AHundredThousandRandomStepsStaySane)
+{
+    for (double greatest : {3.0, 1e6}) {
+        const Flying rules = with(FlightMode::guided, greatest);
+        std::mt19937 random(1);
+        Flight flight = flight_at(start(), rules);
+        History history;
+        Controls controls;
+        for (int i = 0; i < 50000; ++i) {
+            if (i % 20 == 0)
+                controls = some_controls(random);
+            controls.stop = random() % 997 == 0;
+            controls.reset = random() % 4999 == 0;
+            controls.home = random() % 1511 == 0;
+            controls.next_mode = random() % 499 == 0;
+            controls.aberration = random() % 7 == 0, controls.doppler = random() % 7 == 0,
+            controls.headlight = random() % 7 == 0;
+            if (random() % 601 == 0)
+                flight = history.back(flight);
+            flight = step(flight, controls, random() % 10 == 0 ? 100 * ms : 16 * ms, rules, 1, start());
+            history.keep(flight);
+            // The way home may be faster than a visitor may fly.
+            expect_sane(flight, flight.homing ? 1e300 : greatest, std::to_string(i));
+            if (HasFatalFailure())
+                return;
+        }
+    }
+}
+
+// An hour at the limit, spinning; then right round at a gamma of a million.
+TEST(Flight, TheLimitsAreDull)
+{
+    for (FlightMode mode : {FlightMode::guided, FlightMode::free, FlightMode::newtonian}) {
+        const Flying rules = with(mode, 1e6);
+        Flight flight = hold(flight_at(start(), rules), {.lever = 1.0, .turn = {0.1, 0.1, 1}}, 600, rules, 100 * ms);
+        expect_sane(flight, 1e6, "after ten minutes");
+        EXPECT_NEAR(physics::gamma_of(flight.ship.u.total()), 1e6, 2e3);
+        flight.ship.ship_from_cockpit *= glm::angleAxis(M_PI, dvec3(0, 1, 0));
+        flight = hold(flight, {.lever = 1.0}, 40, rules, 100 * ms);
+        expect_sane(flight, 1e6, "turned round");
+        if (mode == FlightMode::guided) {
+            EXPECT_LT(drift(flight), 1e-3);
+        }
+    }
+}

@@ -1,0 +1,445 @@
+// Records: what is written is read back to the bit, a flight flown again is the same to the bit, and a wrong file is told.
+#include "config/model/shipped.h"
+#include "runtime/flight/history.h"
+#include "runtime/flight/record_files.h"
+#include "runtime/flight/record_replay.h"
+#include "runtime/flight/recorder.h"
+#include "runtime/flight/replay.h"
+#include "tests/support/files.h"
+#include <bit>
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace starbow;
+using namespace starbow::testing;
+
+namespace {
+
+/// Any double of a range, -0 and the smallest among them.
+double some(std::mt19937_64& random, double low, double high)
+{
+    switch (random() % 8) {
+    case 0:
+        return -0.0;
+    case 1:
+        return 4.9406564584124654e-324;
+    case 2:
+        return high;
+    default:
+        return std::uniform_real_distribution<double>(low, high)(random);
+    }
+}
+
+RecordEntry some_entry(std::mt19937_64& random)
+{
+    RecordEntry entry;
+    entry.dt_ns = std::int64_t(random() % 40'000'000);
+    if (random() % 3 > 0)
+        entry.exposure_ev = double(random() % 100000) / 3000 - 16;
+    entry.skipped_ns = random() % 50 == 0 ? std::int64_t(random() % 1'000'000'000'000) : 0;
+    entry.shown = random() % 10 != 0;
+    Controls& c = entry.controls;
+    const auto maybe = [&](auto& value, auto... range) {
+        if (random() % 3 == 0)
+            value = some(random, range...);
+    };
+    const auto maybe3 = [&](glm::dvec3& v, double most) {
+        for (int i = 0; i < 3; ++i)
+            maybe(v[i], -most, most);
+    };
+    if (random() % 3 == 0)
+        c.lever = std::uniform_real_distribution<double>(0, 1)(random);
+    maybe(c.faster, -4, 4);
+    maybe3(c.push, 1);
+    maybe3(c.turn, 1);
+    maybe(c.look_rad.x, -0.1, 0.1);
+    maybe(c.look_rad.y, -0.1, 0.1);
+    maybe3(c.head.moved_m, 10);
+    if (random() % 3 == 0)
+        c.head.turned = glm::angleAxis(some(random, -3, 3), glm::normalize(glm::dvec3(1, 2, 3)));
+    maybe(c.exposure, -1, 1);
+    for (bool Controls::*flag : {&Controls::look_ahead, &Controls::stop, &Controls::home, &Controls::undo, &Controls::reset,
+             &Controls::next_mode, &Controls::aberration, &Controls::doppler, &Controls::headlight, &Controls::hud,
+             &Controls::false_colours, &Controls::comparison, &Controls::full_screen, &Controls::quit, &Controls::pattern,
+             &Controls::save, &Controls::lock_exposure, &Controls::overlay, &Controls::mark, &Controls::log, &Controls::why})
+        c.*flag = random() % 200 == 0;
+    c.choose = random() % 20 == 0 ? int(random() % 3) - 1 : 0;
+    c.turn_by = random() % 20 == 0 ? int(random() % 21) - 10 : 0;
+    return entry;
+}
+
+std::vector<std::uint64_t> bits(const RecordEntry& e)
+{
+    const Controls& c = e.controls;
+    std::vector<std::uint64_t> all{
+        std::uint64_t(e.dt_ns), std::uint64_t(e.skipped_ns), e.shown, c.lever.has_value(), e.exposure_ev.has_value()};
+    for (double v : {c.lever.value_or(0), c.faster, c.push.x, c.push.y, c.push.z, c.turn.x, c.turn.y, c.turn.z, c.look_rad.x,
+             c.look_rad.y, c.head.moved_m.x, c.head.moved_m.y, c.head.moved_m.z, c.head.turned.w, c.head.turned.x,
+             c.head.turned.y, c.head.turned.z, c.exposure, e.exposure_ev.value_or(0)})
+        all.push_back(std::bit_cast<std::uint64_t>(v));
+    for (bool flag :
+        {c.look_ahead, c.stop, c.home, c.undo, c.reset, c.next_mode, c.aberration, c.doppler, c.headlight, c.false_colours,
+            c.comparison, c.hud, c.full_screen, c.quit, c.pattern, c.save, c.lock_exposure, c.overlay, c.mark, c.log, c.why})
+        all.push_back(flag);
+    all.push_back(std::uint64_t(c.choose));
+    all.push_back(std::uint64_t(c.turn_by));
+    return all;
+}
+
+RecordHeader some_header()
+{
+    RecordHeader header{.scene = "avenue", .layout = "desk", .scene_digest = 1, .layout_digest = ~0ull, .pattern = "none"};
+    header.seconds_per_time_unit = 0.1;
+    header.start.scene = "avenue";
+    header.start.position = {1.0 / 3, -2e10, 0.1};
+    header.start.u = {0.3, 1e-17, -1};
+    header.start.ship_from_cockpit = orientation({1, 0, -1}, {0, 1, 0.3});
+    header.start.effects.doppler = false;
+    header.start.exposure_ev = -0.7;
+    header.rules.mode = FlightMode::newtonian;
+    header.rules.greatest_gamma = 123.456;
+    return header;
+}
+
+void say_nothing(const std::string&) { }
+
+std::filesystem::path fresh(const std::string& name)
+{
+    std::filesystem::remove(scratch(name));
+    return scratch(name);
+}
+
+std::string first_line() { return text_of(some_header()); }
+
+/// Everything of a record, flown.
+Flight replayed(Replay& replay)
+{
+    const RecordHeader& header = replay.header();
+    Flight flight = flight_at(header.start, header.rules);
+    History history;
+    while (const auto entry = replay.next()) {
+        flight = flown(
+            flight, history, entry->controls, entry->dt_ns, header.rules, header.seconds_per_time_unit, header.start);
+        replay.compare(flight);
+    }
+    return flight;
+}
+
+void read_all(const std::filesystem::path& file)
+{
+    Replay replay(file);
+    while (replay.next())
+        replay.compare(flight_at(replay.header().start, replay.header().rules));
+}
+
+} // namespace
+
+TEST(Record, ControlsComeBackToTheBit)
+{
+    std::mt19937_64 random(1);
+    for (int i = 0; i < 20'000; ++i) {
+        const RecordEntry entry = some_entry(random);
+        std::string text = text_of(entry);
+        ASSERT_EQ(text.find('\n'), text.size() - 1);
+        text.pop_back();
+        const auto read = std::get<RecordEntry>(parse_record_line("f", 2, text));
+        ASSERT_EQ(bits(read), bits(entry)) << text;
+        ASSERT_EQ(read.controls.time_ns, entry.dt_ns + entry.skipped_ns);
+    }
+    EXPECT_EQ(text_of(RecordEntry{.dt_ns = 16666667}), "{\"dt_ns\":16666667}\n"); // what an idle frame costs
+}
+
+TEST(Record, TheHeaderComesBackToTheBit)
+{
+    const RecordHeader header = some_header();
+    std::string text = text_of(header);
+    text.pop_back();
+    const RecordHeader read = parse_record_header("f", text);
+    EXPECT_EQ(read.scene, header.scene);
+    EXPECT_EQ(read.layout, header.layout);
+    EXPECT_EQ(read.scene_digest, header.scene_digest);
+    EXPECT_EQ(read.layout_digest, header.layout_digest);
+    EXPECT_EQ(read.seconds_per_time_unit, header.seconds_per_time_unit);
+    EXPECT_EQ(digest(flight_at(read.start, read.rules)), digest(flight_at(header.start, header.rules)));
+    EXPECT_EQ(read.start.position, header.start.position);
+    EXPECT_EQ(read.rules.greatest_gamma, header.rules.greatest_gamma);
+    EXPECT_EQ(text_of(read), text_of(header));
+}
+
+// FNV-1a's published test vectors (Fowler, Noll, Vo: test_fnv.c).
+TEST(Record, TheDigestIsFnv1a)
+{
+    EXPECT_EQ(digest(""), 0xcbf29ce484222325u);
+    EXPECT_EQ(digest("a"), 0xaf63dc4c8601ec8cu);
+    EXPECT_EQ(digest("foobar"), 0x85944171f73967e8u);
+}
+
+// Every member of a flight counts in its digest, by its lowest bit.
+TEST(Record, TheDigestSeesEveryBit)
+{
+    Flight flight = flight_at(some_header().start);
+    flight.homing = Homing{};
+    const std::uint64_t before = digest(flight);
+    std::vector<double*> numbers{&flight.lever, &flight.faster, &flight.exposure_ev, &flight.look_rad.x, &flight.look_rad.y,
+        &flight.homing->braking, &flight.homing->elapsed_s, &flight.homing->rapidity_per_s};
+    for (glm::dvec3* v : {&flight.thrust, &flight.turn_rad_s, &flight.turn_lead_rad_s})
+        numbers.insert(numbers.end(), {&v->x, &v->y, &v->z});
+    for (Ship* ship : {&flight.ship, &flight.homing->from}) {
+        for (Sum3* s : {&ship->position, &ship->u})
+            for (Sum* sum : {&s->x, &s->y, &s->z})
+                numbers.insert(numbers.end(), {&sum->value, &sum->carry});
+        for (Sum* sum : {&ship->time, &ship->proper_time, &ship->distance})
+            numbers.insert(numbers.end(), {&sum->value, &sum->carry});
+        glm::dquat& q = ship->ship_from_cockpit;
+        numbers.insert(numbers.end(), {&q.w, &q.x, &q.y, &q.z});
+    }
+    EXPECT_EQ(numbers.size(), 8u + 9 + 2 * (12 + 6 + 4));
+    for (double* number : numbers) {
+        const double kept = *number;
+        *number = std::bit_cast<double>(std::bit_cast<std::uint64_t>(kept) ^ 1);
+        EXPECT_NE(digest(flight), before) << number - numbers[0];
+        *number = kept;
+    }
+    for (bool* flag : {&flight.held_back, &flight.hud, &flight.effects.aberration, &flight.effects.doppler,
+             &flight.effects.headlight, &flight.effects.false_colours, &flight.homing->arrived}) {
+        *flag = !*flag;
+        EXPECT_NE(digest(flight), before);
+        *flag = !*flag;
+    }
+    ++flight.ticks;
+    EXPECT_NE(digest(flight), before);
+    --flight.ticks;
+    ++flight.left_ns;
+    EXPECT_NE(digest(flight), before);
+    --flight.left_ns;
+    EXPECT_EQ(digest(flight), before);
+}
+
+// 100,000 frames of a hand gone wild, through the file: the same flight to the bit, and 10 s checks on the way.
+TEST(Record, AFlightIsFlownAgainToTheBit)
+{
+    std::mt19937_64 random(2);
+    const RecordHeader header = some_header();
+    const std::filesystem::path file = fresh("flight.jsonl");
+    Flight flight = flight_at(header.start, header.rules);
+    History history;
+    {
+        Recorder recorder(file, header, say_nothing);
+        for (int i = 0; i < 100'000; ++i) {
+            RecordEntry entry = some_entry(random);
+            entry.dt_ns /= 10; // 200 s
+            entry.controls.reset = random() % 20'000 == 0;
+            flight = flown(
+                flight, history, entry.controls, entry.dt_ns, header.rules, header.seconds_per_time_unit, header.start);
+            recorder.keep(entry, flight);
+        }
+        recorder.end(flight);
+        EXPECT_FALSE(recorder.failed());
+    }
+    EXPECT_GT(flight.ticks, 190'000);
+    Replay replay(file);
+    const Flight again = replayed(replay);
+    EXPECT_EQ(digest(again), digest(flight));
+    EXPECT_EQ(again.ship.u.total(), flight.ship.u.total());
+    EXPECT_EQ(again.ticks, flight.ticks);
+    EXPECT_GE(replay.checks(), 19);
+    EXPECT_EQ(replay.frames(), 100'000);
+    EXPECT_FALSE(replay.differs());
+    EXPECT_TRUE(replay.verdict().starts_with("the same to the bit")) << replay.verdict();
+    EXPECT_EQ(replay.verdict().find("cut"), std::string::npos) << replay.verdict();
+}
+
+// One control changed by its last bit: told, with where.
+TEST(Record, AnotherFlightIsTold)
+{
+    const RecordHeader header = some_header();
+    std::string text = first_line();
+    Flight flight = flight_at(header.start, header.rules);
+    History history;
+    for (int i = 0; i < 3000; ++i) {
+        RecordEntry entry{.dt_ns = 10'000'000, .controls = {.turn = {0.1, 0.2, 0.3}}};
+        flight
+            = flown(flight, history, entry.controls, entry.dt_ns, header.rules, header.seconds_per_time_unit, header.start);
+        if (i == 1500)
+            entry.controls.turn.x = std::nextafter(0.1, 1);
+        text += text_of(entry);
+        if (i % 1000 == 999)
+            text += text_of(RecordCheck{flight.ticks, digest(flight), i == 2999});
+    }
+    const std::filesystem::path file = write_text("other.jsonl", text);
+    Replay replay(file);
+    replayed(replay);
+    EXPECT_TRUE(replay.differs());
+    EXPECT_NE(replay.verdict().find("by 20 s of flight (" + file.string() + ":2003)"), std::string::npos)
+        << replay.verdict();
+}
+
+// A machine that crashed: the line that was being written is left out, with a word.
+TEST(Record, AnIncompleteLastLineIsLeftOut)
+{
+    std::string text = first_line() + text_of(RecordEntry{.dt_ns = 10}) + text_of(RecordEntry{.dt_ns = 10});
+    for (const std::size_t cut : {std::size_t(0), std::size_t(1), std::size_t(8)}) {
+        Replay replay(write_text("cut.jsonl", text.substr(0, text.size() - cut)));
+        replayed(replay);
+        EXPECT_EQ(replay.frames(), cut == 0 ? 2 : 1);
+        EXPECT_NE(replay.verdict().find(cut == 0 ? "no last line" : "incomplete"), std::string::npos) << replay.verdict();
+    }
+}
+
+TEST(Record, WrongFilesAreTold)
+{
+    const auto with = [](const std::string& line) { return first_line() + "{\"dt_ns\":1}\n" + line + "\n"; };
+    expect_wrong(read_all,
+        {{"[]\n", "", "[]", "starbow run --record has written"}, {"{}\n", "", "{}", "starbow run --record has written"},
+            {"{\"starbow_record\":2}\n", "/starbow_record", "2", "1 is right"},
+            {"{\"starbow_record\":\"one\"}\n", "/starbow_record", "\"one\"", "number"},
+            {with("{\"dt_ns\":-1}"), "/dt_ns", "-1", "too small"}, {with("{\"dt_ns\":1.5}"), "/dt_ns", "1.5", "whole"},
+            {with("{\"dt_ns\":1e300}"), "/dt_ns", "1e+300", "too large"},
+            {with("{\"dt_ns\":\"1\"}"), "/dt_ns", "\"1\"", "not a number"},
+            {with("{\"faster\":1}"), "", "{\"faster\":1}", "lacks \"dt_ns\""},
+            {with("{\"dt_ns\":1,\"lever\":2}"), "/lever", "2", "from 0 to 1"},
+            {with("{\"dt_ns\":1,\"turn\":[0,null,0]}"), "/turn/1", "null", "not a number"},
+            {with("{\"dt_ns\":1,\"turn\":[0,0]}"), "/turn", "[0,0]", "3 numbers"},
+            {with("{\"dt_ns\":1,\"head_turned\":[0,0,0,0]}"), "/head_turned", "[0,0,0,0]", "no turn"},
+            {with("{\"dt_ns\":1,\"undo\":1}"), "/undo", "1", "true"},
+            {with("{\"dt_ns\":1,\"undone\":true}"), "/undone", "true", "undo"},
+            {with("{\"ticks\":1,\"digest\":\"12\"}"), "/digest", "\"12\"", "16 hexadecimal"}});
+    const auto said = [&](const std::string& text) {
+        const auto file = write_text("wrong.jsonl", text);
+        const std::string message = complaint([&] { read_all(file); });
+        EXPECT_TRUE(message.starts_with(file.string() + ":")) << message;
+        EXPECT_TRUE(message.ends_with(" is right")) << message;
+        return message.substr(file.string().size());
+    };
+    EXPECT_TRUE(said("").starts_with(": is empty"));
+    EXPECT_TRUE(said("{\"starbow_rec").starts_with(":1: is cut off"));
+    EXPECT_TRUE(said("P6 800 600\n").starts_with(":1: column"));
+    EXPECT_TRUE(said(std::string(1 << 20, 'x')).starts_with(":1: is longer than"));
+    EXPECT_TRUE(said(with("{\"dt_ns\":1,\"faster\":NaN}")).starts_with(":3: column"));
+    EXPECT_TRUE(said(with("{\"dt_ns\":1,\"faster\":1e999}")).starts_with(":3: /faster"));
+    EXPECT_TRUE(said(with("{\"dt_ns\":2}\n{\"dt_ns\":-2}")).starts_with(":4: /dt_ns"));
+    const std::string last = text_of(RecordCheck{0, 0, true});
+    EXPECT_TRUE(said(with(last + last)).starts_with(":4: comes after the last line"));
+}
+
+TEST(Record, AnyDamageIsReadOrRefused)
+{
+    std::mt19937_64 random(3);
+    std::string text = first_line();
+    for (int i = 0; i < 8; ++i)
+        text += text_of(some_entry(random)) + (i % 4 == 3 ? text_of(RecordCheck{i, std::uint64_t(i)}) : "");
+    expect_survives(read_all, {text, text + text_of(RecordCheck{9, 9, true})});
+}
+
+TEST(Record, IsNeverWrittenOverAnotherFile)
+{
+    const std::filesystem::path there = write_text("there.jsonl", "mine");
+    EXPECT_NE(complaint([&] { Recorder(there, some_header(), say_nothing); }).find("is there already"), std::string::npos);
+    EXPECT_EQ(read_text(there), "mine");
+    EXPECT_NE(complaint([&] { Recorder("/no/such/folder/a.jsonl", some_header(), say_nothing); }).find("can't be written"),
+        std::string::npos);
+    // In a folder each flight has a file of its own.
+    const std::filesystem::path folder = scratch("flights");
+    std::filesystem::create_directories(folder);
+    for (int i = 0; i < 3; ++i)
+        Recorder(folder, some_header(), say_nothing);
+    int files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        ++files;
+        EXPECT_EQ(Replay(entry.path()).header().scene, "avenue");
+    }
+    EXPECT_EQ(files, 3);
+}
+
+// What was kept is on the disk a second or so later, whatever becomes of the program.
+TEST(Record, IsOnTheDiskASecondLater)
+{
+    const std::filesystem::path file = fresh("soon.jsonl");
+    Recorder recorder(file, some_header(), say_nothing);
+    recorder.keep({.dt_ns = 10}, flight_at(some_header().start));
+    const auto began = std::chrono::steady_clock::now();
+    while (read_text(file).find("\"dt_ns\":10") == std::string::npos) {
+        ASSERT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(5)); // one second, on a busy machine
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+}
+
+TEST(Record, AFullDiskEndsTheRecordWithASentence)
+{
+    std::vector<std::string> lines;
+    std::mutex mutex;
+    {
+        Recorder recorder("/dev/full", some_header(), [&](const std::string& line) {
+            const std::lock_guard lock(mutex);
+            lines.push_back(line);
+        });
+        const Flight flight = flight_at(some_header().start);
+        for (int i = 0; i < 1000 && !recorder.failed(); ++i) {
+            recorder.keep({.dt_ns = 10}, flight);
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        EXPECT_TRUE(recorder.failed());
+        recorder.keep({.dt_ns = 10}, flight);
+        recorder.end(flight);
+    }
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_NE(lines[0].find("/dev/full: can't be written (No space left on device)"), std::string::npos) << lines[0];
+}
+
+// In what it was flown is found again; a scene with another measure of time is refused, other changes are told.
+TEST(Record, KnowsWhatItWasFlownIn)
+{
+    const std::string scene = R"({ "gltf": "w.glb", "unit_m": 10, "light_speed_m_s": 5 })";
+    const std::filesystem::path scene_file = write_text("scene.json", scene);
+    write_text("w.glb", "glTF");
+    const Layout layout = load_layout(find("layouts", "desk"));
+    const RecordHeader header = header_of(scene_file, layout, {}, {}, {}, "none");
+    EXPECT_EQ(header.layout, "desk");
+    EXPECT_EQ(header.scene, scene_file.string());
+    EXPECT_EQ(header.seconds_per_time_unit, 2);
+    std::vector<std::string> lines;
+    const auto reopen = [&](const RecordHeader& h, const std::string& other = "") {
+        lines.clear();
+        return find_flown("a.jsonl", h, other, [&](const std::string& line) { lines.push_back(line); });
+    };
+    EXPECT_EQ(reopen(header).scene, scene_file);
+    EXPECT_TRUE(lines.empty());
+    EXPECT_EQ(reopen(header, "dome").layout.name, load_layout(find("layouts", "dome")).name);
+    EXPECT_TRUE(lines.empty());
+    RecordHeader other = header;
+    other.layout_digest ^= 1;
+    reopen(other);
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_NE(lines[0].find("layout desk has changed"), std::string::npos);
+    write_text("w.glb", "glTF 2");
+    reopen(header);
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_NE(lines[0].find("has changed since"), std::string::npos);
+    write_text("scene.json", R"({ "gltf": "w.glb", "unit_m": 10, "light_speed_m_s": 4 })");
+    EXPECT_NE(complaint([&] { reopen(header); }).find("a.jsonl:1: /seconds_per_time_unit: 2 is not"), std::string::npos);
+}
+
+// In a replay each frame comes when its time has: three of 30 ms take 90 at least, and what a stall skipped is not waited
+// for.
+TEST(Record, IsPlayedAtItsOwnPace)
+{
+    std::string text = first_line();
+    for (int i = 0; i < 3; ++i)
+        text += text_of(RecordEntry{.dt_ns = 30'000'000, .skipped_ns = 3'600'000'000'000, .controls = {.save = true}});
+    Tape tape(nullptr, std::make_unique<Replay>(write_text("pace.jsonl", text)));
+    EXPECT_TRUE(tape.replays());
+    RecordEntry entry;
+    ASSERT_TRUE(tape.play(entry)); // the first comes at once
+    const auto began = std::chrono::steady_clock::now();
+    Flight flight = flight_at(some_header().start);
+    int frames = 1;
+    for (tape.keep(entry, flight); tape.play(entry); ++frames) {
+        EXPECT_FALSE(entry.controls.save); // never writes into a layout
+        tape.keep(entry, flight);
+    }
+    const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    EXPECT_EQ(frames, 3);
+    EXPECT_GE(took, 0.029); // two frames, the first of which may follow one that came late by a frame
+    EXPECT_LT(took, 5);
+    EXPECT_EQ(entry.controls.time_ns, 3 * 3'600'030'000'000);
+}

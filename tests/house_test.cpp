@@ -1,0 +1,256 @@
+// The house rules, read from the repository itself: README's table says which room may include which, and every #include of
+// the repository is held against it.
+#include "tests/support/files.h"
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <regex>
+#include <set>
+
+using namespace starbow::testing;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A row of README's table: a folder without its last slash, and the folders that its files may include.
+struct Room {
+    std::string folder;
+    std::vector<std::string> may;
+};
+
+bool within(const std::string& path, const std::string& folder) { return path.starts_with(folder + "/"); }
+
+std::vector<std::string> quoted(const std::string& cell)
+{
+    static const std::regex code("`([^`]+)`");
+    std::vector<std::string> all;
+    for (std::sregex_iterator at(cell.begin(), cell.end(), code), end; at != end; ++at)
+        all.push_back((*at)[1]);
+    return all;
+}
+
+/// The rows of the one table whose head names "room" and "may include".
+std::vector<Room> rooms_of(const std::string& readme)
+{
+    static const std::regex row(R"(\| `([^`]+)/` \|[^|]*\|([^|]*)\|)");
+    std::vector<Room> rooms;
+    std::istringstream text(readme.substr(readme.find("| room | what it holds | may include |")));
+    std::string line;
+    while (std::getline(text, line) && line.starts_with("|")) {
+        std::smatch cells;
+        if (std::regex_match(line, cells, row))
+            rooms.push_back({cells[1], quoted(cells[2])});
+    }
+    return rooms;
+}
+
+struct Include {
+    std::string from, to; ///< files, from the repository's root; to: as written where no such file is found
+    bool found = false;
+};
+
+/// Each include with quotes in a source's text. exists: whether the repository holds a file.
+std::vector<Include> includes_of(
+    const std::string& file, const std::string& text, const std::function<bool(const std::string&)>& exists)
+{
+    static const std::regex include("(^|\n)[ \t]*#[ \t]*include[ \t]*\"([^\"]+)\"");
+    std::vector<Include> all;
+    for (std::sregex_iterator at(text.begin(), text.end(), include), end; at != end; ++at) {
+        const std::string written = (*at)[2];
+        Include one{file, written};
+        // Beside the file, from the root, and, in GLSL, from shaders/: as the compilers look.
+        for (const fs::path& folder : {fs::path(file).parent_path(), fs::path(), fs::path("shaders")}) {
+            const std::string path = (folder / written).lexically_normal().generic_string();
+            if (!one.found && exists(path))
+                one.to = path, one.found = true;
+        }
+        all.push_back(one);
+    }
+    return all;
+}
+
+std::vector<Include> includes_of_repository()
+{
+    static const std::set<std::string> sources{".h", ".cpp", ".glsl", ".vert", ".frag", ".comp"};
+    const fs::path root = source_dir();
+    std::vector<Include> all;
+    for (const char* top : {"config", "displays", "input", "runtime", "shaders", "tests"})
+        for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+            if (!sources.contains(entry.path().extension().string()))
+                continue;
+            const std::string file = fs::relative(entry.path(), root).generic_string();
+            const auto own = includes_of(
+                file, read_text(entry.path()), [&](const std::string& path) { return fs::is_regular_file(root / path); });
+            all.insert(all.end(), own.begin(), own.end());
+        }
+    return all;
+}
+
+const Room* room_of(const std::vector<Room>& rooms, const std::string& file)
+{
+    const Room* best = nullptr;
+    for (const Room& room : rooms)
+        if (within(file, room.folder) && (!best || room.folder.size() > best->folder.size()))
+            best = &room;
+    return best;
+}
+
+/// A sentence for each include that the table does not allow.
+std::vector<std::string> broken_rules(const std::vector<Room>& rooms, const std::vector<Include>& includes)
+{
+    std::vector<std::string> broken;
+    for (const Include& one : includes) {
+        if (!one.found) {
+            if (!one.to.starts_with("spirv/")) // made by the build
+                broken.push_back(one.from + " includes \"" + one.to + "\", which the repository does not hold");
+            continue;
+        }
+        const Room *from = room_of(rooms, one.from), *to = room_of(rooms, one.to);
+        if (!from || !to) {
+            broken.push_back((from ? one.to : one.from) + " is in no room of README's table");
+            continue;
+        }
+        const bool allowed = from == to || std::any_of(from->may.begin(), from->may.end(), [&](const std::string& folder) {
+            return within(one.to, folder);
+        });
+        if (!allowed)
+            broken.push_back(
+                one.from + " includes " + one.to + ": " + from->folder + "/ may not include " + to->folder + "/");
+    }
+    return broken;
+}
+
+/// The files of one cycle of includes, the first one twice; none: there is no cycle.
+std::vector<std::string> cycle(const std::vector<Include>& includes)
+{
+    std::map<std::string, std::vector<std::string>> next;
+    for (const Include& one : includes)
+        if (one.found)
+            next[one.from].push_back(one.to);
+    std::set<std::string> done;
+    std::vector<std::string> path, found;
+    const std::function<void(const std::string&)> visit = [&](const std::string& file) {
+        if (!found.empty() || done.contains(file))
+            return;
+        if (const auto at = std::find(path.begin(), path.end(), file); at != path.end()) {
+            found.assign(at, path.end());
+            found.push_back(file);
+            return;
+        }
+        path.push_back(file);
+        for (const std::string& to : next[file])
+            visit(to);
+        path.pop_back();
+        done.insert(file);
+    };
+    for (const Include& one : includes)
+        visit(one.from);
+    return found;
+}
+
+std::string lines(const std::vector<std::string>& all)
+{
+    std::string text;
+    for (const std::string& one : all)
+        text += one + "\n";
+    return text;
+}
+
+const std::vector<Room>& rooms()
+{
+    static const std::vector<Room> all = rooms_of(read_text(source_dir() / "README.md"));
+    return all;
+}
+const std::vector<Include>& includes()
+{
+    static const std::vector<Include> all = includes_of_repository();
+    return all;
+}
+
+} // namespace
+
+TEST(House, EveryIncludeFollowsTheTableInReadme)
+{
+    ASSERT_GE(rooms().size(), 20u);
+    ASSERT_GE(includes().size(), 900u); // all sources were found
+    EXPECT_EQ(lines(broken_rules(rooms(), includes())), "");
+}
+
+TEST(House, ARoomIncludesOnlyRoomsAboveItInTheTable)
+{
+    for (std::size_t i = 0; i < rooms().size(); ++i) {
+        EXPECT_TRUE(fs::is_directory(source_dir() / rooms()[i].folder)) << rooms()[i].folder;
+        // `runtime` and `displays` stand for all of their rooms; of those only the ones above may in fact be included.
+        for (const Include& one : includes())
+            if (one.found && room_of(rooms(), one.from) == &rooms()[i]) {
+                const Room* to = room_of(rooms(), one.to);
+                EXPECT_TRUE(to && to <= &rooms()[i]) << one.from << " includes " << one.to;
+            }
+    }
+}
+
+TEST(House, NoFilesIncludeEachOtherInACycle) { EXPECT_EQ(lines(cycle(includes())), ""); }
+
+TEST(House, NoCodeIncludesVulkanOutsideRenderExhibitAndTheirBenches)
+{
+    const std::regex vulkan("#[ \t]*include[ \t]*<(vulkan|GLFW)/");
+    for (const char* top : {"config", "displays", "input", "runtime"})
+        for (const auto& entry : fs::recursive_directory_iterator(source_dir() / top)) {
+            const std::string file = fs::relative(entry.path(), source_dir()).generic_string();
+            if (entry.is_regular_file() && (file.ends_with(".h") || file.ends_with(".cpp"))
+                && std::regex_search(read_text(entry.path()), vulkan))
+                EXPECT_TRUE(
+                    within(file, "runtime/render") || within(file, "runtime/exhibit") || file == "input/keyboard.cpp")
+                    << file;
+        }
+}
+
+/// starbow_room(NAME FOLDER LIBRARY...) in CMakeLists.txt: what is linked is what may be included.
+TEST(House, ARoomsLibraryLinksOnlyWhatTheTableAllows)
+{
+    const std::string cmake = read_text(source_dir() / "CMakeLists.txt");
+    static const std::regex call(R"((?:^|\n) *starbow_room\((\w+) ([\w/]+)([^)]*)\))");
+    std::map<std::string, std::string> folder_of;
+    std::vector<std::tuple<std::string, std::string>> calls;
+    for (std::sregex_iterator at(cmake.begin(), cmake.end(), call), end; at != end; ++at) {
+        folder_of["starbow_" + std::string((*at)[1])] = (*at)[2];
+        calls.emplace_back((*at)[2], (*at)[3]);
+    }
+    ASSERT_GE(calls.size(), 13u);
+    for (const auto& [folder, libraries] : calls) {
+        std::istringstream words(libraries);
+        for (std::string library; words >> library;) {
+            if (!folder_of.contains(library))
+                continue; // not a room
+            const std::string to = folder_of.at(library);
+            for (const Room& room : rooms())
+                if (room.folder == folder)
+                    EXPECT_TRUE(std::any_of(room.may.begin(), room.may.end(),
+                        [&](const std::string& may) { return to == may || within(to, may); }))
+                        << folder << " links " << library << ", whose room it may not include";
+        }
+    }
+}
+
+// The test itself: what it must find, planted.
+TEST(House, PlantedFaultsAreFound)
+{
+    const std::vector<Room> two{{"low", {}}, {"high", {"low"}}};
+    const auto exists = [](const std::string& path) {
+        return std::set<std::string>{"low/a.h", "low/b.h", "high/c.h", "stray/d.h"}.contains(path);
+    };
+    const auto includes = [&](const std::string& file, const std::string& text) { return includes_of(file, text, exists); };
+    EXPECT_EQ(lines(broken_rules(two, includes("high/c.h", "#include \"low/a.h\"\n#include <vector>\n"))), "");
+    EXPECT_EQ(lines(broken_rules(two, includes("low/a.h", "#pragma once\n#include \"high/c.h\"\n"))),
+        "low/a.h includes high/c.h: low/ may not include high/\n");
+    EXPECT_EQ(lines(broken_rules(two, includes("low/a.h", "  # include \"gone.h\"\n"))),
+        "low/a.h includes \"gone.h\", which the repository does not hold\n");
+    EXPECT_EQ(lines(broken_rules(two, includes("high/c.h", "#include \"stray/d.h\""))),
+        "stray/d.h is in no room of README's table\n");
+    std::vector<Include> both = includes("low/a.h", "#include \"b.h\"");
+    EXPECT_EQ(lines(cycle(both)), "");
+    for (const Include& one : includes("low/b.h", "#include \"a.h\""))
+        both.push_back(one);
+    EXPECT_EQ(lines(cycle(both)), "low/a.h\nlow/b.h\nlow/a.h\n");
+}

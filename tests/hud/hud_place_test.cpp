@@ -1,0 +1,82 @@
+// Where the head-up display stands: parallel to the flat screen that shows it, before the visitor everywhere else.
+#include "displays/projections/views.h"
+#include "runtime/hud/hud_place.h"
+#include <gtest/gtest.h>
+
+using namespace starbow;
+using glm::dvec3;
+
+namespace {
+
+glm::dmat3 placed(const HudPlacement& hud, const std::vector<Projection>& screens)
+{
+    Layout layout;
+    MapStore store{std::filesystem::path()};
+    std::vector<std::vector<CompiledPane>> panes;
+    for (const Projection& projection : screens) {
+        Output output;
+        output.size = {80, 60};
+        output.viewports = {{.projection = projection}};
+        layout.outputs.push_back(output);
+        panes.push_back(compile_output(store, layout, layout.outputs.size() - 1, output.size));
+    }
+    return panel_from_cockpit(hud, panes);
+}
+
+dvec3 towards(double azimuth_deg, double elevation_deg)
+{
+    const double a = glm::radians(azimuth_deg), e = glm::radians(elevation_deg);
+    return {std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e)};
+}
+
+/// The panel's place that a direction meets.
+glm::dvec2 met(const glm::dmat3& panel, const dvec3& direction)
+{
+    const dvec3 at = panel * direction;
+    return glm::dvec2(at) / at.z;
+}
+
+} // namespace
+
+TEST(HudPlaceTest, ItsMiddleIsWhereTheLayoutSays)
+{
+    for (const HudPlacement& hud : {HudPlacement{0, 0, 40}, HudPlacement{30, -20, 40}, HudPlacement{-150, 60, 20}})
+        for (const Projection& screen :
+            std::initializer_list<Projection>{Planar{60}, Fisheye{180, 30}, Planar{90, {}, {25, -10, 5}}}) {
+            const dvec3 middle = placed(hud, {screen}) * towards(hud.azimuth_deg, hud.elevation_deg);
+            EXPECT_NEAR(middle.x, 0, 1e-12);
+            EXPECT_NEAR(middle.y, 0, 1e-12);
+            EXPECT_GT(middle.z, 0.1);
+        }
+}
+
+TEST(HudPlaceTest, OnAFlatScreenItsLinesAreTheScreens)
+{
+    // Along a row of the screen the panel's height stays, whichever way the screen is turned.
+    for (const dvec3& turn : {dvec3(0, 0, 0), dvec3(0.1, 0, 0), dvec3(40, 0, 0), dvec3(20, 0.1, 0)}) {
+        const Planar screen{60, {}, {turn.x, turn.y, turn.z}};
+        const glm::dmat3 panel = placed({turn.x, -20, 40}, {Fisheye{120, 90}, screen});
+        const Picture picture{screen, {80, 60}};
+        const double height = met(panel, *direction(picture, {40, 50})).y;
+        for (double x : {5.0, 20.0, 75.0})
+            EXPECT_NEAR(met(panel, *direction(picture, {x, 50})).y, height, 1e-9) << turn.x << " " << turn.y;
+    }
+}
+
+TEST(HudPlaceTest, ItMovesWithoutAJump)
+{
+    const auto corner = [](double yaw) { return placed({0, -24.5, 62}, {Planar{60, {}, {yaw, 0, 0}}}) * towards(20, -28); };
+    EXPECT_LT(glm::distance(corner(0), corner(0.1)), 0.002); // 0.1 degrees are 0.0017
+}
+
+TEST(HudPlaceTest, ElsewhereItFacesTheVisitor)
+{
+    for (const auto& [azimuth, elevation] : {std::pair(0.0, -30.0), {100.0, 20.0}, {180.0, 0.0}}) {
+        const glm::dmat3 panel = placed({azimuth, elevation, 40}, {Planar{20, {}, {-60, 70, 0}}, Fisheye{180, 0}});
+        const dvec3 middle = towards(azimuth, elevation);
+        EXPECT_NEAR(glm::length(panel * middle - dvec3(0, 0, 1)), 0, 1e-12);
+        EXPECT_NEAR(met(panel, towards(azimuth + 5, elevation)).y, met(panel, towards(azimuth - 5, elevation)).y, 1e-12);
+        EXPECT_GT(met(panel, towards(azimuth + 5, elevation)).x, 0);
+        EXPECT_GT(met(panel, towards(azimuth, elevation + 5)).y, 0);
+    }
+}

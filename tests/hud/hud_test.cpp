@@ -1,0 +1,105 @@
+#include "runtime/hud/hud.h"
+#include "tests/support/files.h"
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace starbow;
+
+namespace {
+
+std::string field(const Readings& readings, const std::string& label, const Words& words = starbow::testing::words())
+{
+    for (const auto& [name, value] : hud_fields(readings, words))
+        if (name == label)
+            return value;
+    return "none";
+}
+
+Readings at_gamma(double gamma, const glm::dvec3& way = {0, 0, -1})
+{
+    Shot shot;
+    shot.u = way * std::sqrt((gamma - 1) * (gamma + 1));
+    return readings(ship_at(shot), SceneFile{}, {});
+}
+
+} // namespace
+
+TEST(Hud, TellsTheSpeedWithoutCancellation)
+{
+    EXPECT_EQ(field(at_gamma(1), "v/c"), "0.0000");
+    EXPECT_EQ(field(at_gamma(4), "v/c"), "0.9682");
+    EXPECT_EQ(field(at_gamma(4), "γ"), "4.000");
+    EXPECT_EQ(field(at_gamma(4), "D ahead"), "7.873");
+    EXPECT_EQ(field(at_gamma(1e6), "1 − v/c"), "5.0×10⁻¹³"); // 1/(2 gamma^2)
+    EXPECT_EQ(field(at_gamma(1e6), "D ahead"), "2.0×10⁶");
+    EXPECT_EQ(field(at_gamma(999999.9), "γ"), "1.0×10⁶"); // the form is chosen for the rounded figure
+}
+
+TEST(Hud, StraightAheadIsTheNose)
+{
+    EXPECT_NEAR(at_gamma(4, {1, 0, 0}).doppler_ahead, 0.25, 1e-12); // across the motion D = 1/gamma
+    EXPECT_NEAR(at_gamma(4, {0, 0, 1}).doppler_ahead, 4 - std::sqrt(15.0), 1e-12);
+}
+
+TEST(Hud, UnitsSuitTheSize)
+{
+    Readings r = at_gamma(1);
+    r.ship_s = 12.34, r.world_s = 5 * 365.25 * 86400, r.distance_m = 3 * 299792458.0;
+    EXPECT_EQ(field(r, "ship"), "12.3 s");
+    EXPECT_EQ(field(r, "world"), "5.000 years");
+    EXPECT_EQ(field(r, "flown"), "3.00 light-s");
+    r.light_speed_m_s = 5, r.distance_m = 12;
+    EXPECT_EQ(field(r, "flown"), "12.0 m");
+}
+
+TEST(Hud, EveryPanelHasLettersInsideItsPlate)
+{
+    Typesetter typesetter;
+    Readings longest = at_gamma(1e6);
+    longest.ship_s = longest.world_s = 16.6 * 60, longest.distance_m = 16.5 * 60 * 299792458.0;
+    for (const char* language : {"en", "de"})
+        for (int width : {160, 400, 1200}) {
+            SCOPED_TRACE(language + std::string(" ") + std::to_string(width));
+            Panel panel = typesetter.draw(longest, starbow::testing::words(language), width);
+            // Between two columns stands a gap, whatever the figures.
+            for (double gap : {0.405, 0.63})
+                for (int y = 0; y < panel.size.y * 8 / 10; ++y)
+                    EXPECT_LT(panel.texels[2 * (std::size_t(y) * panel.size.x + std::size_t(gap * width))], 128) << y;
+            ASSERT_EQ(panel.texels.size(), std::size_t(panel.size.x) * panel.size.y * 2);
+            long letters = 0, outside = 0;
+            for (std::size_t i = 0; i < panel.texels.size(); i += 2) {
+                letters += panel.texels[i] > 128;
+                outside += panel.texels[i] > 128 && panel.texels[i + 1] < 255;
+            }
+            EXPECT_GT(letters, width * panel.size.y / 60);
+            EXPECT_EQ(outside, 0);
+        }
+}
+
+TEST(Hud, SpeaksItsLanguage)
+{
+    const Words& german = starbow::testing::words("de");
+    EXPECT_EQ(field(at_gamma(4), "D voraus", german), "7,873");
+    EXPECT_EQ(field(at_gamma(1e6), "1 − v/c", german), "5,0×10⁻¹³");
+    Readings r = at_gamma(1);
+    r.world_s = 5 * 365.25 * 86400, r.distance_m = 3 * 299792458.0, r.exposure_ev = -1.25, r.exposure_locked = true;
+    EXPECT_EQ(field(r, "Welt", german), "5,000 Jahre");
+    EXPECT_EQ(field(r, "Weg", german), "3,00 Licht-s");
+    EXPECT_EQ(field(r, "Belichtung", german), "−1,3 EV fest");
+    EXPECT_EQ(shown_duration(-2.5, german), "−2,5 s");
+    EXPECT_EQ(shown_duration(-720, german), "−12,0 min");
+    EXPECT_EQ(shown_duration(-0.001, german, 2), "0,00 s"); // no minus before nothing
+}
+
+TEST(Hud, TheLightThatIsShownHasAName)
+{
+    EXPECT_EQ(light_name({}, starbow::testing::words()), "spectra shifted, times D³: as eyes see them");
+    EXPECT_EQ(light_name({.headlight = false}, starbow::testing::words()), "spectra shifted, without D³");
+    EXPECT_EQ(light_name({.doppler = false}, starbow::testing::words()), "colours unshifted, times D³");
+    EXPECT_EQ(light_name({.doppler = false, .headlight = false}, starbow::testing::words()), "colours as at rest");
+    EXPECT_EQ(light_name({.false_colours = true}, starbow::testing::words()),
+        "false colours: infrared red, visible green, ultraviolet blue");
+    Readings all = at_gamma(4);
+    all.effects = {.doppler = false, .false_colours = true};
+    EXPECT_EQ(field(all, "light"), "false colours: infrared red, visible green, ultraviolet blue, unshifted");
+}

@@ -1,0 +1,161 @@
+// What befalls devices in months of use: worn axes, short taps, several levers, and who of them is at the helm.
+#include "config/model/angles.h"
+#include "input/health.h"
+#include "input/lever.h"
+#include "input/mapping.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace starbow;
+
+namespace {
+
+constexpr std::int64_t ms = 1'000'000, s = 1000 * ms;
+constexpr double two_pi = 2 * pi;
+
+/// An axis of eight bits and a button, in one report of two bytes.
+const Descriptor stick{.fields = {{.usage = {1, 0x30}, .bits = 8, .logical_max = 255},
+                           {.usage = {1, 0x36}, .bit_offset = 8, .bits = 8, .logical_max = 255},
+                           {.usage = {9, 1}, .bit_offset = 16, .bits = 1, .logical_max = 1}},
+    .report_bits = {{0, 24}}};
+const Profile profile{.name = "stick",
+    .axes = {{.usage = 0x30, .role = AxisRole::nose_right, .dead_zone = 0.1, .curve = 1},
+        {.usage = 0x36, .role = AxisRole::throttle, .dead_zone = 0}},
+    .buttons = {{1, ButtonRole::stop}}};
+
+struct Hand {
+    Mapping mapping{stick, profile};
+    DeviceState state;
+    void report(std::uint8_t x, std::uint8_t slider, bool button, std::int64_t now_ns)
+    {
+        const std::array<std::uint8_t, 3> bytes{x, slider, button};
+        EXPECT_TRUE(take_report(stick, bytes, now_ns, state));
+    }
+    /// As Hid asks for each frame.
+    Controls asked(std::int64_t now_ns)
+    {
+        Controls controls;
+        mapping.add(state, now_ns, 0.016, controls);
+        state.tapped.assign(state.tapped.size(), false);
+        return controls;
+    }
+};
+
+} // namespace
+
+// A hand shakes a stick at most six or seven times a second; a worn track jumps with every report.
+TEST(AxisHealthTest, NoiseIsToldFromShaking)
+{
+    const auto noisy = [](double hertz, double size, double report_s) {
+        AxisHealth health;
+        for (double t = 0; t < 3; t += report_s)
+            health.take(0.5 + 0.5 * size * std::sin(two_pi * hertz * t), std::int64_t(t * 1e9) + 1);
+        return health.noisy(3 * s);
+    };
+    EXPECT_FALSE(noisy(7, 1, 0.008)); // as fast as anyone can, from end to end
+    EXPECT_TRUE(noisy(20, 0.2, 0.004));
+    EXPECT_FALSE(noisy(50, 0.02, 0.004)); // the last digits of a good sensor
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> anywhere(0, 1);
+    AxisHealth worn;
+    for (int i = 0; i < 250; ++i)
+        worn.take(anywhere(random), 4 * ms * i + 1);
+    EXPECT_TRUE(worn.noisy(1 * s));
+    // Calm for three seconds: believed again.
+    for (int i = 250; i < 1000; ++i)
+        worn.take(0.5, 4 * ms * i);
+    EXPECT_TRUE(worn.noisy(3 * s));
+    EXPECT_FALSE(worn.noisy(4 * s));
+}
+
+TEST(AxisHealthTest, ANoisyAxisIsNamedAndAsksForNothing)
+{
+    Hand hand;
+    for (int i = 0; i < 500; ++i)
+        hand.report(i % 2 ? 255 : 128, i % 2 ? 0 : 255, false, 1 + 4 * ms * i);
+    EXPECT_EQ(hand.asked(2 * s).turn, glm::dvec3(0));
+    EXPECT_TRUE(hand.mapping.levers().empty());
+    EXPECT_EQ(hand.mapping.troubles(), (std::vector<std::string>{"axis X jitters", "axis slider jitters"}));
+    hand.report(255, 255, false, 2 * s);
+    EXPECT_EQ(hand.asked(6 * s).turn, glm::dvec3(0, -1, 0));
+    EXPECT_EQ(hand.mapping.levers().size(), 1u);
+    EXPECT_TRUE(hand.mapping.troubles().empty());
+}
+
+// Something lies on the stick overnight, or its spring has broken.
+TEST(AxisHealthTest, AStuckAxisIsNamedAndAsksForNothingUntilItMoves)
+{
+    Hand hand;
+    hand.report(128, 200, false, 1);
+    hand.report(255, 200, false, 1 * s);
+    EXPECT_EQ(hand.asked(60 * s).turn.y, -1);
+    EXPECT_EQ(hand.asked(62 * s).turn.y, 0);
+    EXPECT_EQ(hand.mapping.troubles(), std::vector<std::string>{"axis X is stuck"}); // a lever may rest anywhere
+    EXPECT_EQ(hand.mapping.levers().size(), 1u);
+    hand.report(250, 200, false, 63 * s);
+    EXPECT_LT(hand.asked(63 * s).turn.y, -0.9);
+    // Let go it may stay so for ever.
+    hand.report(128, 200, false, 64 * s);
+    EXPECT_EQ(hand.asked(1000 * s).turn.y, 0);
+    EXPECT_TRUE(hand.mapping.troubles().empty());
+}
+
+TEST(AxisHealthTest, OffItsMiddleSinceItWasPluggedIn)
+{
+    Hand hand;
+    hand.report(0, 0, false, 5 * s);
+    EXPECT_EQ(hand.asked(6 * s).turn.y, 1);
+    EXPECT_EQ(hand.asked(66 * s).turn.y, 0);
+}
+
+// At ten frames per second a tap comes and goes between two readings.
+TEST(DevicesTest, NoTapIsTooShort)
+{
+    Hand hand;
+    hand.report(128, 0, false, 1);
+    EXPECT_FALSE(hand.asked(1).stop);
+    hand.report(128, 0, true, 2);
+    hand.report(128, 0, false, 3);
+    EXPECT_TRUE(hand.asked(4).stop);
+    EXPECT_FALSE(hand.asked(5).stop);
+    hand.report(128, 0, true, 6);
+    EXPECT_TRUE(hand.asked(7).stop);
+    hand.report(128, 0, true, 8);
+    EXPECT_FALSE(hand.asked(9).stop); // held
+}
+
+TEST(LeverTest, TheOneMovedLastCounts)
+{
+    LeverChoice choice;
+    Lever own{"stick", 3, 0.5, 0}, throttle{"throttle", 0, 0.2, 0};
+    const auto place = [&](std::int64_t now) {
+        const std::array both{own, throttle};
+        return choice.place(both, now);
+    };
+    EXPECT_EQ(place(1), 0.2); // no one has moved any: the slower
+    own.moved_ns = 5, own.place = 0.6;
+    EXPECT_EQ(place(6), 0.6);
+    throttle.moved_ns = 7, throttle.place = 0.9;
+    EXPECT_EQ(place(8), 0.9);
+    EXPECT_EQ(place(9), 0.9);
+}
+
+TEST(LeverTest, AnUnpluggedOneIsNotReplacedByOneThatLiesThere)
+{
+    LeverChoice choice;
+    const Lever slider{"stick", 3, 1.0, 4};
+    Lever throttle{"throttle", 0, 0.3, 6};
+    EXPECT_EQ(choice.place(std::array{slider, throttle}, 10), 0.3);
+    EXPECT_FALSE(choice.place(std::array{slider}, 20)); // coasts
+    EXPECT_FALSE(choice.place(std::array{slider}, 30));
+    throttle.moved_ns = 0; // plugged in anew, and not moved yet
+    EXPECT_EQ(choice.place(std::array{slider, throttle}, 40), 0.3);
+    EXPECT_EQ(choice.place(std::array{slider, throttle}, 50), 0.3);
+    EXPECT_FALSE(choice.place(std::array{slider}, 60));
+    Lever moved = slider;
+    moved.moved_ns = 70;
+    EXPECT_EQ(choice.place(std::array{moved}, 71), 1.0); // taken in hand
+    EXPECT_EQ(choice.place(std::array{moved, throttle}, 72), 1.0);
+    EXPECT_FALSE(LeverChoice().place({}, 1));
+}

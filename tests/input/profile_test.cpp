@@ -1,0 +1,286 @@
+// Profiles and what becomes of a device's values: every shipped profile on its real device, the shapes of axes, wrong files.
+#include "config/model/profile.h"
+#include "input/mapping.h"
+#include "tests/support/files.h"
+#include "tests/support/schema_check.h"
+#include <fstream>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+using namespace starbow;
+using namespace starbow::testing;
+using nlohmann::json;
+
+namespace {
+
+json json_of(const std::filesystem::path& file) { return json::parse(std::ifstream(file)); }
+
+Descriptor descriptor_of(const json& device)
+{
+    const std::string hex = device["descriptor_hex"];
+    std::vector<std::uint8_t> bytes;
+    for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
+        bytes.push_back(std::uint8_t(std::stoul(hex.substr(i, 2), nullptr, 16)));
+    return parse_descriptor(bytes);
+}
+
+std::optional<json> device(const std::string& vendor, const std::string& product)
+{
+    for (const auto& entry : std::filesystem::directory_iterator(source_dir() / "tests/hid"))
+        if (entry.path().extension() == ".json")
+            if (json found = json_of(entry.path()); found["vid"] == vendor && found["pid"] == product)
+                return found;
+    return {};
+}
+
+std::vector<std::filesystem::path> shipped()
+{
+    std::vector<std::filesystem::path> all;
+    for (const auto& entry : std::filesystem::directory_iterator(source_dir() / "config/profiles"))
+        all.push_back(entry.path());
+    return all;
+}
+
+/// Every axis in its middle, throttles too, nothing pressed, hats let go.
+DeviceState at_rest(const Descriptor& descriptor)
+{
+    DeviceState state;
+    for (const Field& field : descriptor.fields) {
+        const bool hat = field.usage == Usage{1, 0x39};
+        state.raw.push_back(field.bits == 1 ? 0
+                : hat                       ? field.logical_max + 1
+                                            : (field.logical_min + field.logical_max + 1) / 2);
+    }
+    return state;
+}
+
+std::size_t field(const Descriptor& descriptor, Usage usage)
+{
+    for (std::size_t i = 0; i < descriptor.fields.size(); ++i)
+        if (descriptor.fields[i].usage == usage)
+            return i;
+    throw std::runtime_error("no such field");
+}
+
+} // namespace
+
+TEST(ProfileTest, ShippedProfilesAreValidAndFitTheirDevices)
+{
+    int on_devices = 0;
+    EXPECT_GE(shipped().size(), 8u);
+    for (const auto& file : shipped()) {
+        SCOPED_TRACE(file.filename().string());
+        const json own = json_of(file);
+        EXPECT_TRUE(schema_accepts("profile", own));
+        const Profile profile = load_profile(file);
+        const auto real = device(own["vendor"], own["product"]);
+        if (!real)
+            continue;
+        ++on_devices;
+        const Descriptor descriptor = descriptor_of(*real);
+        for (const AxisUse& use : profile.axes)
+            EXPECT_NO_THROW(field(descriptor, {std::uint16_t(use.page), std::uint16_t(use.usage)})) << use.usage;
+        for (const ButtonUse& use : profile.buttons)
+            EXPECT_NO_THROW(field(descriptor, {9, std::uint16_t(use.button)})) << use.button;
+        // At rest it asks for nothing but the throttle's middle.
+        Controls controls;
+        Mapping mapping(descriptor, profile);
+        mapping.add(at_rest(descriptor), 0, 0.01, controls);
+        EXPECT_EQ(controls.turn, glm::dvec3(0));
+        EXPECT_EQ(controls.look_rad, glm::dvec2(0));
+        EXPECT_EQ(controls.faster, controls.faster);
+        EXPECT_FALSE(controls.stop || controls.home || controls.undo);
+        for (const Lever& lever : mapping.levers())
+            EXPECT_NEAR(lever.place, 0.5, 0.01);
+    }
+    EXPECT_GE(on_devices, 8);
+}
+
+TEST(ProfileTest, AnyDeviceFliesFromItsUsages)
+{
+    for (const auto& entry : std::filesystem::directory_iterator(source_dir() / "tests/hid")) {
+        if (entry.path().extension() != ".json")
+            continue;
+        SCOPED_TRACE(entry.path().filename().string());
+        const Descriptor descriptor = descriptor_of(json_of(entry.path()));
+        if (entry.path().filename().string().starts_with("sony-buzz") || entry.path().filename().string().starts_with("ion"))
+            continue; // buttons and keys alone: nothing to fly with
+        Mapping mapping(descriptor, usual_profile(descriptor));
+        Controls rest;
+        mapping.add(at_rest(descriptor), 0, 0.01, rest);
+        EXPECT_EQ(rest.turn, glm::dvec3(0));
+        // Some axis turns the nose to the right at its end, and back at the other.
+        bool turns = false;
+        for (std::size_t i = 0; i < descriptor.fields.size(); ++i) {
+            DeviceState state = at_rest(descriptor);
+            Controls high, low;
+            state.raw[i] = descriptor.fields[i].logical_max;
+            mapping.add(state, 0, 0.01, high);
+            state.raw[i] = descriptor.fields[i].logical_min;
+            mapping.add(state, 0, 0.01, low);
+            turns = turns || (descriptor.fields[i].bits > 1 && high.turn.y == -1 && low.turn.y == 1);
+        }
+        EXPECT_TRUE(turns);
+    }
+}
+
+// A stick of known make, by hand: right is right, back is up, forward on the slider is full speed.
+TEST(ProfileTest, AStickDoesWhatItsHandDoes)
+{
+    const Descriptor descriptor = descriptor_of(*device("044f", "b10a"));
+    Mapping mapping(descriptor, load_profile(source_dir() / "config/profiles/thrustmaster-t16000m.json"));
+    DeviceState state = at_rest(descriptor);
+    const auto asked = [&] {
+        Controls controls;
+        mapping.add(state, 0, 0.1, controls);
+        if (!mapping.levers().empty())
+            controls.lever = mapping.levers()[0].place;
+        return controls;
+    };
+    state.raw[field(descriptor, {1, 0x30})] = 16383;
+    EXPECT_EQ(asked().turn, glm::dvec3(0, -1, 0)); // to the right: against the right-handed turn about y
+    state = at_rest(descriptor);
+    state.raw[field(descriptor, {1, 0x31})] = 16383;
+    EXPECT_EQ(asked().turn, glm::dvec3(1, 0, 0));
+    state = at_rest(descriptor);
+    state.raw[field(descriptor, {1, 0x36})] = 0;
+    EXPECT_EQ(asked().lever, 1);
+    state.raw[field(descriptor, {1, 0x36})] = 255;
+    EXPECT_EQ(asked().lever, 0);
+    // A press counts once; the hat looks around; what was not told of asks for nothing.
+    state.raw[field(descriptor, {9, 1})] = 1;
+    EXPECT_TRUE(asked().stop);
+    EXPECT_FALSE(asked().stop);
+    state = at_rest(descriptor);
+    state.raw[field(descriptor, {1, 0x39})] = 2;
+    EXPECT_LT(asked().look_rad.x, -0.1);
+    state.raw.assign(descriptor.fields.size(), std::nullopt);
+    EXPECT_FALSE(asked().lever);
+    EXPECT_EQ(asked().turn, glm::dvec3(0));
+}
+
+TEST(ProfileTest, AxesAreShaped)
+{
+    const Field stick{.bits = 16, .logical_min = 0, .logical_max = 1000};
+    AxisUse use{.role = AxisRole::nose_up, .dead_zone = 0.1, .curve = 2};
+    EXPECT_EQ(shaped(use, stick, 500), 0);
+    EXPECT_EQ(shaped(use, stick, 549), 0);
+    EXPECT_EQ(shaped(use, stick, 1000), 1);
+    EXPECT_EQ(shaped(use, stick, 0), -1);
+    EXPECT_NEAR(shaped(use, stick, 775), 0.25, 1e-12); // half of the way beyond the dead zone, squared
+    use.inverted = true;
+    EXPECT_EQ(shaped(use, stick, 1000), -1);
+    // Calibrated: the ends are reached where the device's are, on both sides of its middle; also from high to low.
+    use = {.role = AxisRole::nose_up, .dead_zone = 0, .curve = 1, .range = std::array{100.0, 400.0, 900.0}};
+    EXPECT_EQ(shaped(use, stick, 50), -1);
+    EXPECT_EQ(shaped(use, stick, 250), -0.5);
+    EXPECT_EQ(shaped(use, stick, 650), 0.5);
+    use.range = std::array{900.0, 400.0, 100.0};
+    EXPECT_EQ(shaped(use, stick, 650), -0.5);
+    EXPECT_EQ(shaped(use, stick, 250), 0.5);
+    // A throttle runs from 0 to 1 and rests in its detents.
+    use = {.role = AxisRole::throttle, .dead_zone = 0.02, .curve = 1, .detents = {0.5}};
+    EXPECT_EQ(shaped(use, stick, 10), 0);
+    EXPECT_EQ(shaped(use, stick, 990), 1);
+    EXPECT_EQ(shaped(use, stick, 515), 0.5);
+    EXPECT_GT(shaped(use, stick, 560), 0.55);
+    // With the largest dead zone it is a switch, of which no place is no number.
+    use.dead_zone = 0.5;
+    EXPECT_EQ(shaped(use, stick, 400), 0);
+    EXPECT_EQ(shaped(use, stick, 500), 0);
+    EXPECT_EQ(shaped(use, stick, 600), 1);
+}
+
+TEST(ProfileTest, ReportsCutShortOrOfNoKnownNumberLeaveTheRest)
+{
+    const Descriptor descriptor = descriptor_of(*device("046d", "c626"));
+    DeviceState state;
+    const std::vector<std::uint8_t> first = {1, 10, 0, 20, 0, 30, 0}, cut = {1, 11, 0, 21}, unknown = {99, 1, 2, 3, 4, 5, 6};
+    EXPECT_TRUE(take_report(descriptor, first, 5, state));
+    EXPECT_EQ(state.raw[0], 10);
+    EXPECT_TRUE(take_report(descriptor, cut, 6, state));
+    EXPECT_EQ(state.raw[0], 11);
+    EXPECT_EQ(state.raw[1], 20);
+    EXPECT_FALSE(take_report(descriptor, unknown, 7, state));
+    EXPECT_FALSE(take_report(descriptor, {}, 8, state));
+    EXPECT_EQ(state.told_ns, 6);
+}
+
+TEST(ProfileTest, WrongProfilesAreRefused)
+{
+    const auto said = [](const std::string& text) {
+        try {
+            load_profile(write_text("profile.json", text));
+            return std::string("read");
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+    };
+    const std::string head = R"({ "name": "a", "vendor": "044f", "product": "b10a")";
+    EXPECT_EQ(said(head + "}"), "read");
+    for (const auto& [more, problem] : std::vector<std::pair<std::string, std::string>>{
+             {R"(, "axes": [{ "usage": 48, "role": "nose-upp" }])", "/axes/0/role: \"nose-upp\""},
+             {R"(, "axes": [{ "role": "nose-up" }])", "lacks \"usage\""},
+             {R"(, "axes": [{ "usage": 48, "role": "none", "dead_zone": 0.9 }])", "/axes/0/dead_zone: 0.9 is too large"},
+             {R"(, "axes": [{ "usage": 48, "role": "none", "range": [0, 9, 5] }])", "not between its ends"},
+             {R"(, "buttons": [{ "button": 0, "role": "stop" }])", "/buttons/0/button: 0 is too small"},
+             {R"(, "hat": { "z": "none" })", "/hat/z"}})
+        EXPECT_NE(said(head + more + "}").find(problem), std::string::npos) << said(head + more + "}");
+    EXPECT_NE(
+        said(R"({ "name": "a", "vendor": "44f", "product": "b10a" })").find("four hexadecimal digits"), std::string::npos);
+}
+
+TEST(ProfileTest, WhatIsWrittenReadsBackTheSame)
+{
+    std::vector<Profile> all;
+    for (const auto& file : shipped())
+        all.push_back(load_profile(file));
+    Profile full;
+    full.name = "\"Left\" \\ stick, \xc3\xa9";
+    full.vendor = 0x044f, full.product = 0xfffe, full.serial = "A/1 2";
+    full.axes = {{2, 0xbb, 3, AxisRole::throttle, true, 0.123, 2.5, std::array{4294967295.0, 0.5, -2147483648.0}, {0.1, 1}},
+        {1, 0x30, 0, AxisRole::none, false, 0, 1, std::array{-0.25, 1.0 / 3, 1e9}}};
+    full.buttons = {{128, ButtonRole::darker}, {1, ButtonRole::none}};
+    full.hat_y = AxisRole::push_back;
+    all.push_back(full);
+    Profile bare;
+    bare.name = "b", bare.vendor = 1, bare.product = 0;
+    all.push_back(bare);
+    const std::filesystem::path file = scratch("profiles/of/mine/written.json"); // folders that are not there yet
+    for (const Profile& profile : all) {
+        SCOPED_TRACE(profile.name);
+        save_profile(profile, file);
+        EXPECT_TRUE(schema_accepts("profile", json_of(file)));
+        const Profile back = load_profile(file);
+        EXPECT_EQ(back.name, profile.name);
+        EXPECT_EQ(back.vendor, profile.vendor);
+        EXPECT_EQ(back.product, profile.product);
+        EXPECT_EQ(back.serial, profile.serial);
+        EXPECT_EQ(back.axes, profile.axes);
+        EXPECT_EQ(back.buttons, profile.buttons);
+        EXPECT_EQ(back.hat_x, profile.hat_x);
+        EXPECT_EQ(back.hat_y, profile.hat_y);
+    }
+    // A name that is no UTF-8 loses what is wrong with it; the file loads.
+    bare.name = "a\xff";
+    save_profile(bare, file);
+    EXPECT_TRUE(load_profile(file).name.starts_with("a"));
+}
+
+TEST(ProfileTest, AProfileThatCantBeWrittenLeavesTheOldOne)
+{
+    Profile profile;
+    profile.name = "new";
+    const auto file = write_text("profile-kept.json", "old");
+    EXPECT_NE(
+        complaint([&] { save_profile(profile, file / "in-a-file.json"); }).find("can't be written"), std::string::npos);
+    EXPECT_NE(complaint([&] { save_profile(profile, file.parent_path()); }).find("is not a file"), std::string::npos);
+    EXPECT_EQ(read_text(file), "old");
+    // A link stays one: what it leads to is replaced.
+    const auto link = scratch("profile-link.json");
+    std::filesystem::remove(link);
+    std::filesystem::create_symlink(file, link);
+    save_profile(profile, link);
+    EXPECT_TRUE(std::filesystem::is_symlink(link));
+    EXPECT_EQ(load_profile(file).name, "new");
+}

@@ -1,0 +1,110 @@
+// A frame's time held by moving along the ladder: simulated, since real loads don't come twice.
+#include "runtime/operation/governor.h"
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace starbow;
+
+namespace {
+
+std::vector<Rung> ladder_of_times(const std::vector<double>& times)
+{
+    std::vector<Rung> ladder;
+    for (double ms : times)
+        ladder.push_back({{}, ms, 1 / ms, 0});
+    return ladder;
+}
+
+struct Flown {
+    int frames = 0, late = 0, moves = 0, most_moves_a_second = 0;
+    std::vector<std::size_t> rungs; ///< of each second's end
+};
+
+/// So many seconds at 60 Hz. load: what a millisecond of the ladder takes, by the time. A frame that is late holds up the
+/// next.
+Flown fly(Governor& governor, double seconds, const std::function<double(double)>& load, double noise = 0.03)
+{
+    constexpr double turn = 1000.0 / 60;
+    std::mt19937 random(7);
+    std::normal_distribution<double> chance(0, noise);
+    Flown flown;
+    std::vector<double> moves;
+    for (double now = 0; now < seconds;) {
+        const double own = governor.ladder()[governor.rung()].ms;
+        const double ms = load(now) * own * std::exp(chance(random));
+        ++flown.frames;
+        flown.late += ms > 1.5 * turn;
+        now += std::max(ms, turn) / 1000;
+        if (governor.drawn(now, ms)) {
+            ++flown.moves;
+            moves.push_back(now);
+            int near = 0;
+            for (double before : moves)
+                near += now - before < 1;
+            flown.most_moves_a_second = std::max(flown.most_moves_a_second, near);
+        }
+        if (flown.rungs.size() < std::size_t(now))
+            flown.rungs.push_back(governor.rung());
+    }
+    return flown;
+}
+
+const std::vector<double> times = {4, 5, 6.5, 8, 10, 13, 16, 20};
+
+} // namespace
+
+TEST(GovernorTest, HoldsUnderALoadThatDoublesAndHalvesEveryFiveSeconds)
+{
+    Governor governor(ladder_of_times(times), 1000.0 / 60);
+    const Flown flown = fly(governor, 120, [](double now) { return int(now / 5) % 2 ? 2.0 : 1.0; });
+    EXPECT_LE(flown.late, 0.01 * flown.frames);
+    EXPECT_LE(flown.most_moves_a_second, 2);
+    // No pumping: in the second minute it hardly ever goes up any more.
+    std::size_t changes = 0;
+    for (std::size_t s = 61; s < flown.rungs.size(); ++s)
+        changes += flown.rungs[s] != flown.rungs[s - 1];
+    EXPECT_LE(changes, 4u);
+}
+
+TEST(GovernorTest, TakesTheFinestThatFitsAndStays)
+{
+    for (double load : {0.5, 1.0, 1.7, 3.0}) {
+        Governor governor(ladder_of_times(times), 1000.0 / 60);
+        const Flown flown = fly(governor, 30, [&](double) { return load; });
+        // Within the quarter that is left as room, and not more than one step coarser.
+        std::size_t finest = 0;
+        for (std::size_t i = 0; i < times.size(); ++i)
+            if (load * times[i] <= 0.75 * 1000 / 60)
+                finest = i;
+        EXPECT_LE(std::abs(int(governor.rung()) - int(finest)), 1) << load;
+        for (std::size_t s = 10; s < flown.rungs.size(); ++s)
+            EXPECT_EQ(flown.rungs[s], flown.rungs[9]) << load << " at " << s;
+    }
+}
+
+TEST(GovernorTest, OneLateFrameIsChance)
+{
+    Governor governor(ladder_of_times(times), 1000.0 / 60);
+    fly(governor, 20, [](double) { return 1.0; });
+    const std::size_t before = governor.rung();
+    int frame = 0;
+    const Flown flown = fly(governor, 20, [&](double) { return ++frame % 97 == 0 ? 5.0 : 1.0; });
+    EXPECT_EQ(flown.moves, 0);
+    EXPECT_EQ(governor.rung(), before);
+}
+
+TEST(GovernorTest, WhatNothingHoldsIsDrawnOnTheFirstRung)
+{
+    Governor governor(ladder_of_times(times), 1000.0 / 60);
+    fly(governor, 10, [](double) { return 50.0; });
+    EXPECT_EQ(governor.rung(), 0u);
+    EXPECT_NE(told(governor).find("quality 1 of 8"), std::string::npos) << told(governor);
+}
+
+TEST(GovernorTest, OneRungIsEnough)
+{
+    Governor governor(ladder_of_times({10}), 1000.0 / 60);
+    EXPECT_EQ(fly(governor, 10, [](double now) { return now > 5 ? 9.0 : 0.1; }).moves, 0);
+}

@@ -1,0 +1,47 @@
+// The figures of starbow bench --input.
+#include "runtime/operation/latency.h"
+#include <gtest/gtest.h>
+
+using namespace starbow;
+
+// The worked example of nearest rank that textbooks have: 15, 20, 35, 40, 50.
+TEST(Latency, PercentilesAreOfNearestRank)
+{
+    const std::vector<double> five{35, 20, 15, 50, 40};
+    EXPECT_EQ(percentile(five, 0.05), 15);
+    EXPECT_EQ(percentile(five, 0.3), 20);
+    EXPECT_EQ(percentile(five, 0.4), 20);
+    EXPECT_EQ(percentile(five, 0.5), 35);
+    EXPECT_EQ(percentile(five, 1), 50);
+    EXPECT_EQ(percentile({}, 0.5), 0);
+    EXPECT_EQ(percentile({7}, 0.99), 7);
+    // Of 1 to 100 the n-th percentile is n, also where n / 100 times 100 is not n in binary.
+    std::vector<double> hundred;
+    for (int i = 100; i > 0; --i)
+        hundred.push_back(i);
+    for (int i = 1; i <= 100; ++i)
+        EXPECT_EQ(percentile(hundred, i / 100.0), i);
+}
+
+// Four frames of 16 ms: a report before the first, one that waits a frame, none, two of which the last counts.
+TEST(Latency, AReportCountsInTheFrameThatFirstShowsIt)
+{
+    constexpr std::int64_t ms = 1'000'000;
+    Latency latency;
+    latency.add({.told_ns = 95 * ms, .read_ns = 100 * ms, .handed_ns = 102 * ms, .shown_ns = 110 * ms});
+    latency.add({.told_ns = 101 * ms, .read_ns = 116 * ms, .handed_ns = 119 * ms, .shown_ns = 126 * ms});
+    latency.add({.told_ns = 101 * ms, .read_ns = 132 * ms, .handed_ns = 133 * ms, .shown_ns = 142 * ms});
+    latency.add({.told_ns = 147 * ms, .read_ns = 148 * ms, .handed_ns = 152 * ms, .shown_ns = 160 * ms});
+    EXPECT_EQ(latency.frames(), 4u);
+    EXPECT_EQ(latency.reports(), 3u);
+    EXPECT_DOUBLE_EQ(latency.seconds(), 0.05);
+    EXPECT_EQ(latency.report_ms(), (std::vector<double>{15, 25, 13}));
+    EXPECT_EQ(latency.frame_ms(), (std::vector<double>{16, 16, 18}));
+    EXPECT_EQ(latency.own_ms(), (std::vector<double>{2, 3, 1, 4}));
+    EXPECT_EQ(latency.present_ms(), (std::vector<double>{8, 7, 9, 8}));
+    EXPECT_EQ(latency.bound_ms(), (std::vector<double>{15, 26, 26, 28}));
+    EXPECT_NE(latency.told().find("15.00     25.00     25.00"), std::string::npos) << latency.told();
+    // Stamped before the last controls were read, and handed over after.
+    latency.add({.told_ns = 147 * ms + 1, .read_ns = 164 * ms, .handed_ns = 165 * ms, .shown_ns = 166 * ms});
+    EXPECT_NEAR(latency.bound_ms().back(), 19, 1e-5);
+}

@@ -1,0 +1,186 @@
+// Culling and detail by themselves: nothing that a pixel could see is left out, and coarser surfaces stay close.
+#include "config/model/angles.h"
+#include "runtime/plan/cull.h"
+#include "runtime/world/detail.h"
+#include "runtime/world/vantage.h"
+#include "tests/support/boxes.h"
+#include <glm/gtc/quaternion.hpp>
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace starbow;
+using starbow::testing::boxes;
+
+namespace {
+
+bool ray_hits(const Instance& instance, const Primitive& primitive, const glm::dvec3& eye, const glm::dvec3& way)
+{
+    glm::dmat4 local = glm::inverse(instance.frame_from_local);
+    glm::dvec3 from = local * glm::dvec4(eye, 1), along = local * glm::dvec4(way, 0);
+    double first = 0, last = 1e300;
+    for (int i = 0; i < 3; ++i) {
+        double a = (primitive.low[i] - from[i]) / along[i], b = (primitive.high[i] - from[i]) / along[i];
+        first = std::max(first, std::min(a, b));
+        last = std::min(last, std::max(a, b));
+    }
+    return first < last;
+}
+
+} // namespace
+
+TEST(Cull, KeepsWhatAnyDirectionOfAnImageHits)
+{
+    World world = boxes(60, 5);
+    glm::dvec3 eye(0.3, -0.2, 0.5);
+    glm::dmat3 turn = glm::mat3_cast(glm::normalize(glm::dquat(0.3, -0.5, 0.2, 0.9)));
+    std::vector<PlanImage> images;
+    for (int face = 0; face < 6; ++face)
+        images.push_back({0, face, {-0.6, -0.3}, {0.5, 1}, {64, 64}, {0, 0}, 64, 1});
+    images.push_back({SLOT_REAR, 1, {-1, -1}, {1, 1}, {64, 64}, {0, 0}, 32, 1, 0.6});
+    DrawList list = cull(world, {{Vantage{0, eye, 0, turn}}}, images);
+    ASSERT_EQ(list.instances.size(), world.instances.size());
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> part(0, 1);
+    long hits = 0, drawn = 0;
+    for (std::uint32_t i = 0; i < images.size(); ++i) {
+        std::vector<bool> kept(world.instances.size());
+        for (const Draw& draw : list.draws)
+            if (draw.image == i)
+                for (std::uint32_t k = 0; k < draw.count; ++k)
+                    kept[list.visible[draw.first + k]] = true, ++drawn;
+        for (int ray = 0; ray < 2000; ++ray) {
+            glm::dvec2 at = images[i].low + glm::dvec2(part(random), part(random)) * (images[i].high - images[i].low);
+            if (std::max(std::abs(at.x), std::abs(at.y)) < images[i].hole)
+                continue;
+            glm::dvec3 way = glm::transpose(turn) * face_direction(images[i].face, at);
+            for (std::size_t k = 0; k < world.instances.size(); ++k)
+                if (ray_hits(world.instances[k], world.primitives[0], eye, way)) {
+                    ++hits;
+                    ASSERT_TRUE(kept[k]) << "image " << i << " instance " << k;
+                }
+        }
+    }
+    EXPECT_GT(hits, 1000);
+    EXPECT_LT(drawn, long(images.size() * world.instances.size() * 2 / 3)) << "hardly anything was culled";
+}
+
+TEST(Cull, InstancesMoveAroundTheEyeInDouble)
+{
+    World world = boxes(1, 1);
+    world.instances[0].frame_from_local[3] = glm::dvec4(1e9, 2, -3, 1);
+    DrawList list = cull(world, {{Vantage{0, {1e9 - 0.001, 2, -3}}}}, {});
+    EXPECT_NEAR(list.instances[0].row0.w, 0.001, 1.2e-7); // a double at 1e9 resolves 1.2e-7
+    EXPECT_EQ(list.instances[0].row1.w, 0);
+}
+
+TEST(Detail, CoarserSurfacesStayWithinTheirError)
+{
+    // A ball of 96 x 48: every vertex of a level lies on it, and every middle of a triangle within the level's error of it.
+    World world;
+    world.materials.push_back({});
+    constexpr int n = 48;
+    for (int j = 0; j <= n; ++j)
+        for (int i = 0; i <= 2 * n; ++i) {
+            double t = pi * j / n, f = pi * i / n;
+            glm::vec3 d(std::sin(t) * std::cos(f), std::cos(t), std::sin(t) * std::sin(f));
+            world.vertices.push_back({d, d, {float(i) / (2 * n), float(j) / n}, 0xffffffff});
+        }
+    for (std::uint32_t j = 0; j < n; ++j)
+        for (std::uint32_t i = 0; i < 2 * n; ++i) {
+            std::uint32_t a = j * (2 * n + 1) + i, b = a + 1, c = a + 2 * n + 1, d = c + 1;
+            for (std::uint32_t k : {a, b, c, b, d, c})
+                world.indices.push_back(k);
+        }
+    world.primitives.push_back({.first_index = 0,
+        .index_count = std::uint32_t(world.indices.size()),
+        .vertex_offset = 0,
+        .material = 0,
+        .low = glm::dvec3(-1),
+        .high = glm::dvec3(1),
+        .centre = {0, 0, 0},
+        .radius = 1,
+        .coarser = {}});
+    add_detail_levels(world);
+    const Primitive& ball = world.primitives[0];
+    ASSERT_GE(ball.coarser.size(), 3u);
+    double last_error = 0;
+    std::uint32_t last_count = ball.index_count;
+    for (const DetailLevel& level : ball.coarser) {
+        EXPECT_LT(level.index_count, last_count);
+        EXPECT_GE(level.error, last_error);
+        last_count = level.index_count, last_error = level.error;
+        double worst = 0;
+        for (std::uint32_t i = 0; i < level.index_count; i += 3) {
+            glm::dvec3 middle(0);
+            for (int k = 0; k < 3; ++k)
+                middle += glm::dvec3(world.vertices[world.indices[level.first_index + i + k]].position) / 3.0;
+            worst = std::max(worst, 1 - glm::length(middle));
+        }
+        // The simplifier's error is a mean over planes, not a bound; a factor of four holds for balls.
+        EXPECT_LT(worst, 4 * level.error + 0.002) << level.index_count;
+    }
+}
+
+TEST(Detail, TellsWhereItIsShadedOtherwise)
+{
+    // Two pipes alike in depth but for ripples of a thousandth, whose normals turn by 30 degrees either way.
+    auto pipe = [](double tilt) {
+        World world;
+        world.materials.push_back({});
+        constexpr int around = 192, along = 8;
+        for (int j = 0; j <= along; ++j)
+            for (int i = 0; i <= around; ++i) {
+                const double f = 2 * pi * i / around, lean = tilt * std::sin(24 * f);
+                const double r = 1 - 0.001 * (tilt > 0) * std::cos(24 * f);
+                world.vertices.push_back({glm::vec3(r * std::cos(f), 0.05 * j, r * std::sin(f)),
+                    glm::vec3(std::cos(f + lean), 0, std::sin(f + lean)), {0, 0}, 0xffffffff});
+            }
+        for (std::uint32_t j = 0; j < along; ++j)
+            for (std::uint32_t i = 0; i < around; ++i) {
+                const std::uint32_t a = j * (around + 1) + i, b = a + 1, c = a + around + 1, d = c + 1;
+                for (std::uint32_t k : {a, c, b, b, c, d})
+                    world.indices.push_back(k);
+            }
+        world.primitives.push_back({.first_index = 0,
+            .index_count = std::uint32_t(world.indices.size()),
+            .vertex_offset = 0,
+            .material = 0,
+            .low = glm::dvec3(-1, 0, -1),
+            .high = glm::dvec3(1, 0.4, 1),
+            .centre = {0, 0.2, 0},
+            .radius = 1.1,
+            .coarser = {}});
+        add_detail_levels(world);
+        return world.primitives[0].coarser;
+    };
+    const auto smooth = pipe(0), rippled = pipe(30 * pi / 180);
+    ASSERT_GE(smooth.size(), 3u);
+    ASSERT_GE(rippled.size(), 3u);
+    // With an eighth of the triangles the ripples, 0.26 from one to the next, are gone; a round pipe shades as before.
+    EXPECT_LT(smooth[2].shading, 0.004);
+    EXPECT_GT(rippled[2].shading, 0.02);
+    EXPECT_LT(rippled[0].error, 0.01);
+}
+
+TEST(Detail, LeavesCloudsOfSmallThingsAlone)
+{
+    World world;
+    world.materials.push_back({});
+    for (int i = 0; i < 500; ++i)
+        for (int k = 0; k < 3; ++k) {
+            world.indices.push_back(std::uint32_t(world.vertices.size()));
+            world.vertices.push_back(
+                {{i % 25 + 0.1f * (k == 1), i / 25 + 0.1f * (k == 2), 0}, {0, 0, 1}, {0, 0}, 0xffffffff});
+        }
+    world.primitives.push_back({.first_index = 0,
+        .index_count = 1500,
+        .vertex_offset = 0,
+        .material = 0,
+        .low = {0, 0, 0},
+        .high = {25, 20, 0},
+        .centre = {12, 10, 0},
+        .radius = 16,
+        .coarser = {}});
+    add_detail_levels(world);
+    EXPECT_TRUE(world.primitives[0].coarser.empty());
+}

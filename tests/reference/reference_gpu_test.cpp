@@ -1,0 +1,151 @@
+// The live picture against the one by rays, which shares neither the cube map nor the warp with it: in every shipped layout,
+// in worlds with clocks, bodies, lines and glows, and the closer the finer the cube map is.
+#include "runtime/images/picture_errors.h"
+#include "runtime/reference/reference.h"
+#include "tests/support/stage.h"
+
+using namespace starbow;
+using namespace starbow::gpu_test;
+
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+double psnr(const Bytes& a, const Bytes& b)
+{
+    const ivec2 size(int(a.size() / 4), 1);
+    return psnr_dB({size, a}, {size, b});
+}
+
+double mean(const Bytes& a)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (i % 4 < 3)
+            sum += a[i];
+    return sum / (0.75 * double(a.size()));
+}
+
+/// A layout whose longer sides are so many pixels.
+Layout small_layout(const std::filesystem::path& file, int side)
+{
+    Layout layout = load_layout(file);
+    for (Output& output : layout.outputs) {
+        const double scale = double(side) / std::max(output.size.x, output.size.y);
+        output.size = glm::max(ivec2(glm::round(dvec2(output.size) * scale)), 16);
+    }
+    return layout;
+}
+
+Shot shipped_shot(const std::string& name)
+{
+    return load_shot(starbow::testing::source_dir() / "config/shots" / (name + ".json"));
+}
+
+const ReferenceWorld& avenue_by_rays()
+{
+    static const ReferenceWorld world = open_reference_world(starbow::testing::source_dir() / "config/scenes/avenue.json");
+    return world;
+}
+
+} // namespace
+
+TEST(LivePicture, ConvergesToTheOneByRaysInEveryShippedLayout)
+{
+    const Shot shot = shipped_shot("avenue-gamma4");
+    for (const auto& file : starbow::testing::shipped("config/layouts")) {
+        const Layout layout = small_layout(file, 128);
+        std::vector<Bytes> truth;
+        for (std::size_t i = 0; i < layout.outputs.size(); ++i)
+            truth.push_back(shown(reference(avenue_by_rays().input(), layout, shot, i, {.samples = 8})));
+        std::vector<double> before(layout.outputs.size(), 0);
+        for (double texels : {0.6, 2.0}) {
+            Quality quality = test_quality();
+            quality.texels_per_pixel = texels, quality.most_texels_per_pixel = 200;
+            Studio live(device(), pipelines(), avenue().world, layout, quality, false);
+            const auto pictures = live.picture(shot);
+            for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
+                ASSERT_EQ(pictures[i].size(), truth[i].size());
+                const std::string name = file.stem().string() + ", " + layout.outputs[i].name;
+                const double now = psnr(pictures[i], truth[i]);
+                std::printf("%s: %.2f texels along a pixel: %.2f dB\n", name.c_str(), texels, now);
+                EXPECT_GT(now, before[i] + 2) << name << ", " << texels << " texels along a pixel";
+                before[i] = now;
+                EXPECT_NEAR(mean(pictures[i]), mean(truth[i]), 0.02 * mean(truth[i]) + 0.5) << name;
+            }
+        }
+        // A picture that is moved by one pixel, or another eye's, has 20 dB or less; the rays' own grain leaves 35.
+        for (double reached : before)
+            EXPECT_GT(reached, 29) << file.stem();
+    }
+}
+
+TEST(LivePicture, IsTheOneByRaysInEveryWorld)
+{
+    struct Case {
+        const char* shot;
+        double floor_db;
+    };
+    // Bodies, clocks, lives; what spins; a line, a glow, pigments under lamps, all of it shifted.
+    for (const Case& one :
+        {Case{"alice-and-bob", 30}, {"train-aboard-long", 30}, {"light-clock-flying", 30}, {"twins-turn", 28},
+            {"clocks-passing", 30}, {"gamow-cycling", 28}, {"rainbow-line", 30}, {"warm-wall-4", 30}, {"chart-0.5", 30}}) {
+        const Shot shot = shipped_shot(one.shot);
+        const auto file = starbow::testing::source_dir() / "config/scenes" / (shot.scene + ".json");
+        const ReferenceWorld world = open_reference_world(file);
+        World again = load_world(world.scene.gltf);
+        const GpuWorld gpu = upload(device(), pipelines(), std::move(again), world.scene, world.stars);
+        const Layout layout = one_view(Planar{.fov_y_deg = 60}, {240, 180});
+        Studio live = studio(gpu, layout, true);
+        const Bytes picture = live.picture(shot)[0];
+        const Reference truth = reference(world.input(), layout, shot, 0, {.samples = 8});
+        std::printf("%s: %.2f dB\n", one.shot, psnr(picture, shown(truth)));
+        EXPECT_GT(psnr(picture, shown(truth)), one.floor_db) << one.shot;
+        // Light as numbers, D and distances, where neither edge nor grain is: the middle one of all pixels.
+        const gpu_test::Numbers numbers(live, shot);
+        std::vector<double> light, D, distance;
+        for (int i = 0; i < numbers.count(); ++i) {
+            const Reference::Numbers& own = truth.numbers[std::size_t(i)];
+            const dvec3 rays = truth.light[0][std::size_t(i)] / truth.exposure;
+            light.push_back(glm::length(numbers.light(i) - rays) / std::max(glm::length(rays), 1e-9));
+            D.push_back(std::abs(numbers.D(i) / own.D - 1));
+            distance.push_back(std::isinf(own.distance) != std::isinf(numbers.depth(i)) ? 1
+                    : std::isinf(own.distance)                                          ? 0
+                                               : std::abs(numbers.depth(i) / own.distance - 1));
+            EXPECT_LT(between(numbers.camera(i), own.camera), 1e-6);
+        }
+        auto part = [](std::vector<double>& all, double at) {
+            const auto middle = all.begin() + std::ptrdiff_t(at * double(all.size() - 1));
+            std::nth_element(all.begin(), middle, all.end());
+            return *middle;
+        };
+        // 12 numbers tell shifted pigments within 1 % mostly; halves and the table's steps 0.1 %.
+        std::printf("   light %.5f D %.2e distance %.5f\n", part(light, 0.5), part(D, 0.9), part(distance, 0.5));
+        EXPECT_LT(part(light, 0.5), 0.012) << one.shot;
+        EXPECT_LT(part(D, 0.9), 1e-4) << one.shot;
+        // A texel's distance is that of its middle, half a pixel off on slanting ground.
+        EXPECT_LT(part(distance, 0.5), 0.01) << one.shot;
+    }
+}
+
+TEST(LivePicture, ComesCloserToTheOneByRaysAsItsQualityRises)
+{
+    const Shot shot = shipped_shot("avenue-gamma4");
+    for (const char* name : {"desk", "dome"}) {
+        const Layout layout
+            = small_layout(starbow::testing::source_dir() / "config/layouts" / (std::string(name) + ".json"), 160);
+        const Bytes truth = shown(reference(avenue_by_rays().input(), layout, shot, 0, {.samples = 32}));
+        double before = 0;
+        for (double texels : {0.5, 1.0, 2.0, 4.0}) {
+            Quality quality = test_quality();
+            quality.texels_per_pixel = texels, quality.most_texels_per_pixel = 200;
+            Studio live(device(), pipelines(), avenue().world, layout, quality, false);
+            const double now = psnr(live.picture(shot)[0], truth);
+            std::printf("%s: %.1f texels a pixel: %.2f dB\n", name, texels, now);
+            // From two on it is the rays' own grain and the edges' four samples of a texel that are left.
+            EXPECT_GT(now, texels > 2 ? before - 0.3 : before + 2) << name << ", " << texels << " texels a pixel";
+            before = now;
+        }
+        EXPECT_GT(before, 37) << name;
+    }
+}

@@ -1,0 +1,390 @@
+// The picture by rays, against what can be said of simple worlds without any renderer: formulas in closed form, retarded
+// places by bisection in 33 digits, published colours.
+#include "config/model/angles.h"
+#include "config/model/one_view.h"
+#include "runtime/light/colour.h"
+#include "runtime/reference/clock_face.h"
+#include "runtime/reference/reference.h"
+#include "runtime/world/moving.h"
+#include "runtime/world/worldline.h"
+#include "shaders/physics/physics.h"
+#include "tests/support/files.h"
+#include "tests/support/quad.h"
+#include "tests/support/speeds.h"
+#include <gtest/gtest.h>
+
+using namespace starbow;
+using glm::dvec2;
+using glm::dvec3;
+
+namespace {
+
+using starbow::testing::u_of_beta, starbow::testing::u_of_gamma;
+
+/// A world of flat plates, one material each.
+struct Plates {
+    World world;
+    SceneFile scene;
+    std::vector<Star> stars;
+
+    /// The front shows `right` to the right and `up` upwards; texture coordinates 0, 0 at its top left.
+    Material& add(const dvec3& centre, const dvec3& right, const dvec3& up, const std::string& node = "still")
+    {
+        const auto first = std::uint32_t(world.vertices.size());
+        const dvec3 normal = glm::normalize(glm::cross(right, up));
+        for (const dvec2& side : {dvec2(-1, -1), dvec2(1, -1), dvec2(1, 1), dvec2(-1, 1)})
+            world.vertices.push_back({glm::vec3(right * side.x + up * side.y), glm::vec3(normal),
+                glm::vec2(0.5 + 0.5 * side.x, 0.5 - 0.5 * side.y), 0xffffffff});
+        const auto index = std::uint32_t(world.indices.size());
+        world.indices.insert(world.indices.end(), {0, 1, 2, 0, 2, 3});
+        const double radius = glm::length(right) + glm::length(up);
+        world.primitives.push_back({index, 6, std::int32_t(first), int(world.materials.size()),
+            -glm::abs(right) - glm::abs(up), glm::abs(right) + glm::abs(up), dvec3(0), radius, {}});
+        world.nodes.push_back({node, -1});
+        glm::dmat4 place(1);
+        place[3] = glm::dvec4(centre, 1);
+        world.instances.push_back({place, std::uint32_t(world.primitives.size() - 1), int(world.nodes.size() - 1)});
+        world.materials.emplace_back();
+        return world.materials.back();
+    }
+    Material& shining(const dvec3& centre, const dvec3& right, const dvec3& up, const std::string& node = "still")
+    {
+        Material& material = add(centre, right, up, node);
+        material.unlit = true;
+        return material;
+    }
+    void place()
+    {
+        if (!std::exchange(placed_, true))
+            place_bodies(world, scene);
+    }
+    Reference seen(const Shot& shot, const Layout& layout, ReferenceOptions options = {})
+    {
+        place();
+        return reference({world, scene, stars}, layout, shot, 0, options);
+    }
+
+private:
+    bool placed_ = false;
+};
+
+/// Shapes alone.
+Shot shot_at(const dvec3& position, const dvec3& u, const dvec3& look = {0, 0, -1}, const dvec3& up = {0, 1, 0})
+{
+    Shot shot;
+    shot.position = position;
+    shot.u = u;
+    shot.ship_from_cockpit = orientation(look, up);
+    shot.effects = {true, false, false};
+    return shot;
+}
+
+/// The middle of the light in a picture, pixels, and its sum.
+dvec3 middle(const Reference& picture)
+{
+    dvec3 sum(0);
+    for (int y = 0; y < picture.size.y; ++y)
+        for (int x = 0; x < picture.size.x; ++x)
+            sum += picture.light[0][std::size_t(y * picture.size.x + x)].g * dvec3(x + 0.5, y + 0.5, 1);
+    return {sum.x / sum.z, sum.y / sum.z, sum.z};
+}
+
+std::size_t central(const Reference& picture)
+{
+    return std::size_t(picture.size.y / 2 * picture.size.x + picture.size.x / 2);
+}
+
+} // namespace
+
+TEST(Reference, LampsFallOnASurfaceAsTheySay)
+{
+    Plates plates;
+    const dvec3 base(0.5, 0.25, 0.125);
+    plates.add({0, 0, -5}, {1, 0, 0}, {0, 1, 0}).base_colour = glm::vec4(base, 1);
+    plates.scene.ambient = {0.1, 0.2, 0.3};
+    const dvec3 sun(1, 0.5, 0.25), lamp(0.3, 0.6, 0.9);
+    plates.scene.lights = {
+        DirectionalLight{{0, std::sin(60 * degree), std::cos(60 * degree)}, sun, {}}, PointLight{{3, 0, -1}, 2, lamp, {}}};
+    const Reference picture = plates.seen(shot_at(dvec3(0), dvec3(0)), one_view(Planar{.fov_y_deg = 0.01}, {1, 1}));
+    // The lamp is 5 away, its light falls at an angle whose cosine is 4/5.
+    const dvec3 light = base * (plates.scene.ambient + sun * 0.5 + lamp * (0.8 * 4.0 / 25));
+    const dvec3 seen = picture.light[0][0];
+    // The primaries' reflectances are tables of five digits; the picture's pixel is not a point: 1e-4 rad.
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(seen[c], light[c], 1e-3 * light[c]);
+    EXPECT_NEAR(picture.numbers[0].distance, 5, 1e-12);
+}
+
+TEST(Reference, DirectionsAreAberratedAsTheTextbookSays)
+{
+    // cos of the ship's angle = (cos + beta) / (1 + beta cos) of the world's: a form that rays do not use.
+    for (double beta : {0.5, 0.9, 0.99}) {
+        Plates plates;
+        const double small = 1e-4;
+        // Straight aside of a motion along -z.
+        plates.shining({1, 0, 0}, {0, 0, small}, {0, small, 0});
+        const double expected = std::acos(beta) / degree; // from the motion, of what stands 90 degrees aside
+        const Layout layout = one_view(Planar{.fov_y_deg = 0.067}, {101, 101});
+        const dvec3 look(std::sin(expected * degree), 0, -std::cos(expected * degree));
+        const dvec3 at = middle(plates.seen(shot_at(dvec3(0), {0, 0, -u_of_beta(beta)}, look), layout, {.samples = 16}));
+        // Its own size bends it by its square, 1e-8; a pixel is 1e-5 rad, an edge off by 1/16 of one.
+        EXPECT_GT(at.z, 4) << beta;
+        EXPECT_NEAR(at.x, 50.5, 0.1) << "beta " << beta;
+        EXPECT_NEAR(at.y, 50.5, 0.1);
+    }
+}
+
+TEST(Reference, StraightBehindAtGamma1000ALineIsSharpToAThousandthOfAPixel)
+{
+    // tan of half the angle from straight behind: E times as large in the ship. A pixel here is 0.7e-6 rad of the world.
+    const double gamma = 1000, u = u_of_gamma(gamma), E = u + gamma;
+    Plates plates;
+    const double from = 4.1234567e-5, to = 8.7654321e-5; // from the axis; to the right of who looks behind is -x
+    plates.shining({-0.5 * (from + to) * 7, 0, 7}, {-3.5 * (to - from), 0, 0}, {0, 1, 0});
+    const Layout layout = one_view(Planar{.fov_y_deg = 2.0 / 3}, {400, 1});
+    const Reference picture = plates.seen(shot_at(dvec3(0), {0, 0, -u}, {0, 0, 1}), layout, {.samples = 4096});
+    const double focal = 0.5 / std::tan(1.0 / 3 * degree);
+    auto pixel_of
+        = [&](double tangent) { return 200 + focal * std::tan(2 * std::atan(E * std::tan(0.5 * std::atan(tangent)))); };
+    // Vertices are floats: the plate's ends are where floats have them.
+    const float half = float(3.5 * (to - from));
+    const double centre = 0.5 * (from + to) * 7;
+    const double left = pixel_of((centre - double(half)) / 7), right = pixel_of((centre + double(half)) / 7);
+    ASSERT_GT(left, 200);
+    ASSERT_LT(right, 400);
+    // What the light adds up to, and where its middle lies. 4096 columns of samples a pixel.
+    double sum = 0, at = 0;
+    for (std::size_t x = 0; x < 400; ++x)
+        sum += picture.light[0][x].g, at += picture.light[0][x].g * (double(x) + 0.5);
+    // A row's height bends the line by 1e-4 pixels; each end falls between columns; white is white within 1e-4.
+    EXPECT_NEAR(sum, right - left, 1e-3 + 1e-4 * (right - left));
+    double first = 0;
+    for (std::size_t x = 0; x < 400; ++x) {
+        const double here = picture.light[0][x].g;
+        if (here > 0) {
+            first = double(x) + 1 - here; // the first pixel is lit from here on
+            break;
+        }
+    }
+    EXPECT_NEAR(first, left, 1e-3);
+}
+
+TEST(Reference, ShiftedBlackBodiesHaveTheColoursOfTheirNewTemperature)
+{
+    // CIE 1931 x, y as published for the temperature that D makes of another one.
+    struct Known {
+        double kelvin, x, y;
+    };
+    for (const Known& known : {Known{2856, 0.4475, 0.4074}, {5772, 0.3266, 0.3358}, {10000, 0.2806, 0.2883}})
+        for (double beta : {-0.6, 0.6, 0.8}) {
+            const double D = std::sqrt((1 + beta) / (1 - beta));
+            Plates plates;
+            Material& material = plates.add({0, 0, -5}, {1, 0, 0}, {0, 1, 0});
+            material.temperature_K = known.kelvin / D, material.emissivity = 1;
+            material.base_colour = glm::vec4(0, 0, 0, 1);
+            Shot shot = shot_at(dvec3(0), {0, 0, -u_of_beta(beta)});
+            shot.effects = {true, true, true};
+            const dvec3 rgb = plates.seen(shot, one_view(Planar{.fov_y_deg = 0.001}, {1, 1})).light[0][0];
+            const dvec3 xyz = glm::inverse(rec709_from_sunlit_xyz()) * rgb;
+            const double sum = xyz.x + xyz.y + xyz.z;
+            // Four digits are published.
+            EXPECT_NEAR(xyz.x / sum, known.x, 1e-4) << known.kelvin << " K at D " << D;
+            EXPECT_NEAR(xyz.y / sum, known.y, 1e-4) << known.kelvin << " K at D " << D;
+            // The same as one that rests: with the headlight effect nothing but T is changed.
+            Plates rest;
+            rest.add({0, 0, -5}, {1, 0, 0}, {0, 1, 0}).temperature_K = known.kelvin;
+            rest.world.materials[0].emissivity = 1, rest.world.materials[0].base_colour = glm::vec4(0, 0, 0, 1);
+            const dvec3 still
+                = rest.seen(shot_at(dvec3(0), dvec3(0)), one_view(Planar{.fov_y_deg = 0.001}, {1, 1})).light[0][0];
+            EXPECT_NEAR(rgb.g / still.g, 1, 2e-4);
+        }
+}
+
+TEST(Reference, AStarGivesAllItsLight)
+{
+    // 5772 K is 2.88 times as bright at D = 2.90 as at rest, and as much over a solid angle as its magnitude says.
+    const double D = 2.90, beta = (D * D - 1) / (D * D + 1);
+    double illuminance[2];
+    for (int flying = 0; flying < 2; ++flying) {
+        Plates plates;
+        StarSky sky;
+        sky.ahead_deg = {30, 20};
+        plates.scene.stars = sky;
+        plates.stars = {{equatorial(30, 20), 1.5, 5772}};
+        Shot shot = shot_at(dvec3(0), {0, 0, flying ? -u_of_beta(beta) : 0.0});
+        shot.effects = {true, true, true};
+        const glm::ivec2 size(21, 16); // its middle lies in a pixel's middle one way, between two the other
+        const Reference picture = plates.seen(shot, one_view(Planar{.fov_y_deg = 1}, size));
+        const double pixel = 2 * std::tan(0.5 * degree) / size.y;
+        dvec3 light(0); // all of it near the axis
+        for (const dvec3& one : picture.light[0])
+            light += one * (pixel * pixel);
+        illuminance[flying] = (glm::inverse(rec709_from_sunlit_xyz()) * light).y;
+        EXPECT_NEAR(middle(picture).x, 10.5, 1e-3);
+        EXPECT_NEAR(middle(picture).y, 8, 1e-3);
+    }
+    // A spot's sum over pixels is 1 within 0.5 %.
+    const double wanted = 200 * std::pow(degree / 60, 2) * std::pow(10, -0.4 * 1.5);
+    EXPECT_NEAR(illuminance[0] / wanted, 1, 0.006);
+    EXPECT_NEAR(illuminance[1] / illuminance[0], 2.88, 0.006); // three digits are known
+}
+
+TEST(Reference, AStarBehindSomethingIsHidden)
+{
+    for (bool hidden : {false, true}) {
+        Plates plates;
+        plates.scene.stars = StarSky{};
+        plates.stars = {{equatorial(0, 0), 0, 5772}};
+        Material& plate = plates.shining({hidden ? 0.0 : 0.1, 0, -9}, {0.05, 0, 0}, {0, 0.05, 0});
+        plate.base_colour = glm::vec4(0, 0, 0, 1);
+        const double sum = middle(plates.seen(shot_at(dvec3(0), dvec3(0)), one_view(Planar{.fov_y_deg = 1}, {15, 15}))).z;
+        EXPECT_EQ(sum > 0, !hidden);
+    }
+}
+
+TEST(ClockFace, HasItsHandWhereTheTimeIs)
+{
+    for (double seconds : {0.0, 3.8, 29.5, 44.25, 3599.9, -5.9, 1e7 + 0.3}) {
+        const double angle = 2 * pi * std::fmod(seconds, 60) / 60;
+        for (double r : {0.65, 0.75}) {
+            const dvec2 way(std::sin(angle), std::cos(angle)), aside(way.y, -way.x);
+            EXPECT_EQ(mark(way * r, seconds, "0.0"), 1) << seconds;
+            EXPECT_EQ(mark(way * r + aside * 0.03, seconds, "0.0"), 0) << seconds; // its margin
+        }
+        EXPECT_EQ(mark(dvec2(std::sin(angle), std::cos(angle)) * 0.835, seconds, "0.0"), 0) << seconds;
+    }
+    // The figures' ink is that of their segments: seven of an 8, two of a 1.
+    auto ink = [](const std::string& told) {
+        int count = 0;
+        for (int y = 0; y < 400; ++y)
+            for (int x = 0; x < 400; ++x)
+                count += mark({(x - 200) / 500.0, -0.43 + (y - 200) / 1200.0}, 0, told) == 1;
+        return count;
+    };
+    EXPECT_LT(ink("1.1"), ink("7.1"));
+    EXPECT_LT(ink("7.1"), ink("8.1"));
+}
+
+TEST(Reference, AClockShowsWhenItsLightLeft)
+{
+    Plates plates;
+    Material& dial = plates.add({0, 0, -31}, {1, 0, 0}, {0, 1, 0});
+    dial.unlit = true;
+    dial.clock = WorldClock{2.5};
+    Shot shot = shot_at(dvec3(0), dvec3(0));
+    shot.time = 100;
+    const glm::ivec2 size(201, 201);
+    const Reference picture = plates.seen(shot, one_view(Planar{.fov_y_deg = 2 * std::atan(1.0 / 31) / degree}, size));
+    // The hand's middle beyond the small dials and the figures, before the strokes.
+    dvec2 sum(0);
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const dvec2 at((x + 0.5) / 100.5 - 1, 1 - (y + 0.5) / 100.5);
+            const double r = glm::length(at);
+            if (r > 0.72 && r < 0.8)
+                sum += at / r * std::max(0.0, 1 - picture.light[0][std::size_t(y * size.x + x)].g);
+        }
+    const double told = std::fmod(std::atan2(sum.x, sum.y) / (2 * pi) * 60 + 60, 60);
+    EXPECT_NEAR(told, std::fmod(100 - 31 - 2.5, 60), 0.02); // a pixel at the hand's end is 0.12 s
+}
+
+TEST(Reference, WhatMovesIsSeenWhereItWas)
+{
+    // A small plate on a body that passes at half the speed of light, seen from a ship that flies at 0.8 another way. Its
+    // place on the past light cone by bisection, its direction on board by a textbook's boost, in 33 digits.
+    const dvec3 u(u_of_beta(0.5), 0, 0), ship_u(0, u_of_beta(0.8), 0);
+    const dvec3 at_zero(1, 2, -9); // the plate's middle in the world at time 0
+    Plates plates;
+    plates.shining(dvec3(0), {0.005, 0, 0}, {0, 0.005, 0}, "barge").double_sided = true;
+    plates.scene.bodies = {{"barge", {"barge"}, u, {0, at_zero}, {}}};
+    const double now = 3;
+    quad::Q low = -100, high = now;
+    for (int i = 0; i < 200; ++i) {
+        const quad::Q t = (low + high) / 2;
+        const quad::V3 place = quad::of(at_zero) + quad::of(dvec3(0.5, 0, 0)) * t;
+        (quad::length(place) < quad::Q(now) - t ? low : high) = t;
+    }
+    const quad::V3 place = quad::of(at_zero) + quad::of(dvec3(0.5, 0, 0)) * low;
+    // The light's way there and back in time, boosted into the ship.
+    const quad::V4 way = quad::boosted(quad::of(-ship_u), {low - quad::Q(now), place});
+    const dvec3 look(double(way.x.x), double(way.x.y), double(way.x.z));
+    Shot shot = shot_at(dvec3(0), ship_u, look, {0, 0, 1});
+    shot.time = now;
+    const Reference picture = plates.seen(shot, one_view(Planar{.fov_y_deg = 1}, {201, 201}), {.samples = 16});
+    const dvec3 seen = middle(picture);
+    ASSERT_GT(seen.z, 4);
+    // A pixel is 9e-5 rad; the plate is seen a few of them wide, bent by their squares.
+    EXPECT_NEAR(seen.x, 100.5, 0.1);
+    EXPECT_NEAR(seen.y, 100.5, 0.1);
+    const Reference::Numbers& numbers = picture.numbers[central(picture)];
+    EXPECT_NEAR(numbers.distance, double(quad::length(place)), 2e-3); // as long as the light was under way; the plate's size
+    // D = k.U(ship) / k.U(plate), k = (1, -n).
+    const quad::V3 n = quad::unit(place);
+    auto shift = [&](const dvec3& v) { return quad::gamma(quad::of(v)) + quad::dot(n, quad::of(v)); };
+    EXPECT_NEAR(numbers.D, double(shift(ship_u) / shift(u)), 2e-4);
+}
+
+TEST(Reference, WhatSpinsIsSeenAsItStood)
+{
+    // A bar that turns about the line of sight, 6 to each side, at 0.15 at its ends: their light left later than the
+    // middle's by what they are farther off. The end's angle by bisection.
+    Plates plates;
+    plates.shining(dvec3(0), {6, 0, 0}, {0, 0.05, 0}).double_sided = true;
+    const double turns = 0.15 / (2 * pi * 6), far = 8;
+    plates.world.joints.push_back({.node = 0, .translation = {0, 0, -far}, .spin = Spin{{0, 0, 1}, turns}});
+    plates.world.motions.push_back({.joint = 0});
+    plates.world.instances[0].motion = 0;
+    plates.place();
+    Shot shot = shot_at(dvec3(0), dvec3(0));
+    shot.time = 20;
+    const Reference picture = plates.seen(shot, one_view(Planar{.fov_y_deg = 100}, {251, 251}), {.samples = 4});
+    const double focal = 125.5 / std::tan(50 * degree);
+    for (double r : {2.0, 4.0, 5.5}) {
+        const double angle = 2 * pi * turns * (20 - std::hypot(r, far)); // a circle around the line of sight: r stays
+        // Where the light has its middle on that circle, near there.
+        double sum = 0, off = 0;
+        for (int i = -2000; i <= 2000; ++i) {
+            const double a = angle + i * 1e-4;
+            const dvec2 at = dvec2(125.5) + focal * r / far * dvec2(std::cos(a), -std::sin(a)); // y down
+            const double light = picture.light[0][std::size_t(int(at.y) * 251 + int(at.x))].g;
+            sum += light, off += light * (a - angle);
+        }
+        ASSERT_GT(sum, 0) << r;
+        // A thousandth of the circle is a tenth of a pixel.
+        EXPECT_NEAR(off / sum * focal * r / far, 0, 0.3) << "pixels, at r " << r;
+    }
+}
+
+TEST(Reference, GoesOnWhereItWasInterrupted)
+{
+    Plates plates;
+    plates.add({0, 0, -5}, {1, 0.3, 0}, {0, 1, 0}).unlit = true;
+    plates.scene.sky.zenith = {0.2, 0.4, 0.8};
+    const Layout layout = one_view(Planar{.fov_y_deg = 60}, {40, 32});
+    const Shot shot = shot_at(dvec3(0), {0.3, 0, -1});
+    const Reference whole = plates.seen(shot, layout);
+    const auto kept = starbow::testing::scratch("picture.rows");
+    struct Interrupted { };
+    int rows = 0;
+    EXPECT_THROW(plates.seen(shot, layout,
+                     {.progress =
+                             [&](int done, int) {
+                                 if (done == 10)
+                                     throw Interrupted();
+                             },
+                         .kept = kept}),
+        Interrupted);
+    ASSERT_TRUE(std::filesystem::exists(kept));
+    std::filesystem::resize_file(kept, std::filesystem::file_size(kept) - 7); // the last row cut off
+    const Reference again = plates.seen(shot, layout, {.progress = [&](int, int) { ++rows; }, .kept = kept});
+    EXPECT_LT(rows, 24);
+    EXPECT_GT(rows, 0);
+    EXPECT_EQ(shown(again), shown(whole));
+    EXPECT_EQ(again.light, whole.light);
+    // Of another picture no row is taken.
+    Shot other = shot;
+    other.position.x += 1e-9;
+    rows = 0;
+    plates.seen(other, layout, {.progress = [&](int, int) { ++rows; }, .kept = kept});
+    EXPECT_EQ(rows, 32);
+}

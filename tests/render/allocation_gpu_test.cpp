@@ -1,0 +1,79 @@
+// The heap in a frame's loop. This file replaces the program's operator new, for all tests of this binary.
+#include "tests/support/small_world.h"
+#include <chrono>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+thread_local long* counted = nullptr; // while something is counted, of this thread alone
+
+}
+
+// Not inline: GCC 12 would take their halves for a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t size)
+{
+    if (counted)
+        ++*counted;
+    if (void* memory = std::malloc(size ? size : 1))
+        return memory;
+    throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace starbow::gpu_test {
+namespace {
+
+template <class Work> long allocations(Work&& work)
+{
+    long count = 0;
+    counted = &count;
+    work();
+    counted = nullptr;
+    return count;
+}
+
+/// A thousand objects in a flight of changing speed, as an exhibit runs it; on a device without layers, whose own vectors
+/// would count.
+TEST(Allocations, AFrameTakesNothingFromTheHeap)
+{
+    Doc doc;
+    const int grey = unlit(doc, {0.5, 0.5, 0.5});
+    for (int i = 0; i < 1000; ++i)
+        quad(doc, {i % 40 - 20.0, i / 40 - 12.0, -10.0 - i % 7}, {0.3, 0, 0}, {0, 0.3, 0}, grey);
+    testing::write_text("thousand.gltf", doc.text());
+    SceneFile file = load_scene_file(
+        testing::write_text("thousand.json", Json{{"gltf", "thousand.gltf"}, {"unit_m", 1}, {"sky", smooth_sky}}.dump()));
+    file.stars = avenue().world.scene.stars;
+    Device quiet({.name = device_options(false).name});
+    Pipelines quiet_pipelines(quiet);
+    const GpuWorld world = upload(quiet, quiet_pipelines, load_world(file.gltf), file, load_stars(file.stars->catalogue));
+    Studio studio(quiet, quiet_pipelines, world, one_view(Planar{60}, {320, 240}), default_quality(quiet, false), false);
+    studio.frame().meter(true);
+    Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
+    shot.effects = {true, true, true};
+    studio.picture(shot);
+    long prepare = 0, record = 0;
+    double ms = 0;
+    for (int i = 0; i < 200; ++i) {
+        shot.u = {0, 0, -4 + 4 * std::cos(0.06 * i)};
+        shot.position.z = -0.01 * i;
+        const auto began = std::chrono::steady_clock::now();
+        const long prepared = allocations([&] { studio.frame().prepare(shot, nullptr); });
+        ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count() / 200;
+        long recorded = 0;
+        quiet.now([&](vk::CommandBuffer commands) {
+            const Target target = studio.target(0);
+            recorded = allocations([&] { studio.frame().record(commands, std::span(&target, 1)); });
+        });
+        if (i >= 100)
+            prepare += prepared, record += recorded;
+    }
+    std::printf("  %.3f ms to prepare a frame of 1,000 objects\n", ms);
+    EXPECT_EQ(prepare, 0) << "in a hundred frames";
+    EXPECT_EQ(record, 0) << "in a hundred frames";
+}
+
+} // namespace
+} // namespace starbow::gpu_test

@@ -1,0 +1,127 @@
+// The views to compare with: velocities that simply add, and everything where it is now in the ship's frame.
+#include "config/model/angles.h"
+#include "runtime/world/clock.h"
+#include "runtime/world/instances.h"
+#include "runtime/world/observer.h"
+#include "shaders/physics/physics.h"
+#include "tests/support/quad.h"
+#include "tests/support/small_world.h"
+
+namespace starbow::gpu_test {
+namespace {
+
+/// Where a colour's light is seen, by its middle.
+dvec3 seen_at(const Numbers& numbers, int channel)
+{
+    dvec3 sum(0);
+    for (int i = 0; i < numbers.count(); ++i)
+        sum += numbers.camera(i) * std::max(0.0, numbers.light(i)[channel]);
+    EXPECT_GT(glm::length(sum), 1);
+    return glm::normalize(sum);
+}
+
+const std::array<dvec3, 3> places = {dvec3(2, 1, -10), dvec3(-6, 0, -7), dvec3(1, -2, -7)};
+
+/// A small quad of its own colour at each place; what: its node's name.
+GpuWorld three(const Json& scene)
+{
+    Doc doc;
+    for (int i = 0; i < 3; ++i) {
+        dvec3 colour(0);
+        colour[i] = 1;
+        const int material = unlit(doc, colour);
+        doc.json["materials"][std::size_t(material)]["doubleSided"] = true;
+        const dvec3 to = glm::normalize(places[std::size_t(i)]), right = glm::normalize(glm::cross(to, dvec3(0, 1, 0)));
+        quad(doc, places[std::size_t(i)], right * 0.08, glm::cross(right, to) * 0.08, material, {{"name", "quads"}});
+    }
+    return open_world("three", doc, scene);
+}
+
+Shot compared(const dvec3& u, Comparison comparison)
+{
+    Shot shot = shot_at({0, 0, 0}, u, {0, 0, -1});
+    shot.effects.comparison = comparison;
+    return shot;
+}
+
+} // namespace
+
+TEST(ComparisonTest, GalileanFormulasAddVelocities)
+{
+    for (double beta : {1e-6, 0.3, 0.9, 0.9999})
+        for (double theta = 0; theta <= 180; theta += 7.5) {
+            const double u = beta / std::sqrt((1 - beta) * (1 + beta)), E = physics::exp_rapidity(u);
+            const dvec3 world(std::sin(theta * degree), 0, std::cos(theta * degree));
+            // Light flies along -world; on board the ship's velocity is taken off: it comes from there.
+            const dvec3 on_board = -(-world - dvec3(0, 0, beta));
+            const auto camera = physics::galilean_camera_from_world(world, E, 1 / E);
+            EXPECT_LT(between(camera.n, on_board), 1e-14);
+            const auto back = physics::galilean_world_from_camera(camera.n, E, 1 / E);
+            // Behind, at nearly the speed of light, a camera's angle is little of the world's.
+            EXPECT_LT(between(back.n, world), 2e-15 / (1 - beta));
+            EXPECT_NEAR(back.D, 1 + beta * world.z, 2e-15 / (1 - beta));
+            if (theta == 0 || theta == 180)
+                continue;
+            const double step = 1e-6;
+            const auto turned
+                = physics::galilean_world_from_camera({camera.n.x * std::cos(step) + camera.n.z * std::sin(step), 0,
+                                                          camera.n.z * std::cos(step) - camera.n.x * std::sin(step)},
+                    E, 1 / E);
+            const dvec2 stretch = physics::galilean_stretch(camera.n, E, 1 / E);
+            EXPECT_NEAR(between(turned.n, back.n) / step / stretch.x, 1, 1e-4 / (1 - beta)) << beta << " " << theta;
+            EXPECT_NEAR(world.x / camera.n.x / stretch.y, 1, 1e-9 / (1 - beta));
+        }
+}
+
+TEST(ComparisonTest, GalileanPicture)
+{
+    const dvec3 u = glm::normalize(dvec3(0.3, 0.1, -1)) * u_of_beta(0.8);
+    const GpuWorld world = three({});
+    Studio stage = studio(world, one_view(Planar{100}, {900, 600}));
+    const Numbers numbers(stage, compared(u, Comparison::galilean));
+    for (int i = 0; i < 3; ++i) {
+        const dvec3 wanted = glm::normalize(places[std::size_t(i)]) + 0.8 * glm::normalize(u);
+        EXPECT_LT(between(seen_at(numbers, i), wanted), 0.5 * 100 * degree / 600) << i;
+    }
+}
+
+TEST(ComparisonTest, EverythingWhereItIsNow)
+{
+    // At rest before a ship that moves: contracted along the motion. On a body that moves with the ship, as it is; on one
+    // that moves past a ship at rest, contracted too.
+    const dvec3 way = glm::normalize(dvec3(0.4, 0.2, -1)), u = way * u_of_beta(0.9);
+    const double gamma = std::sqrt(1 + glm::dot(u, u));
+    auto contracted = [&](const dvec3& x) { return x - way * glm::dot(way, x) * (1 - 1 / gamma); };
+    const Json riding
+        = {{{"name", "all"}, {"nodes", {"quads"}}, {"velocity", {{"direction", {way.x, way.y, way.z}}, {"beta", 0.9}}}}};
+    for (int kind = 0; kind < 3; ++kind) {
+        const GpuWorld world = three(kind == 0 ? Json::object() : Json{{"bodies", riding}});
+        Studio stage = studio(world, one_view(Planar{100}, {900, 600}));
+        const Numbers numbers(stage, compared(kind == 2 ? dvec3(0) : u, Comparison::no_light_delay));
+        for (int i = 0; i < 3; ++i) {
+            const dvec3& place = places[std::size_t(i)];
+            EXPECT_LT(between(seen_at(numbers, i), kind == 1 ? place : contracted(place)), 0.5 * 100 * degree / 600)
+                << "kind " << kind << " quad " << i;
+        }
+    }
+}
+
+TEST(ComparisonTest, ClocksTellWhatTimeItIsThereInTheShip)
+{
+    World world = load_world(testing::source_dir() / "scenes/clocks/clocks.glb");
+    sort_instances(world);
+    Shot shot = compared({u_of_beta(0.5), 0, 0}, Comparison::no_light_delay);
+    shot.time = 100, shot.position = {1, 0, 31};
+    const Watcher who = watcher(world, shot, {});
+    const Layer& layer = who.layers[0];
+    EXPECT_EQ(who.E, 1);
+    EXPECT_NEAR(layer.contraction, std::sqrt(0.75), 1e-15);
+    const auto entries = time_entries(
+        world, {0, shot.position, shot.time, layer.motion_from_frame, layer.now, layer.contraction, layer.beta}, 1);
+    ASSERT_EQ(entries.size(), 5u);
+    // Simultaneous on board: each five light-seconds further ahead is 2.5 s later in the world.
+    for (int i = 0; i < 5; ++i)
+        EXPECT_NEAR(entries[std::size_t(i)].turns.y * 10, std::fmod(100 + 0.5 * (5 * i - 10 - 1), 10), 1e-5) << i;
+}
+
+} // namespace starbow::gpu_test

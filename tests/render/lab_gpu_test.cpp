@@ -1,0 +1,205 @@
+// docs/lab.md played through: every number that it asks for, measured on the real scenes with the instruments, as with a
+// hand that aims to 0.1 degrees. The theory's values are worked out here once more, without the formulas of shaders/physics.
+#include "config/model/angles.h"
+#include "runtime/exhibit/still_measurement.h"
+#include "runtime/flight/flight.h"
+#include "tests/support/quad.h"
+#include "tests/support/stage.h"
+#include <fstream>
+#include <functional>
+#include <map>
+#include <sstream>
+
+namespace starbow::gpu_test {
+namespace {
+
+struct Row {
+    std::vector<std::string> cells;
+    const std::string& no() const { return cells[0]; }
+};
+
+/// The rows of the document's tables that begin with a letter and a number.
+std::vector<Row> rows_of_the_document()
+{
+    std::ifstream stream(testing::source_dir() / "docs/lab.md");
+    std::vector<Row> rows;
+    for (std::string line; std::getline(stream, line);) {
+        if (line.size() < 6 || line[0] != '|' || !std::isupper(line[2]) || !std::isdigit(line[3]))
+            continue;
+        Row row;
+        std::stringstream cells(line.substr(1));
+        for (std::string cell; std::getline(cells, cell, '|');) {
+            const auto from = cell.find_first_not_of(' '), to = cell.find_last_not_of(' ');
+            row.cells.push_back(from == cell.npos ? "" : cell.substr(from, to - from + 1));
+        }
+        if (row.cells.size() >= 5) // not a key
+            rows.push_back(row);
+    }
+    return rows;
+}
+
+/// By school mathematics: cosines and a speed.
+double doppler(double beta, double theta_deg)
+{
+    return std::sqrt(1 - beta * beta) / (1 - beta * std::cos(theta_deg * degree));
+}
+double seen_deg(double beta, double theta_deg)
+{
+    const double c = std::cos(theta_deg * degree);
+    return std::acos((c + beta) / (1 + beta * c)) / degree;
+}
+
+/// What each measurement should give.
+std::map<std::string, double> theory()
+{
+    const double b4 = std::sqrt(15.0) / 4, half = std::atan(10.0 / 31) / degree;
+    // The clock at x is seen from (17.897.., 0, 31), 35.79.. s after it showed 0.
+    const double past = 31 / std::sqrt(3.0), now = 2 * past;
+    const auto reading = [&](double x) { return now - std::hypot(past - x, 31.0); };
+    const auto world_deg = [&](double x) { return std::atan2(31.0, x - past) / degree; };
+    const auto rest_reading = [](double x) { return 31 - std::hypot(x, 31.0); };
+    const auto seen_at = [&](double x) { return seen_deg(0.5, world_deg(x)); };
+    const double D60 = doppler(b4, 60), off = std::acos(std::cos(15 * degree) * std::cos(5 * degree)) / degree;
+    const double way = ((4 + 0.25) / 2 - 1) / 0.5, angle = std::atan2(5, 31 - way);
+    const double at_4 = 2 * std::atan(std::tan(angle / 2) / 4) / degree;
+    return {{"A1", 2 * half}, {"A2", seen_at(-10) - seen_at(10)}, {"A3", world_deg(-10) - world_deg(10)}, {"A4", 90},
+        {"A5", 120}, {"A6", 90}, {"D1", 4 + std::sqrt(15.0)}, {"D2", 0.25}, {"D3", 4 - std::sqrt(15.0)}, {"D4", 1},
+        {"D5", std::acos((1 - 0.25) / b4) / degree}, {"D6", std::acos((1 - std::sqrt(0.75)) / 0.5) / degree},
+        {"D7", std::sqrt(0.75)}, {"D8", 550 / std::sqrt(0.75)}, {"C1", rest_reading(-10)}, {"C2", rest_reading(5)},
+        {"C3", reading(-10)}, {"C4", reading(-5)}, {"C5", reading(5)}, {"C6", reading(10)},
+        {"C7", reading(10) - reading(-10)}, {"C8", reading(10) - reading(-10)}, {"C9", 0}, {"T1", now}, {"T2", 31},
+        {"T3", 0}, {"T4", 31}, {"L1", 31 * (std::tan((seen_at(-10) - 90) * degree) + std::tan((90 - seen_at(10)) * degree))},
+        {"L2", 20 * std::sqrt(0.75)}, {"L3", 20}, {"H1", D60 * D60 * D60}, {"H2", std::pow(4 + std::sqrt(15.0), 3)},
+        {"H3", std::pow(doppler(b4, off), 3)}, {"S1", 1 + 0.5 * 31}, {"S2", 2 / (2 + 0.5 * 31)}, {"S3", at_4}};
+}
+
+using Read = std::function<std::optional<double>(const Sitting&)>;
+const std::map<std::string, Read> readings = {
+    {"○–◇ / deg", [](const Sitting& s) { return s.points[0].pair->angle_rad / degree; }},
+    {"θ′ / deg", [](const Sitting& s) { return *s.points[1].aim.from_motion_rad / degree; }},
+    {"θ / deg", [](const Sitting& s) { return *s.points[1].aim.from_motion_world_rad / degree; }},
+    {"D", [](const Sitting& s) { return s.points[1].aim.ray.D; }},
+    {"D = 1 / deg", [](const Sitting& s) { return *unshifted_angle(s.points[1].lookout) / degree; }},
+    {"550 nm → / nm", [](const Sitting& s) { return s.points[1].aim.seen_nm; }},
+    {"◇ minus ○ / s", [](const Sitting& s) { return s.points[0].pair->clocks_s; }},
+    {"clock / s", [](const Sitting& s) { return s.points[1].aim.clock_s; }},
+    {"distance / light-s", [](const Sitting& s) { return s.points[1].aim.distance_s; }},
+    {"distance in the ship / light-s", [](const Sitting& s) { return s.points[1].aim.ship_distance_s; }},
+    {"light left / s", [](const Sitting& s) { return s.points[1].aim.emitted_s; }},
+    {"long / light-s", [](const Sitting& s) { return s.points[0].pair->apparent_s; }},
+    {"contracted / light-s", [](const Sitting& s) { return s.points[0].pair->contracted_s; }},
+    {"light / light without the key", [](const Sitting& s) { return s.points[1].aim.light; }},
+};
+
+/// The points, each moved by a hand that is not steady.
+std::vector<Point> unsteady(std::vector<Point> points, double right_deg, double up_deg)
+{
+    for (Point& point : points) {
+        glm::dvec3& n = std::get<dvec3>(point);
+        n = glm::normalize(
+            n + right_deg * degree * glm::normalize(glm::cross(n, dvec3(0, 1, 0))) + dvec3(0, up_deg * degree, 0));
+    }
+    return points;
+}
+
+TEST(Lab, TheSessionGivesTheTheorysValues)
+{
+    const std::map<std::string, double> wanted = theory();
+    std::map<std::string, std::unique_ptr<Theatre>> theatres;
+    const Layout desk = one_view(Planar{60}, {400, 300});
+    std::map<std::string, std::unique_ptr<Studio>> studios;
+    int measured = 0;
+    for (const Row& row : rows_of_the_document()) {
+        if (row.no()[0] == 'S')
+            continue;
+        SCOPED_TRACE(row.no());
+        ASSERT_EQ(row.cells.size(), 7u);
+        ASSERT_TRUE(wanted.contains(row.no()));
+        ASSERT_TRUE(readings.contains(row.cells[4])) << row.cells[4];
+        const double told = std::stod(row.cells[5]), error = std::stod(row.cells[6]);
+        // The document rounds to what it writes.
+        EXPECT_NEAR(told, wanted.at(row.no()), 0.1 * error + 5e-4 * std::abs(told));
+        const std::filesystem::path file = testing::source_dir() / "config/shots" / (row.cells[1] + ".json");
+        const Shot shot = load_shot(file);
+        if (!studios[shot.scene]) {
+            const SceneFile scene = load_scene_file(testing::source_dir() / "config/scenes" / (shot.scene + ".json"));
+            theatres[shot.scene]
+                = std::make_unique<Theatre>(testing::source_dir() / "config/scenes" / (shot.scene + ".json"),
+                    Device::Options{.validation = true, .name = device_options(false).name});
+            Theatre& theatre = *theatres[shot.scene];
+            studios[shot.scene] = std::make_unique<Studio>(
+                theatre.device, theatre.pipelines, theatre.world, desk, default_quality(theatre.device, false), false);
+        }
+        Studio& studio = *studios[shot.scene];
+        const GpuWorld& world = theatres[shot.scene]->world;
+        Shot pressed = shot;
+        for (char key : row.cells[2]) {
+            pressed.effects.aberration ^= key == '1';
+            pressed.effects.doppler ^= key == '2';
+            pressed.effects.headlight ^= key == '3';
+        }
+        const std::vector<Point> points = parse_points(row.cells[3], desk);
+        for (const auto& [right, up] : {std::pair(0.0, 0.0), std::pair(0.1, 0.06), std::pair(-0.08, -0.1)}) {
+            const std::vector<Point> aimed = unsteady(points, right, up);
+            const Sitting sitting = sit(studio, world, pressed, aimed, "off", "none", testing::words());
+            const std::optional<double> read = readings.at(row.cells[4])(sitting);
+            ASSERT_TRUE(read);
+            double value = *read;
+            if (row.no()[0] == 'H')
+                value /= *readings.at(row.cells[4])(sit(studio, world, shot, aimed, "off", "none", testing::words()));
+            EXPECT_NEAR(value, told, error) << "aimed off by " << right << ", " << up;
+        }
+        ++measured;
+    }
+    EXPECT_EQ(measured, int(wanted.size()) - 3);
+    for (const auto& [name, theatre] : theatres)
+        if (theatre)
+            Stage::expect_no_complaints(theatre->device);
+    studios.clear();
+}
+
+// With the engine on: the flight itself, its controls held as a hand holds them, and the marks of the document.
+TEST(Lab, BackwardsAtFirst)
+{
+    const std::filesystem::path folder = testing::source_dir() / "config";
+    const Shot start = load_shot(folder / "shots/clocks-rest.json");
+    const SceneFile scene = load_scene_file(folder / "scenes/clocks.json");
+    Theatre theatre(folder / "scenes/clocks.json", Device::Options{.validation = true, .name = device_options(false).name});
+    const Layout desk = one_view(Planar{60}, {400, 300});
+    Studio studio(theatre.device, theatre.pipelines, theatre.world, desk, default_quality(theatre.device, false), false);
+    const Sitting first
+        = sit(studio, theatre.world, start, parse_points("0deg,0deg; 9.2deg,0deg", desk), "off", "none", testing::words());
+    ASSERT_TRUE(first.points[0].pair);
+    const World& world = theatre.world.world;
+    Flying rules;
+    rules.mode = FlightMode::newtonian;
+    Flight flight = flight_at(start, rules);
+    const double at_first = first.points[0].pair->angle_rad;
+    double smallest = 1, smallest_at = 0, nearest_to_4 = 1, angle_at_4 = 0;
+    Spot middle{.at = {0, 0, 0}}, right{.at = {5, 0, 0}};
+    for (int i = 0; i < 80; ++i) {
+        flight = step(flight, {.faster = 1}, 100'000'000, rules, scene.seconds_per_time_unit(), start);
+        const Lookout lookout = lookout_of(shot_of(flight, "clocks"));
+        if (lookout.place.z < 0.5)
+            break;
+        const double part = read_pair(lookout, middle, right, world, 1).angle_rad / at_first;
+        const double e = std::exp(std::asinh(glm::length(lookout.u)));
+        if (part < smallest)
+            smallest = part, smallest_at = e;
+        if (std::abs(std::log(e / 4)) < std::abs(std::log(nearest_to_4 / 4)))
+            nearest_to_4 = e, angle_at_4 = part * at_first / degree;
+    }
+    std::printf("  smallest %.4f at %.3f, at %.3f %.4f degrees\n", smallest, smallest_at, nearest_to_4, angle_at_4);
+    const std::map<std::string, double> measured = {{"S1", smallest_at}, {"S2", smallest}, {"S3", angle_at_4}};
+    const std::map<std::string, double> wanted = theory();
+    for (const Row& row : rows_of_the_document())
+        if (row.no()[0] == 'S') {
+            const double told = std::stod(row.cells[3]), error = std::stod(row.cells[4]);
+            EXPECT_NEAR(told, wanted.at(row.no()), 0.1 * error + 5e-4 * told) << row.no();
+            EXPECT_NEAR(measured.at(row.no()), told, error) << row.no();
+        }
+    Stage::expect_no_complaints(theatre.device);
+}
+
+} // namespace
+} // namespace starbow::gpu_test

@@ -1,0 +1,78 @@
+// A flight that is flown again from its record shows the same pictures to the byte.
+#include "runtime/exhibit/replay_renderer.h"
+#include "runtime/flight/history.h"
+#include "runtime/flight/record_files.h"
+#include "runtime/flight/recorder.h"
+#include "runtime/flight/replay.h"
+#include "tests/support/stage.h"
+
+using namespace starbow;
+using namespace starbow::gpu_test;
+
+namespace {
+
+using Pictures = std::vector<std::vector<std::uint8_t>>;
+
+/// A visitor's hand: faster, a turn, an effect off, the head aside, a builder's tilt, a test pattern, ten seconds back.
+RecordEntry at(int frame)
+{
+    RecordEntry entry{.dt_ns = 16'000'000 + 1237 * frame};
+    entry.exposure_ev = 0.01 * frame - 1;
+    Controls& controls = entry.controls;
+    controls.lever = std::min(0.3, 0.01 * frame);
+    controls.turn = {0.3 * std::sin(0.1 * frame), 0.7, 0};
+    controls.head = {{0.01 * frame, 0, 0.1}, glm::angleAxis(0.01 * frame, dvec3(0, 1, 0))};
+    controls.doppler = frame == 20;
+    controls.turn_by = frame == 25 ? 10 : 0;
+    controls.pattern = frame > 54;
+    controls.undo = frame == 40;
+    return entry;
+}
+
+} // namespace
+
+TEST(ReplayFrames, AreTheSameToTheByte)
+{
+    const Layout layout = one_view(Planar{}, {120, 90});
+    const std::string scene = avenue().world.scene.start.scene;
+    RecordHeader header{.scene = "avenue", .layout = "desk"};
+    header.start = avenue().world.scene.start;
+    header.seconds_per_time_unit = avenue().world.scene.seconds_per_time_unit();
+    const std::filesystem::path file = starbow::testing::scratch("frames.jsonl");
+    std::vector<Pictures> live;
+    {
+        Recorder recorder(file, header, [](const std::string& line) { ADD_FAILURE() << line; });
+        Studio stage = studio(avenue().world, layout, false);
+        Reel reel(stage, Pattern::none, header.exposing, header.start.exposure_ev);
+        Flight flight = flight_at(header.start, header.rules);
+        History history;
+        for (int i = 0; i < 60; ++i) {
+            const RecordEntry entry = at(i);
+            flight = flown(
+                flight, history, entry.controls, entry.dt_ns, header.rules, header.seconds_per_time_unit, header.start);
+            recorder.keep(entry, flight);
+            reel.take(entry);
+            live.push_back(reel.picture(flight, scene, nullptr));
+        }
+        recorder.end(flight);
+    }
+    Replay replay(file);
+    Studio stage = studio(avenue().world, layout, false);
+    Reel reel(stage, Pattern::none, replay.header().exposing, replay.header().start.exposure_ev);
+    Flight flight = flight_at(replay.header().start, replay.header().rules);
+    History history;
+    std::size_t frame = 0;
+    int changed = 0;
+    for (; const auto entry = replay.next(); ++frame) {
+        flight = flown(flight, history, entry->controls, entry->dt_ns, replay.header().rules,
+            replay.header().seconds_per_time_unit, replay.header().start);
+        replay.compare(flight);
+        reel.take(*entry);
+        ASSERT_LT(frame, live.size());
+        ASSERT_EQ(reel.picture(flight, scene, nullptr), live[frame]) << frame;
+        changed += frame > 0 && live[frame] != live[frame - 1];
+    }
+    EXPECT_EQ(frame, live.size());
+    EXPECT_GT(changed, 55); // the pictures tell frames apart
+    EXPECT_EQ(replay.verdict(), "the same to the bit at 1 check");
+}

@@ -1,0 +1,312 @@
+// Light as numbers, through the cube map and the warp pass, against sums over every nanometre: black bodies, pigments,
+// lines, what is beyond the visible.
+#include "runtime/light/colour_difference.h"
+#include "runtime/light/spectrum.h"
+#include "tests/support/small_world.h"
+#include <cstdio>
+
+namespace starbow::gpu_test {
+namespace {
+
+/// Something must be there, and is not seen.
+void speck(Doc& doc) { quad(doc, {0, 0, 1e6}, {1e-3, 0, 0}, {0, 1e-3, 0}, unlit(doc, {0, 0, 0})); }
+
+Json own(const Json& members) { return {{"extras", {{"starbow", members}}}}; }
+
+dvec3 xyz_of(const dvec3& light) { return glm::inverse(rec709_from_sunlit_xyz()) * light; }
+dvec2 chromaticity(const dvec3& xyz) { return dvec2(xyz) / (xyz.x + xyz.y + xyz.z); }
+
+/// E ahead of a ship that flies along -z.
+Shot ahead(double E, bool headlight = true)
+{
+    Shot shot = shot_at({0, 0, 0}, {0, 0, -0.5 * (E - 1 / E)}, {0, 0, -1});
+    shot.effects = {true, true, headlight};
+    return shot;
+}
+
+/// What the eye sees at every pixel of one that D tells, from the numbers' light.
+struct Seen {
+    dvec3 xyz;
+    double D;
+    int pixel;
+};
+std::vector<Seen> all_around(const GpuWorld& world, const Shot& shot, ivec2 size = {96, 48})
+{
+    Studio stage = studio(world, one_view(Equirectangular{}, size));
+    const Numbers numbers(stage, shot);
+    std::vector<Seen> seen;
+    for (int i = 0; i < numbers.count(); ++i)
+        seen.push_back({xyz_of(numbers.light(i)), numbers.D(i), i});
+    return seen;
+}
+
+constexpr double faintest = 1e-34; // a float below 1.2e-38 has fewer digits, and D^3 or the exposure may come before
+
+/// A reflectance as a pigment's: steps and bumps, its ultraviolet and its infrared its own.
+struct Pigment {
+    double level, step, step_nm, bump, bump_nm, ultraviolet, infrared;
+    double operator()(double nm) const
+    {
+        auto logistic = [](double x) { return 1 / (1 + std::exp(-x)); };
+        const double uv = logistic(-std::log(nm / 360) / 0.035), ir = logistic(std::log(nm / 820) / 0.05);
+        const double at = std::clamp(nm, 330.0, 900.0), across = (at - bump_nm) / 40;
+        const double visible = level + step * logistic((at - step_nm) / 18) + bump * std::exp(-0.5 * across * across);
+        return uv * ultraviolet + ir * infrared + (1 - uv - ir) * std::clamp(visible, 0.0, 1.0);
+    }
+    Json table() const
+    {
+        Json points = Json::array();
+        for (double nm = 250; nm <= 1400; nm *= 1.008)
+            points.push_back({nm, (*this)(nm)});
+        return points;
+    }
+};
+const std::vector<Pigment> pigments
+    = {{0.05, 0.6, 600, 0, 500, 0.04, 0.7}, {0.08, 0.1, 700, 0.35, 530, 0.06, 0.5}, {0.06, 0.2, 710, 0.4, 450, 0.3, 0.2},
+        {0.1, 0.65, 515, 0, 450, 0.05, 0.6}, {0.5, 0.3, 560, -0.2, 470, 0.2, 0.9}, {0.4, 0, 600, 0, 600, 0.4, 0.4}};
+
+} // namespace
+
+TEST(Spectra, ABlackBodySkyIsOneAtEveryD)
+{
+    double worst = 0;
+    int compared = 0;
+    for (double kelvin : {1000.0, 2856.0, 5772.0, 40000.0}) {
+        Doc doc;
+        speck(doc);
+        const GpuWorld world = open_world("black-body", doc, {{"sky", {{"temperature_K", kelvin}}}});
+        EXPECT_EQ(world.spectra.level, SpectralLevel::colours); // a glow is exact at every level
+        for (double E : {1.0, 3.0, 20.0})
+            for (const Seen& seen : all_around(world, ahead(E))) {
+                const dvec3 truth = seen_xyz(black_body(kelvin * seen.D), 1);
+                if (truth.y < faintest)
+                    continue;
+                ++compared;
+                worst = std::max(worst, glm::distance(chromaticity(seen.xyz), chromaticity(truth)));
+                ASSERT_LT(glm::distance(chromaticity(seen.xyz), chromaticity(truth)), 0.002) << kelvin << " K at " << seen.D;
+                // Where the light falls by half with each percent of D, a float's D and a half's row are a percent.
+                ASSERT_NEAR(seen.xyz.y / truth.y, 1, 0.01) << kelvin << " K at " << seen.D;
+            }
+    }
+    std::printf("  %d pixels, chromaticity off by %.5f at most\n", compared, worst);
+    EXPECT_GT(compared, 30000);
+}
+
+TEST(Spectra, PigmentsUnderTheSunAreWhatTheyAreAtEveryNanometre)
+{
+    // Tiles all around at rest; flights along six directions show each at D from 1/8 to 8.
+    Doc doc;
+    std::vector<dvec3> places;
+    const int count = int(pigments.size());
+    for (int row = -2; row <= 2; ++row)
+        for (int i = 0; i < count; ++i) {
+            const double a = 6.2831853 * (i + 0.3 * row) / count, up = 0.45 * row;
+            const dvec3 place = glm::normalize(dvec3(std::sin(a), up, std::cos(a)));
+            const dvec3 right = glm::normalize(glm::cross(dvec3(0, 1, 0), -place)), top = glm::cross(-place, right);
+            places.push_back(place);
+            Json material = own({{"reflectance", pigments[std::size_t(i)].table()}});
+            quad(doc, 10.0 * place, 1.2 * right, 1.2 * top, doc.put("materials", material));
+        }
+    const GpuWorld world = open_world("pigments", doc, {{"ambient", {0.5, 0.5, 0.5}}});
+    EXPECT_EQ(world.spectra.level, SpectralLevel::fine);
+    const Spectrum sun = sunlit_white();
+    const dvec3 white = seen_xyz(sun, 1);
+    std::vector<double> differences;
+    double luminance = 0;
+    Studio stage = studio(world, one_view(Equirectangular{}, {768, 384}));
+    for (double E : {1.0, 2.0, 8.0})
+        for (const dvec3& way : {dvec3(0, 0, -1), dvec3(1, 0, 0), dvec3(0.3, -0.8, 0.5)}) {
+            Shot shot = ahead(E, false);
+            shot.u = glm::normalize(way) * (0.5 * (E - 1 / E));
+            const Numbers numbers(stage, shot);
+            for (int i = 0; i < numbers.count(); ++i)
+                for (std::size_t tile = 0; tile < places.size(); ++tile) {
+                    // The pixel's whole footprint, 0.065 wide at D = 8, is inside the tile.
+                    if (glm::dot(numbers.world(i), places[tile]) < std::cos(0.03))
+                        continue;
+                    const Pigment& pigment = pigments[tile % pigments.size()];
+                    const dvec3 truth = 0.5 * seen_xyz([&](double nm) { return sun(nm) * pigment(nm); }, numbers.D(i));
+                    const dvec3 shown = xyz_of(numbers.light(i));
+                    differences.push_back(
+                        ciede2000(cielab(truth * (0.5 / truth.y), white), cielab(shown * (0.5 / shown.y), white)));
+                    luminance = std::max(luminance, std::abs(shown.y / truth.y - 1));
+                }
+        }
+    ASSERT_GT(differences.size(), 100u);
+    std::sort(differences.begin(), differences.end());
+    std::printf("  %zu pixels: CIEDE2000 median %.2f, worst %.2f, luminance %.2f %%\n", differences.size(),
+        differences[differences.size() / 2], differences.back(), 100 * luminance);
+    EXPECT_LT(differences[differences.size() / 2], 1);
+    EXPECT_LT(differences.back(), 3);
+    EXPECT_LT(luminance, 0.02);
+}
+
+TEST(Spectra, EveryLevelShowsBaseColoursAlike)
+{
+    Doc doc;
+    for (int i = 0; i < 6; ++i) {
+        const double a = 6.2831853 * i / 6;
+        const dvec3 place(std::sin(a), 0, std::cos(a)), right = glm::cross(dvec3(0, 1, 0), -place);
+        const dvec3 colours[]
+            = {{0.8, 0.1, 0.1}, {0.1, 0.6, 0.2}, {0.1, 0.2, 0.7}, {0.7, 0.6, 0.1}, {0.5, 0.5, 0.5}, {0.6, 0.3, 0.5}};
+        quad(doc, 10.0 * place, 4.0 * right, {0, 4, 0}, unlit(doc, colours[i]));
+    }
+    Json scene = {{"sky", smooth_sky}};
+    GpuWorld world = open_world("levels", doc, scene);
+    ASSERT_EQ(world.spectra.level, SpectralLevel::colours);
+    const dvec3 white = seen_xyz(sunlit_white(), 1);
+    std::array<std::vector<Seen>, 3> seen;
+    for (SpectralLevel level : {SpectralLevel::colours, SpectralLevel::middle, SpectralLevel::fine}) {
+        put_spectra(device(), world, level);
+        seen[std::size_t(level)] = all_around(world, ahead(2), {128, 64});
+    }
+    double middle = 0, fine = 0;
+    for (std::size_t i = 0; i < seen[0].size(); ++i) {
+        auto lab = [&](const Seen& s) { return cielab(s.xyz * (0.5 / s.xyz.y), white); };
+        middle = std::max(middle, ciede2000(lab(seen[0][i]), lab(seen[1][i])));
+        fine = std::max(fine, ciede2000(lab(seen[0][i]), lab(seen[2][i])));
+    }
+    std::printf("  CIEDE2000 to the colours': middle %.3f, fine %.2f\n", middle, fine);
+    EXPECT_LT(middle, 0.3); // exact but for halves
+    EXPECT_LT(fine, 3);
+}
+
+TEST(Spectra, ALineRunsAlongTheSpectrum)
+{
+    // 450 nm all around, at 0.5 c: its chromaticity is the spectrum's own at 450 nm / D.
+    Doc doc;
+    const int line = [&] {
+        Json material = own({{"emission", {{"line_nm", 450}}}});
+        material["emissiveFactor"] = {1, 1, 1};
+        return doc.put("materials", material);
+    }();
+    for (const dvec3& way : {dvec3(0, 0, -1), dvec3(1, 0, 0), dvec3(0, 0, 1), dvec3(-1, 0, 0)})
+        quad(doc, 5.0 * way, 5.0 * glm::cross(dvec3(0, 1, 0), -way), {0, 5, 0}, line);
+    const GpuWorld world = open_world("line", doc);
+    const double E = std::sqrt(3.0);
+    Studio stage = studio(world, one_view(Equirectangular{}, {720, 90}));
+    const Numbers numbers(stage, ahead(E, false));
+    const double wavelengths[][2] = {{90, 520}, {105.5, 589}, {120, 650}}; // camera angle from the motion, and what is seen
+    int found = 0, compared = 0;
+    for (int i = 0; i < numbers.count(); ++i) {
+        if (std::abs(numbers.camera(i).y) > 0.3)
+            continue;
+        const double nm = 450 / numbers.D(i), angle = between(numbers.camera(i), {0, 0, -1}) * 57.29577951308232;
+        const dvec3 seen = xyz_of(numbers.light(i)), truth = eye().response(nm);
+        if (truth.y < 1e-4 * eye().response(555).y)
+            continue;
+        ++compared;
+        // Rows of the table are 2.5 nm apart.
+        ASSERT_LT(glm::distance(chromaticity(seen), chromaticity(truth)), 0.003) << nm << " nm";
+        for (const auto& known : wavelengths)
+            if (std::abs(angle - known[0]) < 0.1) {
+                ++found;
+                EXPECT_NEAR(nm, known[1], 1) << angle;
+            }
+    }
+    EXPECT_GT(compared, 5000);
+    EXPECT_GT(found, 5);
+}
+
+TEST(Spectra, ARoomTemperatureWallGlowsDullRedFromGammaOneAndAHalf)
+{
+    Doc doc;
+    Json material = own({{"temperature_K", 288}, {"emissivity", 0.9}});
+    material["pbrMetallicRoughness"] = {{"baseColorFactor", {0.1, 0.1, 0.1, 1}}};
+    quad(doc, {0, 0, -5}, {50, 0, 0}, {0, 50, 0}, doc.put("materials", material));
+    const GpuWorld world = open_world("wall", doc);
+    Studio stage = studio(world, one_view(Planar{20}, {64, 48}));
+    double before = 0;
+    for (double gamma : {1.0, 1.2, 1.5, 2.0, 4.0}) {
+        const double E = gamma + u_of_gamma(gamma);
+        const Shot shot = ahead(E);
+        const Numbers numbers(stage, shot);
+        const int middle = 24 * 64 + 32;
+        const dvec3 light = numbers.light(middle), xyz = xyz_of(light);
+        const dvec3 truth = 0.9 * seen_xyz(black_body(288 * numbers.D(middle)), 1);
+        if (truth.y > faintest) {
+            EXPECT_NEAR(xyz.y / truth.y, 1, 0.01) << gamma;
+        }
+        EXPECT_GE(xyz.y, before);
+        before = xyz.y;
+        const double nits = xyz.y * 39870; // a sunlit white's luminance, cd/m2
+        if (gamma == 1.2) {
+            EXPECT_LT(nits, 1e-6); // less than an eye sees in the dark
+        }
+        if (gamma == 1.5) {
+            EXPECT_GT(nits, 1e-4); // a moonless night's ground
+            EXPECT_LT(nits, 1e-1);
+            EXPECT_GT(light.r, 0);
+            EXPECT_LT(std::max(light.g, light.b), 0.05 * light.r);
+        }
+        // Shown as an eye that is used to the dark would see it.
+        if (gamma == 1.5) {
+            Shot dark = shot;
+            dark.exposure_ev = stage.metered(shot).value_or(0);
+            EXPECT_NEAR(dark.exposure_ev, 24, 3);
+            const auto picture = stage.picture(dark).front();
+            EXPECT_GT(picture[4 * middle], 60);
+            EXPECT_GT(picture[4 * middle], 2 * picture[4 * middle + 2]); // what is bright goes towards white
+        }
+    }
+}
+
+TEST(Spectra, TheMicrowaveBackgroundAppearsNearGamma150)
+{
+    Doc doc;
+    speck(doc);
+    const GpuWorld world = open_world("microwaves", doc, {{"sky", {{"temperature_K", 2.725}}}});
+    Studio stage = studio(world, one_view(Planar{0.5}, {65, 49}));
+    for (double gamma : {50.0, 146.0, 1000.0, 1e6}) {
+        const Numbers numbers(stage, ahead(gamma + u_of_gamma(gamma)));
+        const int middle = 24 * 65 + 32;
+        const dvec3 xyz = xyz_of(numbers.light(middle));
+        const dvec3 truth = seen_xyz(black_body(2.725 * numbers.D(middle)), 1);
+        EXPECT_NEAR(numbers.D(middle) / (2 * gamma), 1, 0.06) << gamma;
+        if (truth.y > faintest) {
+            EXPECT_NEAR(xyz.y / truth.y, 1, 0.01) << gamma;
+            EXPECT_LT(glm::distance(chromaticity(xyz), chromaticity(truth)), 0.002) << gamma;
+        }
+        // As bright as the wall at gamma 1.5: both are near 800 K.
+        if (gamma == 50) {
+            EXPECT_LT(xyz.y * 39870, 1e-6);
+        }
+        if (gamma == 146) {
+            EXPECT_GT(xyz.y * 39870, 1e-3);
+        }
+    }
+}
+
+TEST(Spectra, FalseColoursShowTheInfraredRedAndTheUltravioletBlue)
+{
+    Doc doc;
+    auto material = [&](const Json& beyond) {
+        Json material = own(beyond);
+        material["pbrMetallicRoughness"] = {{"baseColorFactor", {0.2, 0.2, 0.2, 1}}};
+        return doc.put("materials", material);
+    };
+    quad(doc, {-1, 0, -4}, {0.9, 0, 0}, {0, 2, 0}, material({{"infrared", 0.9}, {"ultraviolet", 0.05}}));
+    quad(doc, {1, 0, -4}, {0.9, 0, 0}, {0, 2, 0}, material({{"infrared", 0.05}, {"ultraviolet", 0.9}}));
+    GpuWorld world = open_world("false", doc, {{"ambient", {1, 1, 1}}});
+    ASSERT_EQ(world.spectra.level, SpectralLevel::middle); // five numbers tell all of this
+    for (SpectralLevel level : {SpectralLevel::middle, SpectralLevel::fine}) {
+        put_spectra(device(), world, level);
+        Studio stage = studio(world, one_view(Planar{40}, {64, 48}));
+        Shot shot = ahead(1);
+        const Numbers plain(stage, shot);
+        shot.effects.false_colours = true;
+        const Numbers shown(stage, shot);
+        const int left = 24 * 64 + 16, right = 24 * 64 + 48;
+        for (int i : {left, right}) // to eyes both are the same grey
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(plain.light(i)[c], 0.2, 0.01);
+        EXPECT_NEAR(shown.light(left).r, 0.9, 0.06); // the bands overlap the reflectance's rise
+        EXPECT_NEAR(shown.light(left).b, 0.05, 0.03);
+        EXPECT_NEAR(shown.light(right).r, 0.05, 0.04);
+        EXPECT_NEAR(shown.light(right).b, 0.9, 0.08);
+        for (int i : {left, right})
+            EXPECT_NEAR(shown.light(i).g, 0.2, 0.04);
+    }
+}
+
+} // namespace starbow::gpu_test

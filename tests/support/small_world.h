@@ -1,0 +1,73 @@
+#pragma once
+// Worlds made for one test: flat things in plain colours.
+#include "gltf_fixture.h"
+#include "runtime/world/detail.h"
+#include "stage.h"
+
+namespace starbow::gpu_test {
+
+using gltf_test::Doc;
+using gltf_test::Json;
+
+/// A colour that shines as it is, without lamps.
+inline int unlit(Doc& doc, const dvec3& colour)
+{
+    doc.json["extensionsUsed"] = {"KHR_materials_unlit"};
+    return doc.put("materials",
+        {{"pbrMetallicRoughness", {{"baseColorFactor", {colour.r, colour.g, colour.b, 1}}}},
+            {"extensions", {{"KHR_materials_unlit", Json::object()}}}});
+}
+
+/// A rectangle whose front shows `right` to the right and `up` upwards; texture coordinates 0, 0 at its top left.
+/// `node`: the node's own members; the corners are in its frame.
+inline void quad(
+    Doc& doc, const dvec3& centre, const dvec3& right, const dvec3& up, int material, Json node = Json::object())
+{
+    std::vector<float> positions;
+    for (const dvec3& corner : {centre - right - up, centre + right - up, centre + right + up, centre - right + up})
+        positions.insert(positions.end(), {float(corner.x), float(corner.y), float(corner.z)});
+    const std::vector<float> uv = {0, 1, 1, 1, 1, 0, 0, 0};
+    const std::vector<std::uint16_t> indices = {0, 1, 2, 0, 2, 3};
+    Json primitive
+        = {{"attributes", {{"POSITION", doc.accessor(positions, "VEC3")}, {"TEXCOORD_0", doc.accessor(uv, "VEC2")}}},
+            {"indices", doc.accessor(indices, "SCALAR")}, {"material", material}};
+    node["mesh"] = doc.put("meshes", {{"primitives", {primitive}}});
+    doc.json["scenes"][0]["nodes"].push_back(doc.put("nodes", node));
+}
+
+/// As `starbow` opens it: a scene file and its glTF, one unit a metre.
+inline GpuWorld open_world(const std::string& name, const Doc& doc, Json scene = Json::object())
+{
+    testing::write_text(name + ".gltf", doc.text());
+    scene["gltf"] = name + ".gltf";
+    scene["unit_m"] = 1;
+    const SceneFile file = load_scene_file(testing::write_text(name + ".json", scene.dump()));
+    World world = load_world(file.gltf);
+    add_detail_levels(world);
+    return upload(
+        device(), pipelines(), std::move(world), file, file.stars ? load_stars(file.stars->catalogue) : std::vector<Star>());
+}
+
+inline const Json smooth_sky
+    = {{"zenith", {0.25, 0.45, 0.80}}, {"horizon", {0.70, 0.60, 0.40}}, {"nadir", {0.30, 0.20, 0.55}}};
+
+/// What a sky shows in the direction n.
+inline dvec3 sky_colour(const dvec3& n, const Json& sky = smooth_sky)
+{
+    auto colour = [&](const char* at) {
+        const Json& c = sky.at(at);
+        return dvec3(c.at(0), c.at(1), c.at(2));
+    };
+    const double h = std::min(std::abs(n.y), 1.0), blend = h * h * (3 - 2 * h);
+    return glm::mix(colour("horizon"), colour(n.y > 0 ? "zenith" : "nadir"), blend);
+}
+
+inline bool near_colour(const dvec3& a, const dvec3& b, double by) { return glm::length(a - b) < by; }
+
+/// From linear light to what a pixel's byte holds, 0 to 1: IEC 61966-2-1.
+inline double srgb(double linear)
+{
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+} // namespace starbow::gpu_test

@@ -1,0 +1,122 @@
+#pragma once
+// What the tests that need a GPU share: one device with the validation layers on for the whole run, worlds on it, and
+// pictures' numbers by name.
+#include "config/json/error.h"
+#include "config/model/one_view.h"
+#include "files.h"
+#include "runtime/render/offscreen.h"
+#include "runtime/render/render_context.h"
+#include "speeds.h"
+#include <array>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <gtest/gtest.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+namespace starbow::gpu_test {
+
+using glm::dmat3;
+using glm::dvec2;
+using glm::dvec3;
+using glm::ivec2;
+
+/// The avenue on a device that complains; opened before the first test. Whatever the layers say fails the run.
+class Stage : public ::testing::Environment {
+public:
+    void SetUp() override
+    {
+#ifdef __GLIBC__
+        // A device in software has its memory from malloc. Filled with 0x7e it is NaN to fp16 and 8e37 to float: what is
+        // read without having been written shows.
+        mallopt(M_MMAP_MAX, 0);
+        mallopt(M_PERTURB, 0x81);
+#endif
+        theatre = std::make_unique<Theatre>(testing::source_dir() / "config/scenes/avenue.json",
+            Device::Options{.validation = true, .name = device_options(false).name});
+    }
+    void TearDown() override
+    {
+        if (!theatre)
+            return;
+        theatre->device.device.waitIdle();
+        expect_no_complaints(theatre->device);
+        theatre.reset();
+    }
+    static void expect_no_complaints(const Device& device)
+    {
+        for (const std::string& complaint : device.complaints)
+            ADD_FAILURE() << "validation: " << complaint;
+    }
+
+    static inline std::unique_ptr<Theatre> theatre;
+};
+
+inline ::testing::Environment* const stage = ::testing::AddGlobalTestEnvironment(new Stage);
+
+inline Theatre& avenue() { return *Stage::theatre; }
+inline Device& device() { return Stage::theatre->device; }
+inline Pipelines& pipelines() { return Stage::theatre->pipelines; }
+
+/// The avenue under an empty sky, while this lives.
+struct WithoutStars {
+    WithoutStars() { put_stars(device(), avenue().world, {}); }
+    ~WithoutStars() { put_stars(device(), avenue().world, load_stars(avenue().world.scene.stars->catalogue)); }
+};
+
+/// What tests of shapes and numbers are drawn with, and their bounds made for: smooth edges, and one ray a pixel.
+inline Quality test_quality()
+{
+    return within(device(), {.texels_per_pixel = 1.25, .most_texels_per_pixel = 8, .cube_samples = 4, .shading_texels = 2});
+}
+
+inline Studio studio(const GpuWorld& world, const Layout& layout, bool measured = true)
+{
+    return Studio(device(), pipelines(), world, layout, test_quality(), measured);
+}
+
+using starbow::testing::u_of_beta, starbow::testing::u_of_gamma;
+
+/// A shot without colour effects: shapes alone.
+inline Shot shot_at(const dvec3& position, const dvec3& u, const dvec3& look, const dvec3& up = {0, 1, 0})
+{
+    Shot shot;
+    shot.position = position;
+    shot.u = u;
+    shot.ship_from_cockpit = orientation(look, up);
+    shot.effects = {true, false, false};
+    return shot;
+}
+
+/// The EXR's channels of one output by name.
+struct Numbers {
+    ivec2 size;
+    Channels channels;
+
+    Numbers(Studio& studio, const Shot& shot, std::size_t output = 0)
+        : size(studio.layout().outputs[output].size)
+        , channels(studio.numbers(shot, output))
+    {
+    }
+    const std::vector<float>& channel(const std::string& name) const
+    {
+        for (const auto& [own, values] : channels)
+            if (own == name)
+                return values;
+        throw std::runtime_error("no channel " + name);
+    }
+    int count() const { return size.x * size.y; }
+    dvec2 centre(int i) const { return {i % size.x + 0.5, i / size.x + 0.5}; }
+    dvec3 light(int i) const { return {channels[0].second[i], channels[1].second[i], channels[2].second[i]}; }
+    dvec3 camera(int i) const { return {channels[3].second[i], channels[4].second[i], channels[5].second[i]}; }
+    dvec3 world(int i) const { return {channels[6].second[i], channels[7].second[i], channels[8].second[i]}; }
+    double D(int i) const { return channels[9].second[i]; }
+    double depth(int i) const { return channels[10].second[i]; }
+    bool shown(int i) const { return !std::isnan(channels[9].second[i]); }
+};
+
+/// Angle between directions of any length, sharp for small ones.
+inline double between(const dvec3& a, const dvec3& b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
+
+} // namespace starbow::gpu_test

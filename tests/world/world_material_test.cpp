@@ -1,0 +1,329 @@
+#include "config/model/angles.h"
+#include "tests/support/gltf_fixture.h"
+
+namespace starbow::gltf_test {
+namespace {
+
+using WorldMaterialTest = GltfTest;
+
+/// A triangle with texture coordinates 00, 10, 01 in set 0 and 55, 65, 56 in set 1, and one material.
+Doc painted(const Json& material)
+{
+    Doc doc = triangle_doc();
+    Json& primitive = doc.json["meshes"][0]["primitives"][0];
+    primitive["attributes"]["TEXCOORD_0"] = doc.accessor<float>({0, 0, 1, 0, 0, 1}, "VEC2");
+    primitive["attributes"]["TEXCOORD_1"] = doc.accessor<std::uint8_t>({5, 5, 6, 5, 5, 6}, "VEC2");
+    primitive["material"] = 0;
+    doc.json["materials"] = {material};
+    doc.json["images"] = {{{"uri", png_uri()}}};
+    doc.json["textures"] = {{{"source", 0}}};
+    return doc;
+}
+
+const Json textured = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}};
+
+TEST_F(WorldMaterialTest, BaseColourAndTexture)
+{
+    Doc doc = painted(textured);
+    doc.json["materials"][0]["name"] = "paint";
+    doc.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.1, 0.2, 0.3, 0.4};
+    World world = load(doc);
+    ASSERT_EQ(world.materials.size(), 1u);
+    const Material& material = world.materials[0];
+    EXPECT_EQ(material.name, "paint");
+    EXPECT_EQ(material.base_colour, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
+    EXPECT_EQ(material.base_texture, 0);
+    EXPECT_EQ(material.emissive_texture, -1);
+    EXPECT_EQ(material.alpha_cutoff, 0);
+    EXPECT_FALSE(material.double_sided);
+    EXPECT_FALSE(material.unlit);
+    ASSERT_EQ(world.textures.size(), 1u);
+    EXPECT_EQ(world.textures[0].size, glm::ivec2(2, 1));
+    EXPECT_EQ(world.textures[0].rgba, (Bytes{255, 0, 0, 255, 0, 0, 255, 128}));
+    EXPECT_EQ(world.textures[0].sampler, Sampler{});
+    EXPECT_EQ(world.vertices[1].uv, glm::vec2(1, 0));
+}
+
+TEST_F(WorldMaterialTest, ImagesInBufferViewsAndFilesAndJpeg)
+{
+    Doc doc = painted(textured);
+    doc.json["images"][0] = {{"bufferView", doc.view(small_png())}, {"mimeType", "image/png"}};
+    EXPECT_EQ(load(doc).textures.at(0).rgba.size(), 8u);
+    write("grey.jpg", grey_jpeg());
+    doc.json["images"][0] = {{"uri", "grey.jpg"}};
+    World world = load(doc);
+    EXPECT_EQ(world.textures.at(0).size, glm::ivec2(16, 8));
+    EXPECT_NEAR(world.textures.at(0).rgba.at(64), 100, 2);
+}
+
+TEST_F(WorldMaterialTest, TextureCoordinatesOfAnySetAndType)
+{
+    Doc doc = painted(textured);
+    Json& info = doc.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+    info["texCoord"] = 1;
+    EXPECT_EQ(load(doc).vertices[1].uv, glm::vec2(6, 5));
+    auto uv = [&](auto values, bool normalized) {
+        Json& attributes = doc.json["meshes"][0]["primitives"][0]["attributes"];
+        attributes["TEXCOORD_1"] = doc.accessor(values, "VEC2", normalized);
+        return load(doc).vertices.at(1).uv;
+    };
+    EXPECT_EQ(uv(std::vector<std::uint8_t>{0, 0, 255, 51, 0, 0}, true), glm::vec2(1, 0.2f));
+    EXPECT_EQ(uv(std::vector<std::uint16_t>{0, 0, 65535, 13107, 0, 0}, true), glm::vec2(1, 0.2f));
+    EXPECT_EQ(uv(std::vector<std::int8_t>{0, 0, -127, 127, 0, 0}, true), glm::vec2(-1, 1));
+    EXPECT_EQ(uv(std::vector<std::int16_t>{0, 0, -300, 300, 0, 0}, false), glm::vec2(-300, 300));
+    EXPECT_EQ(uv(std::vector<std::uint16_t>{0, 0, 300, 2, 0, 0}, false), glm::vec2(300, 2));
+}
+
+TEST_F(WorldMaterialTest, TextureTransformsAreBaked)
+{
+    // The extension's own example: the lower left quarter of the image, turned clockwise by 90 degrees.
+    Doc doc = painted(textured);
+    Json& info = doc.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+    info["extensions"]["KHR_texture_transform"] = {{"offset", {0, 1}}, {"rotation", pi / 2}, {"scale", {0.5, 0.5}}};
+    doc.json["extensionsUsed"] = {"KHR_texture_transform"};
+    World world = load(doc);
+    EXPECT_NEAR(glm::distance(world.vertices[0].uv, glm::vec2(0, 1)), 0, 1e-7);
+    EXPECT_NEAR(glm::distance(world.vertices[1].uv, glm::vec2(0, 0.5)), 0, 1e-7);
+    EXPECT_NEAR(glm::distance(world.vertices[2].uv, glm::vec2(0.5, 1)), 0, 1e-7);
+    EXPECT_TRUE(world.notes.empty());
+    info["extensions"]["KHR_texture_transform"] = {{"scale", {2, -3}}, {"texCoord", 1}};
+    EXPECT_EQ(load(doc).vertices[1].uv, glm::vec2(12, -15));
+}
+
+TEST_F(WorldMaterialTest, EmissiveFactorTextureAndStrength)
+{
+    Doc doc = painted({{"emissiveFactor", {1, 0.5, 0.25}}, {"emissiveTexture", {{"index", 0}, {"texCoord", 1}}},
+        {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 60}}}}}});
+    World world = load(doc);
+    EXPECT_EQ(world.materials[0].emissive, glm::vec3(60, 30, 15));
+    EXPECT_EQ(world.materials[0].emissive_texture, 0);
+    EXPECT_EQ(world.vertices[1].uv, glm::vec2(6, 5)) << "the only texture says which coordinates are meant";
+    doc.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+    world = load(doc);
+    EXPECT_EQ(world.vertices[1].uv, glm::vec2(1, 0));
+    EXPECT_EQ(world.textures.size(), 1u);
+    ASSERT_EQ(world.notes.size(), 1u);
+}
+
+TEST_F(WorldMaterialTest, UnlitHasNoGlowBeside)
+{
+    World world = load(painted({{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}}},
+        {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}}},
+        {"extensions", {{"KHR_materials_unlit", Json::object()}}}}));
+    EXPECT_TRUE(world.materials[0].unlit);
+    EXPECT_EQ(world.materials[0].emissive, glm::vec3(0));
+    EXPECT_EQ(world.materials[0].emissive_texture, -1);
+}
+
+TEST_F(WorldMaterialTest, AlphaModesAndSides)
+{
+    Doc doc = painted({{"alphaMode", "MASK"}, {"doubleSided", true}});
+    EXPECT_EQ(load(doc).materials[0].alpha_cutoff, 0.5f);
+    EXPECT_TRUE(load(doc).materials[0].double_sided);
+    doc.json["materials"][0]["alphaCutoff"] = 0.25;
+    EXPECT_EQ(load(doc).materials[0].alpha_cutoff, 0.25f);
+    doc.json["materials"] = {{{"alphaMode", "BLEND"}}, {{"alphaMode", "BLEND"}}};
+    EXPECT_EQ(load(doc).materials[0].alpha_cutoff, 0);
+    EXPECT_EQ(load(doc).notes, (std::vector<std::string>{"blended transparency: such surfaces are drawn opaque"}));
+}
+
+TEST_F(WorldMaterialTest, SamplersAndSharedTextures)
+{
+    Doc doc = painted(textured);
+    doc.json["samplers"] = {{{"magFilter", 9728}, {"minFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33648}},
+        {{"minFilter", 9984}}, {{"minFilter", 9729}}, {{"minFilter", 9985}}, {{"minFilter", 9986}},
+        {{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", 10497}}};
+    doc.json["textures"] = Json::array();
+    doc.json["materials"] = Json::array();
+    for (int i = 0; i < 6; ++i) {
+        doc.put("textures", {{"source", 0}, {"sampler", i}});
+        Json material = textured;
+        material["pbrMetallicRoughness"]["baseColorTexture"]["index"] = i;
+        doc.put("materials", material);
+    }
+    // The default sampler means the same as the last one; the two share a texture.
+    doc.put("textures", {{"source", 0}});
+    doc.put("materials", {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 6}}}});
+    World world = load(doc);
+    ASSERT_EQ(world.textures.size(), 6u);
+    EXPECT_EQ(world.textures[0].sampler, (Sampler{Wrap::clamp, Wrap::mirror, false, false, false, false}));
+    EXPECT_EQ(world.textures[1].sampler, (Sampler{.minify_linear = false, .mip_linear = false}));
+    EXPECT_EQ(world.textures[2].sampler, (Sampler{.mipmaps = false, .mip_linear = false}));
+    EXPECT_EQ(world.textures[3].sampler, (Sampler{.mip_linear = false}));
+    EXPECT_EQ(world.textures[4].sampler, (Sampler{.minify_linear = false}));
+    EXPECT_EQ(world.textures[5].sampler, Sampler{});
+    EXPECT_EQ(world.materials[6].emissive_texture, 5);
+}
+
+TEST_F(WorldMaterialTest, WhatASurfaceCannotShowIsNoted)
+{
+    Doc doc = painted({{"normalTexture", {{"index", 0}}}, {"occlusionTexture", {{"index", 0}}},
+        {"pbrMetallicRoughness",
+            {{"metallicFactor", 1}, {"metallicRoughnessTexture", {{"index", 0}}}, {"baseColorTexture", {{"index", 1}}}}}});
+    doc.put("textures", {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}});
+    doc.json["images"][0]["uri"] = "missing.png"; // nothing reads it
+    World world = load(doc);
+    EXPECT_EQ(world.materials[0].base_texture, -1);
+    EXPECT_EQ(world.notes,
+        (std::vector<std::string>{"metallic-roughness textures: surfaces are matt", "metallic surfaces are drawn matt",
+            "normal maps are not used", "occlusion maps are not used",
+            "textures without a PNG or JPEG image: their surfaces are plain"}));
+}
+
+TEST_F(WorldMaterialTest, PrimitivesWithoutMaterialGetTheDefault)
+{
+    Doc doc = painted({{"name", "paint"}});
+    doc.show({{"attributes", {{"POSITION", 0}}}});
+    World world = load(doc);
+    ASSERT_EQ(world.materials.size(), 2u);
+    EXPECT_EQ(world.primitives[0].material, 0);
+    EXPECT_EQ(world.primitives[1].material, 1);
+}
+
+/// The material of a world whose extras hold this under the name "starbow"; it emits.
+Doc with_surface(const Json& surface)
+{
+    return painted({{"emissiveFactor", {0, 0.5, 0}}, {"extras", {{"starbow", surface}}}});
+}
+
+TEST_F(WorldMaterialTest, SurfacesWithoutExtrasAndWithOthersAreAsBefore)
+{
+    for (const Json& extras : {Json("mine"), Json::array({1, 2}), Json{{"exporter", {{"temperature_K", -1}}}}, Json()}) {
+        const Material material = load(painted({{"name", "paint"}, {"extras", extras}})).materials.at(0);
+        EXPECT_EQ(material.name, "paint");
+        EXPECT_FALSE(material.ultraviolet || material.infrared || material.emission);
+        EXPECT_TRUE(material.reflectance.empty());
+        EXPECT_EQ(material.temperature_K, 0);
+        EXPECT_EQ(material.emissivity, 0);
+    }
+}
+
+TEST_F(WorldMaterialTest, SurfacesTellWhatColoursDont)
+{
+    const Json surface = {{"ultraviolet", 0.1}, {"infrared", 0.6}, {"reflectance", {{300, 0}, {550.5, 1}, {1000, 0.25}}},
+        {"temperature_K", 288}, {"emissivity", 0.5}, {"emission", {{"line_nm", 450}}}};
+    for (const Json& form : {surface, Json(surface.dump())}) { // an object, and the same as a text
+        Doc doc = with_surface(form);
+        doc.json["materials"][0]["name"] = "paint";
+        doc.json["materials"].push_back({{"name", "plain"}});
+        const World world = load(doc);
+        const Material& material = world.materials.at(0);
+        EXPECT_EQ(material.name, "paint");
+        EXPECT_EQ(material.emissive, glm::vec3(0, 0.5f, 0));
+        EXPECT_EQ(material.ultraviolet, 0.1);
+        EXPECT_EQ(material.infrared, 0.6);
+        EXPECT_EQ(material.reflectance, (std::vector<std::pair<double, double>>{{300, 0}, {550.5, 1}, {1000, 0.25}}));
+        EXPECT_EQ(material.temperature_K, 288);
+        EXPECT_EQ(material.emissivity, 0.5);
+        EXPECT_EQ(material.emission, Emission(SpectralLine{450}));
+        EXPECT_EQ(world.materials.at(1).temperature_K, 0);
+        EXPECT_FALSE(world.materials[1].emission);
+        EXPECT_TRUE(world.notes.empty());
+    }
+    EXPECT_EQ(load(with_surface({{"temperature_K", 300}})).materials[0].emissivity, 0.9);
+    EXPECT_EQ(load(with_surface({{"emission", {{"black_body_K", 2856}}}})).materials[0].emission, Emission(BlackBody{2856}));
+    EXPECT_EQ(load(with_surface({{"emission", {{"table", {{400, 0}, {500, 2e3}}}}}})).materials[0].emission,
+        Emission(SpectralTable{{{400, 0}, {500, 2e3}}}));
+    EXPECT_FALSE(load(with_surface(Json::object())).materials[0].emission);
+}
+
+TEST_F(WorldMaterialTest, WrongSurfacesAreNamedByTheirPlace)
+{
+    const std::string at = "/materials/0/extras/starbow";
+    const std::vector<std::pair<const char*, std::string>> cases = {{"3", ": is 3; should be an object"},
+        {"\"warm\"", ": is \"warm\", which is not JSON; should be an object"},
+        {R"("{\"temperature_K\": 1e400}")", ": is \"{\"temperature_K\": 1e400}\", which is not JSON"},
+        {"\"[]\"", ": is a list of 0; should be an object"},
+        {R"("{\"emissivity\": 1}")", "/emissivity: says how well the surface glows"},
+        {R"({"temperature": 288})",
+            "/temperature: is not known here; should be one of \"ultraviolet\", \"infrared\", "
+            "\"reflectance\", \"temperature_K\", \"emissivity\", \"emission\", \"clock\", \"blink\""},
+        {R"({"a\nb": 288})", "/a?b: is not known here"},
+        {R"({"ultraviolet": -0.1})", "/ultraviolet: is -0.1; should be a number from 0.0 to 1.0"},
+        {R"({"infrared": 1.5})", "/infrared: is 1.5; should be a number from 0.0 to 1.0"},
+        {R"({"infrared": null})", "/infrared: is null; should be a number"},
+        {R"({"temperature_K": 0})", "/temperature_K: is 0; should be a number from 0.1 to 1000000.0"},
+        {R"({"temperature_K": 1e7})", "/temperature_K: is 10000000.0; should be a number from 0.1"},
+        {R"({"temperature_K": 288, "emissivity": 2})", "/emissivity: is 2; should be a number from 0.0 to 1.0"},
+        {R"({"emissivity": 0.5})", "/emissivity: says how well the surface glows but not how warm it is; should stand"},
+        {R"({"reflectance": 0.5})", "/reflectance: is not a list; should be a list of 2 to 4096 pairs"},
+        {R"({"reflectance": [[500, 0.5]]})", "/reflectance: is a list of 1; should be a list of 2 to 4096 pairs"},
+        {R"({"reflectance": [500, 0.5]})", "/reflectance/0: should be a pair [wavelength in nm, value]"},
+        {R"({"reflectance": [[500, 0.5, 1], [600, 1]]})", "/reflectance/0: should be a pair"},
+        {R"({"reflectance": [[500, 0.5], [600, 1.01]]})", "/reflectance/1/1: is 1.01; should be a number from 0.0 to 1.0"},
+        {R"({"reflectance": [[500, 0.5], [500, 1]]})",
+            "/reflectance/1/0: is 500; should be above the wavelength before, 500"},
+        {R"({"reflectance": [[500, 0.5], [13000, 1]]})", "/reflectance/1/0: is 13000; should be a number from 40.0 to"},
+        {R"({"emission": 450})", "/emission: is 450; should be an object"},
+        {R"({"emission": {}})", "/emission: has 0 members; should have one of \"black_body_K\", \"line_nm\", \"table\""},
+        {R"({"emission": {"line_nm": 450, "black_body_K": 3000}})", "/emission: has 2 members; should have one of"},
+        {R"({"emission": {"temperature_K": 3000}})", "/emission/temperature_K: is not known here; should be one of"},
+        {R"({"emission": {"line_nm": 39.9}})", "/emission/line_nm: is 39.9; should be a number from 40.0 to 12000.0"},
+        {R"({"emission": {"black_body_K": 0.01}})", "/emission/black_body_K: is 0.01; should be a number from 0.1"},
+        {R"({"emission": {"table": [[500, 0], [600, 0]]}})", "/emission/table: is 0 everywhere; should have a value above"},
+        {R"({"emission": {"table": [[500, 1], [600, -1]]}})", "/emission/table/1/1: is -1; should be a number from 0.0"},
+        {R"({"clock": true})", "/clock: is true; should be an object"},
+        {R"({"clock": {"zero": 1}})", "/clock/zero: is not known here; should be one of \"zero_s\""},
+        {R"({"clock": {"zero_s": "noon"}})", "/clock/zero_s: is \"noon\"; should be a number from -10000000000.0 to"},
+        {R"({"clock": {"zero_s": 1e11}})", "/clock/zero_s: is 100000000000.0; should be a number from"},
+        {R"({"blink": {}})", "/blink: has no \"period_s\"; should say how many seconds"},
+        {R"({"blink": {"period_s": 0}})", "/blink/period_s: is 0; should be a number from"},
+        {R"({"blink": {"period_s": 1, "on": 2}})", "/blink/on: is 2; should be a number from 0.0 to 1.0"},
+        {R"({"blink": {"period_s": 1, "rate": 2}})", "/blink/rate: is not known here; should be one of \"period_s\""}};
+    for (const auto& [surface, says] : cases) {
+        const std::string line = complaint(with_surface(Json::parse(surface)));
+        EXPECT_TRUE(line.starts_with(at + says)) << line << "\n" << at + says;
+    }
+    Doc long_list = with_surface(Json::object());
+    Json& table = long_list.json["materials"][0]["extras"]["starbow"]["reflectance"] = Json::array();
+    for (int i = 0; i < 4097; ++i)
+        table.push_back({100 + i, 0.5});
+    EXPECT_TRUE(complaint(long_list).starts_with(at + "/reflectance: is a list of 4097; should be a list of 2 to 4096"));
+    table.erase(0);
+    EXPECT_EQ(load(long_list).materials[0].reflectance.size(), 4096u);
+}
+
+TEST_F(WorldMaterialTest, AnEmissionThatWouldEmitNothingIsRefused)
+{
+    const Json extras = {{"starbow", {{"emission", {{"line_nm", 450}}}}}};
+    const Json strength = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 0}}}};
+    const std::string at = "/materials/0/extras/starbow/emission: ";
+    for (const Json& black : {Json{{"extras", extras}}, Json{{"extras", extras}, {"emissiveFactor", {0, 0, 0}}},
+             Json{{"extras", extras}, {"emissiveFactor", {1, 1, 1}}, {"extensions", strength}}})
+        EXPECT_TRUE(complaint(painted(black)).starts_with(at + "would emit nothing")) << black;
+    EXPECT_TRUE(complaint(painted({{"extras", extras}, {"emissiveFactor", {1, 1, 1}},
+                              {"extensions", {{"KHR_materials_unlit", Json::object()}}}}))
+                    .starts_with(at + "stands beside KHR_materials_unlit"));
+}
+
+TEST_F(WorldMaterialTest, Blinking)
+{
+    Json material = {{"emissiveFactor", {1, 1, 1}}, {"extras", {{"starbow", {{"blink", {{"period_s", 3}}}}}}}};
+    EXPECT_EQ(load(painted(material)).materials[0].blink, (Blink{3, 0.5, 0}));
+    material["extras"]["starbow"]["blink"] = {{"period_s", 3}, {"on", 0.1}, {"zero_s", -2}};
+    EXPECT_EQ(load(painted(material)).materials[0].blink, (Blink{3, 0.1, -2}));
+    material.erase("emissiveFactor");
+    EXPECT_TRUE(complaint(painted(material)).starts_with("/materials/0/extras/starbow/blink: would emit nothing"));
+    EXPECT_FALSE(load(painted(Json::object())).materials[0].blink);
+}
+
+TEST_F(WorldMaterialTest, Clocks)
+{
+    EXPECT_EQ(load(with_surface({{"clock", {{"zero_s", -12.5}}}})).materials[0].clock, WorldClock{-12.5});
+    EXPECT_EQ(load(with_surface({{"clock", Json::object()}})).materials[0].clock, WorldClock{0});
+    EXPECT_EQ(load(with_surface("{\"clock\": {\"zero_s\": 3}}")).materials[0].clock, WorldClock{3});
+    EXPECT_FALSE(load(with_surface(Json::object())).materials[0].clock);
+}
+
+TEST_F(WorldMaterialTest, AClocksDialWantsTextureCoordinates)
+{
+    Doc doc = with_surface({{"clock", Json::object()}});
+    doc.json["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
+    EXPECT_EQ(complaint(doc),
+        "/meshes/0/primitives/0/attributes: has no TEXCOORD_0 for a clock's dial; should have one that goes from 0 to 1 "
+        "across "
+        "it");
+}
+
+} // namespace
+} // namespace starbow::gltf_test
