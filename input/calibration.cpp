@@ -105,7 +105,7 @@ std::vector<SeenAxis> axes_of(const Descriptor& descriptor)
     return axes;
 }
 
-std::string told(const SeenAxis& axis)
+std::string describe(const SeenAxis& axis)
 {
     static const std::vector<std::pair<Usage, std::string>> names{{{1, 0x30}, "X axis"}, {{1, 0x31}, "Y axis"},
         {{1, 0x32}, "Z axis"}, {{1, 0x33}, "Rx axis"}, {{1, 0x34}, "Ry axis"}, {{1, 0x35}, "twist (Rz)"},

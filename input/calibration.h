@@ -18,7 +18,7 @@ struct SeenAxis {
 std::vector<SeenAxis> axes_of(const Descriptor& descriptor);
 
 /// "X axis", "twist (Rz)", "slider 2"
-std::string told(const SeenAxis& axis);
+std::string describe(const SeenAxis& axis);
 
 /// Each takes in what the device tells now. when: 0 before the axes were moved about, 1 after.
 void take_rest(const DeviceState& state, std::size_t when, std::vector<SeenAxis>& axes);

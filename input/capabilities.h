@@ -3,7 +3,7 @@
 namespace starbow {
 
 /// What the visitor's hands hold, for prompts.
-struct Means {
+struct InputCapabilities {
     bool stick = false; ///< or a pad's, or a space mouse: something turns the nose
     bool lever = false;
     bool trigger = false; ///< an axis for faster

@@ -18,7 +18,7 @@ struct Controls {
     std::int64_t time_ns = 0;
     std::int64_t told_ns = 0; ///< when the last report of any device arrived; the steady clock's
     std::optional<double> lever; ///< where the throttle stands, from 0 to 1; without one keys move it
-    double faster = 0; ///< of who has no throttle: above 0 more, below 0 less
+    double throttle_rate = 0; ///< of who has no throttle: above 0 more, below 0 less
     glm::dvec3 push{0}; ///< thrusters: right, up, back; newtonian flight
     glm::dvec3 turn{0}; ///< pitch up, yaw left, roll left: right-handed about the cockpit's x, y, z
     glm::dvec2 look_rad{0}; ///< how much further to look to the left and up, since the last frame

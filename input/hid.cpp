@@ -61,7 +61,7 @@ struct Hid::Shared {
     std::vector<DeviceInfo> missing;
     int openings = 0;
     std::vector<std::string> refused; ///< paths that could not be opened, told once
-    std::thread watcher;
+    std::thread observer;
 
     void read(const std::shared_ptr<Device>& device, hid_device* handle);
     void look();
@@ -87,7 +87,7 @@ void Hid::Shared::read(const std::shared_ptr<Device>& device, hid_device* handle
     if (stop)
         return;
     device->gone = true;
-    say(told(device->info) + " is unplugged");
+    say(describe(device->info) + " is unplugged");
     const std::lock_guard lock(mutex);
     missing.push_back(device->info);
 }
@@ -110,7 +110,7 @@ void Hid::Shared::open(const hid_device_info& found)
         const int why = access(path.c_str(), R_OK | W_OK) == 0 ? 0 : errno;
         if (std::find(refused.begin(), refused.end(), path) == refused.end()) {
             refused.push_back(path);
-            say(told(device->info) + " at " + path
+            say(describe(device->info) + " at " + path
                 + (why == EACCES ? " may not be read: copy config/udev/70-starbow.rules to /etc/udev/rules.d and plug it in again"
                                  : " can't be opened"));
         }
@@ -127,7 +127,7 @@ void Hid::Shared::open(const hid_device_info& found)
         missing.erase(back);
     devices.push_back(device);
     device->reader = std::thread([this, device, handle] { read(device, handle); });
-    say(told(device->info) + " is plugged in at " + path + ", flown by "
+    say(describe(device->info) + " is plugged in at " + path + ", flown by "
         + (device->profile.file.empty() ? device->profile.name : "the profile " + device->profile.name));
 }
 
@@ -193,7 +193,7 @@ void Hid::Shared::watch()
         udev_unref(context);
 }
 
-std::string told(const DeviceInfo& info) { return info.name + " (" + hex4(info.vendor) + ":" + hex4(info.product) + ")"; }
+std::string describe(const DeviceInfo& info) { return info.name + " (" + hex4(info.vendor) + ":" + hex4(info.product) + ")"; }
 
 bool is_controller(const Descriptor& descriptor)
 {
@@ -219,13 +219,13 @@ Hid::Hid(std::vector<Profile> profiles, std::function<void(const std::string&)> 
     shared_->profiles = std::move(profiles);
     shared_->say = std::move(say);
     hid_init();
-    shared_->watcher = std::thread([shared = shared_] { shared->watch(); });
+    shared_->observer = std::thread([shared = shared_] { shared->watch(); });
 }
 
 Hid::~Hid()
 {
     shared_->stop = true;
-    shared_->watcher.join();
+    shared_->observer.join();
     for (const auto& device : shared_->devices)
         device->reader.join();
     hid_exit();
@@ -257,7 +257,7 @@ void Hid::add(double dt_s, Controls& controls)
         }
         mapping->add(state, now, dt_s, controls);
         for (Lever lever : mapping->levers()) {
-            lever.device = told(device->info) + device->info.serial;
+            lever.device = describe(device->info) + device->info.serial;
             levers.push_back(std::move(lever));
         }
         for (const std::string& trouble : mapping->troubles())
@@ -296,11 +296,11 @@ std::string Hid::trouble() const
     return troubles_.empty() ? "" : troubles_.front();
 }
 
-Means Hid::means() const
+InputCapabilities Hid::capabilities() const
 {
-    Means all;
+    InputCapabilities all;
     for (const auto& [key, mapping] : mappings_) {
-        const Means own = mapping->means();
+        const InputCapabilities own = mapping->capabilities();
         all.stick |= own.stick, all.lever |= own.lever, all.trigger |= own.trigger;
         if (own.stick && own.stop_button > 0) // on what is in the hand
             all.stop_button = own.stop_button;
@@ -317,10 +317,10 @@ bool Hid::has_gamepad() const
     });
 }
 
-std::vector<Hid::Seen> Hid::devices() const
+std::vector<Hid::Connected> Hid::devices() const
 {
     const std::lock_guard lock(shared_->mutex);
-    std::vector<Seen> all;
+    std::vector<Connected> all;
     for (const auto& device : shared_->devices)
         if (!device->gone) {
             const std::lock_guard own(device->mutex);

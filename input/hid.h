@@ -16,7 +16,7 @@ struct DeviceInfo {
 };
 
 /// "Flight Stick (1234:abcd)"
-std::string told(const DeviceInfo& info);
+std::string describe(const DeviceInfo& info);
 
 /// Whether a descriptor is that of a joystick, gamepad, space mouse or simulator's control, not a mouse or a keyboard.
 bool is_controller(const Descriptor& descriptor);
@@ -38,15 +38,15 @@ public:
     std::string trouble() const;
     bool has_gamepad() const;
     /// What visitors have in their hands, of all devices together; as of the last add().
-    Means means() const;
+    InputCapabilities capabilities() const;
 
-    struct Seen {
+    struct Connected {
         DeviceInfo info;
         std::string profile; ///< its name
         Descriptor descriptor;
         DeviceState state;
     };
-    std::vector<Seen> devices() const;
+    std::vector<Connected> devices() const;
 
 private:
     struct Device;

@@ -73,9 +73,9 @@ void Keyboard::finish(Controls& controls, bool pads)
     if (!held_)
         dragging_ = nullptr;
     auto axis = [&](int less, int more) { return double(down(more)) - double(down(less)); };
-    controls.faster = axis(GLFW_KEY_S, GLFW_KEY_W);
+    controls.throttle_rate = axis(GLFW_KEY_S, GLFW_KEY_W);
     if (down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT))
-        controls.faster *= 4;
+        controls.throttle_rate *= 4;
     controls.turn = {axis(GLFW_KEY_DOWN, GLFW_KEY_UP), axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT) + axis(GLFW_KEY_D, GLFW_KEY_A),
         axis(GLFW_KEY_E, GLFW_KEY_Q)};
     controls.look_rad = look_rad_per_pixel * drag_; // the pointer holds the world: dragging it right looks left
@@ -112,7 +112,7 @@ void Keyboard::finish(Controls& controls, bool pads)
         if (!glfwJoystickIsGamepad(joystick) || !glfwGetGamepadState(joystick, &state))
             continue;
         // Triggers rest at -1.
-        controls.faster += 0.5 * (state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] - state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER]);
+        controls.throttle_rate += 0.5 * (state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] - state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER]);
         controls.turn.y -= stick(state.axes[GLFW_GAMEPAD_AXIS_LEFT_X]);
         controls.turn.x -= stick(state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y]);
         controls.look_rad.x -= pad_look_rad_per_read * stick(state.axes[GLFW_GAMEPAD_AXIS_RIGHT_X]);

@@ -21,10 +21,10 @@ void add_role(AxisRole role, double value, double dt_s, Controls& controls)
     case AxisRole::throttle: // one of several counts, see LeverChoice
         return;
     case AxisRole::faster:
-        controls.faster += value;
+        controls.throttle_rate += value;
         return;
     case AxisRole::slower:
-        controls.faster -= value;
+        controls.throttle_rate -= value;
         return;
     case AxisRole::nose_up:
         controls.turn.x += value;
@@ -67,7 +67,7 @@ struct Held {
     double Controls::*value;
     double by;
 };
-constexpr Held held[] = {{ButtonRole::faster, &Controls::faster, 1}, {ButtonRole::slower, &Controls::faster, -1},
+constexpr Held held[] = {{ButtonRole::faster, &Controls::throttle_rate, 1}, {ButtonRole::slower, &Controls::throttle_rate, -1},
     {ButtonRole::brighter, &Controls::exposure, 1}, {ButtonRole::darker, &Controls::exposure, -1}};
 
 void press(ButtonRole role, bool pressed, bool down, Controls& controls)
@@ -253,18 +253,18 @@ Mapping::Mapping(Descriptor descriptor, Profile profile)
     }
 }
 
-Means Mapping::means() const
+InputCapabilities Mapping::capabilities() const
 {
-    Means means;
+    InputCapabilities capabilities;
     for (const Axis& axis : axes_) {
-        means.stick |= axis.use.role == AxisRole::nose_right;
-        means.lever |= axis.use.role == AxisRole::throttle;
-        means.trigger |= axis.use.role == AxisRole::faster;
+        capabilities.stick |= axis.use.role == AxisRole::nose_right;
+        capabilities.lever |= axis.use.role == AxisRole::throttle;
+        capabilities.trigger |= axis.use.role == AxisRole::faster;
     }
     for (const Button& button : buttons_)
-        if (button.role == ButtonRole::stop && means.stop_button == 0)
-            means.stop_button = descriptor_.fields[button.field].usage.id;
-    return means;
+        if (button.role == ButtonRole::stop && capabilities.stop_button == 0)
+            capabilities.stop_button = descriptor_.fields[button.field].usage.id;
+    return capabilities;
 }
 
 void Mapping::add(const DeviceState& state, std::int64_t now_ns, double dt_s, Controls& controls)

@@ -45,7 +45,7 @@ public:
     const std::vector<std::string>& troubles() const { return troubles_; } ///< "axis Rz is stuck", for people
 
     /// What of it is on this device.
-    Means means() const;
+    InputCapabilities capabilities() const;
 
 private:
     struct Axis {

@@ -43,7 +43,7 @@ const int GROUPS = (REFLECTED + OWN + 3) / 4;
 const int KEPT = LAMPS_MOVE ? 1 : KINDS; // kinds of light that are summed up before they shine
 const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
 
-#include "later.glsl"
+#include "light_travel_offset.glsl"
 #include "clock.glsl"
 #include "blink.glsl"
 
@@ -80,7 +80,7 @@ vec3 lamp_seen(LightEntry lamp, vec3 towards, float delay, out float D)
     if (lamp.place.w == 0.0)
         return towards;
     if (u > 0.0) {
-        Seen seen = seen_moving(towards - lamp.way.xyz * (u / lamp.shifts.w * delay), lamp.way.xyz, u, lamp.shifts.w);
+        RetardedPosition seen = retarded_position(towards - lamp.way.xyz * (u / lamp.shifts.w * delay), lamp.way.xyz, u, lamp.shifts.w);
         D = seen.D;
         own = seen.tau - delay / lamp.shifts.w;
         towards = seen.place / D; // the light's way is D times as long here
@@ -98,17 +98,17 @@ void main()
     float ink = 0.0, lit_part = 1.0;
     if (CLOCK || MORTAL || BLINK) {
         TimeEntry time = times[instance - int(cube.first.x) + int(cube.first.y)];
-        float later_ = later(place, time.middle);
-        float late = lateness(place);
+        float offset_s = travel_offset_from(place, time.middle);
+        float late = light_travel_offset(place);
         vec2 step_ = vec2(dFdx(late), dFdy(late));
         if (CLOCK) {
             vec2 at = vec2(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y);
-            ink = marks(at, mat2(dFdx(at), dFdy(at)), later_ * time.turns.w, step_ * time.turns.w, time);
+            ink = marks(at, mat2(dFdx(at), dFdy(at)), offset_s * time.turns.w, step_ * time.turns.w, time);
             base.rgb *= 1.0 - ink;
         }
         if (BLINK)
-            lit_part = blinking(time.blink, later_, step_);
-        if (MORTAL && (later_ < time.there.x || later_ >= time.there.y))
+            lit_part = blinking(time.blink, offset_s, step_);
+        if (MORTAL && (offset_s < time.there.x || offset_s >= time.there.y))
             discard;
     }
     if (MASKED && base.a < push.emissive.w)
@@ -135,7 +135,7 @@ void main()
             vec3 towards = lamp.place.xyz - lamp.place.w * place;
             float D = 1.0;
             if (LAMPS_MOVE)
-                towards = lamp_seen(lamp, towards, -lateness(place), D);
+                towards = lamp_seen(lamp, towards, -light_travel_offset(place), D);
             if (LAMPS_MOVE && towards == vec3(0.0))
                 continue;
             float square = lamp.place.w == 0.0 ? 1.0 : dot(towards, towards);

@@ -25,7 +25,7 @@ layout(location = 2) out vec2 out_uv;
 layout(location = 3) out vec4 out_colour;
 layout(location = 4) flat out uint out_instance;
 
-#include "later.glsl"
+#include "light_travel_offset.glsl"
 
 vec4 placed(InstanceEntry at)
 {
@@ -38,7 +38,7 @@ InstanceEntry as_seen(InstanceEntry at, TimeEntry time)
 {
     int first = int(cube.first.z) + int(time.poses.x);
     for (int round_ = 0; round_ < 6; ++round_) {
-        float after = later(placed(at).xyz, time.middle) - time.poses.w;
+        float after = travel_offset_from(placed(at).xyz, time.middle) - time.poses.w;
         float steps = float(POSES / 2) + after * (after < 0.0 ? time.poses.y : time.poses.z);
         steps = clamp(steps, 0.0, float(POSES) - 1.001);
         int k = first + int(steps);

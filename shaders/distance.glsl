@@ -5,7 +5,7 @@
 float smooth_distance_at(Place place)
 {
     vec2 at = place.texel - 0.5;
-    vec4 image = texelFetch(slots, place.entry + 1);
+    vec4 image = texelFetch(tiles, place.entry + 1);
     vec2 low = image.xy, high = image.zw;
     ivec2 t = ivec2(clamp(floor(at), low, max(low, high - 1.0)));
     vec2 part = clamp(at - vec2(t), 0.0, 1.0);

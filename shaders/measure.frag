@@ -5,7 +5,7 @@
 #include "physics/aberration.glsl"
 #include "physics/galilean.glsl"
 #include "view.glsl"
-#include "seen.glsl"
+#include "received_light.glsl"
 // The relativistic transform of one output pixel, as numbers: the same light as warp.frag's before exposure. Where colours
 // look different ways the directions are green's.
 

@@ -5,19 +5,19 @@
 #include "physics/aberration.glsl"
 #include "physics/galilean.glsl"
 #include "view.glsl"
-#include "seen.glsl"
+#include "received_light.glsl"
 // The view at a glance, for the exposure: one pixel stands for zenith.z x zenith.w of the viewport's. Where colours look
 // different ways it looks green's.
 
-layout(location = 0) out vec2 glimpse; // luminance of the scene-linear light at EV 0; solid angle, 0: nothing is shown
+layout(location = 0) out vec2 metered; // luminance of the scene-linear light at EV 0; solid angle, 0: nothing is shown
 
 void main()
 {
-    glimpse = vec2(0.0);
+    metered = vec2(0.0);
     float pixel_angle, coarser = sqrt(view.zenith.z * view.zenith.w);
     vec3 light = shown_at((gl_FragCoord.xy - view.origin.xy) * view.zenith.zw, CHANNELS ? 1 : 0, coarser, pixel_angle).light;
     if (MAP && pixel_angle == 0.0)
         return;
     const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
-    glimpse = vec2(clamp(dot(light, luminance) * view.boost.z, 0.0, 1e38), pixel_angle * pixel_angle * coarser * coarser);
+    metered = vec2(clamp(dot(light, luminance) * view.boost.z, 0.0, 1e38), pixel_angle * pixel_angle * coarser * coarser);
 }

@@ -5,7 +5,7 @@
 #include "physics/aberration.glsl"
 #include "physics/galilean.glsl"
 #include "view.glsl"
-#include "seen.glsl"
+#include "received_light.glsl"
 #include "distance.glsl"
 #include "scale.glsl"
 // What is laid over a viewport for who measures: the world's directions, the ring where nothing is shifted, distances and
@@ -148,7 +148,7 @@ void main()
         discard;
     vec4 sum = vec4(0.0);
     if (OVERLAY == OVERLAY_GRID) {
-        Sight sight = from_camera(n, view.boost.xy);
+        AberratedRay sight = from_camera(n, view.boost.xy);
         vec3 world = ABERRATION ? sight.n : n;
         world = vec3(dot(overlay.world0.xyz, world), dot(overlay.world1.xyz, world), dot(overlay.world2.xyz, world));
         sum = grid(world, world_angle(sight, n, pixel_angle));

@@ -43,8 +43,8 @@ layout(push_constant) uniform Push
 
 void look(uint i)
 {
-    Sight world = world_from_camera(inputs[i].xyz, E, inverse_E);
-    Sight camera = camera_from_world(world.n, E, inverse_E);
+    AberratedRay world = world_from_camera(inputs[i].xyz, E, inverse_E);
+    AberratedRay camera = camera_from_world(world.n, E, inverse_E);
     outputs[2 * i] = vec4(world.n, world.D);
     outputs[2 * i + 1] = vec4(camera.n, camera.D);
 }
@@ -53,7 +53,7 @@ void move(uint i)
 {
     vec4 first = inputs[4 * i], second = inputs[4 * i + 1], third = inputs[4 * i + 2], fourth = inputs[4 * i + 3];
     vec3 u = first.xyz, x = third.xyz, w = fourth.xyz;
-    Leg leg = thrust_leg(u, second.xyz, first.w, second.w);
+    ThrustSegment leg = thrust_segment(u, second.xyz, first.w, second.w);
     float E_of_u = exp_rapidity(length(u));
     float angle = first.w * second.w;
     uint o = 7 * i;

@@ -5,7 +5,7 @@
 #include "physics/aberration.glsl"
 #include "physics/galilean.glsl"
 #include "view.glsl"
-#include "seen.glsl"
+#include "received_light.glsl"
 #include "distance.glsl"
 // What the picture shows in one direction, as numbers: measure.frag's, for a pixel of its own and without stars.
 

@@ -1,21 +1,21 @@
 // What the processor writes and the shaders read: one text for both. C++ sees it through shaders/shared_structs.h, which asserts
 // the sizes. Only 16-byte aligned members, so that std140, std430 and C++ agree.
 
-// Images of one plan, at most. Slots are the places of the cut (see plan.h); every slot has an entry, drawn or not.
-#define SLOT_FRONT 0
-#define SLOT_SIDES 1
+// Images of one plan, at most. Tiles are the places of the cut (see plan.h); every tile has an entry, drawn or not.
+#define TILE_FRONT 0
+#define TILE_SIDES 1
 #define SIDE_BANDS 3
-#define SLOT_REAR 13
+#define TILE_REAR 13
 #define REAR_LEVELS 43
-#define SLOT_COUNT 56
-#define SLOT_CELLS 16 // along each side of a slot, a power of 2: what its images are rectangles of
+#define TILE_COUNT 56
+#define TILE_SUB_TILES 16 // along each side of a tile, a power of 2: what its images are rectangles of
 
 #define REPROJECT_STEPS 12
 #define REPROJECT_ROUNDS 4
 #define MOST_PARALLAX 0.35 // radians between two eyes' views of a point: nearer surfaces are not told apart
 #define MAX_LIGHTS 8
 #define POSES 17 // odd; of what moves by itself, around the moment at which its middle is seen
-#define MAX_LAYERS 16 // velocities of what moves, and rest
+#define MAX_REST_FRAMES 16 // velocities of what moves, and rest
 #define MOST_REFLECTED 12 // numbers of sunlight that surfaces reflect
 #define MAX_OWN 4 // emissions of a scene's own, each a number by itself
 #define MAX_GROUPS 4 // of four numbers: an image of the cube map each
@@ -32,14 +32,14 @@
     (3.14159265 * STAR_RADIUS * STAR_RADIUS / 5.0) // pixels of a spot as bright everywhere as in its middle: the
 // integral of (1 - r^2 / R^2)^4
 
-// One image of the plan, as the warp pass reads it: texel of the atlas = face coordinate * scale + offset. Each slot has one
-// for each of its cells, rows along the second coordinate, in a texel buffer after the layers' cells_from_face.
-struct SlotEntry {
+// One image of the plan, as the warp pass reads it: texel of the atlas = face coordinate * scale + offset. Each tile has one
+// for each of its cells, rows along the second coordinate, in a texel buffer after the layers' sub_tiles_from_face.
+struct TileEntry {
     vec4 texel_from_face; // x: texels per unit of face coordinate; y, z: offset; w: coarsest mip level
-    vec4 texels; // of the atlas: the image's first x, y and last x, y; 0 of a slot that is not drawn
+    vec4 texels; // of the atlas: the image's first x, y and last x, y; 0 of a tile that is not drawn
 };
 
-#define SLOT_ENTRY(slot, cell) (MAX_LAYERS * SLOT_COUNT + 2 * (SLOT_CELLS * SLOT_CELLS * (slot) + (cell)))
+#define TILE_ENTRY(tile, cell) (MAX_REST_FRAMES * TILE_COUNT + 2 * (TILE_SUB_TILES * TILE_SUB_TILES * (tile) + (cell)))
 
 struct LightEntry {
     vec4 place; // w = 0: unit direction towards the light; w = 1: its place from the eye, at the eye's time. Motion axes.
@@ -101,31 +101,31 @@ struct ViewPush {
     vec4 boost; // E, 1/E, exposure gain / pre-exposure (the stars: pre-exposure), near plane
     vec4 origin; // viewport's top left corner in the target, pixels; z, w: 1 / the atlas's size in texels
     vec4 eye; // REPROJECT: the eye's place from the cube map's, world, motion axes. TURNING: xyz: the cockpit's
-              // up in motion axes; w: the eye's distance from the middle, to the right. SINGLE: a SlotEntry's first
+              // up in motion axes; w: the eye's distance from the middle, to the right. SINGLE: a TileEntry's first
     vec4 zenith; // x: TURNING: sine of the angle from the zenith at which the separation is full; y:
                  // REPROJECT: distance of the nearest surface that there may be, scene units; z, w: the
                  // viewport's size, pixels; the meter: pixels of the viewport for one of its samples
-    vec4 pane; // xy: the viewport's top left corner in the output, pixels, also where it is drawn elsewhere; the
+    vec4 corner; // xy: the viewport's top left corner in the output, pixels, also where it is drawn elsewhere; the
                // stars at a glance: pixels across and down, and z: of how many stars each is one. w: rows of the response
                // per octave of D
 };
 
-// What the warp pass knows of one rest frame, as one pane's eye looks at it: as ViewPush, which has the world's.
-struct LayerEntry {
+// What the warp pass knows of one rest frame, as one view's eye looks at it: as ViewPush, which has the world's.
+struct RestFrameEntry {
     vec4 row0, row1, row2; // rows of the turn from the world's motion axes, both in the ship; w of row1: as ViewPush's
-    vec4 boost; // E, 1/E; z: its first slot's index, w: which of the world's frames it is
+    vec4 boost; // E, 1/E; z: its first tile's index, w: which of the world's frames it is
     vec4 eye;
     vec4 nearest; // y: as ViewPush's zenith
 };
 
-// Where something moves: the layers of one pane, and the sky behind them.
-struct LayerConstants {
+// Where something moves: the layers of one view, and the sky behind them.
+struct RestFrameConstants {
     vec4 count; // x: of the layers
     vec4 world_up; // world's motion axes
     vec4 sky_zenith[MAX_GROUPS]; // numbers of the light, pre-exposed
     vec4 sky_horizon[MAX_GROUPS];
     vec4 sky_nadir[MAX_GROUPS];
-    LayerEntry layers[MAX_LAYERS]; // the world's first
+    RestFrameEntry layers[MAX_REST_FRAMES]; // the world's first
 };
 
 // A star, in the scene's world at rest.
@@ -175,9 +175,9 @@ struct BloomPush {
 // Push constants of the test patterns.
 struct PatternPush {
     vec4 row0, row1, row2; // as ViewPush's, to the cockpit's axes
-    vec4 origin; // xy: as ViewPush's; zw: pixels of the pane
+    vec4 origin; // xy: as ViewPush's; zw: pixels of the view
     vec4 tint; // rgb: this output's, or this eye's
-    vec4 label; // xy: size of the label in pixels; z: part of the pane around its middle that is
+    vec4 label; // xy: size of the label in pixels; z: part of the view around its middle that is
                 // shown; w: gamma of the output, 0: sRGB's curve
 };
 

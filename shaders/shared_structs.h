@@ -5,18 +5,18 @@
 namespace starbow::shared {
 using glm::vec4;
 #include "shared.h"
-static_assert(sizeof(SlotEntry) == 32);
+static_assert(sizeof(TileEntry) == 32);
 
-/// All that the warp pass reads of a plan: for each layer each slot, drawn or not.
-struct SlotTable {
-    vec4 cells_from_face[MAX_LAYERS * SLOT_COUNT]; ///< as slots.h's; all 0: one image is the whole slot's
-    SlotEntry entries[MAX_LAYERS * SLOT_COUNT * SLOT_CELLS * SLOT_CELLS];
+/// All that the warp pass reads of a plan: for each layer each tile, drawn or not.
+struct TileTable {
+    vec4 sub_tiles_from_face[MAX_REST_FRAMES * TILE_COUNT]; ///< as tiles.h's; all 0: one image is the whole tile's
+    TileEntry entries[MAX_REST_FRAMES * TILE_COUNT * TILE_SUB_TILES * TILE_SUB_TILES];
 };
-static_assert(sizeof(SlotTable) == 16 * SLOT_ENTRY(MAX_LAYERS * SLOT_COUNT, 0));
+static_assert(sizeof(TileTable) == 16 * TILE_ENTRY(MAX_REST_FRAMES * TILE_COUNT, 0));
 static_assert(sizeof(LightEntry) == 80);
 static_assert(sizeof(CubeConstants) == 4 * 16 + 3 * MAX_GROUPS * 16 + MAX_LIGHTS * 80);
-static_assert(sizeof(LayerEntry) == 96);
-static_assert(sizeof(LayerConstants) == 2 * 16 + 3 * MAX_GROUPS * 16 + MAX_LAYERS * 96);
+static_assert(sizeof(RestFrameEntry) == 96);
+static_assert(sizeof(RestFrameConstants) == 2 * 16 + 3 * MAX_GROUPS * 16 + MAX_REST_FRAMES * 96);
 static_assert(sizeof(InstanceEntry) == 48);
 static_assert(sizeof(TimeEntry) == 96);
 static_assert(sizeof(CubePush) == 128);

@@ -5,7 +5,7 @@
 #include "physics/aberration.glsl"
 #include "physics/galilean.glsl"
 #include "view.glsl"
-#include "seen.glsl"
+#include "received_light.glsl"
 // One star of the sky in one viewport: where the ship sees it, which pixel shows that, and what light comes from it. Stars
 // are points: they go through the forward transform one by one and have no size that could be magnified. One instance, or
 // three where colours look different ways: each star then has a place for each. And as many again where a display looks the same
@@ -175,19 +175,19 @@ bool find(vec3 n, int channel, bool second, out vec2 point, out float pixel_angl
 // Whether something stands before the sky. A star outside the viewport, whose spot reaches in, may lie beyond the image's edge.
 bool hidden(Place place)
 {
-    vec4 image = texelFetch(slots, place.entry + 1);
+    vec4 image = texelFetch(tiles, place.entry + 1);
     vec2 texel = clamp(place.texel, image.xy, image.zw);
     return image.z > 0.0 && texelFetch(depth_atlas, ivec2(texel), 0).r > 0.0;
 }
 
 void main()
 {
-    StarEntry star = stars[GLIMPSE ? gl_VertexIndex * int(view.pane.z) : gl_VertexIndex];
+    StarEntry star = stars[GLIMPSE ? gl_VertexIndex * int(view.corner.z) : gl_VertexIndex];
     int channel = CHANNELS ? gl_InstanceIndex % 3 : 0;
     bool second = gl_InstanceIndex >= (CHANNELS ? 3 : 1);
     vec3 n = vec3(dot(turn.row0.xyz, star.direction.xyz), dot(turn.row1.xyz, star.direction.xyz),
         dot(turn.row2.xyz, star.direction.xyz));
-    Sight sight = Sight(n, 1.0); // as the ship sees it
+    AberratedRay sight = AberratedRay(n, 1.0); // as the ship sees it
     if (ABERRATION)
         sight = GALILEAN ? galilean_camera_from_world(n, view.boost.x, view.boost.y) : camera_from_world(n, view.boost.x, view.boost.y);
     else
@@ -213,8 +213,8 @@ void main()
             return;
     light = starlight(star, sight.D) * (view.boost.z / (pixel_angle * pixel_angle));
     if (GLIMPSE) {
-        vec2 place = vec2(mod(float(gl_VertexIndex), view.pane.x), floor(float(gl_VertexIndex) / view.pane.x)) + 0.5;
-        gl_Position = vec4(place / view.pane.xy * 2.0 - 1.0, 0.0, 1.0);
+        vec2 place = vec2(mod(float(gl_VertexIndex), view.corner.x), floor(float(gl_VertexIndex) / view.corner.x)) + 0.5;
+        gl_Position = vec4(place / view.corner.xy * 2.0 - 1.0, 0.0, 1.0);
         gl_PointSize = 1.0;
         centre = vec2(pixel_angle, 0.0);
         return;

@@ -5,7 +5,7 @@
 #include "physics/aberration.glsl"
 #include "physics/galilean.glsl"
 #include "view.glsl"
-#include "seen.glsl"
+#include "received_light.glsl"
 #include "tone.glsl"
 #include "dither.glsl"
 // The relativistic transform of one output pixel, shown.
@@ -21,7 +21,7 @@ vec3 light_along(int channel)
     vec3 light = light_at(gl_FragCoord.xy - view.origin.xy, channel, pixel_angle);
     if (MAP && pixel_angle == 0.0)
         return vec3(0.0);
-    return STARS ? light + texelFetch(stars_picture, ivec2(gl_FragCoord.xy - view.origin.xy + view.pane.xy), 0).rgb : light;
+    return STARS ? light + texelFetch(stars_picture, ivec2(gl_FragCoord.xy - view.origin.xy + view.corner.xy), 0).rgb : light;
 }
 
 void main()

@@ -110,7 +110,7 @@ Import Importer::run()
             "has no node " + std::to_string(node_) + "; one from 0 to " + std::to_string(int(all.size()) - 1) + " is right");
     // Users are wanted before the viewports, wherever they stand.
     std::vector<std::string> before;
-    if (const auto users = find(top, "users"))
+    if (const auto users = find_member(top, "users"))
         for (const Place& place : items(*users, 0, 64, "users"))
             user(place);
     std::swap(before, out_.lines);
@@ -184,7 +184,7 @@ std::vector<Place> Importer::nodes(const Place& top)
 void Importer::user(const Place& place)
 {
     User user;
-    if (const auto name = find(place, "name"))
+    if (const auto name = find_member(place, "name"))
         user.name = text(*name);
     const std::string whose
         = user.name.empty() ? "of every viewport without a user of its own" : "of the viewports of user " + user.name;
@@ -251,10 +251,10 @@ std::optional<Json> Importer::window(const Place& place, std::size_t index, bool
     Json output;
     const Place size_at = member(place, "size");
     const glm::ivec2 size(integer(member(size_at, "x"), 1, 16384), integer(member(size_at, "y"), 1, 16384));
-    const auto name_at = find(place, "name");
+    const auto name_at = find_member(place, "name");
     output["name"] = output_name(name_at ? text(*name_at) : "window" + std::to_string(index));
     output["size"] = Json::array({size.x, size.y});
-    const auto fullscreen_at = find(place, "fullscreen"), monitor_at = find(place, "monitor");
+    const auto fullscreen_at = find_member(place, "fullscreen"), monitor_at = find_member(place, "monitor");
     const bool fullscreen = fullscreen_at && boolean(*fullscreen_at);
     if (fullscreen) {
         output["whole_monitor"] = true;
@@ -329,7 +329,7 @@ std::optional<Json> Importer::window(const Place& place, std::size_t index, bool
 /// domeprojection frustum, and a fisheye or panorama stays what is bent.
 std::optional<MeshView> Importer::mesh_view(const Place& viewport)
 {
-    const auto mesh = find(viewport, "mesh"), shown = find(viewport, "projection");
+    const auto mesh = find_member(viewport, "mesh"), shown = find_member(viewport, "projection");
     if (!mesh)
         return {};
     if (shown && !is_flat(text(member(*shown, "type"))))
@@ -350,9 +350,9 @@ std::optional<Json> Importer::viewport(const Place& place, glm::ivec2 window_siz
 {
     Json out;
     glm::dvec2 corner(0), size(1);
-    if (const auto at = find(place, "pos"))
+    if (const auto at = find_member(place, "pos"))
         corner = xy(*at, any);
-    if (const auto at = find(place, "size"))
+    if (const auto at = find_member(place, "size"))
         size = xy(*at, any);
     // From SGCT's lower left corner to our upper left one.
     const glm::dvec2 low = glm::clamp(corner, 0.0, 1.0), high = glm::clamp(corner + size, 0.0, 1.0);
@@ -364,7 +364,7 @@ std::optional<Json> Importer::viewport(const Place& place, glm::ivec2 window_siz
     if (low != glm::dvec2(0) || high != glm::dvec2(1))
         out["rect"] = Json::array({low.x, 1 - high.y, high.x - low.x, high.y - low.y});
     bool usable = true;
-    const auto user_at = find(place, "user");
+    const auto user_at = find_member(place, "user");
     const std::string wanted = user_at ? text(*user_at) : "";
     const auto whose = std::find_if(users_.begin(), users_.end(), [&](const User& user) { return user.name == wanted; });
     const std::optional<MeshView> own = mesh_view(place);
@@ -453,7 +453,7 @@ std::optional<Json> Importer::projection(const Place& place, glm::dvec2 pixels)
 Json Importer::turn(const Place& place)
 {
     Turn turn;
-    if (find(place, "w")) {
+    if (find_member(place, "w")) {
         const double x = number(member(place, "x"), {-1.01, 1.01}), y = number(member(place, "y"), {-1.01, 1.01}),
                      z = number(member(place, "z"), {-1.01, 1.01}), w = number(member(place, "w"), {-1.01, 1.01});
         const double length = std::sqrt(x * x + y * y + z * z + w * w);
@@ -479,7 +479,7 @@ Json Importer::planar(const Place& place)
             else if (name == "fov") {
                 const Range angle{-89.9, 89.9}, whole{0.1, 179};
                 Sides s{};
-                if (find(at, "hfov")) {
+                if (find_member(at, "hfov")) {
                     const double h = number(member(at, "hfov"), whole) / 2, v = number(member(at, "vfov"), whole) / 2;
                     s = {-h, h, -v, v};
                 } else

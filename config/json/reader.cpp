@@ -1,5 +1,6 @@
 #include "reader.h"
 #include <algorithm>
+#include <map>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
@@ -138,13 +139,31 @@ glm::dvec4 vec4(const Place& place, Range range)
     return {number(at[0], range), number(at[1], range), number(at[2], range), number(at[3], range)};
 }
 
-void only(const Place& place, const std::vector<std::string_view>& known)
+/// Names of members that older files have, and their names now.
+const std::map<std::string_view, std::string_view> renamed{
+    {"greatest_ev", "max_ev"},
+    {"greatest_gamma", "max_gamma"},
+    {"hold_ms", "frame_budget_ms"},
+    {"least_ev", "min_ev"},
+    {"most_texels_per_pixel", "max_texels_per_pixel"},
+    {"rear_images", "clip_levels"},
+    {"rungs", "levels"},
+    {"shading_texels", "lod_shading_texels"},
+    {"stray_texels", "lod_error_texels"},
+    {"told", "explanation"},
+    {"told_s", "explanation_s"},
+};
+
+void reject_unknown_members(const Place& place, const std::vector<std::string_view>& known)
 {
     if (!place.json->is_object())
         complain(place, "is not an object; an object in { } is right");
     for (const auto& [name, value] : place.json->items()) {
         if (std::find(known.begin(), known.end(), name) != known.end())
             continue;
+        if (const auto now = renamed.find(name); now != renamed.end() && std::find(known.begin(), known.end(), now->second) != known.end())
+            complain({place.document, &value, place.pointer + "/" + escaped(name)},
+                "stands under a name of older files; \"" + std::string(now->second) + "\" is its name now");
         const std::string word = one_line(name, 60);
         std::vector<std::string_view> nearest = known;
         std::stable_sort(nearest.begin(), nearest.end(),
@@ -155,7 +174,7 @@ void only(const Place& place, const std::vector<std::string_view>& known)
     }
 }
 
-std::optional<Place> find(const Place& place, const std::string& name)
+std::optional<Place> find_member(const Place& place, const std::string& name)
 {
     const auto found = place.json->find(name);
     if (found == place.json->end())
@@ -165,31 +184,31 @@ std::optional<Place> find(const Place& place, const std::string& name)
 
 void take(const Place& place, const std::string& name, double& value, Range range)
 {
-    if (auto p = find(place, name))
+    if (auto p = find_member(place, name))
         value = number(*p, range);
 }
 
 void take(const Place& place, const std::string& name, bool& value)
 {
-    if (auto p = find(place, name))
+    if (auto p = find_member(place, name))
         value = boolean(*p);
 }
 
 void take(const Place& place, const std::string& name, glm::dvec2& value, Range range)
 {
-    if (auto p = find(place, name))
+    if (auto p = find_member(place, name))
         value = vec2(*p, range);
 }
 
 void take(const Place& place, const std::string& name, glm::dvec3& value, Range range)
 {
-    if (auto p = find(place, name))
+    if (auto p = find_member(place, name))
         value = vec3(*p, range);
 }
 
 Place member(const Place& place, const std::string& name)
 {
-    if (auto found = find(place, name))
+    if (auto found = find_member(place, name))
         return *found;
     complain(place, "lacks \"" + name + "\"; an object with this member is right");
 }

@@ -78,9 +78,9 @@ template <class Value> Value chosen(const Place& place, const std::vector<std::p
 std::vector<Place> items(const Place& place, std::size_t least, std::size_t most, const std::string& what);
 
 /// Complains unless the place is an object whose members are all known.
-void only(const Place& place, const std::vector<std::string_view>& known);
+void reject_unknown_members(const Place& place, const std::vector<std::string_view>& known);
 /// The member of an object, or nothing; the object was checked with only().
-std::optional<Place> find(const Place& place, const std::string& name);
+std::optional<Place> find_member(const Place& place, const std::string& name);
 /// Each of these sets a value to a member of an object where the member is there.
 void take(const Place& place, const std::string& name, double& value, Range range);
 void take(const Place& place, const std::string& name, bool& value);

@@ -8,7 +8,7 @@ constexpr std::size_t most_bodies = 1024, most_events = 64, most_nodes = 256;
 
 Event read_event(const Place& place)
 {
-    only(place, {"time", "position"});
+    reject_unknown_members(place, {"time", "position"});
     Event event;
     take(place, "time", event.time, {-farthest, farthest});
     take(place, "position", event.position, {-farthest, farthest});
@@ -38,20 +38,20 @@ std::vector<Event> read_worldline(const Place& place)
 
 Body read_body(const Place& place)
 {
-    only(place, {"name", "nodes", "at", "velocity", "worldline"});
+    reject_unknown_members(place, {"name", "nodes", "at", "velocity", "worldline"});
     Body body;
     body.name = text(member(place, "name"));
     for (const Place& node : items(member(place, "nodes"), 1, most_nodes, "names of nodes"))
         body.nodes.push_back(text(node));
-    if (auto worldline = find(place, "worldline")) {
+    if (auto worldline = find_member(place, "worldline")) {
         for (const char* other : {"at", "velocity"})
-            if (auto p = find(place, other))
+            if (auto p = find_member(place, other))
                 complain(*p, "stands beside a \"worldline\", which tells it already; one of the two is right");
         body.worldline = read_worldline(*worldline);
         return body;
     }
     body.u = read_velocity(member(place, "velocity"));
-    if (auto at = find(place, "at"))
+    if (auto at = find_member(place, "at"))
         body.at = read_event(*at);
     return body;
 }

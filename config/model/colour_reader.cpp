@@ -149,13 +149,13 @@ std::filesystem::path existing_file(const Place& place, const std::filesystem::p
 
 Colour read_colour(const Place& place, const std::filesystem::path& folder)
 {
-    only(place, {"gamma", "matrix", "lut"});
+    reject_unknown_members(place, {"gamma", "matrix", "lut"});
     Colour colour;
-    const auto gamma = find(place, "gamma"), lut = find(place, "lut");
+    const auto gamma = find_member(place, "gamma"), lut = find_member(place, "lut");
     if (gamma && lut)
         complain(*gamma, "stands beside \"lut\", which says the same; one of the two is right");
     take(place, "gamma", colour.gamma, {0.1, 10});
-    if (auto p = find(place, "matrix")) {
+    if (auto p = find_member(place, "matrix")) {
         const std::vector<Place> rows = items(*p, 3, 3, "rows of three numbers");
         for (int row = 0; row < 3; ++row) {
             const glm::dvec3 numbers = vec3(rows[std::size_t(row)], {-100, 100});

@@ -6,13 +6,13 @@ namespace {
 
 Flying read_flying(const Place& place)
 {
-    only(place,
-        {"mode", "greatest_gamma", "turn_deg_per_s", "roll_deg_per_s", "turn_jerk_deg_per_s3", "rapidity_per_s",
+    reject_unknown_members(place,
+        {"mode", "max_gamma", "turn_deg_per_s", "roll_deg_per_s", "turn_jerk_deg_per_s3", "rapidity_per_s",
             "rapidity_jerk_per_s2"});
     Flying flying;
-    if (auto p = find(place, "mode"))
+    if (auto p = find_member(place, "mode"))
         flying.mode = chosen(*p, flight_modes);
-    take(place, "greatest_gamma", flying.greatest_gamma, {1.001, 1e6});
+    take(place, "max_gamma", flying.max_gamma, {1.001, 1e6});
     take(place, "turn_deg_per_s", flying.turn_deg_per_s, {0, 360, true});
     take(place, "roll_deg_per_s", flying.roll_deg_per_s, {0, 360});
     take(place, "turn_jerk_deg_per_s3", flying.turn_jerk_deg_per_s3, {1, 1e6});
@@ -33,16 +33,16 @@ std::string name_or_path(const Place& place, const std::filesystem::path& folder
 
 Exposing read_exposing(const Place& place)
 {
-    only(place, {"automatic", "least_ev", "greatest_ev", "bloom"});
+    reject_unknown_members(place, {"automatic", "min_ev", "max_ev", "bloom"});
     Exposing exposure;
     take(place, "automatic", exposure.automatic);
-    take(place, "least_ev", exposure.least_ev, {-60, 60});
-    take(place, "greatest_ev", exposure.greatest_ev, {-60, 60});
-    if (exposure.greatest_ev < exposure.least_ev) {
-        const auto least = find(place, "least_ev");
-        complain(least ? *least : member(place, "greatest_ev"),
-            "leaves nothing between least_ev, " + shown(exposure.least_ev) + ", and greatest_ev, "
-                + shown(exposure.greatest_ev) + "; a least_ev that is no greater is right");
+    take(place, "min_ev", exposure.min_ev, {-60, 60});
+    take(place, "max_ev", exposure.max_ev, {-60, 60});
+    if (exposure.max_ev < exposure.min_ev) {
+        const auto least = find_member(place, "min_ev");
+        complain(least ? *least : member(place, "max_ev"),
+            "leaves nothing between min_ev, " + shown(exposure.min_ev) + ", and max_ev, "
+                + shown(exposure.max_ev) + "; a min_ev that is no greater is right");
     }
     take(place, "bloom", exposure.bloom, {0, 1});
     return exposure;
@@ -53,29 +53,29 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     const Document document = read_document(file);
     const Place top = root(document);
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-    only(top,
-        {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "quality", "hold_ms", "ladder",
+    reject_unknown_members(top,
+        {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "quality", "frame_budget_ms", "ladder",
             "flying", "exposure"});
     Exhibit exhibit;
     for (const auto& [name, value] :
         {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene}, {"shot", &exhibit.shot}, {"tour", &exhibit.tour},
             {"language", &exhibit.language}, {"quality", &exhibit.quality}, {"ladder", &exhibit.ladder}})
-        if (auto p = find(top, name))
+        if (auto p = find_member(top, name))
             *value = name_or_path(*p, folder);
-    if (auto scene = find(top, "scene"); scene && !exhibit.shot.empty())
+    if (auto scene = find_member(top, "scene"); scene && !exhibit.shot.empty())
         complain(*scene, "is one too many beside a shot, which has a scene of its own; one of them is right");
     for (const char* other : {"scene", "shot"})
-        if (auto place = find(top, other); place && !exhibit.tour.empty())
+        if (auto place = find_member(top, other); place && !exhibit.tour.empty())
             complain(*place, "is one too many beside a tour, which has a scene of its own; one of them is right");
-    if (auto p = find(top, "profiles"))
+    if (auto p = find_member(top, "profiles"))
         exhibit.profiles = folder / text(*p);
     take(top, "tutorial", exhibit.tutorial);
-    take(top, "hold_ms", exhibit.hold_ms, {0, 1000});
-    if (auto p = find(top, "quality"); p && exhibit.hold_ms > 0)
-        complain(*p, "is one too many beside hold_ms, which chooses it; one of them is right");
-    if (auto p = find(top, "flying"))
+    take(top, "frame_budget_ms", exhibit.frame_budget_ms, {0, 1000});
+    if (auto p = find_member(top, "quality"); p && exhibit.frame_budget_ms > 0)
+        complain(*p, "is one too many beside frame_budget_ms, which chooses it; one of them is right");
+    if (auto p = find_member(top, "flying"))
         exhibit.flying = read_flying(*p);
-    if (auto p = find(top, "exposure"))
+    if (auto p = find_member(top, "exposure"))
         exhibit.exposure = read_exposing(*p);
     return exhibit;
 }

@@ -16,7 +16,7 @@ struct Exhibit {
     std::string language = "en"; ///< of what visitors read: a path, or the name of a shipped one
     bool tutorial = true; ///< three prompts for the first minute
     std::string quality; ///< a path, or the name of a shipped one; empty: what the device affords
-    double hold_ms = 0; ///< of a whole frame: held by moving along the ladder; 0: the quality stays
+    double frame_budget_ms = 0; ///< of a whole frame: held by moving along the ladder; 0: the quality stays
     std::string ladder = "ladder"; ///< a path, or the name of a shipped one
     Flying flying;
     Exposing exposure;

@@ -16,7 +16,7 @@ inline std::string_view name_of(FlightMode mode) { return flight_modes[std::size
 /// How an exhibit flies. Times are the visitor's seconds, which are the ship's.
 struct Flying {
     FlightMode mode = FlightMode::guided;
-    double greatest_gamma = 1e6; ///< of a full throttle; the speeds below it are even in rapidity
+    double max_gamma = 1e6; ///< of a full throttle; the speeds below it are even in rapidity
     // What the visitors' stomachs are spared.
     double turn_deg_per_s = 40; ///< nose up, down, left, right
     double roll_deg_per_s = 40;

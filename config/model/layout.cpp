@@ -47,19 +47,19 @@ glm::dvec4 read_rect(const Place& place, glm::ivec2 size)
 
 Warp read_warp(const Place& place, const std::filesystem::path& folder)
 {
-    only(place, {"file", "frustum", "region", "first_row"});
+    reject_unknown_members(place, {"file", "frustum", "region", "first_row"});
     Warp warp;
     warp.file = existing_file(member(place, "file"), folder);
-    if (auto p = find(place, "frustum"))
+    if (auto p = find_member(place, "frustum"))
         warp.frustum = existing_file(*p, folder);
-    if (auto p = find(place, "region"))
+    if (auto p = find_member(place, "region"))
         warp.region = text(*p);
-    if (auto p = find(place, "first_row"))
+    if (auto p = find_member(place, "first_row"))
         warp.first_row_on_top = one_of(*p, {"top", "bottom"}) == "top";
     return warp;
 }
 
-Onlooker read_observer(const Place& place)
+ViewportObserver read_observer(const Place& place)
 {
     if (place.json->is_object())
         return {false, read_velocity(place)};
@@ -68,19 +68,19 @@ Onlooker read_observer(const Place& place)
 
 Viewport read_viewport(const Place& place, const Output& output, const Stereo& stereo, const std::filesystem::path& folder)
 {
-    only(place, {"rect", "eye", "eye_m", "projection", "warp", "alpha_mask", "black_level", "mask_gamma", "observer"});
+    reject_unknown_members(place, {"rect", "eye", "eye_m", "projection", "warp", "alpha_mask", "black_level", "mask_gamma", "observer"});
     Viewport viewport;
-    if (auto p = find(place, "rect"))
+    if (auto p = find_member(place, "rect"))
         viewport.rect = read_rect(*p, eye_size(output));
-    if (auto p = find(place, "eye"))
+    if (auto p = find_member(place, "eye"))
         viewport.eye = chosen<Eye>(*p, {{"middle", Eye::middle}, {"left", Eye::left}, {"right", Eye::right}});
     take(place, "eye_m", viewport.eye_m, {-1e3, 1e3});
     const bool packed = output.packing != Packing::mono;
-    if (packed && find(place, "eye"))
+    if (packed && find_member(place, "eye"))
         complain(member(place, "eye"),
             "is set in an output whose \"packing\" shows both eyes; no \"eye\", or \"packing\" left out, is right");
 
-    const auto projection = find(place, "projection"), warp = find(place, "warp");
+    const auto projection = find_member(place, "projection"), warp = find_member(place, "warp");
     if (projection) {
         viewport.projection = read_projection(*projection);
         check_eye(*projection, viewport.projection, viewport.eye_m,
@@ -91,12 +91,12 @@ Viewport read_viewport(const Place& place, const Output& output, const Stereo& s
     viewport.projection_given = projection.has_value();
     if (warp)
         viewport.warp = read_warp(*warp, folder);
-    if (auto p = find(place, "alpha_mask"))
+    if (auto p = find_member(place, "alpha_mask"))
         viewport.alpha_mask = existing_file(*p, folder);
-    if (auto p = find(place, "black_level"))
+    if (auto p = find_member(place, "black_level"))
         viewport.black_level = existing_file(*p, folder);
     take(place, "mask_gamma", viewport.mask_gamma, {0.1, 10});
-    if (auto p = find(place, "observer"))
+    if (auto p = find_member(place, "observer"))
         viewport.observer = read_observer(*p);
     return viewport;
 }
@@ -129,15 +129,15 @@ Packing read_packing(const Place& place)
 
 MonitorName read_monitor(const Place& place)
 {
-    only(place, {"connector", "model", "serial", "position"});
+    reject_unknown_members(place, {"connector", "model", "serial", "position"});
     MonitorName monitor;
-    if (auto p = find(place, "connector"))
+    if (auto p = find_member(place, "connector"))
         monitor.connector = text(*p);
-    if (auto p = find(place, "model"))
+    if (auto p = find_member(place, "model"))
         monitor.model = text(*p);
-    if (auto p = find(place, "serial"))
+    if (auto p = find_member(place, "serial"))
         monitor.serial = text(*p);
-    if (auto p = find(place, "position"))
+    if (auto p = find_member(place, "position"))
         monitor.position = read_pixels(*p, -farthest_px, farthest_px);
     if (monitor.empty())
         complain(place, "names no monitor; at least one of \"connector\", \"model\", \"serial\" and \"position\" is right");
@@ -148,10 +148,10 @@ MonitorName read_monitor(const Place& place)
 void read_window(const Place& place, Output& output)
 {
     take(place, "resizable", output.resizable);
-    if (auto p = find(place, "monitor"))
+    if (auto p = find_member(place, "monitor"))
         output.monitor = read_monitor(*p);
     take(place, "whole_monitor", output.whole_monitor);
-    if (auto p = find(place, "place")) {
+    if (auto p = find_member(place, "place")) {
         output.place = read_pixels(*p, -farthest_px, farthest_px);
         if (output.whole_monitor)
             complain(
@@ -164,27 +164,27 @@ void check_halves(const Place& place, const Output& output)
 {
     const glm::ivec2 eye = eye_size(output);
     if ((eye.x != output.size.x && output.size.x % 2) || (eye.y != output.size.y && output.size.y % 2))
-        complain(find(place, "size").value_or(place),
+        complain(find_member(place, "size").value_or(place),
             "has no two equal halves for \"packing\"; an even number of pixels across the cut is right");
 }
 
 Output read_output(const Place& place, const Stereo& stereo, const std::filesystem::path& folder)
 {
-    only(place,
+    reject_unknown_members(place,
         {"name", "size", "resizable", "viewports", "preview", "packing", "colour", "monitor", "whole_monitor", "place"});
     Output output;
     output.name = read_name(member(place, "name"));
-    if (auto p = find(place, "size"))
+    if (auto p = find_member(place, "size"))
         output.size = read_pixels(*p, 1, most_pixels_across);
     take(place, "preview", output.preview);
-    if (auto p = find(place, "packing"))
+    if (auto p = find_member(place, "packing"))
         output.packing = read_packing(*p);
     read_window(place, output);
-    if (auto p = find(place, "colour"))
+    if (auto p = find_member(place, "colour"))
         output.colour = read_colour(*p, folder);
     if (output.preview) {
         for (const char* name : {"viewports", "packing"})
-            if (auto p = find(place, name))
+            if (auto p = find_member(place, name))
                 complain(*p,
                     "stands in the preview, which shows the other outputs as they are; a preview without \""
                         + std::string(name) + "\" is right");
@@ -195,7 +195,7 @@ Output read_output(const Place& place, const Stereo& stereo, const std::filesyst
         const Viewport viewport = read_viewport(at, output, stereo, folder);
         for (std::size_t i = 0; i < output.viewports.size(); ++i)
             if (overlap(viewport.rect, output.viewports[i].rect))
-                complain(find(at, "rect").value_or(at),
+                complain(find_member(at, "rect").value_or(at),
                     "overlaps viewport " + std::to_string(i) + " of this output; rectangles that do not overlap is right");
         output.viewports.push_back(viewport);
     }
@@ -204,14 +204,14 @@ Output read_output(const Place& place, const Stereo& stereo, const std::filesyst
 
 Stereo read_stereo(const Place& place)
 {
-    only(place, {"method", "separation_m", "hyper_stereo", "baseline", "full_from_zenith_deg"});
+    reject_unknown_members(place, {"method", "separation_m", "hyper_stereo", "baseline", "full_from_zenith_deg"});
     Stereo stereo;
-    if (auto p = find(place, "method"))
+    if (auto p = find_member(place, "method"))
         stereo.method = chosen<StereoMethod>(*p,
             {{"shared", StereoMethod::shared}, {"exact", StereoMethod::exact}, {"reprojected", StereoMethod::reprojected}});
     take(place, "separation_m", stereo.separation_m, {0, 10});
     take(place, "hyper_stereo", stereo.hyper_stereo, {0, 1e12, true});
-    if (auto p = find(place, "baseline"))
+    if (auto p = find_member(place, "baseline"))
         stereo.turning = one_of(*p, {"fixed", "turning"}) == "turning";
     take(place, "full_from_zenith_deg", stereo.full_from_zenith_deg, {0, 90});
     if (stereo.separation_m == 0 && stereo.method != StereoMethod::shared)
@@ -224,7 +224,7 @@ Stereo read_stereo(const Place& place)
 
 Blend read_blend(const Place& place)
 {
-    only(place, {"ramps", "power"});
+    reject_unknown_members(place, {"ramps", "power"});
     Blend blend;
     take(place, "ramps", blend.ramps);
     take(place, "power", blend.power, {0.1, 10});
@@ -233,7 +233,7 @@ Blend read_blend(const Place& place)
 
 HudPlacement read_hud(const Place& place)
 {
-    only(place, {"azimuth_deg", "elevation_deg", "width_deg"});
+    reject_unknown_members(place, {"azimuth_deg", "elevation_deg", "width_deg"});
     HudPlacement hud;
     take(place, "azimuth_deg", hud.azimuth_deg, {-180, 180});
     take(place, "elevation_deg", hud.elevation_deg, {-90, 90});
@@ -243,11 +243,11 @@ HudPlacement read_hud(const Place& place)
 
 HeadTracking read_head_tracker(const Place& place)
 {
-    only(place, {"port", "address"});
+    reject_unknown_members(place, {"port", "address"});
     HeadTracking tracking;
-    if (auto p = find(place, "port"))
+    if (auto p = find_member(place, "port"))
         tracking.port = integer(*p, 1024, 65535);
-    if (auto p = find(place, "address")) {
+    if (auto p = find_member(place, "address")) {
         tracking.address = text(*p);
         in_addr unused;
         if (inet_pton(AF_INET, tracking.address.c_str(), &unused) != 1)
@@ -270,7 +270,7 @@ void check_beside(const Place& place, const Output& output, const Output& earlie
     if (output.preview && earlier.preview)
         complain(member(place, "preview"), "makes a second preview beside " + which + "; one is right");
     if ((output.whole_monitor || earlier.whole_monitor) && same(output.monitor, earlier.monitor))
-        complain(find(place, "monitor").value_or(place),
+        complain(find_member(place, "monitor").value_or(place),
             "takes the same monitor as " + which
                 + ", and a window over the whole of it leaves no room; a monitor for each is right");
 }
@@ -287,19 +287,19 @@ glm::ivec4 pixel_rect(const Viewport& viewport, glm::ivec2 size)
 
 Layout read_layout(const Place& top, const std::filesystem::path& file)
 {
-    only(top, {"$schema", "stereo", "blend", "hud", "head_tracker", "outputs"});
+    reject_unknown_members(top, {"$schema", "stereo", "blend", "hud", "head_tracker", "outputs"});
     Layout layout;
     layout.name = file.stem().string();
     layout.file = file;
-    if (auto p = find(top, "$schema"))
+    if (auto p = find_member(top, "$schema"))
         text(*p);
-    if (auto p = find(top, "stereo"))
+    if (auto p = find_member(top, "stereo"))
         layout.stereo = read_stereo(*p);
-    if (auto p = find(top, "blend"))
+    if (auto p = find_member(top, "blend"))
         layout.blend = read_blend(*p);
-    if (auto p = find(top, "hud"))
+    if (auto p = find_member(top, "hud"))
         layout.hud = read_hud(*p);
-    if (auto p = find(top, "head_tracker"))
+    if (auto p = find_member(top, "head_tracker"))
         layout.head_tracker = read_head_tracker(*p);
     const Place outputs = member(top, "outputs");
     for (const Place& at : items(outputs, 1, 64, "outputs")) {

@@ -109,10 +109,10 @@ struct Warp {
 };
 
 /// Whose sky a viewport shows. All are at the ship's event.
-struct Onlooker {
+struct ViewportObserver {
     bool at_rest = false; ///< in the world, the head turned as in the ship
     glm::dvec3 passing_u{0}; ///< or who passes the ship with this proper velocity, cockpit's axes
-    bool operator==(const Onlooker&) const = default;
+    bool operator==(const ViewportObserver&) const = default;
 };
 
 enum class Eye { middle, left, right };
@@ -126,7 +126,7 @@ struct Viewport {
     double mask_gamma = 1; ///< of both pictures' values: light = value^gamma
     Eye eye = Eye::middle;
     glm::dvec3 eye_m{0}; ///< where the head is; the left and right eye are half the separation beside it
-    Onlooker observer;
+    ViewportObserver observer;
 };
 
 /// How an output shows two eyes. The half forms squeeze each eye's picture; rows and columns: the first is the left eye's;

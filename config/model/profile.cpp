@@ -36,25 +36,25 @@ int hex_id(const Place& place)
 
 AxisUse read_axis(const Place& place)
 {
-    only(place, {"page", "usage", "nth", "role", "inverted", "dead_zone", "curve", "range", "detents"});
+    reject_unknown_members(place, {"page", "usage", "nth", "role", "inverted", "dead_zone", "curve", "range", "detents"});
     AxisUse use;
-    if (auto p = find(place, "page"))
+    if (auto p = find_member(place, "page"))
         use.page = integer(*p, 1, 65535);
     use.usage = integer(member(place, "usage"), 1, 65535);
-    if (auto p = find(place, "nth"))
+    if (auto p = find_member(place, "nth"))
         use.nth = integer(*p, 0, 31);
     use.role = chosen(member(place, "role"), axis_roles);
     take(place, "inverted", use.inverted);
     take(place, "dead_zone", use.dead_zone, {0, 0.5});
     take(place, "curve", use.curve, {0.2, 5});
-    if (auto p = find(place, "range")) {
+    if (auto p = find_member(place, "range")) {
         const glm::dvec3 range = vec3(*p, {-2147483648.0, 4294967295.0});
         if (!((range.x < range.y && range.y < range.z) || (range.x > range.y && range.y > range.z)))
             complain(
                 *p, "has its middle not between its ends; raw values at one end, in the middle and at the other are right");
         use.range = {range.x, range.y, range.z};
     }
-    if (auto p = find(place, "detents"))
+    if (auto p = find_member(place, "detents"))
         for (const Place& at : items(*p, 1, 16, "places from 0 to 1"))
             use.detents.push_back(number(at, {0, 1}));
     return use;
@@ -137,27 +137,27 @@ Profile load_profile(const std::filesystem::path& file)
 {
     const Document document = read_document(file);
     const Place top = root(document);
-    only(top, {"$schema", "name", "vendor", "product", "serial", "axes", "buttons", "hat"});
+    reject_unknown_members(top, {"$schema", "name", "vendor", "product", "serial", "axes", "buttons", "hat"});
     Profile profile;
     profile.file = file;
     profile.name = text(member(top, "name"));
     profile.vendor = hex_id(member(top, "vendor"));
     profile.product = hex_id(member(top, "product"));
-    if (auto p = find(top, "serial"))
+    if (auto p = find_member(top, "serial"))
         profile.serial = text(*p);
-    if (auto p = find(top, "axes"))
+    if (auto p = find_member(top, "axes"))
         for (const Place& at : items(*p, 0, 64, "axes"))
             profile.axes.push_back(read_axis(at));
-    if (auto p = find(top, "buttons"))
+    if (auto p = find_member(top, "buttons"))
         for (const Place& at : items(*p, 0, 128, "buttons")) {
-            only(at, {"button", "role"});
+            reject_unknown_members(at, {"button", "role"});
             profile.buttons.push_back({integer(member(at, "button"), 1, 128), chosen(member(at, "role"), button_roles)});
         }
-    if (auto p = find(top, "hat")) {
-        only(*p, {"x", "y"});
-        if (auto x = find(*p, "x"))
+    if (auto p = find_member(top, "hat")) {
+        reject_unknown_members(*p, {"x", "y"});
+        if (auto x = find_member(*p, "x"))
             profile.hat_x = chosen(*x, axis_roles);
-        if (auto y = find(*p, "y"))
+        if (auto y = find_member(*p, "y"))
             profile.hat_y = chosen(*y, axis_roles);
     }
     return profile;

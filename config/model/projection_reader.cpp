@@ -13,7 +13,7 @@ constexpr double lens_reach = 1;
 
 Turn read_turn(const Place& place)
 {
-    only(place, {"yaw", "pitch", "roll"});
+    reject_unknown_members(place, {"yaw", "pitch", "roll"});
     Turn turn;
     take(place, "yaw", turn.yaw_deg, whole_turn);
     take(place, "pitch", turn.pitch_deg, whole_turn);
@@ -23,13 +23,13 @@ Turn read_turn(const Place& place)
 
 void take_turn(const Place& place, Turn& turn)
 {
-    if (auto p = find(place, "turn_deg"))
+    if (auto p = find_member(place, "turn_deg"))
         turn = read_turn(*p);
 }
 
 Sides read_sides(const Place& place, Range across, Range upright)
 {
-    only(place, {"left", "right", "down", "up"});
+    reject_unknown_members(place, {"left", "right", "down", "up"});
     const Place left = member(place, "left"), right = member(place, "right"), down = member(place, "down"),
                 up = member(place, "up");
     const Sides sides{number(left, across), number(right, across), number(down, upright), number(up, upright)};
@@ -46,7 +46,7 @@ Sides read_sides(const Place& place, Range across, Range upright)
 Planar read_planar(const Place& place)
 {
     Planar planar;
-    const auto x = find(place, "fov_x_deg"), y = find(place, "fov_y_deg"), sides = find(place, "sides_deg");
+    const auto x = find_member(place, "fov_x_deg"), y = find_member(place, "fov_y_deg"), sides = find_member(place, "sides_deg");
     if (sides && (x || y))
         complain(*sides,
             std::string("stands beside \"") + (y ? "fov_y_deg" : "fov_x_deg")
@@ -89,12 +89,12 @@ Fisheye read_fisheye(const Place& place)
     take(place, "aperture_deg", fisheye.aperture_deg, {1, 360});
     take(place, "tilt_deg", fisheye.tilt_deg, {-180, 180});
     take(place, "rotation_deg", fisheye.rotation_deg, whole_turn);
-    if (auto p = find(place, "mapping"))
+    if (auto p = find_member(place, "mapping"))
         fisheye.mapping = chosen<FisheyeMapping>(*p,
             {{"equidistant", FisheyeMapping::equidistant}, {"equisolid", FisheyeMapping::equisolid},
                 {"stereographic", FisheyeMapping::stereographic}, {"orthographic", FisheyeMapping::orthographic}});
     // An orthographic picture folds back beyond a half sphere; a stereographic one goes on for ever towards a whole one.
-    const auto aperture = find(place, "aperture_deg");
+    const auto aperture = find_member(place, "aperture_deg");
     if (fisheye.mapping == FisheyeMapping::orthographic && fisheye.aperture_deg > 180)
         complain(*aperture, "is more than an orthographic picture can hold; a number from 1 to 180 is right");
     if (fisheye.mapping == FisheyeMapping::stereographic && fisheye.aperture_deg > 350)
@@ -109,7 +109,7 @@ SphericalMirror read_mirror(const Place& place)
     SphericalMirror mirror;
     mirror.projector_m = vec3(member(place, "projector_m"), room_m);
     const Place projector = member(place, "projector");
-    only(projector, {"fov_y_deg", "fov_x_deg", "sides_deg", "turn_deg"});
+    reject_unknown_members(projector, {"fov_y_deg", "fov_x_deg", "sides_deg", "turn_deg"});
     mirror.projector = read_planar(projector);
     mirror.mirror_m = vec3(member(place, "mirror_m"), room_m);
     mirror.mirror_radius_m = number(member(place, "mirror_radius_m"), {0.001, 1000});
@@ -134,7 +134,7 @@ double lens_factor(Lens::Form form, const std::array<double, 4>& k, double r)
 
 Lens::Colour read_lens_colour(const Place& place, Lens::Form form)
 {
-    only(place, {"centre", "k"});
+    reject_unknown_members(place, {"centre", "k"});
     Lens::Colour colour;
     take(place, "centre", colour.centre, {-1, 2});
     const Place k = member(place, "k");
@@ -154,15 +154,15 @@ Lens::Colour read_lens_colour(const Place& place, Lens::Form form)
 Lens read_lens(const Place& place)
 {
     Lens lens;
-    if (auto p = find(place, "form"))
+    if (auto p = find_member(place, "form"))
         lens.form = chosen<Lens::Form>(*p, {{"panotools", Lens::Form::panotools}, {"vive", Lens::Form::vive}});
     take(place, "fov_y_deg", lens.fov_y_deg, fov);
     take_turn(place, lens.turn);
     // A lens that treats all colours alike is told once, as green.
     lens.colours.fill(read_lens_colour(member(place, "green"), lens.form));
-    if (auto p = find(place, "red"))
+    if (auto p = find_member(place, "red"))
         lens.colours[0] = read_lens_colour(*p, lens.form);
-    if (auto p = find(place, "blue"))
+    if (auto p = find_member(place, "blue"))
         lens.colours[2] = read_lens_colour(*p, lens.form);
     return lens;
 }
@@ -172,53 +172,53 @@ Lens read_lens(const Place& place)
 Projection read_projection(const Place& place)
 {
     if (!place.json->is_object())
-        only(place, {});
+        reject_unknown_members(place, {});
     const std::string type = one_of(
         member(place, "type"), {"planar", "wall", "fisheye", "cylinder", "equirectangular", "cube", "mirror", "lens"});
     if (type == "planar") {
-        only(place, {"type", "fov_y_deg", "fov_x_deg", "sides_deg", "turn_deg"});
+        reject_unknown_members(place, {"type", "fov_y_deg", "fov_x_deg", "sides_deg", "turn_deg"});
         return read_planar(place);
     }
     if (type == "wall") {
-        only(place, {"type", "lower_left_m", "lower_right_m", "upper_left_m"});
+        reject_unknown_members(place, {"type", "lower_left_m", "lower_right_m", "upper_left_m"});
         return read_wall(place);
     }
     if (type == "fisheye") {
-        only(place, {"type", "aperture_deg", "tilt_deg", "rotation_deg", "mapping", "centre", "diameter"});
+        reject_unknown_members(place, {"type", "aperture_deg", "tilt_deg", "rotation_deg", "mapping", "centre", "diameter"});
         return read_fisheye(place);
     }
     if (type == "cylinder") {
-        only(place, {"type", "sides_deg", "turn_deg"});
+        reject_unknown_members(place, {"type", "sides_deg", "turn_deg"});
         Cylinder cylinder;
-        if (auto p = find(place, "sides_deg"))
+        if (auto p = find_member(place, "sides_deg"))
             cylinder.sides = read_sides(*p, whole_turn, {-89, 89});
         take_turn(place, cylinder.turn);
         return cylinder;
     }
     if (type == "equirectangular") {
-        only(place, {"type", "sides_deg", "turn_deg"});
+        reject_unknown_members(place, {"type", "sides_deg", "turn_deg"});
         Equirectangular picture;
-        if (auto p = find(place, "sides_deg"))
+        if (auto p = find_member(place, "sides_deg"))
             picture.sides = read_sides(*p, whole_turn, {-90, 90});
         take_turn(place, picture.turn);
         return picture;
     }
     if (type == "cube") {
-        only(place, {"type", "arrangement", "turn_deg"});
+        reject_unknown_members(place, {"type", "arrangement", "turn_deg"});
         CubeFaces cube;
-        if (auto p = find(place, "arrangement"))
+        if (auto p = find_member(place, "arrangement"))
             cube.arrangement = chosen<CubeFaces::Arrangement>(
                 *p, {{"row", CubeFaces::Arrangement::row}, {"cross", CubeFaces::Arrangement::cross}});
         take_turn(place, cube.turn);
         return cube;
     }
     if (type == "mirror") {
-        only(place,
+        reject_unknown_members(place,
             {"type", "projector_m", "projector", "mirror_m", "mirror_radius_m", "dome_m", "dome_radius_m", "dome_tilt_deg",
                 "dome_aperture_deg"});
         return read_mirror(place);
     }
-    only(place, {"type", "form", "fov_y_deg", "turn_deg", "red", "green", "blue"});
+    reject_unknown_members(place, {"type", "form", "fov_y_deg", "turn_deg", "red", "green", "blue"});
     return read_lens(place);
 }
 

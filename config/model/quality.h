@@ -16,14 +16,14 @@ constexpr std::array<const char*, 3> spectral_level_names = {"colours", "middle"
 /// The trade of speed for accuracy: what a frame may spend. It never changes the physics.
 struct Quality {
     double texels_per_pixel = 1; ///< linear density of the cube map where it is looked at
-    double most_texels_per_pixel = 3; ///< area: where the whole plan would hold more, all of it is drawn coarser
+    double max_texels_per_pixel = 3; ///< area: where the whole plan would hold more, all of it is drawn coarser
     int cube_samples = 1; ///< of each texel, for edges: 1, 2, 4 or 8
-    double stray_texels = 1; ///< how far surfaces in fewer triangles may stray; 0: all triangles, always
-    double shading_texels = 16; ///< and as far what a vertex shades otherwise may lie from the next one that is drawn; a
+    double lod_error_texels = 1; ///< how far surfaces in fewer triangles may stray; 0: all triangles, always
+    double lod_shading_texels = 16; ///< and as far what a vertex shades otherwise may lie from the next one that is drawn; a
                                 ///< surface of 64 keeps its flutes where they are some texels wide, one of 128 loses them
     double image_cost_texels = 4096; ///< what one more image of the cube map costs beside its texels: how finely it is cut
     int pixel_rays = 1; ///< along each side of an output pixel: its square look up the cube map
-    int rear_images = 42; ///< nested ones behind, at most: with none of them, one image holds all that lies behind
+    int clip_levels = 42; ///< nested ones behind, at most: with none of them, one image holds all that lies behind
     bool mips = true; ///< where several texels fall into one pixel
     bool half_floats = true; ///< light in 16 bits a number, else in 32
     bool matrices = true; ///< flat views are told by a matrix, else by a map as all others are
@@ -45,14 +45,14 @@ std::string quality_text(const Quality& quality);
 
 /// One quality of a ladder that a frame's time is held by: what it takes, and how far its pictures are from the reference,
 /// as `starbow measure` found them.
-struct Rung {
+struct PresetLevel {
     Quality quality;
     double ms; ///< only how they stand to each other counts
     double flip = 0, edges_px = 0;
 };
 /// From the fastest to the slowest. Throws InputError as load_quality does.
-std::vector<Rung> load_ladder(const std::filesystem::path& file);
-std::string ladder_text(const std::vector<Rung>& ladder);
+std::vector<PresetLevel> load_ladder(const std::filesystem::path& file);
+std::string ladder_text(const std::vector<PresetLevel>& ladder);
 
 /// A layout with the stereo method that a quality asks for, where it has two eyes and can have that.
 Layout with_stereo(Layout layout, const Quality& quality);

@@ -30,7 +30,7 @@ SpectralTable read_table(const Place& place)
 /// What a light's colours are made of, where it isn't sunlight.
 std::optional<Emission> read_emission(const Place& light)
 {
-    const auto kelvin = find(light, "temperature_K"), line = find(light, "line_nm"), table = find(light, "spectrum");
+    const auto kelvin = find_member(light, "temperature_K"), line = find_member(light, "line_nm"), table = find_member(light, "spectrum");
     if (kelvin.has_value() + line.has_value() + table.has_value() > 1)
         complain(
             light, "has more than one spectrum; at most one of \"temperature_K\", \"line_nm\" and \"spectrum\" is right");
@@ -45,15 +45,15 @@ std::optional<Emission> read_emission(const Place& light)
 
 Sky read_sky(const Place& place)
 {
-    only(place, {"zenith", "horizon", "nadir", "temperature_K"});
+    reject_unknown_members(place, {"zenith", "horizon", "nadir", "temperature_K"});
     Sky sky;
-    if (auto p = find(place, "zenith"))
+    if (auto p = find_member(place, "zenith"))
         sky.zenith = read_colour(*p);
-    if (auto p = find(place, "horizon"))
+    if (auto p = find_member(place, "horizon"))
         sky.horizon = read_colour(*p);
-    if (auto p = find(place, "nadir"))
+    if (auto p = find_member(place, "nadir"))
         sky.nadir = read_colour(*p);
-    if (auto p = find(place, "temperature_K")) {
+    if (auto p = find_member(place, "temperature_K")) {
         sky.temperature_K = number(*p, {0, hottest_K});
         if (sky.temperature_K > 0 && sky.temperature_K < coldest_K)
             complain(*p,
@@ -64,11 +64,11 @@ Sky read_sky(const Place& place)
 
 StarSky read_stars(const Place& place, const std::filesystem::path& folder)
 {
-    only(place, {"catalogue", "brightness_arcmin2", "ahead_deg"});
+    reject_unknown_members(place, {"catalogue", "brightness_arcmin2", "ahead_deg"});
     StarSky stars;
     stars.catalogue = folder / text(member(place, "catalogue"));
     take(place, "brightness_arcmin2", stars.brightness_arcmin2, {0, 1e9, true});
-    if (auto p = find(place, "ahead_deg")) {
+    if (auto p = find_member(place, "ahead_deg")) {
         const auto angles = items(*p, 2, 2, "angles (right ascension, declination)");
         stars.ahead_deg = {number(angles[0], {0, 360}), number(angles[1], {-90, 90})};
     }
@@ -77,9 +77,9 @@ StarSky read_stars(const Place& place, const std::filesystem::path& folder)
 
 Light read_light(const Place& place, const std::vector<Body>& bodies)
 {
-    only(place, {"type", "towards", "position", "distance", "radiance", "temperature_K", "line_nm", "spectrum", "body"});
+    reject_unknown_members(place, {"type", "towards", "position", "distance", "radiance", "temperature_K", "line_nm", "spectrum", "body"});
     if (one_of(member(place, "type"), {"directional", "point"}) == "directional") {
-        only(place, {"type", "towards", "radiance", "temperature_K", "line_nm", "spectrum"});
+        reject_unknown_members(place, {"type", "towards", "radiance", "temperature_K", "line_nm", "spectrum"});
         const Place towards = member(place, "towards");
         const glm::dvec3 direction = vec3(towards, {-farthest, farthest});
         const double length = glm::length(direction);
@@ -89,7 +89,7 @@ Light read_light(const Place& place, const std::vector<Body>& bodies)
     }
     const glm::dvec3 position = vec3(member(place, "position"), {-farthest, farthest});
     const double distance = number(member(place, "distance"), {0, farthest, true});
-    const auto body = find(place, "body");
+    const auto body = find_member(place, "body");
     if (body && std::none_of(bodies.begin(), bodies.end(), [&](const Body& b) { return b.name == text(*body); }))
         complain(*body, "is no body of this scene; a \"name\" of one of its \"bodies\" is right");
     return PointLight{
@@ -102,27 +102,27 @@ SceneFile load_scene_file(const std::filesystem::path& file)
 {
     const Document document = read_document(file);
     const Place top = root(document);
-    only(top, {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "ambient", "lights", "bodies", "start"});
+    reject_unknown_members(top, {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "ambient", "lights", "bodies", "start"});
     SceneFile scene;
     scene.name = file.stem().string();
     scene.file = document.file;
     scene.gltf = file.parent_path() / text(member(top, "gltf"));
-    if (auto p = find(top, "unit_m"))
+    if (auto p = find_member(top, "unit_m"))
         scene.unit_m = number(*p, measure);
-    if (auto p = find(top, "light_speed_m_s"))
+    if (auto p = find_member(top, "light_speed_m_s"))
         scene.light_speed_m_s = number(*p, measure);
-    if (auto p = find(top, "sky"))
+    if (auto p = find_member(top, "sky"))
         scene.sky = read_sky(*p);
-    if (auto p = find(top, "stars"))
+    if (auto p = find_member(top, "stars"))
         scene.stars = read_stars(*p, file.parent_path());
-    if (auto p = find(top, "ambient"))
+    if (auto p = find_member(top, "ambient"))
         scene.ambient = read_colour(*p);
-    if (auto p = find(top, "bodies"))
+    if (auto p = find_member(top, "bodies"))
         scene.bodies = read_bodies(*p);
-    if (auto p = find(top, "lights"))
+    if (auto p = find_member(top, "lights"))
         for (const Place& at : items(*p, 0, 8, "lights"))
             scene.lights.push_back(read_light(at, scene.bodies));
-    if (auto p = find(top, "start"))
+    if (auto p = find_member(top, "start"))
         scene.start = read_shot(*p, false);
     scene.start.scene = scene.name;
     return scene;

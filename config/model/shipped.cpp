@@ -49,7 +49,7 @@ std::vector<Profile> known_profiles(const fs::path& exhibits)
     return all;
 }
 
-fs::path find(const std::string& kind, const std::string& name)
+fs::path shipped_file(const std::string& kind, const std::string& name)
 {
     std::error_code error;
     if (is_path(name))
@@ -69,21 +69,21 @@ fs::path find(const std::string& kind, const std::string& name)
         "There is no " + name + ".json in config/" + kind + "; there are: " + list + "; or give the path of a file");
 }
 
-Words words_in(const std::string& language) { return load_words(find("words", language)); }
+Words words_in(const std::string& language) { return load_words(shipped_file("words", language)); }
 
 Tour tour_in(const std::string& name, const Words& words)
 {
-    return load_tour(find("tours", name), words, [](const std::string& shot) { return find("shots", shot); });
+    return load_tour(shipped_file("tours", name), words, [](const std::string& shot) { return shipped_file("shots", shot); });
 }
 
 fs::path scene_of(const Tour& tour)
 {
-    return is_path(tour.scene) ? tour.file.parent_path() / tour.scene : find("scenes", tour.scene);
+    return is_path(tour.scene) ? tour.file.parent_path() / tour.scene : shipped_file("scenes", tour.scene);
 }
 
 fs::path scene_of(const Shot& shot, const fs::path& shot_file)
 {
-    return is_path(shot.scene) ? shot_file.parent_path() / shot.scene : find("scenes", shot.scene);
+    return is_path(shot.scene) ? shot_file.parent_path() / shot.scene : shipped_file("scenes", shot.scene);
 }
 
 } // namespace starbow

@@ -21,7 +21,7 @@ std::vector<Profile> known_profiles(const std::filesystem::path& exhibits = {});
 
 /// A config file by path, or by the name of a shipped one: find("layouts", "dome") is config/layouts/dome.json.
 /// Throws InputError that lists the shipped names.
-std::filesystem::path find(const std::string& kind, const std::string& name);
+std::filesystem::path shipped_file(const std::string& kind, const std::string& name);
 
 /// The words of a language: of a shipped one, or a file. Throws InputError.
 Words words_in(const std::string& language);

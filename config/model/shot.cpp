@@ -26,7 +26,7 @@ glm::dvec3 read_direction(const Place& place)
 /// gamma beta, from whichever of the three the file gives; each form without cancellation.
 double read_proper_speed(const Place& place)
 {
-    const auto gamma = find(place, "gamma"), beta = find(place, "beta"), rapidity = find(place, "rapidity");
+    const auto gamma = find_member(place, "gamma"), beta = find_member(place, "beta"), rapidity = find_member(place, "rapidity");
     if (gamma.has_value() + beta.has_value() + rapidity.has_value() != 1)
         complain(place,
             std::string(gamma || beta || rapidity ? "has more than one speed" : "has no speed")
@@ -53,7 +53,7 @@ double read_proper_speed(const Place& place)
 glm::dquat read_orientation(const Place& place)
 {
     glm::dvec3 look{0, 0, -1}, up{0, 1, 0};
-    const auto look_at = find(place, "look"), up_at = find(place, "up");
+    const auto look_at = find_member(place, "look"), up_at = find_member(place, "up");
     if (look_at)
         look = read_direction(*look_at);
     if (up_at)
@@ -75,26 +75,26 @@ glm::dquat orientation(const glm::dvec3& look, const glm::dvec3& up)
 
 Effects read_effects(const Place& place)
 {
-    only(place, {"aberration", "doppler", "headlight", "comparison", "false_colours"});
+    reject_unknown_members(place, {"aberration", "doppler", "headlight", "comparison", "false_colours"});
     Effects effects;
-    if (auto p = find(place, "aberration"))
+    if (auto p = find_member(place, "aberration"))
         effects.aberration = boolean(*p);
-    if (auto p = find(place, "doppler"))
+    if (auto p = find_member(place, "doppler"))
         effects.doppler = boolean(*p);
-    if (auto p = find(place, "headlight"))
+    if (auto p = find_member(place, "headlight"))
         effects.headlight = boolean(*p);
-    if (auto p = find(place, "comparison"))
+    if (auto p = find_member(place, "comparison"))
         effects.comparison = chosen<Comparison>(*p,
             {{comparison_names[0], Comparison::none}, {comparison_names[1], Comparison::galilean},
                 {comparison_names[2], Comparison::no_light_delay}});
-    if (auto p = find(place, "false_colours"))
+    if (auto p = find_member(place, "false_colours"))
         effects.false_colours = boolean(*p);
     return effects;
 }
 
 glm::dvec3 read_velocity(const Place& place)
 {
-    only(place, {"direction", "gamma", "beta", "rapidity"});
+    reject_unknown_members(place, {"direction", "gamma", "beta", "rapidity"});
     const glm::dvec3 direction = read_direction(member(place, "direction"));
     return direction * read_proper_speed(place);
 }
@@ -104,20 +104,20 @@ Shot read_shot(const Place& place, bool with_scene)
     std::vector<std::string_view> known{"time", "position", "velocity", "look", "up", "effects", "exposure_ev"};
     if (with_scene)
         known.push_back("scene");
-    only(place, known);
+    reject_unknown_members(place, known);
     Shot shot;
     if (with_scene)
         shot.scene = text(member(place, "scene"));
-    if (auto p = find(place, "time"))
+    if (auto p = find_member(place, "time"))
         shot.time = number(*p, {-farthest, farthest});
-    if (auto p = find(place, "position"))
+    if (auto p = find_member(place, "position"))
         shot.position = vec3(*p, {-farthest, farthest});
-    if (auto p = find(place, "velocity"))
+    if (auto p = find_member(place, "velocity"))
         shot.u = read_velocity(*p);
     shot.ship_from_cockpit = read_orientation(place);
-    if (auto p = find(place, "effects"))
+    if (auto p = find_member(place, "effects"))
         shot.effects = read_effects(*p);
-    if (auto p = find(place, "exposure_ev"))
+    if (auto p = find_member(place, "exposure_ev"))
         shot.exposure_ev = number(*p, {-60, 60});
     return shot;
 }

@@ -31,19 +31,19 @@ struct Reader {
         std::vector<std::string_view> languages;
         for (const auto& [language, value] : place.json->items())
             languages.push_back(language);
-        only(place, languages);
-        if (const auto own = find(place, words.language))
+        reject_unknown_members(place, languages);
+        if (const auto own = find_member(place, words.language))
             return text(*own);
-        const auto english = find(place, "en");
+        const auto english = find_member(place, "en");
         return text(english ? *english : member(place, place.json->begin().key()));
     }
 
     Measure read_measure(const Place& place) const
     {
-        only(place, {"what", "at", "against"});
+        reject_unknown_members(place, {"what", "at", "against"});
         Measure measure;
         measure.what = chosen(member(place, "what"), measures);
-        const auto at = find(place, "at"), against = find(place, "against");
+        const auto at = find_member(place, "at"), against = find_member(place, "against");
         if (has_place(measure.what))
             measure.at = vec3(member(place, "at"), any_place);
         else if (at || against)
@@ -83,25 +83,25 @@ struct Reader {
             const Shot shot = read_cut(place);
             return {shot.position, shot.u, shot.ship_from_cockpit, {}};
         }
-        only(place, {"time", "position", "velocity", "look", "up"});
+        reject_unknown_members(place, {"time", "position", "velocity", "look", "up"});
         const Shot shot = read_shot(place, false);
         Glide glide;
-        if (find(place, "time"))
+        if (find_member(place, "time"))
             glide.time = shot.time;
-        if (find(place, "position"))
+        if (find_member(place, "position"))
             glide.position = shot.position;
-        if (find(place, "velocity"))
+        if (find_member(place, "velocity"))
             glide.u = shot.u;
-        if (find(place, "look") || find(place, "up"))
+        if (find_member(place, "look") || find_member(place, "up"))
             glide.ship_from_cockpit = shot.ship_from_cockpit;
         return glide;
     }
 
     Thrust read_thrust(const Place& place) const
     {
-        only(place, {"rapidity_per_s", "towards"});
+        reject_unknown_members(place, {"rapidity_per_s", "towards"});
         Thrust thrust{number(member(place, "rapidity_per_s"), {0, 1e6, true}), {}};
-        if (auto p = find(place, "towards")) {
+        if (auto p = find_member(place, "towards")) {
             const glm::dvec3 way = vec3(*p, {-1e6, 1e6});
             if (!(glm::length(way) > 1e-6))
                 complain(*p, "points nowhere; a direction of any length above 0 is right");
@@ -112,39 +112,39 @@ struct Reader {
 
     Turning read_turn(const Place& place) const
     {
-        only(place, {"look", "up"});
+        reject_unknown_members(place, {"look", "up"});
         member(place, "look");
         return {read_shot(place, false).ship_from_cockpit};
     }
 
     Try read_try(const Place& place) const
     {
-        only(place, {"mode", "greatest_gamma"});
+        reject_unknown_members(place, {"mode", "max_gamma"});
         Try tried;
-        if (auto p = find(place, "mode"))
+        if (auto p = find_member(place, "mode"))
             tried.mode = chosen(*p, flight_modes);
-        if (auto p = find(place, "greatest_gamma"))
-            tried.greatest_gamma = number(*p, {1.001, 1e6});
+        if (auto p = find_member(place, "max_gamma"))
+            tried.max_gamma = number(*p, {1.001, 1e6});
         return tried;
     }
 
     Question read_question(const Place& place) const
     {
-        only(place, {"ask", "measure", "choices", "number", "reach", "told", "told_s"});
+        reject_unknown_members(place, {"ask", "measure", "choices", "number", "reach", "explanation", "explanation_s"});
         Question question;
         question.ask = read_text(member(place, "ask"));
-        question.told = read_text(member(place, "told"));
+        question.explanation = read_text(member(place, "explanation"));
         question.measure = read_measure(member(place, "measure"));
         check_measured(member(place, "ask"), question.ask, false);
-        check_measured(member(place, "told"), question.told, true);
-        take(place, "told_s", question.told_s, {0.5, 600});
-        const auto choices = find(place, "choices"), set = find(place, "number"), reach = find(place, "reach");
+        check_measured(member(place, "explanation"), question.explanation, true);
+        take(place, "explanation_s", question.explanation_s, {0.5, 600});
+        const auto choices = find_member(place, "choices"), set = find_member(place, "number"), reach = find_member(place, "reach");
         if (choices.has_value() + set.has_value() + reach.has_value() != 1)
             complain(place, "needs one way to answer; exactly one of \"choices\", \"number\" and \"reach\" is right");
         if (choices) {
             std::vector<Choice> all;
             for (const Place& at : items(*choices, 2, 3, "choices")) {
-                only(at, {"text", "from", "below"});
+                reject_unknown_members(at, {"text", "from", "below"});
                 Choice choice{read_text(member(at, "text")), -std::numeric_limits<double>::infinity(),
                     std::numeric_limits<double>::infinity()};
                 take(at, "from", choice.from, any_number);
@@ -155,14 +155,14 @@ struct Reader {
             }
             question.answer = all;
         } else if (set) {
-            only(*set, {"from", "to", "step", "tolerance"});
+            reject_unknown_members(*set, {"from", "to", "step", "tolerance"});
             NumberToSet wanted{number(member(*set, "from"), any_number), number(member(*set, "to"), any_number),
                 number(member(*set, "step"), {0, 1e12, true}), number(member(*set, "tolerance"), {0, 1e12})};
             if (!(wanted.from < wanted.to))
                 complain(member(*set, "to"), "is not above \"from\"; a greater number is right");
             question.answer = wanted;
         } else {
-            only(*reach, {"from", "to"});
+            reject_unknown_members(*reach, {"from", "to"});
             PlaceToReach wanted{number(member(*reach, "from"), any_number), number(member(*reach, "to"), any_number)};
             if (!(wanted.from < wanted.to))
                 complain(member(*reach, "to"), "is not above \"from\"; a greater number is right");
@@ -173,40 +173,40 @@ struct Reader {
 
     Step read_step(const Place& place, double usual_rate) const
     {
-        only(place,
+        reject_unknown_members(place,
             {"seconds", "ship_s_per_s", "ease_s", "caption", "measure", "effects", "exposure_ev", "question", "cut", "glide",
                 "thrust", "turn", "try"});
         Step step{.seconds = number(member(place, "seconds"), {0.1, 3600})};
         step.ship_s_per_s = usual_rate;
         take(place, "ship_s_per_s", step.ship_s_per_s, {0, 1e12});
-        if (auto p = find(place, "measure"))
+        if (auto p = find_member(place, "measure"))
             step.measure = read_measure(*p);
-        if (auto p = find(place, "caption")) {
+        if (auto p = find_member(place, "caption")) {
             step.caption = read_text(*p);
             check_measured(*p, step.caption, step.measure.has_value());
         }
-        if (auto p = find(place, "effects"))
+        if (auto p = find_member(place, "effects"))
             step.effects = read_effects(*p);
-        if (auto p = find(place, "exposure_ev"))
+        if (auto p = find_member(place, "exposure_ev"))
             step.exposure_ev = number(*p, {-60, 60});
         std::vector<std::string> motions;
         for (const char* name : {"cut", "glide", "thrust", "turn", "try"})
-            if (find(place, name))
+            if (find_member(place, name))
                 motions.push_back(name);
         if (motions.size() > 1)
             complain(
                 member(place, motions[1]), "is one too many beside \"" + motions[0] + "\"; one motion in a step is right");
-        if (auto p = find(place, "cut"))
+        if (auto p = find_member(place, "cut"))
             step.motion = Cut{read_cut(*p)};
-        else if (auto p = find(place, "glide"))
+        else if (auto p = find_member(place, "glide"))
             step.motion = read_glide(*p);
-        else if (auto p = find(place, "thrust"))
+        else if (auto p = find_member(place, "thrust"))
             step.motion = read_thrust(*p);
-        else if (auto p = find(place, "turn"))
+        else if (auto p = find_member(place, "turn"))
             step.motion = read_turn(*p);
-        else if (auto p = find(place, "try"))
+        else if (auto p = find_member(place, "try"))
             step.motion = read_try(*p);
-        if (auto p = find(place, "ease_s")) {
+        if (auto p = find_member(place, "ease_s")) {
             step.ease_s = vec2(*p, {0, 3600});
             if (step.ease_s.x + step.ease_s.y > step.seconds)
                 complain(*p, "is longer than the step, " + shown(step.seconds) + " s; two times that fit are right");
@@ -214,7 +214,7 @@ struct Reader {
                 complain(
                     *p, "is for a ship that flies by itself; nothing here, or no \"glide\" or \"try\" beside it, is right");
         }
-        if (auto p = find(place, "question")) {
+        if (auto p = find_member(place, "question")) {
             step.question = read_question(*p);
             const bool flies = std::holds_alternative<Try>(step.motion),
                        reaches = std::holds_alternative<PlaceToReach>(step.question->answer);
@@ -233,7 +233,7 @@ Tour load_tour(const std::filesystem::path& file, const Words& words, const Find
 {
     const Document document = read_document(file);
     const Place top = root(document);
-    only(top, {"$schema", "scene", "again_after_s", "ship_s_per_s", "steps"});
+    reject_unknown_members(top, {"$schema", "scene", "again_after_s", "ship_s_per_s", "steps"});
     Tour tour{.file = file};
     tour.scene = text(member(top, "scene"));
     take(top, "again_after_s", tour.again_after_s, {5, 3600});

@@ -12,7 +12,7 @@
 
 namespace starbow {
 
-/// A number told by the ship's state. `at`: a place at rest in the world, scene units.
+/// A number that follows from the ship's state. `at`: a place at rest in the world, scene units.
 struct Measure {
     enum class What {
         gamma,
@@ -60,10 +60,10 @@ struct PlaceToReach {
     double from, to;
 };
 struct Question {
-    std::string ask, told; ///< `told`: the answer, whatever was said; {measured} stands for the number
+    std::string ask, explanation; ///< explanation: the answer, whatever was said; {measured} stands for the number
     Measure measure;
     std::variant<std::vector<Choice>, NumberToSet, PlaceToReach> answer;
-    double told_s = 8; ///< so long it is told
+    double explanation_s = 8; ///< the explanation is shown for so long
 };
 
 /// At once at a shot.
@@ -92,7 +92,7 @@ struct Coast { };
 /// The visitor flies, until the time is over or they want to go on.
 struct Try {
     std::optional<FlightMode> mode; ///< none: the exhibit's
-    std::optional<double> greatest_gamma; ///< no more than the exhibit's
+    std::optional<double> max_gamma; ///< no more than the exhibit's
 };
 
 struct Step {

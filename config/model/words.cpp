@@ -214,7 +214,7 @@ Words load_words(const std::filesystem::path& file)
     for (const auto& [key, value] : top.json->items())
         if (key.starts_with(of_tours))
             keys.push_back(key);
-    only(top, keys);
+    reject_unknown_members(top, keys);
     Words words{.language = file.stem(), .file = file, .texts = {}};
     for (const auto& [key, value] : top.json->items())
         words.texts[key] = text(member(top, key));

@@ -240,7 +240,7 @@ glm::ivec2 eye_picture(const Output& output)
     return output.size;
 }
 
-Coverage cover(const Layout& layout, int o, int v, Eye eye, const Sight& given)
+Coverage cover(const Layout& layout, int o, int v, Eye eye, const ViewRegion& given)
 {
     const Output& output = layout.outputs[o];
     const Viewport& viewport = output.viewports[v];
@@ -305,7 +305,7 @@ glm::dvec2 azimuth_elevation_deg(const glm::dvec3& d)
     return glm::degrees(glm::dvec2(std::atan2(d.x, -d.z), std::atan2(d.y, std::hypot(d.x, d.z))));
 }
 
-std::vector<Coverage> coverages(const Layout& layout, const Sight& sight)
+std::vector<Coverage> coverages(const Layout& layout, const ViewRegion& sight)
 {
     bool two_eyes = false;
     for (const Output& output : layout.outputs) {

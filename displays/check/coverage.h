@@ -9,13 +9,13 @@ namespace starbow {
 
 /// The unit direction that a point of a viewport with a warp file shows, the viewport's top left being (0, 0); nothing where
 /// nothing is shown. The projection alone does not know.
-using Sight = std::function<std::optional<glm::dvec3>(const Output&, const Viewport&, glm::dvec2 pixel)>;
+using ViewRegion = std::function<std::optional<glm::dvec3>(const Output&, const Viewport&, glm::dvec2 pixel)>;
 
 /// The part of the sky that one viewport shows to one eye.
 struct Coverage {
     int output, viewport; ///< in the layout and in the output
     Eye eye; ///< left or right, or middle where the layout has one eye
-    Onlooker observer{};
+    ViewportObserver observer{};
     glm::ivec2 size{0}; ///< pixels that the eye's picture of it has
 
     /// Azimuth to the right and elevation in degrees, from -180 to 180 and from -90 to 90: closed outlines that enclose what
@@ -39,7 +39,7 @@ glm::dvec2 lattice_point(int column, int row);
 
 /// In the layout's order; of a layout with two eyes first all of the left eye, then of the right. Exact but for the lattice:
 /// shares to about a hundredth of themselves for a view of 10 degrees, outlines to 0.01 degrees, corners rounded by a cell.
-std::vector<Coverage> coverages(const Layout& layout, const Sight& sight = {});
+std::vector<Coverage> coverages(const Layout& layout, const ViewRegion& sight = {});
 
 /// Of what the first shows, the part that the second shows too; 0 where the first shows nothing.
 double shared_part(const Coverage& first, const Coverage& second);

@@ -559,11 +559,11 @@ double draw_table(Svg& svg, const Layout& layout, const std::vector<Coverage>& c
     struct Column {
         const char* title;
         double width;
-        std::string PlanRow::*words;
+        std::string FloorPlanRow::*words;
     };
-    const Column columns[]{{"Viewport", 215, &PlanRow::name}, {"Projection", 435, &PlanRow::projection},
-        {"Spans", 405, &PlanRow::spans}, {"Of the sky", 95, &PlanRow::sky}, {"Pixels", 120, &PlanRow::pixels},
-        {"Pixels per degree", 285, &PlanRow::per_degree}};
+    const Column columns[]{{"Viewport", 215, &FloorPlanRow::name}, {"Projection", 435, &FloorPlanRow::projection},
+        {"Spans", 405, &FloorPlanRow::spans}, {"Of the sky", 95, &FloorPlanRow::sky}, {"Pixels", 120, &FloorPlanRow::pixels},
+        {"Pixels per degree", 285, &FloorPlanRow::per_degree}};
     constexpr double size = 13, step = 18;
     const double right = page_width - margin;
     double x = margin;
@@ -572,13 +572,13 @@ double draw_table(Svg& svg, const Layout& layout, const std::vector<Coverage>& c
         x += column.width;
     }
     double y = top + 24;
-    const std::vector<PlanRow> rows = plan_rows(layout, coverages);
+    const std::vector<FloorPlanRow> rows = floor_plan_rows(layout, coverages);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         svg.line({margin, y}, {right, y}, "stroke=\"#c8c8c2\"");
         x = margin;
         std::size_t most = 1;
         for (const Column& column : columns) {
-            const bool named = column.words == &PlanRow::name;
+            const bool named = column.words == &FloorPlanRow::name;
             const auto lines = wrapped(rows[i].*column.words, column.width - (named ? 34 : 16), size);
             if (named)
                 svg.rect({{x, y + 6}, {x + 13, y + 19}},
@@ -619,7 +619,7 @@ double draw_overlaps(Svg& svg, const Layout& layout, const std::vector<Coverage>
 
 } // namespace
 
-std::string draw_plan(const Layout& layout, const std::vector<Coverage>& coverages)
+std::string draw_floor_plan(const Layout& layout, const std::vector<Coverage>& coverages)
 {
     Svg svg;
     svg.write({margin, margin + 20}, layout.name.empty() ? "Layout" : layout.name, 26, "font-weight=\"bold\"");

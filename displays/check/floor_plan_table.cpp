@@ -124,13 +124,13 @@ std::string packing_words(Packing packing)
     return words[std::size_t(packing)];
 }
 
-std::vector<PlanRow> plan_rows(const Layout& layout, const std::vector<Coverage>& coverages)
+std::vector<FloorPlanRow> floor_plan_rows(const Layout& layout, const std::vector<Coverage>& coverages)
 {
-    std::vector<PlanRow> rows;
+    std::vector<FloorPlanRow> rows;
     for (const Coverage& c : coverages) {
         const Viewport& viewport = layout.outputs[c.output].viewports[c.viewport];
         const std::string name = viewport_name(layout, c.output, c.viewport);
-        PlanRow row;
+        FloorPlanRow row;
         row.output = c.output;
         row.name = name + eye_words(c.eye);
         row.projection = projection_words(viewport);
@@ -144,7 +144,7 @@ std::vector<PlanRow> plan_rows(const Layout& layout, const std::vector<Coverage>
         else
             row.spans = (c.azimuths ? "azimuth " + range(c.azimuths->x, c.azimuths->y) : "all around") + ", elevation "
                 + range(c.elevations.x, c.elevations.y);
-        const auto alike = std::find_if(rows.begin(), rows.end(), [&](const PlanRow& other) {
+        const auto alike = std::find_if(rows.begin(), rows.end(), [&](const FloorPlanRow& other) {
             return other.name == name + eye_words(Eye::left) && c.eye == Eye::right && other.spans == row.spans
                 && other.sky == row.sky && other.per_degree == row.per_degree;
         });

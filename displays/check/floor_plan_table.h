@@ -4,7 +4,7 @@
 namespace starbow {
 
 /// A coverage in words, for people who build exhibits.
-struct PlanRow {
+struct FloorPlanRow {
     int output; ///< in the layout
     std::string name; ///< "wall", or "wall/1" where the output has several viewports; where there are two eyes with the eye
     std::string projection; ///< "fisheye (equidistant), 180° across, tilted 30°"
@@ -15,7 +15,7 @@ struct PlanRow {
 };
 
 /// One for each coverage of the layout, but for a viewport that shows both eyes alike: that has one for both.
-std::vector<PlanRow> plan_rows(const Layout& layout, const std::vector<Coverage>& coverages);
+std::vector<FloorPlanRow> floor_plan_rows(const Layout& layout, const std::vector<Coverage>& coverages);
 
 /// One line for each two coverages of one eye that share more than a thousandth of either, most first; for both eyes where
 /// both read the same.

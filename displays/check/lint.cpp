@@ -76,7 +76,7 @@ bool masked(const Layout& layout, const Coverage& c)
 
 } // namespace
 
-std::vector<std::string> doubts(const Layout& layout, const std::vector<Coverage>& coverages)
+std::vector<std::string> lint(const Layout& layout, const std::vector<Coverage>& coverages)
 {
     std::vector<std::string> all;
     auto doubt = [&](std::string line) {

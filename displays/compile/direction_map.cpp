@@ -8,14 +8,14 @@
 namespace starbow {
 namespace {
 
-void straight_rows(const Pane& pane, DirectionMap& map, int first, int end)
+void unwarped_rows(const View& view, DirectionMap& map, int first, int end)
 {
-    const double squeeze = std::sqrt(pane.picture_from_pixel.x * pane.picture_from_pixel.y);
-    const PictureRays rays(pane.picture);
+    const double squeeze = std::sqrt(view.picture_from_pixel.x * view.picture_from_pixel.y);
+    const PictureRays rays(view.picture);
     for (int channel = 0; channel < map.channels; ++channel)
         for (int y = first; y < end; ++y)
             for (int x = 0; x < map.size.x; ++x) {
-                const glm::dvec2 at = (glm::dvec2(x, y) + 0.5) * pane.picture_from_pixel;
+                const glm::dvec2 at = (glm::dvec2(x, y) + 0.5) * view.picture_from_pixel;
                 const Channel colour = map.channels == 3 ? Channel(channel) : Channel::green;
                 if (auto seen = rays.direction(at, colour))
                     map.texels[(std::size_t(channel) * map.size.y + y) * map.size.x + x]
@@ -23,7 +23,7 @@ void straight_rows(const Pane& pane, DirectionMap& map, int first, int end)
             }
 }
 
-struct Bent {
+struct Warped {
     const WarpMesh& mesh;
     const WarpRaster& raster;
     const Picture& source;
@@ -41,7 +41,7 @@ struct Bent {
                 const std::size_t at = std::size_t(y) * map.size.x + x;
                 map.intensity[at] = float(samples[x].intensity);
                 for (int channel = 0; channel < map.channels; ++channel)
-                    if (auto seen = bent_direction(mesh, source, rays, turn, samples[x], channel))
+                    if (auto seen = warped_direction(mesh, source, rays, turn, samples[x], channel))
                         map.texels[std::size_t(channel) * map.size.x * map.size.y + at] = glm::vec4(*seen, 1);
             }
         }
@@ -65,7 +65,7 @@ glm::vec3 step(const DirectionMap& map, int x, int y, int channel, glm::ivec2 wa
 }
 
 /// bent: the angle is not known yet; else it is only held against slivers.
-void angle_rows(DirectionMap& map, std::vector<float>& angles, bool bent, int channel, int first, int end)
+void angle_rows(DirectionMap& map, std::vector<float>& angles, bool warped, int channel, int first, int end)
 {
     for (int y = first; y < end; ++y)
         for (int x = 0; x < map.size.x; ++x) {
@@ -75,7 +75,7 @@ void angle_rows(DirectionMap& map, std::vector<float>& angles, bool bent, int ch
             const glm::vec3 across = step(map, x, y, channel, {1, 0}), down = step(map, x, y, channel, {0, 1});
             const float longest = std::max(glm::length(across), glm::length(down));
             // Bent and alone in a hole: as large as the sky, so that it asks for nothing.
-            const float own = !bent ? known : longest > 0 ? std::sqrt(glm::length(glm::cross(across, down))) : 1;
+            const float own = !warped ? known : longest > 0 ? std::sqrt(glm::length(glm::cross(across, down))) : 1;
             angles[std::size_t(y) * map.size.x + x] = std::max(own, 0.5f * longest);
         }
 }
@@ -104,7 +104,7 @@ glm::uvec2 packed(const glm::vec4& texel)
 
 } // namespace
 
-std::optional<glm::dvec3> bent_direction(const WarpMesh& mesh, const Picture& source, const PictureRays& rays,
+std::optional<glm::dvec3> warped_direction(const WarpMesh& mesh, const Picture& source, const PictureRays& rays,
     const glm::dmat3& turn, const WarpSample& sample, int channel)
 {
     if (!sample.shown)
@@ -123,9 +123,9 @@ std::optional<glm::dvec3> bent_direction(const WarpMesh& mesh, const Picture& so
     return {};
 }
 
-Picture bent_picture(const Pane& pane, const WarpMesh& mesh, bool projection_given)
+Picture warped_picture(const View& view, const WarpMesh& mesh, bool projection_given)
 {
-    Picture picture = pane.picture;
+    Picture picture = view.picture;
     if (!projection_given && mesh.frustum)
         picture.projection = *mesh.frustum;
     if (std::holds_alternative<Fisheye>(picture.projection))
@@ -133,12 +133,12 @@ Picture bent_picture(const Pane& pane, const WarpMesh& mesh, bool projection_giv
     return picture;
 }
 
-std::optional<glm::dmat3> pane_matrix(const Pane& pane)
+std::optional<glm::dmat3> view_matrix(const View& view)
 {
-    std::optional<glm::dmat3> m = planar_matrix(pane.picture);
+    std::optional<glm::dmat3> m = planar_matrix(view.picture);
     if (m) {
-        (*m)[0] *= pane.picture_from_pixel.x;
-        (*m)[1] *= pane.picture_from_pixel.y;
+        (*m)[0] *= view.picture_from_pixel.x;
+        (*m)[1] *= view.picture_from_pixel.y;
     }
     return m;
 }
@@ -155,23 +155,23 @@ std::vector<glm::uvec2> packed(const DirectionMap& map)
     return all;
 }
 
-DirectionMap compile(const Pane& pane, const WarpMesh* mesh)
+DirectionMap compile_direction_map(const View& view, const WarpMesh* mesh)
 {
     DirectionMap map;
-    map.size = pane.size;
-    const Picture source = mesh ? bent_picture(pane, *mesh, pane.projection_given) : pane.picture;
+    map.size = view.size;
+    const Picture source = mesh ? warped_picture(view, *mesh, view.projection_given) : view.picture;
     map.channels = splits_colours(source.projection) || (mesh && mesh->kind == WarpMesh::Kind::colours) ? 3 : 1;
     const std::size_t pixels = std::size_t(map.size.x) * map.size.y;
     map.texels.assign(pixels * map.channels, glm::vec4(0));
     if (mesh) {
         map.intensity.assign(pixels, 0.0f);
         const WarpRaster raster(*mesh, map.size);
-        const Bent bent{*mesh, raster, source, PictureRays(source), turn_of(source.projection)};
-        by_rows(map.size.y, [&](int first, int end) { bent.rows(map, first, end); });
+        const Warped warped{*mesh, raster, source, PictureRays(source), turn_of(source.projection)};
+        by_rows(map.size.y, [&](int first, int end) { warped.rows(map, first, end); });
         if (std::all_of(map.intensity.begin(), map.intensity.end(), [](float i) { return i == 1; }))
             map.intensity.clear();
     } else {
-        by_rows(map.size.y, [&](int first, int end) { straight_rows(pane, map, first, end); });
+        by_rows(map.size.y, [&](int first, int end) { unwarped_rows(view, map, first, end); });
     }
     std::vector<float> angles(pixels);
     for (int channel = 0; channel < map.channels; ++channel) {

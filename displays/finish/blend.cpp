@@ -36,12 +36,12 @@ void transform(std::vector<double>& f, std::vector<int>& vertex, std::vector<dou
     f = std::move(out);
 }
 
-/// How far a pane's pixels are from where its light must have faded: the part of its edge beyond which another's goes on.
+/// How far a view's pixels are from where its light must have faded: the part of its edge beyond which another's goes on.
 /// Towards an edge beyond which nothing is lit, that of a wall or a dome's rim, no one's light needs to fade.
 struct Field {
-    const CompiledPane* pane;
+    const CompiledView* view;
     std::shared_ptr<const DirectionMap> map;
-    std::shared_ptr<const Blocks> blocks;
+    std::shared_ptr<const ConeHierarchy> cones;
     std::vector<float> to_fade; ///< from each pixel's centre, radians of an average pixel; with one row of nothing all round
     float pixel = 0; ///< average pixel angle
 
@@ -54,7 +54,7 @@ struct Field {
     /// Between pixels, 0 where the direction is not shown.
     float along(const glm::dvec3& direction) const
     {
-        const auto p = find(*map, *blocks, direction);
+        const auto p = find_pixel(*map, *cones, direction);
         if (!p)
             return 0;
         const glm::dvec2 from = *p - 0.5, low = glm::floor(from);
@@ -64,12 +64,12 @@ struct Field {
     }
 };
 
-Field field_of(const CompiledPane& pane)
+Field field_of(const CompiledView& view)
 {
     Field field;
-    field.pane = &pane;
-    field.map = pane.map ? pane.map : std::make_shared<DirectionMap>(compile(pane.pane));
-    field.blocks = pane.map ? pane.blocks : std::make_shared<Blocks>(*field.map);
+    field.view = &view;
+    field.map = view.map ? view.map : std::make_shared<DirectionMap>(compile_direction_map(view.view));
+    field.cones = view.map ? view.cones : std::make_shared<ConeHierarchy>(*field.map);
     double sum = 0;
     long shown = 0;
     for (const glm::vec4& texel : std::span(field.map->texels).first(std::size_t(field.map->size.x) * field.map->size.y))
@@ -114,7 +114,7 @@ glm::dvec3 going_on(const Field& field, glm::ivec2 p, const glm::dvec2& way)
     return glm::normalize(to);
 }
 
-/// The places beside a field's pixels where it shows nothing: whether another pane lights what lies beyond them.
+/// The places beside a field's pixels where it shows nothing: whether another view lights what lies beyond them.
 std::vector<char> fades(const Field& own, const std::vector<const Field*>& others)
 {
     std::vector<char> ends(std::size_t(own.map->size.x + 2) * (own.map->size.y + 2), 0);
@@ -130,7 +130,7 @@ std::vector<char> fades(const Field& own, const std::vector<const Field*>& other
                         continue;
                     const glm::dvec3 beyond = going_on(own, p, (0.5 + beyond_px) * outwards(own, p, out));
                     fade = std::any_of(others.begin(), others.end(),
-                        [&](const Field* other) { return find(*other->map, *other->blocks, beyond).has_value(); });
+                        [&](const Field* other) { return find_pixel(*other->map, *other->cones, beyond).has_value(); });
                 }
             }
     });
@@ -177,7 +177,7 @@ constexpr float sharp = 16;
 constexpr float bend = 0.01f;
 
 /// Whether the field is straight enough around the cell with the node (x, y) at its top left to be interpolated.
-bool straight(const std::vector<float>& nodes, glm::ivec2 count, int x, int y)
+bool linear_between(const std::vector<float>& nodes, glm::ivec2 count, int x, int y)
 {
     auto node = [&](int i, int j) {
         return nodes[std::size_t(std::clamp(j, 0, count.y - 1)) * count.x + std::clamp(i, 0, count.x - 1)];
@@ -219,7 +219,7 @@ std::vector<float> ramp(const Field& own, const std::vector<const Field*>& other
                     const std::size_t at = std::size_t(y) * nodes.x + x;
                     const float least
                         = std::min({coarse[at], coarse[at + 1], coarse[at + nodes.x], coarse[at + nodes.x + 1]});
-                    exact[at] = least < near_other || !straight(coarse, nodes, x, y);
+                    exact[at] = least < near_other || !linear_between(coarse, nodes, x, y);
                 }
         });
         by_rows(size.y, [&](int first, int end) {
@@ -233,7 +233,7 @@ std::vector<float> ramp(const Field& own, const std::vector<const Field*>& other
                     const float a = corner[0], b = corner[1], c = corner[nodes.x], d = corner[nodes.x + 1];
                     float value;
                     if (std::max({a, b, c, d}) == 0)
-                        value = 0; // -1, a corner that this pane does not show, is not 0
+                        value = 0; // -1, a corner that this view does not show, is not 0
                     else if (exact[std::size_t(j) * nodes.x + i] || own.at(x, y) < near_own)
                         value = std::max(0.0f, look(*other, x, y));
                     else {
@@ -257,15 +257,15 @@ std::vector<float> ramp(const Field& own, const std::vector<const Field*>& other
     return weight;
 }
 
-bool has_mask(const Layout& layout, const CompiledPane& pane)
+bool has_mask(const Layout& layout, const CompiledView& view)
 {
-    return !layout.outputs[pane.pane.output].viewports[pane.pane.viewport].alpha_mask.empty()
-        || (pane.mesh && pane.mesh->alpha);
+    return !layout.outputs[view.view.output].viewports[view.view.viewport].alpha_mask.empty()
+        || (view.mesh && view.mesh->alpha);
 }
 
-/// Whether two panes are drawn on the same pixels: then one covers the other. Beside each other they may well be for two
+/// Whether two views are drawn on the same pixels: then one covers the other. Beside each other they may well be for two
 /// projectors on one desktop.
-bool share_pixels(const Pane& a, const Pane& b)
+bool share_pixels(const View& a, const View& b)
 {
     return a.output == b.output && a.layer == b.layer && glm::all(glm::lessThan(a.corner, b.corner + b.size))
         && glm::all(glm::lessThan(b.corner, a.corner + a.size));
@@ -273,28 +273,28 @@ bool share_pixels(const Pane& a, const Pane& b)
 
 } // namespace
 
-std::vector<std::vector<float>> blend_ramps(const Layout& layout, std::span<const CompiledPane> panes, double power)
+std::vector<std::vector<float>> blend_ramps(const Layout& layout, std::span<const CompiledView> views, double power)
 {
     std::vector<Field> fields;
-    std::vector<int> field_of_pane(panes.size(), -1);
-    for (std::size_t i = 0; i < panes.size(); ++i)
-        if (!has_mask(layout, panes[i])) {
-            field_of_pane[i] = int(fields.size());
-            fields.push_back(field_of(panes[i]));
+    std::vector<int> field_of_view(views.size(), -1);
+    for (std::size_t i = 0; i < views.size(); ++i)
+        if (!has_mask(layout, views[i])) {
+            field_of_view[i] = int(fields.size());
+            fields.push_back(field_of(views[i]));
         }
     std::vector<std::vector<const Field*>> others(fields.size());
     for (std::size_t i = 0; i < fields.size(); ++i) {
-        const Pane& own = fields[i].pane->pane;
+        const View& own = fields[i].view->view;
         for (const Field& other : fields)
-            if (other.pane->pane.eye == own.eye && other.pane->pane.observer == own.observer
-                && !share_pixels(other.pane->pane, own))
+            if (other.view->view.eye == own.eye && other.view->view.observer == own.observer
+                && !share_pixels(other.view->view, own))
                 others[i].push_back(&other);
     }
     for (std::size_t i = 0; i < fields.size(); ++i)
         measure(fields[i], others[i]);
-    std::vector<std::vector<float>> ramps(panes.size());
-    for (std::size_t i = 0; i < panes.size(); ++i)
-        if (const int own = field_of_pane[i]; own >= 0)
+    std::vector<std::vector<float>> ramps(views.size());
+    for (std::size_t i = 0; i < views.size(); ++i)
+        if (const int own = field_of_view[i]; own >= 0)
             ramps[i] = ramp(fields[own], others[own], power);
     return ramps;
 }

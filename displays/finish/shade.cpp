@@ -48,51 +48,51 @@ glm::vec3 light_at(const WarpMesh::Mask& mask, const glm::dvec2& place)
 
 } // namespace
 
-Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::span<const CompiledPane> panes,
+Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::span<const CompiledView> views,
     std::span<const std::vector<float>> ramps)
 {
     Shade shade;
     shade.size = size;
-    auto fill = [&](std::vector<glm::vec3>& values, const Pane& pane, float nothing, auto&& value) {
+    auto fill = [&](std::vector<glm::vec3>& values, const View& view, float nothing, auto&& value) {
         if (values.empty())
             values.assign(std::size_t(size.x) * size.y, glm::vec3(nothing));
-        for (int y = 0; y < pane.size.y; ++y)
-            for (int x = 0; x < pane.size.x; ++x)
-                value(values[std::size_t(y + pane.corner.y) * size.x + x + pane.corner.x], x, y);
+        for (int y = 0; y < view.size.y; ++y)
+            for (int x = 0; x < view.size.x; ++x)
+                value(values[std::size_t(y + view.corner.y) * size.x + x + view.corner.x], x, y);
     };
-    for (std::size_t i = 0; i < panes.size(); ++i) {
-        const Pane& pane = panes[i].pane;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        const View& view = views[i].view;
         // Of two pictures on the same pixels the first stands for both; a preview shows what is sent, not how it is shaded.
-        if (pane.output != output || pane.layer > 0)
+        if (view.output != output || view.layer > 0)
             continue;
-        const Viewport& viewport = layout.outputs[output].viewports[pane.viewport];
+        const Viewport& viewport = layout.outputs[output].viewports[view.viewport];
         auto read = [&](const char* member, const std::filesystem::path& file) {
-            return on_behalf_of(layout, viewport_pointer(output, pane.viewport) + member,
+            return on_behalf_of(layout, viewport_pointer(output, view.viewport) + member,
                 [&] { return read_mask(file, viewport.mask_gamma); });
         };
-        auto place = [&](int x, int y) { return (glm::dvec2(x, y) + 0.5) / glm::dvec2(pane.size); };
+        auto place = [&](int x, int y) { return (glm::dvec2(x, y) + 0.5) / glm::dvec2(view.size); };
         auto multiply = [&](const WarpMesh::Mask& mask) {
-            fill(shade.weight, pane, 1, [&](glm::vec3& w, int x, int y) { w *= light_at(mask, place(x, y)); });
+            fill(shade.weight, view, 1, [&](glm::vec3& w, int x, int y) { w *= light_at(mask, place(x, y)); });
         };
         auto add = [&](const WarpMesh::Mask& mask) {
-            fill(shade.black, pane, 0, [&](glm::vec3& b, int x, int y) { b += light_at(mask, place(x, y)); });
+            fill(shade.black, view, 0, [&](glm::vec3& b, int x, int y) { b += light_at(mask, place(x, y)); });
         };
         auto scale = [&](const std::vector<float>& by) {
             if (!by.empty())
-                fill(shade.weight, pane, 1, [&](glm::vec3& w, int x, int y) { w *= by[std::size_t(y) * pane.size.x + x]; });
+                fill(shade.weight, view, 1, [&](glm::vec3& w, int x, int y) { w *= by[std::size_t(y) * view.size.x + x]; });
         };
-        if (panes[i].map)
-            scale(panes[i].map->intensity);
+        if (views[i].map)
+            scale(views[i].map->intensity);
         if (!ramps.empty())
             scale(ramps[i]);
         if (!viewport.alpha_mask.empty())
             multiply(read("/alpha_mask", viewport.alpha_mask));
-        else if (panes[i].mesh && panes[i].mesh->alpha)
-            multiply(*panes[i].mesh->alpha);
+        else if (views[i].mesh && views[i].mesh->alpha)
+            multiply(*views[i].mesh->alpha);
         if (!viewport.black_level.empty())
             add(read("/black_level", viewport.black_level));
-        else if (panes[i].mesh && panes[i].mesh->beta)
-            add(*panes[i].mesh->beta);
+        else if (views[i].mesh && views[i].mesh->beta)
+            add(*views[i].mesh->beta);
     }
     return shade;
 }

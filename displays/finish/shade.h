@@ -1,5 +1,5 @@
 #pragma once
-#include "displays/compile/compiled.h"
+#include "displays/compile/compiled_view.h"
 
 namespace starbow {
 
@@ -12,8 +12,8 @@ struct Shade {
 };
 
 /// The masks, the black levels and the calibrations' intensities of one output, and the blend ramps of all: ramps[i] belongs
-/// to panes[i] (blend.h), empty where there is none. Throws InputError for a picture that can't be read.
-Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::span<const CompiledPane> panes,
+/// to views[i] (blend.h), empty where there is none. Throws InputError for a picture that can't be read.
+Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::span<const CompiledView> views,
     std::span<const std::vector<float>> ramps);
 
 /// By how much the light of all outputs is turned down so that the highest black level of any still has room above it.

@@ -32,40 +32,40 @@ Share share(Packing packing, Eye eye)
 
 double side(Eye eye) { return eye == Eye::left ? -1 : eye == Eye::right ? 1 : 0; }
 
-Pane make_pane(const Layout& layout, std::size_t output, std::size_t viewport, Eye eye, const Share& share, glm::ivec2 size)
+View make_view(const Layout& layout, std::size_t output, std::size_t viewport, Eye eye, const Share& share, glm::ivec2 size)
 {
     Viewport own = layout.outputs[output].viewports[viewport];
     own.rect = {glm::dvec2(own.rect) * share.scale + share.offset, glm::dvec2(own.rect.z, own.rect.w) * share.scale};
     const glm::ivec4 rect = pixel_rect(own, size);
-    Pane pane{output, viewport};
-    pane.layer = share.layer;
-    pane.corner = {rect.x, rect.y};
-    pane.size = glm::max(glm::ivec2(rect.z, rect.w), 1);
-    pane.eye = eye;
-    pane.observer = own.observer;
-    pane.projection_given = own.projection_given;
-    pane.head_m = own.eye_m;
-    pane.picture_from_pixel = share.squeeze;
+    View view{output, viewport};
+    view.layer = share.layer;
+    view.corner = {rect.x, rect.y};
+    view.size = glm::max(glm::ivec2(rect.z, rect.w), 1);
+    view.eye = eye;
+    view.observer = own.observer;
+    view.projection_given = own.projection_given;
+    view.head_m = own.eye_m;
+    view.picture_from_pixel = share.squeeze;
     const glm::dvec3 apart(side(eye) * 0.5 * layout.stereo.separation_m, 0, 0);
-    pane.picture = {own.projection, glm::ivec2(glm::dvec2(pane.size) * share.squeeze), own.eye_m + apart};
-    return pane;
+    view.picture = {own.projection, glm::ivec2(glm::dvec2(view.size) * share.squeeze), own.eye_m + apart};
+    return view;
 }
 
 /// A preview of an output: the same pictures on fewer pixels. Of eyes that share pixels the left one's is shown.
-void add_small(std::vector<Pane>& all, const Layout& layout, std::size_t output, const glm::ivec4& cell)
+void add_small(std::vector<View>& all, const Layout& layout, std::size_t output, const glm::ivec4& cell)
 {
     const glm::ivec2 whole = layout.outputs[output].size;
-    for (Pane pane : panes(layout, output, whole)) {
-        if (pane.layer > 0)
+    for (View view : views_of(layout, output, whole)) {
+        if (view.layer > 0)
             continue;
         const glm::dvec2 shrink = glm::dvec2(cell.z, cell.w) / glm::dvec2(whole);
-        const glm::ivec2 low = glm::round(glm::dvec2(pane.corner) * shrink);
-        const glm::ivec2 high = glm::round(glm::dvec2(pane.corner + pane.size) * shrink);
-        const glm::ivec2 large = pane.size;
-        pane.corner = glm::ivec2(cell.x, cell.y) + low;
-        pane.size = glm::max(high - low, 1);
-        pane.picture_from_pixel *= glm::dvec2(large) / glm::dvec2(pane.size);
-        all.push_back(pane);
+        const glm::ivec2 low = glm::round(glm::dvec2(view.corner) * shrink);
+        const glm::ivec2 high = glm::round(glm::dvec2(view.corner + view.size) * shrink);
+        const glm::ivec2 large = view.size;
+        view.corner = glm::ivec2(cell.x, cell.y) + low;
+        view.size = glm::max(high - low, 1);
+        view.picture_from_pixel *= glm::dvec2(large) / glm::dvec2(view.size);
+        all.push_back(view);
     }
 }
 
@@ -106,10 +106,10 @@ std::vector<glm::ivec4> preview_cells(const Layout& layout, std::size_t preview,
     return best;
 }
 
-std::vector<Pane> panes(const Layout& layout, std::size_t output, glm::ivec2 size)
+std::vector<View> views_of(const Layout& layout, std::size_t output, glm::ivec2 size)
 {
     const Output& own = layout.outputs[output];
-    std::vector<Pane> all;
+    std::vector<View> all;
     if (own.preview) {
         const std::vector<glm::ivec4> cells = preview_cells(layout, output, size);
         for (std::size_t i = 0; i < layout.outputs.size(); ++i)
@@ -119,10 +119,10 @@ std::vector<Pane> panes(const Layout& layout, std::size_t output, glm::ivec2 siz
     }
     for (std::size_t i = 0; i < own.viewports.size(); ++i)
         if (own.packing == Packing::mono)
-            all.push_back(make_pane(layout, output, i, own.viewports[i].eye, {}, size));
+            all.push_back(make_view(layout, output, i, own.viewports[i].eye, {}, size));
         else
             for (Eye eye : {Eye::left, Eye::right})
-                all.push_back(make_pane(layout, output, i, eye, share(own.packing, eye), size));
+                all.push_back(make_view(layout, output, i, eye, share(own.packing, eye), size));
     return all;
 }
 

@@ -112,25 +112,25 @@ WarpMesh place_mesh(const FloatMap& map, const WarpFile& file)
 
     WarpMesh mesh;
     if (2 * inside < known) {
-        std::vector<glm::dvec2> bent, turned;
+        std::vector<glm::dvec2> warped, turned;
         bool sound = map.size.x > 1 && map.size.y > 1;
         for (std::size_t i = 0; sound && i < map.values.size(); ++i) {
             const glm::vec3& value = map.values[i];
             sound = std::abs(value.x) < 1 && std::abs(value.y) < 1; // false for NaN
             const std::size_t width = std::size_t(map.size.x);
             const glm::dvec2 place(double(i % width) / (map.size.x - 1), double(i / width) / (map.size.y - 1));
-            bent.push_back(place + glm::dvec2(value.x, -value.y));
-            mesh.vertices.push_back({bent.back(), 1, {glm::dvec3(place, 0)}});
+            warped.push_back(place + glm::dvec2(value.x, -value.y));
+            mesh.vertices.push_back({warped.back(), 1, {glm::dvec3(place, 0)}});
         }
-        if (!sound || folds(map.size, bent))
+        if (!sound || folds(map.size, warped))
             refuse(file, "",
                 "has " + std::to_string(known - inside) + " of " + std::to_string(known)
                     + " places outside the picture, and they make no offsets either; places from 0 to 1 are right");
         mesh.grid = map.size;
         mesh.notes.push_back("the values are offsets from a regular grid, not places in the picture: read as such");
-        for (std::size_t i = 0; i < bent.size(); ++i)
-            turned.push_back({bent[i].x, bent[i].y + 2.0 * map.values[i].y});
-        if (area(map.size, turned) > 1.25 * area(map.size, bent))
+        for (std::size_t i = 0; i < warped.size(); ++i)
+            turned.push_back({warped[i].x, warped[i].y + 2.0 * map.values[i].y});
+        if (area(map.size, turned) > 1.25 * area(map.size, warped))
             mesh.notes.push_back(map.first_row_on_top
                     ? "with its rows in the other order the mesh would cover much more: try it without --first-row-on-top, "
                       "and a layout without \"first_row\""

@@ -111,10 +111,10 @@ struct Watched {
 
     DeviceState now() const
     {
-        for (Hid::Seen& seen : hid.devices())
+        for (Hid::Connected& seen : hid.devices())
             if (seen.info.path == info.path && seen.info.vendor == info.vendor && seen.info.product == info.product)
                 return std::move(seen.state);
-        throw InputError(told(info) + " was unplugged; nothing was written");
+        throw InputError(describe(info) + " was unplugged; nothing was written");
     }
 };
 
@@ -134,9 +134,9 @@ private:
     std::chrono::steady_clock::time_point next_;
 };
 
-std::string shown(const Hid::Seen& device)
+std::string shown(const Hid::Connected& device)
 {
-    return told(device.info) + (device.info.serial.empty() ? "" : ", serial number " + device.info.serial) + ", "
+    return describe(device.info) + (device.info.serial.empty() ? "" : ", serial number " + device.info.serial) + ", "
         + device.info.path;
 }
 
@@ -144,19 +144,19 @@ std::string shown(const Hid::Seen& device)
 Watched choose(Person& person, const Hid& hid, const std::string& wanted)
 {
     person.wait(0.5, [] {}); // until all are open
-    std::vector<Hid::Seen> all = hid.devices();
+    std::vector<Hid::Connected> all = hid.devices();
     if (all.empty())
         throw InputError(
             "No stick, throttle, pad or space mouse is plugged in that may be read; plug it in, then start again");
     const bool kind = wanted.size() == 9 && wanted[4] == ':';
-    std::vector<Hid::Seen> fitting;
+    std::vector<Hid::Connected> fitting;
     for (std::size_t i = 0; i < all.size(); ++i) {
         char ids[16];
         std::snprintf(ids, sizeof ids, "%04x:%04x", unsigned(all[i].info.vendor), unsigned(all[i].info.product));
         if (wanted.empty() || (kind && CLI::detail::to_lower(wanted) == ids) || wanted == std::to_string(i + 1))
             fitting.push_back(all[i]);
     }
-    const auto list = [](const std::vector<Hid::Seen>& devices) {
+    const auto list = [](const std::vector<Hid::Connected>& devices) {
         for (std::size_t i = 0; i < devices.size(); ++i)
             std::printf("  %zu  %s\n", i + 1, shown(devices[i]).c_str());
     };
@@ -185,7 +185,7 @@ std::string names(const std::vector<SeenAxis>& axes, const std::function<bool(co
     std::string text;
     for (const SeenAxis& axis : axes)
         if (which(axis))
-            text += (text.empty() ? "" : ", ") + told(axis);
+            text += (text.empty() ? "" : ", ") + describe(axis);
     return text;
 }
 
@@ -205,7 +205,7 @@ void draw(const Watched& device, const std::vector<SeenAxis>& axes, const Device
                 bar[i] = '=';
         if (axis.field < state.raw.size() && state.raw[axis.field])
             bar[place(*state.raw[axis.field])] = '#';
-        std::printf("\r\033[K  %-12s %s %s\n", told(axis).c_str(), bar.c_str(),
+        std::printf("\r\033[K  %-12s %s %s\n", describe(axis).c_str(), bar.c_str(),
             axis.low ? (std::to_string(*axis.low) + " to " + std::to_string(*axis.high)).c_str() : "not told of yet");
     }
     std::fflush(stdout);
@@ -269,7 +269,7 @@ std::string does(const Profile& present, AxisRole role, const std::vector<SeenAx
     std::string text;
     for (const AxisUse& use : present.axes)
         if (const auto axis = axis_of(use, axes); axis && use.role == role)
-            text += (text.empty() ? "" : ", ") + told(axes[*axis]);
+            text += (text.empty() ? "" : ", ") + describe(axes[*axis]);
     return text.empty() ? "nothing" : text;
 }
 
@@ -310,7 +310,7 @@ void ask_axis(Person& person, const Watched& device, const Profile& present, con
         if (found.size() > 1) {
             std::string both;
             for (const Push& push : found)
-                both += (both.empty() ? "" : " and ") + told(axes[push.axis]);
+                both += (both.empty() ? "" : " and ") + describe(axes[push.axis]);
             std::printf("  Several moved: %s. Let go, then move one control alone.\n", both.c_str());
             continue;
         }
@@ -319,12 +319,12 @@ void ask_axis(Person& person, const Watched& device, const Profile& present, con
                 && (answer.second->to_high == found[0].to_high || !one_sided(answer.first) || !one_sided(role));
         });
         if (taken != chosen.axes.end()) {
-            std::printf("  %s is %s already. Take another control.\n", told(axes[found[0].axis]).c_str(),
+            std::printf("  %s is %s already. Take another control.\n", describe(axes[found[0].axis]).c_str(),
                 name_of(taken->first).c_str());
             continue;
         }
         chosen.axes.push_back({role, found[0]});
-        std::printf("  %s, to its %s end.\n", told(axes[found[0].axis]).c_str(), found[0].to_high ? "high" : "low");
+        std::printf("  %s, to its %s end.\n", describe(axes[found[0].axis]).c_str(), found[0].to_high ? "high" : "low");
         return;
     }
 }
@@ -422,7 +422,7 @@ void show(const Watched& device, const std::vector<SeenAxis>& axes, const Profil
             }
             char zone[16];
             std::snprintf(zone, sizeof zone, "%.1f %%", 100 * use.dead_zone);
-            std::printf("  %-14s %-11s %-16s %-9s %-10s %-9s %s\n", told(axes[*i]).c_str(), name_of(use.role).c_str(),
+            std::printf("  %-14s %-11s %-16s %-9s %-10s %-9s %s\n", describe(axes[*i]).c_str(), name_of(use.role).c_str(),
                 ends.c_str(), middle.c_str(), zone, use.inverted ? "yes" : "no", doubt(is, use).c_str());
         }
     for (const ButtonUse& use : profile.buttons)
@@ -475,7 +475,7 @@ int calibrate(const Options& options)
     person.always = [&] { (void)device.now(); };
     const Profile present = profile_for(known, device.info, device.descriptor);
     std::printf("Calibrating %s; its profile so far: %s.\nEach step ends with Enter. Ctrl-C gives up: nothing is written.\n",
-        told(device.info).c_str(), one_line(present.name).c_str());
+        describe(device.info).c_str(), one_line(present.name).c_str());
 
     std::vector<SeenAxis> axes = axes_of(device.descriptor);
     Chosen chosen;

@@ -4,7 +4,7 @@
 #include "displays/check/floor_plan.h"
 #include "displays/check/floor_plan_table.h"
 #include "displays/check/lint.h"
-#include "displays/compile/compiled.h"
+#include "displays/compile/compiled_view.h"
 #include "displays/finish/shade.h"
 #include "runtime/images/capture.h"
 #include <CLI/CLI.hpp>
@@ -21,17 +21,17 @@ struct Options {
 };
 
 /// What the pixels of bent viewports look at: their compiled maps. Throws InputError for what can be read but not be drawn.
-Sight compiled_sight(const Layout& layout)
+ViewRegion compiled_sight(const Layout& layout)
 {
     MapStore store;
-    auto maps = std::make_shared<std::map<const Viewport*, CompiledPane>>();
+    auto maps = std::make_shared<std::map<const Viewport*, CompiledView>>();
     for (std::size_t output = 0; output < layout.outputs.size(); ++output)
         if (!layout.outputs[output].preview) {
-            const std::vector<CompiledPane> panes = compile_output(store, layout, output, layout.outputs[output].size);
-            refuse_dark(layout, panes);
-            (void)shade_of(layout, output, layout.outputs[output].size, panes, {});
-            for (const CompiledPane& pane : panes)
-                (*maps)[&layout.outputs[output].viewports[pane.pane.viewport]] = pane;
+            const std::vector<CompiledView> views = compile_output(store, layout, output, layout.outputs[output].size);
+            reject_empty(layout, views);
+            (void)shade_of(layout, output, layout.outputs[output].size, views, {});
+            for (const CompiledView& view : views)
+                (*maps)[&layout.outputs[output].viewports[view.view.viewport]] = view;
         }
     return [maps](const Output&, const Viewport& viewport, glm::dvec2 pixel) -> std::optional<glm::dvec3> {
         const DirectionMap& map = *maps->at(&viewport).map;
@@ -43,25 +43,25 @@ Sight compiled_sight(const Layout& layout)
 
 int check(const Options& options)
 {
-    const std::filesystem::path layout_file = find("layouts", options.layout);
+    const std::filesystem::path layout_file = shipped_file("layouts", options.layout);
     const Layout layout = load_layout(layout_file);
     const std::filesystem::path file = options.svg.empty() ? layout.name + "-plan.svg" : options.svg;
     check_not_read(file, {layout_file});
     check_ending(file, ".svg");
     check_writable(file);
     const std::vector<Coverage> shown = coverages(layout, compiled_sight(layout));
-    for (const PlanRow& row : plan_rows(layout, shown))
+    for (const FloorPlanRow& row : floor_plan_rows(layout, shown))
         std::printf("%s: %s; %s, %s of the sky; %s pixels, %s per degree\n", row.name.c_str(), row.projection.c_str(),
             row.spans.c_str(), row.sky.c_str(), row.pixels.c_str(),
             row.per_degree.empty() ? "none" : row.per_degree.c_str());
     for (const std::string& line : overlap_lines(layout, shown))
         std::printf("%s\n", line.c_str());
-    for (const std::string& line : doubts(layout, shown))
+    for (const std::string& line : lint(layout, shown))
         std::printf("note: %s\n", line.c_str());
     if (file.has_parent_path())
         std::filesystem::create_directories(file.parent_path());
     std::ofstream stream(file, std::ios::binary);
-    stream << draw_plan(layout, shown);
+    stream << draw_floor_plan(layout, shown);
     stream.close();
     if (!stream)
         throw InputError(file.string(), "", "can't be written; a folder with room and leave to write is right");

@@ -88,22 +88,22 @@ int render_contact_sheet(const fs::path& directory)
     Typesetter typesetter;
     const Words words = words_in("en");
     Sheet sheet(int(all.size()));
-    std::map<fs::path, std::unique_ptr<Theatre>> theatres;
+    std::map<fs::path, std::unique_ptr<RenderContext>> theatres;
     auto began = std::chrono::steady_clock::now();
     for (std::size_t i = 0; i < all.size(); ++i) {
-        fs::path shot_file = find("shots", all[i].shot);
+        fs::path shot_file = shipped_file("shots", all[i].shot);
         Shot shot = load_shot(shot_file);
         fs::path scene = scene_of(shot, shot_file);
-        Layout layout = load_layout(find("layouts", all[i].layout));
-        auto& theatre = theatres[scene];
-        if (!theatre)
-            theatre = std::make_unique<Theatre>(scene, device_options(false));
-        Studio studio(
-            theatre->device, theatre->pipelines, theatre->world, layout, default_quality(theatre->device, true), false);
+        Layout layout = load_layout(shipped_file("layouts", all[i].layout));
+        auto& context = theatres[scene];
+        if (!context)
+            context = std::make_unique<RenderContext>(scene, device_options(false));
+        OffscreenRenderer renderer(
+            context->device, context->pipelines, context->world, layout, default_quality(context->device, true), false);
         Panel panel = typesetter.draw(
-            readings(ship_at(shot), theatre->world.scene, shot.effects), words, studio.frame().hud_width());
+            readings(ship_at(shot), context->world.scene, shot.effects), words, renderer.frame().hud_width());
         fs::path folder = directory / all[i].name();
-        auto pictures = render_still(folder, studio, shot, false, &panel);
+        auto pictures = render_still(folder, renderer, shot, false, &panel);
         sheet.place(int(i), all[i].name(), layout.outputs[0].size, pictures[0], typesetter);
         double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
         std::printf("%zu of %zu  %-28s about %.0f s left\n", i + 1, all.size(), (folder.string() + "/").c_str(),

@@ -75,7 +75,7 @@ std::vector<std::uint8_t> descriptor_in(const std::string& file)
     return {text.begin(), text.end()};
 }
 
-json told(const Field& field)
+json describe(const Field& field)
 {
     json out = {{"report_id", field.report_id}, {"usage_page", field.usage.page}, {"usage", field.usage.id},
         {"bit_offset", field.bit_offset}, {"bits", field.bits}, {"logical_min", field.logical_min},
@@ -107,7 +107,7 @@ int describe(const std::string& file)
     for (const auto& [id, bits] : found.report_bits)
         out["input_report_bits"][std::to_string(id)] = bits;
     for (const Field& field : found.fields)
-        out["fields"].push_back(told(field));
+        out["fields"].push_back(describe(field));
     if (!found.stopped.empty())
         out["stopped"] = found.stopped;
     std::printf("%s\n", out.dump(2).c_str());
@@ -115,10 +115,10 @@ int describe(const std::string& file)
 }
 
 /// A device's axes as bars, each on a line of its own.
-void draw(const Hid::Seen& device)
+void draw(const Hid::Connected& device)
 {
     std::printf(
-        "%s, %s, profile: %s\n", starbow::told(device.info).c_str(), device.info.path.c_str(), device.profile.c_str());
+        "%s, %s, profile: %s\n", starbow::describe(device.info).c_str(), device.info.path.c_str(), device.profile.c_str());
     std::string buttons;
     for (std::size_t i = 0; i < device.descriptor.fields.size(); ++i) {
         const Field& field = device.descriptor.fields[i];
@@ -150,7 +150,7 @@ int devices(const Options& options)
         if (live && isatty(1))
             std::printf("\033[H\033[2J");
         const auto all = hid.devices();
-        for (const Hid::Seen& device : all)
+        for (const Hid::Connected& device : all)
             draw(device);
         if (all.empty())
             std::printf("no stick, throttle, pad or space mouse that may be read is plugged in\n");

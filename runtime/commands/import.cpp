@@ -43,9 +43,9 @@ std::vector<std::string> faults(const std::filesystem::path& file)
     const Document document = read_document(file);
     for (const Place& output : items(member(root(document), "outputs"), 1, 64, "outputs"))
         for (const Place& viewport : items(member(output, "viewports"), 1, 64, "viewports")) {
-            if (const auto mask = find(viewport, "alpha_mask"))
+            if (const auto mask = find_member(viewport, "alpha_mask"))
                 attempt([&] { existing_file(*mask, file.parent_path()); });
-            if (const auto warp = find(viewport, "warp"))
+            if (const auto warp = find_member(viewport, "warp"))
                 attempt([&] { existing_file(member(*warp, "file"), file.parent_path()); });
         }
     if (!found.empty())
@@ -55,9 +55,9 @@ std::vector<std::string> faults(const std::filesystem::path& file)
         MapStore store;
         for (std::size_t output = 0; output < layout.outputs.size(); ++output)
             attempt([&] {
-                const auto panes = compile_output(store, layout, output, layout.outputs[output].size);
-                refuse_dark(layout, panes);
-                (void)shade_of(layout, output, layout.outputs[output].size, panes, {});
+                const auto views = compile_output(store, layout, output, layout.outputs[output].size);
+                reject_empty(layout, views);
+                (void)shade_of(layout, output, layout.outputs[output].size, views, {});
             });
     });
     return found;

@@ -22,14 +22,14 @@ namespace {
 struct Options {
     std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, language, tour, log, quality,
                 ladder;
-    double hold_ms = -1; ///< below 0: the exhibit's
+    double frame_budget_ms = -1; ///< below 0: the exhibit's
     double log_every_s = 0;
     long frames = 0;
     bool asked = false; ///< for anything of the above
 };
 
 /// What a record was flown in is all that its replay is opened with, but for another layout.
-Opening reopen(const std::filesystem::path& record, const std::string& layout, const std::string& language)
+ExhibitOptions reopen(const std::filesystem::path& record, const std::string& layout, const std::string& language)
 {
     const RecordHeader header = Replay(record).header();
     const auto say = [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); };
@@ -45,11 +45,11 @@ Opening reopen(const std::filesystem::path& record, const std::string& layout, c
         .replay = record};
 }
 
-Opening open(const Options& options)
+ExhibitOptions open(const Options& options)
 {
     if (!options.replay.empty())
         return reopen(options.replay, options.layout, options.language);
-    Exhibit exhibit = load_exhibit(find("exhibits", options.exhibit));
+    Exhibit exhibit = load_exhibit(shipped_file("exhibits", options.exhibit));
     // What the command line names counts; a scene or a shot of its own replaces both of the file's.
     if (!options.layout.empty())
         exhibit.layout = options.layout;
@@ -61,45 +61,45 @@ Opening open(const Options& options)
         exhibit.tour = options.tour, exhibit.shot.clear();
     if (!exhibit.tour.empty() && !options.record.empty())
         throw InputError("A tour's flight can't be recorded; --record without a tour is right");
-    Opening opening{.scene = find("scenes", exhibit.scene), .layout = load_layout(find("layouts", exhibit.layout))};
-    opening.start = load_scene_file(opening.scene).start;
-    opening.words = words_in(options.language.empty() ? exhibit.language : options.language);
+    ExhibitOptions exhibit_options{.scene = shipped_file("scenes", exhibit.scene), .layout = load_layout(shipped_file("layouts", exhibit.layout))};
+    exhibit_options.start = load_scene_file(exhibit_options.scene).start;
+    exhibit_options.words = words_in(options.language.empty() ? exhibit.language : options.language);
     if (!exhibit.shot.empty()) {
-        const std::filesystem::path shot_file = find("shots", exhibit.shot);
-        opening.start = load_shot(shot_file);
-        opening.scene = scene_of(opening.start, shot_file);
+        const std::filesystem::path shot_file = shipped_file("shots", exhibit.shot);
+        exhibit_options.start = load_shot(shot_file);
+        exhibit_options.scene = scene_of(exhibit_options.start, shot_file);
     }
     if (!exhibit.tour.empty()) {
-        opening.tour = tour_in(exhibit.tour, opening.words);
-        opening.scene = scene_of(*opening.tour);
-        opening.start = std::get<Cut>(opening.tour->steps[0].motion).shot;
+        exhibit_options.tour = tour_in(exhibit.tour, exhibit_options.words);
+        exhibit_options.scene = scene_of(*exhibit_options.tour);
+        exhibit_options.start = std::get<Cut>(exhibit_options.tour->steps[0].motion).shot;
     }
-    opening.rules = exhibit.flying;
-    opening.exposure = exhibit.exposure;
-    opening.profiles = known_profiles(exhibit.profiles);
-    opening.tutorial = exhibit.tutorial;
+    exhibit_options.rules = exhibit.flying;
+    exhibit_options.exposure = exhibit.exposure;
+    exhibit_options.profiles = known_profiles(exhibit.profiles);
+    exhibit_options.tutorial = exhibit.tutorial;
     if (!options.quality.empty())
-        exhibit.quality = options.quality, exhibit.hold_ms = 0;
-    if (options.hold_ms >= 0)
-        exhibit.hold_ms = options.hold_ms;
+        exhibit.quality = options.quality, exhibit.frame_budget_ms = 0;
+    if (options.frame_budget_ms >= 0)
+        exhibit.frame_budget_ms = options.frame_budget_ms;
     if (!options.ladder.empty())
         exhibit.ladder = options.ladder;
     if (!exhibit.quality.empty())
-        opening.quality = load_quality(find("qualities", exhibit.quality));
-    opening.hold_ms = exhibit.hold_ms;
-    if (opening.hold_ms > 0)
-        opening.ladder = load_ladder(find("qualities", exhibit.ladder));
-    opening.pattern = pattern_of(options.pattern);
-    opening.record = options.record;
-    return opening;
+        exhibit_options.quality = load_quality(shipped_file("qualities", exhibit.quality));
+    exhibit_options.frame_budget_ms = exhibit.frame_budget_ms;
+    if (exhibit_options.frame_budget_ms > 0)
+        exhibit_options.ladder = load_ladder(shipped_file("qualities", exhibit.ladder));
+    exhibit_options.pattern = pattern_of(options.pattern);
+    exhibit_options.record = options.record;
+    return exhibit_options;
 }
 
 int run(const Options& options)
 {
-    Opening opening = open(options);
-    opening.frames = options.frames;
-    opening.log = options.log;
-    opening.log_every_s = options.log_every_s;
+    ExhibitOptions exhibit_options = open(options);
+    exhibit_options.frames = options.frames;
+    exhibit_options.log = options.log;
+    exhibit_options.log_every_s = options.log_every_s;
     if (!has_display() && options.asked)
         throw InputError(
             "There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere), so no window can be opened; "
@@ -111,7 +111,7 @@ int run(const Options& options)
         return render_contact_sheet("out");
     }
     WindowSystem window_system;
-    return fly_exhibit(opening);
+    return fly_exhibit(exhibit_options);
 }
 
 } // namespace
@@ -143,13 +143,13 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
     CLI::Option* quality
         = command->add_option("--quality", options->quality, quality_help + std::string(" [the exhibit's]"));
     CLI::Option* hold = command
-                            ->add_option("--hold-ms", options->hold_ms,
+                            ->add_option("--frame-budget-ms", options->frame_budget_ms,
                                 "Hold the time of a whole frame by moving along the ladder of measured qualities; 0: don't")
                             ->check(CLI::Range(0.0, 1000.0))
                             ->excludes(quality);
     command
         ->add_option("--ladder", options->ladder,
-            "For --hold-ms: a ladder that starbow measure wrote, or the name of one in config/qualities [ladder]")
+            "For --frame-budget-ms: a ladder that starbow measure wrote, or the name of one in config/qualities [ladder]")
         ->needs(hold);
     CLI::Option* tour = command->add_option("--tour", options->tour,
         "Instead: show this tour, a file or the name of one in config/tours; then the visitor flies, and when nobody does "

@@ -34,18 +34,18 @@ inline void make_writable(vk::CommandBuffer commands, const Target& target)
     commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
 }
 
-/// A whole frame of a studio, off-screen: planned, drawn and finished.
-inline double frame_ms(Device& device, Studio& studio, const Shot& shot)
+/// A whole frame of a renderer, off-screen: planned, drawn and finished.
+inline double frame_ms(Device& device, OffscreenRenderer& renderer, const Shot& shot)
 {
     return milliseconds([&] {
-        studio.frame().prepare(shot, nullptr);
+        renderer.frame().prepare(shot, nullptr);
         std::vector<Target> targets;
-        for (std::size_t i = 0; i < studio.layout().outputs.size(); ++i)
-            targets.push_back(studio.target(i));
+        for (std::size_t i = 0; i < renderer.layout().outputs.size(); ++i)
+            targets.push_back(renderer.target(i));
         device.now([&](vk::CommandBuffer c) {
             for (const Target& target : targets)
                 make_writable(c, target);
-            studio.frame().record(c, targets);
+            renderer.frame().record(c, targets);
         });
     });
 }

@@ -5,14 +5,14 @@
 
 namespace starbow {
 
-void Workbench::say(std::string line)
+void AlignmentMode::say(std::string line)
 {
     std::fprintf(stderr, "starbow: %s\n", line.c_str());
     says_ = std::move(line);
     until_ = Clock::now() + std::chrono::seconds(8);
 }
 
-void Workbench::save(const Layout& layout)
+void AlignmentMode::save(const Layout& layout)
 {
     try {
         // Against the file as it is now: whatever else someone has changed in it stays.
@@ -29,7 +29,7 @@ void Workbench::save(const Layout& layout)
     }
 }
 
-bool Workbench::apply(const Controls& controls, Layout& layout)
+bool AlignmentMode::apply(const Controls& controls, Layout& layout)
 {
     if (controls.pattern) {
         pattern_ = Pattern((int(pattern_) + 1) % int(pattern_names.size()));

@@ -7,10 +7,10 @@
 namespace starbow {
 
 /// What a builder does to a running exhibit from the keyboard: test patterns, and the layout's numbers turned and kept.
-class Workbench {
+class AlignmentMode {
 public:
     using Clock = std::chrono::steady_clock;
-    explicit Workbench(Pattern pattern = Pattern::none)
+    explicit AlignmentMode(Pattern pattern = Pattern::none)
         : pattern_(pattern)
     {
     }

@@ -210,8 +210,8 @@ std::shared_ptr<void> forget_dead_window_manager()
         return x;
     xcb_window_t manager;
     std::memcpy(&manager, xcb_get_property_value(named.get()), sizeof manager);
-    auto lives = reply(xcb_get_geometry_reply(x->link, xcb_get_geometry(x->link, manager), nullptr));
-    if (!lives) {
+    auto existence_intervals = reply(xcb_get_geometry_reply(x->link, xcb_get_geometry(x->link, manager), nullptr));
+    if (!existence_intervals) {
         xcb_delete_property(x->link, x->root, check);
         // Answered only once the deletion has been done.
         reply(xcb_get_input_focus_reply(x->link, xcb_get_input_focus(x->link), nullptr));

@@ -67,7 +67,7 @@ struct Pace {
 };
 
 /// Frames per second over the last half second or so, and the head-up display's panel, redrawn ten times a second.
-struct Dashboard {
+struct HudUpdater {
     Typesetter typesetter;
     Panel panel;
     Clock::time_point drawn{}, since = Clock::now();
@@ -105,63 +105,63 @@ std::unique_ptr<HeadTracker> tracker_of(const Layout& layout)
 
 void log_line(const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); }
 
-Tape tape_of(const Opening& opening)
+RecordReplay record_replay_of(const ExhibitOptions& options)
 {
     std::unique_ptr<Recorder> recorder;
-    if (!opening.record.empty())
-        recorder = std::make_unique<Recorder>(opening.record,
-            header_of(opening.scene, opening.layout, opening.start, opening.rules, opening.exposure,
-                pattern_names[std::size_t(opening.pattern)]),
+    if (!options.record.empty())
+        recorder = std::make_unique<Recorder>(options.record,
+            header_of(options.scene, options.layout, options.start, options.rules, options.exposure,
+                pattern_names[std::size_t(options.pattern)]),
             log_line);
-    return {std::move(recorder), opening.replay.empty() ? nullptr : std::make_unique<Replay>(opening.replay)};
+    return {std::move(recorder), options.replay.empty() ? nullptr : std::make_unique<Replay>(options.replay)};
 }
 
-std::optional<Governor> governor_of(const Opening& opening)
+std::optional<Governor> governor_of(const ExhibitOptions& options)
 {
-    if (opening.hold_ms <= 0)
+    if (options.frame_budget_ms <= 0)
         return {};
-    return Governor(opening.ladder, opening.hold_ms);
+    return Governor(options.ladder, options.frame_budget_ms);
 }
 
-std::optional<Guide> guide_of(const Opening& opening)
+std::optional<Guide> guide_of(const ExhibitOptions& options)
 {
-    if (!opening.tour)
+    if (!options.tour)
         return {};
-    return Guide(*opening.tour, opening.rules, load_scene_file(opening.scene).seconds_per_time_unit());
+    return Guide(*options.tour, options.rules, load_scene_file(options.scene).seconds_per_time_unit());
 }
 
 /// What outlasts the loss of a device.
-struct Visit {
-    const Opening& opening;
-    Layout layout = opening.layout;
+struct Session {
+    const ExhibitOptions& options;
+    Layout layout = options.layout;
     Layout kept = layout; ///< as its file has it: without what was turned since
     FileWatch watch{files_of(layout)};
     std::string refused; ///< why a change of the layout was not taken up, for the head-up display
-    std::optional<Guide> guide = guide_of(opening);
-    Flight flight = flight_at(opening.start, opening.rules);
+    std::optional<Guide> guide = guide_of(options);
+    Flight flight = flight_at(options.start, options.rules);
     History history{};
     Exposure exposure{};
     Tutorial tutorial = tutorial_at(flight);
-    Tape tape = tape_of(opening);
+    RecordReplay record_replay = record_replay_of(options);
     Keyboard keyboard{};
-    Hid hid{opening.profiles, log_line};
+    Hid hid{options.profiles, log_line};
     std::unique_ptr<HeadTracker> tracker = tracker_of(layout);
-    Workbench workbench{opening.pattern};
-    Lab lab{opening.log, opening.log_every_s, opening.words};
+    AlignmentMode alignment{options.pattern};
+    Lab lab{options.log, options.log_every_s, options.words};
     Skew skew{};
-    std::optional<Governor> governor = governor_of(opening);
+    std::optional<Governor> governor = governor_of(options);
     Clock::time_point began = Clock::now(), last = began;
     long shown = 0;
     bool complaints = false;
 };
 
 /// The device has nothing to do when this goes.
-struct Settled {
+struct WaitIdleGuard {
     Device& device;
-    ~Settled() { settle(device); }
+    ~WaitIdleGuard() { settle(device); }
 };
 
-std::string told(const Skew& skew)
+std::string describe(const Skew& skew)
 {
     std::array<char, 96> text;
     std::snprintf(text.data(), text.size(), "outputs %s together within %.2f ms, at worst %.2f ms",
@@ -170,119 +170,119 @@ std::string told(const Skew& skew)
 }
 
 /// What the next frame may spend.
-Quality quality_of(const Visit& visit, const Device& device)
+Quality quality_of(const Session& session, const Device& device)
 {
-    if (visit.governor)
-        return within(device, visit.governor->ladder()[visit.governor->rung()].quality);
-    return visit.opening.quality ? within(device, *visit.opening.quality) : default_quality(device, false);
+    if (session.governor)
+        return within(device, session.governor->ladder()[session.governor->level()].quality);
+    return session.options.quality ? within(device, *session.options.quality) : default_quality(device, false);
 }
 
 /// What the head-up display says beneath its figures.
-std::string notice_of(const Visit& visit)
+std::string notice_of(const Session& session)
 {
-    if (!visit.workbench.says().empty())
-        return visit.workbench.says();
-    if (!visit.refused.empty())
-        return visit.refused;
-    if (const std::string trouble = visit.hid.trouble(); !trouble.empty())
+    if (!session.alignment.says().empty())
+        return session.alignment.says();
+    if (!session.refused.empty())
+        return session.refused;
+    if (const std::string trouble = session.hid.trouble(); !trouble.empty())
         return trouble;
-    if (visit.tracker && !visit.tracker->heard(Clock::now()))
-        return "no head tracker is heard on port " + std::to_string(visit.tracker->tracking().port);
-    if (visit.governor)
-        return told(*visit.governor);
-    return visit.skew.frames() > 0 ? told(visit.skew) : "";
+    if (session.tracker && !session.tracker->heard(Clock::now()))
+        return "no head tracker is heard on port " + std::to_string(session.tracker->tracking().port);
+    if (session.governor)
+        return describe(*session.governor);
+    return session.skew.frames() > 0 ? describe(session.skew) : "";
 }
 
 /// Takes up a change of the layout's files: all of it, or, where anything in it is wrong, nothing. The old picture stays
 /// until the new one can be drawn.
-void take_up_changes(Visit& visit, Theatre& theatre, std::unique_ptr<Frame>& frame, Screens& screens)
+void apply_file_changes(Session& session, RenderContext& context, std::unique_ptr<Frame>& frame, Screens& screens)
 {
-    if (!visit.watch.changed(Clock::now()))
+    if (!session.watch.changed(Clock::now()))
         return;
     try {
-        const Layout fresh = load_layout(visit.layout.file);
-        Layout layout = turned_again(fresh, visit.kept, visit.layout);
+        const Layout fresh = load_layout(session.layout.file);
+        Layout layout = turned_again(fresh, session.kept, session.layout);
         FileWatch watch(files_of(layout));
         std::unique_ptr<HeadTracker> tracker;
-        const bool same_tracker = visit.layout.head_tracker == layout.head_tracker;
+        const bool same_tracker = session.layout.head_tracker == layout.head_tracker;
         if (!same_tracker)
             tracker = tracker_of(layout);
         frame = std::make_unique<Frame>(
-            theatre.device, theatre.pipelines, theatre.world, layout, quality_of(visit, theatre.device));
+            context.device, context.pipelines, context.world, layout, quality_of(session, context.device));
         if (!same_tracker)
-            visit.tracker = std::move(tracker);
-        visit.layout = std::move(layout);
-        visit.kept = fresh;
-        visit.watch = std::move(watch);
-        visit.refused.clear();
-        screens.adopt(visit.layout);
-        const std::size_t unkept = changes(visit.kept, visit.layout).size();
-        std::fprintf(stderr, "starbow: %s: taken up%s\n", visit.layout.file.c_str(),
+            session.tracker = std::move(tracker);
+        session.layout = std::move(layout);
+        session.kept = fresh;
+        session.watch = std::move(watch);
+        session.refused.clear();
+        screens.adopt(session.layout);
+        const std::size_t unkept = changes(session.kept, session.layout).size();
+        std::fprintf(stderr, "starbow: %s: taken up%s\n", session.layout.file.c_str(),
             unkept > 0 ? "; what was turned by hand stays turned (F5 keeps it)" : "");
     } catch (const InputError& error) {
         const std::string why = one_line(error.what());
         std::fprintf(stderr, "starbow: %s; the exhibit stays as it was\n", why.c_str());
         // On the display the folders would leave no room for the reason.
-        const std::string folder = visit.layout.file.parent_path().string() + "/";
-        visit.refused = why.starts_with(folder) ? why.substr(folder.size()) : why;
+        const std::string folder = session.layout.file.parent_path().string() + "/";
+        session.refused = why.starts_with(folder) ? why.substr(folder.size()) : why;
     }
 }
 
 /// What a builder turns with the keyboard; what can't be drawn is turned back.
-void turn(Visit& visit, Frame& frame, const Controls& controls)
+void turn(Session& session, Frame& frame, const Controls& controls)
 {
-    Layout layout = visit.layout;
-    if (!visit.workbench.apply(controls, layout))
+    Layout layout = session.layout;
+    if (!session.alignment.apply(controls, layout))
         return;
     try {
         frame.adopt(layout);
-        visit.layout = std::move(layout);
+        session.layout = std::move(layout);
     } catch (const InputError& error) {
-        visit.workbench.say(one_line(error.what()));
+        session.alignment.say(one_line(error.what()));
     }
 }
 
 /// What the next picture is exposed with.
-double ev_of(const Visit& visit)
+double ev_of(const Session& session)
 {
-    const Exposing& rules = visit.opening.exposure;
-    return visit.guide ? visit.guide->shown_ev(visit.exposure, rules)
-                       : shown_ev(visit.exposure, rules, visit.flight.exposure_ev, visit.opening.start.exposure_ev);
+    const Exposing& rules = session.options.exposure;
+    return session.guide ? session.guide->shown_ev(session.exposure, rules)
+                       : shown_ev(session.exposure, rules, session.flight.exposure_ev, session.options.start.exposure_ev);
 }
 
-bool is_over(const Visit& visit)
+bool is_over(const Session& session)
 {
-    const Opening& opening = visit.opening;
-    return (opening.frames > 0 && visit.shown >= opening.frames) || (opening.over && opening.over());
+    const ExhibitOptions& options = session.options;
+    return (options.frames > 0 && session.shown >= options.frames) || (options.over && options.over());
 }
 
 /// Flies on one device until the visitor leaves. Throws vk::DeviceLostError.
-void fly(Visit& visit, Theatre& theatre)
+void fly(Session& session, RenderContext& context)
 {
-    Device& device = theatre.device;
-    const SceneFile& scene = theatre.world.scene;
-    auto frame = std::make_unique<Frame>(device, theatre.pipelines, theatre.world, visit.layout, quality_of(visit, device));
+    Device& device = context.device;
+    const SceneFile& scene = context.world.scene;
+    auto frame = std::make_unique<Frame>(device, context.pipelines, context.world, session.layout, quality_of(session, device));
     FrameTimer timer(device);
     double prepared_ms = 0;
-    Screens screens(device, visit.layout);
-    Dashboard dashboard;
+    Screens screens(device, session.layout);
+    HudUpdater hud_updater;
     Pace pace;
     vk::raii::Fence done = device.device.createFence({vk::FenceCreateFlagBits::eSignaled});
     vk::raii::CommandBuffer commands
         = std::move(device.device.allocateCommandBuffers({*device.pool, vk::CommandBufferLevel::ePrimary, 1}).front());
-    const Settled settled{device}; // before any of the above goes
+    const WaitIdleGuard settled{device}; // before any of the above goes
 
-    while (!is_over(visit)) {
+    while (!is_over(session)) {
         // One frame is in flight: the least delay between a control and its picture.
         pace.wait(screens.refresh_hz());
         (void)device.device.waitForFences(*done, true, UINT64_MAX);
         const std::optional<double> metered = frame->metered(); // of the frame before this one, always
-        if (const auto ms = timer.ms(); ms && visit.governor)
-            if (visit.governor->drawn(seconds(Clock::now() - visit.began), prepared_ms + *ms))
-                frame->adopt(quality_of(visit, device));
+        if (const auto ms = timer.ms(); ms && session.governor)
+            if (session.governor->drawn(seconds(Clock::now() - session.began), prepared_ms + *ms))
+                frame->adopt(quality_of(session, device));
 
         // What has changed around the exhibit, and which pictures to draw into. This waits for the screens.
-        take_up_changes(visit, theatre, frame, screens);
+        apply_file_changes(session, context, frame, screens);
         screens.follow();
         const bool any = screens.acquire();
 
@@ -294,39 +294,39 @@ void fly(Visit& visit, Theatre& theatre)
         const Clock::time_point now = Clock::now();
         RecordEntry entry{.shown = any};
         Controls& controls = entry.controls;
-        controls = visit.keyboard.read(
-            screens.handles(), std::chrono::nanoseconds(now - visit.began).count(), !visit.hid.has_gamepad());
-        visit.hid.add(seconds(now - visit.last), controls);
-        if (visit.tracker)
-            controls.head = visit.tracker->read(now);
+        controls = session.keyboard.read(
+            screens.handles(), std::chrono::nanoseconds(now - session.began).count(), !session.hid.has_gamepad());
+        session.hid.add(seconds(now - session.last), controls);
+        if (session.tracker)
+            controls.head = session.tracker->read(now);
         if (controls.quit || screens.closed())
             break;
         if (controls.full_screen)
             screens.switch_full_screen();
         // A stall of the machine must not become a leap of the ship.
-        const std::chrono::nanoseconds passed = now - visit.last;
+        const std::chrono::nanoseconds passed = now - session.last;
         entry.dt_ns = std::min<std::int64_t>(passed.count(), 100'000'000);
         entry.skipped_ns = passed.count() - entry.dt_ns;
-        visit.last = now;
-        if (visit.tape.replays() && !any)
+        session.last = now;
+        if (session.record_replay.replays() && !any)
             continue; // a replay waits to be seen
-        if (!visit.tape.play(entry)) // from here on a replay's controls
+        if (!session.record_replay.play(entry)) // from here on a replay's controls
             break;
-        visit.flight = visit.guide ? visit.guide->flown(controls, entry.dt_ns)
-                                   : flown(visit.flight, visit.history, controls, entry.dt_ns, visit.opening.rules,
-                                       scene.seconds_per_time_unit(), visit.opening.start);
-        visit.exposure.locked ^= controls.lock_exposure;
-        if (visit.tape.replays())
-            visit.exposure.ev = entry.exposure_ev;
+        session.flight = session.guide ? session.guide->flown(controls, entry.dt_ns)
+                                   : flown(session.flight, session.history, controls, entry.dt_ns, session.options.rules,
+                                       scene.seconds_per_time_unit(), session.options.start);
+        session.exposure.locked ^= controls.lock_exposure;
+        if (session.record_replay.replays())
+            session.exposure.ev = entry.exposure_ev;
         else
-            visit.exposure = adapted(visit.exposure, metered, 1e-9 * double(entry.dt_ns), visit.opening.exposure);
-        entry.exposure_ev = visit.exposure.ev;
-        visit.tape.keep(entry, visit.flight);
-        visit.tutorial = advance(visit.tutorial, controls, visit.flight, 1e-9 * double(entry.dt_ns));
-        visit.lab.read(*frame, controls, theatre.world, 1e-9 * double(entry.dt_ns),
-            [&](std::string line) { visit.workbench.say(std::move(line)); });
-        turn(visit, *frame, controls); // the device has finished the frame before
-        frame->show(visit.workbench.pattern());
+            session.exposure = adapted(session.exposure, metered, 1e-9 * double(entry.dt_ns), session.options.exposure);
+        entry.exposure_ev = session.exposure.ev;
+        session.record_replay.keep(entry, session.flight);
+        session.tutorial = advance(session.tutorial, controls, session.flight, 1e-9 * double(entry.dt_ns));
+        session.lab.read(*frame, controls, context.world, 1e-9 * double(entry.dt_ns),
+            [&](std::string line) { session.alignment.say(std::move(line)); });
+        turn(session, *frame, controls); // the device has finished the frame before
+        frame->show(session.alignment.pattern());
         if (!any)
             continue;
 
@@ -336,20 +336,20 @@ void fly(Visit& visit, Theatre& theatre)
             if (targets[i].view)
                 frame->resize(i, {targets[i].extent.width, targets[i].extent.height});
         frame->move_head(controls.head);
-        frame->meter(visit.opening.exposure.automatic);
-        frame->bloom(visit.opening.exposure.bloom);
-        Shot shot = shot_of(visit.flight, visit.opening.start.scene);
-        shot.exposure_ev = ev_of(visit);
-        visit.lab.ask(*frame, shot, visit.flight, theatre.world, dashboard.typesetter);
-        const Means means = visit.hid.means();
-        const Words& words = visit.opening.words;
-        const std::string prompted = visit.guide ? visit.guide->prompt(words)
-            : visit.opening.tutorial             ? prompt(visit.tutorial, means, words)
+        frame->meter(session.options.exposure.automatic);
+        frame->bloom(session.options.exposure.bloom);
+        Shot shot = shot_of(session.flight, session.options.start.scene);
+        shot.exposure_ev = ev_of(session);
+        session.lab.ask(*frame, shot, session.flight, context.world, hud_updater.typesetter);
+        const InputCapabilities capabilities = session.hid.capabilities();
+        const Words& words = session.options.words;
+        const std::string prompted = session.guide ? session.guide->prompt(words)
+            : session.options.tutorial             ? prompt(session.tutorial, capabilities, words)
                                                  : "";
-        const Panel* panel = dashboard.update(visit.flight, scene, words, shot.exposure_ev, visit.exposure.locked,
-            frame->hud_width(), prompted, visit.guide ? visit.guide->caption(words, means) : std::nullopt, notice_of(visit));
+        const Panel* panel = hud_updater.update(session.flight, scene, words, shot.exposure_ev, session.exposure.locked,
+            frame->hud_width(), prompted, session.guide ? session.guide->caption(words, capabilities) : std::nullopt, notice_of(session));
         // A pattern is left alone but for what its builder is being told.
-        const bool told = visit.workbench.pattern() == Pattern::none || !visit.workbench.says().empty();
+        const bool told = session.alignment.pattern() == Pattern::none || !session.alignment.says().empty();
         const Clock::time_point asked = Clock::now();
         frame->prepare(shot, told ? panel : nullptr);
         commands.reset();
@@ -368,50 +368,50 @@ void fly(Visit& visit, Theatre& theatre)
         device.device.resetFences(*done);
         screens.submit(*commands, *done);
         const Clock::time_point handed = Clock::now();
-        screens.present(visit.skew);
-        if (visit.opening.timed)
-            visit.opening.timed({controls.told_ns, steady_ns(now), steady_ns(handed), steady_ns(Clock::now())});
-        ++visit.shown;
+        screens.present(session.skew);
+        if (session.options.timed)
+            session.options.timed({controls.told_ns, steady_ns(now), steady_ns(handed), steady_ns(Clock::now())});
+        ++session.shown;
     }
 }
 
 /// The closing lines: where the flight has led, and how well the screens kept together.
-void tell(const Visit& visit, const SceneFile& scene)
+void tell(const Session& session, const SceneFile& scene)
 {
-    Readings last = readings(visit.flight.ship, scene, visit.flight.effects);
-    last.mode = visit.flight.mode;
-    last.exposure_ev = ev_of(visit);
-    last.exposure_locked = visit.exposure.locked;
+    Readings last = readings(session.flight.ship, scene, session.flight.effects);
+    last.mode = session.flight.mode;
+    last.exposure_ev = ev_of(session);
+    last.exposure_locked = session.exposure.locked;
     for (const auto& [label, value] : hud_fields(last, words_in("en")))
         std::printf("%s %s  ", label.c_str(), value.c_str());
     std::printf("\n");
-    if (visit.skew.frames() > 0)
-        std::printf("%s\n", told(visit.skew).c_str());
+    if (session.skew.frames() > 0)
+        std::printf("%s\n", describe(session.skew).c_str());
 }
 
 } // namespace
 
-int fly_exhibit(const Opening& opening)
+int fly_exhibit(const ExhibitOptions& options)
 {
-    Visit visit{opening};
+    Session session{options};
     for (int losses = 0;;) {
         const Clock::time_point opened = Clock::now();
-        std::unique_ptr<Theatre> theatre;
+        std::unique_ptr<RenderContext> context;
         std::string lost;
         try {
-            theatre = std::make_unique<Theatre>(opening.scene, device_options(true),
-                opening.hold_ms > 0   ? opening.ladder[0].quality.spectra
-                    : opening.quality ? opening.quality->spectra
+            context = std::make_unique<RenderContext>(options.scene, device_options(true),
+                options.frame_budget_ms > 0   ? options.ladder[0].quality.spectra
+                    : options.quality ? options.quality->spectra
                                       : std::nullopt);
-            for (const std::string& note : theatre->world.world.notes)
+            for (const std::string& note : context->world.world.notes)
                 if (losses == 0)
-                    std::fprintf(stderr, "starbow: %s: %s\n", theatre->world.scene.gltf.c_str(), note.c_str());
+                    std::fprintf(stderr, "starbow: %s: %s\n", context->world.scene.gltf.c_str(), note.c_str());
             if (losses == 0)
-                std::printf("%s\n", light_told(*theatre).c_str());
-            fly(visit, *theatre);
-            tell(visit, theatre->world.scene);
-            const bool same = visit.tape.end(visit.flight);
-            return !same || visit.complaints || !theatre->device.complaints.empty() ? 1 : 0;
+                std::printf("%s\n", describe_light(*context).c_str());
+            fly(session, *context);
+            tell(session, context->world.scene);
+            const bool same = session.record_replay.end(session.flight);
+            return !same || session.complaints || !context->device.complaints.empty() ? 1 : 0;
         } catch (const vk::DeviceLostError& error) {
             lost = error.what();
         } catch (const InputError& error) {
@@ -419,8 +419,8 @@ int fly_exhibit(const Opening& opening)
                 throw;
             lost = error.what(); // its driver is not back yet
         }
-        visit.complaints |= theatre && !theatre->device.complaints.empty();
-        theatre.reset();
+        session.complaints |= context && !context->device.complaints.empty();
+        context.reset();
         if (seconds(Clock::now() - opened) > 60)
             losses = 0;
         if (++losses > most_losses) {

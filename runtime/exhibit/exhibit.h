@@ -15,7 +15,7 @@
 namespace starbow {
 
 /// An exhibit as it opens, its files read.
-struct Opening {
+struct ExhibitOptions {
     std::filesystem::path scene;
     Layout layout;
     Shot start; ///< where the visit begins and where reset leads back to
@@ -26,8 +26,8 @@ struct Opening {
     std::vector<Profile> profiles{};
     bool tutorial = true;
     std::optional<Quality> quality{}; ///< none: what the device affords
-    double hold_ms = 0; ///< of a whole frame; 0: the quality stays
-    std::vector<Rung> ladder{}; ///< by which it is held
+    double frame_budget_ms = 0; ///< of a whole frame; 0: the quality stays
+    std::vector<PresetLevel> ladder{}; ///< by which it is held
     long frames = 0; ///< to be shown; 0: until the visitor leaves
     Pattern pattern = Pattern::none; ///< what the outputs show first
     std::filesystem::path record{}; ///< where to keep the flight; empty: nowhere
@@ -40,6 +40,6 @@ struct Opening {
 
 /// Flies until the visitor leaves. Follows changes of the layout's files, of the monitors, and the loss of the GPU. Returns
 /// the exit status; throws InputError for what is wrong at the start.
-int fly_exhibit(const Opening& opening);
+int fly_exhibit(const ExhibitOptions& options);
 
 } // namespace starbow

@@ -2,23 +2,23 @@
 
 namespace starbow {
 
-Measured measured_of(const Lookout& lookout, const Ship& ship, const SceneFile& scene, const World& world,
+Measured measured_of(const MeasuringObserver& observer, const Ship& ship, const SceneFile& scene, const World& world,
     const Effects& effects, const Spot& aim, double light, const std::array<std::optional<Spot>, 2>& marks)
 {
     const double seconds = scene.seconds_per_time_unit();
-    Measured m{.lookout = lookout,
+    Measured m{.observer = observer,
         .ship_s = ship.proper_time.total() * seconds,
-        .world_s = lookout.time * seconds,
+        .world_s = observer.time * seconds,
         .light_speed_m_s = scene.light_speed_m_s,
         .seconds_per_time_unit = seconds,
         .effects = effects,
-        .aim = read_spot(lookout, aim, world, seconds)};
+        .aim = read_spot(observer, aim, world, seconds)};
     m.aim.light = light;
     for (std::size_t i = 0; i < 2; ++i)
         if (marks[i])
-            m.marks[i] = read_spot(lookout, *marks[i], world, seconds);
+            m.marks[i] = read_spot(observer, *marks[i], world, seconds);
     if (marks[0] && marks[1])
-        m.pair = read_pair(lookout, *marks[0], *marks[1], world, seconds);
+        m.pair = read_pair(observer, *marks[0], *marks[1], world, seconds);
     return m;
 }
 
@@ -46,10 +46,10 @@ void Lab::read(const Frame& frame, const Controls& controls, const GpuWorld& wor
     const std::vector<Probed> probed = frame.probed();
     if (probed.empty())
         return; // the first frame with instruments is still to come
-    const Lookout& lookout = frame.lookout();
+    const MeasuringObserver& observer = frame.observer();
     Probed seen = probed[0];
-    seen.ray = aim_of(lookout); // sharper than the picture's
-    const Spot aimed = spot_at(lookout, seen, world.world);
+    seen.ray = aim_of(observer); // sharper than the picture's
+    const Spot aimed = spot_at(observer, seen, world.world);
     if (mark_wanted_) {
         if (marks_[0] && marks_[1])
             marks_ = {};

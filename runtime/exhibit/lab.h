@@ -8,7 +8,7 @@
 namespace starbow {
 
 /// All that is measured at one instant. aim: what stands at the crosshair, light: of there, as Probed's.
-Measured measured_of(const Lookout& lookout, const Ship& ship, const SceneFile& scene, const World& world,
+Measured measured_of(const MeasuringObserver& observer, const Ship& ship, const SceneFile& scene, const World& world,
     const Effects& effects, const Spot& aim, double light, const std::array<std::optional<Spot>, 2>& marks);
 
 /// The instruments of a running exhibit: what their keys have chosen, what was marked, and the log.

@@ -4,41 +4,41 @@
 
 namespace starbow {
 
-Reel::Reel(Studio& studio, Pattern pattern, const Exposing& exposing, double start_ev)
-    : studio_(studio)
-    , layout_(studio.layout())
-    , workbench_(pattern)
+ReplayRenderer::ReplayRenderer(OffscreenRenderer& renderer, Pattern pattern, const Exposing& exposing, double start_ev)
+    : renderer_(renderer)
+    , layout_(renderer.layout())
+    , alignment_(pattern)
     , exposing_(exposing)
     , start_ev_(start_ev)
 {
-    studio_.frame().bloom(exposing.bloom);
-    studio_.frame().show(pattern);
+    renderer_.frame().bloom(exposing.bloom);
+    renderer_.frame().show(pattern);
 }
 
-void Reel::take(const RecordEntry& entry)
+void ReplayRenderer::take(const RecordEntry& entry)
 {
     Controls controls = entry.controls;
     exposure_.locked ^= controls.lock_exposure;
     exposure_.ev = entry.exposure_ev;
     controls.save = false;
     Layout layout = layout_;
-    if (workbench_.apply(controls, layout)) {
+    if (alignment_.apply(controls, layout)) {
         try {
-            studio_.frame().adopt(layout);
+            renderer_.frame().adopt(layout);
             layout_ = std::move(layout);
         } catch (const InputError& error) { // as in the exhibit, where it is turned back
-            workbench_.say(one_line(error.what()));
+            alignment_.say(one_line(error.what()));
         }
     }
-    studio_.frame().show(workbench_.pattern());
-    studio_.frame().move_head(controls.head);
+    renderer_.frame().show(alignment_.pattern());
+    renderer_.frame().move_head(controls.head);
 }
 
-std::vector<std::vector<std::uint8_t>> Reel::picture(const Flight& flight, const std::string& scene, const Panel* hud)
+std::vector<std::vector<std::uint8_t>> ReplayRenderer::picture(const Flight& flight, const std::string& scene, const Panel* hud)
 {
     Shot shot = shot_of(flight, scene);
     shot.exposure_ev = shown_ev(exposure_, exposing_, shot.exposure_ev, start_ev_);
-    return studio_.picture(shot, hud);
+    return renderer_.picture(shot, hud);
 }
 
 } // namespace starbow

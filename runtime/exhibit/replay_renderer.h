@@ -8,10 +8,10 @@
 namespace starbow {
 
 /// A flight's pictures off-screen, frame by frame as the exhibit shows them.
-class Reel {
+class ReplayRenderer {
 public:
     /// pattern: what the outputs show first. start_ev: the exposure that the flight begins with.
-    Reel(Studio& studio, Pattern pattern, const Exposing& exposing, double start_ev);
+    ReplayRenderer(OffscreenRenderer& renderer, Pattern pattern, const Exposing& exposing, double start_ev);
 
     /// What a frame's controls do to the pictures: the head, test patterns, what a builder turns (which adds up, so every
     /// frame counts), the exposure. Writes no layout.
@@ -21,9 +21,9 @@ public:
     std::vector<std::vector<std::uint8_t>> picture(const Flight& flight, const std::string& scene, const Panel* hud);
 
 private:
-    Studio& studio_;
+    OffscreenRenderer& renderer_;
     Layout layout_;
-    Workbench workbench_;
+    AlignmentMode alignment_;
     Exposing exposing_;
     double start_ev_;
     Exposure exposure_;

@@ -53,7 +53,7 @@ Point parse_point(std::string part, glm::ivec2 size)
     return glm::dvec2(x, y);
 }
 
-std::string told(const SpotReading& reading, const Measured& measured, const Words& english)
+std::string describe(const SpotReading& reading, const Measured& measured, const Words& english)
 {
     Measured one = measured;
     one.aim = reading;
@@ -83,18 +83,18 @@ std::vector<Point> parse_points(const std::string& text, const Layout& layout)
     return points;
 }
 
-Sitting sit(Studio& studio, const GpuWorld& world, const Shot& shot, const std::vector<Point>& points,
+StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& world, const Shot& shot, const std::vector<Point>& points,
     const std::string& overlay, const std::string& why, const Words& words)
 {
-    Sitting sitting;
+    StillMeasurement measurement;
     const auto which = [](const auto& names, const std::string& name) {
         return std::size_t(std::find(names.begin(), names.end(), name) - names.begin());
     };
     const Overlay over = Overlay(which(overlay_names, overlay));
     const Why page = Why(which(why_names, why));
     if (points.empty() && over == Overlay::off && page == Why::none)
-        return sitting;
-    Frame& frame = studio.frame();
+        return measurement;
+    Frame& frame = renderer.frame();
     Measuring what{.probes = {{0, 0, -1}}};
     for (const Point& point : points)
         if (const auto* pixel = std::get_if<glm::dvec2>(&point)) {
@@ -107,12 +107,12 @@ Sitting sit(Studio& studio, const GpuWorld& world, const Shot& shot, const std::
             what.probes.push_back(std::get<glm::dvec3>(point));
         }
     frame.measure(what);
-    const std::vector<Probed> probed = studio.probed(shot);
-    const Lookout& lookout = frame.lookout();
+    const std::vector<Probed> probed = renderer.probed(shot);
+    const MeasuringObserver& observer = frame.observer();
     const auto spot_of = [&](std::size_t i) {
         Probed one = probed[i];
-        one.ray = ray_from_ship(lookout, shot.ship_from_cockpit * what.probes[i]); // sharper than the picture's
-        return spot_at(lookout, one, world.world);
+        one.ray = ray_from_ship(observer, shot.ship_from_cockpit * what.probes[i]); // sharper than the picture's
+        return spot_at(observer, one, world.world);
     };
     std::array<std::optional<Spot>, 2> marks;
     for (std::size_t i = 1; i < std::min<std::size_t>(probed.size(), 3); ++i)
@@ -122,28 +122,28 @@ Sitting sit(Studio& studio, const GpuWorld& world, const Shot& shot, const std::
     for (std::size_t i = 0; i < probed.size(); ++i) {
         const Measured measured
             = measured_of(frame.head(), ship, world.scene, world.world, shot.effects, spot_of(i), probed[i].light, marks);
-        sitting.lines.push_back(
-            (i == 0 ? "ahead: " : "point " + std::to_string(i) + ": ") + told(measured.aim, measured, english));
-        sitting.points.push_back(measured);
+        measurement.lines.push_back(
+            (i == 0 ? "ahead: " : "point " + std::to_string(i) + ": ") + describe(measured.aim, measured, english));
+        measurement.points.push_back(measured);
     }
-    if (sitting.points[0].pair) {
-        const auto fields = reading_fields(sitting.points[0], english);
+    if (measurement.points[0].pair) {
+        const auto fields = reading_fields(measurement.points[0], english);
         std::string line;
         for (std::size_t i = 6; i < 9; ++i)
             if (!fields[i].first.empty())
                 line.append(line.empty() ? "" : ", ").append(fields[i].first).append(" ").append(fields[i].second);
-        sitting.lines.push_back(line);
+        measurement.lines.push_back(line);
     }
-    const OverlayScale scale = overlay_scale(world.world, lookout.place, world.scene.seconds_per_time_unit());
+    const OverlayScale scale = overlay_scale(world.world, observer.place, world.scene.seconds_per_time_unit());
     what.over = {over == Overlay::off && page != Why::none ? Overlay::aim : over, marks, scale};
     if (over != Overlay::off || page != Why::none) {
-        sitting.panel = std::make_shared<Panel>(draw_lab_panel(
-            Typesetter(), words, sitting.points[0], over, scale, page, frame.lab_panel_width(lab_aspect(over, page))));
-        what.panel = sitting.panel.get();
+        measurement.panel = std::make_shared<Panel>(draw_lab_panel(
+            Typesetter(), words, measurement.points[0], over, scale, page, frame.lab_panel_width(lab_aspect(over, page))));
+        what.panel = measurement.panel.get();
         what.scale = scale_place(over, page);
     }
     frame.measure(what);
-    return sitting;
+    return measurement;
 }
 
 } // namespace starbow

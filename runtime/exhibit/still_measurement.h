@@ -20,15 +20,15 @@ using Point = std::variant<glm::dvec2, glm::dvec3>;
 std::vector<Point> parse_points(const std::string& text, const Layout& layout);
 
 /// What was measured of a shot.
-struct Sitting {
+struct StillMeasurement {
     std::vector<Measured> points; ///< aimed straight ahead, then at each of the points
     std::vector<std::string> lines; ///< of what was read, in English
-    std::shared_ptr<const Panel> panel; ///< of readings, which the studio's frame shows
+    std::shared_ptr<const Panel> panel; ///< of readings, which the renderer's frame shows
 };
 
-/// Measures a shot, and has the studio's next picture show it where an overlay or a page is asked for. Throws InputError for
+/// Measures a shot, and has the renderer's next picture show it where an overlay or a page is asked for. Throws InputError for
 /// a point that shows nothing. What is returned must outlive that picture. words: of the panel.
-Sitting sit(Studio& studio, const GpuWorld& world, const Shot& shot, const std::vector<Point>& points,
+StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& world, const Shot& shot, const std::vector<Point>& points,
     const std::string& overlay, const std::string& why, const Words& words);
 
 } // namespace starbow

@@ -36,10 +36,10 @@ void press(Flight& flight, const Controls& controls, const Flying& rules, const 
     if (controls.home)
         flight.homing = homing_from(flight.ship);
     if (controls.stop || controls.home || controls.next_mode) {
-        flight.faster = 0;
+        flight.throttle_rate = 0;
         flight.thrust = glm::dvec3(0);
-        flight.held_back = flight.held_back || !controls.next_mode;
-        if (flight.held_back && !controls.lever) // keys move a lever of their own, which must not wait where it was
+        flight.thrust_inhibited = flight.thrust_inhibited || !controls.next_mode;
+        if (flight.thrust_inhibited && !controls.lever) // keys move a lever of their own, which must not wait where it was
             flight.lever = 0;
     }
 }
@@ -70,7 +70,7 @@ Flight flight_at(const Shot& start, const Flying& rules)
     flight.ship = ship_at(start);
     flight.mode = rules.mode;
     // A start in flight goes on as it is until the throttle is touched.
-    flight.lever = std::min(1.0, rapidity_of(flight.ship) / std::acosh(rules.greatest_gamma));
+    flight.lever = std::min(1.0, rapidity_of(flight.ship) / std::acosh(rules.max_gamma));
     flight.effects = start.effects;
     flight.exposure_ev = start.exposure_ev;
     return flight;

@@ -13,8 +13,8 @@ struct Flight {
     Ship ship;
     FlightMode mode = FlightMode::guided;
     double lever = 0; ///< where the throttle is, from 0 to 1
-    bool held_back = false; ///< after a stop no thrust until the throttle has been at 0: stopped means stopped
-    double faster = 0; ///< rapidity per second now, along the way; guided and free
+    bool thrust_inhibited = false; ///< after a stop no thrust until the throttle has been at 0: stopped means stopped
+    double throttle_rate = 0; ///< rapidity per second now, along the way; guided and free
     glm::dvec3 thrust{0}; ///< rapidity per second now, cockpit axes; newtonian
     glm::dvec3 turn_rad_s{0}, turn_lead_rad_s{0}; ///< now, and what that is on its way to
     std::optional<Homing> homing; ///< flying back to the start by itself

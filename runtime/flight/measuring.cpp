@@ -6,13 +6,13 @@
 namespace starbow {
 namespace {
 
-struct Seen {
+struct RetardedPosition {
     double distance; ///< in the world
     double angle_rad; ///< from the motion, as seen
     double D;
 };
 
-Seen seen(const Ship& ship, const glm::dvec3& at)
+RetardedPosition seen(const Ship& ship, const glm::dvec3& at)
 {
     const glm::dvec3 u = ship.u.total(), way = at - ship.position.total();
     const double speed = glm::length(u), distance = glm::length(way), E = physics::exp_rapidity(speed);
@@ -20,13 +20,13 @@ Seen seen(const Ship& ship, const glm::dvec3& at)
         return {0, 0, 1};
     const glm::dvec3 n = way / distance, ahead = speed > 0 ? u / speed : glm::dvec3(0, 0, -1);
     const glm::dvec3 in_motion(glm::length(glm::cross(n, ahead)), 0, glm::dot(n, ahead));
-    const physics::Sight sight = physics::camera_from_world(in_motion, E, 1 / E);
+    const physics::AberratedRay sight = physics::camera_from_world(in_motion, E, 1 / E);
     return {distance, std::atan2(sight.n.x, sight.n.z), sight.D};
 }
 
 double at_place(Measure::What what, const glm::dvec3& at, const Ship& ship, const Ship& since, double seconds_per_time_unit)
 {
-    const Seen now = seen(ship, at);
+    const RetardedPosition now = seen(ship, at);
     switch (what) {
     case Measure::What::distance:
         return now.distance;
@@ -35,7 +35,7 @@ double at_place(Measure::What what, const glm::dvec3& at, const Ship& ship, cons
     case Measure::What::doppler:
         return now.D;
     case Measure::What::size: { // aberration makes small things 1 / D as large
-        const Seen then = seen(since, at);
+        const RetardedPosition then = seen(since, at);
         return then.distance * then.D / (now.distance * now.D);
     }
     case Measure::What::now_s: // the Lorentz transformation's: v.dx later in the world, where the ship's time is one

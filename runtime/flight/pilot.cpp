@@ -51,13 +51,13 @@ glm::dvec3 across(const glm::dvec3& way, const glm::dvec3& to)
 Push by_lever(Flight& flight, const Flying& rules)
 {
     const double speed = rapidity_of(flight.ship),
-                 target = flight.held_back ? 0 : flight.lever * std::acosh(rules.greatest_gamma);
+                 target = flight.thrust_inhibited ? 0 : flight.lever * std::acosh(rules.max_gamma);
     const double wanted = std::clamp((target - speed) / settle_s, -rules.rapidity_per_s, rules.rapidity_per_s);
-    flight.faster += gain_share(rules) * (wanted - flight.faster);
-    const double gain = flight.faster * tick_s;
+    flight.throttle_rate += gain_share(rules) * (wanted - flight.throttle_rate);
+    const double gain = flight.throttle_rate * tick_s;
     Push push;
     if (target == 0 && speed + gain < 2e-3) { // slower than anyone can see, and then for ever less
-        flight.faster = 0;
+        flight.throttle_rate = 0;
         push.stop = speed > 0;
         return push;
     }
@@ -77,8 +77,8 @@ Push by_lever(Flight& flight, const Flying& rules)
 Push by_thrust(Flight& flight, const Controls& controls, const Flying& rules)
 {
     const double engine = controls.lever ? *controls.lever * rules.rapidity_per_s : 0;
-    glm::dvec3 wanted = (nose * controls.faster + controls.push) * key_rapidity_per_s + nose * engine;
-    if (flight.held_back)
+    glm::dvec3 wanted = (nose * controls.throttle_rate + controls.push) * key_rapidity_per_s + nose * engine;
+    if (flight.thrust_inhibited)
         wanted = glm::dvec3(0);
     flight.thrust += gain_share(rules) * (wanted - flight.thrust);
     if (wanted == glm::dvec3(0) && glm::length(flight.thrust) < 1e-4)
@@ -86,7 +86,7 @@ Push by_thrust(Flight& flight, const Controls& controls, const Flying& rules)
     Push push{flight.thrust * tick_s};
     // At the limit nothing more is gained along the flight; turning it stays possible, and what that adds is taken off.
     const glm::dvec3 way = heading(flight);
-    const double room = std::acosh(rules.greatest_gamma) - rapidity_of(flight.ship);
+    const double room = std::acosh(rules.max_gamma) - rapidity_of(flight.ship);
     push.rapidity -= way * std::max(0.0, glm::dot(push.rapidity, way) - room);
     return push;
 }
@@ -97,7 +97,7 @@ Push pilot(Flight& flight, const Controls& told, const Flying& rules)
 {
     Controls controls = told;
     if (flight.mode != FlightMode::newtonian) // who has thrusters alone, as on a space mouse, has a speed all the same
-        controls.faster -= told.push.z;
+        controls.throttle_rate -= told.push.z;
     const glm::dvec3 rates = degree * glm::dvec3(rules.turn_deg_per_s, rules.turn_deg_per_s, rules.roll_deg_per_s);
     for (int i = 0; i < 3; ++i)
         turn(flight.turn_rad_s[i], flight.turn_lead_rad_s[i], std::clamp(controls.turn[i], -1.0, 1.0) * rates[i], rates[i],
@@ -105,12 +105,12 @@ Push pilot(Flight& flight, const Controls& told, const Flying& rules)
     if (controls.lever)
         flight.lever = std::clamp(*controls.lever, 0.0, 1.0);
     else if (flight.mode != FlightMode::newtonian)
-        flight.lever = std::clamp(flight.lever + controls.faster * lever_per_s * tick_s, 0.0, 1.0);
+        flight.lever = std::clamp(flight.lever + controls.throttle_rate * lever_per_s * tick_s, 0.0, 1.0);
     const bool let_go = flight.mode == FlightMode::newtonian
-        ? controls.faster == 0 && controls.push == glm::dvec3(0) && controls.lever.value_or(0) < 0.02
-        : (controls.lever ? flight.lever < 0.02 : controls.faster <= 0);
-    flight.held_back = flight.held_back && !let_go;
-    if (flight.held_back && !controls.lever)
+        ? controls.throttle_rate == 0 && controls.push == glm::dvec3(0) && controls.lever.value_or(0) < 0.02
+        : (controls.lever ? flight.lever < 0.02 : controls.throttle_rate <= 0);
+    flight.thrust_inhibited = flight.thrust_inhibited && !let_go;
+    if (flight.thrust_inhibited && !controls.lever)
         flight.lever = 0;
     return flight.mode == FlightMode::newtonian ? by_thrust(flight, controls, rules) : by_lever(flight, rules);
 }

@@ -52,7 +52,7 @@ template <class Value> void put(Json& json, const char* name, const Value& value
 /// w first.
 void take_turn(const Place& place, const std::string& name, glm::dquat& turn)
 {
-    const auto p = find(place, name);
+    const auto p = find_member(place, name);
     if (!p)
         return;
     const glm::dvec4 v = vec4(*p, {-1.001, 1.001});
@@ -86,13 +86,13 @@ Json json_of(const Effects& effects)
 /// Not as a shot's file has it: from a speed and directions there this would come back rounded.
 Shot read_start(const Place& place)
 {
-    only(place, {"time", "position", "u", "ship_from_cockpit", "effects", "exposure_ev"});
+    reject_unknown_members(place, {"time", "position", "u", "ship_from_cockpit", "effects", "exposure_ev"});
     Shot start;
     take(place, "time", start.time, any_place);
     take(place, "position", start.position, any_place);
     take(place, "u", start.u, any_place);
     take_turn(place, "ship_from_cockpit", start.ship_from_cockpit);
-    if (auto p = find(place, "effects"))
+    if (auto p = find_member(place, "effects"))
         start.effects = read_effects(*p);
     take(place, "exposure_ev", start.exposure_ev, {-60, 60});
     return start;
@@ -100,13 +100,13 @@ Shot read_start(const Place& place)
 
 Flying read_rules(const Place& place)
 {
-    only(place,
-        {"mode", "greatest_gamma", "turn_deg_per_s", "roll_deg_per_s", "turn_jerk_deg_per_s3", "rapidity_per_s",
+    reject_unknown_members(place,
+        {"mode", "max_gamma", "turn_deg_per_s", "roll_deg_per_s", "turn_jerk_deg_per_s3", "rapidity_per_s",
             "rapidity_jerk_per_s2"});
     Flying rules;
     rules.mode = chosen(member(place, "mode"), flight_modes);
     constexpr Range any{0, 1e9};
-    take(place, "greatest_gamma", rules.greatest_gamma, {1, 1e9, true});
+    take(place, "max_gamma", rules.max_gamma, {1, 1e9, true});
     take(place, "turn_deg_per_s", rules.turn_deg_per_s, any);
     take(place, "roll_deg_per_s", rules.roll_deg_per_s, any);
     take(place, "turn_jerk_deg_per_s3", rules.turn_jerk_deg_per_s3, any);
@@ -121,30 +121,30 @@ RecordEntry read_entry(const Place& top)
         "head_m", "head_turned", "exposure", "exposure_ev", "choose", "turn_by"};
     for (const auto& [name, flag] : switches)
         known.emplace_back(name);
-    only(top, known);
+    reject_unknown_members(top, known);
     RecordEntry entry;
     entry.dt_ns = whole(member(top, "dt_ns"), 1e9);
-    if (auto p = find(top, "skipped_ns"))
+    if (auto p = find_member(top, "skipped_ns"))
         entry.skipped_ns = whole(*p, most_ns);
-    if (auto p = find(top, "exposure_ev"))
+    if (auto p = find_member(top, "exposure_ev"))
         entry.exposure_ev = number(*p, {-1e3, 1e3});
     bool unseen = false;
     take(top, "unseen", unseen);
     entry.shown = !unseen;
     Controls& controls = entry.controls;
     controls.time_ns = entry.dt_ns + entry.skipped_ns;
-    if (auto p = find(top, "lever"))
+    if (auto p = find_member(top, "lever"))
         controls.lever = number(*p, {0, 1});
-    take(top, "faster", controls.faster, any_rate);
+    take(top, "faster", controls.throttle_rate, any_rate);
     take(top, "push", controls.push, any_rate);
     take(top, "turn", controls.turn, any_rate);
     take(top, "look_rad", controls.look_rad, any_rate);
     take(top, "head_m", controls.head.moved_m, any_rate);
     take_turn(top, "head_turned", controls.head.turned);
     take(top, "exposure", controls.exposure, any_rate);
-    if (auto p = find(top, "choose"))
+    if (auto p = find_member(top, "choose"))
         controls.choose = integer(*p, -1000, 1000);
-    if (auto p = find(top, "turn_by"))
+    if (auto p = find_member(top, "turn_by"))
         controls.turn_by = integer(*p, -1000, 1000);
     for (const auto& [name, flag] : switches)
         take(top, name, controls.*flag);
@@ -153,7 +153,7 @@ RecordEntry read_entry(const Place& top)
 
 RecordCheck read_check(const Place& top)
 {
-    only(top, {"ticks", "digest", "last"});
+    reject_unknown_members(top, {"ticks", "digest", "last"});
     RecordCheck check;
     check.ticks = whole(member(top, "ticks"), most_ns);
     check.digest = read_digest(member(top, "digest"));
@@ -198,11 +198,11 @@ std::string text_of(const RecordHeader& header)
         {"ship_from_cockpit", components(start.ship_from_cockpit)}, {"effects", json_of(start.effects)},
         {"exposure_ev", start.exposure_ev}};
     json["flying"]
-        = {{"mode", name_of(rules.mode)}, {"greatest_gamma", rules.greatest_gamma}, {"turn_deg_per_s", rules.turn_deg_per_s},
+        = {{"mode", name_of(rules.mode)}, {"max_gamma", rules.max_gamma}, {"turn_deg_per_s", rules.turn_deg_per_s},
             {"roll_deg_per_s", rules.roll_deg_per_s}, {"turn_jerk_deg_per_s3", rules.turn_jerk_deg_per_s3},
             {"rapidity_per_s", rules.rapidity_per_s}, {"rapidity_jerk_per_s2", rules.rapidity_jerk_per_s2}};
-    json["exposure"] = {{"automatic", header.exposing.automatic}, {"least_ev", header.exposing.least_ev},
-        {"greatest_ev", header.exposing.greatest_ev}, {"bloom", header.exposing.bloom}};
+    json["exposure"] = {{"automatic", header.exposing.automatic}, {"min_ev", header.exposing.min_ev},
+        {"max_ev", header.exposing.max_ev}, {"bloom", header.exposing.bloom}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -220,7 +220,7 @@ std::string text_of(const RecordEntry& entry)
         json["exposure_ev"] = *entry.exposure_ev;
     if (controls.lever)
         json["lever"] = *controls.lever;
-    put(json, "faster", controls.faster, usual.faster);
+    put(json, "faster", controls.throttle_rate, usual.throttle_rate);
     put(json, "push", controls.push, usual.push);
     put(json, "turn", controls.turn, usual.turn);
     put(json, "look_rad", controls.look_rad, usual.look_rad);
@@ -249,12 +249,12 @@ RecordHeader parse_record_header(const std::string& file, std::string line)
 {
     const Document document = parse_document(file, std::move(line));
     const Place top = root(document);
-    if (!top.json->is_object() || !find(top, "starbow_record"))
+    if (!top.json->is_object() || !find_member(top, "starbow_record"))
         complain(top, "is not how a record begins; a file that starbow run --record has written is right");
     const Place version = member(top, "starbow_record");
     if (number(version, {0, 1e9}) != record_version)
         complain(version, "is a version of records that is not known here; " + std::to_string(record_version) + " is right");
-    only(top,
+    reject_unknown_members(top,
         {"starbow_record", "scene", "scene_digest", "layout", "layout_digest", "pattern", "seconds_per_time_unit", "start",
             "flying", "exposure"});
     RecordHeader header;
@@ -275,7 +275,7 @@ std::variant<RecordEntry, RecordCheck> parse_record_line(const std::string& file
 {
     const Document document = parse_document(file, std::move(content), line);
     const Place top = root(document);
-    if (top.json->is_object() && find(top, "digest"))
+    if (top.json->is_object() && find_member(top, "digest"))
         return read_check(top);
     return read_entry(top);
 }
@@ -292,7 +292,7 @@ std::uint64_t digest(const Flight& flight)
     Digester all;
     all.add(flight.ship);
     all.add(std::int64_t(flight.mode));
-    all.add(flight.lever), all.add(flight.held_back), all.add(flight.faster), all.add(flight.thrust);
+    all.add(flight.lever), all.add(flight.thrust_inhibited), all.add(flight.throttle_rate), all.add(flight.thrust);
     all.add(flight.turn_rad_s), all.add(flight.turn_lead_rad_s);
     all.add(flight.homing.has_value());
     if (flight.homing) {

@@ -5,7 +5,7 @@
 
 namespace starbow {
 
-bool Tape::play(RecordEntry& entry)
+bool RecordReplay::play(RecordEntry& entry)
 {
     if (!replay_)
         return true;
@@ -21,7 +21,7 @@ bool Tape::play(RecordEntry& entry)
     return true;
 }
 
-void Tape::keep(const RecordEntry& entry, const Flight& flight)
+void RecordReplay::keep(const RecordEntry& entry, const Flight& flight)
 {
     if (recorder_)
         recorder_->keep(entry, flight);
@@ -29,7 +29,7 @@ void Tape::keep(const RecordEntry& entry, const Flight& flight)
         replay_->compare(flight);
 }
 
-bool Tape::end(const Flight& flight)
+bool RecordReplay::end(const Flight& flight)
 {
     if (recorder_) {
         recorder_->end(flight);

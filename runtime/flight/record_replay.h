@@ -8,10 +8,10 @@ namespace starbow {
 
 /// What an exhibit keeps of its flight, or what it flies again instead of the visitor's controls: a record, a replay, or
 /// neither.
-class Tape {
+class RecordReplay {
 public:
     using Clock = std::chrono::steady_clock;
-    Tape(std::unique_ptr<Recorder> recorder, std::unique_ptr<Replay> replay)
+    RecordReplay(std::unique_ptr<Recorder> recorder, std::unique_ptr<Replay> replay)
         : recorder_(std::move(recorder))
         , replay_(std::move(replay))
     {

@@ -73,13 +73,13 @@ Ship fly(Ship ship, const glm::dvec3& acceleration, const glm::dvec3& turn, doub
     const double length = glm::length(acceleration), strength = length > 1e-100 ? length : 0;
     const glm::dvec3 way = strength > 0 ? glm::normalize(ship_from_thruster * acceleration) : glm::dvec3(0);
     const glm::dvec3 u = ship.u.total();
-    const physics::Leg leg = physics::thrust_leg(u, way, strength, dtau);
+    const physics::ThrustSegment segment = physics::thrust_segment(u, way, strength, dtau);
 
-    ship.u.add(leg.du);
-    ship.position.add(leg.dx);
-    ship.time.add(leg.dt);
+    ship.u.add(segment.du);
+    ship.position.add(segment.dx);
+    ship.time.add(segment.dt);
     ship.proper_time.add(dtau);
-    ship.distance.add(glm::length(leg.dx));
+    ship.distance.add(glm::length(segment.dx));
 
     const glm::dvec4 wigner = physics::wigner_turn(u, way * std::sinh(strength * dtau));
     ship.ship_from_cockpit = nearly_unit(carried(wigner, ship_from_thruster) * half_turn);

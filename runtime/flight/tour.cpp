@@ -35,7 +35,7 @@ std::int64_t duration_ns(const Touring& now, const Show& show)
     const std::int64_t asked = ns(asked_s(step, show.visitors));
     if (!step.question)
         return asked;
-    return (now.told ? now.asked_ns : asked) + ns(step.question->told_s);
+    return (now.measured_answer ? now.asked_ns : asked) + ns(step.question->explanation_s);
 }
 
 /// Of the visitor who flies in this step.
@@ -44,7 +44,7 @@ Flying rules_in(const Step& step, const Flying& exhibits)
     Flying rules = exhibits;
     if (const Try* tried = std::get_if<Try>(&step.motion)) {
         rules.mode = tried->mode.value_or(rules.mode);
-        rules.greatest_gamma = std::min(rules.greatest_gamma, tried->greatest_gamma.value_or(rules.greatest_gamma));
+        rules.max_gamma = std::min(rules.max_gamma, tried->max_gamma.value_or(rules.max_gamma));
     }
     return rules;
 }
@@ -55,8 +55,8 @@ void hand_over(Touring& now, const Flying& rules)
     Shot here = shot_of(now.flight.ship);
     const Flight fresh = flight_at(here, rules);
     now.flight.mode = fresh.mode, now.flight.lever = fresh.lever;
-    now.flight.held_back = rapidity_of(now.flight.ship) == 0; // a throttle that happens to stand open waits
-    now.flight.faster = 0;
+    now.flight.thrust_inhibited = rapidity_of(now.flight.ship) == 0; // a throttle that happens to stand open waits
+    now.flight.throttle_rate = 0;
     now.flight.thrust = now.flight.turn_rad_s = now.flight.turn_lead_rad_s = glm::dvec3(0);
     now.flight.homing.reset();
     now.idle_s = 0;
@@ -79,7 +79,7 @@ void begin(Touring& now, const Show& show)
     if (step.effects)
         start.flight.effects = *step.effects;
     now.into_ns = 0;
-    now.chosen = -1, now.right.reset(), now.told.reset(), now.asked_ns = 0;
+    now.chosen = -1, now.right.reset(), now.measured_answer.reset(), now.asked_ns = 0;
     now.nudged = true; // a stick that still stands aside is no answer
     now.nudged_s = -1e9;
     if (step.question)
@@ -101,7 +101,7 @@ void place(Touring& now, const Show& show)
         return;
     const Touring::Start& start = now.starts.back();
     // While the answer is told the motion stands: what was asked about stays in view.
-    const double seconds = double(now.told ? now.asked_ns : now.into_ns) / second_ns;
+    const double seconds = double(now.measured_answer ? now.asked_ns : now.into_ns) / second_ns;
     const double part = std::min(1.0, seconds / step.seconds);
     now.flight.ship = along(step, start.flight.ship, part, show.seconds_per_time_unit);
     now.flight.exposure_ev = start.flight.exposure_ev;
@@ -117,7 +117,7 @@ void next(Touring& now, const Show& show)
         now.starts.push_back(now.starts.back()), ++to;
     if (to == show.tour.steps.size()) {
         now.over = true;
-        now.told.reset();
+        now.measured_answer.reset();
         if (show.visitors)
             hand_over(now, show.rules);
         return;
@@ -135,7 +135,7 @@ double number_now(const Touring& now, const Show& show, const Measure& measure)
 /// Tells the answer from here on.
 void tell(Touring& now, const Show& show, std::optional<bool> right)
 {
-    now.told = number_now(now, show, step_of(now, show).question->measure);
+    now.measured_answer = number_now(now, show, step_of(now, show).question->measure);
     now.right = right;
     now.asked_ns = now.into_ns;
 }
@@ -191,7 +191,7 @@ void ask(Touring& now, const Show& show, const Controls& controls, double dt_s)
 
 bool touched(const Controls& controls, double lever, double lever_before)
 {
-    return controls.faster != 0 || controls.push != glm::dvec3(0) || controls.turn != glm::dvec3(0)
+    return controls.throttle_rate != 0 || controls.push != glm::dvec3(0) || controls.turn != glm::dvec3(0)
         || controls.look_rad != glm::dvec2(0) || std::abs(lever - lever_before) > 0.005 || controls.stop || controls.home
         || controls.undo || controls.reset || controls.next_mode;
 }
@@ -238,7 +238,7 @@ bool press(Touring& now, const Show& show, const Controls& controls)
         next(now, show);
         return true;
     }
-    if (controls.stop && !by_hand && !(step_of(now, show).question && !now.told))
+    if (controls.stop && !by_hand && !(step_of(now, show).question && !now.measured_answer))
         now.paused = !now.paused;
     return false;
 }
@@ -247,7 +247,7 @@ bool press(Touring& now, const Show& show, const Controls& controls)
 void watch(Touring& now, const Show& show, std::int64_t dt_ns)
 {
     const Step& step = step_of(now, show);
-    if (!step.question || now.told)
+    if (!step.question || now.measured_answer)
         return;
     const auto& reach = std::get<PlaceToReach>(step.question->answer);
     const double value = number_now(now, show, step.question->measure);
@@ -260,14 +260,14 @@ void watch(Touring& now, const Show& show, std::int64_t dt_ns)
 
 bool flies(const Touring& now, const Show& show)
 {
-    return show.visitors && (now.over || (tries(step_of(now, show)) && !now.told));
+    return show.visitors && (now.over || (tries(step_of(now, show)) && !now.measured_answer));
 }
 
 double left_s(const Touring& now, const Show& show)
 {
     const Step& step = step_of(now, show);
     return std::max(
-        0.0, (now.told ? double(duration_ns(now, show)) / second_ns : step.seconds) - double(now.into_ns) / second_ns);
+        0.0, (now.measured_answer ? double(duration_ns(now, show)) / second_ns : step.seconds) - double(now.into_ns) / second_ns);
 }
 
 double length_s(const Tour& tour)
@@ -275,7 +275,7 @@ double length_s(const Tour& tour)
     double sum = 0;
     for (const Step& step : tour.steps)
         if (!tries(step))
-            sum += asked_s(step, false) + (step.question ? step.question->told_s : 0);
+            sum += asked_s(step, false) + (step.question ? step.question->explanation_s : 0);
     return sum;
 }
 
@@ -301,14 +301,14 @@ Touring advance(Touring now, const Show& show, const Controls& controls, std::in
     }
     if (now.paused)
         return now;
-    if (step_of(now, show).question && !now.told && !tries(step_of(now, show)))
+    if (step_of(now, show).question && !now.measured_answer && !tries(step_of(now, show)))
         ask(now, show, controls, dt_s);
     for (std::int64_t left = dt_ns; left > 0 && !now.over;) {
         const Step& step = step_of(now, show);
         // To the end of the step, but not beyond the end of the time to answer.
         const std::int64_t asked = ns(asked_s(step, show.visitors));
         std::int64_t end = duration_ns(now, show);
-        if (step.question && !now.told)
+        if (step.question && !now.measured_answer)
             end = asked;
         const std::int64_t some = std::min(left, std::max<std::int64_t>(0, end - now.into_ns));
         if (flies(now, show)) {
@@ -320,7 +320,7 @@ Touring advance(Touring now, const Show& show, const Controls& controls, std::in
         place(now, show);
         if (now.into_ns < end)
             continue;
-        if (step.question && !now.told)
+        if (step.question && !now.measured_answer)
             tell(now, show, {});
         else
             next(now, show);

@@ -35,7 +35,7 @@ struct Touring {
     bool nudged = false; ///< the stick stands aside
     double nudged_s = 0; ///< for so long
     std::optional<bool> right; ///< what was answered; none: nothing yet, or nothing at all
-    std::optional<double> told; ///< the answer is being told: the number that was measured
+    std::optional<double> measured_answer; ///< the measured number, while the explanation is shown
     std::int64_t asked_ns = 0; ///< into the step when the answer came
 
     std::size_t step() const { return starts.size() - 1; }

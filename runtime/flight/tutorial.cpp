@@ -8,7 +8,7 @@ Tutorial tutorial_at(const Flight& flight) { return {.begun_at = rapidity_of(fli
 
 Tutorial advance(Tutorial tutorial, const Controls& controls, const Flight& flight, double dt_s)
 {
-    const bool touched = controls.faster != 0 || controls.push != glm::dvec3(0) || controls.turn != glm::dvec3(0)
+    const bool touched = controls.throttle_rate != 0 || controls.push != glm::dvec3(0) || controls.turn != glm::dvec3(0)
         || controls.look_rad != glm::dvec2(0) || std::abs(flight.lever - tutorial.lever) > 0.005 || controls.stop
         || controls.home || controls.undo || controls.reset || controls.next_mode;
     tutorial.idle_s = touched ? 0 : tutorial.idle_s + dt_s;
@@ -25,15 +25,15 @@ Tutorial advance(Tutorial tutorial, const Controls& controls, const Flight& flig
     return tutorial;
 }
 
-std::string prompt(const Tutorial& tutorial, const Means& means, const Words& words)
+std::string prompt(const Tutorial& tutorial, const InputCapabilities& capabilities, const Words& words)
 {
     switch (tutorial.lesson) {
     case 0:
-        return words(means.lever ? "tutorial.go_throttle" : means.trigger ? "tutorial.go_trigger" : "tutorial.go_key");
+        return words(capabilities.lever ? "tutorial.go_throttle" : capabilities.trigger ? "tutorial.go_trigger" : "tutorial.go_key");
     case 1:
-        return words(means.stick ? "tutorial.turn_stick" : "tutorial.turn_keys");
+        return words(capabilities.stick ? "tutorial.turn_stick" : "tutorial.turn_keys");
     case 2:
-        return means.stop_button > 0 ? words("tutorial.stop_button", {{"button", std::to_string(means.stop_button)}})
+        return capabilities.stop_button > 0 ? words("tutorial.stop_button", {{"button", std::to_string(capabilities.stop_button)}})
                                      : words("tutorial.stop_key");
     default:
         return "";

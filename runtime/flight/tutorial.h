@@ -25,6 +25,6 @@ Tutorial tutorial_at(const Flight& flight);
 Tutorial advance(Tutorial tutorial, const Controls& controls, const Flight& flight, double dt_s);
 
 /// What the visitor is to do now, in the words of what there is to do it with, or "".
-std::string prompt(const Tutorial& tutorial, const Means& means, const Words& words);
+std::string prompt(const Tutorial& tutorial, const InputCapabilities& capabilities, const Words& words);
 
 } // namespace starbow

@@ -22,7 +22,7 @@ std::string whole(double seconds) { return std::to_string(std::lround(std::ceil(
 
 } // namespace
 
-Caption caption_of(const Touring& now, const Show& show, const Words& words, const Means& means)
+Caption caption_of(const Touring& now, const Show& show, const Words& words, const InputCapabilities& capabilities)
 {
     if (now.over)
         return {};
@@ -35,12 +35,12 @@ Caption caption_of(const Touring& now, const Show& show, const Words& words, con
     if (step.measure)
         caption.text = filled(caption.text, {{"measured", number(*step.measure)}});
     const std::string left = whole(left_s(now, show));
-    caption.flying = tries && !now.told;
+    caption.flying = tries && !now.measured_answer;
     if (caption.flying)
         caption.aside = words("touring.fly", {{"left", left}});
-    if (step.question && now.told) {
+    if (step.question && now.measured_answer) {
         caption.text = words(now.right ? *now.right ? "touring.right" : "touring.wrong" : "touring.answer") + " "
-            + filled(step.question->told, {{"measured", figures(*now.told, words)}});
+            + filled(step.question->explanation, {{"measured", figures(*now.measured_answer, words)}});
     } else if (step.question) {
         caption.text = step.question->ask;
         if (const auto* choices = std::get_if<std::vector<Choice>>(&step.question->answer)) {
@@ -52,8 +52,8 @@ Caption caption_of(const Touring& now, const Show& show, const Words& words, con
             caption.chosen = 0;
         }
         if (!tries && show.visitors)
-            caption.aside = means.stick && means.stop_button > 0
-                ? words("touring.choose_stick", {{"button", std::to_string(means.stop_button)}, {"left", left}})
+            caption.aside = capabilities.stick && capabilities.stop_button > 0
+                ? words("touring.choose_stick", {{"button", std::to_string(capabilities.stop_button)}, {"left", left}})
                 : words("touring.choose_keys", {{"left", left}});
     }
     if (now.paused)

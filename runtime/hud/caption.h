@@ -22,7 +22,7 @@ struct Caption {
 };
 
 /// Of a tour as it stands, in the words of what there is to answer with; no text where the visitor flies freely.
-Caption caption_of(const Touring& touring, const Show& show, const Words& words, const Means& means);
+Caption caption_of(const Touring& touring, const Show& show, const Words& words, const InputCapabilities& capabilities);
 
 /// Writes it on a panel's plate, as large as it fits; the first of the fields small above it.
 void write_caption(Panel& panel, const Typesetter& typesetter, const Caption& caption,

@@ -13,29 +13,29 @@ glm::dvec3 panel_middle(const HudPlacement& hud)
     return {std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e)};
 }
 
-bool shows(const CompiledPane& pane, const glm::dvec3& direction)
+bool shows(const CompiledView& view, const glm::dvec3& direction)
 {
-    if (!pane.matrix)
-        return find(*pane.map, *pane.blocks, direction).has_value();
-    const glm::dvec3 at = glm::inverse(*pane.matrix) * direction;
+    if (!view.matrix)
+        return find_pixel(*view.map, *view.cones, direction).has_value();
+    const glm::dvec3 at = glm::inverse(*view.matrix) * direction;
     const glm::dvec2 pixel = glm::dvec2(at) / at.z;
     return at.z > 0 && glm::all(glm::greaterThanEqual(pixel, glm::dvec2(0)))
-        && glm::all(glm::lessThanEqual(pixel, glm::dvec2(pane.pane.size)));
+        && glm::all(glm::lessThanEqual(pixel, glm::dvec2(view.view.size)));
 }
 
 /// Which way the flat picture faces that shows the panel's middle, towards the eye's far side; elsewhere the middle itself.
-glm::dvec3 panel_faces(const glm::dvec3& middle, std::span<const std::vector<CompiledPane>> panes)
+glm::dvec3 panel_faces(const glm::dvec3& middle, std::span<const std::vector<CompiledView>> views)
 {
-    for (const auto& output : panes)
-        for (const CompiledPane& pane : output)
-            if (pane.matrix && shows(pane, middle))
-                return glm::normalize(glm::cross((*pane.matrix)[0], (*pane.matrix)[1]));
+    for (const auto& output : views)
+        for (const CompiledView& view : output)
+            if (view.matrix && shows(view, middle))
+                return glm::normalize(glm::cross((*view.matrix)[0], (*view.matrix)[1]));
     return middle;
 }
 
 /// How many of a panel's four corners are seen, a little within its edge.
 int corners_shown(
-    const glm::dmat3& panel_from_cockpit, const glm::dvec2& half, std::span<const std::vector<CompiledPane>> panes)
+    const glm::dmat3& panel_from_cockpit, const glm::dvec2& half, std::span<const std::vector<CompiledView>> views)
 {
     const glm::dmat3 cockpit_from_panel = glm::inverse(panel_from_cockpit);
     int count = 0;
@@ -43,9 +43,9 @@ int corners_shown(
         const glm::dvec2 corner = 0.97 * half * glm::dvec2(i % 2 ? 1 : -1, i / 2 ? 1 : -1);
         const glm::dvec3 way = glm::normalize(cockpit_from_panel * glm::dvec3(corner, 1));
         bool shown = false;
-        for (const auto& output : panes)
-            for (const CompiledPane& pane : output)
-                shown = shown || shows(pane, way);
+        for (const auto& output : views)
+            for (const CompiledView& view : output)
+                shown = shown || shows(view, way);
         count += shown;
     }
     return count;
@@ -53,16 +53,16 @@ int corners_shown(
 
 } // namespace
 
-glm::dmat3 panel_from_cockpit(const HudPlacement& hud, std::span<const std::vector<CompiledPane>> panes)
+glm::dmat3 panel_from_cockpit(const HudPlacement& hud, std::span<const std::vector<CompiledView>> views)
 {
-    const glm::dvec3 middle = panel_middle(hud), faces = panel_faces(middle, panes);
+    const glm::dvec3 middle = panel_middle(hud), faces = panel_faces(middle, views);
     const glm::dvec3 across = glm::cross(faces, glm::dvec3(0, 1, 0));
     const glm::dvec3 x = glm::length(across) > 1e-6 ? glm::normalize(across) : glm::dvec3(1, 0, 0), y = glm::cross(x, faces);
     const glm::dvec2 at = glm::dvec2(glm::dot(middle, x), glm::dot(middle, y)) / glm::dot(middle, faces);
     return glm::transpose(glm::dmat3(x - at.x * faces, y - at.y * faces, faces));
 }
 
-HudPlacement instruments_place(const HudPlacement& hud, double aspect, std::span<const std::vector<CompiledPane>> panes)
+HudPlacement instruments_place(const HudPlacement& hud, double aspect, std::span<const std::vector<CompiledView>> views)
 {
     const double half_width = std::tan(0.5 * hud.width_deg * degree), half = half_width * aspect,
                  hud_half = half_width * panel_aspect, hud_at = std::tan(hud.elevation_deg * degree);
@@ -75,14 +75,14 @@ HudPlacement instruments_place(const HudPlacement& hud, double aspect, std::span
             continue; // they would meet
         HudPlacement place = hud;
         place.elevation_deg = std::atan(at) / degree;
-        const int corners = panes.empty() ? 0 : corners_shown(panel_from_cockpit(place, panes), {half_width, half}, panes);
+        const int corners = views.empty() ? 0 : corners_shown(panel_from_cockpit(place, views), {half_width, half}, views);
         if (corners > most)
             best = place, most = corners;
     }
     return best;
 }
 
-PixelBox panel_box(const Blocks& blocks, const glm::dmat3& panel_from_cockpit, const glm::dvec2& half)
+PixelBox panel_box(const ConeHierarchy& cones, const glm::dmat3& panel_from_cockpit, const glm::dvec2& half)
 {
     // The panel's edges as planes through the eye, in the panel's axes, and the plane that keeps what is behind out.
     const glm::dmat3 cockpit_from_panel_normals = glm::transpose(panel_from_cockpit);
@@ -90,7 +90,7 @@ PixelBox panel_box(const Blocks& blocks, const glm::dmat3& panel_from_cockpit, c
         = {glm::dvec3(1, 0, half.x), {-1, 0, half.x}, {0, 1, half.y}, {0, -1, half.y}, {0, 0, 1}};
     for (glm::dvec3& side : sides)
         side = glm::normalize(cockpit_from_panel_normals * side);
-    return pixels_in_pyramid(blocks, sides);
+    return pixels_in_pyramid(cones, sides);
 }
 
 } // namespace starbow

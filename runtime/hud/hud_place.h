@@ -1,20 +1,20 @@
 #pragma once
-#include "displays/compile/compiled.h"
+#include "displays/compile/compiled_view.h"
 #include <span>
 
 namespace starbow {
 
 /// Panel axes from the cockpit's: x right and y up on the panel, z = 1 on its plane, the origin at its middle. On a flat
 /// screen the panel is parallel to it, so that its lines stay level; everywhere else it faces the visitor.
-/// panes: of each output.
-glm::dmat3 panel_from_cockpit(const HudPlacement& hud, std::span<const std::vector<CompiledPane>> panes);
+/// views: of each output.
+glm::dmat3 panel_from_cockpit(const HudPlacement& hud, std::span<const std::vector<CompiledView>> views);
 
 /// The same for a panel of another shape (height over width) that shows what was measured: across from the head-up display,
 /// its far edge where the display's would be; where that is not seen whole, right above the display, or right below. It
-/// never lies on the display. panes: of each output; none: as if all were seen.
-HudPlacement instruments_place(const HudPlacement& hud, double aspect, std::span<const std::vector<CompiledPane>> panes);
+/// never lies on the display. views: of each output; none: as if all were seen.
+HudPlacement instruments_place(const HudPlacement& hud, double aspect, std::span<const std::vector<CompiledView>> views);
 
 /// A box around all pixels that may show a panel of half the extent `half` on its plane z = 1.
-PixelBox panel_box(const Blocks& blocks, const glm::dmat3& panel_from_cockpit, const glm::dvec2& half);
+PixelBox panel_box(const ConeHierarchy& cones, const glm::dmat3& panel_from_cockpit, const glm::dvec2& half);
 
 } // namespace starbow

@@ -1,7 +1,7 @@
 #include "instruments.h"
 #include "runtime/world/clock.h"
 #include "runtime/world/instances.h"
-#include "runtime/world/vantage.h"
+#include "runtime/world/eye_event.h"
 #include "runtime/world/worldline.h"
 #include "shaders/physics/physics.h"
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace starbow {
 namespace {
 
-double exp_rapidity_of(const Lookout& lookout) { return physics::exp_rapidity(glm::length(lookout.u)); }
+double exp_rapidity_of(const MeasuringObserver& observer) { return physics::exp_rapidity(glm::length(observer.u)); }
 
 glm::dvec3 middle_of(const World& world, std::size_t instance)
 {
@@ -25,22 +25,22 @@ const WorldClock* clock_of(const World& world, std::size_t instance)
     return clock ? &*clock : nullptr;
 }
 
-/// The same watcher as a rest frame has him, and the turn from the axes that the world's boost carries to those that the
+/// The same observer as a rest frame has him, and the turn from the axes that the world's boost carries to those that the
 /// frame's does.
 struct There {
-    Lookout lookout;
+    MeasuringObserver observer;
     glm::dquat turn{1, 0, 0, 0};
 };
-There in_frame_of(const Lookout& lookout, const World& world, int frame)
+There in_frame_of(const MeasuringObserver& observer, const World& world, int frame)
 {
     const RestFrame& rest = world.frames[std::size_t(frame)];
     if (rest == RestFrame{})
-        return {lookout};
+        return {observer};
     Shot shot;
-    shot.time = lookout.time, shot.position = lookout.place, shot.u = lookout.u;
+    shot.time = observer.time, shot.position = observer.place, shot.u = observer.u;
     const Shot there = in_frame(rest, shot); // its cockpit is then the turn
     const glm::dquat& turn = there.ship_from_cockpit;
-    return {{there.position, there.time, there.u, turn * lookout.ship_from_cockpit, lookout.aberration}, turn};
+    return {{there.position, there.time, there.u, turn * observer.ship_from_cockpit, observer.aberration}, turn};
 }
 
 /// In the ship's frame, from the lookout: where a spot was when the light left it that is seen now. The 4-vector (-r, r n)
@@ -49,43 +49,43 @@ glm::dvec3 left_from(const SpotReading& reading) { return *reading.ship_distance
 
 } // namespace
 
-Lookout lookout_of(const Shot& shot, const glm::dvec3& offset)
+MeasuringObserver measuring_observer_of(const Shot& shot, const glm::dvec3& offset)
 {
     return {shot.position + physics::eye_place(shot.u, offset), shot.time + physics::eye_time(shot.u, offset), shot.u,
         shot.ship_from_cockpit, shot.effects.aberration};
 }
 
-Ray ray_from_ship(const Lookout& lookout, const glm::dvec3& ship)
+Ray ray_from_ship(const MeasuringObserver& observer, const glm::dvec3& ship)
 {
-    const glm::dmat3 to_motion = motion_from_world(lookout.u, lookout.ship_from_cockpit);
-    const double E = exp_rapidity_of(lookout);
-    const physics::Sight sight = physics::world_from_camera(to_motion * ship, E, 1 / E);
-    return {ship, lookout.aberration ? glm::transpose(to_motion) * sight.n : ship, sight.D};
+    const glm::dmat3 to_motion = motion_from_world(observer.u, observer.ship_from_cockpit);
+    const double E = exp_rapidity_of(observer);
+    const physics::AberratedRay sight = physics::world_from_camera(to_motion * ship, E, 1 / E);
+    return {ship, observer.aberration ? glm::transpose(to_motion) * sight.n : ship, sight.D};
 }
 
-Ray ray_from_world(const Lookout& lookout, const glm::dvec3& world)
+Ray ray_from_world(const MeasuringObserver& observer, const glm::dvec3& world)
 {
-    if (!lookout.aberration) // the picture keeps the direction and shifts the light as the ship's direction has it
-        return ray_from_ship(lookout, world);
-    const glm::dmat3 to_motion = motion_from_world(lookout.u, lookout.ship_from_cockpit);
-    const double E = exp_rapidity_of(lookout);
-    const physics::Sight sight = physics::camera_from_world(to_motion * world, E, 1 / E);
+    if (!observer.aberration) // the picture keeps the direction and shifts the light as the ship's direction has it
+        return ray_from_ship(observer, world);
+    const glm::dmat3 to_motion = motion_from_world(observer.u, observer.ship_from_cockpit);
+    const double E = exp_rapidity_of(observer);
+    const physics::AberratedRay sight = physics::camera_from_world(to_motion * world, E, 1 / E);
     return {glm::transpose(to_motion) * sight.n, world, sight.D};
 }
 
-Ray aim_of(const Lookout& lookout) { return ray_from_ship(lookout, lookout.ship_from_cockpit * glm::dvec3(0, 0, -1)); }
+Ray aim_of(const MeasuringObserver& observer) { return ray_from_ship(observer, observer.ship_from_cockpit * glm::dvec3(0, 0, -1)); }
 
-Spot spot_at(const Lookout& lookout, const Probed& probed, const World& world)
+Spot spot_at(const MeasuringObserver& observer, const Probed& probed, const World& world)
 {
     if (!std::isfinite(probed.distance))
         return {.at = probed.ray.world, .sky = true};
-    Spot spot{.at = lookout.place + probed.distance * probed.ray.world, .frame = probed.frame};
+    Spot spot{.at = observer.place + probed.distance * probed.ray.world, .frame = probed.frame};
     if (probed.frame > 0) {
-        const There there = in_frame_of(lookout, world, probed.frame);
-        const Ray ray = ray_from_ship(there.lookout, there.turn * probed.ray.ship);
+        const There there = in_frame_of(observer, world, probed.frame);
+        const Ray ray = ray_from_ship(there.observer, there.turn * probed.ray.ship);
         // The light's way is as its frequency: in the ship D times that in any frame.
-        const double way = probed.distance * ray_from_ship(lookout, probed.ray.ship).D;
-        spot.at = there.lookout.place + way / ray.D * ray.world;
+        const double way = probed.distance * ray_from_ship(observer, probed.ray.ship).D;
+        spot.at = there.observer.place + way / ray.D * ray.world;
     }
     const InstanceRange range = instances_of(world, spot.frame);
     for (std::size_t i = range.first; i < range.last && timed(world, world.instances[i]); ++i) {
@@ -109,55 +109,55 @@ Spot snapped(Spot spot, const World& world)
     return spot;
 }
 
-Ray ray_to(const Lookout& lookout, const Spot& spot, const World& world)
+Ray ray_to(const MeasuringObserver& observer, const Spot& spot, const World& world)
 {
-    const There there = in_frame_of(lookout, world, spot.sky ? 0 : spot.frame);
-    const glm::dvec3 to = spot.sky ? spot.at : spot.at - there.lookout.place;
-    Ray ray = ray_from_world(there.lookout, glm::length(to) > 0 ? glm::normalize(to) : glm::dvec3(0, 0, -1));
+    const There there = in_frame_of(observer, world, spot.sky ? 0 : spot.frame);
+    const glm::dvec3 to = spot.sky ? spot.at : spot.at - there.observer.place;
+    Ray ray = ray_from_world(there.observer, glm::length(to) > 0 ? glm::normalize(to) : glm::dvec3(0, 0, -1));
     if (spot.frame > 0) {
         ray.ship = glm::conjugate(there.turn) * ray.ship;
-        ray.world = ray_from_ship(lookout, ray.ship).world;
+        ray.world = ray_from_ship(observer, ray.ship).world;
     }
     return ray;
 }
 
-SpotReading read_spot(const Lookout& lookout, const Spot& spot, const World& world, double seconds_per_time_unit)
+SpotReading read_spot(const MeasuringObserver& observer, const Spot& spot, const World& world, double seconds_per_time_unit)
 {
-    SpotReading reading{.ray = ray_to(lookout, spot, world)};
+    SpotReading reading{.ray = ray_to(observer, spot, world)};
     reading.seen_nm = example_nm / reading.ray.D;
-    if (lookout.u != glm::dvec3(0)) {
-        reading.from_motion_rad = angle_between(reading.ray.ship, lookout.u);
-        reading.from_motion_world_rad = angle_between(reading.ray.world, lookout.u);
+    if (observer.u != glm::dvec3(0)) {
+        reading.from_motion_rad = angle_between(reading.ray.ship, observer.u);
+        reading.from_motion_world_rad = angle_between(reading.ray.world, observer.u);
     }
     if (spot.sky)
         return reading;
-    const Lookout there = in_frame_of(lookout, world, spot.frame).lookout;
+    const MeasuringObserver there = in_frame_of(observer, world, spot.frame).observer;
     const double there_distance = glm::distance(spot.at, there.place);
     reading.ship_distance_s = reading.ray.D * there_distance * seconds_per_time_unit;
-    const double world_D = spot.frame > 0 ? ray_from_ship(lookout, reading.ray.ship).D : reading.ray.D;
+    const double world_D = spot.frame > 0 ? ray_from_ship(observer, reading.ray.ship).D : reading.ray.D;
     reading.distance_s = *reading.ship_distance_s / world_D;
-    reading.emitted_s = lookout.time * seconds_per_time_unit - *reading.distance_s;
+    reading.emitted_s = observer.time * seconds_per_time_unit - *reading.distance_s;
     if (spot.clock) {
-        const int life = world.instances[*spot.clock].life;
-        const double zero = life < 0 ? 0 : world.lives[std::size_t(life)].zero;
+        const int existence = world.instances[*spot.clock].existence;
+        const double zero = existence < 0 ? 0 : world.existence_intervals[std::size_t(existence)].zero;
         reading.clock_s = reading_s(*clock_of(world, *spot.clock), there.time - zero, there_distance, seconds_per_time_unit);
     }
     return reading;
 }
 
 PairReading read_pair(
-    const Lookout& lookout, const Spot& first, const Spot& second, const World& world, double seconds_per_time_unit)
+    const MeasuringObserver& observer, const Spot& first, const Spot& second, const World& world, double seconds_per_time_unit)
 {
-    const SpotReading a = read_spot(lookout, first, world, seconds_per_time_unit),
-                      b = read_spot(lookout, second, world, seconds_per_time_unit);
+    const SpotReading a = read_spot(observer, first, world, seconds_per_time_unit),
+                      b = read_spot(observer, second, world, seconds_per_time_unit);
     PairReading pair{.angle_rad = angle_between(a.ray.ship, b.ray.ship)};
-    if (!first.sky && !second.sky && lookout.aberration)
+    if (!first.sky && !second.sky && observer.aberration)
         pair.apparent_s = glm::distance(left_from(a), left_from(b));
     if (!first.sky && !second.sky && first.frame == second.frame) {
         pair.rest_s = glm::distance(first.at, second.at) * seconds_per_time_unit;
         // Only what lies along the motion is contracted, by 1 / gamma.
         const glm::dvec3 apart = (second.at - first.at) * seconds_per_time_unit,
-                         u = in_frame_of(lookout, world, first.frame).lookout.u;
+                         u = in_frame_of(observer, world, first.frame).observer.u;
         const double gamma = physics::gamma_of(u);
         pair.contracted_s = glm::length(apart - u * (glm::dot(u, apart) / (gamma * (1 + gamma))));
     }
@@ -166,11 +166,11 @@ PairReading read_pair(
     return pair;
 }
 
-std::optional<double> unshifted_angle(const Lookout& lookout)
+std::optional<double> unshifted_angle(const MeasuringObserver& observer)
 {
-    if (lookout.u == glm::dvec3(0))
+    if (observer.u == glm::dvec3(0))
         return {};
-    return std::acos(physics::unshifted_cosine(exp_rapidity_of(lookout)));
+    return std::acos(physics::unshifted_cosine(exp_rapidity_of(observer)));
 }
 
 double angle_between(const glm::dvec3& a, const glm::dvec3& b)

@@ -6,7 +6,7 @@
 namespace starbow {
 
 /// Who measures: an event and a velocity in the world, scene units; axes as ship_from_cockpit has them.
-struct Lookout {
+struct MeasuringObserver {
     glm::dvec3 place{0};
     double time = 0;
     glm::dvec3 u{0}; ///< proper velocity
@@ -14,17 +14,17 @@ struct Lookout {
     bool aberration = true; ///< false: the picture has the world's directions, as its effect is switched off
 };
 /// An eye of a shot, at `offset` from the ship (ship frame, scene units) and simultaneous there.
-Lookout lookout_of(const Shot& shot, const glm::dvec3& offset = glm::dvec3(0));
+MeasuringObserver measuring_observer_of(const Shot& shot, const glm::dvec3& offset = glm::dvec3(0));
 
 /// Light on its way in: unit directions towards its source, in the ship's frame and in the world's, and f_seen / f_emitted.
 struct Ray {
     glm::dvec3 ship, world;
     double D = 1;
 };
-Ray ray_from_ship(const Lookout& lookout, const glm::dvec3& ship);
-Ray ray_from_world(const Lookout& lookout, const glm::dvec3& world);
+Ray ray_from_ship(const MeasuringObserver& observer, const glm::dvec3& ship);
+Ray ray_from_world(const MeasuringObserver& observer, const glm::dvec3& world);
 /// Straight ahead of the visitor's look: the crosshair.
-Ray aim_of(const Lookout& lookout);
+Ray aim_of(const MeasuringObserver& observer);
 
 /// What a picture shows in one direction, as it has it: to a float's accuracy, the distance to a texel's.
 struct Probed {
@@ -42,11 +42,11 @@ struct Spot {
     std::optional<std::size_t> clock; ///< it lies on this instance, a clock
 };
 /// What a probe has seen, and whether that is a clock.
-Spot spot_at(const Lookout& lookout, const Probed& probed, const World& world);
+Spot spot_at(const MeasuringObserver& observer, const Probed& probed, const World& world);
 /// Of a clock its middle, so that aiming need not be exact.
 Spot snapped(Spot spot, const World& world);
 /// Light from a spot. Its world direction is the world's, its D that from where the spot rests.
-Ray ray_to(const Lookout& lookout, const Spot& spot, const World& world);
+Ray ray_to(const MeasuringObserver& observer, const Spot& spot, const World& world);
 
 /// The light whose shift stands for all, in the middle of what eyes see.
 constexpr double example_nm = 550;
@@ -64,7 +64,7 @@ struct SpotReading {
     std::optional<double> clock_s; ///< what the clock is seen to show there, on its middle or on another part of its dial
     std::optional<double> light; ///< as Probed's
 };
-SpotReading read_spot(const Lookout& lookout, const Spot& spot, const World& world, double seconds_per_time_unit);
+SpotReading read_spot(const MeasuringObserver& observer, const Spot& spot, const World& world, double seconds_per_time_unit);
 
 /// What they say of two spots.
 struct PairReading {
@@ -77,10 +77,10 @@ struct PairReading {
     std::optional<double> clocks_s; ///< the second's reading minus the first's
 };
 PairReading read_pair(
-    const Lookout& lookout, const Spot& first, const Spot& second, const World& world, double seconds_per_time_unit);
+    const MeasuringObserver& observer, const Spot& first, const Spot& second, const World& world, double seconds_per_time_unit);
 
 /// Angle from the motion at which nothing is shifted (D = 1), as seen, radians; none at rest, where nothing is anywhere.
-std::optional<double> unshifted_angle(const Lookout& lookout);
+std::optional<double> unshifted_angle(const MeasuringObserver& observer);
 
 /// Angle between directions of any length, sharp for small ones and for opposite ones, radians.
 double angle_between(const glm::dvec3& a, const glm::dvec3& b);

@@ -50,7 +50,7 @@ void add_spot(Columns& columns, const std::string& name, const std::optional<Spo
 
 Columns columns_of(const Measured& m, const std::string& overlay, const std::string& utc)
 {
-    const Lookout& o = m.lookout;
+    const MeasuringObserver& o = m.observer;
     const double speed = glm::length(o.u), gamma = physics::gamma_of(o.u);
     Columns all = {{"utc", utc}, {"ship_time_s", csv_number(m.ship_s)}, {"world_time_s", csv_number(m.world_s)}};
     const double unit = m.seconds_per_time_unit;

@@ -36,7 +36,7 @@ std::string rounded_s(double s, const Words& words)
 
 std::string overlay_line(Overlay overlay, const Measured& measured, const OverlayScale& scale, const Words& words)
 {
-    const auto unshifted = unshifted_angle(measured.lookout);
+    const auto unshifted = unshifted_angle(measured.observer);
     const std::string angle
         = unshifted ? words("angle.degrees", {{"number", shown_number(*unshifted / degree, 2, words)}}) : "";
     switch (overlay) {

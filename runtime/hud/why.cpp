@@ -56,7 +56,7 @@ WhyPage why_page(Why why, const Measured& m, const Words& words)
     if (why == Why::none)
         return {};
     const Teller tell{words, m.light_speed_m_s};
-    const double speed = glm::length(m.lookout.u), gamma = physics::gamma_of(m.lookout.u);
+    const double speed = glm::length(m.observer.u), gamma = physics::gamma_of(m.observer.u);
     const std::string beta = shown_number(speed / gamma, 4, words), gammas = shown_number(gamma, words),
                       D = shown_number(m.aim.ray.D, words);
     const auto& [title, first, second, formula] = page_words[std::size_t(why)];

@@ -154,21 +154,21 @@ std::vector<Setting> settings_to_try(
     };
     // Each by itself.
     for (double density : {0.35, 0.5, 0.65, 1.0, 1.25, 1.6, 2.0})
-        with([&](Quality& q) { q.texels_per_pixel = density, q.most_texels_per_pixel = 3 * density * density; });
+        with([&](Quality& q) { q.texels_per_pixel = density, q.max_texels_per_pixel = 3 * density * density; });
     for (double most : {0.75, 1.0, 2.0, 4.0, 8.0})
-        with([&](Quality& q) { q.most_texels_per_pixel = most; });
+        with([&](Quality& q) { q.max_texels_per_pixel = most; });
     for (int samples : {1, 2, 4, 8})
         with([&](Quality& q) { q.cube_samples = samples; });
     for (double texels : {0.0, 0.5, 1.0, 2.0, 4.0})
-        with([&](Quality& q) { q.stray_texels = texels; });
+        with([&](Quality& q) { q.lod_error_texels = texels; });
     for (double texels : {2.0, 8.0, 16.0, 32.0, 64.0, 128.0})
-        with([&](Quality& q) { q.shading_texels = texels; });
+        with([&](Quality& q) { q.lod_shading_texels = texels; });
     for (double texels : {2048.0, 8192.0, 32768.0, 131072.0, 1e12})
         with([&](Quality& q) { q.image_cost_texels = texels; });
     for (int rays : {1, 2, 3})
         with([&](Quality& q) { q.pixel_rays = rays; });
     for (int images : {0, 2})
-        with([&](Quality& q) { q.rear_images = images; });
+        with([&](Quality& q) { q.clip_levels = images; });
     with([&](Quality& q) { q.mips = !q.mips; });
     with([&](Quality& q) { q.half_floats = !q.half_floats; });
     with([&](Quality& q) { q.matrices = !q.matrices; });
@@ -184,11 +184,11 @@ std::vector<Setting> settings_to_try(
     for (double density : {0.5, 0.8, 1.0, 1.25, 2.0})
         for (int samples : {1, 4})
             for (int rays : {1, 2})
-                for (double texels : {standard.shading_texels, 16.0})
+                for (double texels : {standard.lod_shading_texels, 16.0})
                     if (density >= 1.25 || (samples == 1 && rays == 1))
                         with([&](Quality& q) {
-                            q.texels_per_pixel = density, q.most_texels_per_pixel = 3 * density * density;
-                            q.cube_samples = samples, q.pixel_rays = rays, q.shading_texels = texels;
+                            q.texels_per_pixel = density, q.max_texels_per_pixel = 3 * density * density;
+                            q.cube_samples = samples, q.pixel_rays = rays, q.lod_shading_texels = texels;
                         });
     return all;
 }
@@ -221,10 +221,10 @@ const MeasuredSetting* best_within(const std::vector<MeasuredSetting>& all, doub
     return best;
 }
 
-std::vector<Rung> ladder_of(const std::vector<MeasuredSetting>& all)
+std::vector<PresetLevel> ladder_of(const std::vector<MeasuredSetting>& all)
 {
     const std::vector<bool> best = frontier(all);
-    std::vector<Rung> ladder;
+    std::vector<PresetLevel> ladder;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const MeasuredSetting& one = all[i];
         const Quality& own = one.setting.quality;
@@ -233,15 +233,15 @@ std::vector<Rung> ladder_of(const std::vector<MeasuredSetting>& all)
         // is no quality to come to unasked; nor is one that leaves out what the measured shots may just not have shown.
         if (best[i] && own.spectra == first.spectra && own.stereo == first.stereo && own.matrices == first.matrices
             && own.cube_samples == first.cube_samples && own.half_floats == first.half_floats && own.frames_per_cube == 1
-            && own.mips == first.mips && own.rear_images == first.rear_images)
+            && own.mips == first.mips && own.clip_levels == first.clip_levels)
             ladder.push_back({own, one.ms, one.errors.flip, one.errors.edges_95_px});
     }
-    std::sort(ladder.begin(), ladder.end(), [](const Rung& a, const Rung& b) { return a.ms < b.ms; });
+    std::sort(ladder.begin(), ladder.end(), [](const PresetLevel& a, const PresetLevel& b) { return a.ms < b.ms; });
     // A step that hardly changes anything is none.
-    std::vector<Rung> steps;
-    for (const Rung& rung : ladder)
-        if (steps.empty() || rung.ms > 1.08 * steps.back().ms)
-            steps.push_back(rung);
+    std::vector<PresetLevel> steps;
+    for (const PresetLevel& level : ladder)
+        if (steps.empty() || level.ms > 1.08 * steps.back().ms)
+            steps.push_back(level);
     return steps;
 }
 
@@ -249,8 +249,8 @@ std::string accuracy_csv(const std::vector<MeasuredSetting>& all)
 {
     const std::vector<bool> best = frontier(all);
     std::string out
-        = "setting,texels_per_pixel,most_texels_per_pixel,cube_samples,stray_texels,shading_texels,image_cost_texels,pixel_"
-          "rays,rear_images,"
+        = "setting,texels_per_pixel,max_texels_per_pixel,cube_samples,lod_error_texels,lod_shading_texels,image_cost_texels,pixel_"
+          "rays,clip_levels,"
           "mips,half_floats,"
           "matrices,frames_per_cube,ms,ratio,megabytes,texels_drawn_per_pixel,images,flip,psnr_dB,ciede2000_mean,"
           "ciede2000_95,edges_95_px,direction_99_px,doppler_99,frontier\n";
@@ -259,8 +259,8 @@ std::string accuracy_csv(const std::vector<MeasuredSetting>& all)
         const Quality& q = m.setting.quality;
         out += quoted(m.setting.name)
             + text(",%g,%g,%d,%g,%g,%g,%d,%d,%d,%d,%d,%d,%.4f,%.4f,%.2f,%.3f,%d,%.6f,%.3f,%.4f,%.4f,%.4f,%.6f,%.3g,%d\n",
-                q.texels_per_pixel, q.most_texels_per_pixel, q.cube_samples, q.stray_texels, q.shading_texels,
-                q.image_cost_texels, q.pixel_rays, q.rear_images, q.mips, q.half_floats, q.matrices, q.frames_per_cube, m.ms,
+                q.texels_per_pixel, q.max_texels_per_pixel, q.cube_samples, q.lod_error_texels, q.lod_shading_texels,
+                q.image_cost_texels, q.pixel_rays, q.clip_levels, q.mips, q.half_floats, q.matrices, q.frames_per_cube, m.ms,
                 m.ratio, m.megabytes, m.texels_per_pixel, m.images, m.errors.flip, m.errors.psnr_dB, m.errors.ciede2000_mean,
                 m.errors.ciede2000_95, m.errors.edges_95_px, m.direction_px, m.doppler, int(best[i]));
     }

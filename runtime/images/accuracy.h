@@ -41,7 +41,7 @@ const MeasuredSetting* better_than(const MeasuredSetting& one, const std::vector
 const MeasuredSetting* best_within(const std::vector<MeasuredSetting>& all, double budget_ms);
 
 /// What a frame's time may be held by: the frontier's settings between which a flight can change, from the fastest.
-std::vector<Rung> ladder_of(const std::vector<MeasuredSetting>& all);
+std::vector<PresetLevel> ladder_of(const std::vector<MeasuredSetting>& all);
 
 /// What was measured, for the page's head.
 struct MeasuredOn {

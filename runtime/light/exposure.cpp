@@ -20,11 +20,11 @@ struct Levels {
     double count; ///< of lit parts
 };
 
-std::optional<Levels> levels(std::span<const Glimpse> view)
+std::optional<Levels> levels(std::span<const LuminanceSample> view)
 {
     std::array<Bin, (high_ev - low_ev) * bins_per_ev> bins{};
     double all = 0, count = 0;
-    for (const Glimpse& part : view) {
+    for (const LuminanceSample& part : view) {
         const double log = std::log2(double(part.luminance));
         // Whatever is no number, or no light, is not there.
         if (!(log >= low_ev && log < high_ev && part.solid_angle_sr > 0 && std::isfinite(part.solid_angle_sr)))
@@ -53,7 +53,7 @@ std::optional<Levels> levels(std::span<const Glimpse> view)
 
 } // namespace
 
-std::optional<double> metered_ev(std::span<const Glimpse> view, std::span<const Glimpse> stars)
+std::optional<double> metered_ev(std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars)
 {
     const double grey = std::log2(metered_to_luminance);
     const std::optional<Levels> surfaces = levels(view), points = levels(stars);
@@ -72,7 +72,7 @@ Exposure adapted(Exposure exposure, std::optional<double> metered, double dt_s, 
 {
     if (!metered || exposure.locked)
         return exposure;
-    const double wanted = std::clamp(*metered, rules.least_ev, rules.greatest_ev);
+    const double wanted = std::clamp(*metered, rules.min_ev, rules.max_ev);
     if (!exposure.ev) {
         exposure.ev = wanted;
         return exposure;

@@ -6,7 +6,7 @@
 namespace starbow {
 
 /// A part of the view, as the device samples it for the exposure.
-struct Glimpse {
+struct LuminanceSample {
     float luminance; ///< of the scene-linear light, before exposure; white at EV 0 is 1
     float solid_angle_sr; ///< as seen by the visitor; 0: nothing is shown there
 };
@@ -30,7 +30,7 @@ constexpr double few_stars = 16;
 /// looked at: the same average of them is not brought beyond mid-grey, and of stars alone it is brought there. It is one of
 /// many, so that a few bright ones which come into view or leave it do not tell; where they are few, `few_stars` more are
 /// thought to be there that want what the surfaces want.
-std::optional<double> metered_ev(std::span<const Glimpse> view, std::span<const Glimpse> stars = {});
+std::optional<double> metered_ev(std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars = {});
 
 /// Time constants of the way to a brighter and to a darker view.
 constexpr double to_bright_s = 0.5, to_dark_s = 3;

@@ -23,7 +23,7 @@ struct ScaledRow {
     std::array<float, 3 * MOST_REFLECTED> values{};
     float log2 = 0;
 };
-ScaledRow row_of(const glm::dvec3* seen, int reflected, const Observer& observer)
+ScaledRow row_of(const glm::dvec3* seen, int reflected, const StandardObserver& observer)
 {
     glm::dvec3 grey(0);
     for (int k = 0; k < reflected; ++k)
@@ -45,7 +45,7 @@ template <class AnyResponse> auto& word(AnyResponse& response, int row, int k)
 
 } // namespace
 
-Response response_of(const SpectralBasis& basis, const Observer& observer)
+Response response_of(const SpectralBasis& basis, const StandardObserver& observer)
 {
     const ResponseTable table = response_table(basis, observer, RESPONSE_ROWS);
     Response response{basis.reflected, int(basis.own.size()), table.first_log2_D, table.per_octave, {}, {}};

@@ -15,7 +15,7 @@ struct Response {
     std::vector<glm::vec4> own_rows;
 };
 
-Response response_of(const SpectralBasis& basis, const Observer& observer);
+Response response_of(const SpectralBasis& basis, const StandardObserver& observer);
 
 /// The colour of such numbers at D, as the device finds it: between rows scales are geometric, as colours' steep ends nearly
 /// are, and what is over them straight.

@@ -14,8 +14,8 @@ constexpr double grid_from_nm = 280, grid_to_nm = 1250, grid_step = 0.006;
 const int grid_points = int(std::log(grid_to_nm / grid_from_nm) / grid_step) + 1;
 double grid_nm(int point) { return grid_from_nm * std::exp(grid_step * point); }
 
-// The outermost hats' middles. Found by trying: the errors of colour checkers' colours are least there.
-constexpr double first_hat_nm = 340, last_hat_nm = 830;
+// The outermost basis functions' middles. Found by trying: the errors of colour checkers' colours are least there.
+constexpr double first_basis_nm = 340, last_basis_nm = 830;
 
 using Row = std::vector<double>;
 
@@ -29,7 +29,7 @@ double dot(const Row& a, const Row& b)
 
 /// How much each sample of a sunlit reflectance adds to what is seen at D: nothing but from `first` to before `end`. At most
 /// D these are few, for all that is seen lies beyond the grid.
-struct Sight {
+struct ResponseWindow {
     std::array<Row, 3> rows;
     std::size_t first = std::size_t(grid_points), end = 0;
     double of(std::size_t sensor, const Row& samples) const
@@ -41,12 +41,12 @@ struct Sight {
     }
 };
 
-Sight sight_at(const Observer& observer, double D)
+ResponseWindow sight_at(const StandardObserver& observer, double D)
 {
     static const Spectrum sun = sunlit_white();
-    Sight sight;
+    ResponseWindow sight;
     sight.rows.fill(Row(std::size_t(grid_points), 0.0));
-    for (const Observer::Sample& s : observer.samples) {
+    for (const StandardObserver::Sample& s : observer.samples) {
         const double at = std::clamp(std::log(D * s.nm / grid_from_nm) / grid_step, 0.0, double(grid_points - 1));
         const int i = std::min(int(at), grid_points - 2);
         const glm::dvec3 add = s.response * (sun(D * s.nm) * s.width_nm / (s.nm * s.nm));
@@ -60,9 +60,9 @@ Sight sight_at(const Observer& observer, double D)
     return sight;
 }
 
-double hat(int k, int hats, double nm)
+double basis_function(int k, int basis_functions, double nm)
 {
-    const double at = std::clamp(std::log(nm / first_hat_nm) / std::log(last_hat_nm / first_hat_nm), 0.0, 1.0) * (hats - 1);
+    const double at = std::clamp(std::log(nm / first_basis_nm) / std::log(last_basis_nm / first_basis_nm), 0.0, 1.0) * (basis_functions - 1);
     return std::max(0.0, 1 - std::abs(at - k));
 }
 
@@ -70,7 +70,7 @@ double hat(int k, int hats, double nm)
 double shape(int k, int reflected, double nm)
 {
     if (reflected > 5)
-        return hat(k, reflected, nm);
+        return basis_function(k, reflected, nm);
     glm::dvec3 rgb(0);
     if (k < 3)
         rgb[k] = 1;
@@ -194,29 +194,29 @@ Row colours_of_grid(int reflected)
     return rows;
 }
 
-/// The hats' numbers: those whose light looks most alike at every D from 1/10 to 10, colours weighed by how bright they are
+/// The basis functions' numbers: those whose light looks most alike at every D from 1/10 to 10, colours weighed by how bright they are
 /// there; a little by the spectra themselves, so that no number is left to chance.
 Row learned_hats(int n)
 {
-    const std::vector<Row> hats = shapes(n);
+    const std::vector<Row> basis_functions = shapes(n);
     std::vector<double> normal(std::size_t(n * n), 0.0), right(std::size_t(n * grid_points), 0.0);
     const double sample_weight = 1e-3;
     for (int k = 0; k < n; ++k) {
         for (int j = 0; j < n; ++j)
-            normal[std::size_t(k * n + j)] += sample_weight * dot(hats[std::size_t(k)], hats[std::size_t(j)]);
+            normal[std::size_t(k * n + j)] += sample_weight * dot(basis_functions[std::size_t(k)], basis_functions[std::size_t(j)]);
         for (int i = 0; i < grid_points; ++i)
-            right[std::size_t(k * grid_points + i)] += sample_weight * hats[std::size_t(k)][std::size_t(i)];
+            right[std::size_t(k * grid_points + i)] += sample_weight * basis_functions[std::size_t(k)][std::size_t(i)];
     }
     constexpr int steps = 53;
     for (int step = -steps; step <= steps; ++step) {
-        const Sight sight = sight_at(eye(), std::exp(step * std::log(10) / steps));
+        const ResponseWindow sight = sight_at(eye(), std::exp(step * std::log(10) / steps));
         double weight = 0;
         for (const Row& sample : learned())
             weight += 1 / std::pow(std::max(sight.of(1, sample), 1e-12), 2);
         weight /= double(learned().size());
         for (std::size_t c = 0; c < 3; ++c) {
             std::vector<double> seen;
-            for (const Row& one : hats)
+            for (const Row& one : basis_functions)
                 seen.push_back(sight.of(c, one));
             for (int k = 0; k < n; ++k) {
                 for (int j = 0; j < n; ++j)
@@ -230,9 +230,9 @@ Row learned_hats(int n)
     return right;
 }
 
-/// numbers x 3, [number * 3 + sensor]: what to add to the hats' own light, seen, to bring pigments (their numbers and what
+/// numbers x 3, [number * 3 + sensor]: what to add to the basis functions' own light, seen, to bring pigments (their numbers and what
 /// is seen of their grid) closest to what they are. Numbers that are all alike, a grey, it does not change.
-Row correction(const std::vector<Row>& numbers, const Sight& sight, const std::array<Row, 3>& seen)
+Row correction(const std::vector<Row>& numbers, const ResponseWindow& sight, const std::array<Row, 3>& seen)
 {
     const int n = int(seen[0].size());
     std::vector<double> square(std::size_t(n * n), 0.0), miss(std::size_t(n * 3), 0.0);
@@ -281,7 +281,7 @@ Row told(const SpectralBasis& basis, const std::function<double(double nm)>& ref
 
 } // namespace
 
-SpectralBasis spectral_basis(int reflected, std::span<const OwnSpectrum> own)
+SpectralBasis spectral_basis(int reflected, std::span<const EmissionSpectrum> own)
 {
     SpectralBasis basis;
     basis.own.assign(own.begin(), own.end());
@@ -295,7 +295,7 @@ std::vector<double> lit(
 {
     if (!light)
         return told(basis, reflectance);
-    auto number = [&](const OwnSpectrum& own) {
+    auto number = [&](const EmissionSpectrum& own) {
         return std::size_t(basis.reflected + (std::find(basis.own.begin(), basis.own.end(), own) - basis.own.begin()));
     };
     Row numbers(std::size_t(basis.size()), 0.0);
@@ -304,7 +304,7 @@ std::vector<double> lit(
         numbers[number({*light})] = part * reflectance(line->nm);
         return numbers;
     }
-    // The hats are weighted by sunlight, and a lamp's light over the Sun's grows or falls without end on both sides of the
+    // The basis functions are weighted by sunlight, and a lamp's light over the Sun's grows or falls without end on both sides of the
     // visible: there nothing may be left to them.
     const double even = reflectance(shortest_nm);
     const std::size_t infrared = number({*light, true});
@@ -338,7 +338,7 @@ std::vector<double> lit_shifted(const SpectralBasis& basis, const std::optional<
     const Emission there = shifted(light, D);
     // So much of `there`, as emissions are told, is this light: the energy per frequency stays, the width grows as D.
     const double strength = D;
-    if (std::find(basis.own.begin(), basis.own.end(), OwnSpectrum{there}) != basis.own.end()) {
+    if (std::find(basis.own.begin(), basis.own.end(), EmissionSpectrum{there}) != basis.own.end()) {
         std::vector<double> numbers = lit(basis, there, reflectance);
         for (double& number : numbers)
             number *= strength;
@@ -351,10 +351,10 @@ std::vector<double> lit_shifted(const SpectralBasis& basis, const std::optional<
     return told(basis, [&](double nm) { return reflectance(nm) * part * spectrum(nm) / sun(nm); });
 }
 
-ResponseTable response_table(const SpectralBasis& basis, const Observer& observer, int rows)
+ResponseTable response_table(const SpectralBasis& basis, const StandardObserver& observer, int rows)
 {
     double first = -6, last = 10;
-    for (const OwnSpectrum& own : basis.own)
+    for (const EmissionSpectrum& own : basis.own)
         if (const auto* body = std::get_if<BlackBody>(&own.emission)) {
             const double octaves = std::log2(body->kelvin / sun_K);
             first = std::min(first, -6 - octaves), last = std::max(last, 10 - octaves);
@@ -378,7 +378,7 @@ ResponseTable response_table(const SpectralBasis& basis, const Observer& observe
         }
     for (int row = 0; row < rows; ++row) {
         const double D = std::exp2(first + row / table.per_octave);
-        const Sight sight = sight_at(observer, D);
+        const ResponseWindow sight = sight_at(observer, D);
         std::array<Row, 3> of_each;
         for (std::size_t c = 0; c < 3; ++c)
             for (const Row& one : reflectances)
@@ -391,7 +391,7 @@ ResponseTable response_table(const SpectralBasis& basis, const Observer& observe
         }
         for (std::size_t k = 0; k < std::size_t(n); ++k)
             table.seen.push_back({of_each[0][k], of_each[1][k], of_each[2][k]});
-        for (const OwnSpectrum& own : basis.own) {
+        for (const EmissionSpectrum& own : basis.own) {
             if (own.infrared)
                 table.seen.push_back(seen(
                     observer, [&, all = spectrum_of(own.emission)](double nm) { return infrared_part(nm) * all(nm); }, D));

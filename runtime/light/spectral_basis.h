@@ -6,28 +6,28 @@
 namespace starbow {
 
 /// Light as a few numbers. The first tell what reflects sunlight: either base_reflectance's own (the three primaries; with
-/// the ultraviolet and the infrared, five), or hats, evenly spaced in the logarithm of the wavelength over what the eye sees
+/// the ultraviolet and the infrared, five), or basis functions, evenly spaced in the logarithm of the wavelength over what the eye sees
 /// and a little more, each weighted by sunlight: what they add up to is a sunlit reflectance, level beyond the outermost,
 /// and a grey is a black body at every D. The others are emissions of the scene's own, each exact by itself. A Doppler shift
 /// moves the observer along the spectrum: what is seen is a table over ln D.
-struct OwnSpectrum {
+struct EmissionSpectrum {
     Emission emission;
     bool infrared = false; ///< infrared_part of it alone: of a lamp whose surfaces are other there than in the ultraviolet
-    bool operator==(const OwnSpectrum&) const = default;
+    bool operator==(const EmissionSpectrum&) const = default;
 };
 
 struct SpectralBasis {
-    int reflected = 0; ///< 3, 5; more: hats
-    std::vector<OwnSpectrum> own;
+    int reflected = 0; ///< 3, 5; more: basis functions
+    std::vector<EmissionSpectrum> own;
     std::vector<double> analysis; ///< [number * grid points + point]: from a sunlit reflectance's samples
     int size() const { return reflected + int(own.size()); }
 };
 
 /// reflected: 3, 5 or more.
-SpectralBasis spectral_basis(int reflected, std::span<const OwnSpectrum> own);
+SpectralBasis spectral_basis(int reflected, std::span<const EmissionSpectrum> own);
 
 /// The numbers of a surface under full sunlight, or under a light as emissions are, sunlit_part of it. A white one under
-/// the Sun has a 1 for every hat. Another light must be among the basis' own: what the surface reflects of it as in the
+/// the Sun has a 1 for every basis function. Another light must be among the basis' own: what the surface reflects of it as in the
 /// ultraviolet, everywhere, is then exact; and if its infrared part is there too, so is what it reflects of that beside.
 std::vector<double> lit(
     const SpectralBasis& basis, const std::optional<Emission>& light, const std::function<double(double nm)>& reflectance);
@@ -50,6 +50,6 @@ struct ResponseTable {
 
 /// Over all D at which anything of the basis is seen and beyond which all of it falls as 1 / D^2, as every black body's tail
 /// does (Rayleigh and Jeans).
-ResponseTable response_table(const SpectralBasis& basis, const Observer& observer, int rows);
+ResponseTable response_table(const SpectralBasis& basis, const StandardObserver& observer, int rows);
 
 } // namespace starbow

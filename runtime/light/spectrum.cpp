@@ -21,10 +21,10 @@ double planck_per_frequency(double nm, double kelvin)
 }
 
 /// Sum of response * radiance per frequency over frequencies, in units of c / nm.
-glm::dvec3 sum(const Observer& observer, const Spectrum& light, double D)
+glm::dvec3 sum(const StandardObserver& observer, const Spectrum& light, double D)
 {
     glm::dvec3 sum(0);
-    for (const Observer::Sample& s : observer.samples)
+    for (const StandardObserver::Sample& s : observer.samples)
         sum += s.response * (light(D * s.nm) * s.width_nm / (s.nm * s.nm));
     return sum;
 }
@@ -99,14 +99,14 @@ double base_reflectance(const glm::dvec3& rgb, double ultraviolet, double infrar
     return uv * ultraviolet + ir * infrared + (1 - uv - ir) * visible;
 }
 
-const Observer& eye()
+const StandardObserver& eye()
 {
-    static const Observer found = [] {
-        Observer eye;
+    static const StandardObserver found = [] {
+        StandardObserver eye;
         for (int nm = 360; nm <= 830; ++nm)
             eye.samples.push_back({double(nm), 1, xyz_response(nm)});
         const double scale = 1 / sum(eye, sunlit_white(), 1).y;
-        for (Observer::Sample& sample : eye.samples)
+        for (StandardObserver::Sample& sample : eye.samples)
             sample.response *= scale;
         eye.response = [scale](double nm) { return scale * xyz_response(nm); };
         eye.rec709 = rec709_from_sunlit_xyz();
@@ -115,10 +115,10 @@ const Observer& eye()
     return found;
 }
 
-const Observer& false_colours()
+const StandardObserver& false_colours()
 {
-    static const Observer found = [] {
-        Observer all;
+    static const StandardObserver found = [] {
+        StandardObserver all;
         for (int c = 0; c < 3; ++c) {
             const int steps = int(std::log(bands[c][1] / bands[c][0]) / 0.01) + 1;
             const double step = std::log(bands[c][1] / bands[c][0]) / steps;
@@ -130,7 +130,7 @@ const Observer& false_colours()
             }
         }
         const glm::dvec3 scale = 1.0 / sum(all, sunlit_white(), 1);
-        for (Observer::Sample& sample : all.samples)
+        for (StandardObserver::Sample& sample : all.samples)
             sample.response *= scale;
         all.response = [scale](double nm) {
             glm::dvec3 response(0);
@@ -145,9 +145,9 @@ const Observer& false_colours()
     return found;
 }
 
-glm::dvec3 seen(const Observer& observer, const Spectrum& light, double D) { return sum(observer, light, D); }
+glm::dvec3 seen(const StandardObserver& observer, const Spectrum& light, double D) { return sum(observer, light, D); }
 
-glm::dvec3 seen(const Observer& observer, const Emission& emission, double D)
+glm::dvec3 seen(const StandardObserver& observer, const Emission& emission, double D)
 {
     // A line's radiance per frequency is a needle, which the shift makes broader by D at the same height.
     if (const auto* line = std::get_if<SpectralLine>(&emission))

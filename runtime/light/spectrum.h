@@ -34,7 +34,7 @@ double base_reflectance(const glm::dvec3& rgb, double ultraviolet, double infrar
 double infrared_part(double nm);
 
 /// Three sensors that look at light together.
-struct Observer {
+struct StandardObserver {
     struct Sample {
         double nm, width_nm;
         glm::dvec3 response; ///< to radiance per frequency, at that wavelength
@@ -45,18 +45,18 @@ struct Observer {
 };
 
 /// CIE 1931's, adapted to sunlight; the sensors tell XYZ. Luminance (Y) 1 is that of sunlit_white.
-const Observer& eye();
+const StandardObserver& eye();
 
 /// One that sees beyond the visible: red is the infrared (830 nm to 12 um), green what the eye sees (360 to 830 nm), blue
 /// the ultraviolet (40 to 360 nm), each all energy. sunlit_white is white.
-const Observer& false_colours();
+const StandardObserver& false_colours();
 
 /// What an observer sees of light that is shifted by D (above 1 is blue), spectral radiance per frequency kept. The
 /// headlight effect's D^3 is the caller's. Summed at every nanometre, the false colours in steps of 1 %.
-glm::dvec3 seen(const Observer& observer, const Spectrum& light, double D);
+glm::dvec3 seen(const StandardObserver& observer, const Spectrum& light, double D);
 
 /// The same of an emission: a black body itself, a line or a table with as much energy as sunlit_white.
-glm::dvec3 seen(const Observer& observer, const Emission& emission, double D);
+glm::dvec3 seen(const StandardObserver& observer, const Emission& emission, double D);
 
 /// How much of an emission, as seen() takes it, has as much energy as sunlit_white.
 double sunlit_part(const Emission& emission);

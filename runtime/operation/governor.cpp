@@ -13,10 +13,10 @@ constexpr double up_in_vain_s = 12; // who comes down so soon after going up sho
 
 } // namespace
 
-Governor::Governor(std::vector<Rung> ladder, double hold_ms)
+Governor::Governor(std::vector<PresetLevel> ladder, double frame_budget_ms)
     : ladder_(std::move(ladder))
-    , hold_ms_(hold_ms)
-    , rung_(ladder_.size() / 2)
+    , frame_budget_ms_(frame_budget_ms)
+    , level_(ladder_.size() / 2)
 {
 }
 
@@ -25,51 +25,51 @@ std::size_t Governor::finest_within(double load, double part) const
 {
     std::size_t finest = 0;
     for (std::size_t i = 0; i < ladder_.size(); ++i)
-        if (load * ladder_[i].ms <= part * hold_ms_)
+        if (load * ladder_[i].ms <= part * frame_budget_ms_)
             finest = i;
     return finest;
 }
 
 bool Governor::drawn(double now_s, double ms)
 {
-    last_[2] = last_[1], last_[1] = last_[0], last_[0] = ms / ladder_[rung_].ms;
+    last_[2] = last_[1], last_[1] = last_[0], last_[0] = ms / ladder_[level_].ms;
     told_ = std::min(told_ + 1, 3);
     if (told_ < 2)
         return false;
-    const std::size_t before = rung_;
+    const std::size_t before = level_;
     // What two frames in a row took at least; and, before going up, what none of three exceeded.
     const double load = std::min(last_[0], last_[1]), most = *std::max_element(last_, last_ + told_);
-    const bool late = load * ladder_[rung_].ms > hold_ms_;
+    const bool late = load * ladder_[level_].ms > frame_budget_ms_;
     const std::size_t up = finest_within(most, room_up);
-    if (up <= rung_)
+    if (up <= level_)
         calm_since_s_ = -1;
     else if (calm_since_s_ < 0)
         calm_since_s_ = now_s;
     if (now_s - moved_s_ < moves_apart_s)
         return false;
-    if (late && rung_ > 0) {
-        rung_ = std::min(rung_, finest_within(load, room_down));
-        if (rung_ < before && now_s - up_s_ < up_in_vain_s)
+    if (late && level_ > 0) {
+        level_ = std::min(level_, finest_within(load, room_down));
+        if (level_ < before && now_s - up_s_ < up_in_vain_s)
             wait_s_ = std::min(2 * wait_s_, longest_wait_s);
     } else if (calm_since_s_ >= 0 && told_ == 3 && now_s - calm_since_s_ > wait_s_) {
-        rung_ = up;
+        level_ = up;
         up_s_ = now_s;
     }
     // After a long peace the past is forgotten.
     if (now_s - moved_s_ > 4 * longest_wait_s)
         wait_s_ = 1;
-    if (rung_ == before)
+    if (level_ == before)
         return false;
     moved_s_ = now_s, calm_since_s_ = -1, told_ = 0;
     return true;
 }
 
-std::string told(const Governor& governor)
+std::string describe(const Governor& governor)
 {
-    const Rung& rung = governor.ladder()[governor.rung()];
+    const PresetLevel& level = governor.ladder()[governor.level()];
     std::array<char, 96> text;
-    std::snprintf(text.data(), text.size(), "quality %zu of %zu: FLIP %.3f, edges within %.2f px", governor.rung() + 1,
-        governor.ladder().size(), rung.flip, rung.edges_px);
+    std::snprintf(text.data(), text.size(), "quality %zu of %zu: FLIP %.3f, edges within %.2f px", governor.level() + 1,
+        governor.ladder().size(), level.flip, level.edges_px);
     return text.data();
 }
 

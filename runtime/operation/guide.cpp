@@ -20,9 +20,9 @@ double Guide::shown_ev(const Exposure& adapted, const Exposing& rules) const
     return glm::mix(turned, starbow::shown_ev(adapted, rules, turned, tours), glm::smoothstep(0.0, 1.0, automatic_));
 }
 
-std::optional<Caption> Guide::caption(const Words& words, const Means& means) const
+std::optional<Caption> Guide::caption(const Words& words, const InputCapabilities& capabilities) const
 {
-    Caption caption = caption_of(touring_, show_, words, means);
+    Caption caption = caption_of(touring_, show_, words, capabilities);
     if (caption.text.empty())
         return {};
     return caption;

@@ -24,7 +24,7 @@ public:
     double shown_ev(const Exposure& adapted, const Exposing& rules) const;
 
     /// Nothing where the visitor flies at the tour's end.
-    std::optional<Caption> caption(const Words& words, const Means& means) const;
+    std::optional<Caption> caption(const Words& words, const InputCapabilities& capabilities) const;
     /// That it has ended, for a while.
     std::string prompt(const Words& words) const;
 

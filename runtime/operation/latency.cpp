@@ -40,7 +40,7 @@ void Latency::add(const FrameTimes& times)
     last_ = times;
 }
 
-std::string Latency::told() const
+std::string Latency::describe() const
 {
     std::string text;
     char line[160];

@@ -27,7 +27,7 @@ public:
     double seconds() const { return 1e-9 * double(last_.shown_ns - first_ns_); } ///< first to last frame
 
     /// For people: a table.
-    std::string told() const;
+    std::string describe() const;
 
     // Milliseconds, one for each frame, or for each that shows a new report.
     const std::vector<double>& report_ms() const { return report_ms_; } ///< its arrival to the present call's return

@@ -19,7 +19,7 @@ std::string pixels(glm::ivec2 at)
     return text += "]";
 }
 
-std::string told(const Monitor& monitor)
+std::string describe(const Monitor& monitor)
 {
     std::string text = monitor.connector + " at " + pixels(monitor.position);
     if (!monitor.model.empty())
@@ -28,7 +28,7 @@ std::string told(const Monitor& monitor)
 }
 
 /// The name as its layout's members: connector "DUMMY1", position [0, 0].
-std::string told(const MonitorName& name)
+std::string describe(const MonitorName& name)
 {
     std::string text;
     auto add = [&](const std::string& member, const std::string& value) {
@@ -51,7 +51,7 @@ std::string list_of(const std::vector<Monitor>& monitors)
 {
     std::string list;
     for (const Monitor& monitor : monitors)
-        list += (list.empty() ? "" : ", ") + told(monitor);
+        list += (list.empty() ? "" : ", ") + describe(monitor);
     return list.empty() ? "none" : list;
 }
 
@@ -66,11 +66,11 @@ MonitorChoice choose_monitor(const MonitorName& name, const std::vector<Monitor>
                 first = i;
         }
     if (!first)
-        return {{}, told(name) + " is plugged in nowhere; there are: " + list_of(monitors)};
+        return {{}, describe(name) + " is plugged in nowhere; there are: " + list_of(monitors)};
     const bool all_the_same = std::all_of(fitting.begin(), fitting.end(),
         [&](const Monitor& m) { return m.position == fitting[0].position && m.size == fitting[0].size; });
     if (!name.empty() && !all_the_same)
-        return {{}, told(name) + " is plugged in more than once: " + list_of(fitting) + "; the connector too would tell"};
+        return {{}, describe(name) + " is plugged in more than once: " + list_of(fitting) + "; the connector too would tell"};
     return {first, {}};
 }
 

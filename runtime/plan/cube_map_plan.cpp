@@ -1,5 +1,5 @@
 #include "cube_map_plan.h"
-#include "headroom.h"
+#include "scratch.h"
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -12,24 +12,24 @@ namespace {
 
 constexpr int least_side = 16, most_side = 8192; // texels across one image, gutter aside
 
-/// The image of a part of a slot.
+/// The image of a part of a tile.
 struct Draft {
     const Quality& quality;
     double density;
     int layer;
     bool spreads; ///< what pixels filter in reaches past the image
-    int rear_last;
+    int finest_clip_level;
 
-    PlanImage image(int slot, const Cells& cells, const Demand& demand) const
+    PlannedImage image(int tile, const SubTiles& sub_tiles, const Demand& demand) const
     {
         const glm::dvec2 extent = demand.rect.high - demand.rect.low;
         const double longest = std::max(extent.x, extent.y);
         double unit = std::min(demand.finest / density, std::max(longest, 1e-300) / least_side);
         unit = std::max(unit, longest / most_side);
-        PlanImage image;
-        image.slot = slot;
-        image.cells = cells;
-        image.face = slot_face(slot);
+        PlannedImage image;
+        image.tile = tile;
+        image.sub_tiles = sub_tiles;
+        image.face = tile_face(tile);
         image.layer = layer;
         image.texels_per_unit = 1 / unit;
         // Up to twofold shrinking is what bilinear filtering holds; beyond it the image needs mips.
@@ -46,25 +46,25 @@ struct Draft {
             image.high[i] = last * unit;
             image.size[i] = int(last - first);
         }
-        if (const double hole = slot_hole(slot, rear_last); hole > 0)
-            image.hole = std::max(0.0, hole - (gutter + 1) * unit);
+        if (const double hole = clip_hole(tile, finest_clip_level); hole > 0)
+            image.clip_hole = std::max(0.0, hole - (gutter + 1) * unit);
         return image;
     }
 
     /// What an image costs, in texels.
-    double cost(const PlanImage& image) const
+    double cost(const PlannedImage& image) const
     {
         constexpr double with_mips = 4.0 / 3;
         return double(image.size.x) * image.size.y * (image.levels > 1 ? with_mips : 1) + quality.image_cost_texels;
     }
 };
 
-constexpr int halved = SLOT_CELLS - 1; // of the halvings' intervals, those below have halves
+constexpr int halved = TILE_SUB_TILES - 1; // of the halvings' intervals, those below have halves
 
-void merge(SlotDemands& all, const Demands::Slot& demand)
+void merge(TileDemands& all, const Demands::Tile& demand)
 {
-    for (int b = SlotDemands::intervals - 1; b >= 0; --b)
-        for (int a = SlotDemands::intervals - 1; a >= 0; --a) {
+    for (int b = TileDemands::intervals - 1; b >= 0; --b)
+        for (int a = TileDemands::intervals - 1; a >= 0; --a) {
             Demand& own = all.demands[b][a];
             double& wanted = all.wanted[b][a];
             if (a < halved) {
@@ -76,17 +76,17 @@ void merge(SlotDemands& all, const Demands::Slot& demand)
                 own.add(all.demands[2 * b + 2][a]);
                 wanted = all.wanted[2 * b + 1][a] + all.wanted[2 * b + 2][a];
             } else {
-                own = demand.cells[std::size_t((b - halved) * SLOT_CELLS + a - halved)];
+                own = demand.sub_tiles[std::size_t((b - halved) * TILE_SUB_TILES + a - halved)];
                 const glm::dvec2 extent = own.rect.high - own.rect.low;
                 wanted = own.rect.empty() ? 0 : extent.x * extent.y / (own.finest * own.finest);
             }
         }
 }
 
-/// A slot cut into the rectangles of cells that cost least together.
+/// A tile cut into the rectangles of cells that cost least together.
 class Cutting {
 public:
-    Cutting(const Draft& draft, const SlotDemands& demands)
+    Cutting(const Draft& draft, const TileDemands& demands)
         : draft_(draft)
         , demands_(demands)
     {
@@ -94,7 +94,7 @@ public:
             std::fill(std::begin(row), std::end(row), Way::unknown);
     }
 
-    void add_images(std::vector<PlanImage>& images)
+    void add_images(std::vector<PlannedImage>& images)
     {
         if (!demands_.demands[0][0].rect.empty())
             add(0, 0, images);
@@ -107,15 +107,15 @@ private:
     static void cells_of(int interval, int& first, int& count)
     {
         const int level = std::bit_width(unsigned(interval + 1)) - 1;
-        count = SLOT_CELLS >> level;
+        count = TILE_SUB_TILES >> level;
         first = (interval + 1 - (1 << level)) * count;
     }
-    static Cells cells(int a, int b)
+    static SubTiles sub_tiles(int a, int b)
     {
-        Cells cells;
-        cells_of(a, cells.first.x, cells.count.x);
-        cells_of(b, cells.first.y, cells.count.y);
-        return cells;
+        SubTiles sub_tiles;
+        cells_of(a, sub_tiles.first.x, sub_tiles.count.x);
+        cells_of(b, sub_tiles.first.y, sub_tiles.count.y);
+        return sub_tiles;
     }
 
     /// What a part costs at least, cut as it may; its way is known then.
@@ -129,7 +129,7 @@ private:
         if (way != Way::unknown)
             return cost;
         way = Way::whole;
-        cost = draft_.cost(draft_.image(demands_.slot, {}, demand));
+        cost = draft_.cost(draft_.image(demands_.tile, {}, demand));
         // Another image, and the texels without any waste, cost no less than any cut.
         const double least = demands_.wanted[b][a] * draft_.density * draft_.density + 2 * draft_.quality.image_cost_texels;
         if (cost <= least)
@@ -143,7 +143,7 @@ private:
         return cost;
     }
 
-    void add(int a, int b, std::vector<PlanImage>& images)
+    void add(int a, int b, std::vector<PlannedImage>& images)
     {
         if (demands_.demands[b][a].rect.empty())
             return;
@@ -156,28 +156,28 @@ private:
             add(a, 2 * b + 1, images), add(a, 2 * b + 2, images);
             return;
         default:
-            images.push_back(draft_.image(demands_.slot, cells(a, b), demands_.demands[b][a]));
+            images.push_back(draft_.image(demands_.tile, sub_tiles(a, b), demands_.demands[b][a]));
         }
     }
 
     const Draft& draft_;
-    const SlotDemands& demands_;
-    double costs_[SlotDemands::intervals][SlotDemands::intervals];
-    Way ways_[SlotDemands::intervals][SlotDemands::intervals];
+    const TileDemands& demands_;
+    double costs_[TileDemands::intervals][TileDemands::intervals];
+    Way ways_[TileDemands::intervals][TileDemands::intervals];
 };
 
 /// Shelves, tallest first; the atlas is about square. Corners stay on multiples of `align` so that mips stay apart.
-void pack(Plan& plan, std::vector<std::size_t>& order, int align)
+void pack(CubeMapPlan& plan, std::vector<std::size_t>& order, int align)
 {
     order.clear();
     double area = 0;
     int widest = 0;
-    for (const PlanImage& image : plan.images) {
+    for (const PlannedImage& image : plan.images) {
         order.push_back(order.size());
         area += double(image.size.x) * image.size.y;
         widest = std::max(widest, image.size.x);
     }
-    keep_room(order);
+    reserve_headroom(order);
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return std::tuple(plan.images[a].size.y, b) > std::tuple(plan.images[b].size.y, a);
     });
@@ -185,7 +185,7 @@ void pack(Plan& plan, std::vector<std::size_t>& order, int align)
     glm::ivec2 pen(0);
     int shelf = 0;
     for (std::size_t at : order) {
-        PlanImage& image = plan.images[at];
+        PlannedImage& image = plan.images[at];
         if (pen.x + image.size.x > width)
             pen = {0, pen.y + shelf}, shelf = 0;
         image.atlas = pen;
@@ -197,61 +197,61 @@ void pack(Plan& plan, std::vector<std::size_t>& order, int align)
 
 } // namespace
 
-Plan make_plan(const std::vector<View>& views, double E, const Quality& quality)
+CubeMapPlan plan_cube_map(const std::vector<ViewRequest>& views, double E, const Quality& quality)
 {
-    return make_plan({PlanLayer{views, E}}, quality);
+    return plan_cube_map({RestFrameRequest{views, E}}, quality);
 }
 
-Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality)
+CubeMapPlan plan_cube_map(const std::vector<RestFrameRequest>& layers, const Quality& quality)
 {
-    PlanRoom room;
-    return make_plan(layers, quality, room);
+    PlanScratch room;
+    return plan_cube_map(layers, quality, room);
 }
 
-Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality, PlanRoom& room, Plan before)
+CubeMapPlan plan_cube_map(const std::vector<RestFrameRequest>& layers, const Quality& quality, PlanScratch& room, CubeMapPlan before)
 {
-    Plan plan;
+    CubeMapPlan plan;
     std::swap(plan.images, before.images);
-    std::swap(plan.rear_last, before.rear_last), plan.rear_last.clear();
-    std::size_t used = 0; // of room.by_slot: whose 54 kB each are filled in place
+    std::swap(plan.finest_clip_level, before.finest_clip_level), plan.finest_clip_level.clear();
+    std::size_t used = 0; // of room.by_tile: whose 54 kB each are filled in place
     if (room.demands.size() < layers.size())
         room.demands.resize(layers.size());
     for (std::size_t layer = 0; layer < layers.size(); ++layer) {
         const double E = layers[layer].E;
         // Behind, D stops falling at 1/gamma from the axis: finer images would only repeat the last one.
-        const int rear_last = std::clamp(
-            int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0, std::min(quality.rear_images, REAR_LEVELS - 1));
-        plan.rear_last.push_back(rear_last);
+        const int finest_clip_level = std::clamp(
+            int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0, std::min(quality.clip_levels, REAR_LEVELS - 1));
+        plan.finest_clip_level.push_back(finest_clip_level);
         room.demands[layer].clear();
-        add_demands(room.demands[layer], layers[layer], rear_last, quality.pixel_rays);
-        for (int slot = 0; slot < SLOT_COUNT; ++slot)
-            if (const Demands::Slot& demand = room.demands[layer].slots[std::size_t(slot)]; demand.any) {
-                if (used == room.by_slot.size())
-                    room.by_slot.emplace_back();
-                SlotDemands& all = room.by_slot[used++];
-                all.layer = int(layer), all.slot = slot;
+        add_demands(room.demands[layer], layers[layer], finest_clip_level, quality.pixel_rays);
+        for (int tile = 0; tile < TILE_COUNT; ++tile)
+            if (const Demands::Tile& demand = room.demands[layer].tiles[std::size_t(tile)]; demand.any) {
+                if (used == room.by_tile.size())
+                    room.by_tile.emplace_back();
+                TileDemands& all = room.by_tile[used++];
+                all.layer = int(layer), all.tile = tile;
                 merge(all, demand);
             }
     }
-    keep_room(room.by_slot);
-    const std::span<const SlotDemands> by_slot = std::span(room.by_slot).first(used);
-    for (const View& view : layers[0].views)
-        plan.pixels += double(view.blocks->size().x) * view.blocks->size().y;
+    reserve_headroom(room.by_tile);
+    const std::span<const TileDemands> by_tile = std::span(room.by_tile).first(used);
+    for (const ViewRequest& view : layers[0].views)
+        plan.pixels += double(view.cones->size().x) * view.cones->size().y;
 
     auto lay_out = [&](double density) {
         plan.images.clear();
-        for (const SlotDemands& demands : by_slot) {
+        for (const TileDemands& demands : by_tile) {
             const std::size_t layer = std::size_t(demands.layer);
-            const Draft draft{quality, density, demands.layer, layers[layer].things.has_value(), plan.rear_last[layer]};
+            const Draft draft{quality, density, demands.layer, layers[layer].bounds.has_value(), plan.finest_clip_level[layer]};
             Cutting(draft, demands).add_images(plan.images);
         }
         plan.texels = 0;
         plan.levels = 1;
         plan.cut = false;
-        for (const PlanImage& image : plan.images) {
+        for (const PlannedImage& image : plan.images) {
             plan.levels = std::max(plan.levels, image.levels);
             plan.texels += double(image.size.x) * image.size.y;
-            plan.cut = plan.cut || !image.cells.all();
+            plan.cut = plan.cut || !image.sub_tiles.all();
         }
     };
     double density = quality.texels_per_pixel;
@@ -260,12 +260,12 @@ Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality, Pla
     int seen = 0;
     for (std::size_t i = 0; i < plan.images.size(); ++i)
         seen += i == 0 || plan.images[i].layer != plan.images[i - 1].layer;
-    double most_texels = std::min(quality.most_texels_per_pixel * plan.pixels * std::max(seen, 1), quality.max_texels);
+    double most_texels = std::min(quality.max_texels_per_pixel * plan.pixels * std::max(seen, 1), quality.max_texels);
     for (int i = 0; i < 4 && plan.texels > 1.02 * most_texels; ++i) {
         density *= std::sqrt(most_texels / plan.texels);
         lay_out(density);
     }
-    keep_room(plan.images);
+    reserve_headroom(plan.images);
     pack(plan, room.by_height, 1 << plan.levels);
     for (int i = 0; i < 8 && std::max(plan.atlas_size.x, plan.atlas_size.y) > quality.max_atlas_side; ++i) {
         density *= 0.9 * quality.max_atlas_side / std::max(plan.atlas_size.x, plan.atlas_size.y);
@@ -275,21 +275,21 @@ Plan make_plan(const std::vector<PlanLayer>& layers, const Quality& quality, Pla
     return plan;
 }
 
-bool serves(const Plan& drawn, const Plan& wanted)
+bool can_reuse(const CubeMapPlan& drawn, const CubeMapPlan& wanted)
 {
     constexpr double hardly_less = 0.8;
-    return drawn.rear_last == wanted.rear_last
-        && std::all_of(wanted.images.begin(), wanted.images.end(), [&](const PlanImage& image) {
-               const auto same = std::find_if(drawn.images.begin(), drawn.images.end(), [&](const PlanImage& own) {
-                   return own.layer == image.layer && own.slot == image.slot && own.cells == image.cells;
+    return drawn.finest_clip_level == wanted.finest_clip_level
+        && std::all_of(wanted.images.begin(), wanted.images.end(), [&](const PlannedImage& image) {
+               const auto same = std::find_if(drawn.images.begin(), drawn.images.end(), [&](const PlannedImage& own) {
+                   return own.layer == image.layer && own.tile == image.tile && own.sub_tiles == image.sub_tiles;
                });
                return same != drawn.images.end() && glm::all(glm::lessThanEqual(same->low, image.low))
-                   && glm::all(glm::greaterThanEqual(same->high, image.high)) && same->hole <= image.hole
+                   && glm::all(glm::greaterThanEqual(same->high, image.high)) && same->clip_hole <= image.clip_hole
                    && same->levels >= image.levels && same->texels_per_unit >= hardly_less * image.texels_per_unit;
            });
 }
 
-glm::dmat4 clip_from_motion(const PlanImage& image, double near_distance)
+glm::dmat4 clip_from_motion(const PlannedImage& image, double near_distance)
 {
     // x_clip / w runs from -1 to 1 over the picture, depth is near / distance.
     glm::dvec2 scale = 2.0 / (image.high - image.low), offset = -(image.high + image.low) / (image.high - image.low);
@@ -303,7 +303,7 @@ glm::dmat4 clip_from_motion(const PlanImage& image, double near_distance)
     return m;
 }
 
-shared::SlotEntry slot_entry(const PlanImage& image)
+shared::TileEntry tile_entry(const PlannedImage& image)
 {
     const glm::dvec2 offset = glm::dvec2(image.atlas) - image.low * image.texels_per_unit;
     return {
@@ -312,55 +312,55 @@ shared::SlotEntry slot_entry(const PlanImage& image)
 
 namespace {
 
-/// Of a slot's images the one whose cells lie nearest.
-const PlanImage& nearest_image(std::span<const PlanImage> images, const glm::ivec2& cell)
+/// Of a tile's images the one whose cells lie nearest.
+const PlannedImage& nearest_image(std::span<const PlannedImage> images, const glm::ivec2& sub_tile)
 {
-    const auto off = [&](const PlanImage& image) {
-        const glm::ivec2 past = glm::max(image.cells.first - cell, cell - (image.cells.first + image.cells.count - 1));
+    const auto off = [&](const PlannedImage& image) {
+        const glm::ivec2 past = glm::max(image.sub_tiles.first - sub_tile, sub_tile - (image.sub_tiles.first + image.sub_tiles.count - 1));
         return std::max({past.x, past.y, 0});
     };
     return *std::min_element(
-        images.begin(), images.end(), [&](const PlanImage& a, const PlanImage& b) { return off(a) < off(b); });
+        images.begin(), images.end(), [&](const PlannedImage& a, const PlannedImage& b) { return off(a) < off(b); });
 }
 
 } // namespace
 
-std::span<const PlanImage> of_first_slot(std::span<const PlanImage> images)
+std::span<const PlannedImage> of_first_tile(std::span<const PlannedImage> images)
 {
     const auto other
-        = [&](const PlanImage& image) { return image.layer != images[0].layer || image.slot != images[0].slot; };
+        = [&](const PlannedImage& image) { return image.layer != images[0].layer || image.tile != images[0].tile; };
     return images.first(std::size_t(std::find_if(images.begin(), images.end(), other) - images.begin()));
 }
 
-void put_slots(const Plan& plan, shared::SlotTable& table)
+void write_tiles(const CubeMapPlan& plan, shared::TileTable& table)
 {
-    for (std::size_t slot = 0; slot < plan.rear_last.size() * SLOT_COUNT; ++slot) {
-        table.cells_from_face[slot] = glm::vec4(0);
-        table.entries[slot * CELL_COUNT] = {};
+    for (std::size_t tile = 0; tile < plan.finest_clip_level.size() * TILE_COUNT; ++tile) {
+        table.sub_tiles_from_face[tile] = glm::vec4(0);
+        table.entries[tile * SUB_TILE_COUNT] = {};
     }
-    for (std::span<const PlanImage> left = plan.images; !left.empty();) {
-        const std::span<const PlanImage> images = of_first_slot(left);
+    for (std::span<const PlannedImage> left = plan.images; !left.empty();) {
+        const std::span<const PlannedImage> images = of_first_tile(left);
         left = left.subspan(images.size());
-        const std::size_t slot = std::size_t(images[0].layer * SLOT_COUNT + images[0].slot);
-        shared::SlotEntry* entries = table.entries + slot * CELL_COUNT;
-        if (images[0].cells.all()) {
-            *entries = slot_entry(images[0]);
+        const std::size_t tile = std::size_t(images[0].layer * TILE_COUNT + images[0].tile);
+        shared::TileEntry* entries = table.entries + tile * SUB_TILE_COUNT;
+        if (images[0].sub_tiles.all()) {
+            *entries = tile_entry(images[0]);
             continue;
         }
-        table.cells_from_face[slot] = glm::vec4(cells_from_face(images[0].slot));
-        std::array<bool, CELL_COUNT> told{};
-        for (const PlanImage& image : images) {
-            const shared::SlotEntry entry = slot_entry(image);
-            for (int y = image.cells.first.y; y < image.cells.first.y + image.cells.count.y; ++y)
-                for (int x = image.cells.first.x; x < image.cells.first.x + image.cells.count.x; ++x) {
-                    entries[y * SLOT_CELLS + x] = entry;
-                    told[std::size_t(y * SLOT_CELLS + x)] = true;
+        table.sub_tiles_from_face[tile] = glm::vec4(sub_tiles_from_face(images[0].tile));
+        std::array<bool, SUB_TILE_COUNT> told{};
+        for (const PlannedImage& image : images) {
+            const shared::TileEntry entry = tile_entry(image);
+            for (int y = image.sub_tiles.first.y; y < image.sub_tiles.first.y + image.sub_tiles.count.y; ++y)
+                for (int x = image.sub_tiles.first.x; x < image.sub_tiles.first.x + image.sub_tiles.count.x; ++x) {
+                    entries[y * TILE_SUB_TILES + x] = entry;
+                    told[std::size_t(y * TILE_SUB_TILES + x)] = true;
                 }
         }
         // A cell at which no pixel looks is told as the nearest that is drawn: rounding may lead there.
-        for (int cell = 0; cell < CELL_COUNT; ++cell)
-            if (!told[std::size_t(cell)])
-                entries[cell] = slot_entry(nearest_image(images, {cell % SLOT_CELLS, cell / SLOT_CELLS}));
+        for (int sub_tile = 0; sub_tile < SUB_TILE_COUNT; ++sub_tile)
+            if (!told[std::size_t(sub_tile)])
+                entries[sub_tile] = tile_entry(nearest_image(images, {sub_tile % TILE_SUB_TILES, sub_tile / TILE_SUB_TILES}));
     }
 }
 

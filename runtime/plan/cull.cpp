@@ -1,5 +1,5 @@
 #include "cull.h"
-#include "headroom.h"
+#include "scratch.h"
 #include "runtime/world/instances.h"
 #include "runtime/world/moving.h"
 #include "shaders/physics/physics.h"
@@ -10,7 +10,7 @@ namespace starbow {
 namespace {
 
 /// An instance's bounding box.
-using Box = DrawList::Seat;
+using Box = DrawList::OrientedBox;
 
 /// How far it reaches along a unit vector from its centre.
 double reach(const Box& box, const glm::dvec3& n)
@@ -22,7 +22,7 @@ double reach(const Box& box, const glm::dvec3& n)
 struct Frustum {
     glm::dvec3 planes[5];
 
-    explicit Frustum(const PlanImage& image)
+    explicit Frustum(const PlannedImage& image)
     {
         glm::dvec3 normal = face_direction(image.face, {0, 0});
         glm::dvec3 a = face_direction(image.face, {1, 0}) - normal, b = face_direction(image.face, {0, 1}) - normal;
@@ -42,14 +42,14 @@ struct Frustum {
 };
 
 /// Whether a box lies wholly where no pixel reads: inside the hole that the next finer image behind fills.
-bool in_hole(const PlanImage& image, const Box& box)
+bool in_clip_hole(const PlannedImage& image, const Box& box)
 {
-    if (image.hole <= 0)
+    if (image.clip_hole <= 0)
         return false;
     glm::dvec3 normal = face_direction(image.face, {0, 0});
     glm::dvec3 a = face_direction(image.face, {1, 0}) - normal, b = face_direction(image.face, {0, 1}) - normal;
     for (const glm::dvec3& side : {a, -a, b, -b}) {
-        glm::dvec3 plane = image.hole * normal - side;
+        glm::dvec3 plane = image.clip_hole * normal - side;
         if (glm::dot(plane, box.centre) < reach(box, plane))
             return false;
     }
@@ -57,12 +57,12 @@ bool in_hole(const PlanImage& image, const Box& box)
 }
 
 /// The level of detail for an instance: -1 is the full surface.
-int level_of(const Primitive& primitive, const Box& box, const PlanImage& image, const Quality& quality)
+int level_of(const Primitive& primitive, const Box& box, const PlannedImage& image, const Quality& quality)
 {
     int level = -1;
     auto fits = [&](double error, double most) { return error * box.scale * image.texels_per_unit <= most * box.distance; };
-    while (level + 1 < int(primitive.coarser.size()) && fits(primitive.coarser[level + 1].error, quality.stray_texels)
-        && fits(primitive.coarser[level + 1].shading, quality.shading_texels))
+    while (level + 1 < int(primitive.coarser.size()) && fits(primitive.coarser[level + 1].error, quality.lod_error_texels)
+        && fits(primitive.coarser[level + 1].shading, quality.lod_shading_texels))
         ++level;
     return level;
 }
@@ -89,25 +89,25 @@ Box box_of(const Primitive& primitive, const glm::dmat3& turn, const glm::dvec3&
     return box;
 }
 
-/// Whether any of its light that arrives at the vantage may have left while it was there.
-bool may_show(const World& world, const Instance& instance, const Vantage& vantage, const Box& box)
+/// Whether any of its light that arrives at the eye event may have left while it was there.
+bool may_show(const World& world, const Instance& instance, const EyeEvent& eye_event, const Box& box)
 {
-    if (!mortal(world, instance))
+    if (!finite_existence(world, instance))
         return true;
-    const Life& life = world.lives[std::size_t(instance.life)];
-    const double sent = emission_time(vantage, box.centre);
+    const ExistenceInterval& existence = world.existence_intervals[std::size_t(instance.existence)];
+    const double sent = retarded_time(eye_event, box.centre);
     const double around = glm::length(box.half[0]) + glm::length(box.half[1]) + glm::length(box.half[2]);
-    return sent + around >= life.begin && sent - around <= life.end;
+    return sent + around >= existence.begin && sent - around <= existence.end;
 }
 
 struct Standing {
     glm::dmat3 turn; ///< motion axes from local
     glm::dvec3 place; ///< of the local origin, from the eye
 };
-Standing standing(const glm::dmat4& frame_from_local, const Vantage& vantage)
+Standing standing(const glm::dmat4& frame_from_local, const EyeEvent& eye_event)
 {
     const glm::dmat4& m = frame_from_local;
-    return {vantage.motion_from_frame * glm::dmat3(m), vantage.motion_from_frame * (glm::dvec3(m[3]) - vantage.place)};
+    return {eye_event.motion_from_frame * glm::dmat3(m), eye_event.motion_from_frame * (glm::dvec3(m[3]) - eye_event.place)};
 }
 
 shared::InstanceEntry entry_of(const Standing& at)
@@ -121,15 +121,15 @@ struct Placed {
     Standing at;
     Box box;
 };
-Placed placed(const World& world, const Instance& instance, const Vantage& vantage)
+Placed placed(const World& world, const Instance& instance, const EyeEvent& eye_event)
 {
     const Primitive& primitive = world.primitives[instance.primitive];
     if (instance.motion < 0) {
-        const Standing at = standing(instance.frame_from_local, vantage);
+        const Standing at = standing(instance.frame_from_local, eye_event);
         return {at, box_of(primitive, at.turn, at.place)};
     }
-    const SeenPose seen = seen_pose(world, instance, vantage);
-    Placed out{standing(seen.frame_from_local, vantage), {}};
+    const SeenPose seen = seen_pose(world, instance, eye_event);
+    Placed out{standing(seen.frame_from_local, eye_event), {}};
     out.box = box_of(primitive, out.at.turn, out.at.place);
     for (int i = 0; i < 3; ++i)
         out.box.half[i] = glm::dvec3(0), out.box.half[i][i] = seen.window;
@@ -138,75 +138,75 @@ Placed placed(const World& world, const Instance& instance, const Vantage& vanta
 }
 
 /// Where the picture has it.
-Box as_shown(Box box, const Vantage& vantage)
+Box as_shown(Box box, const EyeEvent& eye_event)
 {
-    box.centre.z *= vantage.contraction;
+    box.centre.z *= eye_event.contraction;
     for (glm::dvec3& half : box.half)
-        half.z *= vantage.contraction;
-    box.distance *= vantage.contraction;
+        half.z *= eye_event.contraction;
+    box.distance *= eye_event.contraction;
     return box;
 }
 
 } // namespace
 
-std::vector<Ball> balls(const World& world, const Vantage& vantage)
+std::vector<BoundingSphere> bounding_spheres(const World& world, const EyeEvent& eye_event)
 {
-    std::vector<Ball> balls;
-    const InstanceRange range = instances_of(world, vantage.frame);
+    std::vector<BoundingSphere> bounding_spheres;
+    const InstanceRange range = instances_of(world, eye_event.frame);
     for (std::size_t i = range.first; i < range.last; ++i) {
         const Instance& instance = world.instances[i];
-        const Box rests = placed(world, instance, vantage).box, box = as_shown(rests, vantage);
-        if (may_show(world, instance, vantage, rests))
-            balls.push_back({box.centre,
+        const Box rests = placed(world, instance, eye_event).box, box = as_shown(rests, eye_event);
+        if (may_show(world, instance, eye_event, rests))
+            bounding_spheres.push_back({box.centre,
                 std::sqrt(glm::dot(box.half[0], box.half[0]) + glm::dot(box.half[1], box.half[1])
                     + glm::dot(box.half[2], box.half[2]))});
     }
-    return balls;
+    return bounding_spheres;
 }
 
 namespace {
 
 /// How what moves by itself stands around the moment at which it is seen.
-void add_poses(const World& world, std::span<const Vantage> layers, DrawList& list)
+void add_poses(const World& world, std::span<const EyeEvent> layers, DrawList& list)
 {
-    for (const Vantage& vantage : layers) {
+    for (const EyeEvent& eye_event : layers) {
         list.first_pose.push_back(std::uint32_t(list.instances.size()));
-        const InstanceRange range = instances_of(world, vantage.frame);
+        const InstanceRange range = instances_of(world, eye_event.frame);
         for (std::size_t i = range.first; i < range.last && !world.motions.empty(); ++i) {
             const Instance& instance = world.instances[i];
             if (instance.motion < 0)
                 continue;
-            for (double time : pose_times(world, instance, seen_pose(world, instance, vantage)))
-                list.instances.push_back(entry_of(standing(pose_at(world, instance, time), vantage)));
+            for (double time : pose_times(world, instance, seen_pose(world, instance, eye_event)))
+                list.instances.push_back(entry_of(standing(pose_at(world, instance, time), eye_event)));
         }
     }
 }
 
 } // namespace
 
-DrawList cull(const World& world, std::span<const Vantage> layers, const std::vector<PlanImage>& images,
+DrawList cull(const World& world, std::span<const EyeEvent> layers, const std::vector<PlannedImage>& images,
     const Quality& quality, DrawList before)
 {
     DrawList list = std::move(before);
     list.instances.clear(), list.first_pose.clear(), list.first.clear(), list.visible.clear(), list.draws.clear();
-    list.seats.clear();
-    for (const Vantage& vantage : layers) {
+    list.boxes.clear();
+    for (const EyeEvent& eye_event : layers) {
         list.first.push_back(std::uint32_t(list.instances.size()));
-        const InstanceRange range = instances_of(world, vantage.frame);
+        const InstanceRange range = instances_of(world, eye_event.frame);
         list.instances.reserve(list.instances.size() + range.last - range.first);
         for (std::size_t i = range.first; i < range.last; ++i) {
             const Instance& instance = world.instances[i];
-            const Placed own = placed(world, instance, vantage);
+            const Placed own = placed(world, instance, eye_event);
             list.instances.push_back(entry_of(own.at));
-            list.seats.push_back(as_shown(own.box, vantage));
-            list.seats.back().shows = may_show(world, instance, vantage, own.box);
+            list.boxes.push_back(as_shown(own.box, eye_event));
+            list.boxes.back().shows = may_show(world, instance, eye_event, own.box);
         }
     }
     add_poses(world, layers, list);
-    const std::vector<Box>& boxes = list.seats;
+    const std::vector<Box>& boxes = list.boxes;
     std::vector<std::vector<std::uint32_t>>& by_level = list.by_level;
     for (std::uint32_t i = 0; i < images.size(); ++i) {
-        const PlanImage& image = images[i];
+        const PlannedImage& image = images[i];
         const Frustum frustum(image);
         const std::uint32_t first = list.first[std::size_t(image.layer)];
         const InstanceRange range = instances_of(world, layers[std::size_t(image.layer)].frame);
@@ -218,7 +218,7 @@ DrawList cull(const World& world, std::span<const Vantage> layers, const std::ve
             for (; at < range.last && world.instances[at].primitive == index && kind_of(world, world.instances[at]) == kind;
                  ++at) {
                 const std::uint32_t own = first + std::uint32_t(at - range.first);
-                if (boxes[own].shows && frustum.sees(boxes[own]) && !in_hole(image, boxes[own]))
+                if (boxes[own].shows && frustum.sees(boxes[own]) && !in_clip_hole(image, boxes[own]))
                     by_level[std::size_t(level_of(primitive, boxes[own], image, quality) + 1)].push_back(own);
             }
             for (std::size_t level = 0; level < by_level.size(); ++level) {
@@ -232,26 +232,26 @@ DrawList cull(const World& world, std::span<const Vantage> layers, const std::ve
                 list.draws.push_back({i, index, std::uint32_t(list.visible.size()), std::uint32_t(seen.size()),
                     detail.first_index, detail.index_count, kind.first, kind.second});
                 list.visible.insert(list.visible.end(), seen.begin(), seen.end());
-                keep_room(seen);
+                reserve_headroom(seen);
                 seen.clear();
             }
         }
     }
-    keep_room(list.draws);
-    keep_room(list.visible);
+    reserve_headroom(list.draws);
+    reserve_headroom(list.visible);
     return list;
 }
 
-double nearest_box(const World& world, const Vantage& vantage)
+double nearest_box(const World& world, const EyeEvent& eye_event)
 {
     double nearest = 1e300;
-    const glm::dvec3& place = vantage.place;
-    const InstanceRange range = instances_of(world, vantage.frame);
+    const glm::dvec3& place = eye_event.place;
+    const InstanceRange range = instances_of(world, eye_event.frame);
     for (std::size_t at = range.first; at < range.last; ++at) {
         const Instance& instance = world.instances[at];
         const Primitive& primitive = world.primitives[instance.primitive];
         if (instance.motion >= 0) {
-            nearest = std::min(nearest, placed(world, instance, vantage).box.distance);
+            nearest = std::min(nearest, placed(world, instance, eye_event).box.distance);
             continue;
         }
         // The corners' own box: larger than the turned one, never nearer than allowed.
@@ -264,7 +264,7 @@ double nearest_box(const World& world, const Vantage& vantage)
         }
         nearest = std::min(nearest, glm::distance(place, glm::clamp(place, low, high)));
     }
-    return nearest * vantage.contraction;
+    return nearest * eye_event.contraction;
 }
 
 } // namespace starbow

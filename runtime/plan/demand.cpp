@@ -37,8 +37,8 @@ bool face_range(double along_axis, double along_normal, double sine, double& low
     return low_within || high_within || std::abs(along_axis) <= along_normal;
 }
 
-/// Calls each(slot, the part of its face's plane) for the slots that a circle may touch. No part is empty.
-template <class Each> void each_slot(const glm::dvec3& centre, double radius, int rear_last, Each&& each)
+/// Calls each(tile, the part of its face's plane) for the tiles that a circle may touch. No part is empty.
+template <class Each> void each_slot(const glm::dvec3& centre, double radius, int finest_clip_level, Each&& each)
 {
     const double sine = radius < 1.57 ? std::sin(radius) : 2;
     // A face reaches to acos(1 / sqrt(3)) from its middle.
@@ -52,56 +52,56 @@ template <class Each> void each_slot(const glm::dvec3& centre, double radius, in
         if (!face_range(centre[face_a[face]], normal, sine, wanted.low.x, wanted.high.x)
             || !face_range(centre[face_b[face]], normal, sine, wanted.low.y, wanted.high.y))
             continue;
-        auto part = [&](int slot) {
-            const Rect part = intersection(slot_rect(slot), wanted);
+        auto part = [&](int tile) {
+            const Rect part = intersection(tile_rect(tile), wanted);
             if (!part.empty())
-                each(slot, part);
+                each(tile, part);
         };
         if (face == 0) {
-            part(SLOT_FRONT);
+            part(TILE_FRONT);
         } else if (face == 1) {
             // The nested squares from the one that holds the circle's outermost point to the one of its innermost.
             const glm::dvec2 far = glm::max(glm::abs(wanted.low), glm::abs(wanted.high));
             const glm::dvec2 near = glm::max(glm::max(wanted.low, -wanted.high), glm::dvec2(0));
-            const int outer = rear_level(std::max(far.x, far.y), rear_last),
-                      inner = rear_level(std::max(near.x, near.y), rear_last);
+            const int outer = clip_level(std::max(far.x, far.y), finest_clip_level),
+                      inner = clip_level(std::max(near.x, near.y), finest_clip_level);
             for (int level = outer; level <= inner; ++level)
-                part(SLOT_REAR + level);
+                part(TILE_REAR + level);
         } else {
             for (int band = 0; band < SIDE_BANDS; ++band)
-                part(SLOT_SIDES + (face - 2) * SIDE_BANDS + band);
+                part(TILE_SIDES + (face - 2) * SIDE_BANDS + band);
         }
     }
 }
 
-/// Where a layer's things are: in each slot, and all together.
+/// Where a layer's things are: in each tile, and all together.
 struct Held {
-    std::array<Rect, SLOT_COUNT> rects;
+    std::array<Rect, TILE_COUNT> rects;
     glm::dvec3 axis{0, 0, 1};
     double radius = pi; ///< of the circle around `axis` that holds them all; below 0 where there are none
 
     /// Everywhere.
     Held()
     {
-        for (int slot = 0; slot < SLOT_COUNT; ++slot)
-            rects[std::size_t(slot)] = slot_rect(slot);
+        for (int tile = 0; tile < TILE_COUNT; ++tile)
+            rects[std::size_t(tile)] = tile_rect(tile);
     }
-    Held(const std::vector<Ball>& things, int rear_last)
+    Held(const std::vector<BoundingSphere>& bounds, int finest_clip_level)
     {
         glm::dvec3 sum(0);
-        for (const Ball& thing : things)
+        for (const BoundingSphere& thing : bounds)
             if (const double distance = glm::length(thing.centre); distance > thing.radius)
                 sum += thing.centre / distance * (thing.radius / distance);
         if (glm::length(sum) > 0)
             axis = glm::normalize(sum);
         radius = -1;
-        for (const Ball& thing : things) {
+        for (const BoundingSphere& thing : bounds) {
             const double distance = glm::length(thing.centre);
             const bool inside = !(distance > thing.radius * 1.0001);
             const glm::dvec3 way = inside ? axis : thing.centre / distance;
             const double spread = inside ? pi : std::asin(thing.radius / distance);
             radius = std::max(radius, std::min(pi, angle(axis, way) + spread));
-            each_slot(way, spread, rear_last, [&](int slot, const Rect& part) { rects[std::size_t(slot)].add(part); });
+            each_slot(way, spread, finest_clip_level, [&](int tile, const Rect& part) { rects[std::size_t(tile)].add(part); });
         }
     }
 
@@ -115,39 +115,39 @@ struct Held {
     }
 };
 
-void ask(Demands& demands, const Held& held, const Disc& disc, double E, int rear_last)
+void ask(Demands& demands, const Held& held, const Disc& disc, double E, int finest_clip_level)
 {
     if (!held.touches(disc.centre, disc.radius))
         return;
-    each_slot(disc.centre, disc.radius, rear_last, [&](int slot, const Rect& wanted) {
-        const Rect part = intersection(held.rects[std::size_t(slot)], wanted);
+    each_slot(disc.centre, disc.radius, finest_clip_level, [&](int tile, const Rect& wanted) {
+        const Rect part = intersection(held.rects[std::size_t(tile)], wanted);
         if (part.empty())
             return;
-        Demands::Slot& own = demands.slots[std::size_t(slot)];
+        Demands::Tile& own = demands.tiles[std::size_t(tile)];
         if (!own.any) {
             own.any = true;
-            own.cells.fill({});
+            own.sub_tiles.fill({});
         }
-        const bool hole = slot_hole(slot, rear_last) > 0;
-        const CellTable& all = cell_table(slot);
-        const Cells cells = cells_in(slot, part);
-        for (int j = 0; j < cells.count.y; ++j)
-            for (int i = 0; i < cells.count.x; ++i) {
-                const glm::ivec2 at_cell = cells.first + glm::ivec2(i, j);
-                const std::size_t cell = std::size_t(at_cell.y * SLOT_CELLS + at_cell.x);
-                const Rect here = intersection(part, all.rects[cell]);
+        const bool hole = clip_hole(tile, finest_clip_level) > 0;
+        const SubTileTable& all = sub_tile_table(tile);
+        const SubTiles sub_tiles = sub_tiles_in(tile, part);
+        for (int j = 0; j < sub_tiles.count.y; ++j)
+            for (int i = 0; i < sub_tiles.count.x; ++i) {
+                const glm::ivec2 at_cell = sub_tiles.first + glm::ivec2(i, j);
+                const std::size_t sub_tile = std::size_t(at_cell.y * TILE_SUB_TILES + at_cell.x);
+                const Rect here = intersection(part, all.rects[sub_tile]);
                 // A disc of most of the sky leaves out what lies behind.
-                if (here.empty() || (hole && all.in_hole[cell])
-                    || all.most_cos_half_square[cell] < disc.least_cos_half_square)
+                if (here.empty() || (hole && all.in_clip_hole[sub_tile])
+                    || all.most_cos_half_square[sub_tile] < disc.least_cos_half_square)
                     continue;
                 // The solid angle of a texel at (a, b) is its area over (1 + a^2 + b^2)^(3/2).
                 const glm::dvec2 at = 0.5 * (here.low + here.high);
                 const double square = 1 + glm::dot(at, at), per_angle = std::sqrt(square * std::sqrt(square));
                 // What looks here has a D of this cell's: the disc's own bounds may be of elsewhere.
-                const double least = all.least_cos_half_square[cell], most = all.most_cos_half_square[cell];
+                const double least = all.least_cos_half_square[sub_tile], most = all.most_cos_half_square[sub_tile];
                 const double above = disc.finest_pixel * (E * least + (1 - least) / E);
                 const double below = disc.coarsest_pixel * (E * most + (1 - most) / E);
-                own.cells[cell].add({here, std::clamp(disc.finest, above, below) * per_angle,
+                own.sub_tiles[sub_tile].add({here, std::clamp(disc.finest, above, below) * per_angle,
                     std::clamp(disc.coarsest, above, below) * per_angle});
             }
     });
@@ -155,10 +155,10 @@ void ask(Demands& demands, const Held& held, const Disc& disc, double E, int rea
 
 /// Walks a view's blocks of pixels, finer where the boost spreads one over much of the sky.
 struct Walk {
-    const View& view;
+    const ViewRequest& view;
     double E;
     bool galilean;
-    int rear_last;
+    int finest_clip_level;
     const Held& held;
     Demands& demands;
     double spread; ///< how far from its centre a pixel looks, pixels
@@ -166,10 +166,10 @@ struct Walk {
 
     void block(int level, glm::ivec2 at) const
     {
-        const bool last = level + 1 == view.blocks->levels();
-        if (view.blocks->flat() && level < coarsest_level)
+        const bool last = level + 1 == view.cones->levels();
+        if (view.cones->flat() && level < coarsest_level)
             return split(level, at);
-        const Cap cap = view.blocks->cap(level, at);
+        const BoundingCone cap = view.cones->cone(level, at);
         if (cap.empty())
             return;
         if (!last && (level < coarsest_level || cap.radius > 0.3))
@@ -189,7 +189,7 @@ struct Walk {
     static constexpr double most_uneven = 1.5;
 
     /// A boost maps circles to circles, so the world's disc follows exactly from its two ends on the meridian.
-    Disc in_the_world(const glm::dvec3& centre, const Cap& cap) const
+    Disc in_the_world(const glm::dvec3& centre, const BoundingCone& cap) const
     {
         const double radius = cap.radius + spread * cap.coarsest;
         const double across = std::hypot(centre.x, centre.y);
@@ -237,20 +237,20 @@ struct Walk {
     void ask_for(Disc disc) const
     {
         disc.radius = std::min(pi, disc.radius + view.parallax_rad);
-        ask(demands, held, disc, E, rear_last);
+        ask(demands, held, disc, E, finest_clip_level);
     }
 
     /// A disc of a last block as those of the square around it, halved again and again where D varies over them: down to the
     /// place of a single pixel, or to where D is the same all about straight ahead.
-    void cut(const glm::dvec3& centre, const Cap& cap) const
+    void cut(const glm::dvec3& centre, const BoundingCone& cap) const
     {
         const glm::dvec3 aside = std::abs(centre.z) > 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
         const glm::dvec3 right = glm::normalize(glm::cross(aside, centre)), up = glm::cross(centre, right);
         cut(centre, right, up, std::tan(double(cap.radius)), cap);
     }
-    void cut(const glm::dvec3& centre, const glm::dvec3& right, const glm::dvec3& up, double half, const Cap& cap) const
+    void cut(const glm::dvec3& centre, const glm::dvec3& right, const glm::dvec3& up, double half, const BoundingCone& cap) const
     {
-        Cap part = cap;
+        BoundingCone part = cap;
         part.radius = float(std::sqrt(0.5) * half);
         const double smallest = std::max(0.03 * cap.coarsest, 0.3 / E);
         for (int i = -1; i <= 1; i += 2)
@@ -266,7 +266,7 @@ struct Walk {
 
     void split(int level, glm::ivec2 at) const
     {
-        const glm::ivec2 finer = view.blocks->count(level + 1);
+        const glm::ivec2 finer = view.cones->count(level + 1);
         for (int j = 2 * at.y; j < std::min(2 * at.y + 2, finer.y); ++j)
             for (int i = 2 * at.x; i < std::min(2 * at.x + 2, finer.x); ++i)
                 block(level + 1, {i, j});
@@ -275,21 +275,21 @@ struct Walk {
 
 } // namespace
 
-void add_demands(Demands& demands, const PlanLayer& layer, int rear_last, int pixel_rays)
+void add_demands(Demands& demands, const RestFrameRequest& layer, int finest_clip_level, int pixel_rays)
 {
-    const Held held = layer.things ? Held(*layer.things, rear_last) : Held();
+    const Held held = layer.bounds ? Held(*layer.bounds, finest_clip_level) : Held();
     if (held.radius < 0)
         return;
     // The corners of a square; and float arithmetic's errors.
     const double spread = 0.71 * (1 - 1.0 / pixel_rays) + 0.02;
-    for (const View& view : layer.views) {
-        const Blocks& blocks = *view.blocks;
+    for (const ViewRequest& view : layer.views) {
+        const ConeHierarchy& cones = *view.cones;
         // No fewer than 20 blocks across: what they are too coarse for is drawn in vain.
-        const double wanted = std::max(blocks.size().x, blocks.size().y) / 20.0;
+        const double wanted = std::max(cones.size().x, cones.size().y) / 20.0;
         int level = 0;
-        while (level + 1 < blocks.levels() && blocks.side(level) > wanted)
+        while (level + 1 < cones.levels() && cones.side(level) > wanted)
             ++level;
-        Walk{view, layer.E, layer.galilean, rear_last, held, demands, spread, level}.block(0, {0, 0});
+        Walk{view, layer.E, layer.galilean, finest_clip_level, held, demands, spread, level}.block(0, {0, 0});
     }
 }
 

@@ -1,5 +1,5 @@
 #include "star_cull.h"
-#include "headroom.h"
+#include "scratch.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -53,17 +53,17 @@ std::vector<StarPatch> star_patches(std::span<const shared::StarEntry> stars)
     return patches;
 }
 
-std::vector<StarRun> stars_in(std::span<const PlanImage> images, std::span<const StarPatch> patches,
+std::vector<StarRun> stars_in(std::span<const PlannedImage> images, std::span<const StarPatch> patches,
     const glm::dmat3& motion_from_world, std::vector<StarRun> before)
 {
-    std::array<Pyramid, SLOT_COUNT> all; // around each slot's images
+    std::array<Pyramid, TILE_COUNT> all; // around each tile's images
     std::size_t count = 0;
-    for (std::span<const PlanImage> left = images; !left.empty();) {
-        const std::span<const PlanImage> own = of_first_slot(left);
+    for (std::span<const PlannedImage> left = images; !left.empty();) {
+        const std::span<const PlannedImage> own = of_first_tile(left);
         left = left.subspan(own.size());
         Rect rect;
         double coarsest = own[0].texels_per_unit;
-        for (const PlanImage& image : own) {
+        for (const PlannedImage& image : own) {
             rect.add({image.low, image.high});
             coarsest = std::min(coarsest, image.texels_per_unit);
         }
@@ -87,7 +87,7 @@ std::vector<StarRun> stars_in(std::span<const PlanImage> images, std::span<const
         else
             runs.push_back({patch.first, patch.count});
     }
-    keep_room(runs);
+    reserve_headroom(runs);
     return runs;
 }
 

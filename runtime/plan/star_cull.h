@@ -21,7 +21,7 @@ struct StarRun {
 
 /// The stars that views of these images may show, spots that reach in from beyond an edge included; in order, few and long
 /// rather than many and short.
-std::vector<StarRun> stars_in(std::span<const PlanImage> images, std::span<const StarPatch> patches,
+std::vector<StarRun> stars_in(std::span<const PlannedImage> images, std::span<const StarPatch> patches,
     const glm::dmat3& motion_from_world, std::vector<StarRun> before = {}); ///< before: whose memory is taken over
 
 } // namespace starbow

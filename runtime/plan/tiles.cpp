@@ -7,15 +7,15 @@ namespace {
 
 constexpr double band_edges[SIDE_BANDS + 1] = {-1, -0.5, 0, 1};
 
-Rect rect_of(int slot)
+Rect rect_of(int tile)
 {
-    if (slot == SLOT_FRONT)
+    if (tile == TILE_FRONT)
         return {{-1, -1}, {1, 1}};
-    if (slot < SLOT_REAR) {
-        const int band = (slot - SLOT_SIDES) % SIDE_BANDS;
+    if (tile < TILE_REAR) {
+        const int band = (tile - TILE_SIDES) % SIDE_BANDS;
         return {{-1, band_edges[band]}, {1, band_edges[band + 1]}};
     }
-    const double half = std::exp2(-0.5 * (slot - SLOT_REAR));
+    const double half = std::exp2(-0.5 * (tile - TILE_REAR));
     return {{-half, -half}, {half, half}};
 }
 
@@ -24,28 +24,28 @@ double spread_out(bool rear, double at) { return rear ? at * std::abs(at) : at; 
 double drawn_in(bool rear, double at) { return rear ? std::copysign(std::sqrt(std::abs(at)), at) : at; }
 
 /// What is the same in each frame.
-struct Slots {
-    std::array<Rect, SLOT_COUNT> rects;
-    std::array<glm::dvec4, SLOT_COUNT> cells_from_face;
-    Slots()
+struct Tiles {
+    std::array<Rect, TILE_COUNT> rects;
+    std::array<glm::dvec4, TILE_COUNT> sub_tiles_from_face;
+    Tiles()
     {
-        for (int slot = 0; slot < SLOT_COUNT; ++slot) {
-            const Rect own = rects[std::size_t(slot)] = rect_of(slot);
+        for (int tile = 0; tile < TILE_COUNT; ++tile) {
+            const Rect own = rects[std::size_t(tile)] = rect_of(tile);
             for (int i = 0; i < 2; ++i) {
-                const double low = spread_out(slot >= SLOT_REAR, own.low[i]),
-                             high = spread_out(slot >= SLOT_REAR, own.high[i]);
-                cells_from_face[std::size_t(slot)][i] = SLOT_CELLS / (high - low);
-                cells_from_face[std::size_t(slot)][2 + i] = -low * SLOT_CELLS / (high - low);
+                const double low = spread_out(tile >= TILE_REAR, own.low[i]),
+                             high = spread_out(tile >= TILE_REAR, own.high[i]);
+                sub_tiles_from_face[std::size_t(tile)][i] = TILE_SUB_TILES / (high - low);
+                sub_tiles_from_face[std::size_t(tile)][2 + i] = -low * TILE_SUB_TILES / (high - low);
             }
         }
     }
 };
-const Slots fixed;
+const Tiles fixed;
 
 } // namespace
 
-const Rect& slot_rect(int slot) { return fixed.rects[std::size_t(slot)]; }
-const glm::dvec4& cells_from_face(int slot) { return fixed.cells_from_face[std::size_t(slot)]; }
+const Rect& tile_rect(int tile) { return fixed.rects[std::size_t(tile)]; }
+const glm::dvec4& sub_tiles_from_face(int tile) { return fixed.sub_tiles_from_face[std::size_t(tile)]; }
 
 glm::dvec3 face_direction(int face, const glm::dvec2& at)
 {
@@ -56,23 +56,23 @@ glm::dvec3 face_direction(int face, const glm::dvec2& at)
     return n;
 }
 
-int slot_face(int slot) { return slot == SLOT_FRONT ? 0 : slot >= SLOT_REAR ? 1 : 2 + (slot - SLOT_SIDES) / SIDE_BANDS; }
+int tile_face(int tile) { return tile == TILE_FRONT ? 0 : tile >= TILE_REAR ? 1 : 2 + (tile - TILE_SIDES) / SIDE_BANDS; }
 
-double slot_hole(int slot, int rear_last)
+double clip_hole(int tile, int finest_clip_level)
 {
-    return slot >= SLOT_REAR && slot < SLOT_REAR + rear_last ? std::exp2(-0.5 * (slot + 1 - SLOT_REAR)) : 0;
+    return tile >= TILE_REAR && tile < TILE_REAR + finest_clip_level ? std::exp2(-0.5 * (tile + 1 - TILE_REAR)) : 0;
 }
 
-int rear_level(double larger, int rear_last)
+int clip_level(double larger, int finest_clip_level)
 {
     // floor(-log2(larger^2)), an exact power of two going to the coarser image: the shader reads it from the exponent's
     // bits.
     int exponent;
     std::frexp(larger * larger, &exponent); // = [0.5, 1) 2^exponent
-    return larger > 0 ? std::clamp(-exponent, 0, rear_last) : rear_last;
+    return larger > 0 ? std::clamp(-exponent, 0, finest_clip_level) : finest_clip_level;
 }
 
-SlotPlace slot_of(const glm::dvec3& n, int rear_last)
+TilePlace tile_of(const glm::dvec3& n, int finest_clip_level)
 {
     const glm::dvec3 m = glm::abs(n);
     int face;
@@ -84,56 +84,56 @@ SlotPlace slot_of(const glm::dvec3& n, int rear_last)
         face = n.y >= 0 ? 4 : 5;
     const glm::dvec2 at = glm::dvec2(n[face_a[face]], n[face_b[face]]) / m[face_axis[face]];
     if (face == 0)
-        return {SLOT_FRONT, face, at};
+        return {TILE_FRONT, face, at};
     if (face == 1)
-        return {SLOT_REAR + rear_level(std::max(std::abs(at.x), std::abs(at.y)), rear_last), face, at};
+        return {TILE_REAR + clip_level(std::max(std::abs(at.x), std::abs(at.y)), finest_clip_level), face, at};
     const int band = (at.y > band_edges[1]) + (at.y > band_edges[2]);
-    return {SLOT_SIDES + (face - 2) * SIDE_BANDS + band, face, at};
+    return {TILE_SIDES + (face - 2) * SIDE_BANDS + band, face, at};
 }
 
-Rect cells_rect(int slot, const Cells& cells)
+Rect sub_tiles_rect(int tile, const SubTiles& sub_tiles)
 {
-    const bool rear = slot >= SLOT_REAR;
-    const glm::dvec4& from_face = cells_from_face(slot);
+    const bool rear = tile >= TILE_REAR;
+    const glm::dvec4& from_face = sub_tiles_from_face(tile);
     Rect rect;
     for (int i = 0; i < 2; ++i) {
-        rect.low[i] = drawn_in(rear, (cells.first[i] - from_face[2 + i]) / from_face[i]);
-        rect.high[i] = drawn_in(rear, (cells.first[i] + cells.count[i] - from_face[2 + i]) / from_face[i]);
+        rect.low[i] = drawn_in(rear, (sub_tiles.first[i] - from_face[2 + i]) / from_face[i]);
+        rect.high[i] = drawn_in(rear, (sub_tiles.first[i] + sub_tiles.count[i] - from_face[2 + i]) / from_face[i]);
     }
     return rect;
 }
 
-Cells cells_in(int slot, const Rect& part)
+SubTiles sub_tiles_in(int tile, const Rect& part)
 {
-    const bool rear = slot >= SLOT_REAR;
-    const glm::dvec4& from_face = cells_from_face(slot);
-    Cells cells;
+    const bool rear = tile >= TILE_REAR;
+    const glm::dvec4& from_face = sub_tiles_from_face(tile);
+    SubTiles sub_tiles;
     for (int i = 0; i < 2; ++i) {
-        auto cell = [&](double at) { return spread_out(rear, at) * from_face[i] + from_face[2 + i]; };
-        cells.first[i] = std::clamp(int(std::floor(cell(part.low[i]))), 0, SLOT_CELLS - 1);
-        cells.count[i] = std::clamp(int(std::ceil(cell(part.high[i]))), cells.first[i] + 1, SLOT_CELLS) - cells.first[i];
+        auto sub_tile = [&](double at) { return spread_out(rear, at) * from_face[i] + from_face[2 + i]; };
+        sub_tiles.first[i] = std::clamp(int(std::floor(sub_tile(part.low[i]))), 0, TILE_SUB_TILES - 1);
+        sub_tiles.count[i] = std::clamp(int(std::ceil(sub_tile(part.high[i]))), sub_tiles.first[i] + 1, TILE_SUB_TILES) - sub_tiles.first[i];
     }
-    return cells;
+    return sub_tiles;
 }
 
-const CellTable& cell_table(int slot)
+const SubTileTable& sub_tile_table(int tile)
 {
     static const auto all = [] {
-        std::array<CellTable, SLOT_COUNT> all;
-        for (int slot = 0; slot < SLOT_COUNT; ++slot)
-            for (int i = 0; i < CELL_COUNT; ++i) {
-                CellTable& table = all[std::size_t(slot)];
-                const std::size_t cell = std::size_t(i);
-                const glm::ivec2 at(i % SLOT_CELLS, i / SLOT_CELLS);
-                const Rect rect = table.rects[cell] = cells_rect(slot, {at, {1, 1}});
-                const glm::ivec2 off = glm::abs(2 * at + 1 - SLOT_CELLS); // half cells from the middle
-                table.in_hole[cell] = slot >= SLOT_REAR && std::max(off.x, off.y) < SLOT_CELLS / 2;
+        std::array<SubTileTable, TILE_COUNT> all;
+        for (int tile = 0; tile < TILE_COUNT; ++tile)
+            for (int i = 0; i < SUB_TILE_COUNT; ++i) {
+                SubTileTable& table = all[std::size_t(tile)];
+                const std::size_t sub_tile = std::size_t(i);
+                const glm::ivec2 at(i % TILE_SUB_TILES, i / TILE_SUB_TILES);
+                const Rect rect = table.rects[sub_tile] = sub_tiles_rect(tile, {at, {1, 1}});
+                const glm::ivec2 off = glm::abs(2 * at + 1 - TILE_SUB_TILES); // half cells from the middle
+                table.in_clip_hole[sub_tile] = tile >= TILE_REAR && std::max(off.x, off.y) < TILE_SUB_TILES / 2;
                 // At corners: no cell lies across an axis of its face.
-                double& least = table.least_cos_half_square[cell] = 1;
-                double& most = table.most_cos_half_square[cell] = 0;
+                double& least = table.least_cos_half_square[sub_tile] = 1;
+                double& most = table.most_cos_half_square[sub_tile] = 0;
                 for (const glm::dvec2& corner :
                     {rect.low, rect.high, glm::dvec2(rect.low.x, rect.high.y), glm::dvec2(rect.high.x, rect.low.y)}) {
-                    const glm::dvec3 n = face_direction(slot_face(slot), corner);
+                    const glm::dvec3 n = face_direction(tile_face(tile), corner);
                     // (1 + cos) / 2, which behind would be a difference of numbers almost alike
                     const double length = glm::length(n), across_square = n.x * n.x + n.y * n.y;
                     const double own = n.z > 0 ? 0.5 * (1 + n.z / length) : 0.5 * across_square / (length * (length - n.z));
@@ -142,7 +142,7 @@ const CellTable& cell_table(int slot)
             }
         return all;
     }();
-    return all[std::size_t(slot)];
+    return all[std::size_t(tile)];
 }
 
 } // namespace starbow

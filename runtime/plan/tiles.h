@@ -5,9 +5,9 @@
 
 namespace starbow {
 
-/// The cut of a cube map, fixed: its slots, and the cells of each. A plan decides which of them it draws, and how.
+/// The cut of a cube map, fixed: its tiles, and the cells of each. A plan decides which of them it draws, and how.
 ///
-/// One slot ahead; each side in three bands across the motion, so that D varies less than twofold in each; behind, nested
+/// One tile ahead; each side in three bands across the motion, so that D varies less than twofold in each; behind, nested
 /// squares shrinking by sqrt 2 (D varies as the square of the angle there).
 ///
 /// Faces are numbered +z (ahead), -z (behind), +x, -x, +y, -y of the motion axes; a face's coordinates (a, b) are the two
@@ -29,42 +29,42 @@ constexpr double face_sign[6] = {1, -1, 1, -1, 1, -1};
 /// Unit direction (not normalised: length of the face's plane) of a face coordinate.
 glm::dvec3 face_direction(int face, const glm::dvec2& at);
 
-int slot_face(int slot);
-/// The part of its face's plane that belongs to a slot.
-const Rect& slot_rect(int slot);
-/// Half the side of the square in a nested slot's middle that belongs to the next one; 0 where none does.
-double slot_hole(int slot, int rear_last);
+int tile_face(int tile);
+/// The part of its face's plane that belongs to a tile.
+const Rect& tile_rect(int tile);
+/// Half the side of the square in a nested tile's middle that belongs to the next one; 0 where none does.
+double clip_hole(int tile, int finest_clip_level);
 
-/// The slot that shows the unit direction n (motion axes) and n's face coordinates there: what the warp shader does.
-struct SlotPlace {
-    int slot, face;
+/// The tile that shows the unit direction n (motion axes) and n's face coordinates there: what the warp shader does.
+struct TilePlace {
+    int tile, face;
     glm::dvec2 at;
 };
-SlotPlace slot_of(const glm::dvec3& n, int rear_last);
+TilePlace tile_of(const glm::dvec3& n, int finest_clip_level);
 
-/// A slot's cells: SLOT_CELLS along each side, rows along b. cell = face coordinate * xy + zw; behind, its square with its
+/// A tile's cells: TILE_SUB_TILES along each side, rows along b. cell = face coordinate * xy + zw; behind, its square with its
 /// sign instead.
-constexpr int CELL_COUNT = SLOT_CELLS * SLOT_CELLS;
-struct Cells {
-    glm::ivec2 first{0}, count{SLOT_CELLS};
-    bool all() const { return count == glm::ivec2(SLOT_CELLS); }
-    bool operator==(const Cells&) const = default;
+constexpr int SUB_TILE_COUNT = TILE_SUB_TILES * TILE_SUB_TILES;
+struct SubTiles {
+    glm::ivec2 first{0}, count{TILE_SUB_TILES};
+    bool all() const { return count == glm::ivec2(TILE_SUB_TILES); }
+    bool operator==(const SubTiles&) const = default;
 };
-const glm::dvec4& cells_from_face(int slot);
-Rect cells_rect(int slot, const Cells& cells);
+const glm::dvec4& sub_tiles_from_face(int tile);
+Rect sub_tiles_rect(int tile, const SubTiles& sub_tiles);
 /// Those that a part of the face's plane touches.
-Cells cells_in(int slot, const Rect& part);
+SubTiles sub_tiles_in(int tile, const Rect& part);
 
 /// What is told of each cell: its part of the face's plane; whether it lies in the hole; the least and the greatest square
 /// of the cosine of half the angle from straight ahead, which D grows with.
-struct CellTable {
-    std::array<Rect, CELL_COUNT> rects;
-    std::array<bool, CELL_COUNT> in_hole;
-    std::array<double, CELL_COUNT> least_cos_half_square, most_cos_half_square;
+struct SubTileTable {
+    std::array<Rect, SUB_TILE_COUNT> rects;
+    std::array<bool, SUB_TILE_COUNT> in_clip_hole;
+    std::array<double, SUB_TILE_COUNT> least_cos_half_square, most_cos_half_square;
 };
-const CellTable& cell_table(int slot);
+const SubTileTable& sub_tile_table(int tile);
 
-/// Which nested slot a point behind belongs to, from the larger of its coordinates.
-int rear_level(double larger, int rear_last);
+/// Which nested tile a point behind belongs to, from the larger of its coordinates.
+int clip_level(double larger, int finest_clip_level);
 
 } // namespace starbow

@@ -58,7 +58,7 @@ glm::dvec3 ByShift::at(double D) const
     return seen;
 }
 
-Colours::Colours(const World& world, const SceneFile& scene, const Observer& observer)
+Colours::Colours(const World& world, const SceneFile& scene, const StandardObserver& observer)
     : world_(world)
     , observer_(observer)
     , material_of_set_(1, -1)

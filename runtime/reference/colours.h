@@ -33,7 +33,7 @@ private:
 /// All light of a scene as an observer sees it, with its whole spectrum.
 class Colours {
 public:
-    Colours(const World& world, const SceneFile& scene, const Observer& observer);
+    Colours(const World& world, const SceneFile& scene, const StandardObserver& observer);
 
     /// Light of a kind that shines on surfaces: sunlight, or a lamp's own, that comes there shifted by D.
     struct Kind {
@@ -65,7 +65,7 @@ private:
     int parts(int material) const;
 
     const World& world_;
-    const Observer& observer_;
+    const StandardObserver& observer_;
     std::vector<Kind> kinds_;
     std::vector<int> set_; ///< of each material: which of a kind's reflectances, 0: base colours
     std::vector<int> material_of_set_;

@@ -5,50 +5,50 @@
 namespace starbow {
 
 TracingEye::TracingEye(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours,
-    const Watcher& watcher, const glm::dvec3& place, double beside)
+    const Observer& observer, const glm::dvec3& place, double beside)
     : scene_(scene)
     , colours_(colours)
-    , watcher_(watcher)
+    , observer_(observer)
     , place_(place)
 {
-    for (std::size_t i = 0; i < watcher_.layers.size(); ++i) {
-        const Layer& layer = watcher_.layers[i];
-        const Vantage vantage = vantage_of(layer, int(i), place);
+    for (std::size_t i = 0; i < observer_.layers.size(); ++i) {
+        const RestFrameView& layer = observer_.layers[i];
+        const EyeEvent eye_event = eye_event_of(layer, int(i), place);
         // What is beside in the ship is further beside in the frame.
         const double reach = beside * physics::gamma_of(layer.shot.u);
         views_.push_back(
-            {&layer, Tracer(world, pictures, vantage, reach), Lighting(world, scene, pictures, colours, vantage)});
+            {&layer, Tracer(world, pictures, eye_event, reach), Lighting(world, scene, pictures, colours, eye_event)});
     }
 }
 
 std::size_t TracingEye::triangles() const
 {
     std::size_t all = 0;
-    for (const View& view : views_)
+    for (const EyeInRestFrame& view : views_)
         all += view.tracer.triangles();
     return all;
 }
 
 /// From a direction in the ship, motion axes, to the one in a frame.
-physics::Sight TracingEye::sight(const glm::dvec3& n, double E) const
+physics::AberratedRay TracingEye::sight(const glm::dvec3& n, double E) const
 {
-    return watcher_.shot.effects.comparison == Comparison::galilean ? physics::galilean_world_from_camera(n, E, 1 / E)
+    return observer_.shot.effects.comparison == Comparison::galilean ? physics::galilean_world_from_camera(n, E, 1 / E)
                                                                     : physics::world_from_camera(n, E, 1 / E);
 }
 
-TracingEye::Nearest TracingEye::nearest(const glm::dvec3& way, const glm::dvec3& beside, const physics::Sight& world) const
+TracingEye::Nearest TracingEye::nearest(const glm::dvec3& way, const glm::dvec3& beside, const physics::AberratedRay& world) const
 {
     // Without aberration directions are as in the world, and what moves there is seen as from there; D is the ship's beside.
-    const bool aberration = watcher_.shot.effects.aberration;
+    const bool aberration = observer_.shot.effects.aberration;
     const double D_beside = aberration ? 1 : world.D;
     Nearest found;
-    for (const View& view : views_) {
+    for (const EyeInRestFrame& view : views_) {
         if (view.tracer.triangles() == 0)
             continue;
-        const Layer& layer = *view.layer;
+        const RestFrameView& layer = *view.layer;
         const glm::dvec3 n = glm::normalize(layer.motion_from_cockpit * way);
-        physics::Sight own = sight(n, layer.E);
-        const bool worlds = view.tracer.vantage().frame == 0;
+        physics::AberratedRay own = sight(n, layer.E);
+        const bool worlds = view.tracer.eye_event().frame == 0;
         if (worlds)
             own = world;
         glm::dvec3 stretched = own.n;
@@ -56,7 +56,7 @@ TracingEye::Nearest TracingEye::nearest(const glm::dvec3& way, const glm::dvec3&
         const double stretch = glm::length(stretched);
         const glm::dvec3 apart = layer.shot.ship_from_cockpit * beside;
         SightLine line{
-            glm::dvec3(0), glm::transpose(layer.motion_from_frame) * (stretched / stretch), view.tracer.vantage().time};
+            glm::dvec3(0), glm::transpose(layer.motion_from_frame) * (stretched / stretch), view.tracer.eye_event().time};
         if (beside != glm::dvec3(0)) {
             line.from = physics::eye_place(layer.shot.u, apart);
             line.time += physics::eye_time(layer.shot.u, apart);
@@ -74,10 +74,10 @@ TracingEye::Nearest TracingEye::nearest(const glm::dvec3& way, const glm::dvec3&
 
 LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside) const
 {
-    const Effects& effects = watcher_.shot.effects;
-    const Layer& layer = watcher_.layers.front();
+    const Effects& effects = observer_.shot.effects;
+    const RestFrameView& layer = observer_.layers.front();
     const glm::dvec3 n = glm::normalize(layer.motion_from_cockpit * way);
-    physics::Sight world = sight(n, watcher_.E);
+    physics::AberratedRay world = sight(n, observer_.E);
     if (!effects.aberration)
         world.n = n;
     LookedAt out;
@@ -104,20 +104,20 @@ LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside) const
 
 bool TracingEye::covered(const glm::dvec3& way, const glm::dvec3& beside) const
 {
-    const glm::dvec3 n = glm::normalize(watcher_.layers.front().motion_from_cockpit * way);
-    physics::Sight world = sight(n, watcher_.E);
-    if (!watcher_.shot.effects.aberration)
+    const glm::dvec3 n = glm::normalize(observer_.layers.front().motion_from_cockpit * way);
+    physics::AberratedRay world = sight(n, observer_.E);
+    if (!observer_.shot.effects.aberration)
         world.n = n;
     return nearest(way, beside, world).view;
 }
 
-physics::Sight TracingEye::from_world(const glm::dvec3& towards) const
+physics::AberratedRay TracingEye::from_world(const glm::dvec3& towards) const
 {
-    const Effects& effects = watcher_.shot.effects;
-    const Layer& layer = watcher_.layers.front();
+    const Effects& effects = observer_.shot.effects;
+    const RestFrameView& layer = observer_.layers.front();
     const glm::dvec3 n = layer.motion_from_frame * towards;
-    const double E = watcher_.E;
-    physics::Sight seen{n, 1};
+    const double E = observer_.E;
+    physics::AberratedRay seen{n, 1};
     if (!effects.aberration)
         seen.D = sight(n, E).D;
     else if (effects.comparison == Comparison::galilean)

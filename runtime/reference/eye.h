@@ -19,7 +19,7 @@ public:
     /// place: from the ship's event, its own axes (the cockpit's), scene units; others up to `beside` from it may be asked
     /// for. All must outlive it.
     TracingEye(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours,
-        const Watcher& watcher, const glm::dvec3& place, double beside);
+        const Observer& observer, const glm::dvec3& place, double beside);
 
     /// Along a unit direction of the cockpit. beside: the eye's place from the one above.
     LookedAt look(const glm::dvec3& way, const glm::dvec3& beside = glm::dvec3(0)) const;
@@ -28,31 +28,31 @@ public:
     bool covered(const glm::dvec3& way, const glm::dvec3& beside = glm::dvec3(0)) const;
 
     /// Where the cockpit sees what lies at a unit direction of the world, and D.
-    physics::Sight from_world(const glm::dvec3& towards) const;
+    physics::AberratedRay from_world(const glm::dvec3& towards) const;
 
-    const Watcher& watcher() const { return watcher_; }
+    const Observer& observer_of() const { return observer_; }
     std::size_t triangles() const;
 
 private:
-    struct View {
-        const Layer* layer;
+    struct EyeInRestFrame {
+        const RestFrameView* layer;
         Tracer tracer;
         Lighting lighting;
     };
     /// The nearest of what all frames show, as light's way in the ship tells.
     struct Nearest {
-        const View* view = nullptr;
+        const EyeInRestFrame* view = nullptr;
         Met met;
         double D = 1, way = INFINITY; ///< way: in the ship
     };
-    physics::Sight sight(const glm::dvec3& n, double E) const;
-    Nearest nearest(const glm::dvec3& way, const glm::dvec3& beside, const physics::Sight& world) const;
+    physics::AberratedRay sight(const glm::dvec3& n, double E) const;
+    Nearest nearest(const glm::dvec3& way, const glm::dvec3& beside, const physics::AberratedRay& world) const;
 
     const SceneFile& scene_;
     const Colours& colours_;
-    Watcher watcher_;
+    Observer observer_;
     glm::dvec3 place_;
-    std::vector<View> views_;
+    std::vector<EyeInRestFrame> views_;
 };
 
 } // namespace starbow

@@ -9,42 +9,42 @@
 namespace starbow {
 namespace {
 
-const Life always{-for_ever, for_ever};
+const ExistenceInterval always{-for_ever, for_ever};
 
 /// What an instance's own clock is at its frame's time 0.
 double zero_of(const World& world, const Instance& instance)
 {
-    return instance.life < 0 ? 0 : world.lives[std::size_t(instance.life)].zero;
+    return instance.existence < 0 ? 0 : world.existence_intervals[std::size_t(instance.existence)].zero;
 }
 
 /// When the light of the middle of an instance's box left that the eye gets.
-double middle_sent(const World& world, const Instance& instance, const Vantage& vantage)
+double middle_sent(const World& world, const Instance& instance, const EyeEvent& eye_event)
 {
     if (instance.motion >= 0)
-        return seen_pose(world, instance, vantage).sent;
+        return seen_pose(world, instance, eye_event).sent;
     const Primitive& primitive = world.primitives[instance.primitive];
     const glm::dvec4 middle(0.5 * (primitive.low + primitive.high), 1);
-    return emission_time(
-        vantage, vantage.motion_from_frame * (glm::dvec3(instance.frame_from_local * middle) - vantage.place));
+    return retarded_time(
+        eye_event, eye_event.motion_from_frame * (glm::dvec3(instance.frame_from_local * middle) - eye_event.place));
 }
 
 } // namespace
 
 Lighting::Lighting(
-    const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours, const Vantage& vantage)
+    const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours, const EyeEvent& eye_event)
     : world_(world)
     , scene_(scene)
     , pictures_(pictures)
     , colours_(colours)
-    , vantage_(vantage)
+    , eye_event_(eye_event)
 {
     for (const Lamp& lamp : world.lamps) {
         const Light& light = scene.lights[lamp.light];
         Source source{&light, {}, {}, true, 0};
         std::visit([&](const auto& l) { source.radiance = l.radiance, source.kind.light = l.spectrum; }, light);
-        if (lamp.frame != vantage.frame) {
+        if (lamp.frame != eye_event.frame) {
             if (const auto* far = std::get_if<DirectionalLight>(&light))
-                aberrated(world.frames[std::size_t(vantage.frame)].u, far->towards, source.kind.D);
+                aberrated(world.frames[std::size_t(eye_event.frame)].u, far->towards, source.kind.D);
             else
                 source.same_D = false;
         }
@@ -57,8 +57,8 @@ Lighting::Lighting(
 Lighting::Shine Lighting::shine(std::size_t index, const glm::dvec3& place, double time) const
 {
     const Lamp& lamp = world_.lamps[index];
-    const RestFrame &here = world_.frames[std::size_t(vantage_.frame)], &there = world_.frames[std::size_t(lamp.frame)];
-    const bool moves = lamp.frame != vantage_.frame;
+    const RestFrame &here = world_.frames[std::size_t(eye_event_.frame)], &there = world_.frames[std::size_t(lamp.frame)];
+    const bool moves = lamp.frame != eye_event_.frame;
     Shine shine;
     if (const auto* far = std::get_if<DirectionalLight>(sources_[index].light)) {
         shine.towards = moves ? aberrated(here.u, far->towards, shine.D) : far->towards;
@@ -77,14 +77,14 @@ Lighting::Shine Lighting::shine(std::size_t index, const glm::dvec3& place, doub
         const glm::dvec3 u = physics::relative(here.u, there.u).u;
         const double gamma = physics::gamma_of(u), speed = glm::length(u);
         const glm::dvec3 now = zero.position + u / gamma * (time - zero.time) - place;
-        const physics::Seen seen = physics::seen_moving(now, u / speed, speed, gamma);
+        const physics::RetardedPosition seen = physics::retarded_position(now, u / speed, speed, gamma);
         shine.D = seen.D;
         way = seen.place;
         own = (time - zero.time) / gamma + seen.tau;
         distance = seen.delay / seen.D; // the light's way goes as its frequency does not
     }
-    const Life& life = lamp.life < 0 ? always : world_.lives[std::size_t(lamp.life)];
-    if (own < life.begin || own > life.end || distance == 0)
+    const ExistenceInterval& existence = lamp.existence < 0 ? always : world_.existence_intervals[std::size_t(lamp.existence)];
+    if (own < existence.begin || own > existence.end || distance == 0)
         return shine;
     shine.towards = way / glm::length(way);
     shine.strength = shine.D * (at_distance / distance) * (at_distance / distance);
@@ -105,7 +105,7 @@ glm::dvec3 Lighting::seen(const Met& met, double D) const
     if (material.clock) {
         const glm::dvec2 uv = uv_of(world_, met);
         const double middle_s
-            = (middle_sent(world_, instance, vantage_) - zero_of(world_, instance)) * world_.seconds_per_time_unit;
+            = (middle_sent(world_, instance, eye_event_) - zero_of(world_, instance)) * world_.seconds_per_time_unit;
         const double ink
             = mark({2 * uv.x - 1, 1 - 2 * uv.y}, own_s - material.clock->zero_s, figures(middle_s - material.clock->zero_s));
         base *= 1 - ink;
@@ -126,7 +126,7 @@ glm::dvec3 Lighting::seen(const Met& met, double D) const
         local += met.weights[k] * glm::dvec3(world_.vertices[met.corners[k]].normal);
     const glm::dmat3 m(instance.motion >= 0 ? pose_at(world_, instance, met.sent) : instance.frame_from_local);
     const glm::dvec3 normal = glm::normalize(glm::transpose(glm::inverse(m)) * local) * (met.front ? 1.0 : -1.0);
-    const glm::dvec3 place = vantage_.place + met.place;
+    const glm::dvec3 place = eye_event_.place + met.place;
     for (std::size_t i = 0; i < sources_.size(); ++i) {
         const Shine light = shine(i, place, met.sent);
         const double facing = glm::dot(normal, light.towards);

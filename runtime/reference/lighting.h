@@ -8,7 +8,7 @@ namespace starbow {
 class Lighting {
 public:
     /// All must outlive it; colours is made ready for the lamps.
-    Lighting(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours, const Vantage& vantage);
+    Lighting(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours, const EyeEvent& eye_event);
 
     /// What is seen at D of a surface where it was met, without the headlight effect.
     glm::dvec3 seen(const Met& met, double D) const;
@@ -34,7 +34,7 @@ private:
     const SceneFile& scene_;
     const Pictures& pictures_;
     const Colours& colours_;
-    Vantage vantage_;
+    EyeEvent eye_event_;
     std::vector<Source> sources_; ///< of World::lamps
 };
 

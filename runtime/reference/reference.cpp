@@ -30,24 +30,24 @@ using rvec3 = glm::dvec3;
 namespace starbow {
 namespace {
 
-/// One pane and the eye that looks through it.
-struct PaneAt {
-    const CompiledPane* compiled;
-    PaneRays rays;
+/// One view and the eye that looks through it.
+struct ViewAt {
+    const CompiledView* compiled;
+    ViewRays rays;
     std::size_t eye;
     glm::dvec3 turning{0}; ///< not 0: the eye's way from the head's middle where its baseline turns, cockpit, scene units
     std::size_t stars = 0;
 };
 
 struct EyeAt {
-    Onlooker observer;
+    ViewportObserver observer;
     glm::dvec3 place; ///< cockpit, scene units
     double beside;
 };
 
 class Picture_ {
 public:
-    Picture_(const ReferenceInput& input, const Layout& layout, const Shot& shot, std::span<const CompiledPane> panes,
+    Picture_(const ReferenceInput& input, const Layout& layout, const Shot& shot, std::span<const CompiledView> views,
         int samples)
         : layout_(layout)
         , samples_(sample_places(samples))
@@ -58,67 +58,67 @@ public:
         const double scale = layout.stereo.hyper_stereo / input.scene.unit_m;
         const bool turns = layout.stereo.method == StereoMethod::reprojected && layout.stereo.turning;
         std::vector<EyeAt> places;
-        panes_.reserve(panes.size());
-        for (const CompiledPane& compiled : panes) {
-            const Pane& pane = compiled.pane;
-            const glm::dvec3 beside = pane.picture.eye_m - pane.head_m;
+        views_.reserve(views.size());
+        for (const CompiledView& compiled : views) {
+            const View& view = compiled.view;
+            const glm::dvec3 beside = view.picture.eye_m - view.head_m;
             const bool own = layout.stereo.method == StereoMethod::exact
                 || (layout.stereo.method == StereoMethod::reprojected && !turns);
             EyeAt at{
-                pane.observer, (own ? pane.picture.eye_m : pane.head_m) * scale, turns ? glm::length(beside * scale) : 0};
+                view.observer, (own ? view.picture.eye_m : view.head_m) * scale, turns ? glm::length(beside * scale) : 0};
             auto same = std::find_if(places.begin(), places.end(),
                 [&](const EyeAt& e) { return e.observer == at.observer && e.place == at.place && e.beside == at.beside; });
             const std::size_t index = std::size_t(same - places.begin());
             if (same == places.end())
                 places.push_back(at);
-            panes_.push_back({&compiled, PaneRays(compiled, samples_), index, turns ? beside * scale : glm::dvec3(0)});
+            views_.push_back({&compiled, ViewRays(compiled, samples_), index, turns ? beside * scale : glm::dvec3(0)});
         }
         eyes_.reserve(places.size());
         for (const EyeAt& at : places)
             eyes_.emplace_back(input.world, input.scene, pictures_, colours_,
-                starbow::watcher(input.world, shot, at.observer), at.place, at.beside);
+                starbow::observer_of(input.world, shot, at.observer), at.place, at.beside);
         if (input.scene.stars && !input.stars.empty())
-            for (PaneAt& pane : panes_) {
-                pane.stars = stars_.size();
-                stars_.emplace_back(input.stars, *input.scene.stars, eyes_[pane.eye], colours_,
-                    [&](const glm::dvec3& way) { return beside(pane, way); });
+            for (ViewAt& view : views_) {
+                view.stars = stars_.size();
+                stars_.emplace_back(input.stars, *input.scene.stars, eyes_[view.eye], colours_,
+                    [&](const glm::dvec3& way) { return beside(view, way); });
             }
     }
 
     /// One row of the output into each layer's picture, and the numbers of the first.
     void row(int y, std::span<glm::dvec3* const> light, Reference::Numbers* numbers) const
     {
-        for (const PaneAt& pane : panes_) {
-            const Pane& own = pane.compiled->pane;
+        for (const ViewAt& view : views_) {
+            const View& own = view.compiled->view;
             const int inside = y - own.corner.y;
             if (inside < 0 || inside >= own.size.y)
                 continue;
-            const PaneRays::Row ways = pane.rays.row(inside);
+            const ViewRays::Row ways = view.rays.row(inside);
             for (int x = 0; x < own.size.x; ++x) {
                 const std::size_t at = std::size_t(own.corner.x + x);
-                light[std::size_t(own.layer)][at] = pixel(pane, ways, {x, inside}) * exposure_;
+                light[std::size_t(own.layer)][at] = pixel(view, ways, {x, inside}) * exposure_;
                 if (own.layer == 0 && numbers)
-                    numbers[at] = numbers_at(pane, ways, x);
+                    numbers[at] = numbers_at(view, ways, x);
             }
         }
     }
 
 private:
     /// Of the eye, from its tracing eye's place, along a direction of the cockpit.
-    glm::dvec3 beside(const PaneAt& pane, const glm::dvec3& way) const
+    glm::dvec3 beside(const ViewAt& view, const glm::dvec3& way) const
     {
-        if (pane.turning == glm::dvec3(0))
+        if (view.turning == glm::dvec3(0))
             return glm::dvec3(0);
         // To the right of the way that it looks, level; nearer than full_from_zenith_deg to the zenith less and less.
         const glm::dvec3 right = glm::cross(way, glm::dvec3(0, 1, 0));
-        const double far = glm::length(pane.turning) * (pane.turning.x < 0 ? -1 : 1);
+        const double far = glm::length(view.turning) * (view.turning.x < 0 ? -1 : 1);
         return right * (far / std::max(glm::length(right), std::sin(layout_.stereo.full_from_zenith_deg * degree)));
     }
 
-    glm::dvec3 pixel(const PaneAt& pane, const PaneRays::Row& ways, const glm::ivec2& at) const
+    glm::dvec3 pixel(const ViewAt& view, const ViewRays::Row& ways, const glm::ivec2& at) const
     {
-        const int channels = pane.rays.channels();
-        const TracingEye& eye = eyes_[pane.eye];
+        const int channels = view.rays.channels();
+        const TracingEye& eye = eyes_[view.eye];
         glm::dvec3 out(0);
         for (int channel = 0; channel < channels; ++channel) {
             if (!ways.centre(at.x, channel))
@@ -127,12 +127,12 @@ private:
             int count = 0;
             for (std::size_t i = 0; i < samples_.size(); ++i)
                 if (const auto way = ways.sample(at.x, i, channel)) {
-                    sum += eye.look(*way, beside(pane, *way)).light;
+                    sum += eye.look(*way, beside(view, *way)).light;
                     ++count;
                 }
             glm::dvec3 light = count > 0 ? sum / double(count) : glm::dvec3(0);
             if (!stars_.empty())
-                light += stars_[pane.stars].light(pane.rays, at, channel);
+                light += stars_[view.stars].light(view.rays, at, channel);
             if (channels == 3)
                 out[channel] = light[channel];
             else
@@ -141,14 +141,14 @@ private:
         return out;
     }
 
-    Reference::Numbers numbers_at(const PaneAt& pane, const PaneRays::Row& ways, int x) const
+    Reference::Numbers numbers_at(const ViewAt& view, const ViewRays::Row& ways, int x) const
     {
-        const auto way = ways.centre(x, pane.rays.channels() == 3 ? int(Channel::green) : 0);
+        const auto way = ways.centre(x, view.rays.channels() == 3 ? int(Channel::green) : 0);
         if (!way)
             return {};
-        const TracingEye& eye = eyes_[pane.eye];
-        const LookedAt seen = eye.look(*way, beside(pane, *way));
-        const Layer& layer = eye.watcher().layers.front();
+        const TracingEye& eye = eyes_[view.eye];
+        const LookedAt seen = eye.look(*way, beside(view, *way));
+        const RestFrameView& layer = eye.observer_of().layers.front();
         const glm::dvec3 camera = glm::transpose(layer.motion_from_frame) * (layer.motion_from_cockpit * *way);
         return {glm::normalize(camera), seen.world, seen.D, seen.distance, true};
     }
@@ -158,12 +158,12 @@ private:
     Pictures pictures_;
     Colours colours_;
     double exposure_;
-    std::vector<PaneAt> panes_;
+    std::vector<ViewAt> views_;
     std::vector<TracingEye> eyes_;
     std::vector<StarSpots> stars_;
 };
 
-std::string told(const Shot& shot)
+std::string describe(const Shot& shot)
 {
     std::ostringstream out;
     out.precision(17);
@@ -248,17 +248,17 @@ ReferenceWorld open_reference_world(const std::filesystem::path& file)
 Reference reference(
     const ReferenceInput& input, const Layout& layout, const Shot& shot, std::size_t output, const ReferenceOptions& options)
 {
-    // All panes of all outputs: where they overlap their light is shared.
+    // All views of all outputs: where they overlap their light is shared.
     MapStore store{std::filesystem::path()};
-    std::vector<CompiledPane> lit, own;
+    std::vector<CompiledView> lit, own;
     for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
-        std::vector<CompiledPane> panes = compile_output(store, layout, i, layout.outputs[i].size);
+        std::vector<CompiledView> views = compile_output(store, layout, i, layout.outputs[i].size);
         if (!layout.outputs[i].preview)
-            lit.insert(lit.end(), panes.begin(), panes.end());
+            lit.insert(lit.end(), views.begin(), views.end());
         if (i == output)
-            own = std::move(panes);
+            own = std::move(views);
     }
-    refuse_dark(layout, lit);
+    reject_empty(layout, lit);
     std::vector<std::vector<float>> ramps;
     if (layout.blend.ramps)
         ramps = blend_ramps(layout, lit, layout.blend.power);
@@ -289,7 +289,7 @@ Reference reference(
         kept.emplace(options.kept,
             "starbow rows " + std::to_string(sum_of(input, layout)) + ' ' + std::to_string(output) + ' '
                 + std::to_string(width) + 'x' + std::to_string(rows) + ' ' + std::to_string(options.samples) + ' '
-                + told(shot),
+                + describe(shot),
             row_bytes, int(rows));
     std::atomic<int> next = 0;
     int done = kept ? kept->count() : 0;

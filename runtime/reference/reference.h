@@ -64,7 +64,7 @@ Reference reference(const ReferenceInput& input, const Layout& layout, const Sho
 /// As a screen gets it: tone curve, both eyes put together, blend and colour, its curve; RGBA8, rounded, not dithered.
 std::vector<std::uint8_t> shown(const Reference& reference);
 
-/// An EXR's channels, as Studio::numbers has them: light before exposure.
+/// An EXR's channels, as OffscreenRenderer::numbers has them: light before exposure.
 Channels channels(const Reference& reference);
 
 } // namespace starbow

@@ -23,12 +23,12 @@ StarSpots::StarSpots(const std::vector<Star>& stars, const StarSky& sky, const T
 {
     const glm::dmat3 world_from_sky = world_from_equatorial(sky.ahead_deg);
     const double magnitude_0 = sky.brightness_arcmin2 * std::pow(pi / 180 / 60, 2);
-    const Effects& effects = eye.watcher().shot.effects;
+    const Effects& effects = eye.observer_of().shot.effects;
     std::vector<Spot> all(stars.size());
     by_rows(int(stars.size()), [&](int first, int end) {
         for (int i = first; i < end; ++i) {
             const Star& star = stars[std::size_t(i)];
-            const physics::Sight seen = eye.from_world(world_from_sky * star.direction);
+            const physics::AberratedRay seen = eye.from_world(world_from_sky * star.direction);
             if (eye.covered(seen.n, beside(seen.n)))
                 continue;
             glm::dvec3 light = colours.star(star.temperature_K, effects.doppler ? seen.D : 1)
@@ -69,7 +69,7 @@ void StarSpots::near(
         near(middle + 1, end, (axis + 1) % 3, way, reach, found);
 }
 
-glm::dvec3 StarSpots::light(const PaneRays& rays, const glm::ivec2& pixel, int channel) const
+glm::dvec3 StarSpots::light(const ViewRays& rays, const glm::ivec2& pixel, int channel) const
 {
     const glm::dvec2 centre = glm::dvec2(pixel) + 0.5;
     const auto here = rays.direction(centre, channel);

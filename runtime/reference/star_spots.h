@@ -1,6 +1,6 @@
 #pragma once
 #include "eye.h"
-#include "pane_rays.h"
+#include "view_rays.h"
 #include "runtime/world/stars.h"
 
 namespace starbow {
@@ -13,7 +13,7 @@ public:
         const std::function<glm::dvec3(const glm::dvec3& way)>& beside);
 
     /// The light that stars bring to a pixel: of those whose spots reach it, the spot's part there.
-    glm::dvec3 light(const PaneRays& rays, const glm::ivec2& pixel, int channel) const;
+    glm::dvec3 light(const ViewRays& rays, const glm::ivec2& pixel, int channel) const;
 
 private:
     struct Spot {

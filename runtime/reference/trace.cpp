@@ -15,7 +15,7 @@ constexpr double tiny = std::numeric_limits<double>::epsilon();
 struct Triangle {
     std::uint32_t instance;
     std::uint32_t corners[3]; ///< of World::vertices
-    glm::dvec3 places[3]; ///< from the vantage's; of what moves by itself, as each is seen
+    glm::dvec3 places[3]; ///< from the eye event's; of what moves by itself, as each is seen
 };
 
 /// Where a line meets a triangle: the parts of the corners, none below 0, which sum up to 1, and how far off.
@@ -49,7 +49,7 @@ float above(double x) { return std::nextafter(float(std::clamp(x, -1e37, 1e37)),
 struct Tracer::Scene {
     const World& world;
     const Pictures& pictures;
-    Vantage vantage;
+    EyeEvent eye_event;
     double farthest_eye;
     std::vector<Triangle> triangles;
     RTCDevice device = nullptr;
@@ -73,17 +73,17 @@ struct Tracer::Scene {
     double sent(const SightLine& line, const glm::dvec3& place) const
     {
         const glm::dvec3 from_eye = place - line.from;
-        return line.time + (vantage.now ? vantage.beta * (vantage.motion_from_frame * from_eye).z : -glm::length(from_eye));
+        return line.time + (eye_event.now ? eye_event.beta * (eye_event.motion_from_frame * from_eye).z : -glm::length(from_eye));
     }
 
-    /// Where a corner of what moves by itself is seen from the vantage's place.
+    /// Where a corner of what moves by itself is seen from the eye event's place.
     glm::dvec3 seen_corner(const Instance& instance, const glm::dvec3& local) const
     {
-        const SightLine line{glm::dvec3(0), glm::dvec3(0), vantage.time};
+        const SightLine line{glm::dvec3(0), glm::dvec3(0), eye_event.time};
         glm::dvec3 place(0);
-        double time = vantage.time;
+        double time = eye_event.time;
         for (int round = 0; round < 60; ++round) {
-            place = glm::dvec3(pose_at(world, instance, time) * glm::dvec4(local, 1)) - vantage.place;
+            place = glm::dvec3(pose_at(world, instance, time) * glm::dvec4(local, 1)) - eye_event.place;
             const double next = sent(line, place);
             if (std::abs(next - time) <= 4 * tiny * std::abs(time) || next == time)
                 break;
@@ -100,7 +100,7 @@ struct Tracer::Scene {
         auto place_of = [&](std::uint32_t vertex) {
             const glm::dvec3 local(world.vertices[vertex].position);
             if (instance.motion < 0)
-                return glm::dvec3(instance.frame_from_local * glm::dvec4(local, 1)) - vantage.place;
+                return glm::dvec3(instance.frame_from_local * glm::dvec4(local, 1)) - eye_event.place;
             const auto [at, is_new] = seen.try_emplace(vertex);
             if (is_new)
                 at->second = seen_corner(instance, local);
@@ -121,18 +121,18 @@ struct Tracer::Scene {
     /// Whether any of an instance may be seen: whether light left it while it was there.
     bool may_be_seen(const Instance& instance) const
     {
-        if (instance.life < 0)
+        if (instance.existence < 0)
             return true;
-        const Life& life = world.lives[std::size_t(instance.life)];
+        const ExistenceInterval& existence = world.existence_intervals[std::size_t(instance.existence)];
         const Primitive& primitive = world.primitives[instance.primitive];
         if (instance.motion >= 0)
             return true;
-        const glm::dvec3 middle = glm::dvec3(instance.frame_from_local * glm::dvec4(primitive.centre, 1)) - vantage.place;
+        const glm::dvec3 middle = glm::dvec3(instance.frame_from_local * glm::dvec4(primitive.centre, 1)) - eye_event.place;
         const glm::dmat3 m(instance.frame_from_local);
         const double stretch = std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
         const double around = primitive.radius * stretch + 2 * farthest_eye;
-        const double time = emission_time(vantage, vantage.motion_from_frame * middle);
-        return time + around >= life.begin && time - around < life.end;
+        const double time = retarded_time(eye_event, eye_event.motion_from_frame * middle);
+        return time + around >= existence.begin && time - around < existence.end;
     }
 
     void bounds(std::uint32_t index, RTCBounds& box) const
@@ -171,7 +171,7 @@ struct Tracer::Scene {
             const glm::dmat4 pose = pose_at(world, instance, t);
             for (int k = 0; k < 3; ++k)
                 p[k] = glm::dvec3(pose * glm::dvec4(glm::dvec3(world.vertices[triangle.corners[k]].position), 1))
-                    - vantage.place - line.from;
+                    - eye_event.place - line.from;
             return crossing(p, line.way);
         };
         double before = 0, off_before = 0;
@@ -195,9 +195,9 @@ struct Tracer::Scene {
     bool there(const Met& met) const
     {
         const Instance& instance = world.instances[met.instance];
-        if (instance.life >= 0) {
-            const Life& life = world.lives[std::size_t(instance.life)];
-            if (met.sent < life.begin || met.sent >= life.end)
+        if (instance.existence >= 0) {
+            const ExistenceInterval& existence = world.existence_intervals[std::size_t(instance.existence)];
+            if (met.sent < existence.begin || met.sent >= existence.end)
                 return false;
         }
         const Material& material = world.materials[std::size_t(world.primitives[instance.primitive].material)];
@@ -243,11 +243,11 @@ glm::dvec4 base_of(const World& world, const Pictures& pictures, const Met& met)
     return colour * glm::dvec4(material.base_colour) * pictures.at(material.base_texture, uv_of(world, met));
 }
 
-Tracer::Tracer(const World& world, const Pictures& pictures, const Vantage& vantage, double farthest_eye)
-    : scene_(new Scene{world, pictures, vantage, farthest_eye, {}, nullptr, nullptr})
+Tracer::Tracer(const World& world, const Pictures& pictures, const EyeEvent& eye_event, double farthest_eye)
+    : scene_(new Scene{world, pictures, eye_event, farthest_eye, {}, nullptr, nullptr})
 {
     for (std::uint32_t i = 0; i < world.instances.size(); ++i)
-        if (world.instances[i].frame == vantage.frame && scene_->may_be_seen(world.instances[i]))
+        if (world.instances[i].frame == eye_event.frame && scene_->may_be_seen(world.instances[i]))
             scene_->add(i);
     scene_->device = rtcNewDevice(nullptr);
     if (!scene_->device)
@@ -297,7 +297,7 @@ std::optional<Met> Tracer::nearest(const SightLine& line) const
     return asked.met;
 }
 
-const Vantage& Tracer::vantage() const { return scene_->vantage; }
+const EyeEvent& Tracer::eye_event() const { return scene_->eye_event; }
 std::size_t Tracer::triangles() const { return scene_->triangles.size(); }
 
 } // namespace starbow

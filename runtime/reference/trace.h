@@ -1,6 +1,6 @@
 #pragma once
 #include "pictures.h"
-#include "runtime/world/vantage.h"
+#include "runtime/world/eye_event.h"
 #include <memory>
 #include <optional>
 
@@ -8,7 +8,7 @@ namespace starbow {
 
 /// Back along the light that an eye gets from one side, in one rest frame.
 struct SightLine {
-    glm::dvec3 from{0}; ///< the eye's place, from its vantage's, the frame's axes
+    glm::dvec3 from{0}; ///< the eye's place, from its eye event's, the frame's axes
     glm::dvec3 way; ///< unit
     double time; ///< the eye's, the frame's time
 };
@@ -18,7 +18,7 @@ struct Met {
     std::uint32_t instance; ///< of World::instances
     std::uint32_t corners[3]; ///< of World::vertices
     glm::dvec3 weights; ///< of these corners
-    glm::dvec3 place; ///< from the vantage's
+    glm::dvec3 place; ///< from the eye event's
     double distance; ///< from the eye
     double sent; ///< the frame's time at which the light left
     bool front;
@@ -33,8 +33,8 @@ glm::dvec4 base_of(const World& world, const Pictures& pictures, const Met& met)
 /// in double: straight behind, at gamma 1000, a pixel is a millionth of a radian of the world.
 class Tracer {
 public:
-    /// What follows must outlive it. farthest_eye: how far from the vantage's place lines may begin, scene units.
-    Tracer(const World& world, const Pictures& pictures, const Vantage& vantage, double farthest_eye);
+    /// What follows must outlive it. farthest_eye: how far from the eye event's place lines may begin, scene units.
+    Tracer(const World& world, const Pictures& pictures, const EyeEvent& eye_event, double farthest_eye);
     ~Tracer();
     Tracer(Tracer&&) noexcept;
 
@@ -42,7 +42,7 @@ public:
     /// light's time neither before nor after its life.
     std::optional<Met> nearest(const SightLine& line) const;
 
-    const Vantage& vantage() const;
+    const EyeEvent& eye_event() const;
     std::size_t triangles() const;
 
 private:

@@ -6,20 +6,19 @@ namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
-using Layout_ = vk::ImageLayout;
 
 constexpr auto drawn = Access::eColorAttachmentWrite | Access::eColorAttachmentRead;
 
 void to_read(vk::CommandBuffer commands, const Image& picture)
 {
-    transition(commands, picture, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, drawn,
-        Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
+    transition(commands, picture, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, drawn,
+        vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
 }
 
 void to_draw(vk::CommandBuffer commands, const Image& picture, bool keeps)
 {
-    transition(commands, picture, keeps ? Layout_::eShaderReadOnlyOptimal : Layout_::eUndefined, Stage::eFragmentShader, {},
-        Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, drawn);
+    transition(commands, picture, keeps ? vk::ImageLayout::eShaderReadOnlyOptimal : vk::ImageLayout::eUndefined, Stage::eFragmentShader, {},
+        vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, drawn);
 }
 
 } // namespace
@@ -42,8 +41,8 @@ BloomPass::BloomPass(Device& device, Pipelines& pipelines, glm::ivec2 size)
     std::vector<vk::DescriptorSetLayout> layouts(count, *pipelines.picture_set);
     sets_ = device.device.allocateDescriptorSets({*pool_, layouts});
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
-        const vk::DescriptorImageInfo images[] = {{*sampler_, *pictures_[i].view, Layout_::eShaderReadOnlyOptimal},
-            {*sampler_, *pictures_[std::min(i + 1, pictures_.size() - 1)].view, Layout_::eShaderReadOnlyOptimal}};
+        const vk::DescriptorImageInfo images[] = {{*sampler_, *pictures_[i].view, vk::ImageLayout::eShaderReadOnlyOptimal},
+            {*sampler_, *pictures_[std::min(i + 1, pictures_.size() - 1)].view, vk::ImageLayout::eShaderReadOnlyOptimal}};
         device.device.updateDescriptorSets(
             vk::WriteDescriptorSet(*sets_[i], 0, 0, vk::DescriptorType::eCombinedImageSampler, images), {});
     }
@@ -78,7 +77,7 @@ void BloomPass::step(vk::CommandBuffer commands, std::size_t from, std::size_t t
 {
     const vk::Extent2D &source = pictures_[from].extent, &target = pictures_[to].extent;
     const bool up = to < from;
-    vk::RenderingAttachmentInfo colour(*pictures_[to].view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+    vk::RenderingAttachmentInfo colour(*pictures_[to].view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
         up ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eStore);
     shared::BloomPush push{};
     push.step = glm::vec4(1.0f / target.width, 1.0f / target.height, 0, 0);

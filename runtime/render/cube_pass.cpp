@@ -10,7 +10,6 @@ namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
-using Layout_ = vk::ImageLayout;
 
 /// Those of the stars' pass too: where things move its vertices ask what these cover.
 constexpr auto readers = Stage::eVertexShader | Stage::eFragmentShader;
@@ -39,8 +38,8 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
     stride_ = (sizeof(shared::CubeConstants) + step - 1) / step * step;
     const std::size_t layers = world.world.frames.size();
     constants_ = make_mapped_buffer(device, layers * stride_, vk::BufferUsageFlagBits::eUniformBuffer);
-    slots_ = make_mapped_buffer(device, sizeof(shared::SlotTable), vk::BufferUsageFlagBits::eUniformTexelBuffer);
-    slots_view_ = device.device.createBufferView({{}, *slots_.buffer, exact_format, 0, VK_WHOLE_SIZE});
+    tiles_ = make_mapped_buffer(device, sizeof(shared::TileTable), vk::BufferUsageFlagBits::eUniformTexelBuffer);
+    tiles_view_ = device.device.createBufferView({{}, *tiles_.buffer, exact_format, 0, VK_WHOLE_SIZE});
     atlases_.resize(formats(world.layered()).size());
     std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBufferDynamic, 1},
         {vk::DescriptorType::eUniformBuffer, 1}, {vk::DescriptorType::eStorageBuffer, 3}};
@@ -56,7 +55,7 @@ Formats CubePass::formats(bool layered) const
     return formats;
 }
 
-void CubePass::prepare(const Plan& plan, std::span<const Vantage> layers, double pre_exposure)
+void CubePass::prepare(const CubeMapPlan& plan, std::span<const EyeEvent> layers, double pre_exposure)
 {
     pre_exposure_ = pre_exposure;
     images_ = plan.images;
@@ -65,20 +64,20 @@ void CubePass::prepare(const Plan& plan, std::span<const Vantage> layers, double
     levels_ = plan.levels;
     list_ = cull(world_.world, layers, images_, quality_, std::move(list_));
     contractions_.clear();
-    for (const Vantage& layer : layers)
+    for (const EyeEvent& layer : layers)
         contractions_.push_back(layer.contraction);
     fit(plan.atlas_size, plan.levels);
     upload(layers, false);
-    put_slots(plan, *static_cast<shared::SlotTable*>(slots_.mapped));
+    write_tiles(plan, *static_cast<shared::TileTable*>(tiles_.mapped));
 }
 
-void CubePass::prepare_plain(const PlanImage& image, const Vantage& vantage)
+void CubePass::prepare_plain(const PlannedImage& image, const EyeEvent& eye_event)
 {
     images_ = {image};
     layered_ = false;
-    list_ = cull(world_.world, {&vantage, 1}, images_, quality_, std::move(list_));
+    list_ = cull(world_.world, {&eye_event, 1}, images_, quality_, std::move(list_));
     contractions_ = {1};
-    upload({&vantage, 1}, true);
+    upload({&eye_event, 1}, true);
     if (int(depth_.extent.width) < image.size.x || int(depth_.extent.height) < image.size.y)
         depth_ = make_image(device_,
             {depth_format, {std::uint32_t(image.size.x), std::uint32_t(image.size.y)},
@@ -88,7 +87,7 @@ void CubePass::prepare_plain(const PlanImage& image, const Vantage& vantage)
 void CubePass::fit(glm::ivec2 size, int levels)
 {
     const Image& first = atlases_[0];
-    // A plan without images, where no pane shows anything, has a texture all the same.
+    // A plan without images, where no view shows anything, has a texture all the same.
     const auto grown = [&](int needed, std::uint32_t had) {
         const std::uint32_t whole = (std::uint32_t(std::max(needed, 1)) + 255) / 256 * 256;
         return repeatable_ ? whole : std::max(whole, had);
@@ -114,7 +113,7 @@ void CubePass::fit(glm::ivec2 size, int levels)
     }
 }
 
-void CubePass::upload(std::span<const Vantage> layers, bool plain)
+void CubePass::upload(std::span<const EyeEvent> layers, bool plain)
 {
     triangles_ = 0;
     for (const Draw& draw : list_.draws)
@@ -126,7 +125,7 @@ void CubePass::upload(std::span<const Vantage> layers, bool plain)
     };
     put(instances_, list_.instances);
     put(visible_, list_.visible);
-    std::vector<shared::TimeEntry>& times = told_times_;
+    std::vector<shared::TimeEntry>& times = time_writes_;
     times.clear();
     for (std::size_t layer = 0; layer < layers.size(); ++layer) {
         shared::CubeConstants constants = constants_of(layers[layer], plain);
@@ -151,7 +150,7 @@ void CubePass::upload(std::span<const Vantage> layers, bool plain)
         {});
 }
 
-shared::CubeConstants CubePass::constants_of(const Vantage& vantage, bool plain) const
+shared::CubeConstants CubePass::constants_of(const EyeEvent& eye_event, bool plain) const
 {
     const SceneFile& scene = world_.scene;
     const double scale = pre_exposure_;
@@ -168,10 +167,10 @@ shared::CubeConstants CubePass::constants_of(const Vantage& vantage, bool plain)
         constants.sky_horizon[0] = glm::vec4(scene.sky.horizon * scale, 0);
         constants.sky_nadir[0] = glm::vec4(scene.sky.nadir * scale, 0);
     }
-    constants.world_up = glm::vec4(vantage.motion_from_frame * glm::dvec3(0, 1, 0), 0);
-    constants.now = glm::vec4(0, 0, vantage.beta, vantage.now);
+    constants.world_up = glm::vec4(eye_event.motion_from_frame * glm::dvec3(0, 1, 0), 0);
+    constants.now = glm::vec4(0, 0, eye_event.beta, eye_event.now);
     for (std::size_t i = 0; i < world_.world.lamps.size(); ++i)
-        constants.lights[i] = light_entry(world_, world_.world.lamps[i], vantage, scale);
+        constants.lights[i] = light_entry(world_, world_.world.lamps[i], eye_event, scale);
     return constants;
 }
 
@@ -181,19 +180,19 @@ void CubePass::record(vk::CommandBuffer commands)
     const std::span used(atlases_.data(), formats(layered_).size());
     const Image& depth = sampled ? depth_samples_ : depth_;
     for (const Image& atlas : used)
-        transition(commands, atlas, Layout_::eUndefined, readers, {}, Layout_::eColorAttachmentOptimal,
+        transition(commands, atlas, vk::ImageLayout::eUndefined, readers, {}, vk::ImageLayout::eColorAttachmentOptimal,
             Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
     constexpr auto depth_access = Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite;
-    transition(commands, depth_, Layout_::eUndefined,
+    transition(commands, depth_, vk::ImageLayout::eUndefined,
         depth_tests | Stage::eVertexShader | Stage::eFragmentShader | Stage::eColorAttachmentOutput, depth_access,
-        Layout_::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
+        vk::ImageLayout::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
         depth_access | Access::eColorAttachmentWrite);
     if (sampled) {
         for (const Image& colour : std::span(atlas_samples_.data(), used.size()))
-            transition(commands, colour, Layout_::eUndefined, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
-                Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+            transition(commands, colour, vk::ImageLayout::eUndefined, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+                vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
                 Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
-        transition(commands, depth, Layout_::eUndefined, depth_tests, depth_access, Layout_::eDepthAttachmentOptimal,
+        transition(commands, depth, vk::ImageLayout::eUndefined, depth_tests, depth_access, vk::ImageLayout::eDepthAttachmentOptimal,
             depth_tests, depth_access);
     }
     std::array<vk::RenderingAttachmentInfo, MAX_GROUPS + 1> colours;
@@ -201,22 +200,22 @@ void CubePass::record(vk::CommandBuffer commands)
         const glm::vec4 sky(layered_ ? glm::dvec4(0) : world_.spectra.sky[1][group] * pre_exposure_);
         const vk::ClearColorValue clear(std::array<float, 4>{sky.x, sky.y, sky.z, sky.w});
         vk::RenderingAttachmentInfo& colour = colours[group];
-        colour = {*(sampled ? atlas_samples_ : atlases_)[group].view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+        colour = {*(sampled ? atlas_samples_ : atlases_)[group].view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
             vk::AttachmentLoadOp::eClear, sampled ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore, clear};
         if (sampled) {
             colour.resolveMode = vk::ResolveModeFlagBits::eAverage;
             colour.resolveImageView = *atlases_[group].view;
-            colour.resolveImageLayout = Layout_::eColorAttachmentOptimal;
+            colour.resolveImageLayout = vk::ImageLayout::eColorAttachmentOptimal;
         }
     }
-    vk::RenderingAttachmentInfo depth_info(*depth.view, Layout_::eDepthAttachmentOptimal, {}, {}, {},
+    vk::RenderingAttachmentInfo depth_info(*depth.view, vk::ImageLayout::eDepthAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear,
         keeps_depth_ && !sampled ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare,
         vk::ClearDepthStencilValue(0, 0));
     if (sampled && keeps_depth_) {
         depth_info.resolveMode = vk::ResolveModeFlagBits::eSampleZero;
         depth_info.resolveImageView = *depth_.view;
-        depth_info.resolveImageLayout = Layout_::eDepthAttachmentOptimal;
+        depth_info.resolveImageLayout = vk::ImageLayout::eDepthAttachmentOptimal;
     }
     commands.beginRendering({{}, rect_of({0, 0}, area_), 1, 0, std::uint32_t(used.size()), colours.data(), &depth_info});
     draw_images(commands, {formats(layered_), sample_bits(quality_.cube_samples)}, false);
@@ -225,11 +224,11 @@ void CubePass::record(vk::CommandBuffer commands)
         if (levels_ > 1)
             make_mips(commands, atlas);
         else
-            transition(commands, atlas, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
-                Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal, readers, Access::eShaderSampledRead);
+            transition(commands, atlas, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+                Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal, readers, Access::eShaderSampledRead);
     if (keeps_depth_)
-        transition(commands, depth_, Layout_::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
-            depth_access | Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal,
+        transition(commands, depth_, vk::ImageLayout::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
+            depth_access | Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal,
             Stage::eVertexShader | Stage::eFragmentShader, Access::eShaderSampledRead);
 }
 
@@ -242,7 +241,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
     auto draw = list_.draws.begin();
     vk::Pipeline bound;
     for (std::uint32_t i = 0; i < images_.size(); ++i) {
-        const PlanImage& image = images_[i];
+        const PlannedImage& image = images_[i];
         set_area(commands, image.atlas, image.size);
         if (i == 0 || image.layer != images_[i - 1].layer)
             commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.surface_layout, 0, *set_,
@@ -256,10 +255,10 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
         glm::dvec3 b = face_direction(image.face, {0, 1}) - face_direction(image.face, {0, 0});
         bool mirrored = glm::dot(glm::cross(a, b), face_direction(image.face, {0, 0})) < 0;
         commands.setFrontFace(mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
-        if (image.hole > 0) {
+        if (image.clip_hole > 0) {
             // Nothing is nearer than the near plane: what falls into the hole fails the depth test before it is shaded.
-            glm::dvec2 low = glm::ceil((-glm::dvec2(image.hole) - image.low) * image.texels_per_unit);
-            glm::dvec2 high = glm::floor((glm::dvec2(image.hole) - image.low) * image.texels_per_unit);
+            glm::dvec2 low = glm::ceil((-glm::dvec2(image.clip_hole) - image.low) * image.texels_per_unit);
+            glm::dvec2 high = glm::floor((glm::dvec2(image.clip_hole) - image.low) * image.texels_per_unit);
             glm::ivec2 first = glm::clamp(glm::ivec2(low), glm::ivec2(0), image.size),
                        last = glm::clamp(glm::ivec2(high), first, image.size);
             if (last.x > first.x && last.y > first.y)
@@ -271,7 +270,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
         for (; draw != list_.draws.end() && draw->image == i; ++draw) {
             const Primitive& primitive = world.primitives[draw->primitive];
             SurfaceVariant variant = world_.variant(primitive.material, plain);
-            variant.mortal = draw->mortal && !plain;
+            variant.finite_existence = draw->finite_existence && !plain;
             variant.layered = layered_;
             variant.moves = draw->moves && !plain;
             if (vk::Pipeline pipeline = pipelines_.surface(variant, kind); pipeline != bound)
@@ -305,8 +304,8 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
 
 void CubePass::make_mips(vk::CommandBuffer commands, const Image& atlas)
 {
-    auto level_barrier = [&](std::uint32_t first, std::uint32_t count, Layout_ from, vk::PipelineStageFlags2 from_stage,
-                             vk::AccessFlags2 from_access, Layout_ to, vk::PipelineStageFlags2 to_stage,
+    auto level_barrier = [&](std::uint32_t first, std::uint32_t count, vk::ImageLayout from, vk::PipelineStageFlags2 from_stage,
+                             vk::AccessFlags2 from_access, vk::ImageLayout to, vk::PipelineStageFlags2 to_stage,
                              vk::AccessFlags2 to_access) {
         vk::ImageMemoryBarrier2 barrier(from_stage, from_access, to_stage, to_access, from, to, VK_QUEUE_FAMILY_IGNORED,
             VK_QUEUE_FAMILY_IGNORED, *atlas.image, {vk::ImageAspectFlagBits::eColor, first, count, 0, 1});
@@ -315,13 +314,13 @@ void CubePass::make_mips(vk::CommandBuffer commands, const Image& atlas)
     // One level more than is asked for: at its coarsest level an image is sampled together with the next, at weight nought,
     // and nought times what was never written may be NaN.
     std::uint32_t levels = std::min(std::uint32_t(levels_) + 1, atlas.levels);
-    level_barrier(0, 1, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
-        Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
-    level_barrier(1, atlas.levels - 1, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, {},
-        Layout_::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite);
+    level_barrier(0, 1, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+        vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+    level_barrier(1, atlas.levels - 1, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, {},
+        vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite);
     for (std::uint32_t level = 1; level < levels; ++level) {
         blits_.clear();
-        for (const PlanImage& image : images_)
+        for (const PlannedImage& image : images_)
             if (image.levels >= int(level)) {
                 auto box = [&](std::uint32_t l) {
                     glm::ivec2 low = image.atlas >> glm::ivec2(l), high = (image.atlas + image.size) >> glm::ivec2(l);
@@ -330,28 +329,28 @@ void CubePass::make_mips(vk::CommandBuffer commands, const Image& atlas)
                 blits_.push_back({{vk::ImageAspectFlagBits::eColor, level - 1, 0, 1}, box(level - 1),
                     {vk::ImageAspectFlagBits::eColor, level, 0, 1}, box(level)});
             }
-        commands.blitImage(*atlas.image, Layout_::eTransferSrcOptimal, *atlas.image, Layout_::eTransferDstOptimal, blits_,
+        commands.blitImage(*atlas.image, vk::ImageLayout::eTransferSrcOptimal, *atlas.image, vk::ImageLayout::eTransferDstOptimal, blits_,
             vk::Filter::eLinear);
-        level_barrier(level, 1, Layout_::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
-            Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+        level_barrier(level, 1, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
+            vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
     }
-    level_barrier(0, levels, Layout_::eTransferSrcOptimal, Stage::eTransfer, {}, Layout_::eShaderReadOnlyOptimal, readers,
+    level_barrier(0, levels, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, {}, vk::ImageLayout::eShaderReadOnlyOptimal, readers,
         Access::eShaderSampledRead);
     if (atlas.levels > levels)
-        level_barrier(levels, atlas.levels - levels, Layout_::eTransferDstOptimal, Stage::eTransfer, {},
-            Layout_::eShaderReadOnlyOptimal, readers, Access::eShaderSampledRead);
+        level_barrier(levels, atlas.levels - levels, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, {},
+            vk::ImageLayout::eShaderReadOnlyOptimal, readers, Access::eShaderSampledRead);
 }
 
 void CubePass::record_plain(vk::CommandBuffer commands, const Target& target)
 {
-    transition(commands, depth_, Layout_::eUndefined, depth_tests, Access::eDepthStencilAttachmentWrite,
-        Layout_::eDepthAttachmentOptimal, depth_tests,
+    transition(commands, depth_, vk::ImageLayout::eUndefined, depth_tests, Access::eDepthStencilAttachmentWrite,
+        vk::ImageLayout::eDepthAttachmentOptimal, depth_tests,
         Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
     glm::dvec3 sky = world_.scene.sky.horizon * pre_exposure_;
-    vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+    vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
         vk::ClearColorValue(std::array<float, 4>{float(sky.r), float(sky.g), float(sky.b), 1}));
-    vk::RenderingAttachmentInfo depth(*depth_.view, Layout_::eDepthAttachmentOptimal, {}, {}, {},
+    vk::RenderingAttachmentInfo depth(*depth_.view, vk::ImageLayout::eDepthAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eDontCare, vk::ClearDepthStencilValue(0, 0));
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour, &depth});
     draw_images(commands, {{target.format}}, true);

@@ -31,27 +31,27 @@ public:
 
     /// What the processor does: culls, makes room, uploads. The device must have finished the frame before. Every radiance
     /// is stored times pre_exposure. layers: the plan's.
-    void prepare(const Plan& plan, std::span<const Vantage> layers, double pre_exposure);
+    void prepare(const CubeMapPlan& plan, std::span<const EyeEvent> layers, double pre_exposure);
     /// What the device does: one pass over all images, then their mips. Leaves the atlas (and the depth, if it is kept) for
     /// fragment shaders to read.
     void record(vk::CommandBuffer commands);
 
     /// The same world drawn straight into a target, through one image alone: for comparison. Not beside prepare and record.
-    void prepare_plain(const PlanImage& image, const Vantage& vantage);
+    void prepare_plain(const PlannedImage& image, const EyeEvent& eye_event);
     void record_plain(vk::CommandBuffer commands, const Target& target);
 
     /// Of the light's numbers four each; where something moves one more: how much of a texel is covered.
     const std::vector<Image>& atlases() const { return atlases_; }
     const Image& depth() const { return depth_; }
     bool layered() const { return layered_; } ///< what is covered is told
-    vk::BufferView slots() const { return *slots_view_; } ///< SlotTable, as texels
+    vk::BufferView tiles() const { return *tiles_view_; } ///< TileTable, as texels
     std::size_t triangles() const { return triangles_; } ///< sent to the device, all images
     vk::DeviceSize memory() const;
 
 private:
     void fit(glm::ivec2 atlas_size, int levels);
-    void upload(std::span<const Vantage> layers, bool plain);
-    shared::CubeConstants constants_of(const Vantage& vantage, bool plain) const;
+    void upload(std::span<const EyeEvent> layers, bool plain);
+    shared::CubeConstants constants_of(const EyeEvent& eye_event, bool plain) const;
     Formats formats(bool layered) const;
     void draw_images(vk::CommandBuffer commands, const TargetKind& kind, bool plain);
     void make_mips(vk::CommandBuffer commands, const Image& atlas);
@@ -64,13 +64,13 @@ private:
     bool layered_ = false; ///< something that moves is in view; the sky is then the warp's
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::raii::DescriptorSet set_ = nullptr;
-    Buffer constants_, instances_, visible_, slots_, times_; ///< times_: null without any
-    vk::raii::BufferView slots_view_ = nullptr;
+    Buffer constants_, instances_, visible_, tiles_, times_; ///< times_: null without any
+    vk::raii::BufferView tiles_view_ = nullptr;
     vk::DeviceSize stride_; ///< of constants_: one for each layer
     std::vector<Image> atlases_, atlas_samples_;
     Image depth_, depth_samples_;
-    std::vector<PlanImage> images_;
-    std::vector<shared::TimeEntry> told_times_; ///< kept for their room, as are blits_
+    std::vector<PlannedImage> images_;
+    std::vector<shared::TimeEntry> time_writes_; ///< kept for their room, as are blits_
     std::vector<vk::ImageBlit> blits_;
     std::vector<double> contractions_; ///< of each layer
     glm::ivec2 area_{0};

@@ -67,7 +67,7 @@ std::string lacks(const vk::raii::PhysicalDevice& physical, bool windows)
         return "the feature largePoints";
     if (physical.getProperties().limits.maxUniformBufferRange < 65536)
         return "64 KiB of constants at once (maxUniformBufferRange)";
-    if (physical.getProperties().limits.maxTexelBufferElements < sizeof(shared::SlotTable) / sizeof(glm::vec4))
+    if (physical.getProperties().limits.maxTexelBufferElements < sizeof(shared::TileTable) / sizeof(glm::vec4))
         return "texel buffers of 7 MiB (maxTexelBufferElements)";
     auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>()
                         .get<vk::PhysicalDeviceVulkan13Features>();

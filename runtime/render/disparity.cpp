@@ -7,11 +7,11 @@ namespace starbow {
 namespace {
 
 /// One pixel of an EXR's channels.
-struct Seen {
+struct RetardedPosition {
     glm::dvec3 camera, world;
     double D, depth;
 
-    Seen(const Channels& c, std::size_t i)
+    RetardedPosition(const Channels& c, std::size_t i)
         : camera(c[3].second[i], c[4].second[i], c[5].second[i])
         , world(c[6].second[i], c[7].second[i], c[8].second[i])
         , D(c[9].second[i])
@@ -40,7 +40,7 @@ glm::dvec3 eye_beside(const Stereo& stereo, Eye eye, const glm::dvec3& n)
     return right * (half / std::max(glm::length(right), std::sin(glm::radians(stereo.full_from_zenith_deg))));
 }
 
-Disparity disparity(Studio& tested, Studio* exact, const Shot& shot, std::size_t output, double unit_m)
+Disparity disparity(OffscreenRenderer& tested, OffscreenRenderer* exact, const Shot& shot, std::size_t output, double unit_m)
 {
     const Layout& layout = tested.layout();
     const glm::ivec2 size = layout.outputs[output].size;
@@ -50,20 +50,20 @@ Disparity disparity(Studio& tested, Studio* exact, const Shot& shot, std::size_t
     std::vector<double> errors;
     long hidden = 0;
     MapStore store;
-    for (const CompiledPane& compiled : compile_output(store, layout, output, size)) {
-        const Pane& pane = compiled.pane;
-        if (pane.layer > 0)
+    for (const CompiledView& compiled : compile_output(store, layout, output, size)) {
+        const View& view = compiled.view;
+        if (view.layer > 0)
             continue;
-        const glm::dvec3 drawn_from = layout.stereo.method == StereoMethod::exact ? pane.picture.eye_m : pane.head_m;
-        for (int y = 0; y < pane.size.y; ++y)
-            for (int x = 0; x < pane.size.x; ++x) {
-                const std::size_t i = std::size_t(y + pane.corner.y) * size.x + x + pane.corner.x;
-                const Seen seen(numbers, i);
+        const glm::dvec3 drawn_from = layout.stereo.method == StereoMethod::exact ? view.picture.eye_m : view.head_m;
+        for (int y = 0; y < view.size.y; ++y)
+            for (int x = 0; x < view.size.x; ++x) {
+                const std::size_t i = std::size_t(y + view.corner.y) * size.x + x + view.corner.x;
+                const RetardedPosition seen(numbers, i);
                 if (!std::isfinite(seen.depth) || std::isnan(seen.D))
                     continue;
                 // The point shown, from the eye: both places in the world at rest, simultaneous in the ship.
                 const glm::dvec3 n = glm::inverse(shot.ship_from_cockpit) * seen.camera;
-                const glm::dvec3 eye = pane.head_m + eye_beside(layout.stereo, pane.eye, n);
+                const glm::dvec3 eye = view.head_m + eye_beside(layout.stereo, view.eye, n);
                 const glm::dvec3 apart = physics::eye_place(shot.u, shot.ship_from_cockpit * ((eye - drawn_from) * scale));
                 const glm::dvec3 point = seen.depth * seen.world - apart;
                 glm::dvec3 wanted = seen.camera;
@@ -71,10 +71,10 @@ Disparity disparity(Studio& tested, Studio* exact, const Shot& shot, std::size_t
                     wanted = glm::transpose(to_motion) * physics::world_from_camera(to_motion * seen.camera, E, 1 / E).n;
                 const double off = std::atan2(glm::length(glm::cross(point, wanted)), glm::dot(point, wanted));
                 const double pixel
-                    = compiled.map ? compiled.map->at(x, y).w : pixel_angle(pane.picture, glm::dvec2(x, y) + 0.5);
+                    = compiled.map ? compiled.map->at(x, y).w : pixel_angle(view.picture, glm::dvec2(x, y) + 0.5);
                 errors.push_back(off / (pixel * (shot.effects.aberration ? seen.D : 1)));
                 if (exact)
-                    hidden += std::abs(glm::length(point) / Seen(truth, i).depth - 1) > 0.02;
+                    hidden += std::abs(glm::length(point) / RetardedPosition(truth, i).depth - 1) > 0.02;
             }
     }
     Disparity result;

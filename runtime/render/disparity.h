@@ -9,9 +9,9 @@ struct Disparity {
     double hidden = 0; ///< share of these that show a surface more than 2 % nearer or farther than the one the eye would see
 };
 
-/// Measures an output drawn by any method. exact: a studio of the same layout with a cube map for each eye, or null where
+/// Measures an output drawn by any method. exact: a renderer of the same layout with a cube map for each eye, or null where
 /// there is none (a baseline that turns): then `hidden` stays 0. Both are measured ones.
-Disparity disparity(Studio& tested, Studio* exact, const Shot& shot, std::size_t output, double unit_m);
+Disparity disparity(OffscreenRenderer& tested, OffscreenRenderer* exact, const Shot& shot, std::size_t output, double unit_m);
 
 /// The eye's place from the middle of the head for the cockpit's direction n, metres (hyper-stereo not counted): what the
 /// warp pass computes where the baseline turns with the azimuth.

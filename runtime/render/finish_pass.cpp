@@ -7,7 +7,6 @@ namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
-using Layout_ = vk::ImageLayout;
 
 int combine_of(Packing packing)
 {
@@ -85,7 +84,7 @@ FinishPass::FinishPass(Device& device, Pipelines& pipelines, const Output& outpu
     set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.finish_set}).front());
     std::vector<vk::DescriptorImageInfo> images;
     for (const Image* image : {&pictures_.front(), &pictures_.back(), &weight_, &black_, &table_})
-        images.push_back({*sampler_, *image->view, Layout_::eShaderReadOnlyOptimal});
+        images.push_back({*sampler_, *image->view, vk::ImageLayout::eShaderReadOnlyOptimal});
     std::vector<vk::WriteDescriptorSet> writes;
     for (std::uint32_t i = 0; i < images.size(); ++i)
         writes.push_back({*set_, i, 0, 1, vk::DescriptorType::eCombinedImageSampler, &images[i]});
@@ -101,20 +100,20 @@ Target FinishPass::picture(std::size_t layer) const
 void FinishPass::begin(vk::CommandBuffer commands)
 {
     for (const Image& picture : pictures_)
-        transition(commands, picture, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eColorAttachmentOptimal,
+        transition(commands, picture, vk::ImageLayout::eUndefined, Stage::eFragmentShader, {}, vk::ImageLayout::eColorAttachmentOptimal,
             Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
 }
 
 void FinishPass::record(vk::CommandBuffer commands, const Target& target, bool plain)
 {
     for (const Image& picture : pictures_)
-        transition(commands, picture, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
-            Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader,
+        transition(commands, picture, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+            Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader,
             Access::eShaderSampledRead);
     FinishVariant variant = variant_;
     variant.masked = variant.masked && !plain;
     variant.dithered = !plain; // a pattern's steps are exact
-    vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+    vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eStore);
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
     set_area(commands, {0, 0}, {int(target.extent.width), int(target.extent.height)});

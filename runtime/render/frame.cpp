@@ -13,48 +13,47 @@ namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
-using Layout_ = vk::ImageLayout;
 
-/// Root of the determinant of a flat pane's matrix: its pixels' solid angle is det M / length^3.
-double unit_of(const CompiledPane& pane) { return pane.matrix ? std::sqrt(std::abs(glm::determinant(*pane.matrix))) : 0; }
+/// Root of the determinant of a flat view's matrix: its pixels' solid angle is det M / length^3.
+double unit_of(const CompiledView& view) { return view.matrix ? std::sqrt(std::abs(glm::determinant(*view.matrix))) : 0; }
 
 } // namespace
 
 /// What an eye's cube map is asked for, and from where.
-void Frame::ask(std::size_t i)
+void Frame::request_views(std::size_t i)
 {
     Eye& eye = eyes_[i];
-    const std::vector<Layer>& layers = watchers_[eye.watcher].layers;
-    eye.asked.resize(layers.size());
-    eye.vantages.clear();
+    const std::vector<RestFrameView>& layers = observers_[eye.observer].layers;
+    eye.requests.resize(layers.size());
+    eye.eye_events.clear();
     eye.nearest.clear();
     for (std::size_t at = 0; at < layers.size(); ++at) {
-        const Layer& layer = layers[at];
-        const Vantage vantage = vantage_of(layer, int(at), scene_units(eye.now_m));
-        eye.nearest.push_back(reprojects() ? std::max(nearest_box(world_.world, vantage), 1e-30) : 1);
-        PlanLayer& ask = eye.asked[at];
+        const RestFrameView& layer = layers[at];
+        const EyeEvent eye_event = eye_event_of(layer, int(at), scene_units(eye.now_m));
+        eye.nearest.push_back(reprojects() ? std::max(nearest_box(world_.world, eye_event), 1e-30) : 1);
+        RestFrameRequest& ask = eye.requests[at];
         ask.views.clear();
         ask.E = layer.E;
         ask.galilean = shot_.effects.comparison == Comparison::galilean;
-        for (const PaneState& pane : panes_)
-            if (pane.eye == i)
-                ask.views.push_back({pane.compiled.blocks.get(), layer.motion_from_cockpit,
-                    reprojects() ? std::min(MOST_PARALLAX, glm::length(eye_offset(pane, layer)) / eye.nearest[at]) : 0});
+        for (const ViewState& view : views_)
+            if (view.eye == i)
+                ask.views.push_back({view.compiled.cones.get(), layer.motion_from_cockpit,
+                    reprojects() ? std::min(MOST_PARALLAX, glm::length(eye_offset(view, layer)) / eye.nearest[at]) : 0});
         if (lab_)
-            ask_for_probes(i, layer.motion_from_cockpit, ask.views);
+            request_probes(i, layer.motion_from_cockpit, ask.views);
         if (at > 0)
-            ask.things = balls(world_.world, vantage);
-        eye.vantages.push_back(vantage);
+            ask.bounds = bounding_spheres(world_.world, eye_event);
+        eye.eye_events.push_back(eye_event);
     }
 }
 
 /// Whether what an eye's cube map holds may be shown once more: from where it was drawn, and as fast as may be now, but
 /// along the same axes.
-bool Frame::still_serves(std::size_t i) const
+bool Frame::can_reuse(std::size_t i) const
 {
     const Eye& eye = eyes_[i];
     for (std::size_t at = 0; at < eye.drawn.size(); ++at) {
-        const Vantage &drawn = eye.drawn[at], &now = eye.vantages[at];
+        const EyeEvent &drawn = eye.drawn[at], &now = eye.eye_events[at];
         const glm::dmat3 turned = drawn.motion_from_frame - now.motion_from_frame;
         double most = 0;
         for (int axis = 0; axis < 3; ++axis)
@@ -62,7 +61,7 @@ bool Frame::still_serves(std::size_t i) const
         if (most > 1e-9 || drawn.now != now.now || drawn.contraction != now.contraction)
             return false;
     }
-    return serves(plans_[i], eye.wanted);
+    return starbow::can_reuse(plans_[i], eye.wanted);
 }
 
 /// pre_exposure: for cube maps that are drawn now.
@@ -70,9 +69,9 @@ void Frame::prepare_eyes(double pre_exposure)
 {
     bool keep = cubes_drawn_ && cubes_shown_ < quality_.frames_per_cube;
     for (std::size_t i = 0; i < eyes_.size(); ++i) {
-        ask(i);
-        eyes_[i].wanted = make_plan(eyes_[i].asked, quality_, plan_room_, std::move(eyes_[i].wanted));
-        keep = keep && still_serves(i);
+        request_views(i);
+        eyes_[i].wanted = plan_cube_map(eyes_[i].requests, quality_, plan_scratch_, std::move(eyes_[i].wanted));
+        keep = keep && can_reuse(i);
     }
     cubes_shown_ = keep ? cubes_shown_ + 1 : 1;
     if (!keep) {
@@ -83,14 +82,14 @@ void Frame::prepare_eyes(double pre_exposure)
         Eye& eye = eyes_[i];
         if (!keep) {
             std::swap(plans_[i], eye.wanted);
-            eye.cube.prepare(plans_[i], eye.vantages, pre_exposure_);
-            std::swap(eye.drawn, eye.vantages);
+            eye.cube.prepare(plans_[i], eye.eye_events, pre_exposure_);
+            std::swap(eye.drawn, eye.eye_events);
         }
         if (!stars_.on())
             continue;
         const auto& images = plans_[i].images;
-        const auto own = std::find_if(images.begin(), images.end(), [](const PlanImage& image) { return image.layer > 0; });
-        eye.stars = stars_in({images.begin(), own}, world_.star_patches, watchers_[eye.watcher].layers[0].motion_from_frame,
+        const auto own = std::find_if(images.begin(), images.end(), [](const PlannedImage& image) { return image.layer > 0; });
+        eye.stars = stars_in({images.begin(), own}, world_.star_patches, observers_[eye.observer].layers[0].motion_from_frame,
             std::move(eye.stars));
     }
 }
@@ -99,8 +98,8 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
 {
     shot_ = shot;
     double most_E = 1;
-    for (Watcher& one : watchers_) {
-        one = watcher(world_.world, shot, one.observer, std::move(one.layers));
+    for (Observer& one : observers_) {
+        one = starbow::observer_of(world_.world, shot, one.observer, std::move(one.layers));
         most_E = std::max(most_E, one.most_E());
     }
     const bool gains = shot.effects.headlight || shot.effects.doppler;
@@ -118,48 +117,48 @@ void Frame::prepare(const Shot& shot, const Panel* hud)
             size = glm::max(size, output.size);
         stars_.fit({std::uint32_t(size.x), std::uint32_t(size.y)});
         star_turns_.clear();
-        for (const Watcher& one : watchers_)
+        for (const Observer& one : observers_)
             star_turns_.push_back(one.layers[0].motion_from_frame);
         stars_.prepare(star_turns_, shot.effects.false_colours);
     }
-    for (PaneState& pane : panes_)
+    for (ViewState& view : views_)
         if (bloom_ == 0)
-            pane.bloom.reset();
-        else if (!pane.bloom && pattern_ == Pattern::none)
-            pane.bloom = std::make_unique<BloomPass>(device_, pipelines_, pane.pane().size);
+            view.bloom.reset();
+        else if (!view.bloom && pattern_ == Pattern::none)
+            view.bloom = std::make_unique<BloomPass>(device_, pipelines_, view.view().size);
     if (meters_ && !meter_) {
         std::vector<glm::ivec2> sizes;
-        for (const PaneState& pane : panes_)
-            sizes.push_back(layout_.outputs[pane.output].preview ? glm::ivec2(0) : pane.pane().size);
+        for (const ViewState& view : views_)
+            sizes.push_back(layout_.outputs[view.output].preview ? glm::ivec2(0) : view.view().size);
         meter_ = std::make_unique<Meter>(device_, sizes, world_.star_count);
     }
     hud_on_ = hud;
     if (hud) {
         if (!hud_)
-            hud_ = std::make_unique<PanelPass>(device_, pipelines_, panes_.size());
+            hud_ = std::make_unique<PanelPass>(device_, pipelines_, views_.size());
         hud_->prepare(*hud, hud_place_);
-        for (std::size_t i = 0; i < panes_.size(); ++i)
-            hud_->prepare_pane(i, map_of(panes_[i]), *nearest_);
+        for (std::size_t i = 0; i < views_.size(); ++i)
+            hud_->prepare_view(i, map_of(views_[i]), *nearest_);
     }
     if (pattern_ != Pattern::none)
-        for (PaneState& pane : panes_)
-            if (!*pane.label.view) {
-                pane.label = make_label(device_, layout_, pane.pane(), sent_pixels(pane));
-                pane.shown_part = shown_part(pane.compiled);
+        for (ViewState& view : views_)
+            if (!*view.label.view) {
+                view.label = make_label(device_, layout_, view.view(), sent_pixels(view));
+                view.shown_part = shown_part(view.compiled);
             }
     write_sets();
     if (lab_ && pattern_ == Pattern::none)
         prepare_lab();
 }
 
-/// The pixels of the pane, and where it is a preview, of the one that it shows small.
-glm::ivec2 Frame::sent_pixels(const PaneState& pane) const
+/// The pixels of the view, and where it is a preview, of the one that it shows small.
+glm::ivec2 Frame::sent_pixels(const ViewState& view) const
 {
-    for (const PaneState& other : panes_)
-        if (other.output == other.pane().output && other.output == pane.pane().output
-            && other.pane().viewport == pane.pane().viewport && other.pane().eye == pane.pane().eye)
-            return other.pane().size;
-    return pane.pane().size;
+    for (const ViewState& other : views_)
+        if (other.output == other.view().output && other.output == view.view().output
+            && other.view().viewport == view.view().viewport && other.view().eye == view.view().eye)
+            return other.view().size;
+    return view.view().size;
 }
 
 glm::dvec3 Frame::scene_units(const glm::dvec3& place_m) const
@@ -168,9 +167,9 @@ glm::dvec3 Frame::scene_units(const glm::dvec3& place_m) const
 }
 
 /// Of an eye from its cube map's place, in a layer's motion axes. Where the baseline turns, as far as it ever is.
-glm::dvec3 Frame::eye_offset(const PaneState& pane, const Layer& layer) const
+glm::dvec3 Frame::eye_offset(const ViewState& view, const RestFrameView& layer) const
 {
-    const glm::dvec3 offset = layer.shot.ship_from_cockpit * scene_units(pane.beside_m);
+    const glm::dvec3 offset = layer.shot.ship_from_cockpit * scene_units(view.beside_m);
     if (layout_.stereo.turning)
         return glm::dvec3(1, 1, physics::gamma_of(layer.shot.u)) * glm::length(offset);
     glm::dvec3 apart = layer.motion_from_frame * physics::eye_place(layer.shot.u, offset);
@@ -178,38 +177,38 @@ glm::dvec3 Frame::eye_offset(const PaneState& pane, const Layer& layer) const
     return apart;
 }
 
-/// ViewPush's and LayerEntry's member.
-glm::vec4 Frame::eye_told(const PaneState& pane, const Layer& layer) const
+/// ViewPush's and RestFrameEntry's member.
+glm::vec4 Frame::eye_constants(const ViewState& view, const RestFrameView& layer) const
 {
     if (!layout_.stereo.turning)
-        return glm::vec4(eye_offset(pane, layer), 0);
-    const double side = pane.beside_m.x < 0 ? -1 : 1;
-    return glm::vec4(layer.motion_from_cockpit * glm::dvec3(0, 1, 0), side * glm::length(scene_units(pane.beside_m)));
+        return glm::vec4(eye_offset(view, layer), 0);
+    const double side = view.beside_m.x < 0 ? -1 : 1;
+    return glm::vec4(layer.motion_from_cockpit * glm::dvec3(0, 1, 0), side * glm::length(scene_units(view.beside_m)));
 }
 
 /// Where something moves: the layers of which there is anything to see, and the sky.
-void Frame::put_layers(PaneState& pane)
+void Frame::write_rest_frames(ViewState& view)
 {
-    if (!*pane.layers.buffer)
-        pane.layers = make_mapped_buffer(device_, sizeof(shared::LayerConstants), vk::BufferUsageFlagBits::eUniformBuffer);
-    const Eye& eye = eyes_[pane.eye];
-    const Plan& plan = plans_[pane.eye];
-    const std::vector<Layer>& layers = watcher_of(pane).layers;
-    shared::LayerConstants all{};
+    if (!*view.layers.buffer)
+        view.layers = make_mapped_buffer(device_, sizeof(shared::RestFrameConstants), vk::BufferUsageFlagBits::eUniformBuffer);
+    const Eye& eye = eyes_[view.eye];
+    const CubeMapPlan& plan = plans_[view.eye];
+    const std::vector<RestFrameView>& layers = observer_of(view).layers;
+    shared::RestFrameConstants all{};
     std::size_t count = 0;
     for (std::size_t at = 0; at < layers.size(); ++at) {
         const bool seen = std::any_of(
-            plan.images.begin(), plan.images.end(), [&](const PlanImage& image) { return std::size_t(image.layer) == at; });
+            plan.images.begin(), plan.images.end(), [&](const PlannedImage& image) { return std::size_t(image.layer) == at; });
         if (at > 0 && !seen)
             continue;
-        const Layer& layer = layers[at];
+        const RestFrameView& layer = layers[at];
         const glm::dmat3 turn = layer.motion_from_cockpit * glm::transpose(layers[0].motion_from_cockpit);
-        shared::LayerEntry& entry = all.layers[count++];
+        shared::RestFrameEntry& entry = all.layers[count++];
         entry.row0 = shared::row(turn, 0);
-        entry.row1 = shared::row(turn, 1, plan.rear_last[at]);
+        entry.row1 = shared::row(turn, 1, plan.finest_clip_level[at]);
         entry.row2 = shared::row(turn, 2);
-        entry.boost = glm::vec4(layer.E, 1 / layer.E, at * SLOT_COUNT, at);
-        entry.eye = eye_told(pane, layer);
+        entry.boost = glm::vec4(layer.E, 1 / layer.E, at * TILE_COUNT, at);
+        entry.eye = eye_constants(view, layer);
         entry.nearest.y = float(eye.nearest[at]);
     }
     all.count.x = float(count);
@@ -219,20 +218,20 @@ void Frame::put_layers(PaneState& pane)
         all.sky_horizon[group] = glm::vec4(world_.spectra.sky[1][group] * pre_exposure_);
         all.sky_nadir[group] = glm::vec4(world_.spectra.sky[2][group] * pre_exposure_);
     }
-    std::memcpy(pane.layers.mapped, &all, sizeof all);
+    std::memcpy(view.layers.mapped, &all, sizeof all);
 }
 
 void Frame::write_sets()
 {
     // Each write points at its part of these, which must not move.
-    auto& buffers = told_buffers_;
-    auto& images = told_images_;
-    auto& texels = told_texels_;
+    auto& buffers = buffer_infos_;
+    auto& images = image_infos_;
+    auto& texels = texel_views_;
     auto& writes = writes_;
     buffers.clear(), images.clear(), texels.clear(), writes.clear();
-    buffers.reserve(6 * panes_.size());
-    images.reserve(11 * panes_.size());
-    texels.reserve(2 * panes_.size());
+    buffers.reserve(6 * views_.size());
+    images.reserve(11 * views_.size());
+    texels.reserve(2 * views_.size());
     auto buffer = [&](const vk::raii::DescriptorSet& set, std::uint32_t binding, vk::DescriptorType type, const Buffer& b) {
         buffers.push_back({*b.buffer, 0, VK_WHOLE_SIZE});
         writes.push_back({*set, binding, 0, 1, type, nullptr, &buffers.back()});
@@ -242,34 +241,34 @@ void Frame::write_sets()
               images.push_back({*sampler, *i.view, vk::ImageLayout::eShaderReadOnlyOptimal});
               writes.push_back({*set, binding, 0, 1, vk::DescriptorType::eCombinedImageSampler, &images.back()});
           };
-    for (PaneState& pane : panes_) {
-        const Image& map = map_of(pane);
-        image(pane.label_set, 0, map, nearest_);
-        image(pane.label_set, 1, *pane.label.view ? pane.label : nothing_, linear_);
+    for (ViewState& view : views_) {
+        const Image& map = map_of(view);
+        image(view.label_set, 0, map, nearest_);
+        image(view.label_set, 1, *view.label.view ? view.label : nothing_, linear_);
         if (pattern_ != Pattern::none)
             continue;
-        const Eye& eye = eyes_[pane.eye];
-        image(pane.warp_set, 0, map, nearest_);
+        const Eye& eye = eyes_[view.eye];
+        image(view.warp_set, 0, map, nearest_);
         constexpr std::uint32_t atlas_bindings[MAX_GROUPS] = {1, 7, 8, 9};
         const std::vector<Image>& atlases = eye.cube.atlases();
         for (std::size_t group = 0; group < MAX_GROUPS; ++group)
-            image(pane.warp_set, atlas_bindings[group], atlases[std::min(group, std::size_t(world_.spectra.groups) - 1)],
-                plans_[pane.eye].levels > 1 ? linear_ : finest_);
+            image(view.warp_set, atlas_bindings[group], atlases[std::min(group, std::size_t(world_.spectra.groups) - 1)],
+                plans_[view.eye].levels > 1 ? linear_ : finest_);
         const ResponseBuffers& response = this->response();
-        for (auto [binding, view] : {std::pair(2u, eye.cube.slots()), std::pair(3u, *response.texels)}) {
-            texels.push_back(view);
+        for (auto [binding, texel_view] : {std::pair(2u, eye.cube.tiles()), std::pair(3u, *response.texels)}) {
+            texels.push_back(texel_view);
             writes.push_back(
-                {*pane.warp_set, binding, 0, 1, vk::DescriptorType::eUniformTexelBuffer, nullptr, nullptr, &texels.back()});
+                {*view.warp_set, binding, 0, 1, vk::DescriptorType::eUniformTexelBuffer, nullptr, nullptr, &texels.back()});
         }
-        buffer(pane.warp_set, 10, vk::DescriptorType::eUniformBuffer, response.own_rows);
+        buffer(view.warp_set, 10, vk::DescriptorType::eUniformBuffer, response.own_rows);
         const bool layered = eye.cube.layered();
         if (layered)
-            put_layers(pane);
-        image(pane.warp_set, 11, layered ? atlases.back() : nothing_, plans_[pane.eye].levels > 1 ? linear_ : finest_);
-        buffer(pane.warp_set, 12, vk::DescriptorType::eUniformBuffer, layered ? pane.layers : no_layers_);
-        image(pane.warp_set, 4, keeps_depth_ ? eye.cube.depth() : nothing_, nearest_);
-        image(pane.warp_set, 5, stars_.on() ? stars_.picture() : nothing_, nearest_);
-        image(pane.warp_set, 6, pane.map && stars_.on() ? maps_[*pane.map].inverse : no_map_, nearest_);
+            write_rest_frames(view);
+        image(view.warp_set, 11, layered ? atlases.back() : nothing_, plans_[view.eye].levels > 1 ? linear_ : finest_);
+        buffer(view.warp_set, 12, vk::DescriptorType::eUniformBuffer, layered ? view.layers : no_rest_frames_);
+        image(view.warp_set, 4, keeps_depth_ ? eye.cube.depth() : nothing_, nearest_);
+        image(view.warp_set, 5, stars_.on() ? stars_.picture() : nothing_, nearest_);
+        image(view.warp_set, 6, view.map && stars_.on() ? maps_[*view.map].inverse : no_map_, nearest_);
     }
     device_.device.updateDescriptorSets(writes, {});
 }
@@ -301,72 +300,72 @@ void Frame::draw_cubes(vk::CommandBuffer commands)
 }
 
 /// Of the passes that show light, each pixel along all its rays.
-WarpVariant Frame::variant_shown(const PaneState& pane) const
+WarpVariant Frame::variant_shown(const ViewState& view) const
 {
-    WarpVariant all = variant(pane);
+    WarpVariant all = variant(view);
     all.rays = quality_.pixel_rays;
     return all;
 }
 
 /// The image ahead, if the plan has no other: at rest it often shows all. Null otherwise.
-const PlanImage* Frame::single_image(const PaneState& pane) const
+const PlannedImage* Frame::single_image(const ViewState& view) const
 {
-    const std::vector<PlanImage>& images = plans_[pane.eye].images;
-    const bool beside = reprojects() && pane.beside_m != glm::dvec3(0);
-    return images.size() == 1 && images[0].layer == 0 && images[0].slot == SLOT_FRONT && !beside ? &images[0] : nullptr;
+    const std::vector<PlannedImage>& images = plans_[view.eye].images;
+    const bool beside = reprojects() && view.beside_m != glm::dvec3(0);
+    return images.size() == 1 && images[0].layer == 0 && images[0].tile == TILE_FRONT && !beside ? &images[0] : nullptr;
 }
 
-WarpVariant Frame::variant(const PaneState& pane) const
+WarpVariant Frame::variant(const ViewState& view) const
 {
-    const bool moves = watcher_of(pane).E != 1 || eyes_[pane.eye].cube.layered(); // otherwise there is nothing to shift
-    const bool beside = reprojects() && pane.beside_m != glm::dvec3(0);
+    const bool moves = observer_of(view).E != 1 || eyes_[view.eye].cube.layered(); // otherwise there is nothing to shift
+    const bool beside = reprojects() && view.beside_m != glm::dvec3(0);
     const Effects& on = shot_.effects;
-    WarpVariant variant{pane.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
-        plans_[pane.eye].levels > 1, pane.compiled.channels() == 3, beside, beside && layout_.stereo.turning, stars_.on()};
+    WarpVariant variant{view.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
+        plans_[view.eye].levels > 1, view.compiled.channels() == 3, beside, beside && layout_.stereo.turning, stars_.on()};
     variant.numbers = world_.numbers();
-    variant.layered = eyes_[pane.eye].cube.layered();
-    variant.single = single_image(pane);
-    variant.cut = plans_[pane.eye].cut;
+    variant.layered = eyes_[view.eye].cube.layered();
+    variant.single = single_image(view);
+    variant.cut = plans_[view.eye].cut;
     variant.galilean = on.comparison == Comparison::galilean;
-    variant.by_table = variant.doppler || on.false_colours || variant.numbers != Numbers{}; // else as at rest, which is told
+    variant.by_table = variant.doppler || on.false_colours || variant.numbers != CoefficientCounts{}; // else as at rest, which is told
     return variant;
 }
 
-shared::ViewPush Frame::push(const PaneState& pane, const glm::dmat3& axes_from_cockpit) const
+shared::ViewPush Frame::push(const ViewState& view, const glm::dmat3& axes_from_cockpit) const
 {
-    const glm::dmat3 m = axes_from_cockpit * pane.compiled.matrix.value_or(glm::dmat3(1));
-    const vk::Extent2D atlas = eyes_[pane.eye].cube.atlases()[0].extent;
+    const glm::dmat3 m = axes_from_cockpit * view.compiled.matrix.value_or(glm::dmat3(1));
+    const vk::Extent2D atlas = eyes_[view.eye].cube.atlases()[0].extent;
     shared::ViewPush push{};
-    push.row0 = shared::row(m, 0, unit_of(pane.compiled));
-    push.row1 = shared::row(m, 1, pattern_ == Pattern::none ? plans_[pane.eye].rear_last[0] : 0);
+    push.row0 = shared::row(m, 0, unit_of(view.compiled));
+    push.row1 = shared::row(m, 1, pattern_ == Pattern::none ? plans_[view.eye].finest_clip_level[0] : 0);
     push.row2 = shared::row(m, 2, response().first_log2_D);
-    push.origin = glm::vec4(pane.pane().corner, 1.0 / atlas.width, 1.0 / atlas.height);
-    push.pane = glm::vec4(pane.pane().corner, 0, response().per_octave);
+    push.origin = glm::vec4(view.view().corner, 1.0 / atlas.width, 1.0 / atlas.height);
+    push.corner = glm::vec4(view.view().corner, 0, response().per_octave);
     if (pattern_ == Pattern::none) {
-        const PlanImage* single = single_image(pane);
-        push.eye = single ? slot_entry(*single).texel_from_face : eye_told(pane, watcher_of(pane).layers[0]);
-        push.zenith.y = float(eyes_[pane.eye].nearest[0]);
+        const PlannedImage* single = single_image(view);
+        push.eye = single ? tile_entry(*single).texel_from_face : eye_constants(view, observer_of(view).layers[0]);
+        push.zenith.y = float(eyes_[view.eye].nearest[0]);
     }
     push.zenith.x = float(std::sin(layout_.stereo.full_from_zenith_deg * degree));
-    push.zenith.z = float(pane.pane().size.x), push.zenith.w = float(pane.pane().size.y);
+    push.zenith.z = float(view.view().size.x), push.zenith.w = float(view.view().size.y);
     return push;
 }
 
 /// What comes before light is shown: ViewPush's member.
-glm::vec4 Frame::boost(const PaneState& pane, double exposure) const
+glm::vec4 Frame::boost(const ViewState& view, double exposure) const
 {
     // Not infinite, so that darkness times it stays dark.
-    const double E = watcher_of(pane).E;
+    const double E = observer_of(view).E;
     return glm::vec4(E, 1 / E, std::min(exposure / pre_exposure_, 1e37), near_distance);
 }
 
 /// ViewPush of the stars' pass.
-shared::ViewPush Frame::star_push(const PaneState& pane) const
+shared::ViewPush Frame::star_push(const ViewState& view) const
 {
-    const Watcher& own = watcher_of(pane);
-    shared::ViewPush constants = push(pane, own.layers[0].motion_from_cockpit);
+    const Observer& own = observer_of(view);
+    shared::ViewPush constants = push(view, own.layers[0].motion_from_cockpit);
     constants.boost = glm::vec4(own.E, 1 / own.E, pre_exposure_, near_distance);
-    const glm::dmat3 back = glm::inverse(own.layers[0].motion_from_cockpit * pane.compiled.matrix.value_or(glm::dmat3(1)));
+    const glm::dmat3 back = glm::inverse(own.layers[0].motion_from_cockpit * view.compiled.matrix.value_or(glm::dmat3(1)));
     constants.row0 = shared::row(back, 0, constants.row0.w);
     constants.row1 = shared::row(back, 1, constants.row1.w);
     constants.row2 = shared::row(back, 2);
@@ -377,56 +376,56 @@ void Frame::draw_stars(vk::CommandBuffer commands, std::size_t output, int layer
 {
     const glm::ivec2 size = outputs_[output].size;
     stars_.begin(commands, {std::uint32_t(size.x), std::uint32_t(size.y)});
-    for (const PaneState& pane : panes_) {
-        if (pane.output != output || pane.pane().layer != layer)
+    for (const ViewState& view : views_) {
+        if (view.output != output || view.view().layer != layer)
             continue;
-        const shared::ViewPush constants = star_push(pane);
-        WarpVariant own = variant(pane);
+        const shared::ViewPush constants = star_push(view);
+        WarpVariant own = variant(view);
         own.mips = false;
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.stars(own, stars_.format()));
-        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 0, *pane.warp_set, {});
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 0, *view.warp_set, {});
         commands.pushConstants<shared::ViewPush>(
             *pipelines_.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
-        const int places = pane.map && maps_[*pane.map].closes ? 2 : 1;
-        stars_.draw(commands, eyes_[pane.eye].watcher, pane.pane().corner, pane.pane().size, places * (own.channels ? 3 : 1),
-            eyes_[pane.eye].stars);
+        const int places = view.map && maps_[*view.map].closes ? 2 : 1;
+        stars_.draw(commands, eyes_[view.eye].observer, view.view().corner, view.view().size, places * (own.channels ? 3 : 1),
+            eyes_[view.eye].stars);
     }
     stars_.end(commands);
 }
 
-void Frame::warp_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline, double exposure)
+void Frame::warp_view(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline, double exposure)
 {
-    shared::ViewPush constants = push(pane, watcher_of(pane).layers[0].motion_from_cockpit);
-    constants.boost = boost(pane, exposure);
-    set_warp(commands, pane, pipeline, constants, pane.pane().corner, pane.pane().size);
+    shared::ViewPush constants = push(view, observer_of(view).layers[0].motion_from_cockpit);
+    constants.boost = boost(view, exposure);
+    set_warp(commands, view, pipeline, constants, view.view().corner, view.view().size);
 }
 
-void Frame::set_warp(vk::CommandBuffer commands, const PaneState& pane, vk::Pipeline pipeline,
+void Frame::set_warp(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline,
     const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size)
 {
     set_area(commands, corner, size);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.warp_layout, 0, *pane.warp_set, {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.warp_layout, 0, *view.warp_set, {});
     commands.pushConstants<shared::ViewPush>(*pipelines_.warp_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
     commands.draw(3, 1, 0, 0);
 }
 
-/// The light of a pane that glows, spread.
-void Frame::bloom_pane(vk::CommandBuffer commands, const PaneState& pane)
+/// The light of a view that glows, spread.
+void Frame::bloom_view(vk::CommandBuffer commands, const ViewState& view)
 {
-    const Target light = pane.bloom->light();
-    pane.bloom->begin(commands);
-    vk::RenderingAttachmentInfo colour(light.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+    const Target light = view.bloom->light();
+    view.bloom->begin(commands);
+    vk::RenderingAttachmentInfo colour(light.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eStore);
     commands.beginRendering({{}, {{0, 0}, light.extent}, 1, 0, colour});
-    shared::ViewPush constants = push(pane, watcher_of(pane).layers[0].motion_from_cockpit);
-    constants.boost = boost(pane, std::exp2(shot_.exposure_ev));
+    shared::ViewPush constants = push(view, observer_of(view).layers[0].motion_from_cockpit);
+    constants.boost = boost(view, std::exp2(shot_.exposure_ev));
     constants.origin.x = constants.origin.y = 0;
-    WarpVariant linear = variant_shown(pane);
+    WarpVariant linear = variant_shown(view);
     linear.linear = true;
-    set_warp(commands, pane, pipelines_.warp(linear, light.format), constants, {0, 0}, pane.pane().size);
+    set_warp(commands, view, pipelines_.warp(linear, light.format), constants, {0, 0}, view.view().size);
     commands.endRendering();
-    pane.bloom->spread(commands);
+    view.bloom->spread(commands);
 }
 
 void Frame::draw_meter(vk::CommandBuffer commands)
@@ -435,36 +434,36 @@ void Frame::draw_meter(vk::CommandBuffer commands)
         return;
     const vk::RenderingAttachmentInfo picture = meter_->begin(commands);
     commands.beginRendering({{}, {{0, 0}, meter_->extent()}, 1, 0, picture});
-    for (std::size_t i = 0; i < panes_.size(); ++i) {
-        const PaneState& pane = panes_[i];
-        if (layout_.outputs[pane.output].preview)
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        const ViewState& view = views_[i];
+        if (layout_.outputs[view.output].preview)
             continue;
         const Meter::Cell& cell = meter_->cell(i);
-        shared::ViewPush constants = push(pane, watcher_of(pane).layers[0].motion_from_cockpit);
-        constants.boost = boost(pane, 1);
+        shared::ViewPush constants = push(view, observer_of(view).layers[0].motion_from_cockpit);
+        constants.boost = boost(view, 1);
         constants.origin.x = float(cell.corner.x), constants.origin.y = float(cell.corner.y);
-        const glm::dvec2 step = glm::dvec2(pane.pane().size) / glm::dvec2(cell.size);
+        const glm::dvec2 step = glm::dvec2(view.view().size) / glm::dvec2(cell.size);
         constants.zenith.z = float(step.x), constants.zenith.w = float(step.y);
-        set_warp(commands, pane, pipelines_.meter(variant(pane)), constants, cell.corner, cell.size);
+        set_warp(commands, view, pipelines_.meter(variant(view)), constants, cell.corner, cell.size);
         if (stars_.on())
-            glance_at_stars(commands, pane, meter_->star_cell(i));
+            meter_stars(commands, view, meter_->star_cell(i));
     }
     commands.endRendering();
     meter_->end(commands);
 }
 
-void Frame::glance_at_stars(vk::CommandBuffer commands, const PaneState& pane, const Meter::Cell& cell)
+void Frame::meter_stars(vk::CommandBuffer commands, const ViewState& view, const Meter::Cell& cell)
 {
-    shared::ViewPush constants = star_push(pane);
+    shared::ViewPush constants = star_push(view);
     constants.boost.z = 1;
-    constants.pane = glm::vec4(cell.size, meter_->every(), 0);
-    WarpVariant own = variant(pane);
+    constants.corner = glm::vec4(cell.size, meter_->every(), 0);
+    WarpVariant own = variant(view);
     own.mips = false;
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.star_meter(own));
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 0, *pane.warp_set, {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 0, *view.warp_set, {});
     commands.pushConstants<shared::ViewPush>(
         *pipelines_.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
-    stars_.glance(commands, eyes_[pane.eye].watcher, cell.corner, cell.size, meter_->every(), own.channels);
+    stars_.sample(commands, eyes_[view.eye].observer, cell.corner, cell.size, meter_->every(), own.channels);
 }
 
 std::optional<double> Frame::metered() const
@@ -472,22 +471,22 @@ std::optional<double> Frame::metered() const
     return meters_ && meter_ ? metered_ev(meter_->view(), meter_->stars()) : std::nullopt;
 }
 
-void Frame::pattern_pane(vk::CommandBuffer commands, const PaneState& pane, vk::Format format)
+void Frame::pattern_view(vk::CommandBuffer commands, const ViewState& view, vk::Format format)
 {
-    const Pane& own = pane.pane();
-    const shared::ViewPush look = push(pane, glm::dmat3(1));
+    const View& own = view.view();
+    const shared::ViewPush look = push(view, glm::dmat3(1));
     shared::PatternPush constants{};
     constants.row0 = look.row0, constants.row1 = look.row1, constants.row2 = look.row2;
     constants.origin = glm::vec4(own.corner, own.size);
     constants.tint = glm::vec4(pattern_ == Pattern::names ? eye_tint(own.eye) : output_tint(own.output), 0);
     // A table most likely is near a gamma of 2.2. A preview's target is sRGB whatever it shows.
-    const Colour& colour = layout_.outputs[pane.output].colour;
+    const Colour& colour = layout_.outputs[view.output].colour;
     const double gamma = colour.lut.empty() ? colour.gamma : 2.2;
-    constants.label = glm::vec4(pane.label.extent.width, pane.label.extent.height, pane.shown_part, gamma);
+    constants.label = glm::vec4(view.label.extent.width, view.label.extent.height, view.shown_part, gamma);
     set_area(commands, own.corner, own.size);
     commands.bindPipeline(
-        vk::PipelineBindPoint::eGraphics, pipelines_.pattern(pane.compiled.map != nullptr, int(pattern_), format));
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, *pane.label_set, {});
+        vk::PipelineBindPoint::eGraphics, pipelines_.pattern(view.compiled.map != nullptr, int(pattern_), format));
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, *view.label_set, {});
     commands.pushConstants<shared::PatternPush>(
         *pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
     commands.draw(3, 1, 0, 0);
@@ -508,22 +507,22 @@ void Frame::warp_output(vk::CommandBuffer commands, std::size_t output, const Ta
             draw_stars(commands, output, layer);
         const Target target = picture_of(output, layer, last);
         const bool glows = bloom_ > 0 && pattern_ == Pattern::none;
-        for (const PaneState& pane : panes_)
-            if (glows && pane.output == output && pane.pane().layer == layer)
-                bloom_pane(commands, pane);
-        vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+        for (const ViewState& view : views_)
+            if (glows && view.output == output && view.view().layer == layer)
+                bloom_view(commands, view);
+        vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
             vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
             vk::ClearColorValue(std::array<float, 4>{0, 0, 0, 1}));
         commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
-        for (const PaneState& pane : panes_) {
-            if (pane.output != output || pane.pane().layer != layer)
+        for (const ViewState& view : views_) {
+            if (view.output != output || view.view().layer != layer)
                 continue;
             if (pattern_ != Pattern::none)
-                pattern_pane(commands, pane, target.format);
+                pattern_view(commands, view, target.format);
             else if (glows)
-                pane.bloom->show(commands, pane.pane().corner, bloom_, target.format);
+                view.bloom->show(commands, view.view().corner, bloom_, target.format);
             else
-                warp_pane(commands, pane, pipelines_.warp(variant_shown(pane), target.format), std::exp2(shot_.exposure_ev));
+                warp_view(commands, view, pipelines_.warp(variant_shown(view), target.format), std::exp2(shot_.exposure_ev));
         }
         commands.endRendering();
     }
@@ -545,46 +544,46 @@ void Frame::record_measured(vk::CommandBuffer commands, std::size_t output, cons
     float nothing = std::nanf("");
     std::vector<vk::RenderingAttachmentInfo> colours;
     for (const Image* image : {&target.light_and_depth, &target.camera, &target.world}) {
-        transition(commands, *image, Layout_::eUndefined, Stage::eNone, {}, Layout_::eColorAttachmentOptimal,
+        transition(commands, *image, vk::ImageLayout::eUndefined, Stage::eNone, {}, vk::ImageLayout::eColorAttachmentOptimal,
             Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
-        colours.push_back({*image->view, Layout_::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
+        colours.push_back({*image->view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
             vk::AttachmentStoreOp::eStore, vk::ClearColorValue(std::array<float, 4>{nothing, nothing, nothing, nothing})});
     }
     commands.beginRendering({{}, {{0, 0}, target.camera.extent}, 1, 0, colours});
-    for (const PaneState& pane : panes_)
-        if (pane.output == output && pane.pane().layer == 0)
-            warp_pane(commands, pane, pipelines_.measure(variant_shown(pane)), 1);
+    for (const ViewState& view : views_)
+        if (view.output == output && view.view().layer == 0)
+            warp_view(commands, view, pipelines_.measure(variant_shown(view)), 1);
     commands.endRendering();
     for (const Image* image : {&target.light_and_depth, &target.camera, &target.world})
-        transition(commands, *image, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
-            Access::eColorAttachmentWrite, Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+        transition(commands, *image, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+            Access::eColorAttachmentWrite, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
 }
 
 std::vector<Frame::Axes> Frame::measured_axes(std::size_t output) const
 {
     std::vector<Axes> axes;
-    for (const PaneState& pane : panes_)
-        if (pane.output == output && pane.pane().layer == 0)
+    for (const ViewState& view : views_)
+        if (view.output == output && view.view().layer == 0)
             axes.push_back(
-                {pane.pane().corner, pane.pane().size, glm::transpose(watcher_of(pane).layers[0].motion_from_frame)});
+                {view.view().corner, view.view().size, glm::transpose(observer_of(view).layers[0].motion_from_frame)});
     return axes;
 }
 
 void Frame::lay_over(vk::CommandBuffer commands, std::size_t output, const Target& last,
-    const std::function<void(std::size_t pane, vk::Format target)>& draw) const
+    const std::function<void(std::size_t view, vk::Format target)>& draw) const
 {
     for (int layer = 0; layer < layers(layout_.outputs[output].packing); ++layer) {
         const Target target = picture_of(output, layer, last);
         vk::ImageMemoryBarrier2 after_warp(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
             Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead,
-            Layout_::eColorAttachmentOptimal, Layout_::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED,
+            vk::ImageLayout::eColorAttachmentOptimal, vk::ImageLayout::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED,
             VK_QUEUE_FAMILY_IGNORED, target.image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
         commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, after_warp));
-        vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+        vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
             vk::AttachmentLoadOp::eLoad, vk::AttachmentStoreOp::eStore);
         commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
-        for (std::size_t i = 0; i < panes_.size(); ++i)
-            if (panes_[i].output == output && panes_[i].pane().layer == layer)
+        for (std::size_t i = 0; i < views_.size(); ++i)
+            if (views_[i].output == output && views_[i].view().layer == layer)
                 draw(i, target.format);
         commands.endRendering();
     }
@@ -596,20 +595,20 @@ void Frame::draw_hud(vk::CommandBuffer commands, std::size_t output, const Targe
         return;
     hud_->upload(commands);
     lay_over(commands, output, last, [&](std::size_t i, vk::Format target) {
-        const PaneState& pane = panes_[i];
-        hud_->draw(commands, i, pane.compiled.map != nullptr, push(pane, hud_place_.panel_from_cockpit), pane.pane().corner,
-            pane.pane().size, pane.hud_box, {}, target);
+        const ViewState& view = views_[i];
+        hud_->draw(commands, i, view.compiled.map != nullptr, push(view, hud_place_.panel_from_cockpit), view.view().corner,
+            view.view().size, view.hud_box, {}, target);
     });
 }
 
 void Frame::look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeline pipeline, vk::DescriptorSet set)
 {
-    const PaneState& pane = panes_.front();
-    shared::ViewPush constants = push(pane, watcher_of(pane).layers[0].motion_from_cockpit);
-    vk::RenderingAttachmentInfo colour(target.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+    const ViewState& view = views_.front();
+    shared::ViewPush constants = push(view, observer_of(view).layers[0].motion_from_cockpit);
+    vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore);
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
-    set_area(commands, pane.pane().corner, pane.pane().size);
+    set_area(commands, view.view().corner, view.view().size);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, set, {});
     commands.pushConstants<shared::ViewPush>(*pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
@@ -617,15 +616,15 @@ void Frame::look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeli
     commands.endRendering();
 }
 
-PlanImage Frame::plain_image(const Shot& shot, glm::dmat3& straight_from_world) const
+PlannedImage Frame::plain_image(const Shot& shot, glm::dmat3& straight_from_world) const
 {
-    const PaneState& pane = panes_.front();
+    const ViewState& view = views_.front();
     straight_from_world = motion_from_world({0, 0, 0}, shot.ship_from_cockpit);
-    glm::dmat3 m = straight_from_world * glm::dmat3(glm::mat3_cast(shot.ship_from_cockpit)) * pane.compiled.matrix.value();
-    glm::dvec3 low = m * glm::dvec3(0, 0, 1), high = m * glm::dvec3(pane.pane().size, 1);
+    glm::dmat3 m = straight_from_world * glm::dmat3(glm::mat3_cast(shot.ship_from_cockpit)) * view.compiled.matrix.value();
+    glm::dvec3 low = m * glm::dvec3(0, 0, 1), high = m * glm::dvec3(view.view().size, 1);
     // The view's x may run against the face's a: the picture is then mirrored, at the same cost.
     glm::dvec2 one = glm::dvec2(low) / low.z, other = glm::dvec2(high) / high.z;
-    PlanImage image{SLOT_FRONT, 0, glm::min(one, other), glm::max(one, other), pane.pane().size, {0, 0}, 0, 1};
+    PlannedImage image{TILE_FRONT, 0, glm::min(one, other), glm::max(one, other), view.view().size, {0, 0}, 0, 1};
     image.texels_per_unit = image.size.y / (image.high.y - image.low.y);
     return image;
 }
@@ -647,8 +646,8 @@ vk::DeviceSize Frame::memory() const
         bytes += map.image.bytes + map.inverse.bytes;
     bytes += meter_ ? meter_->memory() : 0;
     bytes += lab_ && lab_->panel ? lab_->panel->memory() : 0;
-    for (const PaneState& pane : panes_)
-        bytes += pane.bloom ? pane.bloom->memory() : 0;
+    for (const ViewState& view : views_)
+        bytes += view.bloom ? view.bloom->memory() : 0;
     for (const OutputState& output : outputs_)
         bytes += output.finish ? output.finish->memory() : 0;
     return bytes;

@@ -1,4 +1,4 @@
-// What a frame is made of: a layout's panes with their maps and eyes, taken up at the start and whenever the layout, an
+// What a frame is made of: a layout's views with their maps and eyes, taken up at the start and whenever the layout, an
 // output's size or the quality changes.
 #include "config/model/angles.h"
 #include "displays/compile/inverse_map.h"
@@ -28,12 +28,12 @@ Frame::Frame(Device& device, Pipelines& pipelines, const GpuWorld& world, const 
         vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge});
     const float zeros[4] = {};
     nothing_ = make_texture(device, exact_format, {1, 1}, std::as_bytes(std::span(zeros)), false);
-    no_layers_ = make_mapped_buffer(device, sizeof(shared::LayerConstants), vk::BufferUsageFlagBits::eUniformBuffer);
+    no_rest_frames_ = make_mapped_buffer(device, sizeof(shared::RestFrameConstants), vk::BufferUsageFlagBits::eUniformBuffer);
     no_map_ = make_texture_array(device, map_format, {1, 1}, 1, std::as_bytes(std::span(zeros, 2)));
     for (const Output& output : layout_.outputs)
         outputs_.emplace_back().size = output.size;
     store_.matrices(quality.matrices || layout.head_tracker); // a map does not follow a head
-    take_up(parts(true));
+    apply_layout(parts(true));
 }
 
 void Frame::resize(std::size_t output, glm::ivec2 size)
@@ -41,7 +41,7 @@ void Frame::resize(std::size_t output, glm::ivec2 size)
     if (outputs_[output].size == size)
         return;
     outputs_[output].size = size;
-    take_up(parts(false)); // a window may be dragged so small that a viewport is left with nothing
+    apply_layout(parts(false)); // a window may be dragged so small that a viewport is left with nothing
 }
 
 void Frame::adopt(const Layout& layout)
@@ -49,7 +49,7 @@ void Frame::adopt(const Layout& layout)
     store_.keep(false);
     const Layout before = std::exchange(layout_, with_stereo(layout, quality_));
     try {
-        take_up(parts(true));
+        apply_layout(parts(true));
     } catch (const InputError&) {
         layout_ = before;
         store_.keep(true);
@@ -73,39 +73,39 @@ void Frame::adopt(const Quality& quality)
         eye.cube.adopt(quality);
     if (quality.cube_samples == before.cube_samples && quality.half_floats == before.half_floats)
         return;
-    eyes_.clear(), watchers_.clear();
-    take_up(parts(false));
+    eyes_.clear(), observers_.clear();
+    apply_layout(parts(false));
 }
 
 void Frame::move_head(const Head& head)
 {
-    for (PaneState& pane : panes_) {
-        Pane moved = pane.pane();
+    for (ViewState& view : views_) {
+        View moved = view.view();
         const glm::dvec3 beside = moved.picture.eye_m - moved.head_m;
         moved.head_m += head.moved_m;
         moved.picture.eye_m = moved.head_m + head.turned * beside;
-        if (auto matrix = pane.compiled.map ? std::nullopt : pane_matrix(moved); matrix && matrix != pane.compiled.matrix) {
-            pane.compiled.matrix = matrix;
-            pane.compiled.blocks = std::make_shared<Blocks>(*matrix, moved.size);
-            find_hud_box(pane);
+        if (auto matrix = view.compiled.map ? std::nullopt : view_matrix(moved); matrix && matrix != view.compiled.matrix) {
+            view.compiled.matrix = matrix;
+            view.compiled.cones = std::make_shared<ConeHierarchy>(*matrix, moved.size);
+            find_hud_box(view);
         }
-        Eye& eye = eyes_[pane.eye];
+        Eye& eye = eyes_[view.eye];
         eye.now_m = place_of_eye(moved);
-        pane.beside_m = moved.picture.eye_m - eye.now_m;
+        view.beside_m = moved.picture.eye_m - eye.now_m;
     }
 }
 
 Frame::Parts Frame::parts(bool refuses_dark)
 {
     Parts parts;
-    std::vector<CompiledPane> lit; // by projectors, not previews
+    std::vector<CompiledView> lit; // by projectors, not previews
     for (std::size_t output = 0; output < outputs_.size(); ++output) {
-        parts.panes.push_back(compile_output(store_, layout_, output, outputs_[output].size));
+        parts.views.push_back(compile_output(store_, layout_, output, outputs_[output].size));
         if (!layout_.outputs[output].preview)
-            lit.insert(lit.end(), parts.panes.back().begin(), parts.panes.back().end());
+            lit.insert(lit.end(), parts.views.back().begin(), parts.views.back().end());
     }
     if (refuses_dark)
-        refuse_dark(layout_, lit);
+        reject_empty(layout_, lit);
     std::vector<std::vector<float>> ramps;
     if (layout_.blend.ramps)
         ramps = blend_ramps(layout_, lit, layout_.blend.power);
@@ -116,18 +116,18 @@ Frame::Parts Frame::parts(bool refuses_dark)
     return parts;
 }
 
-void Frame::take_up(Parts parts)
+void Frame::apply_layout(Parts parts)
 {
-    hud_place_ = {panel_from_cockpit(layout_.hud, parts.panes),
+    hud_place_ = {panel_from_cockpit(layout_.hud, parts.views),
         std::tan(0.5 * layout_.hud.width_deg * degree) * glm::dvec2(1, panel_aspect)};
-    std::vector<PaneState> before = std::exchange(panes_, {}); // whose maps are found again
+    std::vector<ViewState> before = std::exchange(views_, {}); // whose maps are found again
     std::vector<Map> maps_before = std::exchange(maps_, {});
     for (std::size_t output = 0; output < outputs_.size(); ++output)
-        for (CompiledPane& compiled : parts.panes[output]) {
-            PaneState pane;
-            pane.output = output;
-            pane.compiled = std::move(compiled);
-            panes_.push_back(std::move(pane));
+        for (CompiledView& compiled : parts.views[output]) {
+            ViewState view;
+            view.output = output;
+            view.compiled = std::move(compiled);
+            views_.push_back(std::move(view));
         }
     const double room = headroom(parts.shades);
     for (std::size_t output = 0; output < outputs_.size(); ++output) {
@@ -138,18 +138,18 @@ void Frame::take_up(Parts parts)
             outputs_[output].finish = std::make_unique<FinishPass>(device_, pipelines_, own, parts.shades[output], room);
     }
 
-    for (PaneState& pane : panes_) {
-        pane.eye = eye_for(pane.pane());
-        pane.beside_m = pane.pane().picture.eye_m - eyes_[pane.eye].now_m;
-        pane.map = map_for(pane.compiled, maps_before);
-        find_hud_box(pane);
+    for (ViewState& view : views_) {
+        view.eye = eye_for(view.view());
+        view.beside_m = view.view().picture.eye_m - eyes_[view.eye].now_m;
+        view.map = map_for(view.compiled, maps_before);
+        find_hud_box(view);
     }
     plans_.resize(eyes_.size());
     cubes_drawn_ = false;
     meter_.reset();
     forget_lab();
 
-    const std::uint32_t count = std::uint32_t(panes_.size());
+    const std::uint32_t count = std::uint32_t(views_.size());
     before.clear();
     pool_ = nullptr;
     std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBuffer, 2 * count},
@@ -158,28 +158,28 @@ void Frame::take_up(Parts parts)
     auto make_set = [&](const vk::raii::DescriptorSetLayout& set_layout) {
         return std::move(device_.device.allocateDescriptorSets({*pool_, *set_layout}).front());
     };
-    for (PaneState& pane : panes_) {
-        pane.warp_set = make_set(pipelines_.warp_set);
-        pane.label_set = make_set(pipelines_.picture_set);
+    for (ViewState& view : views_) {
+        view.warp_set = make_set(pipelines_.warp_set);
+        view.label_set = make_set(pipelines_.picture_set);
     }
 }
 
-/// Where the pane's cube map is drawn from.
-glm::dvec3 Frame::place_of_eye(const Pane& pane) const
+/// Where the view's cube map is drawn from.
+glm::dvec3 Frame::place_of_eye(const View& view) const
 {
-    return layout_.stereo.method == StereoMethod::exact ? pane.picture.eye_m : pane.head_m;
+    return layout_.stereo.method == StereoMethod::exact ? view.picture.eye_m : view.head_m;
 }
 
-std::size_t Frame::eye_for(const Pane& pane)
+std::size_t Frame::eye_for(const View& view)
 {
-    const glm::dvec3 place = place_of_eye(pane);
+    const glm::dvec3 place = place_of_eye(view);
     const auto whose = std::find_if(
-        watchers_.begin(), watchers_.end(), [&](const Watcher& watcher) { return watcher.observer == pane.observer; });
-    const std::size_t own = std::size_t(whose - watchers_.begin());
-    if (whose == watchers_.end())
-        watchers_.push_back({pane.observer});
+        observers_.begin(), observers_.end(), [&](const Observer& observer) { return observer.observer == view.observer; });
+    const std::size_t own = std::size_t(whose - observers_.begin());
+    if (whose == observers_.end())
+        observers_.push_back({view.observer});
     auto same
-        = std::find_if(eyes_.begin(), eyes_.end(), [&](const Eye& e) { return e.place_m == place && e.watcher == own; });
+        = std::find_if(eyes_.begin(), eyes_.end(), [&](const Eye& e) { return e.place_m == place && e.observer == own; });
     if (same == eyes_.end()) {
         eyes_.push_back({place, own, CubePass(device_, pipelines_, world_, quality_, keeps_depth_), place});
         same = eyes_.end() - 1;
@@ -189,24 +189,24 @@ std::size_t Frame::eye_for(const Pane& pane)
     return std::size_t(same - eyes_.begin());
 }
 
-std::optional<std::size_t> Frame::map_for(const CompiledPane& pane, std::vector<Map>& before)
+std::optional<std::size_t> Frame::map_for(const CompiledView& view, std::vector<Map>& before)
 {
-    if (!pane.map)
+    if (!view.map)
         return {};
     for (std::size_t i = 0; i < maps_.size(); ++i)
-        if (maps_[i].directions == pane.map)
+        if (maps_[i].directions == view.map)
             return i;
     for (Map& old : before)
-        if (old.directions == pane.map) {
+        if (old.directions == view.map) {
             maps_.push_back(std::move(old));
             return maps_.size() - 1;
         }
-    const std::vector<glm::uvec2> texels = packed(*pane.map);
-    maps_.push_back({pane.map,
+    const std::vector<glm::uvec2> texels = packed(*view.map);
+    maps_.push_back({view.map,
         make_texture_array(
-            device_, map_format, pane.map->size, std::uint32_t(pane.map->channels), std::as_bytes(std::span(texels)))});
+            device_, map_format, view.map->size, std::uint32_t(view.map->channels), std::as_bytes(std::span(texels)))});
     if (stars_.on()) {
-        const InverseMap inverse = starbow::inverse(*pane.map);
+        const InverseMap inverse = starbow::inverse(*view.map);
         maps_.back().closes = inverse.closes;
         maps_.back().inverse = make_texture_array(device_, inverse_format, glm::ivec2(inverse.side),
             std::uint32_t(inverse.channels), std::as_bytes(std::span(inverse.cells)));
@@ -214,25 +214,25 @@ std::optional<std::size_t> Frame::map_for(const CompiledPane& pane, std::vector<
     return maps_.size() - 1;
 }
 
-PixelBox Frame::panel_in(const Blocks& blocks) const
+PixelBox Frame::panel_in(const ConeHierarchy& cones) const
 {
-    return panel_box(blocks, hud_place_.panel_from_cockpit, hud_place_.half);
+    return panel_box(cones, hud_place_.panel_from_cockpit, hud_place_.half);
 }
 
 /// Or what stands in for one.
-const Image& Frame::map_of(const PaneState& pane) const { return pane.map ? maps_[*pane.map].image : no_map_; }
+const Image& Frame::map_of(const ViewState& view) const { return view.map ? maps_[*view.map].image : no_map_; }
 
-void Frame::find_hud_box(PaneState& pane) const
+void Frame::find_hud_box(ViewState& view) const
 {
-    const PixelBox box = panel_in(*pane.compiled.blocks);
-    pane.hud_box = rect_of(pane.pane().corner + box.low, box.high - box.low);
+    const PixelBox box = panel_in(*view.compiled.cones);
+    view.hud_box = rect_of(view.view().corner + box.low, box.high - box.low);
 }
 
 int Frame::hud_width() const
 {
     double finest = 1;
-    for (const PaneState& pane : panes_)
-        finest = std::min(finest, double(panel_in(*pane.compiled.blocks).finest));
+    for (const ViewState& view : views_)
+        finest = std::min(finest, double(panel_in(*view.compiled.cones).finest));
     return std::clamp(int(2 * hud_place_.half.x / finest), 160, 4096);
 }
 

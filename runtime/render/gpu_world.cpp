@@ -74,7 +74,7 @@ SurfaceVariant GpuWorld::variant(int material, bool plain) const
     variant.clock = m.clock.has_value();
     variant.blink = m.blink.has_value();
     variant.layered = layered() && !plain;
-    const auto told = [](const Lamp& lamp) { return lamp.frame > 0 || lamp.life >= 0; };
+    const auto told = [](const Lamp& lamp) { return lamp.frame > 0 || lamp.existence >= 0; };
     variant.lamps_move
         = !plain && variant.lights > 0 && (layered() || std::any_of(world.lamps.begin(), world.lamps.end(), told));
     if (!plain)

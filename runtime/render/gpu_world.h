@@ -40,7 +40,7 @@ struct GpuWorld {
     ResponseBuffers eye, false_colours;
 
     bool layered() const { return world.frames.size() > 1; } ///< something may move
-    Numbers numbers() const { return {spectra.basis.reflected, int(spectra.basis.own.size())}; }
+    CoefficientCounts numbers() const { return {spectra.basis.reflected, int(spectra.basis.own.size())}; }
     /// plain: drawn as colours alone, whatever the spectra.
     SurfaceVariant variant(int material, bool plain = false) const;
 };

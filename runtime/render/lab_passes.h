@@ -16,13 +16,13 @@ struct Measuring {
 /// The passes for it, each made when first asked for.
 struct LabPasses {
     Measuring what;
-    Lookout lookout; ///< of the eye that the probes look from
-    Lookout head; ///< between the eyes: who measures
+    MeasuringObserver observer; ///< of the eye that the probes look from
+    MeasuringObserver head; ///< between the eyes: who measures
     glm::dmat3 world_from_motion{1};
     std::unique_ptr<Probe> probe;
     std::unique_ptr<OverlayPass> overlay;
     std::unique_ptr<PanelPass> panel;
-    std::vector<vk::Rect2D> boxes; ///< of the panel in each pane
+    std::vector<vk::Rect2D> boxes; ///< of the panel in each view
 };
 
 } // namespace starbow

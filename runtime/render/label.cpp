@@ -4,23 +4,23 @@
 
 namespace starbow {
 
-Image make_label(Device& device, const Layout& layout, const Pane& pane, glm::ivec2 sent)
+Image make_label(Device& device, const Layout& layout, const View& view, glm::ivec2 sent)
 {
-    const Output& output = layout.outputs[pane.output];
+    const Output& output = layout.outputs[view.output];
     std::string name = output.name;
     if (output.viewports.size() > 1)
-        name.append(" ").append(std::to_string(pane.viewport));
-    std::string pixels = pane.eye == Eye::left ? "left eye, " : pane.eye == Eye::right ? "right eye, " : "";
+        name.append(" ").append(std::to_string(view.viewport));
+    std::string pixels = view.eye == Eye::left ? "left eye, " : view.eye == Eye::right ? "right eye, " : "";
     pixels += std::to_string(sent.x) + " x " + std::to_string(sent.y);
     const std::string lines[] = {name, pixels};
 
     const Typesetter typesetter;
-    int height = std::clamp(std::min(pane.size.x, pane.size.y) / 12, 12, 160);
+    int height = std::clamp(std::min(view.size.x, view.size.y) / 12, 12, 160);
     double widest = 1;
     for (const std::string& line : lines)
         widest = std::max(widest, typesetter.width_of(line, height));
     // In the middle and in the corners without touching.
-    height = std::max(10, int(height * std::min(1.0, 0.3 * pane.size.x / widest)));
+    height = std::max(10, int(height * std::min(1.0, 0.3 * view.size.x / widest)));
     widest = 1;
     for (const std::string& line : lines)
         widest = std::max(widest, typesetter.width_of(line, height));
@@ -33,12 +33,12 @@ Image make_label(Device& device, const Layout& layout, const Pane& pane, glm::iv
     return make_texture(device, vk::Format::eR8G8Unorm, panel.size, std::as_bytes(std::span(panel.texels)), false);
 }
 
-float shown_part(const CompiledPane& pane)
+float shown_part(const CompiledView& view)
 {
-    if (!pane.map)
+    if (!view.map)
         return 1;
-    const glm::ivec2 size = pane.map->size;
-    auto shown = [&](int x, int y) { return pane.map->at(x, y).w > 0; };
+    const glm::ivec2 size = view.map->size;
+    auto shown = [&](int x, int y) { return view.map->at(x, y).w > 0; };
     for (int percent = 100; percent > 30; --percent) {
         const glm::ivec2 low = size * (100 - percent) / 200, high = size - 1 - low;
         bool all = true;

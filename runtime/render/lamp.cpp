@@ -6,13 +6,13 @@
 
 namespace starbow {
 
-shared::LightEntry light_entry(const GpuWorld& world, const Lamp& lamp, const Vantage& vantage, double scale)
+shared::LightEntry light_entry(const GpuWorld& world, const Lamp& lamp, const EyeEvent& eye_event, double scale)
 {
-    const RestFrame& here = world.world.frames[std::size_t(vantage.frame)];
+    const RestFrame& here = world.world.frames[std::size_t(eye_event.frame)];
     const RestFrame& there = world.world.frames[std::size_t(lamp.frame)];
     const Light& light = world.scene.lights[lamp.light];
-    const Spectra::Lamp& spectra = world.spectra.lamps[lamp.light][std::size_t(vantage.frame)];
-    const bool moves = lamp.frame != vantage.frame;
+    const Spectra::Lamp& spectra = world.spectra.lamps[lamp.light][std::size_t(eye_event.frame)];
+    const bool moves = lamp.frame != eye_event.frame;
     constexpr float never = 1e30f;
     shared::LightEntry entry{};
     entry.kind = glm::vec4(moves ? spectra.first_shift : spectra.kind, -never, never, 1);
@@ -21,7 +21,7 @@ shared::LightEntry light_entry(const GpuWorld& world, const Lamp& lamp, const Va
     if (const auto* far = std::get_if<DirectionalLight>(&light)) {
         double D = 1;
         const glm::dvec3 towards = moves ? aberrated(here.u, far->towards, D) : far->towards;
-        entry.place = glm::vec4(vantage.motion_from_frame * towards, 0);
+        entry.place = glm::vec4(eye_event.motion_from_frame * towards, 0);
         entry.radiance = glm::vec4(far->radiance * scale, 0);
         entry.kind.w = float(D);
         return entry;
@@ -30,7 +30,7 @@ shared::LightEntry light_entry(const GpuWorld& world, const Lamp& lamp, const Va
     entry.radiance = glm::vec4(point.radiance * scale, point.distance * point.distance);
     // Where the lamp is at the eye's time, and what its own time is there: the event in both frames.
     glm::dvec3 place = lamp.position;
-    double own = vantage.time;
+    double own = eye_event.time;
     if (moves) {
         // The lamp's worldline, told by the frame that it is seen from: what rests at `position` there moves with u here.
         const physics::Relative relative = physics::relative(here.u, there.u);
@@ -40,16 +40,16 @@ shared::LightEntry light_entry(const GpuWorld& world, const Lamp& lamp, const Va
         const Event at = in_frame(here, at_world);
         const double gamma = physics::gamma_of(relative.u), u = glm::length(relative.u);
         const glm::dvec3 v = relative.u / gamma;
-        place = at.position + v * (vantage.time - at.time);
-        own = (vantage.time - at.time) / gamma;
-        entry.way = glm::vec4(vantage.motion_from_frame * (relative.u / u), u);
+        place = at.position + v * (eye_event.time - at.time);
+        own = (eye_event.time - at.time) / gamma;
+        entry.way = glm::vec4(eye_event.motion_from_frame * (relative.u / u), u);
         entry.shifts.w = float(gamma);
     }
-    entry.place = glm::vec4(vantage.motion_from_frame * (place - vantage.place), 1);
-    if (lamp.life >= 0) {
-        const Life& life = world.world.lives[std::size_t(lamp.life)];
-        entry.kind.y = float(std::clamp(life.begin - own, -1e30, 1e30));
-        entry.kind.z = float(std::clamp(life.end - own, -1e30, 1e30));
+    entry.place = glm::vec4(eye_event.motion_from_frame * (place - eye_event.place), 1);
+    if (lamp.existence >= 0) {
+        const ExistenceInterval& existence = world.world.existence_intervals[std::size_t(lamp.existence)];
+        entry.kind.y = float(std::clamp(existence.begin - own, -1e30, 1e30));
+        entry.kind.z = float(std::clamp(existence.end - own, -1e30, 1e30));
     }
     return entry;
 }

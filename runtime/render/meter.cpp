@@ -8,31 +8,30 @@ namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
-using Layout_ = vk::ImageLayout;
 
-/// Of all panes together, and at least so many of each. A lamp of a thousandth of the view is still seen by some.
+/// Of all views together, and at least so many of each. A lamp of a thousandth of the view is still seen by some.
 constexpr double samples = 6000, least_samples = 48;
-/// Of all panes together: enough that a view of a twentieth of the sky is told by a hundred.
+/// Of all views together: enough that a view of a twentieth of the sky is told by a hundred.
 constexpr int star_samples = 3000, star_row = 64;
 
-static_assert(sizeof(Glimpse) == 8);
+static_assert(sizeof(LuminanceSample) == 8);
 
 } // namespace
 
-Meter::Meter(const Device& device, std::span<const glm::ivec2> panes, std::uint32_t stars)
+Meter::Meter(const Device& device, std::span<const glm::ivec2> views, std::uint32_t stars)
 {
     glm::ivec2 size(1);
     int below = 0;
-    const auto counting = std::count_if(panes.begin(), panes.end(), [](const glm::ivec2& pane) { return pane.x > 0; });
-    for (const glm::ivec2& pane : panes) {
-        if (pane.x == 0) {
+    const auto counting = std::count_if(views.begin(), views.end(), [](const glm::ivec2& view) { return view.x > 0; });
+    for (const glm::ivec2& view : views) {
+        if (view.x == 0) {
             cells_.push_back({});
             continue;
         }
         const double wanted = std::max(samples / double(counting), least_samples);
-        const double across = std::sqrt(wanted * pane.x / pane.y);
+        const double across = std::sqrt(wanted * view.x / view.y);
         Cell cell{
-            {0, below}, glm::clamp(glm::ivec2(glm::dvec2(across, wanted / across)), glm::ivec2(1), glm::min(pane, 1024))};
+            {0, below}, glm::clamp(glm::ivec2(glm::dvec2(across, wanted / across)), glm::ivec2(1), glm::min(view, 1024))};
         below += cell.size.y;
         size = glm::max(size, cell.corner + cell.size);
         cells_.push_back(cell);
@@ -40,8 +39,8 @@ Meter::Meter(const Device& device, std::span<const glm::ivec2> panes, std::uint3
     view_rows_ = below;
     every_ = std::max(1, int((std::uint64_t(stars) * std::uint64_t(counting) + star_samples - 1) / star_samples));
     const int rows = (int(stars) + every_ * star_row - 1) / (every_ * star_row);
-    for (const glm::ivec2& pane : panes) {
-        const Cell cell{{0, below}, pane.x > 0 ? glm::ivec2(star_row, rows) : glm::ivec2(0)};
+    for (const glm::ivec2& view : views) {
+        const Cell cell{{0, below}, view.x > 0 ? glm::ivec2(star_row, rows) : glm::ivec2(0)};
         below += cell.size.y;
         size = glm::max(size, cell.corner + cell.size);
         star_cells_.push_back(cell);
@@ -50,22 +49,22 @@ Meter::Meter(const Device& device, std::span<const glm::ivec2> panes, std::uint3
         {meter_format, {std::uint32_t(size.x), std::uint32_t(size.y)},
             vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
     back_
-        = make_mapped_buffer(device, std::size_t(size.x) * size.y * sizeof(Glimpse), vk::BufferUsageFlagBits::eTransferDst);
+        = make_mapped_buffer(device, std::size_t(size.x) * size.y * sizeof(LuminanceSample), vk::BufferUsageFlagBits::eTransferDst);
 }
 
 vk::RenderingAttachmentInfo Meter::begin(vk::CommandBuffer commands) const
 {
-    transition(commands, picture_, Layout_::eUndefined, Stage::eTransfer, {}, Layout_::eColorAttachmentOptimal,
+    transition(commands, picture_, vk::ImageLayout::eUndefined, Stage::eTransfer, {}, vk::ImageLayout::eColorAttachmentOptimal,
         Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
-    return {*picture_.view, Layout_::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
+    return {*picture_.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
         vk::AttachmentStoreOp::eStore};
 }
 
 void Meter::end(vk::CommandBuffer commands)
 {
-    transition(commands, picture_, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
-        Access::eColorAttachmentWrite, Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
-    commands.copyImageToBuffer(*picture_.image, Layout_::eTransferSrcOptimal, *back_.buffer,
+    transition(commands, picture_, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+        Access::eColorAttachmentWrite, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+    commands.copyImageToBuffer(*picture_.image, vk::ImageLayout::eTransferSrcOptimal, *back_.buffer,
         vk::BufferImageCopy(
             0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {picture_.extent.width, picture_.extent.height, 1}));
     vk::MemoryBarrier2 to_host(Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
@@ -73,19 +72,19 @@ void Meter::end(vk::CommandBuffer commands)
     drawn_ = true;
 }
 
-std::span<const Glimpse> Meter::view() const
+std::span<const LuminanceSample> Meter::view() const
 {
     if (!drawn_)
         return {};
-    return {static_cast<const Glimpse*>(back_.mapped), std::size_t(picture_.extent.width) * view_rows_};
+    return {static_cast<const LuminanceSample*>(back_.mapped), std::size_t(picture_.extent.width) * view_rows_};
 }
 
-std::span<const Glimpse> Meter::stars() const
+std::span<const LuminanceSample> Meter::stars() const
 {
     if (!drawn_)
         return {};
     const std::size_t view = std::size_t(picture_.extent.width) * view_rows_;
-    return {static_cast<const Glimpse*>(back_.mapped) + view,
+    return {static_cast<const LuminanceSample*>(back_.mapped) + view,
         std::size_t(picture_.extent.width) * picture_.extent.height - view};
 }
 

@@ -4,18 +4,18 @@
 
 namespace starbow {
 
-/// The whole view in a few thousand samples, on the device and back: what the exposure is chosen by. A pane's samples stand
+/// The whole view in a few thousand samples, on the device and back: what the exposure is chosen by. A view's samples stand
 /// in a cell of one small picture, and its stars in another, a sample each: they are too small to be met by chance.
 class Meter {
 public:
-    /// panes: the size of each in pixels, 0 where it does not count. stars: of the world.
-    Meter(const Device& device, std::span<const glm::ivec2> panes, std::uint32_t stars);
+    /// views: the size of each in pixels, 0 where it does not count. stars: of the world.
+    Meter(const Device& device, std::span<const glm::ivec2> views, std::uint32_t stars);
 
     struct Cell {
         glm::ivec2 corner{0}, size{0};
     };
-    const Cell& cell(std::size_t pane) const { return cells_[pane]; }
-    const Cell& star_cell(std::size_t pane) const { return star_cells_[pane]; }
+    const Cell& cell(std::size_t view) const { return cells_[view]; }
+    const Cell& star_cell(std::size_t view) const { return star_cells_[view]; }
     int every() const { return every_; } ///< of so many stars one has a sample
 
     /// Before the samples are drawn, and after.
@@ -24,8 +24,8 @@ public:
     void end(vk::CommandBuffer commands);
 
     /// What was drawn last, surfaces and stars; the device must have finished it. Empty before that.
-    std::span<const Glimpse> view() const;
-    std::span<const Glimpse> stars() const;
+    std::span<const LuminanceSample> view() const;
+    std::span<const LuminanceSample> stars() const;
 
     vk::DeviceSize memory() const { return picture_.bytes; }
 

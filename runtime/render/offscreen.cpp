@@ -49,7 +49,7 @@ vk::Extent2D extent_of(glm::ivec2 size) { return {std::uint32_t(size.x), std::ui
 
 } // namespace
 
-Studio::Studio(
+OffscreenRenderer::OffscreenRenderer(
     Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality, bool measured)
     : device_(device)
     , layout_(layout)
@@ -67,13 +67,13 @@ Studio::Studio(
     }
 }
 
-Target Studio::target(std::size_t output) const
+Target OffscreenRenderer::target(std::size_t output) const
 {
     const Image& image = images_[output];
     return {*image.image, *image.view, image.extent, image.format};
 }
 
-std::vector<std::vector<std::uint8_t>> Studio::picture(const Shot& shot, const Panel* hud)
+std::vector<std::vector<std::uint8_t>> OffscreenRenderer::picture(const Shot& shot, const Panel* hud)
 {
     frame_.prepare(shot, hud);
     std::vector<Target> targets;
@@ -98,7 +98,7 @@ std::vector<std::vector<std::uint8_t>> Studio::picture(const Shot& shot, const P
     return pictures;
 }
 
-std::optional<double> Studio::metered(const Shot& shot)
+std::optional<double> OffscreenRenderer::metered(const Shot& shot)
 {
     frame_.meter(true);
     frame_.prepare(shot, nullptr);
@@ -111,7 +111,7 @@ std::optional<double> Studio::metered(const Shot& shot)
     return ev;
 }
 
-std::vector<Probed> Studio::probed(const Shot& shot)
+std::vector<Probed> OffscreenRenderer::probed(const Shot& shot)
 {
     frame_.prepare(shot, nullptr);
     device_.now([&](vk::CommandBuffer commands) {
@@ -121,7 +121,7 @@ std::vector<Probed> Studio::probed(const Shot& shot)
     return frame_.probed();
 }
 
-Channels Studio::numbers(const Shot& shot, std::size_t output)
+Channels OffscreenRenderer::numbers(const Shot& shot, std::size_t output)
 {
     MeasureTarget target;
     for (Image* image : {&target.light_and_depth, &target.camera, &target.world})
@@ -166,16 +166,16 @@ Channels Studio::numbers(const Shot& shot, std::size_t output)
 }
 
 std::vector<std::vector<std::uint8_t>> render_still(
-    const std::filesystem::path& directory, Studio& studio, const Shot& shot, bool exr, const Panel* hud)
+    const std::filesystem::path& directory, OffscreenRenderer& renderer, const Shot& shot, bool exr, const Panel* hud)
 {
-    const auto& outputs = studio.layout().outputs;
+    const auto& outputs = renderer.layout().outputs;
     Progress progress(exr ? 2 + 2 * outputs.size() : 2);
     progress.next("drawing");
-    auto pictures = studio.picture(shot, hud);
+    auto pictures = renderer.picture(shot, hud);
     std::vector<Channels> numbers;
     for (std::size_t i = 0; exr && i < outputs.size(); ++i) {
         progress.next("measuring " + outputs[i].name);
-        numbers.push_back(studio.numbers(shot, i));
+        numbers.push_back(renderer.numbers(shot, i));
     }
     std::error_code error;
     std::filesystem::create_directories(directory, error);

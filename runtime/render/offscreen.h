@@ -7,10 +7,10 @@
 namespace starbow {
 
 /// Off-screen pictures of one layout in one world.
-class Studio {
+class OffscreenRenderer {
 public:
     /// Numbers as well as pictures if `measured`.
-    Studio(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality,
+    OffscreenRenderer(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality,
         bool measured);
 
     /// Each output as RGBA8, rows from the top.
@@ -39,6 +39,6 @@ private:
 /// What `starbow render` does: draws all outputs, then writes DIR/<output>.png (and .exr). Writes nothing if anything fails
 /// before all are complete in memory. Returns the pictures.
 std::vector<std::vector<std::uint8_t>> render_still(
-    const std::filesystem::path& directory, Studio& studio, const Shot& shot, bool exr, const Panel* hud = nullptr);
+    const std::filesystem::path& directory, OffscreenRenderer& renderer, const Shot& shot, bool exr, const Panel* hud = nullptr);
 
 } // namespace starbow

@@ -1,5 +1,5 @@
 #include "overlay_pass.h"
-#include "runtime/world/vantage.h"
+#include "runtime/world/eye_event.h"
 #include "shaders/physics/physics.h"
 #include <cmath>
 #include <cstring>
@@ -7,20 +7,20 @@
 namespace starbow {
 namespace {
 
-/// Of one pane's constants: no device wants its uniform buffers aligned to more.
+/// Of one view's constants: no device wants its uniform buffers aligned to more.
 constexpr vk::DeviceSize stride = 256;
 static_assert(sizeof(shared::OverlayConstants) <= stride);
 
 } // namespace
 
-OverlayPass::OverlayPass(const Device& device, Pipelines& pipelines, std::size_t panes)
+OverlayPass::OverlayPass(const Device& device, Pipelines& pipelines, std::size_t views)
     : pipelines_(pipelines)
-    , constants_(make_mapped_buffer(device, panes * stride, vk::BufferUsageFlagBits::eUniformBuffer))
+    , constants_(make_mapped_buffer(device, views * stride, vk::BufferUsageFlagBits::eUniformBuffer))
 {
-    const std::uint32_t count = std::uint32_t(panes);
+    const std::uint32_t count = std::uint32_t(views);
     const vk::DescriptorPoolSize size(vk::DescriptorType::eUniformBuffer, count);
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, size});
-    for (std::size_t i = 0; i < panes; ++i) {
+    for (std::size_t i = 0; i < views; ++i) {
         sets_.push_back(std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.overlay_set}).front()));
         const vk::DescriptorBufferInfo part(*constants_.buffer, i * stride, sizeof(shared::OverlayConstants));
         device.device.updateDescriptorSets(
@@ -28,31 +28,31 @@ OverlayPass::OverlayPass(const Device& device, Pipelines& pipelines, std::size_t
     }
 }
 
-void OverlayPass::prepare(std::size_t pane, const What& what, const Lookout& lookout, const GpuWorld& world)
+void OverlayPass::prepare(std::size_t view, const What& what, const MeasuringObserver& observer, const GpuWorld& world)
 {
-    const glm::dmat3 to_motion = motion_from_world(lookout.u, lookout.ship_from_cockpit);
+    const glm::dmat3 to_motion = motion_from_world(observer.u, observer.ship_from_cockpit);
     const glm::dmat3 to_world = glm::transpose(to_motion);
-    const glm::dmat3 from_cockpit = to_motion * glm::dmat3(glm::mat3_cast(lookout.ship_from_cockpit));
+    const glm::dmat3 from_cockpit = to_motion * glm::dmat3(glm::mat3_cast(observer.ship_from_cockpit));
     const OverlayScale& scale = what.scale;
     const double seconds_per_time_unit = world.scene.seconds_per_time_unit();
     shared::OverlayConstants c{};
     c.world0 = shared::row(to_world, 0), c.world1 = shared::row(to_world, 1), c.world2 = shared::row(to_world, 2);
-    if (const auto angle = unshifted_angle(lookout))
+    if (const auto angle = unshifted_angle(observer))
         c.ring = glm::vec4(std::cos(*angle), std::sin(*angle), 1, 0);
     const double low = std::log10(scale.nearest_s);
     c.scale = glm::vec4(low, 1 / (std::log10(scale.farthest_s) - low), std::log10(seconds_per_time_unit), 0);
     // Heavier contours stand at every fifth: times beyond one of them are small, however late it is in the world.
-    const double now_s = lookout.time * seconds_per_time_unit, step = scale.emission_step_s;
+    const double now_s = observer.time * seconds_per_time_unit, step = scale.emission_step_s;
     c.steps = glm::vec4(step, std::fmod(now_s, 5 * step), seconds_per_time_unit, 0);
     c.aim = glm::vec4(-from_cockpit[2], 1);
     c.right = glm::vec4(from_cockpit[0], 0), c.up = glm::vec4(from_cockpit[1], 0);
     for (int i = 0; i < 2; ++i)
         if (const auto& mark = what.marks[std::size_t(i)])
-            c.marks[i] = glm::vec4(to_motion * ray_to(lookout, *mark, world.world).ship, 1);
-    std::memcpy(static_cast<std::byte*>(constants_.mapped) + pane * stride, &c, sizeof c);
+            c.marks[i] = glm::vec4(to_motion * ray_to(observer, *mark, world.world).ship, 1);
+    std::memcpy(static_cast<std::byte*>(constants_.mapped) + view * stride, &c, sizeof c);
 }
 
-void OverlayPass::draw(vk::CommandBuffer commands, std::size_t pane, const WarpVariant& variant, Overlay overlay,
+void OverlayPass::draw(vk::CommandBuffer commands, std::size_t view, const WarpVariant& variant, Overlay overlay,
     vk::DescriptorSet warp_set, const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size, vk::Format target)
 {
     constexpr int kinds[] = {OVERLAY_NONE, OVERLAY_NONE, OVERLAY_GRID, OVERLAY_RING, OVERLAY_DISTANCE, OVERLAY_EMISSION};
@@ -62,7 +62,7 @@ void OverlayPass::draw(vk::CommandBuffer commands, std::size_t pane, const WarpV
     set_area(commands, corner, size);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.overlay(own, kinds[std::size_t(overlay)], target));
     commands.bindDescriptorSets(
-        vk::PipelineBindPoint::eGraphics, *pipelines_.overlay_layout, 0, {warp_set, *sets_[pane]}, {});
+        vk::PipelineBindPoint::eGraphics, *pipelines_.overlay_layout, 0, {warp_set, *sets_[view]}, {});
     commands.pushConstants<shared::ViewPush>(*pipelines_.overlay_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
     commands.draw(3, 1, 0, 0);
 }

@@ -7,21 +7,21 @@
 
 namespace starbow {
 
-/// Draws overlays, the crosshair and the marks. Holds the constants of each pane.
+/// Draws overlays, the crosshair and the marks. Holds the constants of each view.
 class OverlayPass {
 public:
-    OverlayPass(const Device& device, Pipelines& pipelines, std::size_t panes);
+    OverlayPass(const Device& device, Pipelines& pipelines, std::size_t views);
 
     struct What {
         Overlay overlay = Overlay::off;
         std::array<std::optional<Spot>, 2> marks;
         OverlayScale scale;
     };
-    /// lookout: the pane's own eye. The device must have finished the frame before.
-    void prepare(std::size_t pane, const What& what, const Lookout& lookout, const GpuWorld& world);
+    /// lookout: the view's own eye. The device must have finished the frame before.
+    void prepare(std::size_t view, const What& what, const MeasuringObserver& observer, const GpuWorld& world);
 
-    /// Draws into the rendering under way; warp_set, constants: as for the pane's warp.
-    void draw(vk::CommandBuffer commands, std::size_t pane, const WarpVariant& variant, Overlay overlay,
+    /// Draws into the rendering under way; warp_set, constants: as for the view's warp.
+    void draw(vk::CommandBuffer commands, std::size_t view, const WarpVariant& variant, Overlay overlay,
         vk::DescriptorSet warp_set, const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size,
         vk::Format target);
 

@@ -6,20 +6,19 @@ namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
-using Layout_ = vk::ImageLayout;
 
 } // namespace
 
-PanelPass::PanelPass(Device& device, Pipelines& pipelines, std::size_t panes)
+PanelPass::PanelPass(Device& device, Pipelines& pipelines, std::size_t views)
     : device_(device)
     , pipelines_(pipelines)
 {
     linear_ = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eNearest,
         vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge});
-    const std::uint32_t count = std::uint32_t(panes);
+    const std::uint32_t count = std::uint32_t(views);
     const vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 2 * count);
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, size});
-    for (std::size_t i = 0; i < panes; ++i)
+    for (std::size_t i = 0; i < views; ++i)
         sets_.push_back(std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.picture_set}).front()));
 }
 
@@ -35,13 +34,13 @@ void PanelPass::prepare(const Panel& panel, const Place& place)
     new_ = true;
 }
 
-void PanelPass::prepare_pane(std::size_t pane, const Image& map, vk::Sampler nearest)
+void PanelPass::prepare_view(std::size_t view, const Image& map, vk::Sampler nearest)
 {
     const vk::DescriptorImageInfo images[] = {
-        {nearest, *map.view, Layout_::eShaderReadOnlyOptimal}, {*linear_, *picture_.view, Layout_::eShaderReadOnlyOptimal}};
+        {nearest, *map.view, vk::ImageLayout::eShaderReadOnlyOptimal}, {*linear_, *picture_.view, vk::ImageLayout::eShaderReadOnlyOptimal}};
     device_.device.updateDescriptorSets(
-        {vk::WriteDescriptorSet(*sets_[pane], 0, 0, vk::DescriptorType::eCombinedImageSampler, images[0]),
-            vk::WriteDescriptorSet(*sets_[pane], 1, 0, vk::DescriptorType::eCombinedImageSampler, images[1])},
+        {vk::WriteDescriptorSet(*sets_[view], 0, 0, vk::DescriptorType::eCombinedImageSampler, images[0]),
+            vk::WriteDescriptorSet(*sets_[view], 1, 0, vk::DescriptorType::eCombinedImageSampler, images[1])},
         {});
 }
 
@@ -49,16 +48,16 @@ void PanelPass::upload(vk::CommandBuffer commands)
 {
     if (!std::exchange(new_, false))
         return;
-    transition(commands, picture_, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eTransferDstOptimal,
+    transition(commands, picture_, vk::ImageLayout::eUndefined, Stage::eFragmentShader, {}, vk::ImageLayout::eTransferDstOptimal,
         Stage::eTransfer, Access::eTransferWrite);
-    commands.copyBufferToImage(*texels_.buffer, *picture_.image, Layout_::eTransferDstOptimal,
+    commands.copyBufferToImage(*texels_.buffer, *picture_.image, vk::ImageLayout::eTransferDstOptimal,
         vk::BufferImageCopy(
             0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {picture_.extent.width, picture_.extent.height, 1}));
-    transition(commands, picture_, Layout_::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
-        Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
+    transition(commands, picture_, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
+        vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
 }
 
-void PanelPass::draw(vk::CommandBuffer commands, std::size_t pane, bool map, shared::ViewPush constants, glm::ivec2 corner,
+void PanelPass::draw(vk::CommandBuffer commands, std::size_t view, bool map, shared::ViewPush constants, glm::ivec2 corner,
     glm::ivec2 size, const vk::Rect2D& box, const glm::vec4& scale, vk::Format target)
 {
     if (box.extent.width == 0 || box.extent.height == 0)
@@ -68,7 +67,7 @@ void PanelPass::draw(vk::CommandBuffer commands, std::size_t pane, bool map, sha
     set_area(commands, corner, size);
     commands.setScissor(0, box);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.hud(map, target, scale.z > scale.x));
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, *sets_[pane], {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, *sets_[view], {});
     commands.pushConstants<shared::ViewPush>(*pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
     commands.draw(3, 1, 0, 0);
 }

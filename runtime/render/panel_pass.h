@@ -1,5 +1,5 @@
 #pragma once
-#include "displays/compile/compiled.h"
+#include "displays/compile/compiled_view.h"
 #include "pipelines.h"
 #include "runtime/hud/hud.h"
 #include "shaders/shared_structs.h"
@@ -7,25 +7,25 @@
 
 namespace starbow {
 
-/// A panel of letters in every pane, at infinity in the cockpit. Holds its picture.
+/// A panel of letters in every view, at infinity in the cockpit. Holds its picture.
 class PanelPass {
 public:
-    PanelPass(Device& device, Pipelines& pipelines, std::size_t panes);
+    PanelPass(Device& device, Pipelines& pipelines, std::size_t views);
 
     /// Where it hangs: panel axes from the cockpit's (hud_place.h), and half its extent on the plane z = 1.
     struct Place {
         glm::dmat3 panel_from_cockpit{1};
         glm::dvec2 half{1};
     };
-    /// map, nearest: a pane's direction map and how it is read. The device must have finished the frame before.
+    /// map, nearest: a view's direction map and how it is read. The device must have finished the frame before.
     void prepare(const Panel& panel, const Place& place);
-    void prepare_pane(std::size_t pane, const Image& map, vk::Sampler nearest);
+    void prepare_view(std::size_t view, const Image& map, vk::Sampler nearest);
 
-    void upload(vk::CommandBuffer commands); ///< before the first pane
-    /// Draws into the rendering under way; constants: the pane's, with rows that lead to the panel's axes. scale: where on
+    void upload(vk::CommandBuffer commands); ///< before the first view
+    /// Draws into the rendering under way; constants: the view's, with rows that lead to the panel's axes. scale: where on
     /// the panel colours stand, from its lower left to its upper right corner, 0 to 1; none if empty. box: the pixels that
     /// it may cover; nothing where there are none.
-    void draw(vk::CommandBuffer commands, std::size_t pane, bool map, shared::ViewPush constants, glm::ivec2 corner,
+    void draw(vk::CommandBuffer commands, std::size_t view, bool map, shared::ViewPush constants, glm::ivec2 corner,
         glm::ivec2 size, const vk::Rect2D& box, const glm::vec4& scale, vk::Format target);
 
     const Place& place() const { return place_; }

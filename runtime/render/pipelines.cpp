@@ -115,7 +115,7 @@ std::vector<std::uint32_t> constants(const WarpVariant& v)
 }
 
 /// The pipeline of a key, made by `make` if it is new.
-template <class Key, class Make> vk::Pipeline find(std::map<Key, vk::raii::Pipeline>& made, const Key& key, Make&& make)
+template <class Key, class Make> vk::Pipeline find_or_make(std::map<Key, vk::raii::Pipeline>& made, const Key& key, Make&& make)
 {
     auto at = made.find(key);
     if (at == made.end())
@@ -154,7 +154,7 @@ Pipelines::Pipelines(Device& device)
 
 vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& target)
 {
-    return find(surfaces_, std::pair(v, target), [&] {
+    return find_or_make(surfaces_, std::pair(v, target), [&] {
         return make_pipeline(device_,
             {.vertex = cube_vert,
                 .fragment = cube_frag,
@@ -162,7 +162,7 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
                 .targets = {target.colours.begin(), target.colours.end()},
                 .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights),
                     std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), std::uint32_t(v.kinds), v.matrices,
-                    v.clock, v.mortal, v.layered, v.lamps_move, v.blink, v.moves},
+                    v.clock, v.finite_existence, v.layered, v.lamps_move, v.blink, v.moves},
                 .depth = true,
                 .vertices = true,
                 .samples = target.samples});
@@ -171,7 +171,7 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
 
 vk::Pipeline Pipelines::sky(const TargetKind& target)
 {
-    return find(skies_, target, [&] {
+    return find_or_make(skies_, target, [&] {
         return make_pipeline(device_,
             {.vertex = sky_vert,
                 .fragment = sky_frag,
@@ -185,7 +185,7 @@ vk::Pipeline Pipelines::sky(const TargetKind& target)
 
 vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
 {
-    return find(warps_, std::pair(v, target), [&] {
+    return find_or_make(warps_, std::pair(v, target), [&] {
         std::vector<std::uint32_t> all = constants(v);
         all[10] = target != light_format; // has 8 bits: dithered
         return make_pipeline(device_,
@@ -195,7 +195,7 @@ vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
 
 vk::Pipeline Pipelines::stars(const WarpVariant& v, vk::Format target)
 {
-    return find(stars_, std::pair(v, target), [&] {
+    return find_or_make(stars_, std::pair(v, target), [&] {
         return make_pipeline(device_,
             {.vertex = star_vert,
                 .fragment = star_frag,
@@ -209,7 +209,7 @@ vk::Pipeline Pipelines::stars(const WarpVariant& v, vk::Format target)
 
 vk::Pipeline Pipelines::measure(const WarpVariant& v)
 {
-    return find(measures_, v, [&] {
+    return find_or_make(measures_, v, [&] {
         return make_pipeline(device_,
             {.vertex = screen_vert,
                 .fragment = measure_frag,
@@ -221,7 +221,7 @@ vk::Pipeline Pipelines::measure(const WarpVariant& v)
 
 vk::Pipeline Pipelines::probe(const WarpVariant& v)
 {
-    return find(probes_, v, [&] {
+    return find_or_make(probes_, v, [&] {
         return make_pipeline(device_,
             {.vertex = screen_vert,
                 .fragment = probe_frag,
@@ -233,7 +233,7 @@ vk::Pipeline Pipelines::probe(const WarpVariant& v)
 
 vk::Pipeline Pipelines::overlay(const WarpVariant& v, int overlay, vk::Format target)
 {
-    return find(overlays_, std::tuple(v, overlay, target), [&] {
+    return find_or_make(overlays_, std::tuple(v, overlay, target), [&] {
         std::vector<std::uint32_t> all = constants(v);
         all[10] = std::uint32_t(overlay);
         return make_pipeline(device_,
@@ -248,7 +248,7 @@ vk::Pipeline Pipelines::overlay(const WarpVariant& v, int overlay, vk::Format ta
 
 vk::Pipeline Pipelines::meter(const WarpVariant& v)
 {
-    return find(meters_, v, [&] {
+    return find_or_make(meters_, v, [&] {
         return make_pipeline(device_,
             {.vertex = screen_vert,
                 .fragment = meter_frag,
@@ -260,7 +260,7 @@ vk::Pipeline Pipelines::meter(const WarpVariant& v)
 
 vk::Pipeline Pipelines::star_meter(const WarpVariant& v)
 {
-    return find(star_meters_, v, [&] {
+    return find_or_make(star_meters_, v, [&] {
         std::vector<std::uint32_t> all = constants(v);
         all[10] = true; // at a glance
         return make_pipeline(device_,
@@ -275,7 +275,7 @@ vk::Pipeline Pipelines::star_meter(const WarpVariant& v)
 
 vk::Pipeline Pipelines::bloom(bool up)
 {
-    return find(blooms_, up, [&] {
+    return find_or_make(blooms_, up, [&] {
         return make_pipeline(device_,
             {.vertex = screen_vert,
                 .fragment = bloom_frag,
@@ -288,7 +288,7 @@ vk::Pipeline Pipelines::bloom(bool up)
 
 vk::Pipeline Pipelines::bloomed(vk::Format target)
 {
-    return find(bloomed_, target, [&] {
+    return find_or_make(bloomed_, target, [&] {
         return make_pipeline(device_,
             {.vertex = screen_vert,
                 .fragment = bloomed_frag,
@@ -300,7 +300,7 @@ vk::Pipeline Pipelines::bloomed(vk::Format target)
 
 vk::Pipeline Pipelines::hud(bool map, vk::Format target, bool scale)
 {
-    return find(huds_, std::tuple(map, target, scale), [&] {
+    return find_or_make(huds_, std::tuple(map, target, scale), [&] {
         return make_pipeline(device_,
             {.vertex = screen_vert,
                 .fragment = hud_frag,
@@ -313,7 +313,7 @@ vk::Pipeline Pipelines::hud(bool map, vk::Format target, bool scale)
 
 vk::Pipeline Pipelines::lookup(vk::Format target)
 {
-    return find(lookups_, target, [&] {
+    return find_or_make(lookups_, target, [&] {
         return make_pipeline(device_,
             {.vertex = screen_vert,
                 .fragment = lookup_frag,
@@ -325,7 +325,7 @@ vk::Pipeline Pipelines::lookup(vk::Format target)
 
 vk::Pipeline Pipelines::finish(const FinishVariant& v, vk::Format target)
 {
-    return find(finishes_, std::pair(v, target), [&] {
+    return find_or_make(finishes_, std::pair(v, target), [&] {
         return make_pipeline(device_,
             {.vertex = screen_vert,
                 .fragment = finish_frag,
@@ -337,7 +337,7 @@ vk::Pipeline Pipelines::finish(const FinishVariant& v, vk::Format target)
 
 vk::Pipeline Pipelines::pattern(bool map, int pattern, vk::Format target)
 {
-    return find(patterns_, std::tuple(map, pattern, target), [&] {
+    return find_or_make(patterns_, std::tuple(map, pattern, target), [&] {
         return make_pipeline(device_,
             {.vertex = screen_vert,
                 .fragment = pattern_frag,

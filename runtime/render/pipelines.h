@@ -36,7 +36,7 @@ struct Formats {
 };
 
 /// The numbers that light is told by: constants of the passes that write and read the cube map.
-struct Numbers {
+struct CoefficientCounts {
     int reflected = 3, own = 0;
     /// Of the images that hold them, four each.
     Formats formats(bool half_floats) const
@@ -51,18 +51,18 @@ struct Numbers {
             formats[formats.size() - 1] = half_floats ? vk::Format::eR16G16Sfloat : vk::Format::eR32G32Sfloat;
         return formats;
     }
-    auto operator<=>(const Numbers&) const = default;
+    auto operator<=>(const CoefficientCounts&) const = default;
 };
 
 /// What a material needs of the cube pass: constant_ids of cube.frag.
 struct SurfaceVariant {
     bool base_texture, emissive_texture, masked, unlit;
     int lights;
-    Numbers numbers{};
+    CoefficientCounts numbers{};
     int kinds = 1; ///< of spectra that shine
     bool matrices = false; ///< otherwise the numbers are the colour and what is beyond it
     bool clock = false;
-    bool mortal = false; ///< not there for ever
+    bool finite_existence = false; ///< not there for ever
     bool layered = false; ///< one of several layers
     bool lamps_move = false;
     bool blink = false;
@@ -76,13 +76,13 @@ struct WarpVariant {
     bool reproject = false, turning = false; ///< stereo from one cube map; by the azimuth
     bool stars = false; ///< added to what the cube map shows
     bool linear = false; ///< exposed light, for the glow, instead of what is shown
-    Numbers numbers{};
+    CoefficientCounts numbers{};
     bool by_table = true; ///< otherwise the numbers are the colour
     bool layered = false; ///< something moves in the world
     bool galilean = false; ///< velocities are added
     int rays = 1; ///< along each side of a pixel
     bool single = false; ///< one image of the plan, ahead, shows all
-    bool cut = false; ///< slots may have several images
+    bool cut = false; ///< tiles may have several images
     auto operator<=>(const WarpVariant&) const = default;
 };
 
@@ -128,7 +128,7 @@ public:
     vk::raii::DescriptorSetLayout eye_set
         = nullptr; ///< 0 constants, 1 instances, 2 visible, 3 columns of the spectra, 4 times
     vk::raii::DescriptorSetLayout material_set = nullptr; ///< 0 base, 1 emissive texture
-    vk::raii::DescriptorSetLayout warp_set = nullptr; ///< 0 direction map, 1 atlas, 2 slots, 3 rows of the response, 4 depth
+    vk::raii::DescriptorSetLayout warp_set = nullptr; ///< 0 direction map, 1 atlas, 2 tiles, 3 rows of the response, 4 depth
                                                       ///< atlas, 5 picture of the stars, 6 inverse of the direction map, 7
                                                       ///< to 9 further atlases, 10 rows for the world's own spectra, 11
                                                       ///< what is covered, 12 layers

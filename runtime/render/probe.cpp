@@ -7,7 +7,6 @@ namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
-using Layout_ = vk::ImageLayout;
 
 /// Of Rec. 709's primaries.
 double luminance(const glm::dvec3& colour) { return glm::dot(colour, glm::dvec3(0.2126, 0.7152, 0.0722)); }
@@ -27,7 +26,7 @@ Probe::Probe(const Device& device, const std::vector<glm::dvec3>& directions, do
 {
     for (const glm::dvec3& n : directions) {
         const glm::dmat3 matrix = pixel_along(n, pixel_angle);
-        pixels_.push_back({n, matrix, std::make_shared<Blocks>(matrix, glm::ivec2(1))});
+        pixels_.push_back({n, matrix, std::make_shared<ConeHierarchy>(matrix, glm::ivec2(1))});
     }
     for (Image& image : images_)
         image = make_image(device,
@@ -49,9 +48,9 @@ void Probe::record(vk::CommandBuffer commands, const std::function<void(std::siz
 {
     std::vector<vk::RenderingAttachmentInfo> colours;
     for (const Image& image : images_) {
-        transition(commands, image, Layout_::eUndefined, Stage::eTransfer, {}, Layout_::eColorAttachmentOptimal,
+        transition(commands, image, vk::ImageLayout::eUndefined, Stage::eTransfer, {}, vk::ImageLayout::eColorAttachmentOptimal,
             Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
-        colours.push_back({*image.view, Layout_::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
+        colours.push_back({*image.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
             vk::AttachmentStoreOp::eStore});
     }
     commands.beginRendering({{}, {{0, 0}, images_[0].extent}, 1, 0, colours});
@@ -60,9 +59,9 @@ void Probe::record(vk::CommandBuffer commands, const std::function<void(std::siz
     commands.endRendering();
     const vk::DeviceSize bytes = pixels_.size() * sizeof(glm::vec4);
     for (std::size_t k = 0; k < images_.size(); ++k) {
-        transition(commands, images_[k], Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
-            Access::eColorAttachmentWrite, Layout_::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
-        commands.copyImageToBuffer(*images_[k].image, Layout_::eTransferSrcOptimal, *back_.buffer,
+        transition(commands, images_[k], vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+            Access::eColorAttachmentWrite, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+        commands.copyImageToBuffer(*images_[k].image, vk::ImageLayout::eTransferSrcOptimal, *back_.buffer,
             vk::BufferImageCopy(
                 k * bytes, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {images_[k].extent.width, 1, 1}));
     }

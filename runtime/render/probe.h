@@ -1,5 +1,5 @@
 #pragma once
-#include "displays/compile/blocks.h"
+#include "displays/compile/cone_hierarchy.h"
 #include "resources.h"
 #include "runtime/hud/instruments.h"
 #include <functional>
@@ -13,8 +13,8 @@ public:
     /// directions: unit, in the cockpit. pixel_angle: of the light that is averaged, radians.
     Probe(const Device& device, const std::vector<glm::dvec3>& directions, double pixel_angle);
 
-    /// For the plan: what the cube map must hold. None moves while this lives.
-    const Blocks& view(std::size_t i) const { return *pixels_[i].blocks; }
+    /// For the plan: what the cube map must hold. None moves while this existence_intervals.
+    const ConeHierarchy& view(std::size_t i) const { return *pixels_[i].cones; }
     std::size_t count() const { return pixels_.size(); }
     /// Whether it looks there already.
     bool looks(const std::vector<glm::dvec3>& directions, double pixel_angle) const;
@@ -29,7 +29,7 @@ private:
     struct Pixel {
         glm::dvec3 direction;
         glm::dmat3 cockpit_from_pixel;
-        std::shared_ptr<Blocks> blocks;
+        std::shared_ptr<ConeHierarchy> cones;
     };
     std::vector<Pixel> pixels_;
     double pixel_angle_;

@@ -22,23 +22,23 @@ static LoadedScene load(const std::filesystem::path& file)
     return {std::move(scene), std::move(world), std::move(stars)};
 }
 
-Theatre::Theatre(const std::filesystem::path& scene, const Device::Options& options, std::optional<SpectralLevel> level)
-    : Theatre(load(scene), options, level)
+RenderContext::RenderContext(const std::filesystem::path& scene, const Device::Options& options, std::optional<SpectralLevel> level)
+    : RenderContext(load(scene), options, level)
 {
 }
 
-Theatre::Theatre(LoadedScene&& loaded, const Device::Options& options, std::optional<SpectralLevel> level)
+RenderContext::RenderContext(LoadedScene&& loaded, const Device::Options& options, std::optional<SpectralLevel> level)
     : device(options)
     , pipelines(device)
     , world(upload(device, pipelines, std::move(loaded.world), loaded.scene, loaded.stars, level))
 {
 }
 
-std::string light_told(const Theatre& theatre)
+std::string describe_light(const RenderContext& context)
 {
-    const NeededLevel needed = needed_level(theatre.world.world, theatre.world.scene);
-    const SpectralLevel level = theatre.world.spectra.level;
-    return told(level == needed.level ? needed : NeededLevel{level, "as was asked"});
+    const NeededLevel needed = needed_level(context.world.world, context.world.scene);
+    const SpectralLevel level = context.world.spectra.level;
+    return describe(level == needed.level ? needed : NeededLevel{level, "as was asked"});
 }
 
 Device::Options device_options(bool windows)
@@ -61,7 +61,7 @@ Quality within(const Device& device, Quality quality)
 
 Quality default_quality(const Device& device, bool still)
 {
-    return within(device, load_quality(find("qualities", still || !device.on_processor() ? "fine" : "balanced")));
+    return within(device, load_quality(shipped_file("qualities", still || !device.on_processor() ? "fine" : "balanced")));
 }
 
 } // namespace starbow

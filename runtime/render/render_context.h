@@ -9,21 +9,21 @@
 namespace starbow {
 
 /// What every command opens first: the device and one world on it.
-struct Theatre {
+struct RenderContext {
     Device device;
     Pipelines pipelines;
     GpuWorld world;
 
     /// Reads scene and world before it touches the device, so that a wrong file is told first.
     /// level: of the light; none: what the world needs.
-    Theatre(const std::filesystem::path& scene, const Device::Options& options, std::optional<SpectralLevel> level = {});
+    RenderContext(const std::filesystem::path& scene, const Device::Options& options, std::optional<SpectralLevel> level = {});
 
 private:
-    Theatre(struct LoadedScene&& loaded, const Device::Options& options, std::optional<SpectralLevel> level);
+    RenderContext(struct LoadedScene&& loaded, const Device::Options& options, std::optional<SpectralLevel> level);
 };
 
 /// How the scene's light is told, and why: a line for the log.
-std::string light_told(const Theatre& theatre);
+std::string describe_light(const RenderContext& context);
 
 /// Device options as the environment asks: STARBOW_VALIDATION=1, STARBOW_GPU=part of a name.
 Device::Options device_options(bool windows);

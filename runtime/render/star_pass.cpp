@@ -8,7 +8,6 @@ namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
-using Layout_ = vk::ImageLayout;
 
 /// Where a sky of a million stars crowds into a few pixels, fp16 would stop adding; a device that can't add up floats has it
 /// all the same.
@@ -51,10 +50,10 @@ void StarPass::write_sets()
     }
 }
 
-void StarPass::bind(vk::CommandBuffer commands, std::size_t watcher) const
+void StarPass::bind(vk::CommandBuffer commands, std::size_t observer) const
 {
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 1, *sets_[false_colours_],
-        std::uint32_t(watcher * stride_));
+        std::uint32_t(observer * stride_));
 }
 
 void StarPass::fit(vk::Extent2D extent)
@@ -87,17 +86,17 @@ void StarPass::prepare(std::span<const glm::dmat3> motion_from_world, bool false
 
 void StarPass::begin(vk::CommandBuffer commands, vk::Extent2D extent)
 {
-    transition(commands, picture_, Layout_::eUndefined, Stage::eFragmentShader, {}, Layout_::eColorAttachmentOptimal,
+    transition(commands, picture_, vk::ImageLayout::eUndefined, Stage::eFragmentShader, {}, vk::ImageLayout::eColorAttachmentOptimal,
         Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
-    const vk::RenderingAttachmentInfo colour(*picture_.view, Layout_::eColorAttachmentOptimal, {}, {}, {},
+    const vk::RenderingAttachmentInfo colour(*picture_.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore, vk::ClearColorValue(std::array<float, 4>{}));
     commands.beginRendering({{}, {{0, 0}, extent}, 1, 0, colour});
 }
 
-void StarPass::draw(vk::CommandBuffer commands, std::size_t watcher, glm::ivec2 corner, glm::ivec2 size, int instances,
+void StarPass::draw(vk::CommandBuffer commands, std::size_t observer, glm::ivec2 corner, glm::ivec2 size, int instances,
     std::span<const StarRun> stars)
 {
-    bind(commands, watcher);
+    bind(commands, observer);
     // Wider by a spot's radius: a point whose middle lies outside would not be drawn at all.
     const glm::ivec2 radius(STAR_RADIUS);
     const glm::vec2 low = corner - radius, wide = size + 2 * radius;
@@ -107,10 +106,10 @@ void StarPass::draw(vk::CommandBuffer commands, std::size_t watcher, glm::ivec2 
         commands.draw(run.count, std::uint32_t(instances), run.first, 0);
 }
 
-void StarPass::glance(
-    vk::CommandBuffer commands, std::size_t watcher, glm::ivec2 corner, glm::ivec2 size, int every, bool channels) const
+void StarPass::sample(
+    vk::CommandBuffer commands, std::size_t observer, glm::ivec2 corner, glm::ivec2 size, int every, bool channels) const
 {
-    bind(commands, watcher);
+    bind(commands, observer);
     set_area(commands, corner, size);
     commands.draw((world_.star_count + std::uint32_t(every) - 1) / std::uint32_t(every), 1, 0, channels ? 1 : 0);
 }
@@ -118,8 +117,8 @@ void StarPass::glance(
 void StarPass::end(vk::CommandBuffer commands)
 {
     commands.endRendering();
-    transition(commands, picture_, Layout_::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
-        Access::eColorAttachmentWrite, Layout_::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
+    transition(commands, picture_, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+        Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
 }
 
 } // namespace starbow

@@ -16,20 +16,20 @@ public:
     bool on() const { return world_.star_count > 0; }
     /// Makes room for an output. The device must have finished the frame before.
     void fit(vk::Extent2D extent);
-    /// One turn for each watcher.
+    /// One turn for each observer.
     void prepare(std::span<const glm::dmat3> motion_from_world, bool false_colours);
 
     /// From begin to end the viewports are drawn: bind a pipeline of Pipelines::stars for format(), its set 0 and the push
     /// constants, then draw() of those stars that may be seen. The picture is then for fragment shaders to read.
     void begin(vk::CommandBuffer commands, vk::Extent2D extent);
-    void draw(vk::CommandBuffer commands, std::size_t watcher, glm::ivec2 corner, glm::ivec2 size, int instances,
+    void draw(vk::CommandBuffer commands, std::size_t observer, glm::ivec2 corner, glm::ivec2 size, int instances,
         std::span<const StarRun> stars);
     void end(vk::CommandBuffer commands);
 
     /// For the meter, into its own picture: each `every`-th star is a pixel of the rectangle, row by row. Bind a pipeline of
-    /// Pipelines::star_meter and the rest as above, with the push constant `pane` telling the rectangle's size and `every`.
-    void glance(
-        vk::CommandBuffer commands, std::size_t watcher, glm::ivec2 corner, glm::ivec2 size, int every, bool channels) const;
+    /// Pipelines::star_meter and the rest as above, with the push constant `view` telling the rectangle's size and `every`.
+    void sample(
+        vk::CommandBuffer commands, std::size_t observer, glm::ivec2 corner, glm::ivec2 size, int every, bool channels) const;
 
     const Image& picture() const { return picture_; }
     vk::Format format() const { return format_; }
@@ -42,10 +42,10 @@ private:
     vk::raii::DescriptorPool pool_ = nullptr;
     std::array<vk::raii::DescriptorSet, 2> sets_ = {nullptr, nullptr}; ///< for eyes, for false colours
     bool false_colours_ = false;
-    void bind(vk::CommandBuffer commands, std::size_t watcher) const;
+    void bind(vk::CommandBuffer commands, std::size_t observer) const;
     void write_sets();
 
-    Buffer constants_; ///< one for each watcher
+    Buffer constants_; ///< one for each observer
     vk::DeviceSize stride_ = 0;
     Image picture_;
 };

@@ -45,18 +45,18 @@ std::string figures(double reading_s)
     return out.append(1, '.').append(1, char('0' + size % 10));
 }
 
-std::vector<shared::TimeEntry> time_entries(const World& world, const Vantage& vantage, double seconds_per_time_unit)
+std::vector<shared::TimeEntry> time_entries(const World& world, const EyeEvent& eye_event, double seconds_per_time_unit)
 {
     std::vector<shared::TimeEntry> entries;
     std::size_t poses = 0;
-    const InstanceRange range = instances_of(world, vantage.frame);
+    const InstanceRange range = instances_of(world, eye_event.frame);
     for (std::size_t i = range.first; i < range.last && timed(world, world.instances[i]); ++i) {
         const Instance& instance = world.instances[i];
         const Primitive& primitive = world.primitives[instance.primitive];
         shared::TimeEntry entry{};
         glm::dmat4 frame_from_local = instance.frame_from_local;
         if (instance.motion >= 0) {
-            const SeenPose seen = seen_pose(world, instance, vantage);
+            const SeenPose seen = seen_pose(world, instance, eye_event);
             frame_from_local = seen.frame_from_local;
             const auto times = pose_times(world, instance, seen);
             constexpr int half = POSES / 2;
@@ -65,22 +65,22 @@ std::vector<shared::TimeEntry> time_entries(const World& world, const Vantage& v
                 times[half] - seen.sent);
         }
         const glm::dvec3 middle
-            = glm::dvec3(frame_from_local * glm::dvec4(0.5 * (primitive.low + primitive.high), 1)) - vantage.place;
-        const double sent = emission_time(vantage, vantage.motion_from_frame * middle);
-        const Life life = instance.life < 0 ? Life{-for_ever, for_ever} : world.lives[std::size_t(instance.life)];
-        entry.middle = glm::vec4(vantage.motion_from_frame * middle, glm::length(middle));
+            = glm::dvec3(frame_from_local * glm::dvec4(0.5 * (primitive.low + primitive.high), 1)) - eye_event.place;
+        const double sent = retarded_time(eye_event, eye_event.motion_from_frame * middle);
+        const ExistenceInterval existence = instance.existence < 0 ? ExistenceInterval{-for_ever, for_ever} : world.existence_intervals[std::size_t(instance.existence)];
+        entry.middle = glm::vec4(eye_event.motion_from_frame * middle, glm::length(middle));
         const Material& material = world.materials[std::size_t(primitive.material)];
         if (material.clock) {
-            const double reading = reading_s(*material.clock, sent - life.zero, 0, seconds_per_time_unit);
+            const double reading = reading_s(*material.clock, sent - existence.zero, 0, seconds_per_time_unit);
             entry.turns = glm::vec4(turned(reading, 60), turned(reading, 10), turned(reading, 3600), seconds_per_time_unit);
             entry.digits = packed(figures(reading));
         }
         if (const auto& blink = material.blink) {
-            const double reading = (sent - life.zero) * seconds_per_time_unit - blink->zero_s;
+            const double reading = (sent - existence.zero) * seconds_per_time_unit - blink->zero_s;
             entry.blink = glm::vec4(turned(reading, blink->period_s), seconds_per_time_unit / blink->period_s, blink->on, 0);
         }
         auto bound = [&](double time) { return float(std::clamp(time - sent, -1e30, 1e30)); };
-        entry.there = glm::vec4(bound(life.begin), bound(life.end), 0, 0);
+        entry.there = glm::vec4(bound(existence.begin), bound(existence.end), 0, 0);
         entries.push_back(entry);
     }
     return entries;

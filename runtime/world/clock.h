@@ -1,6 +1,6 @@
 #pragma once
 #include "shaders/shared_structs.h"
-#include "vantage.h"
+#include "eye_event.h"
 #include <string>
 
 namespace starbow {
@@ -16,6 +16,6 @@ std::string figures(double reading_s);
 
 /// The times of what is timed() in front of an eye: the frame's first instances, in sort_instances' order. The middle is
 /// that of the bounding box.
-std::vector<shared::TimeEntry> time_entries(const World& world, const Vantage& vantage, double seconds_per_time_unit);
+std::vector<shared::TimeEntry> time_entries(const World& world, const EyeEvent& eye_event, double seconds_per_time_unit);
 
 } // namespace starbow

@@ -15,19 +15,19 @@ InstanceRange instances_of(const World& world, int frame)
 bool timed(const World& world, const Instance& instance)
 {
     const Material& material = world.materials[std::size_t(world.primitives[instance.primitive].material)];
-    return mortal(world, instance) || instance.motion >= 0 || material.clock || material.blink;
+    return finite_existence(world, instance) || instance.motion >= 0 || material.clock || material.blink;
 }
 
-bool mortal(const World& world, const Instance& instance)
+bool finite_existence(const World& world, const Instance& instance)
 {
-    return instance.life >= 0
-        && (std::isfinite(world.lives[std::size_t(instance.life)].begin)
-            || std::isfinite(world.lives[std::size_t(instance.life)].end));
+    return instance.existence >= 0
+        && (std::isfinite(world.existence_intervals[std::size_t(instance.existence)].begin)
+            || std::isfinite(world.existence_intervals[std::size_t(instance.existence)].end));
 }
 
 std::pair<bool, bool> kind_of(const World& world, const Instance& instance)
 {
-    return {mortal(world, instance), instance.motion >= 0};
+    return {finite_existence(world, instance), instance.motion >= 0};
 }
 
 void sort_instances(World& world)

@@ -15,7 +15,7 @@ InstanceRange instances_of(const World& world, int frame);
 bool timed(const World& world, const Instance& instance);
 
 /// Whether an instance's existence interval is finite.
-bool mortal(const World& world, const Instance& instance);
+bool finite_existence(const World& world, const Instance& instance);
 
 /// The part of sort_instances' key that parts a primitive's instances into separate draws: finite existence, own motion.
 std::pair<bool, bool> kind_of(const World& world, const Instance& instance);

@@ -48,7 +48,7 @@ glm::dmat4 pose(const World& world, int index, double own_s)
 
 double zero_of(const World& world, const Instance& instance)
 {
-    return instance.life < 0 ? 0 : world.lives[std::size_t(instance.life)].zero;
+    return instance.existence < 0 ? 0 : world.existence_intervals[std::size_t(instance.existence)].zero;
 }
 
 /// How far a box's corners are from its middle, at most.
@@ -91,21 +91,21 @@ glm::dmat4 pose_at(const World& world, const Instance& instance, double time)
         world, world.motions[std::size_t(instance.motion)], (time - zero_of(world, instance)) * world.seconds_per_time_unit);
 }
 
-SeenPose seen_pose(const World& world, const Instance& instance, const Vantage& vantage)
+SeenPose seen_pose(const World& world, const Instance& instance, const EyeEvent& eye_event)
 {
     const Primitive& primitive = world.primitives[instance.primitive];
     const glm::dvec4 middle(0.5 * (primitive.low + primitive.high), 1);
     // The time at which the middle's light left is that at which light leaves where the middle is then: 0.2 of a step
     // further in every round. By secants, and by halving where a jump leaves no such time or two.
     auto sent = [&](double time) {
-        return emission_time(
-            vantage, vantage.motion_from_frame * (glm::dvec3(pose_at(world, instance, time) * middle) - vantage.place));
+        return retarded_time(
+            eye_event, eye_event.motion_from_frame * (glm::dvec3(pose_at(world, instance, time) * middle) - eye_event.place));
     };
     double low = -1e300, high = 1e300; // too early, too late
-    double time = sent(vantage.time), before = vantage.time, off_before = time - vantage.time;
+    double time = sent(eye_event.time), before = eye_event.time, off_before = time - eye_event.time;
     for (int round = 0; round < 100; ++round) {
         const double off = sent(time) - time;
-        if (std::abs(off) <= 1e-12 * (1 + std::abs(vantage.time - time)) + 4 * tiny * std::abs(time))
+        if (std::abs(off) <= 1e-12 * (1 + std::abs(eye_event.time - time)) + 4 * tiny * std::abs(time))
             break;
         (off > 0 ? low : high) = time;
         const double slope = (off - off_before) / (time - before);

@@ -1,7 +1,7 @@
 #pragma once
 #include "config/model/scene_file.h"
 #include "shaders/shared_structs.h"
-#include "vantage.h"
+#include "eye_event.h"
 
 namespace starbow {
 
@@ -25,7 +25,7 @@ struct SeenPose {
     double window; ///< light of none of its points left more than this before or after, scene time; and none is seen further
                    ///< from where the middle is seen
 };
-SeenPose seen_pose(const World& world, const Instance& instance, const Vantage& vantage);
+SeenPose seen_pose(const World& world, const Instance& instance, const EyeEvent& eye_event);
 
 /// The times of a table of POSES poses, from `window` before to as much after, evenly on either side of the middle one. That
 /// is at the nearest key, for there motions bend. At a jump of its tracks the table ends: things jump as a whole, as their

@@ -1,23 +1,23 @@
 #include "observer.h"
 #include "shaders/physics/physics.h"
-#include "vantage.h"
+#include "eye_event.h"
 #include "worldline.h"
 #include <algorithm>
 
 namespace starbow {
 
-double Watcher::most_E() const
+double Observer::most_E() const
 {
     double most = 1;
-    for (const Layer& layer : layers)
+    for (const RestFrameView& layer : layers)
         most = std::max(most, physics::exp_rapidity(glm::length(layer.shot.u)));
     return most;
 }
 
-Watcher watcher(const World& world, const Shot& ship, const Onlooker& observer, std::vector<Layer> before)
+Observer observer_of(const World& world, const Shot& ship, const ViewportObserver& observer, std::vector<RestFrameView> before)
 {
     before.clear();
-    Watcher out{observer, shot_of(ship, observer), 1, std::move(before)};
+    Observer out{observer, shot_of(ship, observer), 1, std::move(before)};
     out.E = physics::exp_rapidity(glm::length(out.shot.u));
     const bool now = ship.effects.comparison == Comparison::no_light_delay;
     const bool aberration = ship.effects.aberration || now;
@@ -32,7 +32,7 @@ Watcher watcher(const World& world, const Shot& ship, const Onlooker& observer, 
                 turn * glm::dmat3(glm::mat3_cast(looks.ship_from_cockpit))});
         if (!now)
             continue;
-        Layer& layer = out.layers.back();
+        RestFrameView& layer = out.layers.back();
         const double gamma = physics::gamma_of(layer.shot.u);
         layer.now = true, layer.E = 1, layer.contraction = 1 / gamma, layer.beta = glm::length(layer.shot.u) / gamma;
     }
@@ -41,7 +41,7 @@ Watcher watcher(const World& world, const Shot& ship, const Onlooker& observer, 
     return out;
 }
 
-Shot shot_of(const Shot& ship, const Onlooker& observer)
+Shot shot_of(const Shot& ship, const ViewportObserver& observer)
 {
     Shot shot = ship;
     if (observer.at_rest)

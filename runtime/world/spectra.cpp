@@ -46,10 +46,10 @@ std::optional<Shift> shift_of(const World& world, const SceneFile& scene, std::s
 std::string quoted(const std::string& name) { return '"' + one_line(name, 60) + '"'; }
 
 /// Every emission once, in the order in which they are met.
-std::vector<OwnSpectrum> own_spectra(const World& world, const SceneFile& scene)
+std::vector<EmissionSpectrum> own_spectra(const World& world, const SceneFile& scene)
 {
-    std::vector<OwnSpectrum> own;
-    auto add = [&](const OwnSpectrum& spectrum) {
+    std::vector<EmissionSpectrum> own;
+    auto add = [&](const EmissionSpectrum& spectrum) {
         if (std::find(own.begin(), own.end(), spectrum) == own.end())
             own.push_back(spectrum);
     };
@@ -96,7 +96,7 @@ std::vector<OwnSpectrum> own_spectra(const World& world, const SceneFile& scene)
 
 std::size_t index_of(const SpectralBasis& basis, const Emission& emission)
 {
-    return std::size_t(std::find(basis.own.begin(), basis.own.end(), OwnSpectrum{emission}) - basis.own.begin());
+    return std::size_t(std::find(basis.own.begin(), basis.own.end(), EmissionSpectrum{emission}) - basis.own.begin());
 }
 
 std::vector<double> lit_as(const SpectralBasis& basis, const Kind& kind, const std::function<double(double nm)>& reflectance)
@@ -157,7 +157,7 @@ NeededLevel needed_level(const World& world, const SceneFile& scene)
     return needed;
 }
 
-std::string told(const NeededLevel& needed)
+std::string describe(const NeededLevel& needed)
 {
     const std::size_t level = std::size_t(needed.level);
     return "light as " + std::to_string(reflected_numbers[level]) + " numbers (" + spectral_level_names[level] + "): "

@@ -18,7 +18,7 @@ struct NeededLevel {
     std::string why; ///< a sentence's subject and verb: the first thing that the level before does not tell
 };
 /// As a line for people.
-std::string told(const NeededLevel& needed);
+std::string describe(const NeededLevel& needed);
 NeededLevel needed_level(const World& world, const SceneFile& scene); ///< world: after place_bodies
 
 /// What the passes need to know of a world's spectra, as plain arrays.

@@ -105,7 +105,7 @@ glm::dvec3 black_body_xyz(double temperature_K)
     return seen_xyz(black_body(temperature_K), 1) / sun;
 }
 
-std::vector<glm::vec4> black_body_table(const Observer& observer)
+std::vector<glm::vec4> black_body_table(const StandardObserver& observer)
 {
     static const double sun = seen_xyz(black_body(sun_K), 1).y;
     std::vector<glm::vec4> table;

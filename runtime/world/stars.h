@@ -30,7 +30,7 @@ glm::dvec3 black_body_xyz(double temperature_K);
 /// observer's colour, Rec. 709 linear, over its greatest sensor's value; w: the natural logarithm of that value, where the
 /// eye's luminance of 5772 K is 1. Between steps that is linear within 1e-3 at the cold end, where it rises as the 50th
 /// power, and 2e-4 from 2000 K.
-std::vector<glm::vec4> black_body_table(const Observer& observer);
+std::vector<glm::vec4> black_body_table(const StandardObserver& observer);
 
 /// Turn from the equatorial axes to the world's: `ahead_deg` (right ascension, declination) stands straight ahead, -z, with
 /// north upwards.

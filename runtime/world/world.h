@@ -96,10 +96,10 @@ struct RestFrame {
 };
 
 /// When something is there, by its rest frame's time, and what its own clock shows then.
-struct Life {
+struct ExistenceInterval {
     double begin, end; ///< infinite where it goes on for ever
     double zero = 0; ///< the frame's time at its own time 0
-    bool operator==(const Life&) const = default;
+    bool operator==(const ExistenceInterval&) const = default;
 };
 
 /// Triangles are counter-clockwise from outside in the world, also where `frame_from_local` mirrors: its primitive's are
@@ -109,7 +109,7 @@ struct Instance {
     std::uint32_t primitive;
     int node = -1; ///< of World::nodes
     int frame = 0; ///< of World::frames
-    int life = -1; ///< of World::lives; none: there always, and its time is the frame's
+    int existence = -1; ///< of World::existence_intervals; none: there always, and its time is the frame's
     int motion = -1; ///< of World::motions; none: it stands still
 };
 
@@ -124,7 +124,7 @@ struct Lamp {
     std::size_t light; ///< of SceneFile::lights
     int frame = 0; ///< where it stands still
     glm::dvec3 position{0}; ///< of a point, there
-    int life = -1;
+    int existence = -1;
 };
 
 struct World {
@@ -136,7 +136,7 @@ struct World {
     std::vector<Instance> instances;
     std::vector<WorldNode> nodes;
     std::vector<RestFrame> frames{1}; ///< the first is the world's
-    std::vector<Life> lives;
+    std::vector<ExistenceInterval> existence_intervals;
     std::vector<Lamp> lamps; ///< empty until place_bodies
     std::vector<Motion> motions; ///< this and what follows are empty where nothing moves by itself
     std::vector<Joint> joints;

@@ -2,7 +2,7 @@
 #include "config/json/error.h"
 #include "shaders/physics/physics.h"
 #include "shaders/shared_structs.h"
-#include "vantage.h"
+#include "eye_event.h"
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -12,16 +12,16 @@ namespace {
 
 /// The leg's frame, made if no leg had its velocity before, but for what a file's decimals leave of it. What rests in the
 /// world is in the world's own frame.
-int frame_of(World& world, const SceneFile& scene, const Leg& leg)
+int frame_of(World& world, const SceneFile& scene, const WorldlineSegment& segment)
 {
-    const double alike = 1e-13 * physics::gamma_of(leg.u);
+    const double alike = 1e-13 * physics::gamma_of(segment.u);
     auto at = std::find_if(world.frames.begin(), world.frames.end(),
-        [&](const RestFrame& frame) { return glm::length(frame.u - leg.u) <= alike; });
+        [&](const RestFrame& frame) { return glm::length(frame.u - segment.u) <= alike; });
     if (at == world.frames.end()) {
-        if (world.frames.size() == MAX_LAYERS)
+        if (world.frames.size() == MAX_REST_FRAMES)
             throw InputError(scene.file, "/bodies",
-                "move with more than " + std::to_string(MAX_LAYERS - 1) + " different velocities; so many at most is right");
-        at = world.frames.insert(at, {leg.u, leg.from});
+                "move with more than " + std::to_string(MAX_REST_FRAMES - 1) + " different velocities; so many at most is right");
+        at = world.frames.insert(at, {segment.u, segment.from});
     }
     return int(at - world.frames.begin());
 }
@@ -30,18 +30,18 @@ int frame_of(World& world, const SceneFile& scene, const Leg& leg)
 struct Standing {
     int frame;
     glm::dvec3 place;
-    int life;
+    int existence;
 };
-Standing standing(World& world, const SceneFile& scene, const Leg& leg)
+Standing standing(World& world, const SceneFile& scene, const WorldlineSegment& segment)
 {
-    const int frame = frame_of(world, scene, leg);
-    const Event from = in_frame(world.frames[std::size_t(frame)], leg.from);
-    const double zero = from.time - (std::isinf(leg.begin) ? 0 : leg.begin);
-    const Life life{zero + leg.begin, zero + leg.end, zero};
-    auto at = std::find(world.lives.begin(), world.lives.end(), life);
-    if (at == world.lives.end())
-        at = world.lives.insert(at, life);
-    return {frame, from.position, int(at - world.lives.begin())};
+    const int frame = frame_of(world, scene, segment);
+    const Event from = in_frame(world.frames[std::size_t(frame)], segment.from);
+    const double zero = from.time - (std::isinf(segment.begin) ? 0 : segment.begin);
+    const ExistenceInterval existence{zero + segment.begin, zero + segment.end, zero};
+    auto at = std::find(world.existence_intervals.begin(), world.existence_intervals.end(), existence);
+    if (at == world.existence_intervals.end())
+        at = world.existence_intervals.insert(at, existence);
+    return {frame, from.position, int(at - world.existence_intervals.begin())};
 }
 
 /// Of each node, whether it or a node above it has one of the names.
@@ -67,21 +67,21 @@ std::vector<bool> below(const World& world, const SceneFile& scene, const Body& 
 
 } // namespace
 
-std::vector<Leg> legs_of(const Body& body)
+std::vector<WorldlineSegment> segments_of(const Body& body)
 {
     if (body.worldline.empty())
         return {{body.u, body.at, -for_ever, for_ever}};
-    std::vector<Leg> legs;
+    std::vector<WorldlineSegment> segments;
     double own = 0;
     for (std::size_t i = 0; i + 1 < body.worldline.size(); ++i) {
         const Event &from = body.worldline[i], &to = body.worldline[i + 1];
         const double dt = to.time - from.time;
         const glm::dvec3 dx = to.position - from.position;
         const double way = glm::length(dx), passed = std::sqrt((dt - way) * (dt + way));
-        legs.push_back({dx / passed, from, own, own + passed});
+        segments.push_back({dx / passed, from, own, own + passed});
         own += passed;
     }
-    return legs;
+    return segments;
 }
 
 Event in_frame(const RestFrame& frame, const Event& world)
@@ -109,7 +109,7 @@ glm::dvec3 aberrated(const glm::dvec3& u, const glm::dvec3& towards, double& D)
 {
     const glm::dmat3 turn = motion_from_world(u, glm::dquat(1, 0, 0, 0));
     const double E = physics::exp_rapidity(glm::length(u));
-    const physics::Sight sight = physics::camera_from_world(turn * towards, E, 1 / E);
+    const physics::AberratedRay sight = physics::camera_from_world(turn * towards, E, 1 / E);
     D = sight.D;
     return glm::transpose(turn) * sight.n;
 }
@@ -121,15 +121,15 @@ void place_bodies(World& world, const SceneFile& scene)
     std::vector<bool> moves(world.instances.size(), false);
     for (const Body& body : scene.bodies) {
         const std::vector<bool> own = below(world, scene, body);
-        for (const Leg& leg : legs_of(body)) {
-            const Standing where = standing(world, scene, leg);
+        for (const WorldlineSegment& segment : segments_of(body)) {
+            const Standing where = standing(world, scene, segment);
             for (std::size_t i = 0; i < world.instances.size(); ++i) {
                 Instance instance = world.instances[i];
                 if (instance.node < 0 || !own[std::size_t(instance.node)])
                     continue;
                 moves[i] = true;
                 instance.frame_from_local = glm::translate(glm::dmat4(1), where.place) * instance.frame_from_local;
-                instance.frame = where.frame, instance.life = where.life;
+                instance.frame = where.frame, instance.existence = where.existence;
                 if (instance.motion >= 0) {
                     Motion motion = world.motions[std::size_t(instance.motion)];
                     motion.place += where.place;
@@ -154,9 +154,9 @@ void place_bodies(World& world, const SceneFile& scene)
         }
         const auto body
             = std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) { return b.name == point->body; });
-        for (const Leg& leg : legs_of(*body)) {
-            const Standing where = standing(world, scene, leg);
-            world.lamps.push_back({i, where.frame, where.place + point->position, where.life});
+        for (const WorldlineSegment& segment : segments_of(*body)) {
+            const Standing where = standing(world, scene, segment);
+            world.lamps.push_back({i, where.frame, where.place + point->position, where.existence});
         }
     }
     if (world.lamps.size() > MAX_LIGHTS)

@@ -1,7 +1,7 @@
 // Aberration and the Doppler factor of one line of sight, in axes whose z is the direction of motion.
 // n: unit direction from the observer towards the source. D = f_camera / f_world, above 1 is blue.
 
-struct Sight {
+struct AberratedRay {
     rvec3 n; // unit direction towards the source in the other frame
     real D;  // Doppler factor
 };
@@ -18,9 +18,9 @@ FN rvec2 half_angle_squares(rvec3 n)
 // What the camera's direction n shows: the world's direction and D. E = e^rapidity >= 1 and inverse_E = 1/E.
 // tan(theta_w / 2) = E tan(theta_c / 2), written in the half angles' squares: no acos, no gamma, and the result
 // is unit by construction. At rest (E = 1) it is the identity to the bit.
-FN Sight world_from_camera(rvec3 n, real E, real inverse_E)
+FN AberratedRay world_from_camera(rvec3 n, real E, real inverse_E)
 {
-    Sight sight;
+    AberratedRay sight;
     sight.n = n;
     sight.D = real(1.0);
     if (E != real(1.0)) {
@@ -34,9 +34,9 @@ FN Sight world_from_camera(rvec3 n, real E, real inverse_E)
 }
 
 // Where the camera sees what lies at the world's direction n: the same formula with E and 1/E exchanged.
-FN Sight camera_from_world(rvec3 n, real E, real inverse_E)
+FN AberratedRay camera_from_world(rvec3 n, real E, real inverse_E)
 {
-    Sight sight = world_from_camera(n, inverse_E, E);
+    AberratedRay sight = world_from_camera(n, inverse_E, E);
     if (E != real(1.0)) {
         rvec2 h = half_angle_squares(n);
         sight.D = h.x * E + h.y * inverse_E;

@@ -16,20 +16,20 @@ FN rvec2 galilean_speed(rvec3 n, real E, real inverse_E)
 }
 
 // As world_from_camera: the world's direction n_w with n along n_w + beta z, and the frequency of who meets the crests sooner.
-FN Sight galilean_world_from_camera(rvec3 n, real E, real inverse_E)
+FN AberratedRay galilean_world_from_camera(rvec3 n, real E, real inverse_E)
 {
     real beta = galilean_beta(E, inverse_E);
-    Sight sight;
+    AberratedRay sight;
     sight.n = n * galilean_speed(n, E, inverse_E).x - rvec3(real(0.0), real(0.0), beta);
     sight.D = real(1.0) + beta * sight.n.z;
     return sight;
 }
 
-FN Sight galilean_camera_from_world(rvec3 n, real E, real inverse_E)
+FN AberratedRay galilean_camera_from_world(rvec3 n, real E, real inverse_E)
 {
     real beta = galilean_beta(E, inverse_E);
     rvec3 on_board = rvec3(n.x, n.y, n.z + beta);
-    Sight sight;
+    AberratedRay sight;
     sight.n = on_board / sqrt(dot(on_board, on_board));
     sight.D = real(1.0) + beta * n.z;
     return sight;

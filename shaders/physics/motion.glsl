@@ -1,6 +1,6 @@
 // A ship's motion under constant proper acceleration, in closed form, and the events of its eyes. c = 1.
 
-struct Leg {
+struct ThrustSegment {
     rvec3 du; // change of the proper velocity
     rvec3 dx; // way in the world
     real dt;  // world time that passes
@@ -31,7 +31,7 @@ FN real cosh_less_one_ratio(real x)
 // A time dtau of the ship's under proper acceleration `strength` along the unit vector `way` (ship's frame, axes carried
 // by the pure boost; it keeps its place among gyroscopes). Hyperbolic motion in the plane of (1, u) and the boosted way:
 // U(tau) = U cosh + A sinh, exact however long the step.
-FN Leg thrust_leg(rvec3 u, rvec3 way, real strength, real dtau)
+FN ThrustSegment thrust_segment(rvec3 u, rvec3 way, real strength, real dtau)
 {
     real gamma = gamma_of(u);
     real angle = strength * dtau;
@@ -39,7 +39,7 @@ FN Leg thrust_leg(rvec3 u, rvec3 way, real strength, real dtau)
     rvec3 A = way + u * (along / (real(1.0) + gamma));
     real s = sinh_ratio(angle);
     real c = cosh_less_one_ratio(angle);
-    Leg leg;
+    ThrustSegment leg;
     leg.du = (u * c + A * s) * angle;
     leg.dx = (u * s + A * c) * dtau;
     leg.dt = (gamma * s + along * c) * dtau;

@@ -1,6 +1,6 @@
 // What is seen of a point that moves uniformly. c = 1.
 
-struct Seen {
+struct RetardedPosition {
     real tau;    // its own time when the light left, from its place at the observer's time on: never above 0
     rvec3 place; // where it was then, from the observer
     real delay;  // how long the light was under way: the length of `place`
@@ -12,12 +12,12 @@ struct Seen {
 // lies along is not known better. It was at r + u tau at gamma tau, and that lies on the past light cone: tau^2 - 2 (r.u) tau - r^2 = 0, the
 // earlier root, in the form that does not cancel. 1 - v^2 is never formed. D = delay / (k.U), k the light's way, U the
 // source's 4-velocity, and k.U is the square root.
-FN Seen seen_moving(rvec3 r, rvec3 way, real u, real gamma)
+FN RetardedPosition retarded_position(rvec3 r, rvec3 way, real u, real gamma)
 {
     real along = dot(r, way) * u;
     real square = dot(r, r);
     real root = sqrt(along * along + square);
-    Seen s;
+    RetardedPosition s;
     s.tau = along > real(0.0) ? -square / (along + root) : along - root;
     s.place = r + way * (u * s.tau);
     s.delay = -gamma * s.tau;

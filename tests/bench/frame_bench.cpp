@@ -5,7 +5,7 @@
 #include "runtime/plan/star_cull.h"
 #include "shaders/physics/physics.h"
 #include "tests/support/boxes.h"
-#include "tests/support/pane.h"
+#include "tests/support/view.h"
 #include "tests/support/speeds.h"
 #include <benchmark/benchmark.h>
 #include <random>
@@ -14,22 +14,22 @@ namespace starbow {
 namespace {
 
 /// How one view along -z flies.
-PlanLayer looking(const CompiledPane& pane, double gamma)
+RestFrameRequest looking(const CompiledView& view, double gamma)
 {
     const glm::dvec3 u(0, 0, -testing::u_of_gamma(gamma));
-    return {{{pane.blocks.get(), motion_from_world(u, glm::dquat(1, 0, 0, 0))}}, physics::exp_rapidity(glm::length(u))};
+    return {{{view.cones.get(), motion_from_world(u, glm::dquat(1, 0, 0, 0))}}, physics::exp_rapidity(glm::length(u))};
 }
 /// As `balanced`.
-const Quality quality{.texels_per_pixel = 0.8, .most_texels_per_pixel = 1, .image_cost_texels = 32768};
+const Quality quality{.texels_per_pixel = 0.8, .max_texels_per_pixel = 1, .image_cost_texels = 32768};
 
 void plan(benchmark::State& state, const Projection& projection, glm::ivec2 size)
 {
-    const CompiledPane pane = testing::pane_of(projection, size);
-    const std::vector<PlanLayer> layers{looking(pane, double(state.range(0)))};
-    PlanRoom room;
-    Plan plan;
+    const CompiledView view = testing::view_of(projection, size);
+    const std::vector<RestFrameRequest> layers{looking(view, double(state.range(0)))};
+    PlanScratch room;
+    CubeMapPlan plan;
     for (auto _ : state)
-        plan = make_plan(layers, quality, room, std::move(plan));
+        plan = plan_cube_map(layers, quality, room, std::move(plan));
     state.counters["images"] = double(plan.images.size());
     state.counters["texels a pixel"] = plan.texels / plan.pixels;
 }
@@ -42,11 +42,11 @@ BENCHMARK_CAPTURE(plan, dome, Fisheye{180, 0}, glm::ivec2(1024, 1024))
 
 void table(benchmark::State& state)
 {
-    const CompiledPane pane = testing::pane_of(Planar{60}, {800, 600});
-    const Plan plan = make_plan({looking(pane, double(state.range(0)))}, quality);
-    const auto table = std::make_unique<shared::SlotTable>();
+    const CompiledView view = testing::view_of(Planar{60}, {800, 600});
+    const CubeMapPlan plan = plan_cube_map({looking(view, double(state.range(0)))}, quality);
+    const auto table = std::make_unique<shared::TileTable>();
     for (auto _ : state) {
-        put_slots(plan, *table);
+        write_tiles(plan, *table);
         benchmark::ClobberMemory();
     }
 }
@@ -56,13 +56,13 @@ BENCHMARK(table)->Arg(4)->Arg(100)->Unit(benchmark::kMicrosecond);
 void culling(benchmark::State& state)
 {
     const World world = testing::boxes(int(state.range(0)), 7);
-    const CompiledPane pane = testing::pane_of(Planar{60}, {800, 600});
-    const Plan plan = make_plan({looking(pane, 4)}, quality);
-    Vantage vantage;
-    vantage.motion_from_frame = motion_from_world({0, 0, -testing::u_of_gamma(4)}, glm::dquat(1, 0, 0, 0));
+    const CompiledView view = testing::view_of(Planar{60}, {800, 600});
+    const CubeMapPlan plan = plan_cube_map({looking(view, 4)}, quality);
+    EyeEvent eye_event;
+    eye_event.motion_from_frame = motion_from_world({0, 0, -testing::u_of_gamma(4)}, glm::dquat(1, 0, 0, 0));
     DrawList list;
     for (auto _ : state)
-        list = cull(world, {&vantage, 1}, plan.images, quality, std::move(list));
+        list = cull(world, {&eye_event, 1}, plan.images, quality, std::move(list));
     state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 BENCHMARK(culling)->RangeMultiplier(10)->Range(100, 10000)->Unit(benchmark::kMicrosecond);
@@ -77,8 +77,8 @@ void stars(benchmark::State& state)
             {glm::vec4(glm::vec3(glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)))), 5772),
                 glm::vec4(1)});
     const std::vector<StarPatch> patches = star_patches(entries);
-    const CompiledPane pane = testing::pane_of(Planar{60}, {800, 600});
-    const Plan plan = make_plan({looking(pane, 4)}, quality);
+    const CompiledView view = testing::view_of(Planar{60}, {800, 600});
+    const CubeMapPlan plan = plan_cube_map({looking(view, 4)}, quality);
     std::vector<StarRun> runs;
     for (auto _ : state)
         runs = stars_in(plan.images, patches, glm::dmat3(1), std::move(runs));

@@ -3,7 +3,7 @@
 #include "config/model/shipped.h"
 #include "runtime/reference/reference.h"
 #include "shaders/physics/physics.h"
-#include "tests/support/pane.h"
+#include "tests/support/view.h"
 #include "tests/support/speeds.h"
 #include <benchmark/benchmark.h>
 
@@ -25,7 +25,7 @@ BENCHMARK(boost);
 void map(benchmark::State& state)
 {
     for (auto _ : state)
-        benchmark::DoNotOptimize(testing::pane_of(Fisheye{180, 0}, {512, 512}));
+        benchmark::DoNotOptimize(testing::view_of(Fisheye{180, 0}, {512, 512}));
     state.SetItemsProcessed(state.iterations() * 512 * 512);
 }
 BENCHMARK(map)->Unit(benchmark::kMillisecond);
@@ -33,7 +33,7 @@ BENCHMARK(map)->Unit(benchmark::kMillisecond);
 /// The avenue at gamma 4, one ray a pixel.
 void rays(benchmark::State& state)
 {
-    const ReferenceWorld world = open_reference_world(find("scenes", "avenue"));
+    const ReferenceWorld world = open_reference_world(shipped_file("scenes", "avenue"));
     const Layout layout = one_view(Planar{60}, {80, 60});
     Shot shot;
     shot.position = {0, 0, -8};

@@ -46,7 +46,7 @@ for name in draft balanced fine; do
     check "$name is not beaten" hasnt "^$name is beaten" "$work/table"
 done
 check "the default looks where it should" awk -F, '$1 == "\"balanced\"" { ok = $(NF - 2) < 0.01 && $(NF - 1) < 1e-4 } END { exit !ok }' "$work/a/accuracy.csv"
-check "a ladder of several rungs" test "$(grep -c '"ms"' "$work/a/ladder.json")" -ge 3
+check "a ladder of several levels" test "$(grep -c '"ms"' "$work/a/ladder.json")" -ge 3
 check "nothing within no time" bash -c "! timeout 100 '$starbow' measure --shot starbow --size 64x48 --samples 1 --rounds 1 --settings shipped --out '$work/c' --budget-ms 0.01"
 
 check "what a scene asks for" measure --explain --scene clocks --shot clocks-passing --size 160x120 --rounds 3

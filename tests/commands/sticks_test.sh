@@ -9,7 +9,7 @@ export STARBOW_VALIDATION=1 XDG_CONFIG_HOME=$folder/own
 
 # Half of the lever's way is half of the rapidity of gamma 100: gamma 7.106.
 cat >"$folder/exhibit.json" <<END
-{ "layout": "desk", "tutorial": false, "flying": { "greatest_gamma": 100 } }
+{ "layout": "desk", "tutorial": false, "flying": { "max_gamma": 100 } }
 END
 
 # play SCRIPT_NAME: the log, each line with the time at which it came.

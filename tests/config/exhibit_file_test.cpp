@@ -35,8 +35,8 @@ TEST(ExhibitFileTest, ShippedOnesLeadToWhatIsThere)
         SCOPED_TRACE(entry.path().filename().string());
         EXPECT_TRUE(schema_accepts(json::parse(read_text(entry.path()), nullptr, true, true)));
         const Exhibit exhibit = load_exhibit(entry.path());
-        EXPECT_NO_THROW(load_layout(find("layouts", exhibit.layout)));
-        EXPECT_NO_THROW(find("scenes", exhibit.scene));
+        EXPECT_NO_THROW(load_layout(shipped_file("layouts", exhibit.layout)));
+        EXPECT_NO_THROW(shipped_file("scenes", exhibit.scene));
         EXPECT_NO_THROW(words_in(exhibit.language));
         ++count;
     }
@@ -47,10 +47,10 @@ TEST(ExhibitFileTest, EveryMemberIsTaken)
 {
     const std::string text
         = R"({ "layout": "../walls/wall.json", "shot": "gamma100", "language": "de", "profiles": "sticks", "tutorial": false,
-        "hold_ms": 16.5, "ladder": "own/ladder.json",
-        "flying": { "mode": "newtonian", "greatest_gamma": 50, "turn_deg_per_s": 11, "roll_deg_per_s": 12,
+        "frame_budget_ms": 16.5, "ladder": "own/ladder.json",
+        "flying": { "mode": "newtonian", "max_gamma": 50, "turn_deg_per_s": 11, "roll_deg_per_s": 12,
                     "turn_jerk_deg_per_s3": 13, "rapidity_per_s": 0.14, "rapidity_jerk_per_s2": 0.15 },
-        "exposure": { "automatic": false, "least_ev": -16, "greatest_ev": 1.7, "bloom": 0.18 } })";
+        "exposure": { "automatic": false, "min_ev": -16, "max_ev": 1.7, "bloom": 0.18 } })";
     EXPECT_TRUE(schema_accepts(json::parse(text)));
     const auto file = write_text("exhibit.json", text);
     const Exhibit exhibit = load_exhibit(file);
@@ -60,20 +60,20 @@ TEST(ExhibitFileTest, EveryMemberIsTaken)
     EXPECT_EQ(exhibit.language, "de");
     EXPECT_EQ(exhibit.profiles, folder / "sticks");
     EXPECT_FALSE(exhibit.tutorial);
-    EXPECT_EQ(exhibit.hold_ms, 16.5);
+    EXPECT_EQ(exhibit.frame_budget_ms, 16.5);
     EXPECT_EQ(exhibit.ladder, folder / "own/ladder.json");
     EXPECT_EQ(load_exhibit(write_text("exhibit.json", R"({ "quality": "draft" })")).quality, "draft");
     const Flying& flying = exhibit.flying;
     EXPECT_EQ(flying.mode, FlightMode::newtonian);
-    EXPECT_EQ(flying.greatest_gamma, 50);
+    EXPECT_EQ(flying.max_gamma, 50);
     EXPECT_EQ(flying.turn_deg_per_s, 11);
     EXPECT_EQ(flying.roll_deg_per_s, 12);
     EXPECT_EQ(flying.turn_jerk_deg_per_s3, 13);
     EXPECT_EQ(flying.rapidity_per_s, 0.14);
     EXPECT_EQ(flying.rapidity_jerk_per_s2, 0.15);
     EXPECT_FALSE(exhibit.exposure.automatic);
-    EXPECT_EQ(exhibit.exposure.least_ev, -16);
-    EXPECT_EQ(exhibit.exposure.greatest_ev, 1.7);
+    EXPECT_EQ(exhibit.exposure.min_ev, -16);
+    EXPECT_EQ(exhibit.exposure.max_ev, 1.7);
     EXPECT_EQ(exhibit.exposure.bloom, 0.18);
 }
 
@@ -92,18 +92,18 @@ TEST(ExhibitFileTest, TheSchemasDefaultsAreTheReaders)
     EXPECT_EQ(told.layout, own.layout);
     EXPECT_EQ(told.scene, own.scene);
     EXPECT_EQ(told.tutorial, own.tutorial);
-    EXPECT_EQ(told.hold_ms, own.hold_ms);
+    EXPECT_EQ(told.frame_budget_ms, own.frame_budget_ms);
     EXPECT_EQ(told.ladder, own.ladder);
     EXPECT_EQ(told.flying.mode, own.flying.mode);
-    EXPECT_EQ(told.flying.greatest_gamma, own.flying.greatest_gamma);
+    EXPECT_EQ(told.flying.max_gamma, own.flying.max_gamma);
     EXPECT_EQ(told.flying.turn_deg_per_s, own.flying.turn_deg_per_s);
     EXPECT_EQ(told.flying.roll_deg_per_s, own.flying.roll_deg_per_s);
     EXPECT_EQ(told.flying.turn_jerk_deg_per_s3, own.flying.turn_jerk_deg_per_s3);
     EXPECT_EQ(told.flying.rapidity_per_s, own.flying.rapidity_per_s);
     EXPECT_EQ(told.flying.rapidity_jerk_per_s2, own.flying.rapidity_jerk_per_s2);
     EXPECT_EQ(told.exposure.automatic, own.exposure.automatic);
-    EXPECT_EQ(told.exposure.least_ev, own.exposure.least_ev);
-    EXPECT_EQ(told.exposure.greatest_ev, own.exposure.greatest_ev);
+    EXPECT_EQ(told.exposure.min_ev, own.exposure.min_ev);
+    EXPECT_EQ(told.exposure.max_ev, own.exposure.max_ev);
     EXPECT_EQ(told.exposure.bloom, own.exposure.bloom);
 }
 
@@ -112,19 +112,19 @@ TEST(ExhibitFileTest, WrongOnesAreRefusedByBoth)
     for (const auto& [text, problem] :
         std::vector<std::pair<std::string, std::string>>{{R"({ "layuot": "desk" })", "layuot"},
             {R"({ "layout": "" })", "/layout"}, {R"({ "tutorial": "yes" })", "/tutorial"},
-            {R"({ "hold_ms": -1 })", "/hold_ms: -1"}, {R"({ "flying": { "mode": "easy" } })", "/flying/mode: \"easy\""},
-            {R"({ "flying": { "greatest_gamma": 1 } })", "/flying/greatest_gamma: 1 is too small"},
-            {R"({ "flying": { "greatest_gamma": 1e7 } })", "/flying/greatest_gamma: 10000000"},
+            {R"({ "frame_budget_ms": -1 })", "/frame_budget_ms: -1"}, {R"({ "flying": { "mode": "easy" } })", "/flying/mode: \"easy\""},
+            {R"({ "flying": { "max_gamma": 1 } })", "/flying/max_gamma: 1 is too small"},
+            {R"({ "flying": { "max_gamma": 1e7 } })", "/flying/max_gamma: 10000000"},
             {R"({ "flying": { "turn_deg_per_s": 0 } })", "/flying/turn_deg_per_s: 0"},
             {R"({ "flying": { "turn_jerk_deg_per_s3": -1 } })", "/flying/turn_jerk_deg_per_s3: -1"},
             {R"({ "exposure": { "bloom": 1.5 } })", "/exposure/bloom: 1.5 is too large"},
-            {R"({ "exposure": { "least_ev": -61 } })", "/exposure/least_ev: -61"},
+            {R"({ "exposure": { "min_ev": -61 } })", "/exposure/min_ev: -61"},
             {R"({ "exposure": { "ev": 0 } })", "/exposure"}}) {
         EXPECT_NE(said(text).find(problem), std::string::npos) << said(text);
         EXPECT_FALSE(schema_accepts(json::parse(text))) << text;
     }
     // What a schema can't say.
-    for (const char* limits : {R"("least_ev": 3, "greatest_ev": 2)", R"("least_ev": 34)", R"("greatest_ev": -60.5)"}) {
+    for (const char* limits : {R"("min_ev": 3, "max_ev": 2)", R"("min_ev": 34)", R"("max_ev": -60.5)"}) {
         const std::string text = said(std::string(R"({ "exposure": { )") + limits + " } }");
         EXPECT_NE(text.find("/exposure/"), std::string::npos) << text;
     }

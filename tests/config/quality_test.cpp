@@ -28,8 +28,8 @@ template <class Load> std::string said(Load&& load)
 }
 
 const char* const all_members
-    = R"({ "texels_per_pixel": 1.5, "most_texels_per_pixel": 2.5, "cube_samples": 8, "stray_texels": 0.5, "shading_texels": 8, "image_cost_texels": 5000,
-    "pixel_rays": 3, "rear_images": 7, "mips": false, "half_floats": false, "matrices": false, "frames_per_cube": 4,
+    = R"({ "texels_per_pixel": 1.5, "max_texels_per_pixel": 2.5, "cube_samples": 8, "lod_error_texels": 0.5, "lod_shading_texels": 8, "image_cost_texels": 5000,
+    "pixel_rays": 3, "clip_levels": 7, "mips": false, "half_floats": false, "matrices": false, "frames_per_cube": 4,
     "spectra": "fine", "stereo": "reprojected" })";
 
 } // namespace
@@ -38,11 +38,11 @@ TEST(QualityTest, ShippedOnesAreRead)
 {
     for (const char* name : {"draft", "balanced", "fine"}) {
         SCOPED_TRACE(name);
-        const auto file = find("qualities", name);
+        const auto file = shipped_file("qualities", name);
         EXPECT_TRUE(schema_accepts(json::parse(read_text(file), nullptr, true, true)));
         EXPECT_NO_THROW(load_quality(file));
     }
-    const std::vector<Rung> ladder = load_ladder(find("qualities", "ladder"));
+    const std::vector<PresetLevel> ladder = load_ladder(shipped_file("qualities", "ladder"));
     EXPECT_GE(ladder.size(), 3u);
 }
 
@@ -51,13 +51,13 @@ TEST(QualityTest, EveryMemberIsTakenAndWrittenAgain)
     EXPECT_TRUE(schema_accepts(json::parse(all_members)));
     const Quality q = load_quality(write_text("quality.json", all_members));
     EXPECT_EQ(q.texels_per_pixel, 1.5);
-    EXPECT_EQ(q.most_texels_per_pixel, 2.5);
+    EXPECT_EQ(q.max_texels_per_pixel, 2.5);
     EXPECT_EQ(q.cube_samples, 8);
-    EXPECT_EQ(q.stray_texels, 0.5);
-    EXPECT_EQ(q.shading_texels, 8);
+    EXPECT_EQ(q.lod_error_texels, 0.5);
+    EXPECT_EQ(q.lod_shading_texels, 8);
     EXPECT_EQ(q.image_cost_texels, 5000);
     EXPECT_EQ(q.pixel_rays, 3);
-    EXPECT_EQ(q.rear_images, 7);
+    EXPECT_EQ(q.clip_levels, 7);
     EXPECT_FALSE(q.mips || q.half_floats || q.matrices);
     EXPECT_EQ(q.frames_per_cube, 4);
     EXPECT_EQ(q.spectra, SpectralLevel::fine);
@@ -89,11 +89,11 @@ TEST(QualityTest, WrongOnesAreRefusedByBoth)
 {
     for (const auto& [text, problem] : std::vector<std::pair<std::string, std::string>>{{R"({ "texels": 1 })", "texels"},
              {R"({ "texels_per_pixel": 0.01 })", "/texels_per_pixel: 0.01 is too small"},
-             {R"({ "most_texels_per_pixel": 1e4 })", "/most_texels_per_pixel: 10000"},
+             {R"({ "max_texels_per_pixel": 1e4 })", "/max_texels_per_pixel: 10000"},
              {R"({ "cube_samples": 3 })",
                  "/cube_samples: 3 is no number of samples that devices have; 1, 2, 4 or 8 is right"},
-             {R"({ "cube_samples": 16 })", "/cube_samples: 16"}, {R"({ "stray_texels": -1 })", "/stray_texels: -1"},
-             {R"({ "pixel_rays": 1.5 })", "/pixel_rays: 1.5"}, {R"({ "rear_images": 43 })", "/rear_images: 43"},
+             {R"({ "cube_samples": 16 })", "/cube_samples: 16"}, {R"({ "lod_error_texels": -1 })", "/lod_error_texels: -1"},
+             {R"({ "pixel_rays": 1.5 })", "/pixel_rays: 1.5"}, {R"({ "clip_levels": 43 })", "/clip_levels: 43"},
              {R"({ "mips": 1 })", "/mips: 1"}, {R"({ "frames_per_cube": 0 })", "/frames_per_cube: 0"},
              {R"({ "spectra": "rich" })", "/spectra: \"rich\""}, {R"({ "stereo": "both" })", "/stereo: \"both\""}}) {
         SCOPED_TRACE(text);
@@ -106,8 +106,8 @@ TEST(QualityTest, WrongOnesAreRefusedByBoth)
 
 TEST(QualityTest, ALadderRisesAndIsWrittenAgain)
 {
-    std::vector<Rung> ladder = {{{.texels_per_pixel = 0.5}, 10, 0.2, 1.5}, {{.cube_samples = 4}, 25, 0.05, 0.25}};
-    const std::vector<Rung> again = load_ladder(write_text("ladder.json", ladder_text(ladder)));
+    std::vector<PresetLevel> ladder = {{{.texels_per_pixel = 0.5}, 10, 0.2, 1.5}, {{.cube_samples = 4}, 25, 0.05, 0.25}};
+    const std::vector<PresetLevel> again = load_ladder(write_text("ladder.json", ladder_text(ladder)));
     ASSERT_EQ(again.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(again[i].quality, ladder[i].quality);
@@ -115,13 +115,13 @@ TEST(QualityTest, ALadderRisesAndIsWrittenAgain)
         EXPECT_EQ(again[i].flip, ladder[i].flip);
         EXPECT_EQ(again[i].edges_px, ladder[i].edges_px);
     }
-    for (const auto& [text, problem] : std::vector<std::pair<std::string, std::string>>{{R"({ "rungs": [] })", "/rungs"},
-             {R"({})", "rungs"}, {R"({ "rungs": [{ "ms": 0, "quality": {} }] })", "/rungs/0/ms: 0"},
-             {R"({ "rungs": [{ "ms": 2, "quality": {} }, { "ms": 2, "quality": {} }] })", "/rungs/1/ms: 2 is no more than"},
-             {R"({ "rungs": [{ "ms": 1 }] })", "quality"},
-             {R"({ "rungs": [{ "ms": 1, "quality": { "mips": 2 } }] })", "/rungs/0/quality/mips: 2"},
-             {R"({ "rungs": [{ "ms": 1, "quality": {} }, { "ms": 2, "quality": { "spectra": "fine" } }] })",
-                 "/rungs/1/quality: "}}) {
+    for (const auto& [text, problem] : std::vector<std::pair<std::string, std::string>>{{R"({ "levels": [] })", "/levels"},
+             {R"({})", "levels"}, {R"({ "levels": [{ "ms": 0, "quality": {} }] })", "/levels/0/ms: 0"},
+             {R"({ "levels": [{ "ms": 2, "quality": {} }, { "ms": 2, "quality": {} }] })", "/levels/1/ms: 2 is no more than"},
+             {R"({ "levels": [{ "ms": 1 }] })", "quality"},
+             {R"({ "levels": [{ "ms": 1, "quality": { "mips": 2 } }] })", "/levels/0/quality/mips: 2"},
+             {R"({ "levels": [{ "ms": 1, "quality": {} }, { "ms": 2, "quality": { "spectra": "fine" } }] })",
+                 "/levels/1/quality: "}}) {
         SCOPED_TRACE(text);
         const std::string why = said([&] { load_ladder(write_text("ladder.json", text)); });
         EXPECT_NE(why.find(problem), why.npos) << why;

@@ -42,7 +42,7 @@ std::string with(const std::string& step)
 }
 
 const std::string question
-    = R"("ask": { "en": "?" }, "told": { "en": "{measured}" }, "measure": { "what": "gamma" }, "number": { "from": 1, "to": 9, "step": 0.5, "tolerance": 0.2 })";
+    = R"("ask": { "en": "?" }, "explanation": { "en": "{measured}" }, "measure": { "what": "gamma" }, "number": { "from": 1, "to": 9, "step": 0.5, "tolerance": 0.2 })";
 
 } // namespace
 
@@ -94,7 +94,7 @@ TEST(TourFile, TextsFitTheDisplay)
                 if (step.question) {
                     EXPECT_LE(lines(step.question->ask), 2u) << step.question->ask;
                     for (const char* prefix : {"touring.right", "touring.wrong", "touring.answer"})
-                        EXPECT_LE(lines(said(prefix) + " " + step.question->told), 3u) << step.question->told;
+                        EXPECT_LE(lines(said(prefix) + " " + step.question->explanation), 3u) << step.question->explanation;
                 }
             }
         }
@@ -109,10 +109,10 @@ TEST(TourFile, EveryMemberIsTaken)
           "caption": "tour.first-minute.back", "measure": { "what": "reading_s", "at": [1, 0, 0], "against": [0, 1, 0] } },
         { "seconds": 3, "ease_s": [0.5, 1], "thrust": { "rapidity_per_s": 0.25, "towards": [0, 3, 0] }, "effects": { "doppler": false } },
         { "seconds": 4, "turn": { "look": [1, 0, 0] } },
-        { "seconds": 5, "question": { "ask": { "en": "?" }, "told": { "en": "!" }, "told_s": 4, "measure": { "what": "beta" },
+        { "seconds": 5, "question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "explanation_s": 4, "measure": { "what": "beta" },
           "choices": [{ "text": { "en": "a" }, "below": 0.5 }, { "text": { "en": "b" }, "from": 0.5 }] } },
-        { "seconds": 6, "try": { "mode": "newtonian", "greatest_gamma": 7 },
-          "question": { "ask": { "en": "?" }, "told": { "en": "!" }, "measure": { "what": "gamma" }, "reach": { "from": 2, "to": 3 } } },
+        { "seconds": 6, "try": { "mode": "newtonian", "max_gamma": 7 },
+          "question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "what": "gamma" }, "reach": { "from": 2, "to": 3 } } },
         { "seconds": 7 } ] })";
     EXPECT_TRUE(schema_accepts(json::parse(text)));
     const Tour tour = tour_of(text), german = tour_of(text, "de");
@@ -149,9 +149,9 @@ TEST(TourFile, EveryMemberIsTaken)
     EXPECT_EQ(choices[0].below, 0.5);
     EXPECT_EQ(choices[1].from, 0.5);
     EXPECT_EQ(choices[1].text, "b");
-    EXPECT_EQ(tour.steps[4].question->told_s, 4);
+    EXPECT_EQ(tour.steps[4].question->explanation_s, 4);
     EXPECT_EQ(std::get<Try>(tour.steps[5].motion).mode, FlightMode::newtonian);
-    EXPECT_EQ(std::get<Try>(tour.steps[5].motion).greatest_gamma, 7);
+    EXPECT_EQ(std::get<Try>(tour.steps[5].motion).max_gamma, 7);
     EXPECT_EQ(std::get<PlaceToReach>(tour.steps[5].question->answer).to, 3);
     EXPECT_TRUE(std::holds_alternative<Coast>(tour.steps[6].motion));
 }
@@ -162,7 +162,7 @@ TEST(TourFile, TheSchemasDefaultsAreTheReaders)
     const Tour tour = tour_of(with("\"question\": { " + question + " }"));
     EXPECT_EQ(schema["properties"]["again_after_s"]["default"], tour.again_after_s);
     EXPECT_EQ(schema["properties"]["ship_s_per_s"]["default"], tour.steps[1].ship_s_per_s);
-    EXPECT_EQ(schema["definitions"]["question"]["properties"]["told_s"]["default"], tour.steps[1].question->told_s);
+    EXPECT_EQ(schema["definitions"]["question"]["properties"]["explanation_s"]["default"], tour.steps[1].question->explanation_s);
     EXPECT_EQ(schema["definitions"]["step"]["properties"]["ease_s"]["default"],
         json::array({tour.steps[0].ease_s.x, tour.steps[0].ease_s.y}));
     // Every measure, and no other.
@@ -194,9 +194,9 @@ TEST(TourFile, WrongOnesAreRefusedByBoth)
             {with(R"("glide": { "effects": {} })"), "/steps/1/glide/effects"},
             {with(R"("ease_s": 1)"), "/steps/1/ease_s: 1 is not a list"},
             {with(R"("exposure_ev": 61)"), "/steps/1/exposure_ev: 61 is too large"},
-            {with(R"("question": { "ask": { "en": "?" }, "told": { "en": "!" }, "measure": { "what": "gamma" } })"),
+            {with(R"("question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "what": "gamma" } })"),
                 "needs one way to answer"},
-            {with(R"("question": { "told": { "en": "!" }, "measure": { "what": "gamma" } })"), "lacks \"ask\""}}) {
+            {with(R"("question": { "explanation": { "en": "!" }, "measure": { "what": "gamma" } })"), "lacks \"ask\""}}) {
         EXPECT_NE(said(text).find(problem), std::string::npos) << said(text);
         EXPECT_FALSE(schema_accepts(json::parse(text))) << text;
     }
@@ -213,10 +213,10 @@ TEST(TourFile, WrongOnesAreRefusedByBoth)
             {with(R"("thrust": { "rapidity_per_s": 1, "towards": [0, 0, 0] })"), "points nowhere"},
             {with(R"("try": {}, "question": { )" + question + " }"), "/steps/1/question: "},
             {with(
-                 R"("question": { "ask": { "en": "?" }, "told": { "en": "!" }, "measure": { "what": "gamma" }, "reach": { "from": 1, "to": 2 } })"),
+                 R"("question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "what": "gamma" }, "reach": { "from": 1, "to": 2 } })"),
                 "wants a place to be reached"},
             {with(
-                 R"("question": { "ask": { "en": "?" }, "told": { "en": "!" }, "measure": { "what": "gamma" }, "choices": [{ "text": { "en": "a" }, "from": 2, "below": 2 }, { "text": { "en": "b" } }] })"),
+                 R"("question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "what": "gamma" }, "choices": [{ "text": { "en": "a" }, "from": 2, "below": 2 }, { "text": { "en": "b" } }] })"),
                 "/choices/0: "}})
         EXPECT_NE(said(text).find(problem), std::string::npos) << said(text);
 }

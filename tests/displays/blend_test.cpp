@@ -104,16 +104,16 @@ struct Weights {
     explicit Weights(const Layout& layout)
     {
         MapStore store{std::filesystem::path()};
-        std::vector<CompiledPane> panes;
+        std::vector<CompiledView> views;
         for (std::size_t i = 0; i < layout.outputs.size(); ++i)
-            for (const CompiledPane& pane : compile_output(store, layout, i, layout.outputs[i].size))
-                panes.push_back(pane);
-        const auto ramps = blend_ramps(layout, panes, layout.blend.power);
+            for (const CompiledView& view : compile_output(store, layout, i, layout.outputs[i].size))
+                views.push_back(view);
+        const auto ramps = blend_ramps(layout, views, layout.blend.power);
         for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
             const ivec2 size = layout.outputs[i].size;
-            const Shade shade = shade_of(layout, i, size, panes, ramps);
+            const Shade shade = shade_of(layout, i, size, views, ramps);
             Own own{size, std::vector<float>(std::size_t(size.x) * size.y, 1.0f),
-                std::vector<int>(std::size_t(size.x + 1) * (size.y + 1)), panes[i].mesh ? panes[i].map : nullptr};
+                std::vector<int>(std::size_t(size.x + 1) * (size.y + 1)), views[i].mesh ? views[i].map : nullptr};
             for (int y = 0; y < size.y; ++y)
                 for (int x = 0; x < size.x; ++x) {
                     const std::size_t k = std::size_t(y) * size.x + x, c = std::size_t(y) * (size.x + 1) + x;
@@ -121,7 +121,7 @@ struct Weights {
                         own.values[k] = shade.weight[k].r;
                         EXPECT_EQ(shade.weight[k], glm::vec3(own.values[k]));
                     }
-                    const int lit = !panes[i].map || panes[i].map->texels[k].w > 0;
+                    const int lit = !views[i].map || views[i].map->texels[k].w > 0;
                     own.lit_before[c + size.x + 2]
                         = lit + own.lit_before[c + 1] + own.lit_before[c + size.x + 1] - own.lit_before[c];
                 }
@@ -375,9 +375,9 @@ TEST(BlendTest, EyesAndMasksAreNotBlended)
     EXPECT_FALSE(all_one());
     layout.outputs[1].viewports[0].alpha_mask = "mask.png"; // does the blending by itself
     MapStore store{std::filesystem::path()};
-    std::vector<CompiledPane> panes;
+    std::vector<CompiledView> views;
     for (std::size_t i = 0; i < 2; ++i)
-        panes.push_back(compile_output(store, layout, i, layout.outputs[i].size).front());
-    for (const auto& ramp : blend_ramps(layout, panes, 1))
+        views.push_back(compile_output(store, layout, i, layout.outputs[i].size).front());
+    for (const auto& ramp : blend_ramps(layout, views, 1))
         EXPECT_TRUE(ramp.empty());
 }

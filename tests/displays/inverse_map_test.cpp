@@ -1,7 +1,7 @@
 // Wherever a picture shows a direction, its inverse begins the search near by, on the right side of every seam.
 #include "displays/compile/inverse_map.h"
 #include "tests/support/files.h"
-#include "tests/support/pane.h"
+#include "tests/support/view.h"
 #include <cmath>
 
 using namespace starbow;
@@ -33,7 +33,7 @@ TEST(InverseMapTest, EveryPixelIsNearWhereTheSearchForItBegins)
     for (const Case& c : {Case{"fisheye", Fisheye{180, 30}, {400, 400}, 90}, {"small", Fisheye{220, 30}, {60, 60}, 90},
              {"panorama", Equirectangular{}, {600, 300}, 60}, {"cylinder", Cylinder{}, {600, 190}, 90},
              {"cube", CubeFaces{}, {900, 150}, 90}}) {
-        const auto map = starbow::testing::pane_of(c.projection, c.size).map;
+        const auto map = starbow::testing::view_of(c.projection, c.size).map;
         const InverseMap inverse = starbow::inverse(*map);
         ASSERT_EQ(inverse.cells.size(), std::size_t(inverse.side) * inverse.side);
         double farthest = 0;
@@ -57,7 +57,7 @@ TEST(InverseMapTest, EveryPixelIsNearWhereTheSearchForItBegins)
 
 TEST(InverseMapTest, WhereNothingIsShownNothingIsFound)
 {
-    const auto map = starbow::testing::pane_of(Fisheye{180, 90}, {400, 400}).map; // the half of the sky ahead
+    const auto map = starbow::testing::view_of(Fisheye{180, 90}, {400, 400}).map; // the half of the sky ahead
     const InverseMap inverse = starbow::inverse(*map);
     int empty = 0;
     for (const glm::uvec4& cell : inverse.cells)

@@ -22,7 +22,7 @@ TEST(LensTest, WithoutBendItIsAWindow)
 {
     const double widened = 2 * std::atan(1.5 * std::tan(30 * pi / 180)) * 180 / pi;
     const struct {
-        Picture bent;
+        Picture warped;
         double fov_y_deg;
     } same[]{
         {lens(Lens::Form::vive, {0, 0, 0, 0}, 60), 60},
@@ -33,9 +33,9 @@ TEST(LensTest, WithoutBendItIsAWindow)
     for (const auto& s : same) {
         const Picture window{Planar{s.fov_y_deg}, {1000, 1000}};
         for (const glm::dvec2& p : {glm::dvec2(0, 0), glm::dvec2(500, 500), glm::dvec2(123, 456), glm::dvec2(1000, 900)}) {
-            expect_near(direction(s.bent, p), direction(window, p).value());
-            expect_at(pixel(s.bent, direction(window, p).value()), p);
-            EXPECT_NEAR(pixel_angle(s.bent, p) / pixel_angle(window, p), 1, 1e-5); // a pixel's square
+            expect_near(direction(s.warped, p), direction(window, p).value());
+            expect_at(pixel(s.warped, direction(window, p).value()), p);
+            EXPECT_NEAR(pixel_angle(s.warped, p) / pixel_angle(window, p), 1, 1e-5); // a pixel's square
         }
     }
 }

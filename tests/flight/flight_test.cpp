@@ -20,10 +20,10 @@ Shot start()
     return shot;
 }
 
-Flying with(FlightMode mode, double greatest_gamma = 100)
+Flying with(FlightMode mode, double max_gamma = 100)
 {
     Flying rules;
-    rules.mode = mode, rules.greatest_gamma = greatest_gamma;
+    rules.mode = mode, rules.max_gamma = max_gamma;
     return rules;
 }
 
@@ -47,7 +47,7 @@ double drift(const Flight& flight)
 Controls some_controls(std::mt19937& random)
 {
     std::uniform_real_distribution<double> part(-1, 1);
-    Controls controls{.faster = 4 * part(random),
+    Controls controls{.throttle_rate = 4 * part(random),
         .push = {part(random), part(random), part(random)},
         .turn = {part(random), part(random), part(random)},
         .look_rad = {part(random), part(random)},
@@ -127,11 +127,11 @@ TEST(Flight, TheThrottlesPlaceIsTheSpeed)
 TEST(Flight, KeysMoveTheThrottle)
 {
     const Flying rules = with(FlightMode::guided);
-    Flight flight = hold(flight_at(start(), rules), {.faster = 1}, 2, rules);
+    Flight flight = hold(flight_at(start(), rules), {.throttle_rate = 1}, 2, rules);
     EXPECT_NEAR(flight.lever, 2 * lever_per_s, 1e-9);
     flight = hold(flight, {}, 10, rules);
     EXPECT_NEAR(rapidity(flight), 2 * lever_per_s * std::acosh(100.0), 1e-5);
-    flight = hold(flight, {.faster = -4}, 3, rules);
+    flight = hold(flight, {.throttle_rate = -4}, 3, rules);
     EXPECT_EQ(flight.lever, 0);
     EXPECT_EQ(hold(flight, {}, 10, rules).ship.u.total(), dvec3(0));
 }
@@ -217,12 +217,12 @@ TEST_P(Modes, StopIsAtOnceAndStays)
     stopped = hold(hold(stopped, {.lever = 0.0}, 0.1, rules), {.lever = 0.7}, 2, rules);
     EXPECT_GT(rapidity(stopped), 0.5);
     // So does a key.
-    flight = hold(flight_at(start(), rules), {.faster = 4}, 3, rules);
-    stopped = hold(step(flight, {.faster = 4, .stop = true}, 0, rules, 1, start()), {.faster = 4}, 1, rules);
+    flight = hold(flight_at(start(), rules), {.throttle_rate = 4}, 3, rules);
+    stopped = hold(step(flight, {.throttle_rate = 4, .stop = true}, 0, rules, 1, start()), {.throttle_rate = 4}, 1, rules);
     EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
-    EXPECT_GT(rapidity(hold(hold(stopped, {}, 0.1, rules), {.faster = 4}, 2, rules)), 0.1);
+    EXPECT_GT(rapidity(hold(hold(stopped, {}, 0.1, rules), {.throttle_rate = 4}, 2, rules)), 0.1);
     // And a key that was let go before the stop leaves nothing to speed up to, nor does the way home.
-    flight = hold(hold(flight_at(start(), rules), {.faster = 4}, 3, rules), {}, 0.2, rules);
+    flight = hold(hold(flight_at(start(), rules), {.throttle_rate = 4}, 3, rules), {}, 0.2, rules);
     stopped = hold(step(flight, {.stop = true}, 0, rules, 1, start()), {}, 2, rules);
     EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
     flight = hold(step(flight, {.home = true}, 0, rules, 1, start()), {}, 60, rules);
@@ -333,7 +333,7 @@ void expect_sane(const Flight& flight, double most_gamma, const std::string& whe
 {
     const dvec3 u = flight.ship.u.total(), x = flight.ship.position.total(), t = flight.turn_rad_s;
     ASSERT_TRUE(std::isfinite(u.x + u.y + u.z + x.x + x.y + x.z + t.x + t.y + t.z + flight.ship.time.total()
-        + flight.ship.proper_time.total() + flight.lever + flight.faster + flight.exposure_ev))
+        + flight.ship.proper_time.total() + flight.lever + flight.throttle_rate + flight.exposure_ev))
         << when;
     ASSERT_LE(physics::gamma_of(u), 1.001 * most_gamma)
         << when; // a thrust across the flight at the limit still adds a little

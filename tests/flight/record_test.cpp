@@ -49,7 +49,7 @@ RecordEntry some_entry(std::mt19937_64& random)
     };
     if (random() % 3 == 0)
         c.lever = std::uniform_real_distribution<double>(0, 1)(random);
-    maybe(c.faster, -4, 4);
+    maybe(c.throttle_rate, -4, 4);
     maybe3(c.push, 1);
     maybe3(c.turn, 1);
     maybe(c.look_rad.x, -0.1, 0.1);
@@ -73,7 +73,7 @@ std::vector<std::uint64_t> bits(const RecordEntry& e)
     const Controls& c = e.controls;
     std::vector<std::uint64_t> all{
         std::uint64_t(e.dt_ns), std::uint64_t(e.skipped_ns), e.shown, c.lever.has_value(), e.exposure_ev.has_value()};
-    for (double v : {c.lever.value_or(0), c.faster, c.push.x, c.push.y, c.push.z, c.turn.x, c.turn.y, c.turn.z, c.look_rad.x,
+    for (double v : {c.lever.value_or(0), c.throttle_rate, c.push.x, c.push.y, c.push.z, c.turn.x, c.turn.y, c.turn.z, c.look_rad.x,
              c.look_rad.y, c.head.moved_m.x, c.head.moved_m.y, c.head.moved_m.z, c.head.turned.w, c.head.turned.x,
              c.head.turned.y, c.head.turned.z, c.exposure, e.exposure_ev.value_or(0)})
         all.push_back(std::bit_cast<std::uint64_t>(v));
@@ -97,7 +97,7 @@ RecordHeader some_header()
     header.start.effects.doppler = false;
     header.start.exposure_ev = -0.7;
     header.rules.mode = FlightMode::newtonian;
-    header.rules.greatest_gamma = 123.456;
+    header.rules.max_gamma = 123.456;
     return header;
 }
 
@@ -162,7 +162,7 @@ TEST(Record, TheHeaderComesBackToTheBit)
     EXPECT_EQ(read.seconds_per_time_unit, header.seconds_per_time_unit);
     EXPECT_EQ(digest(flight_at(read.start, read.rules)), digest(flight_at(header.start, header.rules)));
     EXPECT_EQ(read.start.position, header.start.position);
-    EXPECT_EQ(read.rules.greatest_gamma, header.rules.greatest_gamma);
+    EXPECT_EQ(read.rules.max_gamma, header.rules.max_gamma);
     EXPECT_EQ(text_of(read), text_of(header));
 }
 
@@ -180,7 +180,7 @@ TEST(Record, TheDigestSeesEveryBit)
     Flight flight = flight_at(some_header().start);
     flight.homing = Homing{};
     const std::uint64_t before = digest(flight);
-    std::vector<double*> numbers{&flight.lever, &flight.faster, &flight.exposure_ev, &flight.look_rad.x, &flight.look_rad.y,
+    std::vector<double*> numbers{&flight.lever, &flight.throttle_rate, &flight.exposure_ev, &flight.look_rad.x, &flight.look_rad.y,
         &flight.homing->braking, &flight.homing->elapsed_s, &flight.homing->rapidity_per_s};
     for (glm::dvec3* v : {&flight.thrust, &flight.turn_rad_s, &flight.turn_lead_rad_s})
         numbers.insert(numbers.end(), {&v->x, &v->y, &v->z});
@@ -200,7 +200,7 @@ TEST(Record, TheDigestSeesEveryBit)
         EXPECT_NE(digest(flight), before) << number - numbers[0];
         *number = kept;
     }
-    for (bool* flag : {&flight.held_back, &flight.hud, &flight.effects.aberration, &flight.effects.doppler,
+    for (bool* flag : {&flight.thrust_inhibited, &flight.hud, &flight.effects.aberration, &flight.effects.doppler,
              &flight.effects.headlight, &flight.effects.false_colours, &flight.homing->arrived}) {
         *flag = !*flag;
         EXPECT_NE(digest(flight), before);
@@ -392,7 +392,7 @@ TEST(Record, KnowsWhatItWasFlownIn)
     const std::string scene = R"({ "gltf": "w.glb", "unit_m": 10, "light_speed_m_s": 5 })";
     const std::filesystem::path scene_file = write_text("scene.json", scene);
     write_text("w.glb", "glTF");
-    const Layout layout = load_layout(find("layouts", "desk"));
+    const Layout layout = load_layout(shipped_file("layouts", "desk"));
     const RecordHeader header = header_of(scene_file, layout, {}, {}, {}, "none");
     EXPECT_EQ(header.layout, "desk");
     EXPECT_EQ(header.scene, scene_file.string());
@@ -404,7 +404,7 @@ TEST(Record, KnowsWhatItWasFlownIn)
     };
     EXPECT_EQ(reopen(header).scene, scene_file);
     EXPECT_TRUE(lines.empty());
-    EXPECT_EQ(reopen(header, "dome").layout.name, load_layout(find("layouts", "dome")).name);
+    EXPECT_EQ(reopen(header, "dome").layout.name, load_layout(shipped_file("layouts", "dome")).name);
     EXPECT_TRUE(lines.empty());
     RecordHeader other = header;
     other.layout_digest ^= 1;
@@ -426,16 +426,16 @@ TEST(Record, IsPlayedAtItsOwnPace)
     std::string text = first_line();
     for (int i = 0; i < 3; ++i)
         text += text_of(RecordEntry{.dt_ns = 30'000'000, .skipped_ns = 3'600'000'000'000, .controls = {.save = true}});
-    Tape tape(nullptr, std::make_unique<Replay>(write_text("pace.jsonl", text)));
-    EXPECT_TRUE(tape.replays());
+    RecordReplay record_replay(nullptr, std::make_unique<Replay>(write_text("pace.jsonl", text)));
+    EXPECT_TRUE(record_replay.replays());
     RecordEntry entry;
-    ASSERT_TRUE(tape.play(entry)); // the first comes at once
+    ASSERT_TRUE(record_replay.play(entry)); // the first comes at once
     const auto began = std::chrono::steady_clock::now();
     Flight flight = flight_at(some_header().start);
     int frames = 1;
-    for (tape.keep(entry, flight); tape.play(entry); ++frames) {
+    for (record_replay.keep(entry, flight); record_replay.play(entry); ++frames) {
         EXPECT_FALSE(entry.controls.save); // never writes into a layout
-        tape.keep(entry, flight);
+        record_replay.keep(entry, flight);
     }
     const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     EXPECT_EQ(frames, 3);

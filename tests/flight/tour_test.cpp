@@ -5,7 +5,7 @@
 #include "runtime/hud/caption.h"
 #include "runtime/world/clock.h"
 #include "runtime/world/instances.h"
-#include "runtime/world/vantage.h"
+#include "runtime/world/eye_event.h"
 #include "runtime/world/worldline.h"
 #include "tests/support/dial.h"
 #include "tests/support/files.h"
@@ -49,7 +49,7 @@ Touring later(Touring touring, const Show& show, double seconds, Controls contro
 {
     for (int frame = 0; frame < std::lround(60 * seconds); ++frame) {
         touring = advance(touring, show, controls, 16'666'667);
-        controls = {.lever = controls.lever, .faster = controls.faster, .turn = controls.turn};
+        controls = {.lever = controls.lever, .throttle_rate = controls.throttle_rate, .turn = controls.turn};
     }
     return touring;
 }
@@ -401,10 +401,10 @@ TEST(Tours, AStepIsEased)
 TEST(Tours, AQuestionIsAnsweredFromTheState)
 {
     const Tour tour = tour_of(R"({ "seconds": 1, "cut": { "velocity": { "direction": [0, 0, -1], "gamma": 4 } } },
-        { "seconds": 5, "question": { "ask": { "en": "gamma?" }, "told": { "en": "it is {measured}" }, "told_s": 3,
+        { "seconds": 5, "question": { "ask": { "en": "gamma?" }, "explanation": { "en": "it is {measured}" }, "explanation_s": 3,
           "measure": { "what": "gamma" }, "choices": [ { "text": { "en": "two" }, "from": 1.5, "below": 3 },
           { "text": { "en": "four" }, "from": 3, "below": 5 }, { "text": { "en": "six" }, "from": 5, "below": 7 } ] } },
-        { "seconds": 5, "question": { "ask": { "en": "D?" }, "told": { "en": "{measured}" }, "told_s": 3,
+        { "seconds": 5, "question": { "ask": { "en": "D?" }, "explanation": { "en": "{measured}" }, "explanation_s": 3,
           "measure": { "what": "doppler_ahead" }, "number": { "from": 1, "to": 10, "step": 0.5, "tolerance": 0.2 } } },
         { "seconds": 1 })");
     const Show show{tour, {}, 1, true};
@@ -426,7 +426,7 @@ TEST(Tours, AQuestionIsAnsweredFromTheState)
     EXPECT_EQ(caption_of(later(touring, show, 0.05, {.stop = true}), show, words(), {}).text, "Not quite. it is 4.00");
     EXPECT_EQ(later(asked, show, 0.05, {.headlight = true}).right, false) << "3 is the third choice";
     EXPECT_TRUE(later(asked, show, 0.05, {.headlight = true}).flight.effects.headlight) << "and switches nothing";
-    EXPECT_FALSE(later(asked, show, 0.05, {.stop = true}).told) << "nothing chosen is no answer";
+    EXPECT_FALSE(later(asked, show, 0.05, {.stop = true}).measured_answer) << "nothing chosen is no answer";
     // Told for three seconds, wherever in the time to answer that was.
     EXPECT_EQ(later(answered, show, 2.8).step(), 1u);
     EXPECT_EQ(later(answered, show, 3.1).step(), 2u);
@@ -448,8 +448,8 @@ TEST(Tours, AQuestionIsAnsweredFromTheState)
 TEST(Tours, TheVisitorTries)
 {
     const Tour tour = tour_of(R"({ "seconds": 1, "cut": "start" },
-        { "seconds": 10, "try": { "greatest_gamma": 3 }, "question": { "ask": { "en": "go" }, "told": { "en": "{measured}" },
-          "told_s": 2, "measure": { "what": "gamma" }, "reach": { "from": 2, "to": 2.9 } } },
+        { "seconds": 10, "try": { "max_gamma": 3 }, "question": { "ask": { "en": "go" }, "explanation": { "en": "{measured}" },
+          "explanation_s": 2, "measure": { "what": "gamma" }, "reach": { "from": 2, "to": 2.9 } } },
         { "seconds": 4, "try": {} }, { "seconds": 2 })");
     Show show{tour, {}, 1, true};
     const Touring given = later(touring_at(show), show, 1.1);
@@ -458,12 +458,12 @@ TEST(Tours, TheVisitorTries)
     EXPECT_EQ(glm::length(u_of(later(touring_at(show), show, 4, {.lever = 0.9}))), 0);
     Touring touring = later(given, show, 0.1, {.lever = 0.0});
     touring = later(touring, show, 2.5, {.lever = 0.9});
-    EXPECT_TRUE(touring.told) << "reached";
+    EXPECT_TRUE(touring.measured_answer) << "reached";
     EXPECT_EQ(touring.right, true);
-    EXPECT_GT(*touring.told, 2);
+    EXPECT_GT(*touring.measured_answer, 2);
     EXPECT_FALSE(flies(touring, show));
     const Touring idle = later(given, show, 10.5);
-    EXPECT_TRUE(idle.told) << "time over";
+    EXPECT_TRUE(idle.measured_answer) << "time over";
     EXPECT_FALSE(idle.right);
     // On with the tour at once, and without visitors no such step at all.
     EXPECT_EQ(later(given, show, 0.05, {.home = true}).step(), 2u);
@@ -496,7 +496,7 @@ TEST(Tours, GuidesLeadThroughThem)
     EXPECT_EQ(back.step(), 0u);
     EXPECT_EQ(later(on, show, 0.02, {.reset = true}).step(), 0u);
     // What flies a ship does nothing to a tour that flies itself; looking around does.
-    Controls hands{.lever = 1.0, .faster = 1, .turn = {1, 1, 1}};
+    Controls hands{.lever = 1.0, .throttle_rate = 1, .turn = {1, 1, 1}};
     const Touring touched = advance(flying, show, hands, 100'000'000), untouched = advance(flying, show, {}, 100'000'000);
     EXPECT_EQ(u_of(touched), u_of(untouched));
     EXPECT_EQ(touched.flight.ship.ship_from_cockpit, untouched.flight.ship.ship_from_cockpit);
@@ -511,7 +511,7 @@ TEST(Tours, AtTheEndTheVisitorFliesAndThenItBeginsAnew)
     EXPECT_TRUE(touring.over);
     EXPECT_TRUE(caption_of(touring, show, words(), {}).text.empty());
     EXPECT_NEAR(std::asinh(glm::length(u_of(touring))), 0.5, 0.05) << "goes on as it flew";
-    touring = later(touring, show, 10, {.faster = 1});
+    touring = later(touring, show, 10, {.throttle_rate = 1});
     EXPECT_GT(std::asinh(glm::length(u_of(touring))), 5);
     EXPECT_TRUE(later(touring, show, 19).over);
     touring = later(touring, show, 20.5);

@@ -12,15 +12,15 @@ glm::dmat3 placed(const HudPlacement& hud, const std::vector<Projection>& screen
 {
     Layout layout;
     MapStore store{std::filesystem::path()};
-    std::vector<std::vector<CompiledPane>> panes;
+    std::vector<std::vector<CompiledView>> views;
     for (const Projection& projection : screens) {
         Output output;
         output.size = {80, 60};
         output.viewports = {{.projection = projection}};
         layout.outputs.push_back(output);
-        panes.push_back(compile_output(store, layout, layout.outputs.size() - 1, output.size));
+        views.push_back(compile_output(store, layout, layout.outputs.size() - 1, output.size));
     }
-    return panel_from_cockpit(hud, panes);
+    return panel_from_cockpit(hud, views);
 }
 
 dvec3 towards(double azimuth_deg, double elevation_deg)

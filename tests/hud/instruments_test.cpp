@@ -7,7 +7,7 @@
 #include "runtime/hud/lab_log.h"
 #include "runtime/hud/lab_panel.h"
 #include "runtime/world/instances.h"
-#include "runtime/world/vantage.h"
+#include "runtime/world/eye_event.h"
 #include "runtime/world/worldline.h"
 #include "tests/support/files.h"
 #include "tests/support/quad.h"
@@ -47,7 +47,7 @@ Spot clock_at(double x)
     return {};
 }
 
-Lookout passing() { return lookout_of(load_shot(source_dir() / "config/shots/clocks-passing.json")); }
+MeasuringObserver passing() { return measuring_observer_of(load_shot(source_dir() / "config/shots/clocks-passing.json")); }
 
 std::vector<std::string> cells(const std::string& line)
 {
@@ -62,11 +62,11 @@ std::vector<std::string> cells(const std::string& line)
 
 Measured some_measured()
 {
-    Measured m{.lookout = passing(), .ship_s = 1.25, .world_s = passing().time};
-    m.aim = read_spot(m.lookout, clock_at(0), clocks(), 1);
+    Measured m{.observer = passing(), .ship_s = 1.25, .world_s = passing().time};
+    m.aim = read_spot(m.observer, clock_at(0), clocks(), 1);
     m.aim.light = 0.5;
-    m.marks = {read_spot(m.lookout, clock_at(-10), clocks(), 1), read_spot(m.lookout, clock_at(10), clocks(), 1)};
-    m.pair = read_pair(m.lookout, clock_at(-10), clock_at(10), clocks(), 1);
+    m.marks = {read_spot(m.observer, clock_at(-10), clocks(), 1), read_spot(m.observer, clock_at(10), clocks(), 1)};
+    m.pair = read_pair(m.observer, clock_at(-10), clock_at(10), clocks(), 1);
     return m;
 }
 
@@ -100,7 +100,7 @@ std::string refusal(const std::filesystem::path& file)
 // The figures of the paper's clocks, worked out by hand to the digits given.
 TEST(Instruments, ThePapersClocksFromTheMovingShip)
 {
-    const Lookout ship = passing();
+    const MeasuringObserver ship = passing();
     const double readings_s[] = {-5.90909, -2.74403, 0, 2.21961, 3.80547};
     const double from_motion_deg[]
         = {104.70466, 97.69614, 90, 81.75503, 73.21615}; // 90 - what is seen from the perpendicular
@@ -128,7 +128,7 @@ TEST(Instruments, ThePapersClocksFromTheMovingShip)
 // Stopped at once: the same readings, other angles.
 TEST(Instruments, TheSameLightStopped)
 {
-    Lookout ship = passing();
+    MeasuringObserver ship = passing();
     ship.u = dvec3(0);
     EXPECT_NEAR(*read_pair(ship, clock_at(-10), clock_at(10), clocks(), 1).clocks_s, 9.71455, 2e-5);
     EXPECT_NEAR(read_pair(ship, clock_at(-10), clock_at(10), clocks(), 1).angle_rad / degree, 131.985 - 104.293, 2e-3);
@@ -146,7 +146,7 @@ TEST(Instruments, AgreeWithBoostsOfEvents)
     const auto any = [&] { return dvec3(normal(random), normal(random), normal(random)); };
     for (int i = 0; i < 300; ++i) {
         const double u = std::pow(10.0, std::uniform_real_distribution<double>(-3, 2)(random));
-        const Lookout ship{.place = 10.0 * any(),
+        const MeasuringObserver ship{.place = 10.0 * any(),
             .time = 5 * normal(random),
             .u = u * glm::normalize(any()),
             .ship_from_cockpit = glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random)))};
@@ -174,7 +174,7 @@ TEST(Instruments, AgreeWithBoostsOfEvents)
 
 TEST(Instruments, WhatIsNotThereIsNotTold)
 {
-    const Lookout ship = passing();
+    const MeasuringObserver ship = passing();
     const Spot sky = spot_at(ship, {aim_of(ship), INFINITY}, clocks());
     EXPECT_TRUE(sky.sky);
     const SpotReading reading = read_spot(ship, sky, clocks(), 1);
@@ -182,7 +182,7 @@ TEST(Instruments, WhatIsNotThereIsNotTold)
     EXPECT_NEAR(reading.ray.D, 0.8660254, 1e-7);
     const PairReading pair = read_pair(ship, sky, clock_at(0), clocks(), 1);
     EXPECT_FALSE(pair.apparent_s || pair.rest_s || pair.clocks_s);
-    Lookout plain = ship; // without aberration the picture shows no such length
+    MeasuringObserver plain = ship; // without aberration the picture shows no such length
     plain.aberration = false;
     EXPECT_FALSE(read_pair(plain, clock_at(0), clock_at(5), clocks(), 1).apparent_s);
     EXPECT_LT(angle_between(ray_from_ship(plain, {0, 0, -1}).world, {0, 0, -1}), 1e-15);
@@ -190,7 +190,7 @@ TEST(Instruments, WhatIsNotThereIsNotTold)
 
 TEST(Instruments, ADialIsAimedAtAnywhereOnIt)
 {
-    const Lookout ship = passing();
+    const MeasuringObserver ship = passing();
     const dvec3 at = clock_at(5).at + dvec3(1.2, -1.1, 0);
     const Spot aimed
         = spot_at(ship, {ray_from_world(ship, glm::normalize(at - ship.place)), glm::distance(at, ship.place)}, clocks());
@@ -215,7 +215,7 @@ TEST(Instruments, AClockOnABodyThatMoves)
     ASSERT_EQ(world.frames.size(), 2u);
     const std::size_t dial = instances_of(world, 1).first;
     const dvec3 middle = snapped({.clock = dial}, world).at; // in its own frame
-    Lookout ship{{3, 2, 20}, 40, {-0.3, 0.5, 1.2}};
+    MeasuringObserver ship{{3, 2, 20}, 40, {-0.3, 0.5, 1.2}};
 
     const quad::V3 qu = quad::of(u);
     auto event = [&](quad::Q tau) { // in the world, of its own time since it was at (2, 1, -1, 4)
@@ -412,8 +412,8 @@ TEST(Instruments, ThePanelIsWhereItIsSeen)
     const HudPlacement hud{0, -26, 20};
     for (const Projection& projection : {Projection(Planar{50, {}, {0, -20, 0}}), Projection(Fisheye{100, 45})}) {
         layout.outputs[0].viewports = {{.projection = projection}};
-        const std::vector<std::vector<CompiledPane>> panes = {compile_output(store, layout, 0, {300, 400})};
-        const HudPlacement own = instruments_place(hud, readings_aspect, panes);
+        const std::vector<std::vector<CompiledView>> views = {compile_output(store, layout, 0, {300, 400})};
+        const HudPlacement own = instruments_place(hud, readings_aspect, views);
         const bool flat = std::holds_alternative<Planar>(projection);
         if (flat) {
             EXPECT_NEAR(own.elevation_deg, -26 + 20 * panel_aspect, 3);

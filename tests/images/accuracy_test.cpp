@@ -50,7 +50,7 @@ TEST(AccuracyTest, TheBestWithinATime)
 TEST(AccuracyTest, ALadderHasWhatAFlightCanChange)
 {
     const std::vector<MeasuredSetting> same_light(some.begin(), some.end() - 1);
-    const std::vector<Rung> ladder = ladder_of(same_light);
+    const std::vector<PresetLevel> ladder = ladder_of(same_light);
     ASSERT_EQ(ladder.size(), 3u);
     for (std::size_t i = 1; i < ladder.size(); ++i) {
         EXPECT_GT(ladder[i].ms, ladder[i - 1].ms);
@@ -60,8 +60,8 @@ TEST(AccuracyTest, ALadderHasWhatAFlightCanChange)
                             made_up("z", 5, 0.3, {.frames_per_cube = 2})})
                   .size(),
         1u);
-    for (const Rung& rung : ladder_of(some))
-        EXPECT_EQ(rung.quality.spectra, std::nullopt);
+    for (const PresetLevel& level : ladder_of(some))
+        EXPECT_EQ(level.quality.spectra, std::nullopt);
 }
 
 TEST(AccuracyTest, EveryKnobIsTriedOnce)
@@ -75,7 +75,7 @@ TEST(AccuracyTest, EveryKnobIsTriedOnce)
         return std::count_if(all.begin(), all.end(), [&](const Setting& one) { return knob(one.quality); });
     };
     EXPECT_GE(tried([](const Quality& q) { return q.texels_per_pixel != 1; }), 5);
-    EXPECT_GE(tried([](const Quality& q) { return q.rear_images == 0; }), 1);
+    EXPECT_GE(tried([](const Quality& q) { return q.clip_levels == 0; }), 1);
     EXPECT_GE(tried([](const Quality& q) { return !q.mips; }), 1);
     EXPECT_GE(tried([](const Quality& q) { return q.pixel_rays > 1; }), 2);
     EXPECT_GE(tried([](const Quality& q) { return q.spectra == SpectralLevel::fine; }), 1);
@@ -83,7 +83,7 @@ TEST(AccuracyTest, EveryKnobIsTriedOnce)
     EXPECT_GE(tried([](const Quality& q) { return !q.matrices; }), 1);
     EXPECT_GE(tried([](const Quality& q) { return !q.half_floats; }), 1);
     EXPECT_GE(tried([](const Quality& q) { return q.frames_per_cube > 1; }), 2);
-    EXPECT_GE(tried([](const Quality& q) { return q.stray_texels == 0; }), 1);
+    EXPECT_GE(tried([](const Quality& q) { return q.lod_error_texels == 0; }), 1);
     EXPECT_GE(tried([](const Quality& q) { return q.cube_samples == 4; }), 1);
 }
 

@@ -29,7 +29,7 @@ void each(const Place& place, const std::function<void(const Place&)>& act)
     act(place);
     if (place.json->is_object())
         for (const auto& [name, value] : place.json->items())
-            each(find(place, name).value(), act);
+            each(find_member(place, name).value(), act);
     else if (place.json->is_array())
         for (const Place& element : items(place, 0, 1000000, "things"))
             each(element, act);
@@ -134,7 +134,7 @@ TEST(SpanTest, Lines)
     EXPECT_EQ(line(text, "/c"), 8);
     EXPECT_EQ(line(text, "/c/d"), 9);
     const Document d = parse_document("a.json", text);
-    EXPECT_EQ(complaint([&] { boolean(*find(*find(root(d), "c"), "d")); }),
+    EXPECT_EQ(complaint([&] { boolean(*find_member(*find_member(root(d), "c"), "d")); }),
         "a.json:9: /c/d: \"x\\ny\" is neither true nor false; one of these is right");
     EXPECT_EQ(complaint([&] { member(root(d), "e"); }).substr(0, 10), "a.json:2: ");
 }

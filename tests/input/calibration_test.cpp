@@ -80,7 +80,7 @@ TEST(CalibrationTest, AxesAreNamedAsProfilesNameThem)
     ASSERT_EQ(axes.size(), 6u);
     EXPECT_EQ(axes[5].usage, 0x36);
     EXPECT_EQ(axes[5].nth, 1);
-    EXPECT_EQ(told(axes[5]), "slider 2");
+    EXPECT_EQ(describe(axes[5]), "slider 2");
     EXPECT_EQ(axis_of({.usage = 0x36, .nth = 1}, axes), 5u);
     EXPECT_FALSE(axis_of({.usage = 0x32}, axes));
 }
@@ -235,9 +235,9 @@ TEST(CalibrationTest, TwoTriggersOnOneAxisEachHaveAHalf)
     const Chosen chosen{{{AxisRole::faster, Push{1, false, 1}}, {AxisRole::slower, Push{1, true, 1}}}, {}};
     const Profile profile = calibrated({}, descriptor, axes, chosen);
     const Field& field = descriptor.fields[1];
-    for (const auto& [raw, faster, slower] :
+    for (const auto& [raw, throttle_rate, slower] :
         std::vector<std::array<double, 3>>{{40, 1, 0}, {500, 0, 0}, {900, 0, 1}, {270, 0.5, 0}}) {
-        EXPECT_NEAR(shaped(with(profile, AxisRole::faster), field, std::int64_t(raw)), faster, 1e-12) << raw;
+        EXPECT_NEAR(shaped(with(profile, AxisRole::faster), field, std::int64_t(raw)), throttle_rate, 1e-12) << raw;
         EXPECT_NEAR(shaped(with(profile, AxisRole::slower), field, std::int64_t(raw)), slower, 1e-12) << raw;
     }
     EXPECT_EQ(calibrated(profile, descriptor, axes, {}).axes, profile.axes);

@@ -24,7 +24,7 @@ using namespace starbow;
 
 namespace {
 
-using View = std::vector<Glimpse>;
+using View = std::vector<LuminanceSample>;
 
 View even(const std::vector<float>& luminances, float each = 0.001f)
 {
@@ -178,13 +178,13 @@ TEST(Adaptation, TheGreatestExposureIsForTheEyesThreshold)
     }
     const double sunlit_cd_m2 = 683 * 1361 * (seen / all) / pi;
     EXPECT_NEAR(sunlit_cd_m2, 39900, 100);
-    EXPECT_NEAR(Exposing().greatest_ev, std::log2(0.18 * sunlit_cd_m2 / 1e-6), 0.5); // a whole number
+    EXPECT_NEAR(Exposing().max_ev, std::log2(0.18 * sunlit_cd_m2 / 1e-6), 0.5); // a whole number
 }
 
 TEST(Adaptation, KeepsToTheLimitsAndToTheLock)
 {
     Exposing rules;
-    rules.least_ev = -3, rules.greatest_ev = 5;
+    rules.min_ev = -3, rules.max_ev = 5;
     EXPECT_EQ(adapted({}, -20.0, 1, rules).ev, -3.0);
     EXPECT_EQ(adapted({}, 20.0, 1, rules).ev, 5.0);
     EXPECT_NEAR(*adapted({0.0}, 20.0, 1000, rules).ev, 5, 1e-9);

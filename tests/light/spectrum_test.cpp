@@ -72,7 +72,7 @@ TEST(SpectrumTest, ABlackBodyStaysOne)
 TEST(SpectrumTest, FewNumbersHoldBlackBodiesAndGreys)
 {
     const std::vector<double> kelvins = {1000, 2856, 5772, 40000};
-    std::vector<OwnSpectrum> own;
+    std::vector<EmissionSpectrum> own;
     for (double kelvin : kelvins)
         own.push_back({BlackBody{kelvin}});
     const SpectralBasis basis = spectral_basis(12, own);
@@ -150,7 +150,7 @@ TEST(SpectrumTest, LampsOfTheirOwnLightGreysExactly)
 {
     const std::vector<Emission> lamps = {BlackBody{2856}, SpectralLine{589.3}};
     const SpectralBasis basis
-        = spectral_basis(12, std::array{OwnSpectrum{lamps[0]}, OwnSpectrum{lamps[0], true}, OwnSpectrum{lamps[1]}});
+        = spectral_basis(12, std::array{EmissionSpectrum{lamps[0]}, EmissionSpectrum{lamps[0], true}, EmissionSpectrum{lamps[1]}});
     const Response response = response_of(basis, eye());
     for (double D : {0.5, 0.9, 1.0, 1.1, 2.0}) {
         const glm::dvec3 grey = told_xyz(response, lit(basis, lamps[0], [](double) { return 0.5; }), D);
@@ -168,17 +168,17 @@ TEST(SpectrumTest, LampsOfTheirOwnLightGreysExactly)
                 eye(), [&](double nm) { return ramp(nm) * black_body(2856)(nm); }, D);
         const glm::dvec3 white = sunlit_part(lamps[0]) * seen(eye(), lamps[0], D);
         EXPECT_LT(glm::distance(shown, lamp), 0.025 * glm::length(white))
-            << D; // the ramp has corners, sharper than hats are
+            << D; // the ramp has corners, sharper than basis functions are
     }
 }
 
 TEST(SpectrumTest, FalseColoursShowWhatEyesDoNot)
 {
     // A sunlit white is white, whatever the level; leaves, bright in the infrared alone, are red; a room's own heat is.
-    const Observer& all = false_colours();
+    const StandardObserver& all = false_colours();
     EXPECT_LT(glm::distance(seen(all, sunlit_white(), 1), glm::dvec3(1)), 1e-9);
     for (int numbers : {3, 12}) {
-        const SpectralBasis basis = spectral_basis(numbers, std::array{OwnSpectrum{BlackBody{288}}});
+        const SpectralBasis basis = spectral_basis(numbers, std::array{EmissionSpectrum{BlackBody{288}}});
         const Response response = response_of(basis, all);
         EXPECT_LT(glm::distance(seen(response, lit(basis, {}, [](double) { return 1; }), 1), glm::dvec3(1)), 2e-3);
         std::vector<double> room(std::size_t(basis.size()), 0.0);

@@ -9,9 +9,9 @@ using namespace starbow;
 
 namespace {
 
-std::vector<Rung> ladder_of_times(const std::vector<double>& times)
+std::vector<PresetLevel> ladder_of_times(const std::vector<double>& times)
 {
-    std::vector<Rung> ladder;
+    std::vector<PresetLevel> ladder;
     for (double ms : times)
         ladder.push_back({{}, ms, 1 / ms, 0});
     return ladder;
@@ -19,7 +19,7 @@ std::vector<Rung> ladder_of_times(const std::vector<double>& times)
 
 struct Flown {
     int frames = 0, late = 0, moves = 0, most_moves_a_second = 0;
-    std::vector<std::size_t> rungs; ///< of each second's end
+    std::vector<std::size_t> levels; ///< of each second's end
 };
 
 /// So many seconds at 60 Hz. load: what a millisecond of the ladder takes, by the time. A frame that is late holds up the
@@ -32,7 +32,7 @@ Flown fly(Governor& governor, double seconds, const std::function<double(double)
     Flown flown;
     std::vector<double> moves;
     for (double now = 0; now < seconds;) {
-        const double own = governor.ladder()[governor.rung()].ms;
+        const double own = governor.ladder()[governor.level()].ms;
         const double ms = load(now) * own * std::exp(chance(random));
         ++flown.frames;
         flown.late += ms > 1.5 * turn;
@@ -45,8 +45,8 @@ Flown fly(Governor& governor, double seconds, const std::function<double(double)
                 near += now - before < 1;
             flown.most_moves_a_second = std::max(flown.most_moves_a_second, near);
         }
-        if (flown.rungs.size() < std::size_t(now))
-            flown.rungs.push_back(governor.rung());
+        if (flown.levels.size() < std::size_t(now))
+            flown.levels.push_back(governor.level());
     }
     return flown;
 }
@@ -63,8 +63,8 @@ TEST(GovernorTest, HoldsUnderALoadThatDoublesAndHalvesEveryFiveSeconds)
     EXPECT_LE(flown.most_moves_a_second, 2);
     // No pumping: in the second minute it hardly ever goes up any more.
     std::size_t changes = 0;
-    for (std::size_t s = 61; s < flown.rungs.size(); ++s)
-        changes += flown.rungs[s] != flown.rungs[s - 1];
+    for (std::size_t s = 61; s < flown.levels.size(); ++s)
+        changes += flown.levels[s] != flown.levels[s - 1];
     EXPECT_LE(changes, 4u);
 }
 
@@ -78,9 +78,9 @@ TEST(GovernorTest, TakesTheFinestThatFitsAndStays)
         for (std::size_t i = 0; i < times.size(); ++i)
             if (load * times[i] <= 0.75 * 1000 / 60)
                 finest = i;
-        EXPECT_LE(std::abs(int(governor.rung()) - int(finest)), 1) << load;
-        for (std::size_t s = 10; s < flown.rungs.size(); ++s)
-            EXPECT_EQ(flown.rungs[s], flown.rungs[9]) << load << " at " << s;
+        EXPECT_LE(std::abs(int(governor.level()) - int(finest)), 1) << load;
+        for (std::size_t s = 10; s < flown.levels.size(); ++s)
+            EXPECT_EQ(flown.levels[s], flown.levels[9]) << load << " at " << s;
     }
 }
 
@@ -88,19 +88,19 @@ TEST(GovernorTest, OneLateFrameIsChance)
 {
     Governor governor(ladder_of_times(times), 1000.0 / 60);
     fly(governor, 20, [](double) { return 1.0; });
-    const std::size_t before = governor.rung();
+    const std::size_t before = governor.level();
     int frame = 0;
     const Flown flown = fly(governor, 20, [&](double) { return ++frame % 97 == 0 ? 5.0 : 1.0; });
     EXPECT_EQ(flown.moves, 0);
-    EXPECT_EQ(governor.rung(), before);
+    EXPECT_EQ(governor.level(), before);
 }
 
 TEST(GovernorTest, WhatNothingHoldsIsDrawnOnTheFirstRung)
 {
     Governor governor(ladder_of_times(times), 1000.0 / 60);
     fly(governor, 10, [](double) { return 50.0; });
-    EXPECT_EQ(governor.rung(), 0u);
-    EXPECT_NE(told(governor).find("quality 1 of 8"), std::string::npos) << told(governor);
+    EXPECT_EQ(governor.level(), 0u);
+    EXPECT_NE(describe(governor).find("quality 1 of 8"), std::string::npos) << describe(governor);
 }
 
 TEST(GovernorTest, OneRungIsEnough)

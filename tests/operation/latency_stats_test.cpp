@@ -40,7 +40,7 @@ TEST(Latency, AReportCountsInTheFrameThatFirstShowsIt)
     EXPECT_EQ(latency.own_ms(), (std::vector<double>{2, 3, 1, 4}));
     EXPECT_EQ(latency.present_ms(), (std::vector<double>{8, 7, 9, 8}));
     EXPECT_EQ(latency.bound_ms(), (std::vector<double>{15, 26, 26, 28}));
-    EXPECT_NE(latency.told().find("15.00     25.00     25.00"), std::string::npos) << latency.told();
+    EXPECT_NE(latency.describe().find("15.00     25.00     25.00"), std::string::npos) << latency.describe();
     // Stamped before the last controls were read, and handed over after.
     latency.add({.told_ns = 147 * ms + 1, .read_ns = 164 * ms, .handed_ns = 165 * ms, .shown_ns = 166 * ms});
     EXPECT_NEAR(latency.bound_ms().back(), 19, 1e-5);

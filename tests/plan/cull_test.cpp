@@ -2,7 +2,7 @@
 #include "config/model/angles.h"
 #include "runtime/plan/cull.h"
 #include "runtime/world/detail.h"
-#include "runtime/world/vantage.h"
+#include "runtime/world/eye_event.h"
 #include "tests/support/boxes.h"
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
@@ -33,11 +33,11 @@ TEST(Cull, KeepsWhatAnyDirectionOfAnImageHits)
     World world = boxes(60, 5);
     glm::dvec3 eye(0.3, -0.2, 0.5);
     glm::dmat3 turn = glm::mat3_cast(glm::normalize(glm::dquat(0.3, -0.5, 0.2, 0.9)));
-    std::vector<PlanImage> images;
+    std::vector<PlannedImage> images;
     for (int face = 0; face < 6; ++face)
         images.push_back({0, face, {-0.6, -0.3}, {0.5, 1}, {64, 64}, {0, 0}, 64, 1});
-    images.push_back({SLOT_REAR, 1, {-1, -1}, {1, 1}, {64, 64}, {0, 0}, 32, 1, 0.6});
-    DrawList list = cull(world, {{Vantage{0, eye, 0, turn}}}, images);
+    images.push_back({TILE_REAR, 1, {-1, -1}, {1, 1}, {64, 64}, {0, 0}, 32, 1, 0.6});
+    DrawList list = cull(world, {{EyeEvent{0, eye, 0, turn}}}, images);
     ASSERT_EQ(list.instances.size(), world.instances.size());
     std::mt19937 random(2);
     std::uniform_real_distribution<double> part(0, 1);
@@ -50,7 +50,7 @@ TEST(Cull, KeepsWhatAnyDirectionOfAnImageHits)
                     kept[list.visible[draw.first + k]] = true, ++drawn;
         for (int ray = 0; ray < 2000; ++ray) {
             glm::dvec2 at = images[i].low + glm::dvec2(part(random), part(random)) * (images[i].high - images[i].low);
-            if (std::max(std::abs(at.x), std::abs(at.y)) < images[i].hole)
+            if (std::max(std::abs(at.x), std::abs(at.y)) < images[i].clip_hole)
                 continue;
             glm::dvec3 way = glm::transpose(turn) * face_direction(images[i].face, at);
             for (std::size_t k = 0; k < world.instances.size(); ++k)
@@ -68,7 +68,7 @@ TEST(Cull, InstancesMoveAroundTheEyeInDouble)
 {
     World world = boxes(1, 1);
     world.instances[0].frame_from_local[3] = glm::dvec4(1e9, 2, -3, 1);
-    DrawList list = cull(world, {{Vantage{0, {1e9 - 0.001, 2, -3}}}}, {});
+    DrawList list = cull(world, {{EyeEvent{0, {1e9 - 0.001, 2, -3}}}}, {});
     EXPECT_NEAR(list.instances[0].row0.w, 0.001, 1.2e-7); // a double at 1e9 resolves 1.2e-7
     EXPECT_EQ(list.instances[0].row1.w, 0);
 }

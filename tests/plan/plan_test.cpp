@@ -1,15 +1,15 @@
 // The plan by itself: whatever a pixel reads of the atlas was drawn, at the density that was asked for.
 #include "config/model/angles.h"
 #include "runtime/plan/cube_map_plan.h"
-#include "runtime/world/vantage.h"
+#include "runtime/world/eye_event.h"
 #include "shaders/physics/physics.h"
-#include "tests/support/pane.h"
+#include "tests/support/view.h"
 #include "tests/support/speeds.h"
 #include <gtest/gtest.h>
 #include <random>
 
 using namespace starbow;
-using starbow::testing::pane_of, starbow::testing::u_of_gamma;
+using starbow::testing::view_of, starbow::testing::u_of_gamma;
 
 namespace {
 
@@ -40,48 +40,48 @@ glm::dquat turn(int i)
     return glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random)));
 }
 
-/// Calls check(slot place, world angle of the pixel, image or null) for every pixel centre.
+/// Calls check(tile place, world angle of the pixel, image or null) for every pixel centre.
 template <class Check> void each_pixel(const Case& c, double gamma, int turned, const Quality& quality, Check&& check)
 {
     glm::dvec3 u(0, 0, -u_of_gamma(gamma));
     double E = physics::exp_rapidity(glm::length(u));
     glm::dquat ship_from_cockpit = turn(turned);
     glm::dmat3 motion_from_cockpit = motion_from_world(u, ship_from_cockpit) * glm::dmat3(glm::mat3_cast(ship_from_cockpit));
-    const CompiledPane pane = pane_of(c.projection, c.size);
-    Plan plan = make_plan({{pane.blocks.get(), motion_from_cockpit}}, E, quality);
-    std::vector<const PlanImage*> by_cell(SLOT_COUNT * CELL_COUNT, nullptr);
-    for (const PlanImage& image : plan.images)
-        for (int y = 0; y < image.cells.count.y; ++y)
-            for (int x = 0; x < image.cells.count.x; ++x) {
-                const glm::ivec2 cell = image.cells.first + glm::ivec2(x, y);
-                by_cell[std::size_t(image.slot * CELL_COUNT + cell.y * SLOT_CELLS + cell.x)] = &image;
+    const CompiledView view = view_of(c.projection, c.size);
+    CubeMapPlan plan = plan_cube_map({{view.cones.get(), motion_from_cockpit}}, E, quality);
+    std::vector<const PlannedImage*> by_cell(TILE_COUNT * SUB_TILE_COUNT, nullptr);
+    for (const PlannedImage& image : plan.images)
+        for (int y = 0; y < image.sub_tiles.count.y; ++y)
+            for (int x = 0; x < image.sub_tiles.count.x; ++x) {
+                const glm::ivec2 cell = image.sub_tiles.first + glm::ivec2(x, y);
+                by_cell[std::size_t(image.tile * SUB_TILE_COUNT + cell.y * TILE_SUB_TILES + cell.x)] = &image;
             }
-    auto image = [&](const SlotPlace& place) {
-        const glm::ivec2 cell = cells_in(place.slot, {place.at, place.at}).first;
-        return by_cell[std::size_t(place.slot * CELL_COUNT + cell.y * SLOT_CELLS + cell.x)];
+    auto image = [&](const TilePlace& place) {
+        const glm::ivec2 cell = sub_tiles_in(place.tile, {place.at, place.at}).first;
+        return by_cell[std::size_t(place.tile * SUB_TILE_COUNT + cell.y * TILE_SUB_TILES + cell.x)];
     };
     for (int y = 0; y < c.size.y; ++y)
         for (int x = 0; x < c.size.x; ++x) {
             glm::dvec2 pixel(x + 0.5, y + 0.5);
-            auto n = direction(pane.pane.picture, pixel);
+            auto n = direction(view.view.picture, pixel);
             if (!n)
                 continue;
             auto sight = physics::world_from_camera(motion_from_cockpit * *n, E, 1 / E);
-            SlotPlace place = slot_of(sight.n, plan.rear_last[0]);
-            check(plan, place, sight.D * pixel_angle(pane.pane.picture, pixel), image(place));
+            TilePlace place = tile_of(sight.n, plan.finest_clip_level[0]);
+            check(plan, place, sight.D * pixel_angle(view.view.picture, pixel), image(place));
         }
 }
 
 } // namespace
 
-TEST(Plan, EveryTexelThatAnyPixelReadsWasDrawn)
+TEST(CubeMapPlan, EveryTexelThatAnyPixelReadsWasDrawn)
 {
     for (const Case& c : cases)
         for (double gamma : gammas)
             for (int turned = 0; turned < 5; ++turned) {
                 long missing = 0, outside = 0, pixels = 0;
-                each_pixel(c, gamma, turned, {.texels_per_pixel = 1, .most_texels_per_pixel = 6},
-                    [&](const Plan&, const SlotPlace& place, double world_angle, const PlanImage* image) {
+                each_pixel(c, gamma, turned, {.texels_per_pixel = 1, .max_texels_per_pixel = 6},
+                    [&](const CubeMapPlan&, const TilePlace& place, double world_angle, const PlannedImage* image) {
                         ++pixels;
                         if (!image)
                             return void(++missing);
@@ -101,23 +101,23 @@ TEST(Plan, EveryTexelThatAnyPixelReadsWasDrawn)
             }
 }
 
-TEST(Plan, ImagesLieApartInTheAtlas)
+TEST(CubeMapPlan, ImagesLieApartInTheAtlas)
 {
     for (const Case& c : cases)
         for (double gamma : gammas)
             for (int turned = 0; turned < 3; ++turned)
                 each_pixel({c.name, c.projection, glm::min(c.size, glm::ivec2(64))}, gamma, turned, {},
-                    [&, once = false](const Plan& plan, auto&&...) mutable {
+                    [&, once = false](const CubeMapPlan& plan, auto&&...) mutable {
                         if (std::exchange(once, true))
                             return;
                         int overlaps = 0;
-                        for (const PlanImage& a : plan.images) {
+                        for (const PlannedImage& a : plan.images) {
                             EXPECT_GE(std::min(a.atlas.x, a.atlas.y), 0);
                             EXPECT_LE(a.atlas.x + a.size.x, plan.atlas_size.x);
                             EXPECT_LE(a.atlas.y + a.size.y, plan.atlas_size.y);
                             EXPECT_NEAR(a.size.x, (a.high.x - a.low.x) * a.texels_per_unit, 1e-6);
                             EXPECT_EQ((a.atlas.x | a.atlas.y | a.size.x | a.size.y) & ((1 << a.levels) - 1), 0);
-                            for (const PlanImage& b : plan.images)
+                            for (const PlannedImage& b : plan.images)
                                 overlaps += &a != &b && a.atlas.x < b.atlas.x + b.size.x && b.atlas.x < a.atlas.x + a.size.x
                                     && a.atlas.y < b.atlas.y + b.size.y && b.atlas.y < a.atlas.y + a.size.y;
                         }
@@ -125,14 +125,14 @@ TEST(Plan, ImagesLieApartInTheAtlas)
                     });
 }
 
-TEST(Plan, HoldsTheDensityThatWasAskedFor)
+TEST(CubeMapPlan, HoldsTheDensityThatWasAskedFor)
 {
     // Without a ceiling on texels no pixel is served by less than one texel, but for the difference between a disc's middle
     // and its edge (cells of 24 pixels: 15 %), nor, mips counted, by more than about two across.
     for (double gamma : {1.0, 4.0, 100.0}) {
         double least = 1e9, most = 0;
-        each_pixel(cases[0], gamma, 0, {.texels_per_pixel = 1, .most_texels_per_pixel = 1e9},
-            [&](const Plan&, const SlotPlace& place, double world_angle, const PlanImage* image) {
+        each_pixel(cases[0], gamma, 0, {.texels_per_pixel = 1, .max_texels_per_pixel = 1e9},
+            [&](const CubeMapPlan&, const TilePlace& place, double world_angle, const PlannedImage* image) {
                 double texels = world_angle * image->texels_per_unit * std::pow(1 + glm::dot(place.at, place.at), 0.75);
                 least = std::min(least, texels);
                 most = std::max(most, texels / std::exp2(image->levels - 1));
@@ -144,7 +144,7 @@ TEST(Plan, HoldsTheDensityThatWasAskedFor)
 
 // Every pixel by one texel at least, whichever way a visitor looks, however fast. (A window of 150 degrees takes up to 9: a
 // flat picture's pixels are stretched four times at its edges, and texels are not.)
-TEST(Plan, SpendsAtMostThreeTexelsOnAPixel)
+TEST(CubeMapPlan, SpendsAtMostThreeTexelsOnAPixel)
 {
     const Case displays[] = {{"window, 60 degrees", Planar{60}, {800, 600}}, {"window, 20 degrees", Planar{20}, {800, 600}},
         {"wall, 90 degrees", Planar{90}, {1920, 1080}}, {"headset, 110 degrees", Planar{110}, {1600, 1600}},
@@ -154,7 +154,7 @@ TEST(Plan, SpendsAtMostThreeTexelsOnAPixel)
     for (double gamma : speeds)
         std::printf("%12g", gamma);
     for (const Case& c : displays) {
-        const CompiledPane pane = pane_of(c.projection, c.size);
+        const CompiledView view = view_of(c.projection, c.size);
         std::printf("\n  %-22s", c.name);
         for (double gamma : speeds) {
             double most = 0;
@@ -163,10 +163,10 @@ TEST(Plan, SpendsAtMostThreeTexelsOnAPixel)
                 const glm::dvec3 u(0, 0, -u_of_gamma(gamma));
                 const glm::dquat turned
                     = glm::angleAxis(glm::radians(double(degrees)), glm::normalize(glm::dvec3(0.3, 1, 0)));
-                const Plan plan = make_plan(
-                    {{pane.blocks.get(), motion_from_world(u, turned) * glm::dmat3(glm::mat3_cast(turned))}},
+                const CubeMapPlan plan = plan_cube_map(
+                    {{view.cones.get(), motion_from_world(u, turned) * glm::dmat3(glm::mat3_cast(turned))}},
                     physics::exp_rapidity(glm::length(u)),
-                    {.texels_per_pixel = 1, .most_texels_per_pixel = 1e9, .max_texels = 1e12, .max_atlas_side = 1 << 30});
+                    {.texels_per_pixel = 1, .max_texels_per_pixel = 1e9, .max_texels = 1e12, .max_atlas_side = 1 << 30});
                 if (plan.texels > most * plan.pixels)
                     most = plan.texels / plan.pixels, images = plan.images.size();
             }
@@ -177,16 +177,16 @@ TEST(Plan, SpendsAtMostThreeTexelsOnAPixel)
     std::printf("\n");
 }
 
-TEST(Plan, WeighsTexelsAgainstImages)
+TEST(CubeMapPlan, WeighsTexelsAgainstImages)
 {
-    const CompiledPane pane = pane_of(Planar{60}, {800, 600});
+    const CompiledView view = view_of(Planar{60}, {800, 600});
     const glm::dvec3 u(0, 0, -u_of_gamma(4));
     std::size_t images = 1000;
     double texels = 0;
     for (double cost : {0.0, 4096.0, 32768.0, 1e6, 1e12}) {
-        const Plan plan = make_plan({{pane.blocks.get(), motion_from_world(u, glm::dquat(1, 0, 0, 0))}},
+        const CubeMapPlan plan = plan_cube_map({{view.cones.get(), motion_from_world(u, glm::dquat(1, 0, 0, 0))}},
             physics::exp_rapidity(glm::length(u)),
-            {.texels_per_pixel = 1, .most_texels_per_pixel = 1e9, .image_cost_texels = cost, .max_texels = 1e12});
+            {.texels_per_pixel = 1, .max_texels_per_pixel = 1e9, .image_cost_texels = cost, .max_texels = 1e12});
         EXPECT_LT(plan.images.size(), images) << cost;
         EXPECT_GT(plan.texels, texels) << cost;
         EXPECT_EQ(plan.cut, cost < 1e12);
@@ -196,25 +196,25 @@ TEST(Plan, WeighsTexelsAgainstImages)
 
 // What the warp shader reads leads to the image that holds a direction, in float: half a texel beside a cell's edge it may
 // be the next one, which has been drawn beyond its own.
-TEST(Plan, TableLeadsToTheImageOfADirection)
+TEST(CubeMapPlan, TableLeadsToTheImageOfADirection)
 {
-    const auto table = std::make_unique<shared::SlotTable>();
+    const auto table = std::make_unique<shared::TileTable>();
     for (double gamma : gammas) {
-        const CompiledPane pane = pane_of(Planar{100}, {800, 600});
+        const CompiledView view = view_of(Planar{100}, {800, 600});
         const glm::dvec3 u(0, 0, -u_of_gamma(gamma));
         const double E = physics::exp_rapidity(glm::length(u));
         const glm::dmat3 turned = motion_from_world(u, turn(3)) * glm::dmat3(glm::mat3_cast(turn(3)));
-        const Plan plan = make_plan({{pane.blocks.get(), turned}}, E, {.texels_per_pixel = 1, .most_texels_per_pixel = 1e9});
-        put_slots(plan, *table);
+        const CubeMapPlan plan = plan_cube_map({{view.cones.get(), turned}}, E, {.texels_per_pixel = 1, .max_texels_per_pixel = 1e9});
+        write_tiles(plan, *table);
         for (int y = 0; y < 600; y += 7)
             for (int x = 0; x < 800; x += 7) {
-                const glm::dvec3 n = turned * *direction(pane.pane.picture, glm::dvec2(x, y) + 0.5);
-                const SlotPlace place = slot_of(physics::world_from_camera(n, E, 1 / E).n, plan.rear_last[0]);
+                const glm::dvec3 n = turned * *direction(view.view.picture, glm::dvec2(x, y) + 0.5);
+                const TilePlace place = tile_of(physics::world_from_camera(n, E, 1 / E).n, plan.finest_clip_level[0]);
                 const glm::vec2 at(place.at), spread = place.face == 1 ? at * glm::abs(at) : at;
-                const glm::vec4 cells = table->cells_from_face[place.slot];
+                const glm::vec4 sub_tiles = table->sub_tiles_from_face[place.tile];
                 const glm::ivec2 cell = glm::min(
-                    glm::ivec2(spread * glm::vec2(cells) + glm::vec2(cells.z, cells.w)), glm::ivec2(SLOT_CELLS - 1));
-                const shared::SlotEntry& entry = table->entries[place.slot * CELL_COUNT + cell.y * SLOT_CELLS + cell.x];
+                    glm::ivec2(spread * glm::vec2(sub_tiles) + glm::vec2(sub_tiles.z, sub_tiles.w)), glm::ivec2(TILE_SUB_TILES - 1));
+                const shared::TileEntry& entry = table->entries[place.tile * SUB_TILE_COUNT + cell.y * TILE_SUB_TILES + cell.x];
                 const glm::vec2 texel
                     = at * entry.texel_from_face.x + glm::vec2(entry.texel_from_face.y, entry.texel_from_face.z);
                 ASSERT_GE(texel.x, entry.texels.x + 0.5f) << gamma << " " << x << " " << y;
@@ -225,47 +225,47 @@ TEST(Plan, TableLeadsToTheImageOfADirection)
     }
 }
 
-TEST(Plan, StaysUnderTheCeiling)
+TEST(CubeMapPlan, StaysUnderTheCeiling)
 {
     for (double gamma : {1.0, 4.0, 10.0, 100.0, 1e4})
         for (int turned = 0; turned < 5; ++turned)
-            each_pixel(cases[0], gamma, turned, {.texels_per_pixel = 1, .most_texels_per_pixel = 2},
-                [&, once = false](const Plan& plan, auto&&...) mutable {
+            each_pixel(cases[0], gamma, turned, {.texels_per_pixel = 1, .max_texels_per_pixel = 2},
+                [&, once = false](const CubeMapPlan& plan, auto&&...) mutable {
                     if (std::exchange(once, true))
                         return;
                     EXPECT_LT(plan.texels / plan.pixels, 2.3) << gamma << " " << turned;
                 });
 }
 
-TEST(Plan, FitsTheDeviceHoweverLargeTheOutput)
+TEST(CubeMapPlan, FitsTheDeviceHoweverLargeTheOutput)
 {
-    const Blocks blocks(*planar_matrix({Planar{120}, {16384, 16384}}), {16384, 16384});
+    const ConeHierarchy cones(*planar_matrix({Planar{120}, {16384, 16384}}), {16384, 16384});
     for (double gamma : {1.0, 4.0, 1000.0}) {
         glm::dvec3 u(0, 0, -u_of_gamma(gamma));
         // As flat as a dome of 16384 pixels is large: its map would fill the test's memory.
-        Plan plan
-            = make_plan({{&blocks, motion_from_world(u, glm::dquat(1, 0, 0, 0))}}, physics::exp_rapidity(glm::length(u)),
-                {.texels_per_pixel = 1.25, .most_texels_per_pixel = 8, .max_texels = 48e6, .max_atlas_side = 4096});
+        CubeMapPlan plan
+            = plan_cube_map({{&cones, motion_from_world(u, glm::dquat(1, 0, 0, 0))}}, physics::exp_rapidity(glm::length(u)),
+                {.texels_per_pixel = 1.25, .max_texels_per_pixel = 8, .max_texels = 48e6, .max_atlas_side = 4096});
         EXPECT_LE(std::max(plan.atlas_size.x, plan.atlas_size.y), 4096) << gamma;
         EXPECT_GT(plan.texels, 4096.0 * 4096 / 4) << gamma;
     }
 }
 
-TEST(Plan, AtRestLookingAheadIsOneImage)
+TEST(CubeMapPlan, AtRestLookingAheadIsOneImage)
 {
-    const CompiledPane pane = pane_of(Planar{60}, {800, 600});
-    Plan plan = make_plan({{pane.blocks.get(), motion_from_world({}, glm::dquat(1, 0, 0, 0))}}, 1, {});
+    const CompiledView view = view_of(Planar{60}, {800, 600});
+    CubeMapPlan plan = plan_cube_map({{view.cones.get(), motion_from_world({}, glm::dquat(1, 0, 0, 0))}}, 1, {});
     ASSERT_EQ(plan.images.size(), 1u);
-    EXPECT_EQ(plan.images[0].slot, SLOT_FRONT);
+    EXPECT_EQ(plan.images[0].tile, TILE_FRONT);
     EXPECT_EQ(plan.levels, 1);
     // The corners' texels are twice the middle's share of sky, and 4 texels of gutter all round.
     EXPECT_LT(plan.texels / plan.pixels, 1.3);
 }
 
-TEST(Plan, ClipMapsTheRectangleToTheSquare)
+TEST(CubeMapPlan, ClipMapsTheRectangleToTheSquare)
 {
     for (int face = 0; face < 6; ++face) {
-        PlanImage image{0, face, {-0.3, 0.1}, {0.8, 0.9}, {64, 64}, {0, 0}, 1, 1};
+        PlannedImage image{0, face, {-0.3, 0.1}, {0.8, 0.9}, {64, 64}, {0, 0}, 1, 1};
         glm::dmat4 clip = clip_from_motion(image, 1e-6);
         glm::dvec4 low = clip * glm::dvec4(7.0 * face_direction(face, image.low), 1);
         glm::dvec4 high = clip * glm::dvec4(7.0 * face_direction(face, image.high), 1);
@@ -277,24 +277,24 @@ TEST(Plan, ClipMapsTheRectangleToTheSquare)
     }
 }
 
-TEST(Plan, ServesOnceMoreWhatItHolds)
+TEST(CubeMapPlan, ServesOnceMoreWhatItHolds)
 {
-    const Quality quality{.texels_per_pixel = 1, .most_texels_per_pixel = 50};
-    const CompiledPane pane = pane_of(Planar{60}, {400, 300});
+    const Quality quality{.texels_per_pixel = 1, .max_texels_per_pixel = 50};
+    const CompiledView view = view_of(Planar{60}, {400, 300});
     const auto plan_at = [&](double gamma, double yaw) {
         const glm::dvec3 u(0, 0, -u_of_gamma(gamma));
         const glm::dquat turned = glm::angleAxis(yaw, glm::dvec3(0, 1, 0));
-        return make_plan({{pane.blocks.get(), motion_from_world(u, turned) * glm::dmat3(glm::mat3_cast(turned))}},
+        return plan_cube_map({{view.cones.get(), motion_from_world(u, turned) * glm::dmat3(glm::mat3_cast(turned))}},
             physics::exp_rapidity(glm::length(u)), quality);
     };
-    const Plan plan = plan_at(2, 0.3);
-    EXPECT_TRUE(serves(plan, plan));
+    const CubeMapPlan plan = plan_at(2, 0.3);
+    EXPECT_TRUE(can_reuse(plan, plan));
     // Whoever turns on looks past its edges; faster, other images are wanted, and finer ones.
-    EXPECT_FALSE(serves(plan, plan_at(2, 0.8)));
-    EXPECT_FALSE(serves(plan, plan_at(8, 0.3)));
+    EXPECT_FALSE(can_reuse(plan, plan_at(2, 0.8)));
+    EXPECT_FALSE(can_reuse(plan, plan_at(8, 0.3)));
     // And what is as wide but coarser does not do.
-    Plan coarse = plan;
+    CubeMapPlan coarse = plan;
     coarse.images[0].texels_per_unit *= 0.5;
-    EXPECT_FALSE(serves(coarse, plan));
-    EXPECT_TRUE(serves(plan, coarse));
+    EXPECT_FALSE(can_reuse(coarse, plan));
+    EXPECT_TRUE(can_reuse(plan, coarse));
 }

@@ -47,7 +47,7 @@ TEST(StarCull, KeepsWhatTheViewShowsAndLittleElse)
 {
     const auto stars = even_sky(100000);
     const auto patches = star_patches(stars);
-    const Blocks blocks(view_matrix(70, {800, 600}), {800, 600});
+    const ConeHierarchy cones(view_matrix(70, {800, 600}), {800, 600});
     std::mt19937 random(7);
     std::normal_distribution<double> normal;
     for (double E : {1.0, 2.0, 8.0, 200.0})
@@ -56,7 +56,7 @@ TEST(StarCull, KeepsWhatTheViewShowsAndLittleElse)
                 = glm::mat3_cast(glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random))));
             const glm::dmat3 motion_from_cockpit
                 = glm::mat3_cast(glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random))));
-            const Plan plan = make_plan({{&blocks, motion_from_cockpit}}, E, {});
+            const CubeMapPlan plan = plan_cube_map({{&cones, motion_from_cockpit}}, E, {});
             const auto runs = stars_in(plan.images, patches, turn);
             std::vector<bool> kept(stars.size());
             std::size_t sum = 0, wanted = 0;

@@ -61,8 +61,8 @@ TEST(LivePicture, ConvergesToTheOneByRaysInEveryShippedLayout)
         std::vector<double> before(layout.outputs.size(), 0);
         for (double texels : {0.6, 2.0}) {
             Quality quality = test_quality();
-            quality.texels_per_pixel = texels, quality.most_texels_per_pixel = 200;
-            Studio live(device(), pipelines(), avenue().world, layout, quality, false);
+            quality.texels_per_pixel = texels, quality.max_texels_per_pixel = 200;
+            OffscreenRenderer live(device(), pipelines(), avenue().world, layout, quality, false);
             const auto pictures = live.picture(shot);
             for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
                 ASSERT_EQ(pictures[i].size(), truth[i].size());
@@ -86,7 +86,7 @@ TEST(LivePicture, IsTheOneByRaysInEveryWorld)
         const char* shot;
         double floor_db;
     };
-    // Bodies, clocks, lives; what spins; a line, a glow, pigments under lamps, all of it shifted.
+    // Bodies, clocks, existence_intervals; what spins; a line, a glow, pigments under lamps, all of it shifted.
     for (const Case& one :
         {Case{"alice-and-bob", 30}, {"train-aboard-long", 30}, {"light-clock-flying", 30}, {"twins-turn", 28},
             {"clocks-passing", 30}, {"gamow-cycling", 28}, {"rainbow-line", 30}, {"warm-wall-4", 30}, {"chart-0.5", 30}}) {
@@ -96,7 +96,7 @@ TEST(LivePicture, IsTheOneByRaysInEveryWorld)
         World again = load_world(world.scene.gltf);
         const GpuWorld gpu = upload(device(), pipelines(), std::move(again), world.scene, world.stars);
         const Layout layout = one_view(Planar{.fov_y_deg = 60}, {240, 180});
-        Studio live = studio(gpu, layout, true);
+        OffscreenRenderer live = renderer(gpu, layout, true);
         const Bytes picture = live.picture(shot)[0];
         const Reference truth = reference(world.input(), layout, shot, 0, {.samples = 8});
         std::printf("%s: %.2f dB\n", one.shot, psnr(picture, shown(truth)));
@@ -138,8 +138,8 @@ TEST(LivePicture, ComesCloserToTheOneByRaysAsItsQualityRises)
         double before = 0;
         for (double texels : {0.5, 1.0, 2.0, 4.0}) {
             Quality quality = test_quality();
-            quality.texels_per_pixel = texels, quality.most_texels_per_pixel = 200;
-            Studio live(device(), pipelines(), avenue().world, layout, quality, false);
+            quality.texels_per_pixel = texels, quality.max_texels_per_pixel = 200;
+            OffscreenRenderer live(device(), pipelines(), avenue().world, layout, quality, false);
             const double now = psnr(live.picture(shot)[0], truth);
             std::printf("%s: %.1f texels a pixel: %.2f dB\n", name, texels, now);
             // From two on it is the rays' own grain and the edges' four samples of a texel that are left.

@@ -49,23 +49,23 @@ TEST(Allocations, AFrameTakesNothingFromTheHeap)
     Device quiet({.name = device_options(false).name});
     Pipelines quiet_pipelines(quiet);
     const GpuWorld world = upload(quiet, quiet_pipelines, load_world(file.gltf), file, load_stars(file.stars->catalogue));
-    Studio studio(quiet, quiet_pipelines, world, one_view(Planar{60}, {320, 240}), default_quality(quiet, false), false);
-    studio.frame().meter(true);
+    OffscreenRenderer renderer(quiet, quiet_pipelines, world, one_view(Planar{60}, {320, 240}), default_quality(quiet, false), false);
+    renderer.frame().meter(true);
     Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
     shot.effects = {true, true, true};
-    studio.picture(shot);
+    renderer.picture(shot);
     long prepare = 0, record = 0;
     double ms = 0;
     for (int i = 0; i < 200; ++i) {
         shot.u = {0, 0, -4 + 4 * std::cos(0.06 * i)};
         shot.position.z = -0.01 * i;
         const auto began = std::chrono::steady_clock::now();
-        const long prepared = allocations([&] { studio.frame().prepare(shot, nullptr); });
+        const long prepared = allocations([&] { renderer.frame().prepare(shot, nullptr); });
         ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count() / 200;
         long recorded = 0;
         quiet.now([&](vk::CommandBuffer commands) {
-            const Target target = studio.target(0);
-            recorded = allocations([&] { studio.frame().record(commands, std::span(&target, 1)); });
+            const Target target = renderer.target(0);
+            recorded = allocations([&] { renderer.frame().record(commands, std::span(&target, 1)); });
         });
         if (i >= 100)
             prepare += prepared, record += recorded;

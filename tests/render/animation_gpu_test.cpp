@@ -46,8 +46,8 @@ TEST(Blinking, SweepsOverAWallAsItsLightArrives)
                 Shot shot = shot_at({0.3, -0.2, 0}, u, {0, 0, -1});
                 shot.time = time;
                 Quality quality = test_quality();
-                quality.most_texels_per_pixel = 1000; // as fine as asked
-                Studio stage(device(), pipelines(), world, one_view(Planar{100}, {320, 240}), quality, true);
+                quality.max_texels_per_pixel = 1000; // as fine as asked
+                OffscreenRenderer stage(device(), pipelines(), world, one_view(Planar{100}, {320, 240}), quality, true);
                 const Numbers numbers(stage, shot);
                 long lit = 0, dark = 0, wrong = 0;
                 for (int i = 0; i < numbers.count(); i += 7) {
@@ -97,7 +97,7 @@ TEST(Blinking, RingsMoveOutwards)
     Doc doc;
     quad(doc, {0, 0, -3}, {20, 0, 0}, {0, 20, 0}, blinking(doc, {1, 1, 1}, {{"period_s", 1000}, {"on", 0.0005}}));
     const GpuWorld world = open_world("flash", doc, slow());
-    Studio stage = studio(world, one_view(Planar{90}, {401, 401}));
+    OffscreenRenderer stage = renderer(world, one_view(Planar{90}, {401, 401}));
     double before = 0;
     for (double t : {3.6, 3.8, 4.0, 4.2}) {
         Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
@@ -174,7 +174,7 @@ TEST(Spinning, TipsAreSeenWhereTheirLightLeft)
     Json node = {{"name", "bar"}, {"mesh", mesh}, {"translation", numbers_of(middle)}};
     node["extras"]["starbow"]["spin"] = {{"axis", numbers_of(axis)}, {"turns_per_s", turns}};
     doc.json["scenes"][0]["nodes"] = {doc.put("nodes", node)};
-    double worst = 0, bent = 0;
+    double worst = 0, warped = 0;
     for (double beta : {0.0, 0.8}) {
         const dvec3 u = glm::normalize(dvec3(1, 0.1, 0.2)) * u_of_beta(beta);
         Json scene = slow();
@@ -197,7 +197,7 @@ TEST(Spinning, TipsAreSeenWhereTheirLightLeft)
             Shot shot = shot_at(eye, {0, 0, 0}, look, std::abs(look.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(0, 0, 1));
             shot.time = time;
             constexpr int across = 900;
-            Studio stage = studio(world, one_view(Planar{75}, {across, across}));
+            OffscreenRenderer stage = renderer(world, one_view(Planar{75}, {across, across}));
             const Numbers numbers(stage, shot);
             const double pixel = 2 * std::tan(37.5 * degree) / across;
             for (double sign : {1.0, -1.0, 0.0}) {
@@ -211,12 +211,12 @@ TEST(Spinning, TipsAreSeenWhereTheirLightLeft)
                     const quad::V4 e = into(u, {time, quad::of(eye)});
                     return tip(sign)(e.t - quad::length(quad::of(middle) - e.x));
                 });
-                bent = std::max(bent, between(straight, want) / pixel);
+                warped = std::max(warped, between(straight, want) / pixel);
             }
         }
     }
-    std::printf("  tips: at most %.2f px off, bent by up to %.1f px\n", worst, bent);
-    EXPECT_GT(bent, 5);
+    std::printf("  tips: at most %.2f px off, bent by up to %.1f px\n", worst, warped);
+    EXPECT_GT(warped, 5);
 }
 
 TEST(Animated, AShuttleIsSeenWhereItsLightLeft)
@@ -252,7 +252,7 @@ TEST(Animated, AShuttleIsSeenWhereItsLightLeft)
             Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, look);
             shot.time = time;
             constexpr int across = 1400;
-            Studio stage = studio(world, one_view(Planar{110}, {across, across}));
+            OffscreenRenderer stage = renderer(world, one_view(Planar{110}, {across, across}));
             const Numbers numbers(stage, shot);
             const double pixel = 2 * std::tan(55 * degree) / across;
             int colour = 0;
@@ -275,8 +275,8 @@ TEST(Animated, AWorldWithoutAnyHasNoneOfItsCode)
         EXPECT_FALSE(without.variant(int(m)).blink);
         EXPECT_FALSE(without.variant(int(m)).moves);
     }
-    const std::vector<PlanImage> images = {{0, 0, {-1, -1}, {1, 1}, {64, 64}, {0, 0}, 64, 1}};
-    const DrawList list = cull(without.world, {{Vantage{}}}, images);
+    const std::vector<PlannedImage> images = {{0, 0, {-1, -1}, {1, 1}, {64, 64}, {0, 0}, 64, 1}};
+    const DrawList list = cull(without.world, {{EyeEvent{}}}, images);
     EXPECT_EQ(list.instances.size(), without.world.instances.size());
     for (const Draw& draw : list.draws)
         EXPECT_FALSE(draw.moves);

@@ -30,7 +30,7 @@ dvec3 vec(const quad::V3& v) { return {double(v.x), double(v.y), double(v.z)}; }
 Quality as_fine_as_asked()
 {
     Quality quality = test_quality();
-    quality.most_texels_per_pixel = 1000;
+    quality.max_texels_per_pixel = 1000;
     return quality;
 }
 
@@ -77,7 +77,7 @@ TEST(BodiesGpuTest, EveryRayMeetsWhatIsNearest)
             random_way(random), random_way(random));
         shot.time = 2 * part(random) - 1;
         const ivec2 size(320, 240);
-        Studio stage(device(), pipelines(), world,
+        OffscreenRenderer stage(device(), pipelines(), world,
             one_view(round % 2 ? Projection(Fisheye{}) : Projection(Planar{100}), size), as_fine_as_asked(), true);
         const Numbers numbers(stage, shot);
 
@@ -232,7 +232,7 @@ TEST(BodiesGpuTest, WhoMovesDoesNotMatter)
         resting.u = dvec3(0);
         Quality fine = as_fine_as_asked();
         fine.texels_per_pixel = 3;
-        Studio a(device(), pipelines(), still, layout, fine, true), b(device(), pipelines(), moving, layout, fine, true);
+        OffscreenRenderer a(device(), pipelines(), still, layout, fine, true), b(device(), pipelines(), moving, layout, fine, true);
         const Numbers first(a, passing), second(b, resting);
         const std::vector<dvec3> one = softened(first), other = softened(second);
         auto at = [&](double x, double y) {
@@ -300,7 +300,7 @@ TEST(BodiesGpuTest, ASphereKeepsACircularOutline)
                 {"at", {{"time", 0}, {"position", numbers_of(-in_ball)}}}}}}});
     // 90 degrees from the ship's motion (-z in the ball's frame), below.
     const dvec3 look = glm::normalize(dvec3(0, -std::sin(27.26680 * degree), -std::cos(27.26680 * degree)));
-    Studio stage = studio(world, one_view(Planar{30}, {600, 600}));
+    OffscreenRenderer stage = renderer(world, one_view(Planar{30}, {600, 600}));
     const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, 0}, look));
     // Where light meets dark, a pixel's part: directions on the outline.
     const double pixel = 30 * degree / 600;
@@ -342,7 +342,7 @@ TEST(BodiesGpuTest, ABodySeenAbeamSeemsTurned)
             {{"bodies",
                 {{{"name", "body"}, {"nodes", {"body"}}, {"velocity", velocity_of({u, 0, 0})},
                     {"at", {{"time", -L}, {"position", {0, 0, -L}}}}}}}});
-        Studio stage = studio(world, one_view(Planar{2.0}, {600, 600}));
+        OffscreenRenderer stage = renderer(world, one_view(Planar{2.0}, {600, 600}));
         const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
         std::array<dvec2, 3> middle{};
         std::array<double, 3> sum{};
@@ -379,7 +379,7 @@ TEST(BodiesGpuTest, TwoWatchersAtOneEvent)
     viewports[2].observer = {false, passing};
     Shot ship = shot_at({0, 0, -8}, dvec3(0.2, 0.1, -1.0), {0.1, 0, -1});
     ship.effects.doppler = true;
-    Studio all = studio(avenue().world, three);
+    OffscreenRenderer all = renderer(avenue().world, three);
     const Numbers numbers(all, ship);
 
     Shot resting = ship, past = ship;
@@ -390,7 +390,7 @@ TEST(BodiesGpuTest, TwoWatchersAtOneEvent)
     past.u = vec(velocity.x);
     const std::array<Shot, 3> shots = {ship, resting, past};
     for (int k = 0; k < 3; ++k) {
-        Studio one = studio(avenue().world, one_view(Planar{60}, {200, 200}));
+        OffscreenRenderer one = renderer(avenue().world, one_view(Planar{60}, {200, 200}));
         const Numbers alone(one, shots[std::size_t(k)]);
         long off = 0, compared = 0;
         double worst = 0;

@@ -58,7 +58,7 @@ std::vector<Spot> look_at(
     const double half = widely * dial.radius / (glm::length(to) * double(seen.D));
     Layout layout = one_view(Planar{2 * std::atan(half) / degree}, {size, size});
     layout.outputs[0].viewports[0].eye_m = glm::transpose(ship_from_cockpit) * beside;
-    Studio stage = studio(world, layout);
+    OffscreenRenderer stage = renderer(world, layout);
     const Numbers numbers(stage, shot);
     std::vector<Spot> spots;
     std::vector<double> face;
@@ -244,7 +244,7 @@ TEST(Clocks, ThePapersAnglesAndLength)
     const GpuWorld paper = paper_world();
     constexpr ivec2 size(2000, 1000);
     const double tangent = std::tan(30 * degree), pixels_per_unit = 0.5 * size.y / tangent;
-    Studio stage = studio(paper, one_view(Planar{60}, size));
+    OffscreenRenderer stage = renderer(paper, one_view(Planar{60}, size));
     for (const Figure& figure : figures) {
         const Shot shot = shipped_shot(figure.shot);
         const Numbers numbers(stage, shot);

@@ -77,7 +77,7 @@ TEST(ComparisonTest, GalileanPicture)
 {
     const dvec3 u = glm::normalize(dvec3(0.3, 0.1, -1)) * u_of_beta(0.8);
     const GpuWorld world = three({});
-    Studio stage = studio(world, one_view(Planar{100}, {900, 600}));
+    OffscreenRenderer stage = renderer(world, one_view(Planar{100}, {900, 600}));
     const Numbers numbers(stage, compared(u, Comparison::galilean));
     for (int i = 0; i < 3; ++i) {
         const dvec3 wanted = glm::normalize(places[std::size_t(i)]) + 0.8 * glm::normalize(u);
@@ -96,7 +96,7 @@ TEST(ComparisonTest, EverythingWhereItIsNow)
         = {{{"name", "all"}, {"nodes", {"quads"}}, {"velocity", {{"direction", {way.x, way.y, way.z}}, {"beta", 0.9}}}}};
     for (int kind = 0; kind < 3; ++kind) {
         const GpuWorld world = three(kind == 0 ? Json::object() : Json{{"bodies", riding}});
-        Studio stage = studio(world, one_view(Planar{100}, {900, 600}));
+        OffscreenRenderer stage = renderer(world, one_view(Planar{100}, {900, 600}));
         const Numbers numbers(stage, compared(kind == 2 ? dvec3(0) : u, Comparison::no_light_delay));
         for (int i = 0; i < 3; ++i) {
             const dvec3& place = places[std::size_t(i)];
@@ -112,8 +112,8 @@ TEST(ComparisonTest, ClocksTellWhatTimeItIsThereInTheShip)
     sort_instances(world);
     Shot shot = compared({u_of_beta(0.5), 0, 0}, Comparison::no_light_delay);
     shot.time = 100, shot.position = {1, 0, 31};
-    const Watcher who = watcher(world, shot, {});
-    const Layer& layer = who.layers[0];
+    const Observer who = observer_of(world, shot, {});
+    const RestFrameView& layer = who.layers[0];
     EXPECT_EQ(who.E, 1);
     EXPECT_NEAR(layer.contraction, std::sqrt(0.75), 1e-15);
     const auto entries = time_entries(

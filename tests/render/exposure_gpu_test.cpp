@@ -38,7 +38,7 @@ TEST(SphereMeans, OfAnEvenSkyThroughTheWholePath)
 {
     const GpuWorld world = sky_alone("even", even_sky(1, 1, 1));
     const ivec2 size(768, 384);
-    Studio stage = studio(world, one_view(Equirectangular{}, size));
+    OffscreenRenderer stage = renderer(world, one_view(Equirectangular{}, size));
     for (double gamma : {1.0, 2.0, 4.0, 10.0}) {
         const auto folder = testing::scratch("means");
         render_still(folder, stage, flown(gamma, -5), true); // whatever the picture's exposure
@@ -93,7 +93,7 @@ void expect_in_range(double lamps, const std::vector<double>& gammas)
         quad(doc, {0, -1, 2 * side}, {-0.2 * side, 0, 0}, {0, 0.2, 0}, lamp);
     const GpuWorld world = open_world("range", doc, scene);
     const ivec2 size(96, 48);
-    Studio stage = studio(world, one_view(Equirectangular{}, size));
+    OffscreenRenderer stage = renderer(world, one_view(Equirectangular{}, size));
     int dark = 0, between = 0, white = 0;
     for (double gamma : gammas)
         for (bool doppler : {false, true})
@@ -140,7 +140,7 @@ TEST(Range, FromRestToAMillionAndThirtyStopsEitherWay)
 TEST(Range, RedShiftedLightAtGreatExposures)
 {
     const GpuWorld world = sky_alone("behind", even_sky(0.5, 0.5, 0.5));
-    Studio stage = studio(world, one_view(Planar{20}, {32, 32}));
+    OffscreenRenderer stage = renderer(world, one_view(Planar{20}, {32, 32}));
     for (double gamma : {1.5, 2.0, 4.0}) {
         Shot shot = shot_at({0, 0, 0}, {0, 0, u_of_gamma(gamma)}, {0, 0, -1});
         shot.effects = {true, true, true};
@@ -163,7 +163,7 @@ TEST(Range, RedShiftedLightAtGreatExposures)
 
 TEST(Range, NumbersDoNotDependOnTheExposure)
 {
-    Studio stage = studio(avenue().world, one_view(Fisheye{180, 30}, {64, 64}));
+    OffscreenRenderer stage = renderer(avenue().world, one_view(Fisheye{180, 30}, {64, 64}));
     Shot shot = flown(4, 0);
     const Numbers at_0(stage, shot);
     for (double ev : {-60.0, 60.0}) {
@@ -187,7 +187,7 @@ TEST(Meter, TellsTheLightOfAnEvenSky)
         const dvec3 colour = dvec3(0.2, 0.5, 0.9) * std::exp2(ev);
         const GpuWorld world = sky_alone("metered", even_sky(colour.r, colour.g, colour.b));
         for (const Projection& projection : {Projection(Planar{60}), Projection(Fisheye{180, 30})}) {
-            Studio stage = studio(world, one_view(projection, {320, 200}), false);
+            OffscreenRenderer stage = renderer(world, one_view(projection, {320, 200}), false);
             // fp16's eleven bits.
             EXPECT_NEAR(*stage.metered(flown(1)), std::log2(0.18 / luminance(colour)), 1e-3);
             // Whatever it is shown at.
@@ -197,7 +197,7 @@ TEST(Meter, TellsTheLightOfAnEvenSky)
 }
 
 /// What metered_ev makes of every pixel of the numbers.
-double metered_by_numbers(Studio& stage, const Shot& shot, const std::vector<std::size_t>& outputs,
+double metered_by_numbers(OffscreenRenderer& stage, const Shot& shot, const std::vector<std::size_t>& outputs,
     const std::function<double(std::size_t, dvec2)>& solid_angle)
 {
     std::vector<std::pair<double, double>> all; // log2 luminance, solid angle
@@ -234,7 +234,7 @@ TEST(Meter, WeighsTheWholeViewOfAllOutputsBySolidAngle)
         const dvec2 p = (at - 80.0) * unit;
         return unit * unit / std::pow(1 + glm::dot(p, p), 1.5);
     };
-    Studio both = studio(world, layout);
+    OffscreenRenderer both = renderer(world, layout);
     for (double gamma : {1.0, 1.5, 4.0}) {
         const Shot shot = flown(gamma);
         // A sample stands for 9 pixels, and a bin is a sixteenth of a stop.
@@ -246,21 +246,21 @@ TEST(Meter, WeighsTheWholeViewOfAllOutputsBySolidAngle)
     watched.outputs[2].name = "preview", watched.outputs[2].preview = true, watched.outputs[2].size = {200, 100};
     // Its plan is another, so where texels are as wide as pixels the sky bends otherwise between them: finer ones.
     Quality fine = test_quality();
-    fine.texels_per_pixel = 3, fine.most_texels_per_pixel = 100;
-    Studio with_preview(device(), pipelines(), world, watched, fine, false);
-    Studio without(device(), pipelines(), world, layout, fine, false);
+    fine.texels_per_pixel = 3, fine.max_texels_per_pixel = 100;
+    OffscreenRenderer with_preview(device(), pipelines(), world, watched, fine, false);
+    OffscreenRenderer without(device(), pipelines(), world, layout, fine, false);
     EXPECT_NEAR(*with_preview.metered(flown(4)), *without.metered(flown(4)), 2e-3);
     // Each alone wants something else.
     Layout up = layout;
     up.outputs.erase(up.outputs.begin());
-    Studio alone = studio(world, up, false);
+    OffscreenRenderer alone = renderer(world, up, false);
     EXPECT_GT(std::abs(*alone.metered(flown(4)) - *both.metered(flown(4))), 0.3);
 }
 
 TEST(Meter, OfANightWithoutLightThereIsNothing)
 {
     const GpuWorld world = sky_alone("night", even_sky(0, 0, 0));
-    Studio stage = studio(world, one_view(Planar{60}, {64, 64}), false);
+    OffscreenRenderer stage = renderer(world, one_view(Planar{60}, {64, 64}), false);
     EXPECT_FALSE(stage.metered(flown(4)));
 }
 
@@ -269,7 +269,7 @@ TEST(Meter, BesideAFrameItChangesNothingAndIsTheSameEachTime)
 {
     Layout layout = load_layout(testing::source_dir() / "config/layouts/stereo.json");
     layout.outputs[0].size = {320, 120};
-    Studio stage = studio(avenue().world, layout, false);
+    OffscreenRenderer stage = renderer(avenue().world, layout, false);
     const Shot shot = flown(2, -1);
     const auto plain = stage.picture(shot);
     EXPECT_FALSE(stage.frame().metered());
@@ -281,7 +281,7 @@ TEST(Meter, BesideAFrameItChangesNothingAndIsTheSameEachTime)
     EXPECT_NE(stage.frame().metered(), first);
     stage.picture(shot);
     EXPECT_NEAR(*stage.frame().metered(), *first, same_ev);
-    Studio again = studio(avenue().world, layout, false);
+    OffscreenRenderer again = renderer(avenue().world, layout, false);
     EXPECT_NEAR(*again.metered(shot), *first, same_ev);
     // Both eyes and a resized output go on.
     stage.frame().resize(0, {200, 100});
@@ -297,7 +297,7 @@ TEST(OneExposure, TheSameLightIsTheSameByteInEveryOutputAndEye)
     layout.outputs.push_back(one_view(Planar{60, {}, {70, 30, 0}}, {200, 160}).outputs[0]);
     layout.outputs[1].packing = Packing::side_by_side;
     layout.outputs[1].name = "pair";
-    Studio stage = studio(world, layout);
+    OffscreenRenderer stage = renderer(world, layout);
     Shot shot = flown(1.2);
     shot.exposure_ev = *stage.metered(shot);
     const auto pictures = stage.picture(shot);
@@ -325,7 +325,7 @@ void expect_no_bands(Layout layout, const GpuWorld& world, const Shot& shot, con
 {
     Layout plain = layout; // the light alone
     plain.outputs[0].colour = {};
-    Studio stage = studio(world, layout, false), measured = studio(world, plain);
+    OffscreenRenderer stage = renderer(world, layout, false), measured = renderer(world, plain);
     const auto bytes = stage.picture(shot).front();
     const Numbers numbers(measured, shot);
     const ivec2 size = numbers.size;
@@ -396,7 +396,7 @@ TEST(Dither, BlackStaysBlack)
         Layout layout = one_view(Planar{60}, {128, 128});
         if (finished)
             layout.outputs[0].colour.gamma = 2.2;
-        Studio stage = studio(world, layout, false);
+        OffscreenRenderer stage = renderer(world, layout, false);
         const auto bytes = stage.picture(flown(1)).front();
         for (std::size_t i = 0; i < bytes.size(); ++i)
             ASSERT_EQ(bytes[i], i % 4 == 3 ? 255 : 0);
@@ -419,7 +419,7 @@ TEST(Bloom, MovesLightAndMakesNone)
     for (ivec2 size : {ivec2(256, 256), ivec2(301, 203)}) {
         Layout layout = one_view(Planar{60}, size);
         layout.outputs[0].colour.gamma = 1; // bytes that are proportional to light, and dithered: their sum is the light's
-        Studio stage = studio(world, layout, false);
+        OffscreenRenderer stage = renderer(world, layout, false);
         auto bytes = [&](double part) {
             stage.frame().bloom(part);
             return stage.picture(shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1})).front();
@@ -470,7 +470,7 @@ TEST(Bloom, LeavesAnEvenViewAsItIs)
 {
     const GpuWorld world = sky_alone("even", even_sky(0.3, 0.1, 0.5));
     for (const Projection& projection : {Projection(Planar{60}), Projection(Fisheye{180, 90})}) {
-        Studio stage = studio(world, one_view(projection, {128, 128}), false);
+        OffscreenRenderer stage = renderer(world, one_view(projection, {128, 128}), false);
         const auto sharp = stage.picture(flown(1)).front();
         stage.frame().bloom(0.4);
         const auto glowing = stage.picture(flown(1)).front();
@@ -494,7 +494,7 @@ TEST(Bloom, EndsAtTheViewportsEdge)
     Layout layout = one_view(Planar{60}, {256, 128});
     layout.outputs[0].viewports = {{.rect = {0, 0, 0.5, 1}, .projection = Planar{10}},
         {.rect = {0.5, 0, 0.5, 1}, .projection = Planar{60, {}, {90, 0, 0}}}};
-    Studio stage = studio(world, layout, false);
+    OffscreenRenderer stage = renderer(world, layout, false);
     stage.frame().bloom(1);
     const auto bytes = stage.picture(shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1})).front();
     for (int i = 0; i < 256 * 128; ++i)

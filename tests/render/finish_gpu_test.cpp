@@ -45,7 +45,7 @@ std::vector<dvec3> light_of(Layout layout, std::size_t output = 0)
             viewport.alpha_mask.clear(), viewport.black_level.clear();
     }
     layout.blend = {};
-    Studio stage = studio(*Finish::world, layout);
+    OffscreenRenderer stage = renderer(*Finish::world, layout);
     const Numbers numbers(stage, at_rest(), output);
     std::vector<dvec3> light;
     for (int i = 0; i < numbers.count(); ++i)
@@ -73,7 +73,7 @@ double byte(double value) { return std::lround(255 * value) / 255.0; }
 void expect_pixels(const Layout& layout, const std::function<dvec3(dvec3, int, int)>& wanted, std::size_t output = 0,
     double exposure_ev = 0)
 {
-    Studio stage = studio(*Finish::world, layout, false);
+    OffscreenRenderer stage = renderer(*Finish::world, layout, false);
     const auto bytes = stage.picture(at_rest(exposure_ev)).at(output);
     const std::vector<dvec3> light = light_of(layout, output);
     const ivec2 size = layout.outputs[output].size;
@@ -104,7 +104,7 @@ dvec3 encoded(const dvec3& v) { return each(within(v), srgb); }
 TEST_F(Finish, TheSkyIsWhatItShouldBe)
 {
     // What the rest of this file starts from.
-    Studio stage = studio(*Finish::world, all_round());
+    OffscreenRenderer stage = renderer(*Finish::world, all_round());
     const Numbers numbers(stage, at_rest());
     for (int i = 0; i < numbers.count(); ++i)
         EXPECT_LT(glm::length(numbers.light(i) - sky_colour(numbers.camera(i), wide_sky)), 0.01);
@@ -145,7 +145,7 @@ TEST_F(Finish, TablesHoldTheirEnds)
     // White light, four stops above white: the last entry, not beyond.
     Layout layout = all_round({16, 8});
     layout.outputs[0].colour.lut = {{0.25, 0.25, 0.25}, {0.5, 0.5, 0.5}, {0.75, 0.75, 0.75}};
-    Studio stage = studio(*Finish::world, layout, false);
+    OffscreenRenderer stage = renderer(*Finish::world, layout, false);
     const auto bright = stage.picture(at_rest(14)).front(), dark = stage.picture(at_rest(-60)).front();
     for (const std::uint8_t value : bright)
         EXPECT_TRUE(value == 255 || (value >= 190 && value <= 192))
@@ -229,7 +229,7 @@ TEST_F(Finish, BlackLevelsAreAddedAndAllOutputsMakeRoom)
         layout, [&](dvec3 light, int, int) { return encoded(light * room); }, 1);
 
     // Without light the black level stays: it is not multiplied.
-    Studio stage = studio(*Finish::world, layout, false);
+    OffscreenRenderer stage = renderer(*Finish::world, layout, false);
     const auto dark = stage.picture(at_rest(-60));
     for (int x = 0; x < size.x; ++x)
         EXPECT_NEAR(dark[0][4 * x + 1], 255 * std::pow(byte(lift(x, 0, 1)), 1 / 2.2), 1) << x;
@@ -249,7 +249,7 @@ TEST_F(Finish, OneExposureForAllOutputs)
     for (double ev : {-3.0, -1.0, 0.0}) {
         expect_pixels(
             layout, [](dvec3 light, int, int) { return encoded(light); }, 0, ev);
-        Studio stage = studio(*Finish::world, layout, false);
+        OffscreenRenderer stage = renderer(*Finish::world, layout, false);
         const auto pictures = stage.picture(at_rest(ev));
         // The same light whatever the output: straight ahead is the horizon.
         const dvec3 horizon = sky_colour({0, 0, -1}, wide_sky) * std::exp2(ev);
@@ -278,7 +278,7 @@ TEST_F(Finish, BlendedOutputsAddUp)
     layout.blend.ramps = true;
     for (double power : {1.0, 2.0}) {
         layout.blend.power = power;
-        Studio stage = studio(*Finish::world, layout, false);
+        OffscreenRenderer stage = renderer(*Finish::world, layout, false);
         const auto pictures = stage.picture(at_rest());
         const int y = 89;
         double worst = 0;
@@ -322,7 +322,7 @@ TEST_F(Finish, ThePreviewShowsEveryOutputSmallAndUnshaded)
     preview.size = {240, 200};
     preview.preview = true;
     layout.outputs.insert(layout.outputs.begin() + 1, preview);
-    Studio stage = studio(*Finish::world, layout, false);
+    OffscreenRenderer stage = renderer(*Finish::world, layout, false);
     const auto bytes = stage.picture(at_rest()).at(1);
     const auto cells = preview_cells(layout, 1, preview.size);
     ASSERT_EQ(cells.size(), 4u);

@@ -22,7 +22,7 @@ Shot flown() { return shot_at({0, 0, 1}, {0, 0, -u_of_gamma(2)}, {0, 0, -1}); }
 
 std::vector<std::uint8_t> seen(const Layout& layout, const Head& head)
 {
-    Studio stage = studio(avenue().world, layout, false);
+    OffscreenRenderer stage = renderer(avenue().world, layout, false);
     stage.frame().move_head(head);
     return stage.picture(flown())[0];
 }
@@ -56,7 +56,7 @@ TEST_P(HeadMethods, AMovedHeadIsAnotherEye)
 
 TEST_P(HeadMethods, AMovedHeadGoesBack)
 {
-    Studio stage = studio(avenue().world, walled(dvec3(0), GetParam()), false);
+    OffscreenRenderer stage = renderer(avenue().world, walled(dvec3(0), GetParam()), false);
     const auto before = stage.picture(flown())[0];
     stage.frame().move_head({dvec3(0.2, 0.1, -0.3), glm::angleAxis(0.7, dvec3(0, 1, 0))});
     (void)stage.picture(flown());

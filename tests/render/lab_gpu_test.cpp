@@ -73,22 +73,22 @@ std::map<std::string, double> theory()
         {"H3", std::pow(doppler(b4, off), 3)}, {"S1", 1 + 0.5 * 31}, {"S2", 2 / (2 + 0.5 * 31)}, {"S3", at_4}};
 }
 
-using Read = std::function<std::optional<double>(const Sitting&)>;
+using Read = std::function<std::optional<double>(const StillMeasurement&)>;
 const std::map<std::string, Read> readings = {
-    {"○–◇ / deg", [](const Sitting& s) { return s.points[0].pair->angle_rad / degree; }},
-    {"θ′ / deg", [](const Sitting& s) { return *s.points[1].aim.from_motion_rad / degree; }},
-    {"θ / deg", [](const Sitting& s) { return *s.points[1].aim.from_motion_world_rad / degree; }},
-    {"D", [](const Sitting& s) { return s.points[1].aim.ray.D; }},
-    {"D = 1 / deg", [](const Sitting& s) { return *unshifted_angle(s.points[1].lookout) / degree; }},
-    {"550 nm → / nm", [](const Sitting& s) { return s.points[1].aim.seen_nm; }},
-    {"◇ minus ○ / s", [](const Sitting& s) { return s.points[0].pair->clocks_s; }},
-    {"clock / s", [](const Sitting& s) { return s.points[1].aim.clock_s; }},
-    {"distance / light-s", [](const Sitting& s) { return s.points[1].aim.distance_s; }},
-    {"distance in the ship / light-s", [](const Sitting& s) { return s.points[1].aim.ship_distance_s; }},
-    {"light left / s", [](const Sitting& s) { return s.points[1].aim.emitted_s; }},
-    {"long / light-s", [](const Sitting& s) { return s.points[0].pair->apparent_s; }},
-    {"contracted / light-s", [](const Sitting& s) { return s.points[0].pair->contracted_s; }},
-    {"light / light without the key", [](const Sitting& s) { return s.points[1].aim.light; }},
+    {"○–◇ / deg", [](const StillMeasurement& s) { return s.points[0].pair->angle_rad / degree; }},
+    {"θ′ / deg", [](const StillMeasurement& s) { return *s.points[1].aim.from_motion_rad / degree; }},
+    {"θ / deg", [](const StillMeasurement& s) { return *s.points[1].aim.from_motion_world_rad / degree; }},
+    {"D", [](const StillMeasurement& s) { return s.points[1].aim.ray.D; }},
+    {"D = 1 / deg", [](const StillMeasurement& s) { return *unshifted_angle(s.points[1].observer) / degree; }},
+    {"550 nm → / nm", [](const StillMeasurement& s) { return s.points[1].aim.seen_nm; }},
+    {"◇ minus ○ / s", [](const StillMeasurement& s) { return s.points[0].pair->clocks_s; }},
+    {"clock / s", [](const StillMeasurement& s) { return s.points[1].aim.clock_s; }},
+    {"distance / light-s", [](const StillMeasurement& s) { return s.points[1].aim.distance_s; }},
+    {"distance in the ship / light-s", [](const StillMeasurement& s) { return s.points[1].aim.ship_distance_s; }},
+    {"light left / s", [](const StillMeasurement& s) { return s.points[1].aim.emitted_s; }},
+    {"long / light-s", [](const StillMeasurement& s) { return s.points[0].pair->apparent_s; }},
+    {"contracted / light-s", [](const StillMeasurement& s) { return s.points[0].pair->contracted_s; }},
+    {"light / light without the key", [](const StillMeasurement& s) { return s.points[1].aim.light; }},
 };
 
 /// The points, each moved by a hand that is not steady.
@@ -105,9 +105,9 @@ std::vector<Point> unsteady(std::vector<Point> points, double right_deg, double 
 TEST(Lab, TheSessionGivesTheTheorysValues)
 {
     const std::map<std::string, double> wanted = theory();
-    std::map<std::string, std::unique_ptr<Theatre>> theatres;
+    std::map<std::string, std::unique_ptr<RenderContext>> theatres;
     const Layout desk = one_view(Planar{60}, {400, 300});
-    std::map<std::string, std::unique_ptr<Studio>> studios;
+    std::map<std::string, std::unique_ptr<OffscreenRenderer>> studios;
     int measured = 0;
     for (const Row& row : rows_of_the_document()) {
         if (row.no()[0] == 'S')
@@ -124,13 +124,13 @@ TEST(Lab, TheSessionGivesTheTheorysValues)
         if (!studios[shot.scene]) {
             const SceneFile scene = load_scene_file(testing::source_dir() / "config/scenes" / (shot.scene + ".json"));
             theatres[shot.scene]
-                = std::make_unique<Theatre>(testing::source_dir() / "config/scenes" / (shot.scene + ".json"),
+                = std::make_unique<RenderContext>(testing::source_dir() / "config/scenes" / (shot.scene + ".json"),
                     Device::Options{.validation = true, .name = device_options(false).name});
-            Theatre& theatre = *theatres[shot.scene];
-            studios[shot.scene] = std::make_unique<Studio>(
-                theatre.device, theatre.pipelines, theatre.world, desk, default_quality(theatre.device, false), false);
+            RenderContext& context = *theatres[shot.scene];
+            studios[shot.scene] = std::make_unique<OffscreenRenderer>(
+                context.device, context.pipelines, context.world, desk, default_quality(context.device, false), false);
         }
-        Studio& studio = *studios[shot.scene];
+        OffscreenRenderer& renderer = *studios[shot.scene];
         const GpuWorld& world = theatres[shot.scene]->world;
         Shot pressed = shot;
         for (char key : row.cells[2]) {
@@ -141,20 +141,20 @@ TEST(Lab, TheSessionGivesTheTheorysValues)
         const std::vector<Point> points = parse_points(row.cells[3], desk);
         for (const auto& [right, up] : {std::pair(0.0, 0.0), std::pair(0.1, 0.06), std::pair(-0.08, -0.1)}) {
             const std::vector<Point> aimed = unsteady(points, right, up);
-            const Sitting sitting = sit(studio, world, pressed, aimed, "off", "none", testing::words());
-            const std::optional<double> read = readings.at(row.cells[4])(sitting);
+            const StillMeasurement measurement = measure_still(renderer, world, pressed, aimed, "off", "none", testing::words());
+            const std::optional<double> read = readings.at(row.cells[4])(measurement);
             ASSERT_TRUE(read);
             double value = *read;
             if (row.no()[0] == 'H')
-                value /= *readings.at(row.cells[4])(sit(studio, world, shot, aimed, "off", "none", testing::words()));
+                value /= *readings.at(row.cells[4])(measure_still(renderer, world, shot, aimed, "off", "none", testing::words()));
             EXPECT_NEAR(value, told, error) << "aimed off by " << right << ", " << up;
         }
         ++measured;
     }
     EXPECT_EQ(measured, int(wanted.size()) - 3);
-    for (const auto& [name, theatre] : theatres)
-        if (theatre)
-            Stage::expect_no_complaints(theatre->device);
+    for (const auto& [name, context] : theatres)
+        if (context)
+            Stage::expect_no_complaints(context->device);
     studios.clear();
 }
 
@@ -164,13 +164,13 @@ TEST(Lab, BackwardsAtFirst)
     const std::filesystem::path folder = testing::source_dir() / "config";
     const Shot start = load_shot(folder / "shots/clocks-rest.json");
     const SceneFile scene = load_scene_file(folder / "scenes/clocks.json");
-    Theatre theatre(folder / "scenes/clocks.json", Device::Options{.validation = true, .name = device_options(false).name});
+    RenderContext context(folder / "scenes/clocks.json", Device::Options{.validation = true, .name = device_options(false).name});
     const Layout desk = one_view(Planar{60}, {400, 300});
-    Studio studio(theatre.device, theatre.pipelines, theatre.world, desk, default_quality(theatre.device, false), false);
-    const Sitting first
-        = sit(studio, theatre.world, start, parse_points("0deg,0deg; 9.2deg,0deg", desk), "off", "none", testing::words());
+    OffscreenRenderer renderer(context.device, context.pipelines, context.world, desk, default_quality(context.device, false), false);
+    const StillMeasurement first
+        = measure_still(renderer, context.world, start, parse_points("0deg,0deg; 9.2deg,0deg", desk), "off", "none", testing::words());
     ASSERT_TRUE(first.points[0].pair);
-    const World& world = theatre.world.world;
+    const World& world = context.world.world;
     Flying rules;
     rules.mode = FlightMode::newtonian;
     Flight flight = flight_at(start, rules);
@@ -178,12 +178,12 @@ TEST(Lab, BackwardsAtFirst)
     double smallest = 1, smallest_at = 0, nearest_to_4 = 1, angle_at_4 = 0;
     Spot middle{.at = {0, 0, 0}}, right{.at = {5, 0, 0}};
     for (int i = 0; i < 80; ++i) {
-        flight = step(flight, {.faster = 1}, 100'000'000, rules, scene.seconds_per_time_unit(), start);
-        const Lookout lookout = lookout_of(shot_of(flight, "clocks"));
-        if (lookout.place.z < 0.5)
+        flight = step(flight, {.throttle_rate = 1}, 100'000'000, rules, scene.seconds_per_time_unit(), start);
+        const MeasuringObserver observer = measuring_observer_of(shot_of(flight, "clocks"));
+        if (observer.place.z < 0.5)
             break;
-        const double part = read_pair(lookout, middle, right, world, 1).angle_rad / at_first;
-        const double e = std::exp(std::asinh(glm::length(lookout.u)));
+        const double part = read_pair(observer, middle, right, world, 1).angle_rad / at_first;
+        const double e = std::exp(std::asinh(glm::length(observer.u)));
         if (part < smallest)
             smallest = part, smallest_at = e;
         if (std::abs(std::log(e / 4)) < std::abs(std::log(nearest_to_4 / 4)))
@@ -198,7 +198,7 @@ TEST(Lab, BackwardsAtFirst)
             EXPECT_NEAR(told, wanted.at(row.no()), 0.1 * error + 5e-4 * told) << row.no();
             EXPECT_NEAR(measured.at(row.no()), told, error) << row.no();
         }
-    Stage::expect_no_complaints(theatre.device);
+    Stage::expect_no_complaints(context.device);
 }
 
 } // namespace

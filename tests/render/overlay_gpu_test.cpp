@@ -26,7 +26,7 @@ struct Pixels {
     dvec3 colour(int i) const { return dvec3(rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]) / 255.0; }
 };
 
-Pixels picture(Studio& stage, const Shot& shot, Overlay overlay, const OverlayScale& scale = {})
+Pixels picture(OffscreenRenderer& stage, const Shot& shot, Overlay overlay, const OverlayScale& scale = {})
 {
     stage.frame().measure(Measuring{.over = {overlay, {}, scale}});
     Pixels pixels{stage.layout().outputs[0].size, stage.picture(shot)[0]};
@@ -54,7 +54,7 @@ TEST(Overlay, TheRingIsWhereNothingIsShiftedAndAsWideEverywhere)
     const GpuWorld world = wall_world();
     for (const Layout& layout : {window({320, 240}), dome({320, 320}), two_eyes({320, 240})})
         for (const auto& [beta, angle_deg] : {std::pair(0.5, 74.45773), std::pair(0.8, 60.0), std::pair(0.99, 29.81806)}) {
-            Studio stage = studio(world, layout);
+            OffscreenRenderer stage = renderer(world, layout);
             const Shot shot = shot_at({0, 0, 0}, {0.8 * u_of_beta(beta), 0, -0.6 * u_of_beta(beta)}, {0.5, 0.1, -1});
             const Numbers numbers(stage, shot);
             const Pixels pixels = picture(stage, shot, Overlay::ring);
@@ -89,7 +89,7 @@ TEST(Overlay, TheRingIsWhereNothingIsShiftedAndAsWideEverywhere)
 TEST(Overlay, AtRestThereIsNoRing)
 {
     const GpuWorld world = wall_world();
-    Studio stage = studio(world, window({160, 120}));
+    OffscreenRenderer stage = renderer(world, window({160, 120}));
     const Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
     EXPECT_EQ(picture(stage, shot, Overlay::ring).rgba, picture(stage, shot, Overlay::aim).rgba);
 }
@@ -100,7 +100,7 @@ TEST(Overlay, TheGridIsTheWorlds)
     const GpuWorld world = wall_world();
     for (const Layout& layout : {window({320, 240}), dome({320, 320})})
         for (double gamma : {1.0, 4.0}) {
-            Studio stage = studio(world, layout);
+            OffscreenRenderer stage = renderer(world, layout);
             const Shot shot
                 = shot_at({0, 0, 0}, {0, 0.3 * u_of_gamma(gamma), -std::sqrt(0.91) * u_of_gamma(gamma)}, {0.1, 0.2, -1});
             const Numbers numbers(stage, shot);
@@ -130,7 +130,7 @@ TEST(Overlay, TheGridIsTheWorlds)
 TEST(Overlay, ContoursLieAtTheirDistances)
 {
     const GpuWorld world = wall_world();
-    Studio stage = studio(world, window({640, 480}));
+    OffscreenRenderer stage = renderer(world, window({640, 480}));
     const Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
     const Pixels pixels = picture(stage, shot, Overlay::distance, {1, 100, 1});
     const double per_tangent = 240 / std::tan(35 * degree);
@@ -158,9 +158,9 @@ TEST(Overlay, ContoursLieAtTheirDistances)
 // The probe's pixel is the picture's: beside the EXR's numbers in the same direction.
 TEST(Overlay, TheProbeReadsThePicture)
 {
-    Theatre& theatre = avenue();
+    RenderContext& context = avenue();
     const WithoutStars no_stars;
-    Studio stage = studio(theatre.world, window({320, 240}));
+    OffscreenRenderer stage = renderer(context.world, window({320, 240}));
     for (double gamma : {1.0, 2.0, 20.0}) {
         Shot shot = shot_at({0.1, 0.3, -8}, {0, 0, -u_of_gamma(gamma)}, {0.2, 0, -1});
         shot.effects = {true, true, true};
@@ -177,7 +177,7 @@ TEST(Overlay, TheProbeReadsThePicture)
             EXPECT_LT(between(probed[k].ray.ship, numbers.camera(at[k])), 1e-6);
             EXPECT_LT(between(probed[k].ray.world, numbers.world(at[k])), 1e-6 * (1 + numbers.D(at[k])));
             EXPECT_NEAR(probed[k].ray.D / numbers.D(at[k]), 1, 1e-5);
-            const Ray exact = ray_from_ship(stage.frame().lookout(), probed[k].ray.ship);
+            const Ray exact = ray_from_ship(stage.frame().observer(), probed[k].ray.ship);
             EXPECT_NEAR(exact.D / probed[k].ray.D, 1, 1e-5);
             // Between texels and at their middle: half a texel of a slanting surface. At an edge they may be of either side.
             const double depth = numbers.depth(at[k]);
@@ -198,7 +198,7 @@ TEST(Overlay, TheProbeReadsThePicture)
 TEST(Overlay, DistancesOnPlanesAreExact)
 {
     const GpuWorld world = wall_world();
-    Studio stage(device(), pipelines(), world, window({160, 120}), default_quality(device(), false), false);
+    OffscreenRenderer stage(device(), pipelines(), world, window({160, 120}), default_quality(device(), false), false);
     const Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
     Measuring what;
     for (double a = 3; a < 34; a += 3.1)
@@ -212,7 +212,7 @@ TEST(Overlay, DistancesOnPlanesAreExact)
 TEST(Overlay, WhatIsOffDrawsNothing)
 {
     const GpuWorld world = wall_world();
-    Studio stage = studio(world, window({160, 120}));
+    OffscreenRenderer stage = renderer(world, window({160, 120}));
     const Shot shot = shot_at({0, 0, 0}, {0, 0, -1}, {0, 0, -1});
     const auto plain = stage.picture(shot)[0];
     EXPECT_EQ(picture(stage, shot, Overlay::off).rgba, plain);

@@ -122,12 +122,12 @@ Worst check_directions(const Numbers& numbers, const Layout& layout, const Shot&
     const double speed = glm::length(shot.u);
     Worst worst;
     std::vector<bool> covered(numbers.count());
-    for (const Pane& pane : panes(layout, 0, numbers.size)) {
-        for (int y = 0; y < pane.size.y; ++y)
-            for (int x = 0; x < pane.size.x; ++x) {
-                const int i = (pane.corner.y + y) * numbers.size.x + pane.corner.x + x;
+    for (const View& view : views_of(layout, 0, numbers.size)) {
+        for (int y = 0; y < view.size.y; ++y)
+            for (int x = 0; x < view.size.x; ++x) {
+                const int i = (view.corner.y + y) * numbers.size.x + view.corner.x + x;
                 covered[i] = true;
-                const auto cockpit = direction(pane.picture, pane.picture_from_pixel * dvec2(x + 0.5, y + 0.5));
+                const auto cockpit = direction(view.picture, view.picture_from_pixel * dvec2(x + 0.5, y + 0.5));
                 if (numbers.shown(i) != cockpit.has_value()) {
                     ADD_FAILURE() << "pixel " << x << ' ' << y << (cockpit ? " shows nothing" : " shows something");
                     return worst;
@@ -175,7 +175,7 @@ TEST_P(ShippedShots, DirectionsAndDopplerAreTheTextbooks)
         SCOPED_TRACE(name);
         Layout layout = load_layout(testing::source_dir() / "config/layouts" / (name + ".json"));
         layout.outputs[0].size = size;
-        Studio stage = studio(avenue().world, layout);
+        OffscreenRenderer stage = renderer(avenue().world, layout);
         const Worst worst = check_directions(Numbers(stage, shot), layout, shot);
         std::printf("  %-7s camera %.1e  world %.1e  D %.1e\n", name.c_str(), worst.camera, worst.world, worst.D);
         // Pixel to direction in the shader: four products and sums, a root, a quotient; a matrix rounded to float; 5.2e-8 of
@@ -195,7 +195,7 @@ TEST_P(ShippedShots, DepthIsTheDistanceInTheWorldFromTheEyesEvent)
         Layout layout = load_layout(testing::source_dir() / "config/layouts" / (name + ".json"));
         layout.outputs[0].size = size;
         const Projection& projection = layout.outputs[0].viewports[0].projection;
-        Studio stage = studio(avenue().world, layout);
+        OffscreenRenderer stage = renderer(avenue().world, layout);
         const Numbers numbers(stage, shot);
         double worst = 0;
         int failures = 0;
@@ -260,7 +260,7 @@ TEST(Paper, ExrHoldsTheSameNumbersToTheBit)
 {
     Layout layout = load_layout(testing::source_dir() / "config/layouts/dome.json");
     layout.outputs[0].size = {64, 64};
-    Studio stage = studio(avenue().world, layout);
+    OffscreenRenderer stage = renderer(avenue().world, layout);
     const Shot shot = load_shot(testing::source_dir() / "config/shots/starbow.json");
     render_still(testing::scratch("exr"), stage, shot, true);
     auto [size, read] = read_exr(testing::scratch("exr") / "domemaster.exr");
@@ -276,7 +276,7 @@ TEST(Paper, ExrHoldsTheSameNumbersToTheBit)
 TEST(Paper, NoShiftAt74DegreesAtHalfTheSpeedOfLight)
 {
     Layout layout = one_view(Planar{60}, {800, 600});
-    Studio stage = studio(avenue().world, layout);
+    OffscreenRenderer stage = renderer(avenue().world, layout);
     const Shot shot = load_shot(testing::source_dir() / "config/shots/rainbow.json");
     const Numbers numbers(stage, shot);
     const dvec3 motion = glm::normalize(shot.u);
@@ -296,7 +296,7 @@ TEST(Paper, NoShiftAt74DegreesAtHalfTheSpeedOfLight)
 
 TEST(Paper, ColumnsBehindTheCameraAreSeenAheadAtGammaFour)
 {
-    Studio stage = studio(avenue().world, one_view(Planar{60}, {400, 300}));
+    OffscreenRenderer stage = renderer(avenue().world, one_view(Planar{60}, {400, 300}));
     const Shot shot = load_shot(testing::source_dir() / "config/shots/avenue-gamma4.json");
     const Numbers numbers(stage, shot);
     std::map<double, int> behind; // pixels by the column's z
@@ -328,7 +328,7 @@ Edges edges(const Shot& aimed, const dvec3& look, double across, const dvec2& ax
     Shot shot = aimed;
     shot.ship_from_cockpit = orientation(look, {0, 1, 0});
     const double fov_y = 2 * std::atan(std::tan(across / 2) * size.y / size.x);
-    Studio stage = studio(avenue().world, one_view(Planar{fov_y / degree}, size));
+    OffscreenRenderer stage = renderer(avenue().world, one_view(Planar{fov_y / degree}, size));
     const Numbers numbers(stage, shot);
     int first = -1, last = -1;
     const int row = size.y / 2 * size.x;
@@ -420,8 +420,8 @@ struct Outline {
 Outline earth_outline(const Shot& shot, const Projection& projection, bool over_a_half_sphere = false)
 {
     constexpr ivec2 size(256, 256);
-    Studio stage(device(), pipelines(), avenue().world, one_view(projection, size),
-        {.texels_per_pixel = 3, .most_texels_per_pixel = 40, .cube_samples = 1}, true);
+    OffscreenRenderer stage(device(), pipelines(), avenue().world, one_view(projection, size),
+        {.texels_per_pixel = 3, .max_texels_per_pixel = 40, .cube_samples = 1}, true);
     const Numbers numbers(stage, shot);
     auto earth = [&](int i) {
         return numbers.shown(i) && std::isfinite(numbers.depth(i))
@@ -573,7 +573,7 @@ TEST(Paper, TheStippledCylinderHasTheColoursOfItsReflectance)
                 },
                 D);
     };
-    Studio stage = studio(avenue().world, one_view(Planar{60}, {400, 300}));
+    OffscreenRenderer stage = renderer(avenue().world, one_view(Planar{60}, {400, 300}));
     const Shot shot = load_shot(testing::source_dir() / "config/shots/rainbow.json");
     const Numbers numbers(stage, shot);
     std::vector<double> hues;

@@ -38,7 +38,7 @@ struct Drawn {
 
 std::vector<Drawn> draw(const Layout& layout, Pattern pattern)
 {
-    Studio stage = studio(avenue().world, layout, false);
+    OffscreenRenderer stage = renderer(avenue().world, layout, false);
     stage.frame().show(pattern);
     std::vector<Drawn> drawn;
     const auto pictures = stage.picture(shot_at({0, 0, 0}, {0, 0, -4}, {0, 0, -1}));

@@ -25,16 +25,16 @@ TEST(Picture, StillsAreTheSameBytesEachTime)
     const Panel panel
         = Typesetter().draw(readings(ship_at(shot), avenue().world.scene, shot.effects), starbow::testing::words(), 320);
 
-    Studio stage = studio(avenue().world, layout, false);
+    OffscreenRenderer stage = renderer(avenue().world, layout, false);
     const auto first = stage.picture(shot, &panel);
     ASSERT_EQ(first.size(), 2u);
     stage.picture(shipped_shot("rainbow")); // no frame depends on an earlier one
     EXPECT_EQ(stage.picture(shot, &panel), first);
 
-    Theatre again(testing::source_dir() / "config/scenes/avenue.json",
+    RenderContext again(testing::source_dir() / "config/scenes/avenue.json",
         Device::Options{.validation = true, .name = device_options(false).name});
     {
-        Studio afresh(again.device, again.pipelines, again.world, layout, test_quality(), false);
+        OffscreenRenderer afresh(again.device, again.pipelines, again.world, layout, test_quality(), false);
         EXPECT_EQ(afresh.picture(shot, &panel), first);
     }
     Stage::expect_no_complaints(again.device);
@@ -42,7 +42,7 @@ TEST(Picture, StillsAreTheSameBytesEachTime)
 
 TEST(Picture, AtRestEveryEffectIsTheIdentity)
 {
-    Studio stage = studio(avenue().world, one_view(Planar{60}, {200, 150}), false);
+    OffscreenRenderer stage = renderer(avenue().world, one_view(Planar{60}, {200, 150}), false);
     Shot shot = shipped_shot("start");
     std::vector<std::vector<std::uint8_t>> first;
     for (int bits = 0; bits < 8; ++bits) {
@@ -57,7 +57,7 @@ TEST(Picture, AtRestEveryEffectIsTheIdentity)
 TEST(Picture, WithoutAberrationDirectionsAreThoseAtRest)
 {
     for (const Projection& projection : {Projection(Planar{60}), Projection(Fisheye{180, 30})}) {
-        Studio stage = studio(avenue().world, one_view(projection, {160, 160}));
+        OffscreenRenderer stage = renderer(avenue().world, one_view(projection, {160, 160}));
         Shot shot = shot_at({0.1, 0.2, -7}, u_of_gamma(4) * glm::normalize(dvec3(1, 0.5, -2)), {0, 0, -1});
         shot.effects.aberration = false;
         const Numbers moving(stage, shot);
@@ -84,7 +84,7 @@ TEST(Picture, HeadlightAloneMultipliesByTheCubeOfD)
 {
     const WithoutStars only_surfaces; // points take another power
     for (double gamma : {1.5, 4.0, 100.0}) {
-        Studio stage = studio(avenue().world, one_view(Fisheye{180, 30}, {200, 200}));
+        OffscreenRenderer stage = renderer(avenue().world, one_view(Fisheye{180, 30}, {200, 200}));
         Shot shot = shot_at({0, 0, -8}, {0, 0, -u_of_gamma(gamma)}, {0, 0, -1});
         const Numbers off(stage, shot);
         shot.effects.headlight = true;
@@ -114,7 +114,7 @@ TEST(Picture, HeadlightAloneMultipliesByTheCubeOfD)
 // straight.
 TEST(Picture, PixelsAreTheNumbersEncoded)
 {
-    Studio stage = studio(avenue().world, one_view(Planar{60}, {240, 180}));
+    OffscreenRenderer stage = renderer(avenue().world, one_view(Planar{60}, {240, 180}));
     for (const char* name : {"start", "avenue-gamma4", "starbow", "rainbow"}) {
         const Shot shot = shipped_shot(name);
         const auto picture = stage.picture(shot).front();
@@ -157,7 +157,7 @@ TEST(Picture, NoSeamsInASmoothSky)
     auto filtered = [](double f) { return 0.9 * f * f + 5 * 0x1p-11; };
     constexpr double fine = 0.04; // up to here that is less than 1/255
     for (const auto& [name, layout] : layouts) {
-        Studio stage = studio(world, layout);
+        OffscreenRenderer stage = renderer(world, layout);
         const Projection& projection = layout.outputs[0].viewports[0].projection;
         // Along the radius a fisheye's pixel is one step long, however narrow it is near the rim.
         const auto* fisheye = std::get_if<Fisheye>(&projection);
@@ -297,7 +297,7 @@ TEST(Picture, EveryFaceShowsThingsInTheirPlaceUnmirroredAndFromOutside)
              dvec3(-u_of_gamma(2), 0, 0)}) {
         std::vector<int> found(markers.size());
         auto look_around = [&](const Projection& projection, ivec2 size, const dvec3& look, const dvec3& up) {
-            Studio stage = studio(world, one_view(projection, size));
+            OffscreenRenderer stage = renderer(world, one_view(projection, size));
             const Shot shot = shot_at({0, 0, 0}, u, look, up);
             const Numbers numbers(stage, shot);
             std::vector<dvec2> sums(markers.size(), dvec2(0));
@@ -359,7 +359,7 @@ TEST(Picture, FromATenthToABillionUnitsAwayInOneView)
     for (double gamma : {1.0, 4.0}) {
         // At gamma 4 straight ahead all look 7.9 times smaller.
         const double E = physics::exp_rapidity(u_of_gamma(gamma)), fov = 2 * std::atan(std::tan(0.4) / E) / degree;
-        Studio stage = studio(world, one_view(Planar{fov}, {300, 300}));
+        OffscreenRenderer stage = renderer(world, one_view(Planar{fov}, {300, 300}));
         const Shot shot = shot_at({0, 0, 0}, {0, 0, -u_of_gamma(gamma)}, {0, 0, -1});
         const Numbers numbers(stage, shot);
         const double pixel = 2 * std::tan(0.4) / 300;
@@ -401,7 +401,7 @@ TEST(Picture, TexturesBeginAtTheTopLeft)
     doc.json["materials"][material]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", texture}};
     quad(doc, {0, 0, -2}, {1, 0, 0}, {0, 1, 0}, material);
     const GpuWorld world = open_world("texture", doc);
-    Studio stage = studio(world, one_view(Planar{60}, {100, 100}));
+    OffscreenRenderer stage = renderer(world, one_view(Planar{60}, {100, 100}));
     for (double gamma : {1.0, 2.0}) {
         const Shot shot = shot_at({0, 0, 0}, {0, 0, -u_of_gamma(gamma)}, {0, 0, -1});
         const Numbers numbers(stage, shot);
@@ -430,7 +430,7 @@ TEST(Picture, EachEyeSeesFromItsOwnEvent)
     pair.outputs[0].viewports = {{.rect = {0, 0, 0.5, 1}, .projection = Planar{60}, .eye_m = eyes[0]},
         {.rect = {0.5, 0, 0.5, 1}, .projection = Planar{60}, .eye_m = eyes[1]}};
     pair.stereo.hyper_stereo = 1.5;
-    Studio both = studio(world, pair), one = studio(world, one_view(Planar{60}, half));
+    OffscreenRenderer both = renderer(world, pair), one = renderer(world, one_view(Planar{60}, half));
     for (double gamma : {1.0, 1.5, 4.0}) {
         const Shot shot
             = shot_at({0.02, -0.01, 0.1}, u_of_gamma(gamma) * glm::normalize(dvec3(0.7, 0.2, -0.6)), {0.1, 0, -1});
@@ -468,7 +468,7 @@ TEST(Picture, EyesInOnePlaceShareACubeMap)
     Layout layout = one_view(Planar{60}, {100, 50});
     layout.outputs[0].viewports
         = {{.rect = {0, 0, 0.5, 1}, .projection = Planar{60}}, {.rect = {0.5, 0, 0.5, 1}, .projection = Planar{30}}};
-    Studio stage = studio(avenue().world, layout, false);
+    OffscreenRenderer stage = renderer(avenue().world, layout, false);
     stage.picture(shipped_shot("start"));
     EXPECT_EQ(stage.frame().plans().size(), 1u);
 }
@@ -489,7 +489,7 @@ TEST(WrongDevice, AnOutputAboveTheDevicesLimitIsRefusedInOneLine)
     for (ivec2 size : {ivec2(limit + 1, 8), ivec2(8, limit + 1)})
         for (const Projection& projection : {Projection(Planar{60}), Projection(Fisheye{180, 0})}) {
             const std::string message
-                = testing::complaint([&] { studio(avenue().world, one_view(projection, size), false); });
+                = testing::complaint([&] { renderer(avenue().world, one_view(projection, size), false); });
             EXPECT_NE(message.find(std::to_string(limit)), std::string::npos) << message;
         }
 }

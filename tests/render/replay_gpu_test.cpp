@@ -42,8 +42,8 @@ TEST(ReplayFrames, AreTheSameToTheByte)
     std::vector<Pictures> live;
     {
         Recorder recorder(file, header, [](const std::string& line) { ADD_FAILURE() << line; });
-        Studio stage = studio(avenue().world, layout, false);
-        Reel reel(stage, Pattern::none, header.exposing, header.start.exposure_ev);
+        OffscreenRenderer stage = renderer(avenue().world, layout, false);
+        ReplayRenderer replay_renderer(stage, Pattern::none, header.exposing, header.start.exposure_ev);
         Flight flight = flight_at(header.start, header.rules);
         History history;
         for (int i = 0; i < 60; ++i) {
@@ -51,14 +51,14 @@ TEST(ReplayFrames, AreTheSameToTheByte)
             flight = flown(
                 flight, history, entry.controls, entry.dt_ns, header.rules, header.seconds_per_time_unit, header.start);
             recorder.keep(entry, flight);
-            reel.take(entry);
-            live.push_back(reel.picture(flight, scene, nullptr));
+            replay_renderer.take(entry);
+            live.push_back(replay_renderer.picture(flight, scene, nullptr));
         }
         recorder.end(flight);
     }
     Replay replay(file);
-    Studio stage = studio(avenue().world, layout, false);
-    Reel reel(stage, Pattern::none, replay.header().exposing, replay.header().start.exposure_ev);
+    OffscreenRenderer stage = renderer(avenue().world, layout, false);
+    ReplayRenderer replay_renderer(stage, Pattern::none, replay.header().exposing, replay.header().start.exposure_ev);
     Flight flight = flight_at(replay.header().start, replay.header().rules);
     History history;
     std::size_t frame = 0;
@@ -67,9 +67,9 @@ TEST(ReplayFrames, AreTheSameToTheByte)
         flight = flown(flight, history, entry->controls, entry->dt_ns, replay.header().rules,
             replay.header().seconds_per_time_unit, replay.header().start);
         replay.compare(flight);
-        reel.take(*entry);
+        replay_renderer.take(*entry);
         ASSERT_LT(frame, live.size());
-        ASSERT_EQ(reel.picture(flight, scene, nullptr), live[frame]) << frame;
+        ASSERT_EQ(replay_renderer.picture(flight, scene, nullptr), live[frame]) << frame;
         changed += frame > 0 && live[frame] != live[frame - 1];
     }
     EXPECT_EQ(frame, live.size());

@@ -1,6 +1,6 @@
 // How finely the cube map holds what is looked at: straight ahead, straight back, and across what its images meet at.
 #include "config/model/angles.h"
-#include "displays/compile/compiled.h"
+#include "displays/compile/compiled_view.h"
 #include "runtime/images/picture_errors.h"
 #include "runtime/reference/reference.h"
 #include "runtime/world/worldline.h"
@@ -63,14 +63,14 @@ TEST(Sampling, StraightBackAndAheadIsAsGoodAtEverySpeed)
     place_bodies(placed, scene);
     const std::vector<Star> none;
     const Layout layout = one_view(Planar{90}, {256, 256});
-    Studio live(device(), pipelines(), gpu, layout, default_quality(device(), false), false);
+    OffscreenRenderer live(device(), pipelines(), gpu, layout, default_quality(device(), false), false);
     for (bool back : {true, false}) {
         double least = 1e9, most = 0;
         for (double gamma : {2.0, 4.0, 10.0, 100.0, 1000.0}) {
             const Shot shot = shot_at({}, {0, 0, u_of_gamma(gamma)}, {0, 0, back ? -1.0 : 1.0});
             const auto truth = shown(reference({placed, scene, none}, layout, shot, 0, {.samples = 9}));
             const double dB = psnr_dB({{256, 256}, live.picture(shot)[0]}, {{256, 256}, truth});
-            const Plan& plan = live.frame().plans()[0];
+            const CubeMapPlan& plan = live.frame().plans()[0];
             std::printf("%s, gamma %g: %.1f dB, %.2f texels a pixel in %zu images\n", back ? "back" : "ahead", gamma, dB,
                 plan.texels / plan.pixels, plan.images.size());
             least = std::min(least, dB), most = std::max(most, dB);
@@ -94,7 +94,7 @@ TEST(Sampling, NoSeamOnASmoothSky)
         Layout layout = load_layout(starbow::testing::source_dir() / "config/layouts" / (std::string(name) + ".json"));
         for (Output& output : layout.outputs)
             output.size = ivec2(320, 320 * output.size.y / output.size.x);
-        Studio live(device(), pipelines(), world, layout, default_quality(device(), false), true);
+        OffscreenRenderer live(device(), pipelines(), world, layout, default_quality(device(), false), true);
         for (double gamma : {1.0, 1.5, 4.0, 100.0, 1000.0})
             for (const dvec3& look : {dvec3(0, 0, -1), dvec3(1, 0.2, 0.3), dvec3(0.1, 0, 1)}) {
                 const Shot shot = shot_at({}, {0, 0, -u_of_gamma(gamma)}, look);

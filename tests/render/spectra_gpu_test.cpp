@@ -25,16 +25,16 @@ Shot ahead(double E, bool headlight = true)
 }
 
 /// What the eye sees at every pixel of one that D tells, from the numbers' light.
-struct Seen {
+struct RetardedPosition {
     dvec3 xyz;
     double D;
     int pixel;
 };
-std::vector<Seen> all_around(const GpuWorld& world, const Shot& shot, ivec2 size = {96, 48})
+std::vector<RetardedPosition> all_around(const GpuWorld& world, const Shot& shot, ivec2 size = {96, 48})
 {
-    Studio stage = studio(world, one_view(Equirectangular{}, size));
+    OffscreenRenderer stage = renderer(world, one_view(Equirectangular{}, size));
     const Numbers numbers(stage, shot);
-    std::vector<Seen> seen;
+    std::vector<RetardedPosition> seen;
     for (int i = 0; i < numbers.count(); ++i)
         seen.push_back({xyz_of(numbers.light(i)), numbers.D(i), i});
     return seen;
@@ -77,7 +77,7 @@ TEST(Spectra, ABlackBodySkyIsOneAtEveryD)
         const GpuWorld world = open_world("black-body", doc, {{"sky", {{"temperature_K", kelvin}}}});
         EXPECT_EQ(world.spectra.level, SpectralLevel::colours); // a glow is exact at every level
         for (double E : {1.0, 3.0, 20.0})
-            for (const Seen& seen : all_around(world, ahead(E))) {
+            for (const RetardedPosition& seen : all_around(world, ahead(E))) {
                 const dvec3 truth = seen_xyz(black_body(kelvin * seen.D), 1);
                 if (truth.y < faintest)
                     continue;
@@ -113,7 +113,7 @@ TEST(Spectra, PigmentsUnderTheSunAreWhatTheyAreAtEveryNanometre)
     const dvec3 white = seen_xyz(sun, 1);
     std::vector<double> differences;
     double luminance = 0;
-    Studio stage = studio(world, one_view(Equirectangular{}, {768, 384}));
+    OffscreenRenderer stage = renderer(world, one_view(Equirectangular{}, {768, 384}));
     for (double E : {1.0, 2.0, 8.0})
         for (const dvec3& way : {dvec3(0, 0, -1), dvec3(1, 0, 0), dvec3(0.3, -0.8, 0.5)}) {
             Shot shot = ahead(E, false);
@@ -155,14 +155,14 @@ TEST(Spectra, EveryLevelShowsBaseColoursAlike)
     GpuWorld world = open_world("levels", doc, scene);
     ASSERT_EQ(world.spectra.level, SpectralLevel::colours);
     const dvec3 white = seen_xyz(sunlit_white(), 1);
-    std::array<std::vector<Seen>, 3> seen;
+    std::array<std::vector<RetardedPosition>, 3> seen;
     for (SpectralLevel level : {SpectralLevel::colours, SpectralLevel::middle, SpectralLevel::fine}) {
         put_spectra(device(), world, level);
         seen[std::size_t(level)] = all_around(world, ahead(2), {128, 64});
     }
     double middle = 0, fine = 0;
     for (std::size_t i = 0; i < seen[0].size(); ++i) {
-        auto lab = [&](const Seen& s) { return cielab(s.xyz * (0.5 / s.xyz.y), white); };
+        auto lab = [&](const RetardedPosition& s) { return cielab(s.xyz * (0.5 / s.xyz.y), white); };
         middle = std::max(middle, ciede2000(lab(seen[0][i]), lab(seen[1][i])));
         fine = std::max(fine, ciede2000(lab(seen[0][i]), lab(seen[2][i])));
     }
@@ -184,7 +184,7 @@ TEST(Spectra, ALineRunsAlongTheSpectrum)
         quad(doc, 5.0 * way, 5.0 * glm::cross(dvec3(0, 1, 0), -way), {0, 5, 0}, line);
     const GpuWorld world = open_world("line", doc);
     const double E = std::sqrt(3.0);
-    Studio stage = studio(world, one_view(Equirectangular{}, {720, 90}));
+    OffscreenRenderer stage = renderer(world, one_view(Equirectangular{}, {720, 90}));
     const Numbers numbers(stage, ahead(E, false));
     const double wavelengths[][2] = {{90, 520}, {105.5, 589}, {120, 650}}; // camera angle from the motion, and what is seen
     int found = 0, compared = 0;
@@ -215,7 +215,7 @@ TEST(Spectra, ARoomTemperatureWallGlowsDullRedFromGammaOneAndAHalf)
     material["pbrMetallicRoughness"] = {{"baseColorFactor", {0.1, 0.1, 0.1, 1}}};
     quad(doc, {0, 0, -5}, {50, 0, 0}, {0, 50, 0}, doc.put("materials", material));
     const GpuWorld world = open_world("wall", doc);
-    Studio stage = studio(world, one_view(Planar{20}, {64, 48}));
+    OffscreenRenderer stage = renderer(world, one_view(Planar{20}, {64, 48}));
     double before = 0;
     for (double gamma : {1.0, 1.2, 1.5, 2.0, 4.0}) {
         const double E = gamma + u_of_gamma(gamma);
@@ -256,7 +256,7 @@ TEST(Spectra, TheMicrowaveBackgroundAppearsNearGamma150)
     Doc doc;
     speck(doc);
     const GpuWorld world = open_world("microwaves", doc, {{"sky", {{"temperature_K", 2.725}}}});
-    Studio stage = studio(world, one_view(Planar{0.5}, {65, 49}));
+    OffscreenRenderer stage = renderer(world, one_view(Planar{0.5}, {65, 49}));
     for (double gamma : {50.0, 146.0, 1000.0, 1e6}) {
         const Numbers numbers(stage, ahead(gamma + u_of_gamma(gamma)));
         const int middle = 24 * 65 + 32;
@@ -291,7 +291,7 @@ TEST(Spectra, FalseColoursShowTheInfraredRedAndTheUltravioletBlue)
     ASSERT_EQ(world.spectra.level, SpectralLevel::middle); // five numbers tell all of this
     for (SpectralLevel level : {SpectralLevel::middle, SpectralLevel::fine}) {
         put_spectra(device(), world, level);
-        Studio stage = studio(world, one_view(Planar{40}, {64, 48}));
+        OffscreenRenderer stage = renderer(world, one_view(Planar{40}, {64, 48}));
         Shot shot = ahead(1);
         const Numbers plain(stage, shot);
         shot.effects.false_colours = true;

@@ -141,7 +141,7 @@ TEST(Stars, KnownSeparationsInThePicture)
         GpuWorld world = sky_world(
             "constellation", {0, -50, 0}, 0.1, absolute(testing::source_dir() / "scenes/stars/stars.txt").string(), ahead);
         const double fov = pair.apart_deg * 1.3;
-        Studio stage = studio(world, one_view(Planar{fov}, {300, 300}));
+        OffscreenRenderer stage = renderer(world, one_view(Planar{fov}, {300, 300}));
         const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
         std::vector<dvec3> found;
         std::vector<bool> taken(numbers.count());
@@ -183,7 +183,7 @@ TEST(Stars, PlaceLightAndSizeAtEverySpeedOnEveryDisplay)
     std::mt19937 random(3);
     std::uniform_real_distribution<double> one(-1, 1);
     for (const auto& [name, projection] : displays) {
-        Studio stage = studio(world, one_view(projection, size_for(name)));
+        OffscreenRenderer stage = renderer(world, one_view(projection, size_for(name)));
         int drawn = 0, most = 0;
         double off = 0, low = 1e9, high = 0;
         for (double gamma : {1.0, 1.5, 4.0, 100.0})
@@ -224,7 +224,7 @@ TEST(Stars, LightIsTheSameWhereverBetweenPixels)
 {
     GpuWorld world = sky_world("drifting");
     put_stars(device(), world, {star_at({0, 0, -1})});
-    Studio stage = studio(world, one_view(Planar{20}, {64, 64}));
+    OffscreenRenderer stage = renderer(world, one_view(Planar{20}, {64, 64}));
     double low = 1e9, high = 0;
     for (int step = 0; step < 64; ++step) {
         const double pixel = 2 * std::tan(10 * degree) / 64;
@@ -251,7 +251,7 @@ TEST(Stars, TheSkyCrowdsAhead)
         stars.push_back(star_at({across * std::cos(a), across * std::sin(a), z}));
     }
     put_stars(device(), world, stars);
-    Studio stage = studio(world, one_view(Fisheye{180, 90}, {400, 400}));
+    OffscreenRenderer stage = renderer(world, one_view(Fisheye{180, 90}, {400, 400}));
     for (double gamma : {1.0, 2.0, 4.0, 10.0}) {
         const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, -u_of_gamma(gamma)}, {0, 0, -1}));
         // Light over solid angle: an equidistant circle's pixel has (90 degrees / 200)^2 sin(a) / a.
@@ -284,7 +284,7 @@ TEST(Stars, BlackBodiesAtDT)
     for (const Case& c : {Case{5772, 2.90}, {5772, 10000 / 5772.0}, {2856, 5772 / 2856.0}, {10000, 0.2856}, {5772, 7.872983},
              {3500, 1.001}, {30000, 0.5}, {2300, 1e3}}) {
         put_stars(device(), world, {star_at({0, 0, -1}, c.T)});
-        Studio stage = studio(world, one_view(Planar{20}, {64, 64}));
+        OffscreenRenderer stage = renderer(world, one_view(Planar{20}, {64, 64}));
         Shot shot = shot_at({0, 0, 0}, {0, 0, -0.5 * (c.D - 1 / c.D)}, {0, 0, -1});
         shot.effects = {true, true, true};
         const dvec3 light = sum_of(Numbers(stage, shot)).light / (brightness_arcmin2 * arcmin2_sr);
@@ -312,7 +312,7 @@ TEST(Stars, WithoutAberrationTheyStayAndTakeTheirPixelsD)
     GpuWorld world = sky_world("still");
     const dvec3 n = glm::normalize(dvec3(0.1, 0.05, -1));
     put_stars(device(), world, {star_at(n)});
-    Studio stage = studio(world, one_view(Planar{20}, {64, 64}));
+    OffscreenRenderer stage = renderer(world, one_view(Planar{20}, {64, 64}));
     Shot shot = shot_at({0, 0, 0}, {0, u_of_gamma(3), 0}, {0, 0, -1});
     shot.effects = {false, false, true};
     const Sum sum = sum_of(Numbers(stage, shot));
@@ -332,7 +332,7 @@ TEST(Stars, TheWholeSkysLightIsTheCataloguesSum)
         star.temperature_K = T;
     put_stars(device(), world, stars);
     const dvec2 size(720, 360);
-    Studio stage = studio(world, one_view(Equirectangular{}, ivec2(size)));
+    OffscreenRenderer stage = renderer(world, one_view(Equirectangular{}, ivec2(size)));
     auto luminance_of = [](double kelvin) {
         double sum = 0;
         for (double nm = 360.5; nm < 830; ++nm)
@@ -434,7 +434,7 @@ TEST(Stars, OnceInPlaceAndWholeOnDisplaysAllRound)
         ways.emplace_back("all over", dvec3(one(random), one(random), one(random)));
     }
     for (const AllRound& display : all_round) {
-        Studio stage = studio(world, one_view(display.projection, display.size));
+        OffscreenRenderer stage = renderer(world, one_view(display.projection, display.size));
         std::map<std::string, int> tried;
         double off = 0, low = 1e9, high = 0, farthest = 0;
         int most = 0;
@@ -501,7 +501,7 @@ TEST(Stars, TheExposureIsByWhatIsSeenOfThem)
     const dmat3 turn = world_from_equatorial({0, 0});
     for (const auto& [name, projection] : displays)
         for (double gamma : {2.0}) {
-            Studio stage = studio(world, one_view(projection, size_for(name)));
+            OffscreenRenderer stage = renderer(world, one_view(projection, size_for(name)));
             const dvec3 u(0, 0, -u_of_gamma(gamma));
             const Shot shot = shot_at({0, 0, 0}, u, {0, 0, -1});
             const Numbers numbers(stage, shot);
@@ -544,7 +544,7 @@ TEST(Stars, TheExposureStaysWhileOneTurns)
 {
     GpuWorld world
         = sky_world("turning", {0, -50, 0}, 0.1, absolute(testing::source_dir() / "scenes/stars/stars.txt").string());
-    Studio stage = studio(world, one_view(Planar{60}, {400, 300}), false);
+    OffscreenRenderer stage = renderer(world, one_view(Planar{60}, {400, 300}), false);
     double low = 1e9, high = -1e9, step = 0, before = 0;
     for (int deg = 0; deg <= 360; deg += 5) {
         const double ev
@@ -576,7 +576,7 @@ TEST(Stars, HiddenByWhatStandsBeforeThem)
     put_stars(device(), world, stars);
     for (const auto& [name, projection] : displays)
         for (double gamma : {1.0, 1.5}) {
-            Studio stage = studio(world, one_view(projection, size_for(name)));
+            OffscreenRenderer stage = renderer(world, one_view(projection, size_for(name)));
             const dvec3 u = u_of_gamma(gamma) * glm::normalize(dvec3(0.05, 0.1, 1));
             const Numbers numbers(stage, shot_at({0, 0, 0}, u, {0, 0, -1}));
             for (const Case& c : cases) {
@@ -605,7 +605,7 @@ TEST(Stars, HiddenForEachEye)
             Layout layout = one_view(Planar{20}, {400, 200});
             layout.outputs[0].packing = Packing::side_by_side;
             layout.stereo = {.method = method, .separation_m = 0.06};
-            Studio stage = studio(world, layout);
+            OffscreenRenderer stage = renderer(world, layout);
             const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
             double green[2] = {0, 0};
             for (int i = 0; i < numbers.count(); ++i)
@@ -625,7 +625,7 @@ TEST(Stars, ASpotGoesOnAcrossTheSeamOfTwoViewports)
     for (double offset : {-0.7, -0.2, 0.3, 1.1}) {
         const double pixel = std::tan(20 * degree) / 64;
         put_stars(device(), world, {star_at({offset * pixel, 0, -1})});
-        Studio stage = studio(world, layout);
+        OffscreenRenderer stage = renderer(world, layout);
         const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
         const double light = luminance(sum_of(numbers).light) / (brightness_arcmin2 * arcmin2_sr);
         EXPECT_NEAR(light, 1, 0.015) << offset; // at the seam the test's own solid angles are the worse ones

@@ -75,7 +75,7 @@ protected:
     }
     static std::vector<std::uint8_t> bytes(const Layout& layout, std::size_t output = 0)
     {
-        Studio stage = studio(*world, layout, false);
+        OffscreenRenderer stage = renderer(*world, layout, false);
         return stage.picture(shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1})).at(output);
     }
 
@@ -354,7 +354,7 @@ struct Off {
 Off off_of(const GpuWorld& world, const Layout& layout, const std::vector<Thing>& all,
     const std::function<dvec2(const Thing&, Eye)>& wanted)
 {
-    Studio stage = studio(world, layout);
+    OffscreenRenderer stage = renderer(world, layout);
     const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
     Off off;
     double area = 0;
@@ -494,7 +494,7 @@ struct Errors {
 
 /// Of all pixels: the angle, in pixels, between what is shown and where the eye would see that; and how many show another
 /// thing than a ray meets. eye: its place for a direction.
-Errors errors_of(Studio& stage, const std::vector<Thing>& all, const std::function<dvec3(Eye, const dvec3&)>& eye_for)
+Errors errors_of(OffscreenRenderer& stage, const std::vector<Thing>& all, const std::function<dvec3(Eye, const dvec3&)>& eye_for)
 {
     const Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
     const Numbers numbers(stage, shot);
@@ -531,8 +531,8 @@ TEST(Stereo, ReprojectedAgainstExactPixelByPixel)
     const GpuWorld world = world_of("room", all);
     const ivec2 size(320, 240);
     auto eye_for = [](Eye eye, const dvec3&) { return eye_at(eye, eyes_m); };
-    Studio exact = studio(world, pair_of(Planar{60}, size, StereoMethod::exact)),
-           tested = studio(world, pair_of(Planar{60}, size, StereoMethod::reprojected));
+    OffscreenRenderer exact = renderer(world, pair_of(Planar{60}, size, StereoMethod::exact)),
+           tested = renderer(world, pair_of(Planar{60}, size, StereoMethod::reprojected));
     const Errors of_exact = errors_of(exact, all, eye_for), of_tested = errors_of(tested, all, eye_for);
     std::printf("  exact: median %.4f, 99 %% %.4f pixels, other things %.2f %%\n  reprojected: median %.4f, 99 %% %.4f "
                 "pixels, other things %.2f %%\n",
@@ -559,8 +559,8 @@ TEST(Stereo, ReprojectedAgainstExactInFlight)
     const std::vector<Thing> all = room();
     const GpuWorld world = world_of("room", all);
     const ivec2 size(320, 240);
-    Studio exact = studio(world, pair_of(Planar{60}, size, StereoMethod::exact)),
-           tested = studio(world, pair_of(Planar{60}, size, StereoMethod::reprojected));
+    OffscreenRenderer exact = renderer(world, pair_of(Planar{60}, size, StereoMethod::exact)),
+           tested = renderer(world, pair_of(Planar{60}, size, StereoMethod::reprojected));
     const double gamma = 1.6;
     const dvec3 way = glm::normalize(dvec3(0.8, 0.1, -0.6));
     const Shot shot = shot_at({0, 0, 0.5}, u_of_gamma(gamma) * way, {0.2, 0, -1});
@@ -625,7 +625,7 @@ TEST(Stereo, ADomesBaselineTurnsAndFades)
         layout.stereo.separation_m = 0.1;
         layout.stereo.hyper_stereo = hyper;
         const double separation = 0.1 * hyper, full = layout.stereo.full_from_zenith_deg;
-        Studio stage = studio(world, layout);
+        OffscreenRenderer stage = renderer(world, layout);
         const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
         double worst = 0;
         std::vector<double> told;

@@ -96,15 +96,15 @@ TEST(PhysicsOnTheDevice, SightAgreesWithFloatAndDoubleAtEveryGamma)
             const vec3 n(inputs[i]);
             const vec4 world = outputs[2 * i], camera = outputs[2 * i + 1];
             ASSERT_TRUE(finite(world) && finite(camera)) << gamma << ' ' << n.x << ' ' << n.y << ' ' << n.z;
-            const pd::Sight want = pd::world_from_camera(dvec3(n), E, 1 / E);
-            const pf::Sight same = pf::world_from_camera(n, float(E), float(1 / E));
+            const pd::AberratedRay want = pd::world_from_camera(dvec3(n), E, 1 / E);
+            const pf::AberratedRay same = pf::world_from_camera(n, float(E), float(1 / E));
             // A world direction's error shows in the camera 1/D times as large.
             direction = std::max(direction, angle(dvec3(world), want.n) / want.D);
             D = std::max(D, std::abs(world.w / want.D - 1));
             length = std::max(length, std::abs(glm::length(dvec3(world)) - 1));
             float_direction = std::max(float_direction, angle(dvec3(world), dvec3(same.n)) / want.D);
             float_D = std::max(float_D, std::abs(double(world.w) / same.D - 1));
-            const pd::Sight again = pd::camera_from_world(dvec3(world), E, 1 / E);
+            const pd::AberratedRay again = pd::camera_from_world(dvec3(world), E, 1 / E);
             back = std::max(back, angle(dvec3(camera), again.n));
             back_D = std::max(back_D, std::abs(camera.w / again.D - 1));
         }
@@ -148,7 +148,7 @@ TEST(PhysicsOnTheDevice, BoostsAndMotionAgreeWithDouble)
         inputs.push_back(vec4(w, std::pow(10.0, -4 + 8 * one(random)))); // D^3 still fits a float
     }
     const std::vector<vec4> outputs = probe(inputs, 1);
-    double leg = 0, composed = 0, turn = 0, eye = 0, event = 0, scalars = 0;
+    double segment = 0, composed = 0, turn = 0, eye = 0, event = 0, scalars = 0;
     auto worst = [](double& worst, double error) { worst = std::max(worst, error); };
     for (std::size_t i = 0; i < inputs.size() / 4; ++i) {
         const vec4 *in = &inputs[4 * i], *out = &outputs[7 * i];
@@ -157,12 +157,12 @@ TEST(PhysicsOnTheDevice, BoostsAndMotionAgreeWithDouble)
         const dvec3 u(in[0]), way(in[1]), x(in[2]), w(in[3]);
         const double strength = in[0].w, dtau = in[1].w, t = in[2].w, D = in[3].w, angle = strength * dtau;
         const double gamma = pd::gamma_of(u), gamma_w = pd::gamma_of(w);
-        const pd::Leg want = pd::thrust_leg(u, way, strength, dtau);
+        const pd::ThrustSegment want = pd::thrust_segment(u, way, strength, dtau);
         // Errors are of the size of what was added up.
         const double reach = gamma * std::exp(std::abs(angle));
-        worst(leg, glm::length(dvec3(out[0]) - want.du) / reach);
-        worst(leg, glm::length(dvec3(out[1]) - want.dx) / reach);
-        worst(leg, std::abs(out[0].w - want.dt) / reach);
+        worst(segment, glm::length(dvec3(out[0]) - want.du) / reach);
+        worst(segment, glm::length(dvec3(out[1]) - want.dx) / reach);
+        worst(segment, std::abs(out[0].w - want.dt) / reach);
         worst(composed, glm::length(dvec3(out[2]) - pd::composed(u, w)) / (gamma * gamma_w));
         worst(turn, glm::length(dvec4(out[3]) - dvec4(pd::wigner_turn(u, w))) / std::min(gamma, gamma_w));
         worst(eye, glm::length(dvec3(out[4]) - pd::eye_place(u, x)) / (gamma * glm::length(x)));
@@ -179,9 +179,9 @@ TEST(PhysicsOnTheDevice, BoostsAndMotionAgreeWithDouble)
         scalar(out[6].z, pd::sinh_ratio(angle), pd::sinh_ratio(angle));
         scalar(out[6].w, pd::cosh_less_one_ratio(angle), pd::sinh_ratio(angle));
     }
-    std::printf("  leg %.1e  composed %.1e  turn %.1e  eye %.1e  event %.1e  scalars %.1e\n", leg, composed, turn, eye,
+    std::printf("  leg %.1e  composed %.1e  turn %.1e  eye %.1e  event %.1e  scalars %.1e\n", segment, composed, turn, eye,
         event, scalars);
-    EXPECT_LE(leg, 20 * round_float); // a dozen roundings as in physics_test, and a device's sinh and square roots
+    EXPECT_LE(segment, 20 * round_float); // a dozen roundings as in physics_test, and a device's sinh and square roots
     EXPECT_LE(composed, 12 * round_float);
     EXPECT_LE(eye, 12 * round_float);
     EXPECT_LE(event, 12 * round_float);

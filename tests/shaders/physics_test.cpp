@@ -39,12 +39,12 @@ dvec3 at(double theta, double phi = 0) // radians from the motion
 }
 double angle_from_motion(const dvec3& n) { return std::atan2(std::hypot(n.x, n.y), n.z); }
 
-pd::Sight world(const dvec3& n, double beta)
+pd::AberratedRay world(const dvec3& n, double beta)
 {
     const double E = pd::exp_rapidity(u_of_beta(beta));
     return pd::world_from_camera(n, E, 1 / E);
 }
-pd::Sight camera(const dvec3& n, double beta)
+pd::AberratedRay camera(const dvec3& n, double beta)
 {
     const double E = pd::exp_rapidity(u_of_beta(beta));
     return pd::camera_from_world(n, E, 1 / E);
@@ -101,7 +101,7 @@ void report(const char* what, double gamma, const Worst& w)
 // quotient 1, the product 1.
 constexpr double sight_double = 14 * round_double;
 
-TEST(Sight, WorldFromCameraInDoubleAgreesWithLorentzBoost)
+TEST(AberratedRay, WorldFromCameraInDoubleAgreesWithLorentzBoost)
 {
     auto list = gammas;
     list.push_back(1e9);
@@ -124,7 +124,7 @@ TEST(Sight, WorldFromCameraInDoubleAgreesWithLorentzBoost)
     }
 }
 
-TEST(Sight, CameraFromWorldInDoubleAgreesWithLorentzBoost)
+TEST(AberratedRay, CameraFromWorldInDoubleAgreesWithLorentzBoost)
 {
     auto list = gammas;
     list.push_back(1e9);
@@ -154,7 +154,7 @@ constexpr double sight_float = 1e-6; // required; the 14 roundings of a float co
 
 // The truth for a float direction is the double formula, and the boost in 33 digits, of the same numbers; E goes to the
 // shader as float from double.
-TEST(Sight, FloatAgreesWithDoubleAtEveryGamma)
+TEST(AberratedRay, FloatAgreesWithDoubleAtEveryGamma)
 {
     for (double gamma : gammas) {
         const double u = u_of_gamma(gamma), E = E_of_gamma(gamma);
@@ -192,7 +192,7 @@ TEST(Sight, FloatAgreesWithDoubleAtEveryGamma)
     }
 }
 
-TEST(Sight, FloatThereAndBackReturnsTheDirection)
+TEST(AberratedRay, FloatThereAndBackReturnsTheDirection)
 {
     for (double gamma : gammas) {
         const double E = E_of_gamma(gamma);
@@ -213,7 +213,7 @@ TEST(Sight, FloatThereAndBackReturnsTheDirection)
     }
 }
 
-TEST(Sight, DoubleThereAndBackReturnsTheDirectionBothWays)
+TEST(AberratedRay, DoubleThereAndBackReturnsTheDirectionBothWays)
 {
     auto list = gammas;
     list.push_back(1e9);
@@ -249,7 +249,7 @@ template <class Vec, class Real, class Transform> void expect_identity(Transform
     }
 }
 
-TEST(Sight, AtRestIsTheIdentityToTheBit)
+TEST(AberratedRay, AtRestIsTheIdentityToTheBit)
 {
     ASSERT_EQ(pd::exp_rapidity(0.0), 1.0);
     ASSERT_EQ(pf::exp_rapidity(0.0f), 1.0f);
@@ -260,7 +260,7 @@ TEST(Sight, AtRestIsTheIdentityToTheBit)
 }
 
 // Leaving rest does not show as a jump: the first E above 1 that float has moves nothing by more than that last bit.
-TEST(Sight, LeavingRestIsSmooth)
+TEST(AberratedRay, LeavingRestIsSmooth)
 {
     const float E = std::nextafter(1.0f, 2.0f);
     for (const dvec3& drawn : directions(20000, 1e-12)) {
@@ -271,7 +271,7 @@ TEST(Sight, LeavingRestIsSmooth)
     }
 }
 
-TEST(Sight, DenormalComponentsAndExtremeGammasStayFinite)
+TEST(AberratedRay, DenormalComponentsAndExtremeGammasStayFinite)
 {
     const float f = std::numeric_limits<float>::denorm_min();
     const double d = std::numeric_limits<double>::denorm_min();
@@ -296,7 +296,7 @@ TEST(Sight, DenormalComponentsAndExtremeGammasStayFinite)
     }
 }
 
-TEST(Sight, PlusAndMinusZeroOfZAreOneDirection)
+TEST(AberratedRay, PlusAndMinusZeroOfZAreOneDirection)
 {
     for (double gamma : gammas) {
         const double E = E_of_gamma(gamma);
@@ -308,7 +308,7 @@ TEST(Sight, PlusAndMinusZeroOfZAreOneDirection)
 }
 
 // In (ln tan(theta/2), azimuth) a boost is a plain shift by the rapidity, all over the sky.
-TEST(Sight, BoostShiftsLogTanHalfAngleByTheRapidity)
+TEST(AberratedRay, BoostShiftsLogTanHalfAngleByTheRapidity)
 {
     for (double eta : {0.1, 1.0, 5.0, 14.5}) {
         const double E = std::exp(eta);
@@ -831,13 +831,13 @@ TEST(Motion, ThrustLegAgreesWithIntegration)
     const dvec3 way = glm::normalize(dvec3(1, -2, 2.5));
     for (const dvec3& u : {dvec3(0), dvec3(.3, .1, -.2), dvec3(-3, 4, 1), dvec3(100, 5, 0), dvec3(-1e6, 2e6, 0)})
         for (const auto& [strength, tau] : {std::pair{1., .005}, {1.03, 2.}, {.01, 3.}, {5., .4}, {-1., .7}, {0., 1.}}) {
-            const auto leg = pd::thrust_leg(u, way, strength, tau);
+            const auto segment = pd::thrust_segment(u, way, strength, tau);
             // 4000 steps of Runge-Kutta's fourth order in at most 2.06 of rapidity: 2.06 (5e-4)^4 / 120 = 1e-15.
             const Course want = integrated(quad::of(u), quad::of(way), strength, tau, 4000);
             const double size = double(want.U.t) + std::sqrt(1 + glm::dot(u, u));
-            EXPECT_LE(double(quad::length(quad::of(leg.du) - (want.U.x - quad::of(u)))), 4e-15 * size);
-            EXPECT_LE(double(quad::length(quad::of(leg.dx) - want.X.x)), 4e-15 * size * tau);
-            EXPECT_LE(double(fabsq(leg.dt - want.X.t)), 4e-15 * size * tau);
+            EXPECT_LE(double(quad::length(quad::of(segment.du) - (want.U.x - quad::of(u)))), 4e-15 * size);
+            EXPECT_LE(double(quad::length(quad::of(segment.dx) - want.X.x)), 4e-15 * size * tau);
+            EXPECT_LE(double(fabsq(segment.dt - want.X.t)), 4e-15 * size * tau);
         }
 }
 
@@ -850,10 +850,10 @@ TEST(Motion, OneGTable)
     } table[] = {{1, 1.187312401712, .5636424650787, .7748272626425}, {2, 3.756289449781, 2.910475472067, .9683178487310},
         {5, 84.47972636444, 83.51656515027, .9999342623307}};
     for (const auto& row : table) {
-        const auto leg = pd::thrust_leg({0, 0, 0}, {0, 0, 1}, g, row.tau);
-        EXPECT_NEAR(leg.dt / row.t, 1, 1e-12);
-        EXPECT_NEAR(leg.dx.z / row.x, 1, 1e-12);
-        EXPECT_NEAR(leg.du.z / std::sqrt(1 + leg.du.z * leg.du.z) / row.v, 1, 1e-12);
+        const auto segment = pd::thrust_segment({0, 0, 0}, {0, 0, 1}, g, row.tau);
+        EXPECT_NEAR(segment.dt / row.t, 1, 1e-12);
+        EXPECT_NEAR(segment.dx.z / row.x, 1, 1e-12);
+        EXPECT_NEAR(segment.du.z / std::sqrt(1 + segment.du.z * segment.du.z) / row.v, 1, 1e-12);
     }
 }
 
@@ -863,12 +863,12 @@ TEST(Motion, BodyAheadSeemsToMoveBackwards)
     const double L = 8;
     for (double a : {.2, 1.0, 5.0}) {
         const auto size = [&](double eta) {
-            const auto leg = pd::thrust_leg({0, 0, 0}, {0, 0, 1}, a, eta / a);
-            const double E = pd::exp_rapidity(leg.du.z);
+            const auto segment = pd::thrust_segment({0, 0, 0}, {0, 0, 1}, a, eta / a);
+            const double E = pd::exp_rapidity(segment.du.z);
             // A small body's apparent size over the world's, from the code's own sight of its edge.
             const double edge = 1e-6;
             const double shrink = angle_from_motion(pd::camera_from_world(at(edge), E, 1 / E).n) / edge;
-            return L / (L - leg.dx.z) * shrink;
+            return L / (L - segment.dx.z) * shrink;
         };
         const double least = std::log(1 + a * L);
         EXPECT_NEAR(size(least), 2 / (2 + a * L), 1e-10); // the edge of 1e-6 is not quite small: 1e-12
@@ -895,8 +895,8 @@ TEST(Motion, FloatAgreesWithDouble)
             turn = std::max(turn, glm::length(dvec4(pf::wigner_turn(u, w)) - pd::wigner_turn(ud, wd)));
             for (float strength : {.001f, .5f, 2.f}) {
                 const vec3 way = glm::normalize(vec3(1, 2, -1));
-                const auto got = pf::thrust_leg(u, way, strength, .7f);
-                const auto want = pd::thrust_leg(ud, dvec3(way), strength, double(.7f));
+                const auto got = pf::thrust_segment(u, way, strength, .7f);
+                const auto want = pd::thrust_segment(ud, dvec3(way), strength, double(.7f));
                 const double reach = std::sqrt(1 + glm::dot(ud, ud)) * std::exp(strength * .7);
                 leg_worst = std::max({leg_worst, glm::length(dvec3(got.du) - want.du) / reach,
                     glm::length(dvec3(got.dx) - want.dx) / reach, std::abs(got.dt - want.dt) / reach});

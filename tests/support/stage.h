@@ -33,16 +33,16 @@ public:
         mallopt(M_MMAP_MAX, 0);
         mallopt(M_PERTURB, 0x81);
 #endif
-        theatre = std::make_unique<Theatre>(testing::source_dir() / "config/scenes/avenue.json",
+        context = std::make_unique<RenderContext>(testing::source_dir() / "config/scenes/avenue.json",
             Device::Options{.validation = true, .name = device_options(false).name});
     }
     void TearDown() override
     {
-        if (!theatre)
+        if (!context)
             return;
-        theatre->device.device.waitIdle();
-        expect_no_complaints(theatre->device);
-        theatre.reset();
+        context->device.device.waitIdle();
+        expect_no_complaints(context->device);
+        context.reset();
     }
     static void expect_no_complaints(const Device& device)
     {
@@ -50,16 +50,16 @@ public:
             ADD_FAILURE() << "validation: " << complaint;
     }
 
-    static inline std::unique_ptr<Theatre> theatre;
+    static inline std::unique_ptr<RenderContext> context;
 };
 
 inline ::testing::Environment* const stage = ::testing::AddGlobalTestEnvironment(new Stage);
 
-inline Theatre& avenue() { return *Stage::theatre; }
-inline Device& device() { return Stage::theatre->device; }
-inline Pipelines& pipelines() { return Stage::theatre->pipelines; }
+inline RenderContext& avenue() { return *Stage::context; }
+inline Device& device() { return Stage::context->device; }
+inline Pipelines& pipelines() { return Stage::context->pipelines; }
 
-/// The avenue under an empty sky, while this lives.
+/// The avenue under an empty sky, while this existence_intervals.
 struct WithoutStars {
     WithoutStars() { put_stars(device(), avenue().world, {}); }
     ~WithoutStars() { put_stars(device(), avenue().world, load_stars(avenue().world.scene.stars->catalogue)); }
@@ -68,12 +68,12 @@ struct WithoutStars {
 /// What tests of shapes and numbers are drawn with, and their bounds made for: smooth edges, and one ray a pixel.
 inline Quality test_quality()
 {
-    return within(device(), {.texels_per_pixel = 1.25, .most_texels_per_pixel = 8, .cube_samples = 4, .shading_texels = 2});
+    return within(device(), {.texels_per_pixel = 1.25, .max_texels_per_pixel = 8, .cube_samples = 4, .lod_shading_texels = 2});
 }
 
-inline Studio studio(const GpuWorld& world, const Layout& layout, bool measured = true)
+inline OffscreenRenderer renderer(const GpuWorld& world, const Layout& layout, bool measured = true)
 {
-    return Studio(device(), pipelines(), world, layout, test_quality(), measured);
+    return OffscreenRenderer(device(), pipelines(), world, layout, test_quality(), measured);
 }
 
 using starbow::testing::u_of_beta, starbow::testing::u_of_gamma;
@@ -94,9 +94,9 @@ struct Numbers {
     ivec2 size;
     Channels channels;
 
-    Numbers(Studio& studio, const Shot& shot, std::size_t output = 0)
-        : size(studio.layout().outputs[output].size)
-        , channels(studio.numbers(shot, output))
+    Numbers(OffscreenRenderer& renderer, const Shot& shot, std::size_t output = 0)
+        : size(renderer.layout().outputs[output].size)
+        , channels(renderer.numbers(shot, output))
     {
     }
     const std::vector<float>& channel(const std::string& name) const

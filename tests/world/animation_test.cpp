@@ -34,7 +34,7 @@ World lamp(const Blink& blink)
 }
 
 /// What an eye at rest in the world sees of a frame, from the world's event.
-Vantage vantage_of(const World& world, int frame, const Event& at)
+EyeEvent eye_event_of(const World& world, int frame, const Event& at)
 {
     Shot shot;
     shot.time = at.time, shot.position = at.position;
@@ -55,11 +55,11 @@ TEST(Blink, IsSeenAtTheRateOfItsColour)
         place_bodies(world, scene);
         sort_instances(world);
         auto phase = [&](double t) {
-            const auto entries = time_entries(world, vantage_of(world, 1, {t, {0, 0, 0}}), 1);
+            const auto entries = time_entries(world, eye_event_of(world, 1, {t, {0, 0, 0}}), 1);
             EXPECT_EQ(entries.size(), 1u);
             return double(entries.at(0).blink.x);
         };
-        auto seen = [&](double t) { return physics::seen_moving({beta * (t - 1), 0, -2}, {1, 0, 0}, u, gamma); };
+        auto seen = [&](double t) { return physics::retarded_position({beta * (t - 1), 0, -2}, {1, 0, 0}, u, gamma); };
         const double step = 0.0005, window = 100 * step; // at most 6.3 blinks a period of the eye's: 0.16 in a step
         double t = -15, before = phase(t), count = 0;
         for (; t < 18; t += window) {
@@ -230,19 +230,19 @@ TEST(Animation, ShuttlesAreSeenWhereTheirLightLeft)
         for (double t : {-31.7, 0.0, 0.01, 5.0, 9.99, 27.2, 1e7 + 3.3}) {
             // Where the eye is there; on a body after months it would be far away.
             const Event at{t, u / physics::gamma_of(u) * (t - 3)};
-            const Vantage vantage = vantage_of(world, frame, at);
-            const SeenPose seen = seen_pose(world, world.instances[0], vantage);
-            const double zero = world.instances[0].life < 0 ? 0 : world.lives[std::size_t(world.instances[0].life)].zero;
+            const EyeEvent eye_event = eye_event_of(world, frame, at);
+            const SeenPose seen = seen_pose(world, world.instances[0], eye_event);
+            const double zero = world.instances[0].existence < 0 ? 0 : world.existence_intervals[std::size_t(world.instances[0].existence)].zero;
             const dvec3 place = world.motions[std::size_t(world.instances[0].motion)].place;
-            quad::Q low = vantage.time - 100.0, high = vantage.time;
+            quad::Q low = eye_event.time - 100.0, high = eye_event.time;
             for (int i = 0; i < 150; ++i) {
                 const quad::Q middle = (low + high) / 2;
-                const quad::V3 from = shuttle_place(a, b, middle - zero) + quad::of(place) - quad::of(vantage.place);
-                (middle + quad::length(from) > vantage.time ? high : low) = middle;
+                const quad::V3 from = shuttle_place(a, b, middle - zero) + quad::of(place) - quad::of(eye_event.place);
+                (middle + quad::length(from) > eye_event.time ? high : low) = middle;
             }
             const quad::V3 want = shuttle_place(a, b, low - zero) + quad::of(place);
             // 1e-12 of the way, and what a double keeps of the time.
-            const double room = 1e-11 + 8 * 0x1p-52 * std::abs(vantage.time);
+            const double room = 1e-11 + 8 * 0x1p-52 * std::abs(eye_event.time);
             EXPECT_LT(double(quad::length(quad::of(dvec3(seen.frame_from_local[3])) - want)), room) << t;
             EXPECT_NEAR(seen.sent, double(low), room) << t;
         }
@@ -255,8 +255,8 @@ TEST(Animation, ThroughAJumpSomethingIsSeenAtAnyTime)
     Track jump{Interpolation::step, false, 20, {0, 5, 10}, {dvec4(0, 0, -1, 0), dvec4(0, 0, -8, 0), dvec4(0, 0, -1, 0)}};
     World world = moving_world({.node = 0, .translations = 0}, {jump}, dvec3(-3), dvec3(3));
     for (double t = 0; t < 40; t += 0.0625) {
-        const Vantage vantage{0, {0, 0, 0}, t};
-        const SeenPose seen = seen_pose(world, world.instances[0], vantage);
+        const EyeEvent eye_event{0, {0, 0, 0}, t};
+        const SeenPose seen = seen_pose(world, world.instances[0], eye_event);
         const double away = -seen.frame_from_local[3].z;
         EXPECT_TRUE(away == 1 || away == 8) << t;
         const double in = std::fmod(t, 20);
@@ -286,16 +286,16 @@ TEST(Animation, NothingIsSeenOutsideItsBall)
         joint.above_from_parent = glm::translate(glm::dmat4(1), dvec3(normal(random), normal(random), normal(random)) * 3.0);
         World world
             = moving_world(joint, {shuttle({0, 0, 0}, dvec3(part(random), part(random), part(random)) * 0.5)}, low, high);
-        const Vantage vantage{0, {0, 0, 0}, 100 * part(random)};
-        const SeenPose seen = seen_pose(world, world.instances[0], vantage);
+        const EyeEvent eye_event{0, {0, 0, 0}, 100 * part(random)};
+        const SeenPose seen = seen_pose(world, world.instances[0], eye_event);
         const dvec3 middle(seen.frame_from_local * dvec4(0.5 * (low + high), 1));
         const auto times = pose_times(world, world.instances[0], seen);
         for (int corner = 0; corner < 8; ++corner) {
             const dvec4 point(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z, 1);
-            double before = vantage.time - 100, after = vantage.time;
+            double before = eye_event.time - 100, after = eye_event.time;
             for (int i = 0; i < 80; ++i) {
                 const double time = 0.5 * (before + after);
-                (time + glm::length(dvec3(pose_at(world, world.instances[0], time) * point)) > vantage.time ? after : before)
+                (time + glm::length(dvec3(pose_at(world, world.instances[0], time) * point)) > eye_event.time ? after : before)
                     = time;
             }
             const dvec3 at(pose_at(world, world.instances[0], before) * point);
@@ -429,10 +429,10 @@ TEST_F(AnimationFile, AWorldWithoutAnyHasNothingOfIt)
     EXPECT_EQ(world.motions.capacity() + world.joints.capacity() + world.tracks.capacity(), 0u);
     EXPECT_FALSE(timed(world, world.instances[0]));
     EXPECT_EQ(time_entries(world, {}, 1).capacity(), 0u);
-    const std::vector<PlanImage> images = {{0, 0, {-1, -1}, {1, 1}, {64, 64}, {0, 0}, 64, 1}};
-    EXPECT_EQ(cull(world, {{Vantage{0, {0, 0, 1}}}}, images).instances.size(), 1u);
+    const std::vector<PlannedImage> images = {{0, 0, {-1, -1}, {1, 1}, {64, 64}, {0, 0}, 64, 1}};
+    EXPECT_EQ(cull(world, {{EyeEvent{0, {0, 0, 1}}}}, images).instances.size(), 1u);
     world = load(animated());
     sort_instances(world);
     EXPECT_TRUE(timed(world, world.instances[0]));
-    EXPECT_EQ(cull(world, {{Vantage{0, {0, 0, 1}}}}, images).instances.size(), 1u + POSES);
+    EXPECT_EQ(cull(world, {{EyeEvent{0, {0, 0, 1}}}}, images).instances.size(), 1u + POSES);
 }

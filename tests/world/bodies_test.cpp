@@ -104,15 +104,15 @@ TEST(SeenMoving, IsOnThePastLightCone)
         const double tau = double(low / qg), delay = double(-low);
         const double far = double(quad::Q(r.z) + v * low);
         const double D = double(-low / (qg * (-low) + qu * (quad::Q(r.z) + v * low)));
-        const auto fine = physics_double::seen_moving(r, {0, 0, 1}, u, gamma);
+        const auto fine = physics_double::retarded_position(r, {0, 0, 1}, u, gamma);
         EXPECT_NEAR(fine.tau / tau, 1, 1e-14) << gamma;
         EXPECT_NEAR(fine.delay / delay, 1, 1e-14);
         EXPECT_NEAR(fine.D / D, 1, 1e-13);
         EXPECT_NEAR(fine.place.z, far, 1e-13 * std::max(delay, glm::length(r)));
         // In float, of the same inputs rounded: retarded times within 1e-6.
         const glm::vec3 rf(r);
-        const auto coarse = physics_float::seen_moving(rf, {0, 0, 1}, float(u), float(gamma));
-        const auto rounded = physics_double::seen_moving(dvec3(rf), {0, 0, 1}, double(float(u)), double(float(gamma)));
+        const auto coarse = physics_float::retarded_position(rf, {0, 0, 1}, float(u), float(gamma));
+        const auto rounded = physics_double::retarded_position(dvec3(rf), {0, 0, 1}, double(float(u)), double(float(gamma)));
         EXPECT_NEAR(coarse.tau / rounded.tau, 1, 1e-6) << gamma;
         EXPECT_NEAR(coarse.delay / rounded.delay, 1, 1e-6) << gamma;
         EXPECT_NEAR(coarse.D / rounded.D, 1, 1e-6) << gamma;
@@ -124,19 +124,19 @@ TEST(SeenMoving, PassingByAsInTheBook)
     for (double beta : {0.5, 0.9, 0.999}) {
         const double u = u_of_beta(beta), gamma = std::sqrt(1 + u * u), L = 3;
         // Abeam now: seen atan(gamma beta) behind, the light gamma L under way; its own clock then -L. D = gamma?
-        const auto abeam = physics::seen_moving({L, 0, 0}, {0, 0, 1}, u, gamma);
+        const auto abeam = physics::retarded_position({L, 0, 0}, {0, 0, 1}, u, gamma);
         EXPECT_NEAR(std::atan2(-abeam.place.z, abeam.place.x), std::atan(u), 1e-14);
         EXPECT_NEAR(abeam.delay, gamma * L, 1e-13 * gamma * L);
         EXPECT_NEAR(abeam.D, gamma, 1e-13 * gamma);
         // Seen abeam: D = 1 / gamma.
-        const auto seen = physics::seen_moving({L, 0, beta * L}, {0, 0, 1}, u, gamma);
+        const auto seen = physics::retarded_position({L, 0, beta * L}, {0, 0, 1}, u, gamma);
         EXPECT_NEAR(seen.place.z, 0, 1e-11);
         EXPECT_NEAR(seen.D, 1 / gamma, 1e-12);
         // Coming and going: how fast its place seems to change.
         const double step = 1e-4;
         auto apparent = [&](double from) {
-            return std::abs(physics::seen_moving({0, 0, from + beta * step}, {0, 0, 1}, u, gamma).place.z
-                       - physics::seen_moving({0, 0, from}, {0, 0, 1}, u, gamma).place.z)
+            return std::abs(physics::retarded_position({0, 0, from + beta * step}, {0, 0, 1}, u, gamma).place.z
+                       - physics::retarded_position({0, 0, from}, {0, 0, 1}, u, gamma).place.z)
                 / step;
         };
         EXPECT_NEAR(apparent(-10) / (beta / (1 - beta)), 1, 1e-7);
@@ -148,15 +148,15 @@ TEST(Worldline, LegsKeepTheBodysOwnTime)
 {
     Body twin;
     twin.worldline = {{-5, {0, 0, 0}}, {0, {0, 0, 0}}, {10, {0, 0, -8}}, {20, {0, 0, 0}}, {30, {0, 0, 0}}};
-    const auto legs = legs_of(twin);
-    ASSERT_EQ(legs.size(), 4u);
-    EXPECT_EQ(legs[0].u, dvec3(0));
-    EXPECT_NEAR(legs[1].u.z, -4.0 / 3, 1e-15);
-    EXPECT_NEAR(legs[2].u.z, 4.0 / 3, 1e-15);
+    const auto segments = segments_of(twin);
+    ASSERT_EQ(segments.size(), 4u);
+    EXPECT_EQ(segments[0].u, dvec3(0));
+    EXPECT_NEAR(segments[1].u.z, -4.0 / 3, 1e-15);
+    EXPECT_NEAR(segments[2].u.z, 4.0 / 3, 1e-15);
     // 5 at home, 6 out, 6 back: eight years younger than who stayed.
-    EXPECT_NEAR(legs[3].begin, 17, 1e-14);
-    EXPECT_NEAR(legs[3].end, 27, 1e-14);
-    EXPECT_EQ(legs[1].begin, legs[0].end);
+    EXPECT_NEAR(segments[3].begin, 17, 1e-14);
+    EXPECT_NEAR(segments[3].end, 27, 1e-14);
+    EXPECT_EQ(segments[1].begin, segments[0].end);
 }
 
 TEST(Worldline, AFrameSeesTheShipByTwoBoosts)
@@ -267,7 +267,7 @@ TEST(Bodies, StandInTheirFramesWhenTheyAreThere)
             Shot shot;
             shot.time = time, shot.position = dvec3(0, 0.01, 0);
             const Shot there = in_frame(world.frames[std::size_t(frame)], shot);
-            counts[std::size_t(frame)] = balls(world, {frame, there.position, there.time}).size();
+            counts[std::size_t(frame)] = bounding_spheres(world, {frame, there.position, there.time}).size();
         }
         return counts;
     };
@@ -296,19 +296,19 @@ TEST(Bodies, MissingNodesAndTooManyVelocitiesAreToldInASentence)
     EXPECT_THROW(place_bodies(world, scene), InputError);
 }
 
-TEST(Plan, WhatNoPixelSeesCostsNothing)
+TEST(CubeMapPlan, WhatNoPixelSeesCostsNothing)
 {
-    const Blocks blocks(glm::dmat3(glm::dvec3(0.01, 0, 0), glm::dvec3(0, -0.01, 0), glm::dvec3(-0.5, 0.5, -1)), {100, 100});
+    const ConeHierarchy cones(glm::dmat3(glm::dvec3(0.01, 0, 0), glm::dvec3(0, -0.01, 0), glm::dvec3(-0.5, 0.5, -1)), {100, 100});
     const glm::dmat3 turn = motion_from_world({}, glm::dquat(1, 0, 0, 0));
     auto plan_with = [&](const dvec3& centre) {
-        return make_plan(
-            {PlanLayer{{{&blocks, turn}}, 1}, PlanLayer{{{&blocks, turn}}, 3, false, std::vector<Ball>{{turn * centre, 1}}}},
+        return plan_cube_map(
+            {RestFrameRequest{{{&cones, turn}}, 1}, RestFrameRequest{{{&cones, turn}}, 3, false, std::vector<BoundingSphere>{{turn * centre, 1}}}},
             {});
     };
-    const Plan none = make_plan({PlanLayer{{{&blocks, turn}}, 1}}, {});
+    const CubeMapPlan none = plan_cube_map({RestFrameRequest{{{&cones, turn}}, 1}}, {});
     for (const dvec3& behind : {dvec3(0, 0, 20), dvec3(30, 0, 5)})
         EXPECT_EQ(plan_with(behind).images.size(), none.images.size());
-    const Plan seen = plan_with({0, 0, -20});
+    const CubeMapPlan seen = plan_with({0, 0, -20});
     EXPECT_GT(seen.images.size(), none.images.size());
     EXPECT_LT(seen.texels, 1.3 * none.texels); // a ball 6 degrees across in a view of 53
 }

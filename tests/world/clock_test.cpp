@@ -2,7 +2,7 @@
 #include "config/model/scene_file.h"
 #include "runtime/world/clock.h"
 #include "runtime/world/instances.h"
-#include "runtime/world/vantage.h"
+#include "runtime/world/eye_event.h"
 #include "tests/support/dial.h"
 #include "tests/support/files.h"
 #include <cmath>

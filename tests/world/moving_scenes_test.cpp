@@ -3,7 +3,7 @@
 // this program.
 #include "runtime/world/clock.h"
 #include "runtime/world/instances.h"
-#include "runtime/world/vantage.h"
+#include "runtime/world/eye_event.h"
 #include "runtime/world/worldline.h"
 #include "tests/support/dial.h"
 #include "tests/support/files.h"
@@ -36,18 +36,18 @@ const World& world_of(const std::string& name)
 }
 
 /// What is timed of one material.
-struct Seen {
+struct RetardedPosition {
     dvec3 place; ///< from the eye, in the frame where it rests, the world's axes
     bool there; ///< when the light of its middle left
     std::string figures;
 };
 
 /// All of a material that faces `way` (or any way, where that is 0), from the left to the right: by x.
-std::vector<Seen> seen(const Shot& shot, const std::string& material, const dvec3& way)
+std::vector<RetardedPosition> seen(const Shot& shot, const std::string& material, const dvec3& way)
 {
     const World& world = world_of(shot.scene);
     const double spt = scene_of(shot.scene).seconds_per_time_unit();
-    std::vector<Seen> out;
+    std::vector<RetardedPosition> out;
     for (int frame = 0; frame < int(world.frames.size()); ++frame) {
         const Shot eye = in_frame(world.frames[std::size_t(frame)], shot);
         const auto entries = time_entries(world, {frame, eye.position, eye.time}, spt);
@@ -61,14 +61,14 @@ std::vector<Seen> seen(const Shot& shot, const std::string& material, const dvec
                     {dvec3(entries[i].middle), entries[i].there.x <= 0 && entries[i].there.y > 0, said(entries[i])});
         }
     }
-    std::sort(out.begin(), out.end(), [](const Seen& a, const Seen& b) { return a.place.x < b.place.x; });
+    std::sort(out.begin(), out.end(), [](const RetardedPosition& a, const RetardedPosition& b) { return a.place.x < b.place.x; });
     return out;
 }
 
 std::vector<std::string> figures_of(const std::string& shot, const std::string& material, const dvec3& way = {0, 0, 1})
 {
     std::vector<std::string> out;
-    for (const Seen& s : seen(shipped_shot(shot), material, way))
+    for (const RetardedPosition& s : seen(shipped_shot(shot), material, way))
         if (s.there)
             out.push_back(s.figures);
     return out;
@@ -81,7 +81,7 @@ std::array<bool, 2> seen_at_doors(const std::string& shot, const std::string& ma
 {
     std::array<bool, 2> out{};
     const double x = shipped_shot(shot).position.x;
-    for (const Seen& s : seen(shipped_shot(shot), material, {}))
+    for (const RetardedPosition& s : seen(shipped_shot(shot), material, {}))
         out[s.place.x + x > 0] |= s.there;
     return out;
 }
@@ -172,7 +172,7 @@ TEST(MovingScenesTest, TwinsMeetAtTwentyAndTwelve)
     shot.time = 20.02 + std::hypot(1.3, 3); // as far from one as from the other; a moment later, when both rest
     for (auto [dial, figures] : {std::pair("home dial", "20.0"), {"traveller's dial", "12.0"}}) {
         int there = 0; // once or, at the bend, as that which arrives and as that which rests
-        for (const Seen& s : seen(shot, dial, {0, 0, 1}))
+        for (const RetardedPosition& s : seen(shot, dial, {0, 0, 1}))
             if (s.there) {
                 EXPECT_EQ(s.figures, figures) << dial;
                 ++there;
@@ -256,7 +256,7 @@ TEST(MovingScenesTest, TheLightClocksPulsesFlyAtLightsSpeed)
     // In each shot each pulse is one flash, whole.
     for (const std::string shot : {"light-clock", "light-clock-flying"}) {
         int flashes = 0;
-        for (const Seen& s : seen(shipped_shot(shot), "flash", {}))
+        for (const RetardedPosition& s : seen(shipped_shot(shot), "flash", {}))
             flashes += s.there;
         EXPECT_EQ(flashes, 2) << shot;
     }
@@ -267,7 +267,7 @@ TEST(MovingScenesTest, ATramAndACyclistPassEachOtherInTheGamowStreet)
     const Shot shot = shipped_shot("gamow-pavement");
     for (const std::string material : {"tram green", "coat"}) {
         int before = 0;
-        for (const Seen& s : seen(shot, material, {}))
+        for (const RetardedPosition& s : seen(shot, material, {}))
             before += s.there && s.place.x < 0 && glm::length(s.place) < 12;
         EXPECT_EQ(before, 1) << material;
     }

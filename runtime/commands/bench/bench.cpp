@@ -29,7 +29,7 @@ struct Options {
     std::string json, layout, shot = "avenue-gamma4";
     bool stars = false, bodies = false, cubes = false, scaling = false, governor = false;
     std::string ladder = "ladder";
-    double hold_ms = 0;
+    double frame_budget_ms = 0;
 };
 
 using Stage = vk::PipelineStageFlagBits2;
@@ -89,25 +89,25 @@ struct Result {
 };
 
 /// starless: the same world without its stars.
-Result measure(Theatre& theatre, const GpuWorld& starless, Lookup& lookup, const Layout& layout, const Shot& shot,
+Result measure(RenderContext& context, const GpuWorld& starless, Lookup& lookup, const Layout& layout, const Shot& shot,
     const std::string& name, int rounds)
 {
-    Device& device = theatre.device;
-    Studio studio(device, theatre.pipelines, theatre.world, layout, default_quality(device, false), false);
-    CubePass plain(device, theatre.pipelines, theatre.world, default_quality(device, false), false);
+    Device& device = context.device;
+    OffscreenRenderer renderer(device, context.pipelines, context.world, layout, default_quality(device, false), false);
+    CubePass plain(device, context.pipelines, context.world, default_quality(device, false), false);
     Panel panel = Typesetter().draw(
-        readings(ship_at(shot), theatre.world.scene, shot.effects), words_in("en"), studio.frame().hud_width());
-    Target target = studio.target(0);
-    studio.frame().meter(true); // as the exhibit flies
-    studio.picture(shot, &panel); // warms every cache and leaves the target in a known layout
-    vk::Pipeline lookup_pipeline = theatre.pipelines.lookup(target.format);
+        readings(ship_at(shot), context.world.scene, shot.effects), words_in("en"), renderer.frame().hud_width());
+    Target target = renderer.target(0);
+    renderer.frame().meter(true); // as the exhibit flies
+    renderer.picture(shot, &panel); // warms every cache and leaves the target in a known layout
+    vk::Pipeline lookup_pipeline = context.pipelines.lookup(target.format);
     Shot grey = shot; // what its pixels see is where it would be, and as bright and coloured as at rest
     grey.effects.doppler = grey.effects.headlight = false;
-    Studio geometry(device, theatre.pipelines, starless, layout, default_quality(device, false), false);
-    Studio colour(device, theatre.pipelines, starless, layout, default_quality(device, false), false);
+    OffscreenRenderer geometry(device, context.pipelines, starless, layout, default_quality(device, false), false);
+    OffscreenRenderer colour(device, context.pipelines, starless, layout, default_quality(device, false), false);
     geometry.picture(grey);
     colour.picture(shot);
-    auto warp = [&](Studio& of) {
+    auto warp = [&](OffscreenRenderer& of) {
         return milliseconds([&] {
             device.now([&](vk::CommandBuffer c) {
                 make_writable(c, of.target(0));
@@ -120,39 +120,39 @@ Result measure(Theatre& theatre, const GpuWorld& starless, Lookup& lookup, const
     std::vector<double> times[stage_count];
     for (int round = -2; round < rounds; ++round) {
         double ms[stage_count];
-        ms[0] = milliseconds([&] { studio.frame().prepare(shot, &panel); });
-        ms[1] = milliseconds([&] { device.now([&](vk::CommandBuffer c) { studio.frame().draw_cubes(c); }); });
-        ms[2] = warp(studio);
+        ms[0] = milliseconds([&] { renderer.frame().prepare(shot, &panel); });
+        ms[1] = milliseconds([&] { device.now([&](vk::CommandBuffer c) { renderer.frame().draw_cubes(c); }); });
+        ms[2] = warp(renderer);
         ms[8] = warp(geometry);
         ms[9] = warp(colour);
-        ms[10] = milliseconds([&] { device.now([&](vk::CommandBuffer c) { studio.frame().draw_stars(c, 0, 0); }); });
+        ms[10] = milliseconds([&] { device.now([&](vk::CommandBuffer c) { renderer.frame().draw_stars(c, 0, 0); }); });
         ms[6] = milliseconds([&] {
             device.now([&](vk::CommandBuffer c) {
                 make_writable(c, target);
-                studio.frame().look_up(c, target, lookup_pipeline, *lookup.set);
+                renderer.frame().look_up(c, target, lookup_pipeline, *lookup.set);
             });
         });
         ms[7] = milliseconds([&] {
-            device.now([&](vk::CommandBuffer c) { studio.frame().draw_meter(c); });
-            (void)studio.frame().metered();
+            device.now([&](vk::CommandBuffer c) { renderer.frame().draw_meter(c); });
+            (void)renderer.frame().metered();
         });
         ms[3] = milliseconds([&] {
             device.now([&](vk::CommandBuffer c) {
                 make_writable(c, target);
-                studio.frame().draw_hud(c, 0, target);
+                renderer.frame().draw_hud(c, 0, target);
             });
         });
         ms[4] = milliseconds([&] {
-            studio.frame().prepare(shot, &panel);
+            renderer.frame().prepare(shot, &panel);
             device.now([&](vk::CommandBuffer c) {
                 make_writable(c, target);
-                studio.frame().record(c, std::span(&target, 1));
+                renderer.frame().record(c, std::span(&target, 1));
             });
-            (void)studio.frame().metered();
+            (void)renderer.frame().metered();
         });
         ms[5] = milliseconds([&] {
             glm::dmat3 straight;
-            PlanImage image = studio.frame().plain_image(shot, straight);
+            PlannedImage image = renderer.frame().plain_image(shot, straight);
             plain.prepare_plain(image, {0, shot.position, shot.time, straight});
             device.now([&](vk::CommandBuffer c) {
                 make_writable(c, target);
@@ -162,10 +162,10 @@ Result measure(Theatre& theatre, const GpuWorld& starless, Lookup& lookup, const
         for (int i = 0; round >= 0 && i < stage_count; ++i)
             times[i].push_back(ms[i]);
     }
-    Result result{name, {}, 0, 0, studio.frame().triangles(), double(studio.frame().memory()) / (1 << 20)};
+    Result result{name, {}, 0, 0, renderer.frame().triangles(), double(renderer.frame().memory()) / (1 << 20)};
     for (int i = 0; i < stage_count; ++i)
         result.ms[i] = median(times[i]);
-    for (const Plan& plan : studio.frame().plans()) {
+    for (const CubeMapPlan& plan : renderer.frame().plans()) {
         result.texels_per_pixel += plan.texels / plan.pixels;
         result.images += plan.images.size();
     }
@@ -181,40 +181,40 @@ int bench(const Options& options)
     if (options.bodies)
         return bench_bodies(options.rounds);
     if (options.governor)
-        return bench_governor(options.ladder, options.hold_ms, options.seconds);
+        return bench_governor(options.ladder, options.frame_budget_ms, options.seconds);
     if (options.scaling)
         return bench_scaling(options.rounds);
     if (!options.layout.empty())
         return bench_layout(options.layout, options.shot, options.rounds);
     if (!options.json.empty())
         check_writable(options.json);
-    Layout layout = load_layout(find("layouts", "desk"));
+    Layout layout = load_layout(shipped_file("layouts", "desk"));
     layout.outputs[0].size = {800, 600};
-    Theatre theatre(find("scenes", "avenue"), device_options(false));
-    World world = load_world(theatre.world.scene.gltf);
+    RenderContext context(shipped_file("scenes", "avenue"), device_options(false));
+    World world = load_world(context.world.scene.gltf);
     add_detail_levels(world);
     const GpuWorld starless
-        = upload(theatre.device, theatre.pipelines, std::move(world), theatre.world.scene, {}, theatre.world.spectra.level);
+        = upload(context.device, context.pipelines, std::move(world), context.world.scene, {}, context.world.spectra.level);
     if (options.cubes) {
-        bench_cubes(theatre, starless, options.rounds);
+        bench_cubes(context, starless, options.rounds);
         return 0;
     }
-    Lookup lookup(theatre.device, theatre.pipelines);
+    Lookup lookup(context.device, context.pipelines);
     std::printf("%s; avenue at 800x600, all effects on; medians of %d rounds, milliseconds\n\n",
-        theatre.device.properties.deviceName.data(), options.rounds);
+        context.device.properties.deviceName.data(), options.rounds);
     std::vector<Result> results;
     struct Case {
         const char* name;
         double gamma;
     };
     for (Case c : {Case{"rest", 1}, Case{"gamma4", 4}, Case{"gamma100", 100}}) {
-        Shot shot = theatre.world.scene.start;
+        Shot shot = context.world.scene.start;
         if (c.gamma > 1) {
             shot.position.z = -8;
             shot.u = {0, 0, -std::sqrt((c.gamma - 1) * (c.gamma + 1))};
         }
         shot.exposure_ev = c.gamma > 1 ? -3 : 0;
-        results.push_back(measure(theatre, starless, lookup, layout, shot, c.name, options.rounds));
+        results.push_back(measure(context, starless, lookup, layout, shot, c.name, options.rounds));
         std::fprintf(stderr, "%s measured\n", c.name);
     }
     std::printf("%-22s", "");
@@ -242,11 +242,11 @@ int bench(const Options& options)
     line("triangles sent", "%12zu", [](const Result& r) { return r.triangles; });
     line("device images, MiB", "%12.1f", [](const Result& r) { return r.megabytes; });
     std::printf("\n");
-    const auto levels = bench_spectra(theatre, layout, options.rounds);
+    const auto levels = bench_spectra(context, layout, options.rounds);
 
     if (!options.json.empty()) {
         nlohmann::ordered_json json;
-        json["device"] = theatre.device.properties.deviceName.data();
+        json["device"] = context.device.properties.deviceName.data();
         for (const Result& r : results) {
             for (int i = 0; i < stage_count; ++i)
                 json["milliseconds"][r.name][stage_names[i]] = r.ms[i];
@@ -298,7 +298,7 @@ void add_bench(CLI::App& app, std::function<int()>& chosen)
     command->add_flag("--governor", options->governor,
         "Instead: how well a frame's time is held under a load that doubles and halves every 5 s");
     command->add_option("--ladder", options->ladder, "With --governor: the ladder")->capture_default_str();
-    command->add_option("--hold-ms", options->hold_ms, "With --governor: the time that is held [1.5 of the middle rung's]");
+    command->add_option("--frame-budget-ms", options->frame_budget_ms, "With --governor: the time that is held [1.5 of the middle rung's]");
     command->add_option("--seconds", options->seconds, "With --input and --governor: how long")
         ->check(whole_number(1, 3600))
         ->capture_default_str();

@@ -15,7 +15,7 @@ struct Case {
     bool seen = true;
     std::vector<double> ms{};
     std::unique_ptr<GpuWorld> world{};
-    std::unique_ptr<Studio> studio{};
+    std::unique_ptr<OffscreenRenderer> renderer{};
 };
 
 } // namespace
@@ -24,16 +24,16 @@ int bench_bodies(int rounds)
 {
     Device device(device_options(false));
     Pipelines pipelines(device);
-    Layout layout = load_layout(find("layouts", "desk"));
+    Layout layout = load_layout(shipped_file("layouts", "desk"));
     layout.outputs[0].size = {800, 600};
-    Shot shot = load_shot(find("shots", "clocks-rest"));
+    Shot shot = load_shot(shipped_file("shots", "clocks-rest"));
     std::vector<Case> cases;
     cases.push_back({"all at rest"});
     for (int bodies : {1, 2, 4, 8})
         cases.push_back({std::to_string(bodies) + " in view", bodies});
     cases.push_back({"8 out of view", 8, false});
     for (Case& c : cases) {
-        SceneFile scene = load_scene_file(find("scenes", "clocks"));
+        SceneFile scene = load_scene_file(shipped_file("scenes", "clocks"));
         // Light as the moving ones need it, also where nothing moves; and no stars.
         scene.stars.reset();
         for (int i = 0; i < c.bodies; ++i) {
@@ -45,18 +45,18 @@ int bench_bodies(int rounds)
         World world = load_world(scene.gltf);
         add_detail_levels(world);
         c.world = std::make_unique<GpuWorld>(upload(device, pipelines, std::move(world), scene, {}, SpectralLevel::fine));
-        c.studio = std::make_unique<Studio>(device, pipelines, *c.world, layout, default_quality(device, false), false);
-        c.studio->picture(shot); // leaves the target in a known layout
+        c.renderer = std::make_unique<OffscreenRenderer>(device, pipelines, *c.world, layout, default_quality(device, false), false);
+        c.renderer->picture(shot); // leaves the target in a known layout
     }
     // In turn within each round, so that whatever else the machine does falls on all alike.
     for (int round = -1; round < rounds; ++round)
         for (Case& c : cases) {
-            const Target target = c.studio->target(0);
+            const Target target = c.renderer->target(0);
             const double ms = milliseconds([&] {
-                c.studio->frame().prepare(shot, nullptr);
+                c.renderer->frame().prepare(shot, nullptr);
                 device.now([&](vk::CommandBuffer commands) {
                     make_writable(commands, target);
-                    c.studio->frame().record(commands, std::span(&target, 1));
+                    c.renderer->frame().record(commands, std::span(&target, 1));
                 });
             });
             if (round >= 0)
@@ -65,7 +65,7 @@ int bench_bodies(int rounds)
     std::printf("%s; clocks at 800x600, all effects on; medians of %d rounds, whole frames\n\n%-16s%12s%12s%10s%14s\n",
         device.properties.deviceName.data(), rounds, "bodies", "ms", "relative", "images", "Mtexels");
     for (const Case& c : cases) {
-        const Plan& plan = c.studio->frame().plans()[0];
+        const CubeMapPlan& plan = c.renderer->frame().plans()[0];
         std::printf("%-16s%12.2f%12.2f%10zu%14.2f\n", c.name.c_str(), median(c.ms), median(c.ms) / median(cases[0].ms),
             plan.images.size(), plan.texels * 1e-6);
     }

@@ -11,21 +11,21 @@ namespace starbow {
 namespace {
 
 /// All directions at one density: a plan for each part of a face that a device draws at once.
-std::vector<Plan> full_faces(double texels_per_unit)
+std::vector<CubeMapPlan> full_faces(double texels_per_unit)
 {
     constexpr int most = 4096;
     const int side = int(std::ceil(2 * texels_per_unit)), parts = (side + most - 1) / most;
-    std::vector<Plan> plans;
+    std::vector<CubeMapPlan> plans;
     for (int face = 0; face < 6; ++face)
         for (int j = 0; j < parts; ++j)
             for (int i = 0; i < parts; ++i) {
                 auto edge = [&](int k) { return -1 + 2.0 * k / parts; };
-                PlanImage image{SLOT_FRONT, face, {edge(i), edge(j)}, {edge(i + 1), edge(j + 1)}, glm::ivec2(side / parts),
+                PlannedImage image{TILE_FRONT, face, {edge(i), edge(j)}, {edge(i + 1), edge(j + 1)}, glm::ivec2(side / parts),
                     {0, 0}, texels_per_unit, 1};
-                Plan plan;
+                CubeMapPlan plan;
                 plan.images = {image};
                 plan.atlas_size = image.size;
-                plan.rear_last = {0};
+                plan.finest_clip_level = {0};
                 plans.push_back(plan);
             }
     return plans;
@@ -44,9 +44,9 @@ Shot flight(const Shot& start, double gamma)
 
 } // namespace
 
-void bench_cubes(Theatre& theatre, const GpuWorld& starless, int rounds)
+void bench_cubes(RenderContext& context, const GpuWorld& starless, int rounds)
 {
-    Device& device = theatre.device;
+    Device& device = context.device;
     const glm::ivec2 size(1024);
     const Layout dome_layout = one_view(Fisheye{.aperture_deg = 180, .tilt_deg = 30}, size);
     // Its middle's pixels are as wide as the dome's, pi / 1024.
@@ -54,7 +54,7 @@ void bench_cubes(Theatre& theatre, const GpuWorld& starless, int rounds)
     const Layout window_layout = one_view(Planar{2 * half_deg}, size);
     Quality quality = default_quality(device, false);
     quality.texels_per_pixel = 1;
-    quality.most_texels_per_pixel = 6;
+    quality.max_texels_per_pixel = 6;
 
     std::printf(
         "\nA dome of 1024x1024 with all effects, a texel for each pixel, beside a plain picture of 1024x1024 whose middle "
@@ -62,23 +62,23 @@ void bench_cubes(Theatre& theatre, const GpuWorld& starless, int rounds)
         "milliseconds\n%-10s%8s%8s%8s%26s%8s%8s%8s%26s\n",
         "", "dome", "plain", "ratio", "(with stars", "plan", "faces", "ratio", "(Mtexel");
     for (double gamma : {1.0, 4.0, 100.0}) {
-        const Shot shot = flight(theatre.world.scene.start, gamma);
-        Studio dome(device, theatre.pipelines, starless, dome_layout, quality, false);
-        Studio starry(device, theatre.pipelines, theatre.world, dome_layout, quality, false);
-        Studio window(device, theatre.pipelines, starless, window_layout, quality, false);
-        Layout desk = load_layout(find("layouts", "desk"));
+        const Shot shot = flight(context.world.scene.start, gamma);
+        OffscreenRenderer dome(device, context.pipelines, starless, dome_layout, quality, false);
+        OffscreenRenderer starry(device, context.pipelines, context.world, dome_layout, quality, false);
+        OffscreenRenderer window(device, context.pipelines, starless, window_layout, quality, false);
+        Layout desk = load_layout(shipped_file("layouts", "desk"));
         desk.outputs[0].size = {800, 600};
-        Studio own(device, theatre.pipelines, starless, desk, default_quality(device, false), false);
-        CubePass plain(device, theatre.pipelines, starless, default_quality(device, false), false);
-        CubePass six(device, theatre.pipelines, starless, default_quality(device, false), false);
-        for (Studio* studio : {&dome, &starry, &window, &own})
-            studio->picture(shot); // leaves the target in a known layout
-        const Plan& plan = own.frame().plans()[0];
+        OffscreenRenderer own(device, context.pipelines, starless, desk, default_quality(device, false), false);
+        CubePass plain(device, context.pipelines, starless, default_quality(device, false), false);
+        CubePass six(device, context.pipelines, starless, default_quality(device, false), false);
+        for (OffscreenRenderer* renderer : {&dome, &starry, &window, &own})
+            renderer->picture(shot); // leaves the target in a known layout
+        const CubeMapPlan& plan = own.frame().plans()[0];
         double finest = 0, texels = 0;
-        for (const PlanImage& image : plan.images)
+        for (const PlannedImage& image : plan.images)
             finest = std::max(finest, image.texels_per_unit);
-        const std::vector<Plan> faces = full_faces(finest);
-        for (const Plan& part : faces)
+        const std::vector<CubeMapPlan> faces = full_faces(finest);
+        for (const CubeMapPlan& part : faces)
             texels += double(part.atlas_size.x) * part.atlas_size.y;
         const bool draws_faces = texels < 2.5e8;
         const glm::dmat3 turn = motion_from_world(shot.u, shot.ship_from_cockpit);
@@ -86,13 +86,13 @@ void bench_cubes(Theatre& theatre, const GpuWorld& starless, int rounds)
         std::vector<double> times[5];
         for (int round = -1; round < rounds; ++round) {
             double ms[5] = {};
-            auto frame = [&](Studio& studio) {
+            auto frame = [&](OffscreenRenderer& renderer) {
                 return milliseconds([&] {
-                    studio.frame().prepare(shot, nullptr);
+                    renderer.frame().prepare(shot, nullptr);
                     device.now([&](vk::CommandBuffer c) {
-                        const Target target = studio.target(0);
+                        const Target target = renderer.target(0);
                         make_writable(c, target);
-                        studio.frame().record(c, std::span(&target, 1));
+                        renderer.frame().record(c, std::span(&target, 1));
                     });
                 });
             };
@@ -100,7 +100,7 @@ void bench_cubes(Theatre& theatre, const GpuWorld& starless, int rounds)
             ms[1] = frame(starry);
             ms[2] = milliseconds([&] {
                 glm::dmat3 straight;
-                const PlanImage image = window.frame().plain_image(shot, straight);
+                const PlannedImage image = window.frame().plain_image(shot, straight);
                 plain.prepare_plain(image, {0, shot.position, shot.time, straight});
                 device.now([&](vk::CommandBuffer c) {
                     make_writable(c, window.target(0));
@@ -113,9 +113,9 @@ void bench_cubes(Theatre& theatre, const GpuWorld& starless, int rounds)
             });
             if (draws_faces)
                 ms[4] = milliseconds([&] {
-                    const Vantage vantage{0, shot.position, shot.time, turn};
-                    for (const Plan& part : faces) {
-                        six.prepare(part, {&vantage, 1}, 1);
+                    const EyeEvent eye_event{0, shot.position, shot.time, turn};
+                    for (const CubeMapPlan& part : faces) {
+                        six.prepare(part, {&eye_event, 1}, 1);
                         device.now([&](vk::CommandBuffer c) { six.record(c); });
                     }
                 });

@@ -11,59 +11,59 @@
 
 namespace starbow {
 
-int bench_governor(const std::string& ladder_name, double hold_ms, int seconds)
+int bench_governor(const std::string& ladder_name, double frame_budget_ms, int seconds)
 {
     using Clock = std::chrono::steady_clock;
-    const std::vector<Rung> ladder = load_ladder(find("qualities", ladder_name));
-    Layout layout = load_layout(find("layouts", "desk"));
-    Theatre theatre(find("scenes", "avenue"), device_options(false), ladder[0].quality.spectra);
-    Device& device = theatre.device;
-    const Shot shot = load_shot(find("shots", "starbow"));
-    Studio studio(device, theatre.pipelines, theatre.world, layout, within(device, ladder.back().quality), false);
-    const Target target = studio.target(0);
-    studio.frame().repeatable(false); // as the exhibit flies
+    const std::vector<PresetLevel> ladder = load_ladder(shipped_file("qualities", ladder_name));
+    Layout layout = load_layout(shipped_file("layouts", "desk"));
+    RenderContext context(shipped_file("scenes", "avenue"), device_options(false), ladder[0].quality.spectra);
+    Device& device = context.device;
+    const Shot shot = load_shot(shipped_file("shots", "starbow"));
+    OffscreenRenderer renderer(device, context.pipelines, context.world, layout, within(device, ladder.back().quality), false);
+    const Target target = renderer.target(0);
+    renderer.frame().repeatable(false); // as the exhibit flies
     FrameTimer timer(device);
     const auto frame_ms = [&](int times) {
-        const double prepared = milliseconds([&] { studio.frame().prepare(shot, nullptr); });
+        const double prepared = milliseconds([&] { renderer.frame().prepare(shot, nullptr); });
         device.now([&](vk::CommandBuffer c) {
             timer.begin(c);
             for (int i = 0; i < times; ++i) {
                 make_writable(c, target);
-                studio.frame().record(c, std::span(&target, 1));
+                renderer.frame().record(c, std::span(&target, 1));
             }
             timer.end(c);
         });
         return prepared + timer.ms().value_or(0);
     };
-    // Every rung once, so that its pipelines are made; and the middle one's time.
+    // Every level once, so that its pipelines are made; and the middle one's time.
     double middle = 0;
-    for (std::size_t rung = 0; rung < ladder.size(); ++rung) {
-        studio.frame().adopt(within(device, ladder[rung].quality));
+    for (std::size_t level = 0; level < ladder.size(); ++level) {
+        renderer.frame().adopt(within(device, ladder[level].quality));
         std::vector<double> times;
         for (int i = 0; i < 5; ++i)
             times.push_back(frame_ms(1));
-        if (rung == ladder.size() / 2)
+        if (level == ladder.size() / 2)
             middle = median(times);
     }
-    if (hold_ms <= 0)
-        hold_ms = 1.5 * middle;
-    Governor governor(ladder, hold_ms);
-    studio.frame().adopt(within(device, ladder[governor.rung()].quality));
+    if (frame_budget_ms <= 0)
+        frame_budget_ms = 1.5 * middle;
+    Governor governor(ladder, frame_budget_ms);
+    renderer.frame().adopt(within(device, ladder[governor.level()].quality));
     std::printf(
-        "%s; the starbow at 800x600, %.1f ms a frame held over %zu rungs, a load that doubles and halves every 5 s\n",
-        device.properties.deviceName.data(), hold_ms, ladder.size());
+        "%s; the starbow at 800x600, %.1f ms a frame held over %zu levels, a load that doubles and halves every 5 s\n",
+        device.properties.deviceName.data(), frame_budget_ms, ladder.size());
     const auto began = Clock::now();
     const auto now_s = [&] { return std::chrono::duration<double>(Clock::now() - began).count(); };
     int frames = 0, late = 0, moves = 0, most_moves = 0;
     std::vector<double> moved;
     for (int second = 0; now_s() < seconds;) {
         const auto turn
-            = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(hold_ms / 1000));
+            = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(frame_budget_ms / 1000));
         const double ms = frame_ms(int(now_s() / 5) % 2 ? 2 : 1);
         ++frames;
-        late += ms > 1.5 * hold_ms;
+        late += ms > 1.5 * frame_budget_ms;
         if (governor.drawn(now_s(), ms)) {
-            studio.frame().adopt(within(device, ladder[governor.rung()].quality));
+            renderer.frame().adopt(within(device, ladder[governor.level()].quality));
             ++moves;
             moved.push_back(now_s());
             int near = 0;
@@ -75,7 +75,7 @@ int bench_governor(const std::string& ladder_name, double hold_ms, int seconds)
         if (int(now_s()) / 5 > second) {
             second = int(now_s()) / 5;
             std::printf(
-                "%4d s: rung %zu, %d frames, %d late, %d moves\n", 5 * second, governor.rung() + 1, frames, late, moves);
+                "%4d s: level %zu, %d frames, %d late, %d moves\n", 5 * second, governor.level() + 1, frames, late, moves);
             std::fflush(stdout);
         }
     }

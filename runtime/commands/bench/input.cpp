@@ -65,25 +65,25 @@ int bench_input(const std::string& layout, double seconds)
         throw InputError(
             "There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere), so no present call can "
             "be timed; a desktop session is right");
-    Opening opening{
-        .scene = find("scenes", "avenue"), .layout = load_layout(find("layouts", layout.empty() ? "desk" : layout))};
-    opening.start = load_scene_file(opening.scene).start;
-    opening.words = words_in("en");
-    opening.profiles = known_profiles();
+    ExhibitOptions exhibit_options{
+        .scene = shipped_file("scenes", "avenue"), .layout = load_layout(shipped_file("layouts", layout.empty() ? "desk" : layout))};
+    exhibit_options.start = load_scene_file(exhibit_options.scene).start;
+    exhibit_options.words = words_in("en");
+    exhibit_options.profiles = known_profiles();
     Measurement measurement{seconds};
-    opening.timed = [&](const FrameTimes& times) { measurement.add(times); };
-    opening.over = [&] { return measurement.over(); };
+    exhibit_options.timed = [&](const FrameTimes& times) { measurement.add(times); };
+    exhibit_options.over = [&] { return measurement.over(); };
     struct sigaction act { };
     act.sa_handler = [](int) { interrupted = 1; };
     act.sa_flags = int(SA_RESETHAND); // twice: at once
     sigaction(SIGINT, &act, nullptr);
     WindowSystem window_system;
     std::fprintf(stderr, "Move a stick, a throttle or a pad: it is timed from its first report on\n");
-    const int status = fly_exhibit(opening);
+    const int status = fly_exhibit(exhibit_options);
     if (measurement.latency.reports() == 0)
         throw InputError("No stick, throttle or pad has told anything within " + std::to_string(int(grace_s))
             + " s, and a keyboard does not count; one that is plugged in ('starbow devices' lists them) and moved is right");
-    std::printf("\n%s", measurement.latency.told().c_str());
+    std::printf("\n%s", measurement.latency.describe().c_str());
     return status;
 }
 

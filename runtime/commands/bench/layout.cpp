@@ -18,8 +18,8 @@ double pixels_of(const Layout& layout)
 {
     double sum = 0;
     for (std::size_t output = 0; output < layout.outputs.size(); ++output)
-        for (const Pane& pane : panes(layout, output, layout.outputs[output].size))
-            sum += double(pane.size.x) * pane.size.y;
+        for (const View& view : views_of(layout, output, layout.outputs[output].size))
+            sum += double(view.size.x) * view.size.y;
     return sum;
 }
 
@@ -30,17 +30,17 @@ const char* const stage_names[stages]
 /// One layout to time among others.
 struct Case {
     std::string name;
-    std::unique_ptr<Studio> studio;
+    std::unique_ptr<OffscreenRenderer> renderer;
     std::vector<double> times[stages];
     double ms(int stage) const { return median(times[stage]); }
 
     void round(Device& device, const Shot& shot, bool counts)
     {
-        Frame& frame = studio->frame();
-        const std::size_t outputs = studio->layout().outputs.size();
+        Frame& frame = renderer->frame();
+        const std::size_t outputs = renderer->layout().outputs.size();
         std::vector<Target> targets;
         for (std::size_t i = 0; i < outputs; ++i)
-            targets.push_back(studio->target(i));
+            targets.push_back(renderer->target(i));
         auto each = [&](auto&& work) {
             return milliseconds([&] {
                 device.now([&](vk::CommandBuffer c) {
@@ -75,24 +75,24 @@ struct Case {
 };
 
 /// Times cases in turn within each round, so that whatever else the machine does falls on all alike.
-void time(Theatre& theatre, std::vector<Case>& cases, const Shot& shot, int rounds)
+void time(RenderContext& context, std::vector<Case>& cases, const Shot& shot, int rounds)
 {
     for (int round = -2; round < rounds; ++round)
         for (Case& one : cases)
-            one.round(theatre.device, shot, round >= 0);
+            one.round(context.device, shot, round >= 0);
 }
 
-Case make_case(Theatre& theatre, const std::string& name, const Layout& layout)
+Case make_case(RenderContext& context, const std::string& name, const Layout& layout)
 {
     Case one;
     one.name = name;
-    one.studio = std::make_unique<Studio>(
-        theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, false), false);
-    one.studio->frame().meter(true); // as the exhibit flies
+    one.renderer = std::make_unique<OffscreenRenderer>(
+        context.device, context.pipelines, context.world, layout, default_quality(context.device, false), false);
+    one.renderer->frame().meter(true); // as the exhibit flies
     return one;
 }
 
-void bench_kinds(Theatre& theatre, const Shot& shot, int rounds)
+void bench_kinds(RenderContext& context, const Shot& shot, int rounds)
 {
     constexpr glm::ivec2 size(800, 600);
     // The same window bent by a mesh that bends nothing, and the fisheye whose circle covers the whole picture: every pixel
@@ -108,19 +108,19 @@ void bench_kinds(Theatre& theatre, const Shot& shot, int rounds)
         lens.colours[std::size_t(i)].k = {0.1 + 0.01 * i, 0, 0, 0};
     Fisheye fisheye{.aperture_deg = 110, .tilt_deg = 90, .diameter = 5.0 / 3};
     std::vector<Case> cases;
-    cases.push_back(make_case(theatre, "planar", one_view(Planar{90}, size)));
-    cases.push_back(make_case(theatre, "fisheye", one_view(fisheye, size)));
-    cases.push_back(make_case(theatre, "mesh", mesh));
-    cases.push_back(make_case(theatre, "lens, three colours", one_view(lens, size)));
+    cases.push_back(make_case(context, "planar", one_view(Planar{90}, size)));
+    cases.push_back(make_case(context, "fisheye", one_view(fisheye, size)));
+    cases.push_back(make_case(context, "mesh", mesh));
+    cases.push_back(make_case(context, "lens, three colours", one_view(lens, size)));
     std::filesystem::remove(file);
-    time(theatre, cases, shot, rounds);
+    time(context, cases, shot, rounds);
     std::printf("\nThe warp pass by kind of display, 800x600:\n");
     for (const Case& one : cases)
         std::printf("  %-22s %7.2f ms  %6.1f ns per pixel  %5.2f of planar\n", one.name.c_str(), one.ms(2),
             one.ms(2) * 1e6 / (size.x * size.y), one.ms(2) / cases[0].ms(2));
 }
 
-void bench_viewports(Theatre& theatre, const Shot& shot, int rounds)
+void bench_viewports(RenderContext& context, const Shot& shot, int rounds)
 {
     // The same directions twice: a window of 1600 x 600 whole, and as eight windows of 400 x 300.
     const double half_y = 30, unit = std::tan(glm::radians(half_y)) / 300;
@@ -134,20 +134,20 @@ void bench_viewports(Theatre& theatre, const Shot& shot, int rounds)
             eight.outputs[0].viewports.push_back({.rect = {0.25 * x, 0.5 * y, 0.25, 0.5}, .projection = part});
         }
     std::vector<Case> cases;
-    cases.push_back(make_case(theatre, "one viewport", whole));
-    cases.push_back(make_case(theatre, "eight viewports", eight));
-    time(theatre, cases, shot, rounds);
+    cases.push_back(make_case(context, "one viewport", whole));
+    cases.push_back(make_case(context, "eight viewports", eight));
+    time(context, cases, shot, rounds);
     std::printf("\nEight viewports of 400x300 that share an eye, beside one of 1600x600:\n");
     for (const Case& one : cases)
         std::printf("  %-22s %7.2f ms whole frame  %7.2f ms warp  %5.2f of one\n", one.name.c_str(), one.ms(4), one.ms(2),
             one.ms(4) / cases[0].ms(4));
 }
 
-void bench_stereo(Theatre& theatre, const Shot& shot, int rounds)
+void bench_stereo(RenderContext& context, const Shot& shot, int rounds)
 {
     Layout stereo = one_view(Planar{60}, {1600, 600});
     stereo.outputs[0].packing = Packing::side_by_side;
-    stereo.stereo.hyper_stereo = 1.5e8 * theatre.world.scene.unit_m / 299792458;
+    stereo.stereo.hyper_stereo = 1.5e8 * context.world.scene.unit_m / 299792458;
     Layout turning = one_view(Fisheye{.aperture_deg = 180, .tilt_deg = 30}, {1200, 600});
     turning.outputs[0].packing = Packing::side_by_side;
     turning.stereo = stereo.stereo;
@@ -166,29 +166,29 @@ void bench_stereo(Theatre& theatre, const Shot& shot, int rounds)
              Method{"shared", StereoMethod::shared}}) {
         layouts.push_back(stereo);
         layouts.back().stereo.method = m.method;
-        cases.push_back(make_case(theatre, m.name, layouts.back()));
+        cases.push_back(make_case(context, m.name, layouts.back()));
     }
     layouts.push_back(still_dome);
-    cases.push_back(make_case(theatre, "dome, exact", still_dome));
+    cases.push_back(make_case(context, "dome, exact", still_dome));
     layouts.push_back(turned);
-    cases.push_back(make_case(theatre, "dome, turning", turned));
-    time(theatre, cases, shot, rounds);
+    cases.push_back(make_case(context, "dome, turning", turned));
+    time(context, cases, shot, rounds);
     // Errors at the quality of stills, where the depth map is as fine as the picture.
-    const Quality quality = default_quality(theatre.device, true);
+    const Quality quality = default_quality(context.device, true);
     auto measured = [&](const Layout& layout) {
-        return Studio(theatre.device, theatre.pipelines, theatre.world, layout, quality, true);
+        return OffscreenRenderer(context.device, context.pipelines, context.world, layout, quality, true);
     };
     std::printf("\nTwo eyes of 800x600 (domes 600x600), %.4g scene units apart:\n",
-        stereo.stereo.separation_m * stereo.stereo.hyper_stereo / theatre.world.scene.unit_m);
+        stereo.stereo.separation_m * stereo.stereo.hyper_stereo / context.world.scene.unit_m);
     std::printf("  %-22s %10s %8s %9s   %s\n", "", "frame, ms", "of exact", "warp, ms",
         "disparity error, pixels: median, 99 %, most; hidden wrongly");
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        Studio tested = measured(layouts[i]);
+        OffscreenRenderer tested = measured(layouts[i]);
         const bool turns = layouts[i].stereo.turning;
         Layout exact_layout = layouts[i];
         exact_layout.stereo.method = StereoMethod::exact;
-        std::unique_ptr<Studio> exact = turns ? nullptr : std::make_unique<Studio>(measured(exact_layout));
-        const Disparity off = disparity(tested, exact.get(), shot, 0, theatre.world.scene.unit_m);
+        std::unique_ptr<OffscreenRenderer> exact = turns ? nullptr : std::make_unique<OffscreenRenderer>(measured(exact_layout));
+        const Disparity off = disparity(tested, exact.get(), shot, 0, context.world.scene.unit_m);
         const std::size_t base = i < 3 ? 0 : 3;
         std::printf("  %-22s %10.2f %8.2f %9.2f   %8.3f %8.3f %8.2f  %6.2f %%\n", cases[i].name.c_str(), cases[i].ms(4),
             cases[i].ms(4) / cases[base].ms(4), cases[i].ms(2), off.median, off.high, off.most, 100 * off.hidden);
@@ -199,11 +199,11 @@ void bench_stereo(Theatre& theatre, const Shot& shot, int rounds)
 
 int bench_layout(const std::string& name, const std::string& shot_name, int rounds)
 {
-    const Layout layout = load_layout(find("layouts", name));
-    const std::filesystem::path shot_file = find("shots", shot_name);
+    const Layout layout = load_layout(shipped_file("layouts", name));
+    const std::filesystem::path shot_file = shipped_file("shots", shot_name);
     const Shot shot = load_shot(shot_file);
-    Theatre theatre(scene_of(shot, shot_file), device_options(false));
-    std::printf("%s; layout %s, shot %s; medians of %d rounds\n\n", theatre.device.properties.deviceName.data(),
+    RenderContext context(scene_of(shot, shot_file), device_options(false));
+    std::printf("%s; layout %s, shot %s; medians of %d rounds\n\n", context.device.properties.deviceName.data(),
         name.c_str(), shot_name.c_str(), rounds);
 
     // Compiling the maps: without a cache, and from a folder that holds them.
@@ -225,24 +225,24 @@ int bench_layout(const std::string& name, const std::string& shot_name, int roun
         cold * 1e6 / pixels, warm);
 
     std::vector<Case> cases;
-    cases.push_back(make_case(theatre, name, layout));
-    time(theatre, cases, shot, rounds);
+    cases.push_back(make_case(context, name, layout));
+    time(context, cases, shot, rounds);
     const Case& own = cases.front();
     for (int i = 0; i < stages; ++i)
         std::printf("  %-22s %10.2f ms  %6.1f ns per pixel\n", stage_names[i], own.ms(i), own.ms(i) * 1e6 / pixels);
     double texels = 0;
     std::size_t images = 0;
-    for (const Plan& plan : own.studio->frame().plans())
+    for (const CubeMapPlan& plan : own.renderer->frame().plans())
         texels += plan.texels, images += plan.images.size();
     std::printf("  %-22s %10.2f Mpixel, %.2f texels each in %zu images of %zu cube maps, %.1f MiB of images\n", "drawn",
-        pixels * 1e-6, texels / pixels, images, own.studio->frame().plans().size(),
-        double(own.studio->frame().memory()) / (1 << 20));
+        pixels * 1e-6, texels / pixels, images, own.renderer->frame().plans().size(),
+        double(own.renderer->frame().memory()) / (1 << 20));
     std::fflush(stdout);
-    bench_kinds(theatre, shot, rounds);
+    bench_kinds(context, shot, rounds);
     std::fflush(stdout);
-    bench_viewports(theatre, shot, rounds);
+    bench_viewports(context, shot, rounds);
     std::fflush(stdout);
-    bench_stereo(theatre, shot, std::max(3, rounds / 3));
+    bench_stereo(context, shot, std::max(3, rounds / 3));
     return 0;
 }
 

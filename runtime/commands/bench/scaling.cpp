@@ -13,13 +13,13 @@ namespace {
 
 Layout window(glm::ivec2 size)
 {
-    Layout layout = load_layout(find("layouts", "desk"));
+    Layout layout = load_layout(shipped_file("layouts", "desk"));
     layout.outputs[0].size = size;
     return layout;
 }
 
 /// Balls of 960 triangles all over a wall ahead, together always as large: the more there are, the smaller.
-World balls(int count)
+World bounding_spheres(int count)
 {
     constexpr int around = 32, down = 16;
     World world;
@@ -55,8 +55,8 @@ World balls(int count)
 struct Case {
     std::string name;
     double units; ///< pixels, triangles
-    std::unique_ptr<GpuWorld> world{}; ///< none: the theatre's
-    std::unique_ptr<Studio> studio{};
+    std::unique_ptr<GpuWorld> world{}; ///< none: the render context's
+    std::unique_ptr<OffscreenRenderer> renderer{};
     std::vector<double> prepare{}, record{}, cube{}, warp{};
 };
 
@@ -64,11 +64,11 @@ struct Case {
 void time(Device& device, std::vector<Case>& cases, const Shot& shot, int rounds)
 {
     for (Case& c : cases)
-        c.studio->picture(shot); // leaves the target in a known layout
+        c.renderer->picture(shot); // leaves the target in a known layout
     for (int round = -1; round < rounds; ++round)
         for (Case& c : cases) {
-            Frame& frame = c.studio->frame();
-            const Target target = c.studio->target(0);
+            Frame& frame = c.renderer->frame();
+            const Target target = c.renderer->target(0);
             double record = 0;
             const double prepare = milliseconds([&] { frame.prepare(shot, nullptr); });
             const double cube = milliseconds([&] {
@@ -91,26 +91,26 @@ void time(Device& device, std::vector<Case>& cases, const Shot& shot, int rounds
 
 void bench_pixels(int rounds)
 {
-    Theatre theatre(find("scenes", "avenue"), device_options(false));
-    Shot shot = theatre.world.scene.start;
+    RenderContext context(shipped_file("scenes", "avenue"), device_options(false));
+    Shot shot = context.world.scene.start;
     shot.position.z = -8;
     shot.u = {0, 0, -std::sqrt(15.0)};
     shot.exposure_ev = -3;
     std::printf("%s; the avenue at gamma 4, all effects on; medians of %d rounds\n\n%-14s%14s%14s%14s%14s\n",
-        theatre.device.properties.deviceName.data(), rounds, "Mpixel", "texels/pixel", "cube, ns/px", "warp, ns/px",
+        context.device.properties.deviceName.data(), rounds, "Mpixel", "texels/pixel", "cube, ns/px", "warp, ns/px",
         "frame, ns/px");
     std::vector<Case> cases;
     for (double pixels : {0.5e6, 1e6, 2e6, 4e6, 8e6, 16e6}) {
         const int height = int(std::sqrt(pixels * 0.75) / 4) * 4, width = height / 3 * 4;
         cases.push_back({"", double(width) * height});
-        Quality quality = default_quality(theatre.device, false);
+        Quality quality = default_quality(context.device, false);
         quality.max_texels = 1e9; // as fine for all
-        cases.back().studio = std::make_unique<Studio>(
-            theatre.device, theatre.pipelines, theatre.world, window({width, height}), quality, false);
+        cases.back().renderer = std::make_unique<OffscreenRenderer>(
+            context.device, context.pipelines, context.world, window({width, height}), quality, false);
     }
-    time(theatre.device, cases, shot, rounds);
+    time(context.device, cases, shot, rounds);
     for (const Case& c : cases) {
-        const Plan& plan = c.studio->frame().plans()[0];
+        const CubeMapPlan& plan = c.renderer->frame().plans()[0];
         const double cube = median(c.cube) * 1e6 / c.units, warp = median(c.warp) * 1e6 / c.units;
         std::printf("%-14.2f%14.2f%14.2f%14.2f%14.2f\n", c.units * 1e-6, plan.texels / plan.pixels, cube, warp,
             cube + warp + median(c.prepare) * 1e6 / c.units);
@@ -132,14 +132,14 @@ void bench_triangles(int rounds)
     for (double triangles : {1e4, 1e5, 1e6, 1e7}) {
         const int count = std::max(1, int(std::lround(triangles / 960)));
         cases.push_back({"", triangles});
-        cases.back().world = std::make_unique<GpuWorld>(upload(device, pipelines, balls(count), scene));
-        cases.back().studio = std::make_unique<Studio>(
+        cases.back().world = std::make_unique<GpuWorld>(upload(device, pipelines, bounding_spheres(count), scene));
+        cases.back().renderer = std::make_unique<OffscreenRenderer>(
             device, pipelines, *cases.back().world, layout, default_quality(device, false), false);
     }
     Shot shot;
     time(device, cases, shot, rounds);
     for (const Case& c : cases) {
-        const double sent = double(c.studio->frame().triangles());
+        const double sent = double(c.renderer->frame().triangles());
         std::printf("%-14g%14g%14.2f%14.1f%20.3f%20.3f\n", c.units, sent, median(c.cube), median(c.cube) * 1e6 / sent,
             median(c.prepare), median(c.prepare) + median(c.record));
     }

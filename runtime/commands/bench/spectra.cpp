@@ -7,22 +7,22 @@
 #include <cstdio>
 
 namespace starbow {
-std::array<std::array<double, 2>, 3> bench_spectra(Theatre& theatre, const Layout& layout, int rounds)
+std::array<std::array<double, 2>, 3> bench_spectra(RenderContext& context, const Layout& layout, int rounds)
 {
-    Device& device = theatre.device;
-    Shot shot = theatre.world.scene.start;
+    Device& device = context.device;
+    Shot shot = context.world.scene.start;
     shot.position.z = -8;
     shot.u = {0, 0, -std::sqrt(15.0)};
     shot.exposure_ev = -3;
 
     std::vector<GpuWorld> worlds;
-    std::vector<Studio> studios;
+    std::vector<OffscreenRenderer> studios;
     worlds.reserve(reflected_numbers.size());
     for (std::size_t level = 0; level < reflected_numbers.size(); ++level) {
-        World world = load_world(theatre.world.scene.gltf);
+        World world = load_world(context.world.scene.gltf);
         add_detail_levels(world);
-        worlds.push_back(upload(device, theatre.pipelines, std::move(world), theatre.world.scene, {}, SpectralLevel(level)));
-        studios.emplace_back(device, theatre.pipelines, worlds.back(), layout, default_quality(device, false), false);
+        worlds.push_back(upload(device, context.pipelines, std::move(world), context.world.scene, {}, SpectralLevel(level)));
+        studios.emplace_back(device, context.pipelines, worlds.back(), layout, default_quality(device, false), false);
         studios.back().picture(shot); // leaves the target in a known layout
     }
 
@@ -62,7 +62,7 @@ std::array<std::array<double, 2>, 3> bench_spectra(Theatre& theatre, const Layou
             reflected_numbers[level], ms[0], ratios[level][0], ms[1], ratios[level][1], errors.median, errors.worst,
             100 * errors.luminance);
     }
-    std::printf("%s\n", told(needed_level(theatre.world.world, theatre.world.scene)).c_str());
+    std::printf("%s\n", describe(needed_level(context.world.world, context.world.scene)).c_str());
     return ratios;
 }
 

@@ -39,8 +39,8 @@ int bench_stars(int rounds)
 {
     Device device(device_options(false));
     Pipelines pipelines(device);
-    const SceneFile scene = load_scene_file(find("scenes", "avenue"));
-    Layout layout = load_layout(find("layouts", "desk"));
+    const SceneFile scene = load_scene_file(shipped_file("scenes", "avenue"));
+    Layout layout = load_layout(shipped_file("layouts", "desk"));
     layout.outputs[0].size = {800, 600};
     auto under = [&](const char* name, const std::vector<Star>& stars) {
         World world = load_world(scene.gltf);
@@ -58,10 +58,10 @@ int bench_stars(int rounds)
     for (const Case& c : cases)
         std::printf("%26s", c.name);
     for (double gamma : {1.0, 4.0, 100.0}) {
-        Shot shot = load_shot(find("shots", "orion"));
+        Shot shot = load_shot(shipped_file("shots", "orion"));
         shot.u = shot.ship_from_cockpit * glm::dvec3(0, 0, -std::sqrt((gamma - 1) * (gamma + 1)));
         shot.exposure_ev = gamma > 1 ? -3 : 0;
-        std::vector<Studio> studios;
+        std::vector<OffscreenRenderer> studios;
         for (Case& c : cases) {
             c.ms.clear();
             studios.emplace_back(device, pipelines, c.world, layout, default_quality(device, false), false);

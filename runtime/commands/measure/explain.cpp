@@ -43,16 +43,16 @@ template <class Is> std::size_t materials_that(const World& world, Is&& is)
 }
 
 /// The parts, from what is looked at to what is shown.
-std::vector<Part> parts_of(const Made& made, const Theatre& theatre, const Plan& plan, std::size_t maps, std::size_t panes,
+std::vector<Part> parts_of(const Made& made, const RenderContext& context, const CubeMapPlan& plan, std::size_t maps, std::size_t views,
     std::size_t eyes, bool colours_part)
 {
-    const World& world = theatre.world.world;
+    const World& world = context.world.world;
     const SceneFile& scene = made.scene;
     const Effects& effects = made.shot.effects;
     const bool moves = made.shot.u != glm::dvec3(0);
     const std::string at_rest = moves ? "the shot's effects leave it out" : "the shot is at rest";
     const NeededLevel needed = needed_level(world, scene);
-    const int numbers = reflected_numbers[std::size_t(theatre.world.spectra.level)];
+    const int numbers = reflected_numbers[std::size_t(context.world.spectra.level)];
     const std::size_t clocks = materials_that(world, [](const Material&m) { return m.clock.has_value(); }),
                       blinks = materials_that(world, [](const Material&m) { return m.blink.has_value(); }),
                       base = materials_that(world, [](const Material&m) { return m.base_texture >= 0; }),
@@ -68,13 +68,13 @@ std::vector<Part> parts_of(const Made& made, const Theatre& theatre, const Plan&
         [](Made& m) { m.shot.effects.doppler = !m.shot.effects.doppler; });
     add("headlight, D^3", moves && effects.headlight, "the ship moves", at_rest,
         [](Made& m) { m.shot.effects.headlight = !m.shot.effects.headlight; });
-    add("light in more than 3 numbers", numbers > 3, std::to_string(numbers) + ": " + told(needed), told(needed),
+    add("light in more than 3 numbers", numbers > 3, std::to_string(numbers) + ": " + describe(needed), describe(needed),
         [](Made& m) { m.quality.spectra = m.quality.spectra ? std::nullopt : std::optional(SpectralLevel::colours); });
-    add("emissions of the scene's own", !theatre.world.spectra.basis.own.empty(),
-        count(theatre.world.spectra.basis.own.size(), "lamp, glow or line", "lamps, glows or lines")
+    add("emissions of the scene's own", !context.world.spectra.basis.own.empty(),
+        count(context.world.spectra.basis.own.size(), "lamp, glow or line", "lamps, glows or lines")
             + " each a number by itself",
         "the scene has no lamp, glow or line but sunlit colours", {});
-    add("stars", theatre.world.star_count > 0, count(theatre.world.star_count, "star", "stars") + " in the scene's sky",
+    add("stars", context.world.star_count > 0, count(context.world.star_count, "star", "stars") + " in the scene's sky",
         "the scene names no catalogue", [](Made& m) { m.stars.clear(), m.scene.stars.reset(); });
     add("lamps", !scene.lights.empty(), count(scene.lights.size(), "light", "lights") + " in the scene",
         "the scene has none", [](Made& m) { m.scene.lights.clear(); });
@@ -113,11 +113,11 @@ std::vector<Part> parts_of(const Made& made, const Theatre& theatre, const Plan&
         });
     add("one cube map for each eye", eyes > 1, std::to_string(eyes) + ": the eyes of the layout see from so many places",
         "the layout has one eye, or all share one map", [](Made& m) { m.quality.stereo = StereoMethod::shared; });
-    add("reprojection of two eyes", made.layout.stereo.method == StereoMethod::reprojected && panes > 1,
+    add("reprojection of two eyes", made.layout.stereo.method == StereoMethod::reprojected && views > 1,
         "the layout's stereo method", "the layout's stereo method is another",
         [](Made& m) { m.layout.stereo.turning = false, m.quality.stereo = StereoMethod::shared; });
     add("maps of directions", maps > 0,
-        std::to_string(maps) + " of " + count(panes, "view is", "views are") + " not linear in the pixel",
+        std::to_string(maps) + " of " + count(views, "view is", "views are") + " not linear in the pixel",
         "every view is flat: a matrix tells it", [](Made& m) { m.quality.matrices = !m.quality.matrices; });
     add("a way of its own for each colour", colours_part, "a lens parts them", "no lens parts them", {});
     bool shades = made.layout.blend.ramps;
@@ -129,9 +129,9 @@ std::vector<Part> parts_of(const Made& made, const Theatre& theatre, const Plan&
             for (Output& output : m.layout.outputs)
                 output.colour = {};
         });
-    add("images nested behind", plan.rear_last[0] > 0 && plan.images.size() > 1,
+    add("images nested behind", plan.finest_clip_level[0] > 0 && plan.images.size() > 1,
         count(plan.images.size(), "image", "images") + " of the cube map, D varies over the sky", "D is the same everywhere",
-        [](Made& m) { m.quality.rear_images = m.quality.rear_images > 0 ? 0 : 42; });
+        [](Made& m) { m.quality.clip_levels = m.quality.clip_levels > 0 ? 0 : 42; });
     add("coarser images, mips", plan.levels > 1, "several texels fall into one pixel somewhere", "nowhere more than two",
         [](Made& m) { m.quality.mips = !m.quality.mips; });
     add("samples of a texel", made.quality.cube_samples > 1, std::to_string(made.quality.cube_samples) + ", by the quality",
@@ -148,17 +148,17 @@ std::vector<Part> parts_of(const Made& made, const Theatre& theatre, const Plan&
 /// A way a frame may be made, on the device.
 struct Stage {
     GpuWorld world;
-    Studio studio;
+    OffscreenRenderer renderer;
     Shot shot;
     Stage(Device& device, Pipelines& pipelines, const Made& made)
         : world(upload(device, pipelines, made.world, made.scene, made.stars, made.quality.spectra))
-        , studio(device, pipelines, world, made.layout, within(device, made.quality), false)
+        , renderer(device, pipelines, world, made.layout, within(device, made.quality), false)
         , shot(made.shot)
     {
-        studio.frame().meter(made.meter);
-        studio.frame().bloom(made.bloom);
+        renderer.frame().meter(made.meter);
+        renderer.frame().bloom(made.bloom);
     }
-    double ms(Device& device) { return frame_ms(device, studio, shot); }
+    double ms(Device& device) { return frame_ms(device, renderer, shot); }
 };
 
 } // namespace
@@ -170,24 +170,24 @@ void explain(const Trial& trial, const Device::Options& options)
     add_detail_levels(made.world);
     if (made.scene.stars)
         made.stars = load_stars(made.scene.stars->catalogue);
-    Theatre theatre(trial.scene, options, trial.standard.spectra);
-    Stage all(theatre.device, theatre.pipelines, made);
-    all.ms(theatre.device);
+    RenderContext context(trial.scene, options, trial.standard.spectra);
+    Stage all(context.device, context.pipelines, made);
+    all.ms(context.device);
 
-    std::size_t maps = 0, count_of_panes = 0;
+    std::size_t maps = 0, count_of_views = 0;
     bool colours_part = false;
     MapStore store;
     store.matrices(trial.standard.matrices);
     for (std::size_t output = 0; output < made.layout.outputs.size(); ++output)
-        for (const CompiledPane& pane : compile_output(store, made.layout, output, made.layout.outputs[output].size)) {
-            ++count_of_panes;
-            maps += pane.map != nullptr;
-            colours_part |= pane.channels() == 3;
+        for (const CompiledView& view : compile_output(store, made.layout, output, made.layout.outputs[output].size)) {
+            ++count_of_views;
+            maps += view.map != nullptr;
+            colours_part |= view.channels() == 3;
         }
-    const std::vector<Plan>& plans = all.studio.frame().plans();
-    const std::vector<Part> parts = parts_of(made, theatre, plans[0], maps, count_of_panes, plans.size(), colours_part);
+    const std::vector<CubeMapPlan>& plans = all.renderer.frame().plans();
+    const std::vector<Part> parts = parts_of(made, context, plans[0], maps, count_of_views, plans.size(), colours_part);
     std::printf("%s, %s, %s, on %s\n\nOn, and what a frame with it takes over one without:\n", trial.scene.stem().c_str(),
-        trial.layout.file.stem().c_str(), trial.shots[0].first.c_str(), theatre.device.properties.deviceName.data());
+        trial.layout.file.stem().c_str(), trial.shots[0].first.c_str(), context.device.properties.deviceName.data());
     for (const Part& part : parts) {
         if (!part.on)
             continue;
@@ -195,10 +195,10 @@ void explain(const Trial& trial, const Device::Options& options)
         if (part.turn) {
             Made without = made;
             part.turn(without);
-            Stage other(theatre.device, theatre.pipelines, without);
+            Stage other(context.device, context.pipelines, without);
             std::vector<double> mine, its;
             for (int round = -2; round < trial.rounds; ++round) {
-                const double a = all.ms(theatre.device), b = other.ms(theatre.device);
+                const double a = all.ms(context.device), b = other.ms(context.device);
                 if (round >= 0)
                     mine.push_back(a), its.push_back(b);
             }

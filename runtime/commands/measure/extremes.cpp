@@ -133,10 +133,10 @@ struct Stage {
         const Reference truth = reference({placed, scene, no_stars}, c.layout, c.shot, 0, {.samples = samples});
         const GpuWorld world = upload(device, pipelines, c.world, scene);
         Quality quality = default_quality(device, true);
-        Studio studio(device, pipelines, world, c.layout, quality, true);
-        const auto picture = studio.picture(c.shot);
+        OffscreenRenderer renderer(device, pipelines, world, c.layout, quality, true);
+        const auto picture = renderer.picture(c.shot);
         const auto should = shown(truth);
-        const NumberErrors errors = number_errors(truth, studio.numbers(c.shot, 0), c.shot.u, resolved_rad);
+        const NumberErrors errors = number_errors(truth, renderer.numbers(c.shot, 0), c.shot.u, resolved_rad);
         const double psnr = psnr_dB({truth.size, picture[0]}, {truth.size, should}),
                      direction = quantile(errors.directions_px, 1), D = quantile(errors.doppler, 1);
         table.add(c.what, text("finite, 0.001 px, D 1e-6, %.0f dB", c.least_dB),
@@ -196,13 +196,13 @@ void refuse(Table& table)
             [](const auto& file) { load_layout(file); }));
     expect("an output of 16385 pixels", refusal("", [](const auto&) { parse_size("16385x1"); }));
     expect("an exposure of 61 EV",
-        refusal(R"({ "exposure": { "greatest_ev": 61 } })", [](const auto& file) { load_exhibit(file); }));
+        refusal(R"({ "exposure": { "max_ev": 61 } })", [](const auto& file) { load_exhibit(file); }));
 }
 
 void see_far(Table& table)
 {
     Stage stage;
-    SceneFile scene = load_scene_file(find("scenes", "avenue"));
+    SceneFile scene = load_scene_file(shipped_file("scenes", "avenue"));
     const World world = load_world(scene.gltf);
     Shot start = scene.start;
     start.position.z = -8;
@@ -266,9 +266,9 @@ void see_far(Table& table)
         stage.show(table, c);
     }
     {
-        const SceneFile clocks = load_scene_file(find("scenes", "clocks"));
+        const SceneFile clocks = load_scene_file(shipped_file("scenes", "clocks"));
         Case c{"picture: clocks after 30 days", clocks, load_world(clocks.gltf), one_view(Planar{60}, {320, 240}),
-            load_shot(find("shots", "clocks-passing"))};
+            load_shot(shipped_file("shots", "clocks-passing"))};
         c.shot.time += 30.0 * 86400 / clocks.seconds_per_time_unit();
         stage.show(table, c);
     }

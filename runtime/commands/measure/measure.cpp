@@ -32,7 +32,7 @@ std::vector<std::pair<std::string, Shot>> shots_of(const Options& options, const
 {
     std::vector<std::pair<std::string, Shot>> shots;
     for (const std::string& name : options.shots) {
-        const std::filesystem::path file = find("shots", name);
+        const std::filesystem::path file = shipped_file("shots", name);
         const Shot shot = load_shot(file);
         if (!std::filesystem::equivalent(scene_of(shot, file), scene))
             throw InputError(
@@ -60,13 +60,13 @@ int measure(const Options& options)
     if (options.out.empty() && !options.explain)
         throw InputError("--out is required here; the folder for the results, such as out/accuracy, is right");
     Trial trial;
-    trial.scene = find("scenes", options.scene);
-    trial.layout = load_layout(find("layouts", options.layout));
+    trial.scene = shipped_file("scenes", options.scene);
+    trial.layout = load_layout(shipped_file("layouts", options.layout));
     if (!options.size.empty())
         for (Output& output : trial.layout.outputs)
             output.size = parse_size(options.size);
     trial.shots = shots_of(options, trial.scene);
-    trial.standard = load_quality(find("qualities", options.standard));
+    trial.standard = load_quality(shipped_file("qualities", options.standard));
     trial.rounds = int(options.rounds), trial.samples = int(options.samples);
     if (options.explain) {
         explain(trial, device_options(false));
@@ -75,9 +75,9 @@ int measure(const Options& options)
     trial.folder = options.out;
     std::vector<Setting> shipped;
     for (const char* name : shipped_qualities)
-        shipped.push_back({name, load_quality(find("qualities", name)), true});
+        shipped.push_back({name, load_quality(shipped_file("qualities", name)), true});
     for (const std::string& name : options.qualities)
-        shipped.push_back({name, load_quality(find("qualities", name)), true});
+        shipped.push_back({name, load_quality(shipped_file("qualities", name)), true});
     check_writable(trial.folder / "accuracy.html");
     std::error_code error;
     std::filesystem::create_directories(trial.folder, error);

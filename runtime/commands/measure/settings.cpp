@@ -75,37 +75,37 @@ Shot earlier(const Shot& shot, int frames, double seconds_per_time_unit)
     return before;
 }
 
-/// One theatre for each level of light that is tried.
-class Theatres {
+/// One render context for each level of light that is tried.
+class RenderContexts {
 public:
-    Theatres(std::filesystem::path scene, Device::Options options)
+    RenderContexts(std::filesystem::path scene, Device::Options options)
         : scene_(std::move(scene))
         , options_(std::move(options))
     {
     }
-    Theatre& with(std::optional<SpectralLevel> level)
+    RenderContext& with(std::optional<SpectralLevel> level)
     {
-        std::unique_ptr<Theatre>& theatre = made_[level];
-        if (!theatre)
-            theatre = std::make_unique<Theatre>(scene_, options_, level);
-        return *theatre;
+        std::unique_ptr<RenderContext>& context = made_[level];
+        if (!context)
+            context = std::make_unique<RenderContext>(scene_, options_, level);
+        return *context;
     }
 
 private:
     std::filesystem::path scene_;
     Device::Options options_;
-    std::map<std::optional<SpectralLevel>, std::unique_ptr<Theatre>> made_;
+    std::map<std::optional<SpectralLevel>, std::unique_ptr<RenderContext>> made_;
 };
 
 /// A quality's frames, off-screen.
 struct Drawer {
     Device& device;
-    Studio studio;
+    OffscreenRenderer renderer;
     int block; ///< frames, after which all is as before
 
-    Drawer(Theatre& theatre, const Layout& layout, const Quality& quality)
-        : device(theatre.device)
-        , studio(theatre.device, theatre.pipelines, theatre.world, layout, within(theatre.device, quality), false)
+    Drawer(RenderContext& context, const Layout& layout, const Quality& quality)
+        : device(context.device)
+        , renderer(context.device, context.pipelines, context.world, layout, within(context.device, quality), false)
         , block(quality.frames_per_cube)
     {
     }
@@ -113,15 +113,15 @@ struct Drawer {
     {
         double sum = 0;
         for (int i = 0; i < block; ++i)
-            sum += frame_ms(device, studio, shot);
+            sum += frame_ms(device, renderer, shot);
         return sum / block;
     }
 };
 
 /// Its time of each shot, each frame beside one of the standard's.
-void time(const Trial& trial, Theatre& theatre, Theatre& standards, MeasuredSetting& one, double& standard_ms)
+void time(const Trial& trial, RenderContext& context, RenderContext& standards, MeasuredSetting& one, double& standard_ms)
 {
-    Drawer own(theatre, trial.layout, one.setting.quality), standard(standards, trial.layout, trial.standard);
+    Drawer own(context, trial.layout, one.setting.quality), standard(standards, trial.layout, trial.standard);
     one.ms = standard_ms = 0;
     double ratios = 0;
     for (const auto& [name, shot] : trial.shots) {
@@ -136,28 +136,28 @@ void time(const Trial& trial, Theatre& theatre, Theatre& standards, MeasuredSett
         ratios += std::log(median(mine) / median(its)) / count;
         double texels = 0, pixels = 0;
         int images = 0;
-        for (const Plan& plan : own.studio.frame().plans())
+        for (const CubeMapPlan& plan : own.renderer.frame().plans())
             texels += plan.texels, pixels += plan.pixels, images += int(plan.images.size());
         one.texels_per_pixel = std::max(one.texels_per_pixel, texels / pixels);
         one.images = std::max(one.images, images);
     }
     one.ratio = std::exp(ratios);
-    one.megabytes = double(own.studio.frame().memory()) / (1 << 20);
+    one.megabytes = double(own.renderer.frame().memory()) / (1 << 20);
 }
 
-void find_errors(const Trial& trial, Theatre& theatre, const Truths& truths, MeasuredSetting& one)
+void find_errors(const Trial& trial, RenderContext& context, const Truths& truths, MeasuredSetting& one)
 {
-    const Quality quality = within(theatre.device, one.setting.quality);
+    const Quality quality = within(context.device, one.setting.quality);
     double noise = 0, count = 0;
     std::vector<double> directions, dopplers;
     one.errors = {};
     for (std::size_t i = 0; i < trial.shots.size(); ++i) {
         const Shot& shot = trial.shots[i].second;
-        Studio studio(theatre.device, theatre.pipelines, theatre.world, trial.layout, quality, false);
+        OffscreenRenderer renderer(context.device, context.pipelines, context.world, trial.layout, quality, false);
         if (quality.frames_per_cube > 1)
-            (void)studio.picture(earlier(shot, quality.frames_per_cube - 1, theatre.world.scene.seconds_per_time_unit()));
-        const auto pictures = studio.picture(shot);
-        Studio measured(theatre.device, theatre.pipelines, theatre.world, trial.layout, quality, true);
+            (void)renderer.picture(earlier(shot, quality.frames_per_cube - 1, context.world.scene.seconds_per_time_unit()));
+        const auto pictures = renderer.picture(shot);
+        OffscreenRenderer measured(context.device, context.pipelines, context.world, trial.layout, quality, true);
         directions.clear(), dopplers.clear();
         for (std::size_t output = 0; output < pictures.size(); ++output) {
             const Truth& truth = truths[i][output];
@@ -246,8 +246,8 @@ std::string key_of(const Trial& trial, const std::string& machine)
 std::vector<MeasuredSetting> measure_settings(
     const Trial& trial, const std::vector<Setting>& settings, const Device::Options& options, std::string& machine)
 {
-    Theatres theatres(trial.scene, options);
-    Theatre& standards = theatres.with(trial.standard.spectra);
+    RenderContexts theatres(trial.scene, options);
+    RenderContext& standards = theatres.with(trial.standard.spectra);
     machine = standards.device.properties.deviceName.data();
     const Truths truths = truths_of(trial);
     Kept kept(trial.folder / "measured.json", key_of(trial, machine));
@@ -260,10 +260,10 @@ std::vector<MeasuredSetting> measure_settings(
         if (!kept.find(one)) {
             say("setting " + std::to_string(all.size() + 1) + " of " + std::to_string(settings.size()) + ": " + setting.name
                 + (measured > 0 ? ", " + left_told(since(began) / measured * double(settings.size() - all.size())) : ""));
-            Theatre& theatre = theatres.with(setting.quality.spectra);
+            RenderContext& context = theatres.with(setting.quality.spectra);
             double beside = 0;
-            time(trial, theatre, standards, one, beside);
-            find_errors(trial, theatre, truths, one);
+            time(trial, context, standards, one, beside);
+            find_errors(trial, context, truths, one);
             kept.keep(one);
             ++measured;
         }
@@ -283,7 +283,7 @@ std::vector<MeasuredSetting> measure_settings(
 
 double time_ratio(const Trial& trial, const Quality& one, const Quality& other, const Device::Options& options)
 {
-    Theatres theatres(trial.scene, options);
+    RenderContexts theatres(trial.scene, options);
     Trial pair = trial;
     pair.standard = other;
     MeasuredSetting measured{{.name = {}, .quality = one}};

@@ -10,7 +10,7 @@ constexpr const char* quality_help
 /// An empty name: what counts where none is asked for.
 inline std::optional<Quality> asked_quality(const std::string& name)
 {
-    return name.empty() ? std::nullopt : std::optional(load_quality(find("qualities", name)));
+    return name.empty() ? std::nullopt : std::optional(load_quality(shipped_file("qualities", name)));
 }
 
 } // namespace starbow

@@ -10,9 +10,9 @@
 namespace starbow {
 int render_reference(const ReferenceCommand& command)
 {
-    const std::filesystem::path shot_file = find("shots", command.shot);
+    const std::filesystem::path shot_file = shipped_file("shots", command.shot);
     const Shot shot = load_shot(shot_file);
-    Layout layout = load_layout(find("layouts", command.layout.empty() ? "desk" : command.layout));
+    Layout layout = load_layout(shipped_file("layouts", command.layout.empty() ? "desk" : command.layout));
     if (!command.size.empty())
         for (Output& output : layout.outputs)
             output.size = parse_size(command.size);

@@ -47,9 +47,9 @@ int render(const Options& options)
     if (options.reference)
         return render_reference({options.layout, options.shot, options.out, options.size, options.samples, options.exr});
     const Words words = words_in(options.language);
-    std::filesystem::path shot_file = find("shots", options.shot);
+    std::filesystem::path shot_file = shipped_file("shots", options.shot);
     Shot shot = load_shot(shot_file);
-    Layout layout = load_layout(find("layouts", options.layout.empty() ? "desk" : options.layout));
+    Layout layout = load_layout(shipped_file("layouts", options.layout.empty() ? "desk" : options.layout));
     if (!options.size.empty())
         for (Output& output : layout.outputs)
             output.size = parse_size(options.size);
@@ -69,34 +69,34 @@ int render(const Options& options)
     // What is wrong with its file is told before the device is touched.
     const std::optional<Quality> asked = asked_quality(options.quality);
     const auto level = options.spectra == "needed" && asked ? asked->spectra : level_of(options.spectra);
-    Theatre theatre(scene_of(shot, shot_file), device_options(false), level);
-    for (const std::string& note : theatre.world.world.notes)
-        std::fprintf(stderr, "starbow: %s: %s\n", theatre.world.scene.gltf.c_str(), note.c_str());
-    Studio studio(theatre.device, theatre.pipelines, theatre.world, layout,
-        asked ? within(theatre.device, *asked) : default_quality(theatre.device, true), options.exr);
-    studio.frame().show(pattern);
-    studio.frame().bloom(options.bloom);
+    RenderContext context(scene_of(shot, shot_file), device_options(false), level);
+    for (const std::string& note : context.world.world.notes)
+        std::fprintf(stderr, "starbow: %s: %s\n", context.world.scene.gltf.c_str(), note.c_str());
+    OffscreenRenderer renderer(context.device, context.pipelines, context.world, layout,
+        asked ? within(context.device, *asked) : default_quality(context.device, true), options.exr);
+    renderer.frame().show(pattern);
+    renderer.frame().bloom(options.bloom);
     if (options.exposure == "auto") {
         const Exposing rules;
-        shot.exposure_ev = std::clamp(studio.metered(shot).value_or(shot.exposure_ev), rules.least_ev, rules.greatest_ev);
+        shot.exposure_ev = std::clamp(renderer.metered(shot).value_or(shot.exposure_ev), rules.min_ev, rules.max_ev);
     }
     std::optional<Panel> panel;
-    const Sitting sitting
-        = sit(studio, theatre.world, shot, parse_points(options.points, layout), options.overlay, options.why, words);
+    const StillMeasurement measurement
+        = measure_still(renderer, context.world, shot, parse_points(options.points, layout), options.overlay, options.why, words);
     if (options.hud) {
-        Readings told = readings(ship_at(shot), theatre.world.scene, shot.effects);
+        Readings told = readings(ship_at(shot), context.world.scene, shot.effects);
         told.exposure_ev = shot.exposure_ev;
-        panel = Typesetter().draw(told, words, studio.frame().hud_width());
+        panel = Typesetter().draw(told, words, renderer.frame().hud_width());
     }
-    render_still(options.out, studio, shot, options.exr, panel ? &*panel : nullptr);
-    std::printf("%s\n", light_told(theatre).c_str());
-    for (const std::string& line : sitting.lines)
+    render_still(options.out, renderer, shot, options.exr, panel ? &*panel : nullptr);
+    std::printf("%s\n", describe_light(context).c_str());
+    for (const std::string& line : measurement.lines)
         std::printf("%s\n", line.c_str());
     if (options.exposure == "auto")
         std::printf("exposure %.2f EV\n", shot.exposure_ev);
     for (const Output& output : layout.outputs)
         std::printf("%s/%s.png%s\n", options.out.c_str(), output.name.c_str(), options.exr ? " and .exr" : "");
-    return theatre.device.complaints.empty() ? 0 : 1;
+    return context.device.complaints.empty() ? 0 : 1;
 }
 
 } // namespace

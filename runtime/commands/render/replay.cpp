@@ -76,11 +76,11 @@ int render_replay(const ReplayOptions& options)
     const std::filesystem::path folder = options.out;
     check_writable(folder / (from.layout.outputs[0].name + ".png"));
     const Pattern pattern = pattern_of(header.pattern);
-    Theatre theatre(from.scene, device_options(false));
-    const SceneFile& scene = theatre.world.scene;
-    Studio studio(
-        theatre.device, theatre.pipelines, theatre.world, from.layout, default_quality(theatre.device, true), false);
-    Reel reel(studio, pattern, header.exposing, header.start.exposure_ev);
+    RenderContext context(from.scene, device_options(false));
+    const SceneFile& scene = context.world.scene;
+    OffscreenRenderer renderer(
+        context.device, context.pipelines, context.world, from.layout, default_quality(context.device, true), false);
+    ReplayRenderer replay_renderer(renderer, pattern, header.exposing, header.start.exposure_ev);
     Typesetter typesetter;
     const Words words = words_in(options.language);
     std::error_code error; // told by write_png
@@ -94,7 +94,7 @@ int render_replay(const ReplayOptions& options)
         flight = flown(
             flight, history, entry->controls, entry->dt_ns, header.rules, header.seconds_per_time_unit, header.start);
         replay.compare(flight);
-        reel.take(*entry);
+        replay_renderer.take(*entry);
         if (!entry->shown)
             continue;
         const long number = frame++;
@@ -103,8 +103,8 @@ int render_replay(const ReplayOptions& options)
             continue;
         std::optional<Panel> panel;
         if (options.hud && flight.hud)
-            panel = typesetter.draw(readings(flight.ship, scene, flight.effects), words, studio.frame().hud_width());
-        const auto pictures = reel.picture(flight, header.start.scene, panel ? &*panel : nullptr);
+            panel = typesetter.draw(readings(flight.ship, scene, flight.effects), words, renderer.frame().hud_width());
+        const auto pictures = replay_renderer.picture(flight, header.start.scene, panel ? &*panel : nullptr);
         char name[32];
         std::snprintf(name, sizeof name, "-%06ld.png", number);
         for (std::size_t i = 0; i < pictures.size(); ++i)
@@ -112,7 +112,7 @@ int render_replay(const ReplayOptions& options)
         ++drawn;
     }
     std::printf("%ld of %ld frames drawn into %s; %s\n", drawn, frame, options.out.c_str(), replay.verdict().c_str());
-    return replay.differs() || !theatre.device.complaints.empty() ? 1 : 0;
+    return replay.differs() || !context.device.complaints.empty() ? 1 : 0;
 }
 
 } // namespace starbow

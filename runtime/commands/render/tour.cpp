@@ -172,7 +172,7 @@ int render_tour(const TourOptions& options)
     const Words words = words_in(options.language);
     const Tour tour = tour_in(options.tour, words);
     const fs::path scene = scene_of(tour);
-    Layout layout = load_layout(find("layouts", options.layout.empty() ? "desk" : options.layout));
+    Layout layout = load_layout(shipped_file("layouts", options.layout.empty() ? "desk" : options.layout));
     if (!options.size.empty())
         for (Output& output : layout.outputs)
             output.size = parse_size(options.size);
@@ -181,14 +181,14 @@ int render_tour(const TourOptions& options)
     check_ffmpeg();
     const Show show{tour, {}, load_scene_file(scene).seconds_per_time_unit(), false};
     const long frames = std::lround(std::ceil(length_s(tour) * double(options.frames_per_s) - 1e-6));
-    Theatre theatre(scene, device_options(false));
-    const std::string device = theatre.device.properties.deviceName.data();
+    RenderContext context(scene, device_options(false));
+    const std::string device = context.device.properties.deviceName.data();
     const MovieFrames kept(movie, made_from(options, show, words, scene, layout, device, frames), log_line);
 
     std::signal(SIGINT, interrupt);
     std::signal(SIGTERM, interrupt);
-    Studio studio(theatre.device, theatre.pipelines, theatre.world, layout, default_quality(theatre.device, true), false);
-    studio.frame().bloom(options.bloom);
+    OffscreenRenderer renderer(context.device, context.pipelines, context.world, layout, default_quality(context.device, true), false);
+    renderer.frame().bloom(options.bloom);
     const Typesetter typesetter;
     Player player(show, options.frames_per_s);
     long drawn = 0, found = 0;
@@ -206,12 +206,12 @@ int render_tour(const TourOptions& options)
             if (interrupted)
                 return told_interrupted(options.movie, i, frames);
             const Touring& touring = player.at(i);
-            Readings told = readings(touring.flight.ship, theatre.world.scene, touring.flight.effects);
+            Readings told = readings(touring.flight.ship, context.world.scene, touring.flight.effects);
             told.exposure_ev = touring.flight.exposure_ev;
             told.caption = caption_of(touring, show, words, {});
-            const Panel panel = typesetter.draw(told, words, studio.frame().hud_width());
+            const Panel panel = typesetter.draw(told, words, renderer.frame().hud_width());
             const auto pictures
-                = studio.picture(shot_of(touring.flight, tour.scene), told.caption->text.empty() ? nullptr : &panel);
+                = renderer.picture(shot_of(touring.flight, tour.scene), told.caption->text.empty() ? nullptr : &panel);
             for (std::size_t k = 0; k < pictures.size(); ++k)
                 write_png(kept.file(layout.outputs[k].name, i), layout.outputs[k].size, pictures[k]);
             ++drawn;
@@ -233,7 +233,7 @@ int render_tour(const TourOptions& options)
             double(frames) / double(options.frames_per_s));
     }
     kept.remove();
-    return theatre.device.complaints.empty() ? 0 : 1;
+    return context.device.complaints.empty() ? 0 : 1;
 }
 
 } // namespace starbow

@@ -1,4 +1,4 @@
-#include "vantage.h"
+#include "eye_event.h"
 #include "shaders/physics/physics.h"
 
 namespace starbow {
@@ -16,7 +16,7 @@ glm::dmat3 motion_from_world(const glm::dvec3& u, const glm::dquat& ship_from_co
     return glm::transpose(glm::dmat3(x, y, z));
 }
 
-Vantage vantage_of(const Layer& layer, int frame, const glm::dvec3& place)
+EyeEvent eye_event_of(const RestFrameView& layer, int frame, const glm::dvec3& place)
 {
     const glm::dvec3 offset = layer.shot.ship_from_cockpit * place;
     return {frame, layer.shot.position + physics::eye_place(layer.shot.u, offset),

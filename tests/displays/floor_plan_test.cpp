@@ -80,7 +80,7 @@ Layout mirror_dome()
 pugi::xml_document parsed(const Layout& layout)
 {
     pugi::xml_document document;
-    const std::string text = draw_plan(layout, coverages(layout));
+    const std::string text = draw_floor_plan(layout, coverages(layout));
     const pugi::xml_parse_result result = document.load_string(text.c_str());
     EXPECT_TRUE(result) << result.description() << " at " << result.offset;
     return document;
@@ -185,7 +185,7 @@ TEST(CoverageTest, Overlaps)
     all = coverages(layout);
     ASSERT_EQ(all.size(), 6u);
     EXPECT_EQ(overlap_lines(layout, all), std::vector<std::string>{"west and east, both eyes: 25 % of west, 20 % of east"});
-    EXPECT_EQ(plan_rows(layout, all).size(), 3u);
+    EXPECT_EQ(floor_plan_rows(layout, all).size(), 3u);
     layout.outputs[0].viewports[0].eye = Eye::left;
     layout.outputs[1].viewports[0].eye = Eye::right;
     EXPECT_TRUE(overlap_lines(layout, coverages(layout)).empty());
@@ -225,8 +225,8 @@ TEST(CoverageTest, NothingAndAlmostNothing)
     EXPECT_TRUE(all[0].outlines.empty());
     EXPECT_EQ(shared_part(all[0], all[1]), 0);
     EXPECT_NEAR(all[1].middle, 1000, 0.01);
-    EXPECT_EQ(plan_rows(layout, all)[0].spans, "nothing");
-    EXPECT_EQ(plan_rows(layout, all)[1].spans, "too little to measure");
+    EXPECT_EQ(floor_plan_rows(layout, all)[0].spans, "nothing");
+    EXPECT_EQ(floor_plan_rows(layout, all)[1].spans, "too little to measure");
     const pugi::xml_document document = parsed(layout);
     int marks = 0;
     each(document, "circle", [&](pugi::xml_node) { ++marks; });
@@ -240,7 +240,7 @@ TEST(PlanTableTest, Words)
         output("wall", {800, 600}, Wall{{-2, 0, -1.5}, {2, 0, -1.5}, {-2, 2.25, -1.5}}),
         output("dome", {1024, 1024}, Fisheye{180, 30}),
     });
-    const std::vector<PlanRow> rows = plan_rows(layout, coverages(layout));
+    const std::vector<FloorPlanRow> rows = floor_plan_rows(layout, coverages(layout));
     EXPECT_EQ(rows[0].projection, "window, 60° high, turned 30° right, 15° down");
     EXPECT_EQ(rows[1].projection, "wall, 4.000 x 2.250 m");
     EXPECT_EQ(rows[1].spans, "azimuth −53.1° to 53.1°, elevation 0° to 56.3°");
@@ -346,7 +346,7 @@ TEST(PlanDrawingTest, NamesAreText)
     layout.outputs[0].viewports[0].warp = Warp{"bent<1>&.csv"};
     const pugi::xml_document document = parsed(layout);
     EXPECT_STREQ(document.child("svg").child("text").text().get(), "a <b> & \"c\"?");
-    EXPECT_NE(draw_plan(layout, coverages(layout)).find("bent&lt;1&gt;&amp;.csv"), std::string::npos);
+    EXPECT_NE(draw_floor_plan(layout, coverages(layout)).find("bent&lt;1&gt;&amp;.csv"), std::string::npos);
     const Layout empty;
     EXPECT_TRUE(parsed(empty).child("svg")); // and none at all is still a page
 }

@@ -1,4 +1,4 @@
-#include "pane_rays.h"
+#include "view_rays.h"
 #include "config/model/turn.h"
 #include <cmath>
 #include <cstdint>
@@ -6,7 +6,7 @@
 namespace starbow {
 namespace {
 
-constexpr int columns = 16; ///< of samples on a pixel of a bent pane
+constexpr int columns = 16; ///< of samples on a pixel of a bent view
 
 /// The base 2 digits of i mirrored at the point (van der Corput).
 double mirrored(std::uint32_t i)
@@ -17,9 +17,9 @@ double mirrored(std::uint32_t i)
     return value;
 }
 
-Picture source_of(const CompiledPane& pane)
+Picture source_of(const CompiledView& view)
 {
-    return pane.mesh ? bent_picture(pane.pane, *pane.mesh, pane.pane.projection_given) : pane.pane.picture;
+    return view.mesh ? warped_picture(view.view, *view.mesh, view.view.projection_given) : view.view.picture;
 }
 
 glm::dmat3 turn_of(const Projection& projection)
@@ -41,31 +41,31 @@ std::vector<glm::dvec2> sample_places(int count)
     return places;
 }
 
-PaneRays::PaneRays(const CompiledPane& pane, const std::vector<glm::dvec2>& samples)
-    : pane_(pane)
+ViewRays::ViewRays(const CompiledView& view, const std::vector<glm::dvec2>& samples)
+    : view_(view)
     , places_(samples)
-    , channels_(pane.channels())
-    , source_(source_of(pane))
+    , channels_(view.channels())
+    , source_(source_of(view))
     , rays_(source_)
     , turn_(turn_of(source_.projection))
 {
-    if (!pane.mesh)
+    if (!view.mesh)
         return;
-    const glm::ivec2 size = pane.pane.size;
-    centres_ = std::make_unique<WarpRaster>(*pane.mesh, size);
-    fine_ = std::make_unique<WarpRaster>(*pane.mesh, glm::ivec2(size.x * columns, size.y * int(samples.size())));
+    const glm::ivec2 size = view.view.size;
+    centres_ = std::make_unique<WarpRaster>(*view.mesh, size);
+    fine_ = std::make_unique<WarpRaster>(*view.mesh, glm::ivec2(size.x * columns, size.y * int(samples.size())));
 }
 
-std::optional<glm::dvec3> PaneRays::bent(const WarpSample& sample, int channel) const
+std::optional<glm::dvec3> ViewRays::warped(const WarpSample& sample, int channel) const
 {
-    return bent_direction(*pane_.mesh, source_, rays_, turn_, sample, channel);
+    return warped_direction(*view_.mesh, source_, rays_, turn_, sample, channel);
 }
 
-std::optional<glm::dvec3> PaneRays::direction(const glm::dvec2& pixel, int channel) const
+std::optional<glm::dvec3> ViewRays::direction(const glm::dvec2& pixel, int channel) const
 {
-    if (!pane_.mesh)
-        return rays_.direction(pixel * pane_.pane.picture_from_pixel, channels_ == 3 ? Channel(channel) : Channel::green);
-    const DirectionMap& map = *pane_.map;
+    if (!view_.mesh)
+        return rays_.direction(pixel * view_.view.picture_from_pixel, channels_ == 3 ? Channel(channel) : Channel::green);
+    const DirectionMap& map = *view_.map;
     const glm::ivec2 at = glm::clamp(glm::ivec2(glm::floor(pixel)), glm::ivec2(0), map.size - 1);
     const glm::dvec4 here = map.at(at.x, at.y, channel);
     if (here.w == 0)
@@ -89,14 +89,14 @@ std::optional<glm::dvec3> PaneRays::direction(const glm::dvec2& pixel, int chann
     return glm::normalize(way);
 }
 
-PaneRays::Row PaneRays::row(int y) const
+ViewRays::Row ViewRays::row(int y) const
 {
     Row row;
     row.rays = this;
     row.y = y;
-    if (!pane_.mesh)
+    if (!view_.mesh)
         return row;
-    const std::size_t width = std::size_t(pane_.pane.size.x), count = places_.size();
+    const std::size_t width = std::size_t(view_.view.size.x), count = places_.size();
     row.centres_.resize(width);
     centres_->row(y, row.centres_);
     row.samples_.resize(count);
@@ -107,17 +107,17 @@ PaneRays::Row PaneRays::row(int y) const
     return row;
 }
 
-std::optional<glm::dvec3> PaneRays::Row::centre(int x, int channel) const
+std::optional<glm::dvec3> ViewRays::Row::centre(int x, int channel) const
 {
-    return rays->pane_.mesh ? rays->bent(centres_[std::size_t(x)], channel) : rays->direction({x + 0.5, y + 0.5}, channel);
+    return rays->view_.mesh ? rays->warped(centres_[std::size_t(x)], channel) : rays->direction({x + 0.5, y + 0.5}, channel);
 }
 
-std::optional<glm::dvec3> PaneRays::Row::sample(int x, std::size_t i, int channel) const
+std::optional<glm::dvec3> ViewRays::Row::sample(int x, std::size_t i, int channel) const
 {
     const glm::dvec2& place = rays->places_[i];
-    if (!rays->pane_.mesh)
+    if (!rays->view_.mesh)
         return rays->direction(glm::dvec2(x, y) + place, channel);
-    return rays->bent(samples_[i][std::size_t(x * columns + int(place.x * columns))], channel);
+    return rays->warped(samples_[i][std::size_t(x * columns + int(place.x * columns))], channel);
 }
 
 } // namespace starbow

@@ -8,7 +8,7 @@ namespace starbow {
 glm::dmat3 motion_from_world(const glm::dvec3& u, const glm::dquat& ship_from_cockpit);
 
 /// An eye before what stands still in one rest frame.
-struct Vantage {
+struct EyeEvent {
     int frame = 0; ///< of World::frames
     glm::dvec3 place{0}; ///< the eye's event, that frame's place and time
     double time = 0;
@@ -18,14 +18,14 @@ struct Vantage {
 };
 
 /// An eye of someone who looks: its place in his cockpit, scene units. frame: which of his layers it is.
-Vantage vantage_of(const Layer& layer, int frame, const glm::dvec3& place);
+EyeEvent eye_event_of(const RestFrameView& layer, int frame, const glm::dvec3& place);
 
-/// When, by the vantage's own frame, the light left that reaches it now from a place, given from the eye in motion axes; or
+/// When, by the eye event's own frame, the light left that reaches it now from a place, given from the eye in motion axes; or
 /// what time it is there, where that is what is shown. How much later light leaves one place than another is at most as
 /// large as their distance.
-inline double emission_time(const Vantage& vantage, const glm::dvec3& from_eye)
+inline double retarded_time(const EyeEvent& eye_event, const glm::dvec3& from_eye)
 {
-    return vantage.time + (vantage.now ? vantage.beta * from_eye.z : -glm::length(from_eye));
+    return eye_event.time + (eye_event.now ? eye_event.beta * from_eye.z : -glm::length(from_eye));
 }
 
 } // namespace starbow

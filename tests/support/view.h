@@ -1,11 +1,11 @@
 #pragma once
 #include "config/model/one_view.h"
-#include "displays/compile/compiled.h"
+#include "displays/compile/compiled_view.h"
 
 namespace starbow::testing {
 
-/// A display of one pane, compiled as an exhibit's.
-inline CompiledPane pane_of(const Projection& projection, glm::ivec2 size)
+/// A display of one view, compiled as an exhibit's.
+inline CompiledView view_of(const Projection& projection, glm::ivec2 size)
 {
     MapStore store{std::filesystem::path()};
     return compile_output(store, one_view(projection, size), 0, size).front();

@@ -5,36 +5,36 @@
 namespace starbow {
 
 /// What a block of pixels looks at: the centre of each of its pixels lies within `radius` of `centre`.
-struct Cap {
+struct BoundingCone {
     glm::vec3 centre{0}; ///< unit, cockpit's frame
     float radius = -1; ///< radians; below 0 where nothing is shown
     float finest = 0, coarsest = 0; ///< pixel angles in the block, radians
     bool empty() const { return radius < 0; }
 };
 
-/// A pane's pixels in square blocks, and blocks of blocks: who must know what a pane looks at need not ask each pixel.
+/// A view's pixels in square blocks, and blocks of blocks: who must know what a view looks at need not ask each pixel.
 /// Level 0 is one block; each level halves the side.
-class Blocks {
+class ConeHierarchy {
 public:
     /// Of a map: the leaves are of 8 x 8 pixels, bounded by all of their pixels.
-    explicit Blocks(const DirectionMap& map);
+    explicit ConeHierarchy(const DirectionMap& map);
     /// Of a flat picture, direction = M (x, y, 1): worked out when asked, down to single pixels. M's first two columns are
     /// perpendicular.
-    Blocks(const glm::dmat3& direction_from_pixel, glm::ivec2 size);
+    ConeHierarchy(const glm::dmat3& direction_from_pixel, glm::ivec2 size);
 
     glm::ivec2 size() const { return size_; }
     int levels() const { return levels_; }
     int side(int level) const { return leaf_ << (levels_ - 1 - level); } ///< pixels
     glm::ivec2 count(int level) const { return (size_ + side(level) - 1) / side(level); }
-    Cap cap(int level, glm::ivec2 block) const;
+    BoundingCone cone(int level, glm::ivec2 block) const;
     bool flat() const { return flat_.has_value(); }
 
 private:
-    Cap flat_cap(glm::ivec2 low, glm::ivec2 high) const;
+    BoundingCone flat_cone(glm::ivec2 low, glm::ivec2 high) const;
 
     glm::ivec2 size_;
     int leaf_, levels_;
-    std::vector<std::vector<Cap>> caps_; ///< of a map: per level, rows from the top
+    std::vector<std::vector<BoundingCone>> cones_; ///< of a map: per level, rows from the top
     std::optional<glm::dmat3> flat_;
     glm::dvec2 foot_{0}; ///< of the perpendicular from the eye, pixels
     double unit_ = 0; ///< root of M's determinant
@@ -42,7 +42,7 @@ private:
 
 /// The point in pixels at which a map (its first channel) shows a direction, and nothing where it does not. Between pixels
 /// the directions are taken as linear: a hundredth of a pixel for any picture that a person would call smooth.
-std::optional<glm::dvec2> find(const DirectionMap& map, const Blocks& blocks, const glm::dvec3& direction);
+std::optional<glm::dvec2> find_pixel(const DirectionMap& map, const ConeHierarchy& cones, const glm::dvec3& direction);
 
 /// A box around all pixels that may look into a pyramid from the eye, from low to before high (both 0 where none do), and
 /// the finest pixel angle among them. sides: unit normals of its planes, pointing inwards.
@@ -50,6 +50,6 @@ struct PixelBox {
     glm::ivec2 low{0}, high{0};
     double finest = 1;
 };
-PixelBox pixels_in_pyramid(const Blocks& blocks, std::span<const glm::dvec3> sides);
+PixelBox pixels_in_pyramid(const ConeHierarchy& cones, std::span<const glm::dvec3> sides);
 
 } // namespace starbow

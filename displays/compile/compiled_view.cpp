@@ -1,4 +1,4 @@
-#include "compiled.h"
+#include "compiled_view.h"
 #include "config/json/error.h"
 #include <array>
 #include <cstdlib>
@@ -26,7 +26,7 @@ struct Hash {
     void add(const std::string& text) { add(text.data(), text.size() + 1); }
 };
 
-/// Everything that a pane's map depends on, as text.
+/// Everything that a view's map depends on, as text.
 struct Key {
     std::ostringstream text;
     Key() { text.precision(17); }
@@ -89,13 +89,13 @@ struct Key {
     }
 };
 
-std::string key_of(const Pane& pane, const std::string& warp)
+std::string key_of(const View& view, const std::string& warp)
 {
     Key key;
-    key.text << version << ' ' << pane.size.x << ' ' << pane.size.y << ' ' << pane.picture.size.x << ' '
-             << pane.picture.size.y << ' ' << pane.projection_given << ' ';
-    key(pane.picture_from_pixel), key(pane.picture.eye_m);
-    std::visit(key, pane.picture.projection);
+    key.text << version << ' ' << view.size.x << ' ' << view.size.y << ' ' << view.picture.size.x << ' '
+             << view.picture.size.y << ' ' << view.projection_given << ' ';
+    key(view.picture_from_pixel), key(view.picture.eye_m);
+    std::visit(key, view.picture.projection);
     Hash hash;
     hash.add(key.text.str());
     hash.add(warp);
@@ -150,17 +150,17 @@ std::uint64_t content_hash(const DirectionMap& map)
     return lanes[0].value;
 }
 
-std::shared_ptr<DirectionMap> read_map(const std::filesystem::path& file, const Pane& pane)
+std::shared_ptr<DirectionMap> read_map(const std::filesystem::path& file, const View& view)
 {
     std::ifstream stream(file, std::ios::binary);
     Header header;
     const Header right;
     if (!stream.read(reinterpret_cast<char*>(&header), sizeof header) || std::memcmp(header.magic, right.magic, 8) != 0
-        || header.width != pane.size.x || header.height != pane.size.y || (header.channels != 1 && header.channels != 3))
+        || header.width != view.size.x || header.height != view.size.y || (header.channels != 1 && header.channels != 3))
         return {};
     const std::size_t pixels = std::size_t(header.width) * header.height;
     auto map = std::make_shared<DirectionMap>();
-    map->size = pane.size;
+    map->size = view.size;
     map->channels = header.channels;
     map->texels.resize(pixels * header.channels);
     map->intensity.resize(header.intensities ? pixels : 0);
@@ -256,17 +256,17 @@ std::shared_ptr<const WarpMesh> MapStore::mesh(const Warp& warp, std::string& co
     return mesh;
 }
 
-std::shared_ptr<const DirectionMap> MapStore::map(const Pane& pane, const WarpMesh* mesh, const std::string& key)
+std::shared_ptr<const DirectionMap> MapStore::map(const View& view, const WarpMesh* mesh, const std::string& key)
 {
     std::weak_ptr<const DirectionMap>& kept = kept_->maps[key];
     if (auto map = kept.lock())
         return map;
     // A small map is made sooner than found.
-    const bool on_disk = !folder_.empty() && std::size_t(pane.size.x) * pane.size.y > (1u << 18);
+    const bool on_disk = !folder_.empty() && std::size_t(view.size.x) * view.size.y > (1u << 18);
     const std::filesystem::path file = folder_ / (key + ".map");
-    std::shared_ptr<DirectionMap> map = on_disk ? read_map(file, pane) : nullptr;
+    std::shared_ptr<DirectionMap> map = on_disk ? read_map(file, view) : nullptr;
     if (!map) {
-        map = std::make_shared<DirectionMap>(starbow::compile(pane, mesh));
+        map = std::make_shared<DirectionMap>(starbow::compile_direction_map(view, mesh));
         if (on_disk && keep_)
             write_map(file, *map);
     }
@@ -274,43 +274,43 @@ std::shared_ptr<const DirectionMap> MapStore::map(const Pane& pane, const WarpMe
     return map;
 }
 
-CompiledPane MapStore::compile(const Layout& layout, const Pane& pane)
+CompiledView MapStore::compile(const Layout& layout, const View& view)
 {
-    CompiledPane compiled;
-    compiled.pane = pane;
+    CompiledView compiled;
+    compiled.view = view;
     std::string content;
-    if (const auto& warp = layout.outputs[pane.output].viewports[pane.viewport].warp) {
-        const std::string viewport = viewport_pointer(pane.output, pane.viewport);
+    if (const auto& warp = layout.outputs[view.output].viewports[view.viewport].warp) {
+        const std::string viewport = viewport_pointer(view.output, view.viewport);
         compiled.mesh = on_behalf_of(layout, viewport + "/warp", [&] { return mesh(*warp, content); });
-        if (!pane.projection_given && compiled.mesh->kind == WarpMesh::Kind::picture && !compiled.mesh->frustum)
+        if (!view.projection_given && compiled.mesh->kind == WarpMesh::Kind::picture && !compiled.mesh->frustum)
             throw InputError(place_in(layout, viewport), "",
                 "has no projection, and " + warp->file.filename().string()
                     + " does not say what its picture shows; a \"projection\" beside \"warp\" is right");
     } else if (matrices_) {
-        compiled.matrix = pane_matrix(pane);
+        compiled.matrix = view_matrix(view);
     }
     if (compiled.matrix) {
-        compiled.blocks = std::make_shared<Blocks>(*compiled.matrix, pane.size);
+        compiled.cones = std::make_shared<ConeHierarchy>(*compiled.matrix, view.size);
     } else {
-        compiled.map = map(pane, compiled.mesh.get(), key_of(pane, content));
-        compiled.blocks = std::make_shared<Blocks>(*compiled.map);
+        compiled.map = map(view, compiled.mesh.get(), key_of(view, content));
+        compiled.cones = std::make_shared<ConeHierarchy>(*compiled.map);
     }
     return compiled;
 }
 
-std::vector<CompiledPane> compile_output(MapStore& store, const Layout& layout, std::size_t output, glm::ivec2 size)
+std::vector<CompiledView> compile_output(MapStore& store, const Layout& layout, std::size_t output, glm::ivec2 size)
 {
-    std::vector<CompiledPane> compiled;
-    for (const Pane& pane : panes(layout, output, size))
-        compiled.push_back(store.compile(layout, pane));
+    std::vector<CompiledView> compiled;
+    for (const View& view : views_of(layout, output, size))
+        compiled.push_back(store.compile(layout, view));
     return compiled;
 }
 
-void refuse_dark(const Layout& layout, std::span<const CompiledPane> panes)
+void reject_empty(const Layout& layout, std::span<const CompiledView> views)
 {
-    for (const CompiledPane& pane : panes)
-        if (pane.blocks->cap(0, {0, 0}).empty())
-            throw InputError(place_in(layout, viewport_pointer(pane.pane.output, pane.pane.viewport)), "",
+    for (const CompiledView& view : views)
+        if (view.cones->cone(0, {0, 0}).empty())
+            throw InputError(place_in(layout, viewport_pointer(view.view.output, view.view.viewport)), "",
                 "shows nothing: no pixel looks anywhere; a projection, and a warp, that lie within the picture are right");
 }
 

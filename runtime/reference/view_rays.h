@@ -1,5 +1,5 @@
 #pragma once
-#include "displays/compile/compiled.h"
+#include "displays/compile/compiled_view.h"
 #include <memory>
 
 namespace starbow {
@@ -8,11 +8,11 @@ namespace starbow {
 /// rows, the same in every pixel and every run.
 std::vector<glm::dvec2> sample_places(int count);
 
-/// A pane's directions in double, also between its pixels' centres. Of a pane that a calibration bends the columns of
+/// A view's directions in double, also between its pixels' centres. Of a view that a calibration bends the columns of
 /// samples are rounded to sixteenths of a pixel.
-class PaneRays {
+class ViewRays {
 public:
-    PaneRays(const CompiledPane& pane, const std::vector<glm::dvec2>& samples); ///< both must outlive it
+    ViewRays(const CompiledView& view, const std::vector<glm::dvec2>& samples); ///< both must outlive it
 
     int channels() const { return channels_; }
 
@@ -23,21 +23,21 @@ public:
         std::optional<glm::dvec3> sample(int x, std::size_t sample, int channel) const;
 
     private:
-        friend PaneRays;
-        const PaneRays* rays = nullptr;
+        friend ViewRays;
+        const ViewRays* rays = nullptr;
         int y = 0;
         std::vector<WarpSample> centres_;
         std::vector<std::vector<WarpSample>> samples_;
     };
     Row row(int y) const;
 
-    /// Anywhere, pixels from the pane's corner. Of a pane that is bent only as far as a plane through the pixel and those
+    /// Anywhere, pixels from the view's corner. Of a view that is bent only as far as a plane through the pixel and those
     /// beside it goes.
     std::optional<glm::dvec3> direction(const glm::dvec2& pixel, int channel) const;
 
 private:
-    std::optional<glm::dvec3> bent(const WarpSample& sample, int channel) const;
-    const CompiledPane& pane_;
+    std::optional<glm::dvec3> warped(const WarpSample& sample, int channel) const;
+    const CompiledView& view_;
     const std::vector<glm::dvec2>& places_;
     int channels_;
     Picture source_;

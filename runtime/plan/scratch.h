@@ -4,7 +4,7 @@
 namespace starbow {
 
 /// Of a list that is filled anew in each frame: room for twice as much, so that a flight soon takes no more memory.
-template <class T> void keep_room(std::vector<T>& list)
+template <class T> void reserve_headroom(std::vector<T>& list)
 {
     if (2 * list.capacity() < 3 * list.size())
         list.reserve(2 * list.size());

@@ -1,7 +1,7 @@
-// Blocks of a direction map, against every pixel one by one; and the way back from a direction to its pixel, against the
+// ConeHierarchy of a direction map, against every pixel one by one; and the way back from a direction to its pixel, against the
 // projections' formulas, written here again.
 #include "config/model/turn.h"
-#include "displays/compile/blocks.h"
+#include "displays/compile/cone_hierarchy.h"
 #include "tests/support/sphere.h"
 #include <functional>
 #include <random>
@@ -14,19 +14,19 @@ using glm::dvec2;
 using glm::dvec3;
 using glm::ivec2;
 
-Pane pane_of(const Projection& projection, ivec2 size)
+View view_of(const Projection& projection, ivec2 size)
 {
     Layout layout;
     layout.outputs.resize(1);
     layout.outputs[0].size = size;
     layout.outputs[0].viewports = {{.projection = projection}};
-    return panes(layout, 0, size).front();
+    return views_of(layout, 0, size).front();
 }
 
 /// All pixels' directions and angles, 0 where nothing is shown.
-std::vector<std::pair<dvec3, double>> pixels(const Pane& pane)
+std::vector<std::pair<dvec3, double>> pixels(const View& view)
 {
-    const DirectionMap map = compile(pane);
+    const DirectionMap map = compile_direction_map(view);
     std::vector<std::pair<dvec3, double>> all;
     for (const glm::vec4& texel : map.texels)
         all.push_back({dvec3(texel), texel.w});
@@ -36,24 +36,24 @@ std::vector<std::pair<dvec3, double>> pixels(const Pane& pane)
 /// Float's rounding of a unit vector.
 constexpr double rounding = 1e-6;
 
-void expect_caps_hold(const Pane& pane, const Blocks& blocks)
+void expect_caps_hold(const View& view, const ConeHierarchy& cones)
 {
-    // A flat pane's angle is that of the pixel's centre, a map's that of all of it: apart by the next term in its size.
-    const auto room = [&](double angle) { return 1 + rounding + (blocks.flat() ? angle * angle : 0); };
-    const auto all = pixels(pane);
-    ASSERT_EQ(blocks.size(), pane.size);
-    EXPECT_EQ(blocks.count(0), ivec2(1));
-    for (int level = 0; level < blocks.levels(); ++level) {
-        const int side = blocks.side(level);
-        const ivec2 count = blocks.count(level);
+    // A flat view's angle is that of the pixel's centre, a map's that of all of it: apart by the next term in its size.
+    const auto room = [&](double angle) { return 1 + rounding + (cones.flat() ? angle * angle : 0); };
+    const auto all = pixels(view);
+    ASSERT_EQ(cones.size(), view.size);
+    EXPECT_EQ(cones.count(0), ivec2(1));
+    for (int level = 0; level < cones.levels(); ++level) {
+        const int side = cones.side(level);
+        const ivec2 count = cones.count(level);
         for (int j = 0; j < count.y; ++j)
             for (int i = 0; i < count.x; ++i) {
-                const Cap cap = blocks.cap(level, {i, j});
+                const BoundingCone cap = cones.cone(level, {i, j});
                 bool any = false;
                 double finest = 1e9, coarsest = 0, widest = 0;
-                for (int y = j * side; y < std::min((j + 1) * side, pane.size.y); ++y)
-                    for (int x = i * side; x < std::min((i + 1) * side, pane.size.x); ++x) {
-                        const auto& [n, angle] = all[std::size_t(y) * pane.size.x + x];
+                for (int y = j * side; y < std::min((j + 1) * side, view.size.y); ++y)
+                    for (int x = i * side; x < std::min((i + 1) * side, view.size.x); ++x) {
+                        const auto& [n, angle] = all[std::size_t(y) * view.size.x + x];
                         if (angle == 0)
                             continue;
                         any = true;
@@ -67,7 +67,7 @@ void expect_caps_hold(const Pane& pane, const Blocks& blocks)
                 ASSERT_LE(cap.finest, finest * room(finest));
                 ASSERT_GE(cap.coarsest * room(coarsest), coarsest);
                 // And of use: a leaf's cap is about as large as the leaf.
-                if (level + 1 == blocks.levels()) {
+                if (level + 1 == cones.levels()) {
                     ASSERT_LE(cap.radius, 1.2 * widest + 1e-5) << level << " " << i << " " << j;
                 }
             }
@@ -84,12 +84,12 @@ TEST(BlocksTest, CapsHoldEveryPixel)
     for (const Projection& projection : projections)
         for (ivec2 size : {ivec2(61, 40), ivec2(8, 8), ivec2(1, 33)}) {
             SCOPED_TRACE(std::to_string(projection.index()) + " " + std::to_string(size.x));
-            const Pane pane = pane_of(projection, size);
-            expect_caps_hold(pane, Blocks(compile(pane)));
-            if (const auto matrix = pane_matrix(pane)) {
-                EXPECT_TRUE(Blocks(*matrix, size).flat());
+            const View view = view_of(projection, size);
+            expect_caps_hold(view, ConeHierarchy(compile_direction_map(view)));
+            if (const auto matrix = view_matrix(view)) {
+                EXPECT_TRUE(ConeHierarchy(*matrix, size).flat());
                 if (size.x > 1) // else the map's pixels are slivers
-                    expect_caps_hold(pane, Blocks(*matrix, size));
+                    expect_caps_hold(view, ConeHierarchy(*matrix, size));
             }
         }
 }
@@ -127,13 +127,13 @@ TEST(BlocksTest, FindIsTheWayBack)
             }},
     };
     for (const Case& c : cases) {
-        const DirectionMap map = compile(pane_of(c.projection, c.size));
-        const Blocks blocks(map);
+        const DirectionMap map = compile_direction_map(view_of(c.projection, c.size));
+        const ConeHierarchy cones(map);
         int found = 0;
         double worst = 0;
         for (int k = 0; k < 20000; ++k) {
             const dvec3 d = glm::normalize(dvec3(normal(random), normal(random), normal(random)));
-            const auto at = find(map, blocks, d), wanted = c.wanted(d);
+            const auto at = find_pixel(map, cones, d), wanted = c.wanted(d);
             const bool inside = wanted && glm::all(glm::greaterThan(*wanted, dvec2(1)))
                 && glm::all(glm::lessThan(*wanted, dvec2(c.size) - 1.0));
             const bool outside = !wanted || glm::any(glm::lessThan(*wanted, dvec2(-1)))
@@ -162,31 +162,31 @@ TEST(BlocksTest, NothingIsFoundInNothing)
     DirectionMap dark;
     dark.size = {16, 16};
     dark.texels.assign(256, glm::vec4(0));
-    EXPECT_FALSE(find(dark, Blocks(dark), {0, 0, -1}));
-    EXPECT_TRUE(Blocks(dark).cap(0, {0, 0}).empty());
+    EXPECT_FALSE(find_pixel(dark, ConeHierarchy(dark), {0, 0, -1}));
+    EXPECT_TRUE(ConeHierarchy(dark).cone(0, {0, 0}).empty());
     const dvec3 side(0, 0, -1);
-    EXPECT_EQ(pixels_in_pyramid(Blocks(dark), {&side, 1}).high, ivec2(0));
+    EXPECT_EQ(pixels_in_pyramid(ConeHierarchy(dark), {&side, 1}).high, ivec2(0));
 }
 
 TEST(BlocksTest, PyramidsHoldTheirPixels)
 {
     for (const Projection& projection : projections) {
-        const Pane pane = pane_of(projection, {96, 72});
-        const auto all = pixels(pane);
-        const auto matrix = pane_matrix(pane);
-        for (const Blocks& blocks : {Blocks(compile(pane)), matrix ? Blocks(*matrix, pane.size) : Blocks(compile(pane))})
+        const View view = view_of(projection, {96, 72});
+        const auto all = pixels(view);
+        const auto matrix = view_matrix(view);
+        for (const ConeHierarchy& cones : {ConeHierarchy(compile_direction_map(view)), matrix ? ConeHierarchy(*matrix, view.size) : ConeHierarchy(compile_direction_map(view))})
             for (const Turn& turn : {Turn{0, 0, 0}, Turn{70, 30, 0}, Turn{180, -40, 20}}) {
                 // 20 degrees to each side of the turn's axis.
                 const glm::dmat3 axes = cockpit_from_picture(turn);
                 const double s = std::sin(glm::radians(20.0)), c = std::cos(glm::radians(20.0));
                 const dvec3 sides[]
                     = {axes * dvec3(c, 0, -s), axes * dvec3(-c, 0, -s), axes * dvec3(0, c, -s), axes * dvec3(0, -c, -s)};
-                const PixelBox box = pixels_in_pyramid(blocks, sides);
+                const PixelBox box = pixels_in_pyramid(cones, sides);
                 ivec2 low(1000), high(0);
                 double finest = 1;
-                for (int y = 0; y < pane.size.y; ++y)
-                    for (int x = 0; x < pane.size.x; ++x) {
-                        const auto& [n, angle] = all[std::size_t(y) * pane.size.x + x];
+                for (int y = 0; y < view.size.y; ++y)
+                    for (int x = 0; x < view.size.x; ++x) {
+                        const auto& [n, angle] = all[std::size_t(y) * view.size.x + x];
                         bool in = angle > 0;
                         for (const dvec3& side : sides)
                             in &= glm::dot(side, n) >= 0;

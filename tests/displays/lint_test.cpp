@@ -23,7 +23,7 @@ Layout of(std::vector<std::pair<Projection, glm::ivec2>> views)
 std::string told(const Layout& layout)
 {
     std::string all;
-    for (const std::string& line : doubts(layout, coverages(layout)))
+    for (const std::string& line : lint(layout, coverages(layout)))
         all += line + "\n";
     return all;
 }
@@ -38,7 +38,7 @@ TEST(DoubtsTest, NothingShippedIsDoubted)
         if (entry.path().extension() != ".json" || entry.path().stem() == "dome2") // which wants its meshes compiled
             continue;
         const Layout layout = load_layout(entry.path());
-        for (const std::string& line : doubts(layout, coverages(layout)))
+        for (const std::string& line : lint(layout, coverages(layout)))
             EXPECT_TRUE(has(line, "monitors are not looked for")) << entry.path() << ": " << line;
     }
 }

@@ -13,9 +13,9 @@ layout(constant_id = 11) const int REFLECTED = 3; // numbers of what surfaces re
 layout(constant_id = 12) const int OWN = 0; // numbers of the world's own spectra
 layout(constant_id = 13) const bool BY_TABLE = true; // otherwise the numbers are the colour itself, seen as it is
 layout(constant_id = 15) const bool GALILEAN = false; // velocities are added: a comparison
-layout(constant_id = 16) const bool SINGLE = false; // one image of the plan, ahead, shows all: view.eye is its SlotEntry's first
+layout(constant_id = 16) const bool SINGLE = false; // one image of the plan, ahead, shows all: view.eye is its TileEntry's first
 layout(constant_id = 17) const int RAYS = 1; // along each side of a pixel
-layout(constant_id = 18) const bool CUT = false; // some slot of the plan has more than one image
+layout(constant_id = 18) const bool CUT = false; // some tile of the plan has more than one image
 layout(constant_id = 14) const bool LAYERED = false; // something moves: what stands still in each of several frames
 
 const int GROUPS = (REFLECTED + OWN + 3) / 4;
@@ -23,7 +23,7 @@ const int GROUPS = (REFLECTED + OWN + 3) / 4;
 layout(push_constant) uniform Push { ViewPush view; };
 
 layout(set = 0, binding = 1) uniform sampler2D atlas; // four numbers of the light
-layout(set = 0, binding = 2) uniform samplerBuffer slots; // SlotTable
+layout(set = 0, binding = 2) uniform samplerBuffer tiles; // TileTable
 layout(set = 0, binding = 3) uniform usamplerBuffer response; // Response's rows
 layout(set = 0, binding = 4) uniform sampler2D depth_atlas; // near / distance along the face's normal, 0 at infinity
 layout(set = 0, binding = 5) uniform sampler2D stars_picture; // pixel for pixel the target's; light as the atlas's
@@ -33,21 +33,21 @@ layout(set = 0, binding = 9) uniform sampler2D atlas3;
 layout(set = 0, binding = 10) uniform Own { vec4 own_rows[MOST_OWN_ROWS]; };
 
 layout(set = 0, binding = 11) uniform sampler2D covered_atlas; // which part of a texel is covered; times its depth
-layout(set = 0, binding = 12) uniform Layers { LayerConstants layered; };
+layout(set = 0, binding = 12) uniform Layers { RestFrameConstants layered; };
 
 // One frame's part of the cube map and the eye before it, motion axes there.
-struct Layer {
+struct RestFrameView {
     vec2 E; // and its inverse
     vec4 eye;
     float nearest;
-    int slots, rear_last;
+    int tiles, finest_clip_level;
 };
 // The world's own.
-Layer world_layer() { return Layer(view.boost.xy, view.eye, view.zenith.y, 0, int(view.row1.w)); }
+RestFrameView world_layer() { return RestFrameView(view.boost.xy, view.eye, view.zenith.y, 0, int(view.row1.w)); }
 
 // The world's direction and D that the camera's n shows, and how many angles of the world one at n is.
-Sight from_camera(vec3 n, vec2 E) { return GALILEAN ? galilean_world_from_camera(n, E.x, E.y) : world_from_camera(n, E.x, E.y); }
-float growth(Sight sight, vec3 n, vec2 E)
+AberratedRay from_camera(vec3 n, vec2 E) { return GALILEAN ? galilean_world_from_camera(n, E.x, E.y) : world_from_camera(n, E.x, E.y); }
+float growth(AberratedRay sight, vec3 n, vec2 E)
 {
     if (!GALILEAN)
         return sight.D;
@@ -59,40 +59,40 @@ struct Place {
     vec2 face;  // face coordinates
     vec2 texel; // of the atlas
     float texels_per_unit, last_level; // of the image
-    int entry; // of the image in `slots`
+    int entry; // of the image in `tiles`
 };
 
-// The image of the plan that holds the direction n: slots.cpp's slot_of, in float.
-Place place_of(vec3 n, Layer layer)
+// The image of the plan that holds the direction n: tiles.cpp's tile_of, in float.
+Place place_of(vec3 n, RestFrameView layer)
 {
     vec3 m = abs(n);
     bool x_greater = m.x >= m.y;
     float across = max(m.x, m.y);
     Place place;
-    int slot;
+    int tile;
     if (SINGLE) {
         place.face = n.xy / n.z;
-        slot = SLOT_FRONT;
+        tile = TILE_FRONT;
     } else if (m.z >= across) {
         place.face = n.xy / m.z;
         float larger = across / m.z;
         // floor(-log2(larger^2)) from the exponent's bits; 126: an exact power of two goes to the coarser image.
         int level = 126 - (floatBitsToInt(larger * larger) >> 23);
-        slot = n.z >= 0.0 ? SLOT_FRONT : SLOT_REAR + clamp(level, 0, layer.rear_last);
+        tile = n.z >= 0.0 ? TILE_FRONT : TILE_REAR + clamp(level, 0, layer.finest_clip_level);
     } else {
         place.face = vec2(x_greater ? n.y : n.x, n.z) / across;
         int side = x_greater ? (n.x >= 0.0 ? 0 : 1) : (n.y >= 0.0 ? 2 : 3);
-        slot = SLOT_SIDES + side * SIDE_BANDS + int(place.face.y > -0.5) + int(place.face.y > 0.0);
+        tile = TILE_SIDES + side * SIDE_BANDS + int(place.face.y > -0.5) + int(place.face.y > 0.0);
     }
-    slot += layer.slots;
+    tile += layer.tiles;
     ivec2 cell = ivec2(0);
     if (CUT) {
-        vec4 cells_from_face = texelFetch(slots, slot);
+        vec4 sub_tiles_from_face = texelFetch(tiles, tile);
         vec2 spread = m.z >= across && n.z < 0.0 ? place.face * abs(place.face) : place.face;
-        cell = min(ivec2(spread * cells_from_face.xy + cells_from_face.zw), SLOT_CELLS - 1);
+        cell = min(ivec2(spread * sub_tiles_from_face.xy + sub_tiles_from_face.zw), TILE_SUB_TILES - 1);
     }
-    place.entry = SLOT_ENTRY(slot, cell.y * SLOT_CELLS + cell.x);
-    vec4 to_texel = SINGLE ? view.eye : texelFetch(slots, place.entry);
+    place.entry = TILE_ENTRY(tile, cell.y * TILE_SUB_TILES + cell.x);
+    vec4 to_texel = SINGLE ? view.eye : texelFetch(tiles, place.entry);
     place.texel = place.face * to_texel.x + to_texel.yz;
     place.texels_per_unit = to_texel.x;
     place.last_level = to_texel.w;
@@ -133,7 +133,7 @@ float halves(uint word, float part)
 // The colour of light that is shifted by D: response.cpp's seen.
 vec3 shifted(vec4 numbers[MAX_GROUPS], float D)
 {
-    float per_octave = view.pane.w;
+    float per_octave = view.corner.w;
     float asked = (log2(D) - view.row2.w) * per_octave;
     float at = clamp(asked, 0.0, float(RESPONSE_ROWS) - 1.001);
     float part = fract(at);
@@ -186,7 +186,7 @@ float distance_at(Place place)
 }
 
 // The eye's place from the cube map's, in the world at rest. n: the ship's direction.
-vec3 eye_offset(vec3 n, Layer layer)
+vec3 eye_offset(vec3 n, RestFrameView layer)
 {
     if (!TURNING)
         return layer.eye.xyz;
@@ -201,7 +201,7 @@ vec3 eye_offset(vec3 n, Layer layer)
 // is no farther than the line is what the eye sees. It is looked for in steps of about five texels (even in 1 / distance, as
 // parallax is) and, where a surface ends between two steps, before its end; then drawn closer to P = d(m) m with P - offset
 // along n. What the cube map's place does not see it cannot show: there the surface behind the edge is drawn out.
-vec3 reprojected(vec3 n, vec3 offset, float texel, Layer layer)
+vec3 reprojected(vec3 n, vec3 offset, float texel, RestFrameView layer)
 {
     float across = length(offset - dot(offset, n) * n);
     float arc = min(across / layer.nearest, MOST_PARALLAX);
@@ -257,15 +257,15 @@ vec3 reprojected(vec3 n, vec3 offset, float texel, Layer layer)
 }
 
 // The angle of the world that a pixel at the ship's direction n shows.
-float world_angle(Sight sight, vec3 n, float pixel_angle)
+float world_angle(AberratedRay sight, vec3 n, float pixel_angle)
 {
     return ABERRATION ? growth(sight, n, view.boost.xy) * pixel_angle : pixel_angle;
 }
 
 // Where the cube map holds what the ship's direction n shows: in the world, and D.
-Sight sight_of(vec3 n, float pixel_angle)
+AberratedRay sight_of(vec3 n, float pixel_angle)
 {
-    Sight sight = from_camera(n, view.boost.xy);
+    AberratedRay sight = from_camera(n, view.boost.xy);
     if (!ABERRATION)
         sight.n = n;
     if (REPROJECT)
@@ -290,12 +290,12 @@ vec3 light_seen(Place place, float D, float angle)
     return light_of(numbers, D);
 }
 
-#include "layers.glsl"
+#include "rest_frames.glsl"
 
 // What a direction shows.
 struct Shown {
     vec3 n;         // unit direction in the ship, motion axes
-    Sight sight;    // in the world, but for D: of what is shown
+    AberratedRay sight;    // in the world, but for D: of what is shown
     float distance; // in the world: as long as its light was under way there; infinite for the sky
     float frame;    // of the world's frames: where what is shown stands still
     vec3 light;     // as light_seen's
@@ -322,7 +322,7 @@ Shown shown_at(vec2 pixel, int channel, float coarser, out float pixel_angle)
     vec3 n = look(view.row0, view.row1, view.row2, pixel, channel, pixel_angle);
     if (!MAP || pixel_angle > 0.0)
         return shown_along(n, pixel_angle * coarser);
-    return Shown(n, Sight(n, 1.0), 0.0, 0.0, vec3(0.0)); // nothing
+    return Shown(n, AberratedRay(n, 1.0), 0.0, 0.0, vec3(0.0)); // nothing
 }
 
 // The light of a pixel: the mean along RAYS x RAYS directions that share it evenly. As Shown's; nothing where the angle is 0.

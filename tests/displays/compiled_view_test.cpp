@@ -1,5 +1,5 @@
 // Maps that are compiled once: by content, in memory and in a folder that may be damaged.
-#include "displays/compile/compiled.h"
+#include "displays/compile/compiled_view.h"
 #include "tests/support/files.h"
 #include <chrono>
 
@@ -47,10 +47,10 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder)
 TEST(CompiledTest, FlatPanesNeedNoMap)
 {
     MapStore store{std::filesystem::path()};
-    const auto panes = compile_output(store, one(Planar{60}, {64, 48}), 0, {64, 48});
-    EXPECT_TRUE(panes.front().matrix);
-    EXPECT_FALSE(panes.front().map);
-    EXPECT_TRUE(panes.front().blocks->flat());
+    const auto views = compile_output(store, one(Planar{60}, {64, 48}), 0, {64, 48});
+    EXPECT_TRUE(views.front().matrix);
+    EXPECT_FALSE(views.front().map);
+    EXPECT_TRUE(views.front().cones->flat());
 }
 
 TEST(CompiledTest, TheSameContentIsOneMapWhileItIsHeld)
@@ -221,17 +221,17 @@ TEST(CompiledTest, AFolderThatCannotBeUsedOnlyCostsTime)
 TEST(CompiledTest, ADomeOf4096PixelsIsCompiledInSeconds)
 {
     const Layout layout = one(Fisheye{180, 15}, {4096, 4096});
-    const Pane pane = panes(layout, 0, {4096, 4096}).front();
+    const View view = views_of(layout, 0, {4096, 4096}).front();
     const auto began = std::chrono::steady_clock::now();
-    const DirectionMap map = compile(pane);
+    const DirectionMap map = compile_direction_map(view);
     const auto compiled = std::chrono::steady_clock::now();
-    const Blocks blocks(map);
+    const ConeHierarchy cones(map);
     const auto done = std::chrono::steady_clock::now();
     const auto seconds = [](auto from, auto to) { return std::chrono::duration<double>(to - from).count(); };
     std::printf(
         "  4096 x 4096: directions in %.2f s, blocks in %.2f s\n", seconds(began, compiled), seconds(compiled, done));
     EXPECT_NEAR(map.at(2048, 2048).y, std::cos(glm::radians(15.0)), 1e-3);
-    EXPECT_EQ(blocks.size(), map.size);
+    EXPECT_EQ(cones.size(), map.size);
     // Two idle cores take 2 s at most; a shared or slow machine must not fail for it, a slower algorithm must. The
     // sanitizers cost some ten times as much.
 #if defined(__SANITIZE_ADDRESS__)

@@ -1,21 +1,21 @@
 #pragma once
-#include "blocks.h"
+#include "cone_hierarchy.h"
 #include <memory>
 
 namespace starbow {
 
-/// A pane that is ready for the device: a matrix where its directions are linear in the pixel, else a map.
-struct CompiledPane {
-    Pane pane;
-    std::optional<glm::dmat3> matrix; ///< direction = M (x, y, 1), pixels from the pane's corner
+/// A view that is ready for the device: a matrix where its directions are linear in the pixel, else a map.
+struct CompiledView {
+    View view;
+    std::optional<glm::dmat3> matrix; ///< direction = M (x, y, 1), pixels from the view's corner
     std::shared_ptr<const WarpMesh> mesh; ///< of the viewport's warp file, or null
     std::shared_ptr<const DirectionMap> map; ///< null where there is a matrix
-    std::shared_ptr<const Blocks> blocks;
+    std::shared_ptr<const ConeHierarchy> cones;
 
     int channels() const { return map ? map->channels : 1; }
 };
 
-/// Compiled maps by content: what a pane shows, its size, the bytes of its warp file. Kept in memory while someone holds
+/// Compiled maps by content: what a view shows, its size, the bytes of its warp file. Kept in memory while someone holds
 /// them, and in a folder across starts (STARBOW_CACHE, else starbow in XDG_CACHE_HOME or ~/.cache): a folder that can't be
 /// used only costs time. The folder is kept under 4 GiB, the maps that were read longest ago go first.
 class MapStore {
@@ -29,11 +29,11 @@ public:
     void matrices(bool on) { matrices_ = on; }
 
     /// Throws InputError for a warp file that is wrong.
-    CompiledPane compile(const Layout& layout, const Pane& pane);
+    CompiledView compile(const Layout& layout, const View& view);
 
 private:
     std::shared_ptr<const WarpMesh> mesh(const Warp& warp, std::string& content);
-    std::shared_ptr<const DirectionMap> map(const Pane& pane, const WarpMesh* mesh, const std::string& key);
+    std::shared_ptr<const DirectionMap> map(const View& view, const WarpMesh* mesh, const std::string& key);
 
     std::filesystem::path folder_;
     bool keep_ = true, matrices_ = true;
@@ -41,10 +41,10 @@ private:
     std::shared_ptr<Kept> kept_;
 };
 
-/// All panes of one output.
-std::vector<CompiledPane> compile_output(MapStore& store, const Layout& layout, std::size_t output, glm::ivec2 size);
+/// All views of one output.
+std::vector<CompiledView> compile_output(MapStore& store, const Layout& layout, std::size_t output, glm::ivec2 size);
 
-/// Throws InputError, with the layout's place, for a pane that shows nothing at all.
-void refuse_dark(const Layout& layout, std::span<const CompiledPane> panes);
+/// Throws InputError, with the layout's place, for a view that shows nothing at all.
+void reject_empty(const Layout& layout, std::span<const CompiledView> views);
 
 } // namespace starbow

@@ -1,4 +1,4 @@
-#include "blocks.h"
+#include "cone_hierarchy.h"
 #include <algorithm>
 #include <cmath>
 
@@ -16,13 +16,13 @@ float angle(const glm::vec3& a, const glm::vec3& b)
 /// Rounding in float, with room.
 constexpr float slack = 1e-6f;
 
-Cap around(const Cap* const* parts, int count)
+BoundingCone around(const BoundingCone* const* parts, int count)
 {
     glm::vec3 sum(0);
     for (int i = 0; i < count; ++i)
         sum += parts[i]->centre;
     // Opposite directions may cancel: any centre will do for a cap that is nearly the sphere.
-    Cap cap = *parts[0];
+    BoundingCone cap = *parts[0];
     cap.centre = glm::length(sum) > 1e-3f ? glm::normalize(sum) : parts[0]->centre;
     cap.radius = 0;
     for (int i = 0; i < count; ++i) {
@@ -33,7 +33,7 @@ Cap around(const Cap* const* parts, int count)
     return cap;
 }
 
-Cap leaf_cap(const DirectionMap& map, glm::ivec2 low, glm::ivec2 high)
+BoundingCone leaf_cap(const DirectionMap& map, glm::ivec2 low, glm::ivec2 high)
 {
     glm::vec3 sum(0), any(0);
     for (int channel = 0; channel < map.channels; ++channel)
@@ -41,7 +41,7 @@ Cap leaf_cap(const DirectionMap& map, glm::ivec2 low, glm::ivec2 high)
             for (int x = low.x; x < high.x; ++x)
                 if (const glm::vec4& texel = map.at(x, y, channel); texel.w > 0)
                     sum += glm::vec3(texel), any = glm::vec3(texel);
-    Cap cap;
+    BoundingCone cap;
     if (any == glm::vec3(0))
         return cap;
     cap.centre = glm::length(sum) > 1e-3f ? glm::normalize(sum) : any;
@@ -67,28 +67,28 @@ int levels_for(glm::ivec2 size, int leaf)
 
 } // namespace
 
-Blocks::Blocks(const DirectionMap& map)
+ConeHierarchy::ConeHierarchy(const DirectionMap& map)
     : size_(map.size)
     , leaf_(8)
     , levels_(levels_for(map.size, 8))
 {
-    caps_.resize(levels_);
+    cones_.resize(levels_);
     for (int level = levels_ - 1; level >= 0; --level) {
-        const glm::ivec2 blocks = count(level);
-        caps_[level].resize(std::size_t(blocks.x) * blocks.y);
-        for (int y = 0; y < blocks.y; ++y)
-            for (int x = 0; x < blocks.x; ++x) {
-                Cap& cap = caps_[level][std::size_t(y) * blocks.x + x];
+        const glm::ivec2 cones = count(level);
+        cones_[level].resize(std::size_t(cones.x) * cones.y);
+        for (int y = 0; y < cones.y; ++y)
+            for (int x = 0; x < cones.x; ++x) {
+                BoundingCone& cap = cones_[level][std::size_t(y) * cones.x + x];
                 if (level == levels_ - 1) {
                     cap = leaf_cap(map, {x * leaf_, y * leaf_}, glm::min(glm::ivec2(x + 1, y + 1) * leaf_, size_));
                     continue;
                 }
                 const glm::ivec2 finer = count(level + 1);
-                const Cap* parts[4];
+                const BoundingCone* parts[4];
                 int found = 0;
                 for (int j = 2 * y; j < std::min(2 * y + 2, finer.y); ++j)
                     for (int i = 2 * x; i < std::min(2 * x + 2, finer.x); ++i)
-                        if (const Cap& part = caps_[level + 1][std::size_t(j) * finer.x + i]; !part.empty())
+                        if (const BoundingCone& part = cones_[level + 1][std::size_t(j) * finer.x + i]; !part.empty())
                             parts[found++] = &part;
                 if (found > 0)
                     cap = around(parts, found);
@@ -96,7 +96,7 @@ Blocks::Blocks(const DirectionMap& map)
     }
 }
 
-Blocks::Blocks(const glm::dmat3& direction_from_pixel, glm::ivec2 size)
+ConeHierarchy::ConeHierarchy(const glm::dmat3& direction_from_pixel, glm::ivec2 size)
     : size_(size)
     , leaf_(1)
     , levels_(levels_for(size, 1))
@@ -107,12 +107,12 @@ Blocks::Blocks(const glm::dmat3& direction_from_pixel, glm::ivec2 size)
     foot_ = -glm::dvec2(glm::dot(m[0], m[2]) / glm::dot(m[0], m[0]), glm::dot(m[1], m[2]) / glm::dot(m[1], m[1]));
 }
 
-Cap Blocks::flat_cap(glm::ivec2 low, glm::ivec2 high) const
+BoundingCone ConeHierarchy::flat_cone(glm::ivec2 low, glm::ivec2 high) const
 {
     const glm::dvec2 first = glm::dvec2(low) + 0.5, last = glm::dvec2(high) - 0.5;
     auto at = [&](const glm::dvec2& p) { return *flat_ * glm::dvec3(p, 1); };
     const glm::dvec3 corners[4] = {at(first), at({last.x, first.y}), at({first.x, last.y}), at(last)};
-    Cap cap;
+    BoundingCone cap;
     // Less than half a sphere is convex: the rectangle lies within any cap that holds its corners.
     cap.centre = glm::normalize(at(0.5 * (first + last)));
     double farthest = 0, chord_square = 0;
@@ -131,11 +131,11 @@ Cap Blocks::flat_cap(glm::ivec2 low, glm::ivec2 high) const
     return cap;
 }
 
-Cap Blocks::cap(int level, glm::ivec2 block) const
+BoundingCone ConeHierarchy::cone(int level, glm::ivec2 block) const
 {
     if (!flat_)
-        return caps_[level][std::size_t(block.y) * count(level).x + block.x];
-    return flat_cap(block * side(level), glm::min((block + 1) * side(level), size_));
+        return cones_[level][std::size_t(block.y) * count(level).x + block.x];
+    return flat_cone(block * side(level), glm::min((block + 1) * side(level), size_));
 }
 
 namespace {
@@ -143,18 +143,18 @@ namespace {
 /// Looks through a block for the pixel that comes nearest to a direction.
 struct Search {
     const DirectionMap& map;
-    const Blocks& blocks;
+    const ConeHierarchy& cones;
     glm::vec3 wanted;
     glm::ivec2 best{-1};
     float nearest = 1e30f;
 
     void block(int level, glm::ivec2 at)
     {
-        const Cap cap = blocks.cap(level, at);
+        const BoundingCone cap = cones.cone(level, at);
         if (cap.empty() || angle(cap.centre, wanted) > cap.radius + std::min(nearest, 2 * cap.coarsest) + slack)
             return;
-        const glm::ivec2 low = at * blocks.side(level), high = glm::min(low + blocks.side(level), map.size);
-        if (level + 1 == blocks.levels()) {
+        const glm::ivec2 low = at * cones.side(level), high = glm::min(low + cones.side(level), map.size);
+        if (level + 1 == cones.levels()) {
             for (int y = low.y; y < high.y; ++y)
                 for (int x = low.x; x < high.x; ++x)
                     if (const glm::vec4& texel = map.at(x, y); texel.w > 0)
@@ -162,7 +162,7 @@ struct Search {
                             nearest = off, best = {x, y};
             return;
         }
-        const glm::ivec2 finer = blocks.count(level + 1);
+        const glm::ivec2 finer = cones.count(level + 1);
         for (int j = 2 * at.y; j < std::min(2 * at.y + 2, finer.y); ++j)
             for (int i = 2 * at.x; i < std::min(2 * at.x + 2, finer.x); ++i)
                 block(level + 1, {i, j});
@@ -171,9 +171,9 @@ struct Search {
 
 } // namespace
 
-std::optional<glm::dvec2> find(const DirectionMap& map, const Blocks& blocks, const glm::dvec3& direction)
+std::optional<glm::dvec2> find_pixel(const DirectionMap& map, const ConeHierarchy& cones, const glm::dvec3& direction)
 {
-    Search search{map, blocks, direction};
+    Search search{map, cones, direction};
     search.block(0, {0, 0});
     if (search.best.x < 0)
         return {};
@@ -204,11 +204,11 @@ std::optional<glm::dvec2> find(const DirectionMap& map, const Blocks& blocks, co
 namespace {
 
 struct Pyramid {
-    const Blocks& blocks;
+    const ConeHierarchy& cones;
     std::span<const glm::dvec3> sides;
     PixelBox box{glm::ivec2(1 << 30), glm::ivec2(0), 1};
 
-    bool sees(const Cap& cap) const
+    bool sees(const BoundingCone& cap) const
     {
         const double reach = cap.radius < 1.57f ? std::sin(double(cap.radius)) + slack : 1;
         return std::all_of(sides.begin(), sides.end(),
@@ -216,28 +216,28 @@ struct Pyramid {
     }
     void add(int level, glm::ivec2 at)
     {
-        const Cap cap = blocks.cap(level, at);
+        const BoundingCone cap = cones.cone(level, at);
         if (cap.empty() || !sees(cap))
             return;
-        const int side = blocks.side(level);
-        if (level + 1 < blocks.levels() && side > 8) {
-            const glm::ivec2 finer = blocks.count(level + 1);
+        const int side = cones.side(level);
+        if (level + 1 < cones.levels() && side > 8) {
+            const glm::ivec2 finer = cones.count(level + 1);
             for (int j = 2 * at.y; j < std::min(2 * at.y + 2, finer.y); ++j)
                 for (int i = 2 * at.x; i < std::min(2 * at.x + 2, finer.x); ++i)
                     add(level + 1, {i, j});
             return;
         }
         box.low = glm::min(box.low, at * side);
-        box.high = glm::max(box.high, glm::min((at + 1) * side, blocks.size()));
+        box.high = glm::max(box.high, glm::min((at + 1) * side, cones.size()));
         box.finest = std::min(box.finest, double(cap.finest));
     }
 };
 
 } // namespace
 
-PixelBox pixels_in_pyramid(const Blocks& blocks, std::span<const glm::dvec3> sides)
+PixelBox pixels_in_pyramid(const ConeHierarchy& cones, std::span<const glm::dvec3> sides)
 {
-    Pyramid pyramid{blocks, sides};
+    Pyramid pyramid{cones, sides};
     pyramid.add(0, {0, 0});
     return pyramid.box.high.x > 0 ? pyramid.box : PixelBox{};
 }

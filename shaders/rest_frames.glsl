@@ -1,9 +1,9 @@
 // Where something moves: what stands still in each frame has a cube map of its own, boosted straight to the camera. Along a
 // line of sight the light's way in the ship is D times its way in any frame: by that they are sorted, in front of the sky.
 
-Layer layer_of(LayerEntry entry)
+RestFrameView rest_frame_of(RestFrameEntry entry)
 {
-    return Layer(entry.boost.xy, entry.eye, entry.nearest.y, int(entry.boost.z), int(entry.row1.w));
+    return RestFrameView(entry.boost.xy, entry.eye, entry.nearest.y, int(entry.boost.z), int(entry.row1.w));
 }
 
 // Part of the sky, at the world's direction n: sky.frag's.
@@ -27,10 +27,10 @@ ivec2 texel_of(Place place, int k) { return ivec2(floor(place.texel - 0.5)) + iv
 
 Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
 {
-    LayerEntry entry = layered.layers[i];
-    Layer layer = layer_of(entry);
+    RestFrameEntry entry = layered.layers[i];
+    RestFrameView layer = rest_frame_of(entry);
     vec3 n = i == 0 ? n0 : vec3(dot(entry.row0.xyz, n0), dot(entry.row1.xyz, n0), dot(entry.row2.xyz, n0));
-    Sight sight = from_camera(n, layer.E);
+    AberratedRay sight = from_camera(n, layer.E);
     Part part;
     part.world_angle = growth(sight, n, layer.E) * pixel_angle;
     if (REPROJECT)
@@ -39,7 +39,7 @@ Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
     part.D = sight.D * D_beside;
     part.ways = vec4(infinite);
     part.covers = vec4(0.0);
-    vec4 image = texelFetch(slots, part.place.entry + 1);
+    vec4 image = texelFetch(tiles, part.place.entry + 1);
     vec2 texel = part.place.texel;
     // What moves does not fill its images, and pixels look past them: nothing beyond their edges is filtered in.
     float margin = i == 0 ? 0.5 : 2.0 * exp2(part.place.last_level);
@@ -95,12 +95,12 @@ void numbers_of_part(Part part, int k, out vec4 numbers[MAX_GROUPS])
 // What the ship's direction n0 (the world's motion axes) shows: the light of all layers, each part behind what the other layers
 // cover nearer than it, and of the sky behind them all. No order is needed: a layer's own parts lie side by side. sight: the
 // world's; its D, the distance and the frame become those of what most of the pixel shows of them.
-vec3 light_of_layers(vec3 n0, float pixel_angle, inout Sight sight, out float distance_, out float frame)
+vec3 light_of_layers(vec3 n0, float pixel_angle, inout AberratedRay sight, out float distance_, out float frame)
 {
     // Without aberration directions are as in the world, and what moves there is seen as from there; D is the ship's own beside.
     float D_beside = ABERRATION ? 1.0 : sight.D, sky_D = sight.D;
     int count = int(layered.count.x);
-    Part parts[MAX_LAYERS];
+    Part parts[MAX_REST_FRAMES];
     float left = 1.0; // for the sky
     int shown = 0;
     for (int i = 0; i < count; ++i) {
