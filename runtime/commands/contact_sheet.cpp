@@ -101,7 +101,7 @@ int render_contact_sheet(const fs::path& directory)
         OffscreenRenderer renderer(
             context->device, context->pipelines, context->world, layout, default_quality(context->device, true), false);
         Panel panel = typesetter.draw(
-            readings(ship_at(shot), context->world.scene, shot.effects), words, renderer.frame().hud_width());
+            readings(ship_at(shot), context->world.scene, shot.effects), words, renderer.frame().views().hud_width());
         fs::path folder = directory / all[i].name();
         auto pictures = render_still(folder, renderer, shot, false, &panel);
         sheet.place(int(i), all[i].name(), layout.outputs[0].size, pictures[0], typesetter);

@@ -38,14 +38,13 @@ inline void make_writable(vk::CommandBuffer commands, const Target& target)
 inline double frame_ms(Device& device, OffscreenRenderer& renderer, const Shot& shot)
 {
     return milliseconds([&] {
-        renderer.frame().prepare(shot, nullptr);
         std::vector<Target> targets;
         for (std::size_t i = 0; i < renderer.layout().outputs.size(); ++i)
             targets.push_back(renderer.target(i));
         device.now([&](vk::CommandBuffer c) {
             for (const Target& target : targets)
                 make_writable(c, target);
-            renderer.frame().record(c, targets);
+            renderer.frame().draw(c, shot, nullptr, targets);
         });
     });
 }

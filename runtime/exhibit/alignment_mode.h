@@ -1,7 +1,7 @@
 #pragma once
 #include "config/model/adjust.h"
 #include "input/controls.h"
-#include "runtime/render/frame.h"
+#include "runtime/render/frame_renderer.h"
 #include <chrono>
 
 namespace starbow {

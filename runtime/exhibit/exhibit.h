@@ -7,7 +7,7 @@
 #include "config/model/tour_file.h"
 #include "config/model/words.h"
 #include "runtime/operation/latency.h"
-#include "runtime/render/frame.h"
+#include "runtime/render/frame_renderer.h"
 #include <filesystem>
 #include <functional>
 #include <optional>

@@ -29,7 +29,7 @@ Lab::Lab(const std::filesystem::path& log, double every_s, const Words& words)
 {
 }
 
-void Lab::read(const Frame& frame, const Controls& controls, const GpuWorld& world, double dt_s,
+void Lab::read(const FrameRenderer& frame, const Controls& controls, const GpuWorld& world, double dt_s,
     const std::function<void(std::string)>& say)
 {
     if (controls.overlay)
@@ -72,7 +72,7 @@ void Lab::keep(const std::function<void(std::string)>& say)
         say(words_("lab.logged", {{"line", std::to_string(log_->lines())}, {"file", log_->file().filename().string()}}));
 }
 
-void Lab::ask(Frame& frame, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter)
+void Lab::ask(FrameRenderer& frame, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter)
 {
     if (!on()) {
         frame.measure({});
@@ -87,7 +87,7 @@ void Lab::ask(Frame& frame, const Shot& shot, const Flight& flight, const GpuWor
     Measuring what{.probes = {{0, 0, -1}}, .over = {overlay_ == Overlay::off ? Overlay::aim : overlay_, marks_, scale_}};
     if (measured_ && flight.hud) {
         const double aspect = lab_aspect(overlay_, why_);
-        const int width = frame.lab_panel_width(aspect);
+        const int width = frame.views().lab_panel_width(aspect);
         if (again || panel_.size != glm::ivec2(width, int(width * aspect)))
             panel_ = draw_lab_panel(typesetter, words_, *measured_, overlay_, scale_, why_, width);
         what.panel = &panel_;

@@ -2,7 +2,7 @@
 #include "runtime/flight/flight.h"
 #include "runtime/hud/lab_log.h"
 #include "runtime/hud/lab_panel.h"
-#include "runtime/render/frame.h"
+#include "runtime/render/frame_renderer.h"
 #include <chrono>
 
 namespace starbow {
@@ -19,10 +19,10 @@ public:
     Lab(const std::filesystem::path& log, double every_s, const Words& words);
 
     /// What the last frame's probe has seen, which the device must have finished; then the keys. say: for the display.
-    void read(const Frame& frame, const Controls& controls, const GpuWorld& world, double dt_s,
+    void read(const FrameRenderer& frame, const Controls& controls, const GpuWorld& world, double dt_s,
         const std::function<void(std::string)>& say);
     /// What the next frame is to draw and to read.
-    void ask(Frame& frame, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter);
+    void ask(FrameRenderer& frame, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter);
 
 private:
     bool on() const { return overlay_ != Overlay::off || why_ != Why::none; }

@@ -1,7 +1,7 @@
 #pragma once
 #include "present_clock.h"
 #include "runtime/operation/monitors.h"
-#include "runtime/render/frame.h"
+#include "runtime/render/frame_renderer.h"
 #include <chrono>
 
 struct GLFWwindow;

@@ -94,11 +94,11 @@ StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& worl
     const Why page = Why(which(why_names, why));
     if (points.empty() && over == Overlay::off && page == Why::none)
         return measurement;
-    Frame& frame = renderer.frame();
+    FrameRenderer& frame = renderer.frame();
     Measuring what{.probes = {{0, 0, -1}}};
     for (const Point& point : points)
         if (const auto* pixel = std::get_if<glm::dvec2>(&point)) {
-            const auto direction = frame.direction(0, *pixel);
+            const auto direction = frame.views().direction(0, *pixel);
             if (!direction)
                 throw InputError("--measure " + shown(pixel->x) + "," + shown(pixel->y)
                     + " is a place where the picture shows nothing; one that shows the world is right");
@@ -138,7 +138,7 @@ StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& worl
     what.over = {over == Overlay::off && page != Why::none ? Overlay::aim : over, marks, scale};
     if (over != Overlay::off || page != Why::none) {
         measurement.panel = std::make_shared<Panel>(draw_lab_panel(
-            Typesetter(), words, measurement.points[0], over, scale, page, frame.lab_panel_width(lab_aspect(over, page))));
+            Typesetter(), words, measurement.points[0], over, scale, page, frame.views().lab_panel_width(lab_aspect(over, page))));
         what.panel = measurement.panel.get();
         what.scale = scale_place(over, page);
     }

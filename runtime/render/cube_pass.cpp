@@ -137,17 +137,27 @@ void CubePass::upload(std::span<const EyeEvent> layers, bool plain)
     if (!times.empty())
         put(times_, times);
 
-    vk::DescriptorBufferInfo buffers[]
-        = {{*constants_.buffer, 0, sizeof(shared::CubeConstants)}, {*instances_.buffer, 0, VK_WHOLE_SIZE},
-            {*visible_.buffer, 0, VK_WHOLE_SIZE}, {*world_.columns.buffer, 0, VK_WHOLE_SIZE},
-            {*(*times_.buffer ? times_ : instances_).buffer, 0, VK_WHOLE_SIZE}}; // without any none is read
-    device_.device.updateDescriptorSets(
-        {vk::WriteDescriptorSet(*set_, 0, 0, vk::DescriptorType::eUniformBufferDynamic, {}, buffers[0]),
-            vk::WriteDescriptorSet(*set_, 1, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[1]),
-            vk::WriteDescriptorSet(*set_, 2, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[2]),
-            vk::WriteDescriptorSet(*set_, 3, 0, vk::DescriptorType::eUniformBuffer, {}, buffers[3]),
-            vk::WriteDescriptorSet(*set_, 4, 0, vk::DescriptorType::eStorageBuffer, {}, buffers[4])},
-        {});
+    write_set();
+}
+
+void CubePass::write_set()
+{
+    const Buffer& times = *times_.buffer ? times_ : instances_; // without any none is read
+    const Buffer* held[] = {&constants_, &instances_, &visible_, &world_.columns, &times};
+    std::array<std::uint64_t, 5> serials;
+    std::array<vk::DescriptorBufferInfo, 5> infos;
+    std::array<vk::WriteDescriptorSet, 5> writes;
+    constexpr vk::DescriptorType types[] = {vk::DescriptorType::eUniformBufferDynamic, vk::DescriptorType::eStorageBuffer,
+        vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer};
+    for (std::uint32_t i = 0; i < 5; ++i) {
+        serials[i] = held[i]->serial;
+        infos[i] = vk::DescriptorBufferInfo(*held[i]->buffer, 0, i == 0 ? sizeof(shared::CubeConstants) : VK_WHOLE_SIZE);
+        writes[i] = vk::WriteDescriptorSet(*set_, i, 0, 1, types[i], nullptr, &infos[i]);
+    }
+    if (serials == written_)
+        return;
+    device_.device.updateDescriptorSets(writes, {});
+    written_ = serials;
 }
 
 shared::CubeConstants CubePass::constants_of(const EyeEvent& eye_event, bool plain) const

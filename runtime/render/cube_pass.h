@@ -43,14 +43,16 @@ public:
     /// Of the light's numbers four each; where something moves one more: how much of a texel is covered.
     const std::vector<Image>& atlases() const { return atlases_; }
     const Image& depth() const { return depth_; }
-    bool layered() const { return layered_; } ///< what is covered is told
+    bool layered() const { return layered_; } ///< something that moves is in view
     vk::BufferView tiles() const { return *tiles_view_; } ///< TileTable, as texels
+    std::uint64_t tiles_serial() const { return tiles_.serial; }
     std::size_t triangles() const { return triangles_; } ///< sent to the device, all images
     vk::DeviceSize memory() const;
 
 private:
     void fit(glm::ivec2 atlas_size, int levels);
     void upload(std::span<const EyeEvent> layers, bool plain);
+    void write_set();
     shared::CubeConstants constants_of(const EyeEvent& eye_event, bool plain) const;
     Formats formats(bool layered) const;
     void draw_images(vk::CommandBuffer commands, const TargetKind& kind, bool plain);
@@ -79,6 +81,7 @@ private:
     bool repeatable_ = false;
     DrawList list_;
     std::size_t triangles_ = 0;
+    std::array<std::uint64_t, 5> written_{}; ///< serials of the buffers that set_ holds
 };
 
 } // namespace starbow

@@ -36,9 +36,13 @@ vk::raii::Instance make_instance(Device& device, const Device::Options& options)
         &device.complaints);
     vk::ValidationFeatureEnableEXT synchronization = vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
     vk::ValidationFeaturesEXT features(1, &synchronization, 0, nullptr, &messenger);
+    for (const vk::ExtensionProperties& offered : device.context.enumerateInstanceExtensionProperties())
+        device.debug_utils |= std::string_view(offered.extensionName) == VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    device.debug_utils |= options.validation; // the layer brings it
+    if (device.debug_utils)
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     if (options.validation) {
         layers.push_back("VK_LAYER_KHRONOS_validation");
-        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
         extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     }
     vk::ApplicationInfo application("Starbow", 1, nullptr, 0, VK_API_VERSION_1_3);

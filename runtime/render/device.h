@@ -7,6 +7,8 @@
 
 namespace starbow {
 
+class FrameTimer;
+
 /// The instance, one device and its one queue. Everything else of Vulkan hangs below it.
 class Device {
 public:
@@ -32,6 +34,8 @@ public:
     vk::PhysicalDeviceProperties properties;
     vk::PhysicalDeviceMemoryProperties memory;
     bool tells_when_shown = false; ///< VK_KHR_present_wait
+    bool debug_utils = false; ///< VK_EXT_debug_utils: objects have names, passes have labels
+    FrameTimer* timer = nullptr; ///< measures each pass, while somebody traces
 
     bool on_processor() const { return properties.deviceType == vk::PhysicalDeviceType::eCpu; }
 

@@ -39,6 +39,7 @@ struct GpuWorld {
     Buffer columns; ///< of spectra
     ResponseBuffers eye, false_colours;
 
+    const ResponseBuffers& response(const Effects& on) const { return on.false_colours ? false_colours : eye; }
     bool layered() const { return world.frames.size() > 1; } ///< something may move
     CoefficientCounts numbers() const { return {spectra.basis.reflected, int(spectra.basis.own.size())}; }
     /// plain: drawn as colours alone, whatever the spectra.

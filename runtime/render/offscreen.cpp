@@ -75,7 +75,6 @@ Target OffscreenRenderer::target(std::size_t output) const
 
 std::vector<std::vector<std::uint8_t>> OffscreenRenderer::picture(const Shot& shot, const Panel* hud)
 {
-    frame_.prepare(shot, hud);
     std::vector<Target> targets;
     for (std::size_t i = 0; i < images_.size(); ++i)
         targets.push_back(target(i));
@@ -83,7 +82,7 @@ std::vector<std::vector<std::uint8_t>> OffscreenRenderer::picture(const Shot& sh
         for (const Image& image : images_)
             transition(commands, image, vk::ImageLayout::eUndefined, Stage::eNone, {},
                 vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
-        frame_.record(commands, targets);
+        frame_.draw(commands, shot, hud, targets);
         for (const Image& image : images_)
             transition(commands, image, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
                 Access::eColorAttachmentWrite, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer,
@@ -101,7 +100,7 @@ std::vector<std::vector<std::uint8_t>> OffscreenRenderer::picture(const Shot& sh
 std::optional<double> OffscreenRenderer::metered(const Shot& shot)
 {
     frame_.meter(true);
-    frame_.prepare(shot, nullptr);
+    frame_.update(shot, nullptr);
     device_.now([&](vk::CommandBuffer commands) {
         frame_.draw_cubes(commands);
         frame_.draw_meter(commands);
@@ -113,7 +112,7 @@ std::optional<double> OffscreenRenderer::metered(const Shot& shot)
 
 std::vector<Probed> OffscreenRenderer::probed(const Shot& shot)
 {
-    frame_.prepare(shot, nullptr);
+    frame_.update(shot, nullptr);
     device_.now([&](vk::CommandBuffer commands) {
         frame_.draw_cubes(commands);
         frame_.draw_probes(commands);
@@ -130,7 +129,7 @@ Channels OffscreenRenderer::numbers(const Shot& shot, std::size_t output)
                 vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
     Shot unexposed = shot; // numbers are of light, not of pictures: all of it counts, and it is the same at any exposure
     unexposed.exposure_ev = -60;
-    frame_.prepare(unexposed, nullptr);
+    frame_.update(unexposed, nullptr);
     device_.now([&](vk::CommandBuffer commands) { frame_.record_measured(commands, output, target); });
 
     std::size_t count = std::size_t(images_[output].extent.width) * images_[output].extent.height;
@@ -151,7 +150,7 @@ Channels OffscreenRenderer::numbers(const Shot& shot, std::size_t output)
     for (auto& [name, values] : channels)
         std::fill(values.begin(), values.end(), nothing);
     const int width = int(images_[output].extent.width);
-    for (const Frame::Axes& axes : frame_.measured_axes(output))
+    for (const ViewPasses::Axes& axes : frame_.passes().measured_axes(output))
         for (int y = axes.corner.y; y < axes.corner.y + axes.size.y; ++y)
             for (int x = axes.corner.x; x < axes.corner.x + axes.size.x; ++x) {
                 const std::size_t i = std::size_t(y * width + x);

@@ -1,5 +1,5 @@
 #pragma once
-#include "frame.h"
+#include "frame_renderer.h"
 #include "runtime/images/capture.h"
 #include <filesystem>
 #include <memory>
@@ -26,13 +26,13 @@ public:
     std::vector<Probed> probed(const Shot& shot);
 
     const Layout& layout() const { return layout_; }
-    Frame& frame() { return frame_; }
+    FrameRenderer& frame() { return frame_; }
     Target target(std::size_t output) const;
 
 private:
     Device& device_;
     Layout layout_;
-    Frame frame_;
+    FrameRenderer frame_;
     std::vector<Image> images_;
 };
 

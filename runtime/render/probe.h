@@ -13,7 +13,7 @@ public:
     /// directions: unit, in the cockpit. pixel_angle: of the light that is averaged, radians.
     Probe(const Device& device, const std::vector<glm::dvec3>& directions, double pixel_angle);
 
-    /// For the plan: what the cube map must hold. None moves while this existence_intervals.
+    /// For the plan: what the cube map must hold. None moves while this object lives.
     const ConeHierarchy& view(std::size_t i) const { return *pixels_[i].cones; }
     std::size_t count() const { return pixels_.size(); }
     /// Whether it looks there already.

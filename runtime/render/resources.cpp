@@ -1,11 +1,18 @@
 #include "resources.h"
 #include "config/json/error.h"
+#include <atomic>
 #include <algorithm>
 #include <bit>
 #include <cstring>
 
 namespace starbow {
 namespace {
+
+std::uint64_t next_serial()
+{
+    static std::atomic<std::uint64_t> last = 0;
+    return ++last;
+}
 
 std::uint32_t memory_type(const Device& device, std::uint32_t allowed, vk::MemoryPropertyFlags wanted)
 {
@@ -35,6 +42,7 @@ vk::raii::DeviceMemory bind(const Device& device, const Resource& resource, vk::
 Buffer make_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage, vk::MemoryPropertyFlags wanted)
 {
     Buffer buffer;
+    buffer.serial = next_serial();
     buffer.size = std::max<vk::DeviceSize>(size, 16);
     buffer.buffer = device.device.createBuffer({{}, buffer.size, usage});
     buffer.memory = bind(device, buffer.buffer, wanted);
@@ -83,6 +91,7 @@ Image make_image(const Device& device, const ImageSpec& spec)
         throw InputError("A picture of " + std::to_string(spec.extent.width) + "x" + std::to_string(spec.extent.height)
             + " is more than this GPU can hold: at most " + std::to_string(limit) + " on a side");
     Image image;
+    image.serial = next_serial();
     image.format = spec.format, image.extent = spec.extent, image.levels = spec.levels, image.layers = spec.layers;
     vk::ImageCreateInfo info(spec.cube ? vk::ImageCreateFlagBits::eCubeCompatible : vk::ImageCreateFlags(),
         vk::ImageType::e2D, spec.format, {spec.extent.width, spec.extent.height, 1}, spec.levels, spec.layers, spec.samples,

@@ -10,6 +10,7 @@ struct Buffer {
     vk::raii::Buffer buffer = nullptr;
     vk::DeviceSize size = 0;
     void* mapped = nullptr; ///< null for device-local ones
+    std::uint64_t serial = 0; ///< another one for each that is made: a handle may come again, this does not
 };
 
 struct Image {
@@ -20,6 +21,7 @@ struct Image {
     vk::Extent2D extent;
     std::uint32_t levels = 1, layers = 1;
     vk::DeviceSize bytes = 0; ///< of device memory
+    std::uint64_t serial = 0; ///< as Buffer's
 };
 
 /// Host-visible and mapped: what the processor writes each frame, or reads back.

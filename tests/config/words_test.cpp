@@ -68,7 +68,7 @@ TEST(Words, EachThatIsSaidIsThere)
             kinds.insert(key.substr(0, dot));
     const std::regex quoted("\"([a-z]+)\\.([a-z_]+)\"");
     int count = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(source_dir() / "runtime")) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(source_dir() / "runtime")) {
         const std::string source = entry.is_regular_file() ? read_text(entry.path()) : "";
         for (std::sregex_iterator at(source.begin(), source.end(), quoted), end; at != end; ++at)
             if (kinds.contains((*at)[1]) && (*at)[2] != "json" && (*at)[2] != "h") {

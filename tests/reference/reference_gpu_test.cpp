@@ -86,7 +86,7 @@ TEST(LivePicture, IsTheOneByRaysInEveryWorld)
         const char* shot;
         double floor_db;
     };
-    // Bodies, clocks, existence_intervals; what spins; a line, a glow, pigments under lamps, all of it shifted.
+    // Bodies, clocks, existence intervals; what spins; a line, a glow, pigments under lamps, all of it shifted.
     for (const Case& one :
         {Case{"alice-and-bob", 30}, {"train-aboard-long", 30}, {"light-clock-flying", 30}, {"twins-turn", 28},
             {"clocks-passing", 30}, {"gamow-cycling", 28}, {"rainbow-line", 30}, {"warm-wall-4", 30}, {"chart-0.5", 30}}) {

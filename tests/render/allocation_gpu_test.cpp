@@ -60,12 +60,12 @@ TEST(Allocations, AFrameTakesNothingFromTheHeap)
         shot.u = {0, 0, -4 + 4 * std::cos(0.06 * i)};
         shot.position.z = -0.01 * i;
         const auto began = std::chrono::steady_clock::now();
-        const long prepared = allocations([&] { renderer.frame().prepare(shot, nullptr); });
+        const long prepared = allocations([&] { renderer.frame().update(shot, nullptr); });
         ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count() / 200;
         long recorded = 0;
         quiet.now([&](vk::CommandBuffer commands) {
             const Target target = renderer.target(0);
-            recorded = allocations([&] { renderer.frame().record(commands, std::span(&target, 1)); });
+            recorded = allocations([&] { renderer.frame().draw(commands, shot, nullptr, std::span(&target, 1)); });
         });
         if (i >= 100)
             prepare += prepared, record += recorded;

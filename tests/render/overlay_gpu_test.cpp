@@ -168,7 +168,7 @@ TEST(Overlay, TheProbeReadsThePicture)
         Measuring what;
         std::vector<int> at;
         for (int i = 50 * 320 + 17; i < 200 * 320; i += 433)
-            at.push_back(i), what.probes.push_back(*stage.frame().direction(0, numbers.centre(i)));
+            at.push_back(i), what.probes.push_back(*stage.frame().views().direction(0, numbers.centre(i)));
         stage.frame().measure(what);
         const std::vector<Probed> probed = stage.probed(shot);
         ASSERT_EQ(probed.size(), at.size());

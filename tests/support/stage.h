@@ -59,7 +59,7 @@ inline RenderContext& avenue() { return *Stage::context; }
 inline Device& device() { return Stage::context->device; }
 inline Pipelines& pipelines() { return Stage::context->pipelines; }
 
-/// The avenue under an empty sky, while this existence_intervals.
+/// The avenue under an empty sky, while this object lives.
 struct WithoutStars {
     WithoutStars() { put_stars(device(), avenue().world, {}); }
     ~WithoutStars() { put_stars(device(), avenue().world, load_stars(avenue().world.scene.stars->catalogue)); }

@@ -1,5 +1,6 @@
 #include "config/json/error.h"
 #include "runtime/world/world.h"
+#include "tests/support/files.h"
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -13,7 +14,7 @@
 namespace starbow {
 namespace {
 
-const std::filesystem::path avenue = std::filesystem::path(__FILE__).parent_path().parent_path() / "scenes/avenue";
+const std::filesystem::path avenue = starbow::testing::source_dir() / "scenes/avenue";
 
 const World& world()
 {

@@ -144,7 +144,7 @@ TEST(StarsTest, TheTableIsTheIntegral)
     }
 }
 
-// As a sunlit grey is: the whole picture is for an eye that existence_intervals under the Sun.
+// As a sunlit grey is: the whole picture is for an eye that lives under the Sun.
 TEST(StarsTest, AStarLikeTheSunIsWhite)
 {
     const glm::dvec3 sun = from_table(5772);

@@ -96,7 +96,7 @@ Result measure(RenderContext& context, const GpuWorld& starless, Lookup& lookup,
     OffscreenRenderer renderer(device, context.pipelines, context.world, layout, default_quality(device, false), false);
     CubePass plain(device, context.pipelines, context.world, default_quality(device, false), false);
     Panel panel = Typesetter().draw(
-        readings(ship_at(shot), context.world.scene, shot.effects), words_in("en"), renderer.frame().hud_width());
+        readings(ship_at(shot), context.world.scene, shot.effects), words_in("en"), renderer.frame().views().hud_width());
     Target target = renderer.target(0);
     renderer.frame().meter(true); // as the exhibit flies
     renderer.picture(shot, &panel); // warms every cache and leaves the target in a known layout
@@ -111,7 +111,7 @@ Result measure(RenderContext& context, const GpuWorld& starless, Lookup& lookup,
         return milliseconds([&] {
             device.now([&](vk::CommandBuffer c) {
                 make_writable(c, of.target(0));
-                of.frame().warp_output(c, 0, of.target(0));
+                of.frame().passes().warp_output(c, 0, of.target(0));
             });
         });
     };
@@ -120,16 +120,16 @@ Result measure(RenderContext& context, const GpuWorld& starless, Lookup& lookup,
     std::vector<double> times[stage_count];
     for (int round = -2; round < rounds; ++round) {
         double ms[stage_count];
-        ms[0] = milliseconds([&] { renderer.frame().prepare(shot, &panel); });
+        ms[0] = milliseconds([&] { renderer.frame().update(shot, &panel); });
         ms[1] = milliseconds([&] { device.now([&](vk::CommandBuffer c) { renderer.frame().draw_cubes(c); }); });
         ms[2] = warp(renderer);
         ms[8] = warp(geometry);
         ms[9] = warp(colour);
-        ms[10] = milliseconds([&] { device.now([&](vk::CommandBuffer c) { renderer.frame().draw_stars(c, 0, 0); }); });
+        ms[10] = milliseconds([&] { device.now([&](vk::CommandBuffer c) { renderer.frame().passes().draw_stars(c, 0, 0); }); });
         ms[6] = milliseconds([&] {
             device.now([&](vk::CommandBuffer c) {
                 make_writable(c, target);
-                renderer.frame().look_up(c, target, lookup_pipeline, *lookup.set);
+                renderer.frame().passes().look_up(c, target, lookup_pipeline, *lookup.set);
             });
         });
         ms[7] = milliseconds([&] {
@@ -139,20 +139,19 @@ Result measure(RenderContext& context, const GpuWorld& starless, Lookup& lookup,
         ms[3] = milliseconds([&] {
             device.now([&](vk::CommandBuffer c) {
                 make_writable(c, target);
-                renderer.frame().draw_hud(c, 0, target);
+                renderer.frame().passes().draw_hud(c, 0, target);
             });
         });
         ms[4] = milliseconds([&] {
-            renderer.frame().prepare(shot, &panel);
             device.now([&](vk::CommandBuffer c) {
                 make_writable(c, target);
-                renderer.frame().record(c, std::span(&target, 1));
+                renderer.frame().draw(c, shot, &panel, std::span(&target, 1));
             });
             (void)renderer.frame().metered();
         });
         ms[5] = milliseconds([&] {
             glm::dmat3 straight;
-            PlannedImage image = renderer.frame().plain_image(shot, straight);
+            PlannedImage image = renderer.frame().passes().plain_image(shot, straight);
             plain.prepare_plain(image, {0, shot.position, shot.time, straight});
             device.now([&](vk::CommandBuffer c) {
                 make_writable(c, target);

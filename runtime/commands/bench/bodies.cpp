@@ -53,10 +53,9 @@ int bench_bodies(int rounds)
         for (Case& c : cases) {
             const Target target = c.renderer->target(0);
             const double ms = milliseconds([&] {
-                c.renderer->frame().prepare(shot, nullptr);
                 device.now([&](vk::CommandBuffer commands) {
                     make_writable(commands, target);
-                    c.renderer->frame().record(commands, std::span(&target, 1));
+                    c.renderer->frame().draw(commands, shot, nullptr, std::span(&target, 1));
                 });
             });
             if (round >= 0)

@@ -88,11 +88,10 @@ void bench_cubes(RenderContext& context, const GpuWorld& starless, int rounds)
             double ms[5] = {};
             auto frame = [&](OffscreenRenderer& renderer) {
                 return milliseconds([&] {
-                    renderer.frame().prepare(shot, nullptr);
                     device.now([&](vk::CommandBuffer c) {
                         const Target target = renderer.target(0);
                         make_writable(c, target);
-                        renderer.frame().record(c, std::span(&target, 1));
+                        renderer.frame().draw(c, shot, nullptr, std::span(&target, 1));
                     });
                 });
             };
@@ -100,7 +99,7 @@ void bench_cubes(RenderContext& context, const GpuWorld& starless, int rounds)
             ms[1] = frame(starry);
             ms[2] = milliseconds([&] {
                 glm::dmat3 straight;
-                const PlannedImage image = window.frame().plain_image(shot, straight);
+                const PlannedImage image = window.frame().passes().plain_image(shot, straight);
                 plain.prepare_plain(image, {0, shot.position, shot.time, straight});
                 device.now([&](vk::CommandBuffer c) {
                     make_writable(c, window.target(0));
@@ -108,7 +107,7 @@ void bench_cubes(RenderContext& context, const GpuWorld& starless, int rounds)
                 });
             });
             ms[3] = milliseconds([&] {
-                own.frame().prepare(shot, nullptr);
+                own.frame().update(shot, nullptr);
                 device.now([&](vk::CommandBuffer c) { own.frame().draw_cubes(c); });
             });
             if (draws_faces)

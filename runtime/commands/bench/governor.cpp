@@ -24,7 +24,7 @@ int bench_governor(const std::string& ladder_name, double frame_budget_ms, int s
     renderer.frame().repeatable(false); // as the exhibit flies
     FrameTimer timer(device);
     const auto frame_ms = [&](int times) {
-        const double prepared = milliseconds([&] { renderer.frame().prepare(shot, nullptr); });
+        const double prepared = milliseconds([&] { renderer.frame().update(shot, nullptr); });
         device.now([&](vk::CommandBuffer c) {
             timer.begin(c);
             for (int i = 0; i < times; ++i) {

@@ -36,7 +36,7 @@ struct Case {
 
     void round(Device& device, const Shot& shot, bool counts)
     {
-        Frame& frame = renderer->frame();
+        FrameRenderer& frame = renderer->frame();
         const std::size_t outputs = renderer->layout().outputs.size();
         std::vector<Target> targets;
         for (std::size_t i = 0; i < outputs; ++i)
@@ -52,20 +52,19 @@ struct Case {
             });
         };
         double ms[stages];
-        ms[0] = milliseconds([&] { frame.prepare(shot, nullptr); });
+        ms[0] = milliseconds([&] { frame.update(shot, nullptr); });
         ms[1] = milliseconds([&] { device.now([&](vk::CommandBuffer c) { frame.draw_cubes(c); }); });
-        ms[2] = each([&](vk::CommandBuffer c, std::size_t i) { frame.warp_output(c, i, targets[i]); });
-        ms[3] = each([&](vk::CommandBuffer c, std::size_t i) { frame.finish_output(c, i, targets[i]); });
+        ms[2] = each([&](vk::CommandBuffer c, std::size_t i) { frame.passes().warp_output(c, i, targets[i]); });
+        ms[3] = each([&](vk::CommandBuffer c, std::size_t i) { frame.passes().finish_output(c, i, targets[i]); });
         ms[5] = milliseconds([&] {
             device.now([&](vk::CommandBuffer c) { frame.draw_meter(c); });
             (void)frame.metered();
         });
         ms[4] = milliseconds([&] {
-            frame.prepare(shot, nullptr);
             device.now([&](vk::CommandBuffer c) {
                 for (const Target& target : targets)
                     make_writable(c, target);
-                frame.record(c, targets);
+                frame.draw(c, shot, nullptr, targets);
             });
             (void)frame.metered();
         });

@@ -67,17 +67,17 @@ void time(Device& device, std::vector<Case>& cases, const Shot& shot, int rounds
         c.renderer->picture(shot); // leaves the target in a known layout
     for (int round = -1; round < rounds; ++round)
         for (Case& c : cases) {
-            Frame& frame = c.renderer->frame();
+            FrameRenderer& frame = c.renderer->frame();
             const Target target = c.renderer->target(0);
             double record = 0;
-            const double prepare = milliseconds([&] { frame.prepare(shot, nullptr); });
+            const double prepare = milliseconds([&] { frame.update(shot, nullptr); });
             const double cube = milliseconds([&] {
                 device.now([&](vk::CommandBuffer commands) { record = milliseconds([&] { frame.draw_cubes(commands); }); });
             });
             const double warp = milliseconds([&] {
                 device.now([&](vk::CommandBuffer commands) {
                     make_writable(commands, target);
-                    frame.warp_output(commands, 0, target);
+                    frame.passes().warp_output(commands, 0, target);
                 });
             });
             if (round < 0)

@@ -30,16 +30,16 @@ std::array<std::array<double, 2>, 3> bench_spectra(RenderContext& context, const
     std::array<std::array<std::vector<double>, 2>, 3> times;
     for (int round = -1; round < rounds; ++round)
         for (std::size_t level = 0; level < studios.size(); ++level) {
-            Frame& frame = studios[level].frame();
+            FrameRenderer& frame = studios[level].frame();
             const Target target = studios[level].target(0);
-            frame.prepare(shot, nullptr);
+            frame.update(shot, nullptr);
             for (int pass = 0; pass < 2; ++pass) {
                 const double ms = milliseconds([&] {
                     device.now([&](vk::CommandBuffer commands) {
                         if (pass == 0)
                             return frame.draw_cubes(commands);
                         make_writable(commands, target);
-                        frame.warp_output(commands, 0, target);
+                        frame.passes().warp_output(commands, 0, target);
                     });
                 });
                 if (round >= 0)

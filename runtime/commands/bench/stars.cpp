@@ -72,10 +72,9 @@ int bench_stars(int rounds)
             for (std::size_t i = 0; i < cases.size(); ++i) {
                 const Target target = studios[i].target(0);
                 const double ms = milliseconds([&] {
-                    studios[i].frame().prepare(shot, nullptr);
                     device.now([&](vk::CommandBuffer commands) {
                         make_writable(commands, target);
-                        studios[i].frame().record(commands, std::span(&target, 1));
+                        studios[i].frame().draw(commands, shot, nullptr, std::span(&target, 1));
                     });
                 });
                 if (round >= 0)

@@ -1,6 +1,6 @@
 #pragma once
 #include "config/json/error.h"
-#include "runtime/render/frame.h"
+#include "runtime/render/frame_renderer.h"
 #include <string>
 
 namespace starbow {

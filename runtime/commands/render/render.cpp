@@ -86,7 +86,7 @@ int render(const Options& options)
     if (options.hud) {
         Readings told = readings(ship_at(shot), context.world.scene, shot.effects);
         told.exposure_ev = shot.exposure_ev;
-        panel = Typesetter().draw(told, words, renderer.frame().hud_width());
+        panel = Typesetter().draw(told, words, renderer.frame().views().hud_width());
     }
     render_still(options.out, renderer, shot, options.exr, panel ? &*panel : nullptr);
     std::printf("%s\n", describe_light(context).c_str());

@@ -103,7 +103,7 @@ int render_replay(const ReplayOptions& options)
             continue;
         std::optional<Panel> panel;
         if (options.hud && flight.hud)
-            panel = typesetter.draw(readings(flight.ship, scene, flight.effects), words, renderer.frame().hud_width());
+            panel = typesetter.draw(readings(flight.ship, scene, flight.effects), words, renderer.frame().views().hud_width());
         const auto pictures = replay_renderer.picture(flight, header.start.scene, panel ? &*panel : nullptr);
         char name[32];
         std::snprintf(name, sizeof name, "-%06ld.png", number);

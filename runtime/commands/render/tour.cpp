@@ -209,7 +209,7 @@ int render_tour(const TourOptions& options)
             Readings told = readings(touring.flight.ship, context.world.scene, touring.flight.effects);
             told.exposure_ev = touring.flight.exposure_ev;
             told.caption = caption_of(touring, show, words, {});
-            const Panel panel = typesetter.draw(told, words, renderer.frame().hud_width());
+            const Panel panel = typesetter.draw(told, words, renderer.frame().views().hud_width());
             const auto pictures
                 = renderer.picture(shot_of(touring.flight, tour.scene), told.caption->text.empty() ? nullptr : &panel);
             for (std::size_t k = 0; k < pictures.size(); ++k)

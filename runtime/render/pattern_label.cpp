@@ -1,4 +1,4 @@
-#include "label.h"
+#include "pattern_label.h"
 #include "runtime/hud/hud.h"
 #include <algorithm>
 

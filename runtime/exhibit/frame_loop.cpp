@@ -1,0 +1,202 @@
+#include "frame_loop.h"
+#include "config/json/error.h"
+#include "config/json/reader.h"
+#include "runtime/flight/record_files.h"
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <cstdio>
+#include <thread>
+
+namespace starbow {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+
+std::int64_t steady_ns(Clock::time_point t) { return std::chrono::nanoseconds(t.time_since_epoch()).count(); }
+
+void present_barrier(vk::CommandBuffer commands, const Target& target, bool before)
+{
+    constexpr auto drawn = Stage::eColorAttachmentOutput;
+    vk::ImageMemoryBarrier2 barrier = before ? vk::ImageMemoryBarrier2(drawn, {}, drawn, Access::eColorAttachmentWrite,
+                                          vk::ImageLayout::eUndefined, vk::ImageLayout::eColorAttachmentOptimal)
+                                             : vk::ImageMemoryBarrier2(drawn, Access::eColorAttachmentWrite, drawn, {},
+                                                 vk::ImageLayout::eColorAttachmentOptimal, vk::ImageLayout::ePresentSrcKHR);
+    barrier.image = target.image;
+    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1};
+    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
+}
+
+} // namespace
+
+void Pace::wait(double refresh_hz)
+{
+    const auto turn = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(0.99 / refresh_hz));
+    std::this_thread::sleep_until(next);
+    next = std::max(next + turn, Clock::now() - turn);
+}
+
+FrameLoop::FrameLoop(Session& session, RenderContext& context)
+    : session_(session)
+    , context_(context)
+    , device_(context.device)
+    , frame_(std::make_unique<FrameRenderer>(
+          device_, context.pipelines, context.world, session.layout, quality_of(session, device_)))
+    , timer_(device_)
+    , screens_(device_, session.layout)
+    , done_(device_.device.createFence({vk::FenceCreateFlagBits::eSignaled}))
+    , commands_(std::move(
+          device_.device.allocateCommandBuffers({*device_.pool, vk::CommandBufferLevel::ePrimary, 1}).front()))
+{
+}
+
+FrameLoop::~FrameLoop() { settle(device_); }
+
+void FrameLoop::run()
+{
+    while (!is_over(session_) && fly_frame())
+        ;
+}
+
+bool FrameLoop::fly_frame()
+{
+    // One frame is in flight: the least delay between a control and its picture.
+    const std::optional<double> metered = await_device();
+
+    // Changes of files and monitors, and the pictures to draw into. This waits for the screens.
+    apply_file_changes();
+    screens_.follow();
+    const bool visible = screens_.acquire();
+
+    // Read controls, as late as can be.
+    if (visible)
+        glfwPollEvents();
+    else
+        glfwWaitEventsTimeout(0.1); // all minimised, or no monitor there
+    const Clock::time_point now = Clock::now();
+    RecordEntry entry{.shown = visible};
+    if (!read_controls(session_, screens_.handles(), entry) || screens_.closed())
+        return false;
+    if (entry.controls.full_screen)
+        screens_.switch_full_screen();
+    if (session_.record_replay.replays() && !visible)
+        return true; // a replay waits to be seen
+
+    // Step the flight. From here on a replay's controls count.
+    if (!step(session_, entry, metered, context_.world.scene.seconds_per_time_unit()))
+        return false;
+    const Controls& controls = entry.controls;
+    session_.lab.read(*frame_, controls, context_.world, 1e-9 * double(entry.dt_ns),
+        [&](std::string line) { session_.alignment.say(std::move(line)); });
+    apply_alignment(controls);
+    frame_->show(session_.alignment.pattern());
+    if (!visible)
+        return true;
+
+    // Plan, cull, upload and record; FrameRenderer::draw tells the passes.
+    const Clock::time_point begun = Clock::now();
+    const Shot shot = set_up_frame(controls);
+    const Panel* panel = hud_.update(session_, context_.world.scene, shot.exposure_ev, frame_->views().hud_width());
+    record(shot, panel);
+    prepared_ms_ = 1e3 * seconds(Clock::now() - begun);
+
+    // Present.
+    device_.device.resetFences(*done_);
+    screens_.submit(*commands_, *done_);
+    const Clock::time_point handed = Clock::now();
+    screens_.present(session_.skew);
+    if (session_.options.timed)
+        session_.options.timed({controls.told_ns, steady_ns(now), steady_ns(handed), steady_ns(Clock::now())});
+    ++session_.shown;
+    return true;
+}
+
+std::optional<double> FrameLoop::await_device()
+{
+    pace_.wait(screens_.refresh_hz());
+    (void)device_.device.waitForFences(*done_, true, UINT64_MAX);
+    if (const auto ms = timer_.ms(); ms && session_.governor)
+        if (session_.governor->drawn(seconds(Clock::now() - session_.began), prepared_ms_ + *ms))
+            frame_->adopt(quality_of(session_, device_));
+    return frame_->metered();
+}
+
+Shot FrameLoop::set_up_frame(const Controls& controls)
+{
+    const std::vector<Target>& targets = screens_.targets();
+    for (std::size_t i = 0; i < targets.size(); ++i)
+        if (targets[i].view)
+            frame_->resize(i, {targets[i].extent.width, targets[i].extent.height});
+    frame_->move_head(controls.head);
+    frame_->meter(session_.options.exposure.automatic);
+    frame_->bloom(session_.options.exposure.bloom);
+    Shot shot = shot_of(session_.flight, session_.options.start.scene);
+    shot.exposure_ev = ev_of(session_);
+    session_.lab.ask(*frame_, shot, session_.flight, context_.world, hud_.typesetter);
+    return shot;
+}
+
+void FrameLoop::record(const Shot& shot, const Panel* panel)
+{
+    const std::vector<Target>& targets = screens_.targets();
+    commands_.reset();
+    commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    timer_.begin(*commands_);
+    for (const Target& target : targets)
+        if (target.view)
+            present_barrier(*commands_, target, true);
+    frame_->draw(*commands_, shot, panel, targets);
+    for (const Target& target : targets)
+        if (target.view)
+            present_barrier(*commands_, target, false);
+    timer_.end(*commands_);
+    commands_.end();
+}
+
+void FrameLoop::apply_file_changes()
+{
+    if (!session_.watch.changed(Clock::now()))
+        return;
+    try {
+        const Layout fresh = load_layout(session_.layout.file);
+        Layout layout = turned_again(fresh, session_.kept, session_.layout);
+        FileWatch watch(files_of(layout));
+        const bool same_tracker = session_.layout.head_tracker == layout.head_tracker;
+        std::unique_ptr<HeadTracker> tracker = same_tracker ? nullptr : tracker_of(layout);
+        frame_ = std::make_unique<FrameRenderer>(
+            device_, context_.pipelines, context_.world, layout, quality_of(session_, device_));
+        if (!same_tracker)
+            session_.tracker = std::move(tracker);
+        session_.layout = std::move(layout);
+        session_.kept = fresh;
+        session_.watch = std::move(watch);
+        session_.refused.clear();
+        screens_.adopt(session_.layout);
+        const std::size_t unkept = changes(session_.kept, session_.layout).size();
+        std::fprintf(stderr, "starbow: %s: taken up%s\n", session_.layout.file.c_str(),
+            unkept > 0 ? "; what was turned by hand stays turned (F5 keeps it)" : "");
+    } catch (const InputError& error) {
+        const std::string why = one_line(error.what());
+        std::fprintf(stderr, "starbow: %s; the exhibit stays as it was\n", why.c_str());
+        // On the display the folders would leave no room for the reason.
+        const std::string folder = session_.layout.file.parent_path().string() + "/";
+        session_.refused = why.starts_with(folder) ? why.substr(folder.size()) : why;
+    }
+}
+
+void FrameLoop::apply_alignment(const Controls& controls)
+{
+    Layout layout = session_.layout;
+    if (!session_.alignment.apply(controls, layout))
+        return;
+    try {
+        frame_->adopt(layout); // the device has finished the frame before
+        session_.layout = std::move(layout);
+    } catch (const InputError& error) {
+        session_.alignment.say(one_line(error.what()));
+    }
+}
+
+} // namespace starbow

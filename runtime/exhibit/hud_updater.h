@@ -1,0 +1,26 @@
+#pragma once
+#include "session.h"
+#include <chrono>
+
+namespace starbow {
+
+/// Measures the frame rate over the last half second or so, and redraws the head-up display's panel ten times a second.
+class HudUpdater {
+public:
+    /// The panel for the next frame, `width` pixels wide; null where the visitor has switched it off, or where a test pattern
+    /// is shown and its builder is given no message.
+    const Panel* update(const Session& session, const SceneFile& scene, double exposure_ev, int width);
+
+    Typesetter typesetter;
+
+private:
+    using Clock = std::chrono::steady_clock;
+    Readings readings_of(const Session& session, const SceneFile& scene, double exposure_ev) const;
+
+    Panel panel_;
+    Clock::time_point drawn_{}, since_ = Clock::now();
+    int frames_ = 0;
+    double rate_ = 0; ///< frames a second
+};
+
+} // namespace starbow

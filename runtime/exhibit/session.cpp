@@ -1,0 +1,144 @@
+#include "session.h"
+#include "config/model/scene_file.h"
+#include "runtime/flight/record_files.h"
+#include "runtime/render/render_context.h"
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace starbow {
+namespace {
+
+void print_line(const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); }
+
+RecordReplay record_replay_of(const ExhibitOptions& options)
+{
+    std::unique_ptr<Recorder> recorder;
+    if (!options.record.empty())
+        recorder = std::make_unique<Recorder>(options.record,
+            header_of(options.scene, options.layout, options.start, options.rules, options.exposure,
+                pattern_names[std::size_t(options.pattern)]),
+            print_line);
+    return {std::move(recorder), options.replay.empty() ? nullptr : std::make_unique<Replay>(options.replay)};
+}
+
+std::optional<Governor> governor_of(const ExhibitOptions& options)
+{
+    if (options.frame_budget_ms <= 0)
+        return {};
+    return Governor(options.ladder, options.frame_budget_ms);
+}
+
+std::optional<Guide> guide_of(const ExhibitOptions& options)
+{
+    if (!options.tour)
+        return {};
+    return Guide(*options.tour, options.rules, load_scene_file(options.scene).seconds_per_time_unit());
+}
+
+} // namespace
+
+Session::Session(const ExhibitOptions& given)
+    : options(given)
+    , layout(given.layout)
+    , kept(layout)
+    , watch(files_of(layout))
+    , guide(guide_of(given))
+    , flight(flight_at(given.start, given.rules))
+    , tutorial(tutorial_at(flight))
+    , record_replay(record_replay_of(given))
+    , hid(given.profiles, print_line)
+    , tracker(tracker_of(layout))
+    , alignment(given.pattern)
+    , lab(given.log, given.log_every_s, given.words)
+    , governor(governor_of(given))
+{
+}
+
+std::unique_ptr<HeadTracker> tracker_of(const Layout& layout)
+{
+    return layout.head_tracker ? std::make_unique<HeadTracker>(*layout.head_tracker) : nullptr;
+}
+
+std::string describe(const Skew& skew)
+{
+    std::array<char, 96> text;
+    std::snprintf(text.data(), text.size(), "outputs %s together within %.2f ms, at worst %.2f ms",
+        skew.on_screen ? "shown" : "handed over", 1e3 * skew.median_s(), 1e3 * skew.worst_s());
+    return text.data();
+}
+
+Quality quality_of(const Session& session, const Device& device)
+{
+    if (session.governor)
+        return within(device, session.governor->ladder()[session.governor->level()].quality);
+    return session.options.quality ? within(device, *session.options.quality) : default_quality(device, false);
+}
+
+std::string notice_of(const Session& session)
+{
+    if (!session.alignment.says().empty())
+        return session.alignment.says();
+    if (!session.refused.empty())
+        return session.refused;
+    if (const std::string trouble = session.hid.trouble(); !trouble.empty())
+        return trouble;
+    if (session.tracker && !session.tracker->heard(Session::Clock::now()))
+        return "no head tracker is heard on port " + std::to_string(session.tracker->tracking().port);
+    if (session.governor)
+        return describe(*session.governor);
+    return session.skew.frames() > 0 ? describe(session.skew) : "";
+}
+
+double ev_of(const Session& session)
+{
+    const Exposing& rules = session.options.exposure;
+    return session.guide ? session.guide->shown_ev(session.exposure, rules)
+                       : shown_ev(session.exposure, rules, session.flight.exposure_ev, session.options.start.exposure_ev);
+}
+
+bool is_over(const Session& session)
+{
+    const ExhibitOptions& options = session.options;
+    return (options.frames > 0 && session.shown >= options.frames) || (options.over && options.over());
+}
+
+bool read_controls(Session& session, std::span<GLFWwindow* const> windows, RecordEntry& entry)
+{
+    const Session::Clock::time_point now = Session::Clock::now();
+    Controls& controls = entry.controls;
+    controls = session.keyboard.read(
+        windows, std::chrono::nanoseconds(now - session.began).count(), !session.hid.has_gamepad());
+    session.hid.add(seconds(now - session.last), controls);
+    if (session.tracker)
+        controls.head = session.tracker->read(now);
+    // A stall of the machine must not become a leap of the ship.
+    const std::chrono::nanoseconds passed = now - session.last;
+    entry.dt_ns = std::min<std::int64_t>(passed.count(), 100'000'000);
+    entry.skipped_ns = passed.count() - entry.dt_ns;
+    session.last = now;
+    return !controls.quit;
+}
+
+bool step(Session& session, RecordEntry& entry, const std::optional<double>& metered, double seconds_per_time_unit)
+{
+    if (!session.record_replay.play(entry))
+        return false;
+    const ExhibitOptions& options = session.options;
+    const Controls& controls = entry.controls;
+    const double dt_s = 1e-9 * double(entry.dt_ns);
+    session.flight = session.guide ? session.guide->flown(controls, entry.dt_ns)
+                                   : flown(session.flight, session.history, controls, entry.dt_ns, options.rules,
+                                       seconds_per_time_unit, options.start);
+    session.exposure.locked ^= controls.lock_exposure;
+    if (session.record_replay.replays())
+        session.exposure.ev = entry.exposure_ev;
+    else
+        session.exposure = adapted(session.exposure, metered, dt_s, options.exposure);
+    entry.exposure_ev = session.exposure.ev;
+    session.record_replay.keep(entry, session.flight);
+    session.tutorial = advance(session.tutorial, controls, session.flight, dt_s);
+    return true;
+}
+
+} // namespace starbow

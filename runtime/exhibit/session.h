@@ -1,0 +1,71 @@
+#pragma once
+#include "alignment_mode.h"
+#include "exhibit.h"
+#include "input/head_tracker.h"
+#include "input/hid.h"
+#include "input/keyboard.h"
+#include "lab.h"
+#include "runtime/flight/flight.h"
+#include "runtime/flight/history.h"
+#include "runtime/flight/record_replay.h"
+#include "runtime/flight/tutorial.h"
+#include "runtime/light/exposure.h"
+#include "runtime/operation/file_watch.h"
+#include "runtime/operation/governor.h"
+#include "runtime/operation/guide.h"
+#include "runtime/operation/skew.h"
+#include <chrono>
+#include <memory>
+
+namespace starbow {
+
+/// The state of a running exhibit that outlasts the loss of a device.
+struct Session {
+    using Clock = std::chrono::steady_clock;
+    /// Throws InputError where a record can't be written or read, or a tour's scene is wrong.
+    explicit Session(const ExhibitOptions& options);
+
+    const ExhibitOptions& options;
+    Layout layout; ///< as it is shown
+    Layout kept; ///< as its file has it: without a builder's changes since
+    FileWatch watch;
+    std::string refused; ///< the reason why a changed layout was not applied, for the head-up display
+    std::optional<Guide> guide;
+    Flight flight;
+    History history{};
+    Exposure exposure{};
+    Tutorial tutorial;
+    RecordReplay record_replay;
+    Keyboard keyboard{};
+    Hid hid;
+    std::unique_ptr<HeadTracker> tracker;
+    AlignmentMode alignment;
+    Lab lab;
+    Skew skew{};
+    std::optional<Governor> governor;
+    Clock::time_point began = Clock::now(), last = began;
+    long shown = 0; ///< frames
+    bool complaints = false; ///< the validation layers had some, on a device before
+};
+
+inline double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
+
+/// The head tracker of a layout; null where it has none.
+std::unique_ptr<HeadTracker> tracker_of(const Layout& layout);
+/// The quality of the next frame.
+Quality quality_of(const Session& session, const Device& device);
+/// The exposure of the next picture, EV.
+double ev_of(const Session& session);
+/// The line beneath the head-up display's figures.
+std::string notice_of(const Session& session);
+/// Whether the frames that were asked for are shown, or the caller says so.
+bool is_over(const Session& session);
+std::string describe(const Skew& skew);
+
+/// Reads what visitors and devices do since the last call. entry: its controls and times are set. Returns whether to go on.
+bool read_controls(Session& session, std::span<GLFWwindow* const> windows, RecordEntry& entry);
+/// Steps flight, exposure, record and tutorial by the entry; a replay replaces the entry's controls first. metered: the
+/// exposure for the frame before. Returns whether to go on.
+bool step(Session& session, RecordEntry& entry, const std::optional<double>& metered, double seconds_per_time_unit);
+
+} // namespace starbow

@@ -1,0 +1,32 @@
+#pragma once
+#include "device.h"
+#include "frame_timer.h"
+
+namespace starbow {
+
+/// Gives a Vulkan object the name by which validation messages and captures call it (VK_EXT_debug_utils). Does nothing where
+/// the instance lacks the extension. object: a vk::raii handle.
+template <class Object> void name_object(const Device& device, const Object& object, const std::string& name)
+{
+    if (!device.debug_utils)
+        return;
+    using Handle = std::remove_cvref_t<decltype(*object)>;
+    device.device.setDebugUtilsObjectNameEXT({Handle::objectType,
+        reinterpret_cast<std::uint64_t>(static_cast<typename Handle::NativeType>(*object)), name.c_str()});
+}
+
+/// Marks the commands recorded while it lives as one pass: a label in captures, and a span of the device's time where
+/// Device::timer is set.
+class Label {
+public:
+    Label(const Device& device, vk::CommandBuffer commands, const char* name);
+    ~Label();
+    Label(const Label&) = delete;
+    Label& operator=(const Label&) = delete;
+
+private:
+    const Device& device_;
+    vk::CommandBuffer commands_;
+};
+
+} // namespace starbow

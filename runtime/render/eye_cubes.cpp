@@ -1,0 +1,175 @@
+#include "eye_cubes.h"
+#include "runtime/plan/cull.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+
+EyeCubes::EyeCubes(Device& device, Pipelines& pipelines, const GpuWorld& world, FrameState& state, const ViewSet& views)
+    : device_(device)
+    , pipelines_(pipelines)
+    , world_(world)
+    , state_(state)
+    , views_(views)
+{
+}
+
+void EyeCubes::assign(std::vector<ViewState>& views)
+{
+    for (ViewState& view : views)
+        view.eye = eye_for(view);
+    plans.resize(all.size());
+    drawn_ = false;
+}
+
+void EyeCubes::clear() { all.clear(), observers.clear(); }
+
+void EyeCubes::adopt(const Quality& quality)
+{
+    drawn_ = false;
+    for (EyeCube& eye : all)
+        eye.cube.adopt(quality);
+}
+
+void EyeCubes::repeatable(bool on)
+{
+    for (EyeCube& eye : all)
+        eye.cube.repeatable(on);
+}
+
+void EyeCubes::move()
+{
+    for (const ViewState& view : views_.all)
+        all[view.eye].now_m = view.cube_m;
+}
+
+double EyeCubes::observe()
+{
+    double most_E = 1;
+    for (Observer& one : observers) {
+        one = starbow::observer_of(world_.world, state_.shot, one.observer, std::move(one.layers));
+        most_E = std::max(most_E, one.most_E());
+    }
+    return most_E;
+}
+
+std::size_t EyeCubes::eye_for(const ViewState& state)
+{
+    const View& view = state.geometry();
+    const glm::dvec3 place = state.cube_m;
+    const auto whose = std::find_if(
+        observers.begin(), observers.end(), [&](const Observer& observer) { return observer.observer == view.observer; });
+    const std::size_t own = std::size_t(whose - observers.begin());
+    if (whose == observers.end())
+        observers.push_back({view.observer});
+    auto same
+        = std::find_if(all.begin(), all.end(), [&](const EyeCube& e) { return e.place_m == place && e.observer == own; });
+    if (same == all.end()) {
+        all.push_back({place, own, CubePass(device_, pipelines_, world_, state_.quality, state_.keeps_depth), place});
+        same = all.end() - 1;
+        same->cube.repeatable(state_.repeatable);
+    }
+    same->now_m = place;
+    return std::size_t(same - all.begin());
+}
+
+/// Collects the views that look into an eye's cube map, and the events at which it would be drawn.
+void EyeCubes::request_views(std::size_t i, const Probe* probe)
+{
+    EyeCube& eye = all[i];
+    const std::vector<RestFrameView>& layers = observers[eye.observer].layers;
+    eye.requests.resize(layers.size());
+    eye.eye_events.clear();
+    eye.nearest.clear();
+    for (std::size_t at = 0; at < layers.size(); ++at) {
+        const RestFrameView& layer = layers[at];
+        const EyeEvent eye_event = eye_event_of(layer, int(at), views_.scene_units(eye.now_m));
+        eye.nearest.push_back(state_.reprojects() ? std::max(nearest_box(world_.world, eye_event), 1e-30) : 1);
+        RestFrameRequest& request = eye.requests[at];
+        request.views.clear();
+        request.E = layer.E;
+        request.galilean = state_.shot.effects.comparison == Comparison::galilean;
+        for (const ViewState& view : views_.all)
+            if (view.eye == i)
+                request.views.push_back({view.compiled.cones.get(), layer.motion_from_cockpit,
+                    state_.reprojects() ? std::min(MOST_PARALLAX, glm::length(views_.eye_offset(view, layer)) / eye.nearest[at]) : 0});
+        for (std::size_t ray = 0; probe && i == views_.probed_view().eye && ray < probe->count(); ++ray)
+            request.views.push_back({&probe->view(ray), layer.motion_from_cockpit});
+        if (at > 0)
+            request.bounds = bounding_spheres(world_.world, eye_event);
+        eye.eye_events.push_back(eye_event);
+    }
+}
+
+/// Whether an eye's cube map may be shown once more. It was drawn elsewhere and at another speed, but it must have the same
+/// axes.
+bool EyeCubes::can_reuse(std::size_t i) const
+{
+    const EyeCube& eye = all[i];
+    for (std::size_t at = 0; at < eye.drawn.size(); ++at) {
+        const EyeEvent &drawn = eye.drawn[at], &now = eye.eye_events[at];
+        const glm::dmat3 turned = drawn.motion_from_frame - now.motion_from_frame;
+        double most = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            most = std::max(most, glm::length(turned[axis]));
+        if (most > 1e-9 || drawn.now != now.now || drawn.contraction != now.contraction)
+            return false;
+    }
+    return starbow::can_reuse(plans[i], eye.wanted);
+}
+
+void EyeCubes::plan(double pre_exposure, const Probe* probe)
+{
+    bool keep = drawn_ && shown_ < state_.quality.frames_per_cube;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        request_views(i, probe);
+        all[i].wanted = plan_cube_map(all[i].requests, state_.quality, scratch_, std::move(all[i].wanted));
+        keep = keep && can_reuse(i);
+    }
+    shown_ = keep ? shown_ + 1 : 1;
+    if (!keep) {
+        drawn_ = false;
+        state_.pre_exposure = pre_exposure;
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        EyeCube& eye = all[i];
+        if (!keep) {
+            std::swap(plans[i], eye.wanted);
+            eye.cube.prepare(plans[i], eye.eye_events, state_.pre_exposure);
+            std::swap(eye.drawn, eye.eye_events);
+        }
+        if (world_.star_count == 0)
+            continue;
+        const auto& images = plans[i].images;
+        const auto own = std::find_if(images.begin(), images.end(), [](const PlannedImage& image) { return image.layer > 0; });
+        eye.stars = stars_in({images.begin(), own}, world_.star_patches, observers[eye.observer].layers[0].motion_from_frame,
+            std::move(eye.stars));
+    }
+}
+
+void EyeCubes::record(vk::CommandBuffer commands)
+{
+    if (drawn_)
+        return;
+    for (EyeCube& eye : all)
+        eye.cube.record(commands);
+    drawn_ = state_.quality.frames_per_cube > 1;
+}
+
+std::size_t EyeCubes::triangles() const
+{
+    std::size_t sum = 0;
+    for (const EyeCube& eye : all)
+        sum += eye.cube.triangles();
+    return sum;
+}
+
+vk::DeviceSize EyeCubes::memory() const
+{
+    vk::DeviceSize bytes = 0;
+    for (const EyeCube& eye : all)
+        bytes += eye.cube.memory();
+    return bytes;
+}
+
+} // namespace starbow

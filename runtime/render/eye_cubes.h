@@ -1,0 +1,71 @@
+#pragma once
+#include "cube_pass.h"
+#include "probe.h"
+#include "runtime/world/observer.h"
+#include "star_pass.h"
+#include "view_set.h"
+
+namespace starbow {
+
+/// One place from which views of one observer look, with the cube map around it.
+struct EyeCube {
+    glm::dvec3 place_m; ///< in the cockpit, before any head moves
+    std::size_t observer; ///< index into EyeCubes::observers
+    CubePass cube;
+    glm::dvec3 now_m; ///< its place now
+    std::vector<EyeEvent> drawn{}; ///< the cube map was drawn at these events, one for each rest frame
+    std::vector<StarRun> stars{}; ///< stars that its views may show
+    std::vector<RestFrameRequest> requests{};
+    std::vector<EyeEvent> eye_events{}; ///< the cube map would be drawn at these events now
+    CubeMapPlan wanted{}; ///< and would hold this
+    std::vector<double> nearest{}; ///< of each rest frame: a lower bound of the distance of its surfaces, scene units; 1
+                                   ///< where no distance counts
+};
+
+/// The eyes of all views: observers, cube-map plans, and the cube maps themselves.
+class EyeCubes {
+public:
+    EyeCubes(Device& device, Pipelines& pipelines, const GpuWorld& world, FrameState& state, const ViewSet& views);
+
+    /// Gives each view its eye. Eyes that stay keep their cube maps.
+    void assign(std::vector<ViewState>& views);
+    /// Forgets all eyes: their images have other formats now.
+    void clear();
+    void adopt(const Quality& quality);
+    void repeatable(bool on);
+    /// Follows the views' heads.
+    void move();
+
+    /// Computes the observers for the instant that is drawn; returns the greatest e^rapidity of any.
+    double observe();
+    /// Plans the cube maps, culls and uploads: all that the processor does for them. pre_exposure counts for cube maps that
+    /// are drawn anew. probe: further rays that the probed view's eye must see; null: none.
+    void plan(double pre_exposure, const Probe* probe);
+    /// Draws the cube maps that are not kept from the frame before.
+    void record(vk::CommandBuffer commands);
+    void redraw() { drawn_ = false; } ///< nothing is kept for the next frame
+
+    const Observer& observer_of(const ViewState& view) const { return observers[all[view.eye].observer]; }
+    std::size_t triangles() const; ///< sent to the device for the last frame
+    vk::DeviceSize memory() const;
+
+    std::vector<EyeCube> all;
+    std::vector<CubeMapPlan> plans; ///< of each eye
+    std::vector<Observer> observers;
+
+private:
+    std::size_t eye_for(const ViewState& view);
+    void request_views(std::size_t eye, const Probe* probe);
+    bool can_reuse(std::size_t eye) const;
+
+    Device& device_;
+    Pipelines& pipelines_;
+    const GpuWorld& world_;
+    FrameState& state_;
+    const ViewSet& views_;
+    bool drawn_ = false; ///< the cube maps may be shown once more
+    int shown_ = 0; ///< number of frames that have shown them
+    PlanScratch scratch_;
+};
+
+} // namespace starbow

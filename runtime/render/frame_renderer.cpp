@@ -1,0 +1,158 @@
+#include "frame_renderer.h"
+#include "debug.h"
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace starbow {
+
+void FrameRenderer::draw(
+    vk::CommandBuffer commands, const Shot& shot, const Panel* hud, std::span<const Target> targets)
+{
+    update(shot, hud);
+    record(commands, targets);
+}
+
+void FrameRenderer::update(const Shot& shot, const Panel* hud)
+{
+    state_.shot = shot;
+    const double most_E = eyes_.observe();
+    if (state_.pattern == Pattern::none)
+        eyes_.plan(pre_exposure(most_E), measurement_.probe());
+    passes_.prepare(hud);
+    meter_.prepare();
+    descriptors_.write();
+    measurement_.prepare();
+}
+
+void FrameRenderer::record(vk::CommandBuffer commands, std::span<const Target> targets)
+{
+    if (state_.pattern == Pattern::none) {
+        draw_cubes(commands);
+        meter_.record(commands);
+        measurement_.draw_probes(commands);
+    }
+    for (std::size_t output = 0; output < targets.size(); ++output)
+        if (targets[output].view)
+            draw_output(commands, output, targets[output]);
+}
+
+void FrameRenderer::draw_cubes(vk::CommandBuffer commands)
+{
+    const Label label(device_, commands, "cube maps");
+    eyes_.record(commands);
+}
+
+void FrameRenderer::draw_output(vk::CommandBuffer commands, std::size_t output, const Target& target)
+{
+    passes_.warp_output(commands, output, target);
+    measurement_.draw(commands, output, target);
+    passes_.draw_hud(commands, output, target);
+    passes_.finish_output(commands, output, target);
+}
+
+void FrameRenderer::record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target)
+{
+    draw_cubes(commands);
+    passes_.record_measured(commands, output, target);
+}
+
+FrameRenderer::FrameRenderer(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout,
+    const Quality& quality, bool keeps_depth)
+    : device_(device)
+    , world_(world)
+    , state_{.quality = quality, .layout = with_stereo(layout, quality)}
+    , stars_(device, pipelines, world)
+    , views_(device, pipelines, state_, world.scene.unit_m, stars_.on())
+    , eyes_(device, pipelines, world, state_, views_)
+    , constants_(world, state_, views_, eyes_)
+    , descriptors_(device, world, state_, views_, eyes_, stars_)
+    , passes_(device, pipelines, state_, views_, eyes_, stars_, constants_, descriptors_)
+    , meter_(device, pipelines, state_, views_, eyes_, stars_, constants_, passes_, world.star_count)
+    , measurement_(device, pipelines, world, state_, views_, eyes_, constants_, descriptors_, passes_)
+{
+    state_.keeps_depth = keeps_depth || state_.reprojects() || world.star_count > 0 || world.layered();
+    apply_layout(views_.parts(true));
+}
+
+void FrameRenderer::apply_layout(ViewSet::Parts parts)
+{
+    views_.apply_layout(std::move(parts));
+    eyes_.assign(views_.all);
+    meter_.reset();
+    measurement_.reset();
+}
+
+/// The factor that keeps every radiance of this instant within what the cube map's numbers hold.
+double FrameRenderer::pre_exposure(double most_E) const
+{
+    const Effects& effects = state_.shot.effects;
+    const bool gains = effects.headlight || effects.doppler;
+    // Red-shifted, sunlight also leaves the visible: by Wien's law its part at 360 nm falls as exp(-6.92 (1/D - 1)).
+    const double leaves = effects.doppler ? std::exp(6.92 * (most_E - 1)) : 1;
+    const double light = starbow::pre_exposure(
+        world_.brightest, state_.shot.exposure_ev, (gains ? most_E * most_E * most_E : 1) * leaves);
+    // A glow's coefficient may stand for light of any strength: only that it fits counts.
+    return world_.spectra.most > 0 ? std::min(light, starbow::pre_exposure(world_.spectra.most, -1000, 1)) : light;
+}
+
+void FrameRenderer::resize(std::size_t output, glm::ivec2 size)
+{
+    if (views_.outputs[output].size == size)
+        return;
+    views_.outputs[output].size = size;
+    apply_layout(views_.parts(false)); // a window may be dragged so small that a viewport is left with nothing
+}
+
+void FrameRenderer::adopt(const Layout& layout)
+{
+    views_.store.keep(false);
+    Layout before = std::exchange(state_.layout, with_stereo(layout, state_.quality));
+    try {
+        apply_layout(views_.parts(true));
+    } catch (const InputError&) {
+        state_.layout = std::move(before);
+        views_.store.keep(true);
+        throw;
+    }
+    views_.store.keep(true);
+}
+
+void FrameRenderer::adopt(const Quality& quality)
+{
+    const Quality before = std::exchange(state_.quality, quality);
+    eyes_.adopt(quality);
+    if (quality.cube_samples == before.cube_samples && quality.half_floats == before.half_floats)
+        return;
+    eyes_.clear();
+    apply_layout(views_.parts(false));
+}
+
+void FrameRenderer::move_head(const Head& head)
+{
+    views_.move_head(head);
+    eyes_.move();
+}
+
+void FrameRenderer::repeatable(bool on)
+{
+    state_.repeatable = on;
+    eyes_.repeatable(on);
+}
+
+void FrameRenderer::measure(const std::optional<Measuring>& what)
+{
+    measurement_.set(what);
+    if (!what || state_.keeps_depth)
+        return;
+    state_.keeps_depth = true;
+    eyes_.clear();
+    apply_layout(views_.parts(false));
+}
+
+vk::DeviceSize FrameRenderer::memory() const
+{
+    return views_.memory() + eyes_.memory() + passes_.memory() + meter_.memory() + measurement_.memory();
+}
+
+} // namespace starbow

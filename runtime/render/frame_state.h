@@ -1,0 +1,28 @@
+#pragma once
+#include "config/model/layout.h"
+#include "config/model/quality.h"
+#include "config/model/shot.h"
+#include <array>
+
+namespace starbow {
+
+/// The outputs show the flight, or a pattern to line them up by.
+enum class Pattern { none, grid, rings, names, wedges, overlap };
+constexpr std::array<const char*, 6> pattern_names = {"none", "grid", "rings", "names", "wedges", "overlap"};
+
+/// The plain data that all parts of a frame read. FrameRenderer alone writes it.
+struct FrameState {
+    Quality quality;
+    Layout layout; ///< with the quality's stereo method
+    bool keeps_depth = false; ///< the cube map's depth is read after its pass
+    bool repeatable = false; ///< the same shot has the same bytes, whatever was drawn before
+    Pattern pattern = Pattern::none;
+    double bloom = 0; ///< the part of the light that glows around bright things, 0 to 1
+    bool meters = false; ///< luminance is sampled beside the picture
+    Shot shot; ///< the instant that is drawn
+    double pre_exposure = 1; ///< every radiance in the cube map is stored times this
+
+    bool reprojects() const { return layout.stereo.method == StereoMethod::reprojected; }
+};
+
+} // namespace starbow

@@ -1,0 +1,90 @@
+#include "view_constants.h"
+#include "config/model/angles.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+/// Root of the determinant of a flat view's matrix: its pixels' solid angle is det M / length^3.
+double unit_of(const CompiledView& view) { return view.matrix ? std::sqrt(std::abs(glm::determinant(*view.matrix))) : 0; }
+
+} // namespace
+
+const PlannedImage* ViewConstants::single_image(const ViewState& view) const
+{
+    const std::vector<PlannedImage>& images = eyes_.plans[view.eye].images;
+    const bool beside = state_.reprojects() && view.beside_m != glm::dvec3(0);
+    return images.size() == 1 && images[0].layer == 0 && images[0].tile == TILE_FRONT && !beside ? &images[0] : nullptr;
+}
+
+WarpVariant ViewConstants::variant(const ViewState& view) const
+{
+    const bool moves = eyes_.observer_of(view).E != 1 || eyes_.all[view.eye].cube.layered(); // otherwise there is nothing to shift
+    const bool beside = state_.reprojects() && view.beside_m != glm::dvec3(0);
+    const Effects& on = state_.shot.effects;
+    WarpVariant variant{view.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
+        eyes_.plans[view.eye].levels > 1, view.compiled.channels() == 3, beside, beside && state_.layout.stereo.turning, world_.star_count > 0};
+    variant.numbers = world_.numbers();
+    variant.layered = eyes_.all[view.eye].cube.layered();
+    variant.single = single_image(view);
+    variant.cut = eyes_.plans[view.eye].cut;
+    variant.galilean = on.comparison == Comparison::galilean;
+    variant.by_table = variant.doppler || on.false_colours || variant.numbers != CoefficientCounts{}; // at rest the light is shown as it is
+    return variant;
+}
+
+WarpVariant ViewConstants::variant_shown(const ViewState& view) const
+{
+    WarpVariant all = variant(view);
+    all.rays = state_.quality.pixel_rays;
+    return all;
+}
+
+shared::ViewPush ViewConstants::push(const ViewState& view, const glm::dmat3& axes_from_cockpit) const
+{
+    const glm::dmat3 m = axes_from_cockpit * view.compiled.matrix.value_or(glm::dmat3(1));
+    const vk::Extent2D atlas = eyes_.all[view.eye].cube.atlases()[0].extent;
+    shared::ViewPush push{};
+    push.row0 = shared::row(m, 0, unit_of(view.compiled));
+    push.row1 = shared::row(m, 1, state_.pattern == Pattern::none ? eyes_.plans[view.eye].finest_clip_level[0] : 0);
+    push.row2 = shared::row(m, 2, world_.response(state_.shot.effects).first_log2_D);
+    push.origin = glm::vec4(view.geometry().corner, 1.0 / atlas.width, 1.0 / atlas.height);
+    push.corner = glm::vec4(view.geometry().corner, 0, world_.response(state_.shot.effects).per_octave);
+    if (state_.pattern == Pattern::none) {
+        const PlannedImage* single = single_image(view);
+        push.eye = single ? tile_entry(*single).texel_from_face : views_.eye_constants(view, eyes_.observer_of(view).layers[0]);
+        push.zenith.y = float(eyes_.all[view.eye].nearest[0]);
+    }
+    push.zenith.x = float(std::sin(state_.layout.stereo.full_from_zenith_deg * degree));
+    push.zenith.z = float(view.geometry().size.x), push.zenith.w = float(view.geometry().size.y);
+    return push;
+}
+
+glm::vec4 ViewConstants::boost(const ViewState& view, double exposure) const
+{
+    // Not infinite, so that darkness times it stays dark.
+    const double E = eyes_.observer_of(view).E;
+    return glm::vec4(E, 1 / E, std::min(exposure / state_.pre_exposure, 1e37), near_distance);
+}
+
+shared::ViewPush ViewConstants::star_push(const ViewState& view) const
+{
+    const Observer& own = eyes_.observer_of(view);
+    shared::ViewPush constants = push(view, own.layers[0].motion_from_cockpit);
+    constants.boost = glm::vec4(own.E, 1 / own.E, state_.pre_exposure, near_distance);
+    const glm::dmat3 back = glm::inverse(own.layers[0].motion_from_cockpit * view.compiled.matrix.value_or(glm::dmat3(1)));
+    constants.row0 = shared::row(back, 0, constants.row0.w);
+    constants.row1 = shared::row(back, 1, constants.row1.w);
+    constants.row2 = shared::row(back, 2);
+    return constants;
+}
+
+shared::ViewPush ViewConstants::exposed_push(const ViewState& view, double exposure) const
+{
+    shared::ViewPush constants = push(view, eyes_.observer_of(view).layers[0].motion_from_cockpit);
+    constants.boost = boost(view, exposure);
+    return constants;
+}
+
+} // namespace starbow

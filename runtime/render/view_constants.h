@@ -1,0 +1,39 @@
+#pragma once
+#include "eye_cubes.h"
+
+namespace starbow {
+
+/// What the shaders of a view are given: specialization constants and push constants. Computes, records nothing.
+class ViewConstants {
+public:
+    ViewConstants(const GpuWorld& world, const FrameState& state, const ViewSet& views, const EyeCubes& eyes)
+        : world_(world)
+        , state_(state)
+        , views_(views)
+        , eyes_(eyes)
+    {
+    }
+
+    /// The variant of passes that take one ray a pixel.
+    WarpVariant variant(const ViewState& view) const;
+    /// The variant of passes that show light: all rays of the quality.
+    WarpVariant variant_shown(const ViewState& view) const;
+    /// The image ahead if the plan has no other, as it often is at rest; null otherwise.
+    const PlannedImage* single_image(const ViewState& view) const;
+    /// Rows lead from pixels to axes_from_cockpit's axes.
+    shared::ViewPush push(const ViewState& view, const glm::dmat3& axes_from_cockpit) const;
+    /// The same in the motion axes of the view's observer, exposed.
+    shared::ViewPush exposed_push(const ViewState& view, double exposure) const;
+    /// Of the stars' pass, whose rows lead back from motion axes to pixels.
+    shared::ViewPush star_push(const ViewState& view) const;
+
+private:
+    glm::vec4 boost(const ViewState& view, double exposure) const;
+
+    const GpuWorld& world_;
+    const FrameState& state_;
+    const ViewSet& views_;
+    const EyeCubes& eyes_;
+};
+
+} // namespace starbow

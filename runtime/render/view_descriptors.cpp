@@ -1,0 +1,125 @@
+#include "view_descriptors.h"
+#include <algorithm>
+#include <cstring>
+
+namespace starbow {
+
+ViewDescriptors::ViewDescriptors(Device& device, const GpuWorld& world, const FrameState& state, ViewSet& views,
+    const EyeCubes& eyes, const StarPass& stars)
+    : device_(device)
+    , world_(world)
+    , state_(state)
+    , views_(views)
+    , eyes_(eyes)
+    , stars_(stars)
+{
+    linear_ = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eLinear,
+        vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, 0,
+        false, 1, false, {}, 0, VK_LOD_CLAMP_NONE});
+    nearest_ = device.device.createSampler({});
+    finest_ = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eNearest,
+        vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge});
+    const float zeros[4] = {};
+    nothing_ = make_texture(device, exact_format, {1, 1}, std::as_bytes(std::span(zeros)), false);
+    no_rest_frames_
+        = make_mapped_buffer(device, sizeof(shared::RestFrameConstants), vk::BufferUsageFlagBits::eUniformBuffer);
+}
+
+void ViewDescriptors::write()
+{
+    for (ViewState& view : views_.all) {
+        writes_.clear(), serials_.clear(), images_used_ = buffers_used_ = 0;
+        collect_label_set(view);
+        if (state_.pattern == Pattern::none) {
+            if (eyes_.all[view.eye].cube.layered())
+                write_rest_frames(view);
+            collect_warp_set(view);
+        }
+        if (serials_ == view.written)
+            continue;
+        device_.device.updateDescriptorSets(writes_, {});
+        view.written = serials_;
+    }
+}
+
+void ViewDescriptors::image(
+    const vk::raii::DescriptorSet& set, std::uint32_t binding, const Image& image, const vk::raii::Sampler& sampler)
+{
+    vk::DescriptorImageInfo& info = image_infos_[images_used_++];
+    info = vk::DescriptorImageInfo(*sampler, *image.view, vk::ImageLayout::eShaderReadOnlyOptimal);
+    writes_.push_back({*set, binding, 0, 1, vk::DescriptorType::eCombinedImageSampler, &info});
+    serials_.insert(serials_.end(), {image.serial, &sampler == &linear_ ? 1u : &sampler == &nearest_ ? 2u : 3u});
+}
+
+void ViewDescriptors::buffer(const vk::raii::DescriptorSet& set, std::uint32_t binding, const Buffer& buffer)
+{
+    vk::DescriptorBufferInfo& info = buffer_infos_[buffers_used_++];
+    info = vk::DescriptorBufferInfo(*buffer.buffer, 0, VK_WHOLE_SIZE);
+    writes_.push_back({*set, binding, 0, 1, vk::DescriptorType::eUniformBuffer, nullptr, &info});
+    serials_.push_back(buffer.serial);
+}
+
+void ViewDescriptors::collect_label_set(const ViewState& view)
+{
+    image(view.label_set, 0, views_.map_of(view), nearest_);
+    image(view.label_set, 1, *view.label.view ? view.label : nothing_, linear_);
+}
+
+void ViewDescriptors::collect_warp_set(const ViewState& view)
+{
+    const CubePass& cube = eyes_.all[view.eye].cube;
+    const std::vector<Image>& atlases = cube.atlases();
+    const ResponseBuffers& response = world_.response(state_.shot.effects);
+    const vk::raii::Sampler& filter = eyes_.plans[view.eye].levels > 1 ? linear_ : finest_;
+    const vk::raii::DescriptorSet& set = view.warp_set;
+    image(set, 0, views_.map_of(view), nearest_);
+    constexpr std::uint32_t atlas_bindings[MAX_GROUPS] = {1, 7, 8, 9};
+    for (std::size_t group = 0; group < MAX_GROUPS; ++group)
+        image(set, atlas_bindings[group], atlases[std::min(group, std::size_t(world_.spectra.groups) - 1)], filter);
+    texel_views_ = {cube.tiles(), *response.texels};
+    writes_.push_back({*set, 2, 0, 1, vk::DescriptorType::eUniformTexelBuffer, nullptr, nullptr, &texel_views_[0]});
+    writes_.push_back({*set, 3, 0, 1, vk::DescriptorType::eUniformTexelBuffer, nullptr, nullptr, &texel_views_[1]});
+    serials_.insert(serials_.end(), {cube.tiles_serial(), response.rows.serial});
+    image(set, 4, state_.keeps_depth ? cube.depth() : nothing_, nearest_);
+    image(set, 5, stars_.on() ? stars_.picture() : nothing_, nearest_);
+    image(set, 6, views_.inverse_of(view), nearest_);
+    buffer(set, 10, response.own_rows);
+    image(set, 11, cube.layered() ? atlases.back() : nothing_, filter);
+    buffer(set, 12, cube.layered() ? view.rest_frames : no_rest_frames_);
+}
+
+void ViewDescriptors::write_rest_frames(ViewState& view)
+{
+    if (!*view.rest_frames.buffer)
+        view.rest_frames = make_mapped_buffer(device_, sizeof(shared::RestFrameConstants), vk::BufferUsageFlagBits::eUniformBuffer);
+    const EyeCube& eye = eyes_.all[view.eye];
+    const CubeMapPlan& plan = eyes_.plans[view.eye];
+    const std::vector<RestFrameView>& layers = eyes_.observer_of(view).layers;
+    shared::RestFrameConstants all{};
+    std::size_t count = 0;
+    for (std::size_t at = 0; at < layers.size(); ++at) {
+        const bool seen = std::any_of(
+            plan.images.begin(), plan.images.end(), [&](const PlannedImage& image) { return std::size_t(image.layer) == at; });
+        if (at > 0 && !seen)
+            continue;
+        const RestFrameView& layer = layers[at];
+        const glm::dmat3 turn = layer.motion_from_cockpit * glm::transpose(layers[0].motion_from_cockpit);
+        shared::RestFrameEntry& entry = all.layers[count++];
+        entry.row0 = shared::row(turn, 0);
+        entry.row1 = shared::row(turn, 1, plan.finest_clip_level[at]);
+        entry.row2 = shared::row(turn, 2);
+        entry.boost = glm::vec4(layer.E, 1 / layer.E, at * TILE_COUNT, at);
+        entry.eye = views_.eye_constants(view, layer);
+        entry.nearest.y = float(eye.nearest[at]);
+    }
+    all.count.x = float(count);
+    all.world_up = glm::vec4(layers[0].motion_from_frame * glm::dvec3(0, 1, 0), 0);
+    for (std::size_t group = 0; group < MAX_GROUPS; ++group) {
+        all.sky_zenith[group] = glm::vec4(world_.spectra.sky[0][group] * state_.pre_exposure);
+        all.sky_horizon[group] = glm::vec4(world_.spectra.sky[1][group] * state_.pre_exposure);
+        all.sky_nadir[group] = glm::vec4(world_.spectra.sky[2][group] * state_.pre_exposure);
+    }
+    std::memcpy(view.rest_frames.mapped, &all, sizeof all);
+}
+
+} // namespace starbow

@@ -1,0 +1,70 @@
+#pragma once
+#include "overlay_pass.h"
+#include "view_passes.h"
+
+namespace starbow {
+
+/// What a frame shows and reads for the instruments.
+struct Measuring {
+    std::vector<glm::dvec3> probes; ///< unit directions in the cockpit whose light is read
+    OverlayPass::What over;
+    const Panel* panel = nullptr; ///< of readings, or none; read by the next frame
+    glm::vec4 scale{0}; ///< place of the false colours on it, see PanelPass::draw
+};
+
+/// The instruments' passes: probes of the picture, overlays over it, and the panel of readings. Each is made when first
+/// asked for; off, they cost nothing.
+class ViewMeasurement {
+public:
+    ViewMeasurement(Device& device, Pipelines& pipelines, const GpuWorld& world, const FrameState& state,
+        const ViewSet& views, const EyeCubes& eyes, const ViewConstants& constants, const ViewDescriptors& descriptors,
+        const ViewPasses& passes)
+        : device_(device)
+        , pipelines_(pipelines)
+        , world_(world)
+        , state_(state)
+        , views_(views)
+        , eyes_(eyes)
+        , constants_(constants)
+        , descriptors_(descriptors)
+        , passes_(passes)
+    {
+    }
+
+    void set(const std::optional<Measuring>& what);
+    void reset(); ///< the views are others now
+    /// The rays of this frame's probes, for the plan; null: none.
+    const Probe* probe();
+    void prepare();
+    void draw_probes(vk::CommandBuffer commands);
+    void draw(vk::CommandBuffer commands, std::size_t output, const Target& last);
+
+    /// The last frame's light along Measuring::probes, directions in the world's axes; the device must have finished it.
+    std::vector<Probed> probed() const;
+    const MeasuringObserver& head() const { return head_; } ///< between the eyes
+    const MeasuringObserver& observer() const { return observer_; } ///< the eye that the probes look from
+    vk::DeviceSize memory() const { return panel_ ? panel_->memory() : 0; }
+
+private:
+    MeasuringObserver measuring_observer_at(const glm::dvec3& eye_m) const;
+
+    Device& device_;
+    Pipelines& pipelines_;
+    const GpuWorld& world_;
+    const FrameState& state_;
+    const ViewSet& views_;
+    const EyeCubes& eyes_;
+    const ViewConstants& constants_;
+    const ViewDescriptors& descriptors_;
+    const ViewPasses& passes_;
+    bool on_ = false;
+    Measuring what_;
+    MeasuringObserver observer_, head_;
+    glm::dmat3 world_from_motion_{1};
+    std::unique_ptr<Probe> probe_;
+    std::unique_ptr<OverlayPass> overlay_;
+    std::unique_ptr<PanelPass> panel_;
+    std::vector<vk::Rect2D> boxes_; ///< of the panel in each view
+};
+
+} // namespace starbow

@@ -1,0 +1,59 @@
+#include "view_meter.h"
+#include "debug.h"
+
+namespace starbow {
+
+void ViewMeter::prepare()
+{
+    if (!state_.meters || meter_)
+        return;
+    std::vector<glm::ivec2> sizes;
+    for (const ViewState& view : views_.all)
+        sizes.push_back(state_.layout.outputs[view.output].preview ? glm::ivec2(0) : view.geometry().size);
+    meter_ = std::make_unique<Meter>(device_, sizes, star_count_);
+}
+
+void ViewMeter::record(vk::CommandBuffer commands)
+{
+    if (!state_.meters)
+        return;
+    const Label label(device_, commands, "meter");
+    const vk::RenderingAttachmentInfo picture = meter_->begin(commands);
+    commands.beginRendering({{}, {{0, 0}, meter_->extent()}, 1, 0, picture});
+    for (std::size_t i = 0; i < views_.all.size(); ++i) {
+        const ViewState& view = views_.all[i];
+        if (state_.layout.outputs[view.output].preview)
+            continue;
+        const Meter::Cell& cell = meter_->cell(i);
+        shared::ViewPush constants = constants_.exposed_push(view, 1);
+        constants.origin.x = float(cell.corner.x), constants.origin.y = float(cell.corner.y);
+        const glm::dvec2 step = glm::dvec2(view.geometry().size) / glm::dvec2(cell.size);
+        constants.zenith.z = float(step.x), constants.zenith.w = float(step.y);
+        passes_.draw_warp(commands, view, pipelines_.meter(constants_.variant(view)), constants, cell.corner, cell.size);
+        if (stars_.on())
+            meter_stars(commands, view, meter_->star_cell(i));
+    }
+    commands.endRendering();
+    meter_->end(commands);
+}
+
+void ViewMeter::meter_stars(vk::CommandBuffer commands, const ViewState& view, const Meter::Cell& cell)
+{
+    shared::ViewPush constants = constants_.star_push(view);
+    constants.boost.z = 1;
+    constants.corner = glm::vec4(cell.size, meter_->every(), 0);
+    WarpVariant own = constants_.variant(view);
+    own.mips = false;
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.star_meter(own));
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 0, *view.warp_set, {});
+    commands.pushConstants<shared::ViewPush>(
+        *pipelines_.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
+    stars_.sample(commands, eyes_.all[view.eye].observer, cell.corner, cell.size, meter_->every(), own.channels);
+}
+
+std::optional<double> ViewMeter::metered() const
+{
+    return state_.meters && meter_ ? metered_ev(meter_->view(), meter_->stars()) : std::nullopt;
+}
+
+} // namespace starbow

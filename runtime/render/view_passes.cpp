@@ -1,0 +1,275 @@
+#include "view_passes.h"
+#include "debug.h"
+#include "pattern_label.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+
+} // namespace
+
+ViewPasses::ViewPasses(Device& device, Pipelines& pipelines, const FrameState& state, ViewSet& views, const EyeCubes& eyes,
+    StarPass& stars, const ViewConstants& constants, const ViewDescriptors& descriptors)
+    : device_(device)
+    , pipelines_(pipelines)
+    , state_(state)
+    , views_(views)
+    , eyes_(eyes)
+    , stars_(stars)
+    , constants_(constants)
+    , descriptors_(descriptors)
+{
+}
+
+void ViewPasses::prepare(const Panel* hud)
+{
+    if (stars_.on())
+        prepare_stars();
+    const bool pattern = state_.pattern != Pattern::none;
+    for (ViewState& view : views_.all) {
+        if (state_.bloom == 0)
+            view.bloom.reset();
+        else if (!view.bloom && !pattern)
+            view.bloom = std::make_unique<BloomPass>(device_, pipelines_, view.geometry().size);
+        if (pattern && !*view.label.view) {
+            view.label = make_label(device_, state_.layout, view.geometry(), views_.sent_pixels(view));
+            view.shown_part = shown_part(view.compiled);
+        }
+    }
+    hud_on_ = hud;
+    if (!hud)
+        return;
+    if (!hud_)
+        hud_ = std::make_unique<PanelPass>(device_, pipelines_, views_.all.size());
+    hud_->prepare(*hud, views_.hud_place);
+    for (std::size_t i = 0; i < views_.all.size(); ++i)
+        hud_->prepare_view(i, views_.map_of(views_.all[i]), descriptors_.nearest());
+}
+
+void ViewPasses::prepare_stars()
+{
+    glm::ivec2 size(1);
+    for (const OutputState& output : views_.outputs)
+        size = glm::max(size, output.size);
+    stars_.fit({std::uint32_t(size.x), std::uint32_t(size.y)});
+    star_turns_.clear();
+    for (const Observer& one : eyes_.observers)
+        star_turns_.push_back(one.layers[0].motion_from_frame);
+    stars_.prepare(star_turns_, state_.shot.effects.false_colours);
+}
+
+void ViewPasses::draw_warp(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline,
+    const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size) const
+{
+    set_area(commands, corner, size);
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.warp_layout, 0, *view.warp_set, {});
+    commands.pushConstants<shared::ViewPush>(*pipelines_.warp_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
+    commands.draw(3, 1, 0, 0);
+}
+
+void ViewPasses::warp_view(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline, double exposure)
+{
+    shared::ViewPush constants = constants_.exposed_push(view, exposure);
+    draw_warp(commands, view, pipeline, constants, view.geometry().corner, view.geometry().size);
+}
+
+void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, int layer)
+{
+    const Label label(device_, commands, "stars");
+    const glm::ivec2 size = views_.outputs[output].size;
+    stars_.begin(commands, {std::uint32_t(size.x), std::uint32_t(size.y)});
+    for (const ViewState& view : views_.all) {
+        if (view.output != output || view.geometry().layer != layer)
+            continue;
+        const shared::ViewPush constants = constants_.star_push(view);
+        WarpVariant own = constants_.variant(view);
+        own.mips = false;
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.stars(own, stars_.format()));
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 0, *view.warp_set, {});
+        commands.pushConstants<shared::ViewPush>(
+            *pipelines_.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
+        const int places = view.map && views_.maps[*view.map].closes ? 2 : 1;
+        stars_.draw(commands, eyes_.all[view.eye].observer, view.geometry().corner, view.geometry().size, places * (own.channels ? 3 : 1),
+            eyes_.all[view.eye].stars);
+    }
+    stars_.end(commands);
+}
+
+void ViewPasses::bloom_view(vk::CommandBuffer commands, const ViewState& view)
+{
+    const Label label(device_, commands, "bloom");
+    const Target light = view.bloom->light();
+    view.bloom->begin(commands);
+    vk::RenderingAttachmentInfo colour(light.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eStore);
+    commands.beginRendering({{}, {{0, 0}, light.extent}, 1, 0, colour});
+    shared::ViewPush constants = constants_.exposed_push(view, std::exp2(state_.shot.exposure_ev));
+    constants.origin.x = constants.origin.y = 0;
+    WarpVariant linear = constants_.variant_shown(view);
+    linear.linear = true;
+    draw_warp(commands, view, pipelines_.warp(linear, light.format), constants, {0, 0}, view.geometry().size);
+    commands.endRendering();
+    view.bloom->spread(commands);
+}
+
+void ViewPasses::pattern_view(vk::CommandBuffer commands, const ViewState& view, vk::Format format)
+{
+    const View& own = view.geometry();
+    const shared::ViewPush look = constants_.push(view, glm::dmat3(1));
+    shared::PatternPush constants{};
+    constants.row0 = look.row0, constants.row1 = look.row1, constants.row2 = look.row2;
+    constants.origin = glm::vec4(own.corner, own.size);
+    constants.tint = glm::vec4(state_.pattern == Pattern::names ? eye_tint(own.eye) : output_tint(own.output), 0);
+    // A table most likely is near a gamma of 2.2. A preview's target is sRGB whatever it shows.
+    const Colour& colour = state_.layout.outputs[view.output].colour;
+    const double gamma = colour.lut.empty() ? colour.gamma : 2.2;
+    constants.label = glm::vec4(view.label.extent.width, view.label.extent.height, view.shown_part, gamma);
+    set_area(commands, own.corner, own.size);
+    commands.bindPipeline(
+        vk::PipelineBindPoint::eGraphics, pipelines_.pattern(view.compiled.map != nullptr, int(state_.pattern), format));
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, *view.label_set, {});
+    commands.pushConstants<shared::PatternPush>(
+        *pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
+    commands.draw(3, 1, 0, 0);
+}
+
+void ViewPasses::warp_output(vk::CommandBuffer commands, std::size_t output, const Target& last)
+{
+    const Label label(device_, commands, "warp");
+    if (views_.outputs[output].finish)
+        views_.outputs[output].finish->begin(commands);
+    for (int layer = 0; layer < layers(state_.layout.outputs[output].packing); ++layer) {
+        if (stars_.on() && state_.pattern == Pattern::none)
+            draw_stars(commands, output, layer);
+        const Target target = views_.picture_of(output, layer, last);
+        const bool glows = state_.bloom > 0 && state_.pattern == Pattern::none;
+        for (const ViewState& view : views_.all)
+            if (glows && view.output == output && view.geometry().layer == layer)
+                bloom_view(commands, view);
+        vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
+            vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
+            vk::ClearColorValue(std::array<float, 4>{0, 0, 0, 1}));
+        commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
+        for (const ViewState& view : views_.all) {
+            if (view.output != output || view.geometry().layer != layer)
+                continue;
+            if (state_.pattern != Pattern::none)
+                pattern_view(commands, view, target.format);
+            else if (glows)
+                view.bloom->show(commands, view.geometry().corner, state_.bloom, target.format);
+            else
+                warp_view(commands, view, pipelines_.warp(constants_.variant_shown(view), target.format), std::exp2(state_.shot.exposure_ev));
+        }
+        commands.endRendering();
+    }
+}
+
+void ViewPasses::lay_over(vk::CommandBuffer commands, std::size_t output, const Target& last,
+    const std::function<void(std::size_t view, vk::Format target)>& draw) const
+{
+    for (int layer = 0; layer < layers(state_.layout.outputs[output].packing); ++layer) {
+        const Target target = views_.picture_of(output, layer, last);
+        vk::ImageMemoryBarrier2 after_warp(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+            Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead,
+            vk::ImageLayout::eColorAttachmentOptimal, vk::ImageLayout::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED,
+            VK_QUEUE_FAMILY_IGNORED, target.image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
+        commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, after_warp));
+        vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
+            vk::AttachmentLoadOp::eLoad, vk::AttachmentStoreOp::eStore);
+        commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
+        for (std::size_t i = 0; i < views_.all.size(); ++i)
+            if (views_.all[i].output == output && views_.all[i].geometry().layer == layer)
+                draw(i, target.format);
+        commands.endRendering();
+    }
+}
+
+void ViewPasses::draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& last)
+{
+    if (!hud_on_)
+        return;
+    const Label label(device_, commands, "head-up display");
+    hud_->upload(commands);
+    lay_over(commands, output, last, [&](std::size_t i, vk::Format target) {
+        const ViewState& view = views_.all[i];
+        hud_->draw(commands, i, view.compiled.map != nullptr, constants_.push(view, views_.hud_place.panel_from_cockpit), view.geometry().corner,
+            view.geometry().size, view.hud_box, {}, target);
+    });
+}
+
+void ViewPasses::finish_output(vk::CommandBuffer commands, std::size_t output, const Target& target)
+{
+    if (!views_.outputs[output].finish)
+        return;
+    const Label label(device_, commands, "finish");
+    // A projector is adjusted by its bare picture; how pictures meet is judged with blending and masks.
+    views_.outputs[output].finish->record(
+            commands, target, state_.pattern == Pattern::grid || state_.pattern == Pattern::names || state_.pattern == Pattern::wedges);
+}
+
+void ViewPasses::record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target)
+{
+    if (stars_.on())
+        draw_stars(commands, output, 0);
+    float nothing = std::nanf("");
+    std::vector<vk::RenderingAttachmentInfo> colours;
+    for (const Image* image : {&target.light_and_depth, &target.camera, &target.world}) {
+        transition(commands, *image, vk::ImageLayout::eUndefined, Stage::eNone, {}, vk::ImageLayout::eColorAttachmentOptimal,
+            Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+        colours.push_back({*image->view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
+            vk::AttachmentStoreOp::eStore, vk::ClearColorValue(std::array<float, 4>{nothing, nothing, nothing, nothing})});
+    }
+    commands.beginRendering({{}, {{0, 0}, target.camera.extent}, 1, 0, colours});
+    for (const ViewState& view : views_.all)
+        if (view.output == output && view.geometry().layer == 0)
+            warp_view(commands, view, pipelines_.measure(constants_.variant_shown(view)), 1);
+    commands.endRendering();
+    for (const Image* image : {&target.light_and_depth, &target.camera, &target.world})
+        transition(commands, *image, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+            Access::eColorAttachmentWrite, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+}
+
+std::vector<ViewPasses::Axes> ViewPasses::measured_axes(std::size_t output) const
+{
+    std::vector<Axes> axes;
+    for (const ViewState& view : views_.all)
+        if (view.output == output && view.geometry().layer == 0)
+            axes.push_back(
+                {view.geometry().corner, view.geometry().size, glm::transpose(eyes_.observer_of(view).layers[0].motion_from_frame)});
+    return axes;
+}
+
+void ViewPasses::look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeline pipeline, vk::DescriptorSet set)
+{
+    const ViewState& view = views_.all.front();
+    shared::ViewPush constants = constants_.push(view, eyes_.observer_of(view).layers[0].motion_from_cockpit);
+    vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore);
+    commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
+    set_area(commands, view.geometry().corner, view.geometry().size);
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, set, {});
+    commands.pushConstants<shared::ViewPush>(*pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
+    commands.draw(3, 1, 0, 0);
+    commands.endRendering();
+}
+
+PlannedImage ViewPasses::plain_image(const Shot& shot, glm::dmat3& straight_from_world) const
+{
+    const ViewState& view = views_.all.front();
+    straight_from_world = motion_from_world({0, 0, 0}, shot.ship_from_cockpit);
+    glm::dmat3 m = straight_from_world * glm::dmat3(glm::mat3_cast(shot.ship_from_cockpit)) * view.compiled.matrix.value();
+    glm::dvec3 low = m * glm::dvec3(0, 0, 1), high = m * glm::dvec3(view.geometry().size, 1);
+    // The view's x may run against the face's a: the picture is then mirrored, at the same cost.
+    glm::dvec2 one = glm::dvec2(low) / low.z, other = glm::dvec2(high) / high.z;
+    PlannedImage image{TILE_FRONT, 0, glm::min(one, other), glm::max(one, other), view.geometry().size, {0, 0}, 0, 1};
+    image.texels_per_unit = image.size.y / (image.high.y - image.low.y);
+    return image;
+}
+
+} // namespace starbow

@@ -1,0 +1,73 @@
+#pragma once
+#include "view_constants.h"
+#include "view_descriptors.h"
+#include <functional>
+
+namespace starbow {
+
+/// The three pictures of numbers that measuring fills instead of an output's picture.
+struct MeasureTarget {
+    Image light_and_depth, camera, world;
+};
+
+/// Records all that is drawn view by view: stars, warp, bloom, test patterns, the head-up display, and the finish of each
+/// output. Each function is one pass, labelled for debuggers.
+class ViewPasses {
+public:
+    ViewPasses(Device& device, Pipelines& pipelines, const FrameState& state, ViewSet& views, const EyeCubes& eyes,
+        StarPass& stars, const ViewConstants& constants, const ViewDescriptors& descriptors);
+
+    /// Makes room for the frame that is drawn next: stars' picture, bloom, labels, the head-up display's panel (null: none).
+    void prepare(const Panel* hud);
+
+    /// The views of an output through the cube maps, stars and bloom included, or the test pattern.
+    void warp_output(vk::CommandBuffer commands, std::size_t output, const Target& last);
+    void draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& last);
+    void finish_output(vk::CommandBuffer commands, std::size_t output, const Target& target);
+    /// The numbers of an output's first layer.
+    void record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target);
+    /// The stars alone, the first part of warp_output.
+    void draw_stars(vk::CommandBuffer commands, std::size_t output, int layer);
+
+    /// Turns from a measured view's motion axes to its observer's own, with the view's corner and size.
+    struct Axes {
+        glm::ivec2 corner, size;
+        glm::dmat3 world_from_motion;
+    };
+    std::vector<Axes> measured_axes(std::size_t output) const;
+
+    /// Draws over an output's picture, view by view of each of its layers.
+    void lay_over(vk::CommandBuffer commands, std::size_t output, const Target& last,
+        const std::function<void(std::size_t view, vk::Format target)>& draw) const;
+    /// One full-screen triangle over `size` pixels from `corner` on, with the view's descriptor set.
+    void draw_warp(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline,
+        const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size) const;
+
+    /// A straight perspective view of the first view, which must be flat: the image and its axes, for
+    /// CubePass::prepare_plain.
+    PlannedImage plain_image(const Shot& shot, glm::dmat3& straight_from_world) const;
+    /// The first view through Pipelines::lookup: the bare cost of a cube map's look-up.
+    void look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeline pipeline, vk::DescriptorSet set);
+
+    vk::DeviceSize memory() const { return stars_.picture().bytes + (hud_ ? hud_->memory() : 0); }
+
+private:
+    void prepare_stars();
+    void warp_view(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline, double exposure);
+    void bloom_view(vk::CommandBuffer commands, const ViewState& view);
+    void pattern_view(vk::CommandBuffer commands, const ViewState& view, vk::Format target);
+
+    Device& device_;
+    Pipelines& pipelines_;
+    const FrameState& state_;
+    ViewSet& views_;
+    const EyeCubes& eyes_;
+    StarPass& stars_;
+    const ViewConstants& constants_;
+    const ViewDescriptors& descriptors_;
+    std::vector<glm::dmat3> star_turns_; ///< kept for its room
+    std::unique_ptr<PanelPass> hud_; ///< once it was asked for
+    bool hud_on_ = false;
+};
+
+} // namespace starbow

@@ -1,0 +1,255 @@
+#include "view_set.h"
+#include "config/model/angles.h"
+#include "displays/compile/inverse_map.h"
+#include "displays/finish/blend.h"
+#include "runtime/hud/hud_place.h"
+#include "shaders/physics/physics.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+
+ViewSet::ViewSet(Device& device, Pipelines& pipelines, const FrameState& state, double unit_m, bool has_stars)
+    : device_(device)
+    , pipelines_(pipelines)
+    , state_(state)
+    , unit_m_(unit_m)
+    , has_stars_(has_stars)
+{
+    const float zeros[2] = {};
+    no_map_ = make_texture_array(device, map_format, {1, 1}, 1, std::as_bytes(std::span(zeros)));
+    for (const Output& output : state.layout.outputs)
+        outputs.emplace_back().size = output.size;
+    store.matrices(state.quality.matrices || state.layout.head_tracker); // a map does not follow a head
+}
+
+glm::ivec2 ViewSet::sent_pixels(const ViewState& view) const
+{
+    for (const ViewState& other : all)
+        if (other.output == other.geometry().output && other.output == view.geometry().output
+            && other.geometry().viewport == view.geometry().viewport && other.geometry().eye == view.geometry().eye)
+            return other.geometry().size;
+    return view.geometry().size;
+}
+
+glm::dvec3 ViewSet::scene_units(const glm::dvec3& place_m) const
+{
+    return place_m * (state_.layout.stereo.hyper_stereo / unit_m_);
+}
+
+glm::dvec3 ViewSet::eye_offset(const ViewState& view, const RestFrameView& layer) const
+{
+    const glm::dvec3 offset = layer.shot.ship_from_cockpit * scene_units(view.beside_m);
+    if (state_.layout.stereo.turning)
+        return glm::dvec3(1, 1, physics::gamma_of(layer.shot.u)) * glm::length(offset);
+    glm::dvec3 apart = layer.motion_from_frame * physics::eye_place(layer.shot.u, offset);
+    apart.z *= layer.contraction;
+    return apart;
+}
+
+glm::vec4 ViewSet::eye_constants(const ViewState& view, const RestFrameView& layer) const
+{
+    if (!state_.layout.stereo.turning)
+        return glm::vec4(eye_offset(view, layer), 0);
+    const double side = view.beside_m.x < 0 ? -1 : 1;
+    return glm::vec4(layer.motion_from_cockpit * glm::dvec3(0, 1, 0), side * glm::length(scene_units(view.beside_m)));
+}
+
+/// Place from which the view's cube map is drawn, cockpit frame, metres.
+glm::dvec3 ViewSet::cube_place(const View& view) const
+{
+    return state_.layout.stereo.method == StereoMethod::exact ? view.picture.eye_m : view.head_m;
+}
+
+const ViewState& ViewSet::probed_view() const
+{
+    for (const ViewState& view : all)
+        if (!state_.layout.outputs[view.output].preview && view.geometry().observer == ViewportObserver{})
+            return view;
+    return all.front();
+}
+
+ViewSet::Parts ViewSet::parts(bool rejects_empty)
+{
+    Parts parts;
+    std::vector<CompiledView> lit; // by projectors, not previews
+    for (std::size_t output = 0; output < outputs.size(); ++output) {
+        parts.views.push_back(compile_output(store, state_.layout, output, outputs[output].size));
+        if (!state_.layout.outputs[output].preview)
+            lit.insert(lit.end(), parts.views.back().begin(), parts.views.back().end());
+    }
+    if (rejects_empty)
+        reject_empty(state_.layout, lit);
+    std::vector<std::vector<float>> ramps;
+    if (state_.layout.blend.ramps)
+        ramps = blend_ramps(state_.layout, lit, state_.layout.blend.power);
+    parts.shades.resize(outputs.size());
+    for (std::size_t output = 0; output < outputs.size(); ++output)
+        if (!state_.layout.outputs[output].preview)
+            parts.shades[output] = shade_of(state_.layout, output, outputs[output].size, lit, ramps);
+    return parts;
+}
+
+void ViewSet::apply_layout(Parts parts)
+{
+    hud_place = {panel_from_cockpit(state_.layout.hud, parts.views),
+        std::tan(0.5 * state_.layout.hud.width_deg * degree) * glm::dvec2(1, panel_aspect)};
+    std::vector<ViewState> before = std::exchange(all, {}); // whose maps are found again
+    std::vector<MapImage> maps_before = std::exchange(maps, {});
+    for (std::size_t output = 0; output < outputs.size(); ++output)
+        for (CompiledView& compiled : parts.views[output]) {
+            ViewState view;
+            view.output = output;
+            view.compiled = std::move(compiled);
+            all.push_back(std::move(view));
+        }
+    const double room = headroom(parts.shades);
+    for (std::size_t output = 0; output < outputs.size(); ++output) {
+        Output own = state_.layout.outputs[output];
+        own.size = outputs[output].size;
+        outputs[output].finish.reset();
+        if (needs_finish(own, parts.shades[output]) || (room != 1 && !own.preview))
+            outputs[output].finish = std::make_unique<FinishPass>(device_, pipelines_, own, parts.shades[output], room);
+    }
+
+    for (ViewState& view : all) {
+        view.cube_m = cube_place(view.geometry());
+        view.beside_m = view.geometry().picture.eye_m - view.cube_m;
+        view.map = map_for(view.compiled, maps_before);
+        find_hud_box(view);
+    }
+    const std::uint32_t count = std::uint32_t(all.size());
+    before.clear();
+    pool_ = nullptr;
+    std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBuffer, 2 * count},
+        {vk::DescriptorType::eUniformTexelBuffer, 2 * count}, {vk::DescriptorType::eCombinedImageSampler, 11 * count}};
+    pool_ = device_.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2 * count, sizes});
+    auto make_set = [&](const vk::raii::DescriptorSetLayout& set_layout) {
+        return std::move(device_.device.allocateDescriptorSets({*pool_, *set_layout}).front());
+    };
+    for (ViewState& view : all) {
+        view.warp_set = make_set(pipelines_.warp_set);
+        view.label_set = make_set(pipelines_.picture_set);
+    }
+}
+
+std::optional<std::size_t> ViewSet::map_for(const CompiledView& view, std::vector<MapImage>& before)
+{
+    if (!view.map)
+        return {};
+    for (std::size_t i = 0; i < maps.size(); ++i)
+        if (maps[i].directions == view.map)
+            return i;
+    for (MapImage& old : before)
+        if (old.directions == view.map) {
+            maps.push_back(std::move(old));
+            return maps.size() - 1;
+        }
+    const std::vector<glm::uvec2> texels = packed(*view.map);
+    maps.push_back({view.map,
+        make_texture_array(
+            device_, map_format, view.map->size, std::uint32_t(view.map->channels), std::as_bytes(std::span(texels)))});
+    if (has_stars_) {
+        const InverseMap inverse = starbow::inverse(*view.map);
+        maps.back().closes = inverse.closes;
+        maps.back().inverse = make_texture_array(device_, inverse_format, glm::ivec2(inverse.side),
+            std::uint32_t(inverse.channels), std::as_bytes(std::span(inverse.cells)));
+    }
+    return maps.size() - 1;
+}
+
+const Image& ViewSet::map_of(const ViewState& view) const { return view.map ? maps[*view.map].image : no_map_; }
+
+const Image& ViewSet::inverse_of(const ViewState& view) const
+{
+    return view.map && has_stars_ ? maps[*view.map].inverse : no_map_;
+}
+
+PixelBox ViewSet::panel_in(const ConeHierarchy& cones) const
+{
+    return panel_box(cones, hud_place.panel_from_cockpit, hud_place.half);
+}
+
+void ViewSet::find_hud_box(ViewState& view) const
+{
+    const PixelBox box = panel_in(*view.compiled.cones);
+    view.hud_box = rect_of(view.geometry().corner + box.low, box.high - box.low);
+}
+
+int ViewSet::hud_width() const
+{
+    double finest = 1;
+    for (const ViewState& view : all)
+        finest = std::min(finest, double(panel_in(*view.compiled.cones).finest));
+    return std::clamp(int(2 * hud_place.half.x / finest), 160, 4096);
+}
+
+std::optional<glm::dvec3> ViewSet::direction(std::size_t output, const glm::dvec2& pixel) const
+{
+    for (const ViewState& view : all) {
+        const glm::dvec2 at = pixel - glm::dvec2(view.geometry().corner), size(view.geometry().size);
+        if (view.output != output || view.geometry().layer != 0 || at.x < 0 || at.y < 0 || at.x >= size.x || at.y >= size.y)
+            continue;
+        if (view.compiled.matrix)
+            return glm::normalize(*view.compiled.matrix * glm::dvec3(at, 1));
+        const glm::vec4 texel = view.compiled.map->at(int(at.x), int(at.y));
+        if (texel.w > 0)
+            return glm::normalize(glm::dvec3(texel));
+    }
+    return {};
+}
+
+PanelPass::Place ViewSet::lab_place(double aspect) const
+{
+    std::vector<std::vector<CompiledView>> shown(outputs.size());
+    for (const ViewState& view : all)
+        shown[view.output].push_back(view.compiled);
+    return {panel_from_cockpit(instruments_place(state_.layout.hud, aspect, shown), shown),
+        std::tan(0.5 * state_.layout.hud.width_deg * degree) * glm::dvec2(1, aspect)};
+}
+
+int ViewSet::lab_panel_width(double aspect) const
+{
+    const PanelPass::Place place = lab_place(aspect);
+    double finest = 1;
+    for (const ViewState& view : all)
+        finest = std::min(finest, panel_box(*view.compiled.cones, place.panel_from_cockpit, place.half).finest);
+    return std::clamp(int(2 * place.half.x / finest), 160, 4096);
+}
+
+Target ViewSet::picture_of(std::size_t output, int layer, const Target& last) const
+{
+    const FinishPass* finish = outputs[output].finish.get();
+    return finish ? finish->picture(std::size_t(layer)) : last;
+}
+
+void ViewSet::move_head(const Head& head)
+{
+    for (ViewState& view : all) {
+        View moved = view.geometry();
+        const glm::dvec3 beside = moved.picture.eye_m - moved.head_m;
+        moved.head_m += head.moved_m;
+        moved.picture.eye_m = moved.head_m + head.turned * beside;
+        if (auto matrix = view.compiled.map ? std::nullopt : view_matrix(moved); matrix && matrix != view.compiled.matrix) {
+            view.compiled.matrix = matrix;
+            view.compiled.cones = std::make_shared<ConeHierarchy>(*matrix, moved.size);
+            find_hud_box(view);
+        }
+        view.cube_m = cube_place(moved);
+        view.beside_m = moved.picture.eye_m - view.cube_m;
+    }
+}
+
+vk::DeviceSize ViewSet::memory() const
+{
+    vk::DeviceSize bytes = 0;
+    for (const MapImage& map : maps)
+        bytes += map.image.bytes + map.inverse.bytes;
+    for (const ViewState& view : all)
+        bytes += view.bloom ? view.bloom->memory() : 0;
+    for (const OutputState& output : outputs)
+        bytes += output.finish ? output.finish->memory() : 0;
+    return bytes;
+}
+
+} // namespace starbow
