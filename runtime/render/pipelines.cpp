@@ -152,6 +152,13 @@ Pipelines::Pipelines(Device& device)
     finish_layout = make_layout(device, {*finish_set}, fragment, sizeof(shared::FinishPush));
 }
 
+std::size_t Pipelines::count() const
+{
+    return surfaces_.size() + skies_.size() + warps_.size() + stars_.size() + measures_.size() + probes_.size()
+        + meters_.size() + star_meters_.size() + overlays_.size() + huds_.size() + blooms_.size() + lookups_.size()
+        + bloomed_.size() + finishes_.size() + patterns_.size();
+}
+
 vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& target)
 {
     return find_or_make(surfaces_, std::pair(v, target), [&] {

@@ -125,6 +125,9 @@ public:
     vk::Pipeline finish(const FinishVariant& variant, vk::Format target);
     vk::Pipeline pattern(bool map, int pattern, vk::Format target);
 
+    /// The number of pipelines that were made so far: it grows when a pass is recorded that needs another one.
+    std::size_t count() const;
+
     vk::raii::DescriptorSetLayout eye_set
         = nullptr; ///< 0 constants, 1 instances, 2 visible, 3 columns of the spectra, 4 times
     vk::raii::DescriptorSetLayout material_set = nullptr; ///< 0 base, 1 emissive texture
