@@ -32,8 +32,7 @@ struct Options {
 ExhibitOptions reopen(const std::filesystem::path& record, const std::string& layout, const std::string& language)
 {
     const RecordHeader header = Replay(record).header();
-    const auto say = [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); };
-    const Flown flown = find_flown(record, header, layout, say);
+    const Flown flown = find_flown(record, header, layout, info_log("record"));
     return {.scene = flown.scene,
         .layout = flown.layout,
         .start = header.start,

@@ -69,7 +69,7 @@ int render_replay(const ReplayOptions& options)
     Replay replay(options.replay);
     const RecordHeader& header = replay.header();
     Flown from = find_flown(options.replay, header, options.layout,
-        [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); });
+        info_log("record"));
     if (!options.size.empty())
         for (Output& output : from.layout.outputs)
             output.size = parse_size(options.size);
