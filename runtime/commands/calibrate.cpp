@@ -4,6 +4,7 @@
 #include "config/model/shipped.h"
 #include "input/calibration.h"
 #include "input/hid.h"
+#include "runtime/operation/log.h"
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <chrono>

@@ -7,6 +7,7 @@
 #include "runtime/flight/history.h"
 #include "runtime/flight/record_files.h"
 #include "runtime/flight/replay.h"
+#include "runtime/operation/log.h"
 #include "runtime/render/render_context.h"
 #include <charconv>
 #include <chrono>
