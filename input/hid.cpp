@@ -11,6 +11,7 @@
 #include <libudev.h>
 #include <poll.h>
 #include <thread>
+#include <tuple>
 #include <unistd.h>
 
 namespace starbow {
@@ -36,6 +37,17 @@ std::vector<std::uint8_t> descriptor_bytes(const std::string& path)
     const std::string node = path.substr(path.rfind('/') + 1);
     std::ifstream stream("/sys/class/hidraw/" + node + "/device/report_descriptor", std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::pair<DeviceInfo, Profile> identify(
+    const hid_device_info& found, const Descriptor& descriptor, const std::vector<Profile>& profiles)
+{
+    DeviceInfo info{
+        found.path, plain(found.product_string), plain(found.serial_number), found.vendor_id, found.product_id};
+    Profile profile = profile_for(profiles, info, descriptor);
+    if (info.name.empty()) // not every device tells it
+        info.name = profile.file.empty() ? "device" : profile.name;
+    return {std::move(info), std::move(profile)};
 }
 
 } // namespace
@@ -99,11 +111,8 @@ void Hid::Shared::open(const hid_device_info& found)
     if (!is_controller(descriptor))
         return;
     auto device = std::make_shared<Device>();
-    device->info = {path, plain(found.product_string), plain(found.serial_number), found.vendor_id, found.product_id};
     device->descriptor = descriptor;
-    device->profile = profile_for(profiles, device->info, descriptor);
-    if (device->info.name.empty()) // not every device tells it
-        device->info.name = device->profile.file.empty() ? "device" : device->profile.name;
+    std::tie(device->info, device->profile) = identify(found, descriptor, profiles);
     device->state.raw.resize(descriptor.fields.size());
     hid_device* handle = hid_open_path(path.c_str());
     if (!handle) {
@@ -191,6 +200,29 @@ void Hid::Shared::watch()
         udev_monitor_unref(monitor);
     if (context)
         udev_unref(context);
+}
+
+std::vector<ControllerListing> list_controllers(const std::vector<Profile>& profiles)
+{
+    std::vector<ControllerListing> list;
+    hid_init();
+    hid_device_info* all = hid_enumerate(0, 0);
+    for (const hid_device_info* found = all; found; found = found->next) {
+        const std::string path = found->path;
+        const Descriptor descriptor = parse_descriptor(descriptor_bytes(path));
+        if (!is_controller(descriptor)
+            || std::any_of(list.begin(), list.end(), [&](const ControllerListing& one) { return one.info.path == path; }))
+            continue;
+        auto [info, profile] = identify(*found, descriptor, profiles);
+        const int node = open(path.c_str(), O_RDWR | O_CLOEXEC); // as hidapi opens it
+        const int error = node < 0 ? errno : 0;
+        if (node >= 0)
+            close(node);
+        list.push_back({std::move(info), profile.name, error});
+    }
+    hid_free_enumeration(all);
+    hid_exit();
+    return list;
 }
 
 std::string describe(const DeviceInfo& info) { return info.name + " (" + hex4(info.vendor) + ":" + hex4(info.product) + ")"; }

@@ -18,6 +18,15 @@ struct DeviceInfo {
 /// "Flight Stick (1234:abcd)"
 std::string describe(const DeviceInfo& info);
 
+/// A controller as the system lists it, read or not.
+struct ControllerListing {
+    DeviceInfo info;
+    std::string profile; ///< the name of the one that would fly it
+    int error = 0; ///< errno of opening its node; 0: it can be opened
+};
+/// All controllers that are plugged in, opened for a moment each. Call it while no Hid lives.
+std::vector<ControllerListing> list_controllers(const std::vector<Profile>& profiles);
+
 /// Whether a descriptor is that of a joystick, gamepad, space mouse or simulator's control, not a mouse or a keyboard.
 bool is_controller(const Descriptor& descriptor);
 

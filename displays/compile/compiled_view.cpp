@@ -110,19 +110,6 @@ std::string contents(const std::filesystem::path& file)
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-std::filesystem::path default_folder()
-{
-    auto set = [](const char* name) -> std::filesystem::path {
-        const char* value = std::getenv(name);
-        return value ? value : "";
-    };
-    if (!set("STARBOW_CACHE").empty())
-        return set("STARBOW_CACHE");
-    if (!set("XDG_CACHE_HOME").empty())
-        return set("XDG_CACHE_HOME") / "starbow";
-    return set("HOME").empty() ? std::filesystem::path() : set("HOME") / ".cache" / "starbow";
-}
-
 struct Header {
     char magic[8] = {'S', 't', 'a', 'r', 'b', 'o', 'w', 'M'};
     std::int32_t width = 0, height = 0, channels = 0, intensities = 0;
@@ -226,8 +213,21 @@ struct MapStore::Kept {
     std::map<std::string, std::weak_ptr<const WarpMesh>> meshes;
 };
 
+std::filesystem::path map_cache_folder()
+{
+    auto set = [](const char* name) -> std::filesystem::path {
+        const char* value = std::getenv(name);
+        return value ? value : "";
+    };
+    if (!set("STARBOW_CACHE").empty())
+        return set("STARBOW_CACHE");
+    if (!set("XDG_CACHE_HOME").empty())
+        return set("XDG_CACHE_HOME") / "starbow";
+    return set("HOME").empty() ? std::filesystem::path() : set("HOME") / ".cache" / "starbow";
+}
+
 MapStore::MapStore()
-    : MapStore(default_folder())
+    : MapStore(map_cache_folder())
 {
 }
 

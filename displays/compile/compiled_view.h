@@ -15,8 +15,12 @@ struct CompiledView {
     int channels() const { return map ? map->channels : 1; }
 };
 
+/// Where compiled maps are kept across starts: STARBOW_CACHE, else starbow in XDG_CACHE_HOME or ~/.cache. Empty where none of
+/// these is set: then they are kept in memory only.
+std::filesystem::path map_cache_folder();
+
 /// Compiled maps by content: what a view shows, its size, the bytes of its warp file. Kept in memory while someone holds
-/// them, and in a folder across starts (STARBOW_CACHE, else starbow in XDG_CACHE_HOME or ~/.cache): a folder that can't be
+/// them, and in a folder across starts (map_cache_folder): a folder that can't be
 /// used only costs time. The folder is kept under 4 GiB, the maps that were read longest ago go first.
 class MapStore {
 public:

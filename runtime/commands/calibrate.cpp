@@ -4,6 +4,7 @@
 #include "config/model/shipped.h"
 #include "input/calibration.h"
 #include "input/hid.h"
+#include "runtime/operation/log.h"
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <chrono>
@@ -470,7 +471,7 @@ int calibrate(const Options& options)
 {
     const std::vector<Profile> known = known_profiles();
     Person person;
-    const Hid hid(known, [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); });
+    const Hid hid(known, info_log("input"));
     const Watched device = choose(person, hid, options.device);
     person.always = [&] { (void)device.now(); };
     const Profile present = profile_for(known, device.info, device.descriptor);

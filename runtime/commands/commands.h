@@ -12,6 +12,7 @@ void add_run(CLI::App& app, std::function<int()>& chosen);
 void add_render(CLI::App& app, std::function<int()>& chosen);
 void add_devices(CLI::App& app, std::function<int()>& chosen);
 void add_calibrate(CLI::App& app, std::function<int()>& chosen);
+void add_doctor(CLI::App& app, std::function<int()>& chosen);
 void add_displays(CLI::App& app, std::function<int()>& chosen);
 void add_bench(CLI::App& app, std::function<int()>& chosen);
 void add_measure(CLI::App& app, std::function<int()>& chosen);

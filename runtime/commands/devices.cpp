@@ -3,6 +3,7 @@
 #include "config/json/reader.h"
 #include "config/model/shipped.h"
 #include "input/hid.h"
+#include "runtime/operation/log.h"
 #include <CLI/CLI.hpp>
 #include <cctype>
 #include <chrono>
@@ -142,7 +143,7 @@ int devices(const Options& options)
 {
     if (!options.describe.empty())
         return describe(options.describe);
-    Hid hid(known_profiles(), [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); });
+    Hid hid(known_profiles(), info_log("input"));
     const bool live = options.seconds > 0;
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(live ? options.seconds : 0.5);
     for (;;) {

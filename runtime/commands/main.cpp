@@ -65,17 +65,18 @@ int main(int count, char** arguments)
 {
     CLI::App app("Starbow: fly near the speed of light and see what physics says you would see.");
     app.require_subcommand(1);
+    app.set_version_flag("--version", "starbow " STARBOW_VERSION);
     app.footer("Examples:\n  starbow run --layout dome\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome\n"
                "  starbow check my/wall.json --svg out/wall.svg\n  starbow COMMAND --help");
     std::function<int()> chosen;
-    for (auto add : {starbow::add_run, starbow::add_render, starbow::add_check, starbow::add_displays, starbow::add_devices,
+    for (auto add : {starbow::add_run, starbow::add_render, starbow::add_check, starbow::add_doctor, starbow::add_displays, starbow::add_devices,
              starbow::add_calibrate, starbow::add_warp, starbow::add_import, starbow::add_bench, starbow::add_measure})
         add(app, chosen);
     try {
         app.parse(count, arguments);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0)
-            return app.exit(error); // help
+            return app.exit(error); // help, or the version
         const std::string what = unknown(app);
         return complain((what.empty() ? error.what() : what) + "; 'starbow --help' tells what there is");
     }

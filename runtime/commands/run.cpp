@@ -12,6 +12,8 @@
 #include "runtime/exhibit/outputs.h"
 #include "runtime/flight/record_files.h"
 #include "runtime/flight/replay.h"
+#include "runtime/operation/log.h"
+#include "runtime/operation/trace.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
@@ -21,10 +23,11 @@ namespace {
 
 struct Options {
     std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, language, tour, log, quality,
-                ladder;
+                ladder, trace;
     double frame_budget_ms = -1; ///< below 0: the exhibit's
     double log_every_s = 0;
     long frames = 0;
+    bool verbose = false;
     bool asked = false; ///< for anything of the above
 };
 
@@ -32,8 +35,7 @@ struct Options {
 ExhibitOptions reopen(const std::filesystem::path& record, const std::string& layout, const std::string& language)
 {
     const RecordHeader header = Replay(record).header();
-    const auto say = [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); };
-    const Flown flown = find_flown(record, header, layout, say);
+    const Flown flown = find_flown(record, header, layout, info_log("record"));
     return {.scene = flown.scene,
         .layout = flown.layout,
         .start = header.start,
@@ -96,6 +98,7 @@ ExhibitOptions open(const Options& options)
 
 int run(const Options& options)
 {
+    open_log({.lowest = options.verbose ? LogLevel::debug : LogLevel::info});
     ExhibitOptions exhibit_options = open(options);
     exhibit_options.frames = options.frames;
     exhibit_options.log = options.log;
@@ -110,6 +113,13 @@ int run(const Options& options)
             "Drawing the default shots into out/ instead.\n");
         return render_contact_sheet("out");
     }
+    log_debug("files", "the shipped files are in " + home().string());
+    log_debug("files", "the layout is " + exhibit_options.layout.file.string());
+    log_debug("files", "the scene is " + exhibit_options.scene.string());
+    log_debug("files", std::to_string(exhibit_options.profiles.size()) + " profiles of devices are known");
+    std::optional<Trace> trace;
+    if (!options.trace.empty())
+        exhibit_options.trace = &trace.emplace(options.trace);
     WindowSystem window_system;
     return fly_exhibit(exhibit_options);
 }
@@ -140,6 +150,10 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--log-every", options->log_every_s, "With --log: write a line by itself every so many seconds")
         ->check(CLI::Range(0.02, 86400.0))
         ->needs(log);
+    command->add_option("--trace", options->trace,
+        "Write what each frame spends its time on into this JSON file, for ui.perfetto.dev or chrome://tracing; a file that is "
+        "there is replaced");
+    CLI::Option* verbose = command->add_flag("--verbose", options->verbose, "Tell more on standard error");
     CLI::Option* quality
         = command->add_option("--quality", options->quality, quality_help + std::string(" [the exhibit's]"));
     CLI::Option* hold = command
@@ -163,10 +177,10 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
         replay->excludes(other);
     command->footer(std::string("Keys:\n") + keyboard_help()
         + "\n\nExamples:\n  starbow run --layout stereo --shot avenue-gamma4\n  starbow run --exhibit dome --language de\n  "
-          "starbow run --tour first-minute");
-    command->callback([options, command, &chosen] {
+          "starbow run --tour first-minute\n  starbow run --trace out/trace.json --verbose");
+    command->callback([options, command, verbose, &chosen] {
         for (const CLI::Option* option : command->get_options())
-            options->asked = options->asked || option->count() > 0;
+            options->asked = options->asked || (option != verbose && option->count() > 0);
         chosen = [options] { return run(*options); };
     });
 }

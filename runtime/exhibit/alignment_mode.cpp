@@ -1,13 +1,13 @@
 #include "alignment_mode.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
-#include <cstdio>
+#include "runtime/operation/log.h"
 
 namespace starbow {
 
 void AlignmentMode::say(std::string line)
 {
-    std::fprintf(stderr, "starbow: %s\n", line.c_str());
+    log_info("exhibit", line);
     says_ = std::move(line);
     until_ = Clock::now() + std::chrono::seconds(8);
 }
@@ -33,7 +33,7 @@ bool AlignmentMode::apply(const Controls& controls, Layout& layout)
 {
     if (controls.pattern) {
         pattern_ = Pattern((int(pattern_) + 1) % int(pattern_names.size()));
-        std::fprintf(stderr, "starbow: test pattern: %s\n", pattern_names[std::size_t(pattern_)]);
+        log_info("exhibit", std::string("test pattern: ") + pattern_names[std::size_t(pattern_)]);
     }
     if (controls.save)
         save(layout);

@@ -14,6 +14,8 @@
 
 namespace starbow {
 
+class Trace;
+
 /// An exhibit as it opens, its files read.
 struct ExhibitOptions {
     std::filesystem::path scene;
@@ -34,6 +36,7 @@ struct ExhibitOptions {
     std::filesystem::path log{}; ///< where to keep what is measured, a CSV file; empty: nowhere
     double log_every_s = 0; ///< writes a line by itself so often; 0: only when asked
     std::filesystem::path replay{}; ///< a record to fly again instead of the visitor; empty: none
+    Trace* trace = nullptr; ///< gets the spans of each frame; null: none. It outlives the flight
     std::function<void(const FrameTimes&)> timed{}; ///< is told of each frame
     std::function<bool()> over{}; ///< is asked before each frame whether to leave
 };

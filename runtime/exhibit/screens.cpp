@@ -1,9 +1,9 @@
 #include "screens.h"
 #include "config/json/error.h"
+#include "runtime/operation/log.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <algorithm>
-#include <cstdio>
 
 namespace starbow {
 namespace {
@@ -87,7 +87,7 @@ void Screens::open(Screen& screen, const std::optional<WindowPlace>& place, bool
     try {
         screen.window.emplace(device_, screen.output, place);
         if (!screen.told.empty())
-            std::fprintf(stderr, "starbow: output '%s' is shown again\n", screen.output.name.c_str());
+            log_info("exhibit", "output '" + screen.output.name + "' is shown again");
         screen.told.clear();
     } catch (const InputError& error) {
         if (starting)
@@ -102,7 +102,7 @@ void Screens::close(Screen& screen, const std::string& why)
     screen.window.reset();
     const std::string short_of_it = why.substr(0, why.find(';')); // what else is there may change often meanwhile
     if (screen.told != short_of_it)
-        std::fprintf(stderr, "starbow: output '%s' is not shown: %s\n", screen.output.name.c_str(), why.c_str());
+        log_warning("exhibit", "output '" + screen.output.name + "' is not shown: " + why);
     screen.told = short_of_it;
 }
 

@@ -201,12 +201,11 @@ std::vector<int> code_points(const std::string& utf8)
 Typesetter::Typesetter()
     : font_(std::make_unique<Font>())
 {
-    const char* path = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-    std::ifstream stream(path, std::ios::binary);
+    std::ifstream stream(hud_font, std::ios::binary);
     font_->file.assign(std::istreambuf_iterator<char>(stream), {});
     if (font_->file.empty()
         || !stbtt_InitFont(&font_->info, font_->file.data(), stbtt_GetFontOffsetForIndex(font_->file.data(), 0)))
-        throw InputError(path, "", "is not there or no font; install fonts-dejavu-core");
+        throw InputError(hud_font, "", "is not there or no font; install fonts-dejavu-core");
 }
 
 Typesetter::~Typesetter() = default;

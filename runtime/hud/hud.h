@@ -56,6 +56,9 @@ std::string light_name(const Effects& effects, const Words& words);
 /// The lines as text, for the log and for tests: label and value in turn.
 std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& readings, const Words& words);
 
+/// The font file of the head-up display.
+inline constexpr const char* hud_font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+
 /// The display's letters (DejaVu Sans), ready to draw.
 class Typesetter {
 public:

@@ -172,6 +172,40 @@ std::optional<std::size_t> best_of(const std::vector<vk::raii::PhysicalDevice>& 
     return best;
 }
 
+GpuListing describe(const vk::raii::PhysicalDevice& physical)
+{
+    const vk::PhysicalDeviceProperties properties = physical.getProperties();
+    const std::uint32_t api = properties.apiVersion;
+    GpuListing gpu;
+    gpu.name = properties.deviceName.data();
+    gpu.kind = kind_of(properties.deviceType);
+    gpu.software = properties.deviceType == vk::PhysicalDeviceType::eCpu;
+    const std::string major_minor
+        = std::to_string(VK_API_VERSION_MAJOR(api)) + "." + std::to_string(VK_API_VERSION_MINOR(api));
+    gpu.api_version = major_minor + "." + std::to_string(VK_API_VERSION_PATCH(api));
+    gpu.driver = "Vulkan " + major_minor;
+    if (api >= VK_API_VERSION_1_2) {
+        const auto own = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
+                             .get<vk::PhysicalDeviceDriverProperties>();
+        gpu.driver_name = own.driverName.data();
+        gpu.driver_version = own.driverInfo.data();
+        gpu.driver = gpu.driver_name + " " + gpu.driver_version + ", " + gpu.driver;
+    }
+    gpu.largest_image_px = properties.limits.maxImageDimension2D;
+    gpu.most_samplers = properties.limits.maxSamplerAllocationCount;
+    gpu.most_allocations = properties.limits.maxMemoryAllocationCount;
+    for (const vk::QueueFamilyProperties& family : physical.getQueueFamilyProperties())
+        if (family.queueFlags & vk::QueueFlagBits::eGraphics) { // the first, as Device takes it
+            gpu.timestamp_ns = family.timestampValidBits > 0 ? properties.limits.timestampPeriod : 0;
+            break;
+        }
+    const vk::PhysicalDeviceMemoryProperties memory = physical.getMemoryProperties();
+    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
+        if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
+            gpu.memory_bytes += memory.memoryHeaps[i].size;
+    return gpu;
+}
+
 vk::raii::PhysicalDevice choose(const vk::raii::Instance& instance, const Device::Options& options)
 {
     std::vector<vk::raii::PhysicalDevice> all = all_of(instance);
@@ -230,17 +264,9 @@ std::vector<GpuListing> list_gpus(const Device::Options& options)
         const auto all = all_of(instance);
         const auto best = best_of(all, options);
         for (std::size_t i = 0; i < all.size(); ++i) {
-            const vk::PhysicalDeviceProperties properties = all[i].getProperties();
-            std::string driver = "Vulkan " + std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "."
-                + std::to_string(VK_API_VERSION_MINOR(properties.apiVersion));
-            if (properties.apiVersion >= VK_API_VERSION_1_2) {
-                const auto told = all[i]
-                                      .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
-                                      .get<vk::PhysicalDeviceDriverProperties>();
-                driver = std::string(told.driverName.data()) + " " + told.driverInfo.data() + ", " + driver;
-            }
-            list.push_back(
-                {properties.deviceName.data(), driver, kind_of(properties.deviceType), refusal(all[i], options), best == i});
+            list.push_back(describe(all[i]));
+            list.back().refusal = refusal(all[i], options);
+            list.back().chosen = best == i;
         }
     } catch (const vk::SystemError&) { // no driver at all
     }

@@ -56,7 +56,13 @@ private:
 struct GpuListing {
     std::string name, driver, kind;
     std::string refusal; ///< why it can't be used, or empty
-    bool chosen;
+    bool chosen = false;
+    bool software = false; ///< runs on the processor
+    std::string driver_name, driver_version, api_version; ///< of the driver's own words; "1.3.230"
+    std::uint32_t largest_image_px = 0; ///< side of a 2D image
+    std::uint32_t most_samplers = 0, most_allocations = 0; ///< at one time
+    double timestamp_ns = 0; ///< one tick of the queue's clock; 0: the queue has no clock
+    std::uint64_t memory_bytes = 0; ///< of the device's own heaps
 };
 /// All that Vulkan knows; none where it knows none.
 std::vector<GpuListing> list_gpus(const Device::Options& options);

@@ -215,7 +215,7 @@ told() { # TEXT ARGUMENTS...
     said=$("$program" "$@" 2>&1 >/dev/null)
     if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == "starbow: $text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not say '$text': $said"; fi
 }
-told 'fly is no command; run, render, check, displays, devices, calibrate, warp, import, bench and measure are' fly
+told 'fly is no command; run, render, check, doctor, displays, devices, calibrate, warp, import, bench and measure are' fly
 told 'look is no command; inspect and convert are' warp look
 told "--ouput is no option of 'starbow render'; --help, --layout, --shot, --out," render --shot start --ouput o1
 told "--sizes is no option of 'starbow warp inspect'; " warp inspect x --sizes 3
@@ -233,7 +233,7 @@ told 'There is no none.json in config/tours' run --tour none
 told 'There is no xx.json in config/words; there are: de, en' run --tour rainbow --language xx
 
 # Every subcommand's help ends with an example.
-for command in run render bench check warp import displays measure; do
+for command in run render bench check warp import displays doctor measure; do
     if "$program" $command --help | grep -q "starbow $command "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
 done
 
@@ -249,6 +249,36 @@ if "$program" check "$folder/wall.json" --svg "$folder/wall.svg" | grep -q 'wall
 # Without a display server the GPUs are listed all the same.
 said=$(env -u DISPLAY -u WAYLAND_DISPLAY "$program" displays 2>&1)
 if [ $? = 0 ] && [[ $said == *"GPU "*": is used"*"no display server"* ]]; then passed=$((passed + 1)); else fail "displays: $said"; fi
+
+# The version, alone on its line.
+said=$("$program" --version 2>&1)
+if [ $? = 0 ] && [[ $said =~ ^starbow\ [0-9]+\.[0-9]+\.[0-9]+$ ]]; then passed=$((passed + 1)); else fail "--version: $said"; fi
+
+# The doctor examines without a display, and each part whatever the others are like.
+doctor() { env -u DISPLAY -u WAYLAND_DISPLAY STARBOW_CACHE="$folder/cache" "$@" 2>&1; }
+said=$(doctor "$program" doctor)
+status=$?
+if [[ $said == Starbow\ *"system "*"GPU "*": is used"*"driver "*"Vulkan 1."*"samplers"*"no display server"*"sticks "*"udev rule"*"font "*"$folder/cache: 0 B in 0 files; can be written"*"disk "*"files "*"layouts"* ]]; then passed=$((passed + 1)); else fail "doctor: $said"; fi
+if [ "$(printf '%s\n' "$said" | wc -l)" -le 40 ] && [ ! -e "$folder/cache" ]; then passed=$((passed + 1)); else fail "doctor fills more than a screen, or leaves something behind"; fi
+if { [ $status = 0 ] && [[ $said == *$'\n\nNothing is wrong.' ]]; } || { [ $status = 1 ] && [[ $said == *$'\n\nWrong:\n- '*'.' ]]; }; then passed=$((passed + 1)); else fail "doctor: exit $status: $said"; fi
+said=$(VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent doctor env STARBOW_CACHE=/dev/null/cache "$program" doctor)
+if [ $? = 1 ] && [[ $said == *"Vulkan knows none"*"font "*"files "*"Wrong:"*$'\n- There is no GPU that Vulkan knows: install '*$'\n- The cache folder /dev/null/cache can\'t be written'* ]]; then passed=$((passed + 1)); else fail "doctor without a GPU and a cache: $said"; fi
+said=$(doctor env DISPLAY=:4711 "$program" doctor)
+if [ $? = 1 ] && [[ $said == *"- The display server that DISPLAY=:4711 names does not answer: "* ]]; then passed=$((passed + 1)); else fail "doctor with a dead display: $said"; fi
+mkdir -p "$folder/own/starbow/profiles"
+echo '{ "name": 7 }' > "$folder/own/starbow/profiles/mine.json"
+said=$(doctor env XDG_CONFIG_HOME="$folder/own" STARBOW_GPU=Voodoo "$program" doctor --json)
+if [ $? = 1 ] && python3 -c '
+import json, sys
+told = json.loads(sys.argv[1])
+problems = [wrong["problem"] for wrong in told["wrong"]]
+assert list(told) == ["version", "build", "system", "gpus", "monitors", "sticks", "font", "cache", "disk", "files", "wrong"], list(told)
+assert told["gpus"][0]["vulkan_version"].startswith("1.") and told["gpus"][0]["max_image_dimension_2d"] >= 4096
+assert not told["monitors"]["display_server"] and told["files"]["layouts"] >= 10 and told["files"]["own_profiles"] == 1
+assert any("mine.json" in problem for problem in problems) and any("Voodoo" in problem for problem in problems), problems' "$said"; then passed=$((passed + 1)); else fail "doctor --json: $said"; fi
+
+# A trace that can't be written is told as wrong input, before there is a flight.
+told '--trace: 1 required' run --trace
 
 # The same bytes twice, and the numbers beside the picture.
 # By rays no device is asked for, and there is nothing left to go on from.

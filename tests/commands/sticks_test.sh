@@ -123,5 +123,11 @@ END
         setpriv --reuid=65534 --regid=65534 --clear-groups "$folder/open/starbow" devices) >"$folder/log" 2>&1 </dev/null
     grep -q 'T.16000M.*may not be read: copy config/udev/70-starbow.rules' "$folder/log" || fail "no leave: the rule is not named"
     ok
+    (cd "$folder" && timeout 30 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/locked" \
+        setpriv --reuid=65534 --regid=65534 --clear-groups "$folder/open/starbow" doctor) >"$folder/log" 2>&1 </dev/null
+    [ $? = 1 ] && grep -q '1 hidraw nodes, 1 of them may not be read' "$folder/log" \
+        && grep -q '^- .*T.16000M.*/dev/hidraw0 may not be read: copy config/udev/70-starbow.rules' "$folder/log" \
+        || fail "no leave: the doctor does not see it: $(cat "$folder/log")"
+    ok
 fi
 echo "$passed passed, 0 failed"

@@ -7,6 +7,7 @@
 #include "runtime/flight/history.h"
 #include "runtime/flight/record_files.h"
 #include "runtime/flight/replay.h"
+#include "runtime/operation/log.h"
 #include "runtime/render/render_context.h"
 #include <charconv>
 #include <chrono>
@@ -69,7 +70,7 @@ int render_replay(const ReplayOptions& options)
     Replay replay(options.replay);
     const RecordHeader& header = replay.header();
     Flown from = find_flown(options.replay, header, options.layout,
-        [](const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); });
+        info_log("record"));
     if (!options.size.empty())
         for (Output& output : from.layout.outputs)
             output.size = parse_size(options.size);

@@ -1,0 +1,80 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+
+namespace starbow {
+
+/// Writes what the program does when, as Chrome's trace event format, which ui.perfetto.dev and chrome://tracing show.
+/// The file is a JSON array of one event a line. It grows as the flight goes: a program that dies leaves an array without
+/// its last bracket, which both viewers read; the events of the last quarter of a second may be missing.
+/// Every function may be called from any thread. Times are nanoseconds of the steady clock (CLOCK_MONOTONIC on Linux).
+class Trace {
+public:
+    /// Replaces the file; makes its folder. Throws InputError where it can't be written.
+    /// largest_bytes: the trace ends before the file grows beyond this, and the log says so.
+    explicit Trace(const std::filesystem::path& file, std::int64_t largest_bytes = std::int64_t(1) << 30);
+    /// Closes the array.
+    ~Trace();
+    Trace(const Trace&) = delete;
+
+    static std::int64_t now_ns();
+
+    /// Names the calling thread's track. A thread without a name is "thread 2", "thread 3", ...
+    void name_thread(std::string_view name);
+
+    /// Work on the processor, on the calling thread's track. Spans of one thread must nest.
+    void cpu(std::string_view name, std::int64_t begin_ns, std::int64_t duration_ns);
+    /// Work on the GPU, on a track of its own. The caller translates GPU time into the steady clock's.
+    void gpu(std::string_view name, std::int64_t begin_ns, std::int64_t duration_ns);
+    /// A number over time, drawn as a curve. A value that is not finite is left out.
+    void counter(std::string_view name, double value);
+    /// A moment on the calling thread's track.
+    void instant(std::string_view name);
+
+    /// The calling thread's work from here to the end of the scope. trace may be null: then nothing is done, and no clock is
+    /// read. name must live as long as the span.
+    class Span {
+    public:
+        Span(Trace* trace, const char* name)
+            : trace_(trace)
+            , name_(name)
+            , begin_ns_(trace ? now_ns() : 0)
+        {
+        }
+        ~Span()
+        {
+            if (trace_)
+                trace_->cpu(name_, begin_ns_, now_ns() - begin_ns_);
+        }
+        Span(const Span&) = delete;
+
+    private:
+        Trace* trace_;
+        const char* name_;
+        std::int64_t begin_ns_;
+    };
+
+private:
+    // mutex_ is held where these are called.
+    int thread_number(std::string_view name = {}); ///< of the calling thread, whose track gets the name if there is one
+    void add_metadata(const char* what, int process, int thread, std::string_view name);
+    void add_span(std::string_view name, int process, int thread, std::int64_t begin_ns, std::int64_t duration_ns);
+    void add(const std::string& event); ///< one JSON object
+    std::string write_out(); ///< says why it failed, or is empty
+    void close_array();
+    void give_up(const std::string& why);
+
+    std::mutex mutex_;
+    std::string file_;
+    int stream_ = -1; ///< below 0: the trace has ended
+    std::int64_t began_ns_, written_ns_, largest_bytes_, bytes_ = 0;
+    std::string waiting_; ///< whole events that are not in the file yet
+    std::map<std::thread::id, int> threads_;
+};
+
+} // namespace starbow
