@@ -98,8 +98,8 @@ ivec2 closest_to(vec3 n, ivec2 pixel, ivec2 size, int channel)
 
 // The point of the map (pixels from its corner) that shows n (the map's axes), by Newton's method from a pixel near it; a
 // spot beyond the picture's edge is extrapolated. About a panorama's poles, a few pixels cover all azimuths: there the
-// method may lead astray, and goes on from the closest pixel. nearly: the accuracy that ends it. False where there is no
-// such point.
+// method may lead astray, and goes on from the closest pixel. nearly: true accepts that
+// pixel's own point. False where there is no such point.
 bool found_from(ivec2 pixel, vec3 n, int channel, bool nearly, out vec2 point, out float pixel_angle)
 {
     ivec2 size = textureSize(direction_map, 0).xy;

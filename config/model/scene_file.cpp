@@ -27,7 +27,7 @@ SpectralTable read_table(const Place& place)
     return table;
 }
 
-/// What a light's colours are made of, where it isn't sunlight.
+/// A light's spectrum, where it isn't sunlight.
 std::optional<Emission> read_emission(const Place& light)
 {
     const auto kelvin = find_member(light, "temperature_K"), line = find_member(light, "line_nm"), table = find_member(light, "spectrum");
