@@ -354,7 +354,7 @@ std::optional<Json> Importer::viewport(const Place& place, glm::ivec2 window_siz
         corner = xy(*at, any);
     if (const auto at = find_member(place, "size"))
         size = xy(*at, any);
-    // From SGCT's lower left corner to our upper left one.
+    // The corner is converted from SGCT's lower left to the upper left.
     const glm::dvec2 low = glm::clamp(corner, 0.0, 1.0), high = glm::clamp(corner + size, 0.0, 1.0);
     const bool cut = glm::length(low - corner) > 1e-9 || glm::length(high - corner - size) > 1e-9;
     if (!(high.x > low.x && high.y > low.y)) {

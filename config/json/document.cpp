@@ -25,7 +25,7 @@ std::string contents(const std::filesystem::path& path, const std::string& file)
     if (!stream)
         throw InputError(file, "", std::string("can't be opened (") + std::strerror(errno) + "); a readable file is right");
 
-    // Read in pieces rather than asked for its size: a pipe has none.
+    // The file is read in pieces, because a pipe has no size.
     std::string text;
     std::size_t got = 1;
     while (got > 0 && text.size() <= most_bytes) {

@@ -15,9 +15,9 @@ struct Change {
 
 /// The text of a JSON file with one value set; every other byte stays, comments too. A missing member, and missing objects
 /// on the way to it, are added after the opening brace of the innermost existing object. A list's numbers are changed one
-/// by one where their count stays. `file`: its name in messages. Throws InputError where the text is not JSON, where the
-/// pointer leads through a value that is no object or list or beyond a list's end, where an object would be lost, and where
-/// the result would not read back as the same document with the one value set.
+/// by one where their count stays. `file`: its name in messages. Throws InputError where the text is not JSON, or where the
+/// pointer leads through a value that is no object or list or beyond a list's end. It also throws where an object would be
+/// lost, and where the result would not read back as the same document with the one value set.
 std::string patched(const std::string& file, const std::string& text, const Change& change);
 
 /// Sets values in a file: all or none. The new text replaces the file in one step and with its permissions, so that a

@@ -69,9 +69,9 @@ struct Question {
 struct Cut {
     Shot shot;
 };
-/// A camera's path, not a ship's. It leads from the last step's end to a place, a velocity (on the straight line between
-/// the two in velocity space) and a view, without a jerk at either end. Members that are not given stay. The world's time
-/// goes on by gamma for each second of the ship's, or to `time`.
+/// A camera's path, not a ship's. It leads from the last step's end to a place, a velocity and a view, without a jerk at
+/// either end. The velocity goes along the straight line between the two in velocity space. Members that are not given
+/// stay. The world's time goes on by gamma for each second of the ship's, or to `time`.
 struct Glide {
     std::optional<glm::dvec3> position, u;
     std::optional<glm::dquat> ship_from_cockpit;

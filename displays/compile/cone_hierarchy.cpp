@@ -177,7 +177,7 @@ std::optional<glm::dvec2> find_pixel(const DirectionMap& map, const ConeHierarch
     search.block(0, {0, 0});
     if (search.best.x < 0)
         return {};
-    // From there along the picture's own steps, one-sided where a neighbour shows nothing.
+    // The search goes on from there along the picture's own steps, one-sided where a neighbour shows nothing.
     const glm::ivec2 p = search.best;
     const glm::dvec3 here = map.at(p.x, p.y);
     auto step = [&](glm::ivec2 way) {

@@ -51,7 +51,7 @@ struct Field {
     }
     std::size_t index(int x, int y) const { return std::size_t(y + 1) * (map->size.x + 2) + x + 1; }
     float at(int x, int y) const { return to_fade[index(x, y)]; }
-    /// Between pixels, 0 where the direction is not shown.
+    /// Interpolated between pixels; 0 where the direction is not shown.
     float along(const glm::dvec3& direction) const
     {
         const auto p = find_pixel(*map, *cones, direction);

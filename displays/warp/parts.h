@@ -100,7 +100,7 @@ private:
     std::vector<std::string> names_;
 };
 
-/// The largest block of memory that an archive of so many bytes may ask for, and the most that a file in it may grow to.
+/// The largest block of memory that an archive of so many bytes may allocate, and the greatest size of a file in it.
 std::size_t most_memory(std::size_t archive_bytes);
 std::size_t most_inflated(std::size_t archive_bytes);
 

@@ -305,7 +305,7 @@ Touring advance(Touring now, const Show& show, const Controls& controls, std::in
         ask(now, show, controls, dt_s);
     for (std::int64_t left = dt_ns; left > 0 && !now.over;) {
         const Step& step = step_of(now, show);
-        // To the end of the step, but not beyond the end of the time to answer.
+        // The time stops at the end of the step, or at the end of the time to answer if that is earlier.
         const std::int64_t asked = ns(asked_s(step, show.visitors));
         std::int64_t end = duration_ns(now, show);
         if (step.question && !now.measured_answer)

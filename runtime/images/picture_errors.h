@@ -29,8 +29,8 @@ double psnr_dB(const Shown8& picture, const Shown8& reference);
 /// paper's, of a person 0.7 m from a screen of 0.7 m and 3840 pixels.
 std::vector<double> flip(const Shown8& picture, const Shown8& reference, double pixels_per_degree = 67);
 
-/// The displacement of each edge of the reference in the picture, pixels, across the edge at the luminance's steepest
-/// slope, by least squares over 7 x 7 pixels (Lucas and Kanade 1981).
+/// The displacement of each edge of the reference in the picture, pixels, across the edge where the luminance is steepest.
+/// It is found by least squares over 7 x 7 pixels (Lucas and Kanade 1981).
 std::vector<double> edge_displacements_px(const Shown8& picture, const Shown8& reference);
 
 /// The part-quantile of values, linear between the nearest two; 0 without values.

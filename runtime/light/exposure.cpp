@@ -6,7 +6,7 @@
 namespace starbow {
 namespace {
 
-/// From the least positive float to the greatest, sixteen to the power of two.
+/// The range from the least positive float to the greatest, with sixteen bins to the power of two.
 constexpr int low_ev = -140, high_ev = 129, bins_per_ev = 16;
 
 struct Bin {

@@ -51,7 +51,7 @@ struct Draft {
         return image;
     }
 
-    /// What an image costs, in texels.
+    /// The cost of an image, in texels.
     double cost(const PlannedImage& image) const
     {
         constexpr double with_mips = 4.0 / 3;

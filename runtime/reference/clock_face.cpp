@@ -13,7 +13,7 @@ bool between(double low, double x, double high) { return x >= low && x <= high; 
 const glm::dvec2 ten_seconds_at(-0.38, 0.06), hour_at(0.38, 0.06);
 constexpr double small_radius = 0.25;
 
-/// So many strokes around the middle, one upwards.
+/// True on one of `count` strokes around the middle, one of them upwards.
 bool stroke(const glm::dvec2& at, int count, double inner, double outer, double half_width)
 {
     const double r = glm::length(at);

@@ -29,7 +29,7 @@ std::size_t TracingEye::triangles() const
     return all;
 }
 
-/// From a direction in the ship, motion axes, to the one in a frame.
+/// The direction in a frame for a direction in the ship, motion axes.
 physics::AberratedRay TracingEye::sight(const glm::dvec3& n, double E) const
 {
     return observer_.shot.effects.comparison == Comparison::galilean ? physics::galilean_world_from_camera(n, E, 1 / E)
