@@ -28,7 +28,7 @@ struct Options {
     bool asked = false; ///< for anything of the above
 };
 
-/// The options of a record's replay: the record's own scene, start and rules. layout: replaces the record's; empty: keeps it.
+/// The options of a record's replay: its own scene, start and rules. layout: replaces the record's; empty: keeps it.
 ExhibitOptions reopen(const std::filesystem::path& record, const std::string& layout, const std::string& language)
 {
     const RecordHeader header = Replay(record).header();
