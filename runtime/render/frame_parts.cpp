@@ -219,7 +219,7 @@ PixelBox Frame::panel_in(const ConeHierarchy& cones) const
     return panel_box(cones, hud_place_.panel_from_cockpit, hud_place_.half);
 }
 
-/// The view's direction map, or an empty image where the view has a matrix instead.
+/// Or what stands in for one.
 const Image& Frame::map_of(const ViewState& view) const { return view.map ? maps_[*view.map].image : no_map_; }
 
 void Frame::find_hud_box(ViewState& view) const
