@@ -12,9 +12,9 @@ constexpr double still = 0.1; // of the declared range
 constexpr double near_end = 0.15; // of the way between the ends
 // A spring brings a stick back to within a hundredth or two of its way, and worn ones a little less well.
 constexpr double least_dead_zone = 0.03, least_idle_zone = 0.02;
-constexpr double most_dead_zone = 0.4; // what is noisier is broken, and with 0.5 nothing of a throttle's way would be left
+constexpr double most_dead_zone = 0.4; // noisier axes are broken, and with 0.5 nothing of a throttle's way would be left
 constexpr double beyond_noise = 1.5;
-// What a profile may hold.
+// The range of a profile's raw values.
 constexpr double least_raw = -2147483648.0, most_raw = 4294967295.0;
 constexpr int most_nth = 32;
 constexpr std::size_t most_axes = 64;
@@ -39,7 +39,7 @@ double furthest(const std::vector<std::int64_t>& values, double from)
     return most;
 }
 
-/// HID Usage Tables 1.4: what stays where it is put, whoever lets go of it: slider, dial, throttle.
+/// HID Usage Tables 1.4: a slider, a dial and a throttle stay where they are put.
 bool slides(const SeenAxis& axis)
 {
     return (axis.page == 1 && (axis.usage == 0x36 || axis.usage == 0x37)) || (axis.page == 2 && axis.usage == 0xbb);
@@ -51,7 +51,7 @@ double dead_zone_of(double noise, double way, double least)
     return std::clamp(std::ceil(1000 * beyond_noise * noise / way) / 1000, least, most_dead_zone);
 }
 
-/// The use with what was measured of its axis.
+/// The use with the measurements of its axis.
 AxisUse tuned(AxisUse use, const AxisMeasure& axis)
 {
     if (!axis.moved)
@@ -59,7 +59,7 @@ AxisUse tuned(AxisUse use, const AxisMeasure& axis)
     double low = axis.low, middle = (axis.low + axis.high) / 2, high = axis.high;
     bool inverted = use.inverted != (use.range && use.range->front() > use.range->back());
     if (one_sided(use.role)) {
-        if (use.role != AxisRole::throttle) { // let go of, it must ask for nothing
+        if (use.role != AxisRole::throttle) { // released, it must be neutral
             if (axis.rests == Rest::low_end)
                 low = axis.middle, inverted = false;
             else if (axis.rests == Rest::high_end)
@@ -75,7 +75,7 @@ AxisUse tuned(AxisUse use, const AxisMeasure& axis)
             middle = axis.middle;
             way = std::min(middle - low, high - middle);
         } else if (axis.rests != Rest::anywhere) {
-            // It works to one side alone: its other end is where nothing reaches.
+            // It works to one side alone: nothing reaches its other end.
             middle = axis.middle;
             way = axis.rests == Rest::low_end ? high - middle : middle - low;
             (axis.rests == Rest::low_end ? low : high) = axis.rests == Rest::low_end ? middle - way : middle + way;
@@ -189,7 +189,7 @@ std::vector<Push> pushed(
         const double low = is.moved ? is.low : double(field.logical_min),
                      high = is.moved ? is.high : double(field.logical_max), went = double(*end) - double(*start),
                      left = went > 0 ? high - double(*start) : double(*start) - low;
-        // Of one that stands at its end already nearly no way is left, and that way is noise.
+        // An axis that stands at its end already has nearly no way left, and that way is noise.
         const double way = std::abs(went) / std::max(left, (high - low) / 4);
         if (high > low && way >= 0.5)
             all.push_back({i, went > 0, way});

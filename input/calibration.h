@@ -5,13 +5,13 @@
 
 namespace starbow {
 
-/// An axis of a device, and what was seen of it while a person was led through its calibration.
+/// An axis of a device, and its values while a person was led through its calibration.
 struct SeenAxis {
     std::size_t field = 0; ///< of the descriptor's
     int page = 1, usage = 0, nth = 0; ///< as profiles name it
-    /// Raw values while nobody touched it: before it was moved about, and after.
+    /// Raw values while nobody touched it: before and after it was moved.
     std::array<std::vector<std::int64_t>, 2> rest;
-    std::optional<std::int64_t> low, high; ///< of all raw values while it was moved about
+    std::optional<std::int64_t> low, high; ///< of all raw values while it was moved
 };
 
 /// The axes that a profile may name, in the descriptor's order.
@@ -20,16 +20,16 @@ std::vector<SeenAxis> axes_of(const Descriptor& descriptor);
 /// "X axis", "twist (Rz)", "slider 2"
 std::string describe(const SeenAxis& axis);
 
-/// Each takes in what the device tells now. when: 0 before the axes were moved about, 1 after.
+/// Each takes in the device's present state. when: 0 before the axes were moved, 1 after.
 void take_rest(const DeviceState& state, std::size_t when, std::vector<SeenAxis>& axes);
 void take_ends(const DeviceState& state, std::vector<SeenAxis>& axes);
 
-/// Whether raw values are those of an axis that nobody touches: within a tenth of what its device declares.
+/// True for raw values of an axis that nobody touches: within a tenth of its device's declared range.
 bool kept_still(const std::vector<std::int64_t>& values, const Field& field);
 
-/// What the samples of an axis say. Raw values.
+/// The measurements of an axis' samples, raw values.
 struct AxisMeasure {
-    /// Whether it went over at least a fifth of what its device declares: less comes from moving the controls beside it.
+    /// True if it went over at least a fifth of its device's declared range: less comes from moving the controls beside it.
     bool moved = false;
     double low = 0, high = 0;
     enum class Rest {
@@ -39,8 +39,8 @@ struct AxisMeasure {
         anywhere ///< it stays where it is put, as a throttle does: its middle is halfway between its ends
     } rests
         = Rest::middle;
-    double middle = 0; ///< where it rests
-    double noise = 0; ///< the furthest from there while nobody touched it, coming back from either side included
+    double middle = 0; ///< its resting place
+    double noise = 0; ///< the greatest distance from there while nobody touched it, including its return from either side
 };
 AxisMeasure measured(const SeenAxis& axis, const Field& field);
 
@@ -48,25 +48,25 @@ AxisMeasure measured(const SeenAxis& axis, const Field& field);
 struct Push {
     std::size_t axis = 0; ///< of axes_of()
     bool to_high = true;
-    double way = 0; ///< how much of the way to that end, from where it was
+    double way = 0; ///< the part of the way to that end, from its resting place
 };
 
-/// Which axis a person moves: all that went at least half of their way between two states, and seven tenths as far as the
-/// one that went furthest, which comes first. One: it is clear. None: nothing was moved.
+/// The axes that a person moves: those that went at least half of their way between two states, and seven tenths as far as
+/// the furthest one, which comes first. One axis is a clear answer; none means that nothing moved.
 std::vector<Push> pushed(
     const Descriptor& descriptor, const std::vector<SeenAxis>& axes, const DeviceState& from, const DeviceState& to);
 
-/// What the person chose; nothing beside a role: no axis, no button shall do it. Roles that are not named stay as they were.
+/// The person's choices; a role with an empty choice gets no axis or button. Roles that are not named stay as they were.
 struct Chosen {
     std::vector<std::pair<AxisRole, std::optional<Push>>> axes;
     std::vector<std::pair<ButtonRole, std::optional<int>>> buttons;
 };
 
-/// The device's profile after the calibration. Axes that were moved have their range and a dead zone a half larger than
-/// their noise; those that no role fell to are kept with the role none. Axes that were not moved are left as they were.
+/// The device's profile after the calibration. Moved axes get their range and a dead zone a half larger than their noise;
+/// those without a role are kept with the role none. Other axes stay as they were.
 Profile calibrated(Profile present, const Descriptor& descriptor, const std::vector<SeenAxis>& axes, const Chosen& chosen);
 
-/// The index of the axis that a profile's use means, if the device has it.
+/// The index of the axis that a profile's use names, if the device has it.
 std::optional<std::size_t> axis_of(const AxisUse& use, const std::vector<SeenAxis>& axes);
 
 } // namespace starbow

@@ -2,11 +2,11 @@
 
 namespace starbow {
 
-/// What the visitor's hands hold, for prompts.
+/// The kinds of control in the visitor's hands, for prompts.
 struct InputCapabilities {
-    bool stick = false; ///< or a pad's, or a space mouse: something turns the nose
+    bool stick = false; ///< a stick's, a pad's or a space mouse's axis turns the nose
     bool lever = false;
-    bool trigger = false; ///< an axis for faster
+    bool trigger = false; ///< an axis increases the speed
     int stop_button = 0; ///< its number on the device; 0: none
 };
 

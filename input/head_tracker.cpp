@@ -60,7 +60,7 @@ HeadTracker::~HeadTracker() { close(socket_); }
 Head HeadTracker::read(std::chrono::steady_clock::time_point now)
 {
     std::array<std::byte, 64> packet;
-    // So many at most: a sender gone wild must not hold the frame.
+    // The limit of packets in a frame: a sender gone wild must not hold the frame.
     for (int i = 0; i < 1000; ++i) {
         const ssize_t size = recv(socket_, packet.data(), packet.size(), 0);
         if (size < 0)

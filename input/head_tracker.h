@@ -8,16 +8,16 @@
 
 namespace starbow {
 
-/// One packet of opentrack's "UDP over network" output, which many trackers speak: six little-endian doubles, x, y and z in
-/// centimetres, then yaw to the left, pitch up and roll to the left in degrees. Nothing for any other length, for what is
-/// not finite, and for a head more than 10 m away.
+/// Parses one packet of opentrack's "UDP over network" output, which many trackers speak: six little-endian doubles, x, y
+/// and z in centimetres, then yaw to the left, pitch up and roll to the left in degrees. nullopt for any other length, for
+/// values that are not finite, and for a head more than 10 m away.
 std::optional<Head> parse_head(std::span<const std::byte> packet);
 
-/// The head of a tracker that has told nothing for silent_s seconds: held for one, then brought back to where the layout has
-/// it within two more, so that a visitor who leaves the tracker's sight does not leave the walls askew.
+/// The head of a tracker that has been silent for silent_s seconds. It is held for one second and returns to the layout's
+/// place within two more, so that a visitor who leaves the tracker's sight does not leave the walls askew.
 Head held(const Head& last, double silent_s);
 
-/// Listens for a head. Never waits.
+/// Receives a head's packets. Never waits.
 class HeadTracker {
 public:
     /// Throws InputError where the address or the port can't be had.
@@ -25,9 +25,9 @@ public:
     HeadTracker(const HeadTracker&) = delete;
     ~HeadTracker();
 
-    /// Where the head is at `now`: of all packets that have come, the last.
+    /// The head at `now`, from the last packet that has arrived.
     Head read(std::chrono::steady_clock::time_point now);
-    /// Whether the head was told of within the last three seconds.
+    /// True if a packet has arrived within the last three seconds.
     bool heard(std::chrono::steady_clock::time_point now) const;
     const HeadTracking& tracking() const { return tracking_; }
 

@@ -31,7 +31,7 @@ std::string plain(const wchar_t* text)
     return out;
 }
 
-/// hidapi 0.13 does not tell it; sysfs does, and to everyone.
+/// hidapi 0.13 does not give it; sysfs does, to every user.
 std::vector<std::uint8_t> descriptor_bytes(const std::string& path)
 {
     const std::string node = path.substr(path.rfind('/') + 1);
@@ -52,7 +52,7 @@ std::pair<DeviceInfo, Profile> identify(
 
 } // namespace
 
-/// What the reading thread and the visitor's frame share.
+/// The state that the reading thread and the visitor's frame share.
 struct Hid::Device {
     DeviceInfo info;
     Descriptor descriptor;
@@ -72,7 +72,7 @@ struct Hid::Shared {
     std::vector<std::shared_ptr<Device>> devices;
     std::vector<DeviceInfo> missing;
     int openings = 0;
-    std::vector<std::string> refused; ///< paths that could not be opened, told once
+    std::vector<std::string> refused; ///< paths that could not be opened, reported once
     std::thread observer;
 
     void read(const std::shared_ptr<Device>& device, hid_device* handle);
@@ -81,7 +81,7 @@ struct Hid::Shared {
     void open(const hid_device_info& found);
 };
 
-/// Until the device or the program goes. The queue is emptied each time: the last report is what counts.
+/// Reads until the device or the program goes. The queue is emptied each time: the last report counts.
 void Hid::Shared::read(const std::shared_ptr<Device>& device, hid_device* handle)
 {
     std::array<unsigned char, 4096> report;
@@ -140,7 +140,7 @@ void Hid::Shared::open(const hid_device_info& found)
         + (device->profile.file.empty() ? device->profile.name : "the profile " + device->profile.name));
 }
 
-/// Opens what is there and not open yet; forgets what is gone.
+/// Opens new devices; forgets missing ones.
 void Hid::Shared::look()
 {
     std::vector<std::shared_ptr<Device>> ended;

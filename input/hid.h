@@ -27,10 +27,10 @@ struct ControllerListing {
 /// All controllers that are plugged in, opened for a moment each. Call it while no Hid lives.
 std::vector<ControllerListing> list_controllers(const std::vector<Profile>& profiles);
 
-/// Whether a descriptor is that of a joystick, gamepad, space mouse or simulator's control, not a mouse or a keyboard.
+/// True for the descriptor of a joystick, gamepad, space mouse or simulator's control; false for a mouse or a keyboard.
 bool is_controller(const Descriptor& descriptor);
 
-/// Sticks, throttles, pads: all that are plugged in, whenever they are, each read on a thread of its own. Nothing here
+/// Sticks, throttles and pads: all that are plugged in, at any time, each read on a thread of its own. No function here
 /// waits.
 class Hid {
 public:
@@ -39,14 +39,14 @@ public:
     Hid(const Hid&) = delete;
     ~Hid();
 
-    /// Adds what all devices ask for. A device that is gone asks for nothing: its axes are neutral from then on.
+    /// Adds the controls of all devices. An unplugged device adds none: its axes are neutral from then on.
     void add(double dt_s, Controls& controls);
 
-    /// A line for the visitors' display while a device that was there is missing, or one of its axes is left out because it
-    /// is stuck or noisy; else empty.
+    /// A line for the visitors' display while a device is missing, or one of its axes is left out because it is stuck or
+    /// noisy; else empty.
     std::string trouble() const;
     bool has_gamepad() const;
-    /// What visitors have in their hands, of all devices together; as of the last add().
+    /// The kinds of control of all devices together, as of the last add().
     InputCapabilities capabilities() const;
 
     struct Connected {
@@ -61,13 +61,13 @@ private:
     struct Device;
     struct Shared;
     std::shared_ptr<Shared> shared_;
-    std::map<std::string, std::unique_ptr<Mapping>> mappings_; ///< by path and the count of its opening
+    std::map<std::string, std::unique_ptr<Mapping>> mappings_; ///< by path and number of openings
     LeverChoice lever_;
-    std::vector<std::string> troubles_; ///< of axes, as last told to the log
+    std::vector<std::string> troubles_; ///< of axes, as last logged
     void tell(std::vector<std::string> troubles);
 };
 
-/// The profile of a device: by its serial number first, then by its kind, the last of several, else from its usages.
+/// A device's profile: by its serial number first, then by its kind, the last of several; else from its usages.
 Profile profile_for(const std::vector<Profile>& profiles, const DeviceInfo& info, const Descriptor& descriptor);
 
 } // namespace starbow

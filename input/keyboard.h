@@ -6,11 +6,12 @@ struct GLFWwindow;
 
 namespace starbow {
 
-/// Keyboard, mouse and any gamepad that GLFW knows, over all windows of the exhibit. Remembers only what was down before.
+/// Keyboard, mouse and any gamepad that GLFW knows, over all windows of the exhibit. Its state is the keys of the last
+/// reading.
 class Keyboard {
 public:
-    /// Reads what is down now (after glfwPollEvents). windows: those whose keys and pointer count. pads: whether GLFW's
-    /// gamepads count, which may be the ones that Hid reads.
+    /// Reads the present keys (after glfwPollEvents). windows: those whose keys and pointer count. pads: true to read
+    /// GLFW's gamepads, which may be the ones that Hid reads.
     template <class Windows> Controls read(const Windows& windows, std::int64_t time_ns, bool pads)
     {
         Controls controls;
@@ -37,7 +38,7 @@ private:
     bool held_ = false;
 };
 
-/// For people: what each key and button does, a line each.
+/// A line for people on each key and button.
 const char* keyboard_help();
 
 } // namespace starbow

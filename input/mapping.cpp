@@ -53,7 +53,7 @@ void add_role(AxisRole role, double value, double dt_s, Controls& controls)
     }
 }
 
-/// What a press switches, in the frame in which it comes.
+/// The switch of a press, in the frame in which it comes.
 constexpr std::pair<ButtonRole, bool Controls::*> switches[] = {{ButtonRole::stop, &Controls::stop},
     {ButtonRole::home, &Controls::home}, {ButtonRole::undo, &Controls::undo}, {ButtonRole::next_mode, &Controls::next_mode},
     {ButtonRole::look_ahead, &Controls::look_ahead}, {ButtonRole::aberration, &Controls::aberration},
@@ -61,7 +61,7 @@ constexpr std::pair<ButtonRole, bool Controls::*> switches[] = {{ButtonRole::sto
     {ButtonRole::false_colours, &Controls::false_colours}, {ButtonRole::comparison, &Controls::comparison},
     {ButtonRole::hud, &Controls::hud}, {ButtonRole::overlay, &Controls::overlay}, {ButtonRole::mark, &Controls::mark},
     {ButtonRole::log, &Controls::log}, {ButtonRole::why, &Controls::why}};
-/// What a button does for as long as it is held.
+/// The rate of a button for as long as it is held.
 struct Held {
     ButtonRole role;
     double Controls::*value;
@@ -115,7 +115,7 @@ bool take_report(const Descriptor& descriptor, std::span<const std::uint8_t> rep
     for (std::size_t i = 0; i < descriptor.fields.size(); ++i) {
         const Field& field = descriptor.fields[i];
         if (field.report_id != id || std::size_t(field.bit_offset + field.bits + 7) / 8 > report.size())
-            continue; // what a report cut short does not hold stays as it was
+            continue; // fields beyond a report that is cut short stay as they were
         const std::int64_t raw = raw_value(field, report);
         state.raw[i] = raw;
         state.tapped[i] = state.tapped[i] || raw > 0;

@@ -8,43 +8,42 @@
 
 namespace starbow {
 
-/// What a device tells now: the raw value of each field of its descriptor, and nothing for those that it has not told of
-/// yet.
+/// A device's present state: the raw value of each field of its descriptor, nullopt for those without a report yet.
 struct DeviceState {
     std::vector<std::optional<std::int64_t>> raw;
-    std::vector<bool> tapped; ///< fields that were above 0 in any report since the last reading: no tap is too short
+    std::vector<bool> tapped; ///< fields above 0 in any report since the last reading: no tap is too short
     std::vector<AxisHealth> health;
     std::int64_t told_ns = 0; ///< arrival of the last report
 };
 
-/// Takes in a report as it was read, its number first where the device numbers them. False for one that fits no field.
+/// Takes in a report as read, its number first where the device numbers them. False for a report that fits no field.
 bool take_report(
     const Descriptor& descriptor, std::span<const std::uint8_t> report, std::int64_t now_ns, DeviceState& state);
 
-/// Whether a field is one that a profile's axes may name: more than a bit, of a usage that moves.
+/// True for a field that a profile's axes may name: more than a bit, with a usage that moves.
 bool is_axis(const Field& field);
 
-/// Whether a role runs from nothing to full, instead of to two sides of a middle.
+/// True for a role that runs from nothing to full, instead of to two sides of a middle.
 bool one_sided(AxisRole role);
 
-/// How a device that no profile knows is used, from its HID usages alone: sticks turn the ship, sliders are throttles,
-/// triggers go faster and slower, a hat and a second stick look around.
+/// The profile of an unknown device, from its HID usages alone: sticks turn the ship, sliders are throttles, triggers
+/// increase and reduce the speed, a hat and a second stick look around.
 Profile usual_profile(const Descriptor& descriptor);
 
-/// What a device asks for. Presses count from one reading to the next.
+/// The controls of one device. Presses count from one reading to the next.
 class Mapping {
 public:
     Mapping(Descriptor descriptor, Profile profile);
 
-    /// Adds what the device asks for to the controls, all but the lever's place. now_ns: the steady clock's; dt_s: since the
-    /// last reading, for what looks around. An axis that is stuck or noisy asks for nothing.
+    /// Adds the device's controls, except the lever's place. now_ns: steady clock; dt_s: since the last reading, for
+    /// looking around. A stuck or noisy axis adds nothing.
     void add(const DeviceState& state, std::int64_t now_ns, double dt_s, Controls& controls);
 
-    // As of the last reading:
+    // State as of the last reading:
     const std::vector<Lever>& levers() const { return levers_; } ///< their devices are not named here
     const std::vector<std::string>& troubles() const { return troubles_; } ///< "axis Rz is stuck", for people
 
-    /// What of it is on this device.
+    /// The kinds of control on this device.
     InputCapabilities capabilities() const;
 
 private:
@@ -66,7 +65,7 @@ private:
     std::vector<std::string> troubles_;
 };
 
-/// "X", "Rz", "slider", "rudder": as people and drivers call an axis.
+/// "X", "Rz", "slider", "rudder": an axis' usual name.
 std::string name_of(const Usage& usage);
 
 /// The axis' value after calibration, dead zone and curve: -1 to 1, of a throttle 0 to 1.

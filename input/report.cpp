@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t most_fields = 4096, most_depth = 64, most_usages = 1024;
 constexpr std::int64_t most_bits = 8 * 16384; // Linux takes no longer report either
 
-/// A short item's data, with its size: some are signed, some not, and which is told only later.
+/// A short item's data, with its size: some are signed, some not, which a later item decides.
 struct Data {
     std::uint32_t bits = 0;
     int size = 0;
@@ -33,7 +33,7 @@ struct Globals {
 struct Locals {
     struct Entry {
         UsageRange range;
-        bool own_page = false; ///< told with the usage itself, in four bytes
+        bool own_page = false; ///< declared with the usage itself, in four bytes
     };
     std::vector<Entry> usages;
     std::optional<Entry> from; ///< a minimum that waits for its maximum, or the other way round
@@ -177,7 +177,7 @@ private:
                               : Locals::Entry{{globals_.page, id, id}, false};
     }
 
-    /// Of usages between delimiters the first is the preferred one, and the one that is taken.
+    /// The first usage between delimiters is the preferred one, and the one that is taken.
     void declare(const Locals::Entry& entry)
     {
         if (locals_.in_alternatives && std::exchange(locals_.alternative_taken, true))

@@ -22,38 +22,39 @@ struct UsageRange {
 /// One value of an input report. Offsets count from the first bit after the report's number, the lowest bit of a byte first.
 struct Field {
     std::uint8_t report_id = 0; ///< 0 where the device numbers no reports
-    Usage usage; ///< of an array's slot the first that it can hold
+    Usage usage; ///< of an array's element the first that it can hold
     int bit_offset = 0, bits = 0;
     std::int64_t logical_min = 0, logical_max = 0;
     bool is_signed = false; ///< two's complement
     bool null_state = false; ///< outside the logical range it means "no value"
     bool relative = false;
-    bool repeated = false; ///< there were fewer usages than values: the last one counts for several
-    std::vector<UsageRange> array; ///< of an array's slot: the usages that its number, from logical_min on, chooses from
+    bool repeated = false; ///< fewer usages than values: the last one counts for several
+    std::vector<UsageRange> array; ///< of an array's element: the usages that its number, from logical_min on, chooses from
 };
 
-/// What a device's report descriptor declares (Device Class Definition for HID 1.11, 6.2.2), as far as input goes.
+/// A device's report descriptor (Device Class Definition for HID 1.11, 6.2.2), as far as input goes.
 struct Descriptor {
     std::vector<Usage> applications; ///< of the top-level application collections
-    std::vector<Field> fields; ///< in the descriptor's order; constant bits and values without a usage are none
+    std::vector<Field> fields; ///< in the descriptor's order, without constant bits and values without a usage
     std::map<int, int> report_bits; ///< by report number, the number itself not counted
     bool uses_report_ids = false;
-    std::string stopped; ///< why the rest was not read, for people; empty: all of it was
+    std::string stopped; ///< for people, the reason why the rest was not read; empty: all of it was
 };
 
-/// Reads any bytes: damaged ones give what could be understood before. Pure; bounded by 4096 fields and reports of 16 KiB.
+/// Parses any bytes: from damaged ones it returns the part before the damage. Pure; bounded by 4096 fields and reports of
+/// 16 KiB.
 Descriptor parse_descriptor(std::span<const std::uint8_t> bytes);
 
 /// The field's number as it stands in a report's payload (after the report's number); bits beyond a short report are 0.
 std::int64_t raw_value(const Field& field, std::span<const std::uint8_t> payload);
 
-/// -1 to 1 over the logical range, clamped; of a range without width 0.
+/// The value's place in the logical range, -1 to 1, clamped; 0 for a range without width.
 double centred(const Field& field, std::int64_t raw);
 
-/// A hat's direction in degrees clockwise from ahead; nothing where it is let go, or tells anything that is no direction.
+/// A hat's direction in degrees clockwise from ahead; nullopt where it is let go, or where the value is no direction.
 std::optional<double> hat_degrees(const Field& field, std::int64_t raw);
 
-/// The usage that an array's slot holds; nothing where it is empty.
+/// The usage that an array's element holds; nullopt where it is empty.
 std::optional<Usage> array_usage(const Field& field, std::int64_t raw);
 
 } // namespace starbow

@@ -4,7 +4,7 @@
 #include "physics/real.glsl"
 #include "tone.glsl"
 #include "dither.glsl"
-// A viewport's exposed light with its glow, shown: what warp.frag does by itself where nothing glows.
+// Shows a viewport's exposed light with its glow; without a glow, warp.frag shows it by itself.
 
 layout(constant_id = 0) const bool DITHERED = true;
 

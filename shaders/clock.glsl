@@ -1,14 +1,14 @@
-// A clock's dial, each point of it as it was when its light left. A dial's radius is 1 here, x to the right and y up.
+// A clock's dial, each point of it at its own retarded time. The dial's radius is 1 here, x to the right and y up.
 
 const float TURN = 6.283185307179586;
 const float MAIN_S = 60.0, FAST_S = 10.0, SLOW_S = 3600.0; // seconds per turn of the three hands
-// The small dials: beside the middle, away from where the long hand points on the minute and from the digits.
+// The small dials lie beside the middle, away from the long hand on the minute and from the digits.
 const vec2 FAST_AT = vec2(-0.38, 0.06), SLOW_AT = vec2(0.38, 0.06);
 const float SMALL = 0.25;
 const float DIGITS_Y = -0.43, DIGITS_WIDE = 0.84;
-const float CELL = 0.17, POINT = 0.4; // a figure with what keeps it from the next; in cells: the point before the last one
+const float CELL = 0.17, POINT = 0.4; // a figure with its gap to the next; in figures: the point before the last one
 
-// Segments of the figures 0 to 9, then of the minus and of nothing: 1 top, then clockwise, 64 the middle.
+// Segments of the figures 0 to 9, then of the minus and of the blank: 1 top, then clockwise, 64 the middle.
 const int SEGMENTS[12] = int[12](63, 6, 91, 79, 102, 109, 125, 7, 127, 111, 64, 0);
 
 /// The part of a pixel `w` wide around x that lies within h of 0.
@@ -28,7 +28,7 @@ float ticks(vec2 at, mat2 pixel, float count, float low, float high, float half_
     float turn = atan(at.x, at.y) * (count / TURN), apart = r * TURN / count;
     float w = extent(pixel, vec2(out_.y, -out_.x));
     float line = overlap((turn - round(turn)) * apart, half_width, w);
-    // Where they are finer than pixels, their mean.
+    // The mean, where the lines are finer than pixels.
     line = mix(line, 2.0 * half_width / apart, clamp(2.0 * w / apart - 1.0, 0.0, 1.0));
     return line * overlap(r - 0.5 * (low + high), 0.5 * (high - low), extent(pixel, out_));
 }
@@ -39,8 +39,8 @@ float ring(vec2 at, mat2 pixel, float radius, float half_width)
     return overlap(r - radius, half_width, extent(pixel, at / r));
 }
 
-/// x: a hand, y: the same and a margin around it. Its width goes from `root` to `tip`. turned: turns from one pixel to the
-/// next, to the right and down.
+/// x: coverage by a hand, y: by the hand with a margin. Its width goes from `root` to `tip`. turned: turns from one pixel
+/// to the next, to the right and down.
 vec2 hand(vec2 at, mat2 pixel, float turn, vec2 turned, float reach, float tail, float root, float tip)
 {
     vec2 way = vec2(sin(TURN * turn), cos(TURN * turn)), aside = vec2(way.y, -way.x);
@@ -55,19 +55,19 @@ float box(vec2 at, vec2 half_size, vec2 w) { return overlap(at.x, half_size.x, w
 
 float cell_of(vec4 digits) { return min(CELL, DIGITS_WIDE / (digits.z + POINT)); }
 
-/// The plate that the figures stand on: how much of a pixel it covers.
+/// The part of a pixel that the plate below the figures covers.
 float plate(vec2 at, mat2 pixel, vec4 digits, float margin)
 {
     vec2 half_size = vec2(0.5 * (digits.z + POINT) + margin, 0.8 + margin) * cell_of(digits);
     return box(at - vec2(0.0, DIGITS_Y), half_size, vec2(extent(pixel, vec2(1.0, 0.0)), extent(pixel, vec2(0.0, 1.0))));
 }
 
-/// Seven segments each, as many as digits.z says.
+/// Seven segments each, digits.z figures.
 float figures(vec2 at, mat2 pixel, vec4 digits)
 {
     float count = digits.z, cell = cell_of(digits);
     vec2 p = (at - vec2(0.0, DIGITS_Y)) / cell;
-    float place = p.x + 0.5 * (count + POINT), last = count - 1.0; // where the last figure would begin
+    float place = p.x + 0.5 * (count + POINT), last = count - 1.0; // the first figure's begin
     if (abs(p.y) > 1.0 || place < 0.0 || place >= count + POINT)
         return 0.0;
     vec2 point = vec2(place - last - 0.5 * POINT, p.y);
@@ -88,9 +88,8 @@ float figures(vec2 at, mat2 pixel, vec4 digits)
     return max(ink, box(point + vec2(0.0, 2.0 * y - 0.03), vec2(thick + 0.03), w));
 }
 
-/// How much of a pixel is marks, 0 to 1: lines, hands and figures. `pixel`: of `at`, its steps to the right and down.
-/// `later_s`: seconds by which this point's light left after that of the clock's middle; `step_s`: its steps, as lateness
-/// has them.
+/// The part of a pixel that marks cover, 0 to 1: lines, hands and figures. `pixel`: the steps of `at` to the right and
+/// down. `later_s`: this point's light-travel offset from the clock's middle, seconds; `step_s`: its steps.
 float marks(vec2 at, mat2 pixel, float later_s, vec2 step_s, TimeEntry clock)
 {
     vec2 main_hand = hand(at, pixel, clock.turns.x + later_s / MAIN_S, step_s / MAIN_S, 0.82, 0.16, 0.034, 0.012);

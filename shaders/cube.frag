@@ -3,8 +3,8 @@
 #include "shared.h"
 #include "physics/real.glsl"
 #include "physics/worldline.glsl"
-// Scene-linear, pre-exposed light of a surface, as the numbers of the world's spectral basis: those of what it reflects, then
-// those of the world's own spectra. What a world does not have is compiled out.
+// A surface's scene-linear, pre-exposed light as basis coefficients: of reflected sunlight first, then of the world's own
+// emission spectra. Constants compile out the parts that a world does not have.
 
 layout(constant_id = 0) const bool BASE_TEXTURE = true;
 layout(constant_id = 1) const bool EMISSIVE_TEXTURE = true;
@@ -13,11 +13,13 @@ layout(constant_id = 3) const bool UNLIT = false;
 layout(constant_id = 4) const int LIGHTS = MAX_LIGHTS;
 layout(constant_id = 5) const int REFLECTED = 3;
 layout(constant_id = 6) const int OWN = 0;
-layout(constant_id = 7) const int KINDS = 1; // of spectra that shine on surfaces
-layout(constant_id = 8) const bool MATRICES = false; // otherwise the numbers are the colour itself, and what is beyond it
+layout(constant_id = 7) const int KINDS = 1; // of spectra that illuminate surfaces
+layout(constant_id = 8) const bool MATRICES = false; // otherwise the coefficients are the colour itself, and its parts
+                                                     // beyond the visible
 layout(constant_id = 9) const bool CLOCK = false;
-layout(constant_id = 10) const bool MORTAL = false; // not there for ever
-layout(constant_id = 11) const bool LAYERED = false; // one of several layers: tells what it covers, after the numbers
+layout(constant_id = 10) const bool FINITE_EXISTENCE = false; // finite existence
+layout(constant_id = 11) const bool LAYERED = false; // one of several rest frames: writes its coverage too, after the
+                                                     // coefficients
 layout(constant_id = 12) const bool LAMPS_MOVE = false;
 layout(constant_id = 13) const bool BLINK = false;
 
@@ -32,7 +34,7 @@ layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 colour;
-layout(location = 4) flat in uint instance; // CLOCK, MORTAL, BLINK
+layout(location = 4) flat in uint instance; // for CLOCK, FINITE_EXISTENCE, BLINK
 layout(location = 0) out vec4 numbers0;
 layout(location = 1) out vec4 numbers1;
 layout(location = 2) out vec4 numbers2;
@@ -40,7 +42,7 @@ layout(location = 3) out vec4 numbers3;
 layout(location = 4) out vec4 numbers4;
 
 const int GROUPS = (REFLECTED + OWN + 3) / 4;
-const int KEPT = LAMPS_MOVE ? 1 : KINDS; // kinds of light that are summed up before they shine
+const int KEPT = LAMPS_MOVE ? 1 : KINDS; // kinds of light that are summed before they illuminate
 const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
 
 #include "light_travel_offset.glsl"
@@ -49,14 +51,14 @@ const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
 
 float mean(vec3 v) { return (v.x + v.y + v.z) * (1.0 / 3.0); }
 
-// What is reflected in the ultraviolet and the infrared.
+// The reflected light in the ultraviolet and the infrared.
 vec2 beyond_visible(vec3 lit, vec3 light)
 {
     return vec2(push.beyond.x < 0.0 ? mean(lit) : push.beyond.x * mean(light),
         push.beyond.y < 0.0 ? mean(lit) : push.beyond.y * mean(light));
 }
 
-// Adds a surface's numbers under a light of one kind, and those of a sunlit colour that it emits.
+// Adds a surface's coefficients under a light of one kind, and those of a sunlit colour that it emits.
 void add_lit(inout vec4 numbers[MAX_GROUPS + 1], int kind, vec3 base, vec3 light, vec3 emitted)
 {
     vec3 lit = base * light;
@@ -70,9 +72,9 @@ void add_lit(inout vec4 numbers[MAX_GROUPS + 1], int kind, vec3 base, vec3 light
     }
 }
 
-// Where a lamp that may move is seen from a surface, in its own distance: as long as the light's way in the lamp's frame, in
-// the direction that it has in the surface's; and D. 0: no light. towards: from the surface at the eye's time. The surface's
-// light that the eye sees left `delay` earlier, and the lamp's that it reflects before that.
+// The retarded position of a lamp that may move, as a surface sees it. Its distance is the light's travel distance in the
+// lamp's frame, its direction is in the surface's. Also D; 0: no light. towards: from the surface, at the eye's time. The
+// surface's light left `delay` earlier, and the lamp's light that it reflects left before that.
 vec3 lamp_seen(LightEntry lamp, vec3 towards, float delay, out float D)
 {
     D = lamp.kind.w;
@@ -83,7 +85,7 @@ vec3 lamp_seen(LightEntry lamp, vec3 towards, float delay, out float D)
         RetardedPosition seen = retarded_position(towards - lamp.way.xyz * (u / lamp.shifts.w * delay), lamp.way.xyz, u, lamp.shifts.w);
         D = seen.D;
         own = seen.tau - delay / lamp.shifts.w;
-        towards = seen.place / D; // the light's way is D times as long here
+        towards = seen.place / D; // the light's travel distance is D times as long here
     } else {
         own = -delay - length(towards);
     }
@@ -96,7 +98,7 @@ void main()
     if (BASE_TEXTURE)
         base *= texture(base_texture, uv);
     float ink = 0.0, lit_part = 1.0;
-    if (CLOCK || MORTAL || BLINK) {
+    if (CLOCK || FINITE_EXISTENCE || BLINK) {
         TimeEntry time = times[instance - int(cube.first.x) + int(cube.first.y)];
         float offset_s = travel_offset_from(place, time.middle);
         float late = light_travel_offset(place);
@@ -108,7 +110,7 @@ void main()
         }
         if (BLINK)
             lit_part = blinking(time.blink, offset_s, step_);
-        if (MORTAL && (offset_s < time.there.x || offset_s >= time.there.y))
+        if (FINITE_EXISTENCE && (offset_s < time.there.x || offset_s >= time.there.y))
             discard;
     }
     if (MASKED && base.a < push.emissive.w)
@@ -143,7 +145,7 @@ void main()
             vec3 add = lamp.radiance.rgb * (max(dot(n, towards), 0.0) * fall);
             int first = int(lamp.kind.x);
             if (LAMPS_MOVE) {
-                // Beside the shift of its spectrum a point's flux per frequency grows as D.
+                // Beside the shift of its spectrum, a point light's flux per frequency grows as D.
                 float at = clamp((log2(D) - lamp.shifts.x) * lamp.shifts.y, 0.0, max(lamp.shifts.z - 1.001, 0.0));
                 add_lit(numbers, first + int(at), base.rgb, add * (D * (1.0 - fract(at))), vec3(0.0));
                 if (fract(at) > 0.0)
@@ -176,7 +178,8 @@ void main()
     for (int group = 0; group < GROUPS; ++group)
         numbers[group] = clamp(numbers[group], vec4(-60000.0), vec4(60000.0));
     if (LAYERED)
-        numbers[GROUPS] = vec4(1.0, gl_FragCoord.z, 0.0, 0.0); // samples and texels are averaged: what is covered, and its depth's sum
+        numbers[GROUPS] = vec4(1.0, gl_FragCoord.z, 0.0, 0.0); // a texel's samples are averaged: its coverage, and the sum
+                                                               // of its depths
     const int outputs = LAYERED ? GROUPS + 1 : GROUPS;
     numbers0 = numbers[0];
     if (outputs > 1)

@@ -1,12 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
-// What stands still around the eye, in motion axes: into one image of the plan, or straight to a plain picture.
+// Draws a rest frame around its eye event, in motion axes, into one image of the plan, or directly into a plain picture.
 
 layout(constant_id = 9) const bool CLOCK = false;
-layout(constant_id = 10) const bool MORTAL = false;
+layout(constant_id = 10) const bool FINITE_EXISTENCE = false;
 layout(constant_id = 13) const bool BLINK = false;
-layout(constant_id = 14) const bool MOVES = false; // by itself
+layout(constant_id = 14) const bool MOVES = false; // animated
 
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
 layout(set = 0, binding = 1) readonly buffer Instances { InstanceEntry instances[]; };
@@ -33,7 +33,7 @@ vec4 placed(InstanceEntry at)
     return vec4(dot(at.row0, local), dot(at.row1, local), dot(at.row2, local), 1.0);
 }
 
-// The instance as it stood when this point's light left: a fixed point, each round a fifth as far off as the one before.
+// Finds the instance's pose at this point's retarded time: a fixed point, each round a fifth as far off as the one before.
 InstanceEntry as_seen(InstanceEntry at, TimeEntry time)
 {
     int first = int(cube.first.z) + int(time.poses.x);
@@ -65,7 +65,7 @@ void main()
     out_place = place.xyz;
     out_uv = uv;
     out_colour = colour * push.base_colour;
-    if (CLOCK || MORTAL || BLINK)
+    if (CLOCK || FINITE_EXISTENCE || BLINK)
         out_instance = visible[gl_InstanceIndex];
     gl_Position = vec4(dot(push.clip_row0, place), dot(push.clip_row1, place), dot(push.clip_row2, place), dot(push.clip_row3, place));
 }

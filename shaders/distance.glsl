@@ -1,7 +1,8 @@
-// Distances between the texels of the cube map's depth: near / depth is linear across a plane's picture, so that what is
-// interpolated there is exact. Needs seen.glsl.
+// Distances between the texels of the cube map's depth: near / depth is linear across a plane's picture, so that
+// interpolation is exact. Needs received_light.glsl.
 
-// As distance_at, but smooth on surfaces. Where the four texels around belong to different surfaces, the nearest alone.
+// The same as distance_at, but smooth on surfaces. Where the four texels around belong to different surfaces, the nearest
+// alone counts.
 float smooth_distance_at(Place place)
 {
     vec2 at = place.texel - 0.5;

@@ -1,17 +1,17 @@
-// Noise of half a step of 8 bits either way: the local mean of the bytes is what was wanted, however slowly it rises. Evenly
-// distributed, so that black stays black; the same in every frame. The pixels' values are those of the plane's most even
-// sequence (Roberts 2018): whole numbers, the same on every device. Colours get different thirds of it, so that a grey's
-// brightness wavers less.
+// Noise of half a step of 8 bits either way: the bytes' local mean is the wanted value, however slowly it rises. The noise
+// is evenly distributed, so that black stays black, and the same in every frame. Its values are those of the plane's most
+// even sequence (Roberts 2018): whole numbers, the same on every device. Each colour gets a different third of it, so that
+// a grey's brightness wavers less.
 vec3 dither(ivec2 pixel)
 {
     uint n = uint(pixel.x) * 3242174889u + uint(pixel.y) * 2447445414u; // 2^32 / 1.32472, 2^32 / 1.32472^2
     uvec3 of_channel = uvec3(n, n + 0x55555555u, n + 0xaaaaaaaau) >> 8u;
-    // A hair less than half: a device's own rounding is off by as much.
+    // A hair less than half, because a device's own rounding may be off by as much.
     return (vec3(of_channel) * (1.0 / 16777216.0) - 0.5) * (0.96 / 255.0);
 }
 
-// Linear light for a target that encodes it by sRGB's curve. That curve's slope, within 5 %: it is 2.4 / 1.055 times the light to
-// the power 1.4 / 2.4, and a float's bits, read as a whole number, rise nearly as its logarithm.
+// Noise for a target that encodes by sRGB's curve. That curve's slope, within 5 %, is 2.4 / 1.055 times the light to the
+// power 1.4 / 2.4; a float's bits, read as a whole number, rise nearly as its logarithm.
 vec3 dithered_srgb(vec3 light, ivec2 pixel)
 {
     vec3 power = intBitsToFloat(ivec3(vec3(floatBitsToInt(light)) * (1.4 / 2.4) + 453659763.0));

@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
 #include "dither.glsl"
-// From an output's pictures, in linear light, to what its screen or projector wants: both eyes in one, the colours that this
-// projector shows as the others do, the blend with its neighbours, the black of the darkest one, the curve of its input.
+// Turns an output's pictures, in linear light, into its screen's or projector's input: it combines both eyes, matches the
+// projectors' colours, blends with the neighbours, adds the darkest one's black, and applies the input's curve.
 
 layout(constant_id = 0) const int COMBINE = 0; // 0: one picture; 1 rows, 2 columns, 3 checkerboard of two; 4: both added
 layout(constant_id = 1) const bool MASKED = false;
@@ -33,10 +33,10 @@ vec3 tabled(vec3 light)
         vec3(texelFetch(table, ivec2(i.r + 1, 0), 0).r, texelFetch(table, ivec2(i.g + 1, 0), 0).g, texelFetch(table, ivec2(i.b + 1, 0), 0).b), f);
 }
 
-// One texel stands for all where there is nothing to tell pixels apart.
+// A picture of one texel holds for all pixels.
 vec3 spread(sampler2D picture, ivec2 p) { return texelFetch(picture, min(p, textureSize(picture, 0) - 1), 0).rgb; }
 
-// The target encodes by sRGB's curve: light that comes out of it as the value wanted.
+// The target encodes by sRGB's curve, so this is the light that encodes to the wanted value.
 vec3 undo_srgb(vec3 value)
 {
     return mix(value / 12.92, pow((value + 0.055) / 1.055, vec3(2.4)), greaterThan(value, vec3(0.04045)));

@@ -6,11 +6,12 @@
 #include "physics/galilean.glsl"
 #include "view.glsl"
 #include "received_light.glsl"
-// The relativistic transform of one output pixel, as numbers: the same light as warp.frag's before exposure. Where colours
-// look different ways the directions are green's.
+// The relativistic transform of one output pixel as numbers: warp.frag's light before exposure. Where colours have
+// directions of their own, these are green's.
 
 layout(location = 0) out vec4 light_and_depth; // Rec. 709 linear; distance in the world from the cube map's event
-layout(location = 1) out vec4 camera;          // unit direction in the ship, motion axes; Doppler factor, of the nearest where things move
+layout(location = 1) out vec4 camera;          // unit direction in the ship, motion axes; Doppler factor, of the nearest
+                                               // source where things move
 layout(location = 2) out vec4 world;           // unit direction in the world, motion axes; 1 where something is shown
 
 void main()

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
 #include "view.glsl"
-// Test patterns: what a builder lines projectors up by. Linear light.
+// Test patterns for lining up projectors. Linear light.
 
 layout(constant_id = 1) const int PATTERN = PATTERN_GRID;
 layout(set = 0, binding = 1) uniform sampler2D label; // r: letters
@@ -34,8 +34,8 @@ vec3 grid(vec2 p, vec2 size)
 // Digits of 3 x 5 cells, rows from the top, three bits each.
 const int digits[10] = int[10](0x7b6f, 0x2c97, 0x73e7, 0x73cf, 0x5bc9, 0x79cf, 0x79ef, 0x7249, 0x7bef, 0x7bcf);
 
-// The number `value` centred above (0, 0) to (0, 5), one unit a cell, y down. x: 1 inside its digits; y: 1 on the plate around
-// them, where nothing else is drawn.
+// Draws the number `value` centred above (0, 0) to (0, 5), one unit a cell, y down. x: 1 inside its digits; y: 1 on the
+// plate around them, where nothing else is drawn.
 vec2 number(vec2 at, int value)
 {
     int size = abs(value);
@@ -64,7 +64,8 @@ vec3 rings(vec3 n, float angle)
     vec3 light = (n.y > 0.0 ? vec3(0.25, 0.5, 0.8) : vec3(0.5, 0.35, 0.2)) * fine;
     light = mix(light, vec3(1.0, 0.45, 0.1), horizon);
     light = mix(light, vec3(0.2, 1.0, 0.3), front);
-    // The azimuth above the horizon and the 45 degree rings, each 30 degrees; the elevation along the four main azimuths.
+    // Labels: the azimuth above the horizon and the 45 degree rings, each 30 degrees; the elevation along the four main
+    // azimuths.
     float cell = 0.45;
     float ring = 45.0 * round(elevation / 45.0), spoke = 30.0 * round(azimuth / 30.0);
     vec2 at = vec2((azimuth - spoke) * shrink, ring - elevation) / cell;
@@ -77,7 +78,7 @@ vec3 rings(vec3 n, float angle)
     return light;
 }
 
-// How much letter the label has at p, for a copy with its top left corner at `corner`.
+// The label's coverage at p, for a copy with its top left corner at `corner`.
 float label_at(vec2 p, vec2 corner)
 {
     vec2 at = (p - corner) / pattern.label.xy;
@@ -100,7 +101,7 @@ vec3 names(vec2 p, vec2 size)
     return mix(light, vec3(1.0), labels(p, size, true));
 }
 
-// Light that leaves the output as this input, 0 to 1.
+// The light that leaves the output as this input, 0 to 1.
 float light_of_input(float value)
 {
     if (pattern.label.w > 0.0)
@@ -108,8 +109,8 @@ float light_of_input(float value)
     return value > 0.04045 ? pow((value + 0.055) / 1.055, 2.4) : value / 12.92;
 }
 
-// From the top: seventeen even steps of input; lines of black and white beside the grey that a right curve makes of them, for
-// each channel; the darkest inputs, of which each should just be seen.
+// From the top: seventeen even steps of input; for each channel, lines of black and white beside the grey that a right
+// curve makes of them; the darkest inputs, of which each should just be seen.
 vec3 wedges(vec2 p, vec2 size)
 {
     vec2 at = (p / size - 0.5) / pattern.label.z + 0.5;

@@ -7,11 +7,12 @@
 #include "view.glsl"
 #include "received_light.glsl"
 #include "distance.glsl"
-// What the picture shows in one direction, as numbers: measure.frag's, for a pixel of its own and without stars.
+// The picture's numbers in one direction: measure.frag's, for a pixel of its own and without stars.
 
 layout(location = 0) out vec4 light_and_depth; // Rec. 709 linear; distance in the world from the cube map's event
 layout(location = 1) out vec4 camera;          // unit direction in the ship, motion axes; Doppler factor
-layout(location = 2) out vec4 world;           // unit direction in the world, motion axes; which of its frames what is shown rests in
+layout(location = 2) out vec4 world;           // unit direction in the world, motion axes; the source's rest frame, of the
+                                               // world's frames
 
 void main()
 {

@@ -1,51 +1,52 @@
-// What light a direction of the ship brings: aberration, the cube map's look-up, Doppler and headlight.
+// The light from a direction of the ship: aberration, the cube map's look-up, Doppler and headlight.
 
 layout(constant_id = 1) const bool ABERRATION = true;
 layout(constant_id = 2) const bool DOPPLER = true;
 layout(constant_id = 3) const bool HEADLIGHT = true;
 layout(constant_id = 4) const bool MIPS = false;
-layout(constant_id = 5) const bool CHANNELS = false; // red, green and blue look different ways
+layout(constant_id = 5) const bool CHANNELS = false; // red, green and blue have directions of their own
 layout(constant_id = 6) const bool REPROJECT = false; // the eye is not where the cube map was drawn
-layout(constant_id = 7) const bool TURNING = false; // and on which side of it depends on the azimuth
+layout(constant_id = 7) const bool TURNING = false; // and its side depends on the azimuth
 layout(constant_id = 8) const bool STARS = false;
-// 9 is warp.frag's, 10 each pass' own
-layout(constant_id = 11) const int REFLECTED = 3; // numbers of what surfaces reflect: 3 are a colour
-layout(constant_id = 12) const int OWN = 0; // numbers of the world's own spectra
-layout(constant_id = 13) const bool BY_TABLE = true; // otherwise the numbers are the colour itself, seen as it is
-layout(constant_id = 15) const bool GALILEAN = false; // velocities are added: a comparison
-layout(constant_id = 16) const bool SINGLE = false; // one image of the plan, ahead, shows all: view.eye is its TileEntry's first
+// 9 is warp.frag's, 10 differs from pass to pass
+layout(constant_id = 11) const int REFLECTED = 3; // coefficients of reflected sunlight: 3 are a colour
+layout(constant_id = 12) const int OWN = 0; // coefficients of the world's own emission spectra
+layout(constant_id = 13) const bool BY_TABLE = true; // otherwise the coefficients are the colour itself, without a shift
+layout(constant_id = 15) const bool GALILEAN = false; // velocities simply add: a comparison
+layout(constant_id = 16) const bool SINGLE = false; // one image of the plan, ahead, covers all: view.eye is its TileEntry's
+                                                    // first
 layout(constant_id = 17) const int RAYS = 1; // along each side of a pixel
 layout(constant_id = 18) const bool CUT = false; // some tile of the plan has more than one image
-layout(constant_id = 14) const bool LAYERED = false; // something moves: what stands still in each of several frames
+layout(constant_id = 14) const bool LAYERED = false; // several rest frames, each with its own part of the cube map
 
 const int GROUPS = (REFLECTED + OWN + 3) / 4;
 
 layout(push_constant) uniform Push { ViewPush view; };
 
-layout(set = 0, binding = 1) uniform sampler2D atlas; // four numbers of the light
+layout(set = 0, binding = 1) uniform sampler2D atlas; // four coefficients of the light
 layout(set = 0, binding = 2) uniform samplerBuffer tiles; // TileTable
 layout(set = 0, binding = 3) uniform usamplerBuffer response; // Response's rows
 layout(set = 0, binding = 4) uniform sampler2D depth_atlas; // near / distance along the face's normal, 0 at infinity
 layout(set = 0, binding = 5) uniform sampler2D stars_picture; // pixel for pixel the target's; light as the atlas's
-layout(set = 0, binding = 7) uniform sampler2D atlas1; // four more numbers, and more
+layout(set = 0, binding = 7) uniform sampler2D atlas1; // four more coefficients, and so on
 layout(set = 0, binding = 8) uniform sampler2D atlas2;
 layout(set = 0, binding = 9) uniform sampler2D atlas3;
 layout(set = 0, binding = 10) uniform Own { vec4 own_rows[MOST_OWN_ROWS]; };
 
-layout(set = 0, binding = 11) uniform sampler2D covered_atlas; // which part of a texel is covered; times its depth
+layout(set = 0, binding = 11) uniform sampler2D covered_atlas; // the covered part of a texel; the same times its depth
 layout(set = 0, binding = 12) uniform Layers { RestFrameConstants layered; };
 
-// One frame's part of the cube map and the eye before it, motion axes there.
+// A rest frame's part of the cube map and the eye event there, motion axes.
 struct RestFrameView {
     vec2 E; // and its inverse
     vec4 eye;
     float nearest;
     int tiles, finest_clip_level;
 };
-// The world's own.
+// The world's own rest frame.
 RestFrameView world_layer() { return RestFrameView(view.boost.xy, view.eye, view.zenith.y, 0, int(view.row1.w)); }
 
-// The world's direction and D that the camera's n shows, and how many angles of the world one at n is.
+// The world's direction and D of the camera's direction n, and the magnification of angles from there to the world.
 AberratedRay from_camera(vec3 n, vec2 E) { return GALILEAN ? galilean_world_from_camera(n, E.x, E.y) : world_from_camera(n, E.x, E.y); }
 float growth(AberratedRay sight, vec3 n, vec2 E)
 {
@@ -62,7 +63,7 @@ struct Place {
     int entry; // of the image in `tiles`
 };
 
-// The image of the plan that holds the direction n: tiles.cpp's tile_of, in float.
+// Finds the image of the plan that holds the direction n: tiles.cpp's tile_of, in float.
 Place place_of(vec3 n, RestFrameView layer)
 {
     vec3 m = abs(n);
@@ -106,8 +107,9 @@ float level_of(Place place, float world_angle)
         return 0.0;
     float distance_square = 1.0 + dot(place.face, place.face);
     float at_middle = min(world_angle * place.texels_per_unit, 1e9), square = at_middle * at_middle; // of texels
-    // A texel is the mean of its square, and between texels it is straight: light is spread with a variance of 1/4 of a texel's
-    // square. A pixel as a square has 1/12 of its own: the texels want to be finer by the root of 3, 0.79 levels.
+    // A texel is the mean of its square, and the interpolation between texels is linear: light is spread with a variance of
+    // 1/4 of a texel's square. A square pixel has 1/12 of its own: the texels should be finer by the root of 3, 0.79
+    // levels.
     return clamp(0.25 * log2(square * square * (distance_square * distance_square * distance_square)) - 0.79, 0.0, place.last_level);
 }
 void cube_map(Place place, float world_angle, out vec4 numbers[MAX_GROUPS])
@@ -123,7 +125,7 @@ void cube_map(Place place, float world_angle, out vec4 numbers[MAX_GROUPS])
         numbers[3] = textureLod(atlas3, at, level);
 }
 
-// Of a pair of halves, a value and what is added to it up to the next row.
+// A pair of halves: a value and its increase up to the next row.
 float halves(uint word, float part)
 {
     vec2 pair = unpackHalf2x16(word);
@@ -139,7 +141,7 @@ vec3 shifted(vec4 numbers[MAX_GROUPS], float D)
     float part = fract(at);
     int row = int(at) * RESPONSE_TEXELS(REFLECTED);
     vec3 light = vec3(0.0);
-    // Four numbers' parts of three colours are three texels.
+    // Four coefficients' parts of three colours are three texels.
     for (int group = 0; group < (REFLECTED + 3) / 4; ++group) {
         vec4 own = numbers[group];
         uvec4 first = texelFetch(response, row + 3 * group), second = texelFetch(response, row + 3 * group + 1);
@@ -169,7 +171,7 @@ vec3 shifted(vec4 numbers[MAX_GROUPS], float D)
     return light * (beyond * beyond);
 }
 
-// near / distance along the face's normal of what a texel of the cube map shows, 0 of the sky.
+// near / distance along the face's normal at a texel of the cube map, 0 for the sky.
 float depth_of(ivec2 texel)
 {
     if (!LAYERED)
@@ -178,7 +180,7 @@ float depth_of(ivec2 texel)
     return covered.x > 0.0 ? covered.y / covered.x : 0.0;
 }
 
-// Distance of what a place of the cube map shows, from where it was drawn, scene units; infinite for the sky.
+// The distance at a place of the cube map, from its eye event, scene units; infinite for the sky.
 float distance_at(Place place)
 {
     float depth = depth_of(ivec2(place.texel));
@@ -196,11 +198,12 @@ vec3 eye_offset(vec3 n, RestFrameView layer)
     return offset;
 }
 
-// Where the cube map shows what an eye beside it sees along n (world). The eye's line of sight, seen from the cube map's place,
-// is an arc from the nearest surface that there may be to n at infinity: the first place on it where the cube map's surface
-// is no farther than the line is what the eye sees. It is looked for in steps of about five texels (even in 1 / distance, as
-// parallax is) and, where a surface ends between two steps, before its end; then drawn closer to P = d(m) m with P - offset
-// along n. What the cube map's place does not see it cannot show: there the surface behind the edge is drawn out.
+// Finds the place of the cube map that an eye beside its own sees along n (world). Seen from the cube map's place, the
+// eye's line of sight is an arc from the nearest possible surface to n at infinity. The eye sees the first place on it
+// where the cube map's surface is no farther than the line. The search goes in steps of about five texels (even in 1 /
+// distance, as parallax is). Where a surface ends between two steps, it also looks before the surface's end. It then
+// approaches P = d(m) m with P - offset along n. The cube map cannot show surfaces that its place does not see: there the
+// surface behind the edge is stretched.
 vec3 reprojected(vec3 n, vec3 offset, float texel, RestFrameView layer)
 {
     float across = length(offset - dot(offset, n) * n);
@@ -208,8 +211,9 @@ vec3 reprojected(vec3 n, vec3 offset, float texel, RestFrameView layer)
     if (arc < 0.1 * texel)
         return n;
     float steps = clamp(ceil(0.2 * arc / texel), 1.0, float(REPROJECT_STEPS));
-    float nearness = arc / across, shrink = nearness / steps; // 1 / distance
-    float far = 0.0, before = 0.0; // distance of the surface at this step, and of that in front of which the line passed last
+    float nearness = arc / across, shrink = nearness / steps; // in 1 / distance
+    float far = 0.0, before = 0.0; // distance of the surface at this step, and of the last surface in front of which the
+                                   // line passed
     vec3 m = n, last = n;
     bool met = false;
     for (float i = 0.0; i <= steps && !met; i += 1.0) {
@@ -247,7 +251,7 @@ vec3 reprojected(vec3 n, vec3 offset, float texel, RestFrameView layer)
         m = normalize(offset + along * n);
         far = distance_at(place_of(m, layer));
         if (isinf(far)) {
-            // The line passes behind what it seemed to meet, on to the sky: along n, or beside the edge that hides it there.
+            // The line passes behind its apparent hit, on to the sky: along n, or beside the edge that hides it there.
             if (off > 0.15 * texel)
                 best = isinf(distance_at(place_of(n, layer))) ? n : m;
             break;
@@ -256,13 +260,13 @@ vec3 reprojected(vec3 n, vec3 offset, float texel, RestFrameView layer)
     return best;
 }
 
-// The angle of the world that a pixel at the ship's direction n shows.
+// The angle in the world of a pixel at the ship's direction n.
 float world_angle(AberratedRay sight, vec3 n, float pixel_angle)
 {
     return ABERRATION ? growth(sight, n, view.boost.xy) * pixel_angle : pixel_angle;
 }
 
-// Where the cube map holds what the ship's direction n shows: in the world, and D.
+// The cube map's direction for the ship's direction n: in the world, with D.
 AberratedRay sight_of(vec3 n, float pixel_angle)
 {
     AberratedRay sight = from_camera(n, view.boost.xy);
@@ -292,13 +296,13 @@ vec3 light_seen(Place place, float D, float angle)
 
 #include "rest_frames.glsl"
 
-// What a direction shows.
+// The result of a direction.
 struct Shown {
     vec3 n;         // unit direction in the ship, motion axes
-    AberratedRay sight;    // in the world, but for D: of what is shown
-    float distance; // in the world: as long as its light was under way there; infinite for the sky
-    float frame;    // of the world's frames: where what is shown stands still
-    vec3 light;     // as light_seen's
+    AberratedRay sight;    // in the world; its D is the source's
+    float distance; // in the world, the light's travel distance there; infinite for the sky
+    float frame;    // the source's rest frame, of the world's frames
+    vec3 light;     // from light_seen
 };
 Shown shown_along(vec3 n, float pixel_angle)
 {
@@ -316,7 +320,7 @@ Shown shown_along(vec3 n, float pixel_angle)
     return shown;
 }
 
-// What a pixel shows, or one that is so many times as wide.
+// The result of a pixel, or of one that is so many times as wide.
 Shown shown_at(vec2 pixel, int channel, float coarser, out float pixel_angle)
 {
     vec3 n = look(view.row0, view.row1, view.row2, pixel, channel, pixel_angle);
@@ -325,7 +329,8 @@ Shown shown_at(vec2 pixel, int channel, float coarser, out float pixel_angle)
     return Shown(n, AberratedRay(n, 1.0), 0.0, 0.0, vec3(0.0)); // nothing
 }
 
-// The light of a pixel: the mean along RAYS x RAYS directions that share it evenly. As Shown's; nothing where the angle is 0.
+// The light of a pixel: the mean along RAYS x RAYS directions that share it evenly. Returns a Shown, empty where the angle
+// is 0.
 vec3 light_at(vec2 pixel, int channel, out float pixel_angle)
 {
     if (RAYS == 1)

@@ -1,28 +1,30 @@
-// What the processor writes and the shaders read: one text for both. C++ sees it through shaders/shared_structs.h, which asserts
-// the sizes. Only 16-byte aligned members, so that std140, std430 and C++ agree.
+// Data that the processor writes and the shaders read: one text for both. C++ sees it through shaders/shared_structs.h,
+// which asserts the sizes. It has only 16-byte aligned members, so that std140, std430 and C++ agree.
 
-// Images of one plan, at most. Tiles are the places of the cut (see plan.h); every tile has an entry, drawn or not.
+// Images of one plan, at most. Tiles are the parts of the fixed division (see tiles.h); every tile has an entry, drawn or
+// not.
 #define TILE_FRONT 0
 #define TILE_SIDES 1
 #define SIDE_BANDS 3
 #define TILE_REAR 13
 #define REAR_LEVELS 43
 #define TILE_COUNT 56
-#define TILE_SUB_TILES 16 // along each side of a tile, a power of 2: what its images are rectangles of
+#define TILE_SUB_TILES 16 // along each side of a tile, a power of 2; a tile's images are rectangles of them
 
 #define REPROJECT_STEPS 12
 #define REPROJECT_ROUNDS 4
-#define MOST_PARALLAX 0.35 // radians between two eyes' views of a point: nearer surfaces are not told apart
+#define MOST_PARALLAX 0.35 // radians between two eyes' views of a point: nearer surfaces are not distinguished
 #define MAX_LIGHTS 8
-#define POSES 17 // odd; of what moves by itself, around the moment at which its middle is seen
-#define MAX_REST_FRAMES 16 // velocities of what moves, and rest
-#define MOST_REFLECTED 12 // numbers of sunlight that surfaces reflect
-#define MAX_OWN 4 // emissions of a scene's own, each a number by itself
-#define MAX_GROUPS 4 // of four numbers: an image of the cube map each
+#define POSES 17 // odd; poses of an animated instance, around the retarded time of its middle
+#define MAX_REST_FRAMES 16 // velocities of moving bodies, and rest
+#define MOST_REFLECTED 12 // basis coefficients of reflected sunlight
+#define MAX_OWN 4 // a scene's own emission spectra, each with a coefficient of its own
+#define MAX_GROUPS 4 // of four coefficients: an image of the cube map each
 #define MAX_MATRICES 4096 // columns of a group: 64 KiB, the least that devices of today let a shader read as constants
 #define RESPONSE_ROWS 2048 // over log2 D; see response.h
 #define RESPONSE_TEXELS(reflected) ((3 * (reflected) + 5) / 4) // of a row
-#define RESPONSE_OWN_STEP(own) ((own) > 2 ? 2 : 1) // rows of the world's own spectra: all or each second, as they fit
+#define RESPONSE_OWN_STEP(own) ((own) > 2 ? 2 : 1) // rows of the world's own emission spectra: all or each second, as they
+                                                   // fit
 #define MOST_OWN_ROWS 4096 // of all together
 #define STAR_COLDEST 512.0 // K: colder black bodies give no light to speak of (1e-9 of the Sun's surface at 550 K)
 #define STAR_STEPS_PER_OCTAVE 64
@@ -32,8 +34,9 @@
     (3.14159265 * STAR_RADIUS * STAR_RADIUS / 5.0) // pixels of a spot as bright everywhere as in its middle: the
 // integral of (1 - r^2 / R^2)^4
 
-// One image of the plan, as the warp pass reads it: texel of the atlas = face coordinate * scale + offset. Each tile has one
-// for each of its cells, rows along the second coordinate, in a texel buffer after the layers' sub_tiles_from_face.
+// One image of the plan, as the warp pass reads it: texel of the atlas = face coordinate * scale + offset. Each tile has
+// one entry for each of its sub-tiles, rows along the second coordinate, in a texel buffer after the rest frames'
+// sub_tiles_from_face.
 struct TileEntry {
     vec4 texel_from_face; // x: texels per unit of face coordinate; y, z: offset; w: coarsest mip level
     vec4 texels; // of the atlas: the image's first x, y and last x, y; 0 of a tile that is not drawn
@@ -44,22 +47,21 @@ struct TileEntry {
 struct LightEntry {
     vec4 place; // w = 0: unit direction towards the light; w = 1: its place from the eye, at the eye's time. Motion axes.
     vec4 radiance; // Rec. 709 linear, pre-exposed; w: square of the distance at which it holds, 0 for a direction
-    vec4 kind; // x: which of the spectra that shine here, 0 for sunlight: of one that moves the first of `shifts`; y, z:
-               // what was sent before and after these own times of the lamp's, from that at `place` on, is none; w: of a
-               // direction that moves, D
-    vec4 way; // of one that moves: unit direction of its motion; w: its gamma beta, 0: it doesn't
-    vec4 shifts; // of one that moves: x: log2 D of the first, y: how many an octave, z: how many; w: gamma
+    vec4 kind; // x: index of its spectrum, 0 for sunlight; for a moving lamp the first of `shifts`. y, z: its own times,
+               // from that at `place` on, before and after which it sends nothing. w: for a moving directional light, D
+    vec4 way; // of a moving lamp: unit direction of its motion; w: its gamma beta, 0: it rests
+    vec4 shifts; // of a moving lamp: x: log2 D of the first, y: how many an octave, z: their number; w: gamma
 };
 
-// The cube pass, one per eye, layer and frame.
+// The cube pass, one entry per eye, rest frame and picture.
 struct CubeConstants {
     vec4 ambient; // Rec. 709 linear, w: pre-exposure
-    vec4 sky_zenith[MAX_GROUPS]; // numbers of the light, pre-exposed
+    vec4 sky_zenith[MAX_GROUPS]; // coefficients of the light, pre-exposed
     vec4 sky_horizon[MAX_GROUPS];
     vec4 sky_nadir[MAX_GROUPS];
     vec4 world_up; // motion axes
-    vec4 first; // x: this layer's first instance, y: the first of its instances' times, z: of their poses
-    vec4 now; // w: 1 where everything is shown where it is now; xyz: the ship's velocity here
+    vec4 first; // x: this rest frame's first instance, y: the first of its instances' times, z: of their poses
+    vec4 now; // w: 1 where everything is shown at the ship's present; xyz: the ship's velocity here
     LightEntry lights[MAX_LIGHTS];
 };
 
@@ -68,18 +70,17 @@ struct InstanceEntry {
     vec4 row0, row1, row2;
 };
 
-// The times of an instance in front of one eye: of clocks, of what blinks or moves by itself and of what is not there for
-// ever.
+// The times of an instance before one eye: of clocks, of blinking and animated instances, and of those with finite
+// existence.
 struct TimeEntry {
-    vec4 middle; // from the eye, motion axes; w: its distance. What follows is as the light left there
+    vec4 middle; // from the eye, motion axes; w: its distance. The other members hold at its retarded time
     vec4 turns; // 0 to 1 of a clock's hands: one turn in a minute, in ten seconds, in an hour; w: seconds per scene unit of
-                // light
-    vec4 digits; // x, y: six figures each, of four bits, the first lowest; 10: a minus, 11: nothing. z: how many there are
-    vec4 there; // x, y: after how much later than the middle's, and up to when, light left while it was there
-    vec4 poses; // of what moves by itself: x: its first pose, from the layer's first; y, z: poses per scene time before the
-                // middle one, and after it; w: how much later that is
-    vec4 blink; // x: the part of a period that has gone by, 0 to 1; y: periods per scene unit of time; z: in which part it
-                // is on
+                // light's travel
+    vec4 digits; // x, y: six figures each, of four bits, the first lowest; 10: a minus, 11: blank. z: their number
+    vec4 there; // x, y: the light-travel offsets from the middle between which it existed
+    vec4 poses; // of an animated instance: x: its first pose, from the rest frame's first; y, z: poses per scene time
+                // before the middle one, and after it; w: the middle one's offset
+    vec4 blink; // x: the elapsed part of a period, 0 to 1; y: periods per scene unit of time; z: the part in which it is on
 };
 
 // Push constants of the cube pass.
@@ -87,42 +88,42 @@ struct CubePush {
     vec4 clip_row0, clip_row1, clip_row2, clip_row3; // rows of clip_from_motion
     vec4 base_colour;
     vec4 emissive; // pre-exposed; w: alpha cut-off
-    vec4 beyond; // reflectance in the ultraviolet and the infrared, below 0: the colour's mean; z: which set of matrices; w:
-                 // which of the world's own spectra the emissive light has, -1: a sunlit colour
-    vec4 own; // how much it glows with each of them, pre-exposed
+    vec4 beyond; // reflectance in the ultraviolet and the infrared, below 0: the colour's mean; z: index of the matrices;
+                 // w: the emissive light's own spectrum, -1: a sunlit colour
+    vec4 own; // its glow in each of the world's own spectra, pre-exposed
 };
 
 // Push constants of the passes that run once per output pixel.
 struct ViewPush {
     vec4 row0, row1, row2; // planar: rows of direction_from_pixel; map: of the turn from the map's axes. w of row0: planar:
                            // a pixel's step on the plane at distance 1; of row1: the finest image behind; of row2: log2 D
-                           // of the response's first row. The stars' pass has the inverse: rows of pixel_from_direction;
-                           // of the turn to the map's axes
+                           // of the response's first row. The stars' pass has the inverse: rows of pixel_from_direction; of
+                           // the turn to the map's axes
     vec4 boost; // E, 1/E, exposure gain / pre-exposure (the stars: pre-exposure), near plane
     vec4 origin; // viewport's top left corner in the target, pixels; z, w: 1 / the atlas's size in texels
     vec4 eye; // REPROJECT: the eye's place from the cube map's, world, motion axes. TURNING: xyz: the cockpit's
               // up in motion axes; w: the eye's distance from the middle, to the right. SINGLE: a TileEntry's first
-    vec4 zenith; // x: TURNING: sine of the angle from the zenith at which the separation is full; y:
-                 // REPROJECT: distance of the nearest surface that there may be, scene units; z, w: the
-                 // viewport's size, pixels; the meter: pixels of the viewport for one of its samples
-    vec4 corner; // xy: the viewport's top left corner in the output, pixels, also where it is drawn elsewhere; the
-               // stars at a glance: pixels across and down, and z: of how many stars each is one. w: rows of the response
-               // per octave of D
+    vec4 zenith; // x: TURNING: sine of the angle from the zenith at which the separation is full; y: REPROJECT: distance of
+                 // the nearest possible surface, scene units; z, w: the viewport's size, pixels; the meter: pixels of the
+                 // viewport for one of its samples
+    vec4 corner; // xy: the viewport's top left corner in the output, pixels, also where it is drawn elsewhere; for the
+                 // stars' luminance samples: pixels across and down, and z: the number of stars that each stands for. w:
+                 // rows of the response per octave of D
 };
 
-// What the warp pass knows of one rest frame, as one view's eye looks at it: as ViewPush, which has the world's.
+// The warp pass's data of one rest frame, as one view's eye sees it: like ViewPush, which has the world's.
 struct RestFrameEntry {
     vec4 row0, row1, row2; // rows of the turn from the world's motion axes, both in the ship; w of row1: as ViewPush's
-    vec4 boost; // E, 1/E; z: its first tile's index, w: which of the world's frames it is
+    vec4 boost; // E, 1/E; z: its first tile's index, w: its index of the world's frames
     vec4 eye;
     vec4 nearest; // y: as ViewPush's zenith
 };
 
-// Where something moves: the layers of one view, and the sky behind them.
+// The rest frames of one view, and the sky behind them.
 struct RestFrameConstants {
-    vec4 count; // x: of the layers
+    vec4 count; // x: of the rest frames
     vec4 world_up; // world's motion axes
-    vec4 sky_zenith[MAX_GROUPS]; // numbers of the light, pre-exposed
+    vec4 sky_zenith[MAX_GROUPS]; // coefficients of the light, pre-exposed
     vec4 sky_horizon[MAX_GROUPS];
     vec4 sky_nadir[MAX_GROUPS];
     RestFrameEntry layers[MAX_REST_FRAMES]; // the world's first
@@ -131,7 +132,8 @@ struct RestFrameConstants {
 // A star, in the scene's world at rest.
 struct StarEntry {
     vec4 direction; // unit, towards it; w: temperature, K
-    vec4 light; // illuminance at rest, in the scene's white times steradians: x: over the luminance of its
+    vec4 light; // illuminance at rest, in the scene's white times steradians: x: over the luminance of its temperature
+                // (black_body_xyz), y: the illuminance itself
                 // temperature (black_body_xyz), y: as it is
 };
 
@@ -140,13 +142,14 @@ struct StarConstants {
     vec4 row0, row1, row2; // rows of motion_from_world
 };
 
-// What is laid over a viewport for who measures.
+// The overlays of a viewport, for measuring.
 struct OverlayConstants {
     vec4 world0, world1, world2; // rows of world_from_motion
     vec4 ring; // x: cosine, y: sine of the angle from the motion where D = 1; z: 1 where there is one
     vec4 scale; // of the colours: x: lowest log10 of a distance in seconds of light, y: 1 over their range; z:
                 // log10 of seconds of light per scene unit
-    vec4 steps; // emission: x: seconds between contours, y: the eye's time beyond a heavier one, seconds; z:
+    vec4 steps; // retarded time: x: seconds between contours, y: the eye's time beyond a heavier one, seconds; z: seconds
+                // of light per scene unit
                 // seconds of light per scene unit
     vec4 aim, right, up; // of the look, motion axes; aim.w: 1 where the crosshair is drawn
     vec4 marks[2]; // directions in the ship, motion axes; w: 1 where there is one
@@ -169,7 +172,7 @@ struct FinishPush {
 struct BloomPush {
     vec4 step; // xy: 1 / size of what is drawn, pixels
     vec4 texel; // xy: 1 / size of what is read, texels
-    vec4 part; // x: of the light that is taken; zw: the viewport's top left corner in the target, pixels
+    vec4 part; // x: of the light, the part that glows; zw: the viewport's top left corner in the target, pixels
 };
 
 // Push constants of the test patterns.

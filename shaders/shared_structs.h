@@ -7,9 +7,9 @@ using glm::vec4;
 #include "shared.h"
 static_assert(sizeof(TileEntry) == 32);
 
-/// All that the warp pass reads of a plan: for each layer each tile, drawn or not.
+/// The warp pass's data of a plan: for each rest frame each tile, drawn or not.
 struct TileTable {
-    vec4 sub_tiles_from_face[MAX_REST_FRAMES * TILE_COUNT]; ///< as tiles.h's; all 0: one image is the whole tile's
+    vec4 sub_tiles_from_face[MAX_REST_FRAMES * TILE_COUNT]; ///< as in tiles.h; all 0: one image is the whole tile's
     TileEntry entries[MAX_REST_FRAMES * TILE_COUNT * TILE_SUB_TILES * TILE_SUB_TILES];
 };
 static_assert(sizeof(TileTable) == 16 * TILE_ENTRY(MAX_REST_FRAMES * TILE_COUNT, 0));

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
-// Where no surface was drawn, at infinity: a triangle over the image, behind everything.
+// A triangle over the image at infinity, behind everything: the sky where no surface was drawn.
 
 layout(push_constant) uniform Push { CubePush push; };
 layout(location = 0) out vec3 way;

@@ -6,12 +6,13 @@
 #include "physics/galilean.glsl"
 #include "view.glsl"
 #include "received_light.glsl"
-// One star of the sky in one viewport: where the ship sees it, which pixel shows that, and what light comes from it. Stars
-// are points: they go through the forward transform one by one and have no size that could be magnified. One instance, or
-// three where colours look different ways: each star then has a place for each. And as many again where a display looks the same
-// way at more than one place.
+// One star of the sky in one viewport: its direction in the ship, its pixel, and its light. Stars are points: they go
+// through the forward transform one by one and have no size that could be magnified. A star has one instance, or three
+// where colours have directions of their own: each then has a place for each. It has as many again where a display shows a
+// direction at more than one place.
 
-layout(constant_id = 10) const bool GLIMPSE = false; // for the exposure: each star is a pixel of its own, side by side
+layout(constant_id = 10) const bool GLIMPSE = false; // luminance samples for the exposure: each star is a pixel of its own,
+                                                     // side by side
 
 layout(set = 0, binding = 6) uniform usampler2DArray inverse_map;
 layout(set = 1, binding = 0) uniform Constants { StarConstants turn; };
@@ -33,9 +34,9 @@ vec3 black_body(float kelvin)
     return entry.rgb * exp(entry.w) * exp2((at - inside) / STAR_STEPS_PER_OCTAVE);
 }
 
-// What D makes of a point's light. A surface's radiance per frequency grows as D^3, and a point is a surface so small that only
-// its solid angle tells, which shrinks as D^-2: a black body is one at D T with D^-2 of its radiance. Its flux per frequency
-// then grows as D, and that D is the headlight effect of a point: without it the shift alone is left.
+// The effect of D on a point's light. A surface's radiance per frequency grows as D^3. A point is a surface so small that
+// only its solid angle counts, which shrinks as D^-2: a black body becomes one at D T with D^-2 of its radiance. Its flux
+// per frequency then grows as D, and that D is the headlight effect of a point: without it the shift alone is left.
 vec3 starlight(StarEntry star, float D)
 {
     if (!DOPPLER)
@@ -55,7 +56,7 @@ ivec2 cell_of(vec3 n, int side)
 
 vec4 texel_at(ivec2 pixel, int channel) { return unpacked(texelFetch(direction_map, ivec3(pixel, channel), 0).rg); }
 
-// How the direction changes from a pixel to the one beside it; 0 where that shows nothing.
+// The change of direction from a pixel to its neighbour; 0 where the neighbour shows nothing.
 vec3 change_to(vec4 here, ivec2 pixel, ivec2 way, ivec2 size, int channel)
 {
     ivec2 beside = pixel + way;
@@ -65,7 +66,7 @@ vec3 change_to(vec4 here, ivec2 pixel, ivec2 way, ivec2 size, int channel)
     return there.w > 0.0 ? there.xyz - here.xyz : vec3(0.0);
 }
 
-// How it changes about a pixel: the mean of both sides, but for one where the picture ends or has a seam.
+// The change of direction about a pixel: the mean of both sides, or one side where the picture ends or has a seam.
 vec3 change_about(vec4 here, ivec2 pixel, ivec2 way, ivec2 size, int channel)
 {
     vec3 on = change_to(here, pixel, way, size, channel), back = -change_to(here, pixel, -way, size, channel);
@@ -75,7 +76,8 @@ vec3 change_about(vec4 here, ivec2 pixel, ivec2 way, ivec2 size, int channel)
     return back_square == 0.0 || (on_square > 0.0 && on_square < back_square) ? on : back;
 }
 
-// Of the pixels that it comes to from one, in strides halved again and again, the one that looks closest to n.
+// Searches from one pixel in strides that are halved again and again, and returns the visited pixel whose direction is
+// closest to n.
 ivec2 closest_to(vec3 n, ivec2 pixel, ivec2 size, int channel)
 {
     vec3 off = n - texel_at(pixel, channel).xyz;
@@ -94,9 +96,10 @@ ivec2 closest_to(vec3 n, ivec2 pixel, ivec2 size, int channel)
     return pixel;
 }
 
-// The point of the map (pixels from its corner) that shows n (the map's axes), by Newton's method from a pixel near it; a spot
-// beyond the picture's edge is extrapolated. About a panorama's poles pixels are slivers that look every way within a few
-// pixels: there it may lead astray, and goes on from the closest pixel; nearly: that will do. False where there is none.
+// The point of the map (pixels from its corner) that shows n (the map's axes), by Newton's method from a pixel near it; a
+// spot beyond the picture's edge is extrapolated. About a panorama's poles, a few pixels cover all azimuths: there the
+// method may lead astray, and goes on from the closest pixel. nearly: true accepts that
+// pixel's own point. False where there is no such point.
 bool found_from(ivec2 pixel, vec3 n, int channel, bool nearly, out vec2 point, out float pixel_angle)
 {
     ivec2 size = textureSize(direction_map, 0).xy;
@@ -111,7 +114,7 @@ bool found_from(ivec2 pixel, vec3 n, int channel, bool nearly, out vec2 point, o
             return false;
         vec2 move = vec2(dot(cross(off, down), across), dot(cross(right, off), across)) / area_square;
         point = vec2(pixel) + 0.5 + move;
-        // As direction_map.h has it.
+        // As in direction_map.h.
         float longest = max(dot(right, right), dot(down, down));
         pixel_angle = sqrt(max(sqrt(area_square), 0.25 * longest));
         float far = max(abs(move.x), abs(move.y));
@@ -135,8 +138,8 @@ bool found_from(ivec2 pixel, vec3 n, int channel, bool nearly, out vec2 point, o
     return false;
 }
 
-// The same for any viewport. n: motion axes. second: of two places. Where a panorama's ends meet, and beyond its poles, a spot
-// that is cut by the picture's edge goes on elsewhere.
+// The same for any viewport. n: motion axes. second: of two places. Where a panorama's ends meet, and beyond its poles, a
+// spot that the picture's edge cuts goes on elsewhere.
 bool find(vec3 n, int channel, bool second, out vec2 point, out float pixel_angle)
 {
     vec3 way = vec3(dot(view.row0.xyz, n), dot(view.row1.xyz, n), dot(view.row2.xyz, n));
@@ -156,7 +159,8 @@ bool find(vec3 n, int channel, bool second, out vec2 point, out float pixel_angl
                 return true;
             ivec2 size = textureSize(direction_map, 0).xy, pixel = clamp(ivec2(point), ivec2(0), size - 1);
             vec2 first = point;
-            // Beyond a pole the other half of the picture goes on; beyond the rim of a whole sphere in a circle, what is opposite.
+            // Beyond a pole the other half of the picture goes on; beyond the rim of a whole sphere in a circle, the
+            // opposite point.
             for (int k = -2; k < 4; ++k) {
                 if (k >= 0 && (k <= i || begin[k] == 0xffffffffu))
                     continue;
@@ -172,7 +176,8 @@ bool find(vec3 n, int channel, bool second, out vec2 point, out float pixel_angl
     return false;
 }
 
-// Whether something stands before the sky. A star outside the viewport, whose spot reaches in, may lie beyond the image's edge.
+// True if something stands before the sky. A star outside the viewport, whose spot reaches in, may lie beyond the image's
+// edge.
 bool hidden(Place place)
 {
     vec4 image = texelFetch(tiles, place.entry + 1);
@@ -207,7 +212,7 @@ void main()
         from_place = reprojected(n, eye_offset(sight.n, world_layer()), world_angle(sight, sight.n, pixel_angle), world_layer());
     if (hidden(place_of(from_place, world_layer())))
         return;
-    // What moves: as it is drawn.
+    // A moving body hides it where the body is drawn.
     for (int i = 1; LAYERED && i < int(layered.count.x); ++i)
         if (dot(part_of(i, sight.n, pixel_angle, 1.0).covers, vec4(1.0)) > 0.5)
             return;

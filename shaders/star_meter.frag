@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
-// A star's spot at a glance, for the exposure: as bright as its middle and so large that its light is the star's.
+// A star's luminance sample for the exposure: as bright as its spot's middle, and so large that its light is the star's.
 
 layout(location = 0) flat in vec2 pixel; // x: its angle, radians
 layout(location = 1) flat in vec3 light; // of the whole star, spread over the solid angle of a pixel

@@ -1,5 +1,5 @@
-// From exposed scene-linear light to what a screen can show, 0 to 1, still linear Rec. 709. Compiled as C++ too, by
-// tests/exposure_test.cpp.
+// The tone curve: from exposed scene-linear light to a screen's range, 0 to 1, still linear Rec. 709.
+// tests/light/exposure_test.cpp compiles it as C++ too.
 
 // Its brightest channel goes straight up to the knee, then along a shoulder, of no break in its slope, that reaches 1 only at
 // infinity. On the shoulder the colour goes to white on the line of its hue in Oklab (Ottosson 2020), where hues stay what

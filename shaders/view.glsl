@@ -1,10 +1,10 @@
-// Which way the output pixel looks. Planar views are linear in the pixel; every other display is a map of directions.
+// The direction of an output pixel. Planar views are linear in the pixel; every other display is a map of directions.
 
 layout(constant_id = 0) const bool MAP = false;
 layout(set = 0, binding = 0) uniform usampler2DArray direction_map; // all 0: shows nothing
 
-// A direction on the octahedron, 24 bits a coordinate, and the upper half of the pixel angle's float: direction_map.cpp's
-// packed, undone.
+// A direction on the octahedron, 24 bits a coordinate, and the upper half of the pixel angle's float: the inverse of
+// direction_map.cpp's packed.
 vec4 unpacked(uvec2 texel)
 {
     vec2 at = vec2(ivec2(texel >> 8) - 0x800000) * (1.0 / float(0x7fffff)); // the integers are floats without rounding
@@ -14,8 +14,8 @@ vec4 unpacked(uvec2 texel)
     return vec4(n * inversesqrt(dot(n, n)), uintBitsToFloat((texel.x & 255u) << 16 | (texel.y & 255u) << 24));
 }
 
-// Unit direction in the axes that the rows lead to, and the angle of a pixel in radians: 0 where nothing is shown. channel:
-// 0 but for maps whose colours look different ways.
+// The unit direction in the axes that the rows lead to, and the angle of a pixel in radians: 0 where nothing is shown.
+// channel: 0 except for maps with a direction for each colour.
 vec3 look(vec4 row0, vec4 row1, vec4 row2, vec2 pixel, int channel, out float pixel_angle)
 {
     vec3 from;
@@ -36,7 +36,7 @@ vec3 look(vec4 row0, vec4 row1, vec4 row2, vec2 pixel, int channel, out float pi
     return n;
 }
 
-// By how much a map's direction differs one pixel further along `way`; where the map ends, what it differs by the other way.
+// The change of a map's direction to the next pixel along `way`; where the map ends, the change in the opposite direction.
 vec3 map_step(vec3 here, ivec2 pixel, ivec2 way, int channel)
 {
     ivec2 size = textureSize(direction_map, 0).xy;
@@ -51,7 +51,8 @@ vec3 map_step(vec3 here, ivec2 pixel, ivec2 way, int channel)
     return vec3(0.0);
 }
 
-// As look, at an offset from the pixel's centre of at most half a pixel. A map's directions run straight to its neighbours.
+// The same as look, at an offset from the pixel's centre of at most half a pixel. A map's directions are linear to its
+// neighbours.
 vec3 look_within(vec4 row0, vec4 row1, vec4 row2, vec2 pixel, vec2 offset, int channel, out float pixel_angle)
 {
     if (!MAP)

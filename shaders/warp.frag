@@ -10,7 +10,7 @@
 #include "dither.glsl"
 // The relativistic transform of one output pixel, shown.
 
-layout(constant_id = 9) const bool LINEAR = false;  // light for the glow, not yet what is shown; alpha 0: shows nothing
+layout(constant_id = 9) const bool LINEAR = false;  // light for the glow, before the tone curve; alpha 0: shows nothing
 layout(constant_id = 10) const bool DITHERED = true; // the target has 8 bits
 
 layout(location = 0) out vec4 shown;

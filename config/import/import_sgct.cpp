@@ -17,14 +17,14 @@ constexpr Range any{-1e9, 1e9}, metres{-1000, 1000}, turn_range{-360, 360};
 constexpr std::string_view elsewhere = "a layout says what is shown where; this is not part of it";
 constexpr std::string_view chosen_here = "the program chooses it";
 
-/// An SGCT user: where the eyes are.
+/// An SGCT user: the eyes' place.
 struct User {
     std::string name;
     glm::dvec3 pos{0};
     double separation = 0;
 };
 
-/// Whether a projection is one picture on a plane, of which SGCT makes no cube map first.
+/// True for a projection that is one picture on a plane, for which SGCT draws no cube map first.
 bool is_flat(const std::string& projection)
 {
     return projection == "PlanarProjection" || projection == "TextureMappedProjection" || projection == "ProjectionPlane";
@@ -50,13 +50,13 @@ private:
     {
         out_.lines.push_back(place.pointer + "  not mapped: " + std::string(reason));
     }
-    /// What is said of a member that nothing is made of.
+    /// Reports a member that the layout has no use for.
     void leftover(const Place& place, const std::string& name, const Reasons& reasons)
     {
         const auto found = reasons.find(name);
         not_mapped(place, found != reasons.end() ? found->second : "SGCT's configurations have no such name here");
     }
-    /// Calls take(name, place) for every member of an object; what it does not take is left over.
+    /// Calls take(name, place) for every member of an object; members that it does not take are reported.
     template <class Take> void members(const Place& place, const Reasons& reasons, Take take)
     {
         if (!place.json->is_object())
@@ -258,7 +258,7 @@ std::optional<Json> Importer::window(const Place& place, std::size_t index, bool
     const bool fullscreen = fullscreen_at && boolean(*fullscreen_at);
     if (fullscreen) {
         output["whole_monitor"] = true;
-        // SGCT counts monitors, a layout names them: several windows must at least be told apart.
+        // SGCT counts monitors, a layout names them: several windows need at least names of their own.
         if (!alone)
             output["monitor"]
                 = {{"connector", "SGCT-monitor-" + std::to_string(monitor_at ? integer(*monitor_at, -1, 1024) : 0)}};
@@ -324,9 +324,9 @@ std::optional<Json> Importer::window(const Place& place, std::size_t index, bool
     return output;
 }
 
-/// The view that a viewport's mesh puts in the place of a flat one. SGCT takes it from SCISS, Scalable and SkySkan files, by
-/// their names (CorrectionMesh::loadMesh, which the meshes' loaders call setViewPlaneCoordsUsingFOVs for); it reads no
-/// domeprojection frustum, and a fisheye or panorama stays what is bent.
+/// The view that replaces a viewport's flat one because of its mesh. SGCT takes it from SCISS, Scalable and SkySkan files,
+/// by their names (CorrectionMesh::loadMesh, whose loaders call setViewPlaneCoordsUsingFOVs). It reads no domeprojection
+/// frustum, and a fisheye or panorama stays the warped picture.
 std::optional<MeshView> Importer::mesh_view(const Place& viewport)
 {
     const auto mesh = find_member(viewport, "mesh"), shown = find_member(viewport, "projection");
@@ -354,7 +354,7 @@ std::optional<Json> Importer::viewport(const Place& place, glm::ivec2 window_siz
         corner = xy(*at, any);
     if (const auto at = find_member(place, "size"))
         size = xy(*at, any);
-    // From SGCT's lower left corner to our upper left one.
+    // The corner is converted from SGCT's lower left to the upper left.
     const glm::dvec2 low = glm::clamp(corner, 0.0, 1.0), high = glm::clamp(corner + size, 0.0, 1.0);
     const bool cut = glm::length(low - corner) > 1e-9 || glm::length(high - corner - size) > 1e-9;
     if (!(high.x > low.x && high.y > low.y)) {
@@ -553,7 +553,7 @@ Json Importer::fisheye(const Place& place, glm::dvec2 pixels)
                 const double wide = 1 - left - right, high = 1 - bottom - top;
                 if (!(wide > 0 && high > 0))
                     complain(at, "leaves nothing; less than 1 from opposite sides is right");
-                // What is left of the square fills the viewport's width or height and stands in its middle.
+                // The rest of the square fills the viewport's width or height and stands in its middle.
                 const double side = std::min(pixels.x / wide, pixels.y / high);
                 const glm::dvec2 centre(
                     0.5 + side / pixels.x * (0.5 - left - wide / 2), 0.5 + side / pixels.y * (0.5 - top - high / 2));

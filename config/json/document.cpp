@@ -25,7 +25,7 @@ std::string contents(const std::filesystem::path& path, const std::string& file)
     if (!stream)
         throw InputError(file, "", std::string("can't be opened (") + std::strerror(errno) + "); a readable file is right");
 
-    // Read in pieces rather than asked for its size: a pipe has none.
+    // The file is read in pieces, because a pipe has no size.
     std::string text;
     std::size_t got = 1;
     while (got > 0 && text.size() <= most_bytes) {
@@ -43,7 +43,7 @@ std::string contents(const std::filesystem::path& path, const std::string& file)
     return text;
 }
 
-/// Feeds the parser the text and tells, by way of `read`, how much of it the parser has taken.
+/// Feeds the text to the parser and counts, in `read`, the bytes that the parser has taken.
 struct CountedByte {
     using iterator_category = std::input_iterator_tag;
     using value_type = char;
@@ -111,14 +111,14 @@ std::size_t number_begin(const std::string& text, std::size_t end)
     return end;
 }
 
-/// What is wrong with a text that is not JSON, and at which byte.
+/// The fault of a text that is not JSON, and its byte.
 struct Fault {
     std::size_t at;
     std::string problem;
 };
 
-/// In the words of who wrote the file. at: the byte where the parser gave up; what: its message, "[...] parse error at line
-/// L, column C: syntax error while parsing object - unexpected ...; expected ...".
+/// The fault in the words of the file's author. at: the byte where the parser gave up; what: its message, "[...] parse
+/// error at line L, column C: syntax error while parsing object - unexpected ...; expected ...".
 Fault fault_of(const std::string& text, std::size_t at, const std::string& what)
 {
     const auto has = [&](const char* part) { return what.find(part) != what.npos; };
@@ -167,8 +167,8 @@ Fault fault_of(const std::string& text, std::size_t at, const std::string& what)
     return {at, one_line(what.substr(start == what.npos ? 0 : start + 2)) + "; JSON is right"};
 }
 
-/// Builds the document as the parser goes, because only here are a repeated member, the depth, the place of a number that
-/// overflows and the bytes of a value still known. The parser does not recurse, so depth costs no stack. It tells of each
+/// Builds the document during the parse, because only then are a repeated member, the depth, the place of a number that
+/// overflows and the bytes of a value still known. The parser does not recurse, so depth costs no stack. It reports each
 /// value when it has taken the value's last byte, or for a number, where the text goes on, the byte after it.
 struct Builder : json::json_sax_t {
     const std::string& file;
@@ -179,7 +179,7 @@ struct Builder : json::json_sax_t {
     std::vector<json*> open; // containers from the root inwards; an outer one does not grow while an inner is open
     std::vector<std::string> keys; // beside each open container: the member being read, where it is an object
 
-    const std::string* wanted = nullptr; // a pointer whose value's bytes are asked for
+    const std::string* wanted = nullptr; // a pointer whose value's bytes are wanted
     std::size_t wanted_depth = 0;
     std::optional<Span> found;
 

@@ -19,7 +19,7 @@ namespace {
 
 bool is_finite_number(const json& value) { return value.is_number() && std::isfinite(value.get<double>()); }
 
-/// As a person would write it: 3 rather than 3.0, and a space after a comma.
+/// A number in a person's style: 3 rather than 3.0, and a space after a comma.
 std::string written(const std::string& file, const std::string& pointer, const json& value)
 {
     if (value.is_number_float()) {
@@ -64,9 +64,9 @@ std::vector<std::string> steps(const std::string& file, const std::string& point
     return names;
 }
 
-/// What is set, as a chain of objects around it, and which of them is there already.
+/// The new value inside a chain of objects, and the existing ones among these.
 struct Target {
-    std::string pointer; ///< of the value that is there: the whole way, or as far as it goes
+    std::string pointer; ///< of the existing value: the whole way, or as far as it goes
     std::vector<std::string> missing; ///< the steps beyond it
 };
 
@@ -112,7 +112,7 @@ Target set(const std::string& file, json& root, const Change& change)
     return target;
 }
 
-/// With a member put behind the opening brace: on a line of its own where the first one has one.
+/// The text with a member put behind the opening brace: on a line of its own where the first one has one.
 std::string with_member(const std::string& text, const Span& object, const std::string& member)
 {
     if (!object.first_key) {
@@ -133,14 +133,14 @@ std::string with_member(const std::string& text, const Span& object, const std::
     return text.substr(0, object.begin + 1) + " " + member + "," + text.substr(object.begin + 1);
 }
 
-/// The bytes from one file to the other side of a rename; errno tells why not.
+/// Writes a new file with the old one's permissions and renames it; errno gives the reason of a failure.
 bool write_and_rename(const std::filesystem::path& file, const std::string& text, const struct stat& old)
 {
     std::string name = file.string() + ".XXXXXX";
     const int descriptor = mkstemp(name.data());
     if (descriptor < 0)
         return false;
-    // The owner is kept where the system lets us: root may have been asked to change a visitor's file.
+    // The owner is kept where the system allows it: root may have changed a visitor's file.
     bool good = fchown(descriptor, old.st_uid, old.st_gid) == 0 || errno == EPERM;
     good = good && fchmod(descriptor, old.st_mode & 07777) == 0;
     for (std::size_t done = 0; good && done < text.size();) {

@@ -7,20 +7,20 @@
 
 namespace starbow {
 
-/// A value to stand at a JSON pointer: true or false, a finite number, a text, or a list of finite numbers.
+/// A value for a JSON pointer: true or false, a finite number, a text, or a list of finite numbers.
 struct Change {
     std::string pointer;
     nlohmann::json value;
 };
 
-/// The text of a JSON file with one value set; every other byte stays, comments too. A member that is not there, and objects
-/// on the way to it, are added after the opening brace of the object that is; a list's numbers are changed one by one where
-/// their count stays. `file` is what messages call it. Throws InputError where the text is not JSON, where the pointer leads
-/// through something else than objects and lists or beyond a list's end, where an object would be lost, and where the
-/// result would not read back as the same document with the one value set.
+/// The text of a JSON file with one value set; every other byte stays, comments too. A missing member, and missing objects
+/// on the way to it, are added after the opening brace of the innermost existing object. A list's numbers are changed one
+/// by one where their count stays. `file`: its name in messages. Throws InputError where the text is not JSON, or where the
+/// pointer leads through a value that is no object or list or beyond a list's end. It also throws where an object would be
+/// lost, and where the result would not read back as the same document with the one value set.
 std::string patched(const std::string& file, const std::string& text, const Change& change);
 
-/// Sets values in a file: all or none. The new text takes the file's place in one step and with its permissions, so that a
+/// Sets values in a file: all or none. The new text replaces the file in one step and with its permissions, so that a
 /// reader sees the old or the new one. Throws InputError, also where the folder can't be written to.
 void patch_file(const std::filesystem::path& file, const std::vector<Change>& changes);
 

@@ -12,7 +12,7 @@ namespace {
 
 std::string value_text(const json& value)
 {
-    // Of a path its end counts; of a list its beginning is enough to know it.
+    // The end of a path is shown; of a list its beginning is enough to know it.
     return one_line(value.dump(-1, ' ', false, json::error_handler_t::replace), value.is_string() ? 160 : 60);
 }
 
@@ -30,7 +30,7 @@ std::string choice(const std::vector<std::string_view>& names)
     return out;
 }
 
-/// Letters to add, drop or change on the way from one word to the other.
+/// The number of letters to add, drop or change between two words.
 std::size_t distance(std::string_view a, std::string_view b)
 {
     std::vector<std::size_t> row(b.size() + 1);

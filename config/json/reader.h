@@ -12,15 +12,15 @@
 
 namespace starbow {
 
-/// A parsed file. Places point into it: it must outlive them and stay where it is.
+/// A parsed file. Places point into it: it must outlive them and must not move.
 struct Document {
     std::string file; ///< as messages show it
     nlohmann::json root;
-    std::string text; ///< that it was parsed from
+    std::string text; ///< the source of the parsed values
     int first_line = 1; ///< of the text in its file
 };
 
-/// Where a value stands in its document's text.
+/// The place of a value in its document's text.
 struct Span {
     std::size_t begin, end; ///< its first byte and the one after its last
     int line; ///< of its first byte, counted from 1
@@ -34,27 +34,27 @@ struct Place {
     std::string pointer;
 };
 
-/// The numbers from low to high; with low_open, low itself does not belong to them.
+/// The range of numbers from low to high; with low_open, without low itself.
 struct Range {
     double low, high;
     bool low_open = false;
 };
 
 /// Reads JSON with // and /* */ comments. Throws InputError for a file that can't be read, is larger than 16 MiB, is not
-/// JSON (with line and column), nests deeper than 64, repeats a member, or holds a number that a double can't.
+/// JSON (with line and column), nests deeper than 64, repeats a member, or holds a number beyond a double.
 Document read_document(const std::filesystem::path& file);
-/// The same from a text; `file` is what messages call it, `first_line` where in the file the text begins.
+/// The same from a text; `file`: its name in messages; `first_line`: the line of the file where the text begins.
 Document parse_document(const std::string& file, std::string text, int first_line = 1);
 Place root(const Document& document);
 
-/// Where the value that a JSON pointer leads to stands, or nothing. Parses the text once more: only the few values that a
-/// message or a change is about are ever asked for.
+/// The span of the value at a JSON pointer, or nullopt. It parses the text once more, because only the few values that a
+/// message or a change concerns need a span.
 std::optional<Span> find_span(const Document& document, const std::string& pointer);
 
 /// Throws "FILE:LINE: POINTER: VALUE problem". By custom the problem reads "is wrong in this way; what would be right".
 [[noreturn]] void complain(const Place& place, const std::string& problem);
 
-/// Each of these returns the value at a place or complains about it.
+/// Each of these returns the value at a place, or throws an InputError about it.
 double number(const Place& place, Range range);
 int integer(const Place& place, int low, int high);
 bool boolean(const Place& place);
@@ -64,7 +64,7 @@ glm::dvec2 vec2(const Place& place, Range range); ///< every component in range
 glm::dvec3 vec3(const Place& place, Range range);
 glm::dvec4 vec4(const Place& place, Range range);
 
-/// What the text at a place stands for.
+/// The named value of the text at a place.
 template <class Value> Value chosen(const Place& place, const std::vector<std::pair<std::string_view, Value>>& choices)
 {
     std::vector<std::string_view> names;
@@ -74,19 +74,19 @@ template <class Value> Value chosen(const Place& place, const std::vector<std::p
     return choices[std::size_t(std::find(names.begin(), names.end(), name) - names.begin())].second;
 }
 
-/// The places in an array of `least` to `most` of the things that `what` names in the plural.
+/// The places in an array of `least` to `most` elements; `what` names them in the plural.
 std::vector<Place> items(const Place& place, std::size_t least, std::size_t most, const std::string& what);
 
-/// Complains unless the place is an object whose members are all known.
+/// Throws unless the place is an object whose members are all known.
 void reject_unknown_members(const Place& place, const std::vector<std::string_view>& known);
-/// The member of an object, or nothing; the object was checked with only().
+/// The member of an object, or nullopt; reject_unknown_members has checked the object.
 std::optional<Place> find_member(const Place& place, const std::string& name);
-/// Each of these sets a value to a member of an object where the member is there.
+/// Each of these sets a value to an object's member where the object has it.
 void take(const Place& place, const std::string& name, double& value, Range range);
 void take(const Place& place, const std::string& name, bool& value);
 void take(const Place& place, const std::string& name, glm::dvec2& value, Range range);
 void take(const Place& place, const std::string& name, glm::dvec3& value, Range range);
-/// The member of an object; complains where it is missing.
+/// The member of an object; throws where it is missing.
 Place member(const Place& place, const std::string& name);
 
 /// A member's name as a step of a JSON pointer.
@@ -95,7 +95,7 @@ std::string escaped(const std::string& name);
 /// The shortest usual text of a number, for messages.
 std::string shown(double number);
 
-/// Text from elsewhere as it may stand in a one-line message: control characters replaced, cut off at `most` bytes.
+/// A foreign text for a one-line message: control characters replaced, cut off at `most` bytes.
 std::string one_line(std::string text, std::size_t most = 400);
 
 } // namespace starbow

@@ -5,13 +5,13 @@
 
 namespace starbow {
 
-/// Whether a file has to outlast a power cut from the moment it is there.
+/// The choice whether a file must survive a power cut as soon as it exists.
 enum class Lasting { as_the_system_likes, power_cut };
 
 /// Throws the InputError for a file that can't be written; why: an errno.
 [[noreturn]] void refuse_writing(const std::filesystem::path& file, int why);
 
-/// The whole file or nothing: a reader of the folder never meets half a one, and what was there before stays until then. A
+/// Writes the whole file or nothing: a reader of the folder never meets half a file, and the old one stays until then. A
 /// link stays a link. Throws InputError.
 void write_whole(
     const std::filesystem::path& file, std::span<const unsigned char> bytes, Lasting lasting = Lasting::as_the_system_likes);

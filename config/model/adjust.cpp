@@ -64,7 +64,7 @@ void add_own(std::vector<Adjustable>& all, const Layout& layout, std::size_t out
     }
 }
 
-/// What several projectors on one dome share: turned one by one their pictures would part.
+/// Numbers that several projectors on one dome share: turned one by one, their pictures would part.
 std::vector<Adjustable> of_whole_domes(const Layout& layout, const std::vector<Adjustable>& each)
 {
     std::vector<Adjustable> all;
@@ -83,7 +83,7 @@ std::vector<Adjustable> of_whole_domes(const Layout& layout, const std::vector<A
     return all;
 }
 
-/// The number that stands at a pointer, if a builder may turn it.
+/// The number at a pointer, if a builder may turn it.
 std::optional<double> value_at(const Layout& layout, const std::string& pointer)
 {
     for (const Adjustable& one : adjustables(layout))
@@ -117,7 +117,7 @@ double value_of(const Layout& layout, const Adjustable& adjustable)
 Layout adjusted(Layout layout, const Adjustable& adjustable, double steps)
 {
     double value = value_of(layout, adjustable);
-    // On whole steps, so that the file reads 30.1 and not 30.099999.
+    // Rounded to whole steps, so that the file reads 30.1 and not 30.099999.
     const bool dome = adjustable.what == What::tilt, display = adjustable.what == What::hud_elevation;
     const double high = adjustable.what == What::blend_power ? 10 : display ? 90 : dome ? 180 : 360;
     const double low = adjustable.what == What::blend_power ? 0.1 : -high;

@@ -5,7 +5,7 @@
 
 namespace starbow {
 
-/// Where and when, in the world's frame, scene units; times in unit / c.
+/// An event in the world's frame: place and time, scene units; times in unit / c.
 struct Event {
     double time = 0;
     glm::dvec3 position{0};
@@ -17,14 +17,14 @@ struct Event {
 struct Body {
     std::string name;
     std::vector<std::string> nodes;
-    glm::dvec3 u{0}; ///< proper velocity, where `worldline` is empty: its origin is then at `at`, and it moves for ever
+    glm::dvec3 u{0}; ///< proper velocity, where `worldline` is empty: its origin passes `at`, and it moves for ever
     Event at;
-    std::vector<Event> worldline; ///< else its origin goes straight from each event to the next, each within the light cone
-                                  ///< of the one before; before the first and after the last it is not there
+    std::vector<Event> worldline; ///< else the events that its origin joins in straight segments, each within the light
+                                  ///< cone of the one before; before the first and after the last it does not exist
 };
 
 struct Place;
-/// The scene file's member "bodies". Throws InputError.
+/// Reads the scene file's member "bodies". Throws InputError.
 std::vector<Body> read_bodies(const Place& place);
 
 } // namespace starbow

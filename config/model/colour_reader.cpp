@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t most_entries = 65536;
 
-/// Tells about a line of a .cube file.
+/// Throws about a line of a .cube file.
 [[noreturn]] void complain_line(const std::filesystem::path& file, int line, const std::string& problem)
 {
     throw InputError(one_line(file.string()) + (line > 0 ? ":" + std::to_string(line) : ""), "", problem);
@@ -48,7 +48,7 @@ std::optional<glm::dvec3> as_colour(const std::vector<std::string_view>& line, s
 
 std::string in_quotes(const std::string& line) { return std::string("\"").append(one_line(line, 60)).append("\""); }
 
-/// What is wrong with one entry of a table, after the one before it; "" for nothing.
+/// The fault of a table's entry, after the one before it; "" for a sound one.
 std::string fault(const std::vector<glm::dvec3>& before, const glm::dvec3& entry)
 {
     for (int channel = 0; channel < 3; ++channel) {

@@ -6,7 +6,7 @@
 
 namespace starbow {
 
-/// A spectrum other than sunlight, up to how strong it is.
+/// A spectrum other than sunlight; its strength stands elsewhere.
 struct BlackBody {
     double kelvin;
     bool operator==(const BlackBody&) const = default;
@@ -15,7 +15,7 @@ struct SpectralLine {
     double nm;
     bool operator==(const SpectralLine&) const = default;
 };
-/// Radiance per wavelength, relative, at wavelengths in nm, rising; straight between them, nothing beyond them.
+/// Relative radiance per wavelength at wavelengths in nm, rising; linear between them, 0 beyond them.
 struct SpectralTable {
     std::vector<std::pair<double, double>> points;
     bool operator==(const SpectralTable&) const = default;
@@ -23,11 +23,11 @@ struct SpectralTable {
 
 using Emission = std::variant<BlackBody, SpectralLine, SpectralTable>;
 
-/// What spectra are told over.
+/// The wavelengths of all spectra, nm.
 constexpr double shortest_nm = 40, longest_nm = 12000;
-/// Temperatures that a file may ask for: from below the microwave background's to above any star's surface.
+/// The temperatures that a file may have: from below the microwave background's to above any star's surface.
 constexpr double coldest_K = 0.1, hottest_K = 1e6;
-/// How many points a table may have.
+/// The greatest number of a table's points.
 constexpr std::size_t least_points = 2, most_points = 4096;
 
 } // namespace starbow

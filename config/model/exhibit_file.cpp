@@ -21,7 +21,7 @@ Flying read_flying(const Place& place)
     return flying;
 }
 
-/// Paths are the file's own, as in every other file; names are those of shipped ones.
+/// A path is relative to the file, as in every other file; a name is a shipped one's.
 std::string name_or_path(const Place& place, const std::filesystem::path& folder)
 {
     const std::string name = text(place);

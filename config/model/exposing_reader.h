@@ -4,7 +4,7 @@
 
 namespace starbow {
 
-/// The part that an exhibit's file and a flight's record share.
+/// Reads the members that an exhibit's file and a flight's record share.
 Exposing read_exposing(const Place& place);
 
 } // namespace starbow

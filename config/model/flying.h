@@ -6,23 +6,23 @@
 namespace starbow {
 
 /// guided: the throttle's place is the speed, and the velocity follows the nose. free: the throttle's place is the speed,
-/// the nose looks where it likes. newtonian: the throttle is the engine's thrust along the nose, and nothing else slows
-/// down.
+/// and the nose turns by itself. newtonian: the throttle is the engine's thrust along the nose, and nothing else slows the
+/// ship down.
 enum class FlightMode { guided, free, newtonian };
 inline const std::vector<std::pair<std::string_view, FlightMode>> flight_modes{
     {"guided", FlightMode::guided}, {"free", FlightMode::free}, {"newtonian", FlightMode::newtonian}};
 inline std::string_view name_of(FlightMode mode) { return flight_modes[std::size_t(mode)].first; }
 
-/// How an exhibit flies. Times are the visitor's seconds, which are the ship's.
+/// The rules of flight of an exhibit. Times are the visitor's seconds, which are the ship's.
 struct Flying {
     FlightMode mode = FlightMode::guided;
     double max_gamma = 1e6; ///< of a full throttle; the speeds below it are even in rapidity
-    // What the visitors' stomachs are spared.
+    // Limits that spare the visitors' stomachs.
     double turn_deg_per_s = 40; ///< nose up, down, left, right
     double roll_deg_per_s = 40;
     double turn_jerk_deg_per_s3 = 8000; ///< of any of these turns, even when a stick is thrown from end to end
     double rapidity_per_s = 1.5; ///< greatest gain or loss of speed
-    double rapidity_jerk_per_s2 = 15; ///< how fast that gain may change
+    double rapidity_jerk_per_s2 = 15; ///< greatest change of that gain
 };
 
 } // namespace starbow

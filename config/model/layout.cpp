@@ -144,7 +144,7 @@ MonitorName read_monitor(const Place& place)
     return monitor;
 }
 
-/// Where the output's window goes.
+/// Reads the place of the output's window.
 void read_window(const Place& place, Output& output)
 {
     take(place, "resizable", output.resizable);
@@ -159,7 +159,7 @@ void read_window(const Place& place, Output& output)
     }
 }
 
-/// A packing that halves the picture wants halves of whole pixels.
+/// Throws where a packing that halves the picture would halve a pixel.
 void check_halves(const Place& place, const Output& output)
 {
     const glm::ivec2 eye = eye_size(output);
@@ -261,7 +261,7 @@ bool same(const MonitorName& a, const MonitorName& b)
     return a.connector == b.connector && a.model == b.model && a.serial == b.serial && a.position == b.position;
 }
 
-/// Complains where an output can't stand beside an earlier one.
+/// Throws where an output can't stand beside an earlier one.
 void check_beside(const Place& place, const Output& output, const Output& earlier, std::size_t index)
 {
     const std::string which = "output " + std::to_string(index);

@@ -18,20 +18,20 @@ struct Turn {
     double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
 };
 
-/// Where a picture's edges lie, as angles from its axis: to the right and up count above 0, so that left and down are
-/// negative in a picture that holds its axis.
+/// The edges of a picture as angles from its axis: to the right and up are positive, so that left and down are negative in
+/// a picture that holds its axis.
 struct Sides {
     double left_deg, right_deg, down_deg, up_deg;
 };
 
-/// A flat window. Without `sides` it is looked at from its axis and the horizontal angle follows from the pixels' aspect.
+/// A flat window. Without `sides` the eye is on its axis, and the horizontal angle follows from the pixels' aspect.
 struct Planar {
     double fov_y_deg = 60;
     std::optional<Sides> sides;
     Turn turn;
 };
 
-/// A flat wall or screen that stands in the room: what the eye sees through it, from wherever the eye is (Kooima 2008).
+/// A flat wall or screen in the room; the eye sees the world through it, from any place (Kooima 2008).
 struct Wall {
     glm::dvec3 lower_left_m{0}, lower_right_m{0}, upper_left_m{0};
 };
@@ -72,7 +72,7 @@ struct CubeFaces {
 /// A projector that lights a dome by way of a spherical mirror, as the eye at the viewport's eye_m sees the dome.
 struct SphericalMirror {
     glm::dvec3 projector_m{0}; ///< its lens
-    Planar projector; ///< what the projector's picture spans, from its lens
+    Planar projector; ///< the angles of the projector's picture, from its lens
     glm::dvec3 mirror_m{0}; ///< the sphere's centre
     double mirror_radius_m = 0.3;
     glm::dvec3 dome_m{0}; ///< the dome's centre
@@ -81,8 +81,8 @@ struct SphericalMirror {
     double dome_aperture_deg = 180; ///< light that lands on the sphere beyond it is not shown
 };
 
-/// A headset's lens: each colour of each pixel looks in a direction of its own. With p the place in the picture from
-/// `centre`, in halves of its height, y up, and r = |p|, the lens shows the point p f(r) of a flat picture of fov_y_deg.
+/// A headset's lens: each colour of each pixel has a direction of its own. With p the place in the picture from `centre`,
+/// in halves of its height, y up, and r = |p|, the lens shows the point p f(r) of a flat picture of fov_y_deg.
 struct Lens {
     enum class Form {
         panotools, ///< f = k0 r^3 + k1 r^2 + k2 r + k3
@@ -100,18 +100,18 @@ struct Lens {
 
 using Projection = std::variant<Planar, Wall, Fisheye, Cylinder, Equirectangular, CubeFaces, SphericalMirror, Lens>;
 
-/// A file of a calibration that bends the viewport's projection, or brings one of its own.
+/// A calibration's file that warps the viewport's projection, or has a projection of its own.
 struct Warp {
     std::filesystem::path file;
     std::filesystem::path frustum; ///< domeprojection's second file; empty: NAME_frustum.csv beside NAME_mesh.csv if there
     std::string region; ///< of an MPCDI file with several
-    bool first_row_on_top = false; ///< of a PFM: against the standard
+    bool first_row_on_top = false; ///< of a PFM: against its standard
 };
 
-/// Whose sky a viewport shows. All are at the ship's event.
+/// The observer whose sky a viewport shows. All observers are at the ship's event.
 struct ViewportObserver {
     bool at_rest = false; ///< in the world, the head turned as in the ship
-    glm::dvec3 passing_u{0}; ///< or who passes the ship with this proper velocity, cockpit's axes
+    glm::dvec3 passing_u{0}; ///< otherwise it passes the ship with this proper velocity, cockpit's axes
     bool operator==(const ViewportObserver&) const = default;
 };
 
@@ -125,12 +125,12 @@ struct Viewport {
     std::filesystem::path black_level; ///< picture over the viewport that is added to its light, or empty
     double mask_gamma = 1; ///< of both pictures' values: light = value^gamma
     Eye eye = Eye::middle;
-    glm::dvec3 eye_m{0}; ///< where the head is; the left and right eye are half the separation beside it
+    glm::dvec3 eye_m{0}; ///< the head's place; the left and right eye are half the separation beside it
     ViewportObserver observer;
 };
 
-/// How an output shows two eyes. The half forms squeeze each eye's picture; rows and columns: the first is the left eye's;
-/// checkerboard: the top left pixel is.
+/// The packing of two eyes in an output. The half forms squeeze each eye's picture. In rows and columns the first is the
+/// left eye's, in the checkerboard the top left pixel.
 enum class Packing {
     mono,
     side_by_side,
@@ -145,16 +145,16 @@ enum class Packing {
     anaglyph_amber_blue
 };
 
-/// From linear light to what a screen's or projector's input wants.
+/// The map from linear light to a screen's or projector's input.
 struct Colour {
     glm::dmat3 matrix{1}; ///< on linear Rec. 709 light
     double gamma = 0; ///< input = light^(1 / gamma); 0: sRGB's curve
     std::vector<glm::dvec3> lut; ///< instead: inputs for evenly spaced linear light from 0 to 1; empty: none
 };
 
-/// Which screen an output belongs to. Every member that is given must fit.
+/// The names of an output's monitor. Every given member must fit.
 struct MonitorName {
-    std::string connector; ///< as the system names it: "HDMI-1"
+    std::string connector; ///< the system's name of it: "HDMI-1"
     std::string model, serial; ///< from its EDID
     std::optional<glm::ivec2> position; ///< of its top left corner on the desktop, pixels
     bool empty() const { return connector.empty() && model.empty() && serial.empty() && !position; }
@@ -183,27 +183,27 @@ struct Stereo {
     double full_from_zenith_deg = 40; ///< turning: closer to the zenith the separation fades
 };
 
-/// Ramps where outputs overlap, computed from what they show.
+/// Blend ramps where outputs overlap, computed from their views.
 struct Blend {
     bool ramps = false;
     double power = 1; ///< of the ramps before they are made to add up to 1; more is steeper in the middle
 };
 
-/// Where the head-up display floats in the cockpit: its centre's direction and its width as seen.
+/// The head-up display's place in the cockpit: its centre's direction and its angular width.
 struct HudPlacement {
     double azimuth_deg = 0; ///< to the right of straight ahead
     double elevation_deg = 0; ///< above straight ahead
     double width_deg = 40;
 };
 
-/// Where a tracker tells of a visitor's head, over UDP.
+/// The port that receives a tracked head over UDP.
 struct HeadTracking {
     int port = 4242;
-    std::string address = "127.0.0.1"; ///< of this computer: where to listen
+    std::string address = "127.0.0.1"; ///< of this computer, on which it listens
     bool operator==(const HeadTracking&) const = default;
 };
 
-/// What the exhibit is made of.
+/// A layout: the exhibit's outputs and displays.
 struct Layout {
     std::string name;
     std::filesystem::path file;
@@ -217,16 +217,16 @@ struct Layout {
 /// The pixels of a viewport in an output of `size`: x, y, width, height. Its edges are rounded, so that neighbours meet.
 glm::ivec4 pixel_rect(const Viewport& viewport, glm::ivec2 size);
 
-/// Reads and checks a layout. Throws InputError with file, line, JSON pointer, value and what would be right. Paths in it
-/// are taken from the layout's folder.
+/// Reads and checks a layout. Throws InputError with file, line, JSON pointer, value and what would be right. Its paths
+/// start at the layout's folder.
 Layout load_layout(const std::filesystem::path& file);
 
-/// For what goes wrong only when a layout is put to use: "FILE:LINE: POINTER" of its file as it is now; without the line
-/// where the file does not have the pointer any more.
+/// The place for messages about a layout in use: "FILE:LINE: POINTER" of its present file; without the line where the file
+/// no longer has the pointer.
 std::string place_in(const Layout& layout, const std::string& pointer);
 std::string viewport_pointer(std::size_t output, std::size_t viewport);
 
-/// What work() returns; where it throws an InputError, one that names the layout's place before that.
+/// The result of work(); an InputError of it gets the layout's place in front.
 template <class Work> auto on_behalf_of(const Layout& layout, const std::string& pointer, Work&& work)
 {
     try {

@@ -5,7 +5,7 @@
 
 namespace starbow {
 
-// The parts of a layout's file; each complains about what is wrong in it. layout.cpp puts them together.
+// The readers of a layout file's parts; each throws an InputError about wrong values. layout.cpp combines them.
 
 /// Far beyond any building, and its square is far from overflow.
 constexpr Range room_m{-1e4, 1e4};
@@ -15,13 +15,13 @@ Layout read_layout(const Place& place, const std::filesystem::path& file);
 
 Projection read_projection(const Place& place);
 
-/// Complains where the projection can't be looked at from the eye: a wall from behind or edge on, a dome from outside.
-/// `eyes_apart_m`: how far its two eyes are apart, 0 for one.
+/// Throws where the eye can't see the projection: a wall from behind or edge on, a dome from outside. `eyes_apart_m`: the
+/// distance of its two eyes, 0 for one.
 void check_eye(const Place& place, const Projection& projection, const glm::dvec3& eye_m, double eyes_apart_m);
 
 Colour read_colour(const Place& place, const std::filesystem::path& folder);
 
-/// The path at a place, from a folder; complains where there is no such file.
+/// The path at a place, from a folder; throws where there is no such file.
 std::filesystem::path existing_file(const Place& place, const std::filesystem::path& folder);
 
 } // namespace starbow

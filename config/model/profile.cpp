@@ -68,7 +68,7 @@ template <class Role> std::string name_in(const std::vector<std::pair<std::strin
     return "none";
 }
 
-/// A text in double quotes. What is no UTF-8 is replaced: a file of JSON must be.
+/// A text in double quotes. Bytes that are no UTF-8 are replaced: a JSON file needs UTF-8.
 std::string quoted(const std::string& text)
 {
     return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -191,7 +191,7 @@ std::string profile_text(const Profile& profile)
 void save_profile(const Profile& profile, const std::filesystem::path& file)
 {
     const std::string text = profile_text(profile);
-    std::error_code problem; // told by write_whole
+    std::error_code problem; // write_whole reports it
     if (file.has_parent_path())
         std::filesystem::create_directories(file.parent_path(), problem);
     // Exhibits are switched off at the wall.

@@ -8,7 +8,7 @@
 
 namespace starbow {
 
-/// What an axis of a device does. Forward, right and up are a visitor's; the throttle runs from idle to full.
+/// The role of a device's axis. Forward, right and up are a visitor's; the throttle runs from idle to full.
 enum class AxisRole {
     none,
     throttle,
@@ -23,7 +23,7 @@ enum class AxisRole {
     push_up,
     push_back
 };
-/// What a button does.
+/// The role of a button.
 enum class ButtonRole {
     none,
     stop,
@@ -47,16 +47,16 @@ enum class ButtonRole {
     darker
 };
 
-/// An axis of a device by its HID usage, and what becomes of its values.
+/// An axis of a device by its HID usage, and the treatment of its values.
 struct AxisUse {
     int page = 1, usage = 0;
     int nth = 0; ///< of several axes with this usage, in the descriptor's order, from 0
     AxisRole role = AxisRole::none;
     bool inverted = false;
-    double dead_zone = 0.06; ///< around the middle, of the way to an end; of a throttle at idle
+    double dead_zone = 0.06; ///< around the middle, as a part of the way to an end; of a throttle at idle
     double curve = 1.6; ///< exponent: above 1 the middle is finer; throttles are straight
     std::optional<std::array<double, 3>> range; ///< raw values at one end, in the middle and at the other, as calibrated
-    std::vector<double> detents; ///< of a throttle: places from 0 to 1 in which it rests
+    std::vector<double> detents; ///< of a throttle: resting places from 0 to 1
     bool operator==(const AxisUse&) const = default;
 };
 
@@ -66,30 +66,30 @@ struct ButtonUse {
     bool operator==(const ButtonUse&) const = default;
 };
 
-/// How one kind of device is used.
+/// The use of one kind of device.
 struct Profile {
     std::string name;
     int vendor = 0, product = 0;
     std::string serial; ///< of one device among several of its kind; empty: any
     std::vector<AxisUse> axes;
     std::vector<ButtonUse> buttons;
-    std::optional<AxisRole> hat_x, hat_y; ///< what the hat does to the sides, and up and down
+    std::optional<AxisRole> hat_x, hat_y; ///< the hat's roles: to the sides, and up and down
     std::filesystem::path file;
 };
 
 /// Reads and checks a profile. Throws InputError with file, line, JSON pointer, value and what would be right.
 Profile load_profile(const std::filesystem::path& file);
 
-/// The profile as a file's text, an axis and a button a line; members that have their default are left out.
+/// The profile as a file's text, an axis and a button a line, without members that have their default.
 std::string profile_text(const Profile& profile);
 
-/// Writes the whole file or nothing: who reads it meanwhile gets the old one. Makes its folder. Throws InputError.
+/// Writes the whole file or nothing: a reader meanwhile gets the old one. Makes its folder. Throws InputError.
 void save_profile(const Profile& profile, const std::filesystem::path& file);
 
-/// As a profile's file has them: "nose-up", "next-mode".
 /// Four hexadecimal digits, as a profile names a vendor or a product.
 std::string hex4(int number);
 
+/// The role's name in a profile's file: "nose-up", "next-mode".
 std::string name_of(AxisRole role);
 std::string name_of(ButtonRole role);
 

@@ -158,7 +158,7 @@ Lens read_lens(const Place& place)
         lens.form = chosen<Lens::Form>(*p, {{"panotools", Lens::Form::panotools}, {"vive", Lens::Form::vive}});
     take(place, "fov_y_deg", lens.fov_y_deg, fov);
     take_turn(place, lens.turn);
-    // A lens that treats all colours alike is told once, as green.
+    // A lens that treats all colours alike is given once, as green.
     lens.colours.fill(read_lens_colour(member(place, "green"), lens.form));
     if (auto p = find_member(place, "red"))
         lens.colours[0] = read_lens_colour(*p, lens.form);

@@ -109,7 +109,7 @@ std::string ladder_text(const std::vector<PresetLevel>& ladder)
 
 Layout with_stereo(Layout layout, const Quality& quality)
 {
-    // A baseline that turns is reprojected, or there is none.
+    // A turning baseline needs reprojection.
     if (quality.stereo && !layout.stereo.turning)
         layout.stereo.method = *quality.stereo;
     return layout;

@@ -6,7 +6,8 @@
 namespace starbow {
 namespace {
 
-/// From far below a nucleus to far beyond the horizon of the universe, and ratios of two of them are still doubles.
+/// The range reaches from far below a nucleus to far beyond the universe's horizon; ratios of two such numbers are still
+/// doubles.
 constexpr Range measure{1e-30, 1e30};
 
 glm::dvec3 read_colour(const Place& place) { return vec3(place, {0, 1e6}); }
@@ -27,7 +28,7 @@ SpectralTable read_table(const Place& place)
     return table;
 }
 
-/// What a light's colours are made of, where it isn't sunlight.
+/// A light's spectrum, where it isn't sunlight.
 std::optional<Emission> read_emission(const Place& light)
 {
     const auto kelvin = find_member(light, "temperature_K"), line = find_member(light, "line_nm"), table = find_member(light, "spectrum");

@@ -11,26 +11,28 @@
 
 namespace starbow {
 
-/// Light from one side, everywhere the same. `towards` points from the world to the light, unit length.
+/// A directional light, everywhere the same. `towards` points from the world to the light, unit length.
 struct DirectionalLight {
     glm::dvec3 towards;
-    glm::dvec3 radiance; ///< Rec. 709 linear; a white surface facing it gets this colour
-    std::optional<Emission> spectrum; ///< none: sunlight. Otherwise `radiance` tints it: 1 is as much energy as sunlight's
+    glm::dvec3 radiance; ///< Rec. 709 linear; the colour of a white surface that faces it
+    std::optional<Emission> spectrum; ///< nullopt: sunlight. Otherwise `radiance` tints it: 1 is the energy of sunlight's 1
 };
 
-/// Light from a place; a white surface facing it at `distance` (scene units) gets the colour `radiance`, falling as 1/r^2.
+/// A point light; a white surface that faces it at `distance` (scene units) gets the colour `radiance`, which falls as
+/// 1/r^2.
 struct PointLight {
     glm::dvec3 position;
     double distance;
     glm::dvec3 radiance;
     std::optional<Emission> spectrum; ///< as above
-    std::string body{}; ///< moves with it, around its origin, and is there when it is; empty: stands in the world
+    std::string body{}; ///< it moves with this body, around its origin, while the body exists; empty: it stands in the
+                        ///< world
 };
 
 using Light = std::variant<DirectionalLight, PointLight>;
 
-/// The sky behind everything: a colour at the zenith (+y), at the horizon and at the nadir, blended smoothly between; and
-/// a black body's glow, everywhere the same.
+/// The sky behind everything: a colour at the zenith (+y), at the horizon and at the nadir, blended smoothly between, and a
+/// black body's glow, everywhere the same.
 struct Sky {
     glm::dvec3 zenith{0}, horizon{0}, nadir{0}; ///< Rec. 709 linear
     double temperature_K = 0; ///< 0: no glow. 2.725 is the microwave background's
@@ -39,9 +41,9 @@ struct Sky {
 /// The stars of a catalogue, behind everything.
 struct StarSky {
     std::filesystem::path catalogue;
-    double brightness_arcmin2 = 200; ///< a star of magnitude 0 gives as much light as so many square minutes of arc of the
+    double brightness_arcmin2 = 200; ///< the light of a star of magnitude 0: that of so many square minutes of arc of the
                                      ///< scene's white
-    glm::dvec2 ahead_deg{0}; ///< right ascension and declination (J2000) of what stands straight ahead (-z), north up
+    glm::dvec2 ahead_deg{0}; ///< right ascension and declination (J2000) of straight ahead (-z), with north up
 };
 
 struct SceneFile {
@@ -49,19 +51,19 @@ struct SceneFile {
     std::string file; ///< as messages show it
     std::filesystem::path gltf;
     double unit_m = 299792458; ///< one scene unit in metres
-    double light_speed_m_s = 299792458; ///< real, or slow as in Gamow's tales
+    double light_speed_m_s = 299792458; ///< the real one, or a slow one as in Gamow's tales
     Sky sky;
     std::optional<StarSky> stars;
-    glm::dvec3 ambient{0}; ///< Rec. 709 linear, what a white surface gives back without any light
+    glm::dvec3 ambient{0}; ///< Rec. 709 linear, a white surface's light without any lamp
     std::vector<Light> lights;
     std::vector<Body> bodies;
-    Shot start; ///< where a visitor starts; its `scene` is this file's name
+    Shot start; ///< the visitor's start; its `scene` is this file's name
 
-    /// Scene times (unit / c) to seconds.
+    /// The factor from scene times (unit / c) to seconds.
     double seconds_per_time_unit() const { return unit_m / light_speed_m_s; }
 };
 
-/// Reads and checks a scene file; the files it names are not opened here. Throws InputError.
+/// Reads and checks a scene file, without opening the files that it names. Throws InputError.
 SceneFile load_scene_file(const std::filesystem::path& file);
 
 } // namespace starbow

@@ -8,28 +8,28 @@
 
 namespace starbow {
 
-/// The folder that holds config/ and scenes/: the nearest above the program, or else above the current folder.
-/// Throws InputError.
+/// The folder that holds config/ and scenes/: the nearest above the program, or else above the current folder. Throws
+/// InputError.
 std::filesystem::path home();
 
-/// Where this person's own profiles are: $XDG_CONFIG_HOME/starbow/profiles, or ~/.config/starbow/profiles.
+/// The folder of this person's own profiles: $XDG_CONFIG_HOME/starbow/profiles, or ~/.config/starbow/profiles.
 std::filesystem::path own_profiles();
 
-/// The shipped profiles, then the person's own, then those in a folder of the exhibit's, if it names one: of two for the
-/// same device the later counts. Throws InputError for a wrong one, and for a folder of the exhibit's that is not there.
+/// The shipped profiles, then the person's own, then those in the exhibit's folder if it names one; of two for the same
+/// device the later counts. Throws InputError for a wrong one, and for a missing folder of the exhibit's.
 std::vector<Profile> known_profiles(const std::filesystem::path& exhibits = {});
 
 /// A config file by path, or by the name of a shipped one: find("layouts", "dome") is config/layouts/dome.json.
 /// Throws InputError that lists the shipped names.
 std::filesystem::path shipped_file(const std::string& kind, const std::string& name);
 
-/// The words of a language: of a shipped one, or a file. Throws InputError.
+/// The words of a language, by the name of a shipped one or a path. Throws InputError.
 Words words_in(const std::string& language);
 
-/// A tour, a shipped one or a file, in a language. Throws InputError.
+/// A tour in a language, by the name of a shipped one or a path. Throws InputError.
 Tour tour_in(const std::string& name, const Words& words);
 
-/// The scene file that a shot names: a shipped one, or a path from the shot's own folder.
+/// The scene file of a shot: a shipped one, or a path from the shot's own folder.
 std::filesystem::path scene_of(const Shot& shot, const std::filesystem::path& shot_file);
 std::filesystem::path scene_of(const Tour& tour);
 

@@ -7,12 +7,12 @@
 
 namespace starbow {
 
-/// What is shown beside what is seen, to compare: velocities that simply add, or everything where it is now in the ship's
-/// frame, as if light came at once.
+/// The comparisons: velocities that simply add, or everything at the ship's present, as if light came at once.
 enum class Comparison { none, galilean, no_light_delay };
 constexpr std::array<const char*, 3> comparison_names = {"none", "galilean", "no-light-delay"};
 
-/// The paper's switches. Aberration off: directions as in the world. Doppler off: colours as at rest. Headlight off: no D^3.
+/// The paper's switches. Without aberration directions are the world's, without Doppler colours are as at rest, without
+/// headlight there is no D^3.
 struct Effects {
     bool aberration = true;
     bool doppler = true;
@@ -33,7 +33,7 @@ struct Shot {
 };
 
 /// Reads and checks a shot. Speeds: exactly one of gamma (>= 1), beta (>= 0, < 1), rapidity (>= 0) beside a direction;
-/// no "velocity" at all is rest. Throws InputError.
+/// without "velocity" the ship is at rest. Throws InputError.
 Shot load_shot(const std::filesystem::path& file);
 
 /// Rotation that takes the cockpit's axes (-z ahead, +y up) to those of `look` and `up` (need not be perpendicular or unit).

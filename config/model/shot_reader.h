@@ -4,13 +4,13 @@
 
 namespace starbow {
 
-/// Large enough for any world, small enough that squares and sums stay far from overflow.
+/// A limit large enough for any world, small enough that squares and sums stay far from overflow.
 constexpr double farthest = 1e15;
 
 /// gamma beta from a direction and exactly one of "gamma", "beta" and "rapidity".
 glm::dvec3 read_velocity(const Place& place);
 
-/// The part of a shot that its file and a scene's start share. `with_scene`: also the member "scene", which then is
+/// Reads the members that a shot's file and a scene's start share. `with_scene`: also the member "scene", which is then
 /// required.
 Shot read_shot(const Place& place, bool with_scene);
 

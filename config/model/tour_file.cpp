@@ -53,7 +53,7 @@ struct Reader {
         return measure;
     }
 
-    /// The caption's {measured} and what measures it belong together.
+    /// The caption's {measured} and its measure belong together.
     void check_measured(const Place& place, const std::string& text, bool is_measured) const
     {
         for (const std::string& name : placeholders(text))

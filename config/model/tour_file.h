@@ -21,18 +21,17 @@ struct Measure {
         ship_s, ///< the ship's clock, seconds
         world_s, ///< the world's, seconds
         distance, ///< to `at` in the world, scene units
-        angle_deg, ///< between the motion and where `at` is seen; straight ahead 0
-        doppler, ///< D of what comes from `at`
+        angle_deg, ///< between the motion and the seen direction of `at`; straight ahead 0
+        doppler, ///< D of light from `at`
         doppler_ahead, ///< D straight along the motion
-        size, ///< how large a small thing at `at` looks, against when the tour last cut
-        reading_s, ///< what a clock at `at` that keeps the world's time is seen to show, seconds
-        now_s, ///< what a clock at `at` that keeps the world's time shows at the ship's now, by the ship's own reckoning,
-               ///< seconds
+        size, ///< the angular size of a small thing at `at`, over that at the tour's last cut
+        reading_s, ///< the seen reading of a clock at `at` that keeps the world's time, seconds
+        now_s, ///< that clock's reading at the ship's present, in the ship's frame, seconds
         own_colour_deg, ///< angle from the motion at which D is 1
     };
     What what = What::gamma;
     glm::dvec3 at{0};
-    std::optional<glm::dvec3> against; ///< less the same at this place
+    std::optional<glm::dvec3> against; ///< subtracts the same at this place
 };
 inline const std::vector<std::pair<std::string_view, Measure::What>> measures{{"gamma", Measure::What::gamma},
     {"beta", Measure::What::beta}, {"rapidity", Measure::What::rapidity}, {"ship_s", Measure::What::ship_s},
@@ -51,7 +50,7 @@ struct Choice {
     std::string text;
     double from, below;
 };
-/// A number that the visitor sets, right within the tolerance of the measured one.
+/// A number that the visitor sets; it is right within the tolerance of the measured one.
 struct NumberToSet {
     double from, to, step, tolerance;
 };
@@ -60,62 +59,62 @@ struct PlaceToReach {
     double from, to;
 };
 struct Question {
-    std::string ask, explanation; ///< explanation: the answer, whatever was said; {measured} stands for the number
+    std::string ask, explanation; ///< explanation: of the answer, shown after any answer; {measured} stands for the number
     Measure measure;
     std::variant<std::vector<Choice>, NumberToSet, PlaceToReach> answer;
-    double explanation_s = 8; ///< the explanation is shown for so long
+    double explanation_s = 8; ///< the time for which the explanation is shown
 };
 
-/// At once at a shot.
+/// A jump to a shot.
 struct Cut {
     Shot shot;
 };
-/// A camera's way, not a ship's: from where the last step ended to a place, a velocity (on the straight line between the two
-/// in velocity space) and a view, without a jerk at either end. What is not given stays. The world's time goes on by gamma
-/// for each second of the ship's, or to `time`.
+/// A camera's path, not a ship's. It leads from the last step's end to a place, a velocity and a view, without a jerk at
+/// either end. The velocity goes along the straight line between the two in velocity space. Members that are not given
+/// stay. The world's time goes on by gamma for each second of the ship's, or to `time`.
 struct Glide {
     std::optional<glm::dvec3> position, u;
     std::optional<glm::dquat> ship_from_cockpit;
     std::optional<double> time;
 };
-/// Constant proper acceleration, rapidity per second of the ship's; along the nose as it stands, or a direction among the
-/// ship's axes.
+/// Constant proper acceleration, rapidity per second of the ship's, along the nose as it stands or along a direction among
+/// the ship's axes.
 struct Thrust {
     double rapidity_per_s;
     std::optional<glm::dvec3> towards;
 };
-/// Straight on, while the nose turns to a view without a jerk.
+/// A straight flight while the nose turns to a view without a jerk.
 struct Turning {
     glm::dquat ship_from_cockpit;
 };
 struct Coast { };
-/// The visitor flies, until the time is over or they want to go on.
+/// The visitor flies, until the time is over or the visitor goes on.
 struct Try {
-    std::optional<FlightMode> mode; ///< none: the exhibit's
-    std::optional<double> max_gamma; ///< no more than the exhibit's
+    std::optional<FlightMode> mode; ///< nullopt: the exhibit's
+    std::optional<double> max_gamma; ///< at most the exhibit's
 };
 
 struct Step {
     double seconds; ///< of the visitor's time
-    double ship_s_per_s = 1; ///< seconds of the ship's in each of them: slow and fast motion; 0: nothing moves on
-    glm::dvec2 ease_s{0}; ///< in which the ship's time gets going at the step's beginning, and stands still at its end
+    double ship_s_per_s = 1; ///< seconds of the ship's in each of them: slow and fast motion; 0: time stands still
+    glm::dvec2 ease_s{0}; ///< durations in which the ship's time gets going at the step's beginning, and stops at its end
     std::variant<Coast, Cut, Glide, Thrust, Turning, Try> motion;
     std::string caption; ///< or empty
-    std::optional<Measure> measure; ///< what {measured} in the caption stands for
-    std::optional<Effects> effects; ///< none: as before
-    std::optional<double> exposure_ev; ///< reached at once with a cut, else by the step's end; none: as before
+    std::optional<Measure> measure; ///< the value of {measured} in the caption
+    std::optional<Effects> effects; ///< nullopt: as before
+    std::optional<double> exposure_ev; ///< reached at once with a cut, else by the step's end; nullopt: as before
     std::optional<Question> question;
 };
 
-/// A timeline: what a visitor is shown, is told, tries and is asked.
+/// A timeline: the tour shows, explains, lets the visitor try, and asks.
 struct Tour {
     std::filesystem::path file;
     std::string scene; ///< name or path of a scene file
-    double again_after_s = 90; ///< the tour begins anew when nobody has touched anything for so long after its end
+    double again_after_s = 90; ///< the tour begins anew when nobody has touched anything for this time after its end
     std::vector<Step> steps; ///< the first is a cut
 };
 
-/// Finds the file of a shot that is named.
+/// Finds the file of a named shot.
 using FindShot = std::function<std::filesystem::path(const std::string& name)>;
 
 /// Reads and checks a tour, its texts in the words' language. Throws InputError.

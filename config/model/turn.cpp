@@ -8,7 +8,7 @@ namespace starbow {
 Turn turn_of(const glm::dmat3& axes)
 {
     const glm::dvec3 ahead = -axes[2];
-    // The picture's upper edge tells the way where the view goes straight up or down.
+    // The picture's upper edge gives the azimuth where the view goes straight up or down.
     const bool level = std::hypot(ahead.x, ahead.z) > 1e-9;
     const double yaw = level ? std::atan2(ahead.x, -ahead.z) : std::atan2(-ahead.y * axes[1].x, ahead.y * axes[1].z);
     const glm::dvec3 right(std::cos(yaw), 0, std::sin(yaw));

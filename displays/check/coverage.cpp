@@ -18,7 +18,7 @@ Shows shows(const Picture& picture)
     };
 }
 
-/// What a sight shows, from its points on a mesh over the picture: triangles of directions, by the cell of the sphere.
+/// The directions of a view, from its points on a mesh over the picture: triangles, by the cell of the sphere.
 class Patch {
 public:
     Patch(const std::function<std::optional<glm::dvec3>(glm::dvec2)>& sight, glm::ivec2 size)
@@ -64,7 +64,7 @@ private:
         const double side = std::max({glm::distance(*a, *b), glm::distance(*b, *c), glm::distance(*c, *a)});
         if (!(side < widest))
             return;
-        // Every bin within the cap about the first corner that holds the others.
+        // Every bin within the bounding cone about the first corner that holds the others.
         const glm::dvec2 at = azimuth_elevation_deg(*a);
         const double reach = 2 * glm::degrees(std::asin(side / 2)) + 1e-9, top = std::abs(at.y) + reach;
         const double aside = top < 90
@@ -82,8 +82,8 @@ private:
     std::vector<std::vector<int>> bins_ = std::vector<std::vector<int>>(std::size_t(columns) * rows);
 };
 
-/// The outlines of the cells shown, by marching squares: every way from a cell that is shown to one beside it that is not is
-/// halved until the crossing is known.
+/// The outlines of the shown cells, by marching squares: every edge between a shown cell and one beside it that is not
+/// shown is halved until the crossing is known.
 class Tracer {
 public:
     Tracer(const std::vector<bool>& cells, const Shows& shows)
@@ -128,7 +128,7 @@ private:
             && cells_[std::size_t(cell.y) * lattice_columns + cell.x];
     }
 
-    /// The name of the way between two neighbours, and on the first call the point where what is shown ends.
+    /// The index of the edge between two neighbours, and on the first call the point where the shown part ends.
     int crossing(glm::ivec2 a, glm::ivec2 b)
     {
         const glm::ivec2 low = glm::min(a, b) + 1;
@@ -200,7 +200,7 @@ std::optional<glm::dvec2> azimuths(const Coverage& coverage)
     return glm::dvec2(all[after], all[after] + 360 - widest);
 }
 
-/// The square root of a pixel's solid angle from what half a pixel to each side changes.
+/// The square root of a pixel's solid angle, from the directions half a pixel to each side.
 double sight_angle(const std::function<std::optional<glm::dvec3>(glm::dvec2)>& sight, glm::dvec2 at)
 {
     const auto left = sight(at - glm::dvec2(0.5, 0)), right = sight(at + glm::dvec2(0.5, 0));

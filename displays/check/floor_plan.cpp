@@ -48,7 +48,7 @@ std::size_t letters(const std::string& text)
     return std::size_t(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; })); // of UTF-8
 }
 
-/// Of a text, a little more than fonts without serifs take.
+/// A text's width, a little more than fonts without serifs take.
 double width_of(const std::string& text, double size) { return double(letters(text)) * size * 0.56; }
 double bold_width(const std::string& text, double size) { return double(letters(text)) * size * 0.69; }
 
@@ -230,8 +230,8 @@ private:
             && coverage.cells[std::size_t(cell.y) * lattice_columns + cell.x];
     }
 
-    /// The name stands where it fits best into what is shown, beside the other names, where few others are shown, and not
-    /// far from the middle.
+    /// Puts the name where it fits best into the shown part: beside the other names, where few other views are shown, and
+    /// not far from the middle.
     void name(const Coverage& coverage)
     {
         const std::string words = shortened(viewport_name(layout_, coverage.output, coverage.viewport), 20);
@@ -287,7 +287,7 @@ private:
     std::vector<Box> taken_;
 };
 
-/// The parts of an output that show eyes' pictures, as fractions of it, and whose they are.
+/// The parts of an output that show eyes' pictures, as fractions of it, with their eyes.
 struct Part {
     Box box;
     Eye eye;
@@ -456,7 +456,7 @@ private:
 
     glm::dvec2 at(const glm::dvec3& place) const { return origin_ + glm::dvec2(place.x, place.z) * scale_; }
 
-    /// Floors and ceilings first, so that walls stay to be seen beside them.
+    /// Draws floors and ceilings first, so that walls stay visible beside them.
     void things(const Viewport& viewport, int number, bool upright)
     {
         const char* colour = colour_of(number);
@@ -497,7 +497,8 @@ private:
         });
         for (const glm::dvec3& place : places) {
             const glm::dvec2 eye = at(place);
-            svg_.add("<path d=\"M%.1f %.1fl-6 11h12z\" fill=\"#222\"/>\n", eye.x, eye.y - 8); // who looks ahead
+            svg_.add("<path d=\"M%.1f %.1fl-6 11h12z\" fill=\"#222\"/>\n", eye.x, eye.y - 8); // the visitor, who looks
+            // ahead
             taken_.push_back({eye - 10., eye + 10.});
         }
         for (const glm::dvec3& place : places)

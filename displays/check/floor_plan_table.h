@@ -6,7 +6,7 @@ namespace starbow {
 /// A coverage in words, for people who build exhibits.
 struct FloorPlanRow {
     int output; ///< in the layout
-    std::string name; ///< "wall", or "wall/1" where the output has several viewports; where there are two eyes with the eye
+    std::string name; ///< "wall", or "wall/1" where the output has several viewports; with two eyes it names the eye
     std::string projection; ///< "fisheye (equidistant), 180° across, tilted 30°"
     std::string spans; ///< "azimuth −40° to 40°, elevation −31.2° to 31.2°"
     std::string sky; ///< "7.8 %"
@@ -14,17 +14,17 @@ struct FloorPlanRow {
     std::string per_degree; ///< "9.1 in the middle, 9.1 to 15.3"
 };
 
-/// One for each coverage of the layout, but for a viewport that shows both eyes alike: that has one for both.
+/// A row for each coverage of the layout; a viewport that shows both eyes alike has one row for both.
 std::vector<FloorPlanRow> floor_plan_rows(const Layout& layout, const std::vector<Coverage>& coverages);
 
-/// One line for each two coverages of one eye that share more than a thousandth of either, most first; for both eyes where
-/// both read the same.
+/// A line for each two coverages of one eye that share more than a thousandth of either, most first; one line for both eyes
+/// where both read the same.
 std::vector<std::string> overlap_lines(const Layout& layout, const std::vector<Coverage>& coverages);
 
 std::string viewport_name(const Layout& layout, int output, int viewport);
 std::string packing_words(Packing packing); ///< "side by side, half"
 
-/// With at most one decimal and a minus sign of full width.
+/// A number with at most one decimal and a minus sign of full width.
 std::string short_number(double number);
 
 } // namespace starbow

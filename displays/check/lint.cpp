@@ -34,7 +34,7 @@ std::string odd_size(const Viewport& viewport)
     return "";
 }
 
-/// How much wider than high a wall's pixels are, as a ratio.
+/// The ratio of a wall's pixels' width to their height.
 double pixel_shape(const Wall& wall, glm::ivec2 pixels)
 {
     const double width = glm::distance(wall.lower_left_m, wall.lower_right_m) / pixels.x;
@@ -50,7 +50,7 @@ bool lit(const std::vector<Coverage>& coverages, const Layout& layout, double az
     });
 }
 
-/// The part of the panel that is shown by some viewport, of 1. Roughly: as if it lay on a sphere.
+/// The part of the panel that some viewport shows, of 1. Roughly: as if it lay on a sphere.
 double panel_seen(const Layout& layout, const std::vector<Coverage>& coverages)
 {
     constexpr int across = 12, high = 4;
@@ -89,7 +89,7 @@ std::vector<std::string> lint(const Layout& layout, const std::vector<Coverage>&
         if (const std::string odd = odd_size(viewport); !odd.empty())
             doubt(name + ": " + odd);
         if (auto* wall = std::get_if<Wall>(&viewport.projection); wall && !viewport.warp) {
-            // Of a squeezed packing the eye's picture has the output's shape all the same.
+            // In a squeezed packing, the eye's picture has the output's shape all the same.
             const glm::ivec2 size = layout.outputs[c.output].size;
             const glm::dvec2 pixels = glm::dvec2(size) * glm::dvec2(viewport.rect.z, viewport.rect.w);
             const Packing packing = layout.outputs[c.output].packing;

@@ -11,7 +11,7 @@
 namespace starbow {
 namespace {
 
-/// Changes with whatever changes compiled maps.
+/// A new number for every change of compiled maps.
 constexpr std::uint64_t version = 1;
 
 /// FNV-1a, 64 bits: names files of our own making, guards against nothing.
@@ -113,10 +113,10 @@ std::string contents(const std::filesystem::path& file)
 struct Header {
     char magic[8] = {'S', 't', 'a', 'r', 'b', 'o', 'w', 'M'};
     std::int32_t width = 0, height = 0, channels = 0, intensities = 0;
-    std::uint64_t hash = 0; ///< of what follows: a damaged file is not believed
+    std::uint64_t hash = 0; ///< of the following bytes: a damaged file is not used
 };
 
-/// Of every word, so that no single fault passes; in four chains side by side, which is as fast as memory.
+/// A hash of every word, so that no single fault passes; in four chains side by side, which is as fast as memory.
 std::uint64_t content_hash(const DirectionMap& map)
 {
     std::array<Hash, 4> lanes;
@@ -179,7 +179,7 @@ void make_room(const std::filesystem::path& folder)
         }
 }
 
-/// Written beside and renamed, so that several exhibits may share the folder. A disk that is full only costs time.
+/// Writes beside and renames, so that several exhibits may share the folder. A full disk only costs time.
 void write_map(const std::filesystem::path& file, const DirectionMap& map)
 {
     std::error_code error;
@@ -261,7 +261,7 @@ std::shared_ptr<const DirectionMap> MapStore::map(const View& view, const WarpMe
     std::weak_ptr<const DirectionMap>& kept = kept_->maps[key];
     if (auto map = kept.lock())
         return map;
-    // A small map is made sooner than found.
+    // A small map is made faster than found.
     const bool on_disk = !folder_.empty() && std::size_t(view.size.x) * view.size.y > (1u << 18);
     const std::filesystem::path file = folder_ / (key + ".map");
     std::shared_ptr<DirectionMap> map = on_disk ? read_map(file, view) : nullptr;

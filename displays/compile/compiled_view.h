@@ -4,7 +4,7 @@
 
 namespace starbow {
 
-/// A view that is ready for the device: a matrix where its directions are linear in the pixel, else a map.
+/// A view in the form that the device reads: a matrix where its directions are linear in the pixel, else a map.
 struct CompiledView {
     View view;
     std::optional<glm::dmat3> matrix; ///< direction = M (x, y, 1), pixels from the view's corner
@@ -19,20 +19,20 @@ struct CompiledView {
 /// these is set: then they are kept in memory only.
 std::filesystem::path map_cache_folder();
 
-/// Compiled maps by content: what a view shows, its size, the bytes of its warp file. Kept in memory while someone holds
-/// them, and in a folder across starts (map_cache_folder): a folder that can't be
-/// used only costs time. The folder is kept under 4 GiB, the maps that were read longest ago go first.
+/// Compiled maps by content: the view's projection, its size, the bytes of its warp file. They are kept in memory while
+/// someone holds them, and in a folder across starts (map_cache_folder); an
+/// unusable folder only costs time. The folder is kept under 4 GiB; the maps that were read longest ago go first.
 class MapStore {
 public:
     MapStore();
     explicit MapStore(std::filesystem::path folder); ///< empty: memory only
 
-    /// Whether new maps go to the folder: not while a hand turns a dome's tilt.
+    /// False: new maps don't go to the folder, as while a builder turns a dome's tilt.
     void keep(bool on_disk) { keep_ = on_disk; }
-    /// Whether what is linear in the pixel gets a matrix; otherwise a map too.
+    /// True: views whose directions are linear in the pixel get a matrix; false: they get a map too.
     void matrices(bool on) { matrices_ = on; }
 
-    /// Throws InputError for a warp file that is wrong.
+    /// Compiles a view or finds it. Throws InputError for a warp file that is wrong.
     CompiledView compile(const Layout& layout, const View& view);
 
 private:
@@ -45,7 +45,7 @@ private:
     std::shared_ptr<Kept> kept_;
 };
 
-/// All views of one output.
+/// Compiles all views of one output.
 std::vector<CompiledView> compile_output(MapStore& store, const Layout& layout, std::size_t output, glm::ivec2 size);
 
 /// Throws InputError, with the layout's place, for a view that shows nothing at all.

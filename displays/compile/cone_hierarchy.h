@@ -4,7 +4,7 @@
 
 namespace starbow {
 
-/// What a block of pixels looks at: the centre of each of its pixels lies within `radius` of `centre`.
+/// A bounding cone of a block's directions: the centre of each of its pixels lies within `radius` of `centre`.
 struct BoundingCone {
     glm::vec3 centre{0}; ///< unit, cockpit's frame
     float radius = -1; ///< radians; below 0 where nothing is shown
@@ -12,14 +12,14 @@ struct BoundingCone {
     bool empty() const { return radius < 0; }
 };
 
-/// A view's pixels in square blocks, and blocks of blocks: who must know what a view looks at need not ask each pixel.
-/// Level 0 is one block; each level halves the side.
+/// The bounding cones of a view's pixels in square blocks, as a quadtree: the demand of a view is found without a look at
+/// each pixel. Level 0 is one block; each level halves the side.
 class ConeHierarchy {
 public:
-    /// Of a map: the leaves are of 8 x 8 pixels, bounded by all of their pixels.
+    /// From a map: the leaves have 8 x 8 pixels and bound all of them.
     explicit ConeHierarchy(const DirectionMap& map);
-    /// Of a flat picture, direction = M (x, y, 1): worked out when asked, down to single pixels. M's first two columns are
-    /// perpendicular.
+    /// From a flat picture, direction = M (x, y, 1): cones are computed on request, down to single pixels. M's first two
+    /// columns are perpendicular.
     ConeHierarchy(const glm::dmat3& direction_from_pixel, glm::ivec2 size);
 
     glm::ivec2 size() const { return size_; }
@@ -34,14 +34,14 @@ private:
 
     glm::ivec2 size_;
     int leaf_, levels_;
-    std::vector<std::vector<BoundingCone>> cones_; ///< of a map: per level, rows from the top
+    std::vector<std::vector<BoundingCone>> cones_; ///< from a map: by level, rows from the top
     std::optional<glm::dmat3> flat_;
-    glm::dvec2 foot_{0}; ///< of the perpendicular from the eye, pixels
-    double unit_ = 0; ///< root of M's determinant
+    glm::dvec2 foot_{0}; ///< foot of the perpendicular from the eye, pixels
+    double unit_ = 0; ///< square root of M's determinant
 };
 
-/// The point in pixels at which a map (its first channel) shows a direction, and nothing where it does not. Between pixels
-/// the directions are taken as linear: a hundredth of a pixel for any picture that a person would call smooth.
+/// The point, in pixels, at which a map (its first channel) shows a direction; nullopt where it does not. Directions are
+/// taken as linear between pixels: accurate to a hundredth of a pixel for any smooth picture.
 std::optional<glm::dvec2> find_pixel(const DirectionMap& map, const ConeHierarchy& cones, const glm::dvec3& direction);
 
 /// A box around all pixels that may look into a pyramid from the eye, from low to before high (both 0 where none do), and

@@ -64,7 +64,7 @@ glm::vec3 step(const DirectionMap& map, int x, int y, int channel, glm::ivec2 wa
     return count > 0 ? sum / float(count) : sum;
 }
 
-/// bent: the angle is not known yet; else it is only held against slivers.
+/// warped: the angle is not known yet; else it is only compared, against slivers.
 void angle_rows(DirectionMap& map, std::vector<float>& angles, bool warped, int channel, int first, int end)
 {
     for (int y = first; y < end; ++y)
@@ -74,13 +74,13 @@ void angle_rows(DirectionMap& map, std::vector<float>& angles, bool warped, int 
                 continue;
             const glm::vec3 across = step(map, x, y, channel, {1, 0}), down = step(map, x, y, channel, {0, 1});
             const float longest = std::max(glm::length(across), glm::length(down));
-            // Bent and alone in a hole: as large as the sky, so that it asks for nothing.
+            // A warped pixel alone in a hole: as large as the sky, so that it demands nothing.
             const float own = !warped ? known : longest > 0 ? std::sqrt(glm::length(glm::cross(across, down))) : 1;
             angles[std::size_t(y) * map.size.x + x] = std::max(own, 0.5f * longest);
         }
 }
 
-/// What a measured headset's directions are turned by.
+/// The turn of a measured headset's directions.
 glm::dmat3 turn_of(const Projection& projection)
 {
     if (auto* planar = std::get_if<Planar>(&projection))

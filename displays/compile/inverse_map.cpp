@@ -9,7 +9,7 @@ namespace {
 constexpr double pixels_per_cell = 16; // few enough that the way to the pixel is nearly straight
 constexpr int least_side = 8, most_side = 256;
 constexpr int spread = 2; // cells: a star's spot may reach in from beyond the picture's edge
-constexpr int far = 64; // pixels between places that look the same way
+constexpr int far = 64; // pixels between places that show the same direction
 
 /// The cell of a direction: star.vert's cell_of.
 glm::ivec2 cell_of(const glm::vec3& n, int side)
@@ -20,7 +20,7 @@ glm::ivec2 cell_of(const glm::vec3& n, int side)
     return glm::clamp(glm::ivec2((at * 0.5f + 0.5f) * float(side)), glm::ivec2(0), glm::ivec2(side - 1));
 }
 
-/// Which cell lies there: the net's edges are folded together, each half onto its other.
+/// The cell at a place of the net, whose edges are folded together, each half onto its other.
 glm::ivec2 folded(glm::ivec2 cell, int side)
 {
     if (cell.x < 0 || cell.x >= side)

@@ -6,8 +6,8 @@
 
 namespace starbow {
 
-/// Calls work(first row, one past the last) for bands of whole rows, on all cores. Where no row depends on another the
-/// result does not depend on the number of threads.
+/// Calls work(first row, one past the last) for bands of whole rows, on all cores. The result does not depend on the number
+/// of threads where no row depends on another.
 template <class Work> void by_rows(int rows, Work&& work)
 {
     const int bands = std::clamp(int(std::thread::hardware_concurrency()), 1, std::max(rows, 1));

@@ -3,12 +3,12 @@
 
 namespace starbow {
 
-/// Two eyes in one colour picture, linear Rec. 709.
+/// The matrices that combine two eyes in one colour picture, linear Rec. 709.
 struct Anaglyph {
     glm::dmat3 left, right;
 };
 
-/// Nothing for packings that are none.
+/// nullopt for packings without coloured glasses.
 inline std::optional<Anaglyph> anaglyph(Packing packing)
 {
     // Written row by row. Red-cyan keeps every channel as it is. The other two are Eric Dubois's least-squares matrices for

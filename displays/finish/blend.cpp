@@ -36,8 +36,8 @@ void transform(std::vector<double>& f, std::vector<int>& vertex, std::vector<dou
     f = std::move(out);
 }
 
-/// How far a view's pixels are from where its light must have faded: the part of its edge beyond which another's goes on.
-/// Towards an edge beyond which nothing is lit, that of a wall or a dome's rim, no one's light needs to fade.
+/// The distance of a view's pixels from where its light must have faded: the part of its edge beyond which another's goes
+/// on. Towards an edge beyond which nothing is lit, a wall's or a dome's rim, no view fades.
 struct Field {
     const CompiledView* view;
     std::shared_ptr<const DirectionMap> map;
@@ -51,7 +51,7 @@ struct Field {
     }
     std::size_t index(int x, int y) const { return std::size_t(y + 1) * (map->size.x + 2) + x + 1; }
     float at(int x, int y) const { return to_fade[index(x, y)]; }
-    /// Between pixels, 0 where the direction is not shown.
+    /// Interpolated between pixels; 0 where the direction is not shown.
     float along(const glm::dvec3& direction) const
     {
         const auto p = find_pixel(*map, *cones, direction);
@@ -82,8 +82,8 @@ Field field_of(const CompiledView& view)
 /// Edges that lie on each other count as one, though a calibration has them some pixels apart.
 constexpr double beyond_px = 4;
 
-/// Which way, in pixels of length 1, the light of the shown pixel p ends, beside a pixel `out` from it that shows nothing:
-/// square to the picture's own edge, and to any other as the pixels around draw it.
+/// The direction, in pixels of length 1, in which the light of the shown pixel p ends beside a pixel `out` from it that
+/// shows nothing: square to the picture's own edge, and to any other as the pixels around draw it.
 glm::dvec2 outwards(const Field& field, glm::ivec2 p, glm::ivec2 out)
 {
     const glm::ivec2 beside = p + out;
@@ -99,7 +99,7 @@ glm::dvec2 outwards(const Field& field, glm::ivec2 p, glm::ivec2 out)
     return length > 0 ? sum / length : glm::dvec2(out);
 }
 
-/// Where the map would look at p + way, way in pixels, if it went on as at the shown pixel p.
+/// The map's extrapolated direction at p + way, way in pixels, from the shown pixel p.
 glm::dvec3 going_on(const Field& field, glm::ivec2 p, const glm::dvec2& way)
 {
     const auto look = [&](glm::ivec2 q) { return glm::dvec3(field.map->at(q.x, q.y)); };
@@ -114,7 +114,7 @@ glm::dvec3 going_on(const Field& field, glm::ivec2 p, const glm::dvec2& way)
     return glm::normalize(to);
 }
 
-/// The places beside a field's pixels where it shows nothing: whether another view lights what lies beyond them.
+/// The places beside a field's pixels where it shows nothing: true where another view lights the directions beyond them.
 std::vector<char> fades(const Field& own, const std::vector<const Field*>& others)
 {
     std::vector<char> ends(std::size_t(own.map->size.x + 2) * (own.map->size.y + 2), 0);
@@ -141,7 +141,7 @@ void measure(Field& field, const std::vector<const Field*>& others)
 {
     const int width = field.map->size.x + 2, height = field.map->size.y + 2;
     const std::vector<char> ends = fades(field, others);
-    // A picture that reaches over all that its neighbours light has no such edge: then all of its edge counts.
+    // A picture that covers everything its neighbours light has no such edge: then all of its edge counts.
     const bool any = std::find(ends.begin(), ends.end(), 1) != ends.end();
     constexpr double far = 1e12;
     std::vector<double> square(ends.size());
@@ -169,14 +169,15 @@ void measure(Field& field, const std::vector<const Field*>& others)
         [&](double away) { return float(std::max(std::sqrt(away) - 0.5, 0.0)) * field.pixel; });
 }
 
-/// Every so many pixels the others' fields are looked up, between these points they are interpolated.
+/// The others' fields are looked up at points this many pixels apart, and interpolated between them.
 constexpr int stride = 4;
-/// Nearer to an edge than so many pixels each pixel is looked up: there a small error is a large part.
+/// Nearer to an edge than this, each pixel is looked up: there a small error is a large part.
 constexpr float sharp = 16;
-/// And where the field bends by more than this part of itself from node to node: half way between two edges it has a ridge.
+/// The same where the field bends by more than this part of itself from node to node: half way between two edges it has a
+/// ridge.
 constexpr float bend = 0.01f;
 
-/// Whether the field is straight enough around the cell with the node (x, y) at its top left to be interpolated.
+/// True if the field is linear enough around the cell with the node (x, y) at its top left.
 bool linear_between(const std::vector<float>& nodes, glm::ivec2 count, int x, int y)
 {
     auto node = [&](int i, int j) {
@@ -263,7 +264,7 @@ bool has_mask(const Layout& layout, const CompiledView& view)
         || (view.mesh && view.mesh->alpha);
 }
 
-/// Whether two views are drawn on the same pixels: then one covers the other. Beside each other they may well be for two
+/// True if two views are drawn on the same pixels: then one covers the other. Views side by side may belong to two
 /// projectors on one desktop.
 bool share_pixels(const View& a, const View& b)
 {

@@ -62,7 +62,7 @@ Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::s
     };
     for (std::size_t i = 0; i < views.size(); ++i) {
         const View& view = views[i].view;
-        // Of two pictures on the same pixels the first stands for both; a preview shows what is sent, not how it is shaded.
+        // The first of two pictures on the same pixels stands for both; a preview shows pictures without shading.
         if (view.output != output || view.layer > 0)
             continue;
         const Viewport& viewport = layout.outputs[output].viewports[view.viewport];

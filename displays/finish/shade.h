@@ -3,20 +3,20 @@
 
 namespace starbow {
 
-/// What the light of an output's pixels is multiplied by, and what is added to it. Linear light, rows from the top; both
-/// empty where nothing is to be done.
+/// The factor and the addend of the light of an output's pixels. Linear light, rows from the top; both empty where nothing
+/// is to be done.
 struct Shade {
     glm::ivec2 size{0};
     std::vector<glm::vec3> weight, black;
     bool empty() const { return weight.empty() && black.empty(); }
 };
 
-/// The masks, the black levels and the calibrations' intensities of one output, and the blend ramps of all: ramps[i] belongs
-/// to views[i] (blend.h), empty where there is none. Throws InputError for a picture that can't be read.
+/// Combines the masks, the black levels and the calibrations' intensities of one output with the blend ramps: ramps[i]
+/// belongs to views[i] (blend.h), empty where there is none. Throws InputError for a picture that can't be read.
 Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::span<const CompiledView> views,
     std::span<const std::vector<float>> ramps);
 
-/// By how much the light of all outputs is turned down so that the highest black level of any still has room above it.
+/// The factor of the light of all outputs that leaves room above the highest black level of any.
 double headroom(std::span<const Shade> shades);
 
 } // namespace starbow

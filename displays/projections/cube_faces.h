@@ -15,9 +15,10 @@ namespace starbow {
 ///      -y   down             right               ahead
 ///      +z   ahead            right               up
 ///      -z   behind           left                up
-/// which are the row's faces from left to right, and just as they stand they fold together in the cross. A face's pixels are
-/// square where the picture is six times as wide as high, or four by three. picture.h tells what each function returns;
-/// nothing outside the picture and in the cross's empty cells; a point between two faces belongs to the right or lower one.
+/// The row has these faces from left to right; in the cross the same pictures fold together into the cube. A face's pixels
+/// are square where the picture is six times as wide as high, or four by three. picture.h has the contract of each function.
+/// They return nullopt outside the picture and in the cross's empty cells. A point between two faces belongs to the right or
+/// lower one.
 class CubeFaceRays {
 public:
     CubeFaceRays(const CubeFaces& cube, glm::ivec2 size);
@@ -26,10 +27,10 @@ public:
     double pixel_angle(glm::dvec2 pixel) const; ///< exact for the whole pixel
 
 private:
-    const Plane* face(glm::dvec2 pixel) const; ///< nothing: null
+    const Plane* face(glm::dvec2 pixel) const; ///< null where there is none
     glm::ivec2 cells_; ///< across and down the picture
     glm::dvec2 cell_; ///< its size in pixels
-    std::array<int, 12> face_at_; ///< of each cell, rows from the top; -1: none
+    std::array<int, 12> face_at_; ///< by cell, rows from the top; -1: none
     std::array<Plane, 6> planes_;
 };
 

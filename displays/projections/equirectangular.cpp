@@ -44,7 +44,8 @@ double EquirectangularRays::pixel_angle(glm::dvec2 pixel) const
     const double elevation = std::abs(top_ - pixel.y * step_.y);
     if (elevation > pi / 2 + pole_slack)
         return 0;
-    // sin(upper edge) - sin(lower edge), a width of one step. On a pole itself the mean over the last half pixel stands in.
+    // sin(upper edge) - sin(lower edge), times one step's width. On a pole itself the mean over the last half pixel
+    // replaces it.
     const double across = std::cos(std::min(elevation, pi / 2 - step_.y / 4));
     return std::sqrt(step_.x * 2 * std::sin(step_.y / 2) * std::max(across, 0.0));
 }

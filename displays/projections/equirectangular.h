@@ -4,12 +4,12 @@
 
 namespace starbow {
 
-/// picture.h tells what each function returns; a direction whose azimuth lies beside the picture is at the nearer side.
+/// picture.h has the contract of each function; a direction whose azimuth lies beside the picture is at the nearer side.
 class EquirectangularRays {
 public:
     EquirectangularRays(const Equirectangular& equirectangular, glm::ivec2 size);
-    std::optional<glm::dvec3> direction(glm::dvec2 pixel) const; ///< nothing beyond the poles
-    std::optional<glm::dvec2> pixel(const glm::dvec3& direction) const; ///< of a pole: its row's middle column
+    std::optional<glm::dvec3> direction(glm::dvec2 pixel) const; ///< nullopt beyond the poles
+    std::optional<glm::dvec2> pixel(const glm::dvec3& direction) const; ///< for a pole: its row's middle column
     double pixel_angle(glm::dvec2 pixel) const; ///< exact for the whole pixel, but for points within half a pixel of a pole
 
 private:

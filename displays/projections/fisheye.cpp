@@ -83,7 +83,7 @@ std::optional<glm::dvec2> FisheyeRays::pixel(const glm::dvec3& direction) const
     if (!(angle <= rim_ * (1 + rim_slack)))
         return {};
     const double r = g(mapping_, angle) / scale_;
-    // Straight below the zenith every rim point of a whole sphere shows the direction: the front one stands for them.
+    // Straight below the zenith every rim point of a whole sphere shows the direction; the front one is returned.
     const glm::dvec2 way = across > 0 ? side / across : glm::dvec2(0, 1);
     return centre_ + way * r;
 }
@@ -97,7 +97,7 @@ double FisheyeRays::pixel_angle(glm::dvec2 pixel) const
     switch (mapping_) {
     case FisheyeMapping::equidistant: {
         // Where a whole sphere closes, the sine vanishes at the rim though its pixels still show something: there its mean
-        // over the last half pixel stands in.
+        // over the last half pixel replaces it.
         const double angle = std::min(r * scale_, pi - scale_ / 4);
         const double shrink = angle > 1e-4 ? std::sin(angle) / angle : 1 - angle * angle / 6;
         return scale_ * std::sqrt(std::max(shrink, 0.0));

@@ -4,11 +4,11 @@
 
 namespace starbow {
 
-/// A domemaster: the dome as seen from its middle looking up at the zenith, in a circle, with some function g of the angle a
-/// from the zenith growing evenly from the centre to the rim: g = a (equidistant), 2 sin(a/2) (equisolid), 2 tan(a/2)
-/// (stereographic), sin(a) (orthographic). Who faces the front and tilts the head back sees the front below the zenith and
-/// the right hand still on the right; so in the picture (no mirror image) the visitor's front is at the bottom and the right
-/// is on the right. picture.h tells what each function returns.
+/// A domemaster: the dome in a circle, seen from its middle with the eye towards the zenith. A function g of the angle a
+/// from the zenith grows evenly from the centre to the rim: g = a (equidistant), 2 sin(a/2) (equisolid), 2 tan(a/2)
+/// (stereographic), sin(a) (orthographic). A visitor who faces the front and tilts the head back sees the front below the
+/// zenith and the right hand still on the right. So in the picture (no mirror image) the front is at the bottom and the
+/// right is on the right. picture.h has the contract of each function.
 class FisheyeRays {
 public:
     FisheyeRays(const Fisheye& fisheye, glm::ivec2 size);

@@ -5,9 +5,9 @@
 
 namespace starbow {
 
-/// One colour of a headset's lens. Shown is what g(r) = r f(r) makes of the distance r from the centre as long as it grows
-/// from there on; beyond, where the polynomial would fold the picture back or through a pole, nothing. picture.h tells what
-/// each function returns.
+/// One colour of a headset's lens. The lens shows g(r) = r f(r) of the distance r from the centre as long as g grows from
+/// there on. Beyond, where the polynomial would fold the picture back or through a pole, it shows nothing. picture.h has
+/// the contract of each function.
 class LensRays {
 public:
     LensRays(const Lens& lens, glm::ivec2 size, int colour); ///< colour: 0 red, 1 green, 2 blue
@@ -26,7 +26,7 @@ private:
     glm::dvec2 centre_; ///< pixels
     double half_height_; ///< pixels
     double reach_; ///< g grows from r = 0 up to here
-    Plane flat_; ///< the picture that is not bent: centre (0, 0), half its height 1, y down
+    Plane flat_; ///< the unwarped picture: centre (0, 0), half its height 1, y down
 };
 
 } // namespace starbow

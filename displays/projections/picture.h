@@ -12,8 +12,8 @@
 
 namespace starbow {
 
-/// A rectangle of pixels, what it shows, and where the eye is that looks at it (cockpit's frame, metres; only walls and
-/// mirrors ask). `size` need not be that of a screen: a squeezed or small picture is one whose pixels are read elsewhere.
+/// A rectangle of pixels, its projection, and the eye that looks at it (cockpit's frame, metres; only walls and mirrors use
+/// it). `size` need not be a screen's: a squeezed or small picture is read elsewhere.
 struct Picture {
     Projection projection;
     glm::ivec2 size; ///< pixels, square ones
@@ -22,22 +22,22 @@ struct Picture {
 
 enum class Channel { red, green, blue };
 
-/// Unit direction in the cockpit's frame that the point `pixel` shows. The top left corner is (0, 0), a pixel's centre is at
-/// +0.5. Nothing where the projection shows nothing (outside the dome's circle, beyond the mirror). Only lenses tell
-/// channels apart.
+/// The unit direction in the cockpit's frame that the point `pixel` shows. The top left corner is (0, 0), a pixel's centre
+/// is at +0.5. nullopt where the projection shows nothing (outside the dome's circle, beyond the mirror). Only lenses
+/// distinguish channels.
 std::optional<glm::dvec3> direction(const Picture& picture, glm::dvec2 pixel, Channel channel = Channel::green);
 
-/// The pixel that shows a direction: the inverse. Nothing where no pixel of the projection shows it; the point may lie
+/// The pixel that shows a direction: the inverse. nullopt where no pixel of the projection shows it; the point may lie
 /// outside the picture where the projection goes on beyond its edge.
 std::optional<glm::dvec2> pixel(const Picture& picture, const glm::dvec3& direction, Channel channel = Channel::green);
 
-/// For projections whose direction is linear in the pixel: direction is along M (x, y, 1). Nothing for the others.
+/// M for projections whose direction is linear in the pixel: direction is along M (x, y, 1). nullopt for the others.
 std::optional<glm::dmat3> planar_matrix(const Picture& picture);
 
-/// Angle that one pixel covers around `pixel`, radians: the square root of its solid angle. 0 where nothing is shown.
+/// The angle that one pixel covers around `pixel`, radians: the square root of its solid angle. 0 where nothing is shown.
 double pixel_angle(const Picture& picture, glm::dvec2 pixel, Channel channel = Channel::green);
 
-/// A picture made ready for many questions: the functions above, with what does not depend on the point computed once.
+/// A picture prepared for many calls: the functions above, with everything that does not depend on the point computed once.
 class PictureRays {
 public:
     explicit PictureRays(const Picture& picture);
@@ -47,7 +47,7 @@ public:
     std::optional<glm::dmat3> planar_matrix() const;
 
 private:
-    /// A wall that the eye does not see the front of.
+    /// A wall whose front the eye does not see.
     struct Nothing {
         std::optional<glm::dvec3> direction(glm::dvec2) const { return {}; }
         std::optional<glm::dvec2> pixel(const glm::dvec3&) const { return {}; }
@@ -60,7 +60,7 @@ private:
     Rays rays_;
 };
 
-/// Whether the three channels of a pixel look different ways.
+/// True if the three channels of a pixel have directions of their own.
 bool splits_colours(const Projection& projection);
 
 } // namespace starbow

@@ -4,8 +4,8 @@
 
 namespace starbow {
 
-/// A flat picture as an eye sees it, brought to one unit before the eye: the point (x, y) shows the direction along
-/// ahead + right (x - axis.x) + down (y - axis.y). picture.h tells what each function returns.
+/// A flat picture as an eye sees it, scaled to one unit before the eye: the point (x, y) shows the direction along ahead +
+/// right (x - axis.x) + down (y - axis.y). picture.h has the contract of each function.
 class Plane {
 public:
     /// `ahead` is a unit vector perpendicular to the plane; `right` and `down` are one pixel's steps in it, not parallel;
@@ -13,7 +13,7 @@ public:
     Plane(const glm::dvec3& ahead, const glm::dvec3& right, const glm::dvec3& down, glm::dvec2 axis);
 
     std::optional<glm::dvec3> direction(glm::dvec2 pixel) const { return glm::normalize(point(pixel)); }
-    std::optional<glm::dvec2> pixel(const glm::dvec3& direction) const; ///< nothing behind the eye or beside it
+    std::optional<glm::dvec2> pixel(const glm::dvec3& direction) const; ///< nullopt behind the eye or beside it
     double pixel_angle(glm::dvec2 pixel) const; ///< exact for the whole pixel
     glm::dmat3 matrix() const;
 

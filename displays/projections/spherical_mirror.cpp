@@ -8,7 +8,7 @@
 namespace starbow {
 namespace {
 
-/// Where a ray meets a sphere: its way to the middle of the chord, and half the chord.
+/// The meeting of a ray and a sphere: its distance to the middle of the chord, and half the chord.
 struct Chord {
     double middle, half;
 };
@@ -64,7 +64,7 @@ SphericalMirrorRays::SphericalMirrorRays(const SphericalMirror& mirror, glm::ive
 {
 }
 
-/// The inside of the dome that a ray meets last, within the aperture.
+/// The last point of the inside of the dome that a ray meets, within the aperture.
 std::optional<glm::dvec3> SphericalMirrorRays::dome_hit(const glm::dvec3& from, const glm::dvec3& way) const
 {
     const auto through = chord(from, way, mirror_.dome_m, mirror_.dome_radius_m);
@@ -137,7 +137,7 @@ double SphericalMirrorRays::pixel_angle(glm::dvec2 pixel) const
     const glm::dvec3 dome_normal = (path->dome_point - mirror_.dome_m) / mirror_.dome_radius_m;
     const glm::dvec3 look = path->dome_point - eye_m_;
     const double far = glm::length(look), unit = glm::length(projector_.point(pixel));
-    // How each thing along the path moves when the point moves by one pixel's step in the projector's plane.
+    // The derivative of each thing along the path, for a step of one pixel in the projector's plane.
     const auto moved = [&](const glm::dvec3& step) {
         const glm::dvec3 d_out = (step - out * glm::dot(out, step)) / unit;
         glm::dvec3 d_point = path->depth * d_out;

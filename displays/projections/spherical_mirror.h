@@ -4,25 +4,25 @@
 
 namespace starbow {
 
-/// Light from the projector's lens is reflected by the sphere and lands on the inside of the dome; an eye sees the place
-/// where it lands (Bourke 2005, Using a spherical mirror for projection into immersive environments). picture.h tells what
-/// each function returns; nothing where the light misses the mirror or lands beyond the dome's aperture, and nothing at all
-/// from a lens inside the mirror. The dome's aperture is measured at its centre.
+/// The sphere reflects light from the projector's lens, which lands on the inside of the dome; an eye sees the place where
+/// it lands (Bourke 2005, Using a spherical mirror for projection into immersive environments). picture.h has the contract
+/// of each function. They return nullopt where the light misses the mirror or lands beyond the dome's aperture, and
+/// everywhere for a lens inside the mirror. The dome's aperture is measured at its centre.
 class SphericalMirrorRays {
 public:
     SphericalMirrorRays(const SphericalMirror& mirror, glm::ivec2 size, const glm::dvec3& eye_m);
     std::optional<glm::dvec3> direction(glm::dvec2 pixel) const;
 
-    /// Where the mirror must be hit to light a place of the dome is Alhazen's problem: found in the plane of lens, place and
-    /// the mirror's centre, to a few roundings of the angle at that centre.
+    /// The point of the mirror that lights a place of the dome is Alhazen's problem. It is solved in the plane of lens,
+    /// place and the mirror's centre, to a few roundings of the angle at that centre.
     std::optional<glm::dvec2> pixel(const glm::dvec3& direction) const;
 
-    /// At the point, from ray differentials (Igehy 1999). At the mirror's limb it grows without bound and is cut off at the
-    /// root of 2 pi, half the sky.
+    /// Computed at the point, from ray differentials (Igehy 1999). At the mirror's limb it grows without bound and is cut
+    /// off at the root of 2 pi, half the sky.
     double pixel_angle(glm::dvec2 pixel) const;
 
 private:
-    struct Path { ///< of light: unit directions, and points in the room
+    struct Path { ///< a ray's unit directions and its points in the room
         double depth; ///< from the lens to the mirror
         glm::dvec3 out, mirror_normal, mirror_point, reflected, dome_point;
         double flight; ///< from the mirror to the dome

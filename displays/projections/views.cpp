@@ -5,7 +5,7 @@
 namespace starbow {
 namespace {
 
-/// The part of the output that an eye has: of its fractions, scale and offset; and how much its picture is squeezed.
+/// An eye's part of the output: scale and offset of its fractions; and its picture's squeeze.
 struct Share {
     glm::dvec2 scale{1}, offset{0}, squeeze{1};
     int layer = 0;
@@ -51,7 +51,7 @@ View make_view(const Layout& layout, std::size_t output, std::size_t viewport, E
     return view;
 }
 
-/// A preview of an output: the same pictures on fewer pixels. Of eyes that share pixels the left one's is shown.
+/// Adds a preview of an output: the same pictures on fewer pixels. Where eyes share pixels, it shows the left one's.
 void add_small(std::vector<View>& all, const Layout& layout, std::size_t output, const glm::ivec4& cell)
 {
     const glm::ivec2 whole = layout.outputs[output].size;
@@ -76,7 +76,7 @@ int layers(Packing packing) { return packing >= Packing::rows ? 2 : 1; }
 std::vector<glm::ivec4> preview_cells(const Layout& layout, std::size_t preview, glm::ivec2 size)
 {
     const int shown = std::max(1, int(layout.outputs.size()) - 1);
-    // As many columns as make the cells, whose pictures keep their shapes, largest.
+    // The number of columns that makes the cells, whose pictures keep their shapes, largest.
     std::vector<glm::ivec4> best;
     double most = -1;
     for (int columns = 1; columns <= shown; ++columns) {

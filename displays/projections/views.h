@@ -5,11 +5,12 @@
 
 namespace starbow {
 
-/// One eye's part of an output: what the packing makes of a viewport. The renderer knows nothing else of a display.
+/// A view: one eye's part of an output, which the packing makes from a viewport. The renderer has no other description of a
+/// display.
 struct View {
-    std::size_t output, viewport; ///< of the layout; in a preview those that it shows
-    int layer = 0; ///< of the output's canvas: 1 is the right eye's where the two are drawn apart
-    glm::ivec2 corner{0}, size{1}; ///< pixels of the layer
+    std::size_t output, viewport; ///< of the layout; in a preview those of the shown output
+    int layer = 0; ///< of the output's canvas: 1 is the right eye's where the two eyes have a picture each
+    glm::ivec2 corner{0}, size{1}; ///< pixels of that picture
     Picture picture;
     bool projection_given = true; ///< as the viewport's
     glm::dvec2 picture_from_pixel{1}; ///< the view's point p, in pixels from its corner, is the picture's p * this
@@ -18,14 +19,15 @@ struct View {
     glm::dvec3 head_m{0}; ///< between the eyes; picture.eye_m is this eye
 };
 
-/// How many pictures of a whole output's size the packing wants: 1, or 2 where two eyes share pixels.
+/// The number of pictures of a whole output's size on the packing's canvas: 1, or 2 where two eyes share pixels.
 int layers(Packing packing);
 
-/// All views of an output of the layout, in the order of its viewports, left before right. size: pixels, which need not be
+/// All views of an output of the layout, in the order of its viewports, left before right. size: pixels; it may differ from
 /// the layout's.
 std::vector<View> views_of(const Layout& layout, std::size_t output, glm::ivec2 size);
 
-/// Where a preview of `size` pixels shows the layout's other outputs: x, y, width, height; nothing for itself.
+/// The places of the layout's other outputs in a preview of `size` pixels: x, y, width, height; nullopt for the preview
+/// itself.
 std::vector<glm::ivec4> preview_cells(const Layout& layout, std::size_t preview, glm::ivec2 size);
 
 } // namespace starbow

@@ -15,7 +15,7 @@ std::uint32_t big32(std::string_view bytes, std::size_t at)
     return value;
 }
 
-/// Whether every chunk up to the end is as long as it says: the decoder asks for the memory before it looks.
+/// True if every chunk up to the end is as long as it says: the decoder allocates before it looks.
 bool whole(std::string_view png)
 {
     for (std::size_t at = 8; at + 12 <= png.size();) {
@@ -29,7 +29,7 @@ bool whole(std::string_view png)
     return false;
 }
 
-/// Whether a whole picture's data become no more than `most` bytes and come to their end, counted without keeping them: the
+/// True if a whole picture's data become no more than `most` bytes and come to their end, counted without keeping them: the
 /// decoder keeps them all, however many there are.
 bool inflates_to(std::string_view png, std::size_t most)
 {

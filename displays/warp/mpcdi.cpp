@@ -13,7 +13,7 @@ bool same(std::string_view a, std::string_view b)
         [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
-/// An element, and the way to it as messages tell it.
+/// An element, and its path in messages.
 struct Element {
     const WarpFile* file;
     pugi::xml_node node;
@@ -86,7 +86,7 @@ struct Region {
     std::string buffer_id, id;
 };
 
-/// The region that is wanted: by its name, or by its buffer's and its own.
+/// The wanted region: by its name, or by its buffer's and its own.
 Region chosen(const Element& root, const std::string& wanted)
 {
     std::vector<Region> regions, fitting;

@@ -5,7 +5,7 @@
 
 namespace starbow {
 
-// What the readers of warp files share.
+// Shared parts of the readers of warp files.
 
 /// Throws "NAME: PLACE: PROBLEM". By custom the problem is "VALUE is wrong in this way; what would be right".
 [[noreturn]] void refuse(const WarpFile& file, const std::string& place, const std::string& problem);
@@ -13,7 +13,7 @@ namespace starbow {
 /// A value as messages quote it.
 std::string in_quotes(std::string_view text);
 
-/// The whole of a text as a finite number, or nothing; independent of the locale.
+/// The whole of a text as a finite number, or nullopt; independent of the locale.
 std::optional<double> parsed(std::string_view text);
 
 /// A text file line by line.
@@ -23,7 +23,7 @@ public:
 
     /// Goes to the next line that is not blank; false where there is none.
     bool next();
-    /// Goes there too; throws "is missing" where there is none.
+    /// The same; throws "is missing" where there is none.
     void want(const std::string& what);
 
     std::string_view text() const { return text_; } ///< without blanks around it
@@ -31,7 +31,7 @@ public:
 
     /// The line's parts between separators, ' ' standing for any run of blanks. Valid until the next call.
     const std::vector<std::string_view>& fields(char separator = ' ');
-    /// The same, if there are so many; throws with `right`, what a line should be, otherwise.
+    /// The same for a given number of parts; otherwise throws with `right`, the line's right form.
     const std::vector<std::string_view>& fields(std::size_t count, const std::string& right, char separator = ' ');
 
     double number(std::string_view field, Range range) const;
@@ -46,35 +46,35 @@ private:
     std::vector<std::string_view> fields_;
 };
 
-/// Positions in fractions of the viewport, and places in a picture: farther out than this something else is meant.
+/// The limit of positions in fractions of the viewport, and of places in a picture: farther out the unit must be wrong.
 constexpr Range position_range{-100, 100};
 constexpr Range picture_range{-10, 10};
-/// Metres.
+/// The same limit in metres.
 constexpr Range metre_range{-1e6, 1e6};
 
 /// Most columns or rows of a grid, and most vertices of a mesh.
 constexpr int most_grid = 16384;
 constexpr std::size_t most_vertices = std::size_t(1) << 26;
 
-/// Two triangles for each cell of mesh.grid; those with a hole at a corner are left out. holes: one flag per vertex.
+/// Makes two triangles for each cell of mesh.grid; those with a hole at a corner are left out. holes: one flag per vertex.
 void join_grid(WarpMesh& mesh, const std::vector<char>& holes);
 
-/// Turns a grid whose first row is its lower one about, triangles and all, so that its rows run from the top.
+/// Flips a grid whose first row is its lower one, triangles included, so that its rows run from the top.
 void rows_from_top(WarpMesh& mesh);
 
-/// A mesh of one vertex per cell's centre, and half a cell wider on each side, where it goes on as straight as it arrives:
-/// else half a cell would stay black. `cells` values, rows from the top; only sees and intensity are used.
+/// A mesh of one vertex per cell's centre, extrapolated by half a cell on each side: else half a cell would stay black.
+/// `cells` values, rows from the top; only sees and intensity are used.
 WarpMesh centred_mesh(glm::ivec2 cells, const std::vector<WarpVertex>& values, const std::vector<char>& holes);
 
-/// What every reader ends with: throws where the mesh shows nothing in the viewport; notes its holes, its folds and how far
-/// it reaches beyond the viewport or the picture.
+/// The last step of every reader. Throws where the mesh shows nothing in the viewport; notes its holes, its folds and how
+/// far it reaches beyond the viewport or the picture.
 void check_mesh(WarpMesh& mesh, const WarpFile& file);
 
 /// Throws unless left < right, down < up and all lie within 89.9 degrees of the axis.
 Sides checked_sides(const WarpFile& file, const std::string& place, const Sides& sides);
 
-/// A map of light in a PNG: 8 or 16 bits, grey or coloured; an alpha channel is dropped, and colours that are all grey
-/// become one channel. No memory block larger than most_bytes is asked for.
+/// Reads a map of light from a PNG: 8 or 16 bits, grey or coloured. An alpha channel is dropped; a picture whose colours
+/// are all grey becomes one channel. It allocates no memory block larger than most_bytes.
 WarpMesh::Mask read_mask(const WarpFile& file, const std::string& place, std::size_t most_bytes);
 
 /// The values of a PFM, rows from the top.
@@ -85,13 +85,13 @@ struct FloatMap {
 };
 FloatMap read_float_map(const WarpFile& file, bool first_row_on_top);
 
-/// The files in an MPCDI archive; what is not there is refused.
+/// The files in an MPCDI archive; unexpected files are refused.
 class Archive {
 public:
     explicit Archive(const WarpFile& file); ///< a zip
     ~Archive();
     const std::vector<std::string>& names() const { return names_; } ///< of files, not folders
-    /// Whether the name's letters are capital or small does not count.
+    /// Letters' case in the name does not count.
     std::string contents(const std::string& name, std::size_t most_bytes) const;
 
 private:
@@ -100,16 +100,16 @@ private:
     std::vector<std::string> names_;
 };
 
-/// The largest block of memory that an archive of so many bytes may ask for, and the most that a file in it may grow to.
+/// The largest block of memory that an archive of so many bytes may allocate, and the greatest size of a file in it.
 std::size_t most_memory(std::size_t archive_bytes);
 std::size_t most_inflated(std::size_t archive_bytes);
 
-/// What MPCDI's XML makes of the files that `contents` gives by their paths: all but the unpacking.
+/// Parses MPCDI's XML with the files that `contents` gives by their paths: everything but the unpacking.
 WarpMesh mesh_of_mpcdi(const WarpFile& file, const std::string& xml_name, const std::string& xml,
     const std::function<std::string(const std::string& path, std::size_t most_bytes)>& contents, const std::string& region,
     bool first_row_on_top);
 
-/// A map of places in a picture as a mesh; see README.md for the one that holds offsets instead.
+/// A map of places in a picture as a mesh; README.md describes the map that holds offsets instead.
 WarpMesh place_mesh(const FloatMap& map, const WarpFile& file);
 
 } // namespace starbow

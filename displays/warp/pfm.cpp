@@ -14,7 +14,7 @@ float value_at(std::string_view bytes, bool little)
     return std::bit_cast<float>(word);
 }
 
-/// Whether more than a twentieth of a grid's cells is turned over.
+/// True if more than a twentieth of a grid's cells is turned over.
 bool folds(glm::ivec2 size, const std::vector<glm::dvec2>& places)
 {
     int right = 0, left = 0;
@@ -27,7 +27,7 @@ bool folds(glm::ivec2 size, const std::vector<glm::dvec2>& places)
     return right < 19 * left && left < 19 * right;
 }
 
-/// Of all cells together.
+/// The area of all cells together.
 double area(glm::ivec2 size, const std::vector<glm::dvec2>& places)
 {
     double sum = 0;

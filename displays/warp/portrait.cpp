@@ -10,7 +10,7 @@ using Rgb = glm::dvec3; // sRGB, 0 to 255
 
 constexpr int fine = 2; // drawn so many times larger, then averaged
 
-/// What is seen as a place in a flat chart, for colours, and where its lines run: at whole numbers.
+/// The sample as a place in a flat chart, for colours, and the coordinates whose whole numbers have lines.
 struct Seen {
     glm::dvec2 place, lines;
 };
@@ -96,7 +96,7 @@ std::vector<std::uint8_t> portrait(const WarpMesh& mesh, glm::ivec2 size)
             if (!here[x])
                 continue;
             canvas.mix(at, colour(here[x]->place) * std::sqrt(std::clamp(samples[x].intensity, 0.0, 1.0)), 1);
-            // A line is as far as what is seen differs from a whole number, in steps from one pixel to the next.
+            // A line's distance is the sample's difference from a whole number, in steps from one pixel to the next.
             for (int axis = 0; axis < 2; ++axis) {
                 const double value = here[x]->lines[axis], off = value - std::round(value);
                 const double dx = x > 0 && here[x - 1] ? value - here[x - 1]->lines[axis] : 0;

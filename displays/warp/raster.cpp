@@ -42,7 +42,7 @@ WarpRaster::WarpRaster(const WarpMesh& mesh, glm::ivec2 size)
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
             const auto& t = mesh.triangles[i];
             const double a = mesh.vertices[t[0]].at.y, b = mesh.vertices[t[1]].at.y, c = mesh.vertices[t[2]].at.y;
-            // Of the rows whose centres the triangle may reach; one more on each side does no harm.
+            // The rows whose centres the triangle may reach; one more on each side does no harm.
             const double from = std::min({a, b, c}) * size.y - 1.5, to = std::max({a, b, c}) * size.y + 0.5;
             if (!(to >= 0 && from <= size.y - 1))
                 continue;
@@ -79,7 +79,7 @@ void WarpRaster::row(int y, std::span<WarpSample> samples) const
         const glm::dvec2 p[3] = {v[0]->at * scale, v[1]->at * scale, v[2]->at * scale};
         if (centre < std::min({p[0].y, p[1].y, p[2].y}) || centre > std::max({p[0].y, p[1].y, p[2].y}))
             continue;
-        // Where the row meets the triangle, roughly; what the edges say below is final.
+        // The row meets the triangle between these, roughly; the edges below decide.
         double left = 1e300, right = -1e300;
         for (int i = 0; i < 3; ++i) {
             const glm::dvec2 a = p[i], b = p[(i + 1) % 3];

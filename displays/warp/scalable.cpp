@@ -5,7 +5,7 @@
 namespace starbow {
 namespace {
 
-/// The numbers that stand behind a key.
+/// The numbers after a key.
 struct Key {
     std::string_view name;
     Range range;
@@ -13,7 +13,7 @@ struct Key {
     double or_else(double otherwise) const { return value.value_or(otherwise); }
 };
 
-/// Keys that ask for what is not done here, if their number is not 0.
+/// Keys of unsupported functions, if their number is not 0.
 constexpr std::array asked{std::string_view("DO_NO_WARP"), std::string_view("USE_SPHERE_SAMPLE_COORDINATE_SYSTEM"),
     std::string_view("FRUSTUM_EULER_ANGLES"), std::string_view("APPLY_MASK"), std::string_view("APPLY_BLACK_LEVEL"),
     std::string_view("APPLY_COLOR")};
@@ -98,7 +98,7 @@ WarpMesh read_scalable(const WarpFile& file)
                 shown(*key->value) + " are announced and " + std::to_string(there)
                     + " are there; the number of those that are there is right");
 
-    // ORTHO in fractions of the panel; of a panel's corners in pixels where a number is far from any fraction.
+    // ORTHO in fractions of the panel; in pixels of a panel's corners where a number is far from any fraction.
     glm::dvec2 low(left.or_else(0), bottom.or_else(0)), high_corner(right.or_else(1), top.or_else(1));
     if (std::max({std::abs(low.x), std::abs(low.y), std::abs(high_corner.x), std::abs(high_corner.y)}) > 16) {
         low /= glm::dvec2(*wide.value, *high.value);

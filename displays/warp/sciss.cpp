@@ -44,8 +44,8 @@ struct Reader {
     }
 };
 
-/// Whether the triangles, a strip's, are all of a grid so many columns wide, but perhaps for one of a cell's two: then the
-/// grid says the same without the strip's slivers, and with the corner that strips in the wild leave out.
+/// True if the triangles, a strip's, are all of a grid so many columns wide, but perhaps for one of a cell's two. Then the
+/// grid says the same without the strip's slivers, and with the corner that real strips leave out.
 bool fills_grid(const WarpMesh& mesh, std::size_t columns)
 {
     if (columns < 2 || mesh.vertices.size() % columns != 0 || mesh.vertices.size() / columns < 2)

@@ -49,7 +49,7 @@ WarpMesh read_skyskan(const WarpFile& file)
     if (keys[3].value && *keys[3].value > 0)
         vertical = *keys[3].value;
     else {
-        // What such a projector's panel spans where the file leaves it out.
+        // The usual angles of such a projector's panel, where the file leaves them out.
         vertical = 2 * glm::degrees(std::atan(1200.0 / 2048.0 * std::tan(glm::radians(*keys[2].value) / 2)));
         mesh.notes.push_back("Vertical FOV is not given: " + shown(vertical) + " from a panel of 2048 x 1200");
     }

@@ -48,7 +48,7 @@ std::string write_bourke(const WarpMesh& mesh, const std::string& name, double a
         for (int column = 0; column < mesh.grid.x; ++column) {
             const std::size_t i = std::size_t(row) * std::size_t(mesh.grid.x) + std::size_t(column);
             const WarpVertex& v = mesh.vertices[i];
-            // Where this format has nothing but its sign for holes, what looks beyond the picture becomes one.
+            // This format has only its sign for holes; samples beyond the picture become holes.
             const glm::dvec2 exactly(v.sees[0].x, 1 - v.sees[0].y), place = glm::clamp(exactly, 0.0, 1.0);
             const bool hole = !flags[i] || !near(exactly.x, place.x) || !near(exactly.y, place.y);
             text += exact((2 * v.at.x - 1) * aspect) + " " + exact(1 - 2 * v.at.y) + " "

@@ -31,7 +31,7 @@ struct Options {
     bool asked = false; ///< for anything of the above
 };
 
-/// What a record was flown in is all that its replay is opened with, but for another layout.
+/// The options of a record's replay: its own scene, start and rules. layout: replaces the record's; empty: keeps it.
 ExhibitOptions reopen(const std::filesystem::path& record, const std::string& layout, const std::string& language)
 {
     const RecordHeader header = Replay(record).header();

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double half_pi = 1.57079632679489662;
 
-/// What is pressed once counts once, however long the step.
+/// A press counts once, however long the step.
 void press(Flight& flight, const Controls& controls, const Flying& rules, const Shot& start)
 {
     if (controls.reset) {

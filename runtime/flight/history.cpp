@@ -21,7 +21,7 @@ Flight History::back(const Flight& now)
     while (kept_.size() > 1 && now.ticks - kept_.back().ticks < history_ticks)
         kept_.pop_back();
     Flight then = kept_.back();
-    // Time goes on: what is kept now is ten seconds away from the next that is.
+    // Time goes on: the next kept state is ten seconds away.
     for (Flight& flight : kept_)
         flight.ticks += now.ticks - then.ticks;
     then.mode = now.mode;

@@ -3,13 +3,13 @@
 
 namespace starbow {
 
-/// A ship that flies back to a place by itself: it slows down to rest, speeds up for half of the way and slows down for the
-/// other half, on a straight line, while it turns.
+/// A flight back to a place without the visitor. The ship slows down to rest, speeds up for half of the way and slows down
+/// for the other half, on a straight line, while it turns.
 struct Homing {
     double braking = 0; ///< rapidity per second
-    double elapsed_s = -1; ///< of the way; below 0 while it brakes
+    double elapsed_s = -1; ///< since the way began; below 0 while it brakes
     Ship from; ///< at rest, where the way begins
-    double rapidity_per_s = 0; ///< of the way
+    double rapidity_per_s = 0; ///< on the way
     bool arrived = false;
 };
 
@@ -17,7 +17,7 @@ constexpr double braking_s = 1.5, way_s = 4;
 
 Homing homing_from(const Ship& ship);
 
-/// One tick of dt_s seconds. Arrived it is at `start`'s place, at rest, looking as `start` does, to the bit.
+/// Flies one tick of dt_s seconds. At the end the ship is at rest at `start`'s place with `start`'s look, to the bit.
 void fly_home(Ship& ship, Homing& homing, const Shot& start, double dt_s, double seconds_per_time_unit);
 
 } // namespace starbow

@@ -41,7 +41,7 @@ double at_place(Measure::What what, const glm::dvec3& at, const Ship& ship, cons
     case Measure::What::now_s: // the Lorentz transformation's: v.dx later in the world, where the ship's time is one
         return (ship.time.total() + glm::dot(ship.u.total(), at - ship.position.total()) / physics::gamma_of(ship.u.total()))
             * seconds_per_time_unit;
-    default: // light that is seen now left the place a distance ago
+    default: // light that arrives now left the place a distance ago
         return (ship.time.total() - now.distance) * seconds_per_time_unit;
     }
 }

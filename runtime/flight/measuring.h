@@ -4,7 +4,7 @@
 
 namespace starbow {
 
-/// The number of a measure for a ship. since: the ship that sizes are compared with. seconds_per_time_unit: of the scene.
+/// The value of a measure for a ship. since: the ship whose sizes it compares with. seconds_per_time_unit: of the scene.
 double measured(const Measure& measure, const Ship& ship, const Ship& since, double seconds_per_time_unit);
 
 } // namespace starbow

@@ -56,7 +56,7 @@ Push by_lever(Flight& flight, const Flying& rules)
     flight.throttle_rate += gain_share(rules) * (wanted - flight.throttle_rate);
     const double gain = flight.throttle_rate * tick_s;
     Push push;
-    if (target == 0 && speed + gain < 2e-3) { // slower than anyone can see, and then for ever less
+    if (target == 0 && speed + gain < 2e-3) { // slower than anyone can see, and then less for ever
         flight.throttle_rate = 0;
         push.stop = speed > 0;
         return push;
@@ -64,8 +64,8 @@ Push by_lever(Flight& flight, const Flying& rules)
     const glm::dvec3 way = heading(flight);
     push.rapidity = std::max(gain, -speed) * way;
     if (flight.mode == FlightMode::guided) {
-        // A thrust across the flight turns what is ahead, as the ship sees it, by itself over v/c; and it adds a speed of
-        // the second order, cosh w' = cosh(thrust) cosh w, which is taken off again.
+        // A thrust across the flight turns the things ahead, as the ship sees them, by v/c. It also adds a speed of the
+        // second order, cosh w' = cosh(thrust) cosh w, which is taken off again.
         const double angle = std::atan2(glm::length(glm::cross(way, nose)), glm::dot(way, nose));
         const double turned = share(follow_s) * angle;
         push.rapidity += (across(way, nose) * turned - way * (0.5 * turned * turned)) * std::tanh(speed);
@@ -84,7 +84,7 @@ Push by_thrust(Flight& flight, const Controls& controls, const Flying& rules)
     if (wanted == glm::dvec3(0) && glm::length(flight.thrust) < 1e-4)
         flight.thrust = glm::dvec3(0);
     Push push{flight.thrust * tick_s};
-    // At the limit nothing more is gained along the flight; turning it stays possible, and what that adds is taken off.
+    // At the limit nothing more is gained along the flight; turning it stays possible, and its gain of speed is taken off.
     const glm::dvec3 way = heading(flight);
     const double room = std::acosh(rules.max_gamma) - rapidity_of(flight.ship);
     push.rapidity -= way * std::max(0.0, glm::dot(push.rapidity, way) - room);
@@ -96,7 +96,8 @@ Push by_thrust(Flight& flight, const Controls& controls, const Flying& rules)
 Push pilot(Flight& flight, const Controls& told, const Flying& rules)
 {
     Controls controls = told;
-    if (flight.mode != FlightMode::newtonian) // who has thrusters alone, as on a space mouse, has a speed all the same
+    if (flight.mode != FlightMode::newtonian) // visitors with thrusters alone, as on a space mouse, have a speed all the
+                                              // same
         controls.throttle_rate -= told.push.z;
     const glm::dvec3 rates = degree * glm::dvec3(rules.turn_deg_per_s, rules.turn_deg_per_s, rules.roll_deg_per_s);
     for (int i = 0; i < 3; ++i)

@@ -3,13 +3,13 @@
 
 namespace starbow {
 
-/// What a mode of flight makes of the controls in one tick.
+/// A flight mode's effect on the ship in one tick.
 struct Push {
-    glm::dvec3 rapidity{0}; ///< gained in the tick, cockpit axes
+    glm::dvec3 rapidity{0}; ///< gain in the tick, cockpit axes
     bool stop = false; ///< at rest at once: the last bit of slowing down
 };
 
-/// The flight's smoothed controls (turn_rad_s, faster, thrust, lever) move on by a tick; the ship does not yet.
+/// Advances the flight's smoothed controls (turn_rad_s, throttle_rate, thrust, lever) by a tick, and not yet the ship.
 Push pilot(Flight& flight, const Controls& controls, const Flying& rules);
 
 } // namespace starbow

@@ -10,13 +10,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Whoever adds a member to one of these adds it to the record, or to the digest, as well.
+// A new member of one of these goes into the record, or into the digest, as well.
 static_assert(sizeof(Controls) == 200);
 static_assert(sizeof(Flying) == 56);
 static_assert(sizeof(Exposing) == 32);
 static_assert(sizeof(Flight) == 560);
 
-/// Wide enough for whatever any device may ask for, narrow enough that nothing overflows.
+/// Wide enough for any device's rate, narrow enough that nothing overflows.
 constexpr Range any_rate{-1e3, 1e3};
 constexpr Range any_place{-1e15, 1e15};
 constexpr double most_ns = 9e15; ///< a hundred days; whole numbers below it are doubles
@@ -29,7 +29,7 @@ constexpr std::pair<const char*, bool Controls::*> switches[] = {{"look_ahead", 
     {"log", &Controls::log}, {"why", &Controls::why}, {"hud", &Controls::hud}, {"full_screen", &Controls::full_screen},
     {"quit", &Controls::quit}, {"pattern", &Controls::pattern}, {"save", &Controls::save}};
 
-/// Not ==: -0 must come back as -0.
+/// == would accept 0 for -0, which must come back as -0.
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
 template <class Vector> std::vector<double> components(const Vector& v)
@@ -83,7 +83,7 @@ Json json_of(const Effects& effects)
         {"comparison", comparison_names[std::size_t(effects.comparison)]}, {"false_colours", effects.false_colours}};
 }
 
-/// Not as a shot's file has it: from a speed and directions there this would come back rounded.
+/// Not in the form of a shot's file: a speed and directions there would come back rounded.
 Shot read_start(const Place& place)
 {
     reject_unknown_members(place, {"time", "position", "u", "ship_from_cockpit", "effects", "exposure_ev"});

@@ -17,7 +17,7 @@ bool RecordReplay::play(RecordEntry& entry)
     entry.controls.save = false; // a replay shows; it writes no layout
     const auto length = std::chrono::nanoseconds(entry.dt_ns);
     std::this_thread::sleep_until(due_ += length);
-    due_ = std::max(due_, Clock::now() - length); // who is late by more does not hurry: each frame is seen
+    due_ = std::max(due_, Clock::now() - length); // a replay that is late does not hurry: each frame is seen
     return true;
 }
 

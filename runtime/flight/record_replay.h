@@ -6,8 +6,7 @@
 
 namespace starbow {
 
-/// What an exhibit keeps of its flight, or what it flies again instead of the visitor's controls: a record, a replay, or
-/// neither.
+/// The exhibit's record of its flight, or the replay that takes the place of the visitor's controls, or neither.
 class RecordReplay {
 public:
     using Clock = std::chrono::steady_clock;
@@ -19,19 +18,20 @@ public:
 
     bool replays() const { return replay_ != nullptr; }
 
-    /// In a replay puts the next recorded frame in this one's place, when its time has come: what a stall had skipped is not
-    /// waited for. False after the last.
+    /// In a replay, replaces the frame by the next recorded one when its time has come; a recorded stall is not waited for.
+    /// False after the last.
     bool play(RecordEntry& entry);
-    /// Records the frame, or compares where it has led.
+    /// Records the frame, or compares its result.
     void keep(const RecordEntry& entry, const Flight& flight);
-    /// The flight was left properly. For people, on standard output. False where a replay was not the same to the bit.
+    /// Ends the record or the replay of a flight that was left properly; prints lines on standard output. False where a
+    /// replay was not the same to the bit.
     bool end(const Flight& flight);
 
 private:
     std::unique_ptr<Recorder> recorder_;
     std::unique_ptr<Replay> replay_;
     bool played_ = false; ///< to the end
-    Clock::time_point due_{}; ///< the last frame
+    Clock::time_point due_{}; ///< of the last frame
 };
 
 } // namespace starbow

@@ -13,7 +13,7 @@ namespace starbow {
 namespace fs = std::filesystem;
 namespace {
 
-/// So much waits for a disk that hangs, some hours' worth: beyond it the record ends.
+/// The limit of entries that wait for a hanging disk, some hours' worth: beyond it the record ends.
 constexpr std::size_t most_waiting = std::size_t(64) << 20;
 
 fs::path named_by_time(const fs::path& folder)
@@ -91,7 +91,7 @@ void Recorder::keep(const RecordEntry& entry, const Flight& flight)
 
 void Recorder::end(const Flight& flight) { add(text_of(RecordCheck{flight.ticks, digest(flight), true})); }
 
-/// Until the record ends: every second what has come meanwhile.
+/// Writes the waiting entries every second, until the record ends.
 void Recorder::write()
 {
     for (std::unique_lock lock(mutex_);;) {
@@ -118,7 +118,7 @@ void Recorder::write_out(const std::string& text)
         waiting_.clear();
     };
     std::error_code ignored;
-    const fs::space_info space = fs::space(file_, ignored); // -1, plenty, where it can't be told
+    const fs::space_info space = fs::space(file_, ignored); // -1, plenty, where it is unknown
     if (ordinary_ && space.available < least_free_bytes)
         return fail("less than " + std::to_string(least_free_bytes >> 20) + " MiB are free on its disk");
     for (std::size_t done = 0; done < text.size();) {

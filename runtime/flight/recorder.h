@@ -9,22 +9,22 @@
 
 namespace starbow {
 
-/// Writes a record on a thread of its own: no frame ever waits for a disk. What was kept is on the disk a second later. A
-/// disk that is full, or away, ends the record with a sentence, not the flight.
+/// Writes a record on a thread of its own, so that no frame waits for a disk. Entries reach the disk within a second. A
+/// full or missing disk ends the record with a sentence, and the flight goes on.
 class Recorder {
 public:
-    /// file: a new one; or a folder, where a new one is named by date and time. say: is called with a line for the log, from
-    /// any thread. Throws InputError where the file can't be made, or is there already.
+    /// file: a new one; or a folder, where the file is named by date and time. say: is called with a line for the log, from
+    /// any thread. Throws InputError where the file can't be made, or exists already.
     Recorder(const std::filesystem::path& file, const RecordHeader& header, std::function<void(const std::string&)> say);
-    ~Recorder(); ///< after everything is on the disk
+    ~Recorder(); ///< waits until everything is on the disk
     Recorder(const Recorder&) = delete;
 
-    /// Keeps a frame, and where it led.
+    /// Keeps a frame, and a check of its result when one is due.
     void keep(const RecordEntry& entry, const Flight& flight);
-    /// The last line of a flight that was left properly.
+    /// Writes the last line of a flight that was left properly.
     void end(const Flight& flight);
 
-    bool failed() const; ///< said so, and keeps nothing more
+    bool failed() const; ///< it has reported this and keeps nothing more
     const std::filesystem::path& file() const { return file_; }
 
 private:
@@ -35,7 +35,7 @@ private:
     std::filesystem::path file_;
     std::function<void(const std::string&)> say_;
     int stream_ = -1;
-    bool ordinary_ = false; ///< a file on a disk, not a pipe
+    bool ordinary_ = false; ///< the file is on a disk, not a pipe
     std::int64_t checked_ticks_ = 0;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
@@ -44,7 +44,7 @@ private:
     std::thread writer_;
 };
 
-/// Less than this free on its disk, and a record ends by itself: others need the disk too.
+/// A record ends by itself when its disk has less than this free: other programs need the disk too.
 constexpr std::uintmax_t least_free_bytes = std::uintmax_t(256) << 20;
 
 } // namespace starbow

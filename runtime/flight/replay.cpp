@@ -9,7 +9,7 @@ namespace starbow {
 namespace fs = std::filesystem;
 namespace {
 
-/// Far longer than any line that is written: what is longer is no record, and is not read to its end.
+/// Far longer than any written line: a longer one is no record, and is not read to its end.
 constexpr std::size_t longest_line = 1 << 16;
 
 } // namespace
@@ -24,7 +24,7 @@ Replay::Replay(const fs::path& file)
     if (!stream_)
         throw InputError(
             file_, "", std::string("can't be opened (") + std::strerror(errno) + "); a record of a flight is right");
-    bytes_ = fs::file_size(file, error); // of a pipe there is none
+    bytes_ = fs::file_size(file, error); // a pipe has none
     if (error)
         bytes_ = 0;
     const auto first = line();
@@ -37,8 +37,8 @@ Replay::Replay(const fs::path& file)
     compare_here(flight_at(header_.start, header_.rules));
 }
 
-/// A line without its end; nothing at the end of the file, or where a last line without an end is left out: it was being
-/// written when the machine went.
+/// A line without its end; nullopt at the end of the file, or where a last line without an end is left out: a crash
+/// interrupted its writing.
 std::optional<std::string> Replay::line()
 {
     std::string text;

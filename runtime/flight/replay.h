@@ -7,8 +7,8 @@
 
 namespace starbow {
 
-/// Reads a record frame by frame, and compares the flight with the record's checks. Of a record of any length only a line is
-/// held.
+/// Reads a record frame by frame, and compares the flight with the record's checks. It holds one line of the record at a
+/// time.
 class Replay {
 public:
     /// Reads the header. Throws InputError.
@@ -16,20 +16,20 @@ public:
 
     const RecordHeader& header() const { return header_; }
 
-    /// The next frame, its controls' time counted from the record's beginning; nothing after the last. Throws InputError
+    /// The next frame, its controls' time counted from the record's beginning; nullopt after the last. Throws InputError
     /// with file and line.
     std::optional<RecordEntry> next();
 
-    /// Where that frame has led: compared where the record has a check there.
+    /// Compares the flight after that frame, where the record has a check there.
     void compare(const Flight& flight);
 
     int checks() const { return checks_; } ///< compared so far
     std::int64_t frames() const { return frames_; }
-    /// Of the file, from 0 to 1.
+    /// The part of the file that has been read, from 0 to 1.
     double part_read() const;
 
-    /// For people, when next() has returned nothing: whether the flight was the same to the bit, or where it first differed;
-    /// and what is missing of the record.
+    /// For people, when next() has returned nullopt: whether the flight was the same to the bit, or where it first
+    /// differed, and which parts of the record are missing.
     std::string verdict() const;
     bool differs() const { return !differs_.empty(); }
 
@@ -41,14 +41,14 @@ private:
     std::string file_;
     std::ifstream stream_;
     std::uintmax_t bytes_ = 0, read_ = 0; ///< of the file; bytes_ is 0 for a pipe
-    int line_ = 0; ///< the last that was read
+    int line_ = 0; ///< the last line that was read
     RecordHeader header_;
     std::optional<std::variant<RecordEntry, RecordCheck>> ahead_;
     std::int64_t time_ns_ = 0, frames_ = 0;
     int checks_ = 0;
-    bool whole_ = false; ///< the last line of a flight that was left properly was there
+    bool whole_ = false; ///< the record has the last line of a flight that was left properly
     bool cut_ = false; ///< an incomplete last line was left out
-    std::string differs_; ///< where first
+    std::string differs_; ///< the first difference
 };
 
 } // namespace starbow

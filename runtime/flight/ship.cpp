@@ -14,15 +14,15 @@ glm::dquat quaternion_of(const glm::dvec3& rotation_vector_rad)
     return {std::cos(half), v.x, v.y, v.z};
 }
 
-// turn * q as q and a small change: on a straight flight q stays to the bit. Its roundings, frame after frame, would aim
-// the thrust aside, and a flight back to rest from gamma multiplies what is aside by gamma.
+// turn * q as q and a small change: on a straight flight q stays to the bit. Roundings, frame after frame, would aim the
+// thrust aside, and a flight back to rest from gamma multiplies sideways errors by gamma.
 glm::dquat carried(const glm::dvec4& turn, const glm::dquat& q)
 {
     const glm::dvec3 v(turn);
     return q + glm::dquat(-glm::dot(v, v) / (1 + turn.w), v.x, v.y, v.z) * q; // turn.w - 1 without cancellation
 }
 
-// For the same reason only when it is needed.
+// Normalised only when needed, for the same reason.
 glm::dquat nearly_unit(const glm::dquat& q) { return std::abs(glm::dot(q, q) - 1) > 1e-15 ? glm::normalize(q) : q; }
 
 } // namespace

@@ -5,7 +5,7 @@
 
 namespace starbow {
 
-/// A sum that keeps what rounding would lose (Neumaier), so that a month of frames adds up like one long step. Holds only
+/// A sum that compensates its rounding (Neumaier), so that a month of frames adds up like one long step. It holds only
 /// without -ffast-math.
 struct Sum {
     double value = 0, carry = 0;
@@ -30,31 +30,31 @@ struct Ship {
     Sum distance; ///< flown in the world, since the start
 };
 
-/// A ship at a shot's instant, its clocks and its log at zero.
+/// A ship at a shot's instant, its clocks and its distance at zero.
 Ship ship_at(const Shot& shot);
 
-/// The ship's instant as a shot: the picture is a function of this.
+/// The ship's instant as a shot; the picture is a function of it.
 Shot shot_of(const Ship& ship);
 
-/// Rapidity of its velocity in the world.
+/// The rapidity of the ship's velocity in the world.
 double rapidity_of(const Ship& ship);
 
 /// One step of proper time dtau (>= 0) under a proper acceleration that is constant in the cockpit (cockpit axes, rapidity
-/// per unit of proper time) while the cockpit turns by `turn` (rotation vector, radians, cockpit axes). The cockpit is
-/// carried along by the boost (Thomas-Wigner).
+/// per unit of proper time) while the cockpit turns by `turn` (rotation vector, radians, cockpit axes). The boost carries
+/// the cockpit along (Thomas-Wigner).
 ///
-/// Without a turn the step is the closed form of hyperbolic motion, and legs of one constant acceleration join exactly: any
-/// cutting into steps gives the same u, position, time and orientation, to rounding. A turn alone is exact as well. Both
-/// together are half the turn, the leg, half the turn: a cutting into steps of dtau differs from the smooth flight by the
-/// order of dtau^2. `distance` adds the straight way of each step: exact on a straight flight that does not reverse within
-/// a step; on a curved one short by the order of dtau^2.
+/// Without a turn the step is the closed form of hyperbolic motion, and thrust segments of one constant acceleration join
+/// exactly: any division into steps gives the same u, position, time and orientation, to rounding. A turn alone is exact as
+/// well. Both together are half the turn, the thrust segment, half the turn; this differs from the smooth flight by the
+/// order of dtau^2. `distance` adds the straight way of each step. It is exact on a straight flight that does not reverse
+/// within a step; on a curved one it is short by the order of dtau^2.
 ///
 /// u keeps 15 digits at any gamma; u, position and time hold to 1e-12 of the closed form up to gamma 1e9. A flight from
 /// rest to gamma and back along one line returns u and the axes to 1e-16 gamma at worst, and to 1e-12 from gamma 1e6 if a
-/// step's rapidity is below 0.01. Whatever is aside at the top, such as the rounding of a turn, comes back times gamma.
+/// step's rapidity is below 0.01. A sideways error at the top, such as the rounding of a turn, comes back times gamma.
 Ship fly(Ship ship, const glm::dvec3& acceleration, const glm::dvec3& turn, double dtau);
 
-/// At rest in the world at once, where and when it is; cockpit axes among the ship's axes stay.
+/// The ship at rest in the world at once, at its event; the cockpit's axes among the ship's stay.
 Ship stopped(Ship ship);
 
 } // namespace starbow

@@ -9,11 +9,11 @@ namespace starbow {
 namespace {
 
 constexpr double second_ns = 1e9;
-/// A stick that is held aside goes on to the next number so often.
+/// A stick that is held aside steps to the next number at these intervals.
 constexpr double first_repeat_s = 0.5, repeat_s = 0.1;
-/// Where nobody answers, as in a movie, a question is asked no longer.
+/// The longest time of a question where nobody answers, as in a movie.
 constexpr double longest_asked_of_nobody_s = 7;
-/// The place was reached when it has been so for so long.
+/// A place counts as reached after this time.
 constexpr double reached_s = 0.3;
 
 std::int64_t ns(double seconds) { return std::llround(seconds * second_ns); }
@@ -22,13 +22,13 @@ const Step& step_of(const Touring& touring, const Show& show) { return show.tour
 
 bool tries(const Step& step) { return std::holds_alternative<Try>(step.motion); }
 
-/// How long a question is asked, or a step without one takes. Nobody needs long to think.
+/// The time of a question, or of a step without one. Nobody needs long to think.
 double asked_s(const Step& step, bool visitors)
 {
     return step.question && !visitors ? std::min(step.seconds, longest_asked_of_nobody_s) : step.seconds;
 }
 
-/// How long the step takes as things stand.
+/// The step's present duration.
 std::int64_t duration_ns(const Touring& now, const Show& show)
 {
     const Step& step = step_of(now, show);
@@ -38,7 +38,7 @@ std::int64_t duration_ns(const Touring& now, const Show& show)
     return (now.measured_answer ? now.asked_ns : asked) + ns(step.question->explanation_s);
 }
 
-/// Of the visitor who flies in this step.
+/// The rules for the visitor who flies in this step.
 Flying rules_in(const Step& step, const Flying& exhibits)
 {
     Flying rules = exhibits;
@@ -49,7 +49,7 @@ Flying rules_in(const Step& step, const Flying& exhibits)
     return rules;
 }
 
-/// The controls into the visitor's hands.
+/// Gives the controls to the visitor.
 void hand_over(Touring& now, const Flying& rules)
 {
     Shot here = shot_of(now.flight.ship);
@@ -70,7 +70,7 @@ void begin(Touring& now, const Show& show)
     if (const Cut* cut = std::get_if<Cut>(&step.motion)) {
         const Ship before = start.flight.ship;
         start.flight.ship = ship_at(cut->shot);
-        // The log goes on, for who looks at the ship's clock.
+        // The clock and the distance go on, for visitors who look at the ship's clock.
         start.flight.ship.proper_time = before.proper_time, start.flight.ship.distance = before.distance;
         start.flight.effects = cut->shot.effects;
         start.flight.exposure_ev = step.exposure_ev.value_or(cut->shot.exposure_ev);
@@ -93,14 +93,14 @@ void begin(Touring& now, const Show& show)
         hand_over(now, rules_in(step, show.rules));
 }
 
-/// As the step's motion has it after now.into_ns.
+/// Places the ship by the step's motion after now.into_ns.
 void place(Touring& now, const Show& show)
 {
     const Step& step = step_of(now, show);
     if (tries(step))
         return;
     const Touring::Start& start = now.starts.back();
-    // While the answer is told the motion stands: what was asked about stays in view.
+    // The motion stands during the explanation: the question's subject stays in view.
     const double seconds = double(now.measured_answer ? now.asked_ns : now.into_ns) / second_ns;
     const double part = std::min(1.0, seconds / step.seconds);
     now.flight.ship = along(step, start.flight.ship, part, show.seconds_per_time_unit);
@@ -132,7 +132,7 @@ double number_now(const Touring& now, const Show& show, const Measure& measure)
     return measured(measure, now.flight.ship, now.starts.back().since, show.seconds_per_time_unit);
 }
 
-/// Tells the answer from here on.
+/// Shows the answer from here on.
 void tell(Touring& now, const Show& show, std::optional<bool> right)
 {
     now.measured_answer = number_now(now, show, step_of(now, show).question->measure);
@@ -155,7 +155,7 @@ void answer(Touring& now, const Show& show)
     }
 }
 
-/// What is chosen, or the number that is set, moves by one; to the right is more.
+/// Moves the choice, or the number, by one; to the right is more.
 void nudge(Touring& now, const Show& show, int by)
 {
     const Question& question = *step_of(now, show).question;
@@ -196,7 +196,7 @@ bool touched(const Controls& controls, double lever, double lever_before)
         || controls.undo || controls.reset || controls.next_mode;
 }
 
-/// The visitor flies; what leads through the tour is not for the ship.
+/// The visitor flies; the tour's own controls do not reach the ship.
 void fly_by_hand(Touring& now, const Show& show, Controls controls, std::int64_t dt_ns, const Flying& rules)
 {
     const double lever = now.flight.lever;
@@ -208,7 +208,7 @@ void fly_by_hand(Touring& now, const Show& show, Controls controls, std::int64_t
     now.idle_s = touched(controls, now.flight.lever, lever) ? 0 : now.idle_s + double(dt_ns) / second_ns;
 }
 
-/// What the visitor may do at any time. True where that leads elsewhere in the tour.
+/// Applies the controls that work at any time. True where they lead elsewhere in the tour.
 bool press(Touring& now, const Show& show, const Controls& controls)
 {
     const bool by_hand = flies(now, show);
@@ -243,7 +243,7 @@ bool press(Touring& now, const Show& show, const Controls& controls)
     return false;
 }
 
-/// Ends the telling of a visitor's flight to a place, and counts the time in which it is reached.
+/// Ends a visitor's flight to a place, and counts the time in which the place is reached.
 void watch(Touring& now, const Show& show, std::int64_t dt_ns)
 {
     const Step& step = step_of(now, show);
@@ -305,7 +305,7 @@ Touring advance(Touring now, const Show& show, const Controls& controls, std::in
         ask(now, show, controls, dt_s);
     for (std::int64_t left = dt_ns; left > 0 && !now.over;) {
         const Step& step = step_of(now, show);
-        // To the end of the step, but not beyond the end of the time to answer.
+        // The time stops at the end of the step, or at the end of the time to answer if that is earlier.
         const std::int64_t asked = ns(asked_s(step, show.visitors));
         std::int64_t end = duration_ns(now, show);
         if (step.question && !now.measured_answer)

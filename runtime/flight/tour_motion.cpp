@@ -6,8 +6,8 @@
 namespace starbow {
 namespace {
 
-/// The part of the ship's time that has passed after a part of the step: its rate rises and falls as 10x^3 - 15x^4 + 6x^5
-/// does, of which this is the integral.
+/// The part of the ship's time that has passed after a part of the step. Its rate rises and falls as 10x^3 - 15x^4 + 6x^5;
+/// this is the integral.
 double gone(double part, double seconds, const glm::dvec2& ease_s)
 {
     const auto ramp = [](double x) { return x * x * x * x * (2.5 + x * (-3 + x)); };
@@ -19,8 +19,7 @@ double gone(double part, double seconds, const glm::dvec2& ease_s)
     return begun / all;
 }
 
-/// Proper velocity on the geodesic of velocity space from a to b: of the velocity that b has as a ship at a sees it, a part
-/// of the rapidity.
+/// Proper velocity on the geodesic of velocity space from a to b, at a part of the rapidity of b as a ship at a sees it.
 glm::dvec3 between(const glm::dvec3& a, const glm::dvec3& b, double part)
 {
     const glm::dvec3 relative = physics::world_place(-a, physics::gamma_of(b), b);

@@ -6,14 +6,14 @@
 
 namespace starbow {
 
-/// A visitor's first minute: go, turn, stop. Each prompt is gone once that was done; when nobody has touched anything for
-/// a while, the next visitor begins anew.
+/// A visitor's first minute: go, turn, stop. Each prompt disappears when its task is done. When nobody has touched anything
+/// for a while, the next visitor begins anew.
 struct Tutorial {
     int lesson = 0; ///< of lessons; beyond the last there is no prompt
     double begun_at = 0; ///< rapidity when the lesson began
-    double turned_rad = 0; ///< the nose, since the lesson began
+    double turned_rad = 0; ///< by the nose, since the lesson began
     double idle_s = 0; ///< since the last control
-    double lever = 0; ///< as last seen
+    double lever = 0; ///< at the last step
 };
 
 constexpr int lessons = 3;
@@ -21,10 +21,10 @@ constexpr double lesson_rapidity = 0.3, lesson_turn_rad = 0.35, visit_over_s = 9
 
 Tutorial tutorial_at(const Flight& flight);
 
-/// After each step of the flight, with the controls that led there.
+/// The tutorial after a step of the flight, with that step's controls.
 Tutorial advance(Tutorial tutorial, const Controls& controls, const Flight& flight, double dt_s);
 
-/// What the visitor is to do now, in the words of what there is to do it with, or "".
+/// The present prompt, in words for the controls at hand, or "".
 std::string prompt(const Tutorial& tutorial, const InputCapabilities& capabilities, const Words& words);
 
 } // namespace starbow

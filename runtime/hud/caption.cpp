@@ -9,7 +9,7 @@
 namespace starbow {
 namespace {
 
-/// Three figures or so: what a caption needs.
+/// Three figures or so, enough for a caption.
 std::string figures(double x, const Words& words)
 {
     std::array<char, 32> text;
@@ -65,7 +65,7 @@ void write_caption(Panel& panel, const Typesetter& typesetter, const Caption& ca
     const std::vector<std::pair<std::string, std::string>>& fields)
 {
     const double width = panel.size.x, height = panel.size.y, left = 0.04 * width, right = 0.97 * width;
-    // Above: what there is to do at the right, and as many of the figures as there is room for at the left.
+    // Above: the controls at the right, and at the left as many of the figures as fit.
     const int small = std::max(6, int(0.13 * height));
     const double line = 0.18 * height;
     const double aside = right - typesetter.width_of(caption.aside, small);
@@ -75,7 +75,7 @@ void write_caption(Panel& panel, const Typesetter& typesetter, const Caption& ca
         const std::string field = fields[i].first + " " + fields[i].second;
         int size = small;
         while (fields.size() == 1 && size > 6 && x + typesetter.width_of(field, size) > aside - small)
-            --size; // a notice stands alone, and is told whole
+            --size; // a notice stands alone, and is shown whole
         const double end = x + typesetter.width_of(field, size);
         if (i > 0 && end > aside - small)
             break;

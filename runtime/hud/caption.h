@@ -12,23 +12,23 @@ struct Show;
 struct Touring;
 class Typesetter;
 
-/// What a tour says on the head-up display.
+/// A tour's text on the head-up display.
 struct Caption {
     std::string text;
     std::vector<std::string> choices{}; ///< of a question
-    int chosen = -1; ///< of them
-    std::string aside{}; ///< how to answer, how long there is
+    int chosen = -1; ///< index of a choice; -1: none
+    std::string aside{}; ///< how to answer, and the seconds left
     bool flying = false; ///< the visitor flies: the lever counts
 };
 
-/// Of a tour as it stands, in the words of what there is to answer with; no text where the visitor flies freely.
+/// The caption of a tour's present state, in words for the controls at hand; empty where the visitor flies freely.
 Caption caption_of(const Touring& touring, const Show& show, const Words& words, const InputCapabilities& capabilities);
 
-/// Writes it on a panel's plate, as large as it fits; the first of the fields small above it.
+/// Writes a caption on a panel's plate, as large as it fits; the first of the fields stands small above it.
 void write_caption(Panel& panel, const Typesetter& typesetter, const Caption& caption,
     const std::vector<std::pair<std::string, std::string>>& fields);
 
-/// A text in lines no wider than `width`, as this measures it; a word that is wider has a line of its own.
+/// Breaks a text into lines no wider than `width` by `measure`; a wider word has a line of its own.
 template <class Measure> std::vector<std::string> wrapped(const std::string& text, double width, Measure width_of)
 {
     std::vector<std::string> lines{""};

@@ -40,7 +40,7 @@ std::string number(double x)
     return text(size >= 1000 ? "%.0f" : size >= 100 ? "%.1f" : size >= 10 ? "%.2f" : "%.3f", x);
 }
 
-/// What C wrote, as people read it: the language's decimal sign, a minus as long as a plus, and none before nothing.
+/// C's number in the language's style: its decimal sign, a minus as long as a plus, and none before a zero.
 std::string figures(std::string c, const Words& words)
 {
     if (c.starts_with('-'))
@@ -253,8 +253,7 @@ Panel Typesetter::draw(const Readings& readings, const Words& words, int width) 
         return panel;
     }
 
-    // Three rows of three, the speed row greater; a prompt takes the third row's place; beneath them whatever else there is
-    // to say.
+    // Three rows of three, the speed row greater; a prompt takes the third row's place; the notices stand beneath them.
     auto fields = hud_fields(readings, words);
     double unit = panel.size.y;
     const double rows[] = {0.27, 0.53, 0.76};

@@ -13,17 +13,17 @@
 
 namespace starbow {
 
-/// A picture of text: two bytes per pixel, how much letter and how much plate, rows from the top.
+/// A picture of text, two bytes a pixel: the letter's coverage and the plate's. Rows from the top.
 struct Panel {
     glm::ivec2 size{0};
     std::vector<std::uint8_t> texels;
 };
 
-/// An empty plate of these pixels, its corners rounded and its edge soft. corner: their radius, pixels.
+/// An empty plate of `size` pixels with rounded corners and a soft edge. corner: their radius, pixels.
 Panel plate(glm::ivec2 size, double corner);
 
-/// Numbers for people: 3 or 4 figures, or so many decimals; times with so many decimals while they are told in seconds;
-/// lengths in metres or, at the real speed of light, in what it flies.
+/// Numbers for people: 3 or 4 figures, or a given number of decimals. Times in seconds have a given number of decimals.
+/// Lengths are in metres or, at the real speed of light, in light's travel time.
 std::string shown_number(double x, const Words& words);
 std::string shown_number(double x, int decimals, const Words& words);
 std::string shown_duration(double s, const Words& words, int decimals = 1);
@@ -32,7 +32,7 @@ std::string shown_length(double m, double light_speed_m_s, const Words& words);
 /// Height of the panel over its width.
 constexpr double panel_aspect = 0.2;
 
-/// What the head-up display tells.
+/// The head-up display's values.
 struct Readings {
     double beta_deficit; ///< 1 - v/c, without cancellation
     double gamma, doppler_ahead;
@@ -42,15 +42,15 @@ struct Readings {
     Effects effects;
     FlightMode mode = FlightMode::guided;
     double exposure_ev = 0;
-    bool exposure_locked = false; ///< it does not follow the view
+    bool exposure_locked = false; ///< the visitor has locked it
     std::optional<double> lever{}; ///< where the throttle is, 0 to 1
-    std::string prompt{}; ///< what the visitor is to try now, or empty
-    std::optional<Caption> caption{}; ///< of a tour: takes the place of all but the speed
-    std::string notice{}; ///< one line for who looks after the exhibit, or empty
+    std::string prompt{}; ///< the tutorial's prompt, or empty
+    std::optional<Caption> caption{}; ///< of a tour: replaces all but the speed
+    std::string notice{}; ///< one line for the exhibit's operator, or empty
 };
 Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effects);
 
-/// What the light is that is shown, in a few words.
+/// The name of the shown light, in a few words.
 std::string light_name(const Effects& effects, const Words& words);
 
 /// The lines as text, for the log and for tests: label and value in turn.
@@ -67,7 +67,7 @@ public:
     ~Typesetter();
     Panel draw(const Readings& readings, const Words& words, int width) const;
 
-    /// Adds a line (UTF-8) from x on its baseline, `size` pixels high, at `strength` of full white.
+    /// Draws a line (UTF-8) from x on its baseline (pixels), `size` pixels high, at `strength` of full white.
     void write(Panel& panel, const std::string& line, double x, double baseline, int size, double strength) const;
     double width_of(const std::string& line, int size) const;
 

@@ -23,7 +23,8 @@ bool shows(const CompiledView& view, const glm::dvec3& direction)
         && glm::all(glm::lessThanEqual(pixel, glm::dvec2(view.view.size)));
 }
 
-/// Which way the flat picture faces that shows the panel's middle, towards the eye's far side; elsewhere the middle itself.
+/// The direction that the flat picture around the panel's middle faces, towards the eye's far side; elsewhere the middle
+/// itself.
 glm::dvec3 panel_faces(const glm::dvec3& middle, std::span<const std::vector<CompiledView>> views)
 {
     for (const auto& output : views)
@@ -33,7 +34,7 @@ glm::dvec3 panel_faces(const glm::dvec3& middle, std::span<const std::vector<Com
     return middle;
 }
 
-/// How many of a panel's four corners are seen, a little within its edge.
+/// The number of a panel's four corners that are seen, a little within its edge.
 int corners_shown(
     const glm::dmat3& panel_from_cockpit, const glm::dvec2& half, std::span<const std::vector<CompiledView>> views)
 {
@@ -84,7 +85,7 @@ HudPlacement instruments_place(const HudPlacement& hud, double aspect, std::span
 
 PixelBox panel_box(const ConeHierarchy& cones, const glm::dmat3& panel_from_cockpit, const glm::dvec2& half)
 {
-    // The panel's edges as planes through the eye, in the panel's axes, and the plane that keeps what is behind out.
+    // The panel's edges as planes through the eye, in the panel's axes, and the plane that excludes the directions behind.
     const glm::dmat3 cockpit_from_panel_normals = glm::transpose(panel_from_cockpit);
     std::array<glm::dvec3, 5> sides
         = {glm::dvec3(1, 0, half.x), {-1, 0, half.x}, {0, 1, half.y}, {0, -1, half.y}, {0, 0, 1}};

@@ -4,14 +4,14 @@
 
 namespace starbow {
 
-/// Panel axes from the cockpit's: x right and y up on the panel, z = 1 on its plane, the origin at its middle. On a flat
-/// screen the panel is parallel to it, so that its lines stay level; everywhere else it faces the visitor.
-/// views: of each output.
+/// The panel's axes from the cockpit's: x right and y up on the panel, z = 1 on its plane, the origin at its middle. On a
+/// flat screen the panel is parallel to the screen, so that its lines stay level; elsewhere it faces the visitor. views: of
+/// each output.
 glm::dmat3 panel_from_cockpit(const HudPlacement& hud, std::span<const std::vector<CompiledView>> views);
 
-/// The same for a panel of another shape (height over width) that shows what was measured: across from the head-up display,
-/// its far edge where the display's would be; where that is not seen whole, right above the display, or right below. It
-/// never lies on the display. views: of each output; none: as if all were seen.
+/// The placement of the instruments' panel, whose shape differs (aspect: height over width). It lies opposite the head-up
+/// display, its far edge where the display's would be. Where it would not be seen whole, it lies right above the display,
+/// or right below. It never covers the display. views: of each output; empty: as if all directions were seen.
 HudPlacement instruments_place(const HudPlacement& hud, double aspect, std::span<const std::vector<CompiledView>> views);
 
 /// A box around all pixels that may show a panel of half the extent `half` on its plane z = 1.

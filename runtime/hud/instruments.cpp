@@ -25,8 +25,8 @@ const WorldClock* clock_of(const World& world, std::size_t instance)
     return clock ? &*clock : nullptr;
 }
 
-/// The same observer as a rest frame has him, and the turn from the axes that the world's boost carries to those that the
-/// frame's does.
+/// The observer in a rest frame's coordinates, and the turn from the axes that the world's boost carries to those that the
+/// frame's boost carries.
 struct There {
     MeasuringObserver observer;
     glm::dquat turn{1, 0, 0, 0};
@@ -43,8 +43,8 @@ There in_frame_of(const MeasuringObserver& observer, const World& world, int fra
     return {{there.position, there.time, there.u, turn * observer.ship_from_cockpit, observer.aberration}, turn};
 }
 
-/// In the ship's frame, from the lookout: where a spot was when the light left it that is seen now. The 4-vector (-r, r n)
-/// of the light's way is lengthened as its frequency is: r becomes D r.
+/// A spot's retarded position in the ship's frame, from the observer. The 4-vector (-r, r n) of the light's way is
+/// lengthened as its frequency is: r becomes D r.
 glm::dvec3 left_from(const SpotReading& reading) { return *reading.ship_distance_s * reading.ray.ship; }
 
 } // namespace
@@ -83,7 +83,7 @@ Spot spot_at(const MeasuringObserver& observer, const Probed& probed, const Worl
     if (probed.frame > 0) {
         const There there = in_frame_of(observer, world, probed.frame);
         const Ray ray = ray_from_ship(there.observer, there.turn * probed.ray.ship);
-        // The light's way is as its frequency: in the ship D times that in any frame.
+        // The light's travel distance transforms as its frequency: in the ship it is D times that in any frame.
         const double way = probed.distance * ray_from_ship(observer, probed.ray.ship).D;
         spot.at = there.observer.place + way / ray.D * ray.world;
     }
@@ -155,7 +155,7 @@ PairReading read_pair(
         pair.apparent_s = glm::distance(left_from(a), left_from(b));
     if (!first.sky && !second.sky && first.frame == second.frame) {
         pair.rest_s = glm::distance(first.at, second.at) * seconds_per_time_unit;
-        // Only what lies along the motion is contracted, by 1 / gamma.
+        // Only the component along the motion is contracted, by 1 / gamma.
         const glm::dvec3 apart = (second.at - first.at) * seconds_per_time_unit,
                          u = in_frame_of(observer, world, first.frame).observer.u;
         const double gamma = physics::gamma_of(u);

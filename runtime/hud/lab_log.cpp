@@ -116,7 +116,7 @@ LabLog::LabLog(const std::filesystem::path& file)
     if (std::filesystem::is_directory(file, ignored))
         throw InputError(name, "", "is a folder; the name of a CSV file is right");
     std::string first, line;
-    bool cut = false; // in the middle of a line, by a loss of power
+    bool cut = false; // in the middle of a line, by a power cut
     if (std::ifstream stream(file, std::ios::binary); stream) {
         while (std::getline(stream, line)) {
             if (first.empty())

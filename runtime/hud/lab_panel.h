@@ -5,14 +5,16 @@
 
 namespace starbow {
 
-/// Heights over width of the instruments' panels: readings, with a scale of colours below them, and a page that tells why.
+/// Height over width of the instruments' panels: the readings, the readings above a scale of colours, and the page of
+/// explanation.
 constexpr double readings_aspect = 0.2, scaled_aspect = 0.25, why_aspect = 0.42;
 double lab_aspect(Overlay overlay, Why why);
 
-/// Where the scale of colours stands on such a panel, from its lower left to its upper right corner, 0 to 1; all 0 for none.
+/// The place of the scale of colours on such a panel, from its lower left to its upper right corner, 0 to 1; all 0: no
+/// scale.
 glm::vec4 scale_place(Overlay overlay, Why why);
 
-/// The readings, or the page, `width` pixels across.
+/// Draws the readings, or the page, `width` pixels across.
 Panel draw_lab_panel(const Typesetter& typesetter, const Words& words, const Measured& measured, Overlay overlay,
     const OverlayScale& scale, Why why, int width);
 

@@ -4,16 +4,16 @@
 
 namespace starbow {
 
-/// What is laid over every viewport for who measures, in the order of the key that steps through them.
+/// The overlays of every viewport for measuring, in the order of the key that steps through them.
 enum class Overlay { off, aim, grid, ring, distance, emission };
 constexpr std::array<const char*, 6> overlay_names = {"off", "aim", "grid", "ring", "distance", "emission"};
 
 /// The scales of the false colours.
 struct OverlayScale {
     double nearest_s = 1, farthest_s = 1000; ///< ends of the colours, seconds of light
-    double emission_step_s = 1; ///< between contours of equal times of emission
+    double emission_step_s = 1; ///< between contours of equal retarded times
 };
-/// Round ends around whatever a world has, as seen from a place, and a step that gives some ten contours near by.
+/// Rounded ends around a world's distances from a place, and a step that gives some ten contours near by.
 OverlayScale overlay_scale(const World& world, const glm::dvec3& place, double seconds_per_time_unit);
 
 } // namespace starbow

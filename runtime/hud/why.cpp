@@ -18,7 +18,7 @@ constexpr std::array<std::array<const char*, 4>, why_names.size()> page_words = 
     {"why.length", "why.length_shorter", "why.length_seen", "why.length_formula"},
 }};
 
-/// Measured numbers as they are told.
+/// Formats measured numbers for a page.
 struct Teller {
     const Words& words;
     double light_speed_m_s;
@@ -36,7 +36,7 @@ struct Teller {
     {
         return s ? shown_length(*s * light_speed_m_s, light_speed_m_s, words) : "—";
     }
-    /// What eyes, or instruments, call a wavelength.
+    /// The name of a wavelength's colour or band.
     std::string wavelength(double nm) const
     {
         const auto told = [&](const char* key, const std::string& number) { return words(key, {{"number", number}}); };
@@ -137,7 +137,7 @@ std::array<std::pair<std::string, std::string>, 9> reading_fields(const Measured
     fields[7] = {words("lab.marks_length"), "—"};
     if (m.pair->apparent_s) {
         std::string apparent = tell.length(m.pair->apparent_s), rest = tell.length(m.pair->rest_s);
-        // The unit once, where both have the same.
+        // The unit stands once, where both have the same.
         const auto unit = apparent.find(' ');
         if (unit != apparent.npos && rest.ends_with(apparent.substr(unit)))
             apparent.erase(unit);

@@ -8,12 +8,12 @@
 
 namespace starbow {
 
-/// The pages that tell why something looks as it does, in the order of the key that steps through them.
+/// The pages that explain the picture, in the order of the key that steps through them.
 enum class Why { none, aberration, doppler, headlight, delay, dilation, length };
 constexpr std::array<const char*, 7> why_names
     = {"none", "aberration", "doppler", "headlight", "delay", "dilation", "length"};
 
-/// All that is measured at one instant.
+/// All measurements of one instant.
 struct Measured {
     MeasuringObserver observer;
     double ship_s = 0, world_s = 0; ///< the clock on board since the start, and the world's
@@ -24,7 +24,7 @@ struct Measured {
     std::optional<PairReading> pair;
 };
 
-/// A page: the effect in a sentence or two, its formula in the field's symbols, and that with the numbers now on screen.
+/// A page: the effect in a sentence or two, its formula in the field's symbols, and the formula with the numbers on screen.
 struct WhyPage {
     std::string title;
     std::vector<std::string> sentence;

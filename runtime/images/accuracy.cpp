@@ -71,7 +71,7 @@ std::vector<double> log_steps(double low, double high)
     return all;
 }
 
-/// A chart's inside. What is better is always below: errors on a logarithmic scale, or decibels upside down.
+/// A chart's inside. Better is always below: errors on a logarithmic scale, or decibels upside down.
 struct Chart {
     double left, top, width, height;
     double first_ms, last_ms, low, high;
@@ -180,7 +180,7 @@ std::vector<Setting> settings_to_try(
     if (two_eyes)
         for (StereoMethod method : {StereoMethod::shared, StereoMethod::reprojected, StereoMethod::exact})
             with([&](Quality& q) { q.stereo = method; });
-    // What matters most, together.
+    // The most effective knobs, together.
     for (double density : {0.5, 0.8, 1.0, 1.25, 2.0})
         for (int samples : {1, 4})
             for (int rays : {1, 2})
@@ -229,8 +229,9 @@ std::vector<PresetLevel> ladder_of(const std::vector<MeasuredSetting>& all)
         const MeasuredSetting& one = all[i];
         const Quality& own = one.setting.quality;
         const Quality& first = all[0].setting.quality;
-        // Other samples or formats would take other memory, which takes longer than a frame; and a cube map that lags behind
-        // is no quality to come to unasked; nor is one that leaves out what the measured shots may just not have shown.
+        // Settings with other samples or formats would take other memory, which takes longer than a frame. A cube map that
+        // lags behind must be chosen by hand. A setting that leaves out parts may be worse elsewhere than in the measured
+        // shots.
         if (best[i] && own.spectra == first.spectra && own.stereo == first.stereo && own.matrices == first.matrices
             && own.cube_samples == first.cube_samples && own.half_floats == first.half_floats && own.frames_per_cube == 1
             && own.mips == first.mips && own.clip_levels == first.clip_levels)

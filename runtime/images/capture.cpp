@@ -172,7 +172,7 @@ std::pair<glm::ivec2, Channels> read_exr(const std::filesystem::path& file)
     const char* why = nullptr;
     bool loaded = ParseEXRVersionFromMemory(&version, bytes.data(), bytes.size()) == TINYEXR_SUCCESS
         && ParseEXRHeaderFromMemory(&header, &version, bytes.data(), bytes.size(), &why) == TINYEXR_SUCCESS;
-    // Where loading fails, tinyexr frees the image itself, and as many planes as the image already says it has.
+    // tinyexr frees the image itself where loading fails, and as many planes as the image already declares.
     image.num_channels = header.num_channels;
     loaded = loaded && LoadEXRImageFromMemory(&image, &header, bytes.data(), bytes.size(), &why) == TINYEXR_SUCCESS;
     if (!loaded) {

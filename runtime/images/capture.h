@@ -8,17 +8,17 @@
 
 namespace starbow {
 
-/// Throws InputError if a file of this name could not be written: its folder (or the nearest that is there) is no folder or
-/// may not be written to, or something other than a file has the name. Writes nothing: for asking before long work.
+/// Throws InputError if a file of this name could not be written: its folder (or the nearest existing one) is no folder or
+/// may not be written to, or something other than a file has the name. Writes nothing; call it before long work.
 void check_writable(const std::filesystem::path& file);
 
 /// Throws InputError if writing the file would replace one that is read, by whatever name.
 void check_not_read(const std::filesystem::path& file, const std::vector<std::filesystem::path>& read);
 
-/// Throws InputError if the file is there and `force` does not allow to replace it.
+/// Throws InputError if the file exists and `force` does not allow replacing it.
 void check_free(const std::filesystem::path& file, bool force);
 
-/// Throws InputError unless the file's name ends as those of its kind do, such as ".png", in capital or small letters.
+/// Throws InputError unless the file's name ends in `ending`, such as ".png", in capital or small letters.
 void check_ending(const std::filesystem::path& file, const std::string& ending);
 
 /// Writes RGBA8 rows from the top as PNG, alpha dropped. Written beside and renamed: a failure leaves no half file.

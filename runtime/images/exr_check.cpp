@@ -124,7 +124,7 @@ std::string exr_fault(const std::vector<unsigned char>& bytes)
         const auto number = block.take<std::int32_t>();
         const auto size = block.take<std::int32_t>();
         const std::int64_t full = row_bytes * std::min(rows_per_block, header.height - row);
-        // Deflate packs at most 1032 to 1: whoever claims more would have us reserve memory for nothing.
+        // Deflate packs at most 1032 to 1: a file that claims more would reserve memory for nothing.
         const bool fits = header.compression == zip_compression
             ? size > 0 && size <= full && full <= size * std::int64_t(1100)
             : size == full;

@@ -37,8 +37,8 @@ bool is_frame(const fs::path& file)
 }
 
 struct Ended {
-    int status; ///< as waitpid tells it; -1: not started
-    int error; ///< why not
+    int status; ///< from waitpid; -1: not started
+    int error; ///< the reason
     std::string said; ///< on its standard error, the last of it
 };
 
@@ -76,7 +76,7 @@ Ended ran(const std::vector<std::string>& arguments, const fs::path& folder)
     return ended;
 }
 
-/// The last line that says something.
+/// The last line that is not empty.
 std::string last_line(const std::string& said)
 {
     const std::size_t end = said.find_last_not_of(" \r\n");

@@ -5,8 +5,8 @@
 
 namespace starbow {
 
-/// The frames of a movie that is being drawn: FILE.mp4.frames/ beside it, with a file that tells what they are made from, so
-/// that what was interrupted is gone on with, and what has changed is begun anew.
+/// The frames of a movie in the making: FILE.mp4.frames/ beside it, with a file that names their sources. An interrupted
+/// movie goes on; one whose sources have changed begins anew.
 class MovieFrames {
 public:
     /// made_from: everything that the frames depend on, one line. say: is called with a line for the log. Throws InputError
@@ -19,7 +19,7 @@ public:
     bool has(const std::string& output, long frame) const;
     const std::filesystem::path& folder() const { return folder_; }
 
-    /// Removes the frames and their folder, where nothing else is in it.
+    /// Removes the frames, and their folder where nothing else is in it.
     void remove() const;
 
 private:
@@ -29,7 +29,7 @@ private:
 /// Throws InputError, one sentence, where ffmpeg can't be started.
 void check_ffmpeg();
 
-/// Makes a movie (H.264) of an output's frames, counted from 0. The whole file or nothing. Throws InputError with ffmpeg's
+/// Makes a movie (H.264) of an output's frames, counted from 0: the whole file or nothing. Throws InputError with ffmpeg's
 /// own reason.
 void make_movie(const std::filesystem::path& movie, const MovieFrames& frames, const std::string& output, int frames_per_s);
 

@@ -45,7 +45,7 @@ double sum(const Kernel& k)
     return all;
 }
 
-/// The edge's pixels go on beyond it.
+/// The edge's pixels are repeated beyond it.
 Brightness filtered(const Brightness& from, const Kernel& across, const Kernel& down)
 {
     Brightness half(from.size), whole(from.size);
@@ -91,7 +91,7 @@ glm::dvec3 light_of(const glm::dvec3& opponents)
     return glm::inverse(xyz_from_rec709) * (glm::dvec3(y + opponents.y / 500, y, y - opponents.z / 200) * white);
 }
 
-/// What Hunt found: colours are the weaker the darker they are.
+/// The Hunt effect: colours are the weaker the darker they are.
 glm::dvec3 hunt(const glm::dvec3& rgb)
 {
     const glm::dvec3 lab = cielab(xyz_from_rec709 * rgb, white);
@@ -102,8 +102,7 @@ double hyab(const glm::dvec3& one, const glm::dvec3& two)
     return std::abs(one.x - two.x) + std::hypot(one.y - two.y, one.z - two.z);
 }
 
-/// What of a picture the eye can tell apart: each opponent channel blurred by its contrast sensitivity, and in Hunt's
-/// colours.
+/// The perceived picture: each opponent channel blurred by its contrast sensitivity, with Hunt's colours.
 std::vector<glm::dvec3> perceived(const std::vector<glm::dvec3>& rgb, glm::ivec2 size, double pixels_per_degree)
 {
     struct Part {
@@ -135,7 +134,7 @@ std::vector<glm::dvec3> perceived(const std::vector<glm::dvec3>& rgb, glm::ivec2
     return blurred;
 }
 
-/// How strong the edges and the points of a picture's lightness are.
+/// The strength of the edges and of the points of a picture's lightness.
 std::pair<std::vector<double>, std::vector<double>> features(
     const std::vector<glm::dvec3>& rgb, glm::ivec2 size, double pixels_per_degree)
 {
@@ -147,7 +146,7 @@ std::pair<std::vector<double>, std::vector<double>> features(
     const Kernel bell = kernel(radius, [&](double x) { return std::exp(-x * x / (2 * sigma * sigma)); });
     const auto strength = [&](const std::function<double(double)>& factor) {
         Kernel k = kernel(radius, [&](double x) { return factor(x) * std::exp(-x * x / (2 * sigma * sigma)); });
-        // What is above 0 sums up to 1, what is below to -1.
+        // The positive weights sum up to 1, the negative ones to -1.
         double above = 0, below = 0;
         for (double w : k)
             (w > 0 ? above : below) += w;

@@ -6,18 +6,18 @@
 
 namespace starbow {
 
-/// A picture as it is shown: sRGB, rows from the top, four bytes a pixel (red, green, blue, unused).
+/// A picture as shown: sRGB, rows from the top, four bytes a pixel (red, green, blue, unused).
 struct Shown8 {
     glm::ivec2 size;
     std::span<const std::uint8_t> rgba;
 };
 
-/// How far a picture is from another of the same size.
+/// The errors of a picture against another of the same size.
 struct PictureErrors {
     double psnr_dB; ///< peak signal (255) to noise, of all three colours together; infinite where nothing differs
     double flip; ///< mean of LDR-FLIP, 0 to 1
     double ciede2000_mean, ciede2000_95; ///< mean and 95th percentile over the pixels, white being Rec. 709's
-    double edges_95_px; ///< 95th percentile of how far edges stand from where they should, pixels; 0 without edges
+    double edges_95_px; ///< 95th percentile of the edges' displacements, pixels; 0 without edges
 };
 PictureErrors picture_errors(const Shown8& picture, const Shown8& reference);
 
@@ -29,11 +29,11 @@ double psnr_dB(const Shown8& picture, const Shown8& reference);
 /// paper's, of a person 0.7 m from a screen of 0.7 m and 3840 pixels.
 std::vector<double> flip(const Shown8& picture, const Shown8& reference, double pixels_per_degree = 67);
 
-/// How far each edge of the reference stands displaced in the picture, pixels, across itself: where the luminance's slope is
-/// steepest, by least squares over 7 x 7 pixels (Lucas and Kanade 1981).
+/// The displacement of each edge of the reference in the picture, pixels, across the edge where the luminance is steepest.
+/// It is found by least squares over 7 x 7 pixels (Lucas and Kanade 1981).
 std::vector<double> edge_displacements_px(const Shown8& picture, const Shown8& reference);
 
-/// The part-quantile of values, between the nearest two; 0 of none.
+/// The part-quantile of values, linear between the nearest two; 0 without values.
 double quantile(std::vector<double> values, double part);
 
 } // namespace starbow

@@ -6,7 +6,7 @@
 namespace starbow {
 namespace {
 
-/// From the least positive float to the greatest, sixteen to the power of two.
+/// The range from the least positive float to the greatest, with sixteen bins to the power of two.
 constexpr int low_ev = -140, high_ev = 129, bins_per_ev = 16;
 
 struct Bin {
@@ -26,7 +26,7 @@ std::optional<Levels> levels(std::span<const LuminanceSample> view)
     double all = 0, count = 0;
     for (const LuminanceSample& part : view) {
         const double log = std::log2(double(part.luminance));
-        // Whatever is no number, or no light, is not there.
+        // Luminances that are no number, or no light, do not count.
         if (!(log >= low_ev && log < high_ev && part.solid_angle_sr > 0 && std::isfinite(part.solid_angle_sr)))
             continue;
         Bin& bin = bins[std::size_t((log - low_ev) * bins_per_ev)];

@@ -5,54 +5,54 @@
 
 namespace starbow {
 
-/// A part of the view, as the device samples it for the exposure.
+/// A sample of the view's luminance, as the device takes it for the exposure.
 struct LuminanceSample {
-    float luminance; ///< of the scene-linear light, before exposure; white at EV 0 is 1
-    float solid_angle_sr; ///< as seen by the visitor; 0: nothing is shown there
+    float luminance; ///< scene-linear, before exposure; white at EV 0 is 1
+    float solid_angle_sr; ///< as the visitor sees it; 0: nothing is shown there
 };
 
-/// The part of the lit view, from its darkest on, that counts: the brighter half is what eyes adapt to, and its last part,
-/// of lamps and glints, may go to white.
+/// The exposure counts the lit view between these two parts of its solid angle, sorted from the darkest. Eyes adapt to
+/// the brighter half. The last part, of lamps and glints, may go to white.
 constexpr double metered_from = 0.5, metered_to = 0.98;
-/// Luminance that the log average of that part is brought to: mid-grey, 18 % of white.
+/// The log average of that part is brought to this luminance: mid-grey, 18 % of white.
 constexpr double metered_to_luminance = 0.18;
 
-/// The brightest of that part is not more than this, though, two stops over white: at great gamma the light ahead is a small
-/// disc in the dark, and it is what is looked at.
+/// The bright end of that part never exceeds this, two stops over white. At great gamma the light ahead is a small disc
+/// in the dark, and visitors look at the disc.
 constexpr double bright_from = 0.98, brightest_luminance = 4;
 
 constexpr double few_stars = 16;
 
-/// The exposure for a view, EV: by the log average of the luminance between two percentiles of its solid angle, and by
-/// another percentile. Nothing for a view without light. Darker than 2^-140 is no light.
+/// The exposure for a view, EV, from the log average of the luminance between two percentiles of its solid angle and from
+/// a third percentile. nullopt for a view without light; below 2^-140 counts as no light.
 ///
-/// stars: each star's spot. They fill too little of a view to tell among its surfaces, and in the dark they are what is
-/// looked at: the same average of them is not brought beyond mid-grey, and of stars alone it is brought there. It is one of
-/// many, so that a few bright ones which come into view or leave it do not tell; where they are few, `few_stars` more are
-/// thought to be there that want what the surfaces want.
+/// stars: each star's spot. Stars fill too little of a view to count among its surfaces, and in the dark visitors look at
+/// them. So their own log average is never brought beyond mid-grey, and a view of stars alone is brought there. An
+/// average over many stars stays steady when a few bright ones enter or leave the view. Where stars are few, `few_stars`
+/// more are added that want the surfaces' exposure.
 std::optional<double> metered_ev(std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars = {});
 
-/// Time constants of the way to a brighter and to a darker view.
+/// Time constants of the adaptation to a brighter and to a darker view.
 constexpr double to_bright_s = 0.5, to_dark_s = 3;
 
-/// One for all outputs and eyes.
+/// One exposure holds for all outputs and eyes.
 struct Exposure {
-    std::optional<double> ev; ///< as adapted; nothing before anything was seen
+    std::optional<double> ev; ///< adapted; nullopt before anything was seen
     bool locked = false;
 };
 
-/// The exposure dt_s seconds later. The first view is taken at once; a view without light, and a lock, change nothing. Of
-/// equal views any cutting of the time into steps leads to the same, but for rounding.
+/// The exposure dt_s seconds later. The first view is taken at once; a view without light, and a lock, change nothing.
+/// For a constant view, any division of the time into steps leads to the same result, to rounding.
 Exposure adapted(Exposure exposure, std::optional<double> metered, double dt_s, const Exposing& rules);
 
-/// What a frame is shown with, EV: what was adapted to (before anything was seen: the start's) and what the visitor has
-/// turned it by since the start.
+/// The EV that a frame is shown with: the adapted EV (before anything was seen: the start's) plus the visitor's own
+/// change since the start.
 double shown_ev(const Exposure& exposure, const Exposing& rules, double visitors_ev, double start_ev);
 
-/// What the cube map's radiance is stored times: a power of two that puts the brightest light which matters two stops below
-/// fp16's greatest number. What lies 28 stops below is still a normal one, 38 stops still a number. Light so bright that it
-/// is ten stops over white wherever it is seen does not matter. brightest: of the world; what is made of it where it is
-/// looked at is least 1 / most_gain of it.
+/// The factor of the cube map's stored radiance: a power of two that puts the brightest light which matters two stops
+/// below fp16's greatest number. Light 28 stops below that is still a normal number, light 38 stops below still a number.
+/// Light that is ten stops over white from every direction does not matter. brightest: of the world; a viewer multiplies
+/// it by at least 1 / most_gain.
 double pre_exposure(double brightest, double exposure_ev, double most_gain);
 
 } // namespace starbow

@@ -18,7 +18,7 @@ struct Scaled {
 };
 Scaled scale_of(double value) { return {std::max(std::log2(value), least_log2)}; }
 
-/// A row's colours over its scale, number by number, as the halves have them; and the scale's logarithm.
+/// A row's colours over its scale, by basis coefficient, as the halves hold them; and the scale's logarithm.
 struct ScaledRow {
     std::array<float, 3 * MOST_REFLECTED> values{};
     float log2 = 0;

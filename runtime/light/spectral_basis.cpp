@@ -9,12 +9,12 @@
 namespace starbow {
 namespace {
 
-// Reflectances are told by their samples from 280 to 1250 nm, beyond which they are level.
+// Samples from 280 to 1250 nm represent a reflectance, which is level beyond them.
 constexpr double grid_from_nm = 280, grid_to_nm = 1250, grid_step = 0.006;
 const int grid_points = int(std::log(grid_to_nm / grid_from_nm) / grid_step) + 1;
 double grid_nm(int point) { return grid_from_nm * std::exp(grid_step * point); }
 
-// The outermost basis functions' middles. Found by trying: the errors of colour checkers' colours are least there.
+// The outermost basis functions' middles. Trials gave the least errors of colour checkers' colours here.
 constexpr double first_basis_nm = 340, last_basis_nm = 830;
 
 using Row = std::vector<double>;
@@ -27,8 +27,8 @@ double dot(const Row& a, const Row& b)
     return sum;
 }
 
-/// How much each sample of a sunlit reflectance adds to what is seen at D: nothing but from `first` to before `end`. At most
-/// D these are few, for all that is seen lies beyond the grid.
+/// The contribution of each sample of a sunlit reflectance to the colour seen at D: nothing but from `first` to before
+/// `end`. At most D these are few, because the seen wavelengths lie beyond the grid.
 struct ResponseWindow {
     std::array<Row, 3> rows;
     std::size_t first = std::size_t(grid_points), end = 0;
@@ -66,7 +66,7 @@ double basis_function(int k, int basis_functions, double nm)
     return std::max(0.0, 1 - std::abs(at - k));
 }
 
-/// Number k's reflectance.
+/// The reflectance of basis function k.
 double shape(int k, int reflected, double nm)
 {
     if (reflected > 5)
@@ -160,7 +160,7 @@ const std::vector<Row>& learned()
     return samples;
 }
 
-/// The primaries' numbers are the sunlit colour, once the other two, means of their own ranges, have been seen too.
+/// The coefficients of the primaries: the sunlit colour, after the other two, means of their own ranges, are taken off.
 Row colours_of_grid(int reflected)
 {
     const std::array<Row, 3> seen = sight_at(eye(), 1).rows;
@@ -194,8 +194,8 @@ Row colours_of_grid(int reflected)
     return rows;
 }
 
-/// The basis functions' numbers: those whose light looks most alike at every D from 1/10 to 10, colours weighed by how bright they are
-/// there; a little by the spectra themselves, so that no number is left to chance.
+/// The coefficients of basis functions: their light looks most alike at every D from 1/10 to 10. Colours are weighed by
+/// their brightness there; the spectra themselves count a little, so that no coefficient is left to chance.
 Row learned_hats(int n)
 {
     const std::vector<Row> basis_functions = shapes(n);
@@ -230,8 +230,9 @@ Row learned_hats(int n)
     return right;
 }
 
-/// numbers x 3, [number * 3 + sensor]: what to add to the basis functions' own light, seen, to bring pigments (their numbers and what
-/// is seen of their grid) closest to what they are. Numbers that are all alike, a grey, it does not change.
+/// coefficients x 3, [coefficient * 3 + sensor]: a correction of the basis functions' seen light, which brings pigments
+/// (their coefficients and their grid's seen light) closest to the truth. It does not change a grey, whose coefficients are
+/// all alike.
 Row correction(const std::vector<Row>& numbers, const ResponseWindow& sight, const std::array<Row, 3>& seen)
 {
     const int n = int(seen[0].size());
@@ -256,7 +257,7 @@ Row correction(const std::vector<Row>& numbers, const ResponseWindow& sight, con
     for (int k = 0; k < n; ++k)
         trace += square[std::size_t(k * n + k)];
     for (int k = 0; k < n; ++k)
-        square[std::size_t(k * n + k)] += 1e-4 * trace / n; // the sum of all is not told by differences
+        square[std::size_t(k * n + k)] += 1e-4 * trace / n; // differences do not determine the sum of all
     solve(square, n, miss, 3);
     for (std::size_t c = 0; c < 3; ++c) {
         double mean = 0;
@@ -304,8 +305,8 @@ std::vector<double> lit(
         numbers[number({*light})] = part * reflectance(line->nm);
         return numbers;
     }
-    // The basis functions are weighted by sunlight, and a lamp's light over the Sun's grows or falls without end on both sides of the
-    // visible: there nothing may be left to them.
+    // The basis functions are weighted by sunlight, and a lamp's light over the Sun's grows or falls without end on both
+    // sides of the visible: there they must not contribute.
     const double even = reflectance(shortest_nm);
     const std::size_t infrared = number({*light, true});
     const double more = infrared < numbers.size() ? reflectance(longest_nm) - even : 0;
@@ -336,7 +337,8 @@ std::vector<double> lit_shifted(const SpectralBasis& basis, const std::optional<
     const std::function<double(double nm)>& reflectance)
 {
     const Emission there = shifted(light, D);
-    // So much of `there`, as emissions are told, is this light: the energy per frequency stays, the width grows as D.
+    // The amount of `there`, in the unit of emissions, that is this light: the energy per frequency stays, the width grows
+    // as D.
     const double strength = D;
     if (std::find(basis.own.begin(), basis.own.end(), EmissionSpectrum{there}) != basis.own.end()) {
         std::vector<double> numbers = lit(basis, there, reflectance);

@@ -51,7 +51,7 @@ double energy(const SpectralTable& table)
     return energy;
 }
 
-/// Of the false colours red, green and blue: from, to.
+/// The false colours' wavelengths of red, green and blue: from, to.
 constexpr double bands[3][2] = {{830, longest_nm}, {360, 830}, {shortest_nm, 360}};
 
 double logistic(double x) { return 1 / (1 + std::exp(-x)); }
@@ -87,7 +87,8 @@ double infrared_part(double nm) { return logistic(std::log(nm / 820) / 0.05); }
 
 double base_reflectance(const glm::dvec3& rgb, double ultraviolet, double infrared, double nm)
 {
-    // Where the one ends and the other begins, in the logarithm of the wavelength: glass, paint and leaves change there too.
+    // The limits of the ultraviolet and the infrared, in the logarithm of the wavelength: glass, paint and leaves change
+    // there too.
     const double uv = logistic(-std::log(nm / 360) / 0.035), ir = infrared_part(nm);
     const double step = std::log(primaries_to_nm / primaries_from_nm) / double(primaries.size() - 1);
     const double at = std::clamp(std::log(nm / primaries_from_nm) / step, 0.0, double(primaries.size() - 1));

@@ -3,7 +3,7 @@
 
 namespace starbow {
 
-/// sRGB's curve, IEC 61966-2-1: from what a picture holds to light, both 0 to 1, and back.
+/// sRGB's curve, IEC 61966-2-1: from a stored value to light, both 0 to 1, and back.
 inline double light_of_srgb(double value)
 {
     return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);

@@ -7,15 +7,16 @@
 
 namespace starbow {
 
-/// Who a monitor says that it is.
+/// A monitor's own identity.
 struct Edid {
-    std::string model; ///< the name that it shows, such as "DELL U2415"; where it has none, maker and product: "DEL-A0BC"
+    std::string model; ///< the name that it shows, such as "DELL U2415"; without one, maker and product: "DEL-A0BC"
     std::string serial; ///< as printed on it, or else its number in decimal; empty where it has neither
     glm::ivec2 size_mm{0}; ///< of the picture; 0 for projectors
 };
 
-/// The first 128 bytes of an EDID (VESA E-EDID 1.4, section 3). Nothing for what is too short, is no EDID, or has a wrong
-/// checksum: a half-read identity could send a picture to the wrong screen. Letters other than printable ASCII become '?'.
+/// Parses the first 128 bytes of an EDID (VESA E-EDID 1.4, section 3). nullopt for bytes that are too short, no EDID, or
+/// have a wrong checksum: a half-read identity could send a picture to the wrong screen. Letters other than printable ASCII
+/// become '?'.
 std::optional<Edid> parse_edid(std::span<const std::uint8_t> bytes);
 
 } // namespace starbow

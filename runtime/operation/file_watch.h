@@ -13,18 +13,18 @@ public:
     using Clock = std::chrono::steady_clock;
     explicit FileWatch(std::vector<std::filesystem::path> files);
 
-    /// True once after a change, when the files have stayed the same for a fifth of a second: nobody reads half a file.
-    /// A missing file, too, is a change, once it has been gone for a second: saving may take it away and put it back. Looks
-    /// at the disk ten times a second at most, however often it is asked.
+    /// True once after a change, when the files have stayed the same for a fifth of a second: nobody reads half a file. A
+    /// missing file counts as a change once it has been gone for a second: saving may take it away and put it back. Looks
+    /// at the disk ten times a second at most, however often it is called.
     bool changed(Clock::time_point now);
 
 private:
     struct Stamp {
         std::int64_t written_s = 0, written_ns = 0, size = 0;
-        std::uint64_t number = 0; ///< of the file on its disk
+        std::uint64_t number = 0; ///< inode
         bool operator==(const Stamp&) const = default;
     };
-    /// Nothing where one is missing.
+    /// nullopt where a file is missing.
     std::optional<std::vector<Stamp>> look() const;
 
     std::vector<std::filesystem::path> files_;

@@ -9,7 +9,7 @@ namespace {
 constexpr double moves_apart_s = 0.5; // at least
 constexpr double room_down = 0.85, room_up = 0.75; // of the time that is held
 constexpr double longest_wait_s = 64;
-constexpr double up_in_vain_s = 12; // who comes down so soon after going up should not have gone
+constexpr double up_in_vain_s = 12; // a move down so soon after a move up shows that the move up was in vain
 
 } // namespace
 
@@ -37,7 +37,7 @@ bool Governor::drawn(double now_s, double ms)
     if (told_ < 2)
         return false;
     const std::size_t before = level_;
-    // What two frames in a row took at least; and, before going up, what none of three exceeded.
+    // The load that two frames in a row reached at least; and, before going up, the load that none of three exceeded.
     const double load = std::min(last_[0], last_[1]), most = *std::max_element(last_, last_ + told_);
     const bool late = load * ladder_[level_].ms > frame_budget_ms_;
     const std::size_t up = finest_within(most, room_up);
@@ -55,7 +55,7 @@ bool Governor::drawn(double now_s, double ms)
         level_ = up;
         up_s_ = now_s;
     }
-    // After a long peace the past is forgotten.
+    // After a long calm the past is forgotten.
     if (now_s - moved_s_ > 4 * longest_wait_s)
         wait_s_ = 1;
     if (level_ == before)

@@ -3,19 +3,19 @@
 
 namespace starbow {
 
-/// Holds the time of frames by moving along a ladder of qualities. Pure: told of each frame, it answers with the level for
+/// Holds the frame time by moving along a ladder of qualities. Pure: it receives each frame's time and chooses the level of
 /// the next one.
 ///
-/// A frame takes its level's part of the ladder times a load that is not known: the scene, the flight, what else the machine
-/// does. One late frame may be chance; from the second on the load is believed, and the finest level is taken that holds
-/// with room to spare, however far it is. Down at once, up only after a calm while; and who has gone up and had to come down
-/// again waits twice as long before the next time, so that a load that comes and goes does not pump the picture.
+/// A frame takes its level's part of the ladder times an unknown load: the scene, the flight, other programs. One late
+/// frame may be chance. From the second on the governor believes the load and takes the finest level that holds with room
+/// to spare, however far it is. It goes down at once, and up only after a calm while. After going up in vain it waits twice
+/// as long before the next time, so that an intermittent load does not pump the picture.
 class Governor {
 public:
     /// frame_budget_ms: of a whole frame. ladder: not empty.
     Governor(std::vector<PresetLevel> ladder, double frame_budget_ms);
 
-    /// A frame that was drawn on level() took so long; now_s: any clock that runs on. Returns whether the level changed.
+    /// Takes the time of a frame drawn on level(); now_s: any clock that runs on. Returns true if the level changed.
     bool drawn(double now_s, double ms);
 
     std::size_t level() const { return level_; }
@@ -27,13 +27,13 @@ private:
     std::vector<PresetLevel> ladder_;
     double frame_budget_ms_;
     std::size_t level_;
-    double last_[3] = {}; ///< loads of the frames before
+    double last_[3] = {}; ///< loads of the previous frames
     int told_ = 0;
-    double moved_s_ = -1e9, up_s_ = -1e9; ///< when
+    double moved_s_ = -1e9, up_s_ = -1e9; ///< times of the last change and of the last way up
     double calm_since_s_ = -1, wait_s_ = 1;
 };
 
-/// What the head-up display says of it.
+/// The governor's line of the head-up display.
 std::string describe(const Governor& governor);
 
 } // namespace starbow

@@ -29,8 +29,8 @@ void Latency::add(const FrameTimes& times)
         first_ns_ = times.shown_ns;
     else
         frame_ms_.push_back(ms(last_.shown_ns, times.shown_ns));
-    // A device's thread stamps a report and then hands it over: where it is held up between the two, the report is older
-    // than the controls that were read without it.
+    // A device's thread stamps a report and then hands it over. If it is held up between the two, the report is older than
+    // the controls that were read without it.
     const std::int64_t read_ns = first ? times.read_ns : last_.read_ns;
     bound_ms_.push_back(ms(times.told_ns > last_.told_ns ? std::min(read_ns, times.told_ns) : read_ns, times.shown_ns));
     own_ms_.push_back(ms(times.read_ns, times.handed_ns));

@@ -7,35 +7,35 @@ namespace starbow {
 
 /// The stations of one frame, nanoseconds of the steady clock.
 struct FrameTimes {
-    std::int64_t told_ns = 0; ///< arrival of the last report of any device that the frame knows of; 0: none yet
+    std::int64_t told_ns = 0; ///< arrival of the last report, of any device, that the frame shows; 0: none yet
     std::int64_t read_ns = 0; ///< the controls are read
-    std::int64_t handed_ns = 0; ///< the program has done its part; the present call begins
+    std::int64_t handed_ns = 0; ///< the program's own part is done; the present call begins
     std::int64_t shown_ns = 0; ///< the present call has returned
 };
 
-/// The percentile of nearest rank: the smallest of the values that at least `part` (above 0, up to 1) of them do not exceed.
-/// 0 of no values.
+/// The percentile of nearest rank: the smallest of the values that at least `part` (above 0, up to 1) of them do not
+/// exceed. 0 without values.
 double percentile(std::vector<double> values, double part);
 
-/// How long it takes from a device to the screen, over the frames of a flight.
+/// The latency from a device to the screen, over the frames of a flight.
 class Latency {
 public:
     void add(const FrameTimes& times);
 
     std::size_t frames() const { return own_ms_.size(); }
-    std::size_t reports() const { return report_ms_.size(); } ///< frames that were the first to show one
+    std::size_t reports() const { return report_ms_.size(); } ///< frames that were the first to show a report
     double seconds() const { return 1e-9 * double(last_.shown_ns - first_ns_); } ///< first to last frame
 
-    /// For people: a table.
+    /// A table for people.
     std::string describe() const;
 
-    // Milliseconds, one for each frame, or for each that shows a new report.
+    // Milliseconds, one for each frame, or for each frame that shows a new report.
     const std::vector<double>& report_ms() const { return report_ms_; } ///< its arrival to the present call's return
     const std::vector<double>& frame_ms() const { return frame_ms_; } ///< from one present call's return to the next
     const std::vector<double>& own_ms() const { return own_ms_; } ///< controls read to the present call: no waiting
     const std::vector<double>& present_ms() const { return present_ms_; } ///< the present call, which may wait
-    /// Controls read, or a report stamped that they did not yet tell of, to the next frame's present call returned: no
-    /// report, whenever it comes, takes longer.
+    /// From a reading of the controls, or a report that arrived later than it, to the return of the next frame's present
+    /// call. No report takes longer, whenever it arrives.
     const std::vector<double>& bound_ms() const { return bound_ms_; }
 
 private:

@@ -4,7 +4,7 @@
 
 namespace starbow {
 
-/// How far apart in time the outputs' pictures of one frame came, over a flight.
+/// The skew of the outputs' pictures of one frame, over a flight.
 class Skew {
 public:
     bool on_screen = false; ///< timed as the driver shows them; otherwise as they are handed to the window system

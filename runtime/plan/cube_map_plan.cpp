@@ -17,7 +17,7 @@ struct Draft {
     const Quality& quality;
     double density;
     int layer;
-    bool spreads; ///< what pixels filter in reaches past the image
+    bool spreads; ///< a pixel's filter reaches past the image
     int finest_clip_level;
 
     PlannedImage image(int tile, const SubTiles& sub_tiles, const Demand& demand) const
@@ -35,7 +35,7 @@ struct Draft {
         // Up to twofold shrinking is what bilinear filtering holds; beyond it the image needs mips.
         const int most_levels = quality.mips ? 5 : 1;
         image.levels = std::clamp(1 + int(std::floor(std::log2(demand.coarsest / unit) - 0.2)), 1, most_levels);
-        // Twice as wide where pixels look past the image: what they filter in is then all told.
+        // Twice as wide where pixels look past the image, so that the image holds all that they filter in.
         const int gutter = (spreads ? 4 : 2) << (image.levels - 1);
         const int grid = 1 << image.levels;
         for (int i = 0; i < 2; ++i) {
@@ -51,7 +51,7 @@ struct Draft {
         return image;
     }
 
-    /// What an image costs, in texels.
+    /// The cost of an image, in texels.
     double cost(const PlannedImage& image) const
     {
         constexpr double with_mips = 4.0 / 3;
@@ -59,7 +59,7 @@ struct Draft {
     }
 };
 
-constexpr int halved = TILE_SUB_TILES - 1; // of the halvings' intervals, those below have halves
+constexpr int halved = TILE_SUB_TILES - 1; // intervals of the halvings below this have halves
 
 void merge(TileDemands& all, const Demands::Tile& demand)
 {
@@ -83,7 +83,7 @@ void merge(TileDemands& all, const Demands::Tile& demand)
         }
 }
 
-/// A tile cut into the rectangles of cells that cost least together.
+/// A tile divided into the rectangles of sub-tiles that cost least together.
 class Cutting {
 public:
     Cutting(const Draft& draft, const TileDemands& demands)
@@ -103,7 +103,7 @@ public:
 private:
     enum class Way : char { unknown, whole, along_a, along_b };
 
-    /// Of an interval of the heap, its cells.
+    /// The sub-tiles of an interval of the heap.
     static void cells_of(int interval, int& first, int& count)
     {
         const int level = std::bit_width(unsigned(interval + 1)) - 1;
@@ -118,7 +118,7 @@ private:
         return sub_tiles;
     }
 
-    /// What a part costs at least, cut as it may; its way is known then.
+    /// The least cost of a part, over all divisions; its division is known afterwards.
     double cost(int a, int b)
     {
         const Demand& demand = demands_.demands[b][a];
@@ -130,7 +130,7 @@ private:
             return cost;
         way = Way::whole;
         cost = draft_.cost(draft_.image(demands_.tile, {}, demand));
-        // Another image, and the texels without any waste, cost no less than any cut.
+        // No division costs less than one more image and the texels without any waste.
         const double least = demands_.wanted[b][a] * draft_.density * draft_.density + 2 * draft_.quality.image_cost_texels;
         if (cost <= least)
             return cost;
@@ -256,7 +256,7 @@ CubeMapPlan plan_cube_map(const std::vector<RestFrameRequest>& layers, const Qua
     };
     double density = quality.texels_per_pixel;
     lay_out(density);
-    // What moves may fill the view as well as the world behind it.
+    // Moving bodies may fill the view as well as the world behind them.
     int seen = 0;
     for (std::size_t i = 0; i < plan.images.size(); ++i)
         seen += i == 0 || plan.images[i].layer != plan.images[i - 1].layer;
@@ -312,7 +312,7 @@ shared::TileEntry tile_entry(const PlannedImage& image)
 
 namespace {
 
-/// Of a tile's images the one whose cells lie nearest.
+/// The image of a tile whose sub-tiles lie nearest.
 const PlannedImage& nearest_image(std::span<const PlannedImage> images, const glm::ivec2& sub_tile)
 {
     const auto off = [&](const PlannedImage& image) {
@@ -357,7 +357,7 @@ void write_tiles(const CubeMapPlan& plan, shared::TileTable& table)
                     told[std::size_t(y * TILE_SUB_TILES + x)] = true;
                 }
         }
-        // A cell at which no pixel looks is told as the nearest that is drawn: rounding may lead there.
+        // A sub-tile at which no pixel looks refers to the nearest drawn one: rounding may lead there.
         for (int sub_tile = 0; sub_tile < SUB_TILE_COUNT; ++sub_tile)
             if (!told[std::size_t(sub_tile)])
                 entries[sub_tile] = tile_entry(nearest_image(images, {sub_tile % TILE_SUB_TILES, sub_tile / TILE_SUB_TILES}));

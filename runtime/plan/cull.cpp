@@ -12,7 +12,7 @@ namespace {
 /// An instance's bounding box.
 using Box = DrawList::OrientedBox;
 
-/// How far it reaches along a unit vector from its centre.
+/// A box's extent along a unit vector from its centre.
 double reach(const Box& box, const glm::dvec3& n)
 {
     return std::abs(glm::dot(n, box.half[0])) + std::abs(glm::dot(n, box.half[1])) + std::abs(glm::dot(n, box.half[2]));
@@ -41,7 +41,7 @@ struct Frustum {
     }
 };
 
-/// Whether a box lies wholly where no pixel reads: inside the hole that the next finer image behind fills.
+/// True for a box that lies wholly in the clip-map hole, which the next finer image behind fills: no pixel reads it there.
 bool in_clip_hole(const PlannedImage& image, const Box& box)
 {
     if (image.clip_hole <= 0)
@@ -89,7 +89,7 @@ Box box_of(const Primitive& primitive, const glm::dmat3& turn, const glm::dvec3&
     return box;
 }
 
-/// Whether any of its light that arrives at the eye event may have left while it was there.
+/// True if any of its light that arrives at the eye event may have left while it existed.
 bool may_show(const World& world, const Instance& instance, const EyeEvent& eye_event, const Box& box)
 {
     if (!finite_existence(world, instance))
@@ -116,7 +116,7 @@ shared::InstanceEntry entry_of(const Standing& at)
     return {glm::vec4(rows[0], at.place.x), glm::vec4(rows[1], at.place.y), glm::vec4(rows[2], at.place.z)};
 }
 
-/// How an instance stands before an eye, and a box around all of it that may be seen.
+/// An instance's transform before an eye, and a box around all of it that may be seen.
 struct Placed {
     Standing at;
     Box box;
@@ -137,7 +137,7 @@ Placed placed(const World& world, const Instance& instance, const EyeEvent& eye_
     return out;
 }
 
-/// Where the picture has it.
+/// The box as the picture shows it.
 Box as_shown(Box box, const EyeEvent& eye_event)
 {
     box.centre.z *= eye_event.contraction;
@@ -166,7 +166,7 @@ std::vector<BoundingSphere> bounding_spheres(const World& world, const EyeEvent&
 
 namespace {
 
-/// How what moves by itself stands around the moment at which it is seen.
+/// Adds the poses of animated instances around their retarded times.
 void add_poses(const World& world, std::span<const EyeEvent> layers, DrawList& list)
 {
     for (const EyeEvent& eye_event : layers) {

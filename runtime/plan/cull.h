@@ -9,41 +9,41 @@ namespace starbow {
 struct Draw {
     std::uint32_t image, primitive, first, count;
     std::uint32_t first_index, index_count;
-    bool finite_existence = false; ///< some of it may not be there when its light would have left
-    bool moves = false; ///< by itself
+    bool finite_existence = false; ///< some of it may not exist at its retarded time
+    bool moves = false; ///< animated
 };
 
-/// What the cube pass of one eye draws.
+/// The draws of one eye's cube pass.
 struct DrawList {
-    std::vector<shared::InstanceEntry> instances; ///< of all layers, each its frame's in the world's order; behind them
-                                                  ///< POSES for each that moves by itself, in the same order
-    std::vector<std::uint32_t> first_pose; ///< of each layer, in `instances`
-    std::vector<std::uint32_t> first; ///< of each layer, in `instances`
+    std::vector<shared::InstanceEntry> instances; ///< by rest frame, in the world's order; behind each frame's, POSES
+                                                  ///< entries for each animated one, in the same order
+    std::vector<std::uint32_t> first_pose; ///< by rest frame, in `instances`
+    std::vector<std::uint32_t> first; ///< by rest frame, in `instances`
     std::vector<std::uint32_t> visible; ///< indices into `instances`
     std::vector<Draw> draws; ///< by image, then by primitive
 
-    /// What cull works with; kept for its room.
+    /// Memory of cull, kept from frame to frame.
     struct OrientedBox {
         glm::dvec3 centre, half[3]; ///< of an instance's box around the eye, motion axes: to the middle of each side
         double scale; ///< world units per local unit, at most
         double distance; ///< from the eye, at least
-        bool shows; ///< light of it may arrive
+        bool shows; ///< its light may arrive
     };
     std::vector<OrientedBox> boxes;
     std::vector<std::vector<std::uint32_t>> by_level;
 };
 
-/// Moves what rests in each eye event's frame around the eye (in double, rounded to float only there) and sorts out which
-/// instance each image of that layer can see. Each is drawn at the coarsest level of detail that the quality lets
-/// stray. The instances of a world stand in sort_instances' order. before: a list whose memory is taken over.
+/// Moves each rest frame's instances around its eye event (in double, rounded to float only there) and selects those that
+/// each image can see. Each is drawn at the coarsest level of detail within the quality's lod_error_texels. The world's
+/// instances stand in sort_instances' order. before: a list whose memory is reused.
 DrawList cull(const World& world, std::span<const EyeEvent> layers, const std::vector<PlannedImage>& images,
     const Quality& quality = {}, DrawList before = {});
 
-/// Balls around what may be seen of a frame's instances: those whose light, had it left, would have left while they were
-/// there.
+/// Bounding spheres of a rest frame's instances that may be seen: those that existed at their retarded time. Centre from
+/// the eye, motion axes, scene units.
 std::vector<BoundingSphere> bounding_spheres(const World& world, const EyeEvent& eye_event);
 
-/// Distance to the nearest of the frame's instances' bounding boxes, scene units: no surface is seen nearer.
+/// The distance to the nearest bounding box of the rest frame's instances, scene units: no surface is seen nearer.
 double nearest_box(const World& world, const EyeEvent& eye_event);
 
 } // namespace starbow

@@ -7,14 +7,14 @@
 namespace starbow {
 namespace {
 
-/// A circle on the sphere and what its pixels need.
+/// A circle on the sphere and its pixels' demand.
 struct Disc {
     glm::dvec3 centre;
     double radius; // radians, up to pi
     double finest, coarsest; // one texel per pixel, radians
-    double finest_pixel = 0, coarsest_pixel = 1e300; // the same in the ship; 0 and without end where D does not tell them
-    double least_cos_half_square = 0; // of its outermost point's angle from straight ahead; 0 where that is not known
-    double times = 1; // by how much D varies over its pixels
+    double finest_pixel = 0, coarsest_pixel = 1e300; // the same in the ship; 0 and infinite where D does not give them
+    double least_cos_half_square = 0; // of its outermost point's angle from straight ahead; 0 where that is unknown
+    double times = 1; // D's ratio over its pixels
 };
 
 /// Range of tan(angle) of a disc seen along a face's normal and one of its axes, clamped to the face. False if it misses.
@@ -74,13 +74,13 @@ template <class Each> void each_slot(const glm::dvec3& centre, double radius, in
     }
 }
 
-/// Where a layer's things are: in each tile, and all together.
+/// The places of a rest frame's surfaces: in each tile, and all together.
 struct Held {
     std::array<Rect, TILE_COUNT> rects;
     glm::dvec3 axis{0, 0, 1};
     double radius = pi; ///< of the circle around `axis` that holds them all; below 0 where there are none
 
-    /// Everywhere.
+    /// The whole sphere.
     Held()
     {
         for (int tile = 0; tile < TILE_COUNT; ++tile)
@@ -136,14 +136,14 @@ void ask(Demands& demands, const Held& held, const Disc& disc, double E, int fin
                 const glm::ivec2 at_cell = sub_tiles.first + glm::ivec2(i, j);
                 const std::size_t sub_tile = std::size_t(at_cell.y * TILE_SUB_TILES + at_cell.x);
                 const Rect here = intersection(part, all.rects[sub_tile]);
-                // A disc of most of the sky leaves out what lies behind.
+                // A disc of most of the sky leaves out the directions behind.
                 if (here.empty() || (hole && all.in_clip_hole[sub_tile])
                     || all.most_cos_half_square[sub_tile] < disc.least_cos_half_square)
                     continue;
                 // The solid angle of a texel at (a, b) is its area over (1 + a^2 + b^2)^(3/2).
                 const glm::dvec2 at = 0.5 * (here.low + here.high);
                 const double square = 1 + glm::dot(at, at), per_angle = std::sqrt(square * std::sqrt(square));
-                // What looks here has a D of this cell's: the disc's own bounds may be of elsewhere.
+                // Directions in this sub-tile have its D: the disc's own bounds may be from elsewhere.
                 const double least = all.least_cos_half_square[sub_tile], most = all.most_cos_half_square[sub_tile];
                 const double above = disc.finest_pixel * (E * least + (1 - least) / E);
                 const double below = disc.coarsest_pixel * (E * most + (1 - most) / E);
@@ -153,7 +153,7 @@ void ask(Demands& demands, const Held& held, const Disc& disc, double E, int fin
     });
 }
 
-/// Walks a view's blocks of pixels, finer where the boost spreads one over much of the sky.
+/// Walks a view's cone hierarchy, finer where the boost spreads a cone over much of the sky.
 struct Walk {
     const ViewRequest& view;
     double E;
@@ -161,8 +161,8 @@ struct Walk {
     int finest_clip_level;
     const Held& held;
     Demands& demands;
-    double spread; ///< how far from its centre a pixel looks, pixels
-    int coarsest_level; ///< that is fine enough to follow the view's outline
+    double spread; ///< greatest distance of a pixel's rays from its centre, pixels
+    int coarsest_level; ///< the coarsest level that follows the view's outline
 
     void block(int level, glm::ivec2 at) const
     {
@@ -206,7 +206,7 @@ struct Walk {
             disc.finest = std::min(stretch.x, stretch.y) * cap.finest;
             disc.coarsest = std::max(stretch.x, stretch.y) * cap.coarsest;
         } else {
-            // Of half the angles, tangents: from the motion, of the disc, and of its pixels' centres.
+            // Tangents of half the angles: from the motion, of the disc, and of its pixels' centres.
             const double middle = centre.z > 0 ? across / (1 + centre.z) : (1 - centre.z) / std::max(across, 1e-100);
             const double reach = std::tan(0.5 * radius), own_reach = std::tan(0.5 * double(cap.radius));
             auto turned = [&](double by) { return (middle + by) / std::max(1 - middle * by, 1e-100); };
@@ -240,8 +240,8 @@ struct Walk {
         ask(demands, held, disc, E, finest_clip_level);
     }
 
-    /// A disc of a last block as those of the square around it, halved again and again where D varies over them: down to the
-    /// place of a single pixel, or to where D is the same all about straight ahead.
+    /// Divides a disc of a last block as those of the square around it, again and again where D varies over them. It ends
+    /// at a single pixel's place, or where D is the same all about straight ahead.
     void cut(const glm::dvec3& centre, const BoundingCone& cap) const
     {
         const glm::dvec3 aside = std::abs(centre.z) > 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
@@ -284,7 +284,7 @@ void add_demands(Demands& demands, const RestFrameRequest& layer, int finest_cli
     const double spread = 0.71 * (1 - 1.0 / pixel_rays) + 0.02;
     for (const ViewRequest& view : layer.views) {
         const ConeHierarchy& cones = *view.cones;
-        // No fewer than 20 blocks across: what they are too coarse for is drawn in vain.
+        // At least 20 blocks across: coarser blocks draw too much in vain.
         const double wanted = std::max(cones.size().x, cones.size().y) / 20.0;
         int level = 0;
         while (level + 1 < cones.levels() && cones.side(level) > wanted)

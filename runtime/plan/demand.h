@@ -6,31 +6,33 @@
 
 namespace starbow {
 
-/// What one view asks of its eye's cube map.
+/// A view's request to its eye's cube map.
 struct ViewRequest {
     const ConeHierarchy* cones;
     glm::dmat3 motion_from_cockpit; ///< turn into the axes whose z is the direction of motion
-    double parallax_rad = 0; ///< by how much the place that a pixel reads may lie off its direction, in the world
+    double parallax_rad = 0; ///< greatest angle, in the world, between a pixel's direction and the texel it reads
 };
 
-/// A ball around something that is drawn, from the eye in motion axes, scene units.
+/// A bounding sphere of something drawn: centre from the eye, motion axes; scene units.
 struct BoundingSphere {
     glm::dvec3 centre;
     double radius;
 };
 
-/// One rest frame's part of a cube map: how the views look at it, boosted by its own motion.
+/// One rest frame's part of a cube map: the directions and densities that the views request, boosted by the frame's own
+/// motion.
 struct RestFrameRequest {
     std::vector<ViewRequest> views;
-    double E = 1; ///< e^rapidity between it and the ship; 1 where directions are not aberrated
-    bool galilean = false; ///< velocities are added: circles do not stay circles
-    std::optional<std::vector<BoundingSphere>> bounds{}; ///< outside which there is nothing to draw; none: everywhere is something
+    double E = 1; ///< e^rapidity between the frame and the ship; 1 where directions are not aberrated
+    bool galilean = false; ///< velocities add simply: circles do not stay circles
+    std::optional<std::vector<BoundingSphere>> bounds{}; ///< all that is drawn lies inside these; nullopt: everywhere is
+    ///< something
 };
 
-/// What pixels want of a part of a face.
+/// The pixels' demand on a part of a face.
 struct Demand {
-    Rect rect; ///< around what they read
-    double finest = 1e300; ///< face units per texel that some pixel wants
+    Rect rect; ///< encloses all that they read
+    double finest = 1e300; ///< the finest face units per texel that a pixel needs
     double coarsest = 0;
     void add(const Demand& other)
     {
@@ -40,11 +42,11 @@ struct Demand {
     }
 };
 
-/// What they want of the cells of each tile.
+/// The pixels' demand on the sub-tiles of each tile.
 struct Demands {
     struct Tile {
         bool any = false;
-        std::array<Demand, SUB_TILE_COUNT> sub_tiles; ///< only where there are any
+        std::array<Demand, SUB_TILE_COUNT> sub_tiles; ///< only for tiles that have any
     };
     std::array<Tile, TILE_COUNT> tiles;
     void clear()
@@ -54,7 +56,7 @@ struct Demands {
     }
 };
 
-/// Adds what a layer's views look at. finest_clip_level: the finest nested tile behind that there is. pixel_rays: along each side of
+/// Adds the demand of a rest frame's views. finest_clip_level: of the nested tiles behind. pixel_rays: along each side of
 /// a pixel.
 void add_demands(Demands& demands, const RestFrameRequest& layer, int finest_clip_level, int pixel_rays);
 

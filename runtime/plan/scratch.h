@@ -3,7 +3,7 @@
 
 namespace starbow {
 
-/// Of a list that is filled anew in each frame: room for twice as much, so that a flight soon takes no more memory.
+/// Reserves twice the room in a list that is filled anew in each frame, so that a flight soon allocates no more memory.
 template <class T> void reserve_headroom(std::vector<T>& list)
 {
     if (2 * list.capacity() < 3 * list.size())

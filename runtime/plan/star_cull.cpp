@@ -9,9 +9,10 @@ namespace {
 
 constexpr std::size_t most_patches = 2048, least_stars = 16;
 constexpr double spot_texels = 16; ///< more than a spot's radius in pixels, where these are coarser than the image
-constexpr std::uint32_t gap = 64; ///< stars: so many out of sight cost less than another draw
+constexpr std::uint32_t gap = 64; ///< stars: a gap of so many costs less than another draw
 
-/// What an image looks at, from the eye: unit normals of its four sides, pointing inwards, and how far beyond still counts.
+/// An image's pyramid of directions from the eye: unit normals of its four sides, pointing inwards, and the margin that
+/// still counts.
 struct Pyramid {
     std::array<glm::dvec3, 4> sides;
     double margin_rad;

@@ -4,24 +4,24 @@
 
 namespace starbow {
 
-/// Stars that stand next to each other in star_entries' order, and the cap of the sky that holds them.
+/// Stars that are neighbours in star_entries' order, and the bounding cone that holds them.
 struct StarPatch {
     glm::dvec3 axis; ///< unit, world
     double radius_rad;
     std::uint32_t first, count;
 };
 
-/// All entries in at most about two thousand patches.
+/// Divides all entries into at most about two thousand patches.
 std::vector<StarPatch> star_patches(std::span<const shared::StarEntry> stars);
 
-/// Entries from `first` on.
+/// A run of entries, from `first` on.
 struct StarRun {
     std::uint32_t first, count;
 };
 
-/// The stars that views of these images may show, spots that reach in from beyond an edge included; in order, few and long
-/// rather than many and short.
+/// The stars that views of these images may show, including spots that reach in from beyond an edge. The runs are in
+/// order, few and long rather than many and short.
 std::vector<StarRun> stars_in(std::span<const PlannedImage> images, std::span<const StarPatch> patches,
-    const glm::dmat3& motion_from_world, std::vector<StarRun> before = {}); ///< before: whose memory is taken over
+    const glm::dmat3& motion_from_world, std::vector<StarRun> before = {}); ///< before: a list whose memory is reused
 
 } // namespace starbow

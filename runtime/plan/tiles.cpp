@@ -19,11 +19,11 @@ Rect rect_of(int tile)
     return {{-half, -half}, {half, half}};
 }
 
-/// Behind, cells are even in the squares of face coordinates, as D is there: none lies across the nested square's edge.
+/// Behind, sub-tiles are even in the squares of face coordinates, as D is there: none lies across the nested square's edge.
 double spread_out(bool rear, double at) { return rear ? at * std::abs(at) : at; }
 double drawn_in(bool rear, double at) { return rear ? std::copysign(std::sqrt(std::abs(at)), at) : at; }
 
-/// What is the same in each frame.
+/// The tables that are the same in each frame.
 struct Tiles {
     std::array<Rect, TILE_COUNT> rects;
     std::array<glm::dvec4, TILE_COUNT> sub_tiles_from_face;
@@ -126,9 +126,9 @@ const SubTileTable& sub_tile_table(int tile)
                 const std::size_t sub_tile = std::size_t(i);
                 const glm::ivec2 at(i % TILE_SUB_TILES, i / TILE_SUB_TILES);
                 const Rect rect = table.rects[sub_tile] = sub_tiles_rect(tile, {at, {1, 1}});
-                const glm::ivec2 off = glm::abs(2 * at + 1 - TILE_SUB_TILES); // half cells from the middle
+                const glm::ivec2 off = glm::abs(2 * at + 1 - TILE_SUB_TILES); // half sub-tiles from the middle
                 table.in_clip_hole[sub_tile] = tile >= TILE_REAR && std::max(off.x, off.y) < TILE_SUB_TILES / 2;
-                // At corners: no cell lies across an axis of its face.
+                // At corners: no sub-tile lies across an axis of its face.
                 double& least = table.least_cos_half_square[sub_tile] = 1;
                 double& most = table.most_cos_half_square[sub_tile] = 0;
                 for (const glm::dvec2& corner :

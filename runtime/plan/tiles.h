@@ -5,12 +5,14 @@
 
 namespace starbow {
 
-/// The cut of a cube map, fixed: its tiles, and the cells of each. A plan decides which of them it draws, and how.
+/// The fixed division of a cube map into tiles, and of each tile into sub-tiles. A plan decides which of them it draws,
+/// and how.
 ///
-/// One tile ahead; each side in three bands across the motion, so that D varies less than twofold in each; behind, nested
-/// squares shrinking by sqrt 2 (D varies as the square of the angle there).
+/// One tile lies ahead. Each side has three bands across the motion, in each of which D varies little: up to 2.28-fold,
+/// in the rear band. Behind lie nested squares that shrink by sqrt 2, because D varies as the square of the angle there:
+/// a clip map.
 ///
-/// Faces are numbered +z (ahead), -z (behind), +x, -x, +y, -y of the motion axes; a face's coordinates (a, b) are the two
+/// Faces are numbered +z (ahead), -z (behind), +x, -x, +y, -y of the motion axes. A face's coordinates (a, b) are the two
 /// other components (x before y before z) over the distance along its normal.
 
 struct Rect {
@@ -20,30 +22,32 @@ struct Rect {
 };
 inline Rect intersection(const Rect& a, const Rect& b) { return {glm::max(a.low, b.low), glm::min(a.high, b.high)}; }
 
-/// Components of a direction along a face's a axis, b axis and normal.
+/// The components of a direction along a face's a axis, b axis and normal.
 constexpr int face_axis[6] = {2, 2, 0, 0, 1, 1};
 constexpr int face_a[6] = {0, 0, 1, 1, 0, 0};
 constexpr int face_b[6] = {1, 1, 2, 2, 2, 2};
 constexpr double face_sign[6] = {1, -1, 1, -1, 1, -1};
 
-/// Unit direction (not normalised: length of the face's plane) of a face coordinate.
+/// The direction of a face coordinate, not normalised: it ends on the face's plane at distance 1.
 glm::dvec3 face_direction(int face, const glm::dvec2& at);
 
 int tile_face(int tile);
-/// The part of its face's plane that belongs to a tile.
+/// A tile's rectangle of its face's plane.
 const Rect& tile_rect(int tile);
-/// Half the side of the square in a nested tile's middle that belongs to the next one; 0 where none does.
+/// Half the side of the clip-map hole: the square in a nested tile's middle that belongs to the next one; 0 where none
+/// does.
 double clip_hole(int tile, int finest_clip_level);
 
-/// The tile that shows the unit direction n (motion axes) and n's face coordinates there: what the warp shader does.
+/// The tile that shows the unit direction n (motion axes), and n's face coordinates there; the warp shader computes the
+/// same.
 struct TilePlace {
     int tile, face;
     glm::dvec2 at;
 };
 TilePlace tile_of(const glm::dvec3& n, int finest_clip_level);
 
-/// A tile's cells: TILE_SUB_TILES along each side, rows along b. cell = face coordinate * xy + zw; behind, its square with its
-/// sign instead.
+/// A tile's sub-tiles: TILE_SUB_TILES along each side, rows along b. sub-tile = face coordinate * xy + zw; behind, the
+/// coordinate's signed square replaces it.
 constexpr int SUB_TILE_COUNT = TILE_SUB_TILES * TILE_SUB_TILES;
 struct SubTiles {
     glm::ivec2 first{0}, count{TILE_SUB_TILES};
@@ -52,11 +56,11 @@ struct SubTiles {
 };
 const glm::dvec4& sub_tiles_from_face(int tile);
 Rect sub_tiles_rect(int tile, const SubTiles& sub_tiles);
-/// Those that a part of the face's plane touches.
+/// The sub-tiles that a part of the face's plane touches.
 SubTiles sub_tiles_in(int tile, const Rect& part);
 
-/// What is told of each cell: its part of the face's plane; whether it lies in the hole; the least and the greatest square
-/// of the cosine of half the angle from straight ahead, which D grows with.
+/// The constants of each sub-tile: its part of the face's plane; whether it lies in the clip-map hole; the least and the
+/// greatest cos^2 of half the angle from straight ahead, with which D grows.
 struct SubTileTable {
     std::array<Rect, SUB_TILE_COUNT> rects;
     std::array<bool, SUB_TILE_COUNT> in_clip_hole;
@@ -64,7 +68,7 @@ struct SubTileTable {
 };
 const SubTileTable& sub_tile_table(int tile);
 
-/// Which nested tile a point behind belongs to, from the larger of its coordinates.
+/// The nested tile of a point behind, from the larger of its coordinates' magnitudes.
 int clip_level(double larger, int finest_clip_level);
 
 } // namespace starbow

@@ -9,11 +9,11 @@ namespace {
 
 bool between(double low, double x, double high) { return x >= low && x <= high; }
 
-/// A face of its own, in another: its middle.
+/// The small dials' middles on the face.
 const glm::dvec2 ten_seconds_at(-0.38, 0.06), hour_at(0.38, 0.06);
 constexpr double small_radius = 0.25;
 
-/// So many strokes around the middle, one upwards.
+/// True on one of `count` strokes around the middle, one of them upwards.
 bool stroke(const glm::dvec2& at, int count, double inner, double outer, double half_width)
 {
     const double r = glm::length(at);
@@ -35,7 +35,7 @@ constexpr Hand minute{60, 0.82, 0.16, 0.034, 0.012};
 constexpr Hand ten_seconds{10, 0.19, 0.05, 0.020, 0.008};
 constexpr Hand hour{3600, 0.19, 0.05, 0.020, 0.008};
 
-/// Whether the hand, so much wider, covers a point.
+/// True if the hand, widened by `wider`, covers a point.
 bool covers(const Hand& hand, const glm::dvec2& at, double reading_s, double wider = 0)
 {
     const double angle = 2 * pi * std::fmod(reading_s, hand.turn_s) / hand.turn_s;

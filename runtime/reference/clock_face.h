@@ -4,8 +4,8 @@
 
 namespace starbow {
 
-/// How much of a clock's face is mark, 0 to 1, at one point: its radius is 1, x to the right, y up. Hands stand for the time
-/// that the point itself shows, figures for `told`. Sharp: whoever asks takes the mean.
+/// The coverage of a clock's face by marks, 0 to 1, at one point: its radius is 1, x to the right, y up. The hands show the
+/// point's own time, the figures show `told`. The edges are sharp: callers average.
 double mark(const glm::dvec2& at, double reading_s, const std::string& told);
 
 } // namespace starbow

@@ -36,7 +36,7 @@ const glm::dvec3* ByShift::row(int i) const
     auto made = std::make_unique<glm::dvec3[]>(std::size_t(colours_));
     sum_(std::exp2(double(i) / steps_per_octave - most_octaves), made.get());
     const glm::dvec3* other = nullptr;
-    // Who comes second takes the first's, which is the same.
+    // The second thread takes the first one's, which is the same.
     return kept.compare_exchange_strong(other, made.get(), std::memory_order_acq_rel) ? made.release() : other;
 }
 
@@ -83,7 +83,7 @@ std::unique_ptr<ByShift> Colours::emission(const Emission& emission) const
         std::holds_alternative<BlackBody>(emission));
 }
 
-/// How many reflectances of a surface are seen each by itself.
+/// The number of a surface's reflectances that are summed separately.
 int Colours::parts(int material) const { return material < 0 ? 5 : 1; }
 
 /// material -1: of base colours.

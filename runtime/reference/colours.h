@@ -9,13 +9,13 @@
 
 namespace starbow {
 
-/// What is seen of some light as a function of its shift D, Rec. 709 linear: summed over wavelengths where it is asked for
-/// first, and kept. 1024 steps an octave, straight between them: within 1e-5, and 2e-4 where a black body is so cold that
-/// its light is gone. Safe to ask from several threads.
+/// The colour of some light as a function of its shift D, Rec. 709 linear: summed over wavelengths at its first use, and
+/// kept. There are 1024 steps an octave with linear interpolation: accurate to 1e-5, and to 2e-4 where a black body is so
+/// cold that its light is gone. Several threads may call it.
 class ByShift {
 public:
     using Sum = std::function<void(double D, glm::dvec3* seen)>;
-    /// seen: so many colours. kept: false: sum anew each time, for what has edges.
+    /// seen: the sum for `colours` colours. kept: false: sum anew each time, for spectra with edges.
     ByShift(int colours, Sum sum, bool kept = true);
     ~ByShift();
     ByShift(const ByShift&) = delete;
@@ -35,25 +35,25 @@ class Colours {
 public:
     Colours(const World& world, const SceneFile& scene, const StandardObserver& observer);
 
-    /// Light of a kind that shines on surfaces: sunlight, or a lamp's own, that comes there shifted by D.
+    /// The kind of a light on surfaces: sunlight, or a lamp's own spectrum, that arrives shifted by D.
     struct Kind {
         std::optional<Emission> light;
         double D = 1;
         bool operator==(const Kind&) const = default;
     };
-    /// Makes ready for a kind whose D is always the same. Not while others ask.
+    /// Prepares a kind whose D is always the same. No other thread may use the object meanwhile.
     std::size_t kind(const Kind& kind);
     static constexpr std::size_t sunlight = 0;
 
-    /// What is seen at D of a surface of base colour `base` under a light of the colour `light` of that kind.
+    /// The colour, seen at D, of a surface of base colour `base` under a light of the colour `light` and that kind.
     glm::dvec3 lit(int material, std::size_t kind, const glm::dvec3& base, const glm::dvec3& light, double D) const;
-    /// The same of a kind that is not made ready: summed on the spot.
+    /// The same for a kind that is not prepared: summed on the spot.
     glm::dvec3 lit(int material, const Kind& kind, const glm::dvec3& base, const glm::dvec3& light, double D) const;
-    /// Of what a surface sends by itself: its glow and the colour `emitted` of its emissive light.
+    /// The colour of a surface's own light: its glow and the colour `emitted` of its emission.
     glm::dvec3 sent(int material, const glm::dvec3& emitted, double D) const;
-    /// Of the sky, where its sunlit colour is `colour`.
+    /// The colour of the sky, where its sunlit colour is `colour`.
     glm::dvec3 sky(const glm::dvec3& colour, double D) const;
-    /// Of a point's light: a black body's surface that has luminance 1 at rest.
+    /// The colour of a star: a black body's surface that has luminance 1 at rest.
     glm::dvec3 star(double temperature_K, double D) const;
 
 private:
@@ -67,10 +67,10 @@ private:
     const World& world_;
     const StandardObserver& observer_;
     std::vector<Kind> kinds_;
-    std::vector<int> set_; ///< of each material: which of a kind's reflectances, 0: base colours
+    std::vector<int> set_; ///< by material: its set of a kind's reflectances; 0: base colours
     std::vector<int> material_of_set_;
     std::vector<std::vector<std::unique_ptr<ByShift>>> seen_; ///< [kind][set]
-    std::vector<std::unique_ptr<ByShift>> emissions_, glows_; ///< of each material, null where it has none
+    std::vector<std::unique_ptr<ByShift>> emissions_, glows_; ///< by material, null where it has none
     std::unique_ptr<ByShift> sky_glow_;
 };
 

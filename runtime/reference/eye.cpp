@@ -14,7 +14,7 @@ TracingEye::TracingEye(const World& world, const SceneFile& scene, const Picture
     for (std::size_t i = 0; i < observer_.layers.size(); ++i) {
         const RestFrameView& layer = observer_.layers[i];
         const EyeEvent eye_event = eye_event_of(layer, int(i), place);
-        // What is beside in the ship is further beside in the frame.
+        // A distance beside the eye in the ship is longer in the frame.
         const double reach = beside * physics::gamma_of(layer.shot.u);
         views_.push_back(
             {&layer, Tracer(world, pictures, eye_event, reach), Lighting(world, scene, pictures, colours, eye_event)});
@@ -29,7 +29,7 @@ std::size_t TracingEye::triangles() const
     return all;
 }
 
-/// From a direction in the ship, motion axes, to the one in a frame.
+/// The direction in a frame for a direction in the ship, motion axes.
 physics::AberratedRay TracingEye::sight(const glm::dvec3& n, double E) const
 {
     return observer_.shot.effects.comparison == Comparison::galilean ? physics::galilean_world_from_camera(n, E, 1 / E)
@@ -38,7 +38,7 @@ physics::AberratedRay TracingEye::sight(const glm::dvec3& n, double E) const
 
 TracingEye::Nearest TracingEye::nearest(const glm::dvec3& way, const glm::dvec3& beside, const physics::AberratedRay& world) const
 {
-    // Without aberration directions are as in the world, and what moves there is seen as from there; D is the ship's beside.
+    // Without aberration, directions are the world's, and moving things are seen as from there; the ship's D comes on top.
     const bool aberration = observer_.shot.effects.aberration;
     const double D_beside = aberration ? 1 : world.D;
     Nearest found;

@@ -5,29 +5,29 @@
 
 namespace starbow {
 
-/// What a line of sight shows.
+/// The result of a line of sight.
 struct LookedAt {
     glm::dvec3 light{0}; ///< Rec. 709 linear, before exposure; channels may be below 0
     glm::dvec3 world; ///< unit direction in the world
-    double D; ///< Doppler factor of what is shown
-    double distance; ///< in the world, as long as its light was under way there; infinite for the sky
+    double D; ///< Doppler factor of the source
+    double distance; ///< in the world, the light's travel distance there; infinite for the sky
 };
 
-/// Somebody's eye before all rest frames of a world, in double.
+/// An observer's eye before all rest frames of a world, in double.
 class TracingEye {
 public:
-    /// place: from the ship's event, its own axes (the cockpit's), scene units; others up to `beside` from it may be asked
-    /// for. All must outlive it.
+    /// place: from the ship's event, in the observer's axes (the cockpit's), scene units; look() may use eyes up to
+    /// `beside` from it. All arguments must outlive the object.
     TracingEye(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours,
         const Observer& observer, const glm::dvec3& place, double beside);
 
-    /// Along a unit direction of the cockpit. beside: the eye's place from the one above.
+    /// Looks along a unit direction of the cockpit. beside: the eye's place from the constructor's.
     LookedAt look(const glm::dvec3& way, const glm::dvec3& beside = glm::dvec3(0)) const;
 
-    /// Whether something stands before the sky.
+    /// True if something stands before the sky.
     bool covered(const glm::dvec3& way, const glm::dvec3& beside = glm::dvec3(0)) const;
 
-    /// Where the cockpit sees what lies at a unit direction of the world, and D.
+    /// The cockpit's direction towards a unit direction of the world, and D.
     physics::AberratedRay from_world(const glm::dvec3& towards) const;
 
     const Observer& observer_of() const { return observer_; }
@@ -39,7 +39,7 @@ private:
         Tracer tracer;
         Lighting lighting;
     };
-    /// The nearest of what all frames show, as light's way in the ship tells.
+    /// The nearest hit over all frames, by the light's travel distance in the ship.
     struct Nearest {
         const EyeInRestFrame* view = nullptr;
         Met met;

@@ -7,20 +7,20 @@
 
 namespace starbow {
 
-/// Finished rows of a long picture in a file beside it, so that one that was interrupted goes on where it was. Of another
-/// picture, told by its key, none are taken.
+/// Finished rows of a long picture in a file beside it, so that an interrupted picture goes on. Rows of another picture, by
+/// its key, are dropped.
 class KeptRows {
 public:
     /// Throws InputError where the file can't be written.
     KeptRows(const std::filesystem::path& file, const std::string& key, std::size_t bytes_per_row, int rows);
 
-    /// Those that were found: a row's bytes, or null.
+    /// A row's bytes if the file had them, or null.
     const std::byte* row(int row) const
     {
         return rows_[std::size_t(row)].empty() ? nullptr : rows_[std::size_t(row)].data();
     }
     int count() const;
-    /// Safe from several threads.
+    /// Several threads may call it.
     void put(int row, const std::byte* bytes);
 
 private:

@@ -11,13 +11,13 @@ namespace {
 
 const ExistenceInterval always{-for_ever, for_ever};
 
-/// What an instance's own clock is at its frame's time 0.
+/// An instance's own time at its frame's time 0.
 double zero_of(const World& world, const Instance& instance)
 {
     return instance.existence < 0 ? 0 : world.existence_intervals[std::size_t(instance.existence)].zero;
 }
 
-/// When the light of the middle of an instance's box left that the eye gets.
+/// The retarded time of the middle of an instance's box.
 double middle_sent(const World& world, const Instance& instance, const EyeEvent& eye_event)
 {
     if (instance.motion >= 0)

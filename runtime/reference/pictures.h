@@ -4,13 +4,13 @@
 
 namespace starbow {
 
-/// A world's textures as they are told, without levels of detail.
+/// A world's textures, decoded, without mip levels.
 class Pictures {
 public:
     explicit Pictures(const World& world); ///< which must outlive it
 
-    /// Linear light and alpha at a texture coordinate, between the four texels around, or of the nearest where the sampler
-    /// says so; texture -1: white.
+    /// Linear light and alpha at a texture coordinate, interpolated between the four texels around, or of the nearest where
+    /// the sampler says so; texture -1: white.
     glm::dvec4 at(int texture, const glm::dvec2& uv) const;
 
 private:

@@ -35,7 +35,8 @@ struct ViewAt {
     const CompiledView* compiled;
     ViewRays rays;
     std::size_t eye;
-    glm::dvec3 turning{0}; ///< not 0: the eye's way from the head's middle where its baseline turns, cockpit, scene units
+    glm::dvec3 turning{0}; ///< not 0: the eye's offset from the head's middle where its baseline turns, cockpit, scene
+                           ///< units
     std::size_t stars = 0;
 };
 
@@ -85,7 +86,7 @@ public:
             }
     }
 
-    /// One row of the output into each layer's picture, and the numbers of the first.
+    /// Draws one row of the output into each layer's picture, and the numbers of the first.
     void row(int y, std::span<glm::dvec3* const> light, Reference::Numbers* numbers) const
     {
         for (const ViewAt& view : views_) {
@@ -104,12 +105,12 @@ public:
     }
 
 private:
-    /// Of the eye, from its tracing eye's place, along a direction of the cockpit.
+    /// The eye's offset from its tracing eye's place, along a direction of the cockpit.
     glm::dvec3 beside(const ViewAt& view, const glm::dvec3& way) const
     {
         if (view.turning == glm::dvec3(0))
             return glm::dvec3(0);
-        // To the right of the way that it looks, level; nearer than full_from_zenith_deg to the zenith less and less.
+        // The offset is level and to the right of the direction; within full_from_zenith_deg of the zenith it fades.
         const glm::dvec3 right = glm::cross(way, glm::dvec3(0, 1, 0));
         const double far = glm::length(view.turning) * (view.turning.x < 0 ? -1 : 1);
         return right * (far / std::max(glm::length(right), std::sin(layout_.stereo.full_from_zenith_deg * degree)));
@@ -202,7 +203,7 @@ private:
     std::uint64_t sum_ = 0xcbf29ce484222325;
 };
 
-/// Of all that rows depend on: what draws them, the files, and what was read from files beside these.
+/// A sum of everything that rows depend on: the program, the files, and the data of the files that these name.
 std::uint64_t sum_of(const ReferenceInput& input, const Layout& layout)
 {
     Sum sum;

@@ -75,7 +75,7 @@ glm::dvec3 StarSpots::light(const ViewRays& rays, const glm::ivec2& pixel, int c
     const auto here = rays.direction(centre, channel);
     if (!here || spots_.empty())
         return glm::dvec3(0);
-    /// Steps of a pixel about a point, each from what is shown on either side.
+    /// The steps of a pixel about a point, each from the directions on either side.
     auto steps = [&](const glm::dvec2& at, glm::dvec3& right, glm::dvec3& down) {
         for (int axis = 0; axis < 2; ++axis) {
             glm::dvec2 half(0);
@@ -97,7 +97,7 @@ glm::dvec3 StarSpots::light(const ViewRays& rays, const glm::ivec2& pixel, int c
     near(0, spots_.size(), 0, *here, 1.5 * radius * (glm::length(right) + glm::length(down)), found);
     glm::dvec3 all(0);
     for (std::size_t i : found) {
-        // The point that shows the star, from this pixel on by Newton's method.
+        // Newton's method from this pixel finds the point that shows the star.
         glm::dvec2 at = centre;
         glm::dvec3 shown = *here, r = right, d = down;
         bool lost = false;
@@ -112,7 +112,7 @@ glm::dvec3 StarSpots::light(const ViewRays& rays, const glm::ivec2& pixel, int c
             at += move;
             const auto next = rays.direction(at, channel);
             if (!next || glm::length(move) < 1e-7)
-                break; // beyond what is shown: as a plane goes on
+                break; // beyond the picture: extrapolated as a plane
             glm::dvec3 right_there, down_there;
             if (!steps(at, right_there, down_there))
                 break;

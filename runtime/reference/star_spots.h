@@ -5,25 +5,25 @@
 
 namespace starbow {
 
-/// The sky's stars as one eye has them: those that nothing hides, each where it sees it.
+/// The visible stars' spots as one eye sees them.
 class StarSpots {
 public:
-    /// beside: of the eye for a star's direction, as TracingEye::look has it.
+    /// beside: the eye's place for a direction, as in TracingEye::look.
     StarSpots(const std::vector<Star>& stars, const StarSky& sky, const TracingEye& eye, const Colours& colours,
         const std::function<glm::dvec3(const glm::dvec3& way)>& beside);
 
-    /// The light that stars bring to a pixel: of those whose spots reach it, the spot's part there.
+    /// The light of stars in a pixel: the parts there of the spots that reach it.
     glm::dvec3 light(const ViewRays& rays, const glm::ivec2& pixel, int channel) const;
 
 private:
     struct Spot {
         glm::dvec3 way; ///< unit, cockpit
-        glm::dvec3 light; ///< over a solid angle, as radiance is
+        glm::dvec3 light; ///< divided by a solid angle, as a radiance
     };
     void sort(std::size_t first, std::size_t end, int axis);
     void near(std::size_t first, std::size_t end, int axis, const glm::dvec3& way, double reach,
         std::vector<std::size_t>& found) const;
-    std::vector<Spot> spots_; ///< a k-d tree: the middle one of a range parts it along an axis
+    std::vector<Spot> spots_; ///< a k-d tree: the middle one of a range divides it along an axis
 };
 
 } // namespace starbow

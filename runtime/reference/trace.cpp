@@ -15,17 +15,17 @@ constexpr double tiny = std::numeric_limits<double>::epsilon();
 struct Triangle {
     std::uint32_t instance;
     std::uint32_t corners[3]; ///< of World::vertices
-    glm::dvec3 places[3]; ///< from the eye event's; of what moves by itself, as each is seen
+    glm::dvec3 places[3]; ///< from the eye event's; of an animated instance, at each corner's retarded time
 };
 
-/// Where a line meets a triangle: the parts of the corners, none below 0, which sum up to 1, and how far off.
+/// The crossing of a line and a triangle: the corners' weights, none below 0, which sum up to 1, and the distance.
 struct Crossing {
     glm::dvec3 weights;
     double distance;
     bool front, inside;
 };
 
-/// Corners from the line's beginning. The volumes that the line spans with the edges: two triangles at an edge get the same
+/// Corners are from the line's beginning. The volumes of the line with the edges: two triangles at an edge get the same
 /// number with opposite signs, so no line passes between them. `inside` false: the plane is met beyond the edges.
 std::optional<Crossing> crossing(const glm::dvec3 (&p)[3], const glm::dvec3& way)
 {
@@ -76,7 +76,7 @@ struct Tracer::Scene {
         return line.time + (eye_event.now ? eye_event.beta * (eye_event.motion_from_frame * from_eye).z : -glm::length(from_eye));
     }
 
-    /// Where a corner of what moves by itself is seen from the eye event's place.
+    /// The retarded position of an animated instance's corner, from the eye event's place.
     glm::dvec3 seen_corner(const Instance& instance, const glm::dvec3& local) const
     {
         const SightLine line{glm::dvec3(0), glm::dvec3(0), eye_event.time};
@@ -96,7 +96,7 @@ struct Tracer::Scene {
     {
         const Instance& instance = world.instances[index];
         const Primitive& primitive = world.primitives[instance.primitive];
-        std::unordered_map<std::uint32_t, glm::dvec3> seen; // what moves by itself takes a while for each
+        std::unordered_map<std::uint32_t, glm::dvec3> seen; // an animated corner takes a while to compute
         auto place_of = [&](std::uint32_t vertex) {
             const glm::dvec3 local(world.vertices[vertex].position);
             if (instance.motion < 0)
@@ -118,7 +118,7 @@ struct Tracer::Scene {
         }
     }
 
-    /// Whether any of an instance may be seen: whether light left it while it was there.
+    /// True if any of an instance may be seen: if its light may have left while it existed.
     bool may_be_seen(const Instance& instance) const
     {
         if (instance.existence < 0)
@@ -141,8 +141,8 @@ struct Tracer::Scene {
         glm::dvec3 low = glm::min(glm::min(triangle.places[0], triangle.places[1]), triangle.places[2]);
         glm::dvec3 high = glm::max(glm::max(triangle.places[0], triangle.places[1]), triangle.places[2]);
         if (world.instances[triangle.instance].motion >= 0) {
-            // Light leaves two of its points at most as much apart as these are seen; and in that time, and in as much again
-            // that the eye's place may differ, none moves further than a fifth of it.
+            // The retarded times of two of its points differ by at most the seen distance of the two. In that time, and in
+            // as much again for the eye's other places, no point moves further than a fifth of it.
             const double size = glm::length(high - low);
             const double bend = 0.5 * size + 2 * most_own_speed * farthest_eye;
             low -= bend, high += bend;
@@ -166,7 +166,7 @@ struct Tracer::Scene {
         time = time_at(*at);
         if (instance.motion < 0)
             return at;
-        // As it stood when the light left: the time at which its plane is met where light leaves at that time.
+        // The pose at the retarded time: the time at which its plane is met by light that leaves at that time.
         auto met_at = [&](double t) {
             const glm::dmat4 pose = pose_at(world, instance, t);
             for (int k = 0; k < 3; ++k)

@@ -6,7 +6,7 @@
 namespace starbow {
 namespace {
 
-constexpr int columns = 16; ///< of samples on a pixel of a bent view
+constexpr int columns = 16; ///< of samples on a pixel of a warped view
 
 /// The base 2 digits of i mirrored at the point (van der Corput).
 double mirrored(std::uint32_t i)

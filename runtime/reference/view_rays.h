@@ -4,19 +4,19 @@
 
 namespace starbow {
 
-/// Where on each pixel `count` samples lie, fractions of it from its top left: Hammersley's points, one in each of `count`
-/// rows, the same in every pixel and every run.
+/// The places of `count` samples in each pixel, fractions of it from its top left: Hammersley's points, one in each of
+/// `count` rows, the same in every pixel and every run.
 std::vector<glm::dvec2> sample_places(int count);
 
-/// A view's directions in double, also between its pixels' centres. Of a view that a calibration bends the columns of
-/// samples are rounded to sixteenths of a pixel.
+/// A view's directions in double, also between its pixels' centres. In a warped view the samples' columns are rounded to
+/// sixteenths of a pixel.
 class ViewRays {
 public:
     ViewRays(const CompiledView& view, const std::vector<glm::dvec2>& samples); ///< both must outlive it
 
     int channels() const { return channels_; }
 
-    /// One row of pixels: unit directions in the cockpit, nothing where none is shown.
+    /// One row of pixels: unit directions in the cockpit, nullopt where nothing is shown.
     class Row {
     public:
         std::optional<glm::dvec3> centre(int x, int channel) const;
@@ -31,8 +31,8 @@ public:
     };
     Row row(int y) const;
 
-    /// Anywhere, pixels from the view's corner. Of a view that is bent only as far as a plane through the pixel and those
-    /// beside it goes.
+    /// The direction of any point, pixels from the view's corner. A warped view is extrapolated only as far as a plane
+    /// through the pixel and its neighbours goes.
     std::optional<glm::dvec3> direction(const glm::dvec2& pixel, int channel) const;
 
 private:

@@ -31,7 +31,7 @@ glm::dvec4 slerp(const glm::dvec4& a, glm::dvec4 b, double part)
     double cosine = glm::dot(a, b);
     if (cosine < 0)
         b = -b, cosine = -cosine;
-    const double angle = 2 * std::atan2(glm::length(a - b), glm::length(a + b)); // sharp also for small ones
+    const double angle = 2 * std::atan2(glm::length(a - b), glm::length(a + b)); // accurate for small ones too
     if (angle < 1e-9)
         return glm::normalize(a + part * (b - a));
     return (std::sin((1 - part) * angle) * a + std::sin(part * angle) * b) / std::sin(angle);

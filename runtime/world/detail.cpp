@@ -58,9 +58,9 @@ glm::vec3 colour_of(const Vertex& vertex)
     return glm::vec3(vertex.colour & 255, vertex.colour >> 8 & 255, vertex.colour >> 16 & 255) / 255.0f;
 }
 
-/// How wide a level looks other than the full surface where it lies no deeper: in its shading and its colours. A vertex that
-/// is gone takes its normal with it, as far as to the next one that stays; what differs little counts as little of that way.
-/// Asked of some of the vertices, of so many that it takes milliseconds.
+/// The width over which a level looks other than the full surface where it lies no deeper: in its shading and its colours.
+/// A removed vertex takes its normal with it, as far as to the next one that stays; a small difference counts as little of
+/// that way. Some of the vertices are tested, so many that it takes milliseconds.
 double looks_other(
     const Vertex* vertices, const std::vector<std::uint32_t>& full, const std::vector<std::uint32_t>& level, float extent)
 {
@@ -94,7 +94,7 @@ double looks_other(
             const glm::vec3 colour = parts.x * colour_of(*a) + parts.y * colour_of(*b) + parts.z * colour_of(*c);
             const float off = glm::length(length > 0 ? normal / length - vertex.normal : vertex.normal)
                 + glm::length(colour - colour_of(vertex));
-            // At a sharp edge several lie equally near: the one that it belongs to.
+            // At a sharp edge several lie equally near: the one with the vertex' own normal counts.
             if (distance >= nearest - same && off >= other)
                 return;
             nearest = std::min(nearest, distance), other = off, first = triangle;

@@ -3,26 +3,25 @@
 
 namespace starbow {
 
-/// Turn from world axes to motion axes: z along u, y as near as possible to the cockpit's up; at rest z is the cockpit's
-/// straight ahead. The same turn leads from the ship's axes to the motion axes in the ship's frame.
+/// The turn from world axes to motion axes: z along u, y as near as possible to the cockpit's up; at rest z is the
+/// cockpit's straight ahead. The same turn leads from the ship's axes to the motion axes in the ship's frame.
 glm::dmat3 motion_from_world(const glm::dvec3& u, const glm::dquat& ship_from_cockpit);
 
-/// An eye before what stands still in one rest frame.
+/// An eye's event in one rest frame.
 struct EyeEvent {
     int frame = 0; ///< of World::frames
-    glm::dvec3 place{0}; ///< the eye's event, that frame's place and time
+    glm::dvec3 place{0}; ///< the eye's place and time in that frame
     double time = 0;
     glm::dmat3 motion_from_frame{1}; ///< turn
-    bool now = false; ///< everything is shown where it is now, in the ship's frame: along z as much closer
+    bool now = false; ///< everything is shown at the ship's present, and contracted along z
     double contraction = 1, beta = 0; ///< then: 1 / gamma, and the ship's speed along z
 };
 
-/// An eye of someone who looks: its place in his cockpit, scene units. frame: which of his layers it is.
+/// An observer's eye event: its place in the cockpit, scene units. frame: the index of the rest-frame view.
 EyeEvent eye_event_of(const RestFrameView& layer, int frame, const glm::dvec3& place);
 
-/// When, by the eye event's own frame, the light left that reaches it now from a place, given from the eye in motion axes; or
-/// what time it is there, where that is what is shown. How much later light leaves one place than another is at most as
-/// large as their distance.
+/// The retarded time, in the eye event's own frame, of a place given from the eye in motion axes; with `now`, the place's
+/// time at the ship's present. The difference of two places' retarded times is at most their distance.
 inline double retarded_time(const EyeEvent& eye_event, const glm::dvec3& from_eye)
 {
     return eye_event.time + (eye_event.now ? eye_event.beta * from_eye.z : -glm::length(from_eye));

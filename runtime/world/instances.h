@@ -4,24 +4,24 @@
 
 namespace starbow {
 
-/// A frame's instances, from first to before last, in sort_instances' order.
+/// A rest frame's instances, from first to before last, in sort_instances' order.
 struct InstanceRange {
     std::size_t first, last;
 };
 InstanceRange instances_of(const World& world, int frame);
 
-/// Whether an instance's picture depends on its own time: clocks, blinking lamps, animated nodes and finite existence.
+/// True if an instance's picture depends on its own time: clocks, blinking lamps, animated nodes and finite existence.
 /// These instances are the first of their rest frame.
 bool timed(const World& world, const Instance& instance);
 
-/// Whether an instance's existence interval is finite.
+/// True if an instance's existence interval is finite.
 bool finite_existence(const World& world, const Instance& instance);
 
-/// The part of sort_instances' key that parts a primitive's instances into separate draws: finite existence, own motion.
+/// The part of sort_instances' key that divides a primitive's instances into separate draws: finite existence, animation.
 std::pair<bool, bool> kind_of(const World& world, const Instance& instance);
 
-/// Puts a world's instances in order of their frames, in each those that are timed first, then of their materials and their
-/// primitives.
+/// Sorts a world's instances by their rest frames. In each frame the timed ones come first; then they are sorted by their
+/// materials and their primitives.
 void sort_instances(World& world);
 
 } // namespace starbow

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double tiny = 2.2e-16;
 
-/// Where a joint stands at its own time.
+/// A joint's pose at its own time.
 glm::dmat4 pose(const World& world, int index, double own_s)
 {
     const Joint& joint = world.joints[std::size_t(index)];
@@ -51,7 +51,7 @@ double zero_of(const World& world, const Instance& instance)
     return instance.existence < 0 ? 0 : world.existence_intervals[std::size_t(instance.existence)].zero;
 }
 
-/// How far a box's corners are from its middle, at most.
+/// The greatest distance of a box's corners from its middle.
 double around(const Primitive& primitive, const glm::dmat4& m)
 {
     const glm::dvec3 half = 0.5 * (primitive.high - primitive.low);
@@ -95,8 +95,8 @@ SeenPose seen_pose(const World& world, const Instance& instance, const EyeEvent&
 {
     const Primitive& primitive = world.primitives[instance.primitive];
     const glm::dvec4 middle(0.5 * (primitive.low + primitive.high), 1);
-    // The time at which the middle's light left is that at which light leaves where the middle is then: 0.2 of a step
-    // further in every round. By secants, and by halving where a jump leaves no such time or two.
+    // The middle's retarded time is a fixed point, 0.2 of a step further off in every round. It is found by secants, and by
+    // halving where a jump leaves no such time or two.
     auto sent = [&](double time) {
         return retarded_time(
             eye_event, eye_event.motion_from_frame * (glm::dvec3(pose_at(world, instance, time) * middle) - eye_event.place));
@@ -117,7 +117,7 @@ SeenPose seen_pose(const World& world, const Instance& instance, const EyeEvent&
         before = time, off_before = off, time = next;
     }
     SeenPose seen{time, pose_at(world, instance, time), 0};
-    // A point that is `around` away then is seen no further than that and what it moves in as much time as light differs.
+    // A point `around` away then is seen no further away than that plus its motion in the difference of the retarded times.
     seen.window = around(primitive, seen.frame_from_local) / (1 - most_own_speed);
     return seen;
 }
@@ -155,7 +155,7 @@ std::array<double, POSES> pose_times(const World& world, const Instance& instanc
 
 namespace {
 
-/// Of many points those that lie furthest in some direction: their hull, roughly.
+/// The points of many that lie furthest in some direction: roughly their hull.
 class Hull {
 public:
     void add(const glm::dvec3& point)
@@ -187,12 +187,12 @@ Hull hull_of(const World& world, const Primitive& primitive)
     return hull;
 }
 
-/// A stretch of time in which nothing jumps, and a speed is even or changes little.
+/// A stretch of time without a jump, in which a speed is even or changes little.
 struct Stretch {
     double begin_s, end_s;
 };
 
-/// What a joint's own and its parents' tracks ask to look at, at most so many.
+/// The stretches that a joint's own and its parents' tracks need, at most so many.
 std::vector<Stretch> stretches(const World& world, int index, std::size_t most)
 {
     std::vector<Stretch> all;

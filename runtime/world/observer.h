@@ -5,30 +5,32 @@
 
 namespace starbow {
 
-/// Someone who looks, before what stands still in one of the world's frames.
+/// An observer's view of one of the world's rest frames.
 struct RestFrameView {
-    Shot shot; ///< the instant, as that frame has it
-    double E = 1; ///< e^rapidity of directions, from that frame to the observer's
+    Shot shot; ///< the observer's instant in that frame's coordinates
+    double E = 1; ///< e^rapidity of the aberration from that frame to the observer
     glm::dmat3 motion_from_frame{1}, motion_from_cockpit{1}; ///< turns
-    bool now = false; ///< everything is shown where it is now: EyeEvent's members
+    bool now = false; ///< everything is shown at the ship's present: see EyeEvent
     double contraction = 1, beta = 0;
 };
 
-/// Someone who looks at the ship's place and time: the visitor, or another observer that a viewport has.
+/// An observer at the ship's event: the visitor, or a viewport's own observer.
 struct Observer {
     ViewportObserver observer;
-    Shot shot; ///< his instant
+    Shot shot; ///< the observer's instant in the world
     double E = 1; ///< e^rapidity in the world
-    std::vector<RestFrameView> layers; ///< of the world's frames, the world first
-    double most_E() const; ///< of the rapidities in all frames
+    std::vector<RestFrameView> layers; ///< by the world's rest frames, the world first
+    double most_E() const; ///< the greatest E of all rest frames
 };
 
-/// Everything where it is now: what is simultaneous in the ship, contracted there, without aberration or shift.
-/// Without aberration directions are those that someone sees who rests in the world.
+/// The observer of a viewport. With Shot's comparison "now", everything is shown where it is simultaneous in the ship,
+/// contracted there, without aberration or shift. Without aberration, directions are those of an observer at rest in the
+/// world.
 Observer observer_of(const World& world, const Shot& ship, const ViewportObserver& observer,
-    std::vector<RestFrameView> before = {}); ///< before: whose memory is taken over
+    std::vector<RestFrameView> before = {}); ///< before: a list whose memory is reused
 
-/// The ship's instant for an observer: its event, another velocity, the axes carried there by the boost between them.
+/// The instant of a viewport's observer: the ship's event, another velocity, the axes carried there by the boost between
+/// them.
 Shot shot_of(const Shot& ship, const ViewportObserver& observer);
 
 } // namespace starbow

@@ -13,14 +13,14 @@ const std::optional<Emission>& spectrum_of(const Light& light)
     return std::visit([](const auto& l) -> const std::optional<Emission>& { return l.spectrum; }, light);
 }
 
-/// Light that shines on surfaces, and by how much it comes shifted.
+/// Light that illuminates surfaces, and its shift.
 struct Kind {
     std::optional<Emission> light;
     double D = 1;
     bool operator==(const Kind&) const = default;
 };
 
-/// What is lit moves against a lamp of this light: with which D its light comes, from lowest to highest.
+/// The range of D with which a lamp's light reaches surfaces that move against it.
 struct Shift {
     double lowest = 1, highest = 1;
 };
@@ -61,8 +61,8 @@ std::vector<EmissionSpectrum> own_spectra(const World& world, const SceneFile& s
             if (uneven && !std::holds_alternative<SpectralLine>(*spectrum))
                 add({*spectrum, true});
         }
-    // Greys are exact where the shifted light of what shines on things that move is a number of its own; beyond that they
-    // are told by those of sunlight. A line can't be.
+    // Greys are exact where the shifted light on moving surfaces has an emission spectrum of its own; other cases are
+    // approximated by sunlit basis functions. A line can't be.
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         for (std::size_t frame = 0; frame < world.frames.size(); ++frame)
             if (const auto shift = shift_of(world, scene, i, frame)) {
@@ -115,7 +115,7 @@ std::vector<glm::vec4> by_colour(const SpectralBasis& basis, int groups, const K
         std::vector<double> numbers(std::size_t(basis.size()), 0.0);
         if (light != Kind{} || basis.reflected > 5)
             numbers = lit_as(basis, light, [&](double nm) { return base_reflectance(rgb, column == 3, column == 4, nm); });
-        else if (column < basis.reflected) // these are its numbers
+        else if (column < basis.reflected) // these are its coefficients
             numbers[std::size_t(column)] = 1;
         for (std::size_t k = 0; k < numbers.size(); ++k)
             columns[k / 4 * 5 + std::size_t(column)][int(k % 4)] = float(numbers[k]);
@@ -123,7 +123,7 @@ std::vector<glm::vec4> by_colour(const SpectralBasis& basis, int groups, const K
     return columns;
 }
 
-/// The same of a reflectance of its own, which the base colour's luminance scales.
+/// The same for a material with a reflectance of its own, which the base colour's luminance scales.
 std::vector<glm::vec4> by_table(const SpectralBasis& basis, int groups, const Kind& light, const Reflectance& reflectance)
 {
     constexpr double luminance[3] = {0.2126, 0.7152, 0.0722}; // Rec. 709

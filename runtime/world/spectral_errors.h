@@ -5,7 +5,7 @@ namespace starbow {
 
 enum class ChartFields { colours, greys };
 
-/// How far a level's light is from what it is at every nanometre: over the fields of a colour chart under the Sun, at D from
+/// The errors of a level against sums over every nanometre: over the fields of a colour chart under the Sun, at D from
 /// 1/8 to 8.
 struct SpectralErrors {
     double median = 0, worst = 0; ///< CIEDE2000, at equal luminance

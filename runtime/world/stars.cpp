@@ -14,7 +14,7 @@ namespace {
 constexpr double sun_b_v = 0.65; // for stars whose B-V is not known
 constexpr std::size_t most_stars = 4'000'000; // 128 MB on the device
 
-/// One whole number of a line; `what` and its range are told where it is another thing.
+/// One whole number of a line; `what` and its range are for the message about a wrong one.
 struct Column {
     const char* what;
     int low, high;
@@ -120,7 +120,7 @@ std::vector<glm::vec4> black_body_table(const StandardObserver& observer)
 
 glm::dmat3 world_from_equatorial(const glm::dvec2& ahead_deg)
 {
-    // Where a visitor faces it, north up, the sky's east is on the left: right ascension grows towards -x.
+    // Towards that direction with north up, the sky's east is on the left: right ascension grows towards -x.
     const double ra = ahead_deg.x * degree, dec = ahead_deg.y * degree;
     const glm::dvec3 right(std::sin(ra), -std::cos(ra), 0);
     const glm::dvec3 ahead = equatorial(ahead_deg.x, ahead_deg.y);
@@ -143,7 +143,7 @@ std::vector<shared::StarEntry> star_entries(const std::vector<Star>& stars, cons
         entries.push_back(
             {glm::vec4(turn * star.direction, star.temperature_K), glm::vec4(light / luminance->second, light, 0, 0)});
     }
-    // By patches of the sky: a device works on neighbours together, and these are seen or out of sight together.
+    // Sorted by patches of the sky: a device works on neighbours together, and these are seen or out of sight together.
     auto patch = [](const shared::StarEntry& star) {
         const double azimuth = std::atan2(star.direction.z, star.direction.x) / (360 * degree) + 0.5;
         return int(16 * (star.direction.y + 1)) * 64 + int(64 * azimuth);

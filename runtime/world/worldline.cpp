@@ -10,8 +10,8 @@
 namespace starbow {
 namespace {
 
-/// The leg's frame, made if no leg had its velocity before, but for what a file's decimals leave of it. What rests in the
-/// world is in the world's own frame.
+/// The rest frame of a segment, made if no segment had its velocity before, to the rounding of a file's decimals. Segments
+/// at rest are in the world's own frame.
 int frame_of(World& world, const SceneFile& scene, const WorldlineSegment& segment)
 {
     const double alike = 1e-13 * physics::gamma_of(segment.u);
@@ -26,7 +26,7 @@ int frame_of(World& world, const SceneFile& scene, const WorldlineSegment& segme
     return int(at - world.frames.begin());
 }
 
-/// Where a leg's origin stands in its frame, and when it is there.
+/// The place of a segment's origin in its frame, and its existence interval.
 struct Standing {
     int frame;
     glm::dvec3 place;
@@ -44,7 +44,7 @@ Standing standing(World& world, const SceneFile& scene, const WorldlineSegment& 
     return {frame, from.position, int(at - world.existence_intervals.begin())};
 }
 
-/// Of each node, whether it or a node above it has one of the names.
+/// By node: true if it or a node above it has one of the names.
 std::vector<bool> below(const World& world, const SceneFile& scene, const Body& body)
 {
     std::vector<bool> own(world.nodes.size(), false);

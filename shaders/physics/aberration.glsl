@@ -15,9 +15,9 @@ FN rvec2 half_angle_squares(rvec3 n)
     return n.z >= real(0.0) ? rvec2(large, small) : rvec2(small, large);
 }
 
-// What the camera's direction n shows: the world's direction and D. E = e^rapidity >= 1 and inverse_E = 1/E.
-// tan(theta_w / 2) = E tan(theta_c / 2), written in the half angles' squares: no acos, no gamma, and the result
-// is unit by construction. At rest (E = 1) it is the identity to the bit.
+// The world's direction and D of the camera's direction n. E = e^rapidity >= 1 and inverse_E = 1/E. tan(theta_w / 2) = E
+// tan(theta_c / 2), written in the half angles' squares: no acos, no gamma, and the result is unit by construction. At rest
+// (E = 1) it is the identity to the bit.
 FN AberratedRay world_from_camera(rvec3 n, real E, real inverse_E)
 {
     AberratedRay sight;
@@ -33,7 +33,7 @@ FN AberratedRay world_from_camera(rvec3 n, real E, real inverse_E)
     return sight;
 }
 
-// Where the camera sees what lies at the world's direction n: the same formula with E and 1/E exchanged.
+// The camera's direction towards the world's direction n: the same formula with E and 1/E exchanged.
 FN AberratedRay camera_from_world(rvec3 n, real E, real inverse_E)
 {
     AberratedRay sight = world_from_camera(n, inverse_E, E);

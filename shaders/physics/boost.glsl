@@ -3,7 +3,7 @@
 
 FN real gamma_of(rvec3 u) { return sqrt(real(1.0) + dot(u, u)); }
 
-// E = e^rapidity of a speed |u| = gamma beta >= 0. The shaders get E and 1/E, never beta.
+// E = e^rapidity of a speed |u| = gamma beta >= 0. The shaders receive E and 1/E, never beta.
 FN real exp_rapidity(real u) { return u + sqrt(real(1.0) + u * u); }
 
 // An event (t, x) of the frame that moves with u (axes carried by the pure boost), in the world's frame.
@@ -14,7 +14,7 @@ FN rvec3 world_place(rvec3 u, real t, rvec3 x)
     return x + (t + dot(u, x) / (real(1.0) + gamma_of(u))) * u;
 }
 
-// Proper velocity in the world of what moves with w in the frame that moves with u.
+// The proper velocity, in the world, of an object that moves with w in the frame that moves with u.
 FN rvec3 composed(rvec3 u, rvec3 w) { return world_place(u, gamma_of(w), w); }
 
 // The Thomas-Wigner turn of the same composition as a unit quaternion (x, y, z; w last): boost(u) boost(w) =
@@ -27,15 +27,16 @@ FN rvec4 wigner_turn(rvec3 u, rvec3 w)
     return rvec4(axis * inverse_length, scalar * inverse_length);
 }
 
-// What moves with u as the frame sees it that moves with w: boost(-w) boost(u) = boost(relative.u) turn. The axes of both are
-// the world's, carried by pure boosts; `turn` (x, y, z; w last) leads from u's axes to those that the frame w's carry there.
+// The velocity of an object that moves with u, in the frame that moves with w: boost(-w) boost(u) = boost(relative.u) turn.
+// Both frames' axes are the world's, carried by pure boosts; `turn` (x, y, z; w last) leads from the axes of u to those
+// that the frame of w carries there.
 struct Relative {
     rvec3 u;
     rvec4 turn;
 };
 
-// From the two boosts in SL(2, C) in half rapidities: composed(-w, u) without its loss of gamma_u gamma_w roundings where both
-// are great and alike. Here one of gamma^2 is left, and where u = w none.
+// From the two boosts in SL(2, C) in half rapidities: composed(-w, u) without its loss of gamma_u gamma_w roundings where
+// both are great and alike. Here a loss of gamma^2 is left, and none where u = w.
 FN Relative relative(rvec3 w, rvec3 u)
 {
     real gamma_w = gamma_of(w), gamma_u = gamma_of(u);

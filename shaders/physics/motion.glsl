@@ -28,9 +28,9 @@ FN real cosh_less_one_ratio(real x)
     return real(0.5) * x * half_ratio * half_ratio;
 }
 
-// A time dtau of the ship's under proper acceleration `strength` along the unit vector `way` (ship's frame, axes carried
-// by the pure boost; it keeps its place among gyroscopes). Hyperbolic motion in the plane of (1, u) and the boosted way:
-// U(tau) = U cosh + A sinh, exact however long the step.
+// The motion for a time dtau of the ship's under proper acceleration `strength` along the unit vector `way` (ship's frame,
+// axes carried by the pure boost; it keeps its place among gyroscopes). It is hyperbolic motion in the plane of (1, u) and
+// the boosted way: U(tau) = U cosh + A sinh, exact for any step.
 FN ThrustSegment thrust_segment(rvec3 u, rvec3 way, real strength, real dtau)
 {
     real gamma = gamma_of(u);
@@ -46,7 +46,7 @@ FN ThrustSegment thrust_segment(rvec3 u, rvec3 way, real strength, real dtau)
     return leg;
 }
 
-// The event of an eye at `offset` (ship's frame), simultaneous in that frame with the ship's own event: how much later
-// and where, from the ship's event, in the world. Two eyes differ in time as well as in place.
+// The event of an eye at `offset` (ship's frame), simultaneous in that frame with the ship's own event: its time and its
+// place in the world, from the ship's event. Two eyes differ in time as well as in place.
 FN real eye_time(rvec3 u, rvec3 offset) { return dot(u, offset); }
 FN rvec3 eye_place(rvec3 u, rvec3 offset) { return world_place(u, real(0.0), offset); }

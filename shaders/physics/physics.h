@@ -1,5 +1,5 @@
 #pragma once
-// The formulas of this folder compiled as C++: once as float (what a shader computes), once as double (what is true).
+// The formulas of this folder compiled as C++: once as float (a shader's precision), once as double (the truth).
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 

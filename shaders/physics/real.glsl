@@ -1,4 +1,4 @@
-// The words of the dual-compiled formulas, for GLSL. physics.h has the same for C++.
+// GLSL's definitions of the dual-compiled formulas' words. physics.h has the C++ ones.
 #define real float
 #define rvec2 vec2
 #define rvec3 vec3

@@ -9,7 +9,7 @@ namespace {
 template <typename T> T load(const std::uint8_t* from)
 {
     T value;
-    std::memcpy(&value, from, sizeof value); // files need not keep the alignment that glTF asks for
+    std::memcpy(&value, from, sizeof value); // files need not keep glTF's alignment
     return value;
 }
 

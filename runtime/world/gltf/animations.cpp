@@ -43,7 +43,7 @@ void read_values(WorldBuild& build, int accessor, Track& track)
     }
 }
 
-/// How large a track's values get, at most, measured by `size`.
+/// The greatest value of a track, measured by `size`.
 template <class Size> double bound(const Track& track, Size size)
 {
     double most = 0, step = 0;
@@ -57,7 +57,7 @@ template <class Size> double bound(const Track& track, Size size)
 double far_off(const glm::dvec4& place) { return glm::length(place); }
 double largest(const glm::dvec4& scale) { return std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)}); }
 
-/// How much a matrix stretches, at most.
+/// The greatest stretch of a matrix.
 double stretch(const glm::dmat3& m)
 {
     const glm::dvec3 lengths(glm::length(m[0]), glm::length(m[1]), glm::length(m[2]));
@@ -121,7 +121,7 @@ int add_joint(WorldBuild& build, int node, int above, const glm::dmat4& above_fr
         if (from.rotation.size() == 4)
             joint.rotation = glm::dquat(from.rotation[3], from.rotation[0], from.rotation[1], from.rotation[2]);
     }
-    // What it may grow to and where it may get, with all above it, at any time.
+    // The greatest stretch and distance, with all above it, at any time.
     const JointBounds up = above < 0 ? JointBounds{} : build.bounds[std::size_t(above)];
     auto told = [&](int track, const glm::dvec3& rest, auto size) {
         return track < 0 ? size(glm::dvec4(rest, 0)) : bound(world.tracks[std::size_t(track)], size);

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 namespace starbow {
 namespace {
 
-/// Empty when all went well, else what is wrong. Waits for nobody: a FIFO opens without a writer and is then refused.
+/// Returns "" or the problem. It never waits: a FIFO opens without a writer and is then refused.
 std::string read_regular(const fs::path& path, std::size_t limit, Bytes& bytes)
 {
     int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);

@@ -6,9 +6,9 @@ namespace starbow {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Far above any world that a visitor could see drawn, far below what would hurt the machine.
+/// Limits far above any world that a visitor could see drawn, and far below what would hurt the machine.
 struct GltfLimits {
-    static constexpr std::size_t file_bytes = std::size_t(1) << 30; ///< the file and all that it names, together
+    static constexpr std::size_t file_bytes = std::size_t(1) << 30; ///< of the file and everything it names, together
     static constexpr std::size_t json_bytes = std::size_t(256) << 20;
     static constexpr std::size_t json_values = 2'000'000;
     static constexpr std::size_t json_depth = 100;
@@ -16,17 +16,17 @@ struct GltfLimits {
     static constexpr std::size_t vertices = 16'000'000;
     static constexpr std::size_t indices = 48'000'000;
     static constexpr std::size_t instances = 1'000'000;
-    static constexpr std::size_t motions = 10'000; ///< instances that move by themselves
+    static constexpr std::size_t motions = 10'000; ///< animated instances
     static constexpr std::size_t keys = 4'000'000; ///< of animations
-    static constexpr int joints_deep = 64; ///< nodes that move, one below another
-    static constexpr std::size_t zeros = 1'000'000; ///< elements of an accessor that takes no room in the file
+    static constexpr int joints_deep = 64; ///< animated nodes, one below another
+    static constexpr std::size_t zeros = 1'000'000; ///< elements of an accessor without data in the file
     static constexpr std::size_t sparse_bytes = std::size_t(256) << 20;
     static constexpr int texture_side = 16384;
     static constexpr std::size_t texture_pixels = std::size_t(128) << 20; ///< of one image
     static constexpr std::size_t texture_bytes = std::size_t(1) << 30; ///< of all, as RGBA
 };
 
-/// A .gltf or .glb taken apart, nothing inside it checked yet but that its JSON is JSON.
+/// A .gltf or .glb file in parts. Only its JSON has been checked, and only for being JSON.
 struct GltfFile {
     std::string name; ///< as the user wrote it, for messages
     std::filesystem::path folder; ///< the file's own, symbolic links resolved
@@ -36,7 +36,7 @@ struct GltfFile {
     std::size_t bytes_left = GltfLimits::file_bytes;
 };
 
-/// Which of the two it is tells the content, not the file's name. Throws InputError.
+/// Reads a .gltf or .glb file. The content decides between the two, not the file's name. Throws InputError.
 GltfFile read_gltf_file(const std::filesystem::path& file);
 
 /// The bytes behind a URI: base64 `data:`, or a path that stays inside the file's folder. Throws InputError at `spot`.

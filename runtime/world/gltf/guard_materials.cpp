@@ -115,7 +115,7 @@ void guard_material(const Spot& material, Json& written, const Spot& root, Guard
     }
 }
 
-/// Which images give a surface its colour; only those are read.
+/// The images that give a surface its colour; only those are read.
 std::vector<bool> coloured_images(const GuardedGltf& out, std::size_t count)
 {
     std::vector<bool> used(count, false);

@@ -92,7 +92,7 @@ struct Legal {
     std::vector<int> components;
 };
 
-/// What an attribute may hold: the specification's table, widened by KHR_mesh_quantization.
+/// The legal types of an attribute: the specification's table, widened by KHR_mesh_quantization.
 const Legal* legal_for(const std::string& attribute)
 {
     static const std::vector<int> quantized = {float_type, byte_type, ubyte_type, short_type, ushort_type};
@@ -115,7 +115,7 @@ const Json& checked_accessor(const Spot& spot, const Json& accessors, const Lega
     return accessor;
 }
 
-/// How many indices, or vertices where there are none, a mode can be made of.
+/// Checks the number of indices, or of vertices where there are none, for a mode.
 void check_count(const Spot& spot, std::int64_t mode, std::size_t count)
 {
     if (mode == 4 && count % 3 != 0)

@@ -45,7 +45,7 @@ Emission emission(const Spot& spot)
     return table;
 }
 
-/// `material` is what passed of the material that the surface belongs to.
+/// `material` has the accepted members of the surface's material.
 void check_emits(const Spot& spot, const Json& material)
 {
     const Json none = Json::object();

@@ -54,7 +54,7 @@ const Spot& list(const Spot& spot, std::size_t at_least)
 
 std::int64_t integer(const Spot& spot, std::int64_t low, std::int64_t high)
 {
-    // JSON does not tell 3 from 3.0, and some exporters write the latter.
+    // JSON does not distinguish 3 from 3.0, and some exporters write the latter.
     double value = spot.json.is_number() ? spot.json.get<double>() : std::nan("");
     if (!(value >= double(low) && value <= double(high)) || value != std::floor(value))
         spot.fail("is " + shown(spot.json) + "; should be a whole number from " + std::to_string(low) + " to "

@@ -11,7 +11,7 @@ tinygltf::Model read_model(GuardedGltf& file)
     std::string json = file.json.dump();
     tinygltf::Model model;
     tinygltf::TinyGLTF reader;
-    // What it is given names no file; should that ever change, it finds none.
+    // The reader's input names no file; should that ever change, it finds none.
     reader.SetFsCallbacks(
         {[](const std::string&, void*) { return false; }, [](const std::string& path, void*) { return path; },
             [](std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; },
@@ -52,11 +52,11 @@ const std::vector<std::uint32_t>& primitives_of(WorldBuild& build, int mesh, std
     return known->second;
 }
 
-/// What hangs below a joint.
+/// Adds the nodes below a joint.
 void add_moving(WorldBuild& build, int node, const Motion& motion, const std::vector<std::uint32_t>& primitives)
 {
     World& world = build.world;
-    // Which side is outside is asked of it at some of its moments: something may begin with no size at all.
+    // The outside is determined at some of its moments: an animation may begin with no size at all.
     constexpr int moments = 64;
     double determinant = 0;
     for (int i = 0; i < moments; ++i) {

@@ -28,7 +28,7 @@ std::uint32_t pack_colour(const Elements& from, std::uint32_t i)
     std::uint32_t packed = 0;
     for (int c = 0; c < 4; ++c) {
         double value = c < from.components ? from.component(i, c) : 1;
-        double unit = value > 0 ? std::min(value, 1.0) : 0; // also what is not a number
+        double unit = value > 0 ? std::min(value, 1.0) : 0; // not a number becomes 0 too
         packed |= std::uint32_t(std::lround(unit * 255)) << 8 * c;
     }
     return packed;

@@ -7,7 +7,7 @@
 
 namespace starbow {
 
-/// Where a material's texture coordinates come from: a TEXCOORD set, then KHR_texture_transform as uv' = rotate_scale uv +
+/// The source of a material's texture coordinates: a TEXCOORD set, then KHR_texture_transform as uv' = rotate_scale uv +
 /// offset.
 struct UvSource {
     int set = 0;
@@ -16,18 +16,18 @@ struct UvSource {
     bool operator==(const UvSource&) const = default;
 };
 
-/// What of World::tracks a node has.
+/// A node's tracks, of World::tracks.
 struct NodeTracks {
     int translations = -1, rotations = -1, scales = -1;
 };
 
-/// Of a joint with all above it.
+/// Bounds of a joint with all above it.
 struct JointBounds {
-    double scale = 1, place = 0; ///< how much it stretches and how far off its origin is, at most
+    double scale = 1, place = 0; ///< its greatest stretch, and its origin's greatest distance
     int depth = 0;
 };
 
-/// What is at hand while a world is put together.
+/// The state of a world under construction.
 struct WorldBuild {
     const GuardedGltf& file;
     const tinygltf::Model& model;
@@ -35,11 +35,11 @@ struct WorldBuild {
     std::vector<UvSource> uv; ///< one for each of the world's materials
     int default_material = -1;
     std::size_t sparse_bytes_left = GltfLimits::sparse_bytes;
-    std::size_t corners_left = GltfLimits::indices; ///< to be looked at, also those that turn out to cover nothing
-    std::vector<std::uint32_t> placed; ///< add_primitive's: where a vertex went, reset after each
+    std::size_t corners_left = GltfLimits::indices; ///< that may still be read, including those of empty triangles
+    std::vector<std::uint32_t> placed; ///< of add_primitive: a vertex's new index, reset after each
     std::map<std::uint32_t, std::uint32_t> turned; ///< primitives and their mirror-side doubles
 
-    std::map<int, NodeTracks> node_tracks; ///< by the node; only of those that are animated
+    std::map<int, NodeTracks> node_tracks; ///< by node; only of animated nodes
     std::vector<JointBounds> bounds; ///< one for each of the world's joints
 
     [[noreturn]] void fail(const std::string& place, const std::string& problem) const
@@ -48,28 +48,28 @@ struct WorldBuild {
     }
 };
 
-/// An accessor's elements; fails as open_accessor does.
+/// An accessor's elements; throws where open_accessor fails.
 Elements open(WorldBuild& build, int accessor);
 
-/// Decodes a PNG or JPEG after a look at the size it claims, which must fit `bytes_left` as RGBA.
+/// Decodes a PNG or JPEG, after a check that the size it claims fits `bytes_left` as RGBA.
 Texture decode_image(
     const std::string& file, const std::string& place, std::span<const std::uint8_t> bytes, std::size_t bytes_left);
 
-/// The materials, in the file's order, and the textures that they use.
+/// Adds the materials, in the file's order, and the textures that they use.
 void add_materials(WorldBuild& build);
 int material_of(WorldBuild& build, int gltf_material);
 
 /// Turns one glTF primitive into vertices and a list of triangles; false when it is no surface.
 bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::Primitive& primitive);
 
-/// The same triangles with their corners in the other order.
+/// The same triangles with their corners in the other order; returns the primitive's index.
 std::uint32_t turned_primitive(WorldBuild& build, std::uint32_t primitive);
 
 glm::dmat4 local_transform(const tinygltf::Node& node);
 
-/// The animations' tracks, and which node has which.
+/// Adds the animations' tracks, and each node's share of them.
 void add_tracks(WorldBuild& build);
-/// A node that is animated or spins, below that joint. Returns the new joint.
+/// Adds an animated or spinning node below a joint (above). Returns the new joint.
 int add_joint(WorldBuild& build, int node, int above, const glm::dmat4& above_from_parent);
 
 } // namespace starbow
