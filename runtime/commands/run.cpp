@@ -23,7 +23,7 @@ namespace {
 
 struct Options {
     std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, language, tour, log, quality,
-                ladder, trace;
+                ladder, trace, warm_up = "auto";
     double frame_budget_ms = -1; ///< below 0: the exhibit's
     double log_every_s = 0;
     long frames = 0;
@@ -101,6 +101,7 @@ int run(const Options& options)
     open_log({.lowest = options.verbose ? LogLevel::debug : LogLevel::info});
     ExhibitOptions exhibit_options = open(options);
     exhibit_options.frames = options.frames;
+    exhibit_options.warms_up = options.warm_up == "always" || (options.warm_up == "auto" && options.frames == 0);
     exhibit_options.log = options.log;
     exhibit_options.log_every_s = options.log_every_s;
     if (!has_display() && options.asked)
@@ -150,6 +151,12 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--log-every", options->log_every_s, "With --log: write a line by itself every so many seconds")
         ->check(CLI::Range(0.02, 86400.0))
         ->needs(log);
+    command
+        ->add_option("--warm-up", options->warm_up,
+            "Compile everything that the visitor's switches can need before the first frame: always, never, or auto, unless "
+            "--frames ends the flight soon")
+        ->check(CLI::IsMember({"auto", "always", "never"}))
+        ->capture_default_str();
     command->add_option("--trace", options->trace,
         "Write what each frame spends its time on into this JSON file, for ui.perfetto.dev or chrome://tracing; a file that is "
         "there is replaced");

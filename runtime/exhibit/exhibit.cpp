@@ -2,6 +2,7 @@
 #include "config/json/error.h"
 #include "config/model/shipped.h"
 #include "frame_loop.h"
+#include "runtime/operation/log.h"
 #include <cstdio>
 #include <memory>
 #include <thread>
@@ -45,7 +46,7 @@ int fly_exhibit(const ExhibitOptions& options)
                                       : std::nullopt);
             for (const std::string& note : context->world.world.notes)
                 if (losses == 0)
-                    std::fprintf(stderr, "starbow: %s: %s\n", context->world.scene.gltf.c_str(), note.c_str());
+                    log_info("world", context->world.scene.gltf.string() + ": " + note);
             if (losses == 0)
                 std::printf("%s\n", describe_light(*context).c_str());
             FrameLoop(session, *context).run();
@@ -64,10 +65,10 @@ int fly_exhibit(const ExhibitOptions& options)
         if (seconds(Clock::now() - opened) > 60)
             losses = 0;
         if (++losses > most_losses) {
-            std::fprintf(stderr, "starbow: the GPU is lost again and again (%s)\n", lost.c_str());
+            log_error("exhibit", "the GPU is lost again and again (" + lost + ")");
             return 1;
         }
-        std::fprintf(stderr, "starbow: the GPU is lost (%s); it is opened anew\n", lost.c_str());
+        log_warning("exhibit", "the GPU is lost (" + lost + "); it is opened anew");
         std::this_thread::sleep_for(std::chrono::seconds(losses - 1));
     }
 }

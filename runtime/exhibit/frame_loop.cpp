@@ -2,10 +2,14 @@
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "runtime/flight/record_files.h"
+#include "runtime/operation/log.h"
+#include "runtime/operation/trace.h"
+#include "runtime/render/warm_up.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <cstdio>
 #include <thread>
+#include <unistd.h>
 
 namespace starbow {
 namespace {
@@ -52,10 +56,21 @@ FrameLoop::FrameLoop(Session& session, RenderContext& context)
 {
 }
 
-FrameLoop::~FrameLoop() { settle(device_); }
+FrameLoop::~FrameLoop()
+{
+    settle(device_);
+    device_.trace = nullptr, device_.timer = nullptr;
+    device_.save_pipelines();
+}
 
 void FrameLoop::run()
 {
+    if (session_.options.warms_up)
+        warm_up();
+    if (session_.options.trace) {
+        device_.trace = session_.options.trace, device_.timer = &timer_;
+        session_.options.trace->name_thread("flight");
+    }
     while (!is_over(session_) && fly_frame())
         ;
 }
@@ -71,6 +86,7 @@ bool FrameLoop::fly_frame()
     const bool visible = screens_.acquire();
 
     // Read controls, as late as can be.
+    std::optional<Trace::Span> span(std::in_place, device_.trace, "controls");
     if (visible)
         glfwPollEvents();
     else
@@ -95,6 +111,8 @@ bool FrameLoop::fly_frame()
     if (!visible)
         return true;
 
+    span.reset();
+
     // Plan, cull, upload and record; FrameRenderer::draw tells the passes.
     const Clock::time_point begun = Clock::now();
     const Shot shot = set_up_frame(controls);
@@ -103,6 +121,8 @@ bool FrameLoop::fly_frame()
     prepared_ms_ = 1e3 * seconds(Clock::now() - begun);
 
     // Present.
+    const Trace::Span presenting(device_.trace, "present");
+    submitted_ns_ = Trace::now_ns();
     device_.device.resetFences(*done_);
     screens_.submit(*commands_, *done_);
     const Clock::time_point handed = Clock::now();
@@ -115,12 +135,57 @@ bool FrameLoop::fly_frame()
 
 std::optional<double> FrameLoop::await_device()
 {
+    const Trace::Span span(device_.trace, "wait");
     pace_.wait(screens_.refresh_hz());
     (void)device_.device.waitForFences(*done_, true, UINT64_MAX);
+    trace_passes();
     if (const auto ms = timer_.ms(); ms && session_.governor)
         if (session_.governor->drawn(seconds(Clock::now() - session_.began), prepared_ms_ + *ms))
             frame_->adopt(quality_of(session_, device_));
     return frame_->metered();
+}
+
+void FrameLoop::warm_up()
+{
+    const auto began = Clock::now();
+    std::vector<Quality> qualities;
+    if (session_.governor)
+        for (const PresetLevel& level : session_.governor->ladder())
+            qualities.push_back(within(device_, level.quality));
+    qualities.push_back(quality_of(session_, device_));
+    (void)screens_.acquire(); // makes the swapchains, whose format counts
+    const vk::Format format = screens_.format();
+    if (format == vk::Format::eUndefined)
+        return;
+    frame_->meter(session_.options.exposure.automatic);
+    frame_->bloom(session_.options.exposure.bloom);
+    const SceneFile& scene = context_.world.scene;
+    const Panel* panel = hud_.update(session_, scene, 0, frame_->views().hud_width());
+    const bool terminal = isatty(STDERR_FILENO);
+    const std::size_t made = starbow::warm_up(device_, context_.pipelines, *frame_, session_.options.start, panel, format,
+        qualities, [&](std::size_t step, std::size_t steps) {
+            glfwPollEvents(); // so that the window system sees the program alive
+            const double passed = seconds(Clock::now() - began);
+            if (terminal && step > 0)
+                std::fprintf(stderr, "\rcompiling what the switches can need: %zu of %zu, about %.0f s left \033[K", step,
+                    steps, passed / double(step) * double(steps - step));
+        });
+    if (terminal)
+        std::fprintf(stderr, "\r\033[K");
+    std::array<char, 80> text;
+    std::snprintf(text.data(), text.size(), "%zu pipelines are ready after %.1f s", made, seconds(Clock::now() - began));
+    log_info("pipelines", text.data());
+    device_.save_pipelines();
+    session_.last = Clock::now();
+}
+
+void FrameLoop::trace_passes()
+{
+    if (!device_.trace)
+        return;
+    // The device's clock is its own: the frame is laid where the processor handed it over.
+    for (const PassTime& pass : timer_.passes())
+        device_.trace->gpu(pass.name, submitted_ns_ + std::int64_t(1e6 * pass.begin_ms), std::int64_t(1e6 * pass.duration_ms));
 }
 
 Shot FrameLoop::set_up_frame(const Controls& controls)
@@ -175,11 +240,11 @@ void FrameLoop::apply_file_changes()
         session_.refused.clear();
         screens_.adopt(session_.layout);
         const std::size_t unkept = changes(session_.kept, session_.layout).size();
-        std::fprintf(stderr, "starbow: %s: taken up%s\n", session_.layout.file.c_str(),
-            unkept > 0 ? "; what was turned by hand stays turned (F5 keeps it)" : "");
+        log_info("layout", session_.layout.file.string() + ": taken up"
+                + (unkept > 0 ? "; what was turned by hand stays turned (F5 keeps it)" : ""));
     } catch (const InputError& error) {
         const std::string why = one_line(error.what());
-        std::fprintf(stderr, "starbow: %s; the exhibit stays as it was\n", why.c_str());
+        log_warning("layout", why + "; the exhibit stays as it was");
         // On the display the folders would leave no room for the reason.
         const std::string folder = session_.layout.file.parent_path().string() + "/";
         session_.refused = why.starts_with(folder) ? why.substr(folder.size()) : why;

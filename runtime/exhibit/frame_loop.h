@@ -23,8 +23,12 @@ public:
 
     /// Throws vk::DeviceLostError.
     void run();
+    /// The longest of fly_frame's times so far, the wait for the screen left out, milliseconds.
+    double longest_ms() const { return longest_ms_; }
 
 private:
+    /// Draws, unseen, everything that the visitor's switches can need; progress on a terminal.
+    void warm_up();
     /// One frame from the controls to the screens; frame_loop.cpp tells it in order. Returns whether to go on.
     bool fly_frame();
     /// Waits for the frame's turn and for the device. Returns the exposure for the frame before, if it was metered.
@@ -37,6 +41,8 @@ private:
     /// The shot that the session has come to, and everything about it that the frame renderer needs to know.
     Shot set_up_frame(const Controls& controls);
     void record(const Shot& shot, const Panel* panel);
+    /// The device's passes of the frame before, for the trace.
+    void trace_passes();
 
     Session& session_;
     RenderContext& context_;
@@ -49,6 +55,8 @@ private:
     vk::raii::Fence done_;
     vk::raii::CommandBuffer commands_;
     double prepared_ms_ = 0; ///< the processor's part of the frame before
+    double longest_ms_ = 0;
+    std::int64_t submitted_ns_ = 0; ///< steady clock; of the frame before
 };
 
 } // namespace starbow

@@ -42,6 +42,7 @@ public:
     bool acquire();
     glm::ivec2 size() const { return size_; }
     Target target() const;
+    vk::Format format() const { return format_; } ///< undefined until a swapchain was made
     vk::Semaphore acquired() const { return *acquired_; }
     vk::Semaphore drawn() const { return *drawn_[image_]; }
     vk::SwapchainKHR swapchain() const { return *swapchain_; }

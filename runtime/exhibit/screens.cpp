@@ -133,6 +133,14 @@ bool Screens::acquire()
     return !acquired_.empty();
 }
 
+vk::Format Screens::format() const
+{
+    for (const Screen& screen : screens_)
+        if (screen.window && screen.window->format() != vk::Format::eUndefined)
+            return screen.window->format();
+    return vk::Format::eUndefined;
+}
+
 void Screens::submit(vk::CommandBuffer commands, vk::Fence done)
 {
     std::vector<vk::SemaphoreSubmitInfo> wait, signal;

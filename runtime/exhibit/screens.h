@@ -23,6 +23,8 @@ public:
     /// changing. False if there is none at all.
     bool acquire();
     const std::vector<Target>& targets() const { return targets_; }
+    /// The format of the windows' pictures; undefined where no window has one yet.
+    vk::Format format() const;
 
     /// Hands the device the commands that draw the acquired pictures; `done` is signalled after them. Throws
     /// vk::DeviceLostError.

@@ -1,6 +1,7 @@
 #include "session.h"
 #include "config/model/scene_file.h"
 #include "runtime/flight/record_files.h"
+#include "runtime/operation/log.h"
 #include "runtime/render/render_context.h"
 #include <algorithm>
 #include <array>
@@ -9,8 +10,6 @@
 namespace starbow {
 namespace {
 
-void print_line(const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); }
-
 RecordReplay record_replay_of(const ExhibitOptions& options)
 {
     std::unique_ptr<Recorder> recorder;
@@ -18,7 +17,7 @@ RecordReplay record_replay_of(const ExhibitOptions& options)
         recorder = std::make_unique<Recorder>(options.record,
             header_of(options.scene, options.layout, options.start, options.rules, options.exposure,
                 pattern_names[std::size_t(options.pattern)]),
-            print_line);
+            info_log("record"));
     return {std::move(recorder), options.replay.empty() ? nullptr : std::make_unique<Replay>(options.replay)};
 }
 
@@ -47,7 +46,7 @@ Session::Session(const ExhibitOptions& given)
     , flight(flight_at(given.start, given.rules))
     , tutorial(tutorial_at(flight))
     , record_replay(record_replay_of(given))
-    , hid(given.profiles, print_line)
+    , hid(given.profiles, info_log("input"))
     , tracker(tracker_of(layout))
     , alignment(given.pattern)
     , lab(given.log, given.log_every_s, given.words)

@@ -1,5 +1,6 @@
 #include "cube_pass.h"
 #include "lamp.h"
+#include "runtime/operation/trace.h"
 #include "runtime/world/clock.h"
 #include <algorithm>
 #include <cmath>
@@ -62,7 +63,11 @@ void CubePass::prepare(const CubeMapPlan& plan, std::span<const EyeEvent> layers
     layered_ = !images_.empty() && images_.back().layer > 0;
     area_ = plan.atlas_size;
     levels_ = plan.levels;
-    list_ = cull(world_.world, layers, images_, quality_, std::move(list_));
+    {
+        const Trace::Span span(device_.trace, "cull");
+        list_ = cull(world_.world, layers, images_, quality_, std::move(list_));
+    }
+    const Trace::Span span(device_.trace, "upload");
     contractions_.clear();
     for (const EyeEvent& layer : layers)
         contractions_.push_back(layer.contraction);

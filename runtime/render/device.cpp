@@ -1,10 +1,14 @@
 #include "device.h"
 #include "config/json/error.h"
+#include "config/json/whole_file.h"
+#include "displays/compile/compiled_view.h"
+#include "runtime/operation/log.h"
 #include "shaders/shared_structs.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 
 namespace starbow {
 namespace {
@@ -218,6 +222,25 @@ vk::raii::PhysicalDevice choose(const vk::raii::Instance& instance, const Device
         + ": install mesa-vulkan-drivers (software) or the GPU maker's Vulkan 1.3 driver");
 }
 
+/// The file that holds a device's compiled pipelines, by the driver's own mark; empty where there is no cache folder.
+std::filesystem::path pipeline_file(const vk::PhysicalDeviceProperties& properties)
+{
+    const std::filesystem::path folder = map_cache_folder();
+    std::string mark;
+    for (std::uint8_t byte : properties.pipelineCacheUUID) {
+        std::array<char, 3> hex;
+        std::snprintf(hex.data(), hex.size(), "%02x", byte);
+        mark += hex.data();
+    }
+    return folder.empty() ? folder : folder / ("pipelines-" + mark + ".bin");
+}
+
+std::vector<char> read_file(const std::filesystem::path& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 } // namespace
 
 Device::Device(const Options& options)
@@ -251,7 +274,23 @@ Device::Device(const Options& options)
     device = physical.createDevice({{}, queue_info, {}, extensions, &features, &features13});
     queue = device.getQueue(family, 0);
     pool = device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family});
-    cache = device.createPipelineCache({});
+    std::vector<char> kept = read_file(pipeline_file(properties));
+    cache = device.createPipelineCache({{}, kept.size(), kept.data()});
+}
+
+void Device::save_pipelines() const
+{
+    const std::filesystem::path file = pipeline_file(properties);
+    if (file.empty())
+        return;
+    const std::vector<std::uint8_t> bytes = cache.getData();
+    std::error_code error;
+    std::filesystem::create_directories(file.parent_path(), error);
+    try {
+        write_whole(file, bytes);
+    } catch (const InputError& failed) {
+        log_debug("pipelines", failed.what());
+    }
 }
 
 std::vector<GpuListing> list_gpus(const Device::Options& options)

@@ -8,6 +8,7 @@
 namespace starbow {
 
 class FrameTimer;
+class Trace;
 
 /// The instance, one device and its one queue. Everything else of Vulkan hangs below it.
 class Device {
@@ -35,7 +36,11 @@ public:
     vk::PhysicalDeviceMemoryProperties memory;
     bool tells_when_shown = false; ///< VK_KHR_present_wait
     bool debug_utils = false; ///< VK_EXT_debug_utils: objects have names, passes have labels
-    FrameTimer* timer = nullptr; ///< measures each pass, while somebody traces
+    Trace* trace = nullptr; ///< gets the processor's spans of each frame, while somebody traces
+    FrameTimer* timer = nullptr; ///< measures each pass on the device, while somebody traces
+
+    /// Keeps the compiled pipelines for the next start. A folder that can't be written only costs time then.
+    void save_pipelines() const;
 
     bool on_processor() const { return properties.deviceType == vk::PhysicalDeviceType::eCpu; }
 

@@ -1,4 +1,5 @@
 #include "eye_cubes.h"
+#include "runtime/operation/trace.h"
 #include "runtime/plan/cull.h"
 #include <algorithm>
 #include <cmath>
@@ -122,6 +123,7 @@ void EyeCubes::plan(double pre_exposure, const Probe* probe)
 {
     bool keep = drawn_ && shown_ < state_.quality.frames_per_cube;
     for (std::size_t i = 0; i < all.size(); ++i) {
+        const Trace::Span span(device_.trace, "plan");
         request_views(i, probe);
         all[i].wanted = plan_cube_map(all[i].requests, state_.quality, scratch_, std::move(all[i].wanted));
         keep = keep && can_reuse(i);

@@ -1,5 +1,6 @@
 #include "frame_renderer.h"
 #include "debug.h"
+#include "runtime/operation/trace.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -19,6 +20,7 @@ void FrameRenderer::update(const Shot& shot, const Panel* hud)
     const double most_E = eyes_.observe();
     if (state_.pattern == Pattern::none)
         eyes_.plan(pre_exposure(most_E), measurement_.probe());
+    const Trace::Span span(device_.trace, "upload");
     passes_.prepare(hud);
     meter_.prepare();
     descriptors_.write();
@@ -27,6 +29,7 @@ void FrameRenderer::update(const Shot& shot, const Panel* hud)
 
 void FrameRenderer::record(vk::CommandBuffer commands, std::span<const Target> targets)
 {
+    const Trace::Span span(device_.trace, "record");
     if (state_.pattern == Pattern::none) {
         draw_cubes(commands);
         meter_.record(commands);
@@ -39,7 +42,7 @@ void FrameRenderer::record(vk::CommandBuffer commands, std::span<const Target> t
 
 void FrameRenderer::draw_cubes(vk::CommandBuffer commands)
 {
-    const Label label(device_, commands, "cube maps");
+    const Label label(device_, commands, "cube pass");
     eyes_.record(commands);
 }
 

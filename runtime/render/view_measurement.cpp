@@ -97,7 +97,7 @@ void ViewMeasurement::draw(vk::CommandBuffer commands, std::size_t output, const
 {
     if (!on_ || state_.pattern != Pattern::none || (!what_.panel && what_.over.overlay == Overlay::off))
         return;
-    const Label label(device_, commands, "instruments");
+    const Label label(device_, commands, "overlay");
     if (what_.panel)
         panel_->upload(commands);
     passes_.lay_over(commands, output, last, [&](std::size_t i, vk::Format target) {

@@ -193,7 +193,7 @@ void ViewPasses::draw_hud(vk::CommandBuffer commands, std::size_t output, const 
 {
     if (!hud_on_)
         return;
-    const Label label(device_, commands, "head-up display");
+    const Label label(device_, commands, "HUD");
     hud_->upload(commands);
     lay_over(commands, output, last, [&](std::size_t i, vk::Format target) {
         const ViewState& view = views_.all[i];
