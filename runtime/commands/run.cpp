@@ -151,9 +151,8 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
         ->check(CLI::Range(0.02, 86400.0))
         ->needs(log);
     command->add_option("--trace", options->trace,
-        "Write what each frame spends its time on into this JSON file, for ui.perfetto.dev or chrome://tracing; a file that "
-        "is "
-        "there is replaced");
+        "Write what each frame spends its time on into this JSON file, for ui.perfetto.dev or chrome://tracing; an older "
+        "file is replaced");
     CLI::Option* verbose = command->add_flag("--verbose", options->verbose, "Tell more on standard error");
     CLI::Option* quality
         = command->add_option("--quality", options->quality, quality_help + std::string(" [the exhibit's]"));
