@@ -42,8 +42,7 @@ std::vector<std::uint8_t> descriptor_bytes(const std::string& path)
 std::pair<DeviceInfo, Profile> identify(
     const hid_device_info& found, const Descriptor& descriptor, const std::vector<Profile>& profiles)
 {
-    DeviceInfo info{
-        found.path, plain(found.product_string), plain(found.serial_number), found.vendor_id, found.product_id};
+    DeviceInfo info{found.path, plain(found.product_string), plain(found.serial_number), found.vendor_id, found.product_id};
     Profile profile = profile_for(profiles, info, descriptor);
     if (info.name.empty()) // not every device tells it
         info.name = profile.file.empty() ? "device" : profile.name;

@@ -131,12 +131,12 @@ void examine_gpus(Report& report, bool windows)
     for (const GpuListing& gpu : gpus) {
         if (gpu.chosen)
             chosen = &gpu;
-        report.facts["gpus"].push_back({{"name", gpu.name}, {"kind", gpu.kind}, {"software", gpu.software},
-            {"used", gpu.chosen}, {"refusal", gpu.refusal}, {"driver_name", gpu.driver_name},
-            {"driver_version", gpu.driver_version}, {"vulkan_version", gpu.api_version},
-            {"max_image_dimension_2d", gpu.largest_image_px}, {"max_sampler_allocation_count", gpu.most_samplers},
-            {"max_memory_allocation_count", gpu.most_allocations}, {"timestamp_period_ns", gpu.timestamp_ns},
-            {"device_memory_bytes", gpu.memory_bytes}});
+        report.facts["gpus"].push_back(
+            {{"name", gpu.name}, {"kind", gpu.kind}, {"software", gpu.software}, {"used", gpu.chosen},
+                {"refusal", gpu.refusal}, {"driver_name", gpu.driver_name}, {"driver_version", gpu.driver_version},
+                {"vulkan_version", gpu.api_version}, {"max_image_dimension_2d", gpu.largest_image_px},
+                {"max_sampler_allocation_count", gpu.most_samplers}, {"max_memory_allocation_count", gpu.most_allocations},
+                {"timestamp_period_ns", gpu.timestamp_ns}, {"device_memory_bytes", gpu.memory_bytes}});
         report.line("GPU", gpu.name + " (" + gpu.kind + ")" + (gpu.chosen ? ": is used" : ""));
         if (!gpu.refusal.empty())
             report.line("", "can't be used: it " + gpu.refusal);
@@ -144,20 +144,22 @@ void examine_gpus(Report& report, bool windows)
         char clock[60] = "no timestamps";
         if (gpu.timestamp_ns > 0)
             std::snprintf(clock, sizeof clock, "timestamps of %g ns", gpu.timestamp_ns);
-        report.line("", "images up to " + std::to_string(gpu.largest_image_px) + " pixels wide, "
-                + std::to_string(gpu.most_samplers) + " samplers, "
+        report.line("",
+            "images up to " + std::to_string(gpu.largest_image_px) + " pixels wide, " + std::to_string(gpu.most_samplers)
+                + " samplers, "
                 + (gpu.most_allocations == UINT32_MAX ? "any number of" : std::to_string(gpu.most_allocations))
                 + " allocations, " + clock + ", " + size_text(double(gpu.memory_bytes)) + " of memory");
     }
     const std::string maker = card_maker();
     if (gpus.empty()) {
         report.line("GPU", "Vulkan knows none");
-        report.problem("There is no GPU that Vulkan knows",
-            "install mesa-vulkan-drivers (software) or the GPU maker's Vulkan driver");
+        report.problem(
+            "There is no GPU that Vulkan knows", "install mesa-vulkan-drivers (software) or the GPU maker's Vulkan driver");
     } else if (!chosen) {
         report.problem("No GPU can be used: " + gpus[0].name + " " + gpus[0].refusal,
-            environment("STARBOW_GPU").empty() ? "install the GPU maker's Vulkan 1.3 driver, or mesa-vulkan-drivers (software)"
-                                               : "unset STARBOW_GPU, or set it to a part of a GPU's name above");
+            environment("STARBOW_GPU").empty()
+                ? "install the GPU maker's Vulkan 1.3 driver, or mesa-vulkan-drivers (software)"
+                : "unset STARBOW_GPU, or set it to a part of a GPU's name above");
     } else if (chosen->software && !maker.empty() && environment("STARBOW_GPU").empty()) {
         report.problem("The " + maker + " graphics card is not used: Vulkan knows no usable driver of it",
             maker == "NVIDIA" ? "install NVIDIA's driver with its Vulkan part (nvidia-driver, libnvidia-gl)"
@@ -177,8 +179,8 @@ void examine_monitors(Report& report, bool windows)
         report.line("monitors",
             "There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere), so no monitor is known.");
         if (!display.empty() || !wayland.empty())
-            report.problem("The display server that " + (wayland.empty() ? "DISPLAY=" + display : "WAYLAND_DISPLAY=" + wayland)
-                    + " names does not answer",
+            report.problem("The display server that "
+                    + (wayland.empty() ? "DISPLAY=" + display : "WAYLAND_DISPLAY=" + wayland) + " names does not answer",
                 "start the desktop session, and run this as the user who is logged in there");
         return;
     }
@@ -191,9 +193,10 @@ void examine_monitors(Report& report, bool windows)
             {"size_mm", {monitor.size_mm.x, monitor.size_mm.y}}, {"refresh_hz", monitor.refresh_hz},
             {"primary", monitor.primary}});
         char size[100];
-        std::snprintf(size, sizeof size, ": %d x %d at [%d, %d], %.2f Hz", monitor.size.x, monitor.size.y, monitor.position.x,
-            monitor.position.y, monitor.refresh_hz);
-        report.line(std::exchange(label, ""), monitor.connector + size + (monitor.model.empty() ? "" : ", " + monitor.model)
+        std::snprintf(size, sizeof size, ": %d x %d at [%d, %d], %.2f Hz", monitor.size.x, monitor.size.y,
+            monitor.position.x, monitor.position.y, monitor.refresh_hz);
+        report.line(std::exchange(label, ""),
+            monitor.connector + size + (monitor.model.empty() ? "" : ", " + monitor.model)
                 + (monitor.serial.empty() ? "" : ", serial " + monitor.serial) + (monitor.primary ? ", primary" : ""));
     }
     if (desktop.monitors().empty()) {
@@ -237,10 +240,11 @@ void examine_sticks(Report& report)
     }
     if (list.empty())
         report.line("sticks", "none is plugged in");
-    report.line("", std::to_string(nodes.size()) + " hidraw nodes, " + std::to_string(locked.size())
+    report.line("",
+        std::to_string(nodes.size()) + " hidraw nodes, " + std::to_string(locked.size())
             + " of them may not be read; the udev rule " + (rule.empty() ? "is not installed" : "is " + rule.string()));
-    report.facts["sticks"] = {{"list", list}, {"hidraw_nodes", nodes.size()}, {"hidraw_nodes_locked", locked},
-        {"udev_rule", rule.string()}};
+    report.facts["sticks"]
+        = {{"list", list}, {"hidraw_nodes", nodes.size()}, {"hidraw_nodes_locked", locked}, {"udev_rule", rule.string()}};
 }
 
 void examine_font(Report& report)
@@ -250,8 +254,8 @@ void examine_font(Report& report)
         const Typesetter font;
     } catch (const InputError& error) {
         found = false;
-        report.problem("The font of the head-up display is missing or no font: " + std::string(hud_font),
-            "install fonts-dejavu-core");
+        report.problem(
+            "The font of the head-up display is missing or no font: " + std::string(hud_font), "install fonts-dejavu-core");
     }
     report.facts["font"] = {{"file", hud_font}, {"found", found}};
     report.line("font", std::string(hud_font) + (found ? "" : " is missing or no font"));
@@ -272,8 +276,9 @@ void examine_disk(Report& report)
     if (folder.empty())
         report.line("cache", "no folder: neither STARBOW_CACHE, XDG_CACHE_HOME nor HOME is set");
     else
-        report.line("cache", folder.string() + ": " + size_text(double(bytes)) + " in " + std::to_string(files)
-                + " files; can" + (writable ? "" : "'t") + " be written");
+        report.line("cache",
+            folder.string() + ": " + size_text(double(bytes)) + " in " + std::to_string(files) + " files; can"
+                + (writable ? "" : "'t") + " be written");
     if (!writable)
         report.problem(folder.empty() ? "There is no folder for the cache, so every start computes the layout's maps anew"
                                       : "The cache folder " + folder.string()
@@ -284,7 +289,7 @@ void examine_disk(Report& report)
     const fs::path here = fs::current_path(error);
     std::vector<dev_t> devices; // folders on one disk share its space
     for (const fs::path& where : {place, here}) {
-        struct stat found{};
+        struct stat found { };
         if (stat(where.c_str(), &found) != 0 || std::find(devices.begin(), devices.end(), found.st_dev) != devices.end())
             continue;
         devices.push_back(found.st_dev);
@@ -326,7 +331,8 @@ void examine_files(Report& report)
     } catch (const InputError& error) {
         report.facts["files"] = {{"home", nullptr}};
         report.line("files", "not found");
-        report.problem("Starbow's own files are not found: config/layouts is neither above the program nor above this folder",
+        report.problem(
+            "Starbow's own files are not found: config/layouts is neither above the program nor above this folder",
             "run starbow from its own checkout");
         return;
     }

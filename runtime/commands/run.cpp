@@ -158,8 +158,8 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
         ->check(CLI::IsMember({"auto", "always", "never"}))
         ->capture_default_str();
     command->add_option("--trace", options->trace,
-        "Write what each frame spends its time on into this JSON file, for ui.perfetto.dev or chrome://tracing; a file that is "
-        "there is replaced");
+        "Write what each frame spends its time on into this JSON file, for ui.perfetto.dev or chrome://tracing; an older "
+        "file is replaced");
     CLI::Option* verbose = command->add_flag("--verbose", options->verbose, "Tell more on standard error");
     CLI::Option* quality
         = command->add_option("--quality", options->quality, quality_help + std::string(" [the exhibit's]"));

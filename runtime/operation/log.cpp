@@ -112,7 +112,7 @@ std::function<void(const std::string&)> info_log(std::string part)
 bool is_journal(const char* journal_stream, std::FILE* stream)
 {
     unsigned long long device = 0, inode = 0;
-    struct stat found{};
+    struct stat found { };
     return journal_stream && std::sscanf(journal_stream, "%llu:%llu", &device, &inode) == 2
         && fstat(fileno(stream), &found) == 0 && found.st_dev == device && found.st_ino == inode;
 }

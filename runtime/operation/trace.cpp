@@ -92,8 +92,8 @@ void Trace::counter(std::string_view name, double value)
     if (!std::isfinite(value))
         return;
     const std::lock_guard lock(mutex_);
-    add("{\"ph\":\"C\",\"name\":" + quoted(name) + ",\"pid\":" + std::to_string(processor) + ",\"ts\":" + us(now_ns() - began_ns_)
-        + ",\"args\":{\"value\":" + nlohmann::json(value).dump() + "}}");
+    add("{\"ph\":\"C\",\"name\":" + quoted(name) + ",\"pid\":" + std::to_string(processor)
+        + ",\"ts\":" + us(now_ns() - began_ns_) + ",\"args\":{\"value\":" + nlohmann::json(value).dump() + "}}");
 }
 
 void Trace::instant(std::string_view name)
@@ -121,8 +121,9 @@ void Trace::add_metadata(const char* what, int process, int thread, std::string_
 
 void Trace::add_span(std::string_view name, int process, int thread, std::int64_t begin_ns, std::int64_t duration_ns)
 {
-    add("{\"ph\":\"X\",\"name\":" + quoted(name) + ",\"pid\":" + std::to_string(process) + ",\"tid\":" + std::to_string(thread)
-        + ",\"ts\":" + us(begin_ns - began_ns_) + ",\"dur\":" + us(std::max<std::int64_t>(duration_ns, 0)) + "}");
+    add("{\"ph\":\"X\",\"name\":" + quoted(name) + ",\"pid\":" + std::to_string(process)
+        + ",\"tid\":" + std::to_string(thread) + ",\"ts\":" + us(begin_ns - began_ns_)
+        + ",\"dur\":" + us(std::max<std::int64_t>(duration_ns, 0)) + "}");
 }
 
 void Trace::add(const std::string& event)

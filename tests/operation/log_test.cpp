@@ -28,7 +28,7 @@ public:
     /// What the service manager sets for this stream, but for an inode that is added.
     std::string journal_stream(unsigned long long other = 0) const
     {
-        struct stat found{};
+        struct stat found { };
         EXPECT_EQ(fstat(fileno(stream_), &found), 0);
         return std::to_string(found.st_dev) + ":" + std::to_string(found.st_ino + other);
     }
@@ -63,7 +63,8 @@ TEST(Log, ALineHoldsTimeLevelPartAndText)
     const auto lines = file.lines();
     ASSERT_EQ(lines.size(), 4u);
     EXPECT_TRUE(std::regex_match(lines[0], std::regex(time_pattern + "info input: Stick is plugged in"))) << lines[0];
-    EXPECT_TRUE(std::regex_match(lines[1], std::regex(time_pattern + R"(warn exhibit: output 'left' is not shown: \{\} %s)")))
+    EXPECT_TRUE(
+        std::regex_match(lines[1], std::regex(time_pattern + R"(warn exhibit: output 'left' is not shown: \{\} %s)")))
         << lines[1];
     EXPECT_TRUE(std::regex_match(lines[2], std::regex(time_pattern + "error exhibit: the GPU is lost"))) << lines[2];
     EXPECT_TRUE(std::regex_match(lines[3], std::regex(time_pattern + "info record: from a room below"))) << lines[3];

@@ -1,6 +1,6 @@
 // A trace is read back with a JSON reader that shares no code with its writer's layout of events.
-#include "runtime/operation/trace.h"
 #include "runtime/operation/log.h"
+#include "runtime/operation/trace.h"
 #include "tests/support/files.h"
 #include <chrono>
 #include <cmath>
