@@ -119,8 +119,9 @@ void Hid::Shared::open(const hid_device_info& found)
         if (std::find(refused.begin(), refused.end(), path) == refused.end()) {
             refused.push_back(path);
             say(describe(device->info) + " at " + path
-                + (why == EACCES ? " may not be read: copy config/udev/70-starbow.rules to /etc/udev/rules.d and plug it in again"
-                                 : " can't be opened"));
+                + (why == EACCES
+                        ? " may not be read: copy config/udev/70-starbow.rules to /etc/udev/rules.d and plug it in again"
+                        : " can't be opened"));
         }
         return;
     }
@@ -224,7 +225,10 @@ std::vector<ControllerListing> list_controllers(const std::vector<Profile>& prof
     return list;
 }
 
-std::string describe(const DeviceInfo& info) { return info.name + " (" + hex4(info.vendor) + ":" + hex4(info.product) + ")"; }
+std::string describe(const DeviceInfo& info)
+{
+    return info.name + " (" + hex4(info.vendor) + ":" + hex4(info.product) + ")";
+}
 
 bool is_controller(const Descriptor& descriptor)
 {

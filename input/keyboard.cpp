@@ -112,7 +112,8 @@ void Keyboard::finish(Controls& controls, bool pads)
         if (!glfwJoystickIsGamepad(joystick) || !glfwGetGamepadState(joystick, &state))
             continue;
         // Triggers rest at -1.
-        controls.throttle_rate += 0.5 * (state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] - state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER]);
+        controls.throttle_rate
+            += 0.5 * (state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] - state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER]);
         controls.turn.y -= stick(state.axes[GLFW_GAMEPAD_AXIS_LEFT_X]);
         controls.turn.x -= stick(state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y]);
         controls.look_rad.x -= pad_look_rad_per_read * stick(state.axes[GLFW_GAMEPAD_AXIS_RIGHT_X]);

@@ -67,8 +67,9 @@ struct Held {
     double Controls::*value;
     double by;
 };
-constexpr Held held[] = {{ButtonRole::faster, &Controls::throttle_rate, 1}, {ButtonRole::slower, &Controls::throttle_rate, -1},
-    {ButtonRole::brighter, &Controls::exposure, 1}, {ButtonRole::darker, &Controls::exposure, -1}};
+constexpr Held held[]
+    = {{ButtonRole::faster, &Controls::throttle_rate, 1}, {ButtonRole::slower, &Controls::throttle_rate, -1},
+        {ButtonRole::brighter, &Controls::exposure, 1}, {ButtonRole::darker, &Controls::exposure, -1}};
 
 void press(ButtonRole role, bool pressed, bool down, Controls& controls)
 {

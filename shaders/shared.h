@@ -23,8 +23,9 @@
 #define MAX_MATRICES 4096 // columns of a group: 64 KiB, the least that devices of today let a shader read as constants
 #define RESPONSE_ROWS 2048 // over log2 D; see response.h
 #define RESPONSE_TEXELS(reflected) ((3 * (reflected) + 5) / 4) // of a row
-#define RESPONSE_OWN_STEP(own) ((own) > 2 ? 2 : 1) // rows of the world's own emission spectra: all or each second, as they
-                                                   // fit
+#define RESPONSE_OWN_STEP(own)                                                                                              \
+    ((own) > 2 ? 2 : 1) // rows of the world's own emission spectra: all or each second, as they
+                        // fit
 #define MOST_OWN_ROWS 4096 // of all together
 #define STAR_COLDEST 512.0 // K: colder black bodies give no light to speak of (1e-9 of the Sun's surface at 550 K)
 #define STAR_STEPS_PER_OCTAVE 64

@@ -1,8 +1,8 @@
 #include "reader.h"
 #include <algorithm>
-#include <map>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <numeric>
 
 namespace starbow {
@@ -161,7 +161,8 @@ void reject_unknown_members(const Place& place, const std::vector<std::string_vi
     for (const auto& [name, value] : place.json->items()) {
         if (std::find(known.begin(), known.end(), name) != known.end())
             continue;
-        if (const auto now = renamed.find(name); now != renamed.end() && std::find(known.begin(), known.end(), now->second) != known.end())
+        if (const auto now = renamed.find(name);
+            now != renamed.end() && std::find(known.begin(), known.end(), now->second) != known.end())
             complain({place.document, &value, place.pointer + "/" + escaped(name)},
                 "stands under a name of older files; \"" + std::string(now->second) + "\" is its name now");
         const std::string word = one_line(name, 60);

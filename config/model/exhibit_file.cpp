@@ -41,8 +41,8 @@ Exposing read_exposing(const Place& place)
     if (exposure.max_ev < exposure.min_ev) {
         const auto least = find_member(place, "min_ev");
         complain(least ? *least : member(place, "max_ev"),
-            "leaves nothing between min_ev, " + shown(exposure.min_ev) + ", and max_ev, "
-                + shown(exposure.max_ev) + "; a min_ev that is no greater is right");
+            "leaves nothing between min_ev, " + shown(exposure.min_ev) + ", and max_ev, " + shown(exposure.max_ev)
+                + "; a min_ev that is no greater is right");
     }
     take(place, "bloom", exposure.bloom, {0, 1});
     return exposure;
@@ -54,8 +54,8 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     const Place top = root(document);
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
     reject_unknown_members(top,
-        {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "quality", "frame_budget_ms", "ladder",
-            "flying", "exposure"});
+        {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "quality", "frame_budget_ms",
+            "ladder", "flying", "exposure"});
     Exhibit exhibit;
     for (const auto& [name, value] :
         {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene}, {"shot", &exhibit.shot}, {"tour", &exhibit.tour},

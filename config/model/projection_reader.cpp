@@ -46,7 +46,8 @@ Sides read_sides(const Place& place, Range across, Range upright)
 Planar read_planar(const Place& place)
 {
     Planar planar;
-    const auto x = find_member(place, "fov_x_deg"), y = find_member(place, "fov_y_deg"), sides = find_member(place, "sides_deg");
+    const auto x = find_member(place, "fov_x_deg"), y = find_member(place, "fov_y_deg"),
+               sides = find_member(place, "sides_deg");
     if (sides && (x || y))
         complain(*sides,
             std::string("stands beside \"") + (y ? "fov_y_deg" : "fov_x_deg")

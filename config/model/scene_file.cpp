@@ -31,7 +31,8 @@ SpectralTable read_table(const Place& place)
 /// A light's spectrum, where it isn't sunlight.
 std::optional<Emission> read_emission(const Place& light)
 {
-    const auto kelvin = find_member(light, "temperature_K"), line = find_member(light, "line_nm"), table = find_member(light, "spectrum");
+    const auto kelvin = find_member(light, "temperature_K"), line = find_member(light, "line_nm"),
+               table = find_member(light, "spectrum");
     if (kelvin.has_value() + line.has_value() + table.has_value() > 1)
         complain(
             light, "has more than one spectrum; at most one of \"temperature_K\", \"line_nm\" and \"spectrum\" is right");
@@ -78,7 +79,8 @@ StarSky read_stars(const Place& place, const std::filesystem::path& folder)
 
 Light read_light(const Place& place, const std::vector<Body>& bodies)
 {
-    reject_unknown_members(place, {"type", "towards", "position", "distance", "radiance", "temperature_K", "line_nm", "spectrum", "body"});
+    reject_unknown_members(
+        place, {"type", "towards", "position", "distance", "radiance", "temperature_K", "line_nm", "spectrum", "body"});
     if (one_of(member(place, "type"), {"directional", "point"}) == "directional") {
         reject_unknown_members(place, {"type", "towards", "radiance", "temperature_K", "line_nm", "spectrum"});
         const Place towards = member(place, "towards");
@@ -103,7 +105,8 @@ SceneFile load_scene_file(const std::filesystem::path& file)
 {
     const Document document = read_document(file);
     const Place top = root(document);
-    reject_unknown_members(top, {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "ambient", "lights", "bodies", "start"});
+    reject_unknown_members(
+        top, {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "ambient", "lights", "bodies", "start"});
     SceneFile scene;
     scene.name = file.stem().string();
     scene.file = document.file;

@@ -73,7 +73,8 @@ Words words_in(const std::string& language) { return load_words(shipped_file("wo
 
 Tour tour_in(const std::string& name, const Words& words)
 {
-    return load_tour(shipped_file("tours", name), words, [](const std::string& shot) { return shipped_file("shots", shot); });
+    return load_tour(
+        shipped_file("tours", name), words, [](const std::string& shot) { return shipped_file("shots", shot); });
 }
 
 fs::path scene_of(const Tour& tour)

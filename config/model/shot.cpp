@@ -26,7 +26,8 @@ glm::dvec3 read_direction(const Place& place)
 /// gamma beta, from whichever of the three the file gives; each form without cancellation.
 double read_proper_speed(const Place& place)
 {
-    const auto gamma = find_member(place, "gamma"), beta = find_member(place, "beta"), rapidity = find_member(place, "rapidity");
+    const auto gamma = find_member(place, "gamma"), beta = find_member(place, "beta"),
+               rapidity = find_member(place, "rapidity");
     if (gamma.has_value() + beta.has_value() + rapidity.has_value() != 1)
         complain(place,
             std::string(gamma || beta || rapidity ? "has more than one speed" : "has no speed")

@@ -138,7 +138,8 @@ struct Reader {
         check_measured(member(place, "ask"), question.ask, false);
         check_measured(member(place, "explanation"), question.explanation, true);
         take(place, "explanation_s", question.explanation_s, {0.5, 600});
-        const auto choices = find_member(place, "choices"), set = find_member(place, "number"), reach = find_member(place, "reach");
+        const auto choices = find_member(place, "choices"), set = find_member(place, "number"),
+                   reach = find_member(place, "reach");
         if (choices.has_value() + set.has_value() + reach.has_value() != 1)
             complain(place, "needs one way to answer; exactly one of \"choices\", \"number\" and \"reach\" is right");
         if (choices) {

@@ -15,8 +15,8 @@ struct CompiledView {
     int channels() const { return map ? map->channels : 1; }
 };
 
-/// Where compiled maps are kept across starts: STARBOW_CACHE, else starbow in XDG_CACHE_HOME or ~/.cache. Empty where none of
-/// these is set: then they are kept in memory only.
+/// Where compiled maps are kept across starts: STARBOW_CACHE, else starbow in XDG_CACHE_HOME or ~/.cache. Empty where none
+/// of these is set: then they are kept in memory only.
 std::filesystem::path map_cache_folder();
 
 /// Compiled maps by content: the view's projection, its size, the bytes of its warp file. They are kept in memory while

@@ -69,8 +69,9 @@ int main(int count, char** arguments)
     app.footer("Examples:\n  starbow run --layout dome\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome\n"
                "  starbow check my/wall.json --svg out/wall.svg\n  starbow COMMAND --help");
     std::function<int()> chosen;
-    for (auto add : {starbow::add_run, starbow::add_render, starbow::add_check, starbow::add_doctor, starbow::add_displays, starbow::add_devices,
-             starbow::add_calibrate, starbow::add_warp, starbow::add_import, starbow::add_bench, starbow::add_measure})
+    for (auto add : {starbow::add_run, starbow::add_render, starbow::add_check, starbow::add_doctor, starbow::add_displays,
+             starbow::add_devices, starbow::add_calibrate, starbow::add_warp, starbow::add_import, starbow::add_bench,
+             starbow::add_measure})
         add(app, chosen);
     try {
         app.parse(count, arguments);

@@ -63,7 +63,8 @@ ExhibitOptions open(const Options& options)
         exhibit.tour = options.tour, exhibit.shot.clear();
     if (!exhibit.tour.empty() && !options.record.empty())
         throw InputError("A tour's flight can't be recorded; --record without a tour is right");
-    ExhibitOptions exhibit_options{.scene = shipped_file("scenes", exhibit.scene), .layout = load_layout(shipped_file("layouts", exhibit.layout))};
+    ExhibitOptions exhibit_options{
+        .scene = shipped_file("scenes", exhibit.scene), .layout = load_layout(shipped_file("layouts", exhibit.layout))};
     exhibit_options.start = load_scene_file(exhibit_options.scene).start;
     exhibit_options.words = words_in(options.language.empty() ? exhibit.language : options.language);
     if (!exhibit.shot.empty()) {

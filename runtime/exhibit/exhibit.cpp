@@ -41,9 +41,9 @@ int fly_exhibit(const ExhibitOptions& options)
         std::string lost;
         try {
             context = std::make_unique<RenderContext>(options.scene, device_options(true),
-                options.frame_budget_ms > 0   ? options.ladder[0].quality.spectra
-                    : options.quality ? options.quality->spectra
-                                      : std::nullopt);
+                options.frame_budget_ms > 0 ? options.ladder[0].quality.spectra
+                    : options.quality       ? options.quality->spectra
+                                            : std::nullopt);
             for (const std::string& note : context->world.world.notes)
                 if (losses == 0)
                     log_info("world", context->world.scene.gltf.string() + ": " + note);

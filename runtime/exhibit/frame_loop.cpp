@@ -4,12 +4,14 @@
 #include "runtime/flight/record_files.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/trace.h"
+#include "runtime/render/debug.h"
 #include "runtime/render/warm_up.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <cstdio>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 
 namespace starbow {
 namespace {
@@ -50,10 +52,13 @@ FrameLoop::FrameLoop(Session& session, RenderContext& context)
           device_, context.pipelines, context.world, session.layout, quality_of(session, device_)))
     , timer_(device_)
     , screens_(device_, session.layout)
+    , cold_(session.options.warms_up)
     , done_(device_.device.createFence({vk::FenceCreateFlagBits::eSignaled}))
-    , commands_(std::move(
-          device_.device.allocateCommandBuffers({*device_.pool, vk::CommandBufferLevel::ePrimary, 1}).front()))
+    , commands_(
+          std::move(device_.device.allocateCommandBuffers({*device_.pool, vk::CommandBufferLevel::ePrimary, 1}).front()))
 {
+    name_object(device_, done_, "frame done");
+    name_object(device_, commands_, "frame");
 }
 
 FrameLoop::~FrameLoop()
@@ -65,8 +70,6 @@ FrameLoop::~FrameLoop()
 
 void FrameLoop::run()
 {
-    if (session_.options.warms_up)
-        warm_up();
     if (session_.options.trace) {
         device_.trace = session_.options.trace, device_.timer = &timer_;
         session_.options.trace->name_thread("flight");
@@ -84,6 +87,8 @@ bool FrameLoop::fly_frame()
     apply_file_changes();
     screens_.follow();
     const bool visible = screens_.acquire();
+    if (visible && std::exchange(cold_, false))
+        warm_up(); // now that the windows' format is known
 
     // Read controls, as late as can be.
     std::optional<Trace::Span> span(std::in_place, device_.trace, "controls");
@@ -153,16 +158,14 @@ void FrameLoop::warm_up()
         for (const PresetLevel& level : session_.governor->ladder())
             qualities.push_back(within(device_, level.quality));
     qualities.push_back(quality_of(session_, device_));
-    (void)screens_.acquire(); // makes the swapchains, whose format counts
     const vk::Format format = screens_.format();
-    if (format == vk::Format::eUndefined)
-        return;
-    frame_->meter(session_.options.exposure.automatic);
-    frame_->bloom(session_.options.exposure.bloom);
+    FrameRenderer frame(device_, context_.pipelines, context_.world, session_.layout, qualities.front());
+    frame.meter(session_.options.exposure.automatic);
+    frame.bloom(session_.options.exposure.bloom);
     const SceneFile& scene = context_.world.scene;
-    const Panel* panel = hud_.update(session_, scene, 0, frame_->views().hud_width());
+    const Panel* panel = hud_.update(session_, scene, 0, frame.views().hud_width());
     const bool terminal = isatty(STDERR_FILENO);
-    const std::size_t made = starbow::warm_up(device_, context_.pipelines, *frame_, session_.options.start, panel, format,
+    const std::size_t made = starbow::warm_up(device_, context_.pipelines, frame, session_.options.start, panel, format,
         qualities, [&](std::size_t step, std::size_t steps) {
             glfwPollEvents(); // so that the window system sees the program alive
             const double passed = seconds(Clock::now() - began);
@@ -185,7 +188,8 @@ void FrameLoop::trace_passes()
         return;
     // The device's clock is its own: the frame is laid where the processor handed it over.
     for (const PassTime& pass : timer_.passes())
-        device_.trace->gpu(pass.name, submitted_ns_ + std::int64_t(1e6 * pass.begin_ms), std::int64_t(1e6 * pass.duration_ms));
+        device_.trace->gpu(
+            pass.name, submitted_ns_ + std::int64_t(1e6 * pass.begin_ms), std::int64_t(1e6 * pass.duration_ms));
 }
 
 Shot FrameLoop::set_up_frame(const Controls& controls)
@@ -212,7 +216,10 @@ void FrameLoop::record(const Shot& shot, const Panel* panel)
     for (const Target& target : targets)
         if (target.view)
             present_barrier(*commands_, target, true);
+    const std::size_t pipelines = context_.pipelines.count();
     frame_->draw(*commands_, shot, panel, targets);
+    if (const std::size_t made = context_.pipelines.count() - pipelines; made > 0)
+        log_debug("pipelines", std::to_string(made) + " made in flight");
     for (const Target& target : targets)
         if (target.view)
             present_barrier(*commands_, target, false);
@@ -240,7 +247,8 @@ void FrameLoop::apply_file_changes()
         session_.refused.clear();
         screens_.adopt(session_.layout);
         const std::size_t unkept = changes(session_.kept, session_.layout).size();
-        log_info("layout", session_.layout.file.string() + ": taken up"
+        log_info("layout",
+            session_.layout.file.string() + ": taken up"
                 + (unkept > 0 ? "; what was turned by hand stays turned (F5 keeps it)" : ""));
     } catch (const InputError& error) {
         const std::string why = one_line(error.what());

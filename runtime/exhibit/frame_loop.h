@@ -7,8 +7,8 @@
 
 namespace starbow {
 
-/// Starts each frame at its turn, since some drivers' FIFO does not wait for the screen. The turn is a hundredth shorter than
-/// the screen's: where the driver does wait, it alone does.
+/// Starts each frame at its turn, since some drivers' FIFO does not wait for the screen. The turn is a hundredth shorter
+/// than the screen's: where the driver does wait, it alone does.
 struct Pace {
     using Clock = std::chrono::steady_clock;
     Clock::time_point next = Clock::now();
@@ -23,8 +23,6 @@ public:
 
     /// Throws vk::DeviceLostError.
     void run();
-    /// The longest of fly_frame's times so far, the wait for the screen left out, milliseconds.
-    double longest_ms() const { return longest_ms_; }
 
 private:
     /// Draws, unseen, everything that the visitor's switches can need; progress on a terminal.
@@ -50,12 +48,12 @@ private:
     std::unique_ptr<FrameRenderer> frame_;
     FrameTimer timer_;
     Screens screens_;
+    bool cold_; ///< the warm-up is still to come
     HudUpdater hud_;
     Pace pace_;
     vk::raii::Fence done_;
     vk::raii::CommandBuffer commands_;
     double prepared_ms_ = 0; ///< the processor's part of the frame before
-    double longest_ms_ = 0;
     std::int64_t submitted_ns_ = 0; ///< steady clock; of the frame before
 };
 

@@ -72,7 +72,8 @@ void Lab::keep(const std::function<void(std::string)>& say)
         say(words_("lab.logged", {{"line", std::to_string(log_->lines())}, {"file", log_->file().filename().string()}}));
 }
 
-void Lab::ask(FrameRenderer& frame, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter)
+void Lab::ask(
+    FrameRenderer& frame, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter)
 {
     if (!on()) {
         frame.measure({});

@@ -22,7 +22,8 @@ public:
     void read(const FrameRenderer& frame, const Controls& controls, const GpuWorld& world, double dt_s,
         const std::function<void(std::string)>& say);
     /// What the next frame is to draw and to read.
-    void ask(FrameRenderer& frame, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter);
+    void ask(
+        FrameRenderer& frame, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter);
 
 private:
     bool on() const { return overlay_ != Overlay::off || why_ != Why::none; }

@@ -1,6 +1,7 @@
 #include "outputs.h"
 #include "config/json/error.h"
 #include "desktop.h"
+#include "runtime/render/debug.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <algorithm>
@@ -208,14 +209,17 @@ bool Window::make_swapchain()
     swapchain_ = device_->device.createSwapchainKHR({{}, *surface_, count, format_, vk::ColorSpaceKHR::eSrgbNonlinear,
         extent, 1, vk::ImageUsageFlagBits::eColorAttachment, vk::SharingMode::eExclusive, {}, limits.currentTransform, alpha,
         vk::PresentModeKHR::eFifo, true, *std::exchange(swapchain_, nullptr)});
+    name_object(*device_, swapchain_, "outputs: swapchain");
     for (VkImage image : swapchain_.getImages()) {
         images_.resize(views_.size());
         images_.push_back(image);
         views_.push_back(device_->device.createImageView(
             {{}, image, vk::ImageViewType::e2D, format_, {}, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1}}));
-        drawn_.push_back(device_->device.createSemaphore({}));
+        name_object(*device_, drawn_.emplace_back(device_->device.createSemaphore({})), "outputs: drawn");
+        name_object(*device_, views_.back(), "outputs: picture of " + name_);
     }
     acquired_ = device_->device.createSemaphore({});
+    name_object(*device_, acquired_, "outputs: acquired");
     made_ = Clock::now();
     size_ = {extent.width, extent.height};
     stale_ = false;

@@ -34,7 +34,8 @@ void ReplayRenderer::take(const RecordEntry& entry)
     renderer_.frame().move_head(controls.head);
 }
 
-std::vector<std::vector<std::uint8_t>> ReplayRenderer::picture(const Flight& flight, const std::string& scene, const Panel* hud)
+std::vector<std::vector<std::uint8_t>> ReplayRenderer::picture(
+    const Flight& flight, const std::string& scene, const Panel* hud)
 {
     Shot shot = shot_of(flight, scene);
     shot.exposure_ev = shown_ev(exposure_, exposing_, shot.exposure_ev, start_ev_);

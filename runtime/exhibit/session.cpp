@@ -93,7 +93,7 @@ double ev_of(const Session& session)
 {
     const Exposing& rules = session.options.exposure;
     return session.guide ? session.guide->shown_ev(session.exposure, rules)
-                       : shown_ev(session.exposure, rules, session.flight.exposure_ev, session.options.start.exposure_ev);
+                         : shown_ev(session.exposure, rules, session.flight.exposure_ev, session.options.start.exposure_ev);
 }
 
 bool is_over(const Session& session)
@@ -106,8 +106,8 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
 {
     const Session::Clock::time_point now = Session::Clock::now();
     Controls& controls = entry.controls;
-    controls = session.keyboard.read(
-        windows, std::chrono::nanoseconds(now - session.began).count(), !session.hid.has_gamepad());
+    controls
+        = session.keyboard.read(windows, std::chrono::nanoseconds(now - session.began).count(), !session.hid.has_gamepad());
     session.hid.add(seconds(now - session.last), controls);
     if (session.tracker)
         controls.head = session.tracker->read(now);
@@ -126,9 +126,9 @@ bool step(Session& session, RecordEntry& entry, const std::optional<double>& met
     const ExhibitOptions& options = session.options;
     const Controls& controls = entry.controls;
     const double dt_s = 1e-9 * double(entry.dt_ns);
-    session.flight = session.guide ? session.guide->flown(controls, entry.dt_ns)
-                                   : flown(session.flight, session.history, controls, entry.dt_ns, options.rules,
-                                       seconds_per_time_unit, options.start);
+    session.flight = session.guide
+        ? session.guide->flown(controls, entry.dt_ns)
+        : flown(session.flight, session.history, controls, entry.dt_ns, options.rules, seconds_per_time_unit, options.start);
     session.exposure.locked ^= controls.lock_exposure;
     if (session.record_replay.replays())
         session.exposure.ev = entry.exposure_ev;

@@ -83,8 +83,8 @@ std::vector<Point> parse_points(const std::string& text, const Layout& layout)
     return points;
 }
 
-StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& world, const Shot& shot, const std::vector<Point>& points,
-    const std::string& overlay, const std::string& why, const Words& words)
+StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& world, const Shot& shot,
+    const std::vector<Point>& points, const std::string& overlay, const std::string& why, const Words& words)
 {
     StillMeasurement measurement;
     const auto which = [](const auto& names, const std::string& name) {
@@ -137,8 +137,8 @@ StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& worl
     const OverlayScale scale = overlay_scale(world.world, observer.place, world.scene.seconds_per_time_unit());
     what.over = {over == Overlay::off && page != Why::none ? Overlay::aim : over, marks, scale};
     if (over != Overlay::off || page != Why::none) {
-        measurement.panel = std::make_shared<Panel>(draw_lab_panel(
-            Typesetter(), words, measurement.points[0], over, scale, page, frame.views().lab_panel_width(lab_aspect(over, page))));
+        measurement.panel = std::make_shared<Panel>(draw_lab_panel(Typesetter(), words, measurement.points[0], over, scale,
+            page, frame.views().lab_panel_width(lab_aspect(over, page))));
         what.panel = measurement.panel.get();
         what.scale = scale_place(over, page);
     }

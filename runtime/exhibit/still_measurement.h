@@ -26,9 +26,9 @@ struct StillMeasurement {
     std::shared_ptr<const Panel> panel; ///< of readings, which the renderer's frame shows
 };
 
-/// Measures a shot, and has the renderer's next picture show it where an overlay or a page is asked for. Throws InputError for
-/// a point that shows nothing. What is returned must outlive that picture. words: of the panel.
-StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& world, const Shot& shot, const std::vector<Point>& points,
-    const std::string& overlay, const std::string& why, const Words& words);
+/// Measures a shot, and has the renderer's next picture show it where an overlay or a page is asked for. Throws InputError
+/// for a point that shows nothing. What is returned must outlive that picture. words: of the panel.
+StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& world, const Shot& shot,
+    const std::vector<Point>& points, const std::string& overlay, const std::string& why, const Words& words);
 
 } // namespace starbow

@@ -73,7 +73,8 @@ Flown find_flown(const fs::path& record, const RecordHeader& header, const std::
     const std::function<void(const std::string&)>& say)
 {
     const std::string file = one_line(record.string());
-    Flown flown{shipped_file("scenes", header.scene), load_layout(shipped_file("layouts", layout.empty() ? header.layout : layout))};
+    Flown flown{
+        shipped_file("scenes", header.scene), load_layout(shipped_file("layouts", layout.empty() ? header.layout : layout))};
     const double unit = load_scene_file(flown.scene).seconds_per_time_unit();
     if (unit != header.seconds_per_time_unit)
         throw InputError(file + ":1", "/seconds_per_time_unit",

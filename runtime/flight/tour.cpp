@@ -266,8 +266,8 @@ bool flies(const Touring& now, const Show& show)
 double left_s(const Touring& now, const Show& show)
 {
     const Step& step = step_of(now, show);
-    return std::max(
-        0.0, (now.measured_answer ? double(duration_ns(now, show)) / second_ns : step.seconds) - double(now.into_ns) / second_ns);
+    return std::max(0.0,
+        (now.measured_answer ? double(duration_ns(now, show)) / second_ns : step.seconds) - double(now.into_ns) / second_ns);
 }
 
 double length_s(const Tour& tour)

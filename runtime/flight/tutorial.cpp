@@ -29,12 +29,15 @@ std::string prompt(const Tutorial& tutorial, const InputCapabilities& capabiliti
 {
     switch (tutorial.lesson) {
     case 0:
-        return words(capabilities.lever ? "tutorial.go_throttle" : capabilities.trigger ? "tutorial.go_trigger" : "tutorial.go_key");
+        return words(capabilities.lever ? "tutorial.go_throttle"
+                : capabilities.trigger  ? "tutorial.go_trigger"
+                                        : "tutorial.go_key");
     case 1:
         return words(capabilities.stick ? "tutorial.turn_stick" : "tutorial.turn_keys");
     case 2:
-        return capabilities.stop_button > 0 ? words("tutorial.stop_button", {{"button", std::to_string(capabilities.stop_button)}})
-                                     : words("tutorial.stop_key");
+        return capabilities.stop_button > 0
+            ? words("tutorial.stop_button", {{"button", std::to_string(capabilities.stop_button)}})
+            : words("tutorial.stop_key");
     default:
         return "";
     }

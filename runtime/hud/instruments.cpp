@@ -1,7 +1,7 @@
 #include "instruments.h"
 #include "runtime/world/clock.h"
-#include "runtime/world/instances.h"
 #include "runtime/world/eye_event.h"
+#include "runtime/world/instances.h"
 #include "runtime/world/worldline.h"
 #include "shaders/physics/physics.h"
 #include <algorithm>
@@ -73,7 +73,10 @@ Ray ray_from_world(const MeasuringObserver& observer, const glm::dvec3& world)
     return {glm::transpose(to_motion) * sight.n, world, sight.D};
 }
 
-Ray aim_of(const MeasuringObserver& observer) { return ray_from_ship(observer, observer.ship_from_cockpit * glm::dvec3(0, 0, -1)); }
+Ray aim_of(const MeasuringObserver& observer)
+{
+    return ray_from_ship(observer, observer.ship_from_cockpit * glm::dvec3(0, 0, -1));
+}
 
 Spot spot_at(const MeasuringObserver& observer, const Probed& probed, const World& world)
 {
@@ -145,8 +148,8 @@ SpotReading read_spot(const MeasuringObserver& observer, const Spot& spot, const
     return reading;
 }
 
-PairReading read_pair(
-    const MeasuringObserver& observer, const Spot& first, const Spot& second, const World& world, double seconds_per_time_unit)
+PairReading read_pair(const MeasuringObserver& observer, const Spot& first, const Spot& second, const World& world,
+    double seconds_per_time_unit)
 {
     const SpotReading a = read_spot(observer, first, world, seconds_per_time_unit),
                       b = read_spot(observer, second, world, seconds_per_time_unit);

@@ -60,8 +60,7 @@ struct SpotReading {
     double seen_nm = example_nm; ///< the seen wavelength of example_nm
     std::optional<double> distance_s; ///< in the world, to the retarded position; nullopt for the sky
     std::optional<double> emitted_s; ///< the retarded time, in the world
-    std::optional<double>
-        ship_distance_s; ///< in the ship's frame: the light's travel time there, D times the above
+    std::optional<double> ship_distance_s; ///< in the ship's frame: the light's travel time there, D times the above
     std::optional<double> clock_s; ///< the clock's seen reading, at its middle or at another part of its dial
     std::optional<double> light; ///< as in Probed
 };
@@ -76,8 +75,8 @@ struct PairReading {
     std::optional<double> contracted_s; ///< the distance in the ship's frame, both at one time there; nullopt as above
     std::optional<double> clocks_s; ///< the second's reading minus the first's
 };
-PairReading read_pair(
-    const MeasuringObserver& observer, const Spot& first, const Spot& second, const World& world, double seconds_per_time_unit);
+PairReading read_pair(const MeasuringObserver& observer, const Spot& first, const Spot& second, const World& world,
+    double seconds_per_time_unit);
 
 /// The angle from the motion at which nothing is shifted (D = 1), as seen, radians; nullopt at rest.
 std::optional<double> unshifted_angle(const MeasuringObserver& observer);

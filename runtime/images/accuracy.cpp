@@ -250,7 +250,8 @@ std::string accuracy_csv(const std::vector<MeasuredSetting>& all)
 {
     const std::vector<bool> best = frontier(all);
     std::string out
-        = "setting,texels_per_pixel,max_texels_per_pixel,cube_samples,lod_error_texels,lod_shading_texels,image_cost_texels,pixel_"
+        = "setting,texels_per_pixel,max_texels_per_pixel,cube_samples,lod_error_texels,lod_shading_texels,image_cost_texels,"
+          "pixel_"
           "rays,clip_levels,"
           "mips,half_floats,"
           "matrices,frames_per_cube,ms,ratio,megabytes,texels_drawn_per_pixel,images,flip,psnr_dB,ciede2000_mean,"

@@ -62,7 +62,8 @@ ResponseWindow sight_at(const StandardObserver& observer, double D)
 
 double basis_function(int k, int basis_functions, double nm)
 {
-    const double at = std::clamp(std::log(nm / first_basis_nm) / std::log(last_basis_nm / first_basis_nm), 0.0, 1.0) * (basis_functions - 1);
+    const double at = std::clamp(std::log(nm / first_basis_nm) / std::log(last_basis_nm / first_basis_nm), 0.0, 1.0)
+        * (basis_functions - 1);
     return std::max(0.0, 1 - std::abs(at - k));
 }
 
@@ -203,7 +204,8 @@ Row learned_hats(int n)
     const double sample_weight = 1e-3;
     for (int k = 0; k < n; ++k) {
         for (int j = 0; j < n; ++j)
-            normal[std::size_t(k * n + j)] += sample_weight * dot(basis_functions[std::size_t(k)], basis_functions[std::size_t(j)]);
+            normal[std::size_t(k * n + j)]
+                += sample_weight * dot(basis_functions[std::size_t(k)], basis_functions[std::size_t(j)]);
         for (int i = 0; i < grid_points; ++i)
             right[std::size_t(k * grid_points + i)] += sample_weight * basis_functions[std::size_t(k)][std::size_t(i)];
     }

@@ -208,7 +208,8 @@ CubeMapPlan plan_cube_map(const std::vector<RestFrameRequest>& layers, const Qua
     return plan_cube_map(layers, quality, room);
 }
 
-CubeMapPlan plan_cube_map(const std::vector<RestFrameRequest>& layers, const Quality& quality, PlanScratch& room, CubeMapPlan before)
+CubeMapPlan plan_cube_map(
+    const std::vector<RestFrameRequest>& layers, const Quality& quality, PlanScratch& room, CubeMapPlan before)
 {
     CubeMapPlan plan;
     std::swap(plan.images, before.images);
@@ -242,7 +243,8 @@ CubeMapPlan plan_cube_map(const std::vector<RestFrameRequest>& layers, const Qua
         plan.images.clear();
         for (const TileDemands& demands : by_tile) {
             const std::size_t layer = std::size_t(demands.layer);
-            const Draft draft{quality, density, demands.layer, layers[layer].bounds.has_value(), plan.finest_clip_level[layer]};
+            const Draft draft{
+                quality, density, demands.layer, layers[layer].bounds.has_value(), plan.finest_clip_level[layer]};
             Cutting(draft, demands).add_images(plan.images);
         }
         plan.texels = 0;
@@ -316,7 +318,8 @@ namespace {
 const PlannedImage& nearest_image(std::span<const PlannedImage> images, const glm::ivec2& sub_tile)
 {
     const auto off = [&](const PlannedImage& image) {
-        const glm::ivec2 past = glm::max(image.sub_tiles.first - sub_tile, sub_tile - (image.sub_tiles.first + image.sub_tiles.count - 1));
+        const glm::ivec2 past
+            = glm::max(image.sub_tiles.first - sub_tile, sub_tile - (image.sub_tiles.first + image.sub_tiles.count - 1));
         return std::max({past.x, past.y, 0});
     };
     return *std::min_element(
@@ -360,7 +363,8 @@ void write_tiles(const CubeMapPlan& plan, shared::TileTable& table)
         // A sub-tile at which no pixel looks refers to the nearest drawn one: rounding may lead there.
         for (int sub_tile = 0; sub_tile < SUB_TILE_COUNT; ++sub_tile)
             if (!told[std::size_t(sub_tile)])
-                entries[sub_tile] = tile_entry(nearest_image(images, {sub_tile % TILE_SUB_TILES, sub_tile / TILE_SUB_TILES}));
+                entries[sub_tile]
+                    = tile_entry(nearest_image(images, {sub_tile % TILE_SUB_TILES, sub_tile / TILE_SUB_TILES}));
     }
 }
 

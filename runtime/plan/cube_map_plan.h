@@ -54,7 +54,8 @@ struct PlanScratch {
 /// A tile that no view looks at is left out, and so is a tile that holds nothing. Any other is cut into the images, each
 /// with its own resolution, that cost least: Quality::image_cost_texels for each image, plus its texels. before: a plan
 /// whose memory is reused.
-CubeMapPlan plan_cube_map(const std::vector<RestFrameRequest>& layers, const Quality& quality, PlanScratch& room, CubeMapPlan before = {});
+CubeMapPlan plan_cube_map(
+    const std::vector<RestFrameRequest>& layers, const Quality& quality, PlanScratch& room, CubeMapPlan before = {});
 CubeMapPlan plan_cube_map(const std::vector<RestFrameRequest>& layers, const Quality& quality);
 /// The same for a world in which nothing moves. E: e^rapidity of the ship in the world.
 CubeMapPlan plan_cube_map(const std::vector<ViewRequest>& views, double E, const Quality& quality);

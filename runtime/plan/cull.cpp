@@ -1,7 +1,7 @@
 #include "cull.h"
-#include "scratch.h"
 #include "runtime/world/instances.h"
 #include "runtime/world/moving.h"
+#include "scratch.h"
 #include "shaders/physics/physics.h"
 #include <algorithm>
 #include <cmath>

@@ -101,7 +101,8 @@ struct Held {
             const glm::dvec3 way = inside ? axis : thing.centre / distance;
             const double spread = inside ? pi : std::asin(thing.radius / distance);
             radius = std::max(radius, std::min(pi, angle(axis, way) + spread));
-            each_slot(way, spread, finest_clip_level, [&](int tile, const Rect& part) { rects[std::size_t(tile)].add(part); });
+            each_slot(
+                way, spread, finest_clip_level, [&](int tile, const Rect& part) { rects[std::size_t(tile)].add(part); });
         }
     }
 
@@ -248,7 +249,8 @@ struct Walk {
         const glm::dvec3 right = glm::normalize(glm::cross(aside, centre)), up = glm::cross(centre, right);
         cut(centre, right, up, std::tan(double(cap.radius)), cap);
     }
-    void cut(const glm::dvec3& centre, const glm::dvec3& right, const glm::dvec3& up, double half, const BoundingCone& cap) const
+    void cut(
+        const glm::dvec3& centre, const glm::dvec3& right, const glm::dvec3& up, double half, const BoundingCone& cap) const
     {
         BoundingCone part = cap;
         part.radius = float(std::sqrt(0.5) * half);

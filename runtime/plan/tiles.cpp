@@ -111,7 +111,8 @@ SubTiles sub_tiles_in(int tile, const Rect& part)
     for (int i = 0; i < 2; ++i) {
         auto sub_tile = [&](double at) { return spread_out(rear, at) * from_face[i] + from_face[2 + i]; };
         sub_tiles.first[i] = std::clamp(int(std::floor(sub_tile(part.low[i]))), 0, TILE_SUB_TILES - 1);
-        sub_tiles.count[i] = std::clamp(int(std::ceil(sub_tile(part.high[i]))), sub_tiles.first[i] + 1, TILE_SUB_TILES) - sub_tiles.first[i];
+        sub_tiles.count[i] = std::clamp(int(std::ceil(sub_tile(part.high[i]))), sub_tiles.first[i] + 1, TILE_SUB_TILES)
+            - sub_tiles.first[i];
     }
     return sub_tiles;
 }

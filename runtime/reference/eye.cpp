@@ -33,10 +33,11 @@ std::size_t TracingEye::triangles() const
 physics::AberratedRay TracingEye::sight(const glm::dvec3& n, double E) const
 {
     return observer_.shot.effects.comparison == Comparison::galilean ? physics::galilean_world_from_camera(n, E, 1 / E)
-                                                                    : physics::world_from_camera(n, E, 1 / E);
+                                                                     : physics::world_from_camera(n, E, 1 / E);
 }
 
-TracingEye::Nearest TracingEye::nearest(const glm::dvec3& way, const glm::dvec3& beside, const physics::AberratedRay& world) const
+TracingEye::Nearest TracingEye::nearest(
+    const glm::dvec3& way, const glm::dvec3& beside, const physics::AberratedRay& world) const
 {
     // Without aberration, directions are the world's, and moving things are seen as from there; the ship's D comes on top.
     const bool aberration = observer_.shot.effects.aberration;

@@ -83,7 +83,8 @@ Lighting::Shine Lighting::shine(std::size_t index, const glm::dvec3& place, doub
         own = (time - zero.time) / gamma + seen.tau;
         distance = seen.delay / seen.D; // the light's way goes as its frequency does not
     }
-    const ExistenceInterval& existence = lamp.existence < 0 ? always : world_.existence_intervals[std::size_t(lamp.existence)];
+    const ExistenceInterval& existence
+        = lamp.existence < 0 ? always : world_.existence_intervals[std::size_t(lamp.existence)];
     if (own < existence.begin || own > existence.end || distance == 0)
         return shine;
     shine.towards = way / glm::length(way);

@@ -8,7 +8,8 @@ namespace starbow {
 class Lighting {
 public:
     /// All arguments must outlive the object; it prepares `colours` for the lamps.
-    Lighting(const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours, const EyeEvent& eye_event);
+    Lighting(
+        const World& world, const SceneFile& scene, const Pictures& pictures, Colours& colours, const EyeEvent& eye_event);
 
     /// The colour, seen at D, of a surface where a ray met it, without the headlight effect.
     glm::dvec3 seen(const Met& met, double D) const;

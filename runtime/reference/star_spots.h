@@ -1,7 +1,7 @@
 #pragma once
 #include "eye.h"
-#include "view_rays.h"
 #include "runtime/world/stars.h"
+#include "view_rays.h"
 
 namespace starbow {
 

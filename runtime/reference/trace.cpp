@@ -73,7 +73,8 @@ struct Tracer::Scene {
     double sent(const SightLine& line, const glm::dvec3& place) const
     {
         const glm::dvec3 from_eye = place - line.from;
-        return line.time + (eye_event.now ? eye_event.beta * (eye_event.motion_from_frame * from_eye).z : -glm::length(from_eye));
+        return line.time
+            + (eye_event.now ? eye_event.beta * (eye_event.motion_from_frame * from_eye).z : -glm::length(from_eye));
     }
 
     /// The retarded position of an animated instance's corner, from the eye event's place.

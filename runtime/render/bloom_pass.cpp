@@ -1,4 +1,5 @@
 #include "bloom_pass.h"
+#include "debug.h"
 #include <algorithm>
 
 namespace starbow {
@@ -17,8 +18,8 @@ void to_read(vk::CommandBuffer commands, const Image& picture)
 
 void to_draw(vk::CommandBuffer commands, const Image& picture, bool keeps)
 {
-    transition(commands, picture, keeps ? vk::ImageLayout::eShaderReadOnlyOptimal : vk::ImageLayout::eUndefined, Stage::eFragmentShader, {},
-        vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, drawn);
+    transition(commands, picture, keeps ? vk::ImageLayout::eShaderReadOnlyOptimal : vk::ImageLayout::eUndefined,
+        Stage::eFragmentShader, {}, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, drawn);
 }
 
 } // namespace
@@ -35,11 +36,15 @@ BloomPass::BloomPass(Device& device, Pipelines& pipelines, glm::ivec2 size)
                 vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled}));
     sampler_ = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eNearest,
         vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge});
+    name_object(device, sampler_, "bloom pass: sampler");
     const auto count = std::uint32_t(pictures_.size());
     vk::DescriptorPoolSize sizes(vk::DescriptorType::eCombinedImageSampler, 2 * count);
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, sizes});
+    name_object(device, pool_, "bloom pass: descriptor pool");
     std::vector<vk::DescriptorSetLayout> layouts(count, *pipelines.picture_set);
     sets_ = device.device.allocateDescriptorSets({*pool_, layouts});
+    for (const vk::raii::DescriptorSet& set : sets_)
+        name_object(device, set, "bloom pass: descriptor set");
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
         const vk::DescriptorImageInfo images[] = {{*sampler_, *pictures_[i].view, vk::ImageLayout::eShaderReadOnlyOptimal},
             {*sampler_, *pictures_[std::min(i + 1, pictures_.size() - 1)].view, vk::ImageLayout::eShaderReadOnlyOptimal}};

@@ -1,4 +1,5 @@
 #include "cube_pass.h"
+#include "debug.h"
 #include "lamp.h"
 #include "runtime/operation/trace.h"
 #include "runtime/world/clock.h"
@@ -39,13 +40,18 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
     stride_ = (sizeof(shared::CubeConstants) + step - 1) / step * step;
     const std::size_t layers = world.world.frames.size();
     constants_ = make_mapped_buffer(device, layers * stride_, vk::BufferUsageFlagBits::eUniformBuffer);
+    name_object(device, constants_, "cube pass: constants");
     tiles_ = make_mapped_buffer(device, sizeof(shared::TileTable), vk::BufferUsageFlagBits::eUniformTexelBuffer);
+    name_object(device, tiles_, "cube pass: tiles");
     tiles_view_ = device.device.createBufferView({{}, *tiles_.buffer, exact_format, 0, VK_WHOLE_SIZE});
+    name_object(device, tiles_view_, "cube pass: tiles view");
     atlases_.resize(formats(world.layered()).size());
     std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBufferDynamic, 1},
         {vk::DescriptorType::eUniformBuffer, 1}, {vk::DescriptorType::eStorageBuffer, 3}};
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
+    name_object(device, pool_, "cube pass: descriptor pool");
     set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.eye_set}).front());
+    name_object(device, set_, "cube pass: descriptor set");
 }
 
 Formats CubePass::formats(bool layered) const
@@ -83,10 +89,12 @@ void CubePass::prepare_plain(const PlannedImage& image, const EyeEvent& eye_even
     list_ = cull(world_.world, {&eye_event, 1}, images_, quality_, std::move(list_));
     contractions_ = {1};
     upload({&eye_event, 1}, true);
-    if (int(depth_.extent.width) < image.size.x || int(depth_.extent.height) < image.size.y)
+    if (int(depth_.extent.width) < image.size.x || int(depth_.extent.height) < image.size.y) {
         depth_ = make_image(device_,
             {depth_format, {std::uint32_t(image.size.x), std::uint32_t(image.size.y)},
                 vk::ImageUsageFlagBits::eDepthStencilAttachment});
+        name_object(device_, depth_, "cube pass: depth");
+    }
 }
 
 void CubePass::fit(glm::ivec2 size, int levels)
@@ -107,14 +115,20 @@ void CubePass::fit(glm::ivec2 size, int levels)
     depth_ = {}, atlas_samples_.clear(), depth_samples_ = {};
     auto copied = most > 1 ? Usage::eTransferSrc | Usage::eTransferDst : vk::ImageUsageFlags();
     Formats formats = this->formats(world_.layered());
-    for (std::size_t i = 0; i < atlases_.size(); ++i)
+    for (std::size_t i = 0; i < atlases_.size(); ++i) {
         atlases_[i] = make_image(device_, {formats[i], extent, Usage::eColorAttachment | Usage::eSampled | copied, most});
+        name_object(device_, atlases_[i], "cube pass: atlas");
+    }
     depth_ = make_image(device_, {depth_format, extent, Usage::eDepthStencilAttachment | Usage::eSampled});
+    name_object(device_, depth_, "cube pass: depth");
     if (quality_.cube_samples > 1) {
         vk::SampleCountFlagBits samples = sample_bits(quality_.cube_samples);
         for (vk::Format format : formats)
-            atlas_samples_.push_back(make_image(device_, {format, extent, Usage::eColorAttachment, 1, 1, samples}));
+            name_object(device_,
+                atlas_samples_.emplace_back(make_image(device_, {format, extent, Usage::eColorAttachment, 1, 1, samples})),
+                "cube pass: atlas samples");
         depth_samples_ = make_image(device_, {depth_format, extent, Usage::eDepthStencilAttachment, 1, 1, samples});
+        name_object(device_, depth_samples_, "cube pass: depth samples");
     }
 }
 
@@ -204,11 +218,11 @@ void CubePass::record(vk::CommandBuffer commands)
         depth_access | Access::eColorAttachmentWrite);
     if (sampled) {
         for (const Image& colour : std::span(atlas_samples_.data(), used.size()))
-            transition(commands, colour, vk::ImageLayout::eUndefined, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
-                vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+            transition(commands, colour, vk::ImageLayout::eUndefined, Stage::eColorAttachmentOutput,
+                Access::eColorAttachmentWrite, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
                 Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
-        transition(commands, depth, vk::ImageLayout::eUndefined, depth_tests, depth_access, vk::ImageLayout::eDepthAttachmentOptimal,
-            depth_tests, depth_access);
+        transition(commands, depth, vk::ImageLayout::eUndefined, depth_tests, depth_access,
+            vk::ImageLayout::eDepthAttachmentOptimal, depth_tests, depth_access);
     }
     std::array<vk::RenderingAttachmentInfo, MAX_GROUPS + 1> colours;
     for (std::size_t group = 0; group < used.size(); ++group) {
@@ -319,9 +333,9 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
 
 void CubePass::make_mips(vk::CommandBuffer commands, const Image& atlas)
 {
-    auto level_barrier = [&](std::uint32_t first, std::uint32_t count, vk::ImageLayout from, vk::PipelineStageFlags2 from_stage,
-                             vk::AccessFlags2 from_access, vk::ImageLayout to, vk::PipelineStageFlags2 to_stage,
-                             vk::AccessFlags2 to_access) {
+    auto level_barrier = [&](std::uint32_t first, std::uint32_t count, vk::ImageLayout from,
+                             vk::PipelineStageFlags2 from_stage, vk::AccessFlags2 from_access, vk::ImageLayout to,
+                             vk::PipelineStageFlags2 to_stage, vk::AccessFlags2 to_access) {
         vk::ImageMemoryBarrier2 barrier(from_stage, from_access, to_stage, to_access, from, to, VK_QUEUE_FAMILY_IGNORED,
             VK_QUEUE_FAMILY_IGNORED, *atlas.image, {vk::ImageAspectFlagBits::eColor, first, count, 0, 1});
         commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
@@ -329,8 +343,8 @@ void CubePass::make_mips(vk::CommandBuffer commands, const Image& atlas)
     // One level more than is asked for: at its coarsest level an image is sampled together with the next, at weight nought,
     // and nought times what was never written may be NaN.
     std::uint32_t levels = std::min(std::uint32_t(levels_) + 1, atlas.levels);
-    level_barrier(0, 1, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
-        vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+    level_barrier(0, 1, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+        Access::eColorAttachmentWrite, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
     level_barrier(1, atlas.levels - 1, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, {},
         vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite);
     for (std::uint32_t level = 1; level < levels; ++level) {
@@ -344,13 +358,13 @@ void CubePass::make_mips(vk::CommandBuffer commands, const Image& atlas)
                 blits_.push_back({{vk::ImageAspectFlagBits::eColor, level - 1, 0, 1}, box(level - 1),
                     {vk::ImageAspectFlagBits::eColor, level, 0, 1}, box(level)});
             }
-        commands.blitImage(*atlas.image, vk::ImageLayout::eTransferSrcOptimal, *atlas.image, vk::ImageLayout::eTransferDstOptimal, blits_,
-            vk::Filter::eLinear);
+        commands.blitImage(*atlas.image, vk::ImageLayout::eTransferSrcOptimal, *atlas.image,
+            vk::ImageLayout::eTransferDstOptimal, blits_, vk::Filter::eLinear);
         level_barrier(level, 1, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
             vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
     }
-    level_barrier(0, levels, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, {}, vk::ImageLayout::eShaderReadOnlyOptimal, readers,
-        Access::eShaderSampledRead);
+    level_barrier(0, levels, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, {},
+        vk::ImageLayout::eShaderReadOnlyOptimal, readers, Access::eShaderSampledRead);
     if (atlas.levels > levels)
         level_barrier(levels, atlas.levels - levels, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, {},
             vk::ImageLayout::eShaderReadOnlyOptimal, readers, Access::eShaderSampledRead);

@@ -2,6 +2,19 @@
 
 namespace starbow {
 
+void name_object(const Device& device, const Image& image, const std::string& name)
+{
+    name_object(device, image.image, name);
+    name_object(device, image.view, name + " view");
+    name_object(device, image.memory, name + " memory");
+}
+
+void name_object(const Device& device, const Buffer& buffer, const std::string& name)
+{
+    name_object(device, buffer.buffer, name);
+    name_object(device, buffer.memory, name + " memory");
+}
+
 Label::Label(const Device& device, vk::CommandBuffer commands, const char* name)
     : device_(device)
     , commands_(commands)

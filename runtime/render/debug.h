@@ -1,6 +1,6 @@
 #pragma once
-#include "device.h"
 #include "frame_timer.h"
+#include "resources.h"
 
 namespace starbow {
 
@@ -8,12 +8,16 @@ namespace starbow {
 /// the instance lacks the extension. object: a vk::raii handle.
 template <class Object> void name_object(const Device& device, const Object& object, const std::string& name)
 {
-    if (!device.debug_utils)
+    if (!device.debug_utils || !*object)
         return;
     using Handle = std::remove_cvref_t<decltype(*object)>;
     device.device.setDebugUtilsObjectNameEXT({Handle::objectType,
         reinterpret_cast<std::uint64_t>(static_cast<typename Handle::NativeType>(*object)), name.c_str()});
 }
+
+/// Names an image with its view and memory, or a buffer with its memory.
+void name_object(const Device& device, const Image& image, const std::string& name);
+void name_object(const Device& device, const Buffer& buffer, const std::string& name);
 
 /// Marks the commands recorded while it lives as one pass: a label in captures, and a span of the device's time where
 /// Device::timer is set.

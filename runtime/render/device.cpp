@@ -1,6 +1,7 @@
 #include "device.h"
 #include "config/json/error.h"
 #include "config/json/whole_file.h"
+#include "debug.h"
 #include "displays/compile/compiled_view.h"
 #include "runtime/operation/log.h"
 #include "shaders/shared_structs.h"
@@ -276,6 +277,9 @@ Device::Device(const Options& options)
     pool = device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family});
     std::vector<char> kept = read_file(pipeline_file(properties));
     cache = device.createPipelineCache({{}, kept.size(), kept.data()});
+    name_object(*this, queue, "queue");
+    name_object(*this, pool, "command pool");
+    name_object(*this, cache, "pipeline cache");
 }
 
 void Device::save_pipelines() const
@@ -316,6 +320,7 @@ vk::raii::CommandBuffer Device::begin()
 {
     vk::raii::CommandBuffer commands
         = std::move(device.allocateCommandBuffers({*pool, vk::CommandBufferLevel::ePrimary, 1}).front());
+    name_object(*this, commands, "a moment's commands");
     commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     return commands;
 }
@@ -324,6 +329,7 @@ void Device::finish(vk::raii::CommandBuffer& commands)
 {
     commands.end();
     vk::raii::Fence fence = device.createFence({});
+    name_object(*this, fence, "fence of a moment's commands");
     vk::CommandBufferSubmitInfo buffer(*commands);
     queue.submit2(vk::SubmitInfo2({}, {}, buffer, {}), *fence);
     (void)device.waitForFences(*fence, true, UINT64_MAX);

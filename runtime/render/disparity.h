@@ -11,7 +11,8 @@ struct Disparity {
 
 /// Measures an output drawn by any method. exact: a renderer of the same layout with a cube map for each eye, or null where
 /// there is none (a baseline that turns): then `hidden` stays 0. Both are measured ones.
-Disparity disparity(OffscreenRenderer& tested, OffscreenRenderer* exact, const Shot& shot, std::size_t output, double unit_m);
+Disparity disparity(
+    OffscreenRenderer& tested, OffscreenRenderer* exact, const Shot& shot, std::size_t output, double unit_m);
 
 /// The eye's place from the middle of the head for the cockpit's direction n, metres (hyper-stereo not counted): what the
 /// warp pass computes where the baseline turns with the azimuth.

@@ -93,7 +93,9 @@ void EyeCubes::request_views(std::size_t i, const Probe* probe)
         for (const ViewState& view : views_.all)
             if (view.eye == i)
                 request.views.push_back({view.compiled.cones.get(), layer.motion_from_cockpit,
-                    state_.reprojects() ? std::min(MOST_PARALLAX, glm::length(views_.eye_offset(view, layer)) / eye.nearest[at]) : 0});
+                    state_.reprojects()
+                        ? std::min(MOST_PARALLAX, glm::length(views_.eye_offset(view, layer)) / eye.nearest[at])
+                        : 0});
         for (std::size_t ray = 0; probe && i == views_.probed_view().eye && ray < probe->count(); ++ray)
             request.views.push_back({&probe->view(ray), layer.motion_from_cockpit});
         if (at > 0)
@@ -143,7 +145,8 @@ void EyeCubes::plan(double pre_exposure, const Probe* probe)
         if (world_.star_count == 0)
             continue;
         const auto& images = plans[i].images;
-        const auto own = std::find_if(images.begin(), images.end(), [](const PlannedImage& image) { return image.layer > 0; });
+        const auto own
+            = std::find_if(images.begin(), images.end(), [](const PlannedImage& image) { return image.layer > 0; });
         eye.stars = stars_in({images.begin(), own}, world_.star_patches, observers[eye.observer].layers[0].motion_from_frame,
             std::move(eye.stars));
     }

@@ -1,4 +1,5 @@
 #include "finish_pass.h"
+#include "debug.h"
 #include "displays/finish/anaglyph.h"
 #include <glm/gtc/packing.hpp>
 
@@ -77,11 +78,15 @@ FinishPass::FinishPass(Device& device, Pipelines& pipelines, const Output& outpu
     if (entries.empty())
         entries.resize(2);
     table_ = make_texture(device, exact_format, {int(entries.size()), 1}, std::as_bytes(std::span(entries)), false);
+    name_object(device, table_, "finish pass: table");
 
     sampler_ = device.device.createSampler({});
+    name_object(device, sampler_, "finish pass: sampler");
     vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 5);
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size});
+    name_object(device, pool_, "finish pass: descriptor pool");
     set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.finish_set}).front());
+    name_object(device, set_, "finish pass: descriptor set");
     std::vector<vk::DescriptorImageInfo> images;
     for (const Image* image : {&pictures_.front(), &pictures_.back(), &weight_, &black_, &table_})
         images.push_back({*sampler_, *image->view, vk::ImageLayout::eShaderReadOnlyOptimal});
@@ -100,8 +105,9 @@ Target FinishPass::picture(std::size_t layer) const
 void FinishPass::begin(vk::CommandBuffer commands)
 {
     for (const Image& picture : pictures_)
-        transition(commands, picture, vk::ImageLayout::eUndefined, Stage::eFragmentShader, {}, vk::ImageLayout::eColorAttachmentOptimal,
-            Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
+        transition(commands, picture, vk::ImageLayout::eUndefined, Stage::eFragmentShader, {},
+            vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+            Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
 }
 
 void FinishPass::record(vk::CommandBuffer commands, const Target& target, bool plain)

@@ -7,8 +7,7 @@
 
 namespace starbow {
 
-void FrameRenderer::draw(
-    vk::CommandBuffer commands, const Shot& shot, const Panel* hud, std::span<const Target> targets)
+void FrameRenderer::draw(vk::CommandBuffer commands, const Shot& shot, const Panel* hud, std::span<const Target> targets)
 {
     update(shot, hud);
     record(commands, targets);
@@ -93,8 +92,8 @@ double FrameRenderer::pre_exposure(double most_E) const
     const bool gains = effects.headlight || effects.doppler;
     // Red-shifted, sunlight also leaves the visible: by Wien's law its part at 360 nm falls as exp(-6.92 (1/D - 1)).
     const double leaves = effects.doppler ? std::exp(6.92 * (most_E - 1)) : 1;
-    const double light = starbow::pre_exposure(
-        world_.brightest, state_.shot.exposure_ev, (gains ? most_E * most_E * most_E : 1) * leaves);
+    const double light
+        = starbow::pre_exposure(world_.brightest, state_.shot.exposure_ev, (gains ? most_E * most_E * most_E : 1) * leaves);
     // A glow's coefficient may stand for light of any strength: only that it fits counts.
     return world_.spectra.most > 0 ? std::min(light, starbow::pre_exposure(world_.spectra.most, -1000, 1)) : light;
 }

@@ -1,4 +1,5 @@
 #include "frame_timer.h"
+#include "debug.h"
 #include <algorithm>
 
 namespace starbow {
@@ -11,6 +12,7 @@ FrameTimer::FrameTimer(const Device& device)
     mask_ = bits >= 64 ? ~0ull : (1ull << bits) - 1;
     ms_per_tick_ = 1e-6 * device.properties.limits.timestampPeriod;
     stamps_ = device.device.createQueryPool({{}, vk::QueryType::eTimestamp, 2 + 2 * most_spans});
+    name_object(device, stamps_, "frame timer");
 }
 
 void FrameTimer::begin(vk::CommandBuffer commands)
@@ -62,8 +64,7 @@ std::span<const PassTime> FrameTimer::passes()
         return {};
     const std::uint32_t spans = std::min(std::uint32_t(names_.size()), most_spans);
     const std::uint32_t count = 2 + 2 * spans;
-    const auto [result, ticks]
-        = stamps_.getResults<std::uint64_t>(0, count, 8 * count, 8, vk::QueryResultFlagBits::e64);
+    const auto [result, ticks] = stamps_.getResults<std::uint64_t>(0, count, 8 * count, 8, vk::QueryResultFlagBits::e64);
     if (result != vk::Result::eSuccess)
         return {};
     for (std::uint32_t i = 0; i < spans; ++i)

@@ -1,4 +1,5 @@
 #include "gpu_world.h"
+#include "debug.h"
 #include "runtime/light/srgb.h"
 #include "runtime/world/instances.h"
 #include "runtime/world/moving.h"
@@ -28,7 +29,9 @@ vk::raii::Sampler make_sampler(const Device& device, const Sampler& s)
         info.anisotropyEnable = true;
         info.maxAnisotropy = std::min(8.0f, device.properties.limits.maxSamplerAnisotropy);
     }
-    return device.device.createSampler(info);
+    vk::raii::Sampler made = device.device.createSampler(info);
+    name_object(device, made, "world: sampler");
+    return made;
 }
 
 /// In software the decoding of sRGB costs more than the memory of linear fp16; everywhere else the hardware does it for
@@ -96,7 +99,9 @@ void put_spectra(Device& device, GpuWorld& world, SpectralLevel level)
         buffers->texels = nullptr;
         buffers->rows = make_static_buffer(
             device, std::as_bytes(std::span(response.rows)), vk::BufferUsageFlagBits::eUniformTexelBuffer);
+        name_object(device, buffers->rows, "world: response rows");
         buffers->texels = device.device.createBufferView({{}, *buffers->rows.buffer, words_format, 0, VK_WHOLE_SIZE});
+        name_object(device, buffers->texels, "world: response texels");
         buffers->first_log2_D = float(response.first_log2_D), buffers->per_octave = float(response.per_octave);
         buffers->own_rows = constants(response.own_rows);
         buffers->black_bodies = constants(black_body_table(*observer));
@@ -112,6 +117,7 @@ void put_stars(Device& device, GpuWorld& world, const std::vector<Star>& stars)
     const auto entries = star_entries(stars, *world.scene.stars);
     world.star_patches = star_patches(entries);
     world.stars = make_static_buffer(device, std::as_bytes(std::span(entries)), vk::BufferUsageFlagBits::eStorageBuffer);
+    name_object(device, world.stars, "world: stars");
 }
 
 GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const SceneFile& scene,
@@ -126,8 +132,11 @@ GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const S
     gpu.vertices
         = make_static_buffer(device, std::as_bytes(std::span(world.vertices)), vk::BufferUsageFlagBits::eVertexBuffer);
     gpu.indices = make_static_buffer(device, std::as_bytes(std::span(world.indices)), vk::BufferUsageFlagBits::eIndexBuffer);
+    name_object(device, gpu.vertices, "world: vertices");
+    name_object(device, gpu.indices, "world: indices");
     const std::uint32_t white = 0xffffffff;
     gpu.white = make_texture(device, vk::Format::eR8G8B8A8Unorm, {1, 1}, std::as_bytes(std::span(&white, 1)), false);
+    name_object(device, gpu.white, "world: white");
     gpu.samplers.push_back(make_sampler(device, {}));
     for (const Texture& texture : world.textures) {
         gpu.textures.push_back(make_colour_texture(device, texture));
@@ -136,8 +145,11 @@ GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const S
     auto count = std::uint32_t(world.materials.size());
     vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 2 * count);
     gpu.pool = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, size});
+    name_object(device, gpu.pool, "world: descriptor pool");
     std::vector<vk::DescriptorSetLayout> layouts(count, *pipelines.material_set);
     gpu.materials = device.device.allocateDescriptorSets({*gpu.pool, layouts});
+    for (const vk::raii::DescriptorSet& set : gpu.materials)
+        name_object(device, set, "world: material");
     for (std::uint32_t i = 0; i < count; ++i) {
         auto picture = [&](int texture) {
             return vk::DescriptorImageInfo(*gpu.samplers[texture + 1],

@@ -1,4 +1,5 @@
 #include "meter.h"
+#include "debug.h"
 #include "pipelines.h"
 #include <algorithm>
 #include <cmath>
@@ -48,14 +49,16 @@ Meter::Meter(const Device& device, std::span<const glm::ivec2> views, std::uint3
     picture_ = make_image(device,
         {meter_format, {std::uint32_t(size.x), std::uint32_t(size.y)},
             vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
-    back_
-        = make_mapped_buffer(device, std::size_t(size.x) * size.y * sizeof(LuminanceSample), vk::BufferUsageFlagBits::eTransferDst);
+    name_object(device, picture_, "meter: picture");
+    back_ = make_mapped_buffer(
+        device, std::size_t(size.x) * size.y * sizeof(LuminanceSample), vk::BufferUsageFlagBits::eTransferDst);
+    name_object(device, back_, "meter: back");
 }
 
 vk::RenderingAttachmentInfo Meter::begin(vk::CommandBuffer commands) const
 {
-    transition(commands, picture_, vk::ImageLayout::eUndefined, Stage::eTransfer, {}, vk::ImageLayout::eColorAttachmentOptimal,
-        Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+    transition(commands, picture_, vk::ImageLayout::eUndefined, Stage::eTransfer, {},
+        vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
     return {*picture_.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
         vk::AttachmentStoreOp::eStore};
 }

@@ -1,5 +1,6 @@
 #include "offscreen.h"
 #include "config/json/error.h"
+#include "debug.h"
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -123,10 +124,12 @@ std::vector<Probed> OffscreenRenderer::probed(const Shot& shot)
 Channels OffscreenRenderer::numbers(const Shot& shot, std::size_t output)
 {
     MeasureTarget target;
-    for (Image* image : {&target.light_and_depth, &target.camera, &target.world})
+    for (Image* image : {&target.light_and_depth, &target.camera, &target.world}) {
         *image = make_image(device_,
             {exact_format, images_[output].extent,
                 vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
+        name_object(device_, *image, "offscreen: image");
+    }
     Shot unexposed = shot; // numbers are of light, not of pictures: all of it counts, and it is the same at any exposure
     unexposed.exposure_ev = -60;
     frame_.update(unexposed, nullptr);

@@ -10,8 +10,8 @@ namespace starbow {
 class OffscreenRenderer {
 public:
     /// Numbers as well as pictures if `measured`.
-    OffscreenRenderer(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality,
-        bool measured);
+    OffscreenRenderer(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout,
+        const Quality& quality, bool measured);
 
     /// Each output as RGBA8, rows from the top.
     std::vector<std::vector<std::uint8_t>> picture(const Shot& shot, const Panel* hud = nullptr);
@@ -38,7 +38,7 @@ private:
 
 /// What `starbow render` does: draws all outputs, then writes DIR/<output>.png (and .exr). Writes nothing if anything fails
 /// before all are complete in memory. Returns the pictures.
-std::vector<std::vector<std::uint8_t>> render_still(
-    const std::filesystem::path& directory, OffscreenRenderer& renderer, const Shot& shot, bool exr, const Panel* hud = nullptr);
+std::vector<std::vector<std::uint8_t>> render_still(const std::filesystem::path& directory, OffscreenRenderer& renderer,
+    const Shot& shot, bool exr, const Panel* hud = nullptr);
 
 } // namespace starbow

@@ -1,4 +1,5 @@
 #include "overlay_pass.h"
+#include "debug.h"
 #include "runtime/world/eye_event.h"
 #include "shaders/physics/physics.h"
 #include <cmath>
@@ -20,8 +21,11 @@ OverlayPass::OverlayPass(const Device& device, Pipelines& pipelines, std::size_t
     const std::uint32_t count = std::uint32_t(views);
     const vk::DescriptorPoolSize size(vk::DescriptorType::eUniformBuffer, count);
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, size});
+    name_object(device, pool_, "overlay pass: descriptor pool");
     for (std::size_t i = 0; i < views; ++i) {
-        sets_.push_back(std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.overlay_set}).front()));
+        name_object(device,
+            sets_.emplace_back(std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.overlay_set}).front())),
+            "overlay pass: descriptor set");
         const vk::DescriptorBufferInfo part(*constants_.buffer, i * stride, sizeof(shared::OverlayConstants));
         device.device.updateDescriptorSets(
             vk::WriteDescriptorSet(*sets_.back(), 0, 0, vk::DescriptorType::eUniformBuffer, {}, part), {});

@@ -1,4 +1,5 @@
 #include "panel_pass.h"
+#include "debug.h"
 #include <cstring>
 
 namespace starbow {
@@ -15,20 +16,26 @@ PanelPass::PanelPass(Device& device, Pipelines& pipelines, std::size_t views)
 {
     linear_ = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eNearest,
         vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge});
+    name_object(device, linear_, "panel pass: linear");
     const std::uint32_t count = std::uint32_t(views);
     const vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 2 * count);
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, size});
+    name_object(device, pool_, "panel pass: descriptor pool");
     for (std::size_t i = 0; i < views; ++i)
-        sets_.push_back(std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.picture_set}).front()));
+        name_object(device,
+            sets_.emplace_back(std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.picture_set}).front())),
+            "panel pass: descriptor set");
 }
 
 void PanelPass::prepare(const Panel& panel, const Place& place)
 {
     place_ = place;
     const vk::Extent2D extent(std::uint32_t(panel.size.x), std::uint32_t(panel.size.y));
-    if (!*picture_.view || picture_.extent != extent)
+    if (!*picture_.view || picture_.extent != extent) {
         picture_ = make_image(device_,
             {vk::Format::eR8G8Unorm, extent, vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
+        name_object(device_, picture_, "panel pass: picture");
+    }
     grow(device_, texels_, panel.texels.size(), vk::BufferUsageFlagBits::eTransferSrc);
     std::memcpy(texels_.mapped, panel.texels.data(), panel.texels.size());
     new_ = true;
@@ -36,8 +43,8 @@ void PanelPass::prepare(const Panel& panel, const Place& place)
 
 void PanelPass::prepare_view(std::size_t view, const Image& map, vk::Sampler nearest)
 {
-    const vk::DescriptorImageInfo images[] = {
-        {nearest, *map.view, vk::ImageLayout::eShaderReadOnlyOptimal}, {*linear_, *picture_.view, vk::ImageLayout::eShaderReadOnlyOptimal}};
+    const vk::DescriptorImageInfo images[] = {{nearest, *map.view, vk::ImageLayout::eShaderReadOnlyOptimal},
+        {*linear_, *picture_.view, vk::ImageLayout::eShaderReadOnlyOptimal}};
     device_.device.updateDescriptorSets(
         {vk::WriteDescriptorSet(*sets_[view], 0, 0, vk::DescriptorType::eCombinedImageSampler, images[0]),
             vk::WriteDescriptorSet(*sets_[view], 1, 0, vk::DescriptorType::eCombinedImageSampler, images[1])},
@@ -48,8 +55,8 @@ void PanelPass::upload(vk::CommandBuffer commands)
 {
     if (!std::exchange(new_, false))
         return;
-    transition(commands, picture_, vk::ImageLayout::eUndefined, Stage::eFragmentShader, {}, vk::ImageLayout::eTransferDstOptimal,
-        Stage::eTransfer, Access::eTransferWrite);
+    transition(commands, picture_, vk::ImageLayout::eUndefined, Stage::eFragmentShader, {},
+        vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite);
     commands.copyBufferToImage(*texels_.buffer, *picture_.image, vk::ImageLayout::eTransferDstOptimal,
         vk::BufferImageCopy(
             0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {picture_.extent.width, picture_.extent.height, 1}));

@@ -1,4 +1,5 @@
 #include "pipelines.h"
+#include "debug.h"
 #include "runtime/world/world.h"
 #include "shaders/shared_structs.h"
 #include "spirv/bloom_frag.h"
@@ -28,6 +29,7 @@ namespace {
 using Spirv = std::span<const std::uint32_t>;
 
 struct Pass {
+    const char* name; ///< for debuggers
     Spirv vertex, fragment;
     vk::PipelineLayout layout;
     std::vector<vk::Format> targets;
@@ -87,7 +89,11 @@ vk::raii::Pipeline make_pipeline(const Device& device, const Pass& pass)
     vk::GraphicsPipelineCreateInfo info(
         {}, stages, &vertices, &assembly, nullptr, &viewport, &raster, &samples, &depth, &blending, &dynamics, pass.layout);
     info.pNext = &rendering;
-    return device.device.createGraphicsPipeline(device.cache, info);
+    vk::raii::Pipeline pipeline = device.device.createGraphicsPipeline(device.cache, info);
+    name_object(device, vertex, pass.name);
+    name_object(device, fragment, pass.name);
+    name_object(device, pipeline, pass.name);
+    return pipeline;
 }
 
 vk::raii::DescriptorSetLayout make_set_layout(
@@ -115,7 +121,8 @@ std::vector<std::uint32_t> constants(const WarpVariant& v)
 }
 
 /// The pipeline of a key, made by `make` if it is new.
-template <class Key, class Make> vk::Pipeline find_or_make(std::map<Key, vk::raii::Pipeline>& made, const Key& key, Make&& make)
+template <class Key, class Make>
+vk::Pipeline find_or_make(std::map<Key, vk::raii::Pipeline>& made, const Key& key, Make&& make)
 {
     auto at = made.find(key);
     if (at == made.end())
@@ -150,6 +157,19 @@ Pipelines::Pipelines(Device& device)
     overlay_layout = make_layout(device, {*warp_set, *overlay_set}, fragment, sizeof(shared::ViewPush));
     picture_layout = make_layout(device, {*picture_set}, fragment, sizeof(shared::ViewPush));
     finish_layout = make_layout(device, {*finish_set}, fragment, sizeof(shared::FinishPush));
+    name_object(device, eye_set, "eye descriptor set layout");
+    name_object(device, material_set, "material descriptor set layout");
+    name_object(device, warp_set, "warp descriptor set layout");
+    name_object(device, star_set, "star descriptor set layout");
+    name_object(device, picture_set, "picture descriptor set layout");
+    name_object(device, overlay_set, "overlay descriptor set layout");
+    name_object(device, finish_set, "finish descriptor set layout");
+    name_object(device, surface_layout, "surface pipeline layout");
+    name_object(device, warp_layout, "warp pipeline layout");
+    name_object(device, star_layout, "star pipeline layout");
+    name_object(device, overlay_layout, "overlay pipeline layout");
+    name_object(device, picture_layout, "picture pipeline layout");
+    name_object(device, finish_layout, "finish pipeline layout");
 }
 
 std::size_t Pipelines::count() const
@@ -163,7 +183,8 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
 {
     return find_or_make(surfaces_, std::pair(v, target), [&] {
         return make_pipeline(device_,
-            {.vertex = cube_vert,
+            {.name = "surface pipeline",
+                .vertex = cube_vert,
                 .fragment = cube_frag,
                 .layout = *surface_layout,
                 .targets = {target.colours.begin(), target.colours.end()},
@@ -180,7 +201,8 @@ vk::Pipeline Pipelines::sky(const TargetKind& target)
 {
     return find_or_make(skies_, target, [&] {
         return make_pipeline(device_,
-            {.vertex = sky_vert,
+            {.name = "sky pipeline",
+                .vertex = sky_vert,
                 .fragment = sky_frag,
                 .layout = *surface_layout,
                 .targets = {target.colours.begin(), target.colours.end()},
@@ -196,7 +218,12 @@ vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
         std::vector<std::uint32_t> all = constants(v);
         all[10] = target != light_format; // has 8 bits: dithered
         return make_pipeline(device_,
-            {.vertex = screen_vert, .fragment = warp_frag, .layout = *warp_layout, .targets = {target}, .constants = all});
+            {.name = "warp pipeline",
+                .vertex = screen_vert,
+                .fragment = warp_frag,
+                .layout = *warp_layout,
+                .targets = {target},
+                .constants = all});
     });
 }
 
@@ -204,7 +231,8 @@ vk::Pipeline Pipelines::stars(const WarpVariant& v, vk::Format target)
 {
     return find_or_make(stars_, std::pair(v, target), [&] {
         return make_pipeline(device_,
-            {.vertex = star_vert,
+            {.name = "stars pipeline",
+                .vertex = star_vert,
                 .fragment = star_frag,
                 .layout = *star_layout,
                 .targets = {target},
@@ -218,7 +246,8 @@ vk::Pipeline Pipelines::measure(const WarpVariant& v)
 {
     return find_or_make(measures_, v, [&] {
         return make_pipeline(device_,
-            {.vertex = screen_vert,
+            {.name = "measure pipeline",
+                .vertex = screen_vert,
                 .fragment = measure_frag,
                 .layout = *warp_layout,
                 .targets = {exact_format, exact_format, exact_format},
@@ -230,7 +259,8 @@ vk::Pipeline Pipelines::probe(const WarpVariant& v)
 {
     return find_or_make(probes_, v, [&] {
         return make_pipeline(device_,
-            {.vertex = screen_vert,
+            {.name = "probe pipeline",
+                .vertex = screen_vert,
                 .fragment = probe_frag,
                 .layout = *warp_layout,
                 .targets = {exact_format, exact_format, exact_format},
@@ -244,7 +274,8 @@ vk::Pipeline Pipelines::overlay(const WarpVariant& v, int overlay, vk::Format ta
         std::vector<std::uint32_t> all = constants(v);
         all[10] = std::uint32_t(overlay);
         return make_pipeline(device_,
-            {.vertex = screen_vert,
+            {.name = "overlay pipeline",
+                .vertex = screen_vert,
                 .fragment = overlay_frag,
                 .layout = *overlay_layout,
                 .targets = {target},
@@ -257,7 +288,8 @@ vk::Pipeline Pipelines::meter(const WarpVariant& v)
 {
     return find_or_make(meters_, v, [&] {
         return make_pipeline(device_,
-            {.vertex = screen_vert,
+            {.name = "meter pipeline",
+                .vertex = screen_vert,
                 .fragment = meter_frag,
                 .layout = *warp_layout,
                 .targets = {meter_format},
@@ -271,7 +303,8 @@ vk::Pipeline Pipelines::star_meter(const WarpVariant& v)
         std::vector<std::uint32_t> all = constants(v);
         all[10] = true; // at a glance
         return make_pipeline(device_,
-            {.vertex = star_vert,
+            {.name = "star meter pipeline",
+                .vertex = star_vert,
                 .fragment = star_meter_frag,
                 .layout = *star_layout,
                 .targets = {meter_format},
@@ -284,7 +317,8 @@ vk::Pipeline Pipelines::bloom(bool up)
 {
     return find_or_make(blooms_, up, [&] {
         return make_pipeline(device_,
-            {.vertex = screen_vert,
+            {.name = "bloom pipeline",
+                .vertex = screen_vert,
                 .fragment = bloom_frag,
                 .layout = *picture_layout,
                 .targets = {light_format},
@@ -297,7 +331,8 @@ vk::Pipeline Pipelines::bloomed(vk::Format target)
 {
     return find_or_make(bloomed_, target, [&] {
         return make_pipeline(device_,
-            {.vertex = screen_vert,
+            {.name = "bloomed pipeline",
+                .vertex = screen_vert,
                 .fragment = bloomed_frag,
                 .layout = *picture_layout,
                 .targets = {target},
@@ -309,7 +344,8 @@ vk::Pipeline Pipelines::hud(bool map, vk::Format target, bool scale)
 {
     return find_or_make(huds_, std::tuple(map, target, scale), [&] {
         return make_pipeline(device_,
-            {.vertex = screen_vert,
+            {.name = "hud pipeline",
+                .vertex = screen_vert,
                 .fragment = hud_frag,
                 .layout = *picture_layout,
                 .targets = {target},
@@ -322,7 +358,8 @@ vk::Pipeline Pipelines::lookup(vk::Format target)
 {
     return find_or_make(lookups_, target, [&] {
         return make_pipeline(device_,
-            {.vertex = screen_vert,
+            {.name = "lookup pipeline",
+                .vertex = screen_vert,
                 .fragment = lookup_frag,
                 .layout = *picture_layout,
                 .targets = {target},
@@ -334,7 +371,8 @@ vk::Pipeline Pipelines::finish(const FinishVariant& v, vk::Format target)
 {
     return find_or_make(finishes_, std::pair(v, target), [&] {
         return make_pipeline(device_,
-            {.vertex = screen_vert,
+            {.name = "finish pipeline",
+                .vertex = screen_vert,
                 .fragment = finish_frag,
                 .layout = *finish_layout,
                 .targets = {target},
@@ -346,7 +384,8 @@ vk::Pipeline Pipelines::pattern(bool map, int pattern, vk::Format target)
 {
     return find_or_make(patterns_, std::tuple(map, pattern, target), [&] {
         return make_pipeline(device_,
-            {.vertex = screen_vert,
+            {.name = "pattern pipeline",
+                .vertex = screen_vert,
                 .fragment = pattern_frag,
                 .layout = *picture_layout,
                 .targets = {target},

@@ -1,4 +1,5 @@
 #include "probe.h"
+#include "debug.h"
 #include "pipelines.h"
 #include <cmath>
 
@@ -28,12 +29,15 @@ Probe::Probe(const Device& device, const std::vector<glm::dvec3>& directions, do
         const glm::dmat3 matrix = pixel_along(n, pixel_angle);
         pixels_.push_back({n, matrix, std::make_shared<ConeHierarchy>(matrix, glm::ivec2(1))});
     }
-    for (Image& image : images_)
+    for (Image& image : images_) {
         image = make_image(device,
             {exact_format, {std::uint32_t(directions.size()), 1},
                 vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
+        name_object(device, image, "probe: image");
+    }
     back_ = make_mapped_buffer(
         device, images_.size() * directions.size() * sizeof(glm::vec4), vk::BufferUsageFlagBits::eTransferDst);
+    name_object(device, back_, "probe: back");
 }
 
 bool Probe::looks(const std::vector<glm::dvec3>& directions, double pixel_angle) const
@@ -48,8 +52,8 @@ void Probe::record(vk::CommandBuffer commands, const std::function<void(std::siz
 {
     std::vector<vk::RenderingAttachmentInfo> colours;
     for (const Image& image : images_) {
-        transition(commands, image, vk::ImageLayout::eUndefined, Stage::eTransfer, {}, vk::ImageLayout::eColorAttachmentOptimal,
-            Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+        transition(commands, image, vk::ImageLayout::eUndefined, Stage::eTransfer, {},
+            vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
         colours.push_back({*image.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
             vk::AttachmentStoreOp::eStore});
     }

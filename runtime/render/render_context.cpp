@@ -22,7 +22,8 @@ static LoadedScene load(const std::filesystem::path& file)
     return {std::move(scene), std::move(world), std::move(stars)};
 }
 
-RenderContext::RenderContext(const std::filesystem::path& scene, const Device::Options& options, std::optional<SpectralLevel> level)
+RenderContext::RenderContext(
+    const std::filesystem::path& scene, const Device::Options& options, std::optional<SpectralLevel> level)
     : RenderContext(load(scene), options, level)
 {
 }

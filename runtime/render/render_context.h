@@ -16,7 +16,8 @@ struct RenderContext {
 
     /// Reads scene and world before it touches the device, so that a wrong file is told first.
     /// level: of the light; none: what the world needs.
-    RenderContext(const std::filesystem::path& scene, const Device::Options& options, std::optional<SpectralLevel> level = {});
+    RenderContext(
+        const std::filesystem::path& scene, const Device::Options& options, std::optional<SpectralLevel> level = {});
 
 private:
     RenderContext(struct LoadedScene&& loaded, const Device::Options& options, std::optional<SpectralLevel> level);

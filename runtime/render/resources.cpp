@@ -1,7 +1,8 @@
 #include "resources.h"
 #include "config/json/error.h"
-#include <atomic>
+#include "debug.h"
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cstring>
 
@@ -48,6 +49,7 @@ Buffer make_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFla
     buffer.memory = bind(device, buffer.buffer, wanted);
     if (wanted & vk::MemoryPropertyFlagBits::eHostVisible)
         buffer.mapped = buffer.memory.mapMemory(0, buffer.size);
+    name_object(device, buffer, vk::to_string(usage) + " of " + std::to_string(buffer.size) + " bytes");
     return buffer;
 }
 
@@ -104,6 +106,8 @@ Image make_image(const Device& device, const ImageSpec& spec)
             : spec.array ? vk::ImageViewType::e2DArray
                          : vk::ImageViewType::e2D,
         spec.format, {}, {aspect_of(spec.format), 0, spec.levels, 0, spec.layers}});
+    name_object(device, image,
+        vk::to_string(spec.format) + " " + std::to_string(spec.extent.width) + "x" + std::to_string(spec.extent.height));
     return image;
 }
 

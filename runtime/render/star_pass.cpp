@@ -1,4 +1,5 @@
 #include "star_pass.h"
+#include "debug.h"
 #include "shaders/shared_structs.h"
 #include <algorithm>
 #include <cstring>
@@ -32,8 +33,11 @@ StarPass::StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& w
     std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBufferDynamic, 2},
         {vk::DescriptorType::eUniformBuffer, 2}, {vk::DescriptorType::eStorageBuffer, 2}};
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2, sizes});
-    for (vk::raii::DescriptorSet& set : sets_)
+    name_object(device, pool_, "star pass: descriptor pool");
+    for (vk::raii::DescriptorSet& set : sets_) {
         set = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.star_set}).front());
+        name_object(device, set, "star pass: descriptor set");
+    }
 }
 
 void StarPass::write_sets()
@@ -65,6 +69,7 @@ void StarPass::fit(vk::Extent2D extent)
     picture_ = {};
     picture_ = make_image(
         device_, {format_, extent, vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled});
+    name_object(device_, picture_, "star pass: picture");
 }
 
 void StarPass::prepare(std::span<const glm::dmat3> motion_from_world, bool false_colours)
@@ -86,8 +91,9 @@ void StarPass::prepare(std::span<const glm::dmat3> motion_from_world, bool false
 
 void StarPass::begin(vk::CommandBuffer commands, vk::Extent2D extent)
 {
-    transition(commands, picture_, vk::ImageLayout::eUndefined, Stage::eFragmentShader, {}, vk::ImageLayout::eColorAttachmentOptimal,
-        Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
+    transition(commands, picture_, vk::ImageLayout::eUndefined, Stage::eFragmentShader, {},
+        vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+        Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
     const vk::RenderingAttachmentInfo colour(*picture_.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore, vk::ClearColorValue(std::array<float, 4>{}));
     commands.beginRendering({{}, {{0, 0}, extent}, 1, 0, colour});
@@ -118,7 +124,8 @@ void StarPass::end(vk::CommandBuffer commands)
 {
     commands.endRendering();
     transition(commands, picture_, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
-        Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
+        Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader,
+        Access::eShaderSampledRead);
 }
 
 } // namespace starbow

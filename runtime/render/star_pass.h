@@ -28,8 +28,8 @@ public:
 
     /// For the meter, into its own picture: each `every`-th star is a pixel of the rectangle, row by row. Bind a pipeline of
     /// Pipelines::star_meter and the rest as above, with the push constant `view` telling the rectangle's size and `every`.
-    void sample(
-        vk::CommandBuffer commands, std::size_t observer, glm::ivec2 corner, glm::ivec2 size, int every, bool channels) const;
+    void sample(vk::CommandBuffer commands, std::size_t observer, glm::ivec2 corner, glm::ivec2 size, int every,
+        bool channels) const;
 
     const Image& picture() const { return picture_; }
     vk::Format format() const { return format_; }

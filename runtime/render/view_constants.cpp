@@ -20,17 +20,20 @@ const PlannedImage* ViewConstants::single_image(const ViewState& view) const
 
 WarpVariant ViewConstants::variant(const ViewState& view) const
 {
-    const bool moves = eyes_.observer_of(view).E != 1 || eyes_.all[view.eye].cube.layered(); // otherwise there is nothing to shift
+    const bool moves
+        = eyes_.observer_of(view).E != 1 || eyes_.all[view.eye].cube.layered(); // otherwise there is nothing to shift
     const bool beside = state_.reprojects() && view.beside_m != glm::dvec3(0);
     const Effects& on = state_.shot.effects;
     WarpVariant variant{view.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
-        eyes_.plans[view.eye].levels > 1, view.compiled.channels() == 3, beside, beside && state_.layout.stereo.turning, world_.star_count > 0};
+        eyes_.plans[view.eye].levels > 1, view.compiled.channels() == 3, beside, beside && state_.layout.stereo.turning,
+        world_.star_count > 0};
     variant.numbers = world_.numbers();
     variant.layered = eyes_.all[view.eye].cube.layered();
     variant.single = single_image(view);
     variant.cut = eyes_.plans[view.eye].cut;
     variant.galilean = on.comparison == Comparison::galilean;
-    variant.by_table = variant.doppler || on.false_colours || variant.numbers != CoefficientCounts{}; // at rest the light is shown as it is
+    variant.by_table = variant.doppler || on.false_colours
+        || variant.numbers != CoefficientCounts{}; // at rest the light is shown as it is
     return variant;
 }
 
@@ -53,7 +56,8 @@ shared::ViewPush ViewConstants::push(const ViewState& view, const glm::dmat3& ax
     push.corner = glm::vec4(view.geometry().corner, 0, world_.response(state_.shot.effects).per_octave);
     if (state_.pattern == Pattern::none) {
         const PlannedImage* single = single_image(view);
-        push.eye = single ? tile_entry(*single).texel_from_face : views_.eye_constants(view, eyes_.observer_of(view).layers[0]);
+        push.eye
+            = single ? tile_entry(*single).texel_from_face : views_.eye_constants(view, eyes_.observer_of(view).layers[0]);
         push.zenith.y = float(eyes_.all[view.eye].nearest[0]);
     }
     push.zenith.x = float(std::sin(state_.layout.stereo.full_from_zenith_deg * degree));

@@ -1,4 +1,5 @@
 #include "view_descriptors.h"
+#include "debug.h"
 #include <algorithm>
 #include <cstring>
 
@@ -16,11 +17,15 @@ ViewDescriptors::ViewDescriptors(Device& device, const GpuWorld& world, const Fr
     linear_ = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eLinear,
         vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, 0,
         false, 1, false, {}, 0, VK_LOD_CLAMP_NONE});
+    name_object(device, linear_, "views: linear");
     nearest_ = device.device.createSampler({});
+    name_object(device, nearest_, "views: nearest");
     finest_ = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eNearest,
         vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge});
+    name_object(device, finest_, "views: finest");
     const float zeros[4] = {};
     nothing_ = make_texture(device, exact_format, {1, 1}, std::as_bytes(std::span(zeros)), false);
+    name_object(device, nothing_, "views: nothing");
     no_rest_frames_
         = make_mapped_buffer(device, sizeof(shared::RestFrameConstants), vk::BufferUsageFlagBits::eUniformBuffer);
 }
@@ -91,15 +96,16 @@ void ViewDescriptors::collect_warp_set(const ViewState& view)
 void ViewDescriptors::write_rest_frames(ViewState& view)
 {
     if (!*view.rest_frames.buffer)
-        view.rest_frames = make_mapped_buffer(device_, sizeof(shared::RestFrameConstants), vk::BufferUsageFlagBits::eUniformBuffer);
+        view.rest_frames
+            = make_mapped_buffer(device_, sizeof(shared::RestFrameConstants), vk::BufferUsageFlagBits::eUniformBuffer);
     const EyeCube& eye = eyes_.all[view.eye];
     const CubeMapPlan& plan = eyes_.plans[view.eye];
     const std::vector<RestFrameView>& layers = eyes_.observer_of(view).layers;
     shared::RestFrameConstants all{};
     std::size_t count = 0;
     for (std::size_t at = 0; at < layers.size(); ++at) {
-        const bool seen = std::any_of(
-            plan.images.begin(), plan.images.end(), [&](const PlannedImage& image) { return std::size_t(image.layer) == at; });
+        const bool seen = std::any_of(plan.images.begin(), plan.images.end(),
+            [&](const PlannedImage& image) { return std::size_t(image.layer) == at; });
         if (at > 0 && !seen)
             continue;
         const RestFrameView& layer = layers[at];

@@ -20,8 +20,8 @@ private:
     void write_rest_frames(ViewState& view);
     void collect_label_set(const ViewState& view);
     void collect_warp_set(const ViewState& view);
-    void image(const vk::raii::DescriptorSet& set, std::uint32_t binding, const Image& image,
-        const vk::raii::Sampler& sampler);
+    void image(
+        const vk::raii::DescriptorSet& set, std::uint32_t binding, const Image& image, const vk::raii::Sampler& sampler);
     void buffer(const vk::raii::DescriptorSet& set, std::uint32_t binding, const Buffer& buffer);
 
     Device& device_;

@@ -47,7 +47,8 @@ void ViewMeasurement::prepare()
         if (!overlay_)
             overlay_ = std::make_unique<OverlayPass>(device_, pipelines_, views_.all.size());
         for (std::size_t i = 0; i < views_.all.size(); ++i)
-            overlay_->prepare(i, what_.over, measuring_observer_at(eyes_.all[views_.all[i].eye].now_m + views_.all[i].beside_m), world_);
+            overlay_->prepare(
+                i, what_.over, measuring_observer_at(eyes_.all[views_.all[i].eye].now_m + views_.all[i].beside_m), world_);
     }
     const Panel* panel = what_.panel;
     if (!panel)
@@ -108,14 +109,11 @@ void ViewMeasurement::draw(vk::CommandBuffer commands, std::size_t output, const
             overlay_->draw(
                 commands, i, constants_.variant(view), what_.over.overlay, *view.warp_set, constants, corner, size, target);
         if (what_.panel)
-            panel_->draw(commands, i, view.compiled.map != nullptr, constants_.push(view, panel_->place().panel_from_cockpit),
-                corner, size, boxes_[i], what_.scale, target);
+            panel_->draw(commands, i, view.compiled.map != nullptr,
+                constants_.push(view, panel_->place().panel_from_cockpit), corner, size, boxes_[i], what_.scale, target);
     });
 }
 
-void ViewMeasurement::reset()
-{
-    overlay_.reset(), panel_.reset(), probe_.reset();
-}
+void ViewMeasurement::reset() { overlay_.reset(), panel_.reset(), probe_.reset(); }
 
 } // namespace starbow

@@ -94,8 +94,8 @@ void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, int 
         commands.pushConstants<shared::ViewPush>(
             *pipelines_.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
         const int places = view.map && views_.maps[*view.map].closes ? 2 : 1;
-        stars_.draw(commands, eyes_.all[view.eye].observer, view.geometry().corner, view.geometry().size, places * (own.channels ? 3 : 1),
-            eyes_.all[view.eye].stars);
+        stars_.draw(commands, eyes_.all[view.eye].observer, view.geometry().corner, view.geometry().size,
+            places * (own.channels ? 3 : 1), eyes_.all[view.eye].stars);
     }
     stars_.end(commands);
 }
@@ -163,7 +163,8 @@ void ViewPasses::warp_output(vk::CommandBuffer commands, std::size_t output, con
             else if (glows)
                 view.bloom->show(commands, view.geometry().corner, state_.bloom, target.format);
             else
-                warp_view(commands, view, pipelines_.warp(constants_.variant_shown(view), target.format), std::exp2(state_.shot.exposure_ev));
+                warp_view(commands, view, pipelines_.warp(constants_.variant_shown(view), target.format),
+                    std::exp2(state_.shot.exposure_ev));
         }
         commands.endRendering();
     }
@@ -197,8 +198,8 @@ void ViewPasses::draw_hud(vk::CommandBuffer commands, std::size_t output, const 
     hud_->upload(commands);
     lay_over(commands, output, last, [&](std::size_t i, vk::Format target) {
         const ViewState& view = views_.all[i];
-        hud_->draw(commands, i, view.compiled.map != nullptr, constants_.push(view, views_.hud_place.panel_from_cockpit), view.geometry().corner,
-            view.geometry().size, view.hud_box, {}, target);
+        hud_->draw(commands, i, view.compiled.map != nullptr, constants_.push(view, views_.hud_place.panel_from_cockpit),
+            view.geometry().corner, view.geometry().size, view.hud_box, {}, target);
     });
 }
 
@@ -208,8 +209,8 @@ void ViewPasses::finish_output(vk::CommandBuffer commands, std::size_t output, c
         return;
     const Label label(device_, commands, "finish");
     // A projector is adjusted by its bare picture; how pictures meet is judged with blending and masks.
-    views_.outputs[output].finish->record(
-            commands, target, state_.pattern == Pattern::grid || state_.pattern == Pattern::names || state_.pattern == Pattern::wedges);
+    views_.outputs[output].finish->record(commands, target,
+        state_.pattern == Pattern::grid || state_.pattern == Pattern::names || state_.pattern == Pattern::wedges);
 }
 
 void ViewPasses::record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target)
@@ -239,8 +240,8 @@ std::vector<ViewPasses::Axes> ViewPasses::measured_axes(std::size_t output) cons
     std::vector<Axes> axes;
     for (const ViewState& view : views_.all)
         if (view.output == output && view.geometry().layer == 0)
-            axes.push_back(
-                {view.geometry().corner, view.geometry().size, glm::transpose(eyes_.observer_of(view).layers[0].motion_from_frame)});
+            axes.push_back({view.geometry().corner, view.geometry().size,
+                glm::transpose(eyes_.observer_of(view).layers[0].motion_from_frame)});
     return axes;
 }
 

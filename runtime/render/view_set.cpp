@@ -1,5 +1,6 @@
 #include "view_set.h"
 #include "config/model/angles.h"
+#include "debug.h"
 #include "displays/compile/inverse_map.h"
 #include "displays/finish/blend.h"
 #include "runtime/hud/hud_place.h"
@@ -18,6 +19,7 @@ ViewSet::ViewSet(Device& device, Pipelines& pipelines, const FrameState& state, 
 {
     const float zeros[2] = {};
     no_map_ = make_texture_array(device, map_format, {1, 1}, 1, std::as_bytes(std::span(zeros)));
+    name_object(device, no_map_, "views: no map");
     for (const Output& output : state.layout.outputs)
         outputs.emplace_back().size = output.size;
     store.matrices(state.quality.matrices || state.layout.head_tracker); // a map does not follow a head
@@ -124,8 +126,11 @@ void ViewSet::apply_layout(Parts parts)
     std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBuffer, 2 * count},
         {vk::DescriptorType::eUniformTexelBuffer, 2 * count}, {vk::DescriptorType::eCombinedImageSampler, 11 * count}};
     pool_ = device_.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2 * count, sizes});
+    name_object(device_, pool_, "views: descriptor pool");
     auto make_set = [&](const vk::raii::DescriptorSetLayout& set_layout) {
-        return std::move(device_.device.allocateDescriptorSets({*pool_, *set_layout}).front());
+        vk::raii::DescriptorSet set = std::move(device_.device.allocateDescriptorSets({*pool_, *set_layout}).front());
+        name_object(device_, set, "views: descriptor set");
+        return set;
     };
     for (ViewState& view : all) {
         view.warp_set = make_set(pipelines_.warp_set);

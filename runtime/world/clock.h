@@ -1,6 +1,6 @@
 #pragma once
-#include "shaders/shared_structs.h"
 #include "eye_event.h"
+#include "shaders/shared_structs.h"
 #include <string>
 
 namespace starbow {

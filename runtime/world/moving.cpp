@@ -98,8 +98,8 @@ SeenPose seen_pose(const World& world, const Instance& instance, const EyeEvent&
     // The middle's retarded time is a fixed point, 0.2 of a step further off in every round. It is found by secants, and by
     // halving where a jump leaves no such time or two.
     auto sent = [&](double time) {
-        return retarded_time(
-            eye_event, eye_event.motion_from_frame * (glm::dvec3(pose_at(world, instance, time) * middle) - eye_event.place));
+        return retarded_time(eye_event,
+            eye_event.motion_from_frame * (glm::dvec3(pose_at(world, instance, time) * middle) - eye_event.place));
     };
     double low = -1e300, high = 1e300; // too early, too late
     double time = sent(eye_event.time), before = eye_event.time, off_before = time - eye_event.time;

@@ -1,7 +1,7 @@
 #pragma once
 #include "config/model/scene_file.h"
-#include "shaders/shared_structs.h"
 #include "eye_event.h"
+#include "shaders/shared_structs.h"
 
 namespace starbow {
 

@@ -1,6 +1,6 @@
 #include "observer.h"
-#include "shaders/physics/physics.h"
 #include "eye_event.h"
+#include "shaders/physics/physics.h"
 #include "worldline.h"
 #include <algorithm>
 
@@ -14,7 +14,8 @@ double Observer::most_E() const
     return most;
 }
 
-Observer observer_of(const World& world, const Shot& ship, const ViewportObserver& observer, std::vector<RestFrameView> before)
+Observer observer_of(
+    const World& world, const Shot& ship, const ViewportObserver& observer, std::vector<RestFrameView> before)
 {
     before.clear();
     Observer out{observer, shot_of(ship, observer), 1, std::move(before)};

@@ -1,8 +1,8 @@
 #include "worldline.h"
 #include "config/json/error.h"
+#include "eye_event.h"
 #include "shaders/physics/physics.h"
 #include "shaders/shared_structs.h"
-#include "eye_event.h"
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -20,7 +20,8 @@ int frame_of(World& world, const SceneFile& scene, const WorldlineSegment& segme
     if (at == world.frames.end()) {
         if (world.frames.size() == MAX_REST_FRAMES)
             throw InputError(scene.file, "/bodies",
-                "move with more than " + std::to_string(MAX_REST_FRAMES - 1) + " different velocities; so many at most is right");
+                "move with more than " + std::to_string(MAX_REST_FRAMES - 1)
+                    + " different velocities; so many at most is right");
         at = world.frames.insert(at, {segment.u, segment.from});
     }
     return int(at - world.frames.begin());

@@ -5,8 +5,8 @@
 #include "runtime/plan/star_cull.h"
 #include "shaders/physics/physics.h"
 #include "tests/support/boxes.h"
-#include "tests/support/view.h"
 #include "tests/support/speeds.h"
+#include "tests/support/view.h"
 #include <benchmark/benchmark.h>
 #include <random>
 

@@ -3,8 +3,8 @@
 #include "config/model/shipped.h"
 #include "runtime/reference/reference.h"
 #include "shaders/physics/physics.h"
-#include "tests/support/view.h"
 #include "tests/support/speeds.h"
+#include "tests/support/view.h"
 #include <benchmark/benchmark.h>
 
 namespace starbow {

@@ -109,17 +109,17 @@ TEST(ExhibitFileTest, TheSchemasDefaultsAreTheReaders)
 
 TEST(ExhibitFileTest, WrongOnesAreRefusedByBoth)
 {
-    for (const auto& [text, problem] :
-        std::vector<std::pair<std::string, std::string>>{{R"({ "layuot": "desk" })", "layuot"},
-            {R"({ "layout": "" })", "/layout"}, {R"({ "tutorial": "yes" })", "/tutorial"},
-            {R"({ "frame_budget_ms": -1 })", "/frame_budget_ms: -1"}, {R"({ "flying": { "mode": "easy" } })", "/flying/mode: \"easy\""},
-            {R"({ "flying": { "max_gamma": 1 } })", "/flying/max_gamma: 1 is too small"},
-            {R"({ "flying": { "max_gamma": 1e7 } })", "/flying/max_gamma: 10000000"},
-            {R"({ "flying": { "turn_deg_per_s": 0 } })", "/flying/turn_deg_per_s: 0"},
-            {R"({ "flying": { "turn_jerk_deg_per_s3": -1 } })", "/flying/turn_jerk_deg_per_s3: -1"},
-            {R"({ "exposure": { "bloom": 1.5 } })", "/exposure/bloom: 1.5 is too large"},
-            {R"({ "exposure": { "min_ev": -61 } })", "/exposure/min_ev: -61"},
-            {R"({ "exposure": { "ev": 0 } })", "/exposure"}}) {
+    for (const auto& [text, problem] : std::vector<std::pair<std::string, std::string>>{
+             {R"({ "layuot": "desk" })", "layuot"}, {R"({ "layout": "" })", "/layout"},
+             {R"({ "tutorial": "yes" })", "/tutorial"}, {R"({ "frame_budget_ms": -1 })", "/frame_budget_ms: -1"},
+             {R"({ "flying": { "mode": "easy" } })", "/flying/mode: \"easy\""},
+             {R"({ "flying": { "max_gamma": 1 } })", "/flying/max_gamma: 1 is too small"},
+             {R"({ "flying": { "max_gamma": 1e7 } })", "/flying/max_gamma: 10000000"},
+             {R"({ "flying": { "turn_deg_per_s": 0 } })", "/flying/turn_deg_per_s: 0"},
+             {R"({ "flying": { "turn_jerk_deg_per_s3": -1 } })", "/flying/turn_jerk_deg_per_s3: -1"},
+             {R"({ "exposure": { "bloom": 1.5 } })", "/exposure/bloom: 1.5 is too large"},
+             {R"({ "exposure": { "min_ev": -61 } })", "/exposure/min_ev: -61"},
+             {R"({ "exposure": { "ev": 0 } })", "/exposure"}}) {
         EXPECT_NE(said(text).find(problem), std::string::npos) << said(text);
         EXPECT_FALSE(schema_accepts(json::parse(text))) << text;
     }

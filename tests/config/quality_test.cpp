@@ -115,13 +115,14 @@ TEST(QualityTest, ALadderRisesAndIsWrittenAgain)
         EXPECT_EQ(again[i].flip, ladder[i].flip);
         EXPECT_EQ(again[i].edges_px, ladder[i].edges_px);
     }
-    for (const auto& [text, problem] : std::vector<std::pair<std::string, std::string>>{{R"({ "levels": [] })", "/levels"},
-             {R"({})", "levels"}, {R"({ "levels": [{ "ms": 0, "quality": {} }] })", "/levels/0/ms: 0"},
-             {R"({ "levels": [{ "ms": 2, "quality": {} }, { "ms": 2, "quality": {} }] })", "/levels/1/ms: 2 is no more than"},
-             {R"({ "levels": [{ "ms": 1 }] })", "quality"},
-             {R"({ "levels": [{ "ms": 1, "quality": { "mips": 2 } }] })", "/levels/0/quality/mips: 2"},
-             {R"({ "levels": [{ "ms": 1, "quality": {} }, { "ms": 2, "quality": { "spectra": "fine" } }] })",
-                 "/levels/1/quality: "}}) {
+    for (const auto& [text, problem] :
+        std::vector<std::pair<std::string, std::string>>{{R"({ "levels": [] })", "/levels"}, {R"({})", "levels"},
+            {R"({ "levels": [{ "ms": 0, "quality": {} }] })", "/levels/0/ms: 0"},
+            {R"({ "levels": [{ "ms": 2, "quality": {} }, { "ms": 2, "quality": {} }] })", "/levels/1/ms: 2 is no more than"},
+            {R"({ "levels": [{ "ms": 1 }] })", "quality"},
+            {R"({ "levels": [{ "ms": 1, "quality": { "mips": 2 } }] })", "/levels/0/quality/mips: 2"},
+            {R"({ "levels": [{ "ms": 1, "quality": {} }, { "ms": 2, "quality": { "spectra": "fine" } }] })",
+                "/levels/1/quality: "}}) {
         SCOPED_TRACE(text);
         const std::string why = said([&] { load_ladder(write_text("ladder.json", text)); });
         EXPECT_NE(why.find(problem), why.npos) << why;

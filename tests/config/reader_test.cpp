@@ -199,7 +199,8 @@ TEST(ReaderTest, ValuesOfTheWrongKind)
              vec3(at("n"), {0, 9});
          }),
             "/n: 5 is not a list; a list of 3 numbers in [ ] is right"},
-        {complaint([&] { reject_unknown_members(at("v"), {}); }), "/v: [1,\"x\",3] is not an object; an object in { } is right"},
+        {complaint([&] { reject_unknown_members(at("v"), {}); }),
+            "/v: [1,\"x\",3] is not an object; an object in { } is right"},
         {complaint([&] { member(at("o"), "a"); }), "/o: {} lacks \"a\"; an object with this member is right"},
     };
     for (const auto& [message, expected] : cases)

@@ -162,7 +162,8 @@ TEST(TourFile, TheSchemasDefaultsAreTheReaders)
     const Tour tour = tour_of(with("\"question\": { " + question + " }"));
     EXPECT_EQ(schema["properties"]["again_after_s"]["default"], tour.again_after_s);
     EXPECT_EQ(schema["properties"]["ship_s_per_s"]["default"], tour.steps[1].ship_s_per_s);
-    EXPECT_EQ(schema["definitions"]["question"]["properties"]["explanation_s"]["default"], tour.steps[1].question->explanation_s);
+    EXPECT_EQ(
+        schema["definitions"]["question"]["properties"]["explanation_s"]["default"], tour.steps[1].question->explanation_s);
     EXPECT_EQ(schema["definitions"]["step"]["properties"]["ease_s"]["default"],
         json::array({tour.steps[0].ease_s.x, tour.steps[0].ease_s.y}));
     // Every measure, and no other.

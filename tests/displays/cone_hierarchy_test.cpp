@@ -1,5 +1,5 @@
-// ConeHierarchy of a direction map, against every pixel one by one; and the way back from a direction to its pixel, against the
-// projections' formulas, written here again.
+// ConeHierarchy of a direction map, against every pixel one by one; and the way back from a direction to its pixel, against
+// the projections' formulas, written here again.
 #include "config/model/turn.h"
 #include "displays/compile/cone_hierarchy.h"
 #include "tests/support/sphere.h"
@@ -174,7 +174,8 @@ TEST(BlocksTest, PyramidsHoldTheirPixels)
         const View view = view_of(projection, {96, 72});
         const auto all = pixels(view);
         const auto matrix = view_matrix(view);
-        for (const ConeHierarchy& cones : {ConeHierarchy(compile_direction_map(view)), matrix ? ConeHierarchy(*matrix, view.size) : ConeHierarchy(compile_direction_map(view))})
+        for (const ConeHierarchy& cones : {ConeHierarchy(compile_direction_map(view)),
+                 matrix ? ConeHierarchy(*matrix, view.size) : ConeHierarchy(compile_direction_map(view))})
             for (const Turn& turn : {Turn{0, 0, 0}, Turn{70, 30, 0}, Turn{180, -40, 20}}) {
                 // 20 degrees to each side of the turn's axis.
                 const glm::dmat3 axes = cockpit_from_picture(turn);

@@ -73,9 +73,9 @@ std::vector<std::uint64_t> bits(const RecordEntry& e)
     const Controls& c = e.controls;
     std::vector<std::uint64_t> all{
         std::uint64_t(e.dt_ns), std::uint64_t(e.skipped_ns), e.shown, c.lever.has_value(), e.exposure_ev.has_value()};
-    for (double v : {c.lever.value_or(0), c.throttle_rate, c.push.x, c.push.y, c.push.z, c.turn.x, c.turn.y, c.turn.z, c.look_rad.x,
-             c.look_rad.y, c.head.moved_m.x, c.head.moved_m.y, c.head.moved_m.z, c.head.turned.w, c.head.turned.x,
-             c.head.turned.y, c.head.turned.z, c.exposure, e.exposure_ev.value_or(0)})
+    for (double v : {c.lever.value_or(0), c.throttle_rate, c.push.x, c.push.y, c.push.z, c.turn.x, c.turn.y, c.turn.z,
+             c.look_rad.x, c.look_rad.y, c.head.moved_m.x, c.head.moved_m.y, c.head.moved_m.z, c.head.turned.w,
+             c.head.turned.x, c.head.turned.y, c.head.turned.z, c.exposure, e.exposure_ev.value_or(0)})
         all.push_back(std::bit_cast<std::uint64_t>(v));
     for (bool flag :
         {c.look_ahead, c.stop, c.home, c.undo, c.reset, c.next_mode, c.aberration, c.doppler, c.headlight, c.false_colours,
@@ -180,8 +180,8 @@ TEST(Record, TheDigestSeesEveryBit)
     Flight flight = flight_at(some_header().start);
     flight.homing = Homing{};
     const std::uint64_t before = digest(flight);
-    std::vector<double*> numbers{&flight.lever, &flight.throttle_rate, &flight.exposure_ev, &flight.look_rad.x, &flight.look_rad.y,
-        &flight.homing->braking, &flight.homing->elapsed_s, &flight.homing->rapidity_per_s};
+    std::vector<double*> numbers{&flight.lever, &flight.throttle_rate, &flight.exposure_ev, &flight.look_rad.x,
+        &flight.look_rad.y, &flight.homing->braking, &flight.homing->elapsed_s, &flight.homing->rapidity_per_s};
     for (glm::dvec3* v : {&flight.thrust, &flight.turn_rad_s, &flight.turn_lead_rad_s})
         numbers.insert(numbers.end(), {&v->x, &v->y, &v->z});
     for (Ship* ship : {&flight.ship, &flight.homing->from}) {

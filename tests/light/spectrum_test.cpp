@@ -149,8 +149,8 @@ TEST(SpectrumTest, ALineMovesAsAWholeAndKeepsItsEnergy)
 TEST(SpectrumTest, LampsOfTheirOwnLightGreysExactly)
 {
     const std::vector<Emission> lamps = {BlackBody{2856}, SpectralLine{589.3}};
-    const SpectralBasis basis
-        = spectral_basis(12, std::array{EmissionSpectrum{lamps[0]}, EmissionSpectrum{lamps[0], true}, EmissionSpectrum{lamps[1]}});
+    const SpectralBasis basis = spectral_basis(
+        12, std::array{EmissionSpectrum{lamps[0]}, EmissionSpectrum{lamps[0], true}, EmissionSpectrum{lamps[1]}});
     const Response response = response_of(basis, eye());
     for (double D : {0.5, 0.9, 1.0, 1.1, 2.0}) {
         const glm::dvec3 grey = told_xyz(response, lit(basis, lamps[0], [](double) { return 0.5; }), D);

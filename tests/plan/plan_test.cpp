@@ -3,8 +3,8 @@
 #include "runtime/plan/cube_map_plan.h"
 #include "runtime/world/eye_event.h"
 #include "shaders/physics/physics.h"
-#include "tests/support/view.h"
 #include "tests/support/speeds.h"
+#include "tests/support/view.h"
 #include <gtest/gtest.h>
 #include <random>
 
@@ -163,10 +163,10 @@ TEST(CubeMapPlan, SpendsAtMostThreeTexelsOnAPixel)
                 const glm::dvec3 u(0, 0, -u_of_gamma(gamma));
                 const glm::dquat turned
                     = glm::angleAxis(glm::radians(double(degrees)), glm::normalize(glm::dvec3(0.3, 1, 0)));
-                const CubeMapPlan plan = plan_cube_map(
-                    {{view.cones.get(), motion_from_world(u, turned) * glm::dmat3(glm::mat3_cast(turned))}},
-                    physics::exp_rapidity(glm::length(u)),
-                    {.texels_per_pixel = 1, .max_texels_per_pixel = 1e9, .max_texels = 1e12, .max_atlas_side = 1 << 30});
+                const CubeMapPlan plan
+                    = plan_cube_map({{view.cones.get(), motion_from_world(u, turned) * glm::dmat3(glm::mat3_cast(turned))}},
+                        physics::exp_rapidity(glm::length(u)),
+                        {.texels_per_pixel = 1, .max_texels_per_pixel = 1e9, .max_texels = 1e12, .max_atlas_side = 1 << 30});
                 if (plan.texels > most * plan.pixels)
                     most = plan.texels / plan.pixels, images = plan.images.size();
             }
@@ -204,7 +204,8 @@ TEST(CubeMapPlan, TableLeadsToTheImageOfADirection)
         const glm::dvec3 u(0, 0, -u_of_gamma(gamma));
         const double E = physics::exp_rapidity(glm::length(u));
         const glm::dmat3 turned = motion_from_world(u, turn(3)) * glm::dmat3(glm::mat3_cast(turn(3)));
-        const CubeMapPlan plan = plan_cube_map({{view.cones.get(), turned}}, E, {.texels_per_pixel = 1, .max_texels_per_pixel = 1e9});
+        const CubeMapPlan plan
+            = plan_cube_map({{view.cones.get(), turned}}, E, {.texels_per_pixel = 1, .max_texels_per_pixel = 1e9});
         write_tiles(plan, *table);
         for (int y = 0; y < 600; y += 7)
             for (int x = 0; x < 800; x += 7) {
@@ -212,9 +213,11 @@ TEST(CubeMapPlan, TableLeadsToTheImageOfADirection)
                 const TilePlace place = tile_of(physics::world_from_camera(n, E, 1 / E).n, plan.finest_clip_level[0]);
                 const glm::vec2 at(place.at), spread = place.face == 1 ? at * glm::abs(at) : at;
                 const glm::vec4 sub_tiles = table->sub_tiles_from_face[place.tile];
-                const glm::ivec2 cell = glm::min(
-                    glm::ivec2(spread * glm::vec2(sub_tiles) + glm::vec2(sub_tiles.z, sub_tiles.w)), glm::ivec2(TILE_SUB_TILES - 1));
-                const shared::TileEntry& entry = table->entries[place.tile * SUB_TILE_COUNT + cell.y * TILE_SUB_TILES + cell.x];
+                const glm::ivec2 cell
+                    = glm::min(glm::ivec2(spread * glm::vec2(sub_tiles) + glm::vec2(sub_tiles.z, sub_tiles.w)),
+                        glm::ivec2(TILE_SUB_TILES - 1));
+                const shared::TileEntry& entry
+                    = table->entries[place.tile * SUB_TILE_COUNT + cell.y * TILE_SUB_TILES + cell.x];
                 const glm::vec2 texel
                     = at * entry.texel_from_face.x + glm::vec2(entry.texel_from_face.y, entry.texel_from_face.z);
                 ASSERT_GE(texel.x, entry.texels.x + 0.5f) << gamma << " " << x << " " << y;

@@ -49,7 +49,8 @@ TEST(Allocations, AFrameTakesNothingFromTheHeap)
     Device quiet({.name = device_options(false).name});
     Pipelines quiet_pipelines(quiet);
     const GpuWorld world = upload(quiet, quiet_pipelines, load_world(file.gltf), file, load_stars(file.stars->catalogue));
-    OffscreenRenderer renderer(quiet, quiet_pipelines, world, one_view(Planar{60}, {320, 240}), default_quality(quiet, false), false);
+    OffscreenRenderer renderer(
+        quiet, quiet_pipelines, world, one_view(Planar{60}, {320, 240}), default_quality(quiet, false), false);
     renderer.frame().meter(true);
     Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
     shot.effects = {true, true, true};

@@ -232,7 +232,8 @@ TEST(BodiesGpuTest, WhoMovesDoesNotMatter)
         resting.u = dvec3(0);
         Quality fine = as_fine_as_asked();
         fine.texels_per_pixel = 3;
-        OffscreenRenderer a(device(), pipelines(), still, layout, fine, true), b(device(), pipelines(), moving, layout, fine, true);
+        OffscreenRenderer a(device(), pipelines(), still, layout, fine, true),
+            b(device(), pipelines(), moving, layout, fine, true);
         const Numbers first(a, passing), second(b, resting);
         const std::vector<dvec3> one = softened(first), other = softened(second);
         auto at = [&](double x, double y) {

@@ -141,12 +141,14 @@ TEST(Lab, TheSessionGivesTheTheorysValues)
         const std::vector<Point> points = parse_points(row.cells[3], desk);
         for (const auto& [right, up] : {std::pair(0.0, 0.0), std::pair(0.1, 0.06), std::pair(-0.08, -0.1)}) {
             const std::vector<Point> aimed = unsteady(points, right, up);
-            const StillMeasurement measurement = measure_still(renderer, world, pressed, aimed, "off", "none", testing::words());
+            const StillMeasurement measurement
+                = measure_still(renderer, world, pressed, aimed, "off", "none", testing::words());
             const std::optional<double> read = readings.at(row.cells[4])(measurement);
             ASSERT_TRUE(read);
             double value = *read;
             if (row.no()[0] == 'H')
-                value /= *readings.at(row.cells[4])(measure_still(renderer, world, shot, aimed, "off", "none", testing::words()));
+                value /= *readings.at(row.cells[4])(
+                    measure_still(renderer, world, shot, aimed, "off", "none", testing::words()));
             EXPECT_NEAR(value, told, error) << "aimed off by " << right << ", " << up;
         }
         ++measured;
@@ -164,11 +166,13 @@ TEST(Lab, BackwardsAtFirst)
     const std::filesystem::path folder = testing::source_dir() / "config";
     const Shot start = load_shot(folder / "shots/clocks-rest.json");
     const SceneFile scene = load_scene_file(folder / "scenes/clocks.json");
-    RenderContext context(folder / "scenes/clocks.json", Device::Options{.validation = true, .name = device_options(false).name});
+    RenderContext context(
+        folder / "scenes/clocks.json", Device::Options{.validation = true, .name = device_options(false).name});
     const Layout desk = one_view(Planar{60}, {400, 300});
-    OffscreenRenderer renderer(context.device, context.pipelines, context.world, desk, default_quality(context.device, false), false);
-    const StillMeasurement first
-        = measure_still(renderer, context.world, start, parse_points("0deg,0deg; 9.2deg,0deg", desk), "off", "none", testing::words());
+    OffscreenRenderer renderer(
+        context.device, context.pipelines, context.world, desk, default_quality(context.device, false), false);
+    const StillMeasurement first = measure_still(
+        renderer, context.world, start, parse_points("0deg,0deg; 9.2deg,0deg", desk), "off", "none", testing::words());
     ASSERT_TRUE(first.points[0].pair);
     const World& world = context.world.world;
     Flying rules;

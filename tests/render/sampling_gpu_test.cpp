@@ -95,7 +95,8 @@ TEST(Sampling, NoSeamOnASmoothSky)
         for (Output& output : layout.outputs)
             output.size = ivec2(320, 320 * output.size.y / output.size.x);
         OffscreenRenderer live(device(), pipelines(), world, layout, default_quality(device(), false), true);
-        for (double gamma : {1.0, 1.5, 4.0, 100.0, 1000.0})
+        for (double gamma : {1.0, 1.5, 4.0, 100.0, 1000.0}) {
+            int all_compared = 0;
             for (const dvec3& look : {dvec3(0, 0, -1), dvec3(1, 0.2, 0.3), dvec3(0.1, 0, 1)}) {
                 const Shot shot = shot_at({}, {0, 0, -u_of_gamma(gamma)}, look);
                 for (std::size_t output = 0; output < layout.outputs.size(); ++output) {
@@ -117,7 +118,12 @@ TEST(Sampling, NoSeamOnASmoothSky)
                     if (gamma < 10) {
                         EXPECT_GT(compared, 1000) << name << ", gamma " << gamma << ", output " << output;
                     }
+                    all_compared += compared;
                 }
             }
+            // Ahead of a fast ship each pixel shows too much of the sky; what is behind is compared at any speed.
+            std::printf("%s, gamma %g: %d pairs\n", name, gamma, all_compared);
+            EXPECT_GT(all_compared, 10000) << name << ", gamma " << gamma;
+        }
     }
 }

@@ -494,7 +494,8 @@ struct Errors {
 
 /// Of all pixels: the angle, in pixels, between what is shown and where the eye would see that; and how many show another
 /// thing than a ray meets. eye: its place for a direction.
-Errors errors_of(OffscreenRenderer& stage, const std::vector<Thing>& all, const std::function<dvec3(Eye, const dvec3&)>& eye_for)
+Errors errors_of(
+    OffscreenRenderer& stage, const std::vector<Thing>& all, const std::function<dvec3(Eye, const dvec3&)>& eye_for)
 {
     const Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
     const Numbers numbers(stage, shot);
@@ -532,7 +533,7 @@ TEST(Stereo, ReprojectedAgainstExactPixelByPixel)
     const ivec2 size(320, 240);
     auto eye_for = [](Eye eye, const dvec3&) { return eye_at(eye, eyes_m); };
     OffscreenRenderer exact = renderer(world, pair_of(Planar{60}, size, StereoMethod::exact)),
-           tested = renderer(world, pair_of(Planar{60}, size, StereoMethod::reprojected));
+                      tested = renderer(world, pair_of(Planar{60}, size, StereoMethod::reprojected));
     const Errors of_exact = errors_of(exact, all, eye_for), of_tested = errors_of(tested, all, eye_for);
     std::printf("  exact: median %.4f, 99 %% %.4f pixels, other things %.2f %%\n  reprojected: median %.4f, 99 %% %.4f "
                 "pixels, other things %.2f %%\n",
@@ -560,7 +561,7 @@ TEST(Stereo, ReprojectedAgainstExactInFlight)
     const GpuWorld world = world_of("room", all);
     const ivec2 size(320, 240);
     OffscreenRenderer exact = renderer(world, pair_of(Planar{60}, size, StereoMethod::exact)),
-           tested = renderer(world, pair_of(Planar{60}, size, StereoMethod::reprojected));
+                      tested = renderer(world, pair_of(Planar{60}, size, StereoMethod::reprojected));
     const double gamma = 1.6;
     const dvec3 way = glm::normalize(dvec3(0.8, 0.1, -0.6));
     const Shot shot = shot_at({0, 0, 0.5}, u_of_gamma(gamma) * way, {0.2, 0, -1});

@@ -17,7 +17,10 @@
 namespace starbow::testing {
 
 /// The repository's root, for the shipped files.
-inline std::filesystem::path source_dir() { return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path(); }
+inline std::filesystem::path source_dir()
+{
+    return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
+}
 
 /// A folder of this process's own, gone at its end.
 inline std::filesystem::path scratch(const std::string& name)

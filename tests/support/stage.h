@@ -68,7 +68,8 @@ struct WithoutStars {
 /// What tests of shapes and numbers are drawn with, and their bounds made for: smooth edges, and one ray a pixel.
 inline Quality test_quality()
 {
-    return within(device(), {.texels_per_pixel = 1.25, .max_texels_per_pixel = 8, .cube_samples = 4, .lod_shading_texels = 2});
+    return within(
+        device(), {.texels_per_pixel = 1.25, .max_texels_per_pixel = 8, .cube_samples = 4, .lod_shading_texels = 2});
 }
 
 inline OffscreenRenderer renderer(const GpuWorld& world, const Layout& layout, bool measured = true)

@@ -232,7 +232,9 @@ TEST(Animation, ShuttlesAreSeenWhereTheirLightLeft)
             const Event at{t, u / physics::gamma_of(u) * (t - 3)};
             const EyeEvent eye_event = eye_event_of(world, frame, at);
             const SeenPose seen = seen_pose(world, world.instances[0], eye_event);
-            const double zero = world.instances[0].existence < 0 ? 0 : world.existence_intervals[std::size_t(world.instances[0].existence)].zero;
+            const double zero = world.instances[0].existence < 0
+                ? 0
+                : world.existence_intervals[std::size_t(world.instances[0].existence)].zero;
             const dvec3 place = world.motions[std::size_t(world.instances[0].motion)].place;
             quad::Q low = eye_event.time - 100.0, high = eye_event.time;
             for (int i = 0; i < 150; ++i) {
@@ -295,7 +297,8 @@ TEST(Animation, NothingIsSeenOutsideItsBall)
             double before = eye_event.time - 100, after = eye_event.time;
             for (int i = 0; i < 80; ++i) {
                 const double time = 0.5 * (before + after);
-                (time + glm::length(dvec3(pose_at(world, world.instances[0], time) * point)) > eye_event.time ? after : before)
+                (time + glm::length(dvec3(pose_at(world, world.instances[0], time) * point)) > eye_event.time ? after
+                                                                                                              : before)
                     = time;
             }
             const dvec3 at(pose_at(world, world.instances[0], before) * point);

@@ -298,11 +298,13 @@ TEST(Bodies, MissingNodesAndTooManyVelocitiesAreToldInASentence)
 
 TEST(CubeMapPlan, WhatNoPixelSeesCostsNothing)
 {
-    const ConeHierarchy cones(glm::dmat3(glm::dvec3(0.01, 0, 0), glm::dvec3(0, -0.01, 0), glm::dvec3(-0.5, 0.5, -1)), {100, 100});
+    const ConeHierarchy cones(
+        glm::dmat3(glm::dvec3(0.01, 0, 0), glm::dvec3(0, -0.01, 0), glm::dvec3(-0.5, 0.5, -1)), {100, 100});
     const glm::dmat3 turn = motion_from_world({}, glm::dquat(1, 0, 0, 0));
     auto plan_with = [&](const dvec3& centre) {
         return plan_cube_map(
-            {RestFrameRequest{{{&cones, turn}}, 1}, RestFrameRequest{{{&cones, turn}}, 3, false, std::vector<BoundingSphere>{{turn * centre, 1}}}},
+            {RestFrameRequest{{{&cones, turn}}, 1},
+                RestFrameRequest{{{&cones, turn}}, 3, false, std::vector<BoundingSphere>{{turn * centre, 1}}}},
             {});
     };
     const CubeMapPlan none = plan_cube_map({RestFrameRequest{{{&cones, turn}}, 1}}, {});

@@ -1,8 +1,8 @@
 // What clocks show, without a device: the arithmetic after months, figures, entries, and the shipped scene.
 #include "config/model/scene_file.h"
 #include "runtime/world/clock.h"
-#include "runtime/world/instances.h"
 #include "runtime/world/eye_event.h"
+#include "runtime/world/instances.h"
 #include "tests/support/dial.h"
 #include "tests/support/files.h"
 #include <cmath>

@@ -2,8 +2,8 @@
 // have them. The readings are those of the shots' comments, from light cones solved for each clock's own time apart from
 // this program.
 #include "runtime/world/clock.h"
-#include "runtime/world/instances.h"
 #include "runtime/world/eye_event.h"
+#include "runtime/world/instances.h"
 #include "runtime/world/worldline.h"
 #include "tests/support/dial.h"
 #include "tests/support/files.h"
@@ -61,7 +61,8 @@ std::vector<RetardedPosition> seen(const Shot& shot, const std::string& material
                     {dvec3(entries[i].middle), entries[i].there.x <= 0 && entries[i].there.y > 0, said(entries[i])});
         }
     }
-    std::sort(out.begin(), out.end(), [](const RetardedPosition& a, const RetardedPosition& b) { return a.place.x < b.place.x; });
+    std::sort(
+        out.begin(), out.end(), [](const RetardedPosition& a, const RetardedPosition& b) { return a.place.x < b.place.x; });
     return out;
 }
 

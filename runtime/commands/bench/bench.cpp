@@ -125,7 +125,8 @@ Result measure(RenderContext& context, const GpuWorld& starless, Lookup& lookup,
         ms[2] = warp(renderer);
         ms[8] = warp(geometry);
         ms[9] = warp(colour);
-        ms[10] = milliseconds([&] { device.now([&](vk::CommandBuffer c) { renderer.frame().passes().draw_stars(c, 0, 0); }); });
+        ms[10]
+            = milliseconds([&] { device.now([&](vk::CommandBuffer c) { renderer.frame().passes().draw_stars(c, 0, 0); }); });
         ms[6] = milliseconds([&] {
             device.now([&](vk::CommandBuffer c) {
                 make_writable(c, target);
@@ -297,7 +298,8 @@ void add_bench(CLI::App& app, std::function<int()>& chosen)
     command->add_flag("--governor", options->governor,
         "Instead: how well a frame's time is held under a load that doubles and halves every 5 s");
     command->add_option("--ladder", options->ladder, "With --governor: the ladder")->capture_default_str();
-    command->add_option("--frame-budget-ms", options->frame_budget_ms, "With --governor: the time that is held [1.5 of the middle rung's]");
+    command->add_option(
+        "--frame-budget-ms", options->frame_budget_ms, "With --governor: the time that is held [1.5 of the middle rung's]");
     command->add_option("--seconds", options->seconds, "With --input and --governor: how long")
         ->check(whole_number(1, 3600))
         ->capture_default_str();

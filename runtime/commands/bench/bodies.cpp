@@ -45,7 +45,8 @@ int bench_bodies(int rounds)
         World world = load_world(scene.gltf);
         add_detail_levels(world);
         c.world = std::make_unique<GpuWorld>(upload(device, pipelines, std::move(world), scene, {}, SpectralLevel::fine));
-        c.renderer = std::make_unique<OffscreenRenderer>(device, pipelines, *c.world, layout, default_quality(device, false), false);
+        c.renderer = std::make_unique<OffscreenRenderer>(
+            device, pipelines, *c.world, layout, default_quality(device, false), false);
         c.renderer->picture(shot); // leaves the target in a known layout
     }
     // In turn within each round, so that whatever else the machine does falls on all alike.

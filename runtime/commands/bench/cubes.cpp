@@ -20,8 +20,8 @@ std::vector<CubeMapPlan> full_faces(double texels_per_unit)
         for (int j = 0; j < parts; ++j)
             for (int i = 0; i < parts; ++i) {
                 auto edge = [&](int k) { return -1 + 2.0 * k / parts; };
-                PlannedImage image{TILE_FRONT, face, {edge(i), edge(j)}, {edge(i + 1), edge(j + 1)}, glm::ivec2(side / parts),
-                    {0, 0}, texels_per_unit, 1};
+                PlannedImage image{TILE_FRONT, face, {edge(i), edge(j)}, {edge(i + 1), edge(j + 1)},
+                    glm::ivec2(side / parts), {0, 0}, texels_per_unit, 1};
                 CubeMapPlan plan;
                 plan.images = {image};
                 plan.atlas_size = image.size;

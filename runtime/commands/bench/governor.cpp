@@ -19,7 +19,8 @@ int bench_governor(const std::string& ladder_name, double frame_budget_ms, int s
     RenderContext context(shipped_file("scenes", "avenue"), device_options(false), ladder[0].quality.spectra);
     Device& device = context.device;
     const Shot shot = load_shot(shipped_file("shots", "starbow"));
-    OffscreenRenderer renderer(device, context.pipelines, context.world, layout, within(device, ladder.back().quality), false);
+    OffscreenRenderer renderer(
+        device, context.pipelines, context.world, layout, within(device, ladder.back().quality), false);
     const Target target = renderer.target(0);
     renderer.frame().repeatable(false); // as the exhibit flies
     FrameTimer timer(device);
@@ -57,8 +58,8 @@ int bench_governor(const std::string& ladder_name, double frame_budget_ms, int s
     int frames = 0, late = 0, moves = 0, most_moves = 0;
     std::vector<double> moved;
     for (int second = 0; now_s() < seconds;) {
-        const auto turn
-            = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(frame_budget_ms / 1000));
+        const auto turn = Clock::now()
+            + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(frame_budget_ms / 1000));
         const double ms = frame_ms(int(now_s() / 5) % 2 ? 2 : 1);
         ++frames;
         late += ms > 1.5 * frame_budget_ms;

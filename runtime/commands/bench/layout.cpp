@@ -186,7 +186,8 @@ void bench_stereo(RenderContext& context, const Shot& shot, int rounds)
         const bool turns = layouts[i].stereo.turning;
         Layout exact_layout = layouts[i];
         exact_layout.stereo.method = StereoMethod::exact;
-        std::unique_ptr<OffscreenRenderer> exact = turns ? nullptr : std::make_unique<OffscreenRenderer>(measured(exact_layout));
+        std::unique_ptr<OffscreenRenderer> exact
+            = turns ? nullptr : std::make_unique<OffscreenRenderer>(measured(exact_layout));
         const Disparity off = disparity(tested, exact.get(), shot, 0, context.world.scene.unit_m);
         const std::size_t base = i < 3 ? 0 : 3;
         std::printf("  %-22s %10.2f %8.2f %9.2f   %8.3f %8.3f %8.2f  %6.2f %%\n", cases[i].name.c_str(), cases[i].ms(4),

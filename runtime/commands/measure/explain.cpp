@@ -43,8 +43,8 @@ template <class Is> std::size_t materials_that(const World& world, Is&& is)
 }
 
 /// The parts, from what is looked at to what is shown.
-std::vector<Part> parts_of(const Made& made, const RenderContext& context, const CubeMapPlan& plan, std::size_t maps, std::size_t views,
-    std::size_t eyes, bool colours_part)
+std::vector<Part> parts_of(const Made& made, const RenderContext& context, const CubeMapPlan& plan, std::size_t maps,
+    std::size_t views, std::size_t eyes, bool colours_part)
 {
     const World& world = context.world.world;
     const SceneFile& scene = made.scene;

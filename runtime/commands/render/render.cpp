@@ -81,8 +81,8 @@ int render(const Options& options)
         shot.exposure_ev = std::clamp(renderer.metered(shot).value_or(shot.exposure_ev), rules.min_ev, rules.max_ev);
     }
     std::optional<Panel> panel;
-    const StillMeasurement measurement
-        = measure_still(renderer, context.world, shot, parse_points(options.points, layout), options.overlay, options.why, words);
+    const StillMeasurement measurement = measure_still(
+        renderer, context.world, shot, parse_points(options.points, layout), options.overlay, options.why, words);
     if (options.hud) {
         Readings told = readings(ship_at(shot), context.world.scene, shot.effects);
         told.exposure_ev = shot.exposure_ev;

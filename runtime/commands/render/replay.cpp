@@ -69,8 +69,7 @@ int render_replay(const ReplayOptions& options)
     const auto [first, last] = parse_frames(options.frames);
     Replay replay(options.replay);
     const RecordHeader& header = replay.header();
-    Flown from = find_flown(options.replay, header, options.layout,
-        info_log("record"));
+    Flown from = find_flown(options.replay, header, options.layout, info_log("record"));
     if (!options.size.empty())
         for (Output& output : from.layout.outputs)
             output.size = parse_size(options.size);
@@ -104,7 +103,8 @@ int render_replay(const ReplayOptions& options)
             continue;
         std::optional<Panel> panel;
         if (options.hud && flight.hud)
-            panel = typesetter.draw(readings(flight.ship, scene, flight.effects), words, renderer.frame().views().hud_width());
+            panel
+                = typesetter.draw(readings(flight.ship, scene, flight.effects), words, renderer.frame().views().hud_width());
         const auto pictures = replay_renderer.picture(flight, header.start.scene, panel ? &*panel : nullptr);
         char name[32];
         std::snprintf(name, sizeof name, "-%06ld.png", number);

@@ -187,7 +187,8 @@ int render_tour(const TourOptions& options)
 
     std::signal(SIGINT, interrupt);
     std::signal(SIGTERM, interrupt);
-    OffscreenRenderer renderer(context.device, context.pipelines, context.world, layout, default_quality(context.device, true), false);
+    OffscreenRenderer renderer(
+        context.device, context.pipelines, context.world, layout, default_quality(context.device, true), false);
     renderer.frame().bloom(options.bloom);
     const Typesetter typesetter;
     Player player(show, options.frames_per_s);
