@@ -49,7 +49,11 @@ int fly_exhibit(const ExhibitOptions& options)
                     log_info("world", context->world.scene.gltf.string() + ": " + note);
             if (losses == 0)
                 std::printf("%s\n", describe_light(*context).c_str());
-            FrameLoop(session, *context).run();
+            {
+                FrameLoop loop(session, *context);
+                while (!is_over(session) && loop.fly_frame())
+                    ;
+            }
             print_summary(session, context->world.scene);
             const bool same = session.record_replay.end(session.flight);
             return !same || session.complaints || !context->device.complaints.empty() ? 1 : 0;

@@ -59,6 +59,10 @@ FrameLoop::FrameLoop(Session& session, RenderContext& context)
 {
     name_object(device_, done_, "frame done");
     name_object(device_, commands_, "frame");
+    if (session.options.trace) {
+        device_.trace = session.options.trace, device_.timer = &timer_;
+        session.options.trace->name_thread("flight");
+    }
 }
 
 FrameLoop::~FrameLoop()
@@ -66,16 +70,6 @@ FrameLoop::~FrameLoop()
     settle(device_);
     device_.trace = nullptr, device_.timer = nullptr;
     device_.save_pipelines();
-}
-
-void FrameLoop::run()
-{
-    if (session_.options.trace) {
-        device_.trace = session_.options.trace, device_.timer = &timer_;
-        session_.options.trace->name_thread("flight");
-    }
-    while (!is_over(session_) && fly_frame())
-        ;
 }
 
 bool FrameLoop::fly_frame()
@@ -122,7 +116,12 @@ bool FrameLoop::fly_frame()
     const Clock::time_point begun = Clock::now();
     const Shot shot = set_up_frame(controls);
     const Panel* panel = hud_.update(session_, context_.world.scene, shot.exposure_ev, frame_->views().hud_width());
-    record(shot, panel);
+    const std::size_t pipelines = context_.pipelines.count();
+    begin_commands();
+    frame_->draw(*commands_, shot, panel, screens_.targets());
+    end_commands();
+    if (const std::size_t made = context_.pipelines.count() - pipelines; made > 0)
+        log_debug("pipelines", std::to_string(made) + " made in flight");
     prepared_ms_ = 1e3 * seconds(Clock::now() - begun);
 
     // Present.
@@ -207,20 +206,19 @@ Shot FrameLoop::set_up_frame(const Controls& controls)
     return shot;
 }
 
-void FrameLoop::record(const Shot& shot, const Panel* panel)
+void FrameLoop::begin_commands()
 {
-    const std::vector<Target>& targets = screens_.targets();
     commands_.reset();
     commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     timer_.begin(*commands_);
-    for (const Target& target : targets)
+    for (const Target& target : screens_.targets())
         if (target.view)
             present_barrier(*commands_, target, true);
-    const std::size_t pipelines = context_.pipelines.count();
-    frame_->draw(*commands_, shot, panel, targets);
-    if (const std::size_t made = context_.pipelines.count() - pipelines; made > 0)
-        log_debug("pipelines", std::to_string(made) + " made in flight");
-    for (const Target& target : targets)
+}
+
+void FrameLoop::end_commands()
+{
+    for (const Target& target : screens_.targets())
         if (target.view)
             present_barrier(*commands_, target, false);
     timer_.end(*commands_);

@@ -21,14 +21,13 @@ public:
     FrameLoop(Session& session, RenderContext& context);
     ~FrameLoop(); ///< waits until the device has nothing to do
 
-    /// Throws vk::DeviceLostError.
-    void run();
+    /// One frame from the controls to the screens; frame_loop.cpp tells it in order. Returns whether to go on. Throws
+    /// vk::DeviceLostError.
+    bool fly_frame();
 
 private:
     /// Draws, unseen, everything that the visitor's switches can need; progress on a terminal.
     void warm_up();
-    /// One frame from the controls to the screens; frame_loop.cpp tells it in order. Returns whether to go on.
-    bool fly_frame();
     /// Waits for the frame's turn and for the device. Returns the exposure for the frame before, if it was metered.
     std::optional<double> await_device();
     /// Applies a change of the layout's files: all of it or, where anything in it is wrong, nothing. The old picture stays
@@ -38,7 +37,9 @@ private:
     void apply_alignment(const Controls& controls);
     /// The shot that the session has come to, and everything about it that the frame renderer needs to know.
     Shot set_up_frame(const Controls& controls);
-    void record(const Shot& shot, const Panel* panel);
+    /// Enclose what FrameRenderer::draw records: the timer and the layouts of the windows' pictures.
+    void begin_commands();
+    void end_commands();
     /// The device's passes of the frame before, for the trace.
     void trace_passes();
 

@@ -216,7 +216,7 @@ bool Window::make_swapchain()
         views_.push_back(device_->device.createImageView(
             {{}, image, vk::ImageViewType::e2D, format_, {}, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1}}));
         name_object(*device_, drawn_.emplace_back(device_->device.createSemaphore({})), "outputs: drawn");
-        name_object(*device_, views_.back(), "outputs: picture of " + name_);
+        name_object(*device_, views_.back(), ("picture of " + name_).c_str());
     }
     acquired_ = device_->device.createSemaphore({});
     name_object(*device_, acquired_, "outputs: acquired");

@@ -1,18 +1,29 @@
 #include "debug.h"
+#include <array>
+#include <cstdio>
 
 namespace starbow {
+namespace {
 
-void name_object(const Device& device, const Image& image, const std::string& name)
+/// A name and what comes behind it, on the stack.
+struct Suffixed {
+    std::array<char, 96> text;
+    Suffixed(const char* name, const char* suffix) { std::snprintf(text.data(), text.size(), "%s%s", name, suffix); }
+};
+
+} // namespace
+
+void name_object(const Device& device, const Image& image, const char* name)
 {
     name_object(device, image.image, name);
-    name_object(device, image.view, name + " view");
-    name_object(device, image.memory, name + " memory");
+    name_object(device, image.view, Suffixed(name, " view").text.data());
+    name_object(device, image.memory, Suffixed(name, " memory").text.data());
 }
 
-void name_object(const Device& device, const Buffer& buffer, const std::string& name)
+void name_object(const Device& device, const Buffer& buffer, const char* name)
 {
     name_object(device, buffer.buffer, name);
-    name_object(device, buffer.memory, name + " memory");
+    name_object(device, buffer.memory, Suffixed(name, " memory").text.data());
 }
 
 Label::Label(const Device& device, vk::CommandBuffer commands, const char* name)

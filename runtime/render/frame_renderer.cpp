@@ -9,8 +9,24 @@ namespace starbow {
 
 void FrameRenderer::draw(vk::CommandBuffer commands, const Shot& shot, const Panel* hud, std::span<const Target> targets)
 {
+    // The processor: observers, plan, culling, upload.
     update(shot, hud);
-    record(commands, targets);
+
+    // The device: cube maps; what is read of them; each output.
+    const Trace::Span span(device_.trace, "record");
+    if (state_.pattern == Pattern::none) {
+        draw_cubes(commands);
+        meter_.record(commands);
+        measurement_.draw_probes(commands);
+    }
+    for (std::size_t output = 0; output < targets.size(); ++output) {
+        if (!targets[output].view)
+            continue; // minimised, or its monitor is away
+        passes_.warp_output(commands, output, targets[output]); // stars and bloom included
+        measurement_.draw(commands, output, targets[output]); // the overlay
+        passes_.draw_hud(commands, output, targets[output]);
+        passes_.finish_output(commands, output, targets[output]);
+    }
 }
 
 void FrameRenderer::update(const Shot& shot, const Panel* hud)
@@ -26,31 +42,10 @@ void FrameRenderer::update(const Shot& shot, const Panel* hud)
     measurement_.prepare();
 }
 
-void FrameRenderer::record(vk::CommandBuffer commands, std::span<const Target> targets)
-{
-    const Trace::Span span(device_.trace, "record");
-    if (state_.pattern == Pattern::none) {
-        draw_cubes(commands);
-        meter_.record(commands);
-        measurement_.draw_probes(commands);
-    }
-    for (std::size_t output = 0; output < targets.size(); ++output)
-        if (targets[output].view)
-            draw_output(commands, output, targets[output]);
-}
-
 void FrameRenderer::draw_cubes(vk::CommandBuffer commands)
 {
     const Label label(device_, commands, "cube pass");
     eyes_.record(commands);
-}
-
-void FrameRenderer::draw_output(vk::CommandBuffer commands, std::size_t output, const Target& target)
-{
-    passes_.warp_output(commands, output, target);
-    measurement_.draw(commands, output, target);
-    passes_.draw_hud(commands, output, target);
-    passes_.finish_output(commands, output, target);
 }
 
 void FrameRenderer::record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target)

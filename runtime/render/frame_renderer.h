@@ -19,13 +19,11 @@ public:
     void draw(vk::CommandBuffer commands, const Shot& shot, const Panel* hud, std::span<const Target> targets);
 
     /// The same steps one by one, for whoever times them or needs a part: first update(), which is all that the processor
-    /// does, then record(), which is all that the device does, or any of its passes.
+    /// does, then any of the passes.
     void update(const Shot& shot, const Panel* hud);
-    void record(vk::CommandBuffer commands, std::span<const Target> targets);
     void draw_cubes(vk::CommandBuffer commands);
     void draw_meter(vk::CommandBuffer commands) { meter_.record(commands); }
     void draw_probes(vk::CommandBuffer commands) { measurement_.draw_probes(commands); }
-    void draw_output(vk::CommandBuffer commands, std::size_t output, const Target& target);
     /// One output's numbers instead of its picture: the left eye's where both share pixels.
     void record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target);
     ViewPasses& passes() { return passes_; }

@@ -2,8 +2,10 @@
 #include "config/json/error.h"
 #include "debug.h"
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
+#include <cstdio>
 #include <cstring>
 
 namespace starbow {
@@ -49,7 +51,9 @@ Buffer make_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFla
     buffer.memory = bind(device, buffer.buffer, wanted);
     if (wanted & vk::MemoryPropertyFlagBits::eHostVisible)
         buffer.mapped = buffer.memory.mapMemory(0, buffer.size);
-    name_object(device, buffer, vk::to_string(usage) + " of " + std::to_string(buffer.size) + " bytes");
+    std::array<char, 64> name;
+    std::snprintf(name.data(), name.size(), "buffer of %llu bytes", static_cast<unsigned long long>(buffer.size));
+    name_object(device, buffer, name.data());
     return buffer;
 }
 
@@ -106,8 +110,10 @@ Image make_image(const Device& device, const ImageSpec& spec)
             : spec.array ? vk::ImageViewType::e2DArray
                          : vk::ImageViewType::e2D,
         spec.format, {}, {aspect_of(spec.format), 0, spec.levels, 0, spec.layers}});
-    name_object(device, image,
-        vk::to_string(spec.format) + " " + std::to_string(spec.extent.width) + "x" + std::to_string(spec.extent.height));
+    std::array<char, 64> name;
+    std::snprintf(
+        name.data(), name.size(), "image %ux%u of format %d", spec.extent.width, spec.extent.height, int(spec.format));
+    name_object(device, image, name.data());
     return image;
 }
 

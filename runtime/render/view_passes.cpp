@@ -72,12 +72,6 @@ void ViewPasses::draw_warp(vk::CommandBuffer commands, const ViewState& view, vk
     commands.draw(3, 1, 0, 0);
 }
 
-void ViewPasses::warp_view(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline, double exposure)
-{
-    shared::ViewPush constants = constants_.exposed_push(view, exposure);
-    draw_warp(commands, view, pipeline, constants, view.geometry().corner, view.geometry().size);
-}
-
 void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, int layer)
 {
     const Label label(device_, commands, "stars");
@@ -163,8 +157,9 @@ void ViewPasses::warp_output(vk::CommandBuffer commands, std::size_t output, con
             else if (glows)
                 view.bloom->show(commands, view.geometry().corner, state_.bloom, target.format);
             else
-                warp_view(commands, view, pipelines_.warp(constants_.variant_shown(view), target.format),
-                    std::exp2(state_.shot.exposure_ev));
+                draw_warp(commands, view, pipelines_.warp(constants_.variant_shown(view), target.format),
+                    constants_.exposed_push(view, std::exp2(state_.shot.exposure_ev)), view.geometry().corner,
+                    view.geometry().size);
         }
         commands.endRendering();
     }
@@ -228,7 +223,8 @@ void ViewPasses::record_measured(vk::CommandBuffer commands, std::size_t output,
     commands.beginRendering({{}, {{0, 0}, target.camera.extent}, 1, 0, colours});
     for (const ViewState& view : views_.all)
         if (view.output == output && view.geometry().layer == 0)
-            warp_view(commands, view, pipelines_.measure(constants_.variant_shown(view)), 1);
+            draw_warp(commands, view, pipelines_.measure(constants_.variant_shown(view)), constants_.exposed_push(view, 1),
+                view.geometry().corner, view.geometry().size);
     commands.endRendering();
     for (const Image* image : {&target.light_and_depth, &target.camera, &target.world})
         transition(commands, *image, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,

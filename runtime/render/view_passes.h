@@ -53,7 +53,6 @@ public:
 
 private:
     void prepare_stars();
-    void warp_view(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline, double exposure);
     void bloom_view(vk::CommandBuffer commands, const ViewState& view);
     void pattern_view(vk::CommandBuffer commands, const ViewState& view, vk::Format target);
 

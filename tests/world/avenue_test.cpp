@@ -85,7 +85,7 @@ std::string content(const std::filesystem::path& file)
 TEST(AvenueTest, GeneratorWritesTheCommittedBytes)
 {
     std::filesystem::path made
-        = std::filesystem::path(testing::TempDir()) / ("avenue" + std::to_string(::getpid()) + ".glb");
+        = std::filesystem::path(::testing::TempDir()) / ("avenue" + std::to_string(::getpid()) + ".glb");
     std::string command = "/usr/bin/python3 -B '" + (avenue / "make.py").string() + "' '" + made.string() + "'";
     ASSERT_EQ(std::system(command.c_str()), 0) << command;
     EXPECT_TRUE(content(made) == content(avenue / "avenue.glb")) << "run scenes/avenue/make.py and commit what it writes";
