@@ -102,7 +102,8 @@ int run(const Options& options)
     open_log({.lowest = options.verbose ? LogLevel::debug : LogLevel::info});
     ExhibitOptions exhibit_options = open(options);
     exhibit_options.frames = options.frames;
-    exhibit_options.warms_up = options.warm_up == "always" || (options.warm_up == "auto" && options.frames == 0);
+    if (options.warm_up != "auto" || options.frames > 0)
+        exhibit_options.warms_up = options.warm_up == "always";
     exhibit_options.log = options.log;
     exhibit_options.log_every_s = options.log_every_s;
     if (!has_display() && options.asked)
@@ -154,8 +155,8 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
         ->needs(log);
     command
         ->add_option("--warm-up", options->warm_up,
-            "Compile everything that the visitor's switches can need before the first frame: always, never, or auto, unless "
-            "--frames ends the flight soon")
+            "Compile what the visitor's switches can need before the first frame: always, never, or auto, which is on a GPU "
+            "where --frames does not end the flight soon")
         ->check(CLI::IsMember({"auto", "always", "never"}))
         ->capture_default_str();
     command->add_option("--trace", options->trace,

@@ -30,7 +30,7 @@ struct ExhibitOptions {
     std::optional<Quality> quality{}; ///< none: what the device affords
     double frame_budget_ms = 0; ///< of a whole frame; 0: the quality stays
     std::vector<PresetLevel> ladder{}; ///< by which it is held
-    bool warms_up = true; ///< compiles everything that the switches can need before the first frame
+    std::optional<bool> warms_up{}; ///< compiles what the switches can need before the first frame; none: on a GPU
     long frames = 0; ///< to be shown; 0: until the visitor leaves
     Pattern pattern = Pattern::none; ///< what the outputs show first
     std::filesystem::path record{}; ///< where to keep the flight; empty: nowhere

@@ -52,7 +52,7 @@ FrameLoop::FrameLoop(Session& session, RenderContext& context)
           device_, context.pipelines, context.world, session.layout, quality_of(session, device_)))
     , timer_(device_)
     , screens_(device_, session.layout)
-    , cold_(session.options.warms_up)
+    , cold_(session.options.warms_up.value_or(!device_.on_processor()))
     , done_(device_.device.createFence({vk::FenceCreateFlagBits::eSignaled}))
     , commands_(
           std::move(device_.device.allocateCommandBuffers({*device_.pool, vk::CommandBufferLevel::ePrimary, 1}).front()))
@@ -60,7 +60,7 @@ FrameLoop::FrameLoop(Session& session, RenderContext& context)
     name_object(device_, done_, "frame done");
     name_object(device_, commands_, "frame");
     if (session.options.trace) {
-        device_.trace = session.options.trace, device_.timer = &timer_;
+        device_.trace = session.options.trace;
         session.options.trace->name_thread("flight");
     }
 }
@@ -211,6 +211,7 @@ void FrameLoop::begin_commands()
     commands_.reset();
     commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     timer_.begin(*commands_);
+    device_.timer = device_.trace ? &timer_ : nullptr; // passes count between begin and end alone
     for (const Target& target : screens_.targets())
         if (target.view)
             present_barrier(*commands_, target, true);
@@ -221,6 +222,7 @@ void FrameLoop::end_commands()
     for (const Target& target : screens_.targets())
         if (target.view)
             present_barrier(*commands_, target, false);
+    device_.timer = nullptr;
     timer_.end(*commands_);
     commands_.end();
 }

@@ -1,4 +1,5 @@
 #include "warm_up.h"
+#include "debug.h"
 
 namespace starbow {
 namespace {
@@ -51,6 +52,8 @@ std::size_t warm_up(Device& device, Pipelines& pipelines, FrameRenderer& frame, 
     vk::raii::CommandBuffer commands
         = std::move(device.device.allocateCommandBuffers({*device.pool, vk::CommandBufferLevel::ePrimary, 1}).front());
     const vk::raii::Fence done = device.device.createFence({});
+    name_object(device, commands, "warm-up");
+    name_object(device, done, "warm-up done");
     std::size_t step = 0;
     for (const Quality& quality : qualities) {
         frame.adopt(quality);
@@ -61,7 +64,10 @@ std::size_t warm_up(Device& device, Pipelines& pipelines, FrameRenderer& frame, 
             at.u = at.ship_from_cockpit * glm::dvec3(0, 0, -state.speed_u);
             frame.show(state.pattern);
             if (state.overlay != Overlay::off)
-                frame.measure(Measuring{.probes = {{0, 0, -1}}, .over = {.overlay = state.overlay}, .panel = hud, .scale = {0.1, 0.1, 0.9, 0.2}});
+                frame.measure(Measuring{.probes = {{0, 0, -1}},
+                    .over = {.overlay = state.overlay},
+                    .panel = hud,
+                    .scale = {0.1, 0.1, 0.9, 0.2}});
             const std::size_t before = pipelines.count();
             commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
             for (const Image& image : images)

@@ -146,6 +146,17 @@ ok
 cmp -s "$folder/rest" "$folder/back" || fail "tracked: the picture did not come back when the tracker fell silent"
 ok
 
+# Everything that the switches can need is compiled before the first frame, under the layers' eyes; the trace has its passes.
+timeout 240 "$program" run --layout desk --warm-up always --frames 5 --trace "$folder/trace.json" >"$folder/log" 2>&1 \
+    || fail "warm-up: exit $?"
+ok
+grep -q 'pipelines are ready after' "$folder/log" || fail "warm-up: it does not say that it is done"
+ok
+for name in controls plan cull upload record wait present 'cube pass' warp stars HUD; do
+    grep -q "\"$name\"" "$folder/trace.json" || fail "trace: no $name"
+done
+ok
+
 # Without a display it says so and draws (the first shot is enough here).
 (unset DISPLAY; cd "$folder" && timeout 5 "$program" run >"$folder/log" 2>&1)
 grep -q 'no display server' "$folder/log" || fail "no word of the missing display"
