@@ -58,7 +58,7 @@ Quality quality_of(const Session& session, const Device& device);
 double ev_of(const Session& session);
 /// The line beneath the head-up display's figures.
 std::string notice_of(const Session& session);
-/// Whether the frames that were asked for are shown, or the caller says so.
+/// True once the requested frames are shown, or the caller says so.
 bool is_over(const Session& session);
 std::string describe(const Skew& skew);
 

@@ -104,7 +104,7 @@ void EyeCubes::request_views(std::size_t i, const Probe* probe)
     }
 }
 
-/// Whether an eye's cube map may be shown once more. It was drawn elsewhere and at another speed, but it must have the same
+/// True if an eye's cube map may be shown once more. It was drawn elsewhere and at another speed, but it must have the same
 /// axes.
 bool EyeCubes::can_reuse(std::size_t i) const
 {

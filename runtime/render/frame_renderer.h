@@ -45,7 +45,7 @@ public:
     /// part: of the light that glows around bright things, 0 to 1. At 0 there is no pass for it, and no memory.
     void bloom(double part) { state_.bloom = part; }
     void meter(bool on) { state_.meters = on; }
-    /// What is laid over all views from the next frame on, and read of the picture; none: at no cost. In a world without
+    /// Sets the overlay of all views and the probes from the next frame on; none: at no cost. In a world without
     /// depth the first time takes as long as a change of the layout.
     void measure(const std::optional<Measuring>& what);
 

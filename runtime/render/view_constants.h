@@ -3,7 +3,7 @@
 
 namespace starbow {
 
-/// What the shaders of a view are given: specialization constants and push constants. Computes, records nothing.
+/// Specialization constants and push constants for a view's shaders. Computes, records nothing.
 class ViewConstants {
 public:
     ViewConstants(const GpuWorld& world, const FrameState& state, const ViewSet& views, const EyeCubes& eyes)
@@ -24,7 +24,7 @@ public:
     shared::ViewPush push(const ViewState& view, const glm::dmat3& axes_from_cockpit) const;
     /// The same in the motion axes of the view's observer, exposed.
     shared::ViewPush exposed_push(const ViewState& view, double exposure) const;
-    /// Of the stars' pass, whose rows lead back from motion axes to pixels.
+    /// The stars' pass has its own: rows lead back from motion axes to pixels.
     shared::ViewPush star_push(const ViewState& view) const;
 
 private:

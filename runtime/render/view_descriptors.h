@@ -16,7 +16,7 @@ public:
     vk::Sampler nearest() const { return *nearest_; } ///< for direction maps
 
 private:
-    /// Where something moves: the rest frames of which something is in view, and the sky.
+    /// Writes the rest frames that are in view, and the sky, for a world in which something moves.
     void write_rest_frames(ViewState& view);
     void collect_label_set(const ViewState& view);
     void collect_warp_set(const ViewState& view);
@@ -33,7 +33,7 @@ private:
     vk::raii::Sampler linear_ = nullptr, nearest_ = nullptr, finest_ = nullptr; ///< finest_: level 0 alone
     Image nothing_; ///< stands in where a view has no such image
     Buffer no_rest_frames_; ///< stands in where nothing moves
-    // What one view's sets are to hold, collected anew for each view and frame.
+    // The content of one view's sets, collected anew for each view and frame.
     std::array<vk::DescriptorImageInfo, 16> image_infos_;
     std::array<vk::DescriptorBufferInfo, 2> buffer_infos_;
     std::array<vk::BufferView, 2> texel_views_;

@@ -26,7 +26,7 @@ const Probe* ViewMeasurement::probe()
         probe_.reset();
         return nullptr;
     }
-    // As finely as the picture there, so that the plan grows no finer for it.
+    // The probes are as fine as the picture there: the plan grows no finer for them.
     const double angle = std::max(double(views_.probed_view().compiled.cones->cone(0, {0, 0}).finest), 2e-4);
     if (!probe_ || !probe_->looks(what_.probes, angle))
         probe_ = std::make_unique<Probe>(device_, what_.probes, angle);

@@ -4,7 +4,7 @@
 
 namespace starbow {
 
-/// What a frame shows and reads for the instruments.
+/// The instruments' part of a frame: overlay, panel and probes.
 struct Measuring {
     std::vector<glm::dvec3> probes; ///< unit directions in the cockpit whose light is read
     OverlayPass::What over;
@@ -12,8 +12,8 @@ struct Measuring {
     glm::vec4 scale{0}; ///< place of the false colours on it, see PanelPass::draw
 };
 
-/// The instruments' passes: probes of the picture, overlays over it, and the panel of readings. Each is made when first
-/// asked for; off, they cost nothing.
+/// The instruments' passes: probes of the picture, overlays over it, and the panel of readings. Each is made at its first
+/// use; off, they cost nothing.
 class ViewMeasurement {
 public:
     ViewMeasurement(Device& device, Pipelines& pipelines, const GpuWorld& world, const FrameState& state,

@@ -65,7 +65,7 @@ private:
     const ViewConstants& constants_;
     const ViewDescriptors& descriptors_;
     std::vector<glm::dmat3> star_turns_; ///< kept for its room
-    std::unique_ptr<PanelPass> hud_; ///< once it was asked for
+    std::unique_ptr<PanelPass> hud_; ///< from its first use on
     bool hud_on_ = false;
 };
 
