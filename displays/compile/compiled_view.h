@@ -15,7 +15,7 @@ struct CompiledView {
     int channels() const { return map ? map->channels : 1; }
 };
 
-/// Where compiled maps are kept across starts: STARBOW_CACHE, else starbow in XDG_CACHE_HOME or ~/.cache. Empty where none
+/// The folder that keeps compiled maps across starts: STARBOW_CACHE, else starbow in XDG_CACHE_HOME or ~/.cache. Empty where none
 /// of these is set: then they are kept in memory only.
 std::filesystem::path map_cache_folder();
 

@@ -32,7 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
 
-/// What the examination found: the same facts as lines for a person and as JSON for a program.
+/// The findings of the examination: the same facts as lines for a person and as JSON for a program.
 struct Report {
     std::vector<std::string> lines;
     json facts;
@@ -220,7 +220,7 @@ void examine_sticks(Report& report)
     std::vector<Profile> profiles;
     try {
         profiles = known_profiles();
-    } catch (const InputError&) { // told where the files are examined
+    } catch (const InputError&) { // the examination of the files reports it
     }
     json list = json::array();
     std::string label = "sticks";

@@ -287,12 +287,10 @@ void Device::save_pipelines() const
     const std::filesystem::path file = pipeline_file(properties);
     if (file.empty())
         return;
-    const std::vector<std::uint8_t> bytes = cache.getData();
-    std::error_code error;
-    std::filesystem::create_directories(file.parent_path(), error);
     try {
-        write_whole(file, bytes);
-    } catch (const InputError& failed) {
+        std::filesystem::create_directories(file.parent_path());
+        write_whole(file, cache.getData()); // a lost device may refuse
+    } catch (const std::exception& failed) {
         log_debug("pipelines", failed.what());
     }
 }

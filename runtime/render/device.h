@@ -39,7 +39,7 @@ public:
     Trace* trace = nullptr; ///< gets the processor's spans of each frame, while somebody traces
     FrameTimer* timer = nullptr; ///< measures each pass on the device, while somebody traces
 
-    /// Keeps the compiled pipelines for the next start. A folder that can't be written only costs time then.
+    /// Keeps the compiled pipelines for the next start. A lost device, or a folder that can't be written, only costs time then.
     void save_pipelines() const;
 
     bool on_processor() const { return properties.deviceType == vk::PhysicalDeviceType::eCpu; }

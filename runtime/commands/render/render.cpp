@@ -84,9 +84,9 @@ int render(const Options& options)
     const StillMeasurement measurement = measure_still(
         renderer, context.world, shot, parse_points(options.points, layout), options.overlay, options.why, words);
     if (options.hud) {
-        Readings told = readings(ship_at(shot), context.world.scene, shot.effects);
-        told.exposure_ev = shot.exposure_ev;
-        panel = Typesetter().draw(told, words, renderer.frame().views().hud_width());
+        Readings shown = readings(ship_at(shot), context.world.scene, shot.effects);
+        shown.exposure_ev = shot.exposure_ev;
+        panel = Typesetter().draw(shown, words, renderer.frame().views().hud_width());
     }
     render_still(options.out, renderer, shot, options.exr, panel ? &*panel : nullptr);
     std::printf("%s\n", describe_light(context).c_str());

@@ -207,12 +207,12 @@ int render_tour(const TourOptions& options)
             if (interrupted)
                 return told_interrupted(options.movie, i, frames);
             const Touring& touring = player.at(i);
-            Readings told = readings(touring.flight.ship, context.world.scene, touring.flight.effects);
-            told.exposure_ev = touring.flight.exposure_ev;
-            told.caption = caption_of(touring, show, words, {});
-            const Panel panel = typesetter.draw(told, words, renderer.frame().views().hud_width());
+            Readings shown = readings(touring.flight.ship, context.world.scene, touring.flight.effects);
+            shown.exposure_ev = touring.flight.exposure_ev;
+            shown.caption = caption_of(touring, show, words, {});
+            const Panel panel = typesetter.draw(shown, words, renderer.frame().views().hud_width());
             const auto pictures
-                = renderer.picture(shot_of(touring.flight, tour.scene), told.caption->text.empty() ? nullptr : &panel);
+                = renderer.picture(shot_of(touring.flight, tour.scene), shown.caption->text.empty() ? nullptr : &panel);
             for (std::size_t k = 0; k < pictures.size(); ++k)
                 write_png(kept.file(layout.outputs[k].name, i), layout.outputs[k].size, pictures[k]);
             ++drawn;
