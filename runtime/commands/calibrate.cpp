@@ -19,7 +19,7 @@
 namespace starbow {
 namespace {
 
-struct Options {
+struct CalibrateOptions {
     std::string device, out;
     bool quick = false, force = false;
 };
@@ -191,7 +191,7 @@ std::string names(const std::vector<SeenAxis>& axes, const std::function<bool(co
 }
 
 /// Each axis on a line: the way it has been over, and where it is. Over the lines drawn before.
-void draw(const Watched& device, const std::vector<SeenAxis>& axes, const DeviceState& state, bool again)
+void draw_axes(const Watched& device, const std::vector<SeenAxis>& axes, const DeviceState& state, bool again)
 {
     if (again)
         std::printf("\033[%zuA", axes.size());
@@ -249,13 +249,13 @@ void find_ends(Person& person, const Watched& device, std::vector<SeenAxis>& axe
     Pace pace;
     if (isatty(1)) {
         std::printf("Then let go of everything and press Enter.\n");
-        draw(device, axes, device.now(), false);
+        draw_axes(device, axes, device.now(), false);
     }
     person.answer(isatty(1) ? "" : "Then let go of everything and press Enter:", [&] {
         const DeviceState state = device.now();
         take_ends(state, axes);
         if (isatty(1) && pace.due())
-            draw(device, axes, state, true);
+            draw_axes(device, axes, state, true);
     });
     stay_off(person, device, 1, back_s, axes);
     const std::string left
@@ -467,7 +467,7 @@ void tell_what_counts(const Watched& device, const std::filesystem::path& file)
             counts.file.empty() ? "what its usages say" : counts.file.string().c_str());
 }
 
-int calibrate(const Options& options)
+int calibrate(const CalibrateOptions& options)
 {
     const std::vector<Profile> known = known_profiles();
     Person person;
@@ -514,7 +514,7 @@ int calibrate(const Options& options)
 
 void add_calibrate(CLI::App& app, std::function<int()>& chosen)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CalibrateOptions>();
     CLI::App* command = app.add_subcommand(
         "calibrate", "Lead through the calibration of a stick, throttle, pad or pedals, and write its profile.");
     command->add_option("--device", options->device,

@@ -16,7 +16,7 @@
 namespace starbow {
 namespace {
 
-struct Options {
+struct CheckOptions {
     std::string layout, svg;
 };
 
@@ -41,7 +41,7 @@ ViewRegion compiled_sight(const Layout& layout)
     };
 }
 
-int check(const Options& options)
+int check(const CheckOptions& options)
 {
     const std::filesystem::path layout_file = shipped_file("layouts", options.layout);
     const Layout layout = load_layout(layout_file);
@@ -73,7 +73,7 @@ int check(const Options& options)
 
 void add_check(CLI::App& app, std::function<int()>& chosen)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CheckOptions>();
     CLI::App* command
         = app.add_subcommand("check", "Read a layout, tell what each viewport shows, and draw the plan of it.");
     command->add_option("FILE", options->layout, "A layout file, or the name of one in config/layouts")->required();

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Options {
+struct DevicesOptions {
     std::string describe;
     double seconds = 0;
 };
@@ -76,7 +76,7 @@ std::vector<std::uint8_t> descriptor_in(const std::string& file)
     return {text.begin(), text.end()};
 }
 
-json describe(const Field& field)
+json json_of(const Field& field)
 {
     json out = {{"report_id", field.report_id}, {"usage_page", field.usage.page}, {"usage", field.usage.id},
         {"bit_offset", field.bit_offset}, {"bits", field.bits}, {"logical_min", field.logical_min},
@@ -94,7 +94,7 @@ json describe(const Field& field)
     return out;
 }
 
-int describe(const std::string& file)
+int print_descriptor(const std::string& file)
 {
     const Descriptor found = parse_descriptor(descriptor_in(file));
     if (found.fields.empty() && found.report_bits.empty())
@@ -108,7 +108,7 @@ int describe(const std::string& file)
     for (const auto& [id, bits] : found.report_bits)
         out["input_report_bits"][std::to_string(id)] = bits;
     for (const Field& field : found.fields)
-        out["fields"].push_back(describe(field));
+        out["fields"].push_back(json_of(field));
     if (!found.stopped.empty())
         out["stopped"] = found.stopped;
     std::printf("%s\n", out.dump(2).c_str());
@@ -116,10 +116,10 @@ int describe(const std::string& file)
 }
 
 /// A device's axes as bars, each on a line of its own.
-void draw(const Hid::Connected& device)
+void draw_controls(const Hid::Connected& device)
 {
     std::printf(
-        "%s, %s, profile: %s\n", starbow::describe(device.info).c_str(), device.info.path.c_str(), device.profile.c_str());
+        "%s, %s, profile: %s\n", describe(device.info).c_str(), device.info.path.c_str(), device.profile.c_str());
     std::string buttons;
     for (std::size_t i = 0; i < device.descriptor.fields.size(); ++i) {
         const Field& field = device.descriptor.fields[i];
@@ -139,10 +139,10 @@ void draw(const Hid::Connected& device)
     std::printf("  buttons:%s\n", buttons.empty() ? " none" : buttons.c_str());
 }
 
-int devices(const Options& options)
+int devices(const DevicesOptions& options)
 {
     if (!options.describe.empty())
-        return describe(options.describe);
+        return print_descriptor(options.describe);
     Hid hid(known_profiles(), info_log("input"));
     const bool live = options.seconds > 0;
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(live ? options.seconds : 0.5);
@@ -152,7 +152,7 @@ int devices(const Options& options)
             std::printf("\033[H\033[2J");
         const auto all = hid.devices();
         for (const Hid::Connected& device : all)
-            draw(device);
+            draw_controls(device);
         if (all.empty())
             std::printf("no stick, throttle, pad or space mouse that may be read is plugged in\n");
         std::fflush(stdout);
@@ -165,7 +165,7 @@ int devices(const Options& options)
 
 void add_devices(CLI::App& app, std::function<int()>& chosen)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<DevicesOptions>();
     CLI::App* command
         = app.add_subcommand("devices", "List sticks, throttles, pads and space mice, with their axes and buttons.");
     command->add_option("--seconds", options->seconds, "Show them live for so long")->check(CLI::Range(0.0, 1e9));

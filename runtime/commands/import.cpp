@@ -13,7 +13,7 @@
 namespace starbow {
 namespace {
 
-struct Options {
+struct ImportOptions {
     std::string file, out;
     int node = 0;
     bool force = false;
@@ -63,7 +63,7 @@ std::vector<std::string> faults(const std::filesystem::path& file)
     return found;
 }
 
-int import(const Options& options)
+int import(const ImportOptions& options)
 {
     const Document document = read_document(options.file);
     check_not_read(options.out, {options.file});
@@ -104,7 +104,7 @@ int import(const Options& options)
 
 void add_import(CLI::App& app, std::function<int()>& chosen)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ImportOptions>();
     CLI::App* command = app.add_subcommand("import", "Make a layout of another program's configuration.");
     command->require_subcommand(1);
     CLI::App* sgct = command->add_subcommand("sgct", "Of SGCT's JSON; says line by line what became of each member");

@@ -21,7 +21,7 @@
 namespace starbow {
 namespace {
 
-struct Options {
+struct RunOptions {
     std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, language, tour, log, quality,
                 ladder, trace, warm_up = "auto";
     double frame_budget_ms = -1; ///< below 0: the exhibit's
@@ -47,7 +47,7 @@ ExhibitOptions reopen(const std::filesystem::path& record, const std::string& la
         .replay = record};
 }
 
-ExhibitOptions open(const Options& options)
+ExhibitOptions open(const RunOptions& options)
 {
     if (!options.replay.empty())
         return reopen(options.replay, options.layout, options.language);
@@ -97,7 +97,7 @@ ExhibitOptions open(const Options& options)
     return exhibit_options;
 }
 
-int run(const Options& options)
+int run(const RunOptions& options)
 {
     open_log({.lowest = options.verbose ? LogLevel::debug : LogLevel::info});
     ExhibitOptions exhibit_options = open(options);
@@ -131,7 +131,7 @@ int run(const Options& options)
 
 void add_run(CLI::App& app, std::function<int()>& chosen)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RunOptions>();
     CLI::App* command = app.add_subcommand(
         "run", "Fly: opens the layout's windows. Without a display server it draws the default shots to out/.");
     command

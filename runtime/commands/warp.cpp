@@ -15,7 +15,7 @@
 namespace starbow {
 namespace {
 
-struct Options {
+struct WarpOptions {
     std::string file, out, size, region, frustum, aspect;
     bool first_row_on_top = false, force = false;
     Warp warp() const { return {file, frustum, region, first_row_on_top}; }
@@ -97,7 +97,7 @@ void tell(const WarpMesh& mesh)
         line("note", note);
 }
 
-int inspect(const Options& options)
+int inspect(const WarpOptions& options)
 {
     const glm::ivec2 size = parse_size(options.size, 8192).value_or(glm::ivec2(1024, 640));
     const WarpMesh mesh = load_warp(options.warp());
@@ -158,7 +158,7 @@ std::vector<std::string> losses(const WarpMesh& original, const WarpMesh& mesh, 
     return all;
 }
 
-int convert(const Options& options)
+int convert(const WarpOptions& options)
 {
     std::string extension = std::filesystem::path(options.out).extension();
     std::transform(
@@ -203,7 +203,7 @@ int convert(const Options& options)
     return 0;
 }
 
-void add_input(CLI::App& command, Options& options)
+void add_input(CLI::App& command, WarpOptions& options)
 {
     command.add_option("file", options.file, "A warp file")->required();
     command.add_option("--region", options.region, "Which region of an MPCDI file that has several");
@@ -218,7 +218,7 @@ void add_warp(CLI::App& app, std::function<int()>& chosen)
 {
     CLI::App* command = app.add_subcommand("warp", "Look into calibrations, and change their format.");
     command->require_subcommand(1);
-    auto looking = std::make_shared<Options>(), changing = std::make_shared<Options>();
+    auto looking = std::make_shared<WarpOptions>(), changing = std::make_shared<WarpOptions>();
 
     CLI::App* inspect_command = command->add_subcommand("inspect", "Tell what is in a warp file, and draw it");
     add_input(*inspect_command, *looking);

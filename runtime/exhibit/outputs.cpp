@@ -142,7 +142,7 @@ void Window::make_surface()
         throw InputError("The window '" + name_ + "' has no Vulkan surface: " + glfw_says());
     surface_ = vk::raii::SurfaceKHR(device_->instance, surface);
     if (!device_->physical.getSurfaceSupportKHR(device_->family, *surface_))
-        throw InputError("The GPU '" + std::string(device_->properties.deviceName.data())
+        throw InputError("The GPU '" + std::string(device_->name())
             + "' can't show pictures in this desktop's windows: choose another with STARBOW_GPU");
     format_ = vk::Format::eUndefined;
     for (vk::SurfaceFormatKHR offered : device_->physical.getSurfaceFormatsKHR(*surface_))

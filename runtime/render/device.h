@@ -39,9 +39,11 @@ public:
     Trace* trace = nullptr; ///< gets the processor's spans of each frame, while somebody traces
     FrameTimer* timer = nullptr; ///< measures each pass on the device, while somebody traces
 
-    /// Keeps the compiled pipelines for the next start. A lost device, or a folder that can't be written, only costs time then.
+    /// Keeps the compiled pipelines for the next start. A lost device, or a folder that can't be written, only costs time
+    /// then.
     void save_pipelines() const;
 
+    const char* name() const { return properties.deviceName.data(); }
     bool on_processor() const { return properties.deviceType == vk::PhysicalDeviceType::eCpu; }
 
     /// Records, submits and waits: for loading, measuring and stills.

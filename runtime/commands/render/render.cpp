@@ -21,7 +21,7 @@
 namespace starbow {
 namespace {
 
-struct Options {
+struct RenderOptions {
     std::string layout, shot, out, size, pattern = "none", exposure = "shot", spectra = "needed", replay, frames,
                                          language = "en", tour, movie, points, overlay = "off", why = "none", quality;
     long frames_per_s = 30;
@@ -30,7 +30,7 @@ struct Options {
     bool exr = false, hud = false, reference = false;
 };
 
-int render(const Options& options)
+int render(const RenderOptions& options)
 {
     if (options.tour.empty() && options.out.empty())
         throw InputError("--out is required here; the folder for the pictures, such as out/shot, is right");
@@ -103,7 +103,7 @@ int render(const Options& options)
 
 void add_render(CLI::App& app, std::function<int()>& chosen)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RenderOptions>();
     CLI::App* command = app.add_subcommand(
         "render", "Draw one shot off-screen, the same bytes every time; or a flight's record, or a tour's movie.");
     command->add_option(

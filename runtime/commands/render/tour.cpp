@@ -182,7 +182,7 @@ int render_tour(const TourOptions& options)
     const Show show{tour, {}, load_scene_file(scene).seconds_per_time_unit(), false};
     const long frames = std::lround(std::ceil(length_s(tour) * double(options.frames_per_s) - 1e-6));
     RenderContext context(scene, device_options(false));
-    const std::string device = context.device.properties.deviceName.data();
+    const std::string device = context.device.name();
     const MovieFrames kept(movie, made_from(options, show, words, scene, layout, device, frames), log_line);
 
     std::signal(SIGINT, interrupt);
