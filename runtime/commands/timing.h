@@ -6,7 +6,7 @@
 
 namespace starbow {
 
-/// What the benches of frames share.
+/// Milliseconds that `work` takes. This file serves all benches of frames.
 
 template <class Work> double milliseconds(Work&& work)
 {
@@ -22,7 +22,7 @@ inline double median(std::vector<double> values)
     return *middle;
 }
 
-/// Makes a target ready to be drawn into once more, whatever it held.
+/// Makes a target ready for drawing, whatever it held.
 inline void make_writable(vk::CommandBuffer commands, const Target& target)
 {
     constexpr auto output = vk::PipelineStageFlagBits2::eColorAttachmentOutput;
@@ -34,7 +34,7 @@ inline void make_writable(vk::CommandBuffer commands, const Target& target)
     commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
 }
 
-/// A whole frame of a renderer, off-screen: planned, drawn and finished.
+/// Milliseconds of a whole off-screen frame: planned, drawn and finished.
 inline double frame_ms(Device& device, OffscreenRenderer& renderer, const Shot& shot)
 {
     return milliseconds([&] {

@@ -15,7 +15,7 @@ using Access = vk::AccessFlagBits2;
 
 constexpr vk::Format picture_format = vk::Format::eR8G8B8A8Srgb;
 
-/// Tells a person at a terminal what a long still is busy with, and about how long the rest may take.
+/// Shows the current step and the estimated rest of a long still on a terminal.
 class Progress {
 public:
     explicit Progress(std::size_t steps)
@@ -130,7 +130,7 @@ Channels OffscreenRenderer::numbers(const Shot& shot, std::size_t output)
                 vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
         name_object(device_, *image, "offscreen: image");
     }
-    Shot unexposed = shot; // numbers are of light, not of pictures: all of it counts, and it is the same at any exposure
+    Shot unexposed = shot; // numbers describe light, whatever the exposure
     unexposed.exposure_ev = -60;
     frame_.update(unexposed, nullptr);
     device_.now([&](vk::CommandBuffer commands) { frame_.record_measured(commands, output, target); });
