@@ -132,7 +132,7 @@ bool FrameLoop::fly_frame()
     const Clock::time_point handed = Clock::now();
     screens_.present(session_.skew);
     if (session_.options.timed)
-        session_.options.timed({controls.told_ns, steady_ns(now), steady_ns(handed), steady_ns(Clock::now())});
+        session_.options.timed({controls.report_ns, steady_ns(now), steady_ns(handed), steady_ns(Clock::now())});
     ++session_.shown;
     return true;
 }

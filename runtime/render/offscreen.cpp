@@ -24,14 +24,14 @@ public:
     }
     ~Progress()
     {
-        if (told_)
+        if (shown_)
             std::fprintf(stderr, "\r%60s\r", "");
     }
     void next(const std::string& what)
     {
         double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
         if (isatty(STDERR_FILENO)) {
-            told_ = true;
+            shown_ = true;
             std::fprintf(stderr, "\r%zu of %zu: %-30s", done_ + 1, steps_, what.c_str());
             if (done_ > 0)
                 std::fprintf(stderr, " about %.0f s left ", passed / double(done_) * double(steps_ - done_));
@@ -42,7 +42,7 @@ public:
 
 private:
     std::size_t steps_, done_ = 0;
-    bool told_ = false;
+    bool shown_ = false;
     std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
