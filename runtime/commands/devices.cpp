@@ -26,7 +26,8 @@ struct DevicesOptions {
 
 constexpr std::size_t most_bytes = 1 << 20;
 
-/// Hexadecimal digits in pairs, with or without 0x, blanks and commas; comments from # or // to the line's end.
+/// Parses pairs of hexadecimal digits, with or without 0x, blanks and commas. Comments run from # or // to the line's
+/// end.
 std::optional<std::vector<std::uint8_t>> from_hex(const std::string& text)
 {
     std::string digits;
@@ -51,7 +52,7 @@ std::optional<std::vector<std::uint8_t>> from_hex(const std::string& text)
     return bytes;
 }
 
-/// A descriptor as raw bytes, as hexadecimal text, or as JSON with a member "descriptor_hex".
+/// Reads a descriptor: raw bytes, hexadecimal text, or JSON with a member "descriptor_hex". Throws InputError.
 std::vector<std::uint8_t> descriptor_in(const std::string& file)
 {
     std::ifstream stream(file, std::ios::binary);
@@ -115,7 +116,7 @@ int print_descriptor(const std::string& file)
     return 0;
 }
 
-/// A device's axes as bars, each on a line of its own.
+/// Draws a device's axes as bars, one on each line.
 void draw_controls(const Hid::Connected& device)
 {
     std::printf(
@@ -133,7 +134,7 @@ void draw_controls(const Hid::Connected& device)
             if (raw)
                 bar[std::size_t(20.5 + 20 * centred(field, *raw))] = '#';
             std::printf("  %-9s %u/%-3u %s %s\n", name_of(field.usage).c_str(), field.usage.page, field.usage.id,
-                bar.c_str(), raw ? std::to_string(*raw).c_str() : "not told of yet");
+                bar.c_str(), raw ? std::to_string(*raw).c_str() : "no value yet");
         }
     }
     std::printf("  buttons:%s\n", buttons.empty() ? " none" : buttons.c_str());
@@ -170,7 +171,7 @@ void add_devices(CLI::App& app, std::function<int()>& chosen)
         = app.add_subcommand("devices", "List sticks, throttles, pads and space mice, with their axes and buttons.");
     command->add_option("--seconds", options->seconds, "Show them live for so long")->check(CLI::Range(0.0, 1e9));
     command->add_option("--describe", options->describe,
-        "Instead: what a report descriptor declares, as JSON. A file of raw bytes, of hexadecimal text, or JSON with "
+        "Instead: print a report descriptor's declarations as JSON. A file of raw bytes, of hexadecimal text, or JSON with "
         "\"descriptor_hex\"");
     command->footer("Examples:\n  starbow devices --seconds 60\n  starbow devices --describe "
                     "/sys/class/hidraw/hidraw0/device/report_descriptor");

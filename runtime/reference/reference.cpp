@@ -97,8 +97,8 @@ public:
             const ViewRays::Row ways = view.rays.row(inside);
             for (int x = 0; x < own.size.x; ++x) {
                 const std::size_t at = std::size_t(own.corner.x + x);
-                light[std::size_t(own.layer)][at] = pixel(view, ways, {x, inside}) * exposure_;
-                if (own.layer == 0 && numbers)
+                light[std::size_t(own.canvas)][at] = pixel(view, ways, {x, inside}) * exposure_;
+                if (own.canvas == 0 && numbers)
                     numbers[at] = numbers_at(view, ways, x);
             }
         }
@@ -277,7 +277,7 @@ Reference reference(
     out.headroom = of.preview ? 1 : headroom(shades);
     out.shade = std::move(shades[output]);
     const std::size_t width = std::size_t(of.size.x), rows = std::size_t(of.size.y);
-    out.light.assign(std::size_t(layers(out.packing)), std::vector<glm::dvec3>(width * rows, glm::dvec3(0)));
+    out.light.assign(std::size_t(canvas_count(out.packing)), std::vector<glm::dvec3>(width * rows, glm::dvec3(0)));
     if (options.numbers)
         out.numbers.resize(width * rows);
 

@@ -57,7 +57,7 @@ Truths truths_of(const Trial& trial)
             ReferenceOptions options;
             options.samples = trial.samples;
             options.kept = trial.folder / ("reference-" + name + "-" + own.name + ".rows");
-            options.progress = [&](int done, int all) { rows.tell(done, all); };
+            options.progress = [&](int done, int all) { rows.show(done, all); };
             Reference truth = reference(world.input(), trial.layout, shot, output, options);
             std::vector<std::uint8_t> picture = shown(truth);
             of_shot.push_back({std::move(picture), std::move(truth)});

@@ -39,7 +39,7 @@ void guard_extensions(const Spot& root, GuardedGltf& out)
     });
 }
 
-/// Notes whole lists that a world without skeletons, seen by the ship's own eye, has no use for.
+/// Notes the lists that a world without skeletons, seen by the ship's own eye, does not use.
 void note_unused_lists(const Spot& root, GuardedGltf& out)
 {
     for (auto [key, what] : {std::pair{"skins", "skins: meshes are drawn as they are stored"}, {"cameras", "cameras"}})
@@ -73,7 +73,7 @@ void guard_buffers(GltfFile& file, const Spot& root, GuardedGltf& out)
             buffer["byteLength"].fail("is " + std::to_string(length) + "; the buffer has " + std::to_string(bytes.size()));
         bytes.resize(length);
         out.buffers.push_back(std::move(bytes));
-        // tinygltf demands some content; it is replaced by the real one once the model is read.
+        // tinygltf requires some content; the real content replaces it after the model is read.
         written = {{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}};
     });
     guard_list(root, "bufferViews", out.json, [&](const Spot& view, Json& written) {

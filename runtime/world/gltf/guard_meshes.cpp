@@ -139,7 +139,7 @@ void guard_primitive(const Spot& primitive, Json& written, GuardedGltf& out)
         const Legal* legal = legal_for(name);
         Spot spot = attributes[name];
         if (!legal) {
-            // Tangents, joints, further colours and an application's own: nothing here reads them.
+            // Starbow does not read tangents, joints, further colours or application-specific attributes.
             index_into(spot, "accessor", accessors.size());
             continue;
         }
