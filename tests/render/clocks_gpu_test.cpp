@@ -254,8 +254,8 @@ TEST(Clocks, AnglesAndLengthEqualThePapers)
         for (std::size_t k = 0; k < row.size(); ++k) {
             SCOPED_TRACE(std::string(figure.shot) + ", clock " + std::to_string(k + 1));
             const double a = figure.from_motion_deg[k] * degree;
-            const dvec3 expected_s(std::cos(a), 0, -std::sin(a)); // the motion is along +x, the row lies at -z
-            const dvec3 cockpit = glm::transpose(ship_from_cockpit) * expected_s;
+            const dvec3 towards(std::cos(a), 0, -std::sin(a)); // the motion is along +x, the row lies at -z
+            const dvec3 cockpit = glm::transpose(ship_from_cockpit) * towards;
             const dvec2 expected = 0.5 * dvec2(size) + pixels_per_unit * dvec2(cockpit.x, -cockpit.y) / -cockpit.z;
             // The disc's radius is two pixels: less than the dark ring around the pin, more than the tolerance.
             const dvec2 found = pin_near(numbers, expected + dvec2(0.6, -0.6), 2.0);

@@ -281,7 +281,7 @@ TEST(Picture, EveryFaceShowsFrontsInTheirPlaceUnmirrored)
                              l = marker(-1.1, 0, 0.3);
                 for (const Marker& front : {m, r, u})
                     quad(doc, front.centre, front.right, front.up, unlit(doc, front.colour));
-                // Its node mirrors: the front of what is drawn the other way round.
+                // The node mirrors, so that its front is that of vertices in the other order.
                 quad(doc, mirrored(l.centre), -mirrored(l.right), mirrored(l.up), unlit(doc, l.colour), mirror);
                 // Backs must not show: neither of a turned quad nor of a mirrored one.
                 const dvec3 below = 5.0 * d - 1.1 * up;
