@@ -135,11 +135,7 @@ expect_log 'the exhibit stays as it was'
 expect_all "a wrong edit"
 began=${EPOCHREALTIME/./}
 cp "$folder/changed.json" "$folder/wall.json"
-<<<<<<< HEAD
-said 'wall.json: applied'
-=======
-expect_log 'wall.json: taken up'
->>>>>>> refs/heads/tests
+expect_log 'wall.json: applied'
 took=$(((${EPOCHREALTIME/./} - began) / 1000))
 expect "a right edit" $b "$folder/changed/b.png"
 expect "a right edit" $a "$folder/a.png"
