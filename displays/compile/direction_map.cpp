@@ -143,16 +143,13 @@ std::optional<glm::dmat3> view_matrix(const View& view)
     return m;
 }
 
-std::vector<glm::uvec2> packed(const DirectionMap& map)
+void pack_rows(const DirectionMap& map, int channel, int first_row, int rows, std::span<glm::uvec2> to)
 {
-    std::vector<glm::uvec2> all(map.texels.size());
-    const int rows = map.size.y * map.channels;
+    const glm::vec4* from = &map.at(0, first_row, channel);
     by_rows(rows, [&](int first, int end) {
         for (std::size_t i = std::size_t(first) * map.size.x; i < std::size_t(end) * map.size.x; ++i)
-            if (map.texels[i].w > 0)
-                all[i] = packed(map.texels[i]);
+            to[i] = from[i].w > 0 ? packed(from[i]) : glm::uvec2(0);
     });
-    return all;
 }
 
 DirectionMap compile_direction_map(const View& view, const WarpMesh* mesh)

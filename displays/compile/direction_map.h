@@ -1,6 +1,7 @@
 #pragma once
 #include "displays/projections/views.h"
 #include "displays/warp/mesh.h"
+#include <span>
 #include <vector>
 
 namespace starbow {
@@ -24,10 +25,10 @@ struct DirectionMap {
 /// the solid angle of its sliver-shaped pixels goes to 0 while their length stays.
 DirectionMap compile_direction_map(const View& view, const WarpMesh* mesh = nullptr);
 
-/// The texels as the device reads them, 8 bytes each. The direction is on an octahedron's unfolded net (Meyer et al., On
+/// Writes rows of one channel as the device reads them, 8 bytes a texel. The direction is on an octahedron's unfolded net (Meyer et al., On
 /// floating-point normal vectors, 2010), 24 bits a coordinate, 2.6e-7 radians at worst. Below each coordinate are 8 bits of
 /// the pixel angle's float, 0.4 % at worst. view.glsl's unpacked is the inverse. All bits are 0 where nothing is shown.
-std::vector<glm::uvec2> packed(const DirectionMap& map);
+void pack_rows(const DirectionMap& map, int channel, int first_row, int rows, std::span<glm::uvec2> to);
 
 /// The unwarped picture of a calibration: the file's own frustum where it has one and the layout gives no projection; of a
 /// fisheye the square around it.

@@ -12,6 +12,8 @@ public:
     /// keeps_depth: record_measured can then report distances. Throws InputError for a wrong layout.
     FrameRenderer(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality,
         bool keeps_depth = false);
+    FrameRenderer(const FrameRenderer&) = delete; // its parts know each other by reference
+    FrameRenderer& operator=(const FrameRenderer&) = delete;
 
     /// The whole frame: observers, plan, culling and upload; cube maps; meter and probes; then each output's views,
     /// instruments, head-up display and finish. hud: the panel, or null. targets: one for each output. An output without

@@ -1,5 +1,6 @@
 #pragma once
 #include "device.h"
+#include <functional>
 #include <glm/glm.hpp>
 #include <span>
 
@@ -49,7 +50,13 @@ vk::ImageAspectFlags aspect_of(vk::Format format);
 
 /// A texture; mips are made by halving.
 Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::span<const std::byte> pixels, bool mips);
-/// A texture array without mips; pixels: one picture after the other.
+/// Writes rows of one layer, from first_row on.
+using FillRows = std::function<void(std::uint32_t layer, int first_row, int rows, std::span<std::byte> to)>;
+/// An array of pictures for sampling, without mips. It is filled a few MiB at a time, so that a large one needs no second
+/// copy of its own size on the way.
+Image make_texture_array(
+    Device& device, vk::Format format, glm::ivec2 size, std::uint32_t layers, std::size_t texel_bytes, const FillRows& fill);
+/// The same from pixels in memory, one picture after the other.
 Image make_texture_array(
     Device& device, vk::Format format, glm::ivec2 size, std::uint32_t layers, std::span<const std::byte> pixels);
 

@@ -1,19 +1,14 @@
 #pragma once
 // Shared by all tests that need a GPU: one device with the validation layers on for the whole run, worlds on it, and the
 // channels of pictures by name.
-#include "config/json/error.h"
 #include "config/model/one_view.h"
 #include "files.h"
 #include "runtime/render/offscreen.h"
 #include "runtime/render/render_context.h"
 #include "speeds.h"
-#include <array>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 namespace starbow::gpu_test {
 
@@ -25,35 +20,12 @@ using glm::ivec2;
 /// The avenue on a device with validation layers; it opens before the first test. Any message of the layers fails the run.
 class Stage : public ::testing::Environment {
 public:
-    void SetUp() override
-    {
-#ifdef __GLIBC__
-        // A software device allocates with malloc. Memory filled with 0x7e is NaN in fp16 and 8e37 in float, so that a read
-        // of memory that was never written shows in the picture.
-        mallopt(M_MMAP_MAX, 0);
-        mallopt(M_PERTURB, 0x81);
-#endif
-        context = std::make_unique<RenderContext>(testing::source_dir() / "config/scenes/avenue.json",
-            Device::Options{.validation = true, .name = device_options(false).name});
-    }
-    void TearDown() override
-    {
-        if (!context)
-            return;
-        context->device.device.waitIdle();
-        expect_no_complaints(context->device);
-        context.reset();
-    }
-    static void expect_no_complaints(const Device& device)
-    {
-        for (const std::string& complaint : device.complaints)
-            ADD_FAILURE() << "validation: " << complaint;
-    }
+    void SetUp() override;
+    void TearDown() override;
+    static void expect_no_complaints(const Device& device);
 
     static inline std::unique_ptr<RenderContext> context;
 };
-
-inline ::testing::Environment* const stage = ::testing::AddGlobalTestEnvironment(new Stage);
 
 inline RenderContext& avenue() { return *Stage::context; }
 inline Device& device() { return Stage::context->device; }
@@ -61,35 +33,20 @@ inline Pipelines& pipelines() { return Stage::context->pipelines; }
 
 /// The avenue under an empty sky, as long as this object lives.
 struct WithoutStars {
-    WithoutStars() { put_stars(device(), avenue().world, {}); }
-    ~WithoutStars() { put_stars(device(), avenue().world, load_stars(avenue().world.scene.stars->catalogue)); }
+    WithoutStars();
+    ~WithoutStars();
 };
 
 /// The quality in which tests measure shapes and numbers; their bounds belong to it. It has smooth edges and one ray a
 /// pixel.
-inline Quality test_quality()
-{
-    return within(
-        device(), {.texels_per_pixel = 1.25, .max_texels_per_pixel = 8, .cube_samples = 4, .lod_shading_texels = 2});
-}
+Quality test_quality();
 
-inline OffscreenRenderer renderer(const GpuWorld& world, const Layout& layout, bool measured = true)
-{
-    return OffscreenRenderer(device(), pipelines(), world, layout, test_quality(), measured);
-}
+OffscreenRenderer renderer(const GpuWorld& world, const Layout& layout, bool measured = true);
 
 using starbow::testing::u_of_beta, starbow::testing::u_of_gamma;
 
 /// A shot without colour effects, for tests of shapes alone.
-inline Shot shot_at(const dvec3& position, const dvec3& u, const dvec3& look, const dvec3& up = {0, 1, 0})
-{
-    Shot shot;
-    shot.position = position;
-    shot.u = u;
-    shot.ship_from_cockpit = orientation(look, up);
-    shot.effects = {true, false, false};
-    return shot;
-}
+Shot shot_at(const dvec3& position, const dvec3& u, const dvec3& look, const dvec3& up = {0, 1, 0});
 
 /// One output's EXR channels by name.
 struct Numbers {
@@ -101,13 +58,7 @@ struct Numbers {
         , channels(renderer.numbers(shot, output))
     {
     }
-    const std::vector<float>& channel(const std::string& name) const
-    {
-        for (const auto& [own, values] : channels)
-            if (own == name)
-                return values;
-        throw std::runtime_error("no channel " + name);
-    }
+    const std::vector<float>& channel(const std::string& name) const;
     int count() const { return size.x * size.y; }
     dvec2 centre(int i) const { return {i % size.x + 0.5, i / size.x + 0.5}; }
     dvec3 light(int i) const { return {channels[0].second[i], channels[1].second[i], channels[2].second[i]}; }
