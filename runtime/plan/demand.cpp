@@ -116,7 +116,7 @@ struct Held {
     }
 };
 
-void ask(Demands& demands, const Held& held, const Disc& disc, double E, int finest_clip_level)
+void add_disc(Demands& demands, const Held& held, const Disc& disc, double E, int finest_clip_level)
 {
     if (!held.touches(disc.centre, disc.radius))
         return;
@@ -239,7 +239,7 @@ struct Walk {
     void ask_for(Disc disc) const
     {
         disc.radius = std::min(pi, disc.radius + view.parallax_rad);
-        ask(demands, held, disc, E, finest_clip_level);
+        add_disc(demands, held, disc, E, finest_clip_level);
     }
 
     /// Divides the disc of a smallest block like the square around it, repeatedly where D varies over the parts. It ends

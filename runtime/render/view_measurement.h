@@ -7,7 +7,7 @@ namespace starbow {
 /// The instruments' part of a frame: overlay, panel and probes.
 struct Measuring {
     std::vector<glm::dvec3> probes; ///< unit directions in the cockpit whose light is read
-    OverlayPass::What over;
+    OverlayPass::Content over;
     const Panel* panel = nullptr; ///< readings, or null; the next frame reads it
     glm::vec4 scale{0}; ///< place of the false colours on the panel, see PanelPass::draw
 };
