@@ -7,7 +7,7 @@ namespace starbow {
 namespace {
 
 struct RetardedPosition {
-    double distance; ///< in the world
+    double distance; ///< distance in the world
     double angle_rad; ///< from the motion, as seen
     double D;
 };

@@ -78,7 +78,7 @@ template <class Each> void each_tile(const glm::dvec3& centre, double radius, in
 struct Held {
     std::array<Rect, TILE_COUNT> rects;
     glm::dvec3 axis{0, 0, 1};
-    double radius = pi; ///< of the circle around `axis` that encloses them; below 0 without surfaces
+    double radius = pi; ///< radius of the circle around `axis` that encloses them; below 0 without surfaces
 
     /// The whole sphere.
     Held()

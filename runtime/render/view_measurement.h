@@ -65,7 +65,7 @@ private:
     std::unique_ptr<Probe> probe_;
     std::unique_ptr<OverlayPass> overlay_;
     std::unique_ptr<PanelPass> panel_;
-    std::vector<vk::Rect2D> boxes_; ///< of the panel in each view
+    std::vector<vk::Rect2D> boxes_; ///< the panel's box in each view
 };
 
 } // namespace starbow
