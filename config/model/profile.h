@@ -83,7 +83,7 @@ Profile load_profile(const std::filesystem::path& file);
 /// The profile as a file's text, an axis and a button a line, without members that have their default.
 std::string profile_text(const Profile& profile);
 
-/// Writes the whole file or nothing; makes its folder. Throws InputError.
+/// Writes the whole file or nothing, so that a reader never sees a part; makes its folder. Throws InputError.
 void save_profile(const Profile& profile, const std::filesystem::path& file);
 
 /// Four hexadecimal digits, as a profile names a vendor or a product.

@@ -48,6 +48,9 @@ struct PlanScratch {
     std::vector<std::size_t> by_height;
 };
 
+/// Chooses the faces to draw, each with its rectangle and its resolution. Pure. Every texel that a pixel of the views
+/// reads, including the neighbours of its filter, lies inside an image.
+///
 /// Tiles without any direction of a view and tiles without content are left out. Any other tile is divided into the
 /// images, each with its own resolution, that cost least: Quality::image_cost_texels for each image, plus its texels.
 /// before: a plan whose memory is reused.
