@@ -3,8 +3,8 @@
 #include "shared.h"
 #include "physics/real.glsl"
 #include "physics/worldline.glsl"
-// A surface's scene-linear, pre-exposed light as basis coefficients: of reflected sunlight first, then of the world's own
-// emission spectra. Constants compile out the parts that a world does not have.
+// A surface's scene-linear, pre-exposed light as basis coefficients: of reflected sunlight first, then of the scene's
+// emission basis spectra. Constants compile out the parts that a world does not need.
 
 layout(constant_id = 0) const bool BASE_TEXTURE = true;
 layout(constant_id = 1) const bool EMISSIVE_TEXTURE = true;
@@ -13,12 +13,12 @@ layout(constant_id = 3) const bool UNLIT = false;
 layout(constant_id = 4) const int LIGHTS = MAX_LIGHTS;
 layout(constant_id = 5) const int REFLECTED = 3;
 layout(constant_id = 6) const int OWN = 0;
-layout(constant_id = 7) const int KINDS = 1; // of spectra that illuminate surfaces
-layout(constant_id = 8) const bool MATRICES = false; // otherwise the coefficients are the colour itself, and its parts
-                                                     // beyond the visible
+layout(constant_id = 7) const int KINDS = 1; // number of kinds of spectra that illuminate surfaces
+layout(constant_id = 8) const bool MATRICES = false; // otherwise the coefficients are the colour with ultraviolet and
+                                                     // infrared
 layout(constant_id = 9) const bool CLOCK = false;
-layout(constant_id = 10) const bool FINITE_EXISTENCE = false; // finite existence
-layout(constant_id = 11) const bool LAYERED = false; // one of several rest frames: writes its coverage too, after the
+layout(constant_id = 10) const bool FINITE_EXISTENCE = false; // tests existence intervals
+layout(constant_id = 11) const bool LAYERED = false; // one of several rest frames: also writes its coverage, after the
                                                      // coefficients
 layout(constant_id = 12) const bool LAMPS_MOVE = false;
 layout(constant_id = 13) const bool BLINK = false;
@@ -58,7 +58,7 @@ vec2 beyond_visible(vec3 lit, vec3 light)
         push.beyond.y < 0.0 ? mean(lit) : push.beyond.y * mean(light));
 }
 
-// Adds a surface's coefficients under a light of one kind, and those of a sunlit colour that it emits.
+// Adds a surface's coefficients under a light of one kind, and those of the sunlit colour that it emits.
 void add_lit(inout vec4 numbers[MAX_GROUPS + 1], int kind, vec3 base, vec3 light, vec3 emitted)
 {
     vec3 lit = base * light;
@@ -72,9 +72,9 @@ void add_lit(inout vec4 numbers[MAX_GROUPS + 1], int kind, vec3 base, vec3 light
     }
 }
 
-// The retarded position of a lamp that may move, as a surface sees it. Its distance is the light's travel distance in the
-// lamp's frame, its direction is in the surface's. Also D; 0: no light. towards: from the surface, at the eye's time. The
-// surface's light left `delay` earlier, and the lamp's light that it reflects left before that.
+// The retarded position of a lamp that may move, as seen from a surface. Its distance is the light's travel distance in
+// the lamp's frame, its direction is in the surface's. It also yields D; 0: no light. towards: from the surface, at the
+// eye's time. The surface's light left `delay` earlier, and the lamp's light that it reflects left before that.
 vec3 lamp_seen(LightEntry lamp, vec3 towards, float delay, out float D)
 {
     D = lamp.kind.w;
@@ -145,7 +145,7 @@ void main()
             vec3 add = lamp.radiance.rgb * (max(dot(n, towards), 0.0) * fall);
             int first = int(lamp.kind.x);
             if (LAMPS_MOVE) {
-                // Beside the shift of its spectrum, a point light's flux per frequency grows as D.
+                // In addition to the shift of its spectrum, a point light's flux per frequency grows as D.
                 float at = clamp((log2(D) - lamp.shifts.x) * lamp.shifts.y, 0.0, max(lamp.shifts.z - 1.001, 0.0));
                 add_lit(numbers, first + int(at), base.rgb, add * (D * (1.0 - fract(at))), vec3(0.0));
                 if (fract(at) > 0.0)
@@ -174,7 +174,7 @@ void main()
     for (int i = 0; i < OWN; ++i)
         numbers[(REFLECTED + i) / 4][(REFLECTED + i) % 4]
             += push.own[i] + (int(push.beyond.w) == i ? dot(luminance, emitted) : 0.0);
-    // 60000 is below fp16's greatest number: a light at arm's length must not become infinite.
+    // 60000 is below fp16's greatest number: a light very close to a surface must not become infinite.
     for (int group = 0; group < GROUPS; ++group)
         numbers[group] = clamp(numbers[group], vec4(-60000.0), vec4(60000.0));
     if (LAYERED)

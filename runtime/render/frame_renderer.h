@@ -60,7 +60,7 @@ public:
     const ViewSet& views() const { return views_; }
     const std::vector<CubeMapPlan>& plans() const { return eyes_.plans; }
     std::size_t triangles() const { return eyes_.triangles(); }
-    vk::DeviceSize memory() const; ///< of the images this object holds, bytes
+    vk::DeviceSize memory() const; ///< bytes of this object's images
 
 private:
     void apply_layout(ViewSet::Parts parts);

@@ -12,7 +12,7 @@ namespace starbow {
 /// Response tables of one standard observer on the device, for basis coefficients and for stars.
 struct ResponseBuffers {
     Buffer rows;
-    vk::raii::BufferView texels = nullptr; ///< of rows
+    vk::raii::BufferView texels = nullptr; ///< rows as texels
     float first_log2_D = 0, per_octave = 1;
     Buffer own_rows;
     Buffer black_bodies; ///< made by black_body_table

@@ -21,7 +21,7 @@ struct Image {
     vk::Format format = vk::Format::eUndefined;
     vk::Extent2D extent;
     std::uint32_t levels = 1, layers = 1;
-    vk::DeviceSize bytes = 0; ///< of device memory
+    vk::DeviceSize bytes = 0; ///< bytes of device memory
     std::uint64_t serial = 0; ///< unique, as Buffer's
 };
 

@@ -12,6 +12,8 @@ constexpr int byte_type = 5120, ubyte_type = 5121, short_type = 5122, ushort_typ
 
 constexpr double too_far = 1e30; ///< beyond it a float's square, and so a length, is infinite
 
+/// A glTF file in which every reference, range, type and path has been checked.
+///
 /// tinygltf expects files that keep the rules: it opens any file that a URI names, and trusts indices. It therefore never
 /// sees the file itself. It sees `json`, written anew from the checked members and without URIs; the bytes stay here.
 struct GuardedGltf {
