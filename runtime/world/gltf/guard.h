@@ -11,7 +11,7 @@ constexpr double too_far = 1e30; ///< beyond it a float's square, and so a lengt
 
 /// A glTF file in which every reference, range, type and path has been checked.
 ///
-/// The types of `model` are tinygltf's; its parser stays unused. That parser is built for files that keep the rules: it opens
+/// The types of `model` are tinygltf's; its parser stays unused. The parser is built for files that keep the rules: it opens
 /// the files that URIs name, and it trusts indices. Here each member goes into `model` at the place that checks it, so the
 /// file's JSON is parsed once. `model` holds no URI and no image.
 struct GuardedGltf {

@@ -130,8 +130,8 @@ template <typename TextureInfo> UvSource uv_source(const TextureInfo& info)
     };
     double angle = found->second.Has("rotation") ? found->second.Get("rotation").GetNumberAsDouble() : 0;
     double c = std::cos(angle), s = std::sin(angle);
-    // Counter-clockwise with v downwards, as the extension's text, its example and the Khronos viewer have it; the GLSL
-    // in its text reads the other way round.
+    // Counter-clockwise with v downwards, as the extension's text, its example and the Khronos viewer have it. The GLSL in
+    // its text reads the other way round.
     out.rotate_scale = glm::dmat2(c, -s, s, c);
     glm::dvec2 scale = pair("scale", glm::dvec2(1));
     out.rotate_scale[0] *= scale.x;
