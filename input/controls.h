@@ -16,7 +16,7 @@ struct Head {
 /// which they are pressed.
 struct Controls {
     std::int64_t time_ns = 0;
-    std::int64_t told_ns = 0; ///< arrival of the last report of any device; steady clock
+    std::int64_t report_ns = 0; ///< arrival of the last report of any device; steady clock
     std::optional<double> lever; ///< the throttle's place, from 0 to 1; without one, keys move it
     double throttle_rate = 0; ///< for visitors without a throttle: above 0 faster, below 0 slower
     glm::dvec3 push{0}; ///< thrusters: right, up, back; newtonian flight

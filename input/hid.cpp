@@ -297,8 +297,8 @@ void Hid::add(double dt_s, Controls& controls)
         }
         for (const std::string& trouble : mapping->troubles())
             troubles.push_back(device->info.name + ": " + trouble + " and is left out");
-        if (state.told_ns > 0)
-            controls.told_ns = std::max(controls.told_ns, state.told_ns);
+        if (state.report_ns > 0)
+            controls.report_ns = std::max(controls.report_ns, state.report_ns);
     }
     mappings_ = std::move(kept);
     if (const auto place = lever_.place(levers, now))

@@ -125,7 +125,7 @@ bool take_report(const Descriptor& descriptor, std::span<const std::uint8_t> rep
         any = true;
     }
     if (any)
-        state.told_ns = now_ns;
+        state.report_ns = now_ns;
     return any;
 }
 

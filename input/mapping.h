@@ -13,7 +13,7 @@ struct DeviceState {
     std::vector<std::optional<std::int64_t>> raw;
     std::vector<bool> tapped; ///< fields above 0 in any report since the last reading: no tap is too short
     std::vector<AxisHealth> health;
-    std::int64_t told_ns = 0; ///< arrival of the last report
+    std::int64_t report_ns = 0; ///< arrival of the last report
 };
 
 /// Takes in a report as read, its number first where the device numbers them. False for a report that fits no field.

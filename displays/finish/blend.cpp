@@ -268,7 +268,7 @@ bool has_mask(const Layout& layout, const CompiledView& view)
 /// projectors on one desktop.
 bool share_pixels(const View& a, const View& b)
 {
-    return a.output == b.output && a.layer == b.layer && glm::all(glm::lessThan(a.corner, b.corner + b.size))
+    return a.output == b.output && a.canvas == b.canvas && glm::all(glm::lessThan(a.corner, b.corner + b.size))
         && glm::all(glm::lessThan(b.corner, a.corner + a.size));
 }
 

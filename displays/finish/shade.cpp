@@ -63,7 +63,7 @@ Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::s
     for (std::size_t i = 0; i < views.size(); ++i) {
         const View& view = views[i].view;
         // The first of two pictures on the same pixels stands for both; a preview shows pictures without shading.
-        if (view.output != output || view.layer > 0)
+        if (view.output != output || view.canvas > 0)
             continue;
         const Viewport& viewport = layout.outputs[output].viewports[view.viewport];
         auto read = [&](const char* member, const std::filesystem::path& file) {

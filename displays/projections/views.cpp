@@ -8,7 +8,7 @@ namespace {
 /// An eye's part of the output: scale and offset of its fractions; and its picture's squeeze.
 struct Share {
     glm::dvec2 scale{1}, offset{0}, squeeze{1};
-    int layer = 0;
+    int canvas = 0;
 };
 
 Share share(Packing packing, Eye eye)
@@ -38,7 +38,7 @@ View make_view(const Layout& layout, std::size_t output, std::size_t viewport, E
     own.rect = {glm::dvec2(own.rect) * share.scale + share.offset, glm::dvec2(own.rect.z, own.rect.w) * share.scale};
     const glm::ivec4 rect = pixel_rect(own, size);
     View view{output, viewport};
-    view.layer = share.layer;
+    view.canvas = share.canvas;
     view.corner = {rect.x, rect.y};
     view.size = glm::max(glm::ivec2(rect.z, rect.w), 1);
     view.eye = eye;
@@ -56,7 +56,7 @@ void add_small(std::vector<View>& all, const Layout& layout, std::size_t output,
 {
     const glm::ivec2 whole = layout.outputs[output].size;
     for (View view : views_of(layout, output, whole)) {
-        if (view.layer > 0)
+        if (view.canvas > 0)
             continue;
         const glm::dvec2 shrink = glm::dvec2(cell.z, cell.w) / glm::dvec2(whole);
         const glm::ivec2 low = glm::round(glm::dvec2(view.corner) * shrink);
@@ -71,7 +71,7 @@ void add_small(std::vector<View>& all, const Layout& layout, std::size_t output,
 
 } // namespace
 
-int layers(Packing packing) { return packing >= Packing::rows ? 2 : 1; }
+int canvas_count(Packing packing) { return packing >= Packing::rows ? 2 : 1; }
 
 std::vector<glm::ivec4> preview_cells(const Layout& layout, std::size_t preview, glm::ivec2 size)
 {

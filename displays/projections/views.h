@@ -9,7 +9,7 @@ namespace starbow {
 /// display.
 struct View {
     std::size_t output, viewport; ///< of the layout; in a preview those of the shown output
-    int layer = 0; ///< of the output's canvas: 1 is the right eye's where the two eyes have a picture each
+    int canvas = 0; ///< index of the packing's canvas: 1 is the right eye's where each eye has a whole picture
     glm::ivec2 corner{0}, size{1}; ///< pixels of that picture
     Picture picture;
     bool projection_given = true; ///< as the viewport's
@@ -19,8 +19,8 @@ struct View {
     glm::dvec3 head_m{0}; ///< between the eyes; picture.eye_m is this eye
 };
 
-/// The number of pictures of a whole output's size on the packing's canvas: 1, or 2 where two eyes share pixels.
-int layers(Packing packing);
+/// The number of a packing's canvases: 1, or 2 where each eye has a picture of the whole output's size.
+int canvas_count(Packing packing);
 
 /// All views of an output of the layout, in the order of its viewports, left before right. size: pixels; it may differ from
 /// the layout's.

@@ -252,7 +252,8 @@ WarpMesh flat_mesh(const FloatMap& map, const WarpFile& map_file, WarpMesh mesh)
     return placed;
 }
 
-std::optional<WarpMesh::Mask> mask_of(const Element& files, const char* name, const ArchiveContents& contents, WarpMesh& mesh)
+std::optional<WarpMesh::Mask> mask_of(
+    const Element& files, const char* name, const ArchiveContents& contents, WarpMesh& mesh)
 {
     const std::optional<Element> element = files.find(name);
     if (!element)

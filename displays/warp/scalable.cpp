@@ -14,8 +14,7 @@ struct Key {
     double or_else(double otherwise) const { return value.value_or(otherwise); }
 };
 
-constexpr Range angle_range{-360, 360}, any_range{-1e9, 1e9}, pixel_range{1, 65536},
-    count_range{0, double(most_vertices)};
+constexpr Range angle_range{-360, 360}, any_range{-1e9, 1e9}, pixel_range{1, 65536}, count_range{0, double(most_vertices)};
 
 /// The keys that are read, in the order in which messages name a missing one.
 struct Keys {
@@ -68,9 +67,9 @@ void read_vertex(const Lines& lines, const Fields& f, WarpMesh& mesh)
 {
     if (f.size() != 5)
         lines.refuse(in_quotes(lines.text()) + " is no vertex; x y intensity s t is right");
-    mesh.vertices.push_back({{lines.number(f[0], {-1e6, 1e6}), lines.number(f[1], {-1e6, 1e6})},
-        lines.number(f[2], {0, 255}) / 255,
-        {glm::dvec3(lines.number(f[3], picture_range), 1 - lines.number(f[4], picture_range), 0)}});
+    mesh.vertices.push_back(
+        {{lines.number(f[0], {-1e6, 1e6}), lines.number(f[1], {-1e6, 1e6})}, lines.number(f[2], {0, 255}) / 255,
+            {glm::dvec3(lines.number(f[3], picture_range), 1 - lines.number(f[4], picture_range), 0)}});
 }
 
 void read_key(const Lines& lines, const Fields& f, Content& content)
@@ -80,7 +79,8 @@ void read_key(const Lines& lines, const Fields& f, Content& content)
     for (Key& key : content.keys.all)
         if (f[0] == key.name) {
             if (f.size() != 2)
-                lines.refuse(in_quotes(lines.text()) + " has no number; " + std::string(key.name) + " and a number is right");
+                lines.refuse(
+                    in_quotes(lines.text()) + " has no number; " + std::string(key.name) + " and a number is right");
             key.value = lines.number(f[1], key.range);
             known = true;
         }

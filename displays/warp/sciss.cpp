@@ -100,8 +100,8 @@ glm::dquat read_projector(Reader& in, const Head& head, WarpMesh& mesh)
     const double up = in.number("the angle up", angle), down = in.number("the angle down", angle),
                  left = in.number("the angle to the left", angle), right = in.number("the angle to the right", angle);
     if (!head.cube)
-        mesh.frustum
-            = Planar{60, checked_sides(in.file, "byte 36", {left, right, down, up}), turn_of(turn.x, turn.y, turn.z, turn.w)};
+        mesh.frustum = Planar{
+            60, checked_sides(in.file, "byte 36", {left, right, down, up}), turn_of(turn.x, turn.y, turn.z, turn.w)};
     return turn;
 }
 

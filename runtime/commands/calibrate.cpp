@@ -19,13 +19,13 @@
 namespace starbow {
 namespace {
 
-struct Options {
+struct CalibrateOptions {
     std::string device, out;
     bool quick = false, force = false;
 };
 
 constexpr double hands_off_s = 1.5, back_s = 0.7;
-constexpr int look_every_ms = 5; // a press of a button lasts a tenth of a second
+constexpr int look_every_ms = 5; // a button is down for about a tenth of a second
 constexpr int draw_every_ms = 50;
 constexpr std::size_t bar_width = 41, most_buttons = 128;
 
@@ -43,10 +43,10 @@ public:
         sigaction(SIGINT, &stop, nullptr); // no SA_RESTART: poll() shall return
     }
 
-    Look always = [] {}; ///< at what, whatever is asked
+    Look always = [] {}; ///< is called during every question
 
-    /// Asks, and waits for a line; looks meanwhile. What was typed ahead at a terminal counts for nothing: a second Enter
-    /// by mistake would skip a step.
+    /// Asks, and waits for a line; calls `look` meanwhile. Input typed ahead at a terminal is dropped: a second Enter by
+    /// mistake would skip a step.
     std::string answer(const std::string& question, const Look& look = {})
     {
         std::printf("%s ", question.c_str());
@@ -60,7 +60,7 @@ public:
                 const std::string line = typed_.substr(0, end);
                 typed_.erase(0, end + 1);
                 if (!isatty(0))
-                    std::printf("\n"); // as Enter would have
+                    std::printf("\n"); // a terminal echoes Enter
                 const auto first = line.find_first_not_of(" \t\r"), last = line.find_last_not_of(" \t\r");
                 return first == line.npos ? "" : one_line(line.substr(first, last - first + 1), 200);
             }
@@ -81,7 +81,7 @@ public:
         }
     }
 
-    /// Looks for so long.
+    /// Calls `look` again and again for this time.
     void wait(double seconds, const Look& look)
     {
         std::fflush(stdout);
@@ -104,7 +104,7 @@ private:
     std::string typed_;
 };
 
-/// The device that is calibrated, as long as it stays plugged in.
+/// The device that is being calibrated; it must stay plugged in.
 struct Watched {
     const Hid& hid;
     DeviceInfo info;
@@ -119,7 +119,7 @@ struct Watched {
     }
 };
 
-/// True at most as often as people can read.
+/// Limits how often lines are drawn, so that people can read them.
 class Pace {
 public:
     bool due()
@@ -141,10 +141,11 @@ std::string shown(const Hid::Connected& device)
         + device.info.path;
 }
 
-/// "044f:b10a" chooses by kind, "2" by its place in the list; else the only one, or the one that the person says.
+/// Chooses a device: "044f:b10a" by vendor and product, "2" by its place in the list. Without `wanted` it takes the only
+/// one, or asks.
 Watched choose(Person& person, const Hid& hid, const std::string& wanted)
 {
-    person.wait(0.5, [] {}); // until all are open
+    person.wait(0.5, [] {}); // Hid opens the devices meanwhile
     std::vector<Hid::Connected> all = hid.devices();
     if (all.empty())
         throw InputError(
@@ -180,7 +181,7 @@ Watched choose(Person& person, const Hid& hid, const std::string& wanted)
     return {hid, fitting[one].info, fitting[one].descriptor};
 }
 
-/// Names as a sentence has them: "X axis, twist (Rz)".
+/// Names joined for a sentence: "X axis, twist (Rz)".
 std::string names(const std::vector<SeenAxis>& axes, const std::function<bool(const SeenAxis&)>& which)
 {
     std::string text;
@@ -190,8 +191,8 @@ std::string names(const std::vector<SeenAxis>& axes, const std::function<bool(co
     return text;
 }
 
-/// Each axis on a line: the way it has been over, and where it is. Over the lines drawn before.
-void draw(const Watched& device, const std::vector<SeenAxis>& axes, const DeviceState& state, bool again)
+/// Draws each axis on a line, with its range so far and its present value. again: over the lines drawn before.
+void draw_axes(const Watched& device, const std::vector<SeenAxis>& axes, const DeviceState& state, bool again)
 {
     if (again)
         std::printf("\033[%zuA", axes.size());
@@ -207,12 +208,12 @@ void draw(const Watched& device, const std::vector<SeenAxis>& axes, const Device
         if (axis.field < state.raw.size() && state.raw[axis.field])
             bar[place(*state.raw[axis.field])] = '#';
         std::printf("\r\033[K  %-12s %s %s\n", describe(axis).c_str(), bar.c_str(),
-            axis.low ? (std::to_string(*axis.low) + " to " + std::to_string(*axis.high)).c_str() : "not told of yet");
+            axis.low ? (std::to_string(*axis.low) + " to " + std::to_string(*axis.high)).c_str() : "no value yet");
     }
     std::fflush(stdout);
 }
 
-/// Samples with hands off. An axis that goes about meanwhile was touched: once more, unless it never stops.
+/// Samples the resting axes. An axis that moves was touched: it samples again, unless the axis never stops.
 void stay_off(Person& person, const Watched& device, std::size_t when, double seconds, std::vector<SeenAxis>& axes)
 {
     for (int attempt = 0; attempt < 3; ++attempt) {
@@ -237,7 +238,7 @@ void find_rest(Person& person, const Watched& device, std::vector<SeenAxis>& axe
         stay_off(person, device, 0, hands_off_s, axes);
         if (std::any_of(axes.begin(), axes.end(), [](const SeenAxis& axis) { return !axis.rest[0].empty(); }))
             return;
-        question = "The device has not told anything yet. Move its controls a little, let go, and press Enter:";
+        question = "The device has not sent anything yet. Move its controls a little, let go, and press Enter:";
     }
 }
 
@@ -249,13 +250,13 @@ void find_ends(Person& person, const Watched& device, std::vector<SeenAxis>& axe
     Pace pace;
     if (isatty(1)) {
         std::printf("Then let go of everything and press Enter.\n");
-        draw(device, axes, device.now(), false);
+        draw_axes(device, axes, device.now(), false);
     }
     person.answer(isatty(1) ? "" : "Then let go of everything and press Enter:", [&] {
         const DeviceState state = device.now();
         take_ends(state, axes);
         if (isatty(1) && pace.due())
-            draw(device, axes, state, true);
+            draw_axes(device, axes, state, true);
     });
     stay_off(person, device, 1, back_s, axes);
     const std::string left
@@ -264,7 +265,7 @@ void find_ends(Person& person, const Watched& device, std::vector<SeenAxis>& axe
         std::printf("Not moved to any ends, so left as they were: %s.\n", left.c_str());
 }
 
-/// What does a role now: "Y axis" or "nothing".
+/// The axes that have a role now: "Y axis" or "nothing".
 std::string does(const Profile& present, AxisRole role, const std::vector<SeenAxis>& axes)
 {
     std::string text;
@@ -283,13 +284,13 @@ std::string does(const Profile& present, ButtonRole role)
     return text.empty() ? "nothing" : text;
 }
 
-/// Asks until one axis is moved, or Enter alone leaves the role as it was, or "none" takes it away.
+/// Asks until one axis is moved. Enter alone leaves the role as it was; "none" removes it.
 void ask_axis(Person& person, const Watched& device, const Profile& present, const std::vector<SeenAxis>& axes,
     AxisRole role, const std::string& what, DeviceState from, Chosen& chosen)
 {
     const std::string now = does(present, role, axes);
     const std::string question = what + ", hold it there, and press Enter.\n  (Now: " + now
-        + ". Enter without moving leaves it so; 'none' and Enter: nothing shall do it.)";
+        + ". Enter without moving leaves it so; 'none' and Enter: no control does it.)";
     for (;;) {
         std::string typed;
         if (role == AxisRole::throttle) {
@@ -300,7 +301,7 @@ void ask_axis(Person& person, const Watched& device, const Profile& present, con
             typed = person.answer(question);
         if (typed == "none") {
             chosen.axes.push_back({role, {}});
-            std::printf("  Nothing shall do it.\n");
+            std::printf("  No control does it.\n");
             return;
         }
         const std::vector<Push> found = pushed(device.descriptor, axes, from, device.now());
@@ -336,13 +337,12 @@ void ask_axes(
     std::printf("\nWhat each control does. Let go of everything between the questions.\n");
     const auto& applications = device.descriptor.applications;
     const bool pad = std::find(applications.begin(), applications.end(), Usage{1, 5}) != applications.end();
-    std::vector<std::pair<AxisRole, std::string>> wanted{
-        {AxisRole::nose_up, "Nose up: pull all the way what shall pull the nose up"},
-        {AxisRole::nose_right, "Nose to the right: move all the way what shall turn the nose to the right"},
-        {AxisRole::roll_right, "Roll to the right: move all the way what shall roll the ship to the right"}};
+    std::vector<std::pair<AxisRole, std::string>> wanted{{AxisRole::nose_up, "Nose up: pull the control for it all the way"},
+        {AxisRole::nose_right, "Nose to the right: move the control for it all the way"},
+        {AxisRole::roll_right, "Roll to the right: move the control for it all the way"}};
     if (pad) {
-        wanted.push_back({AxisRole::faster, "Faster: pull all the way what shall fly faster"});
-        wanted.push_back({AxisRole::slower, "Slower: pull all the way what shall fly slower"});
+        wanted.push_back({AxisRole::faster, "Faster: pull the control for it all the way"});
+        wanted.push_back({AxisRole::slower, "Slower: pull the control for it all the way"});
     } else {
         wanted.push_back({AxisRole::throttle, "Now push it to full, all the way"});
     }
@@ -351,7 +351,7 @@ void ask_axes(
         ask_axis(person, device, present, axes, role, what, from, chosen);
 }
 
-/// Numbers of the buttons that are down.
+/// The numbers of the pressed buttons.
 std::vector<int> down(const Watched& device, const DeviceState& state)
 {
     std::vector<int> numbers;
@@ -366,13 +366,12 @@ std::vector<int> down(const Watched& device, const DeviceState& state)
 
 void ask_buttons(Person& person, const Watched& device, const Profile& present, Chosen& chosen)
 {
-    std::printf(
-        "\nButtons. Press the one that shall do it, let go, then Enter. Enter alone leaves it as it is; 'none' and Enter:\n"
-        "no button shall do it.\n");
+    std::printf("\nButtons. For each line press the button to use, let go, then Enter. Enter alone leaves it as it is;\n"
+                "'none' and Enter: no button does it.\n");
     for (const auto& [role, what] : std::vector<std::pair<ButtonRole, std::string>>{{ButtonRole::stop, "Full stop"},
              {ButtonRole::home, "Back to the start"}, {ButtonRole::undo, "Ten seconds back"},
              {ButtonRole::next_mode, "Next way of flying"}})
-        for (bool asked = false; !asked;) {
+        for (bool done = false; !done;) {
             std::vector<int> before = down(device, device.now());
             std::optional<int> pressed;
             const std::string typed = person.answer(what + " (now " + does(present, role) + "):", [&] {
@@ -382,15 +381,15 @@ void ask_buttons(Person& person, const Watched& device, const Profile& present, 
                         pressed = button;
                 before = now;
             });
-            asked = true;
+            done = true;
             const auto taken = std::find_if(chosen.buttons.begin(), chosen.buttons.end(),
                 [&](const auto& answer) { return pressed && answer.second == pressed; });
             if (typed == "none") {
                 chosen.buttons.push_back({role, {}});
-                std::printf("  No button shall do it.\n");
+                std::printf("  No button does it.\n");
             } else if (taken != chosen.buttons.end()) {
                 std::printf("  Button %d is %s already. Press another.\n", *pressed, name_of(taken->first).c_str());
-                asked = false;
+                done = false;
             } else if (pressed) {
                 chosen.buttons.push_back({role, pressed});
                 std::printf("  Button %d.\n", *pressed);
@@ -398,8 +397,8 @@ void ask_buttons(Person& person, const Watched& device, const Profile& present, 
         }
 }
 
-/// What a person should know of an axis' calibration, or "".
-std::string doubt(const AxisMeasure& is, const AxisUse& use)
+/// A warning about an axis' calibration, or "".
+std::string warning_of(const AxisMeasure& is, const AxisUse& use)
 {
     if (!is.moved)
         return "not moved: as it was";
@@ -424,7 +423,7 @@ void show(const Watched& device, const std::vector<SeenAxis>& axes, const Profil
             char zone[16];
             std::snprintf(zone, sizeof zone, "%.1f %%", 100 * use.dead_zone);
             std::printf("  %-14s %-11s %-16s %-9s %-10s %-9s %s\n", describe(axes[*i]).c_str(), name_of(use.role).c_str(),
-                ends.c_str(), middle.c_str(), zone, use.inverted ? "yes" : "no", doubt(is, use).c_str());
+                ends.c_str(), middle.c_str(), zone, use.inverted ? "yes" : "no", warning_of(is, use).c_str());
         }
     for (const ButtonUse& use : profile.buttons)
         std::printf("  button %-7d %s\n", use.button, name_of(use.role).c_str());
@@ -437,7 +436,7 @@ std::filesystem::path own_file(const Profile& profile)
     std::string name = ids;
     if (!profile.serial.empty()) {
         name += "-";
-        for (const char c : profile.serial) // a serial number may hold anything, a file's name not
+        for (const char c : profile.serial) // a serial number may hold characters that a file's name can't
             name += std::isalnum((unsigned char)(c)) || c == '.' || c == '_' ? c : '_';
     }
     return own_profiles() / (name + ".json");
@@ -457,17 +456,17 @@ void ask_name(Person& person, const Watched& device, Profile& profile)
         profile.serial = device.info.serial;
 }
 
-/// A later and more special profile counts before the one just written: the person would wonder.
-void tell_what_counts(const Watched& device, const std::filesystem::path& file)
+/// Prints the profile that this device will use, if it is not the one just written.
+void report_other_profile(const Watched& device, const std::filesystem::path& file)
 {
     const Profile counts = profile_for(known_profiles(), device.info, device.descriptor);
     std::error_code error;
     if (!std::filesystem::equivalent(counts.file, file, error))
         std::printf("For this device %s counts before it.\n",
-            counts.file.empty() ? "what its usages say" : counts.file.string().c_str());
+            counts.file.empty() ? "the profile made from its usages" : counts.file.string().c_str());
 }
 
-int calibrate(const Options& options)
+int calibrate(const CalibrateOptions& options)
 {
     const std::vector<Profile> known = known_profiles();
     Person person;
@@ -506,7 +505,7 @@ int calibrate(const Options& options)
     std::printf("\nWritten to %s.\nAn exhibit that is running goes on with what it has and reads this at its next start.\n",
         file.c_str());
     if (options.out.empty())
-        tell_what_counts(device, file);
+        report_other_profile(device, file);
     return 0;
 }
 
@@ -514,14 +513,13 @@ int calibrate(const Options& options)
 
 void add_calibrate(CLI::App& app, std::function<int()>& chosen)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CalibrateOptions>();
     CLI::App* command = app.add_subcommand(
-        "calibrate", "Lead through the calibration of a stick, throttle, pad or pedals, and write its profile.");
+        "calibrate", "Guide you through the calibration of a stick, throttle, pad or pedals, and write its profile.");
     command->add_option("--device", options->device,
-        "Which, where several are plugged in: its four and four hexadecimal digits, or its number in the list");
-    command->add_option(
-        "--out", options->out, "The profile's file; without it, one of your own in ~/.config/starbow/profiles");
-    command->add_flag("--quick", options->quick, "Middle and ends alone; what the controls do stays as it is");
+        "The device, if several are plugged in: its four and four hexadecimal digits, or its number in the list");
+    command->add_option("--out", options->out, "The profile's file; without it, a file in ~/.config/starbow/profiles");
+    command->add_flag("--quick", options->quick, "Middle and ends alone; the controls keep their roles");
     command->add_flag("--force", options->force, "Replace a file of that name without asking");
     command->footer("Asks step by step and writes at the end; Ctrl-C gives up, and nothing is written.\n\n"
                     "Examples:\n  starbow calibrate\n  starbow calibrate --device 044f:b10a --quick\n"

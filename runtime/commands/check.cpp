@@ -16,12 +16,13 @@
 namespace starbow {
 namespace {
 
-struct Options {
+struct CheckOptions {
     std::string layout, svg;
 };
 
-/// What the pixels of bent viewports look at: their compiled maps. Throws InputError for what can be read but not be drawn.
-ViewRegion compiled_sight(const Layout& layout)
+/// The directions of warped viewports' pixels, from their compiled maps. Throws InputError for a layout that can be read
+/// but not drawn.
+ViewRegion compiled_region(const Layout& layout)
 {
     MapStore store;
     auto maps = std::make_shared<std::map<const Viewport*, CompiledView>>();
@@ -41,7 +42,7 @@ ViewRegion compiled_sight(const Layout& layout)
     };
 }
 
-int check(const Options& options)
+int check(const CheckOptions& options)
 {
     const std::filesystem::path layout_file = shipped_file("layouts", options.layout);
     const Layout layout = load_layout(layout_file);
@@ -49,7 +50,7 @@ int check(const Options& options)
     check_not_read(file, {layout_file});
     check_ending(file, ".svg");
     check_writable(file);
-    const std::vector<Coverage> shown = coverages(layout, compiled_sight(layout));
+    const std::vector<Coverage> shown = coverages(layout, compiled_region(layout));
     for (const FloorPlanRow& row : floor_plan_rows(layout, shown))
         std::printf("%s: %s; %s, %s of the sky; %s pixels, %s per degree\n", row.name.c_str(), row.projection.c_str(),
             row.spans.c_str(), row.sky.c_str(), row.pixels.c_str(),
@@ -73,9 +74,9 @@ int check(const Options& options)
 
 void add_check(CLI::App& app, std::function<int()>& chosen)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CheckOptions>();
     CLI::App* command
-        = app.add_subcommand("check", "Read a layout, tell what each viewport shows, and draw the plan of it.");
+        = app.add_subcommand("check", "Read a layout, print what each viewport shows, and draw the floor plan.");
     command->add_option("FILE", options->layout, "A layout file, or the name of one in config/layouts")->required();
     command->add_option("--svg", options->svg, "The drawing; without it LAYOUT-plan.svg in the current folder");
     command->footer("Example:\n  starbow check dome --svg out/dome.svg");

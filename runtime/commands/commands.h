@@ -7,7 +7,8 @@ class App;
 
 namespace starbow {
 
-/// Each adds its subcommand, whose options choose what `chosen` does and returns as the exit status.
+/// Each function adds one subcommand to `app`. After parsing, `chosen` runs the given subcommand and returns the exit
+/// status.
 void add_run(CLI::App& app, std::function<int()>& chosen);
 void add_render(CLI::App& app, std::function<int()>& chosen);
 void add_devices(CLI::App& app, std::function<int()>& chosen);

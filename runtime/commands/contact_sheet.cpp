@@ -32,7 +32,7 @@ std::vector<Job> jobs()
 
 constexpr int cell_width = 400, cell_height = 300, label_height = 28, columns = 3;
 
-/// Pictures in a grid, each with its name below it; RGBA8 in sRGB.
+/// A grid of pictures with their names below; RGBA8 in sRGB.
 struct Sheet {
     glm::ivec2 size;
     std::vector<std::uint8_t> rgba;
@@ -43,7 +43,7 @@ struct Sheet {
     {
     }
 
-    /// Shrinks by averaging whole pixels (in the encoded values: thumbnails), keeping the aspect.
+    /// Shrinks a picture by averaging whole pixels, in the encoded values, and keeps its aspect.
     void place(int index, const std::string& name, glm::ivec2 from, const std::vector<std::uint8_t>& picture,
         const Typesetter& typesetter)
     {

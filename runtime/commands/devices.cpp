@@ -19,14 +19,15 @@ namespace {
 
 using nlohmann::json;
 
-struct Options {
+struct DevicesOptions {
     std::string describe;
     double seconds = 0;
 };
 
 constexpr std::size_t most_bytes = 1 << 20;
 
-/// Hexadecimal digits in pairs, with or without 0x, blanks and commas; comments from # or // to the line's end.
+/// Parses pairs of hexadecimal digits, with or without 0x, blanks and commas. Comments run from # or // to the line's
+/// end.
 std::optional<std::vector<std::uint8_t>> from_hex(const std::string& text)
 {
     std::string digits;
@@ -51,7 +52,7 @@ std::optional<std::vector<std::uint8_t>> from_hex(const std::string& text)
     return bytes;
 }
 
-/// A descriptor as raw bytes, as hexadecimal text, or as JSON with a member "descriptor_hex".
+/// Reads a descriptor: raw bytes, hexadecimal text, or JSON with a member "descriptor_hex". Throws InputError.
 std::vector<std::uint8_t> descriptor_in(const std::string& file)
 {
     std::ifstream stream(file, std::ios::binary);
@@ -76,7 +77,7 @@ std::vector<std::uint8_t> descriptor_in(const std::string& file)
     return {text.begin(), text.end()};
 }
 
-json describe(const Field& field)
+json json_of(const Field& field)
 {
     json out = {{"report_id", field.report_id}, {"usage_page", field.usage.page}, {"usage", field.usage.id},
         {"bit_offset", field.bit_offset}, {"bits", field.bits}, {"logical_min", field.logical_min},
@@ -94,7 +95,7 @@ json describe(const Field& field)
     return out;
 }
 
-int describe(const std::string& file)
+int print_descriptor(const std::string& file)
 {
     const Descriptor found = parse_descriptor(descriptor_in(file));
     if (found.fields.empty() && found.report_bits.empty())
@@ -108,18 +109,18 @@ int describe(const std::string& file)
     for (const auto& [id, bits] : found.report_bits)
         out["input_report_bits"][std::to_string(id)] = bits;
     for (const Field& field : found.fields)
-        out["fields"].push_back(describe(field));
+        out["fields"].push_back(json_of(field));
     if (!found.stopped.empty())
         out["stopped"] = found.stopped;
     std::printf("%s\n", out.dump(2).c_str());
     return 0;
 }
 
-/// A device's axes as bars, each on a line of its own.
-void draw(const Hid::Connected& device)
+/// Draws a device's axes as bars, one on each line.
+void draw_controls(const Hid::Connected& device)
 {
     std::printf(
-        "%s, %s, profile: %s\n", starbow::describe(device.info).c_str(), device.info.path.c_str(), device.profile.c_str());
+        "%s, %s, profile: %s\n", describe(device.info).c_str(), device.info.path.c_str(), device.profile.c_str());
     std::string buttons;
     for (std::size_t i = 0; i < device.descriptor.fields.size(); ++i) {
         const Field& field = device.descriptor.fields[i];
@@ -133,16 +134,16 @@ void draw(const Hid::Connected& device)
             if (raw)
                 bar[std::size_t(20.5 + 20 * centred(field, *raw))] = '#';
             std::printf("  %-9s %u/%-3u %s %s\n", name_of(field.usage).c_str(), field.usage.page, field.usage.id,
-                bar.c_str(), raw ? std::to_string(*raw).c_str() : "not told of yet");
+                bar.c_str(), raw ? std::to_string(*raw).c_str() : "no value yet");
         }
     }
     std::printf("  buttons:%s\n", buttons.empty() ? " none" : buttons.c_str());
 }
 
-int devices(const Options& options)
+int devices(const DevicesOptions& options)
 {
     if (!options.describe.empty())
-        return describe(options.describe);
+        return print_descriptor(options.describe);
     Hid hid(known_profiles(), info_log("input"));
     const bool live = options.seconds > 0;
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(live ? options.seconds : 0.5);
@@ -152,7 +153,7 @@ int devices(const Options& options)
             std::printf("\033[H\033[2J");
         const auto all = hid.devices();
         for (const Hid::Connected& device : all)
-            draw(device);
+            draw_controls(device);
         if (all.empty())
             std::printf("no stick, throttle, pad or space mouse that may be read is plugged in\n");
         std::fflush(stdout);
@@ -165,12 +166,12 @@ int devices(const Options& options)
 
 void add_devices(CLI::App& app, std::function<int()>& chosen)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<DevicesOptions>();
     CLI::App* command
         = app.add_subcommand("devices", "List sticks, throttles, pads and space mice, with their axes and buttons.");
     command->add_option("--seconds", options->seconds, "Show them live for so long")->check(CLI::Range(0.0, 1e9));
     command->add_option("--describe", options->describe,
-        "Instead: what a report descriptor declares, as JSON. A file of raw bytes, of hexadecimal text, or JSON with "
+        "Instead: print a report descriptor's declarations as JSON. A file of raw bytes, of hexadecimal text, or JSON with "
         "\"descriptor_hex\"");
     command->footer("Examples:\n  starbow devices --seconds 60\n  starbow devices --describe "
                     "/sys/class/hidraw/hidraw0/device/report_descriptor");

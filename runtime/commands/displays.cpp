@@ -8,7 +8,7 @@
 namespace starbow {
 namespace {
 
-void list(const GpuListing& gpu)
+void print(const GpuListing& gpu)
 {
     std::printf(
         "GPU %s (%s; %s)%s\n", gpu.name.c_str(), gpu.kind.c_str(), gpu.driver.c_str(), gpu.chosen ? ": is used" : "");
@@ -16,7 +16,7 @@ void list(const GpuListing& gpu)
         std::printf("    can't be used: it %s\n", gpu.refusal.c_str());
 }
 
-void list(const Monitor& monitor)
+void print(const Monitor& monitor)
 {
     std::printf("monitor %s: %d x %d at [%d, %d], %.2f Hz", monitor.connector.c_str(), monitor.size.x, monitor.size.y,
         monitor.position.x, monitor.position.y, monitor.refresh_hz);
@@ -36,7 +36,7 @@ int displays()
     const bool windows = has_display();
     const std::vector<GpuListing> gpus = list_gpus(device_options(windows));
     for (const GpuListing& gpu : gpus)
-        list(gpu);
+        print(gpu);
     if (gpus.empty())
         std::printf(
             "There is no GPU that Vulkan knows: install mesa-vulkan-drivers (software) or the GPU maker's driver.\n");
@@ -47,7 +47,7 @@ int displays()
     const WindowSystem window_system;
     const Desktop desktop;
     for (const Monitor& monitor : desktop.monitors())
-        list(monitor);
+        print(monitor);
     if (desktop.monitors().empty())
         std::printf("The display server shows no monitor: is one plugged in and switched on?\n");
     return 0;

@@ -36,9 +36,9 @@ using json = nlohmann::ordered_json;
 struct Report {
     std::vector<std::string> lines;
     json facts;
-    std::vector<std::pair<std::string, std::string>> wrong; ///< a problem, and what would mend it
+    std::vector<std::pair<std::string, std::string>> wrong; ///< a problem and its remedy
 
-    /// label: at the start of the line; empty: the line goes on with the one above.
+    /// label: at the start of the line; empty: the line continues the one above.
     void line(const std::string& label, const std::string& text)
     {
         std::string padded = label;
@@ -68,7 +68,7 @@ std::string size_text(double bytes)
     return text;
 }
 
-/// The folder itself, or the nearest above it that is there.
+/// The folder itself, or the nearest existing one above it.
 fs::path nearest(fs::path folder)
 {
     std::error_code error;
@@ -78,7 +78,7 @@ fs::path nearest(fs::path folder)
     return folder;
 }
 
-/// Names in a folder that begin so, in order.
+/// Sorted entries of a folder whose names begin with `start`.
 std::vector<fs::path> entries(const fs::path& folder, const std::string& start)
 {
     std::vector<fs::path> all;
@@ -107,7 +107,7 @@ void examine_system(Report& report)
     report.line("system", name + ", " + running + ", " + std::to_string(cores) + " processor cores");
 }
 
-/// The maker of a graphics card that the kernel knows, or "".
+/// The maker of a graphics card that the kernel reports, or "".
 std::string card_maker()
 {
     for (const fs::path& card : entries("/sys/class/drm", "card")) {
@@ -270,7 +270,7 @@ void examine_disk(Report& report)
         if (at->is_regular_file(error))
             bytes += at->file_size(error), ++files;
     const fs::path place = folder.empty() ? fs::current_path(error) : nearest(folder);
-    // The folder is made at need: then it is the one above it that counts.
+    // The folder is made at need, so the nearest folder above it must be writable.
     const bool writable = !folder.empty() && fs::is_directory(place, error) && access(place.c_str(), W_OK | X_OK) == 0;
     report.facts["cache"] = {{"folder", folder.string()}, {"bytes", bytes}, {"files", files}, {"can_be_written", writable}};
     if (folder.empty())
@@ -287,7 +287,7 @@ void examine_disk(Report& report)
     json& facts = report.facts["disk"] = json::array();
     std::string label = "disk";
     const fs::path here = fs::current_path(error);
-    std::vector<dev_t> devices; // folders on one disk share its space
+    std::vector<dev_t> devices; // folders on one disk share its free space
     for (const fs::path& where : {place, here}) {
         struct stat found { };
         if (stat(where.c_str(), &found) != 0 || std::find(devices.begin(), devices.end(), found.st_dev) != devices.end())
@@ -304,7 +304,7 @@ void examine_disk(Report& report)
     }
 }
 
-/// Reads every shipped file of one kind. load throws InputError for a wrong one.
+/// Reads every shipped file of one kind and returns their number. load: throws InputError for a wrong file.
 template <class Load> std::size_t examine_kind(Report& report, const fs::path& config, const char* kind, Load load)
 {
     std::size_t count = 0;
@@ -384,7 +384,7 @@ int doctor(bool as_json)
     report.facts["version"] = STARBOW_VERSION;
     report.facts["build"] = STARBOW_BUILD_TYPE;
     report.lines.push_back("Starbow " STARBOW_VERSION ", build type " STARBOW_BUILD_TYPE);
-    // One part that fails must not hide the others.
+    // A failing part must not hide the others.
     const auto examine = [&](const char* part, auto&& look) {
         try {
             look();

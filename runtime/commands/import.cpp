@@ -13,7 +13,7 @@
 namespace starbow {
 namespace {
 
-struct Options {
+struct ImportOptions {
     std::string file, out;
     int node = 0;
     bool force = false;
@@ -25,11 +25,12 @@ MeshView view_of(const std::filesystem::path& mesh)
         const WarpMesh read = load_warp({mesh});
         return {read.frustum || read.kind == WarpMesh::Kind::colours, read.eye_m};
     } catch (const InputError&) {
-        return {}; // as its kind has it; what is wrong with the file is told where the layout is tried
+        return {}; // the format's default; faults() reports errors in the file
     }
 }
 
-/// What keeps the layout in a file from being shown, a line each: every file that is missing, or else what is wrong first.
+/// The errors that keep the layout in a file from being shown, one on each line: every missing file, or else the first
+/// other error.
 std::vector<std::string> faults(const std::filesystem::path& file)
 {
     std::vector<std::string> found;
@@ -63,7 +64,7 @@ std::vector<std::string> faults(const std::filesystem::path& file)
     return found;
 }
 
-int import(const Options& options)
+int import(const ImportOptions& options)
 {
     const Document document = read_document(options.file);
     check_not_read(options.out, {options.file});
@@ -73,20 +74,20 @@ int import(const Options& options)
                                 to = std::filesystem::absolute(options.out).parent_path().lexically_normal();
     const Import import = import_sgct(document, options.node, from.lexically_relative(to),
         [&](const std::filesystem::path& mesh) { return view_of(from / mesh); });
-    std::error_code ignored; // told by the stream
+    std::error_code ignored; // the stream reports it
     std::filesystem::create_directories(to, ignored);
     nlohmann::ordered_json layout;
     try {
         layout["$schema"] = std::filesystem::proximate(home() / "config/schema/layout.schema.json", to).generic_string();
     } catch (const InputError&) {
-        // A program apart from its checkout has no schema to lead to.
+        // A program outside its checkout has no schema to refer to.
     }
     const HudPlacement hud;
     layout["hud"] = {{"azimuth_deg", hud.azimuth_deg}, {"elevation_deg", hud.elevation_deg}, {"width_deg", hud.width_deg}};
     layout.update(import.layout);
     std::ofstream stream(options.out);
     stream << "// Made of SGCT's " << one_line(options.file)
-           << " by 'starbow import sgct', which tells what became of each member.\n"
+           << " by 'starbow import sgct', which reports the new place of each member.\n"
            << layout.dump(4) << "\n";
     if (!stream.flush())
         throw InputError(options.out, "", "can't be written; give a file in a folder that can be");
@@ -104,17 +105,17 @@ int import(const Options& options)
 
 void add_import(CLI::App& app, std::function<int()>& chosen)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ImportOptions>();
     CLI::App* command = app.add_subcommand("import", "Make a layout of another program's configuration.");
     command->require_subcommand(1);
-    CLI::App* sgct = command->add_subcommand("sgct", "Of SGCT's JSON; says line by line what became of each member");
+    CLI::App* sgct = command->add_subcommand("sgct", "Import SGCT's JSON; prints the new place of each member");
     sgct->add_option("file", options->file, "SGCT's configuration")->required();
     sgct->add_option("--out", options->out, "The layout's file")->required();
-    sgct->add_option("--node", options->node, "Which of several machines, from 0")
+    sgct->add_option("--node", options->node, "The machine's number among several, from 0")
         ->check(whole_number(0, 1023))
         ->capture_default_str();
     sgct->add_flag("--force", options->force, "Replace a file of that name");
-    sgct->footer("Where something is to be mended before the layout loads, the last lines say what, and it ends with 1.\n\n"
+    sgct->footer("If values must be mended before the layout loads, the last lines name them, and the exit status is 1.\n\n"
                  "Example:\n  starbow import sgct single_fisheye.json --out my/dome.json");
     command->footer("Example:\n  starbow import sgct single_fisheye.json --out my/dome.json");
     sgct->callback([options, &chosen] { chosen = [options] { return import(*options); }; });

@@ -7,7 +7,7 @@
 
 namespace {
 
-/// One line, whatever a name or an argument holds: control characters are not for the terminal.
+/// Prints one line on standard error. Control characters in names or arguments must not reach the terminal.
 int complain(std::string text)
 {
     for (char& c : text)
@@ -17,7 +17,7 @@ int complain(std::string text)
     return 2;
 }
 
-/// Names as a sentence has them: "a, b and c are".
+/// Names joined for a sentence: "a, b and c are".
 std::string there_are(const std::vector<std::string>& names)
 {
     std::string list;
@@ -26,15 +26,15 @@ std::string there_are(const std::vector<std::string>& names)
     return list + (names.size() == 1 ? " is" : " are");
 }
 
-/// What the command line holds that there is not, or "". Said before what it lacks: most often the one is the other
-/// misspelt.
+/// The first unknown option or command, with the known ones, or "". It is reported before a missing argument: most often
+/// the unknown one is the missing one misspelt.
 std::string unknown(const CLI::App& app)
 {
     const std::vector<std::string> left = app.remaining();
     const std::vector<CLI::App*> taken = app.get_subcommands();
     if (left.empty())
         return taken.empty() ? "" : unknown(*taken.back());
-    std::string whole_name = "starbow"; // app's, with those before it
+    std::string whole_name = "starbow"; // the command's name with its parents'
     for (const CLI::App* at = &app; at->get_parent(); at = at->get_parent())
         whole_name.insert(7, " " + at->get_name());
     std::vector<std::string> names;
@@ -79,7 +79,7 @@ int main(int count, char** arguments)
         if (error.get_exit_code() == 0)
             return app.exit(error); // help, or the version
         const std::string what = unknown(app);
-        return complain((what.empty() ? error.what() : what) + "; 'starbow --help' tells what there is");
+        return complain((what.empty() ? error.what() : what) + "; 'starbow --help' lists commands and options");
     }
     return guarded(chosen);
 }

@@ -6,7 +6,7 @@
 
 namespace starbow {
 
-/// Tells a person at a terminal how far a picture is, and about how long the rest may take.
+/// Shows the progress of a picture on a terminal, with an estimate of the rest.
 class Rows {
 public:
     explicit Rows(const std::string& output)
@@ -15,10 +15,10 @@ public:
     }
     ~Rows()
     {
-        if (told_)
+        if (shown_)
             std::fprintf(stderr, "\r%70s\r", "");
     }
-    void tell(int done, int rows)
+    void show(int done, int rows)
     {
         using namespace std::chrono;
         const auto now = steady_clock::now();
@@ -26,7 +26,7 @@ public:
             first_ = done, began_ = now;
         if (!isatty(STDERR_FILENO) || now - last_ < std::chrono::milliseconds(200))
             return;
-        last_ = now, told_ = true;
+        last_ = now, shown_ = true;
         std::fprintf(stderr, "\r%-30.30s %d of %d rows", output_.c_str(), done, rows);
         if (done > first_)
             std::fprintf(
@@ -37,7 +37,7 @@ public:
 private:
     std::string output_;
     int first_ = 0;
-    bool told_ = false;
+    bool shown_ = false;
     std::chrono::steady_clock::time_point began_, last_;
 };
 

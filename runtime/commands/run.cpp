@@ -21,14 +21,14 @@
 namespace starbow {
 namespace {
 
-struct Options {
+struct RunOptions {
     std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, language, tour, log, quality,
                 ladder, trace, warm_up = "auto";
     double frame_budget_ms = -1; ///< below 0: the exhibit's
     double log_every_s = 0;
     long frames = 0;
     bool verbose = false;
-    bool asked = false; ///< for anything of the above
+    bool any_given = false; ///< true if any of the options above is given
 };
 
 /// The options of a record's replay: its own scene, start and rules. layout: replaces the record's; empty: keeps it.
@@ -47,12 +47,12 @@ ExhibitOptions reopen(const std::filesystem::path& record, const std::string& la
         .replay = record};
 }
 
-ExhibitOptions open(const Options& options)
+ExhibitOptions open(const RunOptions& options)
 {
     if (!options.replay.empty())
         return reopen(options.replay, options.layout, options.language);
     Exhibit exhibit = load_exhibit(shipped_file("exhibits", options.exhibit));
-    // What the command line names counts; a scene or a shot of its own replaces both of the file's.
+    // The command line has precedence over the exhibit file. A scene or a shot of its own replaces both of the file's.
     if (!options.layout.empty())
         exhibit.layout = options.layout;
     if (!options.scene.empty())
@@ -97,7 +97,7 @@ ExhibitOptions open(const Options& options)
     return exhibit_options;
 }
 
-int run(const Options& options)
+int run(const RunOptions& options)
 {
     open_log({.lowest = options.verbose ? LogLevel::debug : LogLevel::info});
     ExhibitOptions exhibit_options = open(options);
@@ -106,7 +106,7 @@ int run(const Options& options)
         exhibit_options.warms_up = options.warm_up == "always";
     exhibit_options.log = options.log;
     exhibit_options.log_every_s = options.log_every_s;
-    if (!has_display() && options.asked)
+    if (!has_display() && options.any_given)
         throw InputError(
             "There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere), so no window can be opened; "
             "starbow render, which needs none, is right");
@@ -131,7 +131,7 @@ int run(const Options& options)
 
 void add_run(CLI::App& app, std::function<int()>& chosen)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RunOptions>();
     CLI::App* command = app.add_subcommand(
         "run", "Fly: opens the layout's windows. Without a display server it draws the default shots to out/.");
     command
@@ -146,7 +146,8 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--pattern", options->pattern, pattern_help)->capture_default_str();
     command->add_option("--frames", options->frames, "Leave after so many frames")->check(whole_number(0, 1000000000));
     command->add_option("--record", options->record,
-        "Keep every control of the flight in this new file (or in a new file in this folder), for --replay. A minute at 60 "
+        "Record every control of the flight in this new file (or in a new file in this folder), for --replay. A minute at "
+        "60 "
         "frames a second takes 70 kB at rest, 0.4 MB with a stick in hand, 1.2 MB with a head tracker");
     CLI::Option* log = command->add_option("--log", options->log,
         "Write what the instruments read into this CSV file, a line each time K is pressed; one that is there is continued");
@@ -162,14 +163,15 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--trace", options->trace,
         "Write what each frame spends its time on into this JSON file, for ui.perfetto.dev or chrome://tracing; an older "
         "file is replaced");
-    CLI::Option* verbose = command->add_flag("--verbose", options->verbose, "Tell more on standard error");
+    CLI::Option* verbose = command->add_flag("--verbose", options->verbose, "Log debug messages on standard error");
     CLI::Option* quality
         = command->add_option("--quality", options->quality, quality_help + std::string(" [the exhibit's]"));
-    CLI::Option* hold = command
-                            ->add_option("--frame-budget-ms", options->frame_budget_ms,
-                                "Hold the time of a whole frame by moving along the ladder of measured qualities; 0: don't")
-                            ->check(CLI::Range(0.0, 1000.0))
-                            ->excludes(quality);
+    CLI::Option* hold
+        = command
+              ->add_option("--frame-budget-ms", options->frame_budget_ms,
+                  "Hold the time of a whole frame at this by moving along the ladder of measured qualities; 0: don't")
+              ->check(CLI::Range(0.0, 1000.0))
+              ->excludes(quality);
     command
         ->add_option("--ladder", options->ladder,
             "For --frame-budget-ms: a ladder that starbow measure wrote, or the name of one in config/qualities [ladder]")
@@ -189,7 +191,7 @@ void add_run(CLI::App& app, std::function<int()>& chosen)
           "starbow run --tour first-minute\n  starbow run --trace out/trace.json --verbose");
     command->callback([options, command, verbose, &chosen] {
         for (const CLI::Option* option : command->get_options())
-            options->asked = options->asked || (option != verbose && option->count() > 0);
+            options->any_given = options->any_given || (option != verbose && option->count() > 0);
         chosen = [options] { return run(*options); };
     });
 }

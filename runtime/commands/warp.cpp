@@ -15,7 +15,7 @@
 namespace starbow {
 namespace {
 
-struct Options {
+struct WarpOptions {
     std::string file, out, size, region, frustum, aspect;
     bool first_row_on_top = false, force = false;
     Warp warp() const { return {file, frustum, region, first_row_on_top}; }
@@ -97,7 +97,7 @@ void tell(const WarpMesh& mesh)
         line("note", note);
 }
 
-int inspect(const Options& options)
+int inspect(const WarpOptions& options)
 {
     const glm::ivec2 size = parse_size(options.size, 8192).value_or(glm::ivec2(1024, 640));
     const WarpMesh mesh = load_warp(options.warp());
@@ -116,7 +116,7 @@ int inspect(const Options& options)
 
 void write_text(const std::filesystem::path& file, const std::string& bytes)
 {
-    std::error_code ignored; // told by the stream
+    std::error_code ignored; // the stream reports it
     if (file.has_parent_path())
         std::filesystem::create_directories(file.parent_path(), ignored);
     std::ofstream stream(file, std::ios::binary);
@@ -126,7 +126,7 @@ void write_text(const std::filesystem::path& file, const std::string& bytes)
     std::printf("%s\n", file.c_str());
 }
 
-/// What is lost of a mesh that was sampled or not and then written to a file of a kind.
+/// The losses of a mesh that was possibly sampled and then written with this file extension, one sentence each.
 std::vector<std::string> losses(const WarpMesh& original, const WarpMesh& mesh, const std::string& extension)
 {
     std::vector<std::string> all;
@@ -135,7 +135,7 @@ std::vector<std::string> losses(const WarpMesh& original, const WarpMesh& mesh, 
             return std::any_of(t.begin(), t.end(), [&](std::uint32_t i) { return odd(of.vertices[i]); });
         });
     };
-    const auto beyond = [](const glm::dvec2& p) { // rounding apart
+    const auto beyond = [](const glm::dvec2& p) { // apart from rounding
         return std::max({-p.x, -p.y, p.x - 1, p.y - 1}) > 1e-9;
     };
     if (mesh.format != original.format) {
@@ -151,14 +151,14 @@ std::vector<std::string> losses(const WarpMesh& original, const WarpMesh& mesh, 
     const bool bourke = extension == ".data" || extension == ".map";
     if (bourke && any(mesh, [&](const WarpVertex& v) { return beyond(glm::dvec2(v.sees[0])); }))
         all.push_back("what looks beyond the picture becomes a hole: this format has no room for it");
-    if (!bourke && any(mesh, [](const WarpVertex& v) { return std::abs(v.intensity - 1) > 1e-6; })) // rounding apart
+    if (!bourke && any(mesh, [](const WarpVertex& v) { return std::abs(v.intensity - 1) > 1e-6; })) // apart from rounding
         all.push_back("the vertices' brightness is lost: this format has no room for it");
     if (mesh.frustum && extension != ".csv")
         all.push_back("the frustum is lost: this format has no room for it");
     return all;
 }
 
-int convert(const Options& options)
+int convert(const WarpOptions& options)
 {
     std::string extension = std::filesystem::path(options.out).extension();
     std::transform(
@@ -203,31 +203,31 @@ int convert(const Options& options)
     return 0;
 }
 
-void add_input(CLI::App& command, Options& options)
+void add_input(CLI::App& command, WarpOptions& options)
 {
     command.add_option("file", options.file, "A warp file")->required();
-    command.add_option("--region", options.region, "Which region of an MPCDI file that has several");
+    command.add_option("--region", options.region, "The region, if an MPCDI file has several");
     command.add_option("--frustum", options.frustum, "domeprojection's NAME_frustum.csv, if it is elsewhere");
     command.add_flag(
-        "--first-row-on-top", options.first_row_on_top, "The first row of a PFM is its top one, against the standard");
+        "--first-row-on-top", options.first_row_on_top, "Take a PFM's first row as its top one, against the standard");
 }
 
 } // namespace
 
 void add_warp(CLI::App& app, std::function<int()>& chosen)
 {
-    CLI::App* command = app.add_subcommand("warp", "Look into calibrations, and change their format.");
+    CLI::App* command = app.add_subcommand("warp", "Inspect calibrations, and convert them to another format.");
     command->require_subcommand(1);
-    auto looking = std::make_shared<Options>(), changing = std::make_shared<Options>();
+    auto looking = std::make_shared<WarpOptions>(), changing = std::make_shared<WarpOptions>();
 
-    CLI::App* inspect_command = command->add_subcommand("inspect", "Tell what is in a warp file, and draw it");
+    CLI::App* inspect_command = command->add_subcommand("inspect", "Print the content of a warp file, and draw it");
     add_input(*inspect_command, *looking);
     inspect_command->add_option("--out", looking->out, "Draw it to this PNG");
     inspect_command->add_option("--size", looking->size, "Pixels of the PNG, WIDTHxHEIGHT; 1024x640 if not given");
     inspect_command->footer(
-        "The picture: in the frame what the viewport shows, around it, dark grey, its surroundings. A colour is a place in "
+        "The frame encloses the viewport; its surroundings are dark grey. A colour is a place in "
         "the\n"
-        "picture that is bent: blue its upper left, red its upper right, green its lower left, yellow its lower right. "
+        "picture that is warped: blue its upper left, red its upper right, green its lower left, yellow its lower right. "
         "White lines\n"
         "are tenths of that picture; where the mesh knows points in metres, each ten degrees as seen from the eye; where a\n"
         "headset's directions, each fifth of a tangent. Dark lines are the mesh. Darker colours are dimmed, black shows "
@@ -238,11 +238,11 @@ void add_warp(CLI::App& app, std::function<int()>& chosen)
     CLI::App* convert_command
         = command->add_subcommand("convert", "Write a warp file as a Bourke mesh (.data), PFM or domeprojection's .csv");
     add_input(*convert_command, *changing);
-    convert_command->add_option("out", changing->out, "The new file; its name's end says the format")->required();
+    convert_command->add_option("out", changing->out, "The new file; the end of its name chooses the format")->required();
     convert_command->add_option(
         "--size", changing->size, "Sample it first: WIDTHxHEIGHT vertices of a mesh, or cells of a PFM");
     convert_command->add_option(
-        "--aspect", changing->aspect, "Of a Bourke mesh's screen, width over height; 16/9 if not given");
+        "--aspect", changing->aspect, "Width over height of a Bourke mesh's screen; 16/9 if not given");
     convert_command->add_flag("--force", changing->force, "Replace a file of that name");
     convert_command->footer("Example:\n  starbow warp convert channel1.sgc channel1.pfm --size 1920x1200");
     convert_command->callback([changing, &chosen] { chosen = [changing] { return convert(*changing); }; });

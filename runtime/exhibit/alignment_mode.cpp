@@ -15,10 +15,10 @@ void AlignmentMode::say(std::string line)
 void AlignmentMode::save(const Layout& layout)
 {
     try {
-        // Against the file as it is now: whatever else someone has changed in it stays.
+        // Compares with the file's present content, so that other people's edits stay.
         const std::vector<Change> turned = changes(load_layout(layout.file), layout);
         if (turned.empty())
-            return say("Nothing has been turned since the layout was kept");
+            return say("Nothing has been changed since the layout was saved");
         patch_file(layout.file, turned);
         std::string line = "Kept in " + layout.file.filename().string();
         for (const Change& change : turned)
@@ -40,7 +40,7 @@ bool AlignmentMode::apply(const Controls& controls, Layout& layout)
     const std::vector<Adjustable> all = adjustables(layout);
     const std::size_t count = all.size();
     chosen_ = std::min(chosen_, count - 1);
-    // The first press shows what is chosen, further ones go on.
+    // The first press shows the chosen number; further presses move on.
     if (controls.choose != 0 && std::exchange(choosing_, true))
         chosen_ = (chosen_ + count + std::size_t(controls.choose + int(count))) % count;
     const bool turned = controls.turn_by != 0;

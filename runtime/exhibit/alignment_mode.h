@@ -6,7 +6,7 @@
 
 namespace starbow {
 
-/// What a builder does to a running exhibit from the keyboard: test patterns, and the layout's numbers turned and kept.
+/// The builder's keys in a running exhibit: test patterns, and changes of the layout's numbers.
 class AlignmentMode {
 public:
     using Clock = std::chrono::steady_clock;
@@ -15,11 +15,12 @@ public:
     {
     }
 
-    /// True where the layout has changed. Keeping writes into layout.file; what can't be kept is told in says().
+    /// Applies the keys to `layout`; returns true if it has changed. The save key writes into layout.file; says() reports
+    /// failures.
     bool apply(const Controls& controls, Layout& layout);
 
     Pattern pattern() const { return pattern_; }
-    /// One line for the head-up display, some seconds after a key; else empty.
+    /// A line for the head-up display for some seconds after a key; otherwise empty.
     const std::string& says() const { return Clock::now() < until_ ? says_ : silent_; }
 
     void say(std::string line);

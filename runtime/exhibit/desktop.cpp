@@ -12,7 +12,7 @@
 namespace starbow {
 namespace {
 
-/// What the X server answered; null where it refused, as it does when a monitor goes while it is asked about.
+/// A reply of the X server. It is null where the server refused, as for a monitor that is just being unplugged.
 template <class Answer> using Reply = std::unique_ptr<Answer, decltype(&std::free)>;
 template <class Answer> Reply<Answer> reply(Answer* answer) { return {answer, &std::free}; }
 
@@ -69,20 +69,20 @@ std::optional<Edid> read_edid(const Server& x, xcb_randr_output_t output)
 std::optional<Monitor> read_monitor(
     const Server& x, xcb_randr_output_t output, const xcb_randr_get_screen_resources_current_reply_t* resources)
 {
-    auto told = reply(xcb_randr_get_output_info_reply(
+    auto info = reply(xcb_randr_get_output_info_reply(
         x.link, xcb_randr_get_output_info(x.link, output, resources->config_timestamp), nullptr));
-    if (!told || told->connection == XCB_RANDR_CONNECTION_DISCONNECTED || told->crtc == XCB_NONE)
+    if (!info || info->connection == XCB_RANDR_CONNECTION_DISCONNECTED || info->crtc == XCB_NONE)
         return {};
     auto shown = reply(xcb_randr_get_crtc_info_reply(
-        x.link, xcb_randr_get_crtc_info(x.link, told->crtc, resources->config_timestamp), nullptr));
+        x.link, xcb_randr_get_crtc_info(x.link, info->crtc, resources->config_timestamp), nullptr));
     if (!shown || shown->mode == XCB_NONE)
         return {};
     Monitor monitor;
-    const char* name = reinterpret_cast<const char*>(xcb_randr_get_output_info_name(told.get()));
-    monitor.connector.assign(name, std::size_t(xcb_randr_get_output_info_name_length(told.get())));
+    const char* name = reinterpret_cast<const char*>(xcb_randr_get_output_info_name(info.get()));
+    monitor.connector.assign(name, std::size_t(xcb_randr_get_output_info_name_length(info.get())));
     monitor.position = {shown->x, shown->y};
     monitor.size = {shown->width, shown->height};
-    monitor.size_mm = {told->mm_width, told->mm_height};
+    monitor.size_mm = {info->mm_width, info->mm_height};
     if (shown->rotation & (XCB_RANDR_ROTATION_ROTATE_90 | XCB_RANDR_ROTATION_ROTATE_270))
         std::swap(monitor.size_mm.x, monitor.size_mm.y);
     const xcb_randr_mode_info_t* modes = xcb_randr_get_screen_resources_current_modes(resources);
@@ -96,7 +96,7 @@ std::optional<Monitor> read_monitor(
     return monitor;
 }
 
-/// From left to right, then from top to bottom, whatever the order in which they were plugged in.
+/// Sorts monitors from left to right, then from top to bottom, whatever the order of their plugs.
 void sort(std::vector<Monitor>& monitors)
 {
     std::sort(monitors.begin(), monitors.end(), [](const Monitor& a, const Monitor& b) {
@@ -122,7 +122,7 @@ std::vector<Monitor> read_monitors(const Server& x)
     return monitors;
 }
 
-/// What GLFW alone knows: no identities.
+/// The monitors as GLFW reports them, without identities.
 std::vector<Monitor> glfw_monitors()
 {
     std::vector<Monitor> monitors;
@@ -213,7 +213,7 @@ std::shared_ptr<void> forget_dead_window_manager()
     auto existence_intervals = reply(xcb_get_geometry_reply(x->link, xcb_get_geometry(x->link, manager), nullptr));
     if (!existence_intervals) {
         xcb_delete_property(x->link, x->root, check);
-        // Answered only once the deletion has been done.
+        // The server replies only after the deletion.
         reply(xcb_get_input_focus_reply(x->link, xcb_get_input_focus(x->link), nullptr));
     }
     return x;

@@ -5,8 +5,8 @@
 
 namespace starbow {
 
-/// The desktop's monitors as they are now. Under X11 over a connection of its own, which tells of every change at once,
-/// identities included; elsewhere what GLFW knows, looked at once a second.
+/// The desktop's monitors as they are now. Under X11 a connection of its own reports every change at once, with the
+/// monitors' identities. Elsewhere GLFW is read once a second.
 class Desktop {
 public:
     /// GLFW must be running.
@@ -14,7 +14,7 @@ public:
     ~Desktop();
 
     const std::vector<Monitor>& monitors() const { return monitors_; }
-    /// Looks again if there may be something new. True if monitors() has changed.
+    /// Reads the monitors again if they may have changed. Returns true if monitors() has changed.
     bool look();
 
 private:
@@ -24,9 +24,9 @@ private:
     std::chrono::steady_clock::time_point looked_;
 };
 
-/// A window manager that was killed leaves its name on the X server's root window, and GLFW dies of asking it. Takes a dead
-/// one's name away; does nothing without an X server. What it returns holds a connection, to be kept until GLFW has its own:
-/// an X server that loses its last client starts anew and answers nobody meanwhile.
+/// Removes the name of a dead window manager from the X server's root window; does nothing without an X server. A killed
+/// window manager leaves its name there, and GLFW crashes when it reads it. Returns a connection that must be kept until
+/// GLFW has its own: an X server that loses its last client restarts and is unreachable meanwhile.
 std::shared_ptr<void> forget_dead_window_manager();
 
 } // namespace starbow

@@ -12,11 +12,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A GPU that is lost, as after a hang of its driver, is opened anew and the flight goes on. After so many losses without a
-/// minute's flight between, the program gives up.
+/// A lost GPU, as after a hang of its driver, is opened anew and the flight goes on. After so many losses, each within a
+/// minute of the one before, the program gives up.
 constexpr int most_losses = 5;
 
-/// Prints the closing lines: the flight's last readings, and how well the screens kept together.
+/// Prints the closing lines: the flight's last readings and the skew of the screens.
 void print_summary(const Session& session, const SceneFile& scene)
 {
     Readings last = readings(session.flight.ship, scene, session.flight.effects);
@@ -62,7 +62,7 @@ int fly_exhibit(const ExhibitOptions& options)
         } catch (const InputError& error) {
             if (losses == 0)
                 throw;
-            lost = error.what(); // its driver is not back yet
+            lost = error.what(); // the driver may not be back yet
         }
         session.complaints |= context && !context->device.complaints.empty();
         context.reset();

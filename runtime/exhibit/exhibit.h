@@ -16,34 +16,34 @@ namespace starbow {
 
 class Trace;
 
-/// An exhibit as it opens, its files read.
+/// Everything that an exhibit starts with, its files read.
 struct ExhibitOptions {
     std::filesystem::path scene;
     Layout layout;
-    Shot start; ///< where the visit begins and where reset leads back to
-    Words words; ///< of what the visitor reads
-    std::optional<Tour> tour{}; ///< that is shown, in its own scene
+    Shot start; ///< start of the visit; a reset returns here
+    Words words; ///< for the visitor's texts
+    std::optional<Tour> tour{}; ///< tour to show, in its own scene
     Flying rules{};
     Exposing exposure{};
     std::vector<Profile> profiles{};
     bool tutorial = true;
-    std::optional<Quality> quality{}; ///< none: what the device affords
-    double frame_budget_ms = 0; ///< of a whole frame; 0: the quality stays
-    std::vector<PresetLevel> ladder{}; ///< by which it is held
-    std::optional<bool> warms_up{}; ///< compiles what the switches can need before the first frame; none: on a GPU
-    long frames = 0; ///< to be shown; 0: until the visitor leaves
-    Pattern pattern = Pattern::none; ///< what the outputs show first
-    std::filesystem::path record{}; ///< where to keep the flight; empty: nowhere
-    std::filesystem::path log{}; ///< where to keep what is measured, a CSV file; empty: nowhere
-    double log_every_s = 0; ///< writes a line by itself so often; 0: only when asked
-    std::filesystem::path replay{}; ///< a record to fly again instead of the visitor; empty: none
-    Trace* trace = nullptr; ///< gets the spans of each frame; null: none. It outlives the flight
-    std::function<void(const FrameTimes&)> timed{}; ///< is told of each frame
-    std::function<bool()> over{}; ///< is asked before each frame whether to leave
+    std::optional<Quality> quality{}; ///< none: the device's default
+    double frame_budget_ms = 0; ///< time of a whole frame; 0: the quality stays fixed
+    std::vector<PresetLevel> ladder{}; ///< the qualities between which the governor moves
+    std::optional<bool> warms_up{}; ///< compiles all pipelines of the switches before the first frame; none: only on a GPU
+    long frames = 0; ///< number of frames to show; 0: until the visitor leaves
+    Pattern pattern = Pattern::none; ///< the first test pattern
+    std::filesystem::path record{}; ///< file or folder for the record; empty: no record
+    std::filesystem::path log{}; ///< CSV file of the instruments' readings; empty: none
+    double log_every_s = 0; ///< interval of automatic lines; 0: only at a key
+    std::filesystem::path replay{}; ///< a record that is flown instead of the visitor's flight; empty: none
+    Trace* trace = nullptr; ///< receives the spans of each frame; null: none. It must outlive the flight
+    std::function<void(const FrameTimes&)> timed{}; ///< is called for each frame
+    std::function<bool()> over{}; ///< is called before each frame; true ends the flight
 };
 
-/// Flies until the visitor leaves. Follows changes of the layout's files, of the monitors, and the loss of the GPU. Returns
-/// the exit status; throws InputError for what is wrong at the start.
+/// Flies until the visitor leaves. Follows changes of the layout's files and of the monitors, and recovers from the loss
+/// of the GPU. Returns the exit status. Throws InputError for errors at the start.
 int fly_exhibit(const ExhibitOptions& options);
 
 } // namespace starbow

@@ -74,22 +74,22 @@ FrameLoop::~FrameLoop()
 
 bool FrameLoop::fly_frame()
 {
-    // One frame is in flight: the least delay between a control and its picture.
+    // One frame is in flight at a time, for the least delay between a control and its picture.
     const std::optional<double> metered = await_device();
 
-    // Changes of files and monitors, and the pictures to draw into. This waits for the screens.
+    // Follow files and monitors, and acquire the windows' images. This waits for the screens.
     apply_file_changes();
     screens_.follow();
     const bool visible = screens_.acquire();
     if (visible && std::exchange(cold_, false))
-        warm_up(); // now that the windows' format is known
+        warm_up(); // only now the windows' format is known
 
-    // Read controls, as late as can be.
+    // Read the controls as late as possible.
     std::optional<Trace::Span> span(std::in_place, device_.trace, "controls");
     if (visible)
         glfwPollEvents();
     else
-        glfwWaitEventsTimeout(0.1); // all minimised, or no monitor there
+        glfwWaitEventsTimeout(0.1); // all windows are minimised, or no monitor is there
     const Clock::time_point now = Clock::now();
     RecordEntry entry{.shown = visible};
     if (!read_controls(session_, screens_.handles(), entry) || screens_.closed())
@@ -97,9 +97,9 @@ bool FrameLoop::fly_frame()
     if (entry.controls.full_screen)
         screens_.switch_full_screen();
     if (session_.record_replay.replays() && !visible)
-        return true; // a replay waits to be seen
+        return true; // a replay waits for a visible window
 
-    // Step the flight. From here on a replay's controls count.
+    // Step the flight. From here on the controls may be a replay's.
     if (!step(session_, entry, metered, context_.world.scene.seconds_per_time_unit()))
         return false;
     const Controls& controls = entry.controls;
@@ -112,7 +112,7 @@ bool FrameLoop::fly_frame()
 
     span.reset();
 
-    // Plan, cull, upload and record; FrameRenderer::draw tells the passes.
+    // Plan, cull, upload and record; FrameRenderer::draw lists the passes.
     const Clock::time_point begun = Clock::now();
     const Shot shot = set_up_frame(controls);
     const Panel* panel = hud_.update(session_, context_.world.scene, shot.exposure_ev, frame_->views().hud_width());
@@ -132,7 +132,7 @@ bool FrameLoop::fly_frame()
     const Clock::time_point handed = Clock::now();
     screens_.present(session_.skew);
     if (session_.options.timed)
-        session_.options.timed({controls.told_ns, steady_ns(now), steady_ns(handed), steady_ns(Clock::now())});
+        session_.options.timed({controls.report_ns, steady_ns(now), steady_ns(handed), steady_ns(Clock::now())});
     ++session_.shown;
     return true;
 }
@@ -166,7 +166,7 @@ void FrameLoop::warm_up()
     const bool terminal = isatty(STDERR_FILENO);
     const std::size_t made = starbow::warm_up(device_, context_.pipelines, frame, session_.options.start, panel, format,
         qualities, [&](std::size_t step, std::size_t steps) {
-            glfwPollEvents(); // so that the window system sees the program alive
+            glfwPollEvents(); // else the window system takes the program for dead
             const double passed = seconds(Clock::now() - began);
             if (terminal && step > 0)
                 std::fprintf(stderr, "\rcompiling what the switches can need: %zu of %zu, about %.0f s left \033[K", step,
@@ -185,7 +185,7 @@ void FrameLoop::trace_passes()
 {
     if (!device_.trace)
         return;
-    // The device's clock is its own: the frame is laid where the processor handed it over.
+    // The device's clock has its own zero: its frame is drawn from the time of submission on.
     for (const PassTime& pass : timer_.passes())
         device_.trace->gpu(
             pass.name, submitted_ns_ + std::int64_t(1e6 * pass.begin_ms), std::int64_t(1e6 * pass.duration_ms));
@@ -202,7 +202,7 @@ Shot FrameLoop::set_up_frame(const Controls& controls)
     frame_->bloom(session_.options.exposure.bloom);
     Shot shot = shot_of(session_.flight, session_.options.start.scene);
     shot.exposure_ev = ev_of(session_);
-    session_.lab.ask(*frame_, shot, session_.flight, context_.world, hud_.typesetter);
+    session_.lab.request(*frame_, shot, session_.flight, context_.world, hud_.typesetter);
     return shot;
 }
 
@@ -211,7 +211,7 @@ void FrameLoop::begin_commands()
     commands_.reset();
     commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     timer_.begin(*commands_);
-    device_.timer = device_.trace ? &timer_ : nullptr; // passes count between begin and end alone
+    device_.timer = device_.trace ? &timer_ : nullptr; // passes are timed between begin and end only
     for (const Target& target : screens_.targets())
         if (target.view)
             present_barrier(*commands_, target, true);
@@ -248,12 +248,12 @@ void FrameLoop::apply_file_changes()
         screens_.adopt(session_.layout);
         const std::size_t unkept = changes(session_.kept, session_.layout).size();
         log_info("layout",
-            session_.layout.file.string() + ": taken up"
-                + (unkept > 0 ? "; what was turned by hand stays turned (F5 keeps it)" : ""));
+            session_.layout.file.string() + ": applied"
+                + (unkept > 0 ? "; changes made by keys are kept (F5 saves them)" : ""));
     } catch (const InputError& error) {
         const std::string why = one_line(error.what());
         log_warning("layout", why + "; the exhibit stays as it was");
-        // On the display the folders would leave no room for the reason.
+        // On the head-up display the folder's path would take the reason's place.
         const std::string folder = session_.layout.file.parent_path().string() + "/";
         session_.refused = why.starts_with(folder) ? why.substr(folder.size()) : why;
     }

@@ -7,40 +7,40 @@
 
 namespace starbow {
 
-/// Starts each frame at its turn, since some drivers' FIFO does not wait for the screen. The turn is a hundredth shorter
-/// than the screen's: where the driver does wait, it alone does.
+/// Starts frames at the screen's rate, because some drivers' FIFO does not wait for the screen. The period is a hundredth
+/// shorter than the screen's: where the driver does wait, its wait alone counts.
 struct Pace {
     using Clock = std::chrono::steady_clock;
     Clock::time_point next = Clock::now();
     void wait(double refresh_hz);
 };
 
-/// Flies a session on one device, frame after frame, until the visitor leaves. Everything in it goes with the device.
+/// Flies a session on one device, frame after frame, until the visitor leaves. All its members are lost with the device.
 class FrameLoop {
 public:
     FrameLoop(Session& session, RenderContext& context);
     ~FrameLoop(); ///< waits until the device has nothing to do
 
-    /// One frame from the controls to the screens; frame_loop.cpp tells it in order. Returns whether to go on. Throws
-    /// vk::DeviceLostError.
+    /// One frame from the controls to the screens; frame_loop.cpp lists its steps in order. Returns false at the end of
+    /// the flight. Throws vk::DeviceLostError.
     bool fly_frame();
 
 private:
-    /// Draws, unseen, everything that the visitor's switches can need; progress on a terminal.
+    /// Draws off-screen all states of the visitor's switches; shows the progress on a terminal.
     void warm_up();
     /// Waits for the frame's turn and for the device. Returns the exposure for the frame before, if it was metered.
     std::optional<double> await_device();
-    /// Applies a change of the layout's files: all of it or, where anything in it is wrong, nothing. The old picture stays
-    /// until the new one can be drawn.
+    /// Applies a change of the layout's files. If any file is wrong, nothing changes: the old picture stays until the new
+    /// one can be drawn.
     void apply_file_changes();
     /// Applies a builder's change by keyboard, or undoes it if it can't be drawn.
     void apply_alignment(const Controls& controls);
-    /// The shot that the session has come to, and everything about it that the frame renderer needs to know.
+    /// Sets the frame renderer up for the session's present state and returns the shot.
     Shot set_up_frame(const Controls& controls);
-    /// Enclose what FrameRenderer::draw records: the timer and the layouts of the windows' pictures.
+    /// These two enclose FrameRenderer::draw with the timer and the layout transitions of the windows' images.
     void begin_commands();
     void end_commands();
-    /// The device's passes of the frame before, for the trace.
+    /// Adds the device's passes of the frame before to the trace.
     void trace_passes();
 
     Session& session_;

@@ -4,11 +4,11 @@
 
 namespace starbow {
 
-/// Measures the frame rate over the last half second or so, and redraws the head-up display's panel ten times a second.
+/// Measures the frame rate over half a second, and redraws the head-up display's panel ten times a second.
 class HudUpdater {
 public:
-    /// The panel for the next frame, `width` pixels wide; null where the visitor has switched it off, or where a test
-    /// pattern is shown and its builder is given no message.
+    /// The panel for the next frame, `width` pixels wide. It is null if the visitor has switched it off, or beside a test
+    /// pattern without a message to the builder.
     const Panel* update(const Session& session, const SceneFile& scene, double exposure_ev, int width);
 
     Typesetter typesetter;

@@ -37,9 +37,9 @@ void Lab::read(const FrameRenderer& frame, const Controls& controls, const GpuWo
     if (controls.why)
         why_ = Why((int(why_) + 1) % int(why_names.size()));
     if ((controls.mark || controls.log || every_s_ > 0) && overlay_ == Overlay::off)
-        overlay_ = Overlay::aim; // what is marked or logged is seen
+        overlay_ = Overlay::aim; // marking and logging show the crosshair
     mark_wanted_ |= controls.mark;
-    if (!on() || effects_.comparison != Comparison::none) { // what they tell holds for what is seen alone
+    if (!on() || effects_.comparison != Comparison::none) { // the instruments measure the physical picture only
         measured_.reset();
         return;
     }
@@ -48,7 +48,7 @@ void Lab::read(const FrameRenderer& frame, const Controls& controls, const GpuWo
         return; // the first frame with instruments is still to come
     const MeasuringObserver& observer = frame.observer();
     Probed seen = probed[0];
-    seen.ray = aim_of(observer); // sharper than the picture's
+    seen.ray = aim_of(observer); // exact, unlike the picture's pixel
     const Spot aimed = spot_at(observer, seen, world.world);
     if (mark_wanted_) {
         if (marks_[0] && marks_[1])
@@ -72,7 +72,7 @@ void Lab::keep(const std::function<void(std::string)>& say)
         say(words_("lab.logged", {{"line", std::to_string(log_->lines())}, {"file", log_->file().filename().string()}}));
 }
 
-void Lab::ask(
+void Lab::request(
     FrameRenderer& frame, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter)
 {
     if (!on()) {
@@ -81,7 +81,7 @@ void Lab::ask(
     }
     ship_ = flight.ship, effects_ = flight.effects;
     const auto now = std::chrono::steady_clock::now();
-    // As often as the display's figures, so that they can be read.
+    // The same rate as the display's figures keeps them readable.
     const bool again = now - drawn_ > std::chrono::milliseconds(100);
     if (again)
         scale_ = overlay_scale(world.world, shot.position, world.scene.seconds_per_time_unit()), drawn_ = now;

@@ -7,22 +7,23 @@
 
 namespace starbow {
 
-/// All that is measured at one instant. aim: what stands at the crosshair, light: of there, as Probed's.
+/// The instruments' readings at one instant. aim: the spot at the crosshair; light: its light, as Probed::light.
 Measured measured_of(const MeasuringObserver& observer, const Ship& ship, const SceneFile& scene, const World& world,
     const Effects& effects, const Spot& aim, double light, const std::array<std::optional<Spot>, 2>& marks);
 
-/// The instruments of a running exhibit: what their keys have chosen, what was marked, and the log.
+/// The instruments of a running exhibit: the chosen overlay and page, the marks, and the log.
 class Lab {
 public:
-    /// log: the CSV file, or empty. every_s: writes by itself so often, 0: never. words: must outlive this. Throws
+    /// log: the CSV file, or empty. every_s: interval of automatic lines, 0: none. words: must outlive this. Throws
     /// InputError as LabLog does.
     Lab(const std::filesystem::path& log, double every_s, const Words& words);
 
-    /// What the last frame's probe has seen, which the device must have finished; then the keys. say: for the display.
+    /// Reads the last frame's probe, which the device must have finished, then applies the keys. say: receives messages
+    /// for the display.
     void read(const FrameRenderer& frame, const Controls& controls, const GpuWorld& world, double dt_s,
         const std::function<void(std::string)>& say);
-    /// What the next frame is to draw and to read.
-    void ask(
+    /// Requests the next frame's overlay, panel and probes.
+    void request(
         FrameRenderer& frame, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter);
 
 private:
@@ -35,10 +36,10 @@ private:
     Overlay overlay_ = Overlay::off;
     Why why_ = Why::none;
     std::array<std::optional<Spot>, 2> marks_;
-    bool mark_wanted_ = false; ///< pressed before anything was seen
-    Ship ship_; ///< of the frame that was asked for last
+    bool mark_wanted_ = false; ///< pressed before the first probe was read
+    Ship ship_; ///< of the frame requested last
     Effects effects_;
-    std::optional<Measured> measured_; ///< as last told
+    std::optional<Measured> measured_; ///< the last readings
     OverlayScale scale_;
     Panel panel_;
     std::chrono::steady_clock::time_point drawn_{};

@@ -16,7 +16,7 @@ std::string glfw_says()
     return text ? text : "no reason given";
 }
 
-/// A window greater than its screen would hide a part of its picture, and of a dome the front.
+/// Shrinks a window to its screen: otherwise a part of its picture would be hidden, on a dome the front.
 glm::ivec2 fit_to_screen(glm::ivec2 size)
 {
     GLFWmonitor* monitor = glfwGetPrimaryMonitor();
@@ -50,7 +50,7 @@ void settle(Device& device) noexcept
 {
     try {
         device.device.waitIdle();
-    } catch (const vk::SystemError&) { // lost: it does nothing any more
+    } catch (const vk::SystemError&) { // a lost device is idle
     }
 }
 
@@ -67,12 +67,12 @@ Window::Window(Device& device, const Output& output, const std::optional<WindowP
     glfwWindowHint(GLFW_RESIZABLE, output.resizable && !place);
     glfwWindowHint(GLFW_DECORATED, !place);
     glfwWindowHint(GLFW_FLOATING, output.whole_monitor); // above the desktop's panels
-    glfwWindowHint(GLFW_VISIBLE, !place); // a bare one is seen first where it belongs
+    glfwWindowHint(GLFW_VISIBLE, !place); // a bare window appears only at its place
     const glm::ivec2 size = place ? place->size : fit_to_screen(output.size);
     window_ = glfwCreateWindow(size.x, size.y, ("Starbow " + name_).c_str(), nullptr, nullptr);
     if (!window_)
         throw InputError("The window '" + name_ + "' can't be opened: " + glfw_says());
-    glfwSetInputMode(window_, GLFW_STICKY_KEYS, GLFW_TRUE); // a tap shorter than a frame counts too
+    glfwSetInputMode(window_, GLFW_STICKY_KEYS, GLFW_TRUE); // keeps taps that are shorter than a frame
     if (output.whole_monitor && !output.preview)
         glfwSetInputMode(window_, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
     if (place) {
@@ -81,7 +81,7 @@ Window::Window(Device& device, const Output& output, const std::optional<WindowP
         put(*place);
     }
     size_ = size;
-    if (device.tells_when_shown)
+    if (device.reports_presentation)
         clock_ = std::make_unique<PresentClock>(device);
     try {
         make_surface();
@@ -127,7 +127,7 @@ Window::~Window()
 void Window::let_go()
 {
     if (clock_)
-        clock_->rest();
+        clock_->wait_idle();
     settle(*device_);
     views_.clear();
     swapchain_ = nullptr;
@@ -142,7 +142,7 @@ void Window::make_surface()
         throw InputError("The window '" + name_ + "' has no Vulkan surface: " + glfw_says());
     surface_ = vk::raii::SurfaceKHR(device_->instance, surface);
     if (!device_->physical.getSurfaceSupportKHR(device_->family, *surface_))
-        throw InputError("The GPU '" + std::string(device_->properties.deviceName.data())
+        throw InputError("The GPU '" + std::string(device_->name())
             + "' can't show pictures in this desktop's windows: choose another with STARBOW_GPU");
     format_ = vk::Format::eUndefined;
     for (vk::SurfaceFormatKHR offered : device_->physical.getSurfaceFormatsKHR(*surface_))
@@ -187,7 +187,7 @@ void Window::put(const WindowPlace& place)
 bool Window::make_swapchain()
 {
     if (clock_)
-        clock_->rest();
+        clock_->wait_idle();
     settle(*device_);
     auto limits = device_->physical.getSurfaceCapabilitiesKHR(*surface_);
     glm::ivec2 wanted;
@@ -245,7 +245,7 @@ bool Window::acquire()
     if (now.x == 0 || now.y == 0 || glfwGetWindowAttrib(window_, GLFW_ICONIFIED))
         return false;
     stale_ |= now != size_;
-    // A second try with what was made anew; a window that still changes waits for the next frame.
+    // The second attempt uses the new swapchain. A window that still changes waits for the next frame.
     for (int attempt = 0; attempt < 2; ++attempt) {
         try {
             const vk::Result result = try_acquire();
@@ -258,7 +258,7 @@ bool Window::acquire()
         } catch (const vk::SurfaceLostKHRError&) {
             lost_ = true;
         } catch (const vk::NativeWindowInUseKHRError&) {
-            lost_ = true; // the window system is not done with the surface before
+            lost_ = true; // the window system may still use the old surface
         }
     }
     return false;
@@ -273,7 +273,7 @@ void Window::presented(vk::Result result)
 {
     if (result == vk::Result::eErrorSurfaceLostKHR)
         lost_ = true;
-    else if (result == vk::Result::eSuboptimalKHR) // some desktops never have enough of saying it
+    else if (result == vk::Result::eSuboptimalKHR) // some desktops report it for every frame
         stale_ |= Clock::now() - made_ > std::chrono::seconds(1);
     else if (result != vk::Result::eSuccess)
         stale_ = true;

@@ -8,13 +8,13 @@ struct GLFWwindow;
 
 namespace starbow {
 
-/// GLFW, from first to last window. Throws InputError where no window system answers.
+/// GLFW's lifetime. Throws InputError where no window system answers.
 struct WindowSystem {
     WindowSystem();
     ~WindowSystem();
     WindowSystem(const WindowSystem&) = delete;
 };
-/// Whether a window system answers at all. Where it does, GLFW runs from here on.
+/// True if a window system answers. GLFW then runs from here on.
 bool has_display();
 
 /// Waits until the device has nothing to do, or is lost.
@@ -23,36 +23,36 @@ void settle(Device& device) noexcept;
 /// One output of a layout on the screen.
 class Window {
 public:
-    /// Without a place the window has a frame, and opens where the desktop likes it; with one it is bare and stays there.
-    /// Throws InputError where it can't be opened.
+    /// place: none gives a window with a frame where the desktop puts it; otherwise a bare window that stays at its
+    /// place. Throws InputError where it can't be opened.
     Window(Device& device, const Output& output, const std::optional<WindowPlace>& place);
     ~Window();
     Window(Window&& other) noexcept;
 
     GLFWwindow* handle() const { return window_; }
     bool closed() const;
-    /// Of a window without a place.
+    /// For a window without a place.
     void switch_full_screen();
-    /// Moves a bare window to a place, also back to it where a window manager has moved it.
+    /// Moves a bare window to its place, also after a window manager has moved it.
     void put(const WindowPlace& place);
 
-    /// Gets the next picture to draw into. False if there is none to be had now: minimised, changing its size, or held by
-    /// the window system longer than a tenth of a second. Makes the swapchain, and the surface, anew where they are spent;
-    /// size() is then the new size.
+    /// Acquires the next image. Returns false if none is available now: the window is minimised, changes its size, or the
+    /// window system holds the images longer than a tenth of a second. Makes the swapchain and the surface anew where
+    /// necessary; size() is then the new size.
     bool acquire();
     glm::ivec2 size() const { return size_; }
     Target target() const;
-    vk::Format format() const { return format_; } ///< undefined until a swapchain was made
+    vk::Format format() const { return format_; } ///< undefined until there is a swapchain
     vk::Semaphore acquired() const { return *acquired_; }
     vk::Semaphore drawn() const { return *drawn_[image_]; }
     vk::SwapchainKHR swapchain() const { return *swapchain_; }
     std::uint32_t image() const { return image_; }
     void presented(vk::Result result);
-    PresentClock* clock() { return clock_.get(); } ///< null where the driver does not tell when pictures are shown
+    PresentClock* clock() { return clock_.get(); } ///< null where the driver does not report when images are on the screen
 
 private:
     using Clock = std::chrono::steady_clock;
-    void let_go(); ///< of the swapchain and the surface
+    void let_go(); ///< releases the swapchain and the surface
     void make_surface();
     bool make_swapchain();
     vk::Result try_acquire();
@@ -67,7 +67,7 @@ private:
     bool bare_ = false;
     bool stale_ = true; ///< the swapchain
     bool lost_ = false; ///< the surface
-    bool late_ = false; ///< the last acquire ran out of time: the others don't wait for this window again
+    bool late_ = false; ///< the last acquire timed out: the other windows don't wait for this one again
     Clock::time_point made_{}; ///< the swapchain
     std::vector<vk::Image> images_;
     std::vector<vk::raii::ImageView> views_;

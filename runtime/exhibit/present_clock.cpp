@@ -4,7 +4,7 @@ namespace starbow {
 
 PresentClock::PresentClock(Device& device)
     : device_(device)
-    , thread_([this] { answer(); })
+    , thread_([this] { wait_for_images(); })
 {
 }
 
@@ -18,7 +18,7 @@ PresentClock::~PresentClock()
     thread_.join();
 }
 
-void PresentClock::ask(vk::SwapchainKHR swapchain, std::uint64_t id)
+void PresentClock::start(vk::SwapchainKHR swapchain, std::uint64_t id)
 {
     const std::lock_guard lock(mutex_);
     swapchain_ = swapchain;
@@ -27,7 +27,7 @@ void PresentClock::ask(vk::SwapchainKHR swapchain, std::uint64_t id)
     changed_.notify_all();
 }
 
-bool PresentClock::asking() const
+bool PresentClock::busy() const
 {
     const std::lock_guard lock(mutex_);
     return bool(swapchain_);
@@ -39,13 +39,13 @@ std::optional<PresentClock::Clock::time_point> PresentClock::shown() const
     return shown_;
 }
 
-void PresentClock::rest() const
+void PresentClock::wait_idle() const
 {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return !swapchain_; });
 }
 
-void PresentClock::answer()
+void PresentClock::wait_for_images()
 {
     constexpr std::uint64_t patience_ns = 100'000'000;
     std::unique_lock lock(mutex_);

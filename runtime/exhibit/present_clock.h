@@ -7,7 +7,7 @@
 
 namespace starbow {
 
-/// Asks the driver, on a thread of its own, when a picture was seen on its screen (VK_KHR_present_wait).
+/// Measures on a thread of its own when an image was on its screen (VK_KHR_present_wait).
 class PresentClock {
 public:
     using Clock = std::chrono::steady_clock;
@@ -15,21 +15,21 @@ public:
     ~PresentClock();
     PresentClock(const PresentClock&) = delete;
 
-    /// One question at a time.
-    void ask(vk::SwapchainKHR swapchain, std::uint64_t id);
-    bool asking() const;
-    /// Of the last question; nothing where no answer came within a tenth of a second.
+    /// Starts the wait for one presented image; call it only while busy() is false.
+    void start(vk::SwapchainKHR swapchain, std::uint64_t id);
+    bool busy() const;
+    /// The time of the last image; nothing if the driver did not report it within a tenth of a second.
     std::optional<Clock::time_point> shown() const;
-    /// Returns when nothing is asked: before the swapchain goes.
-    void rest() const;
+    /// Waits until busy() is false; call it before the swapchain is destroyed.
+    void wait_idle() const;
 
 private:
-    void answer();
+    void wait_for_images();
 
     Device& device_;
     mutable std::mutex mutex_;
     mutable std::condition_variable changed_;
-    vk::SwapchainKHR swapchain_; ///< that is asked about, or null
+    vk::SwapchainKHR swapchain_; ///< the awaited image's, or null
     std::uint64_t id_ = 0;
     std::optional<Clock::time_point> shown_;
     bool ends_ = false;

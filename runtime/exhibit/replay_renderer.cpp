@@ -26,7 +26,7 @@ void ReplayRenderer::take(const RecordEntry& entry)
         try {
             renderer_.frame().adopt(layout);
             layout_ = std::move(layout);
-        } catch (const InputError& error) { // as in the exhibit, where it is turned back
+        } catch (const InputError& error) { // the exhibit undoes such a change too
             alignment_.say(one_line(error.what()));
         }
     }

@@ -7,14 +7,14 @@
 
 namespace starbow {
 
-/// A flight's pictures off-screen, frame by frame as the exhibit shows them.
+/// Draws a recorded flight's pictures off-screen, frame by frame as the exhibit shows them.
 class ReplayRenderer {
 public:
-    /// pattern: what the outputs show first. start_ev: the exposure that the flight begins with.
+    /// pattern: the outputs' first test pattern. start_ev: the flight's first exposure, EV.
     ReplayRenderer(OffscreenRenderer& renderer, Pattern pattern, const Exposing& exposing, double start_ev);
 
-    /// What a frame's controls do to the pictures: the head, test patterns, what a builder turns (which adds up, so every
-    /// frame counts), the exposure. Writes no layout.
+    /// Applies a frame's controls to the pictures: head, test patterns, the builder's changes, exposure. Changes add up,
+    /// so every frame must be applied. Writes no layout.
     void take(const RecordEntry& entry);
 
     /// Each output as RGBA8, rows from the top.

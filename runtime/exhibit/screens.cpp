@@ -31,7 +31,7 @@ Screens::Screens(Device& device, const Layout& layout)
 
 void Screens::adopt(const Layout& layout)
 {
-    asked_.clear();
+    clocks_.clear();
     std::vector<Screen> screens;
     for (const Output& output : layout.outputs) {
         auto same = std::find_if(
@@ -48,7 +48,7 @@ void Screens::adopt(const Layout& layout)
 
 void Screens::follow()
 {
-    // A quarter of a second is how long a window manager's idea of a window's place may last.
+    // A window manager may move a window away for a quarter of a second at most.
     const Clock::time_point now = Clock::now();
     if (desktop_.look() || now - looked_ > std::chrono::milliseconds(250)) {
         settle_on_monitors(false);
@@ -59,7 +59,7 @@ void Screens::follow()
 void Screens::settle_on_monitors(bool starting)
 {
     const std::vector<Monitor>& monitors = desktop_.monitors();
-    // First away with what is on a wrong screen now.
+    // Windows on wrong screens close first.
     std::vector<MonitorChoice> choices;
     for (Screen& screen : screens_) {
         choices.push_back(choose_monitor(screen.output.monitor, monitors));
@@ -86,9 +86,9 @@ void Screens::open(Screen& screen, const std::optional<WindowPlace>& place, bool
 {
     try {
         screen.window.emplace(device_, screen.output, place);
-        if (!screen.told.empty())
+        if (!screen.logged_reason.empty())
             log_info("exhibit", "output '" + screen.output.name + "' is shown again");
-        screen.told.clear();
+        screen.logged_reason.clear();
     } catch (const InputError& error) {
         if (starting)
             throw;
@@ -98,12 +98,12 @@ void Screens::open(Screen& screen, const std::optional<WindowPlace>& place, bool
 
 void Screens::close(Screen& screen, const std::string& why)
 {
-    asked_.clear();
+    clocks_.clear();
     screen.window.reset();
-    const std::string short_of_it = why.substr(0, why.find(';')); // what else is there may change often meanwhile
-    if (screen.told != short_of_it)
+    const std::string short_of_it = why.substr(0, why.find(';')); // the list after the semicolon may change often
+    if (screen.logged_reason != short_of_it)
         log_warning("exhibit", "output '" + screen.output.name + "' is not shown: " + why);
-    screen.told = short_of_it;
+    screen.logged_reason = short_of_it;
 }
 
 void Screens::list_handles()
@@ -125,7 +125,7 @@ bool Screens::acquire()
                 targets_[i] = screen.window->target();
                 acquired_.push_back(&*screen.window);
             }
-        } catch (const InputError& error) { // its surface is lost for good: with a new window, perhaps
+        } catch (const InputError& error) { // its surface is lost; a new window may help
             close(screen, error.what());
             list_handles();
         }
@@ -168,10 +168,10 @@ void Screens::present(Skew& skew)
     const std::vector<std::uint64_t> ids(swapchains.size(), ++frame_);
     const vk::PresentIdKHR present_id(ids);
     const bool several = acquired_.size() > 1;
-    skew.on_screen = device_.tells_when_shown;
+    skew.on_screen = device_.reports_presentation;
     if (skew.on_screen)
         present.pNext = &present_id;
-    else if (several) // timed below is the handing over alone, not the drawing that some drivers wait for in it
+    else if (several) // timed below: the hand-over alone, without the drawing that some drivers wait for in it
         (void)device_.device.waitForFences(done_, true, UINT64_MAX);
 
     const Clock::time_point began = Clock::now();
@@ -187,29 +187,29 @@ void Screens::present(Skew& skew)
         time_on_screen(skew);
     else if (several)
         skew.add(std::chrono::duration<double>(Clock::now() - began).count());
-    // Which window it was is told in `results`; a driver that does not tell means them all.
-    const bool untold
+    // `results` tells the windows apart; a driver that does not fill it means all windows.
+    const bool unspecified
         = std::all_of(results.begin(), results.end(), [](vk::Result result) { return result == vk::Result::eSuccess; });
     for (std::size_t i = 0; i < acquired_.size(); ++i)
-        acquired_[i]->presented(untold ? worst : results[i]);
+        acquired_[i]->presented(unspecified ? worst : results[i]);
 }
 
 void Screens::time_on_screen(Skew& skew)
 {
-    if (std::any_of(asked_.begin(), asked_.end(), [](const PresentClock* clock) { return clock->asking(); }))
-        return; // the next frame is asked about
+    if (std::any_of(clocks_.begin(), clocks_.end(), [](const PresentClock* clock) { return clock->busy(); }))
+        return; // the frame before is still awaited
     std::vector<Clock::time_point> shown;
-    for (const PresentClock* clock : asked_)
+    for (const PresentClock* clock : clocks_)
         if (const auto at = clock->shown())
             shown.push_back(*at);
-    if (shown.size() > 1 && shown.size() == asked_.size()) {
+    if (shown.size() > 1 && shown.size() == clocks_.size()) {
         const auto [first, last] = std::minmax_element(shown.begin(), shown.end());
         skew.add(std::chrono::duration<double>(*last - *first).count());
     }
-    asked_.clear();
+    clocks_.clear();
     for (Window* window : acquired_) {
-        asked_.push_back(window->clock());
-        asked_.back()->ask(window->swapchain(), frame_);
+        clocks_.push_back(window->clock());
+        clocks_.back()->start(window->swapchain(), frame_);
     }
 }
 

@@ -5,38 +5,37 @@
 
 namespace starbow {
 
-/// The windows of a layout, each on the monitor that its output names. An output whose monitor is missing has no window, and
-/// gets it when the monitor is there: never is a picture on another screen. What comes and goes is told on stderr.
+/// The windows of a layout, each on the monitor that its output names. An output whose monitor is missing has no window
+/// until the monitor appears; no picture ever goes to another screen. Windows that open and close are logged.
 class Screens {
 public:
-    /// Throws InputError where a window can't be opened; a missing monitor is only told.
+    /// Throws InputError where a window can't be opened; a missing monitor is only logged.
     Screens(Device& device, const Layout& layout);
 
-    /// Takes up a changed layout: windows whose output keeps its name, size and place stay open.
+    /// Applies a changed layout. A window stays open if its output keeps its name, size and place.
     void adopt(const Layout& layout);
 
-    /// Opens, moves and closes windows as monitors come, change and go. To be called before each frame: costs nothing where
-    /// nothing has changed.
+    /// Opens, moves and closes windows as monitors come, change and go. Call it before each frame; without changes it
+    /// takes no time.
     void follow();
 
-    /// The next pictures to draw into, one for each output; those without a view are not drawn: no monitor, minimised,
-    /// changing. False if there is none at all.
+    /// Acquires one image for each output. Targets without a view are not drawn: their monitor is missing, or the window
+    /// is minimised or changing. Returns false if there is no image at all.
     bool acquire();
     const std::vector<Target>& targets() const { return targets_; }
-    /// The format of the windows' pictures; undefined where no window has one yet.
+    /// The format of the windows' images; undefined where no window has one yet.
     vk::Format format() const;
 
-    /// Hands the device the commands that draw the acquired pictures; `done` is signalled after them. Throws
-    /// vk::DeviceLostError.
+    /// Submits the commands that draw the acquired images; `done` is signalled after them. Throws vk::DeviceLostError.
     void submit(vk::CommandBuffer commands, vk::Fence done);
-    /// Shows them all, together. Throws vk::DeviceLostError. Adds to `skew` where there are several: the skew of this frame,
-    /// or of an earlier one of which the driver has told by now when its pictures were seen.
+    /// Presents all acquired images together. Throws vk::DeviceLostError. With several outputs it adds a skew to `skew`:
+    /// this frame's, or an earlier frame's once the driver has reported when its images were on the screens.
     void present(Skew& skew);
 
     const std::vector<GLFWwindow*>& handles() const { return handles_; } ///< of the windows that are open
     bool closed() const; ///< by the visitor
     void switch_full_screen();
-    /// Of the fastest monitor that shows something.
+    /// The refresh rate of the fastest monitor in use.
     double refresh_hz() const;
 
 private:
@@ -45,7 +44,7 @@ private:
         Output output;
         std::optional<Window> window;
         std::optional<WindowPlace> place;
-        std::string told; ///< why there is no window, as it was told
+        std::string logged_reason; ///< the logged reason for the missing window
     };
 
     void settle_on_monitors(bool starting);
@@ -61,8 +60,8 @@ private:
     std::vector<Target> targets_;
     std::vector<Window*> acquired_; ///< windows with a picture of this frame
     vk::Fence done_; ///< of the frame's commands
-    std::uint64_t frame_ = 0; ///< counted for the driver
-    std::vector<PresentClock*> asked_; ///< about one frame's pictures
+    std::uint64_t frame_ = 0; ///< the driver's present id
+    std::vector<PresentClock*> clocks_; ///< clocks of one frame's images
     Clock::time_point looked_{};
 };
 

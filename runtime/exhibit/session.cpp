@@ -111,7 +111,7 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
     session.hid.add(seconds(now - session.last), controls);
     if (session.tracker)
         controls.head = session.tracker->read(now);
-    // A stall of the machine must not become a leap of the ship.
+    // A stall of the machine must not make the ship leap.
     const std::chrono::nanoseconds passed = now - session.last;
     entry.dt_ns = std::min<std::int64_t>(passed.count(), 100'000'000);
     entry.skipped_ns = passed.count() - entry.dt_ns;

@@ -27,7 +27,7 @@ struct Session {
 
     const ExhibitOptions& options;
     Layout layout; ///< as it is shown
-    Layout kept; ///< as its file has it: without a builder's changes since
+    Layout kept; ///< as its file has it, without a builder's unsaved changes
     FileWatch watch;
     std::string refused; ///< the reason why a changed layout was not applied, for the head-up display
     std::optional<Guide> guide;
@@ -45,7 +45,7 @@ struct Session {
     std::optional<Governor> governor;
     Clock::time_point began = Clock::now(), last = began;
     long shown = 0; ///< frames
-    bool complaints = false; ///< the validation layers had some, on a device before
+    bool complaints = false; ///< the validation layers had messages on a lost device
 };
 
 inline double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
@@ -56,16 +56,16 @@ std::unique_ptr<HeadTracker> tracker_of(const Layout& layout);
 Quality quality_of(const Session& session, const Device& device);
 /// The exposure of the next picture, EV.
 double ev_of(const Session& session);
-/// The line beneath the head-up display's figures.
+/// The line below the head-up display's figures.
 std::string notice_of(const Session& session);
 /// True once the requested frames are shown, or the caller says so.
 bool is_over(const Session& session);
 std::string describe(const Skew& skew);
 
-/// Reads what visitors and devices do since the last call. entry: its controls and times are set. Returns whether to go on.
+/// Reads the visitor's devices; sets the entry's controls and times. Returns false if the visitor leaves.
 bool read_controls(Session& session, std::span<GLFWwindow* const> windows, RecordEntry& entry);
-/// Steps flight, exposure, record and tutorial by the entry; a replay replaces the entry's controls first. metered: the
-/// exposure for the frame before. Returns whether to go on.
+/// Steps flight, exposure, record and tutorial by the entry. A replay first replaces the entry's controls. metered: the
+/// exposure for the frame before, EV. Returns false at the end of a replay.
 bool step(Session& session, RecordEntry& entry, const std::optional<double>& metered, double seconds_per_time_unit);
 
 } // namespace starbow

@@ -15,7 +15,7 @@ namespace {
     throw InputError("--measure " + one_line(part) + " " + problem);
 }
 
-/// A number at the beginning of the text, which loses it, and whether "deg" follows.
+/// Takes a number from the beginning of `text`; second: "deg" followed it.
 std::pair<double, bool> take_number(const std::string& part, std::string_view& text)
 {
     double value = 0;
@@ -111,7 +111,7 @@ StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& worl
     const MeasuringObserver& observer = frame.observer();
     const auto spot_of = [&](std::size_t i) {
         Probed one = probed[i];
-        one.ray = ray_from_ship(observer, shot.ship_from_cockpit * what.probes[i]); // sharper than the picture's
+        one.ray = ray_from_ship(observer, shot.ship_from_cockpit * what.probes[i]); // exact, unlike the picture's pixel
         return spot_at(observer, one, world.world);
     };
     std::array<std::optional<Spot>, 2> marks;

@@ -16,18 +16,18 @@ constexpr const char* measure_help
 /// A point of a picture in pixels, or a unit direction in the cockpit.
 using Point = std::variant<glm::dvec2, glm::dvec3>;
 
-/// Throws InputError for what is no list of points, or lies outside the layout's first output.
+/// Throws InputError for a text that is no list of points, and for points outside the layout's first output.
 std::vector<Point> parse_points(const std::string& text, const Layout& layout);
 
-/// What was measured of a shot.
+/// The instruments' readings of one shot.
 struct StillMeasurement {
-    std::vector<Measured> points; ///< aimed straight ahead, then at each of the points
-    std::vector<std::string> lines; ///< of what was read, in English
-    std::shared_ptr<const Panel> panel; ///< of readings, which the renderer's frame shows
+    std::vector<Measured> points; ///< straight ahead, then at each of the points
+    std::vector<std::string> lines; ///< the readings as text, in English
+    std::shared_ptr<const Panel> panel; ///< panel of readings that the renderer's frame shows
 };
 
-/// Measures a shot, and has the renderer's next picture show it where an overlay or a page is asked for. Throws InputError
-/// for a point that shows nothing. What is returned must outlive that picture. words: of the panel.
+/// Measures a shot. If an overlay or a page is requested, the renderer's next picture shows it; the result must outlive
+/// that picture. words: for the panel. Throws InputError for a point that shows nothing.
 StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& world, const Shot& shot,
     const std::vector<Point>& points, const std::string& overlay, const std::string& why, const Words& words);
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double half_pi = 1.57079632679489662;
 
-/// A press counts once, however long the step.
+/// Applies presses, which count once however long the step is.
 void press(Flight& flight, const Controls& controls, const Flying& rules, const Shot& start)
 {
     if (controls.reset) {
@@ -39,7 +39,7 @@ void press(Flight& flight, const Controls& controls, const Flying& rules, const 
         flight.throttle_rate = 0;
         flight.thrust = glm::dvec3(0);
         flight.thrust_inhibited = flight.thrust_inhibited || !controls.next_mode;
-        if (flight.thrust_inhibited && !controls.lever) // keys move a lever of their own, which must not wait where it was
+        if (flight.thrust_inhibited && !controls.lever) // the keys' own lever must not keep its old place
             flight.lever = 0;
     }
 }
@@ -69,7 +69,7 @@ Flight flight_at(const Shot& start, const Flying& rules)
     Flight flight;
     flight.ship = ship_at(start);
     flight.mode = rules.mode;
-    // A start in flight goes on as it is until the throttle is touched.
+    // A start in flight keeps its speed until the throttle is touched.
     flight.lever = std::min(1.0, rapidity_of(flight.ship) / std::acosh(rules.max_gamma));
     flight.effects = start.effects;
     flight.exposure_ev = start.exposure_ev;

@@ -13,7 +13,7 @@ struct Flight {
     Ship ship;
     FlightMode mode = FlightMode::guided;
     double lever = 0; ///< the throttle's place, from 0 to 1
-    bool thrust_inhibited = false; ///< after a stop no thrust until the throttle has been at 0: stopped means stopped
+    bool thrust_inhibited = false; ///< after a stop the engine gives no thrust until the throttle has been at 0
     double throttle_rate = 0; ///< rapidity per second now, along the way; guided and free
     glm::dvec3 thrust{0}; ///< rapidity per second, cockpit axes; newtonian
     glm::dvec3 turn_rad_s{0}, turn_lead_rad_s{0}; ///< the turn now, and the smoothed turn it approaches
@@ -23,14 +23,14 @@ struct Flight {
     double exposure_ev = 0;
     bool hud = true;
     std::int64_t ticks = 0; ///< flown since the visit began
-    std::int64_t left_ns = 0; ///< the visitor's time that is less than a tick
+    std::int64_t left_ns = 0; ///< the visitor's time not flown yet, less than a tick
 };
 
 /// The length of a step of every flight, so that a slow and a fast computer fly the same.
 constexpr std::int64_t tick_ns = 1'000'000;
 constexpr double tick_s = 1e-3;
 
-/// Seconds in which the velocity turns most of the way to the nose, and the speed goes most of the way to the throttle's.
+/// Time constants, seconds: of the velocity's turn to the nose, and of the speed's approach to the throttle's.
 constexpr double follow_s = 0.5, settle_s = 0.8;
 /// The throttle's change per second while a key moves it.
 constexpr double lever_per_s = 0.1;

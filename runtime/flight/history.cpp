@@ -4,12 +4,12 @@ namespace starbow {
 
 void History::keep(const Flight& flight)
 {
-    if (flight.homing) // no one wants to go back into it
+    if (flight.homing) // an undo must not lead back into homing
         return;
     if (!kept_.empty() && flight.ticks - kept_.back().ticks < history_every_ticks)
         return;
     kept_.push_back(flight);
-    // Twice as much, so that a second undo leads further back.
+    // Twice the time, so that a second undo leads further back.
     while (kept_.size() > 2 && flight.ticks - kept_[1].ticks >= 2 * history_ticks)
         kept_.pop_front();
 }

@@ -10,16 +10,16 @@ public:
     /// Keeps the flight; call it after each step.
     void keep(const Flight& flight);
 
-    /// The flight as it was ten seconds ago, or as long ago as is known; switches, throttle and clock stay as they are. The
-    /// states in between are dropped, so that a second call leads further back.
+    /// The flight of ten seconds ago, or the oldest kept one; switches, throttle and clock stay as they are. The states
+    /// in between are dropped, so that a second call leads further back.
     Flight back(const Flight& now);
 
 private:
     std::deque<Flight> kept_;
 };
 
-/// The result of one frame's controls: first the undo, then the step, which the history keeps. The live flight and every
-/// replay use this function.
+/// Applies one frame's controls: first an undo, then the step, which the history keeps. The live flight and every replay
+/// use this function.
 Flight flown(const Flight& flight, History& history, const Controls& controls, std::int64_t dt_ns, const Flying& rules,
     double seconds_per_time_unit, const Shot& start);
 

@@ -3,8 +3,8 @@
 
 namespace starbow {
 
-/// A flight back to a place without the visitor. The ship slows down to rest, speeds up for half of the way and slows down
-/// for the other half, on a straight line, while it turns.
+/// A flight back to a place without the visitor. The ship brakes to rest, then speeds up for half of a straight way and
+/// slows down for the other half, while it turns.
 struct Homing {
     double braking = 0; ///< rapidity per second
     double elapsed_s = -1; ///< since the way began; below 0 while it brakes

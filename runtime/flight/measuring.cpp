@@ -34,14 +34,14 @@ double at_place(Measure::What what, const glm::dvec3& at, const Ship& ship, cons
         return glm::degrees(now.angle_rad);
     case Measure::What::doppler:
         return now.D;
-    case Measure::What::size: { // aberration makes small things 1 / D as large
+    case Measure::What::size: { // aberration shrinks small things by 1 / D
         const RetardedPosition then = seen(since, at);
         return then.distance * then.D / (now.distance * now.D);
     }
-    case Measure::What::now_s: // the Lorentz transformation's: v.dx later in the world, where the ship's time is one
+    case Measure::What::now_s: // Lorentz transformation: at one time of the ship, world time is later by v.dx
         return (ship.time.total() + glm::dot(ship.u.total(), at - ship.position.total()) / physics::gamma_of(ship.u.total()))
             * seconds_per_time_unit;
-    default: // light that arrives now left the place a distance ago
+    default: // the retarded time: the place's distance ago
         return (ship.time.total() - now.distance) * seconds_per_time_unit;
     }
 }

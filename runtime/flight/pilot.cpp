@@ -8,15 +8,15 @@ namespace {
 
 const glm::dvec3 nose(0, 0, -1); ///< cockpit axes
 
-/// The part of the way that a smoothed value goes in one tick.
+/// The part of the remaining difference that a smoothed value covers in one tick.
 double share(double seconds) { return seconds > 0 ? -std::expm1(-tick_s / seconds) : 1; }
 
-/// A thrust that goes to its new value by a share of the way in each tick changes fastest at once, by the way's length over
-/// the time; no way is longer than from end to end.
+/// A thrust that covers a share of the remaining difference in each tick changes fastest at the start, by the difference
+/// over the time constant. The largest difference is from end to end.
 double gain_share(const Flying& rules) { return share(2 * rules.rapidity_per_s / rules.rapidity_jerk_per_s2); }
 
-/// A turn goes its way in two such stages, each of time T, so that its acceleration has no steps either: after a step of
-/// the stick by w the rate is w (1 - (1 + t/T) exp(-t/T)), whose second derivative is greatest at once, w / T^2.
+/// A turn is smoothed in two such stages, each of time T, so that its acceleration has no steps. After a step of the
+/// stick by w the rate is w (1 - (1 + t/T) exp(-t/T)), whose second derivative is greatest at the start, w / T^2.
 void turn(double& rate, double& lead, double wanted, double greatest, double jerk)
 {
     const double part = share(std::sqrt(2 * greatest / jerk));
@@ -24,8 +24,7 @@ void turn(double& rate, double& lead, double wanted, double greatest, double jer
     rate += part * (lead - rate);
 }
 
-/// The velocity's direction in the cockpit as it stands in the middle of the tick, where its thrust acts; the nose's at
-/// rest.
+/// The velocity's direction in the cockpit at the middle of the tick, where its thrust acts; at rest the nose's.
 glm::dvec3 heading(const Flight& flight)
 {
     const glm::dvec3 u = flight.ship.u.total(), half = 0.5 * tick_s * flight.turn_rad_s;
@@ -36,7 +35,8 @@ glm::dvec3 heading(const Flight& flight)
     return glm::normalize(angle > 0 ? glm::angleAxis(-angle, half / angle) * way : way);
 }
 
-/// Across `way`, towards `to`; where that is straight behind, upwards: there is no better reason for any way round.
+/// The unit direction across `way` towards `to`. Where `to` is straight behind, every direction is equally good, and it
+/// is up.
 glm::dvec3 across(const glm::dvec3& way, const glm::dvec3& to)
 {
     glm::dvec3 side = to - way * glm::dot(to, way);
@@ -47,7 +47,7 @@ glm::dvec3 across(const glm::dvec3& way, const glm::dvec3& to)
     return glm::normalize(side);
 }
 
-/// Guided and free: the throttle's place is the speed.
+/// Guided and free: the throttle's place sets the speed.
 Push by_lever(Flight& flight, const Flying& rules)
 {
     const double speed = rapidity_of(flight.ship),
@@ -56,7 +56,7 @@ Push by_lever(Flight& flight, const Flying& rules)
     flight.throttle_rate += gain_share(rules) * (wanted - flight.throttle_rate);
     const double gain = flight.throttle_rate * tick_s;
     Push push;
-    if (target == 0 && speed + gain < 2e-3) { // slower than anyone can see, and then less for ever
+    if (target == 0 && speed + gain < 2e-3) { // slower than anyone can see; the approach would never end
         flight.throttle_rate = 0;
         push.stop = speed > 0;
         return push;
@@ -64,8 +64,8 @@ Push by_lever(Flight& flight, const Flying& rules)
     const glm::dvec3 way = heading(flight);
     push.rapidity = std::max(gain, -speed) * way;
     if (flight.mode == FlightMode::guided) {
-        // A thrust across the flight turns the things ahead, as the ship sees them, by v/c. It also adds a speed of the
-        // second order, cosh w' = cosh(thrust) cosh w, which is taken off again.
+        // A thrust across the flight turns the things ahead, as seen from the ship, by v/c. It also adds a speed of
+        // second order, cosh w' = cosh(thrust) cosh w, which is subtracted again.
         const double angle = std::atan2(glm::length(glm::cross(way, nose)), glm::dot(way, nose));
         const double turned = share(follow_s) * angle;
         push.rapidity += (across(way, nose) * turned - way * (0.5 * turned * turned)) * std::tanh(speed);
@@ -73,7 +73,7 @@ Push by_lever(Flight& flight, const Flying& rules)
     return push;
 }
 
-/// Newtonian: the throttle is the engine.
+/// Newtonian: the throttle sets the thrust.
 Push by_thrust(Flight& flight, const Controls& controls, const Flying& rules)
 {
     const double engine = controls.lever ? *controls.lever * rules.rapidity_per_s : 0;
@@ -84,7 +84,7 @@ Push by_thrust(Flight& flight, const Controls& controls, const Flying& rules)
     if (wanted == glm::dvec3(0) && glm::length(flight.thrust) < 1e-4)
         flight.thrust = glm::dvec3(0);
     Push push{flight.thrust * tick_s};
-    // At the limit nothing more is gained along the flight; turning it stays possible, and its gain of speed is taken off.
+    // At the limit the speed does not grow; the velocity still turns, and the gain of speed from turning is subtracted.
     const glm::dvec3 way = heading(flight);
     const double room = std::acosh(rules.max_gamma) - rapidity_of(flight.ship);
     push.rapidity -= way * std::max(0.0, glm::dot(push.rapidity, way) - room);
@@ -93,12 +93,12 @@ Push by_thrust(Flight& flight, const Controls& controls, const Flying& rules)
 
 } // namespace
 
-Push pilot(Flight& flight, const Controls& told, const Flying& rules)
+Push pilot(Flight& flight, const Controls& input, const Flying& rules)
 {
-    Controls controls = told;
-    if (flight.mode != FlightMode::newtonian) // visitors with thrusters alone, as on a space mouse, have a speed all the
+    Controls controls = input;
+    if (flight.mode != FlightMode::newtonian) // lets visitors with thrusters alone, as on a space mouse, set the speed too
                                               // same
-        controls.throttle_rate -= told.push.z;
+        controls.throttle_rate -= input.push.z;
     const glm::dvec3 rates = degree * glm::dvec3(rules.turn_deg_per_s, rules.turn_deg_per_s, rules.roll_deg_per_s);
     for (int i = 0; i < 3; ++i)
         turn(flight.turn_rad_s[i], flight.turn_lead_rad_s[i], std::clamp(controls.turn[i], -1.0, 1.0) * rates[i], rates[i],

@@ -6,10 +6,11 @@ namespace starbow {
 /// A flight mode's effect on the ship in one tick.
 struct Push {
     glm::dvec3 rapidity{0}; ///< gain in the tick, cockpit axes
-    bool stop = false; ///< at rest at once: the last bit of slowing down
+    bool stop = false; ///< the ship is at rest at once: the end of slowing down
 };
 
-/// Advances the flight's smoothed controls (turn_rad_s, throttle_rate, thrust, lever) by a tick, and not yet the ship.
+/// Advances the flight's smoothed controls (turn_rad_s, throttle_rate, thrust, lever) by a tick; it does not move the
+/// ship.
 Push pilot(Flight& flight, const Controls& controls, const Flying& rules);
 
 } // namespace starbow

@@ -10,11 +10,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Compiles only while these structs have just the members that are named here, whatever their sizes: a new one goes into
-/// the record, or into the digest, as well.
+/// Compiles only while these structs have exactly the members named here, whatever their sizes. A new member belongs in
+/// the record, or in the digest, as well.
 [[maybe_unused]] void name_every_member(const Controls& c, const Flying& f, const Exposing& e, const Flight& s)
 {
-    [[maybe_unused]] const auto& [time_ns, told_ns, lever, throttle_rate, push, turn, look_rad, head, exposure, look_ahead,
+    [[maybe_unused]] const auto& [time_ns, report_ns, lever, throttle_rate, push, turn, look_rad, head, exposure, look_ahead,
         stop, home, undo, reset, next_mode, aberration, doppler, headlight, false_colours, comparison, lock_exposure,
         overlay, mark, log, why, hud, full_screen, quit, pattern, save, choose, turn_by]
         = c;
@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
         = s;
 }
 
-/// Wide enough for any device's rate, narrow enough that nothing overflows.
+/// Ranges wide enough for any device, narrow enough to prevent overflow.
 constexpr Range any_rate{-1e3, 1e3};
 constexpr Range any_place{-1e15, 1e15};
 constexpr double most_ns = 9e15; ///< a hundred days; whole numbers below it are doubles
@@ -60,7 +60,7 @@ template <class Value> void put(Json& json, const char* name, const Value& value
         json[name] = a.size() == 1 ? Json(a[0]) : Json(a);
 }
 
-/// w first.
+/// Reads a quaternion, w first.
 void take_turn(const Place& place, const std::string& name, glm::dquat& turn)
 {
     const auto p = find_member(place, name);
@@ -94,7 +94,7 @@ Json json_of(const Effects& effects)
         {"comparison", comparison_names[std::size_t(effects.comparison)]}, {"false_colours", effects.false_colours}};
 }
 
-/// Not in the form of a shot's file: a speed and directions there would come back rounded.
+/// Reads the start. It is not in the form of a shot's file, where a speed and directions would be rounded.
 Shot read_start(const Place& place)
 {
     reject_unknown_members(place, {"time", "position", "u", "ship_from_cockpit", "effects", "exposure_ev"});

@@ -12,8 +12,7 @@
 namespace starbow {
 
 /// The version of a flight's record. A record is JSON, an object a line: a header, then one entry for each frame, a check
-/// now and then, and a last line if the flight was left properly. Numbers are written so that they are read back to the
-/// bit.
+/// now and then, and a last line if the flight ended properly. Numbers are written so that reading restores every bit.
 constexpr int record_version = 1;
 
 /// The header: all that a replay needs beside the entries.
@@ -27,12 +26,11 @@ struct RecordHeader {
     Exposing exposing;
 };
 
-/// One frame: the arguments of step(). Controls::told_ns is not kept, because that clock means nothing on another day.
+/// One frame: the arguments of step(). Controls::report_ns is not kept, because that clock means nothing on another day.
 struct RecordEntry {
     std::int64_t dt_ns = 0;
-    std::int64_t skipped_ns
-        = 0; ///< of the visitor's time before it: a stall of the machine that the flight does not make up
-    bool shown = true; ///< false: the visitor saw no picture of it, because no window was in sight
+    std::int64_t skipped_ns = 0; ///< visitor's time before the frame that is not flown: a stall of the machine
+    bool shown = true; ///< false: the visitor saw no picture of the frame, because no window was visible
     std::optional<double> exposure_ev; ///< the automatic exposure's adapted EV, because a replay does not repeat the
                                        ///< metering
     Controls controls; ///< time_ns: the sum of all dt_ns and skipped_ns so far
@@ -42,7 +40,7 @@ struct RecordEntry {
 struct RecordCheck {
     std::int64_t ticks = 0;
     std::uint64_t digest = 0;
-    bool last = false; ///< the flight was left here
+    bool last = false; ///< the flight ended here
 };
 
 /// A check is due each time this many ticks have passed.

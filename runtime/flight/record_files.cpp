@@ -12,7 +12,7 @@ namespace {
 
 std::uint64_t digest_of_scene(const fs::path& scene) { return digest_of({scene, load_scene_file(scene).gltf}); }
 
-/// A shipped file by its name, wherever this checkout is; any other by its whole path.
+/// Names a shipped file by its name, which holds in any checkout, and other files by their whole path.
 std::string name_of(const std::string& kind, const fs::path& file)
 {
     std::error_code error;

@@ -25,8 +25,8 @@ struct Flown {
 };
 
 /// Finds the scene and the layout of a record. layout: another one instead of the record's; empty: the record's. say: is
-/// called where files have changed since, because the pictures may have changed too. Throws InputError where the scene now
-/// has another unit of time: every state would differ.
+/// called if files have changed since the record, because the pictures may then differ. Throws InputError if the scene
+/// now has another unit of time, because every state would differ.
 Flown find_flown(const std::filesystem::path& record, const RecordHeader& header, const std::string& layout,
     const std::function<void(const std::string&)>& say);
 

@@ -14,10 +14,10 @@ bool RecordReplay::play(RecordEntry& entry)
     if (played_)
         return false;
     entry = *recorded;
-    entry.controls.save = false; // a replay shows; it writes no layout
+    entry.controls.save = false; // a replay writes no layout
     const auto length = std::chrono::nanoseconds(entry.dt_ns);
     std::this_thread::sleep_until(due_ += length);
-    due_ = std::max(due_, Clock::now() - length); // a replay that is late does not hurry: each frame is seen
+    due_ = std::max(due_, Clock::now() - length); // a late replay does not hurry, because each frame must be seen
     return true;
 }
 

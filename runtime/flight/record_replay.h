@@ -18,19 +18,19 @@ public:
 
     bool replays() const { return replay_ != nullptr; }
 
-    /// In a replay, replaces the frame by the next recorded one when its time has come; a recorded stall is not waited for.
-    /// False after the last.
+    /// In a replay, waits until the next recorded frame is due and replaces `entry` by it; recorded stalls are skipped.
+    /// Returns false after the last.
     bool play(RecordEntry& entry);
-    /// Records the frame, or compares its result.
+    /// Records the frame, or compares its result with the record.
     void keep(const RecordEntry& entry, const Flight& flight);
-    /// Ends the record or the replay of a flight that was left properly; prints lines on standard output. False where a
-    /// replay was not the same to the bit.
+    /// Ends the record or the replay of a flight that ended properly; prints lines on standard output. Returns false if a
+    /// replay differed in any bit.
     bool end(const Flight& flight);
 
 private:
     std::unique_ptr<Recorder> recorder_;
     std::unique_ptr<Replay> replay_;
-    bool played_ = false; ///< to the end
+    bool played_ = false; ///< the replay has reached its end
     Clock::time_point due_{}; ///< of the last frame
 };
 

@@ -118,7 +118,7 @@ void Recorder::write_out(const std::string& text)
         waiting_.clear();
     };
     std::error_code ignored;
-    const fs::space_info space = fs::space(file_, ignored); // -1, plenty, where it is unknown
+    const fs::space_info space = fs::space(file_, ignored); // -1 where it is unknown, which counts as plenty
     if (ordinary_ && space.available < least_free_bytes)
         return fail("less than " + std::to_string(least_free_bytes >> 20) + " MiB are free on its disk");
     for (std::size_t done = 0; done < text.size();) {

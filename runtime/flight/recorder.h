@@ -9,8 +9,8 @@
 
 namespace starbow {
 
-/// Writes a record on a thread of its own, so that no frame waits for a disk. Entries reach the disk within a second. A
-/// full or missing disk ends the record with a sentence, and the flight goes on.
+/// Writes a record on a thread of its own, so that no frame waits for a disk. Entries reach the disk within a second. On
+/// a full or missing disk the record ends with a message, and the flight goes on.
 class Recorder {
 public:
     /// file: a new one; or a folder, where the file is named by date and time. say: is called with a line for the log, from
@@ -21,10 +21,10 @@ public:
 
     /// Keeps a frame, and a check of its result when one is due.
     void keep(const RecordEntry& entry, const Flight& flight);
-    /// Writes the last line of a flight that was left properly.
+    /// Writes the last line of a flight that ended properly.
     void end(const Flight& flight);
 
-    bool failed() const; ///< it has reported this and keeps nothing more
+    bool failed() const; ///< true after a reported failure; nothing more is kept
     const std::filesystem::path& file() const { return file_; }
 
 private:

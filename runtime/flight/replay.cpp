@@ -9,7 +9,7 @@ namespace starbow {
 namespace fs = std::filesystem;
 namespace {
 
-/// Far longer than any written line: a longer one is no record, and is not read to its end.
+/// Far longer than any written line. A longer line belongs to no record and is not read to its end.
 constexpr std::size_t longest_line = 1 << 16;
 
 } // namespace
@@ -37,8 +37,8 @@ Replay::Replay(const fs::path& file)
     compare_here(flight_at(header_.start, header_.rules));
 }
 
-/// A line without its end; nullopt at the end of the file, or where a last line without an end is left out: a crash
-/// interrupted its writing.
+/// The next line without its end; nullopt at the end of the file. An unfinished last line is left out: a crash
+/// interrupted it.
 std::optional<std::string> Replay::line()
 {
     std::string text;
@@ -84,7 +84,7 @@ void Replay::compare(const Flight& flight)
     compare_here(flight);
 }
 
-/// With all checks before the next frame.
+/// Compares with all checks before the next frame.
 void Replay::compare_here(const Flight& flight)
 {
     while (ahead_ && std::holds_alternative<RecordCheck>(*ahead_)) {

@@ -28,7 +28,7 @@ public:
     /// The part of the file that has been read, from 0 to 1.
     double part_read() const;
 
-    /// For people, when next() has returned nullopt: whether the flight was the same to the bit, or where it first
+    /// A sentence for people, once next() has returned nullopt: the flight was the same to the bit, or where it first
     /// differed, and which parts of the record are missing.
     std::string verdict() const;
     bool differs() const { return !differs_.empty(); }
@@ -46,7 +46,7 @@ private:
     std::optional<std::variant<RecordEntry, RecordCheck>> ahead_;
     std::int64_t time_ns_ = 0, frames_ = 0;
     int checks_ = 0;
-    bool whole_ = false; ///< the record has the last line of a flight that was left properly
+    bool whole_ = false; ///< the record has the last line of a flight that ended properly
     bool cut_ = false; ///< an incomplete last line was left out
     std::string differs_; ///< the first difference
 };

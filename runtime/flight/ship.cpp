@@ -14,7 +14,7 @@ glm::dquat quaternion_of(const glm::dvec3& rotation_vector_rad)
     return {std::cos(half), v.x, v.y, v.z};
 }
 
-// turn * q as q and a small change: on a straight flight q stays to the bit. Roundings, frame after frame, would aim the
+// turn * q as q plus a small change, so that q keeps every bit on a straight flight. Accumulated rounding would turn the
 // thrust aside, and a flight back to rest from gamma multiplies sideways errors by gamma.
 glm::dquat carried(const glm::dvec4& turn, const glm::dquat& q)
 {
@@ -65,11 +65,11 @@ double rapidity_of(const Ship& ship) { return std::asinh(glm::length(ship.u.tota
 
 Ship fly(Ship ship, const glm::dvec3& acceleration, const glm::dvec3& turn, double dtau)
 {
-    // Thrust in the mean direction of the step: half of the turn before it and half behind leaves no error of first order.
+    // The thrust has the step's mean direction: half of the turn before it and half after it leave no first-order error.
     const glm::dquat half_turn = quaternion_of(0.5 * turn);
     const glm::dquat ship_from_thruster = ship.ship_from_cockpit * half_turn;
 
-    // A thrust whose square underflows has no direction; it has no effect either.
+    // A thrust whose square underflows has no direction and no effect.
     const double length = glm::length(acceleration), strength = length > 1e-100 ? length : 0;
     const glm::dvec3 way = strength > 0 ? glm::normalize(ship_from_thruster * acceleration) : glm::dvec3(0);
     const glm::dvec3 u = ship.u.total();

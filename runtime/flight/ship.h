@@ -54,7 +54,7 @@ double rapidity_of(const Ship& ship);
 /// step's rapidity is below 0.01. A sideways error at the top, such as the rounding of a turn, comes back times gamma.
 Ship fly(Ship ship, const glm::dvec3& acceleration, const glm::dvec3& turn, double dtau);
 
-/// The ship at rest in the world at once, at its event; the cockpit's axes among the ship's stay.
+/// Returns the ship at rest in the world at the same event; the cockpit's axes in the ship frame stay.
 Ship stopped(Ship ship);
 
 } // namespace starbow

@@ -9,10 +9,10 @@ namespace starbow {
 namespace {
 
 constexpr double second_ns = 1e9;
-/// A stick that is held aside steps to the next number at these intervals.
+/// Intervals at which a stick held aside steps to the next number.
 constexpr double first_repeat_s = 0.5, repeat_s = 0.1;
-/// The longest time of a question where nobody answers, as in a movie.
-constexpr double longest_asked_of_nobody_s = 7;
+/// The longest time of a question without visitors, as in a movie.
+constexpr double longest_unattended_question_s = 7;
 /// A place counts as reached after this time.
 constexpr double reached_s = 0.3;
 
@@ -22,20 +22,20 @@ const Step& step_of(const Touring& touring, const Show& show) { return show.tour
 
 bool tries(const Step& step) { return std::holds_alternative<Try>(step.motion); }
 
-/// The time of a question, or of a step without one. Nobody needs long to think.
-double asked_s(const Step& step, bool visitors)
+/// The time limit of a question, or the time of a step without one. Without visitors a question is shorter.
+double time_limit_s(const Step& step, bool visitors)
 {
-    return step.question && !visitors ? std::min(step.seconds, longest_asked_of_nobody_s) : step.seconds;
+    return step.question && !visitors ? std::min(step.seconds, longest_unattended_question_s) : step.seconds;
 }
 
 /// The step's present duration.
 std::int64_t duration_ns(const Touring& now, const Show& show)
 {
     const Step& step = step_of(now, show);
-    const std::int64_t asked = ns(asked_s(step, show.visitors));
+    const std::int64_t limit = ns(time_limit_s(step, show.visitors));
     if (!step.question)
-        return asked;
-    return (now.measured_answer ? now.asked_ns : asked) + ns(step.question->explanation_s);
+        return limit;
+    return (now.measured_answer ? now.answered_ns : limit) + ns(step.question->explanation_s);
 }
 
 /// The rules for the visitor who flies in this step.
@@ -49,20 +49,20 @@ Flying rules_in(const Step& step, const Flying& exhibits)
     return rules;
 }
 
-/// Gives the controls to the visitor.
+/// Starts the visitor's own flight.
 void hand_over(Touring& now, const Flying& rules)
 {
     Shot here = shot_of(now.flight.ship);
     const Flight fresh = flight_at(here, rules);
     now.flight.mode = fresh.mode, now.flight.lever = fresh.lever;
-    now.flight.thrust_inhibited = rapidity_of(now.flight.ship) == 0; // a throttle that happens to stand open waits
+    now.flight.thrust_inhibited = rapidity_of(now.flight.ship) == 0; // an open throttle then has no effect yet
     now.flight.throttle_rate = 0;
     now.flight.thrust = now.flight.turn_rad_s = now.flight.turn_lead_rad_s = glm::dvec3(0);
     now.flight.homing.reset();
     now.idle_s = 0;
 }
 
-/// Begins the step whose start is the last; its motion, effects and exposure from `now.flight`.
+/// Begins the step of the last start, with motion, effects and exposure from `now.flight`.
 void begin(Touring& now, const Show& show)
 {
     const Step& step = step_of(now, show);
@@ -70,7 +70,7 @@ void begin(Touring& now, const Show& show)
     if (const Cut* cut = std::get_if<Cut>(&step.motion)) {
         const Ship before = start.flight.ship;
         start.flight.ship = ship_at(cut->shot);
-        // The clock and the distance go on, for visitors who look at the ship's clock.
+        // The ship's clock and distance go on across a cut.
         start.flight.ship.proper_time = before.proper_time, start.flight.ship.distance = before.distance;
         start.flight.effects = cut->shot.effects;
         start.flight.exposure_ev = step.exposure_ev.value_or(cut->shot.exposure_ev);
@@ -79,8 +79,8 @@ void begin(Touring& now, const Show& show)
     if (step.effects)
         start.flight.effects = *step.effects;
     now.into_ns = 0;
-    now.chosen = -1, now.right.reset(), now.measured_answer.reset(), now.asked_ns = 0;
-    now.nudged = true; // a stick that still stands aside is no answer
+    now.chosen = -1, now.right.reset(), now.measured_answer.reset(), now.answered_ns = 0;
+    now.nudged = true; // a stick that is still held aside is no answer
     now.nudged_s = -1e9;
     if (step.question)
         if (const auto* set = std::get_if<NumberToSet>(&step.question->answer))
@@ -100,8 +100,8 @@ void place(Touring& now, const Show& show)
     if (tries(step))
         return;
     const Touring::Start& start = now.starts.back();
-    // The motion stands during the explanation: the question's subject stays in view.
-    const double seconds = double(now.measured_answer ? now.asked_ns : now.into_ns) / second_ns;
+    // The motion stops during the explanation, so that the question's subject stays in view.
+    const double seconds = double(now.measured_answer ? now.answered_ns : now.into_ns) / second_ns;
     const double part = std::min(1.0, seconds / step.seconds);
     now.flight.ship = along(step, start.flight.ship, part, show.seconds_per_time_unit);
     now.flight.exposure_ev = start.flight.exposure_ev;
@@ -132,15 +132,15 @@ double number_now(const Touring& now, const Show& show, const Measure& measure)
     return measured(measure, now.flight.ship, now.starts.back().since, show.seconds_per_time_unit);
 }
 
-/// Shows the answer from here on.
-void tell(Touring& now, const Show& show, std::optional<bool> right)
+/// Shows the explanation from here on. right: the verdict; nullopt: none possible.
+void show_answer(Touring& now, const Show& show, std::optional<bool> right)
 {
     now.measured_answer = number_now(now, show, step_of(now, show).question->measure);
     now.right = right;
-    now.asked_ns = now.into_ns;
+    now.answered_ns = now.into_ns;
 }
 
-/// The visitor answers.
+/// Takes the visitor's answer.
 void answer(Touring& now, const Show& show)
 {
     const Question& question = *step_of(now, show).question;
@@ -148,14 +148,14 @@ void answer(Touring& now, const Show& show)
     if (const auto* choices = std::get_if<std::vector<Choice>>(&question.answer)) {
         if (now.chosen >= 0) {
             const Choice& choice = (*choices)[std::size_t(now.chosen)];
-            tell(now, show, value >= choice.from && value < choice.below);
+            show_answer(now, show, value >= choice.from && value < choice.below);
         }
     } else if (const auto* set = std::get_if<NumberToSet>(&question.answer)) {
-        tell(now, show, std::abs(value - now.number) <= set->tolerance);
+        show_answer(now, show, std::abs(value - now.number) <= set->tolerance);
     }
 }
 
-/// Moves the choice, or the number, by one; to the right is more.
+/// Moves the choice or the number by one; to the right means more.
 void nudge(Touring& now, const Show& show, int by)
 {
     const Question& question = *step_of(now, show).question;
@@ -202,13 +202,13 @@ void fly_by_hand(Touring& now, const Show& show, Controls controls, std::int64_t
     const double lever = now.flight.lever;
     controls.home = controls.home && now.over;
     controls.undo = controls.reset = false;
-    controls.exposure = 0; // counted as everywhere in the tour
+    controls.exposure = 0; // the tour itself applies it
     now.flight = step(
         now.flight, controls, dt_ns, rules, show.seconds_per_time_unit, std::get<Cut>(show.tour.steps[0].motion).shot);
     now.idle_s = touched(controls, now.flight.lever, lever) ? 0 : now.idle_s + double(dt_ns) / second_ns;
 }
 
-/// Applies the controls that work at any time. True where they lead elsewhere in the tour.
+/// Applies the controls that work at any time. Returns true if they lead to another place in the tour.
 bool press(Touring& now, const Show& show, const Controls& controls)
 {
     const bool by_hand = flies(now, show);
@@ -224,7 +224,7 @@ bool press(Touring& now, const Show& show, const Controls& controls)
         return true;
     }
     if (controls.undo && !now.over) {
-        // Soon after a step's beginning, to the one before.
+        // Soon after a step's beginning, undo leads to the step before.
         if (now.into_ns < ns(2) && now.starts.size() > 1)
             now.starts.pop_back();
         begin(now, show);
@@ -233,7 +233,7 @@ bool press(Touring& now, const Show& show, const Controls& controls)
     }
     if (controls.home && !now.over) {
         now.paused = false;
-        // On to the step's end, where it would have led to.
+        // Skips to the step's end and its final state.
         now.into_ns = std::max(now.into_ns, ns(step_of(now, show).seconds));
         next(now, show);
         return true;
@@ -253,7 +253,7 @@ void watch(Touring& now, const Show& show, std::int64_t dt_ns)
     const double value = number_now(now, show, step.question->measure);
     now.number = value >= reach.from && value <= reach.to ? now.number + double(dt_ns) / second_ns : 0;
     if (now.number > reached_s)
-        tell(now, show, true);
+        show_answer(now, show, true);
 }
 
 } // namespace
@@ -275,7 +275,7 @@ double length_s(const Tour& tour)
     double sum = 0;
     for (const Step& step : tour.steps)
         if (!tries(step))
-            sum += asked_s(step, false) + (step.question ? step.question->explanation_s : 0);
+            sum += time_limit_s(step, false) + (step.question ? step.question->explanation_s : 0);
     return sum;
 }
 
@@ -305,11 +305,11 @@ Touring advance(Touring now, const Show& show, const Controls& controls, std::in
         ask(now, show, controls, dt_s);
     for (std::int64_t left = dt_ns; left > 0 && !now.over;) {
         const Step& step = step_of(now, show);
-        // The time stops at the end of the step, or at the end of the time to answer if that is earlier.
-        const std::int64_t asked = ns(asked_s(step, show.visitors));
+        // The time runs to the end of the step, or of the time to answer if that is earlier.
+        const std::int64_t limit = ns(time_limit_s(step, show.visitors));
         std::int64_t end = duration_ns(now, show);
         if (step.question && !now.measured_answer)
-            end = asked;
+            end = limit;
         const std::int64_t some = std::min(left, std::max<std::int64_t>(0, end - now.into_ns));
         if (flies(now, show)) {
             fly_by_hand(now, show, controls, some, rules_in(step, show.rules));
@@ -321,7 +321,7 @@ Touring advance(Touring now, const Show& show, const Controls& controls, std::in
         if (now.into_ns < end)
             continue;
         if (step.question && !now.measured_answer)
-            tell(now, show, {});
+            show_answer(now, show, {});
         else
             next(now, show);
     }

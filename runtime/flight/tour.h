@@ -7,20 +7,20 @@
 
 namespace starbow {
 
-/// A tour with the rules and the units that it is shown with.
+/// A tour with its rules and its units.
 struct Show {
     const Tour& tour;
     Flying rules; ///< of the visitor's flight in it
     double seconds_per_time_unit; ///< of the scene
-    bool visitors = true; ///< false: nobody flies, and the visitor's steps are left out
+    bool visitors = true; ///< false: nobody flies, and the steps in which the visitor flies are left out
 };
 
-/// The state of a tour. The picture is a function of `flight`, the caption of all of it.
+/// The state of a tour. The picture is a function of `flight`; the caption depends on all members.
 struct Touring {
     /// The state at a step's beginning.
     struct Start {
         Flight flight;
-        Ship since; ///< the ship at the tour's last cut, whose sizes are compared with
+        Ship since; ///< the ship at the tour's last cut: the reference of size measures
     };
     std::vector<Start> starts; ///< of each step up to the present one
     std::int64_t into_ns = 0; ///< time since the present step began
@@ -30,13 +30,13 @@ struct Touring {
     bool over = false; ///< the tour has ended: the visitor flies until nobody touches anything
     double idle_s = 0; ///< since the last touch, where the visitor flies
     // The question of the step.
-    int chosen = -1; ///< of its choices; -1: none yet
+    int chosen = -1; ///< index of the chosen answer; -1: none yet
     double number = 0; ///< the visitor's number
     bool nudged = false; ///< the stick is held to a side
     double nudged_s = 0; ///< for how long
     std::optional<bool> right; ///< the verdict on the answer; nullopt: no answer yet, or none possible
-    std::optional<double> measured_answer; ///< the measured number, while the explanation is shown
-    std::int64_t asked_ns = 0; ///< time into the step when the answer came
+    std::optional<double> measured_answer; ///< the measured value, set while the explanation is shown
+    std::int64_t answered_ns = 0; ///< time into the step when the answer came
 
     std::size_t step() const { return starts.size() - 1; }
 };

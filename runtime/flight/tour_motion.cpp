@@ -6,8 +6,8 @@
 namespace starbow {
 namespace {
 
-/// The part of the ship's time that has passed after a part of the step. Its rate rises and falls as 10x^3 - 15x^4 + 6x^5;
-/// this is the integral.
+/// The part of the ship's time that passes in a part of the step. Its rate rises and falls as 10x^3 - 15x^4 + 6x^5; this
+/// is the integral.
 double gone(double part, double seconds, const glm::dvec2& ease_s)
 {
     const auto ramp = [](double x) { return x * x * x * x * (2.5 + x * (-3 + x)); };
@@ -19,7 +19,7 @@ double gone(double part, double seconds, const glm::dvec2& ease_s)
     return begun / all;
 }
 
-/// Proper velocity on the geodesic of velocity space from a to b, at a part of the rapidity of b as a ship at a sees it.
+/// Proper velocity on the geodesic of velocity space from a to b. part: of the rapidity of b relative to a.
 glm::dvec3 between(const glm::dvec3& a, const glm::dvec3& b, double part)
 {
     const glm::dvec3 relative = physics::world_place(-a, physics::gamma_of(b), b);
@@ -29,9 +29,9 @@ glm::dvec3 between(const glm::dvec3& a, const glm::dvec3& b, double part)
     return physics::composed(a, relative / speed * std::sinh(part * std::asinh(speed)));
 }
 
-/// The world's time, in units, that passes up to `part` of a glide in which dtau units of the ship's pass in all: the
-/// integral of gamma, which on a geodesic of eased rapidity is as smooth as can be: Gauss-Legendre with five points in each
-/// of 16 parts is exact to rounding for any speed that a scene is made for.
+/// The world's time, in units, up to `part` of a glide that takes dtau units of the ship's time. It is the integral of
+/// gamma, which is very smooth on a geodesic of eased rapidity: Gauss-Legendre with five points in each of 16 parts is
+/// exact to rounding for the speeds of any scene.
 double world_time(const glm::dvec3& a, const glm::dvec3& b, double part, double dtau)
 {
     constexpr int parts = 16;
@@ -49,7 +49,7 @@ double world_time(const glm::dvec3& a, const glm::dvec3& b, double part, double 
     return sum * half * dtau;
 }
 
-/// The ship `part` of a step's way in, from its start.
+/// The ship after `part` of a step, from its start.
 struct Motion {
     const Step& step;
     double part, run, dtau; ///< run: part of the step's ship's time; dtau: units of the ship's time so far in the step

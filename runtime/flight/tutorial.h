@@ -6,8 +6,8 @@
 
 namespace starbow {
 
-/// A visitor's first minute: go, turn, stop. Each prompt disappears when its task is done. When nobody has touched anything
-/// for a while, the next visitor begins anew.
+/// A visitor's first minute: go, turn, stop. Each prompt disappears when its task is done. After a while without any
+/// control the tutorial begins anew for the next visitor.
 struct Tutorial {
     int lesson = 0; ///< of lessons; beyond the last there is no prompt
     double begun_at = 0; ///< rapidity when the lesson began

@@ -9,7 +9,7 @@
 namespace starbow {
 namespace {
 
-/// Three figures or so, enough for a caption.
+/// About three figures, enough for a caption.
 std::string figures(double x, const Words& words)
 {
     std::array<char, 32> text;
@@ -75,7 +75,7 @@ void write_caption(Panel& panel, const Typesetter& typesetter, const Caption& ca
         const std::string field = fields[i].first + " " + fields[i].second;
         int size = small;
         while (fields.size() == 1 && size > 6 && x + typesetter.width_of(field, size) > aside - small)
-            --size; // a notice stands alone, and is shown whole
+            --size; // a notice is alone and is shown whole
         const double end = x + typesetter.width_of(field, size);
         if (i > 0 && end > aside - small)
             break;
@@ -83,7 +83,7 @@ void write_caption(Panel& panel, const Typesetter& typesetter, const Caption& ca
         x = end + 1.2 * small;
     }
 
-    // The largest letters with which all lines fit.
+    // The largest size at which all lines fit.
     const double top = 0.23 * height, room = 0.72 * height, pitch = 1.18;
     int size = int(0.21 * height);
     std::vector<std::string> lines;

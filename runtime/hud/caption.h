@@ -17,14 +17,14 @@ struct Caption {
     std::string text;
     std::vector<std::string> choices{}; ///< of a question
     int chosen = -1; ///< index of a choice; -1: none
-    std::string aside{}; ///< how to answer, and the seconds left
+    std::string aside{}; ///< the keys for an answer, and the seconds left
     bool flying = false; ///< the visitor flies: the lever counts
 };
 
 /// The caption of a tour's present state, in words for the controls at hand; empty where the visitor flies freely.
 Caption caption_of(const Touring& touring, const Show& show, const Words& words, const InputCapabilities& capabilities);
 
-/// Writes a caption on a panel's plate, as large as it fits; the first of the fields stands small above it.
+/// Writes a caption on a panel's plate, as large as it fits; the first of the fields are small above it.
 void write_caption(Panel& panel, const Typesetter& typesetter, const Caption& caption,
     const std::vector<std::pair<std::string, std::string>>& fields);
 

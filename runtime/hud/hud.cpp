@@ -26,7 +26,7 @@ template <class... Values> std::string text(const char* format, Values... values
 std::string number(double x)
 {
     double size = std::abs(x);
-    if (size != 0 && (size >= 999999.5 || size < 1e-3)) { // six figures, once rounded, is the most that fits
+    if (size != 0 && (size >= 999999.5 || size < 1e-3)) { // six figures after rounding are the most that fit
         int exponent = int(std::floor(std::log10(size)));
         double mantissa = x / std::pow(10.0, exponent);
         if (std::abs(mantissa) >= 9.95)
@@ -40,7 +40,7 @@ std::string number(double x)
     return text(size >= 1000 ? "%.0f" : size >= 100 ? "%.1f" : size >= 10 ? "%.2f" : "%.3f", x);
 }
 
-/// C's number in the language's style: its decimal sign, a minus as long as a plus, and none before a zero.
+/// A number of printf in the language's style: its decimal sign, a minus as long as a plus, and none before zero.
 std::string figures(std::string c, const Words& words)
 {
     if (c.starts_with('-'))
@@ -56,25 +56,25 @@ std::string shown_number(double x, int decimals, const Words& words) { return fi
 std::string shown_duration(double s, const Words& words, int decimals)
 {
     double size = std::abs(s);
-    const auto told = [&](const char* key, const std::string& figures) { return words(key, {{"number", figures}}); };
-    return size < 600              ? told("time.s", shown_number(s, decimals, words))
-        : size < 36000             ? told("time.min", shown_number(s / 60, 1, words))
-        : size < 10 * 86400.0      ? told("time.h", shown_number(s / 3600, 1, words))
-        : size < 2 * julian_year_s ? told("time.days", shown_number(s / 86400, 1, words))
-                                   : told("time.years", shown_number(s / julian_year_s, words));
+    const auto phrase = [&](const char* key, const std::string& figures) { return words(key, {{"number", figures}}); };
+    return size < 600              ? phrase("time.s", shown_number(s, decimals, words))
+        : size < 36000             ? phrase("time.min", shown_number(s / 60, 1, words))
+        : size < 10 * 86400.0      ? phrase("time.h", shown_number(s / 3600, 1, words))
+        : size < 2 * julian_year_s ? phrase("time.days", shown_number(s / 86400, 1, words))
+                                   : phrase("time.years", shown_number(s / julian_year_s, words));
 }
 
 std::string shown_length(double m, double scene_light_speed_m_s, const Words& words)
 {
-    const auto told = [&](const char* key, const std::string& figures) { return words(key, {{"number", figures}}); };
+    const auto phrase = [&](const char* key, const std::string& figures) { return words(key, {{"number", figures}}); };
     if (scene_light_speed_m_s == light_speed_m_s && m > 1e6) {
         double s = m / light_speed_m_s;
-        return s < 600               ? told("length.light_s", shown_number(s, 2, words))
-            : s < 36000              ? told("length.light_min", shown_number(s / 60, 1, words))
-            : s < julian_year_s / 10 ? told("length.light_h", shown_number(s / 3600, 1, words))
-                                     : told("length.light_years", shown_number(s / julian_year_s, words));
+        return s < 600               ? phrase("length.light_s", shown_number(s, 2, words))
+            : s < 36000              ? phrase("length.light_min", shown_number(s / 60, 1, words))
+            : s < julian_year_s / 10 ? phrase("length.light_h", shown_number(s / 3600, 1, words))
+                                     : phrase("length.light_years", shown_number(s / julian_year_s, words));
     }
-    return m < 1000 ? told("length.m", shown_number(m, 1, words)) : told("length.km", shown_number(m / 1000, words));
+    return m < 1000 ? phrase("length.m", shown_number(m, 1, words)) : phrase("length.km", shown_number(m / 1000, words));
 }
 
 Panel plate(glm::ivec2 size, double corner)
@@ -181,7 +181,7 @@ struct Typesetter::Font {
 
 namespace {
 
-/// The code points of UTF-8 text that we wrote ourselves.
+/// The code points of well-formed UTF-8.
 std::vector<int> code_points(const std::string& utf8)
 {
     std::vector<int> codes;
@@ -239,7 +239,7 @@ Panel Typesetter::draw(const Readings& readings, const Words& words, int width) 
     const int height = int(width * panel_aspect);
     Panel panel = plate({width, height}, height * 0.12);
 
-    // The lever's way along the left edge, filled up to where it stands. A still has none.
+    // The lever's track along the left edge, filled up to the lever's place. Stills have no lever.
     const glm::ivec2 from(panel.size.x * 0.016, panel.size.y * 0.13), to(panel.size.x * 0.023, panel.size.y * 0.87);
     const int filled = to.y - int(std::lround((to.y - from.y) * std::clamp(readings.lever.value_or(0), 0.0, 1.0)));
     for (int y = from.y; readings.lever && y < to.y; ++y)
@@ -253,7 +253,7 @@ Panel Typesetter::draw(const Readings& readings, const Words& words, int width) 
         return panel;
     }
 
-    // Three rows of three, the speed row greater; a prompt takes the third row's place; the notices stand beneath them.
+    // Three rows of three, with the speed row larger. A prompt replaces the third row; notices are below.
     auto fields = hud_fields(readings, words);
     double unit = panel.size.y;
     const double rows[] = {0.27, 0.53, 0.76};
@@ -267,7 +267,8 @@ Panel Typesetter::draw(const Readings& readings, const Words& words, int width) 
         auto label = [&] { return int(0.7 * size); };
         auto value_at = [&] { return width_of(fields[i].first, label()) + 0.3 * size; };
         while (size > 6
-            && value_at() + width_of(fields[i].second, size) > room) // long figures get smaller, never into the next
+            && value_at() + width_of(fields[i].second, size)
+                > room) // long figures shrink, so that they never reach the next column
             --size;
         write(panel, fields[i].first, x, rows[i / 3] * unit, label(), 0.72);
         write(panel, fields[i].second, x + value_at(), rows[i / 3] * unit, size, 1);
@@ -276,7 +277,7 @@ Panel Typesetter::draw(const Readings& readings, const Words& words, int width) 
     while (prompt_size > 6 && width_of(readings.prompt, prompt_size) > 0.93 * panel.size.x)
         --prompt_size;
     write(panel, readings.prompt, panel.size.x * columns[0], 0.785 * unit, prompt_size, 1);
-    // A long notice gets smaller, down to half, and takes the place of the rate.
+    // A long notice shrinks, down to half, and then replaces the frame rate.
     const int small = int(0.15 * unit);
     const auto notice_width = [&](int size) { return width_of(readings.notice, size) / panel.size.x; };
     int notice_size = small;

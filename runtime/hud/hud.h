@@ -43,7 +43,7 @@ struct Readings {
     FlightMode mode = FlightMode::guided;
     double exposure_ev = 0;
     bool exposure_locked = false; ///< the visitor has locked it
-    std::optional<double> lever{}; ///< where the throttle is, 0 to 1
+    std::optional<double> lever{}; ///< the throttle's place, 0 to 1
     std::string prompt{}; ///< the tutorial's prompt, or empty
     std::optional<Caption> caption{}; ///< of a tour: replaces all but the speed
     std::string notice{}; ///< one line for the exhibit's operator, or empty

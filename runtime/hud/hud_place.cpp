@@ -23,8 +23,8 @@ bool shows(const CompiledView& view, const glm::dvec3& direction)
         && glm::all(glm::lessThanEqual(pixel, glm::dvec2(view.view.size)));
 }
 
-/// The direction that the flat picture around the panel's middle faces, towards the eye's far side; elsewhere the middle
-/// itself.
+/// The direction that the panel faces: the normal of the flat view around the panel's middle, away from the eye;
+/// elsewhere the middle itself.
 glm::dvec3 panel_faces(const glm::dvec3& middle, std::span<const std::vector<CompiledView>> views)
 {
     for (const auto& output : views)
@@ -73,7 +73,7 @@ HudPlacement instruments_place(const HudPlacement& hud, double aspect, std::span
     int most = -1;
     for (const double at : {across, hud_at + beside, hud_at - beside}) {
         if (std::abs(at - hud_at) < half + hud_half)
-            continue; // they would meet
+            continue; // they would overlap
         HudPlacement place = hud;
         place.elevation_deg = std::atan(at) / degree;
         const int corners = views.empty() ? 0 : corners_shown(panel_from_cockpit(place, views), {half_width, half}, views);

@@ -9,9 +9,9 @@ namespace starbow {
 /// each output.
 glm::dmat3 panel_from_cockpit(const HudPlacement& hud, std::span<const std::vector<CompiledView>> views);
 
-/// The placement of the instruments' panel, whose shape differs (aspect: height over width). It lies opposite the head-up
-/// display, its far edge where the display's would be. Where it would not be seen whole, it lies right above the display,
-/// or right below. It never covers the display. views: of each output; empty: as if all directions were seen.
+/// The placement of the instruments' panel. It lies opposite the head-up display, its far edge where the display's would
+/// be. If it would not be seen whole there, it lies right above the display, or right below. It never covers the display.
+/// aspect: height over width. views: of each output; empty: as if all directions were seen.
 HudPlacement instruments_place(const HudPlacement& hud, double aspect, std::span<const std::vector<CompiledView>> views);
 
 /// A box around all pixels that may show a panel of half the extent `half` on its plane z = 1.

@@ -25,8 +25,8 @@ const WorldClock* clock_of(const World& world, std::size_t instance)
     return clock ? &*clock : nullptr;
 }
 
-/// The observer in a rest frame's coordinates, and the turn from the axes that the world's boost carries to those that the
-/// frame's boost carries.
+/// The observer in a rest frame's coordinates, and the rotation from the axes carried by the world's boost to the axes
+/// carried by that frame's boost.
 struct There {
     MeasuringObserver observer;
     glm::dquat turn{1, 0, 0, 0};
@@ -38,7 +38,7 @@ There in_frame_of(const MeasuringObserver& observer, const World& world, int fra
         return {observer};
     Shot shot;
     shot.time = observer.time, shot.position = observer.place, shot.u = observer.u;
-    const Shot there = in_frame(rest, shot); // its cockpit is then the turn
+    const Shot there = in_frame(rest, shot); // its cockpit then holds the rotation
     const glm::dquat& turn = there.ship_from_cockpit;
     return {{there.position, there.time, there.u, turn * observer.ship_from_cockpit, observer.aberration}, turn};
 }
@@ -65,7 +65,7 @@ Ray ray_from_ship(const MeasuringObserver& observer, const glm::dvec3& ship)
 
 Ray ray_from_world(const MeasuringObserver& observer, const glm::dvec3& world)
 {
-    if (!observer.aberration) // the picture keeps the direction and shifts the light as the ship's direction has it
+    if (!observer.aberration) // the picture shows the world's direction, with the shift of the ship's direction
         return ray_from_ship(observer, world);
     const glm::dmat3 to_motion = motion_from_world(observer.u, observer.ship_from_cockpit);
     const double E = exp_rapidity_of(observer);
@@ -86,7 +86,7 @@ Spot spot_at(const MeasuringObserver& observer, const Probed& probed, const Worl
     if (probed.frame > 0) {
         const There there = in_frame_of(observer, world, probed.frame);
         const Ray ray = ray_from_ship(there.observer, there.turn * probed.ray.ship);
-        // The light's travel distance transforms as its frequency: in the ship it is D times that in any frame.
+        // The light's travel distance transforms like its frequency: in the ship it is D times that in any other frame.
         const double way = probed.distance * ray_from_ship(observer, probed.ray.ship).D;
         spot.at = there.observer.place + way / ray.D * ray.world;
     }

@@ -5,7 +5,7 @@
 
 namespace starbow {
 
-/// The measuring observer: an event and a velocity in the world, scene units; axes as ship_from_cockpit has them.
+/// The measuring observer: an event and a velocity in the world, scene units. ship_from_cockpit turns its axes.
 struct MeasuringObserver {
     glm::dvec3 place{0};
     double time = 0;
@@ -27,7 +27,7 @@ Ray ray_from_world(const MeasuringObserver& observer, const glm::dvec3& world);
 /// The ray at the crosshair: straight ahead of the visitor's look.
 Ray aim_of(const MeasuringObserver& observer);
 
-/// The picture's values in one direction: accurate to a float, the distance to a texel's.
+/// The picture's values in one direction, with float accuracy; the distance has a texel's accuracy.
 struct Probed {
     Ray ray;
     double distance = 0; ///< of the surface in the world, from the observer's place, scene units; infinite for the sky
@@ -35,14 +35,14 @@ struct Probed {
     double light = 0; ///< luminance as seen, before exposure, without stars; the scene's white is 1
 };
 
-/// A thing that the visitor aimed at; it is found again from wherever the ship goes.
+/// A marked thing, which can be found again from anywhere on the flight.
 struct Spot {
     glm::dvec3 at{0}; ///< its place in its rest frame, scene units; of the sky the unit direction in the world
     int frame = 0; ///< of World::frames
     bool sky = false;
     std::optional<std::size_t> clock; ///< the instance, if it is a clock
 };
-/// The spot of a probe's values; it recognises clocks.
+/// The spot of a probe's values; clocks are recognised.
 Spot spot_at(const MeasuringObserver& observer, const Probed& probed, const World& world);
 /// Moves a spot on a clock to the clock's middle, so that aiming need not be exact.
 Spot snapped(Spot spot, const World& world);

@@ -19,7 +19,7 @@ constexpr const char* line_end = "\r\n"; // RFC 4180
 
 using Columns = std::vector<std::pair<std::string, std::string>>;
 
-/// The same decimals whatever the computer's language.
+/// Formats a number with a decimal point in any locale.
 std::string csv_number(double value)
 {
     std::array<char, 40> text;
@@ -116,7 +116,7 @@ LabLog::LabLog(const std::filesystem::path& file)
     if (std::filesystem::is_directory(file, ignored))
         throw InputError(name, "", "is a folder; the name of a CSV file is right");
     std::string first, line;
-    bool cut = false; // in the middle of a line, by a power cut
+    bool cut = false; // the last line is incomplete, as after a power cut
     if (std::ifstream stream(file, std::ios::binary); stream) {
         while (std::getline(stream, line)) {
             if (first.empty())

@@ -5,8 +5,8 @@
 
 namespace starbow {
 
-/// The log of measurements, for spreadsheets (RFC 4180): a first line of names with their units, then a line for each press
-/// of the key. Each line is in the file, as other programs see it, before the next frame; so a crash loses none.
+/// The log of measurements, for spreadsheets (RFC 4180): a first line of names with units, then a line for each press of
+/// the key. Each line is visible to other programs before the next frame, so a crash loses none.
 class LabLog {
 public:
     /// file: a new one, or one with the same first line, which is continued. Throws InputError for any other, or where the
@@ -15,7 +15,8 @@ public:
     ~LabLog();
     LabLog(const LabLog&) = delete;
 
-    /// Appends a line. False where the disk does not take it; standard error reports that once, and nothing more is kept.
+    /// Appends a line. Returns false if the disk refuses it. The first failure is reported on standard error; later lines
+    /// are lost.
     bool write(const Measured& measured, const std::string& overlay);
     long lines() const { return lines_; } ///< in the file, without the first
     const std::filesystem::path& file() const { return file_; }

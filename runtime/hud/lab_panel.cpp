@@ -10,7 +10,7 @@ constexpr double margin = 0.035; ///< of the width
 
 bool has_scale(Overlay overlay) { return overlay == Overlay::distance || overlay == Overlay::emission; }
 
-/// A line in no more than `room` pixels: long ones get smaller.
+/// Writes a line in at most `room` pixels; long lines shrink.
 void write_within(const Typesetter& typesetter, Panel& panel, const std::string& line, double x, double baseline, int size,
     double room, double strength)
 {
@@ -19,7 +19,7 @@ void write_within(const Typesetter& typesetter, Panel& panel, const std::string&
     typesetter.write(panel, line, x, baseline, size, strength);
 }
 
-/// Without zeros at a fraction's end: 2.000 s says no more than 2 s.
+/// Removes zeros at a fraction's end: 2.000 s says no more than 2 s.
 std::string rounded(const std::string& label, const Words& words)
 {
     const auto point = label.find(words("decimal_sign")), end = label.find(' ');
@@ -56,7 +56,7 @@ std::string overlay_line(Overlay overlay, const Measured& measured, const Overla
     return unshifted ? words("overlay.aim", {{"unshifted", angle}}) : words("overlay.aim_rest");
 }
 
-/// Numbers under the scale of colours: at 1, 2 and 5 times powers of ten.
+/// Writes numbers under the scale of colours: at 1, 2 and 5 times powers of ten.
 void write_scale(const Typesetter& typesetter, Panel& panel, Overlay overlay, const OverlayScale& scale, double speed_m_s,
     const Words& words)
 {

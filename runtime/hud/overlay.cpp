@@ -18,7 +18,7 @@ double round_below(double x)
 
 OverlayScale overlay_scale(const World& world, const glm::dvec3& place, double seconds_per_time_unit)
 {
-    std::vector<double> distances; // of whatever there is, each by its middle
+    std::vector<double> distances; // of all instances' middles
     const InstanceRange range = instances_of(world, 0);
     for (std::size_t i = range.first; i < range.last; ++i) {
         const Instance& instance = world.instances[i];

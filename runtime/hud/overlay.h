@@ -4,7 +4,7 @@
 
 namespace starbow {
 
-/// The overlays of every viewport for measuring, in the order of the key that steps through them.
+/// The measuring overlays of every viewport, in the order of the key that steps through them.
 enum class Overlay { off, aim, grid, ring, distance, emission };
 constexpr std::array<const char*, 6> overlay_names = {"off", "aim", "grid", "ring", "distance", "emission"};
 
@@ -13,7 +13,8 @@ struct OverlayScale {
     double nearest_s = 1, farthest_s = 1000; ///< ends of the colours, seconds of light
     double emission_step_s = 1; ///< between contours of equal retarded times
 };
-/// Rounded ends around a world's distances from a place, and a step that gives some ten contours near by.
+/// The scale for a world seen from a place: rounded ends of the distances, and a step that gives about ten contours near
+/// by.
 OverlayScale overlay_scale(const World& world, const glm::dvec3& place, double seconds_per_time_unit);
 
 } // namespace starbow

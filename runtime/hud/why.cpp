@@ -19,7 +19,7 @@ constexpr std::array<std::array<const char*, 4>, why_names.size()> page_words = 
 }};
 
 /// Formats measured numbers for a page.
-struct Teller {
+struct Formatter {
     const Words& words;
     double light_speed_m_s;
 
@@ -39,12 +39,12 @@ struct Teller {
     /// The name of a wavelength's colour or band.
     std::string wavelength(double nm) const
     {
-        const auto told = [&](const char* key, const std::string& number) { return words(key, {{"number", number}}); };
+        const auto phrase = [&](const char* key, const std::string& number) { return words(key, {{"number", number}}); };
         return nm < 10   ? words("wave.x_rays")
-            : nm < 380   ? told("wave.ultraviolet", shown_number(nm, 0, words))
-            : nm < 780   ? told("wave.visible", shown_number(nm, 0, words))
-            : nm < 10000 ? told("wave.infrared", shown_number(nm, 0, words))
-            : nm < 1e9   ? told("wave.far_infrared", shown_number(nm / 1000, words))
+            : nm < 380   ? phrase("wave.ultraviolet", shown_number(nm, 0, words))
+            : nm < 780   ? phrase("wave.visible", shown_number(nm, 0, words))
+            : nm < 10000 ? phrase("wave.infrared", shown_number(nm, 0, words))
+            : nm < 1e9   ? phrase("wave.far_infrared", shown_number(nm / 1000, words))
                          : words("wave.radio");
     }
 };
@@ -55,7 +55,7 @@ WhyPage why_page(Why why, const Measured& m, const Words& words)
 {
     if (why == Why::none)
         return {};
-    const Teller tell{words, m.light_speed_m_s};
+    const Formatter format{words, m.light_speed_m_s};
     const double speed = glm::length(m.observer.u), gamma = physics::gamma_of(m.observer.u);
     const std::string beta = shown_number(speed / gamma, 4, words), gammas = shown_number(gamma, words),
                       D = shown_number(m.aim.ray.D, words);
@@ -70,13 +70,15 @@ WhyPage why_page(Why why, const Measured& m, const Words& words)
         break;
     case Why::aberration:
         add("why.aberration_numbers",
-            {{"cos", tell.cosine(aim.from_motion_world_rad)}, {"beta", beta}, {"result", tell.cosine(aim.from_motion_rad)}});
+            {{"cos", format.cosine(aim.from_motion_world_rad)}, {"beta", beta},
+                {"result", format.cosine(aim.from_motion_rad)}});
         add("why.aberration_angles",
-            {{"theta", tell.angle(aim.from_motion_world_rad)}, {"seen", tell.angle(aim.from_motion_rad)}});
+            {{"theta", format.angle(aim.from_motion_world_rad)}, {"seen", format.angle(aim.from_motion_rad)}});
         break;
     case Why::doppler:
-        add("why.doppler_numbers", {{"gamma", gammas}, {"beta", beta}, {"cos", tell.cosine(aim.from_motion_rad)}, {"D", D}});
-        add("why.doppler_seen", {{"nm", tell.wavelength(aim.seen_nm)}});
+        add("why.doppler_numbers",
+            {{"gamma", gammas}, {"beta", beta}, {"cos", format.cosine(aim.from_motion_rad)}, {"D", D}});
+        add("why.doppler_seen", {{"nm", format.wavelength(aim.seen_nm)}});
         break;
     case Why::headlight:
         add("why.headlight_numbers", {{"D", D}, {"cube", shown_number(std::pow(aim.ray.D, 3), words)}});
@@ -86,14 +88,14 @@ WhyPage why_page(Why why, const Measured& m, const Words& words)
     case Why::delay:
         if (aim.distance_s)
             add("why.delay_numbers",
-                {{"now", tell.seconds(m.world_s)}, {"way", tell.seconds(aim.distance_s)},
-                    {"left", tell.seconds(aim.emitted_s)}});
+                {{"now", format.seconds(m.world_s)}, {"way", format.seconds(aim.distance_s)},
+                    {"left", format.seconds(aim.emitted_s)}});
         else
             add("why.delay_none");
         if (m.pair && m.pair->clocks_s)
             add("why.delay_marks",
-                {{"first", tell.seconds(m.marks[0]->clock_s)}, {"second", tell.seconds(m.marks[1]->clock_s)},
-                    {"apart", tell.seconds(std::abs(*m.pair->clocks_s))}});
+                {{"first", format.seconds(m.marks[0]->clock_s)}, {"second", format.seconds(m.marks[1]->clock_s)},
+                    {"apart", format.seconds(std::abs(*m.pair->clocks_s))}});
         break;
     case Why::dilation:
         add("why.dilation_numbers", {{"gamma", gammas}});
@@ -102,8 +104,8 @@ WhyPage why_page(Why why, const Measured& m, const Words& words)
     case Why::length:
         if (m.pair && m.pair->apparent_s) {
             add("why.length_numbers",
-                {{"rest", tell.length(m.pair->rest_s)}, {"contracted", tell.length(*m.pair->contracted_s)}});
-            add("why.length_apparent", {{"apparent", tell.length(m.pair->apparent_s)}});
+                {{"rest", format.length(m.pair->rest_s)}, {"contracted", format.length(*m.pair->contracted_s)}});
+            add("why.length_apparent", {{"apparent", format.length(m.pair->apparent_s)}});
         } else {
             add("why.length_none");
         }
@@ -113,38 +115,38 @@ WhyPage why_page(Why why, const Measured& m, const Words& words)
 
 std::array<std::pair<std::string, std::string>, 9> reading_fields(const Measured& m, const Words& words)
 {
-    const Teller tell{words, m.light_speed_m_s};
+    const Formatter format{words, m.light_speed_m_s};
     const SpotReading& aim = m.aim;
     const std::string sky = words("lab.sky");
     std::array<std::pair<std::string, std::string>, 9> fields = {{
         {words("lab.doppler"), shown_number(aim.ray.D, words)},
-        {words("lab.wavelength"), tell.wavelength(aim.seen_nm)},
-        {words("lab.angle"), aim.from_motion_rad ? tell.angle(aim.from_motion_rad) : words("lab.at_rest")},
-        {words("lab.distance"), aim.distance_s ? tell.length(aim.distance_s) : sky},
-        {aim.emitted_s ? words("lab.emitted") : "", aim.emitted_s ? tell.seconds(aim.emitted_s) : ""},
+        {words("lab.wavelength"), format.wavelength(aim.seen_nm)},
+        {words("lab.angle"), aim.from_motion_rad ? format.angle(aim.from_motion_rad) : words("lab.at_rest")},
+        {words("lab.distance"), aim.distance_s ? format.length(aim.distance_s) : sky},
+        {aim.emitted_s ? words("lab.emitted") : "", aim.emitted_s ? format.seconds(aim.emitted_s) : ""},
         {words("lab.light"), aim.light ? shown_number(*aim.light, words) : "—"},
         {"", ""},
         {"", ""},
         {"", ""},
     }};
     if (aim.clock_s)
-        fields[5] = {words("lab.clock"), tell.seconds(aim.clock_s)};
+        fields[5] = {words("lab.clock"), format.seconds(aim.clock_s)};
     if (!m.pair) {
         fields[6] = {words(m.marks[0] ? "lab.mark_another" : "lab.mark_two"), ""};
         return fields;
     }
-    fields[6] = {words("lab.marks_angle"), tell.angle(m.pair->angle_rad)};
+    fields[6] = {words("lab.marks_angle"), format.angle(m.pair->angle_rad)};
     fields[7] = {words("lab.marks_length"), "—"};
     if (m.pair->apparent_s) {
-        std::string apparent = tell.length(m.pair->apparent_s), rest = tell.length(m.pair->rest_s);
-        // The unit stands once, where both have the same.
+        std::string apparent = format.length(m.pair->apparent_s), rest = format.length(m.pair->rest_s);
+        // Equal units are written once.
         const auto unit = apparent.find(' ');
         if (unit != apparent.npos && rest.ends_with(apparent.substr(unit)))
             apparent.erase(unit);
         fields[7].second = words("lab.marks_lengths", {{"apparent", apparent}, {"rest", rest}});
     }
     if (m.pair->clocks_s)
-        fields[8] = {words("lab.marks_clocks"), tell.seconds(m.pair->clocks_s)};
+        fields[8] = {words("lab.marks_clocks"), format.seconds(m.pair->clocks_s)};
     return fields;
 }
 

@@ -19,7 +19,7 @@ std::string text(const char* format, ...)
     return buffer;
 }
 
-/// For XML and HTML.
+/// Escapes text for XML and HTML.
 std::string safe(const std::string& plain)
 {
     std::string all;
@@ -127,7 +127,7 @@ std::string drawn(
             one.setting.shipped ? "6" : "4", kind);
         out += safe(one.setting.name) + text(": %.1f ms, %.4g</title></circle>\n", one.ms, metric.of(one));
     }
-    double below = -7; // the names in turn above and below their points, as neighbours would overlap
+    double below = -7; // names alternate above and below their points, because neighbours would overlap
     for (const MeasuredSetting& one : all)
         if (one.setting.shipped)
             out += text("<text x=\"%.1f\" y=\"%.1f\" class=\"name\">", c.x(one.ms) + 5,
@@ -152,7 +152,7 @@ std::vector<Setting> settings_to_try(
         change(quality);
         add(quality);
     };
-    // Each by itself.
+    // Each setting by itself.
     for (double density : {0.35, 0.5, 0.65, 1.0, 1.25, 1.6, 2.0})
         with([&](Quality& q) { q.texels_per_pixel = density, q.max_texels_per_pixel = 3 * density * density; });
     for (double most : {0.75, 1.0, 2.0, 4.0, 8.0})
@@ -180,7 +180,7 @@ std::vector<Setting> settings_to_try(
     if (two_eyes)
         for (StereoMethod method : {StereoMethod::shared, StereoMethod::reprojected, StereoMethod::exact})
             with([&](Quality& q) { q.stereo = method; });
-    // The most effective knobs, together.
+    // Combinations of the most effective settings.
     for (double density : {0.5, 0.8, 1.0, 1.25, 2.0})
         for (int samples : {1, 4})
             for (int rays : {1, 2})
@@ -229,16 +229,15 @@ std::vector<PresetLevel> ladder_of(const std::vector<MeasuredSetting>& all)
         const MeasuredSetting& one = all[i];
         const Quality& own = one.setting.quality;
         const Quality& first = all[0].setting.quality;
-        // Settings with other samples or formats would take other memory, which takes longer than a frame. A cube map that
-        // lags behind must be chosen by hand. A setting that leaves out parts may be worse elsewhere than in the measured
-        // shots.
+        // Settings with other samples or formats need other memory, which takes longer than a frame. A delayed cube map
+        // must be chosen by hand. A setting that leaves out parts may be worse elsewhere than in the measured shots.
         if (best[i] && own.spectra == first.spectra && own.stereo == first.stereo && own.matrices == first.matrices
             && own.cube_samples == first.cube_samples && own.half_floats == first.half_floats && own.frames_per_cube == 1
             && own.mips == first.mips && own.clip_levels == first.clip_levels)
             ladder.push_back({own, one.ms, one.errors.flip, one.errors.edges_95_px});
     }
     std::sort(ladder.begin(), ladder.end(), [](const PresetLevel& a, const PresetLevel& b) { return a.ms < b.ms; });
-    // A step that hardly changes anything is none.
+    // Steps of less than 8 % are dropped.
     std::vector<PresetLevel> steps;
     for (const PresetLevel& level : ladder)
         if (steps.empty() || level.ms > 1.08 * steps.back().ms)

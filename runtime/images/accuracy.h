@@ -26,8 +26,8 @@ struct MeasuredSetting {
     double doppler = 0; ///< the worst 99th percentile of D's relative error
 };
 
-/// The settings that `starbow measure` tries: the shipped ones, each knob of the default by itself, and the most effective
-/// knobs together. two_eyes: the stereo methods too. needed: the scene's level of light.
+/// The settings that `starbow measure` tries: the shipped ones, each single change of the default, and combinations of
+/// the most effective changes. two_eyes: the stereo methods too. needed: the scene's spectral level.
 std::vector<Setting> settings_to_try(
     const std::vector<Setting>& shipped, const Quality& standard, bool two_eyes, SpectralLevel needed);
 
@@ -41,7 +41,7 @@ const MeasuredSetting* better_than(const MeasuredSetting& one, const std::vector
 /// The most accurate setting within a frame budget; null where there is none.
 const MeasuredSetting* best_within(const std::vector<MeasuredSetting>& all, double budget_ms);
 
-/// A ladder: the frontier's settings between which a flight can change, from the fastest.
+/// A ladder: the frontier's settings between which a running exhibit can change, from the fastest.
 std::vector<PresetLevel> ladder_of(const std::vector<MeasuredSetting>& all);
 
 /// The subject of a measurement, for the page's head.

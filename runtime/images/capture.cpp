@@ -108,7 +108,7 @@ void write_png(const std::filesystem::path& file, glm::ivec2 size, const std::ve
 
 void write_exr(const std::filesystem::path& file, glm::ivec2 size, const Channels& channels)
 {
-    std::vector<const Channels::value_type*> sorted; // the format wants them in the order of their names
+    std::vector<const Channels::value_type*> sorted; // the format requires the order of names
     for (const auto& channel : channels) {
         require(channel.second.size() == pixels(size), "write_exr: samples of " + channel.first, channel.second.size(),
             pixels(size));
@@ -121,7 +121,7 @@ void write_exr(const std::filesystem::path& file, glm::ivec2 size, const Channel
     for (std::size_t i = 1; i < sorted.size(); ++i)
         require(sorted[i - 1]->first != sorted[i]->first, "write_exr: channels named " + sorted[i]->first, 2, 1);
 
-    // Plain memory of ours: tinyexr only reads it, and its Free functions must not see it.
+    // Memory of this function: tinyexr only reads it, and its Free functions must not see it.
     std::vector<EXRChannelInfo> infos(sorted.size());
     std::vector<int> float_samples(sorted.size(), TINYEXR_PIXELTYPE_FLOAT);
     std::vector<unsigned char*> planes;

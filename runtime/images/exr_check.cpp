@@ -12,7 +12,7 @@ constexpr std::size_t most_channels = 256;
 constexpr unsigned char no_compression = 0, zip_compression = 3;
 constexpr std::int32_t float_samples = 2;
 
-/// Walks over the bytes; after a step beyond the end it is broken and gives zeros.
+/// Reads the bytes in order. After a step beyond the end it is broken and returns zeros.
 struct Cursor {
     const std::vector<unsigned char>& bytes;
     std::size_t at = 0, end = 0;
@@ -124,7 +124,7 @@ std::string exr_fault(const std::vector<unsigned char>& bytes)
         const auto number = block.take<std::int32_t>();
         const auto size = block.take<std::int32_t>();
         const std::int64_t full = row_bytes * std::min(rows_per_block, header.height - row);
-        // Deflate packs at most 1032 to 1: a file that claims more would reserve memory for nothing.
+        // Deflate packs at most 1032 to 1; a larger claim would reserve memory in vain.
         const bool fits = header.compression == zip_compression
             ? size > 0 && size <= full && full <= size * std::int64_t(1100)
             : size == full;

@@ -21,7 +21,7 @@ namespace starbow {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* told_in = "made-from.json";
+constexpr const char* sources_name = "made-from.json";
 
 std::string text_of(const fs::path& file)
 {
@@ -39,10 +39,10 @@ bool is_frame(const fs::path& file)
 struct Ended {
     int status; ///< from waitpid; -1: not started
     int error; ///< the reason
-    std::string said; ///< on its standard error, the last of it
+    std::string said; ///< the end of its standard error
 };
 
-/// Starts a program from the PATH in a folder, without a shell, and waits for it.
+/// Runs a program from the PATH in a folder, without a shell, and waits for its end.
 Ended ran(const std::vector<std::string>& arguments, const fs::path& folder)
 {
     std::vector<char*> pointers;
@@ -104,14 +104,14 @@ MovieFrames::MovieFrames(
 {
     folder_ += ".frames";
     std::error_code error;
-    const fs::path told = folder_ / told_in;
+    const fs::path sources = folder_ / sources_name;
     if (fs::exists(folder_, error)) {
-        if (!fs::is_regular_file(told, error) && (!fs::is_directory(folder_, error) || !fs::is_empty(folder_, error)))
+        if (!fs::is_regular_file(sources, error) && (!fs::is_directory(folder_, error) || !fs::is_empty(folder_, error)))
             throw InputError(folder_.string(), "",
                 "is there and holds no frames of a movie; another name for the movie, or another place for that, is right");
-        if (text_of(told) == made_from)
+        if (text_of(sources) == made_from)
             return;
-        if (fs::exists(told, error)) {
+        if (fs::exists(sources, error)) {
             say(one_line(folder_.string())
                 + ": what these frames were made from has changed, or how; the movie begins anew");
             remove();
@@ -121,7 +121,7 @@ MovieFrames::MovieFrames(
     if (error)
         throw InputError(
             folder_.string(), "", "can't be made (" + error.message() + "); a place that can be written to is right");
-    write_whole(told, made_from);
+    write_whole(sources, made_from);
 }
 
 fs::path MovieFrames::file(const std::string& output, long frame) const
@@ -146,8 +146,8 @@ void MovieFrames::remove() const
             ours.push_back(entry.path());
     for (const fs::path& file : ours)
         fs::remove(file, error);
-    fs::remove(folder_ / told_in, error);
-    fs::remove(folder_, error); // stays where something else is in it
+    fs::remove(folder_ / sources_name, error);
+    fs::remove(folder_, error); // it stays if something else is in it
 }
 
 void check_ffmpeg()
@@ -163,10 +163,10 @@ void make_movie(const fs::path& movie, const MovieFrames& frames, const std::str
     const fs::path whole = fs::absolute(movie).lexically_normal();
     fs::path part = whole;
     part += '.' + std::to_string(getpid()) + ".part";
-    std::string pattern; // in ffmpeg's a % stands for a number
+    std::string pattern; // a % in ffmpeg's pattern begins a number
     for (char c : output)
         pattern += c == '%' ? std::string("%%") : std::string(1, c);
-    // Frames are sRGB in full range; movies are Rec. 709 in the range of television, and of even width and height.
+    // Frames are sRGB in full range; movies are Rec. 709 in television range, with even width and height.
     const Ended ended
         = ran({"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y", "-framerate", std::to_string(frames_per_s),
                   "-start_number", "0", "-i", "file:" + pattern + "-%06d.png", "-vf",

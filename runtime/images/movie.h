@@ -5,12 +5,12 @@
 
 namespace starbow {
 
-/// The frames of a movie in the making: FILE.mp4.frames/ beside it, with a file that names their sources. An interrupted
-/// movie goes on; one whose sources have changed begins anew.
+/// The frames of an unfinished movie: FILE.mp4.frames/ beside it, with a file that names their sources. An interrupted
+/// movie continues; one whose sources have changed begins anew.
 class MovieFrames {
 public:
-    /// made_from: everything that the frames depend on, one line. say: is called with a line for the log. Throws InputError
-    /// where the folder can't be made, or is something else.
+    /// made_from: everything that the frames depend on, as one line. say: is called with lines for the log. Throws
+    /// InputError where the folder can't be made, or the name belongs to something else.
     MovieFrames(const std::filesystem::path& movie, const std::string& made_from,
         const std::function<void(const std::string&)>& say);
 
@@ -19,7 +19,7 @@ public:
     bool has(const std::string& output, long frame) const;
     const std::filesystem::path& folder() const { return folder_; }
 
-    /// Removes the frames, and their folder where nothing else is in it.
+    /// Removes the frames, and their folder if it is then empty.
     void remove() const;
 
 private:

@@ -10,7 +10,7 @@
 namespace starbow {
 namespace {
 
-/// Numbers of all pixels, rows from the top.
+/// One number for each pixel, rows from the top.
 struct Brightness {
     glm::ivec2 size;
     std::vector<double> at;
@@ -45,7 +45,7 @@ double sum(const Kernel& k)
     return all;
 }
 
-/// The edge's pixels are repeated beyond it.
+/// Filters in both directions; beyond the edge its pixels are repeated.
 Brightness filtered(const Brightness& from, const Kernel& across, const Kernel& down)
 {
     Brightness half(from.size), whole(from.size);
@@ -91,7 +91,7 @@ glm::dvec3 light_of(const glm::dvec3& opponents)
     return glm::inverse(xyz_from_rec709) * (glm::dvec3(y + opponents.y / 500, y, y - opponents.z / 200) * white);
 }
 
-/// The Hunt effect: colours are the weaker the darker they are.
+/// The Hunt effect: darker colours look less colourful.
 glm::dvec3 hunt(const glm::dvec3& rgb)
 {
     const glm::dvec3 lab = cielab(xyz_from_rec709 * rgb, white);
@@ -199,7 +199,7 @@ std::vector<double> flip(const Shown8& picture, const Shown8& reference, double 
     std::vector<double> all(own.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
         const double difference = std::pow(hyab(own_colours[i], its_colours[i]), colour_power);
-        // Large differences are pressed together.
+        // Large differences are compressed.
         const double colour = difference < low * most
             ? difference * low_to / (low * most)
             : low_to + (difference - low * most) / (most - low * most) * (1 - low_to);

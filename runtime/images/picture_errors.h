@@ -12,7 +12,7 @@ struct Shown8 {
     std::span<const std::uint8_t> rgba;
 };
 
-/// The errors of a picture against another of the same size.
+/// The errors of a picture against a reference of the same size.
 struct PictureErrors {
     double psnr_dB; ///< peak signal (255) to noise, of all three colours together; infinite where nothing differs
     double flip; ///< mean of LDR-FLIP, 0 to 1

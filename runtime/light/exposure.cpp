@@ -13,7 +13,7 @@ struct Bin {
     double weight = 0, sum = 0; ///< sum: of weight times log2 luminance
 };
 
-/// log2 luminances.
+/// Statistics of a view, in log2 luminance.
 struct Levels {
     double average; ///< between metered_from and metered_to
     double bright; ///< at bright_from
@@ -26,7 +26,7 @@ std::optional<Levels> levels(std::span<const LuminanceSample> view)
     double all = 0, count = 0;
     for (const LuminanceSample& part : view) {
         const double log = std::log2(double(part.luminance));
-        // Luminances that are no number, or no light, do not count.
+        // NaN luminances and luminances without light do not count.
         if (!(log >= low_ev && log < high_ev && part.solid_angle_sr > 0 && std::isfinite(part.solid_angle_sr)))
             continue;
         Bin& bin = bins[std::size_t((log - low_ev) * bins_per_ev)];
@@ -77,7 +77,7 @@ Exposure adapted(Exposure exposure, std::optional<double> metered, double dt_s, 
         exposure.ev = wanted;
         return exposure;
     }
-    const double time_s = wanted < *exposure.ev ? to_bright_s : to_dark_s; // a brighter view wants less
+    const double time_s = wanted < *exposure.ev ? to_bright_s : to_dark_s; // a brighter view needs a lower EV
     *exposure.ev = wanted + (*exposure.ev - wanted) * std::exp(-std::max(dt_s, 0.0) / time_s);
     return exposure;
 }

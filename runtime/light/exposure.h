@@ -8,13 +8,13 @@ namespace starbow {
 /// A sample of the view's luminance, as the device takes it for the exposure.
 struct LuminanceSample {
     float luminance; ///< scene-linear, before exposure; white at EV 0 is 1
-    float solid_angle_sr; ///< as the visitor sees it; 0: nothing is shown there
+    float solid_angle_sr; ///< as the visitor sees it; 0: no picture there
 };
 
-/// The exposure counts the lit view between these two parts of its solid angle, sorted from the darkest. Eyes adapt to
-/// the brighter half. The last part, of lamps and glints, may go to white.
+/// The exposure considers the lit view between these two parts of its solid angle, sorted from the darkest. Eyes adapt to
+/// the brighter half. The brightest part, of lamps and glints, may turn white.
 constexpr double metered_from = 0.5, metered_to = 0.98;
-/// The log average of that part is brought to this luminance: mid-grey, 18 % of white.
+/// The exposure brings the log average of that part to this luminance: mid-grey, 18 % of white.
 constexpr double metered_to_luminance = 0.18;
 
 /// The bright end of that part never exceeds this, two stops over white. At great gamma the light ahead is a small disc
@@ -27,9 +27,9 @@ constexpr double few_stars = 16;
 /// a third percentile. nullopt for a view without light; below 2^-140 counts as no light.
 ///
 /// stars: each star's spot. Stars fill too little of a view to count among its surfaces, and in the dark visitors look at
-/// them. So their own log average is never brought beyond mid-grey, and a view of stars alone is brought there. An
-/// average over many stars stays steady when a few bright ones enter or leave the view. Where stars are few, `few_stars`
-/// more are added that want the surfaces' exposure.
+/// them. Their own log average therefore never exceeds mid-grey, and it is mid-grey in a view of stars alone. An average
+/// over many stars stays steady when a few bright ones enter or leave the view. Where stars are few, `few_stars` more are
+/// added with the surfaces' exposure.
 std::optional<double> metered_ev(std::span<const LuminanceSample> view, std::span<const LuminanceSample> stars = {});
 
 /// Time constants of the adaptation to a brighter and to a darker view.
@@ -45,14 +45,13 @@ struct Exposure {
 /// For a constant view, any division of the time into steps leads to the same result, to rounding.
 Exposure adapted(Exposure exposure, std::optional<double> metered, double dt_s, const Exposing& rules);
 
-/// The EV that a frame is shown with: the adapted EV (before anything was seen: the start's) plus the visitor's own
-/// change since the start.
+/// The EV of a frame: the adapted EV (the start's before the first view) plus the visitor's own change since the start.
 double shown_ev(const Exposure& exposure, const Exposing& rules, double visitors_ev, double start_ev);
 
-/// The factor of the cube map's stored radiance: a power of two that puts the brightest light which matters two stops
-/// below fp16's greatest number. Light 28 stops below that is still a normal number, light 38 stops below still a number.
-/// Light that is ten stops over white from every direction does not matter. brightest: of the world; a viewer multiplies
-/// it by at least 1 / most_gain.
+/// The factor of the cube map's stored radiance: a power of two that puts the brightest relevant light two stops below
+/// fp16's greatest number. Light 28 stops below that is still a normal number, light 38 stops below a subnormal one.
+/// Light ten stops over white from every direction is not relevant. brightest: of the world; a viewer multiplies it by at
+/// least 1 / most_gain.
 double pre_exposure(double brightest, double exposure_ev, double most_gain);
 
 } // namespace starbow

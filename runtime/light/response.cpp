@@ -8,7 +8,7 @@
 namespace starbow {
 namespace {
 
-constexpr double least_log2 = -1000; // no light, and still numbers on the way
+constexpr double least_log2 = -1000; // stands for no light, yet finite and interpolated without NaN
 
 double peak(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
@@ -18,7 +18,7 @@ struct Scaled {
 };
 Scaled scale_of(double value) { return {std::max(std::log2(value), least_log2)}; }
 
-/// A row's colours over its scale, by basis coefficient, as the halves hold them; and the scale's logarithm.
+/// A row's colours over its scale, by basis coefficient, rounded to halves; and the scale's logarithm.
 struct ScaledRow {
     std::array<float, 3 * MOST_REFLECTED> values{};
     float log2 = 0;
@@ -76,8 +76,8 @@ Response response_of(const SpectralBasis& basis, const StandardObserver& observe
 
 glm::dvec3 seen(const Response& response, std::span<const double> numbers, double D)
 {
-    const double asked = (std::log2(D) - response.first_log2_D) * response.per_octave;
-    const double at = std::clamp(asked, 0.0, RESPONSE_ROWS - 1.001);
+    const double unclamped = (std::log2(D) - response.first_log2_D) * response.per_octave;
+    const double at = std::clamp(unclamped, 0.0, RESPONSE_ROWS - 1.001);
     const int i = int(at);
     const double part = at - i;
     glm::dvec3 light(0);
@@ -96,7 +96,7 @@ glm::dvec3 seen(const Response& response, std::span<const double> numbers, doubl
         light += glm::dvec3(row) * (std::exp2(row.w) * numbers[std::size_t(response.reflected + k)]);
     }
     // Beyond the table every tail falls as 1 / D^2.
-    const double beyond = std::exp2(std::min(0.0, (at - asked) / response.per_octave));
+    const double beyond = std::exp2(std::min(0.0, (at - unclamped) / response.per_octave));
     return light * (beyond * beyond);
 }
 

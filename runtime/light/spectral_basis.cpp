@@ -9,12 +9,12 @@
 namespace starbow {
 namespace {
 
-// Samples from 280 to 1250 nm represent a reflectance, which is level beyond them.
+// Samples from 280 to 1250 nm represent a reflectance, which is constant beyond them.
 constexpr double grid_from_nm = 280, grid_to_nm = 1250, grid_step = 0.006;
 const int grid_points = int(std::log(grid_to_nm / grid_from_nm) / grid_step) + 1;
 double grid_nm(int point) { return grid_from_nm * std::exp(grid_step * point); }
 
-// The outermost basis functions' middles. Trials gave the least errors of colour checkers' colours here.
+// The outermost basis functions' middles. In trials they gave the least errors of colour charts.
 constexpr double first_basis_nm = 340, last_basis_nm = 830;
 
 using Row = std::vector<double>;
@@ -75,7 +75,7 @@ double shape(int k, int reflected, double nm)
     glm::dvec3 rgb(0);
     if (k < 3)
         rgb[k] = 1;
-    const double beyond = reflected == 3 ? 1.0 / 3 : 0; // of three, as the primaries' mean
+    const double beyond = reflected == 3 ? 1.0 / 3 : 0; // with three coefficients, the primaries' mean
     return base_reflectance(rgb, k == 3 ? 1 : beyond, k == 4 ? 1 : beyond, nm);
 }
 
@@ -88,7 +88,7 @@ std::vector<Row> shapes(int reflected)
     return all;
 }
 
-/// x of a x = b for a symmetric positive a (Cholesky), n columns of b at once: all row by row.
+/// Solves a x = b for a symmetric positive definite a (Cholesky), for n columns of b at once, row by row.
 void solve(std::vector<double> a, int n, std::vector<double>& b, int columns)
 {
     auto A = [&](int i, int j) -> double& { return a[std::size_t(i * n + j)]; };
@@ -117,7 +117,7 @@ void solve(std::vector<double> a, int n, std::vector<double>& b, int columns)
     }
 }
 
-/// Smooth reflectances as pigments have them: steps and bumps on a level, other values beyond the visible.
+/// Smooth reflectances like pigments': steps and bumps on a level, and other values beyond the visible.
 std::vector<Row> pigments(int count)
 {
     std::mt19937 random(1);
@@ -161,7 +161,8 @@ const std::vector<Row>& learned()
     return samples;
 }
 
-/// The coefficients of the primaries: the sunlit colour, after the other two, means of their own ranges, are taken off.
+/// The coefficients of the primaries: the sunlit colour without the contributions of ultraviolet and infrared, which are
+/// means over their own ranges.
 Row colours_of_grid(int reflected)
 {
     const std::array<Row, 3> seen = sight_at(eye(), 1).rows;
@@ -195,9 +196,10 @@ Row colours_of_grid(int reflected)
     return rows;
 }
 
-/// The coefficients of basis functions: their light looks most alike at every D from 1/10 to 10. Colours are weighed by
-/// their brightness there; the spectra themselves count a little, so that no coefficient is left to chance.
-Row learned_hats(int n)
+/// The coefficients of basis functions, fitted so that colours match best at every D from 1/10 to 10. Colours are
+/// weighted by their brightness there. The spectra themselves have a small weight, so that every coefficient is
+/// determined.
+Row learned_coefficients(int n)
 {
     const std::vector<Row> basis_functions = shapes(n);
     std::vector<double> normal(std::size_t(n * n), 0.0), right(std::size_t(n * grid_points), 0.0);
@@ -232,9 +234,9 @@ Row learned_hats(int n)
     return right;
 }
 
-/// coefficients x 3, [coefficient * 3 + sensor]: a correction of the basis functions' seen light, which brings pigments
-/// (their coefficients and their grid's seen light) closest to the truth. It does not change a grey, whose coefficients are
-/// all alike.
+/// A correction of the basis functions' seen light, [coefficient * 3 + sensor], that minimises the error of pigments.
+/// numbers: the pigments' coefficients; seen: the basis functions' light. A grey has equal coefficients, and the
+/// correction leaves it unchanged.
 Row correction(const std::vector<Row>& numbers, const ResponseWindow& sight, const std::array<Row, 3>& seen)
 {
     const int n = int(seen[0].size());
@@ -259,7 +261,7 @@ Row correction(const std::vector<Row>& numbers, const ResponseWindow& sight, con
     for (int k = 0; k < n; ++k)
         trace += square[std::size_t(k * n + k)];
     for (int k = 0; k < n; ++k)
-        square[std::size_t(k * n + k)] += 1e-4 * trace / n; // differences do not determine the sum of all
+        square[std::size_t(k * n + k)] += 1e-4 * trace / n; // differences alone leave the sum undetermined
     solve(square, n, miss, 3);
     for (std::size_t c = 0; c < 3; ++c) {
         double mean = 0;
@@ -271,7 +273,7 @@ Row correction(const std::vector<Row>& numbers, const ResponseWindow& sight, con
     return miss;
 }
 
-Row told(const SpectralBasis& basis, const std::function<double(double nm)>& reflectance)
+Row coefficients_of(const SpectralBasis& basis, const std::function<double(double nm)>& reflectance)
 {
     Row numbers(std::size_t(basis.size()), 0.0);
     for (int i = 0; i < grid_points; ++i) {
@@ -289,7 +291,7 @@ SpectralBasis spectral_basis(int reflected, std::span<const EmissionSpectrum> ow
     SpectralBasis basis;
     basis.own.assign(own.begin(), own.end());
     basis.reflected = reflected;
-    basis.analysis = reflected > 5 ? learned_hats(reflected) : colours_of_grid(reflected);
+    basis.analysis = reflected > 5 ? learned_coefficients(reflected) : colours_of_grid(reflected);
     return basis;
 }
 
@@ -297,7 +299,7 @@ std::vector<double> lit(
     const SpectralBasis& basis, const std::optional<Emission>& light, const std::function<double(double nm)>& reflectance)
 {
     if (!light)
-        return told(basis, reflectance);
+        return coefficients_of(basis, reflectance);
     auto number = [&](const EmissionSpectrum& own) {
         return std::size_t(basis.reflected + (std::find(basis.own.begin(), basis.own.end(), own) - basis.own.begin()));
     };
@@ -307,13 +309,13 @@ std::vector<double> lit(
         numbers[number({*light})] = part * reflectance(line->nm);
         return numbers;
     }
-    // The basis functions are weighted by sunlight, and a lamp's light over the Sun's grows or falls without end on both
-    // sides of the visible: there they must not contribute.
+    // The basis functions are weighted by sunlight, and a lamp's light over the Sun's grows or falls without limit beyond
+    // the visible: there they must not contribute.
     const double even = reflectance(shortest_nm);
     const std::size_t infrared = number({*light, true});
     const double more = infrared < numbers.size() ? reflectance(longest_nm) - even : 0;
     const Spectrum spectrum = spectrum_of(*light), sun = sunlit_white();
-    numbers = told(basis,
+    numbers = coefficients_of(basis,
         [&](double nm) { return (reflectance(nm) - even - more * infrared_part(nm)) * part * spectrum(nm) / sun(nm); });
     numbers[number({*light})] += part * even;
     if (more != 0)
@@ -339,8 +341,8 @@ std::vector<double> lit_shifted(const SpectralBasis& basis, const std::optional<
     const std::function<double(double nm)>& reflectance)
 {
     const Emission there = shifted(light, D);
-    // The amount of `there`, in the unit of emissions, that is this light: the energy per frequency stays, the width grows
-    // as D.
+    // The amount of `there`, in the unit of emissions, that equals this light: the energy per frequency stays, the width
+    // grows as D.
     const double strength = D;
     if (std::find(basis.own.begin(), basis.own.end(), EmissionSpectrum{there}) != basis.own.end()) {
         std::vector<double> numbers = lit(basis, there, reflectance);
@@ -352,7 +354,7 @@ std::vector<double> lit_shifted(const SpectralBasis& basis, const std::optional<
         throw std::logic_error("a line's light is not among the basis' own");
     const Spectrum spectrum = spectrum_of(there), sun = sunlit_white();
     const double part = strength * sunlit_part(there);
-    return told(basis, [&](double nm) { return reflectance(nm) * part * spectrum(nm) / sun(nm); });
+    return coefficients_of(basis, [&](double nm) { return reflectance(nm) * part * spectrum(nm) / sun(nm); });
 }
 
 ResponseTable response_table(const SpectralBasis& basis, const StandardObserver& observer, int rows)

@@ -7,10 +7,11 @@ namespace starbow {
 
 /// A basis that represents light by a few coefficients. The first coefficients represent reflected sunlight: either
 /// base_reflectance's own (the three primaries; with the ultraviolet and the infrared, five), or triangular basis
-/// functions (linear B-splines). These are evenly spaced in the logarithm of the wavelength over the visible and a little
-/// more, each weighted by sunlight. Their sum is a sunlit reflectance, level beyond the outermost functions; a grey is a
-/// black body at every D. The other coefficients are the scene's own emission spectra, each exact by itself. A Doppler
-/// shift moves the observer along the spectrum, so the observed colour is a table over ln D.
+/// functions (linear B-splines). The triangular functions are evenly spaced in the logarithm of the wavelength over the
+/// visible and a little more, each weighted by sunlight. Their sum is a sunlit reflectance that is constant beyond the
+/// outermost functions; a grey is a black body at every D. The other coefficients are the scene's emission basis spectra,
+/// each exact by itself. A Doppler shift moves the observer along the spectrum, so the observed colour is a table over ln
+/// D.
 struct EmissionSpectrum {
     Emission emission;
     bool infrared = false; ///< only its infrared_part: of a lamp whose surfaces reflect otherwise there than in the
@@ -29,15 +30,15 @@ struct SpectralBasis {
 SpectralBasis spectral_basis(int reflected, std::span<const EmissionSpectrum> own);
 
 /// The coefficients of a surface under full sunlight, or under a light in the unit of emissions (sunlit_part of it). A
-/// white surface under the Sun has a 1 for every basis function. Another light must be in the basis as an emission
-/// spectrum. A reflectance that is everywhere as in the ultraviolet is then exact. If the basis also has the light's
+/// white surface under the Sun has a 1 for every basis function. Another light must be in the basis as an emission basis
+/// spectrum. A reflectance that equals its ultraviolet value everywhere is then exact. If the basis also has the light's
 /// infrared part, the reflectance of that part is exact too.
 std::vector<double> lit(
     const SpectralBasis& basis, const std::optional<Emission>& light, const std::function<double(double nm)>& reflectance);
 
 /// The same for light that arrives shifted by D, with spectral radiance per frequency kept. It is exact for a reflectance
-/// that is everywhere as in the ultraviolet, if the basis has the emission spectrum `shifted`. Otherwise it is
-/// approximated by a reflectance of sunlight, which is level beyond 280 and 1250 nm. The basis must have a line's
+/// that equals its ultraviolet value everywhere, if the basis has the emission spectrum `shifted`. Otherwise it is
+/// approximated by a reflectance of sunlight, which is constant beyond 280 and 1250 nm. The basis must have a line's
 /// spectrum.
 std::vector<double> lit_shifted(const SpectralBasis& basis, const std::optional<Emission>& light, double D,
     const std::function<double(double nm)>& reflectance);
@@ -52,7 +53,7 @@ struct ResponseTable {
     int rows() const { return int(seen.size()) / numbers; }
 };
 
-/// Covers all D at which any of the basis is seen; beyond them all of it falls as 1 / D^2, as every black body's tail
+/// Covers all D at which any coefficient is visible. Beyond them all light falls as 1 / D^2, as every black body's tail
 /// does (Rayleigh and Jeans).
 ResponseTable response_table(const SpectralBasis& basis, const StandardObserver& observer, int rows);
 

@@ -87,7 +87,7 @@ double infrared_part(double nm) { return logistic(std::log(nm / 820) / 0.05); }
 
 double base_reflectance(const glm::dvec3& rgb, double ultraviolet, double infrared, double nm)
 {
-    // The limits of the ultraviolet and the infrared, in the logarithm of the wavelength: glass, paint and leaves change
+    // The limits of the ultraviolet and the infrared, in the logarithm of the wavelength. Glass, paint and leaves change
     // there too.
     const double uv = logistic(-std::log(nm / 360) / 0.035), ir = infrared_part(nm);
     const double step = std::log(primaries_to_nm / primaries_from_nm) / double(primaries.size() - 1);
@@ -150,7 +150,7 @@ glm::dvec3 seen(const StandardObserver& observer, const Spectrum& light, double 
 
 glm::dvec3 seen(const StandardObserver& observer, const Emission& emission, double D)
 {
-    // A line's radiance per frequency is a needle, which the shift makes broader by D at the same height.
+    // A line's radiance per frequency is a narrow peak, which the shift broadens by D at the same height.
     if (const auto* line = std::get_if<SpectralLine>(&emission))
         return observer.response(line->nm / D) * (D * dilution * energy(sun_K));
     return seen(observer, spectrum_of(emission), D);
@@ -166,7 +166,7 @@ Spectrum spectrum_of(const Emission& emission)
 {
     if (const auto* body = std::get_if<BlackBody>(&emission))
         return black_body(body->kelvin);
-    // Per wavelength in the table, per frequency here.
+    // The table is per wavelength, the result per frequency.
     const SpectralTable& table = std::get<SpectralTable>(emission);
     const double scale = dilution * energy(sun_K) / energy(table);
     return [table, scale](double nm) { return scale * straight(table.points, nm) * nm * nm; };

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t block = 128;
 constexpr std::array<std::uint8_t, 8> header = {0, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0};
 
-/// 13 letters, ended by a line feed and filled up with spaces.
+/// Reads 13 letters, ended by a line feed and padded with spaces.
 std::string letters(std::span<const std::uint8_t> bytes)
 {
     std::string text;
@@ -24,7 +24,7 @@ std::string letters(std::span<const std::uint8_t> bytes)
     return text;
 }
 
-/// Three letters of five bits each, A is 1; then the product's number.
+/// The maker's three letters, five bits each (A is 1), and the product's number.
 std::string maker_and_product(std::span<const std::uint8_t> bytes)
 {
     const int packed = bytes[8] << 8 | bytes[9];
@@ -49,7 +49,7 @@ std::optional<Edid> parse_edid(std::span<const std::uint8_t> bytes)
         return {};
 
     Edid edid;
-    edid.size_mm = 10 * glm::ivec2(bytes[21], bytes[22]); // an aspect ratio instead where one of them is 0
+    edid.size_mm = 10 * glm::ivec2(bytes[21], bytes[22]); // if one of them is 0, the bytes are an aspect ratio
     if (bytes[21] == 0 || bytes[22] == 0)
         edid.size_mm = {0, 0};
     for (std::size_t at : {54, 72, 90, 108}) {
@@ -59,7 +59,7 @@ std::optional<Edid> parse_edid(std::span<const std::uint8_t> bytes)
             const glm::ivec2 mm(
                 descriptor[12] | (descriptor[14] & 0xf0) << 4, descriptor[13] | (descriptor[14] & 0x0f) << 8);
             if (at == 54 && mm.x > 0 && mm.y > 0)
-                edid.size_mm = mm; // finer than the centimetres
+                edid.size_mm = mm; // finer than centimetres
         } else if (descriptor[3] == 0xfc) {
             edid.model = letters(descriptor.subspan(5));
         } else if (descriptor[3] == 0xff) {

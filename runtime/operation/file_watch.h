@@ -7,15 +7,15 @@
 
 namespace starbow {
 
-/// Notices when files are written, or replaced by others as editors do.
+/// Detects that files are written, or replaced by others as editors do.
 class FileWatch {
 public:
     using Clock = std::chrono::steady_clock;
     explicit FileWatch(std::vector<std::filesystem::path> files);
 
     /// True once after a change, when the files have stayed the same for a fifth of a second: nobody reads half a file. A
-    /// missing file counts as a change once it has been gone for a second: saving may take it away and put it back. Looks
-    /// at the disk ten times a second at most, however often it is called.
+    /// missing file counts as a change after a second, because saving may remove it for a moment. It reads the disk at
+    /// most ten times a second, however often it is called.
     bool changed(Clock::time_point now);
 
 private:

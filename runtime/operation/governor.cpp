@@ -7,7 +7,7 @@ namespace starbow {
 namespace {
 
 constexpr double moves_apart_s = 0.5; // at least
-constexpr double room_down = 0.85, room_up = 0.75; // of the time that is held
+constexpr double room_down = 0.85, room_up = 0.75; // of the frame budget
 constexpr double longest_wait_s = 64;
 constexpr double up_in_vain_s = 12; // a move down so soon after a move up shows that the move up was in vain
 
@@ -20,7 +20,8 @@ Governor::Governor(std::vector<PresetLevel> ladder, double frame_budget_ms)
 {
 }
 
-/// load: milliseconds for each of the ladder's.
+/// The finest level whose time under a load is within a part of the budget. load: milliseconds for each one of the
+/// ladder's.
 std::size_t Governor::finest_within(double load, double part) const
 {
     std::size_t finest = 0;
@@ -33,12 +34,12 @@ std::size_t Governor::finest_within(double load, double part) const
 bool Governor::drawn(double now_s, double ms)
 {
     last_[2] = last_[1], last_[1] = last_[0], last_[0] = ms / ladder_[level_].ms;
-    told_ = std::min(told_ + 1, 3);
-    if (told_ < 2)
+    frames_ = std::min(frames_ + 1, 3);
+    if (frames_ < 2)
         return false;
     const std::size_t before = level_;
-    // The load that two frames in a row reached at least; and, before going up, the load that none of three exceeded.
-    const double load = std::min(last_[0], last_[1]), most = *std::max_element(last_, last_ + told_);
+    // The load that both of the last two frames reached; for moving up, the load that none of three exceeded.
+    const double load = std::min(last_[0], last_[1]), most = *std::max_element(last_, last_ + frames_);
     const bool late = load * ladder_[level_].ms > frame_budget_ms_;
     const std::size_t up = finest_within(most, room_up);
     if (up <= level_)
@@ -51,16 +52,16 @@ bool Governor::drawn(double now_s, double ms)
         level_ = std::min(level_, finest_within(load, room_down));
         if (level_ < before && now_s - up_s_ < up_in_vain_s)
             wait_s_ = std::min(2 * wait_s_, longest_wait_s);
-    } else if (calm_since_s_ >= 0 && told_ == 3 && now_s - calm_since_s_ > wait_s_) {
+    } else if (calm_since_s_ >= 0 && frames_ == 3 && now_s - calm_since_s_ > wait_s_) {
         level_ = up;
         up_s_ = now_s;
     }
-    // After a long calm the past is forgotten.
+    // A long calm resets the waiting time.
     if (now_s - moved_s_ > 4 * longest_wait_s)
         wait_s_ = 1;
     if (level_ == before)
         return false;
-    moved_s_ = now_s, calm_since_s_ = -1, told_ = 0;
+    moved_s_ = now_s, calm_since_s_ = -1, frames_ = 0;
     return true;
 }
 

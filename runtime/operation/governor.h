@@ -3,13 +3,10 @@
 
 namespace starbow {
 
-/// Holds the frame time by moving along a ladder of qualities. Pure: it receives each frame's time and chooses the level of
-/// the next one.
-///
-/// A frame takes its level's part of the ladder times an unknown load: the scene, the flight, other programs. One late
-/// frame may be chance. From the second on the governor believes the load and takes the finest level that holds with room
-/// to spare, however far it is. It goes down at once, and up only after a calm while. After going up in vain it waits twice
-/// as long before the next time, so that an intermittent load does not pump the picture.
+/// A frame's time is its level's time on the ladder times an unknown load: the scene, the flight, other programs. One
+/// late frame may be chance. After a second one the governor trusts the load and chooses the finest level with room to
+/// spare, however far away. It moves down at once, and up only after a calm while. After a vain move up it waits twice as
+/// long before the next, so that an intermittent load does not make the picture pump.
 class Governor {
 public:
     /// frame_budget_ms: of a whole frame. ladder: not empty.
@@ -27,8 +24,8 @@ private:
     std::vector<PresetLevel> ladder_;
     double frame_budget_ms_;
     std::size_t level_;
-    double last_[3] = {}; ///< loads of the previous frames
-    int told_ = 0;
+    double last_[3] = {}; ///< loads of the last frames, newest first
+    int frames_ = 0; ///< loads in last_
     double moved_s_ = -1e9, up_s_ = -1e9; ///< times of the last change and of the last way up
     double calm_since_s_ = -1, wait_s_ = 1;
 };

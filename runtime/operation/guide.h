@@ -23,9 +23,9 @@ public:
     /// The EV: the tour's, or the adapted one where the visitor flies; it fades from one to the other.
     double shown_ev(const Exposure& adapted, const Exposing& rules) const;
 
-    /// nullopt where the visitor flies at the tour's end.
+    /// The caption; nullopt after the tour's end, while the visitor flies.
     std::optional<Caption> caption(const Words& words, const InputCapabilities& capabilities) const;
-    /// For a while, the line that the tour has ended.
+    /// The line that the tour has ended, for a while after its end; otherwise "".
     std::string prompt(const Words& words) const;
 
 private:

@@ -14,7 +14,7 @@ double percentile(std::vector<double> values, double part)
 {
     if (values.empty())
         return 0;
-    // Rounding must not carry a rank that is a whole number beyond itself: 0.29 * 100 is 28.999999999999996, 0.07 * 100 is
+    // Rounding must not raise a whole rank to the next: 0.29 * 100 is 28.999999999999996, 0.07 * 100 is
     // 7.000000000000001.
     const double rank = std::ceil(part * double(values.size()) - 1e-9);
     const auto index = std::clamp<std::size_t>(std::size_t(std::max(rank, 1.0)), 1, values.size()) - 1;
@@ -29,14 +29,15 @@ void Latency::add(const FrameTimes& times)
         first_ns_ = times.shown_ns;
     else
         frame_ms_.push_back(ms(last_.shown_ns, times.shown_ns));
-    // A device's thread stamps a report and then hands it over. If it is held up between the two, the report is older than
-    // the controls that were read without it.
+    // A device's thread stamps a report and then hands it over. If the thread is held up between the two, the report is
+    // older than controls that were read without it.
     const std::int64_t read_ns = first ? times.read_ns : last_.read_ns;
-    bound_ms_.push_back(ms(times.told_ns > last_.told_ns ? std::min(read_ns, times.told_ns) : read_ns, times.shown_ns));
+    bound_ms_.push_back(
+        ms(times.report_ns > last_.report_ns ? std::min(read_ns, times.report_ns) : read_ns, times.shown_ns));
     own_ms_.push_back(ms(times.read_ns, times.handed_ns));
     present_ms_.push_back(ms(times.handed_ns, times.shown_ns));
-    if (times.told_ns > last_.told_ns)
-        report_ms_.push_back(ms(times.told_ns, times.shown_ns));
+    if (times.report_ns > last_.report_ns)
+        report_ms_.push_back(ms(times.report_ns, times.shown_ns));
     last_ = times;
 }
 

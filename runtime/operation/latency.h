@@ -7,14 +7,14 @@ namespace starbow {
 
 /// The stations of one frame, nanoseconds of the steady clock.
 struct FrameTimes {
-    std::int64_t told_ns = 0; ///< arrival of the last report, of any device, that the frame shows; 0: none yet
+    std::int64_t report_ns = 0; ///< arrival of the last device report that the frame shows; 0: none yet
     std::int64_t read_ns = 0; ///< the controls are read
     std::int64_t handed_ns = 0; ///< the program's own part is done; the present call begins
     std::int64_t shown_ns = 0; ///< the present call has returned
 };
 
-/// The percentile of nearest rank: the smallest of the values that at least `part` (above 0, up to 1) of them do not
-/// exceed. 0 without values.
+/// The percentile by nearest rank: the smallest value such that at least `part` (above 0, up to 1) of the values do not
+/// exceed it. 0 without values.
 double percentile(std::vector<double> values, double part);
 
 /// The latency from a device to the screen, over the frames of a flight.

@@ -10,7 +10,7 @@
 namespace starbow {
 namespace {
 
-/// "warn" where spdlog says "warning"; the words of one length keep the parts below each other.
+/// Writes "warn" for spdlog's "warning": names of at most five letters align the parts below each other.
 class LevelName : public spdlog::custom_flag_formatter {
 public:
     void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override
@@ -24,7 +24,7 @@ public:
     std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<LevelName>(); }
 };
 
-/// The priority that sd-daemon(3) gives to a line: SD_DEBUG 7, SD_INFO 6, SD_WARNING 4, SD_ERR 3.
+/// Writes sd-daemon(3)'s priority of a line: SD_DEBUG 7, SD_INFO 6, SD_WARNING 4, SD_ERR 3.
 class Priority : public spdlog::custom_flag_formatter {
 public:
     void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override
@@ -57,7 +57,7 @@ std::shared_ptr<spdlog::logger> make_logger(const LogOptions& options)
     return logger;
 }
 
-/// The logger of now. Never destroyed: a thread may log while the program ends.
+/// The present logger. It is never destroyed, because a thread may log while the program ends.
 struct Current {
     std::mutex mutex;
     std::shared_ptr<spdlog::logger> logger = make_logger({});

@@ -30,8 +30,8 @@ void log_error(std::string_view part, std::string_view text);
 /// A function that logs its argument at level info, for the rooms below, which take a callback.
 std::function<void(const std::string&)> info_log(std::string part);
 
-/// Whether the journal reads a stream: journal_stream is the environment's JOURNAL_STREAM, "device:inode" of the stream that
-/// the service manager connected (systemd.exec(5)), or null.
+/// True if the journal reads a stream. journal_stream: the environment's JOURNAL_STREAM, "device:inode" of the stream
+/// that the service manager connected (systemd.exec(5)), or null.
 bool is_journal(const char* journal_stream, std::FILE* stream);
 
 } // namespace starbow

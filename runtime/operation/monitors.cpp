@@ -27,7 +27,7 @@ std::string describe(const Monitor& monitor)
     return text;
 }
 
-/// The name as its layout's members: connector "DUMMY1", position [0, 0].
+/// The name in the form of its layout's members: connector "DUMMY1", position [0, 0].
 std::string describe(const MonitorName& name)
 {
     std::string text;

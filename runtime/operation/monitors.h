@@ -23,7 +23,7 @@ struct MonitorChoice {
     std::string problem; ///< "... is plugged in nowhere; there are: ..."
 };
 
-/// The monitor that a layout names. Where the name fits several that show different parts of the desktop, none is chosen: a
+/// The monitor that a layout names. If the name fits several that show different parts of the desktop, none is chosen: a
 /// picture on the wrong screen is worse than none. An empty name means the primary monitor, or else the first.
 MonitorChoice choose_monitor(const MonitorName& name, const std::vector<Monitor>& monitors);
 

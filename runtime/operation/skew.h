@@ -7,7 +7,7 @@ namespace starbow {
 /// The skew of the outputs' pictures of one frame, over a flight.
 class Skew {
 public:
-    bool on_screen = false; ///< timed as the driver shows them; otherwise as they are handed to the window system
+    bool on_screen = false; ///< timed when the driver shows the pictures; otherwise when the window system gets them
     void add(double s);
     std::size_t frames() const { return frames_; }
     double median_s() const; ///< of the last 4096 frames; 0 before the first

@@ -17,7 +17,7 @@ constexpr int processor = 1, gpu_process = 2; // the format's process numbers, o
 constexpr std::size_t most_waiting = 1 << 16; // bytes
 constexpr std::int64_t longest_wait_ns = 250'000'000;
 
-/// Microseconds, the format's unit, to the nanosecond.
+/// Microseconds, the format's unit, with three decimals.
 std::string us(std::int64_t ns)
 {
     const std::int64_t rest = std::abs(ns % 1000);
@@ -136,7 +136,7 @@ void Trace::add(const std::string& event)
         log_warning("trace", file_ + ": is full; the trace ends here, the flight goes on");
         return;
     }
-    // A separator comes before an event, so that a file that ends between two events lacks nothing but its bracket.
+    // The separator comes before each event, so that a file that ends between two events lacks only its bracket.
     if (!waiting_.ends_with("[\n"))
         waiting_ += ",\n";
     waiting_ += event;

@@ -9,14 +9,14 @@
 
 namespace starbow {
 
-/// Writes what the program does when, as Chrome's trace event format, which ui.perfetto.dev and chrome://tracing show.
-/// The file is a JSON array of one event a line. It grows as the flight goes: a program that dies leaves an array without
-/// its last bracket, which both viewers read; the events of the last quarter of a second may be missing.
-/// Every function may be called from any thread. Times are nanoseconds of the steady clock (CLOCK_MONOTONIC on Linux).
+/// Writes the times of the program's work in Chrome's trace event format, which ui.perfetto.dev and chrome://tracing
+/// show. The file is a JSON array of one event a line. It grows during the flight. If the program dies, the array lacks
+/// its last bracket, which both viewers accept; the events of the last quarter of a second may be missing. Every function
+/// may be called from any thread. Times are nanoseconds of the steady clock (CLOCK_MONOTONIC on Linux).
 class Trace {
 public:
-    /// Replaces the file; makes its folder. Throws InputError where it can't be written.
-    /// largest_bytes: the trace ends before the file grows beyond this, and the log says so.
+    /// Replaces the file; makes its folder. Throws InputError where it can't be written. largest_bytes: the trace ends
+    /// before the file grows beyond this, and the log reports it.
     explicit Trace(const std::filesystem::path& file, std::int64_t largest_bytes = std::int64_t(1) << 30);
     /// Closes the array.
     ~Trace();
@@ -36,8 +36,8 @@ public:
     /// A moment on the calling thread's track.
     void instant(std::string_view name);
 
-    /// The calling thread's work from here to the end of the scope. trace may be null: then nothing is done, and no clock is
-    /// read. name must live as long as the span.
+    /// The calling thread's work from here to the end of the scope. trace may be null: then no event is written and no
+    /// clock is read. name must outlive the span.
     class Span {
     public:
         Span(Trace* trace, const char* name)
@@ -61,11 +61,11 @@ public:
 
 private:
     // mutex_ is held where these are called.
-    int thread_number(std::string_view name = {}); ///< of the calling thread, whose track gets the name if there is one
+    int thread_number(std::string_view name = {}); ///< of the calling thread; names its track if a name is given
     void add_metadata(const char* what, int process, int thread, std::string_view name);
     void add_span(std::string_view name, int process, int thread, std::int64_t begin_ns, std::int64_t duration_ns);
     void add(const std::string& event); ///< one JSON object
-    std::string write_out(); ///< says why it failed, or is empty
+    std::string write_out(); ///< returns the reason of a failure, or ""
     void close_array();
     void give_up(const std::string& why);
 

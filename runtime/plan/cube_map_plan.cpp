@@ -10,14 +10,14 @@
 namespace starbow {
 namespace {
 
-constexpr int least_side = 16, most_side = 8192; // texels across one image, gutter aside
+constexpr int least_side = 16, most_side = 8192; // texels across one image, without gutter
 
-/// The image of a part of a tile.
+/// Drafts images of parts of a tile.
 struct Draft {
     const Quality& quality;
     double density;
     int layer;
-    bool spreads; ///< a pixel's filter reaches past the image
+    bool spreads; ///< the filter of a pixel may reach beyond the image
     int finest_clip_level;
 
     PlannedImage image(int tile, const SubTiles& sub_tiles, const Demand& demand) const
@@ -32,14 +32,14 @@ struct Draft {
         image.face = tile_face(tile);
         image.layer = layer;
         image.texels_per_unit = 1 / unit;
-        // Up to twofold shrinking is what bilinear filtering holds; beyond it the image needs mips.
+        // Bilinear filtering holds up to a twofold reduction; beyond it the image needs mips.
         const int most_levels = quality.mips ? 5 : 1;
         image.levels = std::clamp(1 + int(std::floor(std::log2(demand.coarsest / unit) - 0.2)), 1, most_levels);
-        // Twice as wide where pixels look past the image, so that the image holds all that they filter in.
+        // Twice as wide where pixels' filters reach beyond the image, so that the image holds all their texels.
         const int gutter = (spreads ? 4 : 2) << (image.levels - 1);
         const int grid = 1 << image.levels;
         for (int i = 0; i < 2; ++i) {
-            // Edges on the texel grid of the whole face, so that a rectangle that grows does not shift its texels.
+            // Edges lie on the face's texel grid, so that a growing rectangle does not shift its texels.
             const double first = std::floor(demand.rect.low[i] / (grid * unit)) * grid - gutter;
             const double last = std::ceil(demand.rect.high[i] / (grid * unit)) * grid + gutter;
             image.low[i] = first * unit;
@@ -59,7 +59,7 @@ struct Draft {
     }
 };
 
-constexpr int halved = TILE_SUB_TILES - 1; // intervals of the halvings below this have halves
+constexpr int halved = TILE_SUB_TILES - 1; // intervals below this index have halves
 
 void merge(TileDemands& all, const Demands::Tile& demand)
 {
@@ -83,7 +83,7 @@ void merge(TileDemands& all, const Demands::Tile& demand)
         }
 }
 
-/// A tile divided into the rectangles of sub-tiles that cost least together.
+/// Divides a tile into the rectangles of sub-tiles that cost least together.
 class Cutting {
 public:
     Cutting(const Draft& draft, const TileDemands& demands)
@@ -104,7 +104,7 @@ private:
     enum class Way : char { unknown, whole, along_a, along_b };
 
     /// The sub-tiles of an interval of the heap.
-    static void cells_of(int interval, int& first, int& count)
+    static void interval_sub_tiles(int interval, int& first, int& count)
     {
         const int level = std::bit_width(unsigned(interval + 1)) - 1;
         count = TILE_SUB_TILES >> level;
@@ -113,12 +113,12 @@ private:
     static SubTiles sub_tiles(int a, int b)
     {
         SubTiles sub_tiles;
-        cells_of(a, sub_tiles.first.x, sub_tiles.count.x);
-        cells_of(b, sub_tiles.first.y, sub_tiles.count.y);
+        interval_sub_tiles(a, sub_tiles.first.x, sub_tiles.count.x);
+        interval_sub_tiles(b, sub_tiles.first.y, sub_tiles.count.y);
         return sub_tiles;
     }
 
-    /// The least cost of a part, over all divisions; its division is known afterwards.
+    /// Returns the least cost of a part over all its divisions, and stores that division.
     double cost(int a, int b)
     {
         const Demand& demand = demands_.demands[b][a];
@@ -130,7 +130,7 @@ private:
             return cost;
         way = Way::whole;
         cost = draft_.cost(draft_.image(demands_.tile, {}, demand));
-        // No division costs less than one more image and the texels without any waste.
+        // A division costs at least one more image and the texels without any waste.
         const double least = demands_.wanted[b][a] * draft_.density * draft_.density + 2 * draft_.quality.image_cost_texels;
         if (cost <= least)
             return cost;
@@ -166,7 +166,8 @@ private:
     Way ways_[TileDemands::intervals][TileDemands::intervals];
 };
 
-/// Shelves, tallest first; the atlas is about square. Corners stay on multiples of `align` so that mips stay apart.
+/// Packs images on shelves, tallest first, into an atlas that is about square. Corners are multiples of `align`, so that
+/// mips don't overlap.
 void pack(CubeMapPlan& plan, std::vector<std::size_t>& order, int align)
 {
     order.clear();
@@ -214,12 +215,12 @@ CubeMapPlan plan_cube_map(
     CubeMapPlan plan;
     std::swap(plan.images, before.images);
     std::swap(plan.finest_clip_level, before.finest_clip_level), plan.finest_clip_level.clear();
-    std::size_t used = 0; // of room.by_tile: whose 54 kB each are filled in place
+    std::size_t used = 0; // of room.by_tile, whose elements of 54 kB are filled in place
     if (room.demands.size() < layers.size())
         room.demands.resize(layers.size());
     for (std::size_t layer = 0; layer < layers.size(); ++layer) {
         const double E = layers[layer].E;
-        // Behind, D stops falling at 1/gamma from the axis: finer images would only repeat the last one.
+        // Behind, D is constant within 1/gamma of the axis: finer images would repeat the last one.
         const int finest_clip_level = std::clamp(
             int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0, std::min(quality.clip_levels, REAR_LEVELS - 1));
         plan.finest_clip_level.push_back(finest_clip_level);
@@ -258,7 +259,7 @@ CubeMapPlan plan_cube_map(
     };
     double density = quality.texels_per_pixel;
     lay_out(density);
-    // Moving bodies may fill the view as well as the world behind them.
+    // Moving bodies may fill the view, and so may the world behind them: the limit counts for each rest frame.
     int seen = 0;
     for (std::size_t i = 0; i < plan.images.size(); ++i)
         seen += i == 0 || plan.images[i].layer != plan.images[i - 1].layer;
@@ -314,7 +315,7 @@ shared::TileEntry tile_entry(const PlannedImage& image)
 
 namespace {
 
-/// The image of a tile whose sub-tiles lie nearest.
+/// The image whose sub-tiles are nearest to the given one.
 const PlannedImage& nearest_image(std::span<const PlannedImage> images, const glm::ivec2& sub_tile)
 {
     const auto off = [&](const PlannedImage& image) {
@@ -351,18 +352,18 @@ void write_tiles(const CubeMapPlan& plan, shared::TileTable& table)
             continue;
         }
         table.sub_tiles_from_face[tile] = glm::vec4(sub_tiles_from_face(images[0].tile));
-        std::array<bool, SUB_TILE_COUNT> told{};
+        std::array<bool, SUB_TILE_COUNT> written{};
         for (const PlannedImage& image : images) {
             const shared::TileEntry entry = tile_entry(image);
             for (int y = image.sub_tiles.first.y; y < image.sub_tiles.first.y + image.sub_tiles.count.y; ++y)
                 for (int x = image.sub_tiles.first.x; x < image.sub_tiles.first.x + image.sub_tiles.count.x; ++x) {
                     entries[y * TILE_SUB_TILES + x] = entry;
-                    told[std::size_t(y * TILE_SUB_TILES + x)] = true;
+                    written[std::size_t(y * TILE_SUB_TILES + x)] = true;
                 }
         }
-        // A sub-tile at which no pixel looks refers to the nearest drawn one: rounding may lead there.
+        // A sub-tile without pixels refers to the nearest drawn one, because rounding may lead there.
         for (int sub_tile = 0; sub_tile < SUB_TILE_COUNT; ++sub_tile)
-            if (!told[std::size_t(sub_tile)])
+            if (!written[std::size_t(sub_tile)])
                 entries[sub_tile]
                     = tile_entry(nearest_image(images, {sub_tile % TILE_SUB_TILES, sub_tile / TILE_SUB_TILES}));
     }

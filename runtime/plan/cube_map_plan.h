@@ -15,18 +15,18 @@ struct PlannedImage {
     glm::ivec2 atlas; ///< top left texel
     double texels_per_unit; ///< of face coordinate
     int levels; ///< mip levels the warp pass reads
-    double clip_hole = 0; ///< half the side of the square in the middle that a finer image holds; no pixel reads it here
+    double clip_hole = 0; ///< half the side of the clip-map hole; 0: none. No pixel reads the image there
     int layer = 0;
     SubTiles sub_tiles{}; ///< the sub-tiles of its tile that it covers
 };
 
-/// The demand for each rectangle that repeated halving of a tile leads to, along either side. The intervals of a side
-/// form a binary heap: 0 is the whole, 2 n + 1 and 2 n + 2 are the halves of n.
+/// The demand of each rectangle that repeated halving of a tile yields. The intervals of a side form a binary heap: 0 is
+/// the whole, 2 n + 1 and 2 n + 2 are the halves of n.
 struct TileDemands {
     static constexpr int intervals = 2 * TILE_SUB_TILES - 1;
     int layer, tile;
     Demand demands[intervals][intervals]; ///< [along b][along a]
-    double wanted[intervals][intervals]; ///< texels, at a density of 1 and if each sub-tile had exactly its own density
+    double wanted[intervals][intervals]; ///< texels at a density of 1, if each sub-tile had exactly its own density
 };
 
 /// The images of one eye's cube map for one frame.
@@ -48,26 +48,25 @@ struct PlanScratch {
     std::vector<std::size_t> by_height;
 };
 
-/// Chooses the faces to draw, each with its rectangle and its resolution. Pure. Every texel that a pixel of the views
-/// reads, including the neighbours of its filter, lies inside an image.
-///
-/// A tile that no view looks at is left out, and so is a tile that holds nothing. Any other is cut into the images, each
-/// with its own resolution, that cost least: Quality::image_cost_texels for each image, plus its texels. before: a plan
-/// whose memory is reused.
+/// Tiles without any direction of a view and tiles without content are left out. Any other tile is divided into the
+/// images, each with its own resolution, that cost least: Quality::image_cost_texels for each image, plus its texels.
+/// before: a plan whose memory is reused.
 CubeMapPlan plan_cube_map(
     const std::vector<RestFrameRequest>& layers, const Quality& quality, PlanScratch& room, CubeMapPlan before = {});
 CubeMapPlan plan_cube_map(const std::vector<RestFrameRequest>& layers, const Quality& quality);
 /// The same for a world in which nothing moves. E: e^rapidity of the ship in the world.
 CubeMapPlan plan_cube_map(const std::vector<ViewRequest>& views, double E, const Quality& quality);
 
-/// True if the drawn plan's images serve the wanted plan at hardly less density, so that they may be shown once more.
+/// True if the drawn plan has nearly the wanted plan's density wherever the wanted plan has images: it may be shown
+/// again.
 bool can_reuse(const CubeMapPlan& drawn, const CubeMapPlan& wanted);
 
 /// clip_from_motion of an image: reversed z, infinite far plane; the near plane is `near_distance` (scene units) along
 /// the face's normal.
 glm::dmat4 clip_from_motion(const PlannedImage& image, double near_distance);
 
-/// The leading images of a plan's rest that share the first image's rest frame and tile. images: not empty.
+/// The first images of `images` that share the first one's rest frame and tile. images: not empty, the rest of a plan's
+/// list.
 std::span<const PlannedImage> of_first_tile(std::span<const PlannedImage> images);
 
 /// The warp shader's entries: of one image, and of the whole plan.

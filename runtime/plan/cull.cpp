@@ -18,7 +18,8 @@ double reach(const Box& box, const glm::dvec3& n)
     return std::abs(glm::dot(n, box.half[0])) + std::abs(glm::dot(n, box.half[1])) + std::abs(glm::dot(n, box.half[2]));
 }
 
-/// A face's axes as planes through the eye, whose normals point inwards: a box is out if it is wholly behind one.
+/// An image's four sides and its face's plane as planes through the eye, normals inwards: a box is out if it is wholly
+/// behind one of them.
 struct Frustum {
     glm::dvec3 planes[5];
 
@@ -76,20 +77,20 @@ Box box_of(const Primitive& primitive, const glm::dmat3& turn, const glm::dvec3&
     const double skew
         = std::abs(glm::dot(turn[0], turn[1])) + std::abs(glm::dot(turn[1], turn[2])) + std::abs(glm::dot(turn[2], turn[0]));
     if (skew < 1e-9 * longest * longest) {
-        // The eye in the instance's own frame, to its box.
+        // The distance from the eye to the box, in the instance's own coordinates.
         const glm::dvec3 eye_local = -(place * turn) / (lengths * lengths);
         box.scale = longest;
         box.distance = std::min({lengths.x, lengths.y, lengths.z})
             * glm::distance(eye_local, glm::clamp(eye_local, primitive.low, primitive.high));
     } else {
-        // A sheared node can stretch more than any of its axes; the root of the sum of squares bounds it.
+        // A sheared node may stretch more than each of its axes; the root of the sum of squares is an upper bound.
         box.scale = glm::length(lengths);
         box.distance = std::max(0.0, glm::length(turn * primitive.centre + place) - box.scale * primitive.radius);
     }
     return box;
 }
 
-/// True if any of its light that arrives at the eye event may have left while it existed.
+/// True if light that arrives at the eye event may have left while the instance existed.
 bool may_show(const World& world, const Instance& instance, const EyeEvent& eye_event, const Box& box)
 {
     if (!finite_existence(world, instance))
@@ -116,7 +117,7 @@ shared::InstanceEntry entry_of(const Standing& at)
     return {glm::vec4(rows[0], at.place.x), glm::vec4(rows[1], at.place.y), glm::vec4(rows[2], at.place.z)};
 }
 
-/// An instance's transform before an eye, and a box around all of it that may be seen.
+/// An instance's transform relative to an eye, and a box around all its visible places.
 struct Placed {
     Standing at;
     Box box;
@@ -225,7 +226,7 @@ DrawList cull(const World& world, std::span<const EyeEvent> layers, const std::v
                 std::vector<std::uint32_t>& seen = by_level[level];
                 if (seen.empty())
                     continue;
-                // Nearest first: what stands behind fails the depth test before it is shaded.
+                // Nearest first, so that hidden instances fail the depth test before they are shaded.
                 std::sort(seen.begin(), seen.end(), [&](auto a, auto b) { return boxes[a].distance < boxes[b].distance; });
                 DetailLevel detail = level == 0 ? DetailLevel{primitive.first_index, primitive.index_count, 0}
                                                 : primitive.coarser[level - 1];
@@ -254,7 +255,7 @@ double nearest_box(const World& world, const EyeEvent& eye_event)
             nearest = std::min(nearest, placed(world, instance, eye_event).box.distance);
             continue;
         }
-        // The corners' own box: larger than the turned one, never nearer than allowed.
+        // The axis-aligned box of the corners: it encloses the oriented one, so the distance is a lower bound.
         glm::dvec3 low(1e300), high(-1e300);
         for (int i = 0; i < 8; ++i) {
             const glm::dvec3 corner(i & 1 ? primitive.high.x : primitive.low.x, i & 2 ? primitive.high.y : primitive.low.y,

@@ -9,7 +9,7 @@ namespace starbow {
 struct Draw {
     std::uint32_t image, primitive, first, count;
     std::uint32_t first_index, index_count;
-    bool finite_existence = false; ///< some of it may not exist at its retarded time
+    bool finite_existence = false; ///< its instances need the existence test
     bool moves = false; ///< animated
 };
 
@@ -33,17 +33,18 @@ struct DrawList {
     std::vector<std::vector<std::uint32_t>> by_level;
 };
 
-/// Moves each rest frame's instances around its eye event (in double, rounded to float only there) and selects those that
-/// each image can see. Each is drawn at the coarsest level of detail within the quality's lod_error_texels. The world's
-/// instances stand in sort_instances' order. before: a list whose memory is reused.
+/// Transforms each rest frame's instances relative to its eye event, in double precision, rounded to float only at the
+/// end. Selects those in view of each image, each at the coarsest level of detail within the quality's lod_error_texels.
+/// The world's instances must be in sort_instances' order. before: a list whose memory is reused.
 DrawList cull(const World& world, std::span<const EyeEvent> layers, const std::vector<PlannedImage>& images,
     const Quality& quality = {}, DrawList before = {});
 
-/// Bounding spheres of a rest frame's instances that may be seen: those that existed at their retarded time. Centre from
-/// the eye, motion axes, scene units.
+/// Bounding spheres of a rest frame's instances that existed at their retarded times. Centre from the eye, motion axes,
+/// scene units.
 std::vector<BoundingSphere> bounding_spheres(const World& world, const EyeEvent& eye_event);
 
-/// The distance to the nearest bounding box of the rest frame's instances, scene units: no surface is seen nearer.
+/// The distance to the nearest bounding box of the rest frame's instances, scene units: a lower bound of all seen
+/// distances.
 double nearest_box(const World& world, const EyeEvent& eye_event);
 
 } // namespace starbow

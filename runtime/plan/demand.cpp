@@ -13,19 +13,19 @@ struct Disc {
     double radius; // radians, up to pi
     double finest, coarsest; // one texel per pixel, radians
     double finest_pixel = 0, coarsest_pixel = 1e300; // the same in the ship; 0 and infinite where D does not give them
-    double least_cos_half_square = 0; // of its outermost point's angle from straight ahead; 0 where that is unknown
+    double least_cos_half_square = 0; // of the outermost point's angle from straight ahead; 0 where that is unknown
     double times = 1; // D's ratio over its pixels
 };
 
-/// Range of tan(angle) of a disc seen along a face's normal and one of its axes, clamped to the face. False if it misses.
-/// sine: of its radius; from 1 on of a disc that may be everywhere.
+/// The range of tan(angle) of a disc along one axis of a face, clamped to the face. Returns false if the disc misses it.
+/// sine: of the disc's radius; 1 or more for a disc that may be everywhere.
 bool face_range(double along_axis, double along_normal, double sine, double& low, double& high)
 {
     const double c_square = along_axis * along_axis + along_normal * along_normal - sine * sine;
     low = -1, high = 1;
     if (c_square <= 0)
         return true;
-    // Both ends, turned from the middle; within the face's quarter of the circle or not.
+    // Both ends by rotation from the middle; each is inside or outside the face's quarter of the circle.
     const double c = std::sqrt(c_square);
     const double low_x = along_normal * c + along_axis * sine, low_y = along_axis * c - along_normal * sine;
     const double high_x = along_normal * c - along_axis * sine, high_y = along_axis * c + along_normal * sine;
@@ -37,8 +37,8 @@ bool face_range(double along_axis, double along_normal, double sine, double& low
     return low_within || high_within || std::abs(along_axis) <= along_normal;
 }
 
-/// Calls each(tile, the part of its face's plane) for the tiles that a circle may touch. No part is empty.
-template <class Each> void each_slot(const glm::dvec3& centre, double radius, int finest_clip_level, Each&& each)
+/// Calls each(tile, part of its face's plane) for the tiles that a circle may touch. No part is empty.
+template <class Each> void each_tile(const glm::dvec3& centre, double radius, int finest_clip_level, Each&& each)
 {
     const double sine = radius < 1.57 ? std::sin(radius) : 2;
     // A face reaches to acos(1 / sqrt(3)) from its middle.
@@ -60,7 +60,7 @@ template <class Each> void each_slot(const glm::dvec3& centre, double radius, in
         if (face == 0) {
             part(TILE_FRONT);
         } else if (face == 1) {
-            // The nested squares from the one that holds the circle's outermost point to the one of its innermost.
+            // The nested squares from that of the circle's outermost point to that of its innermost.
             const glm::dvec2 far = glm::max(glm::abs(wanted.low), glm::abs(wanted.high));
             const glm::dvec2 near = glm::max(glm::max(wanted.low, -wanted.high), glm::dvec2(0));
             const int outer = clip_level(std::max(far.x, far.y), finest_clip_level),
@@ -74,11 +74,11 @@ template <class Each> void each_slot(const glm::dvec3& centre, double radius, in
     }
 }
 
-/// The places of a rest frame's surfaces: in each tile, and all together.
+/// The extent of a rest frame's surfaces: in each tile, and altogether.
 struct Held {
     std::array<Rect, TILE_COUNT> rects;
     glm::dvec3 axis{0, 0, 1};
-    double radius = pi; ///< of the circle around `axis` that holds them all; below 0 where there are none
+    double radius = pi; ///< of the circle around `axis` that encloses them; below 0 without surfaces
 
     /// The whole sphere.
     Held()
@@ -101,7 +101,7 @@ struct Held {
             const glm::dvec3 way = inside ? axis : thing.centre / distance;
             const double spread = inside ? pi : std::asin(thing.radius / distance);
             radius = std::max(radius, std::min(pi, angle(axis, way) + spread));
-            each_slot(
+            each_tile(
                 way, spread, finest_clip_level, [&](int tile, const Rect& part) { rects[std::size_t(tile)].add(part); });
         }
     }
@@ -120,7 +120,7 @@ void ask(Demands& demands, const Held& held, const Disc& disc, double E, int fin
 {
     if (!held.touches(disc.centre, disc.radius))
         return;
-    each_slot(disc.centre, disc.radius, finest_clip_level, [&](int tile, const Rect& wanted) {
+    each_tile(disc.centre, disc.radius, finest_clip_level, [&](int tile, const Rect& wanted) {
         const Rect part = intersection(held.rects[std::size_t(tile)], wanted);
         if (part.empty())
             return;
@@ -137,14 +137,15 @@ void ask(Demands& demands, const Held& held, const Disc& disc, double E, int fin
                 const glm::ivec2 at_cell = sub_tiles.first + glm::ivec2(i, j);
                 const std::size_t sub_tile = std::size_t(at_cell.y * TILE_SUB_TILES + at_cell.x);
                 const Rect here = intersection(part, all.rects[sub_tile]);
-                // A disc of most of the sky leaves out the directions behind.
+                // A disc over most of the sky excludes the directions behind.
                 if (here.empty() || (hole && all.in_clip_hole[sub_tile])
                     || all.most_cos_half_square[sub_tile] < disc.least_cos_half_square)
                     continue;
                 // The solid angle of a texel at (a, b) is its area over (1 + a^2 + b^2)^(3/2).
                 const glm::dvec2 at = 0.5 * (here.low + here.high);
                 const double square = 1 + glm::dot(at, at), per_angle = std::sqrt(square * std::sqrt(square));
-                // Directions in this sub-tile have its D: the disc's own bounds may be from elsewhere.
+                // Directions in this sub-tile have the sub-tile's D; the disc's own bounds may belong to other
+                // directions.
                 const double least = all.least_cos_half_square[sub_tile], most = all.most_cos_half_square[sub_tile];
                 const double above = disc.finest_pixel * (E * least + (1 - least) / E);
                 const double below = disc.coarsest_pixel * (E * most + (1 - most) / E);
@@ -178,7 +179,7 @@ struct Walk {
 
         const glm::dvec3 centre = view.motion_from_cockpit * glm::dvec3(cap.centre);
         const Disc disc = in_the_world(centre, cap);
-        // There are not many of the largest: they may well be finer.
+        // Few blocks are that large, so they may be divided further.
         const double most_varied = level <= coarsest_level ? 1.22 : 1.5;
         if (!last && (disc.radius > 0.25 || (!galilean && disc.coarsest > most_varied * disc.finest)))
             split(level, at);
@@ -189,7 +190,7 @@ struct Walk {
     }
     static constexpr double most_uneven = 1.5;
 
-    /// A boost maps circles to circles, so the world's disc follows exactly from its two ends on the meridian.
+    /// A boost maps circles to circles, so the world's disc follows exactly from the two ends on its meridian.
     Disc in_the_world(const glm::dvec3& centre, const BoundingCone& cap) const
     {
         const double radius = cap.radius + spread * cap.coarsest;
@@ -200,7 +201,7 @@ struct Walk {
             const double beta = (E - 1 / E) / (E + 1 / E), theta = std::atan2(across, centre.z);
             auto world = [&](double camera) { return camera + std::asin(beta * std::sin(camera)); };
             const double low = world(theta - radius), high = world(std::min(theta + radius, theta + pi));
-            // Stretched by more away from the axis than around it, or less: both bounds hold the disc and its pixels.
+            // The stretch along the meridian and across it differ; these bounds hold the disc and its pixels.
             const glm::dvec2 stretch = physics::galilean_stretch(glm::dvec3(across, 0, centre.z), E, 1 / E);
             disc.radius = std::min(pi, std::max(0.5 * (high - low), 1.2 * radius * std::max(stretch.x, stretch.y)));
             middle_in_world = {std::cos(0.5 * (low + high)), std::sin(0.5 * (low + high))};
@@ -212,8 +213,8 @@ struct Walk {
             const double reach = std::tan(0.5 * radius), own_reach = std::tan(0.5 * double(cap.radius));
             auto turned = [&](double by) { return (middle + by) / std::max(1 - middle * by, 1e-100); };
             auto doppler = [&](double tangent) { return E * (1 + tangent * tangent) / (1 + E * E * tangent * tangent); };
-            // Half of its two ends' angles in the world, as points of the circle; beyond the axis behind it goes on. Their
-            // sum is the middle's angle, their difference the radius: no angle is worked out but the last.
+            // Half of the two ends' angles in the world, as points of the circle, continued beyond the axis behind. Their
+            // sum is the middle's angle and their difference the radius, so only the last angle is computed.
             const double low_tangent = E * turned(-reach), past = 1 - middle * reach, beyond = E * (middle + reach);
             const double low_length = std::sqrt(1 + low_tangent * low_tangent), high_square = past * past + beyond * beyond;
             const double lengths = 1 / (low_length * std::sqrt(high_square));
@@ -241,8 +242,8 @@ struct Walk {
         ask(demands, held, disc, E, finest_clip_level);
     }
 
-    /// Divides a disc of a last block as those of the square around it, again and again where D varies over them. It ends
-    /// at a single pixel's place, or where D is the same all about straight ahead.
+    /// Divides the disc of a smallest block like the square around it, repeatedly where D varies over the parts. It ends
+    /// at a single pixel's size, or where D is constant around straight ahead.
     void cut(const glm::dvec3& centre, const BoundingCone& cap) const
     {
         const glm::dvec3 aside = std::abs(centre.z) > 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
@@ -282,7 +283,7 @@ void add_demands(Demands& demands, const RestFrameRequest& layer, int finest_cli
     const Held held = layer.bounds ? Held(*layer.bounds, finest_clip_level) : Held();
     if (held.radius < 0)
         return;
-    // The corners of a square; and float arithmetic's errors.
+    // The corners of a pixel's square, and the errors of float arithmetic.
     const double spread = 0.71 * (1 - 1.0 / pixel_rays) + 0.02;
     for (const ViewRequest& view : layer.views) {
         const ConeHierarchy& cones = *view.cones;

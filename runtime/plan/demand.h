@@ -24,14 +24,14 @@ struct BoundingSphere {
 struct RestFrameRequest {
     std::vector<ViewRequest> views;
     double E = 1; ///< e^rapidity between the frame and the ship; 1 where directions are not aberrated
-    bool galilean = false; ///< velocities add simply: circles do not stay circles
-    std::optional<std::vector<BoundingSphere>> bounds{}; ///< all that is drawn lies inside these; nullopt: everywhere is
-    ///< something
+    bool galilean = false; ///< Galilean aberration: circles do not stay circles
+    std::optional<std::vector<BoundingSphere>>
+        bounds{}; ///< all drawn things lie inside these; nullopt: things may be anywhere
 };
 
 /// The pixels' demand on a part of a face.
 struct Demand {
-    Rect rect; ///< encloses all that they read
+    Rect rect; ///< encloses all texels that the pixels read
     double finest = 1e300; ///< the finest face units per texel that a pixel needs
     double coarsest = 0;
     void add(const Demand& other)

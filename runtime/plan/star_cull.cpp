@@ -8,10 +8,10 @@ namespace starbow {
 namespace {
 
 constexpr std::size_t most_patches = 2048, least_stars = 16;
-constexpr double spot_texels = 16; ///< more than a spot's radius in pixels, where these are coarser than the image
-constexpr std::uint32_t gap = 64; ///< stars: a gap of so many costs less than another draw
+constexpr double spot_texels = 16; ///< exceeds a spot's radius in pixels also where pixels are coarser than the image
+constexpr std::uint32_t gap = 64; ///< stars: drawing a gap of so many takes less time than another draw
 
-/// An image's pyramid of directions from the eye: unit normals of its four sides, pointing inwards, and the margin that
+/// An image's pyramid of directions from the eye: unit normals of its four sides, inwards, and a margin outside that
 /// still counts.
 struct Pyramid {
     std::array<glm::dvec3, 4> sides;

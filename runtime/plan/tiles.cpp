@@ -19,7 +19,8 @@ Rect rect_of(int tile)
     return {{-half, -half}, {half, half}};
 }
 
-/// Behind, sub-tiles are even in the squares of face coordinates, as D is there: none lies across the nested square's edge.
+/// Behind, sub-tiles are evenly spaced in the square of the face coordinates, as D is: none lies across a nested square's
+/// edge.
 double spread_out(bool rear, double at) { return rear ? at * std::abs(at) : at; }
 double drawn_in(bool rear, double at) { return rear ? std::copysign(std::sqrt(std::abs(at)), at) : at; }
 
@@ -65,8 +66,8 @@ double clip_hole(int tile, int finest_clip_level)
 
 int clip_level(double larger, int finest_clip_level)
 {
-    // floor(-log2(larger^2)), an exact power of two going to the coarser image: the shader reads it from the exponent's
-    // bits.
+    // floor(-log2(larger^2)); an exact power of two goes to the coarser image. The shader reads the same from the
+    // exponent's bits.
     int exponent;
     std::frexp(larger * larger, &exponent); // = [0.5, 1) 2^exponent
     return larger > 0 ? std::clamp(-exponent, 0, finest_clip_level) : finest_clip_level;
@@ -127,15 +128,15 @@ const SubTileTable& sub_tile_table(int tile)
                 const std::size_t sub_tile = std::size_t(i);
                 const glm::ivec2 at(i % TILE_SUB_TILES, i / TILE_SUB_TILES);
                 const Rect rect = table.rects[sub_tile] = sub_tiles_rect(tile, {at, {1, 1}});
-                const glm::ivec2 off = glm::abs(2 * at + 1 - TILE_SUB_TILES); // half sub-tiles from the middle
+                const glm::ivec2 off = glm::abs(2 * at + 1 - TILE_SUB_TILES); // distance from the middle, in half sub-tiles
                 table.in_clip_hole[sub_tile] = tile >= TILE_REAR && std::max(off.x, off.y) < TILE_SUB_TILES / 2;
-                // At corners: no sub-tile lies across an axis of its face.
+                // The extremes are at corners, because no sub-tile lies across an axis of its face.
                 double& least = table.least_cos_half_square[sub_tile] = 1;
                 double& most = table.most_cos_half_square[sub_tile] = 0;
                 for (const glm::dvec2& corner :
                     {rect.low, rect.high, glm::dvec2(rect.low.x, rect.high.y), glm::dvec2(rect.high.x, rect.low.y)}) {
                     const glm::dvec3 n = face_direction(tile_face(tile), corner);
-                    // (1 + cos) / 2, which behind would be a difference of numbers almost alike
+                    // (1 + cos) / 2, in a form without cancellation behind
                     const double length = glm::length(n), across_square = n.x * n.x + n.y * n.y;
                     const double own = n.z > 0 ? 0.5 * (1 + n.z / length) : 0.5 * across_square / (length * (length - n.z));
                     least = std::min(least, own), most = std::max(most, own);

@@ -5,12 +5,12 @@
 
 namespace starbow {
 
-/// The fixed division of a cube map into tiles, and of each tile into sub-tiles. A plan decides which of them it draws,
-/// and how.
+/// The fixed division of a cube map into tiles, and of each tile into sub-tiles. A plan decides which of them are drawn,
+/// and with which images.
 ///
-/// One tile lies ahead. Each side has three bands across the motion, in each of which D varies little: up to 2.28-fold,
-/// in the rear band. Behind lie nested squares that shrink by sqrt 2, because D varies as the square of the angle there:
-/// a clip map.
+/// One tile lies ahead. Each side has three bands across the motion. In each of them D varies little: up to 2.28-fold, in
+/// the rear band. Behind lie nested squares that shrink by sqrt 2, because D varies as the square of the angle there: a
+/// clip map.
 ///
 /// Faces are numbered +z (ahead), -z (behind), +x, -x, +y, -y of the motion axes. A face's coordinates (a, b) are the two
 /// other components (x before y before z) over the distance along its normal.
@@ -34,12 +34,10 @@ glm::dvec3 face_direction(int face, const glm::dvec2& at);
 int tile_face(int tile);
 /// A tile's rectangle of its face's plane.
 const Rect& tile_rect(int tile);
-/// Half the side of the clip-map hole: the square in a nested tile's middle that belongs to the next one; 0 where none
-/// does.
+/// Half the side of the clip-map hole, the square in a nested tile's middle that belongs to the next tile; 0 without one.
 double clip_hole(int tile, int finest_clip_level);
 
-/// The tile that shows the unit direction n (motion axes), and n's face coordinates there; the warp shader computes the
-/// same.
+/// The tile of the unit direction n (motion axes), and n's face coordinates there; the warp shader computes the same.
 struct TilePlace {
     int tile, face;
     glm::dvec2 at;

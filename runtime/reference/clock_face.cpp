@@ -99,10 +99,10 @@ bool in_plate(const glm::dvec2& at, int count, double margin)
 
 } // namespace
 
-double mark(const glm::dvec2& at, double reading_s, const std::string& told)
+double mark(const glm::dvec2& at, double reading_s, const std::string& text)
 {
     std::string figures;
-    std::copy_if(told.begin(), told.end(), std::back_inserter(figures), [](char c) { return c != '.'; });
+    std::copy_if(text.begin(), text.end(), std::back_inserter(figures), [](char c) { return c != '.'; });
     const int count = int(figures.size());
     if (circle(at, 0, 0.035))
         return 0; // the pin that the hand turns on

@@ -97,8 +97,8 @@ public:
             const ViewRays::Row ways = view.rays.row(inside);
             for (int x = 0; x < own.size.x; ++x) {
                 const std::size_t at = std::size_t(own.corner.x + x);
-                light[std::size_t(own.layer)][at] = pixel(view, ways, {x, inside}) * exposure_;
-                if (own.layer == 0 && numbers)
+                light[std::size_t(own.canvas)][at] = pixel(view, ways, {x, inside}) * exposure_;
+                if (own.canvas == 0 && numbers)
                     numbers[at] = numbers_at(view, ways, x);
             }
         }
@@ -277,7 +277,7 @@ Reference dark(const Output& output, std::vector<Shade> shades, std::size_t inde
     out.headroom = output.preview ? 1 : headroom(shades);
     out.shade = std::move(shades[index]);
     const std::size_t pixels = std::size_t(out.size.x) * std::size_t(out.size.y);
-    out.light.assign(std::size_t(layers(out.packing)), std::vector<glm::dvec3>(pixels, glm::dvec3(0)));
+    out.light.assign(std::size_t(canvas_count(out.packing)), std::vector<glm::dvec3>(pixels, glm::dvec3(0)));
     if (numbers)
         out.numbers.resize(pixels);
     return out;
@@ -318,7 +318,7 @@ public:
 private:
     /// One row's memory in the picture.
     struct Row {
-        std::vector<glm::dvec3*> light; ///< by layer
+        std::vector<glm::dvec3*> light; ///< by canvas
         Reference::Numbers* numbers; ///< null where none are wanted
     };
 
@@ -326,8 +326,8 @@ private:
     {
         const std::size_t first = std::size_t(y) * std::size_t(out_.size.x);
         Row row{{}, out_.numbers.empty() ? nullptr : &out_.numbers[first]};
-        for (std::vector<glm::dvec3>& layer : out_.light)
-            row.light.push_back(&layer[first]);
+        for (std::vector<glm::dvec3>& canvas : out_.light)
+            row.light.push_back(&canvas[first]);
         return row;
     }
 

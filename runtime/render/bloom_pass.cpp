@@ -69,7 +69,7 @@ void BloomPass::spread(vk::CommandBuffer commands) const
         step(commands, i - 1, i, 0);
         to_read(commands, pictures_[i]);
     }
-    // What comes back from n smaller ones is n parts of n + 1.
+    // The sum of n smaller pictures counts n times, the picture itself once: each octave keeps the same share.
     for (std::size_t i = pictures_.size() - 1; i > 1; --i) {
         const double smaller = double(pictures_.size() - i);
         to_draw(commands, pictures_[i - 1], true);

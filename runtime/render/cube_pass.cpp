@@ -13,7 +13,7 @@ namespace {
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 
-/// Those of the stars' pass too: where things move its vertices ask what these cover.
+/// The star pass reads the atlases in its vertex shader: where things move, they may cover a star.
 constexpr auto readers = Stage::eVertexShader | Stage::eFragmentShader;
 constexpr auto depth_tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
 
@@ -100,7 +100,7 @@ void CubePass::prepare_plain(const PlannedImage& image, const EyeEvent& eye_even
 void CubePass::fit(glm::ivec2 size, int levels)
 {
     const Image& first = atlases_[0];
-    // A plan without images, where no view shows anything, has a texture all the same.
+    // A plan is empty where no view shows anything; the texture exists all the same.
     const auto grown = [&](int needed, std::uint32_t had) {
         const std::uint32_t whole = (std::uint32_t(std::max(needed, 1)) + 255) / 256 * 256;
         return repeatable_ ? whole : std::max(whole, had);
@@ -161,7 +161,7 @@ void CubePass::upload(std::span<const EyeEvent> layers, bool plain)
 
 void CubePass::write_set()
 {
-    const Buffer& times = *times_.buffer ? times_ : instances_; // without any none is read
+    const Buffer& times = *times_.buffer ? times_ : instances_; // without finite existences the shader reads no times
     const Buffer* held[] = {&constants_, &instances_, &visible_, &world_.columns, &times};
     std::array<std::uint64_t, 5> serials;
     std::array<vk::DescriptorBufferInfo, 5> infos;
@@ -279,13 +279,14 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
         clip[2] *= contractions_[std::size_t(image.layer)];
         shared::CubePush push{
             shared::row(clip, 0), shared::row(clip, 1), shared::row(clip, 2), shared::row(clip, 3), {}, {}, {}, {}};
-        // Seen through a mirrored pair of face axes a surface's front turns the other way.
+        // A mirrored pair of face axes turns a surface's front round.
         glm::dvec3 a = face_direction(image.face, {1, 0}) - face_direction(image.face, {0, 0});
         glm::dvec3 b = face_direction(image.face, {0, 1}) - face_direction(image.face, {0, 0});
         bool mirrored = glm::dot(glm::cross(a, b), face_direction(image.face, {0, 0})) < 0;
         commands.setFrontFace(mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
         if (image.clip_hole > 0) {
-            // Nothing is nearer than the near plane: what falls into the hole fails the depth test before it is shaded.
+            // Nothing is nearer than the near plane. A fragment in the clip-map hole therefore fails the depth test and
+            // is not shaded.
             glm::dvec2 low = glm::ceil((-glm::dvec2(image.clip_hole) - image.low) * image.texels_per_unit);
             glm::dvec2 high = glm::floor((glm::dvec2(image.clip_hole) - image.low) * image.texels_per_unit);
             glm::ivec2 first = glm::clamp(glm::ivec2(low), glm::ivec2(0), image.size),
@@ -340,8 +341,8 @@ void CubePass::make_mips(vk::CommandBuffer commands, const Image& atlas)
             VK_QUEUE_FAMILY_IGNORED, *atlas.image, {vk::ImageAspectFlagBits::eColor, first, count, 0, 1});
         commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
     };
-    // One level more than is asked for: at its coarsest level an image is sampled together with the next, at weight nought,
-    // and nought times what was never written may be NaN.
+    // One level more than the plan needs. At its coarsest level an image is sampled together with the next level at
+    // weight 0, and 0 times unwritten memory may be NaN.
     std::uint32_t levels = std::min(std::uint32_t(levels_) + 1, atlas.levels);
     level_barrier(0, 1, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
         Access::eColorAttachmentWrite, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);

@@ -5,10 +5,10 @@
 
 namespace starbow {
 
-/// Near plane of every picture of the world, scene units; reversed z keeps its precision at any ratio of far to near.
+/// Near plane of every picture of the world, scene units. Reversed z keeps its precision at any ratio of far to near.
 constexpr double near_distance = 1e-6;
 
-/// A picture that is drawn into: a swapchain's image or one of our own. In eColorAttachmentOptimal meanwhile.
+/// A picture that a pass draws into, a swapchain's image or one of our own. It is in eColorAttachmentOptimal meanwhile.
 struct Target {
     vk::Image image;
     vk::ImageView view;
@@ -16,31 +16,32 @@ struct Target {
     vk::Format format;
 };
 
-/// What stands still around one eye, in the world and in the rest frame of each thing that moves, drawn into the images of a
-/// plan: the atlas that the warp pass reads. Holds the device's memory for it; nothing of one frame is needed by the next.
+/// Draws a cube-map plan: the world around one eye, each rest frame by itself, into the atlas that the warp pass reads.
+/// Holds the device's memory for it. No frame needs data of an earlier one.
 class CubePass {
 public:
     CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, const Quality& quality, bool keeps_depth);
 
-    /// Whether the atlas is as large as the plan alone asks for, even where a larger one is there: coordinates in it are
-    /// rounded alike each time, and so is what is shown. Otherwise it only grows, which takes less time.
+    /// on: the atlas gets exactly the plan's size in every frame. Coordinates in it are then rounded alike, and equal
+    /// shots have equal bytes. off: the atlas only grows, which takes less time.
     void repeatable(bool on) { repeatable_ = on; }
 
-    /// Another quality from the next prepare() on, with as many samples and the same formats.
+    /// Sets the quality from the next prepare() on. Samples and formats must be the same as before.
     void adopt(const Quality& quality) { quality_ = quality; }
 
-    /// What the processor does: culls, makes room, uploads. The device must have finished the frame before. Every radiance
-    /// is stored times pre_exposure. layers: the plan's.
+    /// The processor's part: culls, makes room and uploads. The device must have finished the frame before. Every stored
+    /// radiance is multiplied by pre_exposure. layers: the eye events of the plan's rest frames.
     void prepare(const CubeMapPlan& plan, std::span<const EyeEvent> layers, double pre_exposure);
-    /// What the device does: one pass over all images, then their mips. Leaves the atlas (and the depth, if it is kept) for
-    /// fragment shaders to read.
+    /// The device's part: one pass over all images, then their mips. Afterwards fragment shaders may read the atlas, and
+    /// the depth if it is kept.
     void record(vk::CommandBuffer commands);
 
-    /// The same world drawn straight into a target, through one image alone: for comparison. Not beside prepare and record.
+    /// Draws the same world into a target through one single image, for comparison. Not beside prepare() and record().
     void prepare_plain(const PlannedImage& image, const EyeEvent& eye_event);
     void record_plain(vk::CommandBuffer commands, const Target& target);
 
-    /// Of the light's numbers four each; where something moves one more: how much of a texel is covered.
+    /// Each atlas holds four spectral coefficients. Where something moves, one more holds the covered share of each
+    /// texel.
     const std::vector<Image>& atlases() const { return atlases_; }
     const Image& depth() const { return depth_; }
     bool layered() const { return layered_; } ///< something that moves is in view
@@ -63,18 +64,18 @@ private:
     const GpuWorld& world_;
     Quality quality_;
     bool keeps_depth_, sky_;
-    bool layered_ = false; ///< something that moves is in view; the sky is then the warp's
+    bool layered_ = false; ///< something that moves is in view; the warp pass then draws the sky
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::raii::DescriptorSet set_ = nullptr;
     Buffer constants_, instances_, visible_, tiles_, times_; ///< times_: null without any
     vk::raii::BufferView tiles_view_ = nullptr;
-    vk::DeviceSize stride_; ///< of constants_: one for each layer
+    vk::DeviceSize stride_; ///< bytes from one rest frame's constants to the next
     std::vector<Image> atlases_, atlas_samples_;
     Image depth_, depth_samples_;
     std::vector<PlannedImage> images_;
-    std::vector<shared::TimeEntry> time_writes_; ///< kept for their room, as are blits_
+    std::vector<shared::TimeEntry> time_writes_; ///< a member, as is blits_, so that its memory is reused
     std::vector<vk::ImageBlit> blits_;
-    std::vector<double> contractions_; ///< of each layer
+    std::vector<double> contractions_; ///< of each rest frame
     glm::ivec2 area_{0};
     double pre_exposure_ = 1;
     int levels_ = 1;

@@ -5,7 +5,7 @@
 namespace starbow {
 namespace {
 
-/// A name and what comes behind it, on the stack.
+/// A name with a suffix, on the stack.
 struct Suffixed {
     std::array<char, 96> text;
     Suffixed(const char* name, const char* suffix) { std::snprintf(text.data(), text.size(), "%s%s", name, suffix); }

@@ -4,9 +4,9 @@
 
 namespace starbow {
 
-/// Gives a Vulkan object the name by which validation messages and captures call it (VK_EXT_debug_utils). Does nothing where
-/// the instance lacks the extension. object: a vk::raii handle. Takes nothing from the heap: frames make buffers when they
-/// grow.
+/// Gives a Vulkan object the name by which validation messages and captures call it (VK_EXT_debug_utils). Does nothing
+/// where the instance lacks the extension. object: a vk::raii handle. Allocates no heap memory, because frames make
+/// buffers when they grow.
 template <class Object> void name_object(const Device& device, const Object& object, const char* name)
 {
     if (!device.debug_utils || !*object)
@@ -20,8 +20,8 @@ template <class Object> void name_object(const Device& device, const Object& obj
 void name_object(const Device& device, const Image& image, const char* name);
 void name_object(const Device& device, const Buffer& buffer, const char* name);
 
-/// Marks the commands recorded while it lives as one pass: a label in captures, and a span of the device's time where
-/// Device::timer is set.
+/// Marks the commands that are recorded during its lifetime as one pass: a label in captures, and a span of the device's
+/// time where Device::timer is set.
 class Label {
 public:
     Label(const Device& device, vk::CommandBuffer commands, const char* name);

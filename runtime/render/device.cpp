@@ -67,7 +67,7 @@ vk::raii::Instance make_instance(Device& device, const Device::Options& options)
     }
 }
 
-/// What the device lacks, in words; empty if it will do.
+/// The first missing feature of a device, for a message; empty if the device will do.
 std::string lacks(const vk::raii::PhysicalDevice& physical, bool windows)
 {
     if (physical.getProperties().apiVersion < VK_API_VERSION_1_3)
@@ -112,8 +112,8 @@ const char* kind_of(vk::PhysicalDeviceType type)
     }
 }
 
-/// Whether the device can tell when a picture is seen on its screen.
-bool can_tell_when_shown(const vk::raii::PhysicalDevice& physical)
+/// True if the device reports when a picture is on its screen (VK_KHR_present_wait).
+bool has_present_wait(const vk::raii::PhysicalDevice& physical)
 {
     int offered = 0;
     for (const vk::ExtensionProperties& extension : physical.enumerateDeviceExtensionProperties())
@@ -154,7 +154,7 @@ std::vector<vk::raii::PhysicalDevice> all_of(const vk::raii::Instance& instance)
     return all;
 }
 
-/// Why a device is not taken; empty if it may be.
+/// The reason for not taking a device; empty if it may be taken.
 std::string refusal(const vk::raii::PhysicalDevice& physical, const Device::Options& options)
 {
     const std::string name(physical.getProperties().deviceName.data());
@@ -200,7 +200,7 @@ GpuListing describe(const vk::raii::PhysicalDevice& physical)
     gpu.most_samplers = properties.limits.maxSamplerAllocationCount;
     gpu.most_allocations = properties.limits.maxMemoryAllocationCount;
     for (const vk::QueueFamilyProperties& family : physical.getQueueFamilyProperties())
-        if (family.queueFlags & vk::QueueFlagBits::eGraphics) { // the first, as Device takes it
+        if (family.queueFlags & vk::QueueFlagBits::eGraphics) { // Device takes the first one too
             gpu.timestamp_ns = family.timestampValidBits > 0 ? properties.limits.timestampPeriod : 0;
             break;
         }
@@ -223,7 +223,7 @@ vk::raii::PhysicalDevice choose(const vk::raii::Instance& instance, const Device
         + ": install mesa-vulkan-drivers (software) or the GPU maker's Vulkan 1.3 driver");
 }
 
-/// The file that holds a device's compiled pipelines, by the driver's own mark; empty where there is no cache folder.
+/// The file of a device's compiled pipelines, named by the driver's pipeline cache UUID; empty without a cache folder.
 std::filesystem::path pipeline_file(const vk::PhysicalDeviceProperties& properties)
 {
     const std::filesystem::path folder = map_cache_folder();
@@ -266,8 +266,8 @@ Device::Device(const Options& options)
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     vk::PhysicalDevicePresentIdFeaturesKHR present_id(true);
     vk::PhysicalDevicePresentWaitFeaturesKHR present_wait(true, &present_id);
-    if (options.windows && can_tell_when_shown(physical)) {
-        tells_when_shown = true;
+    if (options.windows && has_present_wait(physical)) {
+        reports_presentation = true;
         extensions.push_back(VK_KHR_PRESENT_ID_EXTENSION_NAME);
         extensions.push_back(VK_KHR_PRESENT_WAIT_EXTENSION_NAME);
         features13.pNext = &present_wait;

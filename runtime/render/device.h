@@ -10,20 +10,20 @@ namespace starbow {
 class FrameTimer;
 class Trace;
 
-/// The instance, one device and its one queue. Everything else of Vulkan hangs below it.
+/// The Vulkan instance, one device and its one queue. All other Vulkan objects are made from it.
 class Device {
 public:
     struct Options {
-        bool windows = false; ///< ask GLFW which instance extensions its windows need, and for swapchains
+        bool windows = false; ///< for windows: enables swapchains and the instance extensions that GLFW names
         bool validation = false; ///< the validation layers, synchronization included; see complaints()
-        std::string name; ///< part of a GPU's name, empty: the fastest kind there is
+        std::string name; ///< part of a GPU's name; empty: the GPU of the fastest kind
     };
 
-    /// Throws InputError where there is no Vulkan, no device, or none with what is needed: says what to install.
+    /// Throws InputError where Vulkan, a device or a needed feature is missing; the message names the package to install.
     explicit Device(const Options& options);
 
     vk::raii::Context context;
-    std::vector<std::string> complaints; ///< what the validation layers said so far
+    std::vector<std::string> complaints; ///< messages of the validation layers so far
     vk::raii::Instance instance = nullptr;
     vk::raii::DebugUtilsMessengerEXT messenger = nullptr;
     vk::raii::PhysicalDevice physical = nullptr;
@@ -34,14 +34,16 @@ public:
     vk::raii::PipelineCache cache = nullptr;
     vk::PhysicalDeviceProperties properties;
     vk::PhysicalDeviceMemoryProperties memory;
-    bool tells_when_shown = false; ///< VK_KHR_present_wait
+    bool reports_presentation = false; ///< VK_KHR_present_wait
     bool debug_utils = false; ///< VK_EXT_debug_utils: objects have names, passes have labels
-    Trace* trace = nullptr; ///< gets the processor's spans of each frame, while somebody traces
-    FrameTimer* timer = nullptr; ///< measures each pass on the device, while somebody traces
+    Trace* trace = nullptr; ///< receives the processor's spans of each frame during a trace
+    FrameTimer* timer = nullptr; ///< measures each pass on the device during a trace
 
-    /// Keeps the compiled pipelines for the next start. A lost device, or a folder that can't be written, only costs time then.
+    /// Writes the compiled pipelines into the cache folder for the next start. Failures are ignored, with a lost device
+    /// or a read-only folder: the next start then only takes longer.
     void save_pipelines() const;
 
+    const char* name() const { return properties.deviceName.data(); }
     bool on_processor() const { return properties.deviceType == vk::PhysicalDeviceType::eCpu; }
 
     /// Records, submits and waits: for loading, measuring and stills.
@@ -57,19 +59,19 @@ private:
     void finish(vk::raii::CommandBuffer& commands);
 };
 
-/// A GPU as people are told of it.
+/// One GPU's line in a listing.
 struct GpuListing {
     std::string name, driver, kind;
-    std::string refusal; ///< why it can't be used, or empty
+    std::string refusal; ///< the reason why it can't be used, or empty
     bool chosen = false;
     bool software = false; ///< runs on the processor
-    std::string driver_name, driver_version, api_version; ///< of the driver's own words; "1.3.230"
+    std::string driver_name, driver_version, api_version; ///< as the driver reports them; "1.3.230"
     std::uint32_t largest_image_px = 0; ///< side of a 2D image
     std::uint32_t most_samplers = 0, most_allocations = 0; ///< at one time
     double timestamp_ns = 0; ///< one tick of the queue's clock; 0: the queue has no clock
     std::uint64_t memory_bytes = 0; ///< of the device's own heaps
 };
-/// All that Vulkan knows; none where it knows none.
+/// Every GPU that Vulkan reports; empty where Vulkan is missing.
 std::vector<GpuListing> list_gpus(const Device::Options& options);
 
 } // namespace starbow

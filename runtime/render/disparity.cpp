@@ -52,7 +52,7 @@ Disparity disparity(OffscreenRenderer& tested, OffscreenRenderer* exact, const S
     MapStore store;
     for (const CompiledView& compiled : compile_output(store, layout, output, size)) {
         const View& view = compiled.view;
-        if (view.layer > 0)
+        if (view.canvas > 0)
             continue;
         const glm::dvec3 drawn_from = layout.stereo.method == StereoMethod::exact ? view.picture.eye_m : view.head_m;
         for (int y = 0; y < view.size.y; ++y)
@@ -61,7 +61,7 @@ Disparity disparity(OffscreenRenderer& tested, OffscreenRenderer* exact, const S
                 const RetardedPosition seen(numbers, i);
                 if (!std::isfinite(seen.depth) || std::isnan(seen.D))
                     continue;
-                // The point shown, from the eye: both places in the world at rest, simultaneous in the ship.
+                // The shown point relative to the eye. Both places are in the world at rest and simultaneous in the ship.
                 const glm::dvec3 n = glm::inverse(shot.ship_from_cockpit) * seen.camera;
                 const glm::dvec3 eye = view.head_m + eye_beside(layout.stereo, view.eye, n);
                 const glm::dvec3 apart = physics::eye_place(shot.u, shot.ship_from_cockpit * ((eye - drawn_from) * scale));

@@ -7,19 +7,19 @@
 
 namespace starbow {
 
-/// One place from which views of one observer look, with the cube map around it.
+/// One eye's place, for views of one observer, with the cube map around it.
 struct EyeCube {
     glm::dvec3 place_m; ///< in the cockpit, before any head moves
     std::size_t observer; ///< index into EyeCubes::observers
     CubePass cube;
     glm::dvec3 now_m; ///< its place now
     std::vector<EyeEvent> drawn{}; ///< the cube map was drawn at these events, one for each rest frame
-    std::vector<StarRun> stars{}; ///< stars that its views may show
+    std::vector<StarRun> stars{}; ///< stars that the views may show
     std::vector<RestFrameRequest> requests{};
     std::vector<EyeEvent> eye_events{}; ///< the cube map would be drawn at these events now
-    CubeMapPlan wanted{}; ///< and would hold this
-    std::vector<double> nearest{}; ///< of each rest frame: a lower bound of the distance of its surfaces, scene units; 1
-                                   ///< where no distance counts
+    CubeMapPlan wanted{}; ///< the plan of that cube map
+    std::vector<double>
+        nearest{}; ///< of each rest frame: a lower bound of its surfaces' distance, scene units; 1 where no distance counts
 };
 
 /// The eyes of all views: observers, cube-map plans, and the cube maps themselves.
@@ -27,9 +27,9 @@ class EyeCubes {
 public:
     EyeCubes(Device& device, Pipelines& pipelines, const GpuWorld& world, FrameState& state, const ViewSet& views);
 
-    /// Gives each view its eye. Eyes that stay keep their cube maps.
+    /// Assigns an eye to each view. Eyes that remain keep their cube maps.
     void assign(std::vector<ViewState>& views);
-    /// Forgets all eyes: their images have other formats now.
+    /// Forgets all eyes, because their images need other formats.
     void clear();
     void adopt(const Quality& quality);
     void repeatable(bool on);
@@ -38,12 +38,12 @@ public:
 
     /// Computes the observers for the instant that is drawn; returns the greatest e^rapidity of any.
     double observe();
-    /// Plans the cube maps, culls and uploads: all that the processor does for them. pre_exposure counts for cube maps that
-    /// are drawn anew. probe: further rays that the probed view's eye must see; null: none.
+    /// The processor's part: plans the cube maps, culls and uploads. pre_exposure applies to cube maps that are drawn
+    /// anew. probe: further rays that the probed view's eye must see, or null.
     void plan(double pre_exposure, const Probe* probe);
     /// Draws the cube maps that are not kept from the frame before.
     void record(vk::CommandBuffer commands);
-    void redraw() { drawn_ = false; } ///< nothing is kept for the next frame
+    void redraw() { drawn_ = false; } ///< the next frame draws all cube maps anew
 
     const Observer& observer_of(const ViewState& view) const { return observers[all[view.eye].observer]; }
     std::size_t triangles() const; ///< sent to the device for the last frame

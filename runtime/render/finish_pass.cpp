@@ -41,7 +41,7 @@ Image shade_texture(Device& device, glm::ivec2 size, const std::vector<glm::vec3
 bool needs_finish(const Output& output, const Shade& shade)
 {
     const Colour& colour = output.colour;
-    return layers(output.packing) > 1 || colour.matrix != glm::dmat3(1) || colour.gamma != 0 || !colour.lut.empty()
+    return canvas_count(output.packing) > 1 || colour.matrix != glm::dmat3(1) || colour.gamma != 0 || !colour.lut.empty()
         || !shade.empty();
 }
 
@@ -51,8 +51,8 @@ FinishPass::FinishPass(Device& device, Pipelines& pipelines, const Output& outpu
 {
     const vk::Extent2D extent(std::uint32_t(output.size.x), std::uint32_t(output.size.y));
     using Usage = vk::ImageUsageFlagBits;
-    for (int i = 0; i < starbow::layers(output.packing); ++i)
-        pictures_.push_back(make_image(device, {light_format, extent, Usage::eColorAttachment | Usage::eSampled}));
+    for (int i = 0; i < starbow::canvas_count(output.packing); ++i)
+        canvases_.push_back(make_image(device, {light_format, extent, Usage::eColorAttachment | Usage::eSampled}));
 
     const Colour& colour = output.colour;
     variant_.combine = combine_of(output.packing);
@@ -88,7 +88,7 @@ FinishPass::FinishPass(Device& device, Pipelines& pipelines, const Output& outpu
     set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.finish_set}).front());
     name_object(device, set_, "finish pass: descriptor set");
     std::vector<vk::DescriptorImageInfo> images;
-    for (const Image* image : {&pictures_.front(), &pictures_.back(), &weight_, &black_, &table_})
+    for (const Image* image : {&canvases_.front(), &canvases_.back(), &weight_, &black_, &table_})
         images.push_back({*sampler_, *image->view, vk::ImageLayout::eShaderReadOnlyOptimal});
     std::vector<vk::WriteDescriptorSet> writes;
     for (std::uint32_t i = 0; i < images.size(); ++i)
@@ -96,15 +96,15 @@ FinishPass::FinishPass(Device& device, Pipelines& pipelines, const Output& outpu
     device.device.updateDescriptorSets(writes, {});
 }
 
-Target FinishPass::picture(std::size_t layer) const
+Target FinishPass::canvas(std::size_t i) const
 {
-    const Image& image = pictures_[layer];
+    const Image& image = canvases_[i];
     return {*image.image, *image.view, image.extent, image.format};
 }
 
 void FinishPass::begin(vk::CommandBuffer commands)
 {
-    for (const Image& picture : pictures_)
+    for (const Image& picture : canvases_)
         transition(commands, picture, vk::ImageLayout::eUndefined, Stage::eFragmentShader, {},
             vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
             Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
@@ -112,7 +112,7 @@ void FinishPass::begin(vk::CommandBuffer commands)
 
 void FinishPass::record(vk::CommandBuffer commands, const Target& target, bool plain)
 {
-    for (const Image& picture : pictures_)
+    for (const Image& picture : canvases_)
         transition(commands, picture, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
             Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader,
             Access::eShaderSampledRead);
@@ -133,7 +133,7 @@ void FinishPass::record(vk::CommandBuffer commands, const Target& target, bool p
 vk::DeviceSize FinishPass::memory() const
 {
     vk::DeviceSize bytes = weight_.bytes + black_.bytes + table_.bytes;
-    for (const Image& picture : pictures_)
+    for (const Image& picture : canvases_)
         bytes += picture.bytes;
     return bytes;
 }

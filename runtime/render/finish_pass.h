@@ -4,22 +4,22 @@
 
 namespace starbow {
 
-/// Whether an output's light needs more than the sRGB curve that its target applies by itself.
+/// True if an output's light needs more than the sRGB curve that its target applies.
 bool needs_finish(const Output& output, const Shade& shade);
 
-/// From an output's pictures in linear light to what its screen or projector wants. Holds these pictures.
+/// Turns an output's canvases in linear light into the picture that its screen or projector needs. Holds the canvases.
 class FinishPass {
 public:
-    /// headroom: of all outputs together, see shade.h.
+    /// headroom: the one of all outputs together, see shade.h.
     FinishPass(Device& device, Pipelines& pipelines, const Output& output, const Shade& shade, double headroom);
 
-    /// The pictures to draw into: one, or the left and the right eye's.
-    std::size_t layers() const { return pictures_.size(); }
-    Target picture(std::size_t layer) const;
+    /// The number of canvases that views are drawn into: 1, or 2 for the left and the right eye.
+    std::size_t canvas_count() const { return canvases_.size(); }
+    Target canvas(std::size_t i) const;
 
-    /// Before and after the pictures are drawn.
+    /// begin: before the canvases are drawn; record: afterwards.
     void begin(vk::CommandBuffer commands);
-    /// plain: without masks, blend and dither, for a pattern that is aligned by its lines.
+    /// plain: without masks, blend ramps and dither, for a pattern whose lines are aligned.
     void record(vk::CommandBuffer commands, const Target& target, bool plain);
 
     vk::DeviceSize memory() const;
@@ -29,7 +29,7 @@ private:
     Pipelines& pipelines_;
     FinishVariant variant_;
     shared::FinishPush push_{};
-    std::vector<Image> pictures_;
+    std::vector<Image> canvases_;
     Image weight_, black_, table_;
     vk::raii::Sampler sampler_ = nullptr;
     vk::raii::DescriptorPool pool_ = nullptr;

@@ -9,10 +9,10 @@ namespace starbow {
 
 void FrameRenderer::draw(vk::CommandBuffer commands, const Shot& shot, const Panel* hud, std::span<const Target> targets)
 {
-    // The processor: observers, plan, culling, upload.
+    // The processor's part.
     update(shot, hud);
 
-    // The device: cube maps; what is read of them; each output.
+    // The device's part.
     const Trace::Span span(device_.trace, "record");
     if (state_.pattern == Pattern::none) {
         draw_cubes(commands);
@@ -80,16 +80,17 @@ void FrameRenderer::apply_layout(ViewSet::Parts parts)
     measurement_.reset();
 }
 
-/// The factor that keeps every radiance of this instant within what the cube map's numbers hold.
+/// The factor that keeps every radiance of this instant in the range of the stored coefficients.
 double FrameRenderer::pre_exposure(double most_E) const
 {
     const Effects& effects = state_.shot.effects;
     const bool gains = effects.headlight || effects.doppler;
-    // Red-shifted, sunlight also leaves the visible: by Wien's law its part at 360 nm falls as exp(-6.92 (1/D - 1)).
+    // Red-shifted sunlight also leaves the visible range: by Wien's law its share at 360 nm falls as exp(-6.92 (1/D -
+    // 1)).
     const double leaves = effects.doppler ? std::exp(6.92 * (most_E - 1)) : 1;
     const double light
         = starbow::pre_exposure(world_.brightest, state_.shot.exposure_ev, (gains ? most_E * most_E * most_E : 1) * leaves);
-    // A glow's coefficient may stand for light of any strength: only that it fits counts.
+    // A glow's coefficient may represent light of any strength, so it is limited by its size alone.
     return world_.spectra.most > 0 ? std::min(light, starbow::pre_exposure(world_.spectra.most, -1000, 1)) : light;
 }
 
@@ -98,7 +99,7 @@ void FrameRenderer::resize(std::size_t output, glm::ivec2 size)
     if (views_.outputs[output].size == size)
         return;
     views_.outputs[output].size = size;
-    apply_layout(views_.parts(false)); // a window may be dragged so small that a viewport is left with nothing
+    apply_layout(views_.parts(false)); // a visitor may drag a window so small that a viewport shows nothing
 }
 
 void FrameRenderer::adopt(const Layout& layout)

@@ -6,7 +6,7 @@
 
 namespace starbow {
 
-/// The outputs show the flight, or a pattern to line them up by.
+/// Test patterns for the alignment of the outputs; none: the outputs show the flight.
 enum class Pattern { none, grid, rings, names, wedges, overlap };
 constexpr std::array<const char*, 6> pattern_names = {"none", "grid", "rings", "names", "wedges", "overlap"};
 
@@ -15,7 +15,7 @@ struct FrameState {
     Quality quality;
     Layout layout; ///< with the quality's stereo method
     bool keeps_depth = false; ///< the cube map's depth is read after its pass
-    bool repeatable = false; ///< the same shot has the same bytes, whatever was drawn before
+    bool repeatable = false; ///< equal shots have equal bytes, whatever was drawn before
     Pattern pattern = Pattern::none;
     double bloom = 0; ///< the part of the light that glows around bright things, 0 to 1
     bool meters = false; ///< luminance is sampled beside the picture

@@ -5,10 +5,10 @@
 
 namespace starbow {
 
-/// A pass of a frame in the device's own time.
+/// One pass of a frame, in the device's time.
 struct PassTime {
     const char* name;
-    double begin_ms, duration_ms; ///< begin: since the frame's own
+    double begin_ms, duration_ms; ///< begin: since the frame's begin
 };
 
 /// Measures how long the device takes for one frame at a time, and for the passes in it.
@@ -16,15 +16,16 @@ class FrameTimer {
 public:
     explicit FrameTimer(const Device& device);
 
-    /// Enclose all that a frame records.
+    /// These two enclose all commands of a frame.
     void begin(vk::CommandBuffer commands);
     void end(vk::CommandBuffer commands);
-    /// Enclose one pass, between begin and end; passes may nest. Beyond most_spans they are not measured. name must live.
+    /// These two enclose one pass, between begin and end; passes may nest. Spans beyond most_spans are not measured.
+    /// name: a string that outlives this object.
     void begin_span(vk::CommandBuffer commands, const char* name);
     void end_span(vk::CommandBuffer commands);
 
-    /// Milliseconds of the last frame, which the device must have finished; nothing before the first, or where the device
-    /// has no clock.
+    /// Milliseconds of the last frame, which the device must have finished; nothing before the first frame or without a
+    /// device clock.
     std::optional<double> ms() const;
     /// The passes of the last frame, in the order of their beginnings; empty where ms() is nothing.
     std::span<const PassTime> passes();
@@ -32,7 +33,8 @@ public:
 private:
     static constexpr std::uint32_t most_spans = 255;
 
-    vk::raii::QueryPool stamps_ = nullptr; ///< null where the device has no clock; 0, 1: the frame's, then two a span
+    vk::raii::QueryPool stamps_
+        = nullptr; ///< null without a device clock; queries 0 and 1 are the frame's, then two for each span
     double ms_per_tick_ = 0;
     std::uint64_t mask_ = 0;
     bool measured_ = false;

@@ -24,7 +24,7 @@ vk::raii::Sampler make_sampler(const Device& device, const Sampler& s)
         s.mip_linear ? vk::SamplerMipmapMode::eLinear : vk::SamplerMipmapMode::eNearest, wrap(s.u), wrap(s.v),
         vk::SamplerAddressMode::eRepeat);
     info.maxLod = s.mipmaps ? VK_LOD_CLAMP_NONE : 0;
-    // Surfaces stand at every angle to the eye; software pays too much for it.
+    // Surfaces stand at every angle to the eye, so anisotropy helps; in software it takes too long.
     if (s.mipmaps && s.mip_linear && !device.on_processor() && device.physical.getFeatures().samplerAnisotropy) {
         info.anisotropyEnable = true;
         info.maxAnisotropy = std::min(8.0f, device.properties.limits.maxSamplerAnisotropy);
@@ -34,8 +34,7 @@ vk::raii::Sampler make_sampler(const Device& device, const Sampler& s)
     return made;
 }
 
-/// In software the decoding of sRGB costs more than the memory of linear fp16; everywhere else the hardware does it for
-/// nothing.
+/// Decoding sRGB in software takes more time than linear fp16 takes memory bandwidth. GPUs decode sRGB at no cost.
 Image make_colour_texture(Device& device, const Texture& texture)
 {
     bool mips = texture.sampler.mipmaps;
@@ -77,9 +76,9 @@ SurfaceVariant GpuWorld::variant(int material, bool plain) const
     variant.clock = m.clock.has_value();
     variant.blink = m.blink.has_value();
     variant.layered = layered() && !plain;
-    const auto told = [](const Lamp& lamp) { return lamp.frame > 0 || lamp.existence >= 0; };
+    const auto changes = [](const Lamp& lamp) { return lamp.frame > 0 || lamp.existence >= 0; };
     variant.lamps_move
-        = !plain && variant.lights > 0 && (layered() || std::any_of(world.lamps.begin(), world.lamps.end(), told));
+        = !plain && variant.lights > 0 && (layered() || std::any_of(world.lamps.begin(), world.lamps.end(), changes));
     if (!plain)
         variant.numbers = numbers(), variant.kinds = spectra.kinds, variant.matrices = spectra.matrices;
     return variant;
@@ -89,7 +88,7 @@ void put_spectra(Device& device, GpuWorld& world, SpectralLevel level)
 {
     world.spectra = spectra_of(world.world, world.scene, level);
     std::vector<glm::vec4> columns = world.spectra.columns;
-    columns.resize(MAX_MATRICES); // as large as the shader says
+    columns.resize(MAX_MATRICES); // the size of the shader's array
     auto constants = [&](const auto& values) {
         return make_static_buffer(device, std::as_bytes(std::span(values)), vk::BufferUsageFlagBits::eUniformBuffer);
     };

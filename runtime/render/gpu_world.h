@@ -9,16 +9,16 @@
 
 namespace starbow {
 
-/// What an observer sees of a world's numbers, Response on the device, and of its stars.
+/// Response tables of one standard observer on the device, for basis coefficients and for stars.
 struct ResponseBuffers {
     Buffer rows;
     vk::raii::BufferView texels = nullptr; ///< of rows
     float first_log2_D = 0, per_octave = 1;
     Buffer own_rows;
-    Buffer black_bodies; ///< the table of black_body_table
+    Buffer black_bodies; ///< made by black_body_table
 };
 
-/// A world on the device. The plain arrays of World that only it needs (vertices, indices, texels) are dropped.
+/// A world on the device. Arrays that only the device needs (vertices, indices, texels) are dropped from World.
 struct GpuWorld {
     World world; ///< instances in drawing order
     SceneFile scene;
@@ -27,7 +27,7 @@ struct GpuWorld {
     Buffer vertices, indices;
     std::vector<Image> textures;
     std::vector<vk::raii::Sampler> samplers;
-    Image white; ///< stands in where a material has no texture
+    Image white; ///< for materials without a texture
     vk::raii::DescriptorPool pool = nullptr;
     std::vector<vk::raii::DescriptorSet> materials;
 
@@ -36,26 +36,27 @@ struct GpuWorld {
     Buffer stars; ///< StarEntry each; null without stars
 
     Spectra spectra;
-    Buffer columns; ///< of spectra
+    Buffer columns; ///< the spectra's matrix columns
     ResponseBuffers eye, false_colours;
 
     const ResponseBuffers& response(const Effects& on) const { return on.false_colours ? false_colours : eye; }
     bool layered() const { return world.frames.size() > 1; } ///< something may move
     CoefficientCounts numbers() const { return {spectra.basis.reflected, int(spectra.basis.own.size())}; }
-    /// plain: drawn as colours alone, whatever the spectra.
+    /// plain: the material is drawn as a colour alone, whatever its spectra.
     SurfaceVariant variant(int material, bool plain = false) const;
 };
 
-/// Another level in its place. No frame of this world must be under way, and none is drawn by a Frame from before. Throws
-/// InputError, before anything is changed, for a world with too many spectra of its own.
+/// Sets another spectral level. No frame of this world may be under way, and FrameRenderers made before must not draw it.
+/// Throws InputError, before anything is changed, for a world with too many emission basis spectra.
 void put_spectra(Device& device, GpuWorld& world, SpectralLevel level);
 
-/// stars: of the scene's catalogue; counted only where the scene has a sky of stars.
-/// level: none: as needed_level says. Throws InputError as put_spectra does.
+/// stars: the scene's catalogue, used only if the scene has a sky of stars. level: none: as needed_level says. Throws
+/// InputError as put_spectra does.
 GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const SceneFile& scene,
     const std::vector<Star>& stars = {}, std::optional<SpectralLevel> level = {});
 
-/// Other stars in their place, none too. No frame of this world must be under way, and none is drawn by a Frame from before.
+/// Replaces the stars; the list may be empty. No frame of this world may be under way, and FrameRenderers made before
+/// must not draw it.
 void put_stars(Device& device, GpuWorld& world, const std::vector<Star>& stars);
 
 } // namespace starbow

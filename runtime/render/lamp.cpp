@@ -28,13 +28,14 @@ shared::LightEntry light_entry(const GpuWorld& world, const Lamp& lamp, const Ey
     }
     const PointLight& point = std::get<PointLight>(light);
     entry.radiance = glm::vec4(point.radiance * scale, point.distance * point.distance);
-    // Where the lamp is at the eye's time, and what its own time is there: the event in both frames.
+    // The lamp's place at the eye's time, and the lamp's proper time then.
     glm::dvec3 place = lamp.position;
     double own = eye_event.time;
     if (moves) {
-        // The lamp's worldline, told by the frame that it is seen from: what rests at `position` there moves with u here.
+        // The lamp's worldline in the eye event's rest frame: a lamp at rest at `position` there moves with proper
+        // velocity u here.
         const physics::Relative relative = physics::relative(here.u, there.u);
-        // The event at its own time 0.
+        // The event at the lamp's proper time 0.
         const Event at_world{there.origin.time + physics::world_time(there.u, 0, lamp.position),
             there.origin.position + physics::world_place(there.u, 0, lamp.position)};
         const Event at = in_frame(here, at_world);

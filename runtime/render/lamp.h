@@ -4,8 +4,8 @@
 
 namespace starbow {
 
-/// A lamp as what stands still in the eye event's frame is lit by it, around the eye: where it is at the eye's time, how it
-/// moves, and which spectra its light may have there. scale: of radiances.
+/// The light of one lamp on surfaces at rest in the eye event's rest frame, relative to the eye: the lamp's place at the
+/// eye's time, its motion, and the spectra that its light may have there. scale: factor of radiances.
 shared::LightEntry light_entry(const GpuWorld& world, const Lamp& lamp, const EyeEvent& eye_event, double scale);
 
 } // namespace starbow

@@ -10,9 +10,10 @@ namespace {
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 
-/// Of all views together, and at least so many of each. A lamp of a thousandth of the view is still seen by some.
+/// Number of samples of all views together, and the least number of each view. Some samples then meet a lamp of a
+/// thousandth of the view.
 constexpr double samples = 6000, least_samples = 48;
-/// Of all views together: enough that a view of a twentieth of the sky is told by a hundred.
+/// Number of star samples of all views together: a view of a twentieth of the sky then has about a hundred.
 constexpr int star_samples = 3000, star_row = 64;
 
 static_assert(sizeof(LuminanceSample) == 8);

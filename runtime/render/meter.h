@@ -4,11 +4,12 @@
 
 namespace starbow {
 
-/// The whole view in a few thousand samples, on the device and back: what the exposure is chosen by. A view's samples stand
-/// in a cell of one small picture, and its stars in another, a sample each: they are too small to be met by chance.
+/// Samples of all views' luminance, on the device and read back; the exposure follows from them. A view's samples lie in
+/// one cell of a small picture. Its stars have a cell of their own, with one sample for each star: stars are too small
+/// for a coarse grid to meet them.
 class Meter {
 public:
-    /// views: the size of each in pixels, 0 where it does not count. stars: of the world.
+    /// views: the size of each in pixels; 0: the view does not count. stars: number of the world's stars.
     Meter(const Device& device, std::span<const glm::ivec2> views, std::uint32_t stars);
 
     struct Cell {
@@ -16,14 +17,15 @@ public:
     };
     const Cell& cell(std::size_t view) const { return cells_[view]; }
     const Cell& star_cell(std::size_t view) const { return star_cells_[view]; }
-    int every() const { return every_; } ///< of so many stars one has a sample
+    int every() const { return every_; } ///< one star of so many has a sample
 
     /// Before the samples are drawn, and after.
     vk::RenderingAttachmentInfo begin(vk::CommandBuffer commands) const;
     vk::Extent2D extent() const { return picture_.extent; }
     void end(vk::CommandBuffer commands);
 
-    /// What was drawn last, surfaces and stars; the device must have finished it. Empty before that.
+    /// The samples of the last frame, of surfaces and of stars; empty before the first. The device must have finished
+    /// that frame.
     std::span<const LuminanceSample> view() const;
     std::span<const LuminanceSample> stars() const;
 

@@ -15,7 +15,7 @@ using Access = vk::AccessFlagBits2;
 
 constexpr vk::Format picture_format = vk::Format::eR8G8B8A8Srgb;
 
-/// Tells a person at a terminal what a long still is busy with, and about how long the rest may take.
+/// Shows the current step and the estimated rest of a long still on a terminal.
 class Progress {
 public:
     explicit Progress(std::size_t steps)
@@ -24,14 +24,14 @@ public:
     }
     ~Progress()
     {
-        if (told_)
+        if (shown_)
             std::fprintf(stderr, "\r%60s\r", "");
     }
     void next(const std::string& what)
     {
         double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
         if (isatty(STDERR_FILENO)) {
-            told_ = true;
+            shown_ = true;
             std::fprintf(stderr, "\r%zu of %zu: %-30s", done_ + 1, steps_, what.c_str());
             if (done_ > 0)
                 std::fprintf(stderr, " about %.0f s left ", passed / double(done_) * double(steps_ - done_));
@@ -42,7 +42,7 @@ public:
 
 private:
     std::size_t steps_, done_ = 0;
-    bool told_ = false;
+    bool shown_ = false;
     std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
@@ -130,7 +130,7 @@ Channels OffscreenRenderer::numbers(const Shot& shot, std::size_t output)
                 vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
         name_object(device_, *image, "offscreen: image");
     }
-    Shot unexposed = shot; // numbers are of light, not of pictures: all of it counts, and it is the same at any exposure
+    Shot unexposed = shot; // numbers describe light, whatever the exposure
     unexposed.exposure_ev = -60;
     frame_.update(unexposed, nullptr);
     device_.now([&](vk::CommandBuffer commands) { frame_.record_measured(commands, output, target); });

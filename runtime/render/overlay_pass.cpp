@@ -8,7 +8,7 @@
 namespace starbow {
 namespace {
 
-/// Of one view's constants: no device wants its uniform buffers aligned to more.
+/// Bytes from one view's constants to the next: Vulkan limits the alignment of uniform buffers to 256.
 constexpr vk::DeviceSize stride = 256;
 static_assert(sizeof(shared::OverlayConstants) <= stride);
 
@@ -45,7 +45,8 @@ void OverlayPass::prepare(std::size_t view, const What& what, const MeasuringObs
         c.ring = glm::vec4(std::cos(*angle), std::sin(*angle), 1, 0);
     const double low = std::log10(scale.nearest_s);
     c.scale = glm::vec4(low, 1 / (std::log10(scale.farthest_s) - low), std::log10(seconds_per_time_unit), 0);
-    // Heavier contours stand at every fifth: times beyond one of them are small, however late it is in the world.
+    // Every fifth contour is heavier. Times are therefore counted modulo five steps: single precision is enough however
+    // late it is.
     const double now_s = observer.time * seconds_per_time_unit, step = scale.emission_step_s;
     c.steps = glm::vec4(step, std::fmod(now_s, 5 * step), seconds_per_time_unit, 0);
     c.aim = glm::vec4(-from_cockpit[2], 1);

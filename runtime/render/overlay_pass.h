@@ -17,10 +17,10 @@ public:
         std::array<std::optional<Spot>, 2> marks;
         OverlayScale scale;
     };
-    /// lookout: the view's own eye. The device must have finished the frame before.
+    /// observer: the view's eye. The device must have finished the frame before.
     void prepare(std::size_t view, const What& what, const MeasuringObserver& observer, const GpuWorld& world);
 
-    /// Draws into the rendering under way; warp_set, constants: as for the view's warp.
+    /// Draws into the rendering under way. warp_set, constants: the same as for the view's warp.
     void draw(vk::CommandBuffer commands, std::size_t view, const WarpVariant& variant, Overlay overlay,
         vk::DescriptorSet warp_set, const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size,
         vk::Format target);

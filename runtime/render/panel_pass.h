@@ -7,24 +7,24 @@
 
 namespace starbow {
 
-/// A panel of letters in every view, at infinity in the cockpit. Holds its picture.
+/// Draws a panel of text into every view, at infinity in the cockpit. Holds the panel's picture.
 class PanelPass {
 public:
     PanelPass(Device& device, Pipelines& pipelines, std::size_t views);
 
-    /// Where it hangs: panel axes from the cockpit's (hud_place.h), and half its extent on the plane z = 1.
+    /// The panel's place: its axes from the cockpit's (hud_place.h), and half its extent on the plane z = 1.
     struct Place {
         glm::dmat3 panel_from_cockpit{1};
         glm::dvec2 half{1};
     };
-    /// map, nearest: a view's direction map and how it is read. The device must have finished the frame before.
+    /// map, nearest: a view's direction map and its sampler. The device must have finished the frame before.
     void prepare(const Panel& panel, const Place& place);
     void prepare_view(std::size_t view, const Image& map, vk::Sampler nearest);
 
     void upload(vk::CommandBuffer commands); ///< before the first view
-    /// Draws into the rendering under way; constants: the view's, with rows that lead to the panel's axes. scale: where on
-    /// the panel colours stand, from its lower left to its upper right corner, 0 to 1; none if empty. box: the pixels that
-    /// it may cover; nothing where there are none.
+    /// Draws into the rendering under way. constants: the view's, with rows that lead to the panel's axes. scale:
+    /// rectangle of the false colours on the panel, lower left and upper right corner, 0 to 1; an empty one draws none.
+    /// box: the pixels that the panel may cover; an empty one draws nothing.
     void draw(vk::CommandBuffer commands, std::size_t view, bool map, shared::ViewPush constants, glm::ivec2 corner,
         glm::ivec2 size, const vk::Rect2D& box, const glm::vec4& scale, vk::Format target);
 

@@ -19,7 +19,7 @@ Image make_label(Device& device, const Layout& layout, const View& view, glm::iv
     double widest = 1;
     for (const std::string& line : lines)
         widest = std::max(widest, typesetter.width_of(line, height));
-    // In the middle and in the corners without touching.
+    // Labels in the middle and in the corners must not touch.
     height = std::max(10, int(height * std::min(1.0, 0.3 * view.size.x / widest)));
     widest = 1;
     for (const std::string& line : lines)

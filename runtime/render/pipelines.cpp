@@ -33,7 +33,7 @@ struct Pass {
     Spirv vertex, fragment;
     vk::PipelineLayout layout;
     std::vector<vk::Format> targets;
-    std::vector<std::uint32_t> constants; ///< constant_id = index, either stage
+    std::vector<std::uint32_t> constants; ///< constant_id is the index, in both stages
     bool depth = false, vertices = false, blend = false;
     bool points = false, added = false;
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
@@ -114,13 +114,13 @@ vk::raii::PipelineLayout make_layout(const Device& device, std::initializer_list
 
 std::vector<std::uint32_t> constants(const WarpVariant& v)
 {
-    constexpr std::uint32_t of_the_pass = 0; // constant_id 10, each pass's own
+    constexpr std::uint32_t of_the_pass = 0; // constant_id 10 has a meaning of its own in each pass
     return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear,
         of_the_pass, std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), v.by_table, v.layered, v.galilean,
         v.single, std::uint32_t(v.rays), v.cut};
 }
 
-/// The pipeline of a key, made by `make` if it is new.
+/// The pipeline of a key; a new one comes from `make`.
 template <class Key, class Make>
 vk::Pipeline find_or_make(std::map<Key, vk::raii::Pipeline>& made, const Key& key, Make&& make)
 {
@@ -216,7 +216,7 @@ vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
 {
     return find_or_make(warps_, std::pair(v, target), [&] {
         std::vector<std::uint32_t> all = constants(v);
-        all[10] = target != light_format; // has 8 bits: dithered
+        all[10] = target != light_format; // 8 bits need dither
         return make_pipeline(device_,
             {.name = "warp pipeline",
                 .vertex = screen_vert,
@@ -301,7 +301,7 @@ vk::Pipeline Pipelines::star_meter(const WarpVariant& v)
 {
     return find_or_make(star_meters_, v, [&] {
         std::vector<std::uint32_t> all = constants(v);
-        all[10] = true; // at a glance
+        all[10] = true; // the meter reads one ray for each sample
         return make_pipeline(device_,
             {.name = "star meter pipeline",
                 .vertex = star_vert,

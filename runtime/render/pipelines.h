@@ -16,7 +16,8 @@ constexpr vk::Format meter_format = vk::Format::eR32G32Sfloat; // luminance, sol
 constexpr vk::Format map_format = vk::Format::eR32G32Uint; // a direction map's texel, packed
 constexpr vk::Format inverse_format = vk::Format::eR32G32B32A32Uint; // InverseMap's cell
 
-/// Of the pictures that a pass draws into at once. On the stack: passes are looked up by them many times a frame.
+/// Formats of the images that a pass draws into at once. On the stack, because passes are looked up by them many times a
+/// frame.
 struct Formats {
     std::array<vk::Format, MAX_GROUPS + 1> list{};
     std::size_t count = 0;
@@ -35,10 +36,10 @@ struct Formats {
     auto operator<=>(const Formats&) const = default;
 };
 
-/// The numbers that light is told by: constants of the passes that write and read the cube map.
+/// Counts of the basis coefficients that represent light: constants of the passes that write and read the cube map.
 struct CoefficientCounts {
     int reflected = 3, own = 0;
-    /// Of the images that hold them, four each.
+    /// Formats of the images that hold them, four coefficients each.
     Formats formats(bool half_floats) const
     {
         const int all = reflected + own;
@@ -54,55 +55,55 @@ struct CoefficientCounts {
     auto operator<=>(const CoefficientCounts&) const = default;
 };
 
-/// What a material needs of the cube pass: constant_ids of cube.frag.
+/// A material's variant of the cube pass: constant_ids of cube.frag.
 struct SurfaceVariant {
     bool base_texture, emissive_texture, masked, unlit;
     int lights;
     CoefficientCounts numbers{};
-    int kinds = 1; ///< of spectra that shine
-    bool matrices = false; ///< otherwise the numbers are the colour and what is beyond it
+    int kinds = 1; ///< number of kinds of spectra that shine
+    bool matrices = false; ///< otherwise the coefficients are the colour with ultraviolet and infrared
     bool clock = false;
-    bool finite_existence = false; ///< not there for ever
-    bool layered = false; ///< one of several layers
+    bool finite_existence = false; ///< tests existence intervals
+    bool layered = false; ///< the world has several rest frames
     bool lamps_move = false;
     bool blink = false;
-    bool moves = false; ///< by itself
+    bool moves = false; ///< animated
     auto operator<=>(const SurfaceVariant&) const = default;
 };
-/// What a viewport needs of the warp pass: constant_ids of view.glsl and seen.glsl.
+/// A viewport's variant of the warp pass: constant_ids of view.glsl and seen.glsl.
 struct WarpVariant {
     bool map, aberration, doppler, headlight, mips;
     bool channels = false; ///< red, green and blue look different ways
     bool reproject = false, turning = false; ///< stereo from one cube map; by the azimuth
-    bool stars = false; ///< added to what the cube map shows
-    bool linear = false; ///< exposed light, for the glow, instead of what is shown
+    bool stars = false; ///< added to the cube map's light
+    bool linear = false; ///< exposed linear light, for the glow
     CoefficientCounts numbers{};
-    bool by_table = true; ///< otherwise the numbers are the colour
+    bool by_table = true; ///< otherwise the coefficients are the colour
     bool layered = false; ///< something moves in the world
-    bool galilean = false; ///< velocities are added
+    bool galilean = false; ///< Galilean aberration
     int rays = 1; ///< along each side of a pixel
     bool single = false; ///< one image of the plan, ahead, shows all
     bool cut = false; ///< tiles may have several images
     auto operator<=>(const WarpVariant&) const = default;
 };
 
-/// How an output's pictures become its screen's: constant_ids of finish.frag.
+/// An output's variant of the finish pass: constant_ids of finish.frag.
 struct FinishVariant {
-    int combine = 0; ///< 0 one picture; two by rows 1, columns 2, checkerboard 3; added 4
+    int combine = 0; ///< 0: one canvas; two by rows: 1, columns: 2, checkerboard: 3, added: 4
     bool masked = false;
     int curve = 0; ///< 0 sRGB, 1 gamma, 2 table
     bool dithered = true;
     auto operator<=>(const FinishVariant&) const = default;
 };
 
-/// Where a pass draws.
+/// The images that a pass draws into.
 struct TargetKind {
     Formats colours;
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     auto operator<=>(const TargetKind&) const = default;
 };
 
-/// Every pipeline of the program, made when first asked for.
+/// Every pipeline of the program, each made at its first use.
 class Pipelines {
 public:
     explicit Pipelines(Device& device);
@@ -125,16 +126,16 @@ public:
     vk::Pipeline finish(const FinishVariant& variant, vk::Format target);
     vk::Pipeline pattern(bool map, int pattern, vk::Format target);
 
-    /// The number of pipelines that were made so far: it grows when a pass is recorded that needs another one.
+    /// The number of pipelines made so far. It grows when a recorded pass needs a new one.
     std::size_t count() const;
 
     vk::raii::DescriptorSetLayout eye_set
         = nullptr; ///< 0 constants, 1 instances, 2 visible, 3 columns of the spectra, 4 times
     vk::raii::DescriptorSetLayout material_set = nullptr; ///< 0 base, 1 emissive texture
-    vk::raii::DescriptorSetLayout warp_set = nullptr; ///< 0 direction map, 1 atlas, 2 tiles, 3 rows of the response, 4 depth
-                                                      ///< atlas, 5 picture of the stars, 6 inverse of the direction map, 7
-                                                      ///< to 9 further atlases, 10 rows for the world's own spectra, 11
-                                                      ///< what is covered, 12 layers
+    vk::raii::DescriptorSetLayout warp_set
+        = nullptr; ///< 0 direction map, 1 atlas, 2 tiles, 3 rows of the response, 4 depth atlas, 5 picture of the stars, 6
+                   ///< inverse of the direction map, 7 to 9 further atlases, 10 rows for emission basis spectra, 11
+                   ///< coverage, 12 rest frames
     vk::raii::DescriptorSetLayout star_set = nullptr; ///< 0 constants, 1 stars, 2 black bodies
     vk::raii::DescriptorSetLayout picture_set = nullptr; ///< 0 direction map, 1 panel, label or cube
     vk::raii::DescriptorSetLayout finish_set = nullptr; ///< 0 left, 1 right picture, 2 weights, 3 black level, 4 table

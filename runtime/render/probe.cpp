@@ -9,10 +9,10 @@ namespace {
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 
-/// Of Rec. 709's primaries.
+/// The luminance of a colour in Rec. 709's primaries.
 double luminance(const glm::dvec3& colour) { return glm::dot(colour, glm::dvec3(0.2126, 0.7152, 0.0722)); }
 
-/// One pixel that looks along n.
+/// The matrix of one pixel that looks along n.
 glm::dmat3 pixel_along(const glm::dvec3& n, double angle)
 {
     const glm::dvec3 up = std::abs(n.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);

@@ -6,23 +6,23 @@
 
 namespace starbow {
 
-/// What the picture shows in a few directions, as numbers: drawn by the pass that fills an EXR, a pixel each, and read back
-/// when the device has finished the frame.
+/// Reads the picture's light in a few directions. The measuring pass draws one pixel for each; they are read back after
+/// the frame.
 class Probe {
 public:
-    /// directions: unit, in the cockpit. pixel_angle: of the light that is averaged, radians.
+    /// directions: unit, in the cockpit. pixel_angle: side of the averaged pixel, radians.
     Probe(const Device& device, const std::vector<glm::dvec3>& directions, double pixel_angle);
 
-    /// For the plan: what the cube map must hold. None moves while this object lives.
+    /// The cone hierarchy of one probe, for the plan. It does not move in memory while this object lives.
     const ConeHierarchy& view(std::size_t i) const { return *pixels_[i].cones; }
     std::size_t count() const { return pixels_.size(); }
-    /// Whether it looks there already.
+    /// True if the probe has these directions and this angle already.
     bool looks(const std::vector<glm::dvec3>& directions, double pixel_angle) const;
 
-    /// draw: draws pixel (i, 0) of the target through direction = M (x, y, 1), x and y from that pixel's corner.
+    /// draw: draws pixel (i, 0) of the target through direction = M (x, y, 1); x and y count from that pixel's corner.
     void record(
         vk::CommandBuffer commands, const std::function<void(std::size_t i, const glm::dmat3& cockpit_from_pixel)>& draw);
-    /// Of the last frame, in motion axes. Empty before one was finished.
+    /// The last frame's light, directions in motion axes. Empty before the first frame.
     std::vector<Probed> read() const;
 
 private:

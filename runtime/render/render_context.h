@@ -8,14 +8,14 @@
 
 namespace starbow {
 
-/// What every command opens first: the device and one world on it.
+/// The device and one world on it, which most commands open first.
 struct RenderContext {
     Device device;
     Pipelines pipelines;
     GpuWorld world;
 
-    /// Reads scene and world before it touches the device, so that a wrong file is told first.
-    /// level: of the light; none: what the world needs.
+    /// Reads scene and world before it touches the device, so that errors in the files come first. level: of the light;
+    /// none: the level that the world needs. Throws InputError.
     RenderContext(
         const std::filesystem::path& scene, const Device::Options& options, std::optional<SpectralLevel> level = {});
 
@@ -23,15 +23,15 @@ private:
     RenderContext(struct LoadedScene&& loaded, const Device::Options& options, std::optional<SpectralLevel> level);
 };
 
-/// How the scene's light is told, and why: a line for the log.
+/// The scene's spectral level with its reason: a line for the log.
 std::string describe_light(const RenderContext& context);
 
-/// Device options as the environment asks: STARBOW_VALIDATION=1, STARBOW_GPU=part of a name.
+/// Device options from the environment: STARBOW_VALIDATION=1, STARBOW_GPU=part of a name.
 Device::Options device_options(bool windows);
 
-/// A quality as far as a device can have it.
+/// A quality reduced to a device's limits.
 Quality within(const Device& device, Quality quality);
-/// The shipped quality that counts where none is asked for: `fine` for stills and on a GPU, `balanced` in software.
+/// The default quality: `fine` for stills and on a GPU, `balanced` in software.
 Quality default_quality(const Device& device, bool still);
 
 } // namespace starbow

@@ -26,7 +26,7 @@ std::uint32_t memory_type(const Device& device, std::uint32_t allowed, vk::Memor
         "The GPU offers no memory of the kind " + vk::to_string(wanted) + ": use another GPU or a newer driver");
 }
 
-/// Gives a buffer or an image its memory; software devices find out only when it is bound.
+/// Gives a buffer or an image its memory. Software devices report a lack of memory only at the binding.
 template <class Resource>
 vk::raii::DeviceMemory bind(const Device& device, const Resource& resource, vk::MemoryPropertyFlags wanted)
 {

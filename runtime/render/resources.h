@@ -10,7 +10,7 @@ struct Buffer {
     vk::raii::Buffer buffer = nullptr;
     vk::DeviceSize size = 0;
     void* mapped = nullptr; ///< null for device-local ones
-    std::uint64_t serial = 0; ///< another one for each that is made: a handle may come again, this does not
+    std::uint64_t serial = 0; ///< unique for each buffer and image: Vulkan may reuse a handle
 };
 
 struct Image {
@@ -21,15 +21,15 @@ struct Image {
     vk::Extent2D extent;
     std::uint32_t levels = 1, layers = 1;
     vk::DeviceSize bytes = 0; ///< of device memory
-    std::uint64_t serial = 0; ///< as Buffer's
+    std::uint64_t serial = 0; ///< unique, as Buffer's
 };
 
-/// Host-visible and mapped: what the processor writes each frame, or reads back.
+/// A host-visible, mapped buffer that the processor writes each frame or reads back.
 Buffer make_mapped_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage);
-/// Filled once.
+/// A device-local buffer, filled once.
 Buffer make_static_buffer(Device& device, std::span<const std::byte> data, vk::BufferUsageFlags usage);
 
-/// Makes a mapped buffer anew, half as large again, if it is too small.
+/// Replaces a mapped buffer that is too small by one of 1.5 times the size.
 void grow(const Device& device, Buffer& buffer, vk::DeviceSize size, vk::BufferUsageFlags usage);
 
 struct ImageSpec {
@@ -40,16 +40,16 @@ struct ImageSpec {
     std::uint32_t layers = 1;
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     bool cube = false;
-    bool array = false; ///< seen as an array, however few its layers
+    bool array = false; ///< its view is an array, even with one layer
 };
 /// Throws InputError if the device can't hold it.
 Image make_image(const Device& device, const ImageSpec& spec);
 
 vk::ImageAspectFlags aspect_of(vk::Format format);
 
-/// A picture for sampling, with mips made by halving.
+/// A texture; mips are made by halving.
 Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::span<const std::byte> pixels, bool mips);
-/// The same without mips, as an array of pictures one after the other.
+/// A texture array without mips; pixels: one picture after the other.
 Image make_texture_array(
     Device& device, vk::Format format, glm::ivec2 size, std::uint32_t layers, std::span<const std::byte> pixels);
 
@@ -58,10 +58,10 @@ void transition(vk::CommandBuffer commands, const Image& image, vk::ImageLayout 
     vk::AccessFlags2 from_access, vk::ImageLayout to, vk::PipelineStageFlags2 to_stage, vk::AccessFlags2 to_access);
 
 vk::Rect2D rect_of(glm::ivec2 corner, glm::ivec2 size);
-/// Viewport and scissor.
+/// Sets viewport and scissor.
 void set_area(vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size);
 
-/// Rows from the top, tightly packed; the image must be in eTransferSrcOptimal.
+/// Returns rows from the top, tightly packed; the image must be in eTransferSrcOptimal.
 std::vector<std::byte> read_back(Device& device, const Image& image, std::uint32_t bytes_per_texel);
 
 } // namespace starbow

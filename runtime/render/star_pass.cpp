@@ -10,8 +10,8 @@ namespace {
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 
-/// Where a sky of a million stars crowds into a few pixels, fp16 would stop adding; a device that can't add up floats has it
-/// all the same.
+/// Where a million stars crowd into a few pixels, an fp16 sum would stop growing. A device that can't blend fp32 uses
+/// fp16 all the same.
 vk::Format summing_format(const Device& device)
 {
     const auto can = device.physical.getFormatProperties(exact_format).optimalTilingFeatures;
@@ -103,7 +103,7 @@ void StarPass::draw(vk::CommandBuffer commands, std::size_t observer, glm::ivec2
     std::span<const StarRun> stars)
 {
     bind(commands, observer);
-    // Wider by a spot's radius: a point whose middle lies outside would not be drawn at all.
+    // The viewport is wider by a spot's radius: a point whose middle lies outside would not be drawn at all.
     const glm::ivec2 radius(STAR_RADIUS);
     const glm::vec2 low = corner - radius, wide = size + 2 * radius;
     commands.setViewport(0, vk::Viewport(low.x, low.y, wide.x, wide.y, 0, 1));

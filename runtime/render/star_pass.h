@@ -3,12 +3,11 @@
 
 namespace starbow {
 
-/// The picture of the stars alone that the warp pass adds to what it sees: scene-linear light, pixel for pixel an output's.
-/// One for all outputs of a frame, one after the other. Of a world without stars it is nothing.
+/// Draws the stars alone into a picture of scene-linear light, pixel for pixel an output's; the warp pass adds it. One
+/// picture serves all outputs of a frame in turn. In a world without stars it is empty.
 ///
-/// Each star looks for its pixel, rather than each pixel for its stars: the work per star is then bounded at every speed,
-/// while at gamma 100 a pixel ahead would have a tenth of the sky to look through. Where a display is a map of directions,
-/// InverseMap begins the search.
+/// Each star searches its pixel. The work for each star is then bounded at every speed; a pixel ahead would have to
+/// search a tenth of the sky at gamma 100. Where a display is a direction map, InverseMap begins the search.
 class StarPass {
 public:
     StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& world);
@@ -16,18 +15,20 @@ public:
     bool on() const { return world_.star_count > 0; }
     /// Makes room for an output. The device must have finished the frame before.
     void fit(vk::Extent2D extent);
-    /// One turn for each observer.
+    /// motion_from_world: one for each observer.
     void prepare(std::span<const glm::dmat3> motion_from_world, bool false_colours);
 
-    /// From begin to end the viewports are drawn: bind a pipeline of Pipelines::stars for format(), its set 0 and the push
-    /// constants, then draw() of those stars that may be seen. The picture is then for fragment shaders to read.
+    /// Between begin and end the viewports are drawn: bind a pipeline of Pipelines::stars for format(), its set 0 and the
+    /// push constants, then call draw() with the stars that may be in view. Afterwards fragment shaders may read the
+    /// picture.
     void begin(vk::CommandBuffer commands, vk::Extent2D extent);
     void draw(vk::CommandBuffer commands, std::size_t observer, glm::ivec2 corner, glm::ivec2 size, int instances,
         std::span<const StarRun> stars);
     void end(vk::CommandBuffer commands);
 
-    /// For the meter, into its own picture: each `every`-th star is a pixel of the rectangle, row by row. Bind a pipeline of
-    /// Pipelines::star_meter and the rest as above, with the push constant `view` telling the rectangle's size and `every`.
+    /// Draws the meter's samples into the meter's picture: each `every`-th star is a pixel of the rectangle, row by row.
+    /// Bind a pipeline of Pipelines::star_meter and the rest as for draw(); the push constant `view` holds the
+    /// rectangle's size and `every`.
     void sample(vk::CommandBuffer commands, std::size_t observer, glm::ivec2 corner, glm::ivec2 size, int every,
         bool channels) const;
 
@@ -40,7 +41,7 @@ private:
     const GpuWorld& world_;
     vk::Format format_;
     vk::raii::DescriptorPool pool_ = nullptr;
-    std::array<vk::raii::DescriptorSet, 2> sets_ = {nullptr, nullptr}; ///< for eyes, for false colours
+    std::array<vk::raii::DescriptorSet, 2> sets_ = {nullptr, nullptr}; ///< standard observer; false colours
     bool false_colours_ = false;
     void bind(vk::CommandBuffer commands, std::size_t observer) const;
     void write_sets();

@@ -6,7 +6,7 @@
 namespace starbow {
 namespace {
 
-/// Root of the determinant of a flat view's matrix: its pixels' solid angle is det M / length^3.
+/// The square root of the determinant of a flat view's matrix M: a pixel's solid angle is det M / length^3.
 double unit_of(const CompiledView& view) { return view.matrix ? std::sqrt(std::abs(glm::determinant(*view.matrix))) : 0; }
 
 } // namespace
@@ -21,7 +21,7 @@ const PlannedImage* ViewConstants::single_image(const ViewState& view) const
 WarpVariant ViewConstants::variant(const ViewState& view) const
 {
     const bool moves
-        = eyes_.observer_of(view).E != 1 || eyes_.all[view.eye].cube.layered(); // otherwise there is nothing to shift
+        = eyes_.observer_of(view).E != 1 || eyes_.all[view.eye].cube.layered(); // without motion D is 1 everywhere
     const bool beside = state_.reprojects() && view.beside_m != glm::dvec3(0);
     const Effects& on = state_.shot.effects;
     WarpVariant variant{view.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
@@ -33,7 +33,7 @@ WarpVariant ViewConstants::variant(const ViewState& view) const
     variant.cut = eyes_.plans[view.eye].cut;
     variant.galilean = on.comparison == Comparison::galilean;
     variant.by_table = variant.doppler || on.false_colours
-        || variant.numbers != CoefficientCounts{}; // at rest the light is shown as it is
+        || variant.numbers != CoefficientCounts{}; // at rest three coefficients are the shown colour
     return variant;
 }
 
@@ -67,7 +67,7 @@ shared::ViewPush ViewConstants::push(const ViewState& view, const glm::dmat3& ax
 
 glm::vec4 ViewConstants::boost(const ViewState& view, double exposure) const
 {
-    // Not infinite, so that darkness times it stays dark.
+    // A finite exposure keeps darkness dark: 0 times infinity is NaN.
     const double E = eyes_.observer_of(view).E;
     return glm::vec4(E, 1 / E, std::min(exposure / state_.pre_exposure, 1e37), near_distance);
 }

@@ -3,7 +3,7 @@
 
 namespace starbow {
 
-/// Specialization constants and push constants for a view's shaders. Computes, records nothing.
+/// Computes specialization constants and push constants for a view's shaders; records no commands.
 class ViewConstants {
 public:
     ViewConstants(const GpuWorld& world, const FrameState& state, const ViewSet& views, const EyeCubes& eyes)
@@ -18,13 +18,13 @@ public:
     WarpVariant variant(const ViewState& view) const;
     /// The variant of passes that show light: all rays of the quality.
     WarpVariant variant_shown(const ViewState& view) const;
-    /// The image ahead if the plan has no other, as it often is at rest; null otherwise.
+    /// The image ahead if it is the plan's only one, as often at rest; null otherwise.
     const PlannedImage* single_image(const ViewState& view) const;
-    /// Rows lead from pixels to axes_from_cockpit's axes.
+    /// The push constants of a view. Their rows lead from pixels to the axes of axes_from_cockpit.
     shared::ViewPush push(const ViewState& view, const glm::dmat3& axes_from_cockpit) const;
     /// The same in the motion axes of the view's observer, exposed.
     shared::ViewPush exposed_push(const ViewState& view, double exposure) const;
-    /// The stars' pass has its own: rows lead back from motion axes to pixels.
+    /// The star pass's push constants: their rows lead from motion axes back to pixels.
     shared::ViewPush star_push(const ViewState& view) const;
 
 private:

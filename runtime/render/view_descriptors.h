@@ -10,13 +10,14 @@ public:
     ViewDescriptors(Device& device, const GpuWorld& world, const FrameState& state, ViewSet& views, const EyeCubes& eyes,
         const StarPass& stars);
 
-    /// After the plans, before anything is recorded. The device must have finished the frame before.
+    /// Writes the sets that changed: after the plans, before any command is recorded. The device must have finished the
+    /// frame before.
     void write();
 
     vk::Sampler nearest() const { return *nearest_; } ///< for direction maps
 
 private:
-    /// Writes the rest frames that are in view, and the sky, for a world in which something moves.
+    /// Writes the constants of the rest frames in view, and of the sky, for a world in which something moves.
     void write_rest_frames(ViewState& view);
     void collect_label_set(const ViewState& view);
     void collect_warp_set(const ViewState& view);
@@ -30,9 +31,9 @@ private:
     ViewSet& views_;
     const EyeCubes& eyes_;
     const StarPass& stars_;
-    vk::raii::Sampler linear_ = nullptr, nearest_ = nullptr, finest_ = nullptr; ///< finest_: level 0 alone
-    Image nothing_; ///< stands in where a view has no such image
-    Buffer no_rest_frames_; ///< stands in where nothing moves
+    vk::raii::Sampler linear_ = nullptr, nearest_ = nullptr, finest_ = nullptr; ///< finest_ reads level 0 alone
+    Image nothing_; ///< for views without an image
+    Buffer no_rest_frames_; ///< for worlds in which nothing moves
     // The content of one view's sets, collected anew for each view and frame.
     std::array<vk::DescriptorImageInfo, 16> image_infos_;
     std::array<vk::DescriptorBufferInfo, 2> buffer_infos_;

@@ -26,7 +26,7 @@ const Probe* ViewMeasurement::probe()
         probe_.reset();
         return nullptr;
     }
-    // The probes are as fine as the picture there: the plan grows no finer for them.
+    // The probes are as fine as the picture there, so the plan's resolution does not grow for them.
     const double angle = std::max(double(views_.probed_view().compiled.cones->cone(0, {0, 0}).finest), 2e-4);
     if (!probe_ || !probe_->looks(what_.probes, angle))
         probe_ = std::make_unique<Probe>(device_, what_.probes, angle);
@@ -72,7 +72,8 @@ void ViewMeasurement::draw_probes(vk::CommandBuffer commands)
     const Label label(device_, commands, "probes");
     const ViewState& view = views_.probed_view();
     WarpVariant own = constants_.variant(view);
-    own.map = own.channels = own.reproject = own.turning = own.stars = false; // flat, from where the cube map was drawn
+    own.map = own.channels = own.reproject = own.turning = own.stars
+        = false; // a probe is a flat view from the cube map's own place
     const vk::Pipeline pipeline = pipelines_.probe(own);
     probe_->record(commands, [&](std::size_t i, const glm::dmat3& cockpit_from_pixel) {
         shared::ViewPush constants = constants_.push(view, eyes_.observer_of(view).layers[0].motion_from_cockpit);

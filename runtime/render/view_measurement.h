@@ -8,12 +8,12 @@ namespace starbow {
 struct Measuring {
     std::vector<glm::dvec3> probes; ///< unit directions in the cockpit whose light is read
     OverlayPass::What over;
-    const Panel* panel = nullptr; ///< of readings, or none; read by the next frame
-    glm::vec4 scale{0}; ///< place of the false colours on it, see PanelPass::draw
+    const Panel* panel = nullptr; ///< readings, or null; the next frame reads it
+    glm::vec4 scale{0}; ///< place of the false colours on the panel, see PanelPass::draw
 };
 
 /// The instruments' passes: probes of the picture, overlays over it, and the panel of readings. Each is made at its first
-/// use; off, they cost nothing.
+/// use. Switched off they cost nothing.
 class ViewMeasurement {
 public:
     ViewMeasurement(Device& device, Pipelines& pipelines, const GpuWorld& world, const FrameState& state,
@@ -32,14 +32,15 @@ public:
     }
 
     void set(const std::optional<Measuring>& what);
-    void reset(); ///< the views are others now
-    /// The rays of this frame's probes, for the plan; null: none.
+    void reset(); ///< call it when the views have changed
+    /// The probes of this frame, for the plan; null without any.
     const Probe* probe();
     void prepare();
     void draw_probes(vk::CommandBuffer commands);
     void draw(vk::CommandBuffer commands, std::size_t output, const Target& last);
 
-    /// The last frame's light along Measuring::probes, directions in the world's axes; the device must have finished it.
+    /// The last frame's light along Measuring::probes, directions in the world's axes. The device must have finished that
+    /// frame.
     std::vector<Probed> probed() const;
     const MeasuringObserver& head() const { return head_; } ///< between the eyes
     const MeasuringObserver& observer() const { return observer_; } ///< the eye that the probes look from

@@ -4,8 +4,8 @@
 
 namespace starbow {
 
-/// Samples the luminance of all views beside the picture, for the exposure: of all outputs but previews, evenly for the
-/// solid angle that the visitor sees.
+/// Samples the luminance of all views for the exposure. All outputs but previews count, each by the solid angle that the
+/// visitor sees.
 class ViewMeter {
 public:
     ViewMeter(Device& device, Pipelines& pipelines, const FrameState& state, const ViewSet& views, const EyeCubes& eyes,
@@ -22,11 +22,12 @@ public:
     {
     }
 
-    void prepare(); ///< makes its picture, where FrameState::meters asks for it
+    void prepare(); ///< makes the meter's picture if FrameState::meters is set
     void record(vk::CommandBuffer commands);
-    /// The exposure for the last frame, EV. Nothing where it was dark or not metered. The device must have finished it.
+    /// The exposure for the last frame, EV; nothing where it was dark or not metered. The device must have finished that
+    /// frame.
     std::optional<double> metered() const;
-    void reset() { meter_.reset(); } ///< the views are others now
+    void reset() { meter_.reset(); } ///< call it when the views have changed
     vk::DeviceSize memory() const { return meter_ ? meter_->memory() : 0; }
 
 private:

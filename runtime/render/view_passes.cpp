@@ -72,13 +72,13 @@ void ViewPasses::draw_warp(vk::CommandBuffer commands, const ViewState& view, vk
     commands.draw(3, 1, 0, 0);
 }
 
-void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, int layer)
+void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, int canvas)
 {
     const Label label(device_, commands, "stars");
     const glm::ivec2 size = views_.outputs[output].size;
     stars_.begin(commands, {std::uint32_t(size.x), std::uint32_t(size.y)});
     for (const ViewState& view : views_.all) {
-        if (view.output != output || view.geometry().layer != layer)
+        if (view.output != output || view.geometry().canvas != canvas)
             continue;
         const shared::ViewPush constants = constants_.star_push(view);
         WarpVariant own = constants_.variant(view);
@@ -119,7 +119,7 @@ void ViewPasses::pattern_view(vk::CommandBuffer commands, const ViewState& view,
     constants.row0 = look.row0, constants.row1 = look.row1, constants.row2 = look.row2;
     constants.origin = glm::vec4(own.corner, own.size);
     constants.tint = glm::vec4(state_.pattern == Pattern::names ? eye_tint(own.eye) : output_tint(own.output), 0);
-    // A table most likely is near a gamma of 2.2. A preview's target is sRGB whatever it shows.
+    // A table of a colour curve is most likely near a gamma of 2.2. A preview's target is sRGB, whatever it shows.
     const Colour& colour = state_.layout.outputs[view.output].colour;
     const double gamma = colour.lut.empty() ? colour.gamma : 2.2;
     constants.label = glm::vec4(view.label.extent.width, view.label.extent.height, view.shown_part, gamma);
@@ -137,20 +137,20 @@ void ViewPasses::warp_output(vk::CommandBuffer commands, std::size_t output, con
     const Label label(device_, commands, "warp");
     if (views_.outputs[output].finish)
         views_.outputs[output].finish->begin(commands);
-    for (int layer = 0; layer < layers(state_.layout.outputs[output].packing); ++layer) {
+    for (int canvas = 0; canvas < canvas_count(state_.layout.outputs[output].packing); ++canvas) {
         if (stars_.on() && state_.pattern == Pattern::none)
-            draw_stars(commands, output, layer);
-        const Target target = views_.picture_of(output, layer, last);
+            draw_stars(commands, output, canvas);
+        const Target target = views_.canvas_target(output, canvas, last);
         const bool glows = state_.bloom > 0 && state_.pattern == Pattern::none;
         for (const ViewState& view : views_.all)
-            if (glows && view.output == output && view.geometry().layer == layer)
+            if (glows && view.output == output && view.geometry().canvas == canvas)
                 bloom_view(commands, view);
         vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
             vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
             vk::ClearColorValue(std::array<float, 4>{0, 0, 0, 1}));
         commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
         for (const ViewState& view : views_.all) {
-            if (view.output != output || view.geometry().layer != layer)
+            if (view.output != output || view.geometry().canvas != canvas)
                 continue;
             if (state_.pattern != Pattern::none)
                 pattern_view(commands, view, target.format);
@@ -168,8 +168,8 @@ void ViewPasses::warp_output(vk::CommandBuffer commands, std::size_t output, con
 void ViewPasses::lay_over(vk::CommandBuffer commands, std::size_t output, const Target& last,
     const std::function<void(std::size_t view, vk::Format target)>& draw) const
 {
-    for (int layer = 0; layer < layers(state_.layout.outputs[output].packing); ++layer) {
-        const Target target = views_.picture_of(output, layer, last);
+    for (int canvas = 0; canvas < canvas_count(state_.layout.outputs[output].packing); ++canvas) {
+        const Target target = views_.canvas_target(output, canvas, last);
         vk::ImageMemoryBarrier2 after_warp(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
             Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead,
             vk::ImageLayout::eColorAttachmentOptimal, vk::ImageLayout::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED,
@@ -179,7 +179,7 @@ void ViewPasses::lay_over(vk::CommandBuffer commands, std::size_t output, const 
             vk::AttachmentLoadOp::eLoad, vk::AttachmentStoreOp::eStore);
         commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
         for (std::size_t i = 0; i < views_.all.size(); ++i)
-            if (views_.all[i].output == output && views_.all[i].geometry().layer == layer)
+            if (views_.all[i].output == output && views_.all[i].geometry().canvas == canvas)
                 draw(i, target.format);
         commands.endRendering();
     }
@@ -203,7 +203,7 @@ void ViewPasses::finish_output(vk::CommandBuffer commands, std::size_t output, c
     if (!views_.outputs[output].finish)
         return;
     const Label label(device_, commands, "finish");
-    // A projector is adjusted by its bare picture; how pictures meet is judged with blending and masks.
+    // A projector is aligned by its bare picture; the overlap of pictures is judged with blend ramps and masks.
     views_.outputs[output].finish->record(commands, target,
         state_.pattern == Pattern::grid || state_.pattern == Pattern::names || state_.pattern == Pattern::wedges);
 }
@@ -222,7 +222,7 @@ void ViewPasses::record_measured(vk::CommandBuffer commands, std::size_t output,
     }
     commands.beginRendering({{}, {{0, 0}, target.camera.extent}, 1, 0, colours});
     for (const ViewState& view : views_.all)
-        if (view.output == output && view.geometry().layer == 0)
+        if (view.output == output && view.geometry().canvas == 0)
             draw_warp(commands, view, pipelines_.measure(constants_.variant_shown(view)), constants_.exposed_push(view, 1),
                 view.geometry().corner, view.geometry().size);
     commands.endRendering();
@@ -235,7 +235,7 @@ std::vector<ViewPasses::Axes> ViewPasses::measured_axes(std::size_t output) cons
 {
     std::vector<Axes> axes;
     for (const ViewState& view : views_.all)
-        if (view.output == output && view.geometry().layer == 0)
+        if (view.output == output && view.geometry().canvas == 0)
             axes.push_back({view.geometry().corner, view.geometry().size,
                 glm::transpose(eyes_.observer_of(view).layers[0].motion_from_frame)});
     return axes;
@@ -262,7 +262,7 @@ PlannedImage ViewPasses::plain_image(const Shot& shot, glm::dmat3& straight_from
     straight_from_world = motion_from_world({0, 0, 0}, shot.ship_from_cockpit);
     glm::dmat3 m = straight_from_world * glm::dmat3(glm::mat3_cast(shot.ship_from_cockpit)) * view.compiled.matrix.value();
     glm::dvec3 low = m * glm::dvec3(0, 0, 1), high = m * glm::dvec3(view.geometry().size, 1);
-    // The view's x may run against the face's a: the picture is then mirrored, at the same cost.
+    // The view's x may run against the face's a: the picture is then mirrored, in the same time.
     glm::dvec2 one = glm::dvec2(low) / low.z, other = glm::dvec2(high) / high.z;
     PlannedImage image{TILE_FRONT, 0, glm::min(one, other), glm::max(one, other), view.geometry().size, {0, 0}, 0, 1};
     image.texels_per_unit = image.size.y / (image.high.y - image.low.y);

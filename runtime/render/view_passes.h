@@ -5,48 +5,48 @@
 
 namespace starbow {
 
-/// The three pictures of numbers that measuring fills instead of an output's picture.
+/// The three images of measured channels that record_measured fills.
 struct MeasureTarget {
     Image light_and_depth, camera, world;
 };
 
-/// Records all that is drawn view by view: stars, warp, bloom, test patterns, the head-up display, and the finish of each
-/// output. Each function is one pass, labelled for debuggers.
+/// Records all passes that go view by view: stars, warp, bloom, test patterns, head-up display, and the finish of each
+/// output. Each function is one pass with a label for debuggers.
 class ViewPasses {
 public:
     ViewPasses(Device& device, Pipelines& pipelines, const FrameState& state, ViewSet& views, const EyeCubes& eyes,
         StarPass& stars, const ViewConstants& constants, const ViewDescriptors& descriptors);
 
-    /// Makes room for the frame that is drawn next: stars' picture, bloom, labels, the head-up display's panel (null: none).
+    /// Makes room for the next frame: picture of the stars, bloom, labels, panel of the head-up display (null: none).
     void prepare(const Panel* hud);
 
     /// The views of an output through the cube maps, stars and bloom included, or the test pattern.
     void warp_output(vk::CommandBuffer commands, std::size_t output, const Target& last);
     void draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& last);
     void finish_output(vk::CommandBuffer commands, std::size_t output, const Target& target);
-    /// The numbers of an output's first layer.
+    /// The measured channels of an output's first canvas.
     void record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target);
     /// The stars alone, the first part of warp_output.
-    void draw_stars(vk::CommandBuffer commands, std::size_t output, int layer);
+    void draw_stars(vk::CommandBuffer commands, std::size_t output, int canvas);
 
-    /// Turns from a measured view's motion axes to its observer's own, with the view's corner and size.
+    /// The rotation from a measured view's motion axes to the world's, with the view's corner and size.
     struct Axes {
         glm::ivec2 corner, size;
         glm::dmat3 world_from_motion;
     };
     std::vector<Axes> measured_axes(std::size_t output) const;
 
-    /// Draws over an output's picture, view by view of each of its layers.
+    /// Calls `draw` for each view on each of an output's canvases, inside a rendering over the picture.
     void lay_over(vk::CommandBuffer commands, std::size_t output, const Target& last,
         const std::function<void(std::size_t view, vk::Format target)>& draw) const;
-    /// One full-screen triangle over `size` pixels from `corner` on, with the view's descriptor set.
+    /// Draws one full-screen triangle over `size` pixels from `corner` on, with the view's descriptor set.
     void draw_warp(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline,
         const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size) const;
 
-    /// A straight perspective view of the first view, which must be flat: the image and its axes, for
+    /// An image of the first view, which must be flat, without aberration: the image and its axes, for
     /// CubePass::prepare_plain.
     PlannedImage plain_image(const Shot& shot, glm::dmat3& straight_from_world) const;
-    /// The first view through Pipelines::lookup: the bare cost of a cube map's look-up.
+    /// Draws the first view through Pipelines::lookup: the bare cost of a cube map's look-up.
     void look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeline pipeline, vk::DescriptorSet set);
 
     vk::DeviceSize memory() const { return stars_.picture().bytes + (hud_ ? hud_->memory() : 0); }
@@ -64,8 +64,8 @@ private:
     StarPass& stars_;
     const ViewConstants& constants_;
     const ViewDescriptors& descriptors_;
-    std::vector<glm::dmat3> star_turns_; ///< kept for its room
-    std::unique_ptr<PanelPass> hud_; ///< from its first use on
+    std::vector<glm::dmat3> star_turns_; ///< a member so that its memory is reused
+    std::unique_ptr<PanelPass> hud_; ///< null before its first use
     bool hud_on_ = false;
 };
 

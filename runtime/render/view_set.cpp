@@ -22,7 +22,7 @@ ViewSet::ViewSet(Device& device, Pipelines& pipelines, const FrameState& state, 
     name_object(device, no_map_, "views: no map");
     for (const Output& output : state.layout.outputs)
         outputs.emplace_back().size = output.size;
-    store.matrices(state.quality.matrices || state.layout.head_tracker); // a map does not follow a head
+    store.matrices(state.quality.matrices || state.layout.head_tracker); // a map can't follow a head
 }
 
 glm::ivec2 ViewSet::sent_pixels(const ViewState& view) const
@@ -74,7 +74,7 @@ const ViewState& ViewSet::probed_view() const
 ViewSet::Parts ViewSet::parts(bool rejects_empty)
 {
     Parts parts;
-    std::vector<CompiledView> lit; // by projectors, not previews
+    std::vector<CompiledView> lit; // without previews
     for (std::size_t output = 0; output < outputs.size(); ++output) {
         parts.views.push_back(compile_output(store, state_.layout, output, outputs[output].size));
         if (!state_.layout.outputs[output].preview)
@@ -96,7 +96,7 @@ void ViewSet::apply_layout(Parts parts)
 {
     hud_place = {panel_from_cockpit(state_.layout.hud, parts.views),
         std::tan(0.5 * state_.layout.hud.width_deg * degree) * glm::dvec2(1, panel_aspect)};
-    std::vector<ViewState> before = std::exchange(all, {}); // whose maps are found again
+    std::vector<ViewState> before = std::exchange(all, {}); // their maps are reused
     std::vector<MapImage> maps_before = std::exchange(maps, {});
     for (std::size_t output = 0; output < outputs.size(); ++output)
         for (CompiledView& compiled : parts.views[output]) {
@@ -193,7 +193,7 @@ std::optional<glm::dvec3> ViewSet::direction(std::size_t output, const glm::dvec
 {
     for (const ViewState& view : all) {
         const glm::dvec2 at = pixel - glm::dvec2(view.geometry().corner), size(view.geometry().size);
-        if (view.output != output || view.geometry().layer != 0 || at.x < 0 || at.y < 0 || at.x >= size.x || at.y >= size.y)
+        if (view.output != output || view.geometry().canvas != 0 || at.x < 0 || at.y < 0 || at.x >= size.x || at.y >= size.y)
             continue;
         if (view.compiled.matrix)
             return glm::normalize(*view.compiled.matrix * glm::dvec3(at, 1));
@@ -222,10 +222,10 @@ int ViewSet::lab_panel_width(double aspect) const
     return std::clamp(int(2 * place.half.x / finest), 160, 4096);
 }
 
-Target ViewSet::picture_of(std::size_t output, int layer, const Target& last) const
+Target ViewSet::canvas_target(std::size_t output, int canvas, const Target& last) const
 {
     const FinishPass* finish = outputs[output].finish.get();
-    return finish ? finish->picture(std::size_t(layer)) : last;
+    return finish ? finish->canvas(std::size_t(canvas)) : last;
 }
 
 void ViewSet::move_head(const Head& head)

@@ -18,7 +18,7 @@ std::vector<State> states(bool combined)
     std::vector<State> all;
     // Proper velocities at which plans differ in kind: one image, several, tiles with several images.
     for (double u : {0.0, 0.1, 4.0, 100.0, 1e5}) {
-        for (int off = 0; off < 8; ++off) // each of the paper's three switches, alone and together
+        for (int off = 0; off < 8; ++off) // the three effects, alone and together
             all.push_back({u, {.aberration = !(off & 1), .doppler = !(off & 2), .headlight = !(off & 4)}});
         for (Comparison comparison : {Comparison::galilean, Comparison::no_light_delay})
             all.push_back({u, {.comparison = comparison}});

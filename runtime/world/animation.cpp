@@ -5,7 +5,7 @@
 namespace starbow {
 namespace {
 
-/// The time within one round.
+/// The time within one period.
 double within(const Track& track, double time_s)
 {
     if (track.length_s <= 0)
@@ -14,7 +14,7 @@ double within(const Track& track, double time_s)
     return part < 0 ? part + track.length_s : part;
 }
 
-/// The last key that is not after a time within the keys'.
+/// The last key at or before a time inside the range of keys.
 std::size_t key_at(const Track& track, double part)
 {
     return std::size_t(std::upper_bound(track.times_s.begin(), track.times_s.end(), part) - track.times_s.begin()) - 1;
@@ -25,7 +25,7 @@ glm::dvec4 value(const Track& track, std::size_t key)
     return track.values[track.interpolation == Interpolation::cubic ? 3 * key + 1 : key];
 }
 
-/// Along the shorter way round, at an even rate.
+/// Spherical interpolation along the shorter way.
 glm::dvec4 slerp(const glm::dvec4& a, glm::dvec4 b, double part)
 {
     double cosine = glm::dot(a, b);
@@ -53,7 +53,7 @@ glm::dvec4 value_at(const Track& track, double time_s)
     if (track.interpolation == Interpolation::linear)
         return track.rotation ? slerp(track.values[i], track.values[i + 1], s)
                               : track.values[i] + s * (track.values[i + 1] - track.values[i]);
-    // Hermite's cubic by its own differences: nothing cancels at either key.
+    // Hermite's cubic in a form without cancellation at either key.
     const glm::dvec4 &a = track.values[3 * i + 1], &b = track.values[3 * i + 4];
     const glm::dvec4 out = step * track.values[3 * i + 2], in = step * track.values[3 * i + 3];
     const double r = 1 - s;

@@ -23,17 +23,17 @@ glm::dvec4 value_at(const Track& track, double time_s);
 
 constexpr double for_ever = std::numeric_limits<double>::infinity();
 
-/// The interval around a time in which a track does not jump; it jumps at its steps and, where its end is not its
+/// The interval around a time in which a track does not jump. A track jumps at its steps and, if its end differs from its
 /// beginning, at its period's end.
 struct Unbroken {
     double begin_s, end_s; ///< infinite where it never jumps
 };
 Unbroken unbroken(const Track& track, double time_s);
 
-/// The time nearest to a time at which a track has a key, and so may bend.
+/// The key time of a track nearest to a time; a track may bend at its keys.
 double nearest_key(const Track& track, double time_s);
 
-/// A rotation for ever about the node's own origin; at its own time 0 the node stands as it is written.
+/// A constant rotation about the node's own origin; at its own time 0 the node has its written orientation.
 struct Spin {
     glm::dvec3 axis; ///< not 0; right-handed
     double turns_per_s;

@@ -7,14 +7,14 @@
 namespace starbow {
 namespace {
 
-/// The part of a turn, 0 to 1: in double, for a float would lose the hands after months.
+/// The part of a turn, 0 to 1. In double, because a float would lose the hands after months.
 double turned(double reading_s, double turn_s)
 {
     const double part = std::fmod(reading_s, turn_s) / turn_s; // exact but for the last division
     return part < 0 ? part + 1 : part;
 }
 
-/// TimeEntry's member: the point needs no place of its own.
+/// Packs figures for TimeEntry. The decimal point needs no place of its own.
 glm::vec4 packed(const std::string& figures)
 {
     std::uint32_t six[2] = {};

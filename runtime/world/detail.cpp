@@ -6,7 +6,7 @@
 namespace starbow {
 namespace {
 
-/// Pieces that hang together by their vertices.
+/// The number of pieces that are connected by their vertices.
 std::size_t pieces(const std::vector<std::uint32_t>& indices, std::size_t vertex_count)
 {
     std::vector<std::uint32_t> parent(vertex_count);
@@ -58,14 +58,14 @@ glm::vec3 colour_of(const Vertex& vertex)
     return glm::vec3(vertex.colour & 255, vertex.colour >> 8 & 255, vertex.colour >> 16 & 255) / 255.0f;
 }
 
-/// The width over which a level looks other than the full surface where it lies no deeper: in its shading and its colours.
-/// A removed vertex takes its normal with it, as far as to the next one that stays; a small difference counts as little of
-/// that way. Some of the vertices are tested, so many that it takes milliseconds.
-double looks_other(
+/// The width over which a level's shading and colours differ from the full surface's, where its shape does not. A removed
+/// vertex loses its normal up to the next remaining vertex; a small difference counts as a small part of that way. Only
+/// some vertices are tested, so that it takes milliseconds.
+double shading_width(
     const Vertex* vertices, const std::vector<std::uint32_t>& full, const std::vector<std::uint32_t>& level, float extent)
 {
     const float same = 1e-5f * extent;
-    constexpr std::size_t most_asked = 8'000'000; // triangles, nearly all of which lie too far off
+    constexpr std::size_t most_tested = 8'000'000; // triangle tests; nearly all triangles are too far off
     struct Box {
         glm::vec3 low, high;
     };
@@ -75,13 +75,13 @@ double looks_other(
                         &c = vertices[level[k + 2]].position;
         boxes.push_back({glm::min(glm::min(a, b), c) - same, glm::max(glm::max(a, b), c) + same});
     }
-    const std::size_t step = std::max<std::size_t>(1, full.size() * boxes.size() / most_asked);
+    const std::size_t step = std::max<std::size_t>(1, full.size() * boxes.size() / most_tested);
     double most = 0;
-    std::size_t first = 0; // what was nearest to the vertex before
+    std::size_t first = 0; // the triangle nearest to the vertex before
     for (std::size_t i = 0; i < full.size(); i += step) {
         const Vertex& vertex = vertices[full[i]];
         float nearest = INFINITY, other = 0, way = 0;
-        auto ask = [&](std::size_t triangle) {
+        auto test = [&](std::size_t triangle) {
             const Vertex *a = vertices + level[3 * triangle], *b = vertices + level[3 * triangle + 1],
                          *c = vertices + level[3 * triangle + 2];
             const glm::vec3 parts = closest(vertex.position, a->position, b->position, c->position);
@@ -94,18 +94,18 @@ double looks_other(
             const glm::vec3 colour = parts.x * colour_of(*a) + parts.y * colour_of(*b) + parts.z * colour_of(*c);
             const float off = glm::length(length > 0 ? normal / length - vertex.normal : vertex.normal)
                 + glm::length(colour - colour_of(vertex));
-            // At a sharp edge several lie equally near: the one with the vertex' own normal counts.
+            // At a sharp edge several triangles are equally near: the one with the vertex' own normal counts.
             if (distance >= nearest - same && off >= other)
                 return;
             nearest = std::min(nearest, distance), other = off, first = triangle;
             way = std::min({glm::length(a->position - vertex.position), glm::length(b->position - vertex.position),
                 glm::length(c->position - vertex.position)});
         };
-        ask(first);
+        test(first);
         for (std::size_t k = 0; k < boxes.size(); ++k)
             if (glm::all(glm::greaterThanEqual(vertex.position, boxes[k].low - nearest))
                 && glm::all(glm::lessThanEqual(vertex.position, boxes[k].high + nearest)))
-                ask(k);
+                test(k);
         most = std::max(most, double(std::min(other, 1.0f) * way));
     }
     return most;
@@ -116,7 +116,7 @@ double looks_other(
 void add_detail_levels(World& world)
 {
     constexpr std::size_t worth = 3 * 64; // indices
-    constexpr float most_error = 0.25f; // of the primitive's extent; beyond it hardly anything is left
+    constexpr float most_error = 0.25f; // of the primitive's extent; beyond it hardly any surface is left
     std::vector<std::uint32_t> level;
     for (Primitive& primitive : world.primitives) {
         if (primitive.index_count < worth)
@@ -125,7 +125,7 @@ void add_detail_levels(World& world)
         std::vector<std::uint32_t> from(world.indices.begin() + primitive.first_index,
             world.indices.begin() + primitive.first_index + primitive.index_count);
         std::size_t vertex_count = *std::max_element(from.begin(), from.end()) + 1;
-        // A cloud of small things (stars, leaves) has no surface to simplify: each of them would shrink or vanish.
+        // A cloud of small things (stars, leaves) can't be simplified: each of them would shrink or vanish.
         if (from.size() / 3 < 12 * pieces(from, vertex_count))
             continue;
         const float* positions = &vertices->position.x;
@@ -142,9 +142,9 @@ void add_detail_levels(World& world)
             if (count == 0 || count > from.size() * 4 / 5)
                 break;
             level.resize(count);
-            shading = std::max(shading, looks_other(vertices, full, level, float(extent)));
+            shading = std::max(shading, shading_width(vertices, full, level, float(extent)));
             meshopt_optimizeVertexCache(level.data(), level.data(), count, vertex_count);
-            // Each step is measured against the one before it, so the errors add up at worst.
+            // Each step is measured against the one before, so the sum of errors is an upper bound.
             error += added * extent;
             primitive.coarser.push_back({std::uint32_t(world.indices.size()), std::uint32_t(count), error, shading});
             world.indices.insert(world.indices.end(), level.begin(), level.end());

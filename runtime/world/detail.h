@@ -3,9 +3,9 @@
 
 namespace starbow {
 
-/// Adds coarser levels of detail to every primitive worth it (indices appended, vertices shared). Each has about half the
-/// triangles of the one before, with its measured error in shape and in shading. They pay because most of a relativistic
-/// sky is far away or seen small.
+/// Adds coarser levels of detail to every large enough primitive: indices are appended, vertices shared. Each level has
+/// about half the triangles of the one before, with its measured errors in shape and in shading. They pay because most of
+/// a relativistic sky is far away or seen small.
 void add_detail_levels(World& world);
 
 } // namespace starbow

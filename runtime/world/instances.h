@@ -17,7 +17,7 @@ bool timed(const World& world, const Instance& instance);
 /// True if an instance's existence interval is finite.
 bool finite_existence(const World& world, const Instance& instance);
 
-/// The part of sort_instances' key that divides a primitive's instances into separate draws: finite existence, animation.
+/// The part of sort_instances' key by which a primitive's instances need separate draws: finite existence, animation.
 std::pair<bool, bool> kind_of(const World& world, const Instance& instance);
 
 /// Sorts a world's instances by their rest frames. In each frame the timed ones come first; then they are sorted by their

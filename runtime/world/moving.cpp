@@ -19,12 +19,12 @@ glm::dmat4 pose(const World& world, int index, double own_s)
     glm::dmat4 m = joint.above_from_parent;
     if (joint.above >= 0)
         m = pose(world, joint.above, own_s) * m;
-    auto told = [&](int track) { return value_at(world.tracks[std::size_t(track)], own_s); };
-    const glm::dvec3 translation = joint.translations < 0 ? joint.translation : glm::dvec3(told(joint.translations));
-    const glm::dvec3 scale = joint.scales < 0 ? joint.scale : glm::dvec3(told(joint.scales));
+    auto value = [&](int track) { return value_at(world.tracks[std::size_t(track)], own_s); };
+    const glm::dvec3 translation = joint.translations < 0 ? joint.translation : glm::dvec3(value(joint.translations));
+    const glm::dvec3 scale = joint.scales < 0 ? joint.scale : glm::dvec3(value(joint.scales));
     glm::dquat rotation = joint.rotation;
     if (joint.rotations >= 0) {
-        const glm::dvec4 q = told(joint.rotations);
+        const glm::dvec4 q = value(joint.rotations);
         rotation = glm::dquat(q.w, q.x, q.y, q.z);
     }
     glm::dmat4 local = glm::mat4_cast(rotation);
@@ -95,8 +95,8 @@ SeenPose seen_pose(const World& world, const Instance& instance, const EyeEvent&
 {
     const Primitive& primitive = world.primitives[instance.primitive];
     const glm::dvec4 middle(0.5 * (primitive.low + primitive.high), 1);
-    // The middle's retarded time is a fixed point, 0.2 of a step further off in every round. It is found by secants, and by
-    // halving where a jump leaves no such time or two.
+    // The middle's retarded time is a fixed point of a map that contracts by 0.2. Secants find it, and bisection where a
+    // jump leaves no such time or two.
     auto sent = [&](double time) {
         return retarded_time(eye_event,
             eye_event.motion_from_frame * (glm::dvec3(pose_at(world, instance, time) * middle) - eye_event.place));
@@ -117,7 +117,8 @@ SeenPose seen_pose(const World& world, const Instance& instance, const EyeEvent&
         before = time, off_before = off, time = next;
     }
     SeenPose seen{time, pose_at(world, instance, time), 0};
-    // A point `around` away then is seen no further away than that plus its motion in the difference of the retarded times.
+    // A point at distance `around` is seen at most that far away, plus its motion in the difference of the retarded
+    // times.
     seen.window = around(primitive, seen.frame_from_local) / (1 - most_own_speed);
     return seen;
 }
@@ -138,7 +139,7 @@ std::array<double, POSES> pose_times(const World& world, const Instance& instanc
                 const double near = nearest_key(track, own_s);
                 key = std::abs(near - own_s) < std::abs(key - own_s) ? near : key;
             }
-    // A little inside, where roundings can't lead beyond.
+    // A little inside the interval, so that rounding can't leave it.
     const double inside = 16 * tiny * (std::abs(own_s) + std::abs(zero * unit_s)) + 1e-12;
     auto of_frame = [&](double own) { return own / unit_s + zero; };
     const double first = std::max(seen.sent - seen.window, std::min(of_frame(begin + inside), seen.sent));
@@ -155,7 +156,7 @@ std::array<double, POSES> pose_times(const World& world, const Instance& instanc
 
 namespace {
 
-/// The points of many that lie furthest in some direction: roughly their hull.
+/// The furthest of many points in each of 26 directions: an approximate hull.
 class Hull {
 public:
     void add(const glm::dvec3& point)
@@ -192,7 +193,7 @@ struct Stretch {
     double begin_s, end_s;
 };
 
-/// The stretches that a joint's own and its parents' tracks need, at most so many.
+/// The stretches of time to test for a joint's own and its parents' tracks, at most `most`.
 std::vector<Stretch> stretches(const World& world, int index, std::size_t most)
 {
     std::vector<Stretch> all;
@@ -201,7 +202,7 @@ std::vector<Stretch> stretches(const World& world, int index, std::size_t most)
         const Joint& joint = world.joints[std::size_t(j)];
         tracks += (joint.translations >= 0) + (joint.rotations >= 0) + (joint.scales >= 0) + joint.spin.has_value();
     }
-    const int rounds = tracks > 1 ? 8 : 1; // so that others are met at other phases
+    const int rounds = tracks > 1 ? 8 : 1; // several periods, because other tracks then have other phases
     for (int j = index; j >= 0; j = world.joints[std::size_t(j)].above) {
         const Joint& joint = world.joints[std::size_t(j)];
         auto split = [&](double begin, double end, int parts) {
@@ -263,7 +264,7 @@ void check_speeds(const World& world, const SceneFile& scene)
         for (Stretch stretch : stretches(world, joint, most)) {
             if (jumps_within(world, joint, stretch))
                 continue;
-            // The ends belong to it, whatever comes before and after.
+            // The ends, moved inwards, belong to this stretch, whatever precedes and follows.
             const double edge = 1e-6 * (stretch.end_s - stretch.begin_s);
             stretch = {stretch.begin_s + edge, stretch.end_s - edge};
             const glm::dmat4 before = pose(world, joint, stretch.begin_s), after = pose(world, joint, stretch.end_s);

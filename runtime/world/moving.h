@@ -5,8 +5,8 @@
 
 namespace starbow {
 
-/// The greatest speed of an animation in its rest frame. The colours leave out its own Doppler shift, and so its clocks
-/// are right to 2 %.
+/// The greatest speed of an animation in its rest frame. Colours ignore the Doppler shift of this motion, and animated
+/// clocks are right to 2 %.
 constexpr double most_own_speed = 0.2;
 
 /// The pose of a joint's children at its own time, from its body's origin.

@@ -25,7 +25,7 @@ Observer observer_of(
     Shot still = out.shot;
     still.u = glm::dvec3(0);
     for (const RestFrame& frame : world.frames) {
-        const bool own = out.layers.empty(); // the world's: its axes are those of the motion in any case
+        const bool own = out.layers.empty(); // the world comes first: its axes are the motion axes in any case
         const Shot looks = in_frame(frame, aberration || own ? out.shot : still);
         const glm::dmat3 turn = motion_from_world(looks.u, looks.ship_from_cockpit);
         out.layers.push_back(

@@ -23,14 +23,14 @@ struct Observer {
     double most_E() const; ///< the greatest E of all rest frames
 };
 
-/// The observer of a viewport. With Shot's comparison "now", everything is shown where it is simultaneous in the ship,
-/// contracted there, without aberration or shift. Without aberration, directions are those of an observer at rest in the
-/// world.
-Observer observer_of(const World& world, const Shot& ship, const ViewportObserver& observer,
-    std::vector<RestFrameView> before = {}); ///< before: a list whose memory is reused
+/// The observer of a viewport. With Shot's comparison "now", everything is shown where it is simultaneous in the ship and
+/// contracted, without aberration or shift. Without aberration, directions are those of an observer at rest in the world.
+/// before: a list whose memory is reused.
+Observer observer_of(
+    const World& world, const Shot& ship, const ViewportObserver& observer, std::vector<RestFrameView> before = {});
 
-/// The instant of a viewport's observer: the ship's event, another velocity, the axes carried there by the boost between
-/// them.
+/// The instant of a viewport's observer: the ship's event with another velocity. The boost between the two carries the
+/// axes.
 Shot shot_of(const Shot& ship, const ViewportObserver& observer);
 
 } // namespace starbow

@@ -190,9 +190,8 @@ void add_columns(Spectra& spectra, const World& world, const std::vector<Kind>& 
     add_set([&](const Kind& light) { return by_colour(spectra.basis, spectra.groups, light); });
     for (const Material& material : world.materials)
         if (!material.reflectance.empty())
-            add_set([&](const Kind& light) {
-                return by_table(spectra.basis, spectra.groups, light, {material.reflectance});
-            });
+            add_set(
+                [&](const Kind& light) { return by_table(spectra.basis, spectra.groups, light, {material.reflectance}); });
 }
 
 void add_surfaces(Spectra& spectra, const World& world, const SceneFile& scene)

@@ -7,15 +7,15 @@
 namespace starbow {
 namespace {
 
-/// At equal luminance, half of the white's.
+/// CIEDE2000 of two colours scaled to half of the white's luminance.
 double difference(const glm::dvec3& one, const glm::dvec3& two)
 {
     static const glm::dvec3 white = seen_xyz(sunlit_white(), 1);
     return ciede2000(cielab(one * (0.5 / one.y), white), cielab(two * (0.5 / two.y), white));
 }
 
-/// Twenty-four smooth reflectances after the names and the kinds of a colour chart's fields: a level, steps (s) and bumps
-/// (g). Each goes on beyond the visible as paints do: into a value of its own.
+/// Twenty-four smooth reflectances, modelled on the fields of a colour chart: a level, steps (s) and bumps (g). Beyond
+/// the visible each has values of its own, as paints do.
 struct Field {
     double level;
     struct Feature {
@@ -80,9 +80,9 @@ SpectralErrors chart_errors(SpectralLevel level, ChartFields fields)
             for (int step = -24; step <= 24; ++step) {
                 const double D = std::exp2(step / 8.0 + (step < 0 ? 1 : -1) / 256.0); // between two rows of the table
                 const glm::dvec3 truth = seen_xyz([&](double nm) { return sun(nm) * field(nm); }, D),
-                                 told = xyz_from_shown * seen(response, numbers, D);
-                all.push_back(told.y > 0 ? difference(truth, told) : 100);
-                errors.luminance = std::max(errors.luminance, std::abs(told.y / truth.y - 1));
+                                 approximated = xyz_from_shown * seen(response, numbers, D);
+                all.push_back(approximated.y > 0 ? difference(truth, approximated) : 100);
+                errors.luminance = std::max(errors.luminance, std::abs(approximated.y / truth.y - 1));
             }
         }
     errors.worst = *std::max_element(all.begin(), all.end());

@@ -14,7 +14,7 @@ namespace {
 constexpr double sun_b_v = 0.65; // for stars whose B-V is not known
 constexpr std::size_t most_stars = 4'000'000; // 128 MB on the device
 
-/// One whole number of a line; `what` and its range are for the message about a wrong one.
+/// One whole number of a line; messages about a wrong one name `what` and the range.
 struct Column {
     const char* what;
     int low, high;
@@ -111,16 +111,16 @@ std::vector<glm::vec4> black_body_table(const StandardObserver& observer)
     std::vector<glm::vec4> table;
     for (int step = 0; step < STAR_STEPS; ++step) {
         const double kelvin = STAR_COLDEST * std::exp2(step / double(STAR_STEPS_PER_OCTAVE));
-        const glm::dvec3 told = seen(observer, black_body(kelvin), 1) / sun;
-        const double most = std::max({told.x, told.y, told.z});
-        table.push_back(glm::vec4(observer.rec709 * (told / most), std::log(most)));
+        const glm::dvec3 colour = seen(observer, black_body(kelvin), 1) / sun;
+        const double most = std::max({colour.x, colour.y, colour.z});
+        table.push_back(glm::vec4(observer.rec709 * (colour / most), std::log(most)));
     }
     return table;
 }
 
 glm::dmat3 world_from_equatorial(const glm::dvec2& ahead_deg)
 {
-    // Towards that direction with north up, the sky's east is on the left: right ascension grows towards -x.
+    // With north up, the sky's east is on the left: right ascension grows towards -x.
     const double ra = ahead_deg.x * degree, dec = ahead_deg.y * degree;
     const glm::dvec3 right(std::sin(ra), -std::cos(ra), 0);
     const glm::dvec3 ahead = equatorial(ahead_deg.x, ahead_deg.y);
@@ -134,7 +134,7 @@ std::vector<shared::StarEntry> star_entries(const std::vector<Star>& stars, cons
     const double arcmin2 = std::pow(degree / 60, 2);
     std::vector<shared::StarEntry> entries;
     entries.reserve(stars.size());
-    std::map<double, double> luminances; // a catalogue has few temperatures, as B-V is rounded
+    std::map<double, double> luminances; // a catalogue has few temperatures, because B-V is rounded
     for (const Star& star : stars) {
         const double light = sky.brightness_arcmin2 * arcmin2 * std::pow(10, -0.4 * star.magnitude);
         const auto [luminance, added] = luminances.try_emplace(star.temperature_K);
@@ -143,7 +143,7 @@ std::vector<shared::StarEntry> star_entries(const std::vector<Star>& stars, cons
         entries.push_back(
             {glm::vec4(turn * star.direction, star.temperature_K), glm::vec4(light / luminance->second, light, 0, 0)});
     }
-    // Sorted by patches of the sky: a device works on neighbours together, and these are seen or out of sight together.
+    // Sorted by patches of the sky: a GPU draws neighbours together, and neighbours are in or out of view together.
     auto patch = [](const shared::StarEntry& star) {
         const double azimuth = std::atan2(star.direction.z, star.direction.x) / (360 * degree) + 0.5;
         return int(16 * (star.direction.y + 1)) * 64 + int(64 * azimuth);

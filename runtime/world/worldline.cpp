@@ -10,8 +10,8 @@
 namespace starbow {
 namespace {
 
-/// The rest frame of a segment, made if no segment had its velocity before, to the rounding of a file's decimals. Segments
-/// at rest are in the world's own frame.
+/// The rest frame of a segment. It is new if no earlier segment has this velocity, up to the rounding of a file's
+/// decimals. Segments at rest are in the world's frame.
 int frame_of(World& world, const SceneFile& scene, const WorldlineSegment& segment)
 {
     const double alike = 1e-13 * physics::gamma_of(segment.u);

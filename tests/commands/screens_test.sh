@@ -134,7 +134,7 @@ said 'the exhibit stays as it was'
 expect_all "a wrong edit"
 began=${EPOCHREALTIME/./}
 cp "$folder/changed.json" "$folder/wall.json"
-said 'wall.json: taken up'
+said 'wall.json: applied'
 took=$(((${EPOCHREALTIME/./} - began) / 1000))
 expect "a right edit" $b "$folder/changed/b.png"
 expect "a right edit" $a "$folder/a.png"

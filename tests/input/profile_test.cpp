@@ -203,7 +203,7 @@ TEST(ProfileTest, ReportsCutShortOrOfNoKnownNumberLeaveTheRest)
     EXPECT_EQ(state.raw[1], 20);
     EXPECT_FALSE(take_report(descriptor, unknown, 7, state));
     EXPECT_FALSE(take_report(descriptor, {}, 8, state));
-    EXPECT_EQ(state.told_ns, 6);
+    EXPECT_EQ(state.report_ns, 6);
 }
 
 TEST(ProfileTest, WrongProfilesAreRefused)

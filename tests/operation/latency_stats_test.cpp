@@ -28,10 +28,10 @@ TEST(Latency, AReportCountsInTheFrameThatFirstShowsIt)
 {
     constexpr std::int64_t ms = 1'000'000;
     Latency latency;
-    latency.add({.told_ns = 95 * ms, .read_ns = 100 * ms, .handed_ns = 102 * ms, .shown_ns = 110 * ms});
-    latency.add({.told_ns = 101 * ms, .read_ns = 116 * ms, .handed_ns = 119 * ms, .shown_ns = 126 * ms});
-    latency.add({.told_ns = 101 * ms, .read_ns = 132 * ms, .handed_ns = 133 * ms, .shown_ns = 142 * ms});
-    latency.add({.told_ns = 147 * ms, .read_ns = 148 * ms, .handed_ns = 152 * ms, .shown_ns = 160 * ms});
+    latency.add({.report_ns = 95 * ms, .read_ns = 100 * ms, .handed_ns = 102 * ms, .shown_ns = 110 * ms});
+    latency.add({.report_ns = 101 * ms, .read_ns = 116 * ms, .handed_ns = 119 * ms, .shown_ns = 126 * ms});
+    latency.add({.report_ns = 101 * ms, .read_ns = 132 * ms, .handed_ns = 133 * ms, .shown_ns = 142 * ms});
+    latency.add({.report_ns = 147 * ms, .read_ns = 148 * ms, .handed_ns = 152 * ms, .shown_ns = 160 * ms});
     EXPECT_EQ(latency.frames(), 4u);
     EXPECT_EQ(latency.reports(), 3u);
     EXPECT_DOUBLE_EQ(latency.seconds(), 0.05);
@@ -42,6 +42,6 @@ TEST(Latency, AReportCountsInTheFrameThatFirstShowsIt)
     EXPECT_EQ(latency.bound_ms(), (std::vector<double>{15, 26, 26, 28}));
     EXPECT_NE(latency.describe().find("15.00     25.00     25.00"), std::string::npos) << latency.describe();
     // Stamped before the last controls were read, and handed over after.
-    latency.add({.told_ns = 147 * ms + 1, .read_ns = 164 * ms, .handed_ns = 165 * ms, .shown_ns = 166 * ms});
+    latency.add({.report_ns = 147 * ms + 1, .read_ns = 164 * ms, .handed_ns = 165 * ms, .shown_ns = 166 * ms});
     EXPECT_NEAR(latency.bound_ms().back(), 19, 1e-5);
 }

@@ -1,7 +1,8 @@
 #include "bodies.h"
+#include "avenue.h"
 #include "config/model/shipped.h"
-#include "runtime/commands/timing.h"
-#include "runtime/render/offscreen.h"
+#include "runtime/commands/median.h"
+#include "runtime/render/pass_timer.h"
 #include "runtime/render/render_context.h"
 #include "runtime/world/detail.h"
 #include <cstdio>
@@ -9,7 +10,7 @@
 namespace starbow {
 namespace {
 
-struct Case {
+struct BodiesCase {
     std::string name;
     int bodies = 0;
     bool seen = true;
@@ -20,21 +21,20 @@ struct Case {
 
 } // namespace
 
-int bench_bodies(int rounds)
+void bench_bodies(int rounds)
 {
     Device device(device_options(false));
     Pipelines pipelines(device);
-    Layout layout = load_layout(shipped_file("layouts", "desk"));
-    layout.outputs[0].size = {800, 600};
+    const Layout layout = window_of({800, 600});
     Shot shot = load_shot(shipped_file("shots", "clocks-rest"));
-    std::vector<Case> cases;
+    std::vector<BodiesCase> cases;
     cases.push_back({"all at rest"});
     for (int bodies : {1, 2, 4, 8})
         cases.push_back({std::to_string(bodies) + " in view", bodies});
     cases.push_back({"8 out of view", 8, false});
-    for (Case& c : cases) {
+    for (BodiesCase& c : cases) {
         SceneFile scene = load_scene_file(shipped_file("scenes", "clocks"));
-        // Light as the moving ones need it, also where nothing moves; and no stars.
+        // No stars, and below the spectral level of a moving world in all cases: they differ in their bodies alone.
         scene.stars.reset();
         for (int i = 0; i < c.bodies; ++i) {
             // A clock each, four light-seconds above the others, or behind the visitor, one a little faster than the other.
@@ -47,29 +47,22 @@ int bench_bodies(int rounds)
         c.world = std::make_unique<GpuWorld>(upload(device, pipelines, std::move(world), scene, {}, SpectralLevel::fine));
         c.renderer = std::make_unique<OffscreenRenderer>(
             device, pipelines, *c.world, layout, default_quality(device, false), false);
-        c.renderer->picture(shot); // leaves the target in a known layout
+        c.renderer->picture(shot); // warms every cache
     }
-    // In turn within each round, so that whatever else the machine does falls on all alike.
+    // In turn within each round, so that the machine's other work falls on all alike.
     for (int round = -1; round < rounds; ++round)
-        for (Case& c : cases) {
-            const Target target = c.renderer->target(0);
-            const double ms = milliseconds([&] {
-                device.now([&](vk::CommandBuffer commands) {
-                    make_writable(commands, target);
-                    c.renderer->frame().draw(commands, shot, nullptr, std::span(&target, 1));
-                });
-            });
+        for (BodiesCase& c : cases) {
+            const double ms = PassTimer(device, *c.renderer).frame(shot);
             if (round >= 0)
                 c.ms.push_back(ms);
         }
     std::printf("%s; clocks at 800x600, all effects on; medians of %d rounds, whole frames\n\n%-16s%12s%12s%10s%14s\n",
-        device.properties.deviceName.data(), rounds, "bodies", "ms", "relative", "images", "Mtexels");
-    for (const Case& c : cases) {
+        device.name(), rounds, "bodies", "ms", "relative", "images", "Mtexels");
+    for (const BodiesCase& c : cases) {
         const CubeMapPlan& plan = c.renderer->frame().plans()[0];
         std::printf("%-16s%12.2f%12.2f%10zu%14.2f\n", c.name.c_str(), median(c.ms), median(c.ms) / median(cases[0].ms),
             plan.images.size(), plan.texels * 1e-6);
     }
-    return 0;
 }
 
 } // namespace starbow

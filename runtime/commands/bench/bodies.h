@@ -3,6 +3,6 @@
 namespace starbow {
 
 /// Times frames of one scene with more and more bodies of different velocities in view, and with as many out of view.
-int bench_bodies(int rounds);
+void bench_bodies(int rounds);
 
 } // namespace starbow

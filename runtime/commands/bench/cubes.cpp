@@ -1,9 +1,10 @@
 #include "cubes.h"
+#include "avenue.h"
 #include "config/model/angles.h"
 #include "config/model/one_view.h"
-#include "config/model/shipped.h"
-#include "runtime/commands/timing.h"
-#include "runtime/render/offscreen.h"
+#include "runtime/commands/median.h"
+#include "runtime/render/pass_timer.h"
+#include "runtime/render/yardsticks.h"
 #include <cmath>
 #include <cstdio>
 
@@ -31,28 +32,88 @@ std::vector<CubeMapPlan> full_faces(double texels_per_unit)
     return plans;
 }
 
-Shot flight(const Shot& start, double gamma)
-{
-    Shot shot = start;
-    if (gamma > 1) {
-        shot.position.z = -8;
-        shot.u = {0, 0, -std::sqrt((gamma - 1) * (gamma + 1))};
+/// The renderers and yardsticks that one speed is timed with.
+struct CubesCase {
+    OffscreenRenderer dome, starry_dome, window, desk;
+    CubePass faces_pass;
+    PlainPicture plain;
+
+    CubesCase(Avenue& avenue, const Layout& dome_layout, const Layout& window_layout, const Quality& quality)
+        : CubesCase(avenue.context.device, avenue.context.pipelines, avenue, dome_layout, window_layout, quality)
+    {
     }
-    shot.exposure_ev = gamma > 1 ? -3 : 0;
-    return shot;
+
+private:
+    CubesCase(Device& device, Pipelines& pipelines, Avenue& avenue, const Layout& dome_layout, const Layout& window_layout,
+        const Quality& quality)
+        : dome(device, pipelines, avenue.starless, dome_layout, quality, false)
+        , starry_dome(device, pipelines, avenue.context.world, dome_layout, quality, false)
+        , window(device, pipelines, avenue.starless, window_layout, quality, false)
+        , desk(device, pipelines, avenue.starless, window_of({800, 600}), default_quality(device, false), false)
+        , faces_pass(device, pipelines, avenue.starless, default_quality(device, false), false)
+        , plain(device, pipelines, avenue.starless, default_quality(device, false), window)
+    {
+    }
+};
+
+/// What is timed of one speed.
+struct CubesStage {
+    enum { dome, starry_dome, plain, plan, faces, count };
+};
+
+void time_speed(Avenue& avenue, CubesCase& one, const Shot& shot, double gamma, int rounds)
+{
+    Device& device = avenue.context.device;
+    for (OffscreenRenderer* renderer : {&one.dome, &one.starry_dome, &one.window, &one.desk})
+        renderer->picture(shot); // warms every cache
+    const CubeMapPlan& plan = one.desk.frame().plans()[0];
+    double finest = 0, texels = 0;
+    for (const PlannedImage& image : plan.images)
+        finest = std::max(finest, image.texels_per_unit);
+    const std::vector<CubeMapPlan> faces = full_faces(finest);
+    for (const CubeMapPlan& part : faces)
+        texels += double(part.atlas_size.x) * part.atlas_size.y;
+    const bool draws_faces = texels < 2.5e8;
+    const EyeEvent eye_event{0, shot.position, shot.time, motion_from_world(shot.u, shot.ship_from_cockpit)};
+    PassTimer dome(device, one.dome), starry_dome(device, one.starry_dome), desk(device, one.desk);
+
+    std::vector<double> times[CubesStage::count];
+    for (int round = -1; round < rounds; ++round) {
+        double ms[CubesStage::count] = {};
+        ms[CubesStage::dome] = dome.frame(shot);
+        ms[CubesStage::starry_dome] = starry_dome.frame(shot);
+        ms[CubesStage::plain] = one.plain.ms(shot);
+        ms[CubesStage::plan] = desk.update(shot) + desk.cubes();
+        if (draws_faces)
+            ms[CubesStage::faces] = draw_plans_ms(device, one.faces_pass, faces, eye_event);
+        for (int i = 0; round >= 0 && i < CubesStage::count; ++i)
+            times[i].push_back(ms[i]);
+    }
+    double ms[CubesStage::count];
+    for (int i = 0; i < CubesStage::count; ++i)
+        ms[i] = median(times[i]);
+    std::printf("gamma %-4g%8.1f%8.1f%8.2f%14.1f,%8.2f )%11.1f", gamma, ms[CubesStage::dome], ms[CubesStage::plain],
+        ms[CubesStage::dome] / ms[CubesStage::plain], ms[CubesStage::starry_dome],
+        ms[CubesStage::starry_dome] / ms[CubesStage::plain], ms[CubesStage::plan]);
+    if (draws_faces)
+        std::printf("%8.1f%8.3f", ms[CubesStage::faces], ms[CubesStage::plan] / ms[CubesStage::faces]);
+    else
+        std::printf("%8s%8s", "-", "-");
+    std::printf("%12.2f of %.1f )\n", plan.texels * 1e-6, texels * 1e-6);
+    std::fflush(stdout);
 }
 
 } // namespace
 
-void bench_cubes(RenderContext& context, const GpuWorld& starless, int rounds)
+void bench_cubes(int rounds)
 {
-    Device& device = context.device;
     const glm::ivec2 size(1024);
     const Layout dome_layout = one_view(Fisheye{.aperture_deg = 180, .tilt_deg = 30}, size);
-    // Its middle's pixels are as wide as the dome's, pi / 1024.
+    // The pixels in the middle of this window are as wide as the dome's, pi / 1024.
     const double half_deg = glm::degrees(std::atan(pi / 2));
     const Layout window_layout = one_view(Planar{2 * half_deg}, size);
-    Quality quality = default_quality(device, false);
+    Avenue avenue;
+    Quality quality = default_quality(avenue.context.device, false);
     quality.texels_per_pixel = 1;
     quality.max_texels_per_pixel = 6;
 
@@ -62,76 +123,8 @@ void bench_cubes(RenderContext& context, const GpuWorld& starless, int rounds)
         "milliseconds\n%-10s%8s%8s%8s%26s%8s%8s%8s%26s\n",
         "", "dome", "plain", "ratio", "(with stars", "plan", "faces", "ratio", "(Mtexel");
     for (double gamma : {1.0, 4.0, 100.0}) {
-        const Shot shot = flight(context.world.scene.start, gamma);
-        OffscreenRenderer dome(device, context.pipelines, starless, dome_layout, quality, false);
-        OffscreenRenderer starry(device, context.pipelines, context.world, dome_layout, quality, false);
-        OffscreenRenderer window(device, context.pipelines, starless, window_layout, quality, false);
-        Layout desk = load_layout(shipped_file("layouts", "desk"));
-        desk.outputs[0].size = {800, 600};
-        OffscreenRenderer own(device, context.pipelines, starless, desk, default_quality(device, false), false);
-        CubePass plain(device, context.pipelines, starless, default_quality(device, false), false);
-        CubePass six(device, context.pipelines, starless, default_quality(device, false), false);
-        for (OffscreenRenderer* renderer : {&dome, &starry, &window, &own})
-            renderer->picture(shot); // leaves the target in a known layout
-        const CubeMapPlan& plan = own.frame().plans()[0];
-        double finest = 0, texels = 0;
-        for (const PlannedImage& image : plan.images)
-            finest = std::max(finest, image.texels_per_unit);
-        const std::vector<CubeMapPlan> faces = full_faces(finest);
-        for (const CubeMapPlan& part : faces)
-            texels += double(part.atlas_size.x) * part.atlas_size.y;
-        const bool draws_faces = texels < 2.5e8;
-        const glm::dmat3 turn = motion_from_world(shot.u, shot.ship_from_cockpit);
-
-        std::vector<double> times[5];
-        for (int round = -1; round < rounds; ++round) {
-            double ms[5] = {};
-            auto frame = [&](OffscreenRenderer& renderer) {
-                return milliseconds([&] {
-                    device.now([&](vk::CommandBuffer c) {
-                        const Target target = renderer.target(0);
-                        make_writable(c, target);
-                        renderer.frame().draw(c, shot, nullptr, std::span(&target, 1));
-                    });
-                });
-            };
-            ms[0] = frame(dome);
-            ms[1] = frame(starry);
-            ms[2] = milliseconds([&] {
-                glm::dmat3 straight;
-                const PlannedImage image = window.frame().passes().plain_image(shot, straight);
-                plain.prepare_plain(image, {0, shot.position, shot.time, straight});
-                device.now([&](vk::CommandBuffer c) {
-                    make_writable(c, window.target(0));
-                    plain.record_plain(c, window.target(0));
-                });
-            });
-            ms[3] = milliseconds([&] {
-                own.frame().update(shot, nullptr);
-                device.now([&](vk::CommandBuffer c) { own.frame().draw_cubes(c); });
-            });
-            if (draws_faces)
-                ms[4] = milliseconds([&] {
-                    const EyeEvent eye_event{0, shot.position, shot.time, turn};
-                    for (const CubeMapPlan& part : faces) {
-                        six.prepare(part, {&eye_event, 1}, 1);
-                        device.now([&](vk::CommandBuffer c) { six.record(c); });
-                    }
-                });
-            for (int i = 0; round >= 0 && i < 5; ++i)
-                times[i].push_back(ms[i]);
-        }
-        double ms[5];
-        for (int i = 0; i < 5; ++i)
-            ms[i] = median(times[i]);
-        std::printf("gamma %-4g%8.1f%8.1f%8.2f%14.1f,%8.2f )%11.1f", gamma, ms[0], ms[2], ms[0] / ms[2], ms[1],
-            ms[1] / ms[2], ms[3]);
-        if (draws_faces)
-            std::printf("%8.1f%8.3f", ms[4], ms[3] / ms[4]);
-        else
-            std::printf("%8s%8s", "-", "-");
-        std::printf("%12.2f of %.1f )\n", plan.texels * 1e-6, texels * 1e-6);
-        std::fflush(stdout);
+        CubesCase one(avenue, dome_layout, window_layout, quality);
+        time_speed(avenue, one, along_avenue(avenue.context.world.scene.start, gamma), gamma, rounds);
     }
 }
 

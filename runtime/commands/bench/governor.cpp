@@ -1,9 +1,9 @@
 #include "governor.h"
+#include "avenue.h"
 #include "config/model/shipped.h"
-#include "runtime/commands/timing.h"
+#include "runtime/commands/median.h"
 #include "runtime/operation/governor.h"
-#include "runtime/render/frame_timer.h"
-#include "runtime/render/offscreen.h"
+#include "runtime/render/pass_timer.h"
 #include "runtime/render/render_context.h"
 #include <chrono>
 #include <cstdio>
@@ -15,34 +15,20 @@ int bench_governor(const std::string& ladder_name, double frame_budget_ms, int s
 {
     using Clock = std::chrono::steady_clock;
     const std::vector<PresetLevel> ladder = load_ladder(shipped_file("qualities", ladder_name));
-    Layout layout = load_layout(shipped_file("layouts", "desk"));
     RenderContext context(shipped_file("scenes", "avenue"), device_options(false), ladder[0].quality.spectra);
     Device& device = context.device;
     const Shot shot = load_shot(shipped_file("shots", "starbow"));
     OffscreenRenderer renderer(
-        device, context.pipelines, context.world, layout, within(device, ladder.back().quality), false);
-    const Target target = renderer.target(0);
+        device, context.pipelines, context.world, window_of({800, 600}), within(device, ladder.back().quality), false);
     renderer.frame().repeatable(false); // as the exhibit flies
-    FrameTimer timer(device);
-    const auto frame_ms = [&](int times) {
-        double prepared = 0;
-        device.now([&](vk::CommandBuffer c) {
-            timer.begin(c);
-            for (int i = 0; i < times; ++i) {
-                make_writable(c, target);
-                prepared += milliseconds([&] { renderer.frame().draw(c, shot, nullptr, std::span(&target, 1)); });
-            }
-            timer.end(c);
-        });
-        return prepared + timer.ms().value_or(0);
-    };
+    PassTimer timer(device, renderer);
     // Every level once, so that its pipelines are made; and the middle one's time.
     double middle = 0;
     for (std::size_t level = 0; level < ladder.size(); ++level) {
         renderer.frame().adopt(within(device, ladder[level].quality));
         std::vector<double> times;
         for (int i = 0; i < 5; ++i)
-            times.push_back(frame_ms(1));
+            times.push_back(timer.busy(shot, 1));
         if (level == ladder.size() / 2)
             middle = median(times);
     }
@@ -52,7 +38,7 @@ int bench_governor(const std::string& ladder_name, double frame_budget_ms, int s
     renderer.frame().adopt(within(device, ladder[governor.level()].quality));
     std::printf(
         "%s; the starbow at 800x600, %.1f ms a frame held over %zu levels, a load that doubles and halves every 5 s\n",
-        device.properties.deviceName.data(), frame_budget_ms, ladder.size());
+        device.name(), frame_budget_ms, ladder.size());
     const auto began = Clock::now();
     const auto now_s = [&] { return std::chrono::duration<double>(Clock::now() - began).count(); };
     int frames = 0, late = 0, moves = 0, most_moves = 0;
@@ -60,7 +46,7 @@ int bench_governor(const std::string& ladder_name, double frame_budget_ms, int s
     for (int second = 0; now_s() < seconds;) {
         const auto turn = Clock::now()
             + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(frame_budget_ms / 1000));
-        const double ms = frame_ms(int(now_s() / 5) % 2 ? 2 : 1);
+        const double ms = timer.busy(shot, int(now_s() / 5) % 2 ? 2 : 1);
         ++frames;
         late += ms > 1.5 * frame_budget_ms;
         if (governor.drawn(now_s(), ms)) {

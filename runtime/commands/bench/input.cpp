@@ -36,7 +36,7 @@ struct Measurement {
     {
         if (frames++ == 0)
             drawn = Clock::now();
-        if (times.told_ns == 0)
+        if (times.report_ns == 0)
             return;
         if (!began) {
             began = Clock::now();

@@ -1,8 +1,9 @@
 #include "layout.h"
 #include "config/model/one_view.h"
 #include "config/model/shipped.h"
-#include "runtime/commands/timing.h"
+#include "runtime/commands/median.h"
 #include "runtime/render/disparity.h"
+#include "runtime/render/pass_timer.h"
 #include "runtime/render/render_context.h"
 #include <algorithm>
 #include <cstdio>
@@ -23,67 +24,46 @@ double pixels_of(const Layout& layout)
     return sum;
 }
 
-constexpr int stages = 6;
-const char* const stage_names[stages]
+/// What is timed of a layout: indices of layout_stage_names.
+struct LayoutStage {
+    enum { plan_and_cull, cubes, warps, finishes, whole_frame, metering, count };
+};
+const char* const layout_stage_names[LayoutStage::count]
     = {"plan and cull", "cube passes", "warp passes", "finish passes", "whole frame", "metering"};
 
 /// One layout to time among others.
-struct Case {
+struct LayoutCase {
     std::string name;
     std::unique_ptr<OffscreenRenderer> renderer;
-    std::vector<double> times[stages];
+    std::vector<double> times[LayoutStage::count];
     double ms(int stage) const { return median(times[stage]); }
 
     void round(Device& device, const Shot& shot, bool counts)
     {
-        FrameRenderer& frame = renderer->frame();
-        const std::size_t outputs = renderer->layout().outputs.size();
-        std::vector<Target> targets;
-        for (std::size_t i = 0; i < outputs; ++i)
-            targets.push_back(renderer->target(i));
-        auto each = [&](auto&& work) {
-            return milliseconds([&] {
-                device.now([&](vk::CommandBuffer c) {
-                    for (std::size_t i = 0; i < outputs; ++i) {
-                        make_writable(c, targets[i]);
-                        work(c, i);
-                    }
-                });
-            });
-        };
-        double ms[stages];
-        ms[0] = milliseconds([&] { frame.update(shot, nullptr); });
-        ms[1] = milliseconds([&] { device.now([&](vk::CommandBuffer c) { frame.draw_cubes(c); }); });
-        ms[2] = each([&](vk::CommandBuffer c, std::size_t i) { frame.passes().warp_output(c, i, targets[i]); });
-        ms[3] = each([&](vk::CommandBuffer c, std::size_t i) { frame.passes().finish_output(c, i, targets[i]); });
-        ms[5] = milliseconds([&] {
-            device.now([&](vk::CommandBuffer c) { frame.draw_meter(c); });
-            (void)frame.metered();
-        });
-        ms[4] = milliseconds([&] {
-            device.now([&](vk::CommandBuffer c) {
-                for (const Target& target : targets)
-                    make_writable(c, target);
-                frame.draw(c, shot, nullptr, targets);
-            });
-            (void)frame.metered();
-        });
-        for (int i = 0; counts && i < stages; ++i)
+        PassTimer timer(device, *renderer);
+        double ms[LayoutStage::count];
+        ms[LayoutStage::plan_and_cull] = timer.update(shot);
+        ms[LayoutStage::cubes] = timer.cubes();
+        ms[LayoutStage::warps] = timer.warp();
+        ms[LayoutStage::finishes] = timer.finish();
+        ms[LayoutStage::metering] = timer.metering();
+        ms[LayoutStage::whole_frame] = timer.frame(shot);
+        for (int i = 0; counts && i < LayoutStage::count; ++i)
             times[i].push_back(ms[i]);
     }
 };
 
-/// Times cases in turn within each round, so that whatever else the machine does falls on all alike.
-void time(RenderContext& context, std::vector<Case>& cases, const Shot& shot, int rounds)
+/// Times cases in turn within each round, so that the machine's other work falls on all alike.
+void time_layouts(RenderContext& context, std::vector<LayoutCase>& cases, const Shot& shot, int rounds)
 {
     for (int round = -2; round < rounds; ++round)
-        for (Case& one : cases)
+        for (LayoutCase& one : cases)
             one.round(context.device, shot, round >= 0);
 }
 
-Case make_case(RenderContext& context, const std::string& name, const Layout& layout)
+LayoutCase make_case(RenderContext& context, const std::string& name, const Layout& layout)
 {
-    Case one;
+    LayoutCase one;
     one.name = name;
     one.renderer = std::make_unique<OffscreenRenderer>(
         context.device, context.pipelines, context.world, layout, default_quality(context.device, false), false);
@@ -106,17 +86,18 @@ void bench_kinds(RenderContext& context, const Shot& shot, int rounds)
     for (int i = 0; i < 3; ++i)
         lens.colours[std::size_t(i)].k = {0.1 + 0.01 * i, 0, 0, 0};
     Fisheye fisheye{.aperture_deg = 110, .tilt_deg = 90, .diameter = 5.0 / 3};
-    std::vector<Case> cases;
+    std::vector<LayoutCase> cases;
     cases.push_back(make_case(context, "planar", one_view(Planar{90}, size)));
     cases.push_back(make_case(context, "fisheye", one_view(fisheye, size)));
     cases.push_back(make_case(context, "mesh", mesh));
     cases.push_back(make_case(context, "lens, three colours", one_view(lens, size)));
     std::filesystem::remove(file);
-    time(context, cases, shot, rounds);
+    time_layouts(context, cases, shot, rounds);
     std::printf("\nThe warp pass by kind of display, 800x600:\n");
-    for (const Case& one : cases)
-        std::printf("  %-22s %7.2f ms  %6.1f ns per pixel  %5.2f of planar\n", one.name.c_str(), one.ms(2),
-            one.ms(2) * 1e6 / (size.x * size.y), one.ms(2) / cases[0].ms(2));
+    for (const LayoutCase& one : cases)
+        std::printf("  %-22s %7.2f ms  %6.1f ns per pixel  %5.2f of planar\n", one.name.c_str(), one.ms(LayoutStage::warps),
+            one.ms(LayoutStage::warps) * 1e6 / (size.x * size.y),
+            one.ms(LayoutStage::warps) / cases[0].ms(LayoutStage::warps));
 }
 
 void bench_viewports(RenderContext& context, const Shot& shot, int rounds)
@@ -132,14 +113,15 @@ void bench_viewports(RenderContext& context, const Shot& shot, int rounds)
             part.sides = Sides{angle(400 * x - 800), angle(400 * x - 400), angle(-300 * y), angle(300 - 300 * y)};
             eight.outputs[0].viewports.push_back({.rect = {0.25 * x, 0.5 * y, 0.25, 0.5}, .projection = part});
         }
-    std::vector<Case> cases;
+    std::vector<LayoutCase> cases;
     cases.push_back(make_case(context, "one viewport", whole));
     cases.push_back(make_case(context, "eight viewports", eight));
-    time(context, cases, shot, rounds);
+    time_layouts(context, cases, shot, rounds);
     std::printf("\nEight viewports of 400x300 that share an eye, beside one of 1600x600:\n");
-    for (const Case& one : cases)
-        std::printf("  %-22s %7.2f ms whole frame  %7.2f ms warp  %5.2f of one\n", one.name.c_str(), one.ms(4), one.ms(2),
-            one.ms(4) / cases[0].ms(4));
+    for (const LayoutCase& one : cases)
+        std::printf("  %-22s %7.2f ms whole frame  %7.2f ms warp  %5.2f of one\n", one.name.c_str(),
+            one.ms(LayoutStage::whole_frame), one.ms(LayoutStage::warps),
+            one.ms(LayoutStage::whole_frame) / cases[0].ms(LayoutStage::whole_frame));
 }
 
 void bench_stereo(RenderContext& context, const Shot& shot, int rounds)
@@ -159,7 +141,7 @@ void bench_stereo(RenderContext& context, const Shot& shot, int rounds)
         const char* name;
         StereoMethod method;
     };
-    std::vector<Case> cases;
+    std::vector<LayoutCase> cases;
     std::vector<Layout> layouts;
     for (Method m : {Method{"exact", StereoMethod::exact}, Method{"reprojected", StereoMethod::reprojected},
              Method{"shared", StereoMethod::shared}}) {
@@ -171,7 +153,7 @@ void bench_stereo(RenderContext& context, const Shot& shot, int rounds)
     cases.push_back(make_case(context, "dome, exact", still_dome));
     layouts.push_back(turned);
     cases.push_back(make_case(context, "dome, turning", turned));
-    time(context, cases, shot, rounds);
+    time_layouts(context, cases, shot, rounds);
     // Errors at the quality of stills, where the depth map is as fine as the picture.
     const Quality quality = default_quality(context.device, true);
     auto measured = [&](const Layout& layout) {
@@ -190,21 +172,23 @@ void bench_stereo(RenderContext& context, const Shot& shot, int rounds)
             = turns ? nullptr : std::make_unique<OffscreenRenderer>(measured(exact_layout));
         const Disparity off = disparity(tested, exact.get(), shot, 0, context.world.scene.unit_m);
         const std::size_t base = i < 3 ? 0 : 3;
-        std::printf("  %-22s %10.2f %8.2f %9.2f   %8.3f %8.3f %8.2f  %6.2f %%\n", cases[i].name.c_str(), cases[i].ms(4),
-            cases[i].ms(4) / cases[base].ms(4), cases[i].ms(2), off.median, off.high, off.most, 100 * off.hidden);
+        std::printf("  %-22s %10.2f %8.2f %9.2f   %8.3f %8.3f %8.2f  %6.2f %%\n", cases[i].name.c_str(),
+            cases[i].ms(LayoutStage::whole_frame),
+            cases[i].ms(LayoutStage::whole_frame) / cases[base].ms(LayoutStage::whole_frame),
+            cases[i].ms(LayoutStage::warps), off.median, off.high, off.most, 100 * off.hidden);
     }
 }
 
 } // namespace
 
-int bench_layout(const std::string& name, const std::string& shot_name, int rounds)
+void bench_layout(const std::string& name, const std::string& shot_name, int rounds)
 {
     const Layout layout = load_layout(shipped_file("layouts", name));
     const std::filesystem::path shot_file = shipped_file("shots", shot_name);
     const Shot shot = load_shot(shot_file);
     RenderContext context(scene_of(shot, shot_file), device_options(false));
-    std::printf("%s; layout %s, shot %s; medians of %d rounds\n\n", context.device.properties.deviceName.data(),
-        name.c_str(), shot_name.c_str(), rounds);
+    std::printf(
+        "%s; layout %s, shot %s; medians of %d rounds\n\n", context.device.name(), name.c_str(), shot_name.c_str(), rounds);
 
     // Compiling the maps: without a cache, and from a folder that holds them.
     const std::filesystem::path folder
@@ -224,12 +208,12 @@ int bench_layout(const std::string& name, const std::string& shot_name, int roun
     std::printf("  %-22s %10.1f ms  (%.1f ns per pixel), %.1f ms from the cache\n", "direction maps", cold,
         cold * 1e6 / pixels, warm);
 
-    std::vector<Case> cases;
+    std::vector<LayoutCase> cases;
     cases.push_back(make_case(context, name, layout));
-    time(context, cases, shot, rounds);
-    const Case& own = cases.front();
-    for (int i = 0; i < stages; ++i)
-        std::printf("  %-22s %10.2f ms  %6.1f ns per pixel\n", stage_names[i], own.ms(i), own.ms(i) * 1e6 / pixels);
+    time_layouts(context, cases, shot, rounds);
+    const LayoutCase& own = cases.front();
+    for (int i = 0; i < LayoutStage::count; ++i)
+        std::printf("  %-22s %10.2f ms  %6.1f ns per pixel\n", layout_stage_names[i], own.ms(i), own.ms(i) * 1e6 / pixels);
     double texels = 0;
     std::size_t images = 0;
     for (const CubeMapPlan& plan : own.renderer->frame().plans())
@@ -243,7 +227,6 @@ int bench_layout(const std::string& name, const std::string& shot_name, int roun
     bench_viewports(context, shot, rounds);
     std::fflush(stdout);
     bench_stereo(context, shot, std::max(3, rounds / 3));
-    return 0;
 }
 
 } // namespace starbow

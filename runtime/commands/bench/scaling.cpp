@@ -1,8 +1,9 @@
 #include "scaling.h"
+#include "avenue.h"
 #include "config/model/angles.h"
 #include "config/model/shipped.h"
-#include "runtime/commands/timing.h"
-#include "runtime/render/offscreen.h"
+#include "runtime/commands/median.h"
+#include "runtime/render/pass_timer.h"
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -11,15 +12,8 @@
 namespace starbow {
 namespace {
 
-Layout window(glm::ivec2 size)
-{
-    Layout layout = load_layout(shipped_file("layouts", "desk"));
-    layout.outputs[0].size = size;
-    return layout;
-}
-
-/// Balls of 960 triangles all over a wall ahead, together always as large: the more there are, the smaller.
-World bounding_spheres(int count)
+/// Balls of 960 triangles all over a wall ahead. Together they are always as large: more of them are smaller.
+World wall_of_balls(int count)
 {
     constexpr int around = 32, down = 16;
     World world;
@@ -52,7 +46,7 @@ World bounding_spheres(int count)
     return world;
 }
 
-struct Case {
+struct ScalingCase {
     std::string name;
     double units; ///< pixels, triangles
     std::unique_ptr<GpuWorld> world{}; ///< none: the render context's
@@ -60,26 +54,16 @@ struct Case {
     std::vector<double> prepare{}, record{}, cube{}, warp{};
 };
 
-/// In turn within each round, so that whatever else the machine does falls on all alike.
-void time(Device& device, std::vector<Case>& cases, const Shot& shot, int rounds)
+/// Times cases in turn within each round, so that the machine's other work falls on all alike.
+void time_scaling(Device& device, std::vector<ScalingCase>& cases, const Shot& shot, int rounds)
 {
-    for (Case& c : cases)
-        c.renderer->picture(shot); // leaves the target in a known layout
+    for (ScalingCase& c : cases)
+        c.renderer->picture(shot); // warms every cache
     for (int round = -1; round < rounds; ++round)
-        for (Case& c : cases) {
-            FrameRenderer& frame = c.renderer->frame();
-            const Target target = c.renderer->target(0);
+        for (ScalingCase& c : cases) {
+            PassTimer timer(device, *c.renderer);
             double record = 0;
-            const double prepare = milliseconds([&] { frame.update(shot, nullptr); });
-            const double cube = milliseconds([&] {
-                device.now([&](vk::CommandBuffer commands) { record = milliseconds([&] { frame.draw_cubes(commands); }); });
-            });
-            const double warp = milliseconds([&] {
-                device.now([&](vk::CommandBuffer commands) {
-                    make_writable(commands, target);
-                    frame.passes().warp_output(commands, 0, target);
-                });
-            });
+            const double prepare = timer.update(shot), cube = timer.cubes(&record), warp = timer.warp();
             if (round < 0)
                 continue;
             c.prepare.push_back(prepare);
@@ -92,24 +76,20 @@ void time(Device& device, std::vector<Case>& cases, const Shot& shot, int rounds
 void bench_pixels(int rounds)
 {
     RenderContext context(shipped_file("scenes", "avenue"), device_options(false));
-    Shot shot = context.world.scene.start;
-    shot.position.z = -8;
-    shot.u = {0, 0, -std::sqrt(15.0)};
-    shot.exposure_ev = -3;
+    const Shot shot = along_avenue(context.world.scene.start, 4);
     std::printf("%s; the avenue at gamma 4, all effects on; medians of %d rounds\n\n%-14s%14s%14s%14s%14s\n",
-        context.device.properties.deviceName.data(), rounds, "Mpixel", "texels/pixel", "cube, ns/px", "warp, ns/px",
-        "frame, ns/px");
-    std::vector<Case> cases;
+        context.device.name(), rounds, "Mpixel", "texels/pixel", "cube, ns/px", "warp, ns/px", "frame, ns/px");
+    std::vector<ScalingCase> cases;
     for (double pixels : {0.5e6, 1e6, 2e6, 4e6, 8e6, 16e6}) {
         const int height = int(std::sqrt(pixels * 0.75) / 4) * 4, width = height / 3 * 4;
         cases.push_back({"", double(width) * height});
         Quality quality = default_quality(context.device, false);
         quality.max_texels = 1e9; // as fine for all
         cases.back().renderer = std::make_unique<OffscreenRenderer>(
-            context.device, context.pipelines, context.world, window({width, height}), quality, false);
+            context.device, context.pipelines, context.world, window_of({width, height}), quality, false);
     }
-    time(context.device, cases, shot, rounds);
-    for (const Case& c : cases) {
+    time_scaling(context.device, cases, shot, rounds);
+    for (const ScalingCase& c : cases) {
         const CubeMapPlan& plan = c.renderer->frame().plans()[0];
         const double cube = median(c.cube) * 1e6 / c.units, warp = median(c.warp) * 1e6 / c.units;
         std::printf("%-14.2f%14.2f%14.2f%14.2f%14.2f\n", c.units * 1e-6, plan.texels / plan.pixels, cube, warp,
@@ -124,21 +104,21 @@ void bench_triangles(int rounds)
     SceneFile scene;
     scene.lights = {};
     scene.ambient = glm::dvec3(1);
-    const Layout layout = window({800, 600});
+    const Layout layout = window_of({800, 600});
     std::printf("\nBalls of 960 triangles that fill the same part of the view at rest, without coarser levels\n%-14s%14s%14s"
                 "%14s%20s%20s\n",
         "triangles", "sent", "cube, ms", "ns/triangle", "plan and cull, ms", "and record, ms");
-    std::vector<Case> cases;
+    std::vector<ScalingCase> cases;
     for (double triangles : {1e4, 1e5, 1e6, 1e7}) {
         const int count = std::max(1, int(std::lround(triangles / 960)));
         cases.push_back({"", triangles});
-        cases.back().world = std::make_unique<GpuWorld>(upload(device, pipelines, bounding_spheres(count), scene));
+        cases.back().world = std::make_unique<GpuWorld>(upload(device, pipelines, wall_of_balls(count), scene));
         cases.back().renderer = std::make_unique<OffscreenRenderer>(
             device, pipelines, *cases.back().world, layout, default_quality(device, false), false);
     }
     Shot shot;
-    time(device, cases, shot, rounds);
-    for (const Case& c : cases) {
+    time_scaling(device, cases, shot, rounds);
+    for (const ScalingCase& c : cases) {
         const double sent = double(c.renderer->frame().triangles());
         std::printf("%-14g%14g%14.2f%14.1f%20.3f%20.3f\n", c.units, sent, median(c.cube), median(c.cube) * 1e6 / sent,
             median(c.prepare), median(c.prepare) + median(c.record));
@@ -147,12 +127,11 @@ void bench_triangles(int rounds)
 
 } // namespace
 
-int bench_scaling(int rounds)
+void bench_scaling(int rounds)
 {
     bench_pixels(rounds);
     std::fflush(stdout);
     bench_triangles(rounds);
-    return 0;
 }
 
 } // namespace starbow

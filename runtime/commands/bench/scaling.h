@@ -5,6 +5,6 @@ namespace starbow {
 
 /// Times how a frame's cost grows with its pixels, with its triangles, and the processor's part of it with the objects.
 /// Prints to stdout.
-int bench_scaling(int rounds);
+void bench_scaling(int rounds);
 
 } // namespace starbow

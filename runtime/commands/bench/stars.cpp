@@ -1,8 +1,9 @@
 #include "stars.h"
+#include "avenue.h"
 #include "config/model/angles.h"
 #include "config/model/shipped.h"
-#include "runtime/commands/timing.h"
-#include "runtime/render/offscreen.h"
+#include "runtime/commands/median.h"
+#include "runtime/render/pass_timer.h"
 #include "runtime/render/render_context.h"
 #include "runtime/world/detail.h"
 #include <cmath>
@@ -27,7 +28,7 @@ std::vector<Star> swarm(int count)
     return stars;
 }
 
-struct Case {
+struct StarsCase {
     const char* name;
     GpuWorld world;
     std::vector<double> ms;
@@ -35,58 +36,50 @@ struct Case {
 
 } // namespace
 
-int bench_stars(int rounds)
+void bench_stars(int rounds)
 {
     Device device(device_options(false));
     Pipelines pipelines(device);
     const SceneFile scene = load_scene_file(shipped_file("scenes", "avenue"));
-    Layout layout = load_layout(shipped_file("layouts", "desk"));
-    layout.outputs[0].size = {800, 600};
+    const Layout layout = window_of({800, 600});
     auto under = [&](const char* name, const std::vector<Star>& stars) {
         World world = load_world(scene.gltf);
         add_detail_levels(world);
-        return Case{name, upload(device, pipelines, std::move(world), scene, stars), {}};
+        return StarsCase{name, upload(device, pipelines, std::move(world), scene, stars), {}};
     };
-    std::vector<Case> cases;
+    std::vector<StarsCase> cases;
     cases.push_back(under("no stars", {}));
     cases.push_back(under("5,044 stars", load_stars(scene.stars.value().catalogue)));
     cases.push_back(under("100,000 stars", swarm(100'000)));
     cases.push_back(under("1,000,000 stars", swarm(1'000'000)));
     std::printf(
         "%s; avenue at 800x600 from above, all effects on; medians of %d rounds, whole frames, milliseconds\n\n%-12s",
-        device.properties.deviceName.data(), rounds, "");
-    for (const Case& c : cases)
+        device.name(), rounds, "");
+    for (const StarsCase& c : cases)
         std::printf("%26s", c.name);
     for (double gamma : {1.0, 4.0, 100.0}) {
         Shot shot = load_shot(shipped_file("shots", "orion"));
         shot.u = shot.ship_from_cockpit * glm::dvec3(0, 0, -std::sqrt((gamma - 1) * (gamma + 1)));
         shot.exposure_ev = gamma > 1 ? -3 : 0;
-        std::vector<OffscreenRenderer> studios;
-        for (Case& c : cases) {
+        std::vector<OffscreenRenderer> renderers;
+        for (StarsCase& c : cases) {
             c.ms.clear();
-            studios.emplace_back(device, pipelines, c.world, layout, default_quality(device, false), false);
-            studios.back().picture(shot); // leaves the target in a known layout
+            renderers.emplace_back(device, pipelines, c.world, layout, default_quality(device, false), false);
+            renderers.back().picture(shot); // warms every cache
         }
-        // In turn within each round, so that whatever else the machine does falls on all alike.
+        // In turn within each round, so that the machine's other work falls on all alike.
         for (int round = -1; round < rounds; ++round)
             for (std::size_t i = 0; i < cases.size(); ++i) {
-                const Target target = studios[i].target(0);
-                const double ms = milliseconds([&] {
-                    device.now([&](vk::CommandBuffer commands) {
-                        make_writable(commands, target);
-                        studios[i].frame().draw(commands, shot, nullptr, std::span(&target, 1));
-                    });
-                });
+                const double ms = PassTimer(device, renderers[i]).frame(shot);
                 if (round >= 0)
                     cases[i].ms.push_back(ms);
             }
         std::printf("\ngamma %-6g", gamma);
-        for (const Case& c : cases)
+        for (const StarsCase& c : cases)
             std::printf("%14.2f (x %7.2f)", median(c.ms), median(c.ms) / median(cases[0].ms));
         std::fflush(stdout);
     }
     std::printf("\n");
-    return 0;
 }
 
 } // namespace starbow

@@ -1,6 +1,6 @@
 #include "explain.h"
-#include "runtime/commands/timing.h"
-#include "runtime/render/offscreen.h"
+#include "runtime/commands/median.h"
+#include "runtime/render/pass_timer.h"
 #include "runtime/world/detail.h"
 #include <cmath>
 #include <cstdio>
@@ -42,32 +42,48 @@ template <class Is> std::size_t materials_that(const World& world, Is&& is)
     return n;
 }
 
-/// The parts, from what is looked at to what is shown.
-std::vector<Part> parts_of(const Made& made, const RenderContext& context, const CubeMapPlan& plan, std::size_t maps,
-    std::size_t views, std::size_t eyes, bool colours_part)
+/// The views of a layout, counted.
+struct ViewCounts {
+    std::size_t views = 0, maps = 0, eyes = 0;
+    bool colours_part = false; ///< a lens parts them
+};
+
+/// The parts of a frame as they are found, in order.
+struct PartList {
+    const Made& made;
+    const RenderContext& context;
+    std::vector<Part> all{};
+
+    void add(const std::string& name, bool on, const std::string& why, const std::string& why_not,
+        std::function<void(Made&)> turn)
+    {
+        all.push_back({name, on, on ? why : why_not, std::move(turn)});
+    }
+    void add_effects();
+    void add_light();
+    void add_world();
+    void add_views(const ViewCounts& views);
+    void add_sampling(const CubeMapPlan& plan);
+};
+
+void PartList::add_effects()
 {
-    const World& world = context.world.world;
-    const SceneFile& scene = made.scene;
     const Effects& effects = made.shot.effects;
     const bool moves = made.shot.u != glm::dvec3(0);
     const std::string at_rest = moves ? "the shot's effects leave it out" : "the shot is at rest";
-    const NeededLevel needed = needed_level(world, scene);
-    const int numbers = reflected_numbers[std::size_t(context.world.spectra.level)];
-    const std::size_t clocks = materials_that(world, [](const Material&m) { return m.clock.has_value(); }),
-                      blinks = materials_that(world, [](const Material&m) { return m.blink.has_value(); }),
-                      base = materials_that(world, [](const Material&m) { return m.base_texture >= 0; }),
-                      masked = materials_that(world, [](const Material&m) { return m.alpha_cutoff > 0; });
-    std::vector<Part> all;
-    const auto add = [&](const std::string& name, bool on, const std::string& why, const std::string& why_not,
-                         std::function<void(Made&)> turn) {
-        all.push_back({name, on, on ? why : why_not, std::move(turn)});
-    };
     add("aberration", moves && effects.aberration, "the ship moves", at_rest,
         [](Made& m) { m.shot.effects.aberration = !m.shot.effects.aberration; });
     add("Doppler shift of spectra", moves && effects.doppler, "the ship moves", at_rest,
         [](Made& m) { m.shot.effects.doppler = !m.shot.effects.doppler; });
     add("headlight, D^3", moves && effects.headlight, "the ship moves", at_rest,
         [](Made& m) { m.shot.effects.headlight = !m.shot.effects.headlight; });
+}
+
+void PartList::add_light()
+{
+    const SceneFile& scene = made.scene;
+    const NeededLevel needed = needed_level(context.world.world, scene);
+    const int numbers = reflected_numbers[std::size_t(context.world.spectra.level)];
     add("light in more than 3 numbers", numbers > 3, std::to_string(numbers) + ": " + describe(needed), describe(needed),
         [](Made& m) { m.quality.spectra = m.quality.spectra ? std::nullopt : std::optional(SpectralLevel::colours); });
     add("emissions of the scene's own", !context.world.spectra.basis.own.empty(),
@@ -78,6 +94,15 @@ std::vector<Part> parts_of(const Made& made, const RenderContext& context, const
         "the scene names no catalogue", [](Made& m) { m.stars.clear(), m.scene.stars.reset(); });
     add("lamps", !scene.lights.empty(), count(scene.lights.size(), "light", "lights") + " in the scene",
         "the scene has none", [](Made& m) { m.scene.lights.clear(); });
+}
+
+void PartList::add_world()
+{
+    const World& world = context.world.world;
+    const std::size_t clocks = materials_that(world, [](const Material&m) { return m.clock.has_value(); }),
+                      blinks = materials_that(world, [](const Material&m) { return m.blink.has_value(); }),
+                      base = materials_that(world, [](const Material&m) { return m.base_texture >= 0; }),
+                      masked = materials_that(world, [](const Material&m) { return m.alpha_cutoff > 0; });
     add("clocks, with light delay", clocks > 0, count(clocks, "dial", "dials") + " in the world", "no surface is a clock",
         [](Made& m) {
             for (Material& material : m.world.materials)
@@ -111,15 +136,20 @@ std::vector<Part> parts_of(const Made& made, const RenderContext& context, const
             for (Material& material : m.world.materials)
                 material.alpha_cutoff = 0;
         });
-    add("one cube map for each eye", eyes > 1, std::to_string(eyes) + ": the eyes of the layout see from so many places",
+}
+
+void PartList::add_views(const ViewCounts& views)
+{
+    add("one cube map for each eye", views.eyes > 1,
+        std::to_string(views.eyes) + ": the eyes of the layout see from so many places",
         "the layout has one eye, or all share one map", [](Made& m) { m.quality.stereo = StereoMethod::shared; });
-    add("reprojection of two eyes", made.layout.stereo.method == StereoMethod::reprojected && views > 1,
+    add("reprojection of two eyes", made.layout.stereo.method == StereoMethod::reprojected && views.views > 1,
         "the layout's stereo method", "the layout's stereo method is another",
         [](Made& m) { m.layout.stereo.turning = false, m.quality.stereo = StereoMethod::shared; });
-    add("maps of directions", maps > 0,
-        std::to_string(maps) + " of " + count(views, "view is", "views are") + " not linear in the pixel",
-        "every view is flat: a matrix tells it", [](Made& m) { m.quality.matrices = !m.quality.matrices; });
-    add("a way of its own for each colour", colours_part, "a lens parts them", "no lens parts them", {});
+    add("maps of directions", views.maps > 0,
+        std::to_string(views.maps) + " of " + count(views.views, "view is", "views are") + " not linear in the pixel",
+        "every view is flat: a matrix describes it", [](Made& m) { m.quality.matrices = !m.quality.matrices; });
+    add("a direction of its own for each colour", views.colours_part, "a lens parts them", "no lens parts them", {});
     bool shades = made.layout.blend.ramps;
     for (const Output& output : made.layout.outputs)
         shades |= needs_finish(output, {});
@@ -129,6 +159,10 @@ std::vector<Part> parts_of(const Made& made, const RenderContext& context, const
             for (Output& output : m.layout.outputs)
                 output.colour = {};
         });
+}
+
+void PartList::add_sampling(const CubeMapPlan& plan)
+{
     add("images nested behind", plan.finest_clip_level[0] > 0 && plan.images.size() > 1,
         count(plan.images.size(), "image", "images") + " of the cube map, D varies over the sky", "D is the same everywhere",
         [](Made& m) { m.quality.clip_levels = m.quality.clip_levels > 0 ? 0 : 42; });
@@ -142,7 +176,6 @@ std::vector<Part> parts_of(const Made& made, const RenderContext& context, const
     add("metering of the exposure", made.meter, "", "a still has its own; starbow run meters",
         [](Made& m) { m.meter = !m.meter; });
     add("glow around what shines", made.bloom > 0, "", "the exhibit or --bloom asks for it", [](Made& m) { m.bloom = 0.1; });
-    return all;
 }
 
 /// A way a frame may be made, on the device.
@@ -158,8 +191,37 @@ struct Stage {
         renderer.frame().meter(made.meter);
         renderer.frame().bloom(made.bloom);
     }
-    double ms(Device& device) { return frame_ms(device, renderer, shot); }
+    double ms(Device& device) { return PassTimer(device, renderer).frame(shot); }
 };
+
+ViewCounts count_views(const Trial& trial)
+{
+    ViewCounts counts;
+    MapStore store;
+    store.matrices(trial.standard.matrices);
+    for (std::size_t output = 0; output < trial.layout.outputs.size(); ++output)
+        for (const CompiledView& view : compile_output(store, trial.layout, output, trial.layout.outputs[output].size)) {
+            ++counts.views;
+            counts.maps += view.map != nullptr;
+            counts.colours_part |= view.channels() == 3;
+        }
+    return counts;
+}
+
+/// The time of a frame over that of a frame without the part: medians of rounds in turn.
+double cost_of(const Part& part, const Made& made, RenderContext& context, Stage& all, int rounds)
+{
+    Made without = made;
+    part.turn(without);
+    Stage other(context.device, context.pipelines, without);
+    std::vector<double> with_ms, without_ms;
+    for (int round = -2; round < rounds; ++round) {
+        const double a = all.ms(context.device), b = other.ms(context.device);
+        if (round >= 0)
+            with_ms.push_back(a), without_ms.push_back(b);
+    }
+    return median(with_ms) / median(without_ms);
+}
 
 } // namespace
 
@@ -174,43 +236,28 @@ void explain(const Trial& trial, const Device::Options& options)
     Stage all(context.device, context.pipelines, made);
     all.ms(context.device);
 
-    std::size_t maps = 0, count_of_views = 0;
-    bool colours_part = false;
-    MapStore store;
-    store.matrices(trial.standard.matrices);
-    for (std::size_t output = 0; output < made.layout.outputs.size(); ++output)
-        for (const CompiledView& view : compile_output(store, made.layout, output, made.layout.outputs[output].size)) {
-            ++count_of_views;
-            maps += view.map != nullptr;
-            colours_part |= view.channels() == 3;
-        }
     const std::vector<CubeMapPlan>& plans = all.renderer.frame().plans();
-    const std::vector<Part> parts = parts_of(made, context, plans[0], maps, count_of_views, plans.size(), colours_part);
-    std::printf("%s, %s, %s, on %s\n\nOn, and what a frame with it takes over one without:\n", trial.scene.stem().c_str(),
-        trial.layout.file.stem().c_str(), trial.shots[0].first.c_str(), context.device.properties.deviceName.data());
-    for (const Part& part : parts) {
+    ViewCounts views = count_views(trial);
+    views.eyes = plans.size();
+    PartList parts{made, context};
+    parts.add_effects();
+    parts.add_light();
+    parts.add_world();
+    parts.add_views(views);
+    parts.add_sampling(plans[0]);
+    std::printf("%s, %s, %s, on %s\n\nOn, and the time of a frame with it over one without:\n", trial.scene.stem().c_str(),
+        trial.layout.file.stem().c_str(), trial.shots[0].first.c_str(), context.device.name());
+    for (const Part& part : parts.all) {
         if (!part.on)
             continue;
-        std::string cost = "   -";
-        if (part.turn) {
-            Made without = made;
-            part.turn(without);
-            Stage other(context.device, context.pipelines, without);
-            std::vector<double> mine, its;
-            for (int round = -2; round < trial.rounds; ++round) {
-                const double a = all.ms(context.device), b = other.ms(context.device);
-                if (round >= 0)
-                    mine.push_back(a), its.push_back(b);
-            }
-            char text[32];
-            std::snprintf(text, sizeof text, "%.2f", median(mine) / median(its));
-            cost = text;
-        }
-        std::printf("  %-38s %6s   %s\n", part.name.c_str(), cost.c_str(), part.why.c_str());
+        char cost[32] = "-";
+        if (part.turn)
+            std::snprintf(cost, sizeof cost, "%.2f", cost_of(part, made, context, all, trial.rounds));
+        std::printf("  %-38s %6s   %s\n", part.name.c_str(), cost, part.why.c_str());
         std::fflush(stdout);
     }
     std::printf("\nOff, at no cost:\n");
-    for (const Part& part : parts)
+    for (const Part& part : parts.all)
         if (!part.on)
             std::printf("  %-38s          %s\n", part.name.c_str(), part.why.c_str());
 }

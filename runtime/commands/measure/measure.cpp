@@ -13,11 +13,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <numeric>
 
 namespace starbow {
 namespace {
 
-struct Options {
+struct MeasureOptions {
     std::string scene = "avenue", layout = "desk", size, out, standard = "balanced", which = "all";
     std::vector<std::string> shots, qualities;
     long rounds = 9, samples = 64;
@@ -28,7 +29,7 @@ struct Options {
 constexpr std::array shipped_qualities = {"draft", "balanced", "fine"};
 
 /// The named shots, or all shipped ones of the scene.
-std::vector<std::pair<std::string, Shot>> shots_of(const Options& options, const std::filesystem::path& scene)
+std::vector<std::pair<std::string, Shot>> shots_of(const MeasureOptions& options, const std::filesystem::path& scene)
 {
     std::vector<std::pair<std::string, Shot>> shots;
     for (const std::string& name : options.shots) {
@@ -53,12 +54,8 @@ std::vector<std::pair<std::string, Shot>> shots_of(const Options& options, const
     return shots;
 }
 
-int measure(const Options& options)
+Trial trial_of(const MeasureOptions& options)
 {
-    if (options.extremes)
-        return measure_extremes(options.out);
-    if (options.out.empty() && !options.explain)
-        throw InputError("--out is required here; the folder for the results, such as out/accuracy, is right");
     Trial trial;
     trial.scene = shipped_file("scenes", options.scene);
     trial.layout = load_layout(shipped_file("layouts", options.layout));
@@ -68,45 +65,46 @@ int measure(const Options& options)
     trial.shots = shots_of(options, trial.scene);
     trial.standard = load_quality(shipped_file("qualities", options.standard));
     trial.rounds = int(options.rounds), trial.samples = int(options.samples);
-    if (options.explain) {
-        explain(trial, device_options(false));
-        return 0;
-    }
     trial.folder = options.out;
+    return trial;
+}
+
+/// The settings that the options choose; first the shipped ones and the visitor's own.
+std::vector<Setting> settings_of(const MeasureOptions& options, const Trial& trial)
+{
     std::vector<Setting> shipped;
     for (const char* name : shipped_qualities)
         shipped.push_back({name, load_quality(shipped_file("qualities", name)), true});
     for (const std::string& name : options.qualities)
         shipped.push_back({name, load_quality(shipped_file("qualities", name)), true});
-    check_writable(trial.folder / "accuracy.html");
-    std::error_code error;
-    std::filesystem::create_directories(trial.folder, error);
-    if (error)
-        throw InputError(options.out, "", "can't be made (" + error.message() + "); give a folder that can be written");
-
+    if (options.which == "shipped")
+        return shipped;
     bool two_eyes = false;
     for (const Output& output : trial.layout.outputs)
         for (const Viewport& viewport : output.viewports)
             two_eyes |= viewport.eye != Eye::middle;
     const ReferenceWorld world = open_reference_world(trial.scene);
-    const SpectralLevel needed = needed_level(world.world, world.scene).level;
-    const std::vector<Setting> settings
-        = options.which == "shipped" ? shipped : settings_to_try(shipped, trial.standard, two_eyes, needed);
-    MeasuredOn on{options.scene + ", " + options.layout, "", trial.rounds, trial.samples};
-    for (const auto& [name, shot] : trial.shots)
-        on.what += ", " + name;
-    const std::vector<MeasuredSetting> all = measure_settings(trial, settings, device_options(false), on.machine);
-    write_whole(trial.folder / "accuracy.csv", accuracy_csv(all));
-    write_whole(trial.folder / "accuracy.svg", accuracy_chart(all, on.what));
-    write_whole(trial.folder / "ladder.json", ladder_text(ladder_of(all)));
-    write_whole(trial.folder / "accuracy.html", accuracy_page(all, on));
+    return settings_to_try(shipped, trial.standard, two_eyes, needed_level(world.world, world.scene).level);
+}
 
+/// Makes the folder for the results, before hours of measuring.
+void make_folder(const std::filesystem::path& folder)
+{
+    check_writable(folder / "accuracy.html");
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw InputError(folder.string(), "", "can't be made (" + error.message() + "); give a folder that can be written");
+}
+
+/// Prints the shipped settings and those that no other setting beats, fastest first; then the shipped ones that are beaten.
+void print_settings(const Trial& trial, const std::vector<MeasuredSetting>& all, const std::string& machine)
+{
     const std::vector<bool> best = frontier(all);
     std::vector<std::size_t> order(all.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-        order[i] = i;
+    std::iota(order.begin(), order.end(), std::size_t(0));
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return all[a].ms < all[b].ms; });
-    std::printf("%s; * what no other setting beats\n\n%8s %7s %8s %8s %8s %9s %9s %8s\n", on.machine.c_str(), "ms", "ratio",
+    std::printf("%s; * no other setting beats it\n\n%8s %7s %8s %8s %8s %9s %9s %8s\n", machine.c_str(), "ms", "ratio",
         "FLIP", "PSNR dB", "dE00 95", "edges px", "dir. px", "MiB");
     for (std::size_t i : order) {
         const MeasuredSetting& m = all[i];
@@ -115,7 +113,7 @@ int measure(const Options& options)
                 m.errors.psnr_dB, m.errors.ciede2000_95, m.errors.edges_95_px, m.direction_px, m.megabytes,
                 best[i] ? "*" : " ", m.setting.name.c_str());
     }
-    constexpr double noise = 0.15; // what times of one run may differ by
+    constexpr double noise = 0.15; // times of one run may differ by this part
     for (const MeasuredSetting& m : all)
         if (const MeasuredSetting* better = m.setting.shipped ? better_than(m, all, noise) : nullptr) {
             const double ratio = time_ratio(trial, better->setting.quality, m.setting.quality, device_options(false));
@@ -123,26 +121,54 @@ int measure(const Options& options)
                 std::printf("%s is beaten: %s takes %.2f of its time with %.2f of its FLIP\n", m.setting.name.c_str(),
                     better->setting.name.c_str(), ratio, better->errors.flip / m.errors.flip);
         }
-    std::printf("\n%s/accuracy.html\n", options.out.c_str());
-    if (options.budget_ms > 0) {
-        const MeasuredSetting* chosen = best_within(all, options.budget_ms);
-        if (!chosen) {
-            std::printf("nothing is within %g ms; the fastest takes %.1f ms\n", options.budget_ms, all[order[0]].ms);
-            return 1;
-        }
-        const std::filesystem::path file = trial.folder / "quality.json";
-        write_whole(file, quality_text(chosen->setting.quality));
-        std::printf("within %g ms: %s, %.1f ms; %s has it\n", options.budget_ms, chosen->setting.name.c_str(), chosen->ms,
-            file.c_str());
+}
+
+/// Writes the most accurate setting within the budget. Returns the exit status: 1 where none is.
+int choose_within(double budget_ms, const Trial& trial, const std::vector<MeasuredSetting>& all)
+{
+    const MeasuredSetting* chosen = best_within(all, budget_ms);
+    if (!chosen) {
+        const auto fastest = std::min_element(all.begin(), all.end(), [](auto& a, auto& b) { return a.ms < b.ms; });
+        std::printf("nothing is within %g ms; the fastest takes %.1f ms\n", budget_ms, fastest->ms);
+        return 1;
     }
+    const std::filesystem::path file = trial.folder / "quality.json";
+    write_whole(file, quality_text(chosen->setting.quality));
+    std::printf("within %g ms: %s, %.1f ms; %s has it\n", budget_ms, chosen->setting.name.c_str(), chosen->ms, file.c_str());
     return 0;
+}
+
+int measure(const MeasureOptions& options)
+{
+    if (options.extremes)
+        return measure_extremes(options.out);
+    if (options.out.empty() && !options.explain)
+        throw InputError("--out is required here; the folder for the results, such as out/accuracy, is right");
+    const Trial trial = trial_of(options);
+    if (options.explain) {
+        explain(trial, device_options(false));
+        return 0;
+    }
+    const std::vector<Setting> settings = settings_of(options, trial);
+    make_folder(trial.folder);
+    MeasuredOn on{options.scene + ", " + options.layout, "", trial.rounds, trial.samples};
+    for (const auto& [name, shot] : trial.shots)
+        on.what += ", " + name;
+    const std::vector<MeasuredSetting> all = measure_settings(trial, settings, device_options(false), on.machine);
+    write_whole(trial.folder / "accuracy.csv", accuracy_csv(all));
+    write_whole(trial.folder / "accuracy.svg", accuracy_chart(all, on.what));
+    write_whole(trial.folder / "ladder.json", ladder_text(ladder_of(all)));
+    write_whole(trial.folder / "accuracy.html", accuracy_page(all, on));
+    print_settings(trial, all, on.machine);
+    std::printf("\n%s/accuracy.html\n", options.out.c_str());
+    return options.budget_ms > 0 ? choose_within(options.budget_ms, trial, all) : 0;
 }
 
 } // namespace
 
 void add_measure(CLI::App& app, std::function<int()>& chosen)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<MeasureOptions>();
     CLI::App* command = app.add_subcommand("measure",
         "Speed for accuracy: each setting's time, memory and error against the reference, as a table and a chart.");
     command->add_option("--scene", options->scene, "A scene file, or the name of one in config/scenes")
@@ -157,7 +183,9 @@ void add_measure(CLI::App& app, std::function<int()>& chosen)
         "The folder for accuracy.html, .csv and .svg, ladder.json; or for extremes.md; made if it is not there");
     command->add_option("--quality", options->qualities, "A quality file of your own to try too; more than one may be given")
         ->type_name("FILE");
-    command->add_option("--default", options->standard, "The quality whose knobs are turned, and that all times are told by")
+    command
+        ->add_option(
+            "--default", options->standard, "The quality whose settings are varied, and that all times are relative to")
         ->capture_default_str();
     command->add_option("--settings", options->which, "What is tried: all, or only the shipped ones and yours (shipped)")
         ->check(CLI::IsMember({"all", "shipped"}))

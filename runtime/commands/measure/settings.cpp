@@ -1,10 +1,11 @@
 #include "settings.h"
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
+#include "runtime/commands/median.h"
 #include "runtime/commands/rows.h"
-#include "runtime/commands/timing.h"
 #include "runtime/reference/number_errors.h"
 #include "runtime/render/offscreen.h"
+#include "runtime/render/pass_timer.h"
 #include "shaders/physics/physics.h"
 #include <chrono>
 #include <cmath>
@@ -56,7 +57,7 @@ Truths truths_of(const Trial& trial)
             ReferenceOptions options;
             options.samples = trial.samples;
             options.kept = trial.folder / ("reference-" + name + "-" + own.name + ".rows");
-            options.progress = [&](int done, int all) { rows.tell(done, all); };
+            options.progress = [&](int done, int all) { rows.show(done, all); };
             Reference truth = reference(world.input(), trial.layout, shot, output, options);
             std::vector<std::uint8_t> picture = shown(truth);
             of_shot.push_back({std::move(picture), std::move(truth)});
@@ -113,7 +114,7 @@ struct Drawer {
     {
         double sum = 0;
         for (int i = 0; i < block; ++i)
-            sum += frame_ms(device, renderer, shot);
+            sum += PassTimer(device, renderer).frame(shot);
         return sum / block;
     }
 };
@@ -248,7 +249,7 @@ std::vector<MeasuredSetting> measure_settings(
 {
     RenderContexts theatres(trial.scene, options);
     RenderContext& standards = theatres.with(trial.standard.spectra);
-    machine = standards.device.properties.deviceName.data();
+    machine = standards.device.name();
     const Truths truths = truths_of(trial);
     Kept kept(trial.folder / "measured.json", key_of(trial, machine));
     std::vector<MeasuredSetting> all;

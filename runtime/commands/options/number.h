@@ -5,7 +5,7 @@
 
 namespace starbow {
 
-/// Lets only whole numbers from low to high pass.
+/// Accepts only whole numbers from low to high.
 inline CLI::Validator whole_number(long low, long high)
 {
     const std::string from = std::to_string(low), to = std::to_string(high);

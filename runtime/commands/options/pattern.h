@@ -9,7 +9,7 @@ constexpr const char* pattern_help = "A test pattern instead of the flight: grid
                                      "outputs and eyes), wedges (gamma "
                                      "and black level) or overlap";
 
-/// Throws InputError for a name that is none.
+/// Throws InputError for an unknown name.
 inline Pattern pattern_of(const std::string& name)
 {
     std::string known;

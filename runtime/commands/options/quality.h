@@ -7,8 +7,8 @@ namespace starbow {
 constexpr const char* quality_help
     = "Speed for accuracy: draft, balanced or fine, or a quality file, such as starbow measure --budget-ms writes";
 
-/// An empty name: what counts where none is asked for.
-inline std::optional<Quality> asked_quality(const std::string& name)
+/// The quality of --quality; none for an empty name. Throws InputError.
+inline std::optional<Quality> chosen_quality(const std::string& name)
 {
     return name.empty() ? std::nullopt : std::optional(load_quality(shipped_file("qualities", name)));
 }

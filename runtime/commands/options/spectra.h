@@ -11,12 +11,12 @@ inline CLI::Option* add_spectra(CLI::App& command, std::string& name)
     names.insert(names.begin(), "needed");
     return command
         .add_option("--spectra", name,
-            "How finely light is told: in 3 numbers (colours), 5 (middle), 12 (fine), or as the scene needs")
+            "Coefficients of each spectrum: 3 (colours), 5 (middle), 12 (fine), or as many as the scene needs")
         ->check(CLI::IsMember(names))
         ->capture_default_str();
 }
 
-/// None for what the scene needs.
+/// The level of a name; none: the level that the scene needs.
 inline std::optional<SpectralLevel> level_of(const std::string& name)
 {
     const auto at = std::find(spectral_level_names.begin(), spectral_level_names.end(), name);

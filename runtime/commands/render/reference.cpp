@@ -21,7 +21,7 @@ int render_reference(const ReferenceCommand& command)
         for (const Viewport& viewport : output.viewports)
             pictures.insert(pictures.end(), {viewport.alpha_mask, viewport.black_level});
     for (const Output& output : layout.outputs) {
-        constexpr double most = 1 << 26; // pixels: with their numbers and two eyes they are 8 GB
+        constexpr double most = 1 << 26; // pixels: with measured channels and two eyes they take 8 GB
         if (double(output.size.x) * output.size.y > most)
             throw InputError("--reference of " + std::to_string(output.size.x) + "x" + std::to_string(output.size.y)
                 + " pixels is too large; at most 8192x8192, or as many in another shape, is right");
@@ -46,7 +46,7 @@ int render_reference(const ReferenceCommand& command)
         const Reference drawn = reference(world.input(), layout, shot, i,
             {.samples = int(command.samples),
                 .numbers = command.exr,
-                .progress = [&](int done, int all) { rows.tell(done, all); },
+                .progress = [&](int done, int all) { rows.show(done, all); },
                 .kept = kept});
         write_png(folder / (output.name + ".png"), drawn.size, shown(drawn));
         if (command.exr)

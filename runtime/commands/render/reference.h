@@ -9,8 +9,8 @@ struct ReferenceCommand {
     bool exr = false;
 };
 
-/// Draws a shot's pictures by rays, without a device, and writes OUT/<output>.png (and .exr). Rows that are finished are
-/// kept in OUT/<output>.rows until the picture is written. Returns the exit status.
+/// Draws a shot's pictures by rays, without a device, and writes OUT/<output>.png (and .exr). Finished rows are stored in
+/// OUT/<output>.rows until the picture is written. Returns the exit status.
 int render_reference(const ReferenceCommand& command);
 
 } // namespace starbow

@@ -21,7 +21,7 @@
 namespace starbow {
 namespace {
 
-struct Options {
+struct RenderOptions {
     std::string layout, shot, out, size, pattern = "none", exposure = "shot", spectra = "needed", replay, frames,
                                          language = "en", tour, movie, points, overlay = "off", why = "none", quality;
     long frames_per_s = 30;
@@ -30,7 +30,7 @@ struct Options {
     bool exr = false, hud = false, reference = false;
 };
 
-int render(const Options& options)
+int render(const RenderOptions& options)
 {
     if (options.tour.empty() && options.out.empty())
         throw InputError("--out is required here; the folder for the pictures, such as out/shot, is right");
@@ -41,7 +41,7 @@ int render(const Options& options)
         return render_tour({options.tour, options.layout, options.movie, options.size, options.language,
             options.frames_per_s, options.bloom});
     if (options.shot.empty())
-        throw InputError("None of --shot, --replay and --tour is given; what is to be drawn, one of them, is right");
+        throw InputError("None of --shot, --replay and --tour is given; one of them is right");
     if (options.reference && options.exposure != "shot")
         throw InputError("--exposure " + options.exposure + " is not known to --reference; shot is right there");
     if (options.reference)
@@ -66,14 +66,14 @@ int render(const Options& options)
                 check_writable(picture);
             }
     parse_points(options.points, layout);
-    // What is wrong with its file is told before the device is touched.
-    const std::optional<Quality> asked = asked_quality(options.quality);
-    const auto level = options.spectra == "needed" && asked ? asked->spectra : level_of(options.spectra);
+    // Errors in the files are reported before the device is opened.
+    const std::optional<Quality> quality = chosen_quality(options.quality);
+    const auto level = options.spectra == "needed" && quality ? quality->spectra : level_of(options.spectra);
     RenderContext context(scene_of(shot, shot_file), device_options(false), level);
     for (const std::string& note : context.world.world.notes)
         std::fprintf(stderr, "starbow: %s: %s\n", context.world.scene.gltf.c_str(), note.c_str());
     OffscreenRenderer renderer(context.device, context.pipelines, context.world, layout,
-        asked ? within(context.device, *asked) : default_quality(context.device, true), options.exr);
+        quality ? within(context.device, *quality) : default_quality(context.device, true), options.exr);
     renderer.frame().show(pattern);
     renderer.frame().bloom(options.bloom);
     if (options.exposure == "auto") {
@@ -103,23 +103,25 @@ int render(const Options& options)
 
 void add_render(CLI::App& app, std::function<int()>& chosen)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RenderOptions>();
     CLI::App* command = app.add_subcommand(
         "render", "Draw one shot off-screen, the same bytes every time; or a flight's record, or a tour's movie.");
-    command->add_option(
-        "--layout", options->layout, "A layout file, or the name of one in config/layouts [desk; of a replay the record's]");
+    command->add_option("--layout", options->layout,
+        "A layout file, or the name of one in config/layouts [desk; for a replay the record's]");
     CLI::Option* shot = command->add_option("--shot", options->shot, "A shot file, or the name of one in config/shots");
     CLI::Option* out = command->add_option("--out", options->out,
-        "The folder for OUTPUT.png (and OUTPUT.exr), or of a replay OUTPUT-FRAME.png; made if it is not there");
+        "The folder for OUTPUT.png (and OUTPUT.exr), or with --replay OUTPUT-FRAME.png; made if it is not there");
     command->add_option("--size", options->size, "Pixels of every output, WIDTHxHEIGHT, instead of the layout's");
     CLI::Option* exr = command->add_flag(
-        "--exr", options->exr, "Also the numbers: light, directions, Doppler factor and distance of every pixel");
+        "--exr", options->exr, "Also write an EXR with light, directions, Doppler factor and distance of every pixel");
     CLI::Option* pattern = command->add_option("--pattern", options->pattern, pattern_help)->capture_default_str();
-    command->add_option("--exposure", options->exposure, "The shot's own exposure (shot), or after what is seen (auto)")
+    command
+        ->add_option(
+            "--exposure", options->exposure, "The shot's own exposure (shot), or one metered from the picture (auto)")
         ->check(CLI::IsMember({"shot", "auto"}))
         ->capture_default_str();
     CLI::Option* bloom
-        = command->add_option("--bloom", options->bloom, "The part of the light that glows around what shines, 0 to 1")
+        = command->add_option("--bloom", options->bloom, "The share of the light that glows around bright things, 0 to 1")
               ->check(CLI::Range(0.0, 1.0))
               ->capture_default_str();
     CLI::Option* spectra = add_spectra(*command, options->spectra);
@@ -133,7 +135,7 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
                                ->capture_default_str();
     CLI::Option* why = command
                            ->add_option("--why", options->why,
-                               "With the page that tells why: aberration, doppler, headlight, delay, "
+                               "With the page that explains one effect: aberration, doppler, headlight, delay, "
                                "dilation or length")
                            ->check(CLI::IsMember(std::vector<std::string>(why_names.begin(), why_names.end())))
                            ->capture_default_str();
@@ -143,16 +145,16 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
         "--replay", options->replay, "Instead of a shot: a record of starbow run --record, flown again frame by frame");
     for (CLI::Option* other : {shot, exr, pattern, points, overlay, why})
         replay->excludes(other);
-    command->add_option("--frames", options->frames, "Of a replay: the frames from A to B, counted from 0, as A:B")
+    command->add_option("--frames", options->frames, "With --replay: the frames from A to B, counted from 0, as A:B")
         ->needs(replay);
-    command->add_option("--every", options->every, "Of a replay: each N-th frame")
+    command->add_option("--every", options->every, "With --replay: each N-th frame")
         ->check(whole_number(1, 1000000000))
         ->needs(replay);
     CLI::Option* tour = command->add_option("--tour", options->tour,
         "Instead of a shot: a movie of a tour, a file or the name of one in config/tours, as it is shown when nobody flies");
     CLI::Option* movie
-        = command->add_option("--movie", options->movie, "Of a tour: the movie's file, such as out/tour.mp4")->needs(tour);
-    command->add_option("--fps", options->frames_per_s, "Of a tour: frames a second")
+        = command->add_option("--movie", options->movie, "With --tour: the movie's file, such as out/tour.mp4")->needs(tour);
+    command->add_option("--fps", options->frames_per_s, "With --tour: frames a second")
         ->check(whole_number(1, 240))
         ->capture_default_str()
         ->needs(tour);
@@ -160,10 +162,11 @@ void add_render(CLI::App& app, std::function<int()>& chosen)
     for (CLI::Option* other : {shot, out, exr, pattern, replay, points, overlay, why})
         tour->excludes(other);
     CLI::Option* reference = command->add_flag("--reference", options->reference,
-        "By rays, in double and with whole spectra, without a device: slow, and what the others should look like");
+        "Draw by rays, in double precision and with whole spectra, without a device: slow, the reference for the other "
+        "pictures");
     for (CLI::Option* other : {replay, tour, hud, pattern, bloom, spectra, quality, points, overlay, why})
         reference->excludes(other);
-    command->add_option("--samples", options->samples, "Of --reference: rays of each pixel")
+    command->add_option("--samples", options->samples, "With --reference: rays of each pixel")
         ->check(whole_number(1, 4096))
         ->capture_default_str()
         ->needs(reference);

@@ -38,15 +38,15 @@ std::pair<long, long> parse_frames(const std::string& text)
           "right");
 }
 
-/// Tells a person at a terminal how far it is, once a second.
+/// Shows the progress on a terminal, once a second.
 struct Progress {
-    Clock::time_point began = Clock::now(), told = began;
-    void tell(const Replay& replay, long drawn)
+    Clock::time_point began = Clock::now(), shown = began;
+    void show(const Replay& replay, long drawn)
     {
         const Clock::time_point now = Clock::now();
-        if (!isatty(STDERR_FILENO) || now - told < std::chrono::seconds(1))
+        if (!isatty(STDERR_FILENO) || now - shown < std::chrono::seconds(1))
             return;
-        told = now;
+        shown = now;
         const double passed = std::chrono::duration<double>(now - began).count(), part = replay.part_read();
         std::fprintf(stderr, "\rframe %lld, %ld drawn", static_cast<long long>(replay.frames()), drawn);
         if (part > 0)
@@ -55,7 +55,7 @@ struct Progress {
     }
     ~Progress()
     {
-        if (told != began)
+        if (shown != began)
             std::fprintf(stderr, "\r%60s\r", "");
     }
 };
@@ -83,12 +83,12 @@ int render_replay(const ReplayOptions& options)
     ReplayRenderer replay_renderer(renderer, pattern, header.exposing, header.start.exposure_ev);
     Typesetter typesetter;
     const Words words = words_in(options.language);
-    std::error_code error; // told by write_png
+    std::error_code error; // write_png reports it
     std::filesystem::create_directories(folder, error);
 
     Flight flight = flight_at(header.start, header.rules);
     History history;
-    long frame = 0, drawn = 0; // of those that were seen
+    long frame = 0, drawn = 0; // of the frames that were on a screen
     Progress progress;
     while (const auto entry = replay.next()) {
         flight = flown(
@@ -98,7 +98,7 @@ int render_replay(const ReplayOptions& options)
         if (!entry->shown)
             continue;
         const long number = frame++;
-        progress.tell(replay, drawn);
+        progress.show(replay, drawn);
         if (number < first || number > last || (number - first) % options.every != 0)
             continue;
         std::optional<Panel> panel;

@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 volatile std::sig_atomic_t interrupted = 0;
 void interrupt(int) { interrupted = 1; }
 
-/// A bar for a person at a terminal, and about how long the rest takes.
+/// A progress bar on a terminal, with an estimate of the rest.
 class Progress {
 public:
     explicit Progress(long frames)
@@ -34,11 +34,11 @@ public:
     }
     ~Progress()
     {
-        if (told_)
+        if (shown_)
             std::fprintf(stderr, "\r%78s\r", "");
     }
-    /// drawn: in this run.
-    void tell(long frame, long drawn)
+    /// drawn: number of frames drawn in this run.
+    void show(long frame, long drawn)
     {
         if (!isatty(STDERR_FILENO))
             return;
@@ -53,16 +53,16 @@ public:
                 stderr, left < 90 ? ", about %.0f s left   " : ", about %.0f min left   ", left < 90 ? left : left / 60);
         }
         std::fflush(stderr);
-        told_ = true;
+        shown_ = true;
     }
 
 private:
     long frames_;
-    bool told_ = false;
+    bool shown_ = false;
     Clock::time_point began_ = Clock::now();
 };
 
-/// Tells a person at a terminal what takes a while.
+/// Shows on a terminal the name of a step that takes long.
 struct Busy {
     explicit Busy(const char* what)
     {
@@ -76,19 +76,19 @@ struct Busy {
     }
 };
 
-/// The exit status of who was interrupted.
-int told_interrupted(const std::string& movie, long drawn, long frames)
+/// Reports an interruption and returns its exit status.
+int report_interruption(const std::string& movie, long drawn, long frames)
 {
     std::fprintf(stderr, "%sstarbow: %s: interrupted with %ld of %ld frames drawn; the same command goes on from there\n",
         isatty(STDERR_FILENO) ? "\n" : "", one_line(movie).c_str(), drawn, frames);
     return 130;
 }
 
-/// When a frame is, from the tour's beginning.
+/// A frame's time since the tour's start.
 std::int64_t frame_ns(long frame, long frames_per_s) { return std::llround(double(frame) * 1e9 / double(frames_per_s)); }
 
-/// All that a frame shows beside the world.
-std::string told_of(const Caption& caption)
+/// The text that a frame shows over the world.
+std::string text_of(const Caption& caption)
 {
     std::string all = caption.text;
     for (const std::string& choice : caption.choices)
@@ -96,7 +96,7 @@ std::string told_of(const Caption& caption)
     return all;
 }
 
-/// Where the frames of an output go: of several each has a movie of its own.
+/// The movie's file of one output: with several outputs each has its own.
 fs::path movie_of(const fs::path& movie, const Layout& layout, const std::string& output)
 {
     if (layout.outputs.size() == 1)
@@ -104,7 +104,7 @@ fs::path movie_of(const fs::path& movie, const Layout& layout, const std::string
     return movie.parent_path() / (movie.stem().string() + "-" + output + movie.extension().string());
 }
 
-/// Plays a tour to nobody.
+/// Plays a tour without a visitor.
 class Player {
 public:
     Player(const Show& show, long frames_per_s)
@@ -128,7 +128,7 @@ private:
     Touring touring_;
 };
 
-/// Everything that the frames depend on: two movies of which this is the same have the same frames.
+/// A digest of everything that the frames depend on: equal digests mean equal frames.
 std::string made_from(const TourOptions& options, const Show& show, const Words& words, const fs::path& scene,
     const Layout& layout, const std::string& device, long frames)
 {
@@ -138,7 +138,7 @@ std::string made_from(const TourOptions& options, const Show& show, const Words&
         const Touring& touring = player.at(i);
         const std::uint64_t flight = digest(touring.flight);
         shown = digest({reinterpret_cast<const char*>(&flight), sizeof flight}, shown);
-        shown = digest(told_of(caption_of(touring, show, words, {})), shown);
+        shown = digest(text_of(caption_of(touring, show, words, {})), shown);
     }
     std::error_code error;
     nlohmann::ordered_json json;
@@ -182,7 +182,7 @@ int render_tour(const TourOptions& options)
     const Show show{tour, {}, load_scene_file(scene).seconds_per_time_unit(), false};
     const long frames = std::lround(std::ceil(length_s(tour) * double(options.frames_per_s) - 1e-6));
     RenderContext context(scene, device_options(false));
-    const std::string device = context.device.properties.deviceName.data();
+    const std::string device = context.device.name();
     const MovieFrames kept(movie, made_from(options, show, words, scene, layout, device, frames), log_line);
 
     std::signal(SIGINT, interrupt);
@@ -203,9 +203,9 @@ int render_tour(const TourOptions& options)
                 ++found;
                 continue;
             }
-            progress.tell(i, drawn);
+            progress.show(i, drawn);
             if (interrupted)
-                return told_interrupted(options.movie, i, frames);
+                return report_interruption(options.movie, i, frames);
             const Touring& touring = player.at(i);
             Readings shown = readings(touring.flight.ship, context.world.scene, touring.flight.effects);
             shown.exposure_ev = touring.flight.exposure_ev;
@@ -226,9 +226,9 @@ int render_tour(const TourOptions& options)
         try {
             make_movie(file, kept, output.name, int(options.frames_per_s));
         } catch (const InputError&) {
-            if (!interrupted) // which ffmpeg was too
+            if (!interrupted) // the interruption stops ffmpeg too
                 throw;
-            return told_interrupted(options.movie, frames, frames);
+            return report_interruption(options.movie, frames, frames);
         }
         std::printf("%s: %ld frames, %.1f s\n", one_line(file.string()).c_str(), frames,
             double(frames) / double(options.frames_per_s));

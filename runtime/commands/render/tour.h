@@ -9,8 +9,7 @@ struct TourOptions {
     double bloom = 0;
 };
 
-/// Draws a tour frame by frame off-screen and makes a movie of it; goes on with one that was interrupted. Returns the exit
-/// status.
+/// Draws a tour frame by frame off-screen and makes a movie of it; continues an interrupted one. Returns the exit status.
 int render_tour(const TourOptions& options);
 
 } // namespace starbow

@@ -65,7 +65,7 @@ bool open_accessor(
     out.component_type = accessor.componentType;
     out.components = tinygltf::GetNumComponentsInType(std::uint32_t(accessor.type));
     out.normalized = accessor.normalized;
-    // Matrices, whose columns are padded, never get here: no attribute has them.
+    // Matrices have padded columns, but no attribute has them.
     auto size = std::size_t(tinygltf::GetComponentSizeInBytes(std::uint32_t(accessor.componentType)) * out.components);
     if (accessor.bufferView >= 0) {
         out.first = bytes_of(model, accessor.bufferView, accessor.byteOffset);

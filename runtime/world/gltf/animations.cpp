@@ -121,17 +121,17 @@ int add_joint(WorldBuild& build, int node, int above, const glm::dmat4& above_fr
         if (from.rotation.size() == 4)
             joint.rotation = glm::dquat(from.rotation[3], from.rotation[0], from.rotation[1], from.rotation[2]);
     }
-    // The greatest stretch and distance, with all above it, at any time.
+    // The greatest stretch and distance at any time, including all joints above.
     const JointBounds up = above < 0 ? JointBounds{} : build.bounds[std::size_t(above)];
-    auto told = [&](int track, const glm::dvec3& rest, auto size) {
+    auto bounded = [&](int track, const glm::dvec3& rest, auto size) {
         return track < 0 ? size(glm::dvec4(rest, 0)) : bound(world.tracks[std::size_t(track)], size);
     };
     const double across = stretch(glm::dmat3(joint.above_from_parent));
     JointBounds own;
-    own.scale = up.scale * across * told(joint.scales, joint.scale, largest);
+    own.scale = up.scale * across * bounded(joint.scales, joint.scale, largest);
     own.place = up.place
         + up.scale
-            * (glm::length(joint.above_from_parent[3]) + across * told(joint.translations, joint.translation, far_off));
+            * (glm::length(joint.above_from_parent[3]) + across * bounded(joint.translations, joint.translation, far_off));
     own.depth = up.depth + 1;
     if (!(own.scale < too_far && own.place < too_far))
         build.fail(place, "with its animation and its parents' transforms may lead beyond 1e30; should stay below");

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 namespace starbow {
 namespace {
 
-/// Returns "" or the problem. It never waits: a FIFO opens without a writer and is then refused.
+/// Reads a regular file; returns "" or the problem. It never waits: a FIFO opens without a writer and is then refused.
 std::string read_regular(const fs::path& path, std::size_t limit, Bytes& bytes)
 {
     int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
@@ -82,7 +82,8 @@ std::string split_glb(const Bytes& bytes, GltfFile& file)
     return json;
 }
 
-/// Before any parser: deep nesting overflows the stack of a recursive one, and each value costs far more than its text.
+/// Checks the text before any parser reads it: deep nesting would overflow a recursive parser's stack, and each value
+/// takes far more memory than its text.
 void check_json_bounds(const GltfFile& file, const std::string& json)
 {
     auto fail = [&](std::size_t at, const std::string& problem) {
@@ -132,7 +133,7 @@ Json parse_json(const GltfFile& file, const std::string& json)
         throw InputError(file.name, "line " + std::to_string(line) + ", column " + std::to_string(end - start + 1),
             "is neither glTF's JSON nor GLB; should be a .gltf or .glb file");
     } catch (const Json::exception&) {
-        // Such as a number that no double can hold.
+        // Such an error is a number that no double can hold.
         throw InputError(file.name, "/", "holds a number out of range");
     }
 }

@@ -6,7 +6,7 @@ namespace starbow {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Limits far above any world that a visitor could see drawn, and far below what would hurt the machine.
+/// Limits far above any world that can be drawn, and far below an amount that would hurt the machine.
 struct GltfLimits {
     static constexpr std::size_t file_bytes = std::size_t(1) << 30; ///< of the file and everything it names, together
     static constexpr std::size_t json_bytes = std::size_t(256) << 20;
@@ -26,7 +26,7 @@ struct GltfLimits {
     static constexpr std::size_t texture_bytes = std::size_t(1) << 30; ///< of all, as RGBA
 };
 
-/// A .gltf or .glb file in parts. Only its JSON has been checked, and only for being JSON.
+/// A .gltf or .glb file in parts. Its JSON is known to be well formed; no content is checked yet.
 struct GltfFile {
     std::string name; ///< as the user wrote it, for messages
     std::filesystem::path folder; ///< the file's own, symbolic links resolved

@@ -38,7 +38,7 @@ void guard_extensions(const Spot& root, GuardedGltf& out)
     });
 }
 
-/// Notes whole lists that a world without skeletons, seen by the ship's own eye, has no use for.
+/// Notes the lists that a world without skeletons, seen by the ship's own eye, does not use.
 void note_unused_lists(const Spot& root, GuardedGltf& out)
 {
     for (auto [key, what] : {std::pair{"skins", "skins: meshes are drawn as they are stored"}, {"cameras", "cameras"}})

@@ -28,7 +28,7 @@ void guard_input(const Spot& spot, const Use& use)
     use.keys_left -= input.count;
 }
 
-/// The specification's table: what a property's values may be, and how many belong to so many times.
+/// Checks a sampler's output by the specification's table: the type of a property's values and their number.
 void guard_output(const Spot& sampler, const std::string& path, const Use& use)
 {
     const Spot spot = sampler["output"];
@@ -66,7 +66,7 @@ void guard_sampler(const Spot& sampler, tinygltf::AnimationSampler& written, con
     written.interpolation = name;
 }
 
-/// False where nothing here reads it.
+/// Returns false for a channel that Starbow does not read.
 bool guard_channel(const Spot& channel, const Spot& samplers, tinygltf::AnimationChannel& written, const Use& use)
 {
     const auto sampler = std::size_t(index_into(object(channel)["sampler"], "sampler", samplers.size()));
@@ -82,7 +82,7 @@ bool guard_channel(const Spot& channel, const Spot& samplers, tinygltf::Animatio
         target["path"].fail("is " + in_quotes(path) + "; should be \"translation\", \"rotation\", \"scale\" or \"weights\"");
     guard_output(samplers[sampler], path, use);
     if (!target.has("node"))
-        return false; // as the specification has it
+        return false; // required by the specification
     const auto node = std::size_t(index_into(target["node"], "node", count_of(use.root, "nodes")));
     if (!use.out.model.nodes[node].matrix.empty())
         target["node"].fail("names node " + std::to_string(node)

@@ -149,8 +149,8 @@ void guard_images(GltfFile& file, const Spot& root, GuardedGltf& out)
         if (image.has("bufferView")) {
             auto view_index = index_into(image["bufferView"], "buffer view", count_of(root, "bufferViews"));
             const tinygltf::BufferView& view = out.model.bufferViews[std::size_t(view_index)];
-            out.images[i] = std::span(out.model.buffers[std::size_t(view.buffer)].data)
-                                .subspan(view.byteOffset, view.byteLength);
+            out.images[i]
+                = std::span(out.model.buffers[std::size_t(view.buffer)].data).subspan(view.byteOffset, view.byteLength);
         } else if (used[i]) {
             out.image_files.push_back(read_uri(file, image["uri"]));
             out.images[i] = out.image_files.back();

@@ -117,13 +117,12 @@ struct Legal {
 /// The legal types of an attribute: the specification's table, widened by KHR_mesh_quantization.
 const Legal* legal_for(const std::string& attribute)
 {
-    static const std::vector<int> quantized
-        = {TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
-            TINYGLTF_COMPONENT_TYPE_SHORT, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT};
+    static const std::vector<int> quantized = {TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_COMPONENT_TYPE_BYTE,
+        TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_SHORT, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT};
     static const Legal vectors = {{TINYGLTF_TYPE_VEC3}, quantized}, uv = {{TINYGLTF_TYPE_VEC2}, quantized},
-                       colour = {{TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4},
-                           {TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
-                               TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT}};
+                       colour
+        = {{TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4},
+            {TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT}};
     if (attribute == "POSITION" || attribute == "NORMAL")
         return &vectors;
     if (attribute == "COLOR_0")
@@ -168,7 +167,7 @@ void guard_primitive(const Spot& primitive, tinygltf::Primitive& written, Guarde
         const Legal* legal = legal_for(name);
         Spot spot = attributes[name];
         if (!legal) {
-            // Tangents, joints, further colours and an application's own: nothing here reads them.
+            // Starbow does not read tangents, joints, further colours or application-specific attributes.
             index_into(spot, "accessor", accessors.size());
             continue;
         }

@@ -34,11 +34,11 @@ std::optional<Spin> guard_spin(const Spot& node)
 {
     std::optional<Spin> out;
     read_extras(node, [&](const Spot& extras) {
-        only(extras, {"spin"});
+        reject_unknown_members(extras, {"spin"});
         if (!extras.has("spin"))
             return;
         const Spot spin = extras["spin"];
-        only(spin, {"axis", "turns_per_s"});
+        reject_unknown_members(spin, {"axis", "turns_per_s"});
         for (const char* key : {"axis", "turns_per_s"})
             if (!spin.has(key))
                 spin.fail("has no \"" + std::string(key) + "\"; should say about which axis it turns, and how often");
@@ -51,7 +51,7 @@ std::optional<Spin> guard_spin(const Spot& node)
     return out;
 }
 
-/// The specification's strict trees: each node has at most one parent, and following children never comes back.
+/// Checks the specification's strict trees: each node has at most one parent, and the children form no cycle.
 void check_trees(const Spot& nodes, const std::vector<std::int64_t>& parent)
 {
     std::vector<char> known(parent.size(), 0); // 1: on the way being followed, 2: leads to a root

@@ -5,7 +5,7 @@
 namespace starbow {
 namespace {
 
-/// A dictionary as text: some editors keep nothing else with a material.
+/// Limit of a member given as text, which some editors write because they keep nothing else with a material.
 constexpr std::size_t most_text = std::size_t(1) << 20;
 
 /// Pairs of a wavelength in nm, rising, and a value from 0 to `most`.
@@ -31,7 +31,7 @@ std::vector<std::pair<double, double>> points(const Spot& spot, double most)
 
 Emission emission(const Spot& spot)
 {
-    only(spot, {"black_body_K", "line_nm", "table"});
+    reject_unknown_members(spot, {"black_body_K", "line_nm", "table"});
     if (spot.size() != 1)
         spot.fail(
             "has " + std::to_string(spot.size()) + " members; should have one of \"black_body_K\", \"line_nm\", \"table\"");
@@ -45,7 +45,7 @@ Emission emission(const Spot& spot)
     return table;
 }
 
-/// `material` has the accepted members of the surface's material.
+/// Throws if the material can't emit. material: the accepted members of the surface's material.
 void check_emits(const Spot& spot, const tinygltf::Material& material)
 {
     if (material.extensions.contains("KHR_materials_unlit"))
@@ -62,14 +62,14 @@ void check_emits(const Spot& spot, const tinygltf::Material& material)
 
 WorldClock clock(const Spot& spot)
 {
-    only(spot, {"zero_s"});
-    // Beyond 1e10 a clock's figures have no room.
+    reject_unknown_members(spot, {"zero_s"});
+    // A clock's figures have no room for more than 1e10.
     return {spot.has("zero_s") ? number(spot["zero_s"], -1e10, 1e10) : 0};
 }
 
 Blink blink(const Spot& spot)
 {
-    only(spot, {"period_s", "on", "zero_s"});
+    reject_unknown_members(spot, {"period_s", "on", "zero_s"});
     if (!spot.has("period_s"))
         spot.fail("has no \"period_s\"; should say how many seconds a period lasts");
     Blink out{number(spot["period_s"], 1e-9, 1e10)};
@@ -82,7 +82,8 @@ Blink blink(const Spot& spot)
 
 void read_surface(const Spot& spot, const tinygltf::Material& material, Material& out)
 {
-    only(spot, {"ultraviolet", "infrared", "reflectance", "temperature_K", "emissivity", "emission", "clock", "blink"});
+    reject_unknown_members(
+        spot, {"ultraviolet", "infrared", "reflectance", "temperature_K", "emissivity", "emission", "clock", "blink"});
     if (spot.has("ultraviolet"))
         out.ultraviolet = number(spot["ultraviolet"], 0, 1);
     if (spot.has("infrared"))
@@ -111,7 +112,7 @@ void read_surface(const Spot& spot, const tinygltf::Material& material, Material
 
 void read_extras(const Spot& owner, const std::function<void(const Spot&)>& read)
 {
-    // Other people's extras may be anything at all.
+    // Other applications' extras may have any content.
     if (!owner.has("extras") || !owner.json["extras"].is_object() || !owner["extras"].has("starbow"))
         return;
     const Spot spot = owner["extras"]["starbow"];

@@ -94,7 +94,7 @@ bool boolean(const Spot& spot)
     return spot.json.get<bool>();
 }
 
-void only(const Spot& spot, std::initializer_list<const char*> known)
+void reject_unknown_members(const Spot& spot, std::initializer_list<const char*> known)
 {
     std::string right;
     for (const char* name : known)

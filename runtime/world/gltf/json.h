@@ -10,10 +10,10 @@ namespace starbow {
 
 using Json = nlohmann::json;
 
-/// A text from a file in quotes, made fit for one line of a message: printable ASCII, not long.
+/// A text from a file in quotes, shortened to printable ASCII for one line of a message.
 std::string in_quotes(const std::string& text);
 
-/// A value of a glTF file's JSON with its place, so that every message can name the place.
+/// A value of a glTF file's JSON with its place, which messages name.
 struct Spot {
     const Json& json;
     std::string at; ///< JSON pointer
@@ -26,7 +26,7 @@ struct Spot {
     std::size_t size() const { return json.size(); }
 };
 
-/// Each of these returns the value, or throws an InputError that names what would be right.
+/// Each of these returns the value, or throws InputError with a message that names a right value.
 const Spot& object(const Spot& spot);
 const Spot& list(const Spot& spot, std::size_t at_least = 1);
 std::int64_t integer(const Spot& spot, std::int64_t low, std::int64_t high);
@@ -35,10 +35,10 @@ std::vector<double> numbers(const Spot& spot, std::size_t count, double low, dou
 std::string text(const Spot& spot);
 bool boolean(const Spot& spot);
 
-/// Throws where an object has other members than these.
-void only(const Spot& spot, std::initializer_list<const char*> known);
+/// Throws InputError if an object has members other than these.
+void reject_unknown_members(const Spot& spot, std::initializer_list<const char*> known);
 
-/// An index into one of the file's lists, which holds `size` things.
+/// An index into one of the file's lists, which has `size` elements.
 std::int64_t index_into(const Spot& spot, const char* what, std::size_t size);
 
 /// The value of an optional member.

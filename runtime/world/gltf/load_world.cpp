@@ -6,7 +6,7 @@
 namespace starbow {
 namespace {
 
-/// The nodes that the scene starts from; a file without scenes shows all that it has.
+/// The root nodes of the scene; of a file without scenes, all roots.
 std::vector<int> roots(const tinygltf::Model& model)
 {
     if (!model.scenes.empty())
@@ -22,7 +22,7 @@ std::vector<int> roots(const tinygltf::Model& model)
     return out;
 }
 
-/// A mesh's primitives, made when a node first shows it.
+/// A mesh's primitives, made at the mesh's first use by a node.
 const std::vector<std::uint32_t>& primitives_of(WorldBuild& build, int mesh, std::map<int, std::vector<std::uint32_t>>& made)
 {
     auto [known, is_new] = made.try_emplace(mesh);
@@ -33,11 +33,11 @@ const std::vector<std::uint32_t>& primitives_of(WorldBuild& build, int mesh, std
     return known->second;
 }
 
-/// Adds the nodes below a joint.
+/// Adds an animated node's instances.
 void add_moving(WorldBuild& build, int node, const Motion& motion, const std::vector<std::uint32_t>& primitives)
 {
     World& world = build.world;
-    // The outside is determined at some of its moments: an animation may begin with no size at all.
+    // The orientation is tested at several times, because an animation may begin with size 0.
     constexpr int moments = 64;
     double determinant = 0;
     for (int i = 0; i < moments; ++i) {
@@ -67,7 +67,7 @@ void add_instances(WorldBuild& build)
     struct Visit {
         int node, parent;
         glm::dmat4 world_from_parent;
-        int joint; // the next that moves above it
+        int joint; // the next animated node above it
         glm::dmat4 joint_from_parent;
     };
     std::vector<Visit> open;
@@ -112,8 +112,8 @@ void add_instances(WorldBuild& build)
             if (build.world.instances.size() >= GltfLimits::instances)
                 build.fail(
                     place, "brings the world above " + std::to_string(GltfLimits::instances) + " instances; use fewer");
-            // A mirror turns clockwise into counter-clockwise. Turning the corners here spares the renderer a second
-            // case.
+            // A mirrored node reverses the triangles' orientation. Reversing the corners here spares the renderer a
+            // second case.
             build.world.instances.push_back(
                 {world_from_local, determinant < 0 ? turned_primitive(build, primitive) : primitive, index});
         }

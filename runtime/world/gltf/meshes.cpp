@@ -16,7 +16,7 @@ struct Attributes {
 glm::dvec3 read3(WorldBuild& build, const Elements& from, std::uint32_t i, const std::string& place, const char* attribute)
 {
     glm::dvec3 value(from.component(i, 0), from.component(i, 1), from.component(i, 2));
-    // Beyond 1e18 a squared length does not fit a float; nothing that is meant to be seen lies there.
+    // Beyond 1e18 a squared length does not fit a float; no visible thing is so far away.
     if (!(glm::length(value) < 1e18))
         build.fail(place + "/attributes/" + attribute,
             "element " + std::to_string(i) + " is not finite or above 1e18; should be smaller");
@@ -28,7 +28,7 @@ std::uint32_t pack_colour(const Elements& from, std::uint32_t i)
     std::uint32_t packed = 0;
     for (int c = 0; c < 4; ++c) {
         double value = c < from.components ? from.component(i, c) : 1;
-        double unit = value > 0 ? std::min(value, 1.0) : 0; // not a number becomes 0 too
+        double unit = value > 0 ? std::min(value, 1.0) : 0; // NaN becomes 0 too
         packed |= std::uint32_t(std::lround(unit * 255)) << 8 * c;
     }
     return packed;
@@ -54,7 +54,7 @@ Vertex read_vertex(WorldBuild& build, const Attributes& from, std::uint32_t i, c
     return out;
 }
 
-/// The corners of triangle `t`: which of the run of indices they are (glTF 2.0, section 3.7.2.1).
+/// The positions of triangle `t`'s corners in the list of indices (glTF 2.0, section 3.7.2.1).
 std::array<std::size_t, 3> corners(int mode, std::size_t t)
 {
     if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
@@ -106,7 +106,7 @@ Attributes open_attributes(WorldBuild& build, const tinygltf::Primitive& primiti
     return out;
 }
 
-/// Doubling, but never past the limit: the last doubling would cost more than all that is allowed.
+/// Grows by doubling, but never beyond the limit: the last doubling would take more than all that is allowed.
 template <typename T> void grow(std::vector<T>& to, std::size_t more, std::size_t limit)
 {
     if (to.capacity() < to.size() + more)
@@ -162,14 +162,15 @@ bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::
     if (3 * triangles > build.corners_left)
         build.fail(place, "brings the world above " + std::to_string(GltfLimits::indices / 3) + " triangles; use fewer");
     build.corners_left -= 3 * triangles;
-    // Corners of flat triangles are never shared.
+    // Flat triangles never share corners.
     make_room(build, place, attributes.has_normal ? 0 : 3 * triangles, 3 * triangles);
 
     Primitive made{};
     made.first_index = std::uint32_t(world.indices.size());
     made.vertex_offset = std::int32_t(world.vertices.size());
     made.material = material;
-    // Exporters let many primitives share one long list of vertices: take only those that this one uses.
+    // In exported files many primitives may share one long list of vertices; only those that this primitive uses are
+    // copied.
     auto& placed = build.placed;
     if (placed.size() < attributes.position.count)
         placed.resize(attributes.position.count, none);
@@ -185,7 +186,7 @@ bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::
                         + std::to_string(attributes.position.count - 1));
         }
         if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0])
-            continue; // strips turn with such triangles; they cover nothing
+            continue; // strips use such triangles to turn; they cover no area
         for (std::uint32_t vertex : corner) {
             if (!attributes.has_normal || placed[vertex] == none) {
                 if (attributes.has_normal) {

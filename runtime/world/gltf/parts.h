@@ -37,7 +37,7 @@ struct WorldBuild {
     std::size_t sparse_bytes_left = GltfLimits::sparse_bytes;
     std::size_t corners_left = GltfLimits::indices; ///< that may still be read, including those of empty triangles
     std::vector<std::uint32_t> placed; ///< of add_primitive: a vertex's new index, reset after each
-    std::map<std::uint32_t, std::uint32_t> turned; ///< primitives and their mirror-side doubles
+    std::map<std::uint32_t, std::uint32_t> turned; ///< reversed copies of primitives, for mirrored nodes
 
     std::map<int, NodeTracks> node_tracks; ///< by node; only of animated nodes
     std::vector<JointBounds> bounds; ///< one for each of the world's joints
@@ -59,15 +59,15 @@ Texture decode_image(
 void add_materials(WorldBuild& build);
 int material_of(WorldBuild& build, int gltf_material);
 
-/// Turns one glTF primitive into vertices and a list of triangles; false when it is no surface.
+/// Adds one glTF primitive as vertices and a list of triangles. Returns false for points and lines.
 bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::Primitive& primitive);
 
-/// The same triangles with their corners in the other order; returns the primitive's index.
+/// Adds a copy with the corners in the reverse order; returns the copy's index.
 std::uint32_t turned_primitive(WorldBuild& build, std::uint32_t primitive);
 
 glm::dmat4 local_transform(const tinygltf::Node& node);
 
-/// Adds the animations' tracks, and each node's share of them.
+/// Adds the animations' tracks, and assigns them to their nodes.
 void add_tracks(WorldBuild& build);
 /// Adds an animated or spinning node below a joint (above). Returns the new joint.
 int add_joint(WorldBuild& build, int node, int above, const glm::dmat4& above_from_parent);

@@ -10,7 +10,7 @@ namespace {
 /// Deflate packs at most 1032 to 1, so a 1-bit PNG holds at most 8256 pixels per byte; JPEG needs more than that.
 constexpr std::size_t pixels_per_byte = 8300;
 
-/// A progressive JPEG is gone over once per scan; encoders write about ten.
+/// A progressive JPEG is decoded once for each scan; encoders write about ten.
 constexpr std::ptrdiff_t jpeg_scans = 100;
 
 std::string suspicion(std::span<const std::uint8_t> bytes, int& width, int& height)
@@ -76,7 +76,7 @@ Sampler sampler_of(const tinygltf::Model& model, int index)
     return out;
 }
 
-/// Images seen through samplers. Those that differ in neither share a texture.
+/// Textures by image and sampler. Equal pairs share a texture.
 struct TextureShelf {
     WorldBuild& build;
     std::map<int, int> of_gltf;
@@ -130,8 +130,8 @@ template <typename TextureInfo> UvSource uv_source(const TextureInfo& info)
     };
     double angle = found->second.Has("rotation") ? found->second.Get("rotation").GetNumberAsDouble() : 0;
     double c = std::cos(angle), s = std::sin(angle);
-    // Counter-clockwise with v downwards, as the extension's text, its example and the Khronos viewer have it. The GLSL in
-    // its text reads the other way round.
+    // Counter-clockwise with v downwards, as in the extension's text, its example and the Khronos viewer. The GLSL in its
+    // text has the other sense.
     out.rotate_scale = glm::dmat2(c, -s, s, c);
     glm::dvec2 scale = pair("scale", glm::dvec2(1));
     out.rotate_scale[0] *= scale.x;
