@@ -47,7 +47,6 @@ const char* keyboard_help()
 
 void Keyboard::begin()
 {
-    before_ = now_;
     now_.fill(false);
     drag_ = {0, 0};
     held_ = false;
@@ -55,6 +54,12 @@ void Keyboard::begin()
 
 void Keyboard::collect(GLFWwindow* window)
 {
+    // States alone would take two taps in two frames for one long press: presses are counted as they come.
+    glfwSetWindowUserPointer(window, this);
+    glfwSetKeyCallback(window, [](GLFWwindow* of, int key, int, int action, int) {
+        if (action == GLFW_PRESS && key >= 0 && key < keys)
+            static_cast<Keyboard*>(glfwGetWindowUserPointer(of))->pressed_[std::size_t(key)] = true;
+    });
     for (int key = GLFW_KEY_SPACE; key < keys && key <= GLFW_KEY_LAST; ++key)
         now_[key] = now_[key] || glfwGetKey(window, key) == GLFW_PRESS;
     if (glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS) {
@@ -104,6 +109,7 @@ void Keyboard::finish(Controls& controls, bool pads)
     controls.choose = pressed(GLFW_KEY_F3) ? (shift ? -1 : 1) : 0;
     controls.turn_by = (shift ? 10 : 1) * (pressed(GLFW_KEY_PAGE_UP) - pressed(GLFW_KEY_PAGE_DOWN));
     controls.save = pressed(GLFW_KEY_F5);
+    pressed_.fill(false);
 
     pad_before_ = pad_;
     pad_.fill(false);

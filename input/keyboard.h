@@ -29,9 +29,10 @@ private:
     void collect(GLFWwindow* window);
     void finish(Controls& controls, bool pads);
     bool down(int key) const { return now_[key]; }
-    bool pressed(int key) const { return now_[key] && !before_[key]; }
+    bool pressed(int key) const { return pressed_[key]; }
 
-    std::array<bool, keys> now_{}, before_{};
+    std::array<bool, keys> now_{}; ///< down at the reading, or for a time since the one before
+    std::array<bool, keys> pressed_{}; ///< went down since the reading before
     std::array<bool, buttons> pad_{}, pad_before_{};
     glm::dvec2 pointer_{0}, drag_{0};
     GLFWwindow* dragging_ = nullptr;

@@ -1,5 +1,5 @@
-// The house rules, read from the repository itself: README's table says which room may include which, and every #include of
-// the repository is held against it.
+// The house rules, read from the repository itself: README's table says which room may include which, and every #include
+// must follow it.
 #include "tests/support/files.h"
 #include <algorithm>
 #include <fstream>
@@ -30,7 +30,7 @@ std::vector<std::string> quoted(const std::string& cell)
     return all;
 }
 
-/// The rows of the one table whose head names "room" and "may include".
+/// Reads the rows of the table with "room" and "may include" in its head.
 std::vector<Room> rooms_of(const std::string& readme)
 {
     static const std::regex row(R"(\| `([^`]+)/` \|[^|]*\|([^|]*)\|)");
@@ -46,11 +46,11 @@ std::vector<Room> rooms_of(const std::string& readme)
 }
 
 struct Include {
-    std::string from, to; ///< files, from the repository's root; to: as written where no such file is found
+    std::string from, to; ///< files, from the repository's root; to: the text of the include if no such file exists
     bool found = false;
 };
 
-/// Each include with quotes in a source's text. exists: whether the repository holds a file.
+/// All includes with quotes in a source's text. exists: returns true if the repository has the file.
 std::vector<Include> includes_of(
     const std::string& file, const std::string& text, const std::function<bool(const std::string&)>& exists)
 {
@@ -59,7 +59,7 @@ std::vector<Include> includes_of(
     for (std::sregex_iterator at(text.begin(), text.end(), include), end; at != end; ++at) {
         const std::string written = (*at)[2];
         Include one{file, written};
-        // Beside the file, from the root, and, in GLSL, from shaders/: as the compilers look.
+        // Compilers look beside the file, from the root, and, for GLSL, in shaders/.
         for (const fs::path& folder : {fs::path(file).parent_path(), fs::path(), fs::path("shaders")}) {
             const std::string path = (folder / written).lexically_normal().generic_string();
             if (!one.found && exists(path))
@@ -96,14 +96,14 @@ const Room* room_of(const std::vector<Room>& rooms, const std::string& file)
     return best;
 }
 
-/// A sentence for each include that the table does not allow.
+/// One sentence for each include that the table does not allow.
 std::vector<std::string> broken_rules(const std::vector<Room>& rooms, const std::vector<Include>& includes)
 {
     std::vector<std::string> broken;
     for (const Include& one : includes) {
         if (!one.found) {
-            if (!one.to.starts_with("spirv/")) // made by the build
-                broken.push_back(one.from + " includes \"" + one.to + "\", which the repository does not hold");
+            if (!one.to.starts_with("spirv/")) // the build generates it
+                broken.push_back(one.from + " includes \"" + one.to + "\", which the repository does not have");
             continue;
         }
         const Room *from = room_of(rooms, one.from), *to = room_of(rooms, one.to);
@@ -121,7 +121,7 @@ std::vector<std::string> broken_rules(const std::vector<Room>& rooms, const std:
     return broken;
 }
 
-/// The files of one cycle of includes, the first one twice; none: there is no cycle.
+/// The files of one cycle of includes, with the first one at both ends; empty without a cycle.
 std::vector<std::string> cycle(const std::vector<Include>& includes)
 {
     std::map<std::string, std::vector<std::string>> next;
@@ -173,7 +173,7 @@ const std::vector<Include>& includes()
 TEST(House, EveryIncludeFollowsTheTableInReadme)
 {
     ASSERT_GE(rooms().size(), 20u);
-    ASSERT_GE(includes().size(), 900u); // all sources were found
+    ASSERT_GE(includes().size(), 900u); // otherwise some sources were not found
     EXPECT_EQ(lines(broken_rules(rooms(), includes())), "");
 }
 
@@ -181,7 +181,7 @@ TEST(House, ARoomIncludesOnlyRoomsAboveItInTheTable)
 {
     for (std::size_t i = 0; i < rooms().size(); ++i) {
         EXPECT_TRUE(fs::is_directory(source_dir() / rooms()[i].folder)) << rooms()[i].folder;
-        // `runtime` and `displays` stand for all of their rooms; of those only the ones above may in fact be included.
+        // `runtime` and `displays` name all of their rooms, but only those above may be included.
         for (const Include& one : includes())
             if (one.found && room_of(rooms(), one.from) == &rooms()[i]) {
                 const Room* to = room_of(rooms(), one.to);
@@ -206,7 +206,7 @@ TEST(House, NoCodeIncludesVulkanOutsideRenderExhibitAndTheirBenches)
         }
 }
 
-/// starbow_room(NAME FOLDER LIBRARY...) in CMakeLists.txt: what is linked is what may be included.
+/// starbow_room(NAME FOLDER LIBRARY...) in CMakeLists.txt may link only rooms that may be included.
 TEST(House, ARoomsLibraryLinksOnlyWhatTheTableAllows)
 {
     const std::string cmake = read_text(source_dir() / "CMakeLists.txt");
@@ -233,7 +233,7 @@ TEST(House, ARoomsLibraryLinksOnlyWhatTheTableAllows)
     }
 }
 
-// The test itself: what it must find, planted.
+// Planted faults: the rules of this file must find them.
 TEST(House, PlantedFaultsAreFound)
 {
     const std::vector<Room> two{{"low", {}}, {"high", {"low"}}};
@@ -245,7 +245,7 @@ TEST(House, PlantedFaultsAreFound)
     EXPECT_EQ(lines(broken_rules(two, includes("low/a.h", "#pragma once\n#include \"high/c.h\"\n"))),
         "low/a.h includes high/c.h: low/ may not include high/\n");
     EXPECT_EQ(lines(broken_rules(two, includes("low/a.h", "  # include \"gone.h\"\n"))),
-        "low/a.h includes \"gone.h\", which the repository does not hold\n");
+        "low/a.h includes \"gone.h\", which the repository does not have\n");
     EXPECT_EQ(lines(broken_rules(two, includes("high/c.h", "#include \"stray/d.h\""))),
         "stray/d.h is in no room of README's table\n");
     std::vector<Include> both = includes("low/a.h", "#include \"b.h\"");

@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
-# Shows whether two builds of starbow draw the same pictures, byte for byte: every shipped shot on every shipped layout,
-# PNG and EXR.
+# Compares the pictures of two builds of starbow byte for byte: every shipped shot on every shipped layout, PNG and EXR.
 #
-#   tests/same_pictures.sh hashes STARBOW FILE    writes one line a picture: SHA-256, layout, shot, file; goes on after an
-#                                                 interruption with the pictures that FILE lacks
+#   tests/same_pictures.sh hashes STARBOW FILE    writes a line for each picture: SHA-256, layout, shot, file; after an
+#                                                 interruption it continues with the pictures that FILE lacks
 #   tests/same_pictures.sh compare FILE FILE      exits 0 if both files hold the same pictures, and 1 with the differing ones
 #   tests/same_pictures.sh STARBOW STARBOW        both steps, for two programs, in a temporary folder
 #
@@ -60,10 +59,10 @@ compare() {
 }
 
 case "${1:-}" in
-    hashes) [ $# = 3 ] || { sed -n 2,12p "$0" >&2; exit 2; }; hashes "$2" "$3" ;;
-    compare) [ $# = 3 ] || { sed -n 2,12p "$0" >&2; exit 2; }; compare "$2" "$3" ;;
+    hashes) [ $# = 3 ] || { sed -n 2,10p "$0" >&2; exit 2; }; hashes "$2" "$3" ;;
+    compare) [ $# = 3 ] || { sed -n 2,10p "$0" >&2; exit 2; }; compare "$2" "$3" ;;
     *)
-        [ $# = 2 ] || { sed -n 2,12p "$0" >&2; exit 2; }
+        [ $# = 2 ] || { sed -n 2,10p "$0" >&2; exit 2; }
         both=$(mktemp -d)
         (hashes "$1" "$both/a") && (hashes "$2" "$both/b")
         compare "$both/a" "$both/b"

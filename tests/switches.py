@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Flies a minute through every switch of a visitor and prints the longest frames, with and without a warm-up before.
 
-    tests/switches.py STARBOW [SECONDS] [-- OPTIONS FOR starbow run]      (wants a display: xvfb-run works)
+    tests/switches.py STARBOW [SECONDS] [-- OPTIONS FOR starbow run]      (needs a display: xvfb-run works)
 
-The flight is a record that this script writes: the lever goes up to the fastest and back, and four times a second another
-switch is pressed. Frame times are taken from the trace, from one frame's reading of the controls to the next one's.
+The script writes a record and replays it: the lever goes up to its end and back, and four times a second another switch is
+pressed. A frame's time in the trace is from its reading of the controls to the next frame's.
 """
 import json
 import pathlib
@@ -15,7 +15,7 @@ import tempfile
 starbow, seconds = sys.argv[1], float(sys.argv[2]) if len(sys.argv) > 2 and sys.argv[2] != "--" else 60.0
 options = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
 switches = ["aberration", "doppler", "headlight", "false_colours", "comparison", "overlay", "hud", "why", "next_mode"]
-presses = {"comparison": 3, "overlay": 6, "why": 7, "next_mode": 3}  # until it is back; the others twice: off and on
+presses = {"comparison": 3, "overlay": 6, "why": 7, "next_mode": 3}  # presses until the first state is back; the others need two
 sequence = [name for name in switches for _ in range(presses.get(name, 2))]
 
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# clang-tidy on the C++ files that differ from a git base, with the checks in .clang-tidy. Exit 1 where it finds something.
+# Runs clang-tidy on the C++ files that differ from a git base, with the checks in .clang-tidy. Exits with 1 if it finds
+# something.
 # Usage: tests/tidy.sh [BASE] [-- FILE...]     tests/tidy.sh main; tests/tidy.sh HEAD -- input/hid.cpp
-# BASE is HEAD~1 unless given; files named after -- are taken instead. STARBOW_BUILD: a configured build folder.
+# BASE is HEAD~1 by default. Files after -- replace the differing ones. STARBOW_BUILD names a configured build folder.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -20,7 +21,7 @@ if [ "${1:-}" = -- ]; then
 elif git rev-parse --verify --quiet "$base^{commit}" >/dev/null; then
     mapfile -t files < <(git diff --name-only --diff-filter=d "$base" -- '*.cpp')
 else
-    echo "$base is no commit here; a branch, a tag or a commit is right." >&2
+    echo "$base is no commit of this repository; a branch, a tag or a commit is right." >&2
     exit 2
 fi
 if [ ${#files[@]} = 0 ]; then
@@ -28,7 +29,7 @@ if [ ${#files[@]} = 0 ]; then
     exit 0
 fi
 
-# Without unity builds and precompiled headers, which GCC makes and clang can't read: each file as if it stood alone.
+# Without unity builds and without precompiled headers: GCC makes those, and clang can't read them.
 build=${STARBOW_BUILD:-build/tidy}
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
     -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null

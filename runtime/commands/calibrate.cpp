@@ -4,11 +4,11 @@
 #include "config/model/shipped.h"
 #include "input/calibration.h"
 #include "input/hid.h"
+#include "interrupt.h"
 #include "runtime/operation/log.h"
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <poll.h>
@@ -29,19 +29,12 @@ constexpr int look_every_ms = 5; // a button is down for about a tenth of a seco
 constexpr int draw_every_ms = 50;
 constexpr std::size_t bar_width = 41, most_buttons = 128;
 
-volatile std::sig_atomic_t interrupted = 0;
-
 using Look = std::function<void()>;
 
 /// The person at the terminal.
 class Person {
 public:
-    Person()
-    {
-        struct sigaction stop { };
-        stop.sa_handler = [](int) { interrupted = 1; };
-        sigaction(SIGINT, &stop, nullptr); // no SA_RESTART: poll() shall return
-    }
+    Person() { catch_interrupts(); }
 
     Look always = [] {}; ///< is called during every question
 
@@ -66,7 +59,7 @@ public:
             }
             pollfd wait{0, POLLIN, 0};
             const int events = poll(&wait, 1, look_every_ms);
-            if (interrupted)
+            if (interrupted())
                 give_up();
             if (events > 0) {
                 char bytes[256];
@@ -88,7 +81,7 @@ public:
         const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
         while (std::chrono::steady_clock::now() < end) {
             std::this_thread::sleep_for(std::chrono::milliseconds(look_every_ms));
-            if (interrupted)
+            if (interrupted())
                 give_up();
             look();
         }
@@ -499,7 +492,7 @@ int calibrate(const CalibrateOptions& options)
         if (replace != "y" && replace != "yes")
             throw InputError(file.string(), "", "is there already and was kept; --force or another --out is right");
     }
-    if (interrupted)
+    if (interrupted())
         throw InputError("The calibration was broken off; nothing was written");
     save_profile(profile, file);
     std::printf("\nWritten to %s.\nAn exhibit that is running goes on with what it has and reads this at its next start.\n",

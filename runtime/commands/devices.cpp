@@ -119,8 +119,7 @@ int print_descriptor(const std::string& file)
 /// Draws a device's axes as bars, one on each line.
 void draw_controls(const Hid::Connected& device)
 {
-    std::printf(
-        "%s, %s, profile: %s\n", describe(device.info).c_str(), device.info.path.c_str(), device.profile.c_str());
+    std::printf("%s, %s, profile: %s\n", describe(device.info).c_str(), device.info.path.c_str(), device.profile.c_str());
     std::string buttons;
     for (std::size_t i = 0; i < device.descriptor.fields.size(); ++i) {
         const Field& field = device.descriptor.fields[i];

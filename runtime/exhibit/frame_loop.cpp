@@ -3,6 +3,7 @@
 #include "config/json/reader.h"
 #include "runtime/flight/record_files.h"
 #include "runtime/operation/log.h"
+#include "runtime/operation/progress.h"
 #include "runtime/operation/trace.h"
 #include "runtime/render/debug.h"
 #include "runtime/render/warm_up.h"
@@ -10,7 +11,6 @@
 #include <GLFW/glfw3.h>
 #include <cstdio>
 #include <thread>
-#include <unistd.h>
 #include <utility>
 
 namespace starbow {
@@ -163,17 +163,13 @@ void FrameLoop::warm_up()
     frame.bloom(session_.options.exposure.bloom);
     const SceneFile& scene = context_.world.scene;
     const Panel* panel = hud_.update(session_, scene, 0, frame.views().hud_width());
-    const bool terminal = isatty(STDERR_FILENO);
+    Progress progress;
     const std::size_t made = starbow::warm_up(device_, context_.pipelines, frame, session_.options.start, panel, format,
         qualities, [&](std::size_t step, std::size_t steps) {
             glfwPollEvents(); // else the window system takes the program for dead
-            const double passed = seconds(Clock::now() - began);
-            if (terminal && step > 0)
-                std::fprintf(stderr, "\rcompiling what the switches can need: %zu of %zu, about %.0f s left \033[K", step,
-                    steps, passed / double(step) * double(steps - step));
+            progress.show("compiling pipelines of all switches: " + std::to_string(step) + " of " + std::to_string(steps),
+                double(step) / double(steps));
         });
-    if (terminal)
-        std::fprintf(stderr, "\r\033[K");
     std::array<char, 80> text;
     std::snprintf(text.data(), text.size(), "%zu pipelines are ready after %.1f s", made, seconds(Clock::now() - began));
     log_info("pipelines", text.data());

@@ -1,11 +1,10 @@
 #include "offscreen.h"
 #include "config/json/error.h"
 #include "debug.h"
-#include <chrono>
+#include "runtime/operation/progress.h"
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <unistd.h>
 
 namespace starbow {
 namespace {
@@ -14,37 +13,6 @@ using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 
 constexpr vk::Format picture_format = vk::Format::eR8G8B8A8Srgb;
-
-/// Shows the current step and the estimated rest of a long still on a terminal.
-class Progress {
-public:
-    explicit Progress(std::size_t steps)
-        : steps_(steps)
-    {
-    }
-    ~Progress()
-    {
-        if (shown_)
-            std::fprintf(stderr, "\r%60s\r", "");
-    }
-    void next(const std::string& what)
-    {
-        double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
-        if (isatty(STDERR_FILENO)) {
-            shown_ = true;
-            std::fprintf(stderr, "\r%zu of %zu: %-30s", done_ + 1, steps_, what.c_str());
-            if (done_ > 0)
-                std::fprintf(stderr, " about %.0f s left ", passed / double(done_) * double(steps_ - done_));
-            std::fflush(stderr);
-        }
-        ++done_;
-    }
-
-private:
-    std::size_t steps_, done_ = 0;
-    bool shown_ = false;
-    std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-};
 
 vk::Extent2D extent_of(glm::ivec2 size) { return {std::uint32_t(size.x), std::uint32_t(size.y)}; }
 
@@ -171,12 +139,18 @@ std::vector<std::vector<std::uint8_t>> render_still(
     const std::filesystem::path& directory, OffscreenRenderer& renderer, const Shot& shot, bool exr, const Panel* hud)
 {
     const auto& outputs = renderer.layout().outputs;
-    Progress progress(exr ? 2 + 2 * outputs.size() : 2);
-    progress.next("drawing");
+    Progress progress;
+    const std::size_t steps = exr ? 2 + 2 * outputs.size() : 2;
+    std::size_t done = 0;
+    const auto next = [&](const std::string& step) {
+        progress.show(std::to_string(done + 1) + " of " + std::to_string(steps) + ": " + step, double(done) / double(steps));
+        ++done;
+    };
+    next("drawing");
     auto pictures = renderer.picture(shot, hud);
     std::vector<Channels> numbers;
     for (std::size_t i = 0; exr && i < outputs.size(); ++i) {
-        progress.next("measuring " + outputs[i].name);
+        next("measuring " + outputs[i].name);
         numbers.push_back(renderer.numbers(shot, i));
     }
     std::error_code error;
@@ -184,11 +158,11 @@ std::vector<std::vector<std::uint8_t>> render_still(
     if (error)
         throw InputError(
             directory.string(), "", "can't be made (" + error.message() + "); give a folder that can be written");
-    progress.next("writing");
+    next("writing");
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         write_png(directory / (outputs[i].name + ".png"), outputs[i].size, pictures[i]);
         if (exr)
-            progress.next("compressing " + outputs[i].name),
+            next("compressing " + outputs[i].name),
                 write_exr(directory / (outputs[i].name + ".exr"), outputs[i].size, numbers[i]);
     }
     return pictures;

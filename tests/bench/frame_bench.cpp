@@ -1,4 +1,4 @@
-// What the processor does for a frame: plans, culling, stars, a step of the flight.
+// Times the processor's work for a frame: cube-map plan, culling, stars, and a step of the flight.
 #include "runtime/flight/flight.h"
 #include "runtime/plan/cube_map_plan.h"
 #include "runtime/plan/cull.h"
@@ -13,13 +13,13 @@
 namespace starbow {
 namespace {
 
-/// How one view along -z flies.
+/// The request of one view whose eye flies along -z.
 RestFrameRequest looking(const CompiledView& view, double gamma)
 {
     const glm::dvec3 u(0, 0, -testing::u_of_gamma(gamma));
     return {{{view.cones.get(), motion_from_world(u, glm::dquat(1, 0, 0, 0))}}, physics::exp_rapidity(glm::length(u))};
 }
-/// As `balanced`.
+/// The values of the preset `balanced`.
 const Quality quality{.texels_per_pixel = 0.8, .max_texels_per_pixel = 1, .image_cost_texels = 32768};
 
 void plan(benchmark::State& state, const Projection& projection, glm::ivec2 size)
@@ -52,7 +52,7 @@ void table(benchmark::State& state)
 }
 BENCHMARK(table)->Arg(4)->Arg(100)->Unit(benchmark::kMicrosecond);
 
-/// As many instances of a box, about a window at gamma 4.
+/// Culls range(0) boxes around a window's view at gamma 4.
 void culling(benchmark::State& state)
 {
     const World world = testing::boxes(int(state.range(0)), 7);

@@ -1,4 +1,4 @@
-// The formulas themselves, in double; direction maps; the reference's rays.
+// Times the formulas in double, direction maps and the reference's rays.
 #include "config/model/one_view.h"
 #include "config/model/shipped.h"
 #include "runtime/reference/reference.h"
@@ -15,8 +15,8 @@ void boost(benchmark::State& state)
     const double E = physics::exp_rapidity(testing::u_of_gamma(4));
     glm::dvec3 n = glm::normalize(glm::dvec3(0.3, 0.4, 0.5));
     for (auto _ : state) {
-        const auto sight = physics::world_from_camera(n, E, 1 / E);
-        benchmark::DoNotOptimize(sight);
+        const auto ray = physics::world_from_camera(n, E, 1 / E);
+        benchmark::DoNotOptimize(ray);
         n.x = -n.x;
     }
 }
@@ -30,7 +30,7 @@ void map(benchmark::State& state)
 }
 BENCHMARK(map)->Unit(benchmark::kMillisecond);
 
-/// The avenue at gamma 4, one ray a pixel.
+/// Draws the avenue at gamma 4 with one ray a pixel.
 void rays(benchmark::State& state)
 {
     const ReferenceWorld world = open_reference_world(shipped_file("scenes", "avenue"));

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A whole calibration of a stick that is not there, as a person would do it: what is written, and that it counts from then on.
+# Calibrates a simulated stick as a person does. The profile must be right, and the program must use it afterwards.
 # Usage: calibrate_test.sh PROGRAM RIG_FOLDER
 set -u
 starbow=$1 rig=$2
@@ -15,22 +15,22 @@ fail() {
     echo "FAILED: $*"
 }
 
-check() { # WHAT TEXT: TEXT is in $said
+check() { # WHAT TEXT: $said must contain TEXT
     if [[ $said == *"$2"* ]]; then
         passed=$((passed + 1))
     else
-        fail "$1: '$2' is not in: $said"
+        fail "$1: '$2' is missing in: $said"
     fi
 }
 
-# stick X Y TWIST SLIDER [BUTTONS]: a report of the T.16000M, 64 bytes: buttons and hat (let go), X and Y of 14 bits, twist
-# and slider of 8, nothing.
+# stick X Y TWIST SLIDER [BUTTONS]: prints one report of the T.16000M, 64 bytes: buttons and a released hat, X and Y with 14 bits,
+# twist and slider with 8, then zeros.
 stick() {
     printf 'report thrustmaster-t16000m %02x000f%02x%02x%02x%02x%02x%02x%0110d\n' "${5:-0}" $(($1 & 255)) $(($1 >> 8)) \
         $(($2 & 255)) $(($2 >> 8)) "$3" "$4" 0
 }
 
-play() { # STATUS SCRIPT ARGUMENTS...: what the program says is in $said
+play() { # STATUS SCRIPT ARGUMENTS...: runs the program with a script, and puts its output into $said
     local expected=$1 script=$2 file=$folder/script$BASHPID status
     shift 2
     printf '%s\n' "$script" > "$file"
@@ -39,14 +39,14 @@ play() { # STATUS SCRIPT ARGUMENTS...: what the program says is in $said
     [ $status = "$expected" ] || fail "$*: exit $status, not $expected: $said"
 }
 
-says() { # TEXT: waits until the program does
+says() { # TEXT: waits until the program prints it
     echo "until $1"
 }
 enter() {
     echo "type $*"
 }
 
-# The middle of X trembles by 20 around 8000, not around 8192; the slider stays where it is put; Y reaches from 300 to 16000.
+# The middle of X trembles by 20 around 8000, not around 8192. The slider stays where it is put. Y reaches from 300 to 16000.
 tremble() { # TENTHS_OF_A_SECOND SLIDER
     for ((i = 0; i < $1; ++i)); do
         stick 7980 8200 128 "$2"
@@ -71,7 +71,7 @@ middle_and_ends() { # of X alone
     done
     enter
 }
-quick() { # ANSWER: of two, the stick is the first in the list, in the ports' order
+quick() { # ANSWER: of two devices, the stick is the first in the list, which is in the ports' order
     echo "plug thrustmaster-twcs-throttle 1"
     echo "plug thrustmaster-t16000m 0"
     echo "start typed"
@@ -93,25 +93,25 @@ by_serial() {
     enter y
 }
 
-# A file that is there is replaced only by a yes. Meanwhile:
+# An existing file is replaced only after a yes. The next tests run at the same time:
 echo 'mine' > "$folder/there.json"
 (
     failed=0
     play 2 "$(quick '')" calibrate --quick --out "$folder/there.json"
-    check 'chosen' 'Calibrating Thrustmaster T.16000M flight stick (044f:b10a)'
-    check 'kept' 'is there already and was kept'
-    check 'left out' 'Not moved to any ends, so left as they were: Y axis, twist (Rz), slider.'
+    check 'the chosen device' 'Calibrating Thrustmaster T.16000M flight stick (044f:b10a)'
+    check 'the existing file is kept' 'is there already and was kept'
+    check 'axes that were not moved' 'Not moved to any ends, so left as they were: Y axis, twist (Rz), slider.'
     [ "$(cat "$folder/there.json")" = mine ] || fail 'the file was changed without a yes'
 
-    # A stick that tells its serial number may have a profile of its own, which counts for it whatever its kind has.
+    # A stick that reports its serial number may have a profile of its own, which goes before its model's.
     export XDG_CONFIG_HOME=$folder/serial
     mkdir "$folder/hid"
     sed 's/"vid"/"serial": "A\/12", "vid"/' "$hid/thrustmaster-t16000m.json" > "$folder/hid/thrustmaster-t16000m.json"
     hid=$folder/hid
     play 0 "$(by_serial)" calibrate --quick
-    check 'by serial' "Written to $folder/serial/starbow/profiles/044f-b10a-A_12.json."
+    check 'a profile by serial number' "Written to $folder/serial/starbow/profiles/044f-b10a-A_12.json."
     play 0 $'plug thrustmaster-t16000m 0\nstart' devices
-    check 'what counts for it' 'profile: Mine'
+    check 'the profile that devices lists' 'profile: Mine'
     exit $failed
 ) &
 beside=$!
@@ -124,7 +124,7 @@ session=$(
     enter
     says 'Hands off'
     echo "wait 0.3"
-    stick 15000 8200 128 255 # a hand on it: once more
+    stick 15000 8200 128 255 # a hand on the stick: the step repeats
     echo "wait 0.1"
     stick 8000 8200 128 255
     says 'Moved meanwhile: X axis.'
@@ -142,7 +142,7 @@ session=$(
     stick 120 8300 128 40
     enter
     says 'Nose to the right'
-    stick 8000 15900 12 40 # two at once are refused
+    stick 8000 15900 12 40 # moving two axes at once is refused
     enter
     says 'Several moved'
     says 'Nose to the right'
@@ -157,7 +157,7 @@ session=$(
     says 'full'
     stick 8000 8200 128 1
     enter
-    # Full stop is button 4; back to the start stays; ten seconds back goes; next mode is button 2.
+    # Full stop is button 4; home stays; "ten seconds back" is removed; next mode is button 2.
     says 'Full stop'
     press 8
     enter
@@ -172,11 +172,11 @@ session=$(
     enter Left stick
 )
 play 0 "$session" calibrate
-check 'the middle' 'The middle.'
-check 'two at once' 'Several moved: Y axis and twist (Rz).'
-check 'the end' "Written to $written."
-[[ $said == *'counts before it'* ]] && fail "another profile counts: $said"
-python3 - "$written" << 'END' || fail "the profile: $(cat "$written")"
+check 'the first step' 'The middle.'
+check 'two axes at once' 'Several moved: Y axis and twist (Rz).'
+check 'the last line' "Written to $written."
+[[ $said == *'counts before it'* ]] && fail "another profile goes before it: $said"
+python3 - "$written" << 'END' || fail "the written profile is wrong: $(cat "$written")"
 import json, sys
 profile = json.load(open(sys.argv[1]))
 axes = {axis["usage"]: axis for axis in profile["axes"]}
@@ -189,36 +189,36 @@ assert (low, high) == (100, 16200) and 7980 <= middle <= 8020
 assert axes[49]["range"] == [300, 8200, 16000]
 assert axes[53]["range"] == [10, 128, 250]
 assert axes[54]["range"] == [0, 127.5, 255]
-# Without noise the floor; X trembles by up to 40 of 7880, a half more is 0.0076, still below it.
+# Axes without noise get the least dead zone. X trembles by up to 40 of 7880; one and a half times that is 0.0076, still below.
 assert [axes[usage].get("dead_zone", 0.06) for usage in (48, 49, 53, 54)] == [0.03, 0.03, 0.03, 0.02]
 buttons = {button["role"]: button["button"] for button in profile["buttons"]}
-# The shipped profile had home on 2, which is next-mode now, and doppler on 4, which stops.
+# The shipped profile had home on 2, now next mode, and doppler on 4, now full stop.
 assert buttons == {"stop": 4, "next-mode": 2, "headlight": 5, "aberration": 6, "hud": 7}
 assert profile["hat"] == {"x": "look-right", "y": "look-up"}
 END
-[ -z "$(find "$folder/config" -name '*.part')" ] || fail 'a part of a file is left'
+[ -z "$(find "$folder/config" -name '*.part')" ] || fail 'a temporary file is left'
 
 play 0 $'plug thrustmaster-t16000m 0\nstart' devices
-check 'what counts afterwards' 'profile: Left stick'
+check 'the profile in use afterwards' 'profile: Left stick'
 
-# Whatever ends it before its end leaves the file as it was.
+# A calibration that is broken off leaves the file unchanged.
 before=$(cat "$written")
 alone=$'plug thrustmaster-t16000m 0\nstart typed\nuntil The middle.'
 play 2 "$alone"$'\ntype' calibrate --device 044f:b10a
-check 'the end of what is typed' 'broken off; nothing was written'
+check 'the end of the input' 'broken off; nothing was written'
 play 2 "$alone"$'\ninterrupt' calibrate --device 1
 check 'Ctrl-C' 'broken off; nothing was written'
 play 2 "$alone"$'\nunplug thrustmaster-t16000m\nwait 0.3' calibrate
-check 'unplugged' 'unplugged; nothing was written'
+check 'a device unplugged meanwhile' 'unplugged; nothing was written'
 play 2 'start typed' calibrate
 check 'no stick' 'No stick, throttle, pad or space mouse is plugged in'
 play 2 $'plug thrustmaster-t16000m 0\nstart typed' calibrate --device 1234:5678
 check 'another device' '1234:5678 is not plugged in'
 [ "$(cat "$written")" = "$before" ] || fail 'the file was changed'
 
-# Quick, of two that are plugged in: roles stay, and what was not moved keeps its range.
+# Quick calibration with two devices plugged in: roles stay, and axes that were not moved keep their range.
 play 0 "$(quick y)" calibrate --quick
-python3 - "$written" << 'END' || fail "the profile of the quick one: $(cat "$written")"
+python3 - "$written" << 'END' || fail "the profile of the quick calibration is wrong: $(cat "$written")"
 import json, sys
 axes = {axis["usage"]: axis for axis in json.load(open(sys.argv[1]))["axes"]}
 assert axes[48]["role"] == "nose-up" and axes[48]["inverted"] and axes[48]["range"] == [50, 8100, 16300]

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Wrong input at the command line: exit 2, one line, nothing written. Usage: cli_test.sh PROGRAM
+# Wrong input at the command line ends with exit 2, one line, and no file written. Usage: cli_test.sh PROGRAM
 set -u
 program=$1
 folder=$(mktemp -d)
@@ -11,7 +11,7 @@ fail() {
     echo "FAILED: $*"
 }
 
-# refused TEXT ARGUMENTS...: the program says one line that holds TEXT, exits with 2 and writes nothing.
+# refused TEXT ARGUMENTS...: the program must print one line that has TEXT, exit with 2 and write nothing.
 refused() {
     local text=$1 said status
     shift
@@ -22,16 +22,16 @@ refused() {
     elif [ "$(printf '%s\n' "$said" | wc -l)" != 1 ]; then
         fail "$*: more than one line: $said"
     elif [[ $said != *"$text"* ]]; then
-        fail "$*: '$text' is not in: $said"
+        fail "$*: '$text' is missing in: $said"
     elif [ -e "$folder/out" ]; then
-        fail "$*: wrote something"
+        fail "$*: wrote a file"
         rm -rf "$folder/out"
     else
         passed=$((passed + 1))
     fi
 }
 
-# A shot of our own with one member replaced.
+# Writes a shot file with the given velocity and further members.
 shot() { # FILE VELOCITY [MORE]
     printf '{ "scene": "avenue", "velocity": %s %s }\n' "$2" "${3:-}" > "$folder/$1.json"
 }
@@ -83,7 +83,7 @@ VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent refused 'install' ren
 STARBOW_GPU=Voodoo refused 'Voodoo' render --shot start
 echo in the way > "$folder/out"
 said=$("$program" render --shot start --size 8x8 --out "$folder/out" 2>&1 >/dev/null)
-if [ $? != 2 ] || [ "$(cat "$folder/out")" != 'in the way' ]; then fail "a file in the way: $said"; else passed=$((passed + 1)); fi
+if [ $? != 2 ] || [ "$(cat "$folder/out")" != 'in the way' ]; then fail "a file where the output folder should be: $said"; else passed=$((passed + 1)); fi
 rm "$folder/out"
 
 mkdir -p "$folder/half/desk.exr"
@@ -93,7 +93,7 @@ said=$("$program" bench --json "$folder" 2>&1 >/dev/null)
 if [ $? != 2 ] || [[ $said != *"no file"* ]]; then fail "bench into a folder: $said"; else passed=$((passed + 1)); fi
 refused 'a?b?[31m' render --shot $'a\nb\e[31m'
 
-# A plan of a layout: where it was asked for, and nothing of a wrong one.
+# `check` writes a layout's floor plan to the named file, and none for a wrong layout.
 said=$("$program" check desk --svg "$folder/plans/desk.svg")
 if [[ $said == *"desk: window, 60"* && $said == *"plans/desk.svg" ]] && grep -q '</svg>' "$folder/plans/desk.svg"; then passed=$((passed + 1)); else fail "check desk: $said"; fi
 (cd "$folder" && "$program" check dome >/dev/null && [ -s dome-plan.svg ]) && passed=$((passed + 1)) || fail "check dome writes no dome-plan.svg"
@@ -116,19 +116,19 @@ refused 'no node 3' import sgct "$warps/sgct-configs/single.json" --node 3
 said=$("$program" warp convert "$warps/channel1_warp_u2.sgc" "$folder/out.doc" 2>&1 >/dev/null)
 if [ $? = 2 ] && [[ $said == *".csv at its end"* ]]; then passed=$((passed + 1)); else fail "convert to .doc: $said"; fi
 "$program" warp convert "$warps/channel1_warp_u2.sgc" "$folder/one.csv" >/dev/null 2>&1 && "$program" warp convert "$folder/one.csv" "$folder/two.csv" >/dev/null 2>&1
-if cmp -s "$folder/one.csv" "$folder/two.csv" && cmp -s "$folder/one_frustum.csv" "$folder/two_frustum.csv"; then passed=$((passed + 1)); else fail "convert: what is written is not read back"; fi
-if "$program" warp inspect "$folder/one.csv" --out "$folder/one.png" | grep -q '^grid *33 columns x 33 rows$' && [ -s "$folder/one.png" ]; then passed=$((passed + 1)); else fail "inspect"; fi
-if "$program" import sgct "$warps/sgct-configs/single_fisheye.json" --out "$folder/imported.json" | grep -q '^/nodes/0/windows/0/size  -> size$' && [ -s "$folder/imported.json" ]; then passed=$((passed + 1)); else fail "import"; fi
+if cmp -s "$folder/one.csv" "$folder/two.csv" && cmp -s "$folder/one_frustum.csv" "$folder/two_frustum.csv"; then passed=$((passed + 1)); else fail "convert: a written warp file reads back differently"; fi
+if "$program" warp inspect "$folder/one.csv" --out "$folder/one.png" | grep -q '^grid *33 columns x 33 rows$' && [ -s "$folder/one.png" ]; then passed=$((passed + 1)); else fail "warp inspect prints no grid or writes no picture"; fi
+if "$program" import sgct "$warps/sgct-configs/single_fisheye.json" --out "$folder/imported.json" | grep -q '^/nodes/0/windows/0/size  -> size$' && [ -s "$folder/imported.json" ]; then passed=$((passed + 1)); else fail "import sgct does not list a mapped member or writes no layout"; fi
 
-# Sizes are those of the file.
+# The written file has the size of --size.
 "$program" warp convert "$warps/channel1_warp_mesh.csv" "$folder/ten.data" --size 10x8 >/dev/null 2>&1
 if [ "$(sed -n 2p "$folder/ten.data")" = '10 8' ] && "$program" warp inspect "$folder/ten.data" | grep -q '^grid *10 columns x 8 rows$'; then passed=$((passed + 1)); else fail "convert --size 10x8 to .data"; fi
 "$program" warp convert "$warps/channel1_warp_mesh.csv" "$folder/ten.pfm" --size 10x8 >/dev/null 2>&1
 if "$program" warp inspect "$folder/ten.pfm" | grep -q '^grid *10 columns x 8 rows$'; then passed=$((passed + 1)); else fail "convert --size 10x8 to .pfm"; fi
 
-# What a conversion loses is said, and nothing else.
+# A conversion warns of exactly what it loses.
 printf 'v -2 0 0\nv 0 -1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n' > "$folder/three.obj"
-loses() { # WHAT FROM TO: the words that are said, "" for none
+loses() { # WHAT FROM TO: the expected words of the warning, "" for none
     local said
     said=$("$program" warp convert "$2" "$folder/$3" --force 2>&1 >/dev/null)
     if [ "$(printf '%s' "$said" | grep -oE 'outline|beyond the viewport|beyond the picture|brightness|frustum' | tr '\n' ' ')" = "$1" ]; then passed=$((passed + 1)); else fail "convert $2 to $3: $said"; fi
@@ -142,11 +142,11 @@ loses 'frustum ' "$warps/channel1_warp_mesh.csv" lost.data
 printf '2\n2 2\n-1 -1 0 0 1\n1 -1 1 0 0.5\n-1 1 0 1 1\n1 1 1 1 1\n' > "$folder/dim.data"
 loses 'brightness ' "$folder/dim.data" lost.csv
 
-# A map whose rows run the other way: the cure is named, and is one.
+# For a map with its rows in the other order, the program names a remedy that works.
 said=$("$program" warp inspect "$warps/correction_mesh.mpcdi" 2>&1)
 if [[ $said == *"rows in the other order"*" --first-row-on-top"*'"first_row": "top"'* ]] && ! "$program" warp inspect "$warps/correction_mesh.mpcdi" --first-row-on-top | grep -q 'other order'; then passed=$((passed + 1)); else fail "inspect of rows in the other order: $said"; fi
 
-# Nothing that is read is written over, and nothing else without being asked: exit 2 in one line, and the file as it was.
+# Input files are never overwritten, and others only with --force: exit 2, one line, and the file unchanged.
 kept() { # FILE TEXT ARGUMENTS...
     local file=$1 text=$2 before said status
     shift 2
@@ -177,7 +177,7 @@ cp "$warps/../../config/layouts/desk.json" "$own/masked.json"
 sed -i 's|"projection"|"alpha_mask": "desk.png", "projection"|' "$own/masked.json"
 kept "$own/desk.png" 'is read' render --layout "$own/masked.json" --shot start --size 8x8 --out "$own"
 
-# A SCISS mesh's own view is what a flat one becomes.
+# A SCISS mesh brings its own projection, which replaces the planar one.
 mkdir -p "$folder/sciss"
 cp "$warps/channel1_warp_u2.sgc" "$folder/sciss/"
 cat > "$folder/sciss/sgct.json" << 'END'
@@ -189,11 +189,11 @@ if [ $? = 0 ] && [[ $said == *"projection  not mapped: replaced by the mesh's ow
 said=$("$program" check "$folder/sciss/layout.json" --svg "$folder/sciss/plan.svg" 2>&1)
 if [[ $said == *"P1: the warp file's own; bent by channel1_warp_u2.sgc"* ]]; then passed=$((passed + 1)); else fail "check of a SCISS mesh: $said"; fi
 
-# It says where it comes from, and leads editors to the schema.
+# An imported layout names its source, and its schema for editors.
 schema=$(sed -n 's/.*"$schema": "\(.*\)",$/\1/p' "$folder/imported.json")
 if head -1 "$folder/imported.json" | grep -q '^// .*single_fisheye.json' && [ -n "$schema" ] && cmp -s "$folder/$schema" "$warps/../../config/schema/layout.schema.json" && grep -q '"hud"' "$folder/imported.json"; then passed=$((passed + 1)); else fail "import: $(head -5 "$folder/imported.json")"; fi
 
-# What an imported layout still lacks is said last.
+# The last line says what an imported layout lacks.
 said=$("$program" import sgct "$warps/sgct-configs/spherical_mirror.json" --out "$folder/mirror.json" 2>&1)
 if [ $? = 1 ] && [[ $(printf '%s\n' "$said" | tail -1) == "to mend: "*"/outputs/0/viewports/0/warp/file: "*" names no file in "* ]]; then passed=$((passed + 1)); else fail "import without its mesh: $said"; fi
 mkdir "$folder/mirror"
@@ -201,36 +201,36 @@ sed 's|mesh/||' "$warps/sgct-configs/spherical_mirror.json" > "$folder/mirror/sg
 cp "$warps/standard_16x9.data" "$folder/mirror/"
 if "$program" import sgct "$folder/mirror/sgct.json" --out "$folder/mirror/layout.json" > "$folder/said" && ! grep -q 'to mend' "$folder/said" && "$program" check "$folder/mirror/layout.json" --svg "$folder/mirror/plan.svg" >/dev/null; then passed=$((passed + 1)); else fail "import with its mesh: $(cat "$folder/said")"; fi
 
-# Unknown options and missing ones are told in one line too, also with exit 2.
+# Unknown and missing options are refused in one line, also with exit 2.
 for arguments in '' 'fly' 'render' 'render --shot' 'bench --rounds 0' 'run --frames -1' 'check' 'render --shot start --out x --colour' 'render --shot start --out x --spectra 7' 'warp' 'warp inspect' 'import sgct x'; do
     # shellcheck disable=SC2086
     said=$("$program" $arguments 2>&1 >/dev/null)
-    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ]; then passed=$((passed + 1)); else fail "'$arguments' is not refused with 2 in one line: $said"; fi
+    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ]; then passed=$((passed + 1)); else fail "'$arguments' is not refused with exit 2 in one line: $said"; fi
 done
 
-# What is misspelt is told as that, with what there is.
-told() { # TEXT ARGUMENTS...
+# The message for a misspelt or superfluous word begins with the text, which lists the right ones.
+begins_with() { # TEXT ARGUMENTS...
     local text=$1 said
     shift
     said=$("$program" "$@" 2>&1 >/dev/null)
-    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == "starbow: $text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not say '$text': $said"; fi
+    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == "starbow: $text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not begin with '$text': $said"; fi
 }
-told 'fly is no command; run, render, check, doctor, displays, devices, calibrate, warp, import, bench and measure are' fly
-told 'look is no command; inspect and convert are' warp look
-told "--ouput is no option of 'starbow render'; --help, --layout, --shot, --out," render --shot start --ouput o1
-told "--sizes is no option of 'starbow warp inspect'; " warp inspect x --sizes 3
-told "out is one argument too many for 'starbow run'" run out
-told '--frames: x is no whole number; one from 0 to 1000000000 is right' run --frames x
-told '--frames: -1 is no whole number that fits; one from 0 to 1000000000 is right' run --frames -1
-told '--node: one is no whole number; ' import sgct x --out y --node one
-told '--out is required' render --shot start
+begins_with 'fly is no command; run, render, check, doctor, displays, devices, calibrate, warp, import, bench and measure are' fly
+begins_with 'look is no command; inspect and convert are' warp look
+begins_with "--ouput is no option of 'starbow render'; --help, --layout, --shot, --out," render --shot start --ouput o1
+begins_with "--sizes is no option of 'starbow warp inspect'; " warp inspect x --sizes 3
+begins_with "out is one argument too many for 'starbow run'" run out
+begins_with '--frames: x is no whole number; one from 0 to 1000000000 is right' run --frames x
+begins_with '--frames: -1 is no whole number that fits; one from 0 to 1000000000 is right' run --frames -1
+begins_with '--node: one is no whole number; ' import sgct x --out y --node one
+begins_with '--out is required' render --shot start
 refused 'no first row' warp inspect "$warps/standard_16x9.data" --first-row-on-top
 
 printf '{ "tour": "rainbow" }\n' > "$folder/touring.json"
-told "A tour's flight can't be recorded" run --exhibit "$folder/touring.json" --record "$folder/touring.jsonl"
-told '--record excludes --tour' run --tour rainbow --record "$folder/touring.jsonl"
-told 'There is no none.json in config/tours' run --tour none
-told 'There is no xx.json in config/words; there are: de, en' run --tour rainbow --language xx
+begins_with "A tour's flight can't be recorded" run --exhibit "$folder/touring.json" --record "$folder/touring.jsonl"
+begins_with '--record excludes --tour' run --tour rainbow --record "$folder/touring.jsonl"
+begins_with 'There is no none.json in config/tours' run --tour none
+begins_with 'There is no xx.json in config/words; there are: de, en' run --tour rainbow --language xx
 
 # Every subcommand's help ends with an example.
 for command in run render bench check warp import displays doctor measure; do
@@ -242,24 +242,24 @@ for command in '' 'warp inspect' 'warp convert' 'import sgct'; do
     if "$program" $command --help | grep -A1 '^Examples\?:' | grep -q "starbow ${command:-run} "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
 done
 
-# Measures are told to the millimetre.
+# Lengths are printed to the millimetre.
 printf '{ "outputs": [ { "name": "a", "viewports": [ { "projection": { "type": "wall", "lower_left_m": [-1, 0, -2], "lower_right_m": [1, 0, -2], "upper_left_m": [-1, 1.125, -2] } } ] } ] }' > "$folder/wall.json"
-if "$program" check "$folder/wall.json" --svg "$folder/wall.svg" | grep -q 'wall, 2.000 x 1.125 m'; then passed=$((passed + 1)); else fail "check rounds"; fi
+if "$program" check "$folder/wall.json" --svg "$folder/wall.svg" | grep -q 'wall, 2.000 x 1.125 m'; then passed=$((passed + 1)); else fail "check does not print a wall's size to the millimetre"; fi
 
-# Without a display server the GPUs are listed all the same.
+# Without a display server the GPUs are listed too.
 said=$(env -u DISPLAY -u WAYLAND_DISPLAY "$program" displays 2>&1)
 if [ $? = 0 ] && [[ $said == *"GPU "*": is used"*"no display server"* ]]; then passed=$((passed + 1)); else fail "displays: $said"; fi
 
-# The version, alone on its line.
+# --version prints the version alone on one line.
 said=$("$program" --version 2>&1)
 if [ $? = 0 ] && [[ $said =~ ^starbow\ [0-9]+\.[0-9]+\.[0-9]+$ ]]; then passed=$((passed + 1)); else fail "--version: $said"; fi
 
-# The doctor examines without a display, and each part whatever the others are like.
+# The doctor needs no display, and examines each part even if others fail.
 doctor() { env -u DISPLAY -u WAYLAND_DISPLAY STARBOW_CACHE="$folder/cache" "$@" 2>&1; }
 said=$(doctor "$program" doctor)
 status=$?
 if [[ $said == Starbow\ *"system "*"GPU "*": is used"*"driver "*"Vulkan 1."*"samplers"*"no display server"*"sticks "*"udev rule"*"font "*"$folder/cache: 0 B in 0 files; can be written"*"disk "*"files "*"layouts"* ]]; then passed=$((passed + 1)); else fail "doctor: $said"; fi
-if [ "$(printf '%s\n' "$said" | wc -l)" -le 40 ] && [ ! -e "$folder/cache" ]; then passed=$((passed + 1)); else fail "doctor fills more than a screen, or leaves something behind"; fi
+if [ "$(printf '%s\n' "$said" | wc -l)" -le 40 ] && [ ! -e "$folder/cache" ]; then passed=$((passed + 1)); else fail "doctor prints more than 40 lines, or leaves a cache folder"; fi
 if { [ $status = 0 ] && [[ $said == *$'\n\nNothing is wrong.' ]]; } || { [ $status = 1 ] && [[ $said == *$'\n\nWrong:\n- '*'.' ]]; }; then passed=$((passed + 1)); else fail "doctor: exit $status: $said"; fi
 said=$(VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent doctor env STARBOW_CACHE=/dev/null/cache "$program" doctor)
 if [ $? = 1 ] && [[ $said == *"Vulkan knows none"*"font "*"files "*"Wrong:"*$'\n- There is no GPU that Vulkan knows: install '*$'\n- The cache folder /dev/null/cache can\'t be written'* ]]; then passed=$((passed + 1)); else fail "doctor without a GPU and a cache: $said"; fi
@@ -270,31 +270,31 @@ echo '{ "name": 7 }' > "$folder/own/starbow/profiles/mine.json"
 said=$(doctor env XDG_CONFIG_HOME="$folder/own" STARBOW_GPU=Voodoo "$program" doctor --json)
 if [ $? = 1 ] && python3 -c '
 import json, sys
-told = json.loads(sys.argv[1])
-problems = [wrong["problem"] for wrong in told["wrong"]]
-assert list(told) == ["version", "build", "system", "gpus", "monitors", "sticks", "font", "cache", "disk", "files", "wrong"], list(told)
-assert told["gpus"][0]["vulkan_version"].startswith("1.") and told["gpus"][0]["max_image_dimension_2d"] >= 4096
-assert not told["monitors"]["display_server"] and told["files"]["layouts"] >= 10 and told["files"]["own_profiles"] == 1
+report = json.loads(sys.argv[1])
+problems = [wrong["problem"] for wrong in report["wrong"]]
+assert list(report) == ["version", "build", "system", "gpus", "monitors", "sticks", "font", "cache", "disk", "files", "wrong"], list(report)
+assert report["gpus"][0]["vulkan_version"].startswith("1.") and report["gpus"][0]["max_image_dimension_2d"] >= 4096
+assert not report["monitors"]["display_server"] and report["files"]["layouts"] >= 10 and report["files"]["own_profiles"] == 1
 assert any("mine.json" in problem for problem in problems) and any("Voodoo" in problem for problem in problems), problems' "$said"; then passed=$((passed + 1)); else fail "doctor --json: $said"; fi
 
-# A trace that can't be written is told as wrong input, before there is a flight.
-told '--trace: 1 required' run --trace
+# --trace without a file is refused before the flight begins.
+begins_with '--trace: 1 required' run --trace
 
-# The same bytes twice, and the numbers beside the picture.
-# By rays no device is asked for, and there is nothing left to go on from.
+# Two renders give the same bytes, and --exr writes the numbers beside the picture.
+# The reference needs no GPU, and a finished picture leaves no file to continue from.
 for time in once twice; do
     VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent "$program" render --shot starbow --size 40x30 --reference \
-        --samples 2 --out "$folder/rays-$time" --exr >/dev/null || fail "rays want a device"
+        --samples 2 --out "$folder/rays-$time" --exr >/dev/null || fail "--reference needs a GPU"
 done
 cmp -s "$folder/rays-once/desk.png" "$folder/rays-twice/desk.png" && cmp -s "$folder/rays-once/desk.exr" "$folder/rays-twice/desk.exr" \
-    && [ ! -e "$folder/rays-once/desk.rows" ] && passed=$((passed + 1)) || fail "rays draw another picture each time"
-"$program" render --shot starbow --size 160x120 --out "$folder/once" --exr >/dev/null || fail "a good shot is refused"
+    && [ ! -e "$folder/rays-once/desk.rows" ] && passed=$((passed + 1)) || fail "--reference draws different bytes the second time, or leaves its rows"
+"$program" render --shot starbow --size 160x120 --out "$folder/once" --exr >/dev/null || fail "a valid shot is refused"
 "$program" render --shot starbow --size 160x120 --out "$folder/twice" --exr >/dev/null
 for file in desk.png desk.exr; do
     if cmp -s "$folder/once/$file" "$folder/twice/$file"; then passed=$((passed + 1)); else fail "$file differs the second time"; fi
 done
 
-# Sticks: what a descriptor declares, from raw bytes, hexadecimal text and JSON alike, with the fields that its file lists.
+# Sticks: a descriptor is read as raw bytes, hexadecimal text and JSON, with the fields that its JSON file lists.
 hid=$(cd "$(dirname "$0")/.." && pwd)/hid
 python3 - "$hid" "$folder" << 'END'
 import json, sys
@@ -308,16 +308,16 @@ END
 for file in "$hid/thrustmaster-t16000m.json" "$folder/t16000m.bin" "$folder/t16000m.txt"; do
     if "$program" devices --describe "$file" | python3 -c '
 import json, sys
-told, wanted = json.load(sys.stdin), json.load(open(sys.argv[1]))
-sys.exit(told["fields"] != wanted["fields"] or told["input_report_bits"] != wanted["input_report_bits"])' \
+described, listed = json.load(sys.stdin), json.load(open(sys.argv[1]))
+sys.exit(described["fields"] != listed["fields"] or described["input_report_bits"] != listed["input_report_bits"])' \
         "$hid/thrustmaster-t16000m.json"; then passed=$((passed + 1)); else fail "devices --describe $(basename "$file")"; fi
 done
-# says TEXT ARGUMENTS...: one line that holds TEXT, and exit 2.
+# says TEXT ARGUMENTS...: the program must print one line that has TEXT, and exit with 2.
 says() {
     local text=$1 said
     shift
     said=$("$program" "$@" 2>&1 >/dev/null)
-    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not say '$text': $said"; fi
+    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not report '$text': $said"; fi
 }
 says 'is empty' devices --describe "$folder/empty.bin"
 says "can't be read" devices --describe "$folder/no-such.bin"
@@ -326,7 +326,7 @@ says '/descriptor_hex' devices --describe "$folder/lines.json"
 printf 'hello' > "$folder/hello.bin"
 says 'declares no input' devices --describe "$folder/hello.bin"
 
-# What is measured.
+# Measurements.
 refused 'has one number' render --shot start --measure 400
 refused 'is no point' render --shot start --measure '1deg,2'
 refused 'lies outside the picture' render --shot start --measure '100,100;800,5'
@@ -335,7 +335,7 @@ said=$("$program" render --shot clocks-passing --size 200x150 --out "$folder/lab
 if [[ $said == *"ahead: D 0.866"* && $said == *"long 17.49 of 20.00 light-s, ◇ minus ○ 9.71 s"* ]]; then passed=$((passed + 1)); else fail "render --measure: $said"; fi
 says '--log-every' run --log-every 1
 
-# Exhibits.
+# Exhibit files.
 exhibit() { # EXHIBIT_JSON
     printf '%s\n' "$1" > "$folder/exhibit.json"
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Vulkan's failures on purpose (rig/faults.cpp), and the exhibit flies on. Usage: fault_test.sh PROGRAM FOLDER-OF-THE-RIG
+# Vulkan calls fail on purpose (rig/faults.cpp), and the exhibit must fly on. Usage: fault_test.sh PROGRAM FOLDER-OF-THE-RIG
 set -u
 program=$1 tools=$2 rig=$(dirname "$0")/../rig
 . "$rig/monitors.sh"
@@ -13,7 +13,7 @@ cat >"$folder/two.json" <<'END'
 ] }
 END
 
-# fly FAULTS [FRAMES]: each fault must have happened; the rest is for the caller.
+# fly FAULTS [FRAMES]: runs the exhibit; each fault must have happened. The caller checks $status.
 fly() {
     STARBOW_FAULTS=$1 timeout 60 "$program" run --layout "$folder/two.json" --frames "${2:-40}" >"$folder/log" 2>&1
     status=$?
@@ -22,14 +22,14 @@ fly() {
         grep -q "^fault: $fault" "$folder/log" || fail "$1: $fault did not happen (exit $status)"
     done
 }
-# survives FAULTS [FRAMES [MISSED]]: both windows show all frames but so many.
+# survives FAULTS [FRAMES [MISSED]]: both windows must show all frames but MISSED.
 survives() {
     fly "$@"
     [ $status = 0 ] || fail "$1: exit $status"
     local shown
     shown=$(awk '/^fault: shown/ { sum += $3 } END { print sum }' "$folder/log")
-    [ "$shown" -ge $((2 * ${2:-40} - ${3:-2})) ] || fail "$1: of ${2:-40} frames in two windows only $shown pictures were shown"
-    grep -q 'lost' <(grep -v '^fault:' "$folder/log") && [[ $1 != *DEVICE* ]] && fail "$1: told as a loss"
+    [ "$shown" -ge $((2 * ${2:-40} - ${3:-2})) ] || fail "$1: two windows showed only $shown pictures of ${2:-40} frames each"
+    grep -q 'lost' <(grep -v '^fault:' "$folder/log") && [[ $1 != *DEVICE* ]] && fail "$1: a loss of the device is reported"
     ok
 }
 
@@ -44,28 +44,28 @@ for result in OUT_OF_DATE SURFACE_LOST SUBOPTIMAL; do
 done
 survives "acquire:5:OUT_OF_DATE,acquire:6:SURFACE_LOST,present:9:SURFACE_LOST,swapchain:3:SURFACE_LOST" 40 6
 
-# The whole device: opened anew, and the flight goes on where it was.
+# After the loss of the device, the program opens it anew and the flight continues from where it was.
 for call in acquire present submit; do
     survives "$call:20:DEVICE_LOST" 60
-    [ "$(grep -c 'it is opened anew' "$folder/log")" = 1 ] || fail "$call: not told once"
-    # 60 frames at 60 Hz, a hundredth more at most; the 40 after the loss alone would be 0.66 s.
+    [ "$(grep -c 'it is opened anew' "$folder/log")" = 1 ] || fail "$call: the new device is not reported exactly once"
+    # 60 frames take 1 s at 60 Hz, at most a hundredth more. The 40 frames after the loss alone would take 0.66 s.
     flown=$(sed -n 's/.*ship \([0-9.]*\) s.*/\1/p' "$folder/log")
     awk "BEGIN { exit !($flown >= 0.9) }" || fail "$call: the flight began anew: $flown s"
     ok
 done
 
-# A device that is lost again and again ends the exhibit: in words, with 1.
+# If the device is lost again and again, the exhibit ends with a message and exit 1.
 fly submit:20:DEVICE_LOST,submit:21:DEVICE_LOST,submit:22:DEVICE_LOST,submit:23:DEVICE_LOST,submit:24:DEVICE_LOST,submit:25:DEVICE_LOST
-[ $status = 1 ] || fail "lost for ever: exit $status"
-grep -q 'lost again and again' "$folder/log" || fail "lost for ever: no word of it"
+[ $status = 1 ] || fail "lost again and again: exit $status"
+grep -q 'lost again and again' "$folder/log" || fail "lost again and again: no message"
 ok
 
-# Where the driver tells when pictures are seen, the skew is what it tells: here the second window's come 7 ms after the first's.
+# Where the driver reports when pictures are shown, the skew is measured: here the second window shows them 7 ms later.
 export STARBOW_SHOWN_LATE_MS=7
 fly '' 60
 [ $status = 0 ] || fail "present wait: exit $status"
 skew=$(sed -n 's/^outputs shown together within \([0-9.]*\) ms.*/\1/p' "$folder/log")
-# A sleep takes its time and at most a little more: the median of 60 on a busy machine.
+# A sleep takes at least its time. The bound covers the median of 60 on a busy machine.
 awk "BEGIN { exit !($skew >= 6.5 && $skew < 12) }" || fail "present wait: a skew of $skew ms, not 7"
 ok
 echo "$passed passed, 0 failed"

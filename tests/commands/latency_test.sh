@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# From a device's report to the present call that shows it, in a real window under Xvfb, the device a pretended one.
+# Measures the time from a device's report to the present call that shows it, in a real window under Xvfb, with a simulated
+# device.
 # Usage: latency_test.sh PROGRAM RIG_FOLDER
 set -u
 program=$1 built=$2 rig=$(dirname "$0")/../rig hid=$(dirname "$0")/../hid
@@ -9,12 +10,12 @@ cat >"$folder/small.json" <<'LAYOUT'
 { "outputs": [ { "name": "small", "size": [160, 120], "viewports": [{ "projection": { "type": "planar", "fov_y_deg": 60 } }] } ] }
 LAYOUT
 
-# Without a device: told, and nothing measured.
+# Without a device the program says so and measures nothing.
 said=$(timeout 60 umockdev-wrapper "$built/fake_sticks" "$hid" <(echo start) "$program" bench --input --layout "$folder/small.json" --seconds 1 2>&1 >/dev/null)
 [ $? = 2 ] && [[ $said == *"a keyboard does not count"* ]] || fail "without a device: $said"
 ok
 
-# A space mouse that is moved all the time, 200 reports a second.
+# A space mouse that moves all the time, with 200 reports a second.
 name=3dconnexion-spacenavigator
 cat >"$folder/script" <<SCRIPT
 plug $name 0
@@ -25,19 +26,19 @@ SCRIPT
 timeout 60 umockdev-wrapper "$built/fake_sticks" "$hid" "$folder/script" "$program" bench --input --layout "$folder/small.json" --seconds 2 \
     >"$folder/table" 2>"$folder/log" || fail "exit $?: $(cat "$folder/table")"
 ok
-grep -q '^A device reports' "$folder/log" || fail "nothing told while it measures"
+grep -q '^A device reports' "$folder/log" || fail "no line says that a device reports"
 ok
 row() { awk -v name="$1" 'index($0, name) == 1 { print $(NF - 2), $(NF - 1), $NF }' "$folder/table"; }
 report=$(row "report's arrival") own=$(row 'own share') frame=$(row 'frame time') bound=$(row 'no report takes')
 awk -v a="$report" -v o="$own" -v f="$frame" -v b="$bound" 'BEGIN {
     exit !(split(a, r) == 3 && split(o, s) == 3 && split(f, t) == 3 && split(b, u) == 3 &&
         r[1] > 0 && r[1] <= r[2] && r[2] <= r[3] && r[3] <= u[3])
-}' || fail "no three numbers in order: $(cat "$folder/table")"
+}' || fail "a row's three numbers are missing or out of order: $(cat "$folder/table")"
 ok
-# The machine may be busy: its own frames are the measure.
-awk -v o="$own" -v f="$frame" 'BEGIN { split(o, s); split(f, t); exit !(s[2] < t[2]) }' || fail "the own share fills a frame: $(cat "$folder/table")"
+# The machine may be busy, so that its own frame time is the bound.
+awk -v o="$own" -v f="$frame" 'BEGIN { split(o, s); split(f, t); exit !(s[2] < t[2]) }' || fail "Starbow's own share is longer than a frame: $(cat "$folder/table")"
 ok
-# Interrupted: what there is.
+# An interrupted measurement prints its results so far.
 (
     timeout 60 umockdev-wrapper "$built/fake_sticks" "$hid" "$folder/script" bash -c 'echo $$ >"$0/pid"; exec "$@"' "$folder" \
         "$program" bench --input --layout "$folder/small.json" --seconds 600 >"$folder/cut" 2>"$folder/cut-log"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A tour's movie: made, interrupted, gone on with, begun anew, refused. Usage: movie_test.sh PROGRAM
+# A tour's movie is made, interrupted, continued, begun anew and refused. Usage: movie_test.sh PROGRAM
 set -u
 program=$1
 folder=$(mktemp -d)
@@ -20,7 +20,7 @@ frames="$movie.frames"
 make() { "$program" render --tour "$folder/tour.json" --movie "$movie" --fps 15 --size 64x48 "$@"; }
 count() { ffprobe -v error -count_frames -select_streams v:0 -show_entries stream=nb_read_frames,width,height,r_frame_rate -of csv=p=0 "$1"; }
 
-# Begins, and is interrupted as soon as some frames are there; its status.
+# Starts a movie and interrupts it after some frames. Returns the program's exit status.
 interrupt() {
     "$program" render --tour "$folder/tour.json" --movie "$movie" --fps 15 --size 64x48 --language de >"$folder/said" 2>"$folder/errors" &
     local child=$!
@@ -32,16 +32,16 @@ interrupt() {
     wait $child
 }
 
-# In one go: all frames, and nothing else left.
-make >"$folder/said" 2>"$folder/errors" || fail "a movie: $(cat "$folder/errors")"
+# A movie made in one go has all frames and leaves no folder of frames.
+make >"$folder/said" 2>"$folder/errors" || fail "making a movie: $(cat "$folder/errors")"
 ok [ "$(count "$movie")" = 64,48,15/1,30 ]
 ok [ ! -e "$frames" ]
 ok grep -q '30 frames, 2.0 s' "$folder/said"
 ok [ ! -s "$folder/errors" ]
-"$program" render --tour "$folder/tour.json" --movie "$folder/odd.mp4" --fps 5 --size 63x47 >/dev/null || fail "an odd size"
+"$program" render --tour "$folder/tour.json" --movie "$folder/odd.mp4" --fps 5 --size 63x47 >/dev/null || fail "a movie of odd size fails"
 ok [ "$(count "$folder/odd.mp4")" = 64,48,5/1,10 ]
 
-# Interrupted as soon as some frames are there: they stay, whole, and the movie that was there too.
+# An interrupted movie keeps its whole frames, and the earlier movie stays.
 before=$(md5sum <"$movie")
 interrupt
 ok [ $? = 130 ]
@@ -51,25 +51,25 @@ ok [ "$kept" -ge 3 -a "$kept" -lt 30 ]
 ok [ "$(md5sum <"$movie")" = "$before" ]
 touch -d '2001-01-01' "$frames"/*-000001.png
 cp "$frames"/*-000001.png "$folder/one.png"
-make --language de >"$folder/said" 2>"$folder/errors" || fail "the rest: $(cat "$folder/errors")"
+make --language de >"$folder/said" 2>"$folder/errors" || fail "continuing the movie: $(cat "$folder/errors")"
 ok grep -q "^$kept frames were there already, $((30 - kept)) more drawn$" "$folder/said"
 ok [ "$(count "$movie")" = 64,48,15/1,30 ]
 ok [ ! -e "$frames" ]
 
-# What was made from something else is begun anew, and says so; a frame that is missing is drawn again, the same.
+# Frames of another tour are dropped with a message. A frame that is missing is drawn again with the same bytes.
 interrupt
 ok cmp "$frames"/*-000001.png "$folder/one.png"
 tour 1 "Another one"
-make --language de >"$folder/said" 2>"$folder/errors" || fail "another: $(cat "$folder/errors")"
+make --language de >"$folder/said" 2>"$folder/errors" || fail "a changed tour: $(cat "$folder/errors")"
 ok grep -q 'has changed, or how; the movie begins anew$' "$folder/errors"
 ok [ "$(grep -c 'already' "$folder/said")" = 0 ]
 
-# Refused in one line, with nothing drawn.
+# refused TEXT COMMAND...: exit 2, one line, and nothing drawn.
 refused() { # TEXT STATUS COMMAND...
     local text=$1 said
     shift
     said=$("$@" 2>&1 >/dev/null)
-    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$text"* ]]; then passed=$((passed + 1)); else fail "'$text' is not what is said: $said"; fi
+    if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$text"* ]]; then passed=$((passed + 1)); else fail "'$text' is not the message: $said"; fi
 }
 mkdir "$folder/empty"
 refused "ffmpeg, which makes movies of pictures, can't be started (No such file or directory)" env PATH="$folder/empty" "$program" render --tour "$folder/tour.json" --movie "$folder/none.mp4"
@@ -84,13 +84,13 @@ refused '--shot' "$program" render --tour rainbow --movie "$folder/none.mp4" --s
 mkdir -p "$folder/mine.mp4.frames" && echo mine >"$folder/mine.mp4.frames/letter"
 refused 'holds no frames of a movie' "$program" render --tour "$folder/tour.json" --movie "$folder/mine.mp4"
 ok [ "$(cat "$folder/mine.mp4.frames/letter")" = mine ]
-# ffmpeg's own reason, and the frames stay.
+# ffmpeg's own reason is reported, and the frames stay.
 printf '#!/bin/sh\n[ "$1" = -version ] || { echo "first line" >&2; echo "no encoder today" >&2; exit 1; }\n' >"$folder/empty/ffmpeg"
 chmod +x "$folder/empty/ffmpeg"
 refused 'ffmpeg could not make it (no encoder today)' env PATH="$folder/empty:/usr/bin:/bin" "$program" render --tour "$folder/tour.json" --movie "$folder/broken.mp4" --fps 2 --size 32x32
 ok [ "$(ls "$folder/broken.mp4.frames" | grep -c 'png$')" = 4 ]
 ok [ ! -e "$folder/broken.mp4" ]
-"$program" render --tour "$folder/tour.json" --movie "$folder/broken.mp4" --fps 2 --size 32x32 >/dev/null || fail "with ffmpeg again"
+"$program" render --tour "$folder/tour.json" --movie "$folder/broken.mp4" --fps 2 --size 32x32 >/dev/null || fail "the movie can't be finished once ffmpeg works"
 ok [ "$(count "$folder/broken.mp4")" = 32,32,2/1,4 ]
 
 echo "$passed checks passed, $failed failed"

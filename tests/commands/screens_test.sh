@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The exhibit on four monitors without hardware: each output's picture on the screen that it names, whatever is unplugged,
-# moved, minimised or edited meanwhile. Wants root, as Xorg does. Usage: screens_test.sh PROGRAM FOLDER-OF-THE-RIG
+# The exhibit on four monitors without hardware. Each output shows its picture on the monitor that it names, even when monitors
+# are unplugged or moved, windows minimised, or the layout edited. Needs root, as Xorg does.
+# Usage: screens_test.sh PROGRAM FOLDER-OF-THE-RIG
 set -u
 program=$1 tools=$2 rig=$(dirname "$0")/../rig
 . "$rig/monitors.sh"
@@ -8,16 +9,16 @@ export STARBOW_VALIDATION=1
 start_monitors 4 320x240
 "$tools/set_edid" DUMMY2 'STARBOW WALL' W-0042 || fail "set_edid"
 
-# What `displays` offers for a layout is what the layout below names its monitors by.
+# The layout below names its monitors by the lines that `displays` prints for layouts.
 "$program" displays >"$folder/displays-log" 2>&1 || fail "displays: exit $?"
 grep -q '^monitor DUMMY3: 320 x 240 at \[960, 0\], 60.00 Hz' "$folder/displays-log" || fail "displays: DUMMY3"
 ok
 by_connector=$(grep -A1 '^monitor DUMMY0' "$folder/displays-log" | tail -n 1)
 by_edid=$(grep 'STARBOW WALL.*W-0042' "$folder/displays-log" | tail -n 1)
-[[ $by_edid == *'"serial": "W-0042"'* ]] || fail "displays: no line with the identity"
+[[ $by_edid == *'"serial": "W-0042"'* ]] || fail "displays: no line with the EDID's serial number"
 ok
 
-# Four pictures that differ in their angle alone.
+# Four pictures with different angles of view.
 layout() { # ANGLE-OF-B
     local view='"viewports": [{ "projection": { "type": "planar", "fov_y_deg":'
     cat <<END
@@ -31,18 +32,18 @@ END
 }
 layout 50 >"$folder/wall.json"
 layout 70 | sed 's/\[40, 30\]/[80, 60]/' >"$folder/changed.json"
-echo '{ "exposure": { "automatic": false } }' >"$folder/exhibit.json" # as the stills are
+echo '{ "exposure": { "automatic": false } }' >"$folder/exhibit.json" # the stills have a fixed exposure too
 mkdir "$folder/small"
 "$program" render --layout "$folder/wall.json" --shot start --out "$folder" >/dev/null || fail "render"
 "$program" render --layout "$folder/wall.json" --shot start --out "$folder/small" --size 240x180 >/dev/null || fail "render"
 "$program" render --layout "$folder/changed.json" --shot start --out "$folder/changed" >/dev/null || fail "render"
 
-# psnr AREA PICTURE: how alike a part of the desktop and a picture are, dB.
+# psnr AREA PICTURE: prints the PSNR between a part of the desktop and a picture, in dB.
 psnr() {
     import -window root -crop "$1" +repage "$folder/area.png" && compare -metric PSNR "$folder/area.png" "$2" null: 2>&1
 }
-# shows AREA PICTURE: the desktop shows it there. Drawn coarsely in a window and finely in a still it is alike to over 20 dB;
-# pictures of two different angles are not alike to more than 16 dB.
+# shows AREA PICTURE: true if the desktop shows the picture there. A window and a finer still agree to over 20 dB; pictures with
+# different angles agree to at most 16 dB.
 shows() {
     local alike
     alike=$(psnr "$1" "$2") && [ -n "$alike" ] || alike=$(psnr "$1" "$2")
@@ -66,8 +67,8 @@ expect_dark() { # WHAT AREA
     until_true 15 dark "$2" || fail "$1: $2 is not dark"
     ok
 }
-said() { # WHAT
-    until_true 15 grep -q -- "$1" "$folder/log" || fail "not said: $1"
+expect_log() { # TEXT: the program's log must have it
+    until_true 15 grep -q -- "$1" "$folder/log" || fail "not in the log: $1"
     ok
 }
 
@@ -79,24 +80,24 @@ fly() {
     local window
     window=$(xdotool search --name '^Starbow a')
     xdotool windowfocus "$window"
-    xdotool key h # no head-up display
+    xdotool key h # hides the head-up display
 }
 leave() {
     xdotool windowfocus "$(xdotool search --name '^Starbow a')"
     xdotool key Escape
     wait $exhibit || fail "exit $?"
-    grep -q validation "$folder/log" && fail "the validation layers spoke"
+    grep -q validation "$folder/log" && fail "the validation layers report an error"
     ok
 }
 
 echo "without a window manager"
 fly
 expect_all "at the start"
-expect_dark "beside a placed window" 40x240+960+0
+expect_dark "beside a window with a place" 40x240+960+0
 
 began=${EPOCHREALTIME/./}
 xrandr --output DUMMY1 --off
-said "output 'b' is not shown: the monitor with connector \"DUMMY1\" is plugged in nowhere"
+expect_log "output 'b' is not shown: the monitor with connector \"DUMMY1\" is plugged in nowhere"
 echo "an unplugged monitor's window was closed within $(((${EPOCHREALTIME/./} - began) / 1000)) ms, xrandr's own time included"
 expect_dark "unplugged" $b
 expect "unplugged" $a "$folder/a.png"
@@ -104,14 +105,14 @@ expect "unplugged" $c "$folder/c.png"
 expect "unplugged" $d "$folder/d.png"
 began=${EPOCHREALTIME/./}
 xrandr --output DUMMY1 --mode 320x240 --pos 320x0
-said "output 'b' is shown again"
+expect_log "output 'b' is shown again"
 echo "plugged in again, it had its window within $(((${EPOCHREALTIME/./} - began) / 1000)) ms"
 expect_all "plugged in again"
 
 for i in 0 1 2 3; do xrandr --output DUMMY$i --off; done
-said "output 'c' is not shown"
-said "output 'd' is not shown"
-kill -0 $exhibit 2>/dev/null || fail "left without a monitor"
+expect_log "output 'c' is not shown"
+expect_log "output 'd' is not shown"
+kill -0 $exhibit 2>/dev/null || fail "the exhibit ended without a monitor"
 plug=()
 for i in 2 0 3 1; do plug+=(--output DUMMY$i --mode 320x240 --pos $((320 * i))x0); done
 xrandr "${plug[@]}"
@@ -126,15 +127,15 @@ expect "moved" $a "$folder/b.png"
 xrandr --output DUMMY0 --pos 0x0 --output DUMMY1 --pos 320x0
 expect_all "moved back"
 
-# An edit of the layout, first a wrong one, then a right one.
+# The layout is edited: first wrongly, then correctly.
 sed 's/"fov_y_deg": *50/"fov_y_deg": 500/' "$folder/wall.json" >"$folder/edit.json"
 mv "$folder/edit.json" "$folder/wall.json"
-said '/outputs/1/viewports/0/projection/fov_y_deg: 500'
-said 'the exhibit stays as it was'
+expect_log '/outputs/1/viewports/0/projection/fov_y_deg: 500'
+expect_log 'the exhibit stays as it was'
 expect_all "a wrong edit"
 began=${EPOCHREALTIME/./}
 cp "$folder/changed.json" "$folder/wall.json"
-said 'wall.json: applied'
+expect_log 'wall.json: applied'
 took=$(((${EPOCHREALTIME/./} - began) / 1000))
 expect "a right edit" $b "$folder/changed/b.png"
 expect "a right edit" $a "$folder/a.png"
@@ -144,7 +145,7 @@ echo "an edit was taken up after $took ms"
 [ $took -lt 3000 ] || fail "an edit was taken up after $took ms" # a second is promised; test machines are slow
 ok
 leave
-grep -q 'outputs handed over together within' "$folder/log" || fail "no word of the skew"
+grep -q 'outputs handed over together within' "$folder/log" || fail "the skew is not reported"
 ok
 
 echo "with a window manager"
@@ -155,7 +156,7 @@ manager=$!
 started+=($manager)
 until_true 10 sh -c "xprop -root _NET_SUPPORTING_WM_CHECK | grep -q 0x" || fail "openbox does not start"
 fly
-said "output 'd' is not shown: the monitor with position \[960, 0\]"
+expect_log "output 'd' is not shown: the monitor with position \[960, 0\]"
 xrandr --output DUMMY3 --mode 320x240 --pos 960x0
 expect_all "with openbox"
 
@@ -176,7 +177,7 @@ for window in a b c d; do xdotool search --name "^Starbow $window" windowmap; do
 expect_all "no longer minimised"
 leave
 
-# A window with a frame, whose size changes faster than pictures come.
+# A window with a frame changes its size faster than pictures are drawn.
 timeout 120 "$program" run --layout desk >"$folder/log" 2>&1 &
 exhibit=$!
 started+=($exhibit)
@@ -188,11 +189,11 @@ until_true 15 sh -c "xdotool getwindowgeometry $window | grep -q 300x200" || fai
 xdotool windowfocus "$window"
 xdotool key Escape
 wait $exhibit || fail "resized: exit $?"
-grep -q validation "$folder/log" && fail "resized: the validation layers spoke"
+grep -q validation "$folder/log" && fail "resized: the validation layers report an error"
 ok
 
-# No more frames than the screen shows, where the driver does not wait for it: 150 at 50 Hz are 3 s. The turn is kept a
-# hundredth shorter, and the first frames, which take longer than 0.1 s, are flown as 0.1 s.
+# Where the driver does not wait for the screen, the exhibit paces its frames: 150 at 50 Hz take 3 s. Its period is a hundredth
+# shorter. The first frames take longer, but a frame's step in the flight is at most 0.1 s.
 xrandr --output DUMMY0 --mode 240x180
 cat >"$folder/one.json" <<'END'
 { "outputs": [{ "name": "a", "monitor": { "connector": "DUMMY0" }, "size": [40, 30], "viewports": [{ "projection": { "type": "planar" } }] }] }
@@ -206,11 +207,11 @@ echo "150 frames at 50 Hz took $flown s"
 # A window manager that was killed must not keep the next exhibit from starting.
 kill -9 $manager
 wait $manager 2>/dev/null
-xprop -root _NET_SUPPORTING_WM_CHECK | grep -q 0x || fail "the window manager left no name behind: nothing is tested"
+xprop -root _NET_SUPPORTING_WM_CHECK | grep -q 0x || fail "the killed window manager left no property behind, so that nothing is tested"
 timeout 60 "$program" run --layout "$folder/wall.json" --frames 3 >"$folder/log" 2>&1 || fail "after a killed window manager: exit $?"
 ok
 
-# An X server that can't tell of monitors: GLFW's one will do.
+# For an X server without RandR, the monitor that GLFW reports is enough.
 serve Xvfb -noreset -screen 0 800x500x24 -extension RANDR
 "$program" displays >"$folder/displays-log" 2>&1 || fail "displays without RandR: exit $?"
 grep -q '^monitor .*: 800 x 500 at \[0, 0\]' "$folder/displays-log" || fail "displays without RandR"

@@ -1,32 +1,32 @@
 #!/usr/bin/env bash
-# A stick and a throttle that are not there, around an unmodified program: found by their profiles, flown to a given speed,
-# one unplugged and plugged in elsewhere in flight. Usage: sticks_test.sh PROGRAM RIG_FOLDER
+# A simulated stick and throttle with an unmodified program: found by their profiles, flown to a given speed, and one unplugged in
+# flight and plugged in at another port. Usage: sticks_test.sh PROGRAM RIG_FOLDER
 set -u
 program=$1 tools=$2 here=$(cd "$(dirname "$0")/.." && pwd)
 . "$here/rig/monitors.sh"
 serve Xvfb -noreset -screen 0 800x600x24
 export STARBOW_VALIDATION=1 XDG_CONFIG_HOME=$folder/own
 
-# Half of the lever's way is half of the rapidity of gamma 100: gamma 7.106.
+# The lever's middle is half the rapidity of gamma 100: gamma 7.106.
 cat >"$folder/exhibit.json" <<END
 { "layout": "desk", "tutorial": false, "flying": { "max_gamma": 100 } }
 END
 
-# play SCRIPT_NAME: the log, each line with the time at which it came.
+# play SCRIPT_NAME: runs the program with a script; the log has each line with its time.
 play() {
     timeout 120 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/$1" \
         "$program" run --exhibit "$folder/exhibit.json" --record "$folder/record" 2>&1 </dev/null \
         | while IFS= read -r line; do echo "$EPOCHREALTIME $line"; done >"$folder/log"
 }
 
-# between FIRST SECOND: milliseconds from the first line that matches the one to the first after it that matches the other.
+# between FIRST SECOND: milliseconds from the first line that matches FIRST to the next line that matches SECOND.
 between() {
     awk -v first="$1" -v second="$2" \
         '!from && $0 ~ first { from = $1; next } from && $0 ~ second { printf "%.0f", 1000 * ($1 - from); exit }' "$folder/log"
 }
 
-# The T.16000M's report: buttons 2, hat and 4 bits 1, x 2, y 2, twist 1, slider 1; the rest is nothing. The TWCS throttle's:
-# its number, x, y, rz, rx, ry, slider, dial 2 each, the lever 2 (65535 is idle), hat.
+# The T.16000M's report has buttons in 2 bytes, hat and 4 bits in 1, x 2, y 2, twist 1, slider 1, then zeros. The TWCS throttle's
+# has its number, then x, y, rz, rx, ry, slider and dial in 2 each, the lever in 2 (65535 is idle), and the hat.
 stick() { # BUTTONS_HEX X_HEX(little-endian)
     printf '%s0f%s0020%s' "$1" "$2" 80ff
     printf '00%.0s' $(seq 55)
@@ -72,7 +72,7 @@ grep -q 'T.16000M.*flown by the profile Thrustmaster T.16000M' "$folder/log" || 
 ok
 grep -q 'TWCS.*flown by the profile Thrustmaster TWCS' "$folder/log" || fail "the throttle was not found by its profile"
 ok
-grep -q 'validation' "$folder/log" && fail "the validation layers spoke"
+grep -q 'validation' "$folder/log" && fail "the validation layers report an error"
 ok
 for device in TWCS T.16000M; do
     gone=$(between "rig: unplugs the $([ $device = TWCS ] && echo throttle || echo stick)" "$device.*is unplugged")
@@ -81,14 +81,14 @@ for device in TWCS T.16000M; do
     ok
 done
 back=$(between 'rig: plugs in the throttle' 'TWCS.*is plugged in at /dev/hidraw5')
-[ "${back:-10000}" -le 1000 ] || fail "the throttle on another port works ${back:-never} ms later"
+[ "${back:-10000}" -le 1000 ] || fail "the throttle on another port works after ${back:-no} ms"
 echo "  plugged in again on another port: read after $back ms"
 ok
-# Through it all the ship has kept the speed that the lever stood for.
+# During all this the ship keeps the speed of the lever's last position.
 grep -q ' γ 7.106 ' "$folder/log" || fail "the last speed is not that of half a lever, gamma 7.106"
 ok
-# What the visitor asked for, frame by frame: the throttle is let go first, the stick a second later, and nothing in between.
-python3 - "$folder/record" <<'END' || fail "the record does not tell of neutral axes"
+# The record's controls, frame by frame: the throttle is released first, the stick a second later, and nothing in between.
+python3 - "$folder/record" <<'END' || fail "the record's axes are not neutral while the devices are unplugged"
 import json, sys
 now, frames = 0, []
 for line in list(open(sys.argv[1]))[1:]:
@@ -104,10 +104,10 @@ sys.exit(not (first == [False, True] and second == [False, False] and third == [
     and abs(let_go - gone - 1) < 0.25 and 0.9 < back - let_go < 3))
 END
 ok
-grep -q 'T.16000M.*axis X jitters and is left out' "$folder/log" || fail "an axis that jumps to and fro was not noticed"
+grep -q 'T.16000M.*axis X jitters and is left out' "$folder/log" || fail "a jittering axis is not reported"
 ok
 
-# Without leave to read it the rule that gives it is named. Only root can try what it is like to have no leave.
+# Without permission to read a device, the udev rule is named. Only root can take the permission away.
 if [ "$(id -u)" = 0 ]; then
     cat >"$folder/locked" <<END
 plug thrustmaster-t16000m 0
@@ -115,19 +115,19 @@ run chmod -R go+rX \$UMOCKDEV_DIR; find \$UMOCKDEV_DIR -type s -exec chmod 777 {
 run chmod 600 \$(readlink \$UMOCKDEV_DIR/dev/hidraw0)
 start
 END
-    # A checkout need not be open to others: a copy of the program and its files is.
+    # A checkout may be closed to other users, so the test copies the program and its files.
     mkdir "$folder/open"
     cp -r "$program" "$here/../config" "$folder/open"
     chmod -R go+rX "$folder"
     (cd "$folder" && timeout 30 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/locked" \
         setpriv --reuid=65534 --regid=65534 --clear-groups "$folder/open/starbow" devices) >"$folder/log" 2>&1 </dev/null
-    grep -q 'T.16000M.*may not be read: copy config/udev/70-starbow.rules' "$folder/log" || fail "no leave: the rule is not named"
+    grep -q 'T.16000M.*may not be read: copy config/udev/70-starbow.rules' "$folder/log" || fail "no permission: devices does not name the rule"
     ok
     (cd "$folder" && timeout 30 umockdev-wrapper "$tools/fake_sticks" "$here/hid" "$folder/locked" \
         setpriv --reuid=65534 --regid=65534 --clear-groups "$folder/open/starbow" doctor) >"$folder/log" 2>&1 </dev/null
     [ $? = 1 ] && grep -q '1 hidraw nodes, 1 of them may not be read' "$folder/log" \
         && grep -q '^- .*T.16000M.*/dev/hidraw0 may not be read: copy config/udev/70-starbow.rules' "$folder/log" \
-        || fail "no leave: the doctor does not see it: $(cat "$folder/log")"
+        || fail "no permission: the doctor does not report it: $(cat "$folder/log")"
     ok
 fi
 echo "$passed passed, 0 failed"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The exhibit in a real window under Xvfb, the validation layers listening: flown by the keyboard, resized, left.
+# The exhibit in a real window under Xvfb with validation layers: flown by the keyboard, resized, ended.
 # Usage: window_test.sh PROGRAM
 set -u
 program=$1 rig=$(dirname "$0")/../rig
@@ -15,7 +15,7 @@ fly() { # LAYOUT [MORE...]
     for _ in $(seq 200); do
         window=$(xdotool search --name '^Starbow' 2>/dev/null | head -n 1)
         [ -n "$window" ] && break
-        kill -0 $exhibit 2>/dev/null || fail "$1: left before its window opened"
+        kill -0 $exhibit 2>/dev/null || fail "$1: ended before its window opened"
         sleep 0.1
     done
     [ -n "$window" ] || fail "$1: no window"
@@ -23,7 +23,7 @@ fly() { # LAYOUT [MORE...]
     sleep 2
 }
 
-# Speed up, turn, resize, switch an effect off, leave. The last line tells the state.
+# Speeds up, turns, resizes, switches an effect off, and ends. The last line of the log has the ship's state.
 fly desk
 xdotool keydown w
 sleep 3
@@ -34,21 +34,21 @@ sleep 1
 xdotool windowsize "$window" 900 700
 sleep 1
 xdotool key Escape
-wait $exhibit || fail "desk: exit $? (validation speaks, or worse)"
+wait $exhibit || fail "desk: exit $? (an error of the validation layers, or a crash)"
 ok
-grep -q 'validation' "$folder/log" && fail "desk: the validation layers spoke"
+grep -q 'validation' "$folder/log" && fail "desk: the validation layers report an error"
 ok
 gamma=$(sed -n 's/.*γ \([0-9.]*\).*/\1/p' "$folder/log")
 awk "BEGIN { exit !($gamma > 1.05) }" || fail "desk: W did not speed up: gamma $gamma"
 ok
 grep -q 'Doppler off' "$folder/log" || fail "desk: 2 did not switch the Doppler effect off"
 ok
-grep -q 'light false colours.*unshifted' "$folder/log" || fail "desk: 4 did not switch to false colours, or they are not told"
+grep -q 'light false colours.*unshifted' "$folder/log" || fail "desk: 4 did not switch to false colours, or the log does not name them"
 ok
 grep -q 'exposure [^ ]* EV locked' "$folder/log" || fail "desk: L did not hold the exposure"
 ok
 
-# The instruments: marked, logged, explained, switched through; what was logged is there, a line for each K.
+# The instruments: marks, log, explanation and overlays. Each K writes a line to the log.
 fly desk --scene clocks --log "$folder/lab.csv"
 xdotool key o
 sleep 0.5
@@ -57,11 +57,11 @@ for key in x k x k F1 o o k o o F1 o; do
     sleep 0.3
 done
 xdotool key Escape
-wait $exhibit || fail "instruments: exit $? (validation speaks, or worse)"
+wait $exhibit || fail "instruments: exit $? (an error of the validation layers, or a crash)"
 ok
-[ "$(wc -l <"$folder/lab.csv")" = 4 ] || fail "instruments: not three lines: $(wc -l <"$folder/lab.csv")"
+[ "$(wc -l <"$folder/lab.csv")" = 4 ] || fail "instruments: the log has not three measurements: $(wc -l <"$folder/lab.csv")"
 ok
-python3 - "$folder/lab.csv" <<'CHECK' || fail "instruments: $(cat "$folder/lab.csv")"
+python3 - "$folder/lab.csv" <<'CHECK' || fail "instruments: the log is wrong: $(cat "$folder/lab.csv")"
 import csv, sys
 rows = list(csv.DictReader(open(sys.argv[1], newline="")))
 assert rows[0]["overlay"] == "aim" and rows[2]["overlay"] == "ring", rows
@@ -76,7 +76,7 @@ said=$(timeout 20 "$program" run --log "$folder/other.csv" 2>&1 >/dev/null)
 [ $? = 2 ] && [[ $said == *"other.csv: 1: begins otherwise"* ]] || fail "a file that is no log: $said"
 ok
 
-# A tour flies by itself: on to its third step, where it speeds up.
+# A tour flies by itself. Two keys skip to its third step, which speeds up.
 fly desk --tour first-minute
 xdotool key r
 sleep 0.5
@@ -89,7 +89,7 @@ gamma=$(sed -n 's/.*γ \([0-9.]*\).*/\1/p' "$folder/log")
 awk "BEGIN { exit !($gamma > 1.01 && $gamma < 2.2) }" || fail "a tour: gamma $gamma"
 ok
 
-# Stop is at once. The flight is recorded, and flown again it ends the same.
+# Space stops the ship at once. A replay of the recorded flight ends in the same state.
 fly stereo --record "$folder/flight.jsonl"
 xdotool keydown w
 sleep 2
@@ -109,7 +109,7 @@ ok
 [ "$(grep γ "$folder/log")" = "$(grep γ "$folder/replay-log")" ] || fail "replay: it ended elsewhere"
 ok
 
-# A head tracker's packets move the window in a wall; silent, it is missed on the display, not in the flight.
+# A head tracker's packets move the window's view through a wall. When it falls silent, the picture goes back after a while.
 cat >"$folder/tracked.json" <<'LAYOUT'
 {
     "head_tracker": { "port": 42719 },
@@ -121,19 +121,19 @@ cat >"$folder/tracked.json" <<'LAYOUT'
     ]
 }
 LAYOUT
-tell_head() { # CENTIMETRES to the right
+send_head() { # CENTIMETRES to the right
     python3 - "$1" <<'SEND'
 import socket, struct, sys
 socket.socket(socket.AF_INET, socket.SOCK_DGRAM).sendto(struct.pack("<6d", float(sys.argv[1]), 0, 0, 0, 0, 0), ("127.0.0.1", 42719))
 SEND
 }
 view() { import -window "$window" -crop 400x200+0+0 rgb:"$folder/$1"; }
-echo '{ "exposure": { "automatic": false } }' >"$folder/even.json" # it would take seconds to come back
+echo '{ "exposure": { "automatic": false } }' >"$folder/even.json" # automatic exposure would take seconds to return
 fly "$folder/tracked.json" --exhibit "$folder/even.json"
-xdotool key h # without the figures, which change by themselves
+xdotool key h # hides the figures, which change by themselves
 sleep 0.5
 view rest
-tell_head 60
+send_head 60
 sleep 0.5
 view right
 sleep 4
@@ -146,23 +146,23 @@ ok
 cmp -s "$folder/rest" "$folder/back" || fail "tracked: the picture did not come back when the tracker fell silent"
 ok
 
-# Everything that the switches can need is compiled before the first frame, under the layers' eyes; the trace has its passes.
+# Warm-up compiles every pipeline before the first frame, with the validation layers on. The trace names all passes.
 timeout 240 "$program" run --layout desk --warm-up always --frames 5 --trace "$folder/trace.json" >"$folder/log" 2>&1 \
     || fail "warm-up: exit $?"
 ok
-grep -q 'pipelines are ready after' "$folder/log" || fail "warm-up: it does not say that it is done"
+grep -q 'pipelines are ready after' "$folder/log" || fail "warm-up: no line says that the pipelines are ready"
 ok
 for name in controls plan cull upload record wait present 'cube pass' warp stars HUD; do
     grep -q "\"$name\"" "$folder/trace.json" || fail "trace: no $name"
 done
 ok
 
-# Without a display it says so and draws (the first shot is enough here).
+# Without a display the program says so and renders stills; the first shot is enough here.
 (unset DISPLAY; cd "$folder" && timeout 5 "$program" run >"$folder/log" 2>&1)
-grep -q 'no display server' "$folder/log" || fail "no word of the missing display"
+grep -q 'no display server' "$folder/log" || fail "the missing display is not reported"
 ok
-# What was asked for can't be shown there: told, with nothing drawn instead.
+# A layout can't run without a display: the program says so and draws nothing.
 said=$(unset DISPLAY; cd "$folder" && "$program" run --layout desk 2>&1)
-[ $? = 2 ] && [[ $said == *"no display server"*"starbow render"* ]] || fail "asked for a layout without a display: $said"
+[ $? = 2 ] && [[ $said == *"no display server"*"starbow render"* ]] || fail "a layout without a display is not refused: $said"
 ok
 echo "$passed passed, 0 failed"

@@ -1,4 +1,4 @@
-// What a builder turns on site: every number found, turned in whole steps within the range its file may have, kept.
+// Alignment on site: every number is adjustable in whole steps within its range, and is kept in the file.
 #include "config/model/adjust.h"
 #include "tests/support/files.h"
 #include <fstream>
@@ -20,15 +20,15 @@ const Adjustable& named(const std::vector<Adjustable>& all, const std::string& n
 
 } // namespace
 
-TEST(Adjust, EveryShippedLayoutKeepsWhatWasTurned)
+TEST(Adjust, EveryShippedLayoutKeepsItsAdjustments)
 {
-    // A copy of the folder, so that the files that layouts name are found.
+    // The copy of the folder has the files that layouts name.
     const std::filesystem::path folder
         = std::filesystem::temp_directory_path() / ("starbow-adjust-" + std::to_string(::getpid()));
-    struct Gone {
+    struct RemovedAtEnd {
         const std::filesystem::path& folder;
-        ~Gone() { std::filesystem::remove_all(folder); }
-    } gone{folder};
+        ~RemovedAtEnd() { std::filesystem::remove_all(folder); }
+    } removed_at_end{folder};
     std::filesystem::copy(
         starbow::testing::source_dir() / "config/layouts", folder, std::filesystem::copy_options::recursive);
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -75,7 +75,7 @@ TEST(Adjust, StaysInTheRangeAndOnWholeSteps)
     EXPECT_EQ(value_of(adjusted(layout, named(all, "dome, rotation"), -10), named(all, "dome, rotation")), -1);
 }
 
-TEST(Adjust, ProjectorsOfOneDomeAreTurnedTogether)
+TEST(Adjust, ProjectorsOfOneDomeAreAdjustedTogether)
 {
     const Layout before = load_layout(starbow::testing::source_dir() / "config/layouts/dome2.json");
     const std::vector<Adjustable> all = adjustables(before);
@@ -83,25 +83,25 @@ TEST(Adjust, ProjectorsOfOneDomeAreTurnedTogether)
     for (const char* each : {"left, tilt", "right, tilt"})
         EXPECT_NEAR(value_of(turned, named(all, each)) - value_of(before, named(all, each)), 0.7, 1e-9);
     EXPECT_EQ(changes(before, turned).size(), 2u);
-    // Turned apart they have nothing in common any more.
+    // After one is adjusted alone, they have no common tilt any more.
     const Layout apart = adjusted(before, named(all, "left, tilt"), 1);
     EXPECT_THROW(named(adjustables(apart), "the whole dome, tilt"), std::runtime_error);
     EXPECT_NO_THROW(named(adjustables(apart), "the whole dome, rotation"));
 }
 
-TEST(Adjust, WhatWasTurnedOutlastsAReload)
+TEST(Adjust, AdjustmentsOutlastAReload)
 {
     const Layout kept = load_layout(starbow::testing::source_dir() / "config/layouts/dome2.json");
     const std::vector<Adjustable> all = adjustables(kept);
     const Adjustable &left = named(all, "left, rotation"), &right = named(all, "right, rotation"),
                      &power = named(all, "blend, power");
     const Layout turned = adjusted(adjusted(kept, left, 5), right, 3);
-    // Meanwhile the file has changed one of the two, and something else.
+    // Meanwhile the file has another value for one of the two, and for the blend's power.
     const Layout fresh = adjusted(adjusted(kept, right, -2), power, 4), again = turned_again(fresh, kept, turned);
     EXPECT_EQ(value_of(again, left), value_of(turned, left));
     EXPECT_EQ(value_of(again, right), value_of(fresh, right));
     EXPECT_EQ(value_of(again, power), value_of(fresh, power));
-    // A layout with another viewport in the place of the turned one.
+    // The layout has another viewport in place of the adjusted one.
     Layout other = fresh;
     other.outputs.erase(other.outputs.begin());
     other.outputs[0].viewports[0].projection = Planar{};

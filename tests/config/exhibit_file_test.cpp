@@ -1,4 +1,4 @@
-// Exhibit files: the shipped ones, what each member does, and wrong ones; the schema that editors use agrees.
+// Exhibit files: the shipped ones, each member, and wrong files. The editors' schema must agree with the reader.
 #include "config/model/exhibit_file.h"
 #include "config/model/layout.h"
 #include "config/model/shipped.h"
@@ -15,8 +15,8 @@ namespace {
 
 bool schema_accepts(const json& exhibit) { return starbow::testing::schema_accepts("exhibit", exhibit); }
 
-/// What the reader says; "" where it reads it.
-std::string said(const std::string& text)
+/// The reader's message, or "" for a valid file.
+std::string message_for(const std::string& text)
 {
     try {
         load_exhibit(write_text("exhibit.json", text));
@@ -28,7 +28,7 @@ std::string said(const std::string& text)
 
 } // namespace
 
-TEST(ExhibitFileTest, ShippedOnesLeadToWhatIsThere)
+TEST(ExhibitFileTest, ShippedExhibitsNameExistingFiles)
 {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(source_dir() / "config/exhibits")) {
@@ -43,7 +43,7 @@ TEST(ExhibitFileTest, ShippedOnesLeadToWhatIsThere)
     EXPECT_GE(count, 3);
 }
 
-TEST(ExhibitFileTest, EveryMemberIsTaken)
+TEST(ExhibitFileTest, EveryMemberIsRead)
 {
     const std::string text
         = R"({ "layout": "../walls/wall.json", "shot": "gamma100", "language": "de", "profiles": "sticks", "tutorial": false,
@@ -87,27 +87,27 @@ TEST(ExhibitFileTest, TheSchemasDefaultsAreTheReaders)
     for (const char* part : {"flying", "exposure"})
         for (const auto& [name, node] : schema["properties"][part]["properties"].items())
             defaults[part][name] = node.at("default");
-    const Exhibit told = load_exhibit(write_text("exhibit.json", defaults.dump())),
-                  own = load_exhibit(write_text("own.json", "{}"));
-    EXPECT_EQ(told.layout, own.layout);
-    EXPECT_EQ(told.scene, own.scene);
-    EXPECT_EQ(told.tutorial, own.tutorial);
-    EXPECT_EQ(told.frame_budget_ms, own.frame_budget_ms);
-    EXPECT_EQ(told.ladder, own.ladder);
-    EXPECT_EQ(told.flying.mode, own.flying.mode);
-    EXPECT_EQ(told.flying.max_gamma, own.flying.max_gamma);
-    EXPECT_EQ(told.flying.turn_deg_per_s, own.flying.turn_deg_per_s);
-    EXPECT_EQ(told.flying.roll_deg_per_s, own.flying.roll_deg_per_s);
-    EXPECT_EQ(told.flying.turn_jerk_deg_per_s3, own.flying.turn_jerk_deg_per_s3);
-    EXPECT_EQ(told.flying.rapidity_per_s, own.flying.rapidity_per_s);
-    EXPECT_EQ(told.flying.rapidity_jerk_per_s2, own.flying.rapidity_jerk_per_s2);
-    EXPECT_EQ(told.exposure.automatic, own.exposure.automatic);
-    EXPECT_EQ(told.exposure.min_ev, own.exposure.min_ev);
-    EXPECT_EQ(told.exposure.max_ev, own.exposure.max_ev);
-    EXPECT_EQ(told.exposure.bloom, own.exposure.bloom);
+    const Exhibit from_schema = load_exhibit(write_text("exhibit.json", defaults.dump())),
+                  from_reader = load_exhibit(write_text("own.json", "{}"));
+    EXPECT_EQ(from_schema.layout, from_reader.layout);
+    EXPECT_EQ(from_schema.scene, from_reader.scene);
+    EXPECT_EQ(from_schema.tutorial, from_reader.tutorial);
+    EXPECT_EQ(from_schema.frame_budget_ms, from_reader.frame_budget_ms);
+    EXPECT_EQ(from_schema.ladder, from_reader.ladder);
+    EXPECT_EQ(from_schema.flying.mode, from_reader.flying.mode);
+    EXPECT_EQ(from_schema.flying.max_gamma, from_reader.flying.max_gamma);
+    EXPECT_EQ(from_schema.flying.turn_deg_per_s, from_reader.flying.turn_deg_per_s);
+    EXPECT_EQ(from_schema.flying.roll_deg_per_s, from_reader.flying.roll_deg_per_s);
+    EXPECT_EQ(from_schema.flying.turn_jerk_deg_per_s3, from_reader.flying.turn_jerk_deg_per_s3);
+    EXPECT_EQ(from_schema.flying.rapidity_per_s, from_reader.flying.rapidity_per_s);
+    EXPECT_EQ(from_schema.flying.rapidity_jerk_per_s2, from_reader.flying.rapidity_jerk_per_s2);
+    EXPECT_EQ(from_schema.exposure.automatic, from_reader.exposure.automatic);
+    EXPECT_EQ(from_schema.exposure.min_ev, from_reader.exposure.min_ev);
+    EXPECT_EQ(from_schema.exposure.max_ev, from_reader.exposure.max_ev);
+    EXPECT_EQ(from_schema.exposure.bloom, from_reader.exposure.bloom);
 }
 
-TEST(ExhibitFileTest, WrongOnesAreRefusedByBoth)
+TEST(ExhibitFileTest, WrongExhibitsAreRefusedByReaderAndSchema)
 {
     for (const auto& [text, problem] : std::vector<std::pair<std::string, std::string>>{
              {R"({ "layuot": "desk" })", "layuot"}, {R"({ "layout": "" })", "/layout"},
@@ -120,21 +120,22 @@ TEST(ExhibitFileTest, WrongOnesAreRefusedByBoth)
              {R"({ "exposure": { "bloom": 1.5 } })", "/exposure/bloom: 1.5 is too large"},
              {R"({ "exposure": { "min_ev": -61 } })", "/exposure/min_ev: -61"},
              {R"({ "exposure": { "ev": 0 } })", "/exposure"}}) {
-        EXPECT_NE(said(text).find(problem), std::string::npos) << said(text);
+        EXPECT_NE(message_for(text).find(problem), std::string::npos) << message_for(text);
         EXPECT_FALSE(schema_accepts(json::parse(text))) << text;
     }
-    // What a schema can't say.
+    // The schema can't express these rules.
     for (const char* limits : {R"("min_ev": 3, "max_ev": 2)", R"("min_ev": 34)", R"("max_ev": -60.5)"}) {
-        const std::string text = said(std::string(R"({ "exposure": { )") + limits + " } }");
+        const std::string text = message_for(std::string(R"({ "exposure": { )") + limits + " } }");
         EXPECT_NE(text.find("/exposure/"), std::string::npos) << text;
     }
-    EXPECT_NE(said(R"({ "scene": "avenue", "shot": "gamma100" })").find("one too many"), std::string::npos);
-    EXPECT_NE(said(R"({ "scene": "avenue", "tour": "rainbow" })").find("one too many beside a tour"), std::string::npos);
+    EXPECT_NE(message_for(R"({ "scene": "avenue", "shot": "gamma100" })").find("one too many"), std::string::npos);
+    EXPECT_NE(
+        message_for(R"({ "scene": "avenue", "tour": "rainbow" })").find("one too many beside a tour"), std::string::npos);
 }
 
-TEST(ExhibitFileTest, ATourIsNamedOrAPath)
+TEST(ExhibitFileTest, ATourIsANameOrAPath)
 {
-    const std::string text = R"({ "tour": "own/tour.json", "language": "own/fr.json" })";
+    const std::string text = R"({ "tour": "from_reader/tour.json", "language": "from_reader/fr.json" })";
     EXPECT_TRUE(schema_accepts(json::parse(text)));
     const auto file = write_text("exhibit.json", text);
     const auto folder = std::filesystem::absolute(file).parent_path();

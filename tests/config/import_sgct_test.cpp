@@ -21,7 +21,7 @@ Import sample(const std::string& name)
     return import_sgct(read_document(source_dir() / "tests/warp/sgct-configs" / (name + ".json")), 0, "from");
 }
 
-/// A configuration of one window of 800 x 400, around its other members and its viewports.
+/// A configuration with one window of 800 x 400, its further members and its viewports.
 std::string config(const std::string& viewports, const std::string& members = "", const std::string& users = "[]")
 {
     return R"({ "version": 1, "masteraddress": "a", "nodes": [{ "address": "a", "port": 1, "windows": [{ "size": { "x": 800, "y": 400 }, )"
@@ -40,7 +40,7 @@ bool has(const Import& import, const std::string& line)
     return std::find(import.lines.begin(), import.lines.end(), line) != import.lines.end();
 }
 
-/// The pointers of all members that hold no further object or list of objects.
+/// The pointers of all members without further objects or lists of objects.
 void leaves(const nlohmann::json& json, const std::string& pointer, std::vector<std::string>& out)
 {
     if (json.is_array() && !json.empty() && json[0].is_object())
@@ -66,17 +66,17 @@ TEST(ImportSgctTest, EveryMemberOfEverySampleHasItsLine)
         leaves(read_document(source_dir() / "tests/warp/sgct-configs" / (std::string(name) + ".json")).root, "", pointers);
         for (const std::string& pointer : pointers) {
             ++members;
-            const bool told = std::any_of(import.lines.begin(), import.lines.end(), [&](const std::string& line) {
+            const bool has_line = std::any_of(import.lines.begin(), import.lines.end(), [&](const std::string& line) {
                 const std::string place = line.substr(0, line.find("  "));
                 return pointer == place || pointer.starts_with(place + "/");
             });
-            EXPECT_TRUE(told) << pointer;
+            EXPECT_TRUE(has_line) << pointer;
         }
     }
     EXPECT_GT(members, 100);
 }
 
-TEST(ImportSgctTest, Samples)
+TEST(ImportSgctTest, SamplesBecomeTheirLayouts)
 {
     const Json walls = sample("multi_window").layout;
     ASSERT_EQ(walls["outputs"].size(), 5u);
@@ -100,9 +100,9 @@ TEST(ImportSgctTest, Samples)
     EXPECT_EQ(mirror["viewports"][0]["projection"]["type"], "fisheye");
 }
 
-TEST(ImportSgctTest, ViewportsCountFromTheOtherCorner)
+TEST(ImportSgctTest, ViewportsCountFromTheUpperLeftCorner)
 {
-    // SGCT's upper right quarter, and one that is cut off.
+    // SGCT's upper right quarter, and a viewport that the window cuts off.
     EXPECT_EQ(viewport(R"({ "pos": { "x": 0.5, "y": 0.5 }, "size": { "x": 0.5, "y": 0.5 }, "projection": )" + sphere
                   + "}")["rect"],
         Json::parse("[0.5, 0.0, 0.5, 0.5]"));
@@ -127,7 +127,7 @@ TEST(ImportSgctTest, PlanarAnglesCountOutwards)
     EXPECT_NEAR(t["roll"].get<double>(), 10, 1e-3);
 }
 
-TEST(ImportSgctTest, TurnsComeBackFromTheirAxes)
+TEST(ImportSgctTest, TurnsAreRecoveredFromTheirAxes)
 {
     for (double yaw : {-170.0, -90.0, 0.0, 33.0, 180.0})
         for (double pitch : {-89.0, -20.0, 0.0, 70.0})
@@ -140,17 +140,17 @@ TEST(ImportSgctTest, TurnsComeBackFromTheirAxes)
                 EXPECT_NEAR(back.pitch_deg, pitch, 1e-9);
                 EXPECT_NEAR(back.roll_deg, roll, 1e-9);
             }
-    // Straight up: the roll goes into the yaw, and the picture's axes stay.
+    // Straight up, the roll becomes a yaw, and the picture's axes stay.
     const Turn up = turn_of(glm::dmat3({0, 0, 1}, {-1, 0, 0}, {0, -1, 0}));
     EXPECT_NEAR(up.pitch_deg, 90, 1e-9);
     const double yaw = glm::radians(up.yaw_deg);
-    EXPECT_NEAR(std::cos(yaw), 0, 1e-9); // its right hand is (0, 0, 1)
+    EXPECT_NEAR(std::cos(yaw), 0, 1e-9); // its right is (0, 0, 1)
     EXPECT_NEAR(std::sin(yaw), 1, 1e-9);
 }
 
-TEST(ImportSgctTest, FisheyeCrops)
+TEST(ImportSgctTest, FisheyeCropsMoveTheCircle)
 {
-    // A quarter off the top and the bottom: what is left of the square is twice as wide as high, as the window is.
+    // A quarter is cut off at the top and the bottom: the rest of the square is twice as wide as high, like the window.
     const Json p = viewport(with(
         R"({ "type": "FisheyeProjection", "fov": 200, "tilt": 27, "crop": { "left": 0, "right": 0, "bottom": 0.25, "top": 0.25 } })"))
         ["projection"];
@@ -159,14 +159,14 @@ TEST(ImportSgctTest, FisheyeCrops)
     EXPECT_NEAR(p["diameter"].get<double>(), 2, 1e-12); // 800 of the shorter side's 400 pixels
     EXPECT_NEAR(p["centre"][0].get<double>(), 0.5, 1e-12);
     EXPECT_NEAR(p["centre"][1].get<double>(), 0.5, 1e-12);
-    // Half off the bottom: the circle's centre lies on the window's lower edge.
+    // Half is cut off at the bottom: the circle's centre lies on the window's lower edge.
     const Json low = viewport(with(
         R"({ "type": "FisheyeProjection", "crop": { "left": 0, "right": 0, "bottom": 0.5, "top": 0 } })"))["projection"];
     EXPECT_NEAR(low["centre"][1].get<double>(), 1, 1e-12);
     EXPECT_NEAR(low["diameter"].get<double>(), 2, 1e-12);
 }
 
-TEST(ImportSgctTest, CylinderBeginsAhead)
+TEST(ImportSgctTest, ACylinderBeginsStraightAhead)
 {
     const Json p
         = viewport(with(R"({ "type": "CylindricalProjection", "rotation": 30, "heightoffset": -0.5 })"))["projection"];
@@ -175,7 +175,7 @@ TEST(ImportSgctTest, CylinderBeginsAhead)
     EXPECT_NEAR(p["sides_deg"]["up"].get<double>(), 26.565051177, 1e-9);
 }
 
-TEST(ImportSgctTest, UsersMasksEyesAndNodes)
+TEST(ImportSgctTest, UsersMasksEyesAndNodesAreImported)
 {
     const std::string users
         = R"([{ "eyeseparation": 0.07, "pos": { "x": 0, "y": 1, "z": 0 } }, { "name": "guide", "pos": { "x": 2, "y": 0, "z": 0 } }])";
@@ -206,7 +206,7 @@ TEST(ImportSgctTest, UsersMasksEyesAndNodes)
         complaint([&] { imported(two, 2); }).find("/nodes: has no node 2; one from 0 to 1 is right"), std::string::npos);
 }
 
-TEST(ImportSgctTest, MeshesBringTheirOwnView)
+TEST(ImportSgctTest, AMeshsOwnViewReplacesTheProjection)
 {
     const std::string planar = R"({ "type": "PlanarProjection", "fov": { "hfov": 95, "vfov": 70 } })",
                       users = R"([{ "pos": { "x": 0, "y": 0, "z": 4 } }])";
@@ -218,7 +218,7 @@ TEST(ImportSgctTest, MeshesBringTheirOwnView)
             return view;
         });
     };
-    // SCISS and SkySkan files place the user too, Scalable's do not.
+    // SCISS and SkySkan files also give the user's place; Scalable's do not.
     for (const auto& [mesh, eye] : {std::pair("a.sgc", "[1.0, 2.0, 3.0]"), std::pair("a.txt", "[1.0, 2.0, 3.0]"),
              std::pair("a.skyskan", "[1.0, 2.0, 3.0]"), std::pair("a.ol", "[0.0, 0.0, 4.0]")}) {
         SCOPED_TRACE(mesh);
@@ -231,13 +231,13 @@ TEST(ImportSgctTest, MeshesBringTheirOwnView)
     }
     const auto viewport = [](const Import& import) { return import.layout["outputs"][0]["viewports"][0]; };
     EXPECT_FALSE(viewport(made("a.sgc", planar, {true, glm::dvec3(0)})).contains("eye_m"));
-    // Files without a view, formats that SGCT takes none from, and what is no flat picture.
+    // Files without a view, formats from which SGCT takes none, and projections that are not flat.
     EXPECT_EQ(viewport(made("a.ol", planar, {false, {}}))["projection"]["type"], "planar");
     EXPECT_EQ(viewport(made("a.csv", planar, {true, {}}))["projection"]["type"], "planar");
     EXPECT_EQ(viewport(made("a.sgc", sphere, {true, {}}))["projection"]["type"], "equirectangular");
 }
 
-TEST(ImportSgctTest, FullscreenWindowsAreToldApart)
+TEST(ImportSgctTest, FullscreenWindowsGetMonitorsOfTheirOwn)
 {
     const auto window = [](const std::string& members) {
         return R"({ "size": { "x": 80, "y": 40 }, )" + members + R"( "viewports": [)" + with(sphere) + "] }";
@@ -245,7 +245,7 @@ TEST(ImportSgctTest, FullscreenWindowsAreToldApart)
     const auto both = [](const std::string& windows) {
         const Import import = imported(R"({ "version": 1, "nodes": [{ "windows": [)" + windows + "] }] }");
         const Document document = parse_document("layout.json", import.layout.dump());
-        read_layout(root(document), scratch("layout.json")); // is one that is read
+        read_layout(root(document), scratch("layout.json")); // the layout must be readable
         return import;
     };
     const Import two = both(window(R"("fullscreen": true, "monitor": 0, "pos": { "x": 0, "y": 0 },)") + ","
@@ -266,7 +266,7 @@ TEST(ImportSgctTest, FullscreenWindowsAreToldApart)
     EXPECT_EQ(mixed.layout["outputs"][1]["monitor"]["connector"], "SGCT-monitor-0");
 }
 
-TEST(ImportSgctTest, WhatCannotBeMapped)
+TEST(ImportSgctTest, UnsupportedMembersAreNamed)
 {
     const std::string mirror
         = R"({ "type": "SphericalMirrorProjection", "geometry": { "bottom": "b", "left": "l", "right": "r", "top": "t" } })";

@@ -1,4 +1,4 @@
-// Every member of a layout: what it becomes, its default, its limits, and what is said about a wrong one.
+// Every member of a layout: its effect, its default, its limits, and the message for a wrong value.
 #include "config/model/layout.h"
 #include "tests/support/files.h"
 
@@ -9,7 +9,7 @@ namespace {
 
 const std::string vp = "/outputs/0/viewports/0", at_projection = vp + "/projection";
 
-/// A layout around its top members, one output's members, one viewport's, or one projection.
+/// A layout with further top members, members of one output or viewport, or one projection.
 std::string top(const std::string& members, const std::string& output = "", const std::string& viewport = "")
 {
     return "{ " + members + (members.empty() ? "" : ", ") + R"("outputs": [{ "name": "a", )" + output
@@ -69,7 +69,7 @@ const std::string lens = R"("type": "lens", "green": { "k": [0.1, 0.02, 0, 0] })
 
 } // namespace
 
-TEST(LayoutMembersTest, Defaults)
+TEST(LayoutMembersTest, MembersHaveTheirDefaults)
 {
     const Layout layout = load(top(""));
     EXPECT_EQ(layout.stereo.method, StereoMethod::exact);
@@ -95,7 +95,7 @@ TEST(LayoutMembersTest, Defaults)
     EXPECT_FALSE(std::get<Planar>(viewport.projection).sides);
 }
 
-TEST(LayoutMembersTest, StereoBlendAndHud)
+TEST(LayoutMembersTest, StereoBlendAndHudAreRead)
 {
     const Layout layout = load(top(R"("$schema": "x", "stereo": { "method": "reprojected", "separation_m": 0.06,
         "hyper_stereo": 2, "baseline": "turning", "full_from_zenith_deg": 30 }, "blend": { "ramps": true, "power": 2.5 },
@@ -142,7 +142,7 @@ TEST(LayoutMembersTest, StereoBlendAndHud)
         });
 }
 
-TEST(LayoutMembersTest, Packings)
+TEST(LayoutMembersTest, PackingsAreRead)
 {
     const std::vector<std::pair<std::string, Packing>> names{{"mono", Packing::mono},
         {"side-by-side", Packing::side_by_side}, {"side-by-side-half", Packing::side_by_side_half},
@@ -174,7 +174,7 @@ TEST(LayoutMembersTest, Packings)
         });
 }
 
-TEST(LayoutMembersTest, WindowsAndMonitors)
+TEST(LayoutMembersTest, WindowsAndMonitorsAreRead)
 {
     const Output o = first(output(R"("resizable": true, "place": [-1920, 0], "monitor": { "connector": "HDMI-1",
         "model": "DELL U2412M", "serial": "XYZ", "position": [1920, -5] })"));
@@ -213,7 +213,7 @@ TEST(LayoutMembersTest, WindowsAndMonitors)
         });
 }
 
-TEST(LayoutMembersTest, Preview)
+TEST(LayoutMembersTest, PreviewsAreRead)
 {
     const Layout layout = load(outputs(plain("a") + R"(, { "name": "operator", "preview": true, "size": [640, 360] })"));
     EXPECT_FALSE(layout.outputs.at(0).preview);
@@ -235,11 +235,11 @@ TEST(LayoutMembersTest, Preview)
         });
 }
 
-TEST(LayoutMembersTest, Colour)
+TEST(LayoutMembersTest, ColourIsRead)
 {
     const Colour colour = first(output(R"("colour": { "gamma": 2.2, "matrix": [[1, 2, 3], [4, 5, 6], [7, 8, 9]] })")).colour;
     EXPECT_EQ(colour.gamma, 2.2);
-    const glm::dvec3 product = colour.matrix * glm::dvec3(1, 10, 100); // rows: worked out by hand
+    const glm::dvec3 product = colour.matrix * glm::dvec3(1, 10, 100); // the rows multiply; calculated by hand
     EXPECT_EQ(product, glm::dvec3(321, 654, 987));
     const std::vector<glm::dvec3> table{{0, 0.1, 0}, {0.5, 0.5, 0.5}, {1, 0.5, 0.75}};
     EXPECT_EQ(first(output(R"("colour": { "lut": [[0, 0.1, 0], 0.5, [1, 0.5, 0.75]] })")).colour.lut, table);
@@ -273,7 +273,7 @@ TEST(LayoutMembersTest, Colour)
         });
 }
 
-TEST(LayoutMembersTest, CubeFiles)
+TEST(LayoutMembersTest, CubeFilesAreRead)
 {
     const std::string text = output(R"("colour": { "lut": "table.cube" })");
     write_text("table.cube",
@@ -314,7 +314,7 @@ TEST(LayoutMembersTest, CubeFiles)
     }
 }
 
-TEST(LayoutMembersTest, ViewportsEyesWarpsAndMasks)
+TEST(LayoutMembersTest, ViewportsEyesWarpsAndMasksAreRead)
 {
     const auto warp = write_text("left.data", "x"), frustum = write_text("f.csv", "x"), mask = write_text("m.png", "x");
     std::filesystem::create_directory(scratch("folder.png"));
@@ -362,7 +362,7 @@ TEST(LayoutMembersTest, ViewportsEyesWarpsAndMasks)
         });
 }
 
-TEST(LayoutMembersTest, PlanarViews)
+TEST(LayoutMembersTest, PlanarViewsAreRead)
 {
     const Planar both = shown_by<Planar>(projection(R"("type": "planar", "fov_x_deg": 90, "fov_y_deg": 50, )" + turn));
     expect_sides(both.sides.value(), -45, 45, -25, 25);
@@ -404,16 +404,17 @@ TEST(LayoutMembersTest, PlanarViews)
         });
 }
 
-TEST(LayoutMembersTest, Walls)
+TEST(LayoutMembersTest, WallsAreRead)
 {
     const Wall w = shown_by<Wall>(projection(wall));
     EXPECT_EQ(w.lower_left_m, glm::dvec3(-1, -1, -2));
     EXPECT_EQ(w.lower_right_m, glm::dvec3(1, -1, -2));
     EXPECT_EQ(w.upper_left_m, glm::dvec3(-1, 1, -2));
     const std::string from = R"("type": "wall", "lower_left_m": [-1, -1, -2], )";
-    expect_right({projection(from + R"("lower_right_m": [1, -1, -2], "upper_left_m": [-0.9985, 0.5, -2])"), // 1 mm per metre
+    expect_right({projection(
+                      from + R"("lower_right_m": [1, -1, -2], "upper_left_m": [-0.9985, 0.5, -2])"), // 1 mm for each metre
         projection(wall, R"("eye_m": [0, 0, -1.99])"), projection(wall, R"("eye_m": [0, 0, -1.96])", R"("packing": "rows")"),
-        // A floor, as the visitor sees it with the far edge up.
+        // A floor as the visitor sees it, with the far edge up.
         projection(
             R"("type": "wall", "lower_left_m": [-1, -1.5, 1], "lower_right_m": [1, -1.5, 1], "upper_left_m": [-1, -1.5, -1])")});
     expect_wrong(load_layout,
@@ -441,7 +442,7 @@ TEST(LayoutMembersTest, Walls)
         });
 }
 
-TEST(LayoutMembersTest, Fisheyes)
+TEST(LayoutMembersTest, FisheyesAreRead)
 {
     const Fisheye f = shown_by<Fisheye>(projection(R"("type": "fisheye", "aperture_deg": 170, "tilt_deg": 20,
         "rotation_deg": -15, "mapping": "equisolid", "centre": [0.5, 0.75], "diameter": 1.5)"));
@@ -473,7 +474,7 @@ TEST(LayoutMembersTest, Fisheyes)
         });
 }
 
-TEST(LayoutMembersTest, CylindersPanoramasAndCubes)
+TEST(LayoutMembersTest, CylindersPanoramasAndCubesAreRead)
 {
     const std::string sides = R"("sides_deg": { "left": -90, "right": 100, "down": -20, "up": 30 })";
     const Cylinder c = shown_by<Cylinder>(projection(R"("type": "cylinder", )" + sides + ", " + turn));
@@ -510,7 +511,7 @@ TEST(LayoutMembersTest, CylindersPanoramasAndCubes)
         });
 }
 
-TEST(LayoutMembersTest, Mirrors)
+TEST(LayoutMembersTest, MirrorsAreRead)
 {
     const SphericalMirror m = shown_by<SphericalMirror>(
         projection(mirror + R"(, "dome_m": [0, 0.1, -0.2], "dome_tilt_deg": 10, "dome_aperture_deg": 170)"));
@@ -552,7 +553,7 @@ TEST(LayoutMembersTest, Mirrors)
         });
 }
 
-TEST(LayoutMembersTest, Lenses)
+TEST(LayoutMembersTest, LensesAreRead)
 {
     const Lens l = shown_by<Lens>(projection(R"("type": "lens", "form": "panotools", "fov_y_deg": 100,
         "red": { "centre": [0.4, 0.5], "k": [0.1, 0.2, 0.3, 0.4] }, "green": { "k": [0, 0, 0, 1] },
@@ -591,7 +592,7 @@ TEST(LayoutMembersTest, Lenses)
         });
 }
 
-/// With files beside it, so that what lies behind a warp and a mask is reached too.
+/// The files that the layouts name exist, so that the mutations also reach warps and masks.
 TEST(LayoutMembersTest, MutatedLayoutsLoadOrAreRefused)
 {
     write_text("left.data", "x");

@@ -6,7 +6,7 @@ using namespace starbow::testing;
 
 namespace {
 
-/// A layout around one output's other members, one viewport's, or one projection.
+/// A layout with further members of one output, of one viewport, or one projection.
 std::string output(const std::string& members)
 {
     return R"({ "outputs": [{ "name": "a", "viewports": [{ "projection": { "type": "planar" } }], )" + members + " }] }";
@@ -37,7 +37,7 @@ std::string tiled(const std::string& a, const std::string& b)
 
 } // namespace
 
-TEST(LayoutTest, ShippedLayouts)
+TEST(LayoutTest, ShippedLayoutsLoad)
 {
     ASSERT_GE(shipped("config/layouts").size(), 3u);
     for (const auto& file : shipped("config/layouts")) {
@@ -66,7 +66,7 @@ TEST(LayoutTest, ShippedLayouts)
 }
 
 /// The layouts between ``` in the handbook, and a message that it quotes.
-TEST(LayoutTest, TheHandbooksExamples)
+TEST(LayoutTest, TheHandbooksExamplesLoadAndItsMessageIsTrue)
 {
     int layouts = 0;
     for (const char* name : {"docs/displays.md", "docs/files.md"}) {
@@ -90,11 +90,11 @@ TEST(LayoutTest, TheHandbooksExamples)
     wall.replace(wall.find(corners), corners.size(),
         R"("lower_left_m": [-1.2, -0.675, -2], "lower_right_m": [1.2, -0.675, -2], "upper_left_m": [-1.1, 0.675, -2])");
     const std::string message = complaint([&] { load_layout(write_text("wall.json", wall)); });
-    const std::string said = message.substr(std::min(message.find(": /outputs"), message.size()));
-    EXPECT_NE(read_text(source_dir() / "docs/displays.md").find(said), std::string::npos) << said;
+    const std::string quoted = message.substr(std::min(message.find(": /outputs"), message.size()));
+    EXPECT_NE(read_text(source_dir() / "docs/displays.md").find(quoted), std::string::npos) << quoted;
 }
 
-TEST(LayoutTest, LimitsThemselvesAreRight)
+TEST(LayoutTest, ValuesAtTheLimitsAreAccepted)
 {
     for (const std::string& text :
         {projection(R"({ "type": "planar", "fov_y_deg": 0.1 })"), projection(R"({ "type": "planar", "fov_y_deg": 179 })"),
@@ -109,7 +109,7 @@ TEST(LayoutTest, LimitsThemselvesAreRight)
     }
 }
 
-TEST(LayoutTest, NeighbouringViewportsShareNoPixelAndLeaveNone)
+TEST(LayoutTest, NeighbouringViewportsHaveNoGapOrOverlap)
 {
     for (int width : {1, 7, 100, 801, 1600, 16384})
         for (double cut : {1 / 3., 0.5, 0.123, 0.999}) {
@@ -120,7 +120,7 @@ TEST(LayoutTest, NeighbouringViewportsShareNoPixelAndLeaveNone)
         }
 }
 
-TEST(LayoutTest, WrongLayouts)
+TEST(LayoutTest, WrongLayoutsAreRefused)
 {
     const std::string vp = "/outputs/0/viewports/0";
     expect_wrong(load_layout,

@@ -28,7 +28,7 @@ TEST(PatchTest, ReplacesAValueAndNothingElse)
     EXPECT_EQ(set("[1]", "/0", 2.5), "[2.5]");
     EXPECT_EQ(
         set(text, "/a", -2), "// head\n{\n  \"a\": -2, // one\n  \"b\" : [1, /* x */ 2.0,3],\n  \"c\": {\"d\":true}\n}\n");
-    EXPECT_EQ(set(text, "/b", {1, 2, 4.25}), // only what differs, so that the comment and 2.0 stay
+    EXPECT_EQ(set(text, "/b", {1, 2, 4.25}), // only the value that differs changes, so that the comment and 2.0 stay
         "// head\n{\n  \"a\": 1.50, // one\n  \"b\" : [1, /* x */ 2.0,4.25],\n  \"c\": {\"d\":true}\n}\n");
     EXPECT_EQ(set(text, "/b/0", 7),
         "// head\n{\n  \"a\": 1.50, // one\n  \"b\" : [7, /* x */ 2.0,3],\n  \"c\": {\"d\":true}\n}\n");
@@ -40,7 +40,7 @@ TEST(PatchTest, ReplacesAValueAndNothingElse)
         "// head\n{\n  \"a\": false, // one\n  \"b\" : [1, /* x */ 2.0,3],\n  \"c\": {\"d\":true}\n}\n");
 }
 
-TEST(PatchTest, NumbersAsAPersonWritesThem)
+TEST(PatchTest, NumbersAreWrittenShortly)
 {
     for (const auto& [value, shown] : std::vector<std::pair<double, std::string>>{{3.0, "3"}, {-40, "-40"}, {0.1, "0.1"},
              {0.065, "0.065"}, {1e300, "1e+300"}, {1 / 3., "0.3333333333333333"}, {5e-324, "5e-324"}})
@@ -67,7 +67,7 @@ TEST(PatchTest, AddsAMemberAfterTheOpeningBrace)
     EXPECT_EQ(set("{\"l\":{}}", "/l/0", 1), "{\"l\":{ \"0\": 1 }}"); // a name, not an index
 }
 
-TEST(PatchTest, WhatCannotBeSet)
+TEST(PatchTest, ImpossibleChangesAreRefused)
 {
     const std::string text = "{ \"n\": 1, \"o\": { \"a\": 1 }, \"l\": [1, 2], \"lo\": [{}] }";
     EXPECT_NE(refusal(text, "", 1).find("leads to no member"), std::string::npos);
@@ -91,8 +91,8 @@ TEST(PatchTest, WhatCannotBeSet)
     EXPECT_NE(complaint([&] { set("{ 1 }", "/a", 1); }).find("a.json:1: column 3"), std::string::npos);
 }
 
-/// At random places of the shipped layouts: only the member asked for is another, and every comment is still there.
-TEST(PatchTest, ShippedLayoutsKeepTheirRest)
+/// At random places of the shipped layouts: only the given member changes, and every comment stays.
+TEST(PatchTest, ShippedLayoutsKeepEverythingElse)
 {
     std::mt19937 random(1908);
     const std::vector<json> values{1, -2.5, true, "text", json::array({1, 2.5}), json::array(), 0};
@@ -177,7 +177,7 @@ TEST(PatchTest, FilesAreReplacedInOneStep)
     EXPECT_TRUE(std::filesystem::is_symlink(link));
     EXPECT_NE(read_text(file).find("\"a\": 5"), std::string::npos);
 
-    // All or nothing, and nothing left behind.
+    // A patch applies wholly or not at all, and leaves no temporary file.
     const std::string before = read_text(file);
     EXPECT_NE(complaint([&] { patch_file(file, {{"/a", 6}, {"/a/b", 7}}); }).find("leads through /a"), std::string::npos);
     EXPECT_EQ(read_text(file), before);

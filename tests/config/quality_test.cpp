@@ -1,4 +1,4 @@
-// Quality files and ladders: the shipped ones, what each member does, and wrong ones; the schema that editors use agrees.
+// Quality files and ladders: the shipped ones, each member, and wrong files. The editors' schema must agree with the reader.
 #include "config/json/error.h"
 #include "config/model/quality.h"
 #include "config/model/shipped.h"
@@ -17,7 +17,7 @@ json schema_json() { return json::parse(read_text(source_dir() / "config/schema/
 
 bool schema_accepts(const json& quality) { return starbow::testing::schema_accepts("quality", quality); }
 
-template <class Load> std::string said(Load&& load)
+template <class Load> std::string message_of(Load&& load)
 {
     try {
         load();
@@ -34,7 +34,7 @@ const char* const all_members
 
 } // namespace
 
-TEST(QualityTest, ShippedOnesAreRead)
+TEST(QualityTest, ShippedQualitiesAreRead)
 {
     for (const char* name : {"draft", "balanced", "fine"}) {
         SCOPED_TRACE(name);
@@ -46,7 +46,7 @@ TEST(QualityTest, ShippedOnesAreRead)
     EXPECT_GE(ladder.size(), 3u);
 }
 
-TEST(QualityTest, EveryMemberIsTakenAndWrittenAgain)
+TEST(QualityTest, EveryMemberIsReadAndWrittenAgain)
 {
     EXPECT_TRUE(schema_accepts(json::parse(all_members)));
     const Quality q = load_quality(write_text("quality.json", all_members));
@@ -64,9 +64,9 @@ TEST(QualityTest, EveryMemberIsTakenAndWrittenAgain)
     EXPECT_EQ(q.stereo, StereoMethod::reprojected);
     EXPECT_TRUE(schema_accepts(json::parse(quality_text(q))));
     EXPECT_EQ(load_quality(write_text("again.json", quality_text(q))), q);
-    // Each member tells by itself what it changes.
-    const json told = json::parse(all_members);
-    for (const auto& [name, value] : told.items()) {
+    // Each member alone makes a difference, and is listed as one.
+    const json members = json::parse(all_members);
+    for (const auto& [name, value] : members.items()) {
         const Quality one = load_quality(write_text("one.json", json{{name, value}}.dump()));
         EXPECT_NE(one, Quality{}) << name;
         EXPECT_NE(differences(one, {}), "") << name;
@@ -82,10 +82,10 @@ TEST(QualityTest, TheSchemasDefaultsAreTheReaders)
         if (node.contains("default"))
             defaults[name] = node.at("default");
     EXPECT_EQ(defaults.size(), json::parse(all_members).size());
-    EXPECT_EQ(load_quality(write_text("told.json", defaults.dump())), Quality{});
+    EXPECT_EQ(load_quality(write_text("defaults.json", defaults.dump())), Quality{});
 }
 
-TEST(QualityTest, WrongOnesAreRefusedByBoth)
+TEST(QualityTest, WrongQualitiesAreRefusedByReaderAndSchema)
 {
     for (const auto& [text, problem] : std::vector<std::pair<std::string, std::string>>{{R"({ "texels": 1 })", "texels"},
              {R"({ "texels_per_pixel": 0.01 })", "/texels_per_pixel: 0.01 is too small"},
@@ -98,7 +98,7 @@ TEST(QualityTest, WrongOnesAreRefusedByBoth)
              {R"({ "spectra": "rich" })", "/spectra: \"rich\""}, {R"({ "stereo": "both" })", "/stereo: \"both\""}}) {
         SCOPED_TRACE(text);
         EXPECT_FALSE(schema_accepts(json::parse(text)));
-        const std::string why = said([&] { load_quality(write_text("quality.json", text)); });
+        const std::string why = message_of([&] { load_quality(write_text("quality.json", text)); });
         EXPECT_NE(why.find(problem), why.npos) << why;
         EXPECT_EQ(why.find('\n'), why.npos);
     }
@@ -124,12 +124,12 @@ TEST(QualityTest, ALadderRisesAndIsWrittenAgain)
             {R"({ "levels": [{ "ms": 1, "quality": {} }, { "ms": 2, "quality": { "spectra": "fine" } }] })",
                 "/levels/1/quality: "}}) {
         SCOPED_TRACE(text);
-        const std::string why = said([&] { load_ladder(write_text("ladder.json", text)); });
+        const std::string why = message_of([&] { load_ladder(write_text("ladder.json", text)); });
         EXPECT_NE(why.find(problem), why.npos) << why;
     }
 }
 
-TEST(QualityTest, TheLayoutsStereoGivesWayButWhereTheBaselineTurns)
+TEST(QualityTest, AQualityReplacesTheStereoMethodUnlessTheBaselineTurns)
 {
     Layout layout;
     EXPECT_EQ(with_stereo(layout, {}).stereo.method, layout.stereo.method);

@@ -18,8 +18,8 @@ std::string at_line(int line, const std::string& rest)
 
 } // namespace
 
-// Each mistake that a hand makes, told where it is and in words that name no parser's state.
-TEST(ReaderTest, WhatIsNoJsonIsToldWithItsCure)
+// Each typing mistake is reported at its line, in words that don't mention the parser's state.
+TEST(ReaderTest, InvalidJsonIsReportedWithARemedy)
 {
     const std::vector<std::array<std::string, 3>> cases = {
         {"{\n \"a\": [\n {\"b\": \"c\" // d\n \"e\": 1}]}", "3", "follows \"e\"; a comma"},
@@ -59,13 +59,13 @@ TEST(ReaderTest, CommentsAreAllowed)
     EXPECT_EQ(number(member(root(d), "a"), {0, 2}), 1);
 }
 
-TEST(ReaderTest, FilesThatAreNone)
+TEST(ReaderTest, UnreadableFilesAreReported)
 {
     EXPECT_EQ(
         complaint([] { read_document("no/such.json"); }), "no/such.json: does not exist; the name of a JSON file is right");
     EXPECT_EQ(complaint([] { read_document("/usr"); }), "/usr: is a folder; a JSON file is right");
     EXPECT_NE(refusal("").find("is empty; "), std::string::npos);
-    // Opens for its own process but refuses to be read at address 0, for root too.
+    // This file opens, but reading at address 0 fails, even for root.
     EXPECT_NE(complaint([] { read_document("/proc/self/mem"); }).find("can't be read"), std::string::npos);
     const auto through_file = write_text("plain", "x") / "below.json";
     EXPECT_NE(complaint([&] { read_document(through_file); }).find("can't be opened"), std::string::npos);
@@ -81,7 +81,7 @@ TEST(ReaderTest, FilesOfSixteenMebibytesAreRead)
         refusal(start + std::string((16 << 20) + 1 - start.size(), ' ')).find("larger than 16 MiB"), std::string::npos);
 }
 
-TEST(ReaderTest, SyntaxErrorsTellLineAndColumn)
+TEST(ReaderTest, SyntaxErrorsHaveLineAndColumn)
 {
     for (const auto& [text, line, place] : std::vector<std::tuple<std::string, int, std::string>>{
              {"{", 1, "column 2: "},
@@ -108,10 +108,10 @@ TEST(ReaderTest, SyntaxErrorsTellLineAndColumn)
         const std::string message = refusal(text), start = at_line(line, place);
         EXPECT_EQ(message.substr(0, start.size()), start);
     }
-    EXPECT_LT(refusal("\"" + std::string(1 << 20, 'x')).size(), 700u); // not the whole text
+    EXPECT_LT(refusal("\"" + std::string(1 << 20, 'x')).size(), 700u); // the message does not contain the whole text
 }
 
-TEST(ReaderTest, NumbersThatNoDoubleHolds)
+TEST(ReaderTest, NumbersBeyondADoubleAreRefused)
 {
     const std::string right = " is too large for a number; up to 1.79e308 is right";
     EXPECT_EQ(refusal("{ \"a\": [0, { \"b/~\": 1e999 }] }"), at_line(1, "/a/1/b~1~0: 1e999" + right));
@@ -120,7 +120,7 @@ TEST(ReaderTest, NumbersThatNoDoubleHolds)
     EXPECT_NO_THROW(document("[1e-999, 99999999999999999999999]"));
 }
 
-TEST(ReaderTest, RepeatedMembers)
+TEST(ReaderTest, RepeatedMembersAreRefused)
 {
     EXPECT_EQ(
         refusal("{ \"a\": { \"b\": 1, \"b\": 1 } }"), at_line(1, "/a/b: \"b\" is given twice; one of the two is right"));
@@ -128,7 +128,7 @@ TEST(ReaderTest, RepeatedMembers)
     EXPECT_NO_THROW(document("{ \"a\": { \"b\": 1 }, \"b\": { \"b\": 1 } }"));
 }
 
-TEST(ReaderTest, Depth)
+TEST(ReaderTest, DeepNestingIsRefused)
 {
     const std::string open(64, '['), close(64, ']');
     EXPECT_NO_THROW(document(open + close));
@@ -151,7 +151,7 @@ TEST(ReaderTest, UnknownMembersNameTheNearest)
     EXPECT_LT(complaint([&] { reject_unknown_members(root(long_name), {"a"}); }).size(), 700u);
 }
 
-TEST(ReaderTest, ValuesOfTheWrongKind)
+TEST(ReaderTest, ValuesOfTheWrongKindAreRefused)
 {
     std::string long_text;
     for (int i = 0; i < 100; ++i)
@@ -206,7 +206,7 @@ TEST(ReaderTest, ValuesOfTheWrongKind)
     for (const auto& [message, expected] : cases)
         EXPECT_EQ(message, at_line(expected.starts_with("/e") || expected.starts_with("/c") ? 2 : 1, expected));
     const std::string cut = complaint([&] { boolean(at("long")); });
-    EXPECT_NE(cut.find("ä... is neither"), std::string::npos) << cut; // no half letter
+    EXPECT_NE(cut.find("ä... is neither"), std::string::npos) << cut; // the text is cut between letters
     EXPECT_FALSE(find_member(root(d), "nothing"));
 }
 

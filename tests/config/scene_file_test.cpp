@@ -32,7 +32,7 @@ std::string sun(const std::string& members)
 
 } // namespace
 
-TEST(SceneFileTest, EveryMember)
+TEST(SceneFileTest, EveryMemberIsRead)
 {
     const auto file = write_text("town.json", whole);
     const SceneFile scene = load_scene_file(file);
@@ -65,7 +65,7 @@ TEST(SceneFileTest, EveryMember)
     EXPECT_NEAR(scene.start.u.x, 1.7320508075688772, 1e-15);
 }
 
-TEST(SceneFileTest, Defaults)
+TEST(SceneFileTest, MembersHaveTheirDefaults)
 {
     const SceneFile scene = load_scene_file(write_text("bare.json", R"({ "gltf": "a.glb" })"));
     EXPECT_EQ(scene.unit_m, 299792458);
@@ -78,7 +78,7 @@ TEST(SceneFileTest, Defaults)
     EXPECT_EQ(scene.start.u, glm::dvec3(0));
 }
 
-TEST(SceneFileTest, ShippedScenes)
+TEST(SceneFileTest, ShippedScenesLoad)
 {
     ASSERT_GE(shipped("config/scenes").size(), 10u);
     for (const auto& file : shipped("config/scenes")) {
@@ -87,7 +87,7 @@ TEST(SceneFileTest, ShippedScenes)
     }
 }
 
-TEST(SceneFileTest, WrongScenes)
+TEST(SceneFileTest, WrongScenesAreRefused)
 {
     std::string nine = R"("lights": [)";
     for (int i = 0; i < 9; ++i)

@@ -1,4 +1,4 @@
-// The schema that editors complete layouts from, and the reader: each is held against the other.
+// The schema from which editors complete layouts must agree with the reader.
 #include "config/model/layout_reader.h"
 #include "tests/support/files.h"
 #include "tests/support/schema_check.h"
@@ -23,8 +23,8 @@ const json& schema()
 
 bool schema_accepts(const json& layout) { return starbow::testing::schema_accepts("layout", layout); }
 
-/// What the reader says about it; "" where it reads it.
-std::string reader_says(const std::string& text)
+/// The reader's message, or "" for a valid text.
+std::string reader_message(const std::string& text)
 {
     try {
         const Document document = parse_document("layout.json", text);
@@ -37,13 +37,13 @@ std::string reader_says(const std::string& text)
 
 json parsed(const std::string& text) { return json::parse(text, nullptr, true, true); }
 
-/// A schema's node, or the one that it refers to.
+/// A schema's node, or the node that it refers to.
 const json& resolved(const json& node)
 {
     return node.contains("$ref") ? schema().at(Pointer(node.at("$ref").get<std::string>().substr(1))) : node;
 }
 
-/// Every object of a layout: a good one that holds it, where it is there, and where the schema describes it.
+/// An object of a layout: a valid layout that has it, its pointer, and the pointer of its description in the schema.
 struct Sample {
     json layout;
     std::string at, described;
@@ -102,15 +102,15 @@ std::vector<Sample> samples()
     };
 }
 
-/// What the reader says when a sample's member is this.
-std::string reader_says(const Sample& sample, const std::string& name, const json& value)
+/// The reader's message when a sample's member has this value.
+std::string reader_message(const Sample& sample, const std::string& name, const json& value)
 {
     json changed = sample.layout;
     changed[Pointer(sample.at)][name] = value;
-    return reader_says(changed.dump());
+    return reader_message(changed.dump());
 }
 
-/// What stands in double quotes in a text after `from`.
+/// All texts in double quotes after `from`.
 std::set<std::string> quoted_in(const std::string& text, std::size_t from)
 {
     static const std::regex quoted("\"([^\"]*)\"");
@@ -132,7 +132,7 @@ TEST(SchemaTest, ShippedLayoutsAreValidAndNameTheSchema)
         EXPECT_TRUE(schema_accepts(layout));
         EXPECT_TRUE(std::filesystem::equivalent(file.parent_path() / layout.at("$schema").get<std::string>(),
             source_dir() / "config/schema/layout.schema.json"));
-        EXPECT_TRUE(read_text(file).starts_with("//")) << "begins with what it is for";
+        EXPECT_TRUE(read_text(file).starts_with("//")) << "must begin with its purpose";
     }
 }
 
@@ -145,7 +145,7 @@ TEST(SchemaTest, EveryFieldHasADescriptionWithItsUnit)
                 walk(node[i], at + "/" + std::to_string(i));
         if (!node.is_object())
             return;
-        // What stands in a condition names members again, without describing them.
+        // A condition names members again without a description.
         for (const auto& [name, child] : node.items())
             if (name != "if" && name != "then" && name != "else" && name != "not" && name != "allOf"
                 && name != "dependencies" && name != "properties")
@@ -182,7 +182,7 @@ TEST(SchemaTest, SamplesCoverEveryObjectOfTheSchema)
 {
     std::set<std::string> covered;
     for (const Sample& sample : samples()) {
-        EXPECT_EQ(reader_says(sample.layout.dump()), "");
+        EXPECT_EQ(reader_message(sample.layout.dump()), "");
         EXPECT_TRUE(schema_accepts(sample.layout)) << sample.layout;
         covered.insert(sample.described);
     }
@@ -192,7 +192,7 @@ TEST(SchemaTest, SamplesCoverEveryObjectOfTheSchema)
         }
 }
 
-/// Candidates are all words of the schema and of the reader's sources, so that neither can know a name in secret.
+/// Candidates are all words of the schema and of the reader's sources, so that neither can know a name that the other lacks.
 TEST(SchemaTest, ReaderAndSchemaKnowTheSameMembers)
 {
     std::set<std::string> words;
@@ -211,14 +211,14 @@ TEST(SchemaTest, ReaderAndSchemaKnowTheSameMembers)
         EXPECT_EQ(described.at("additionalProperties"), false) << sample.described;
         for (const std::string& word : words) {
             const bool unknown
-                = reader_says(sample, word, nullptr).find("stands under an unknown name") != std::string::npos;
+                = reader_message(sample, word, nullptr).find("stands under an unknown name") != std::string::npos;
             EXPECT_EQ(!unknown, described.at("properties").contains(word)) << sample.described << ": " << word;
         }
         for (const json& name : described.value("required", json::array())) {
             const std::string shown_name = name.dump();
             json without = sample.layout;
             without[Pointer(sample.at)].erase(name.get<std::string>());
-            EXPECT_NE(reader_says(without.dump()).find("lacks " + shown_name), std::string::npos)
+            EXPECT_NE(reader_message(without.dump()).find("lacks " + shown_name), std::string::npos)
                 << sample.described << shown_name;
         }
     }
@@ -233,10 +233,10 @@ TEST(SchemaTest, ReaderAndSchemaKnowTheSameChoicesAndRanges)
             const json& field = resolved(property);
             if (field.contains("enum")) {
                 ++choices;
-                const std::string said = reader_says(sample, name, "?");
-                EXPECT_EQ(quoted_in(said, said.find("; ")), field.at("enum").get<std::set<std::string>>()) << said;
+                const std::string message = reader_message(sample, name, "?");
+                EXPECT_EQ(quoted_in(message, message.find("; ")), field.at("enum").get<std::set<std::string>>()) << message;
             }
-            const json* item = &field; // of a number, a list of numbers, a list of lists
+            const json* item = &field; // the field itself, or the innermost item of a list
             for (; item->contains("items") && item->at("items").is_object(); item = &item->at("items")) { }
             if (!item->contains("maximum"))
                 continue;
@@ -247,26 +247,27 @@ TEST(SchemaTest, ReaderAndSchemaKnowTheSameChoicesAndRanges)
             const bool open = item->contains("exclusiveMinimum");
             const std::string low = shown(item->at(open ? "exclusiveMinimum" : "minimum")),
                               high = shown(item->at("maximum"));
-            const std::string said = reader_says(sample, name, wrong);
-            EXPECT_NE(said.find(open ? "above " + low + " up to " + high : "from " + low + " to " + high), std::string::npos)
-                << said;
+            const std::string message = reader_message(sample, name, wrong);
+            EXPECT_NE(
+                message.find(open ? "above " + low + " up to " + high : "from " + low + " to " + high), std::string::npos)
+                << message;
             if (field.contains("default")) {
-                EXPECT_EQ(reader_says(sample, name, field.at("default")), "");
+                EXPECT_EQ(reader_message(sample, name, field.at("default")), "");
             }
         }
     EXPECT_GE(choices, 8);
     EXPECT_GE(ranges, 45);
-    // The types of projections, which the schema tells by one description each.
+    // The schema describes each type of projection separately.
     std::set<std::string> types;
     for (const json& one : schema().at("/definitions/viewport/properties/projection/oneOf"_json_pointer))
         types.insert(resolved(one).at("properties").at("type").at("const"));
-    const std::string said = reader_says(around(R"({ "type": "?" })").dump());
-    EXPECT_EQ(quoted_in(said, said.find("; ")), types);
+    const std::string message = reader_message(around(R"({ "type": "?" })").dump());
+    EXPECT_EQ(quoted_in(message, message.find("; ")), types);
 }
 
-TEST(SchemaTest, BothAcceptTheGood)
+TEST(SchemaTest, BothAcceptValidLayouts)
 {
-    samples(); // writes the files that some of these name
+    samples(); // writes the files that some of these layouts name
     const std::string planar = R"("viewports": [{ "projection": { "type": "planar" } }])";
     for (const std::string& text :
         {
@@ -286,12 +287,12 @@ TEST(SchemaTest, BothAcceptTheGood)
                 .dump(),
         }) {
         SCOPED_TRACE(text);
-        EXPECT_EQ(reader_says(text), "");
+        EXPECT_EQ(reader_message(text), "");
         EXPECT_TRUE(schema_accepts(parsed(text)));
     }
 }
 
-TEST(SchemaTest, BothRefuseTheBroken)
+TEST(SchemaTest, BothRefuseInvalidLayouts)
 {
     const std::string planar = R"("viewports": [{ "projection": { "type": "planar" } }])";
     const auto output
@@ -334,7 +335,7 @@ TEST(SchemaTest, BothRefuseTheBroken)
     samples();
     for (const std::string& text : broken) {
         SCOPED_TRACE(text);
-        EXPECT_NE(reader_says(text), "");
+        EXPECT_NE(reader_message(text), "");
         EXPECT_FALSE(schema_accepts(parsed(text)));
     }
 }

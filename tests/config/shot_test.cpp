@@ -22,7 +22,7 @@ void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance)
 
 } // namespace
 
-TEST(ShotTest, Defaults)
+TEST(ShotTest, MembersHaveTheirDefaults)
 {
     const Shot s = shot("");
     EXPECT_EQ(s.scene, "avenue");
@@ -35,7 +35,7 @@ TEST(ShotTest, Defaults)
     EXPECT_EQ(s.exposure_ev, 0);
 }
 
-TEST(ShotTest, EveryMember)
+TEST(ShotTest, EveryMemberIsRead)
 {
     const Shot s = shot(R"("time": -5, "position": [1, 2, 3], "look": [2, 0, 0], "up": [5, 1, 0], "exposure_ev": -3.5,
         "effects": { "aberration": false, "doppler": false, "headlight": false, "false_colours": true })");
@@ -57,11 +57,11 @@ TEST(ShotTest, SpeedsBecomeProperVelocity)
     expect_near(shot(velocity(R"("beta": 0.6)")).u, {0, 0, -0.75}, 1e-15);
     expect_near(shot(velocity(R"("beta": 0)")).u, {0, 0, 0}, 0);
     expect_near(shot(velocity(R"("rapidity": 1)")).u, {0, 0, -1.1752011936438014}, 1e-15);
-    // gamma slightly above 1 is where sqrt(gamma^2 - 1) would lose half of its digits: u^2 = 2e-12 + 1e-24.
+    // For gamma slightly above 1, sqrt(gamma^2 - 1) would lose half of its digits: u^2 = 2e-12 + 1e-24.
     EXPECT_NEAR(glm::length(shot(velocity(R"("gamma": 1.000000000001)")).u), 1.41421356237e-6, 1e-10);
 }
 
-TEST(ShotTest, DirectionsOfAnyLength)
+TEST(ShotTest, DirectionsMayHaveAnyLength)
 {
     const Shot s = shot(R"("look": [1e-200, 0, -1e-200], "up": [0, 1e299, 0],
         "velocity": { "direction": [3e-290, 4e-290, 0], "beta": 0.6 })");
@@ -78,13 +78,13 @@ TEST(ShotTest, OrientationIsARotationForEveryLook)
         EXPECT_NEAR(glm::length(q), 1, 1e-15);
         expect_near(q * glm::dvec3(0, 0, -1), glm::normalize(look), 1e-14);
         const glm::dvec3 cockpit_up = q * glm::dvec3(0, 1, 0);
-        EXPECT_NEAR(glm::dot(cockpit_up, glm::cross(look, up)), 0, 1e-14); // in the plane of the two
+        EXPECT_NEAR(glm::dot(cockpit_up, glm::cross(look, up)), 0, 1e-14); // in the plane of look and up
         EXPECT_GT(glm::dot(cockpit_up, up), 0);
         expect_near(q * glm::dvec3(1, 0, 0), glm::cross(glm::normalize(look), cockpit_up), 1e-14);
     }
 }
 
-TEST(ShotTest, ShippedShots)
+TEST(ShotTest, ShippedShotsLoad)
 {
     ASSERT_GE(shipped("config/shots").size(), 7u);
     for (const auto& file : shipped("config/shots")) {
@@ -100,7 +100,7 @@ TEST(ShotTest, ShippedShots)
     EXPECT_NEAR(glm::length(rainbow.u), 1 / std::sqrt(3), 1e-15);
 }
 
-TEST(ShotTest, WrongShots)
+TEST(ShotTest, WrongShotsAreRefused)
 {
     expect_wrong(load_shot,
         {

@@ -1,4 +1,4 @@
-// Tour files: the shipped ones in every language, wrong ones; the schema that editors use agrees with the reader.
+// Tour files: the shipped ones in every language, and wrong files. The editors' schema must agree with the reader.
 #include "config/model/shipped.h"
 #include "config/model/tour_file.h"
 #include "runtime/flight/tour.h"
@@ -24,8 +24,8 @@ Tour tour_of(const std::string& text, const std::string& language = "en")
     return load_tour(write_text("tour.json", text), words(language), shipped_shot);
 }
 
-/// What the reader says; "" where it reads it.
-std::string said(const std::string& text)
+/// The reader's message, or "" for a valid tour.
+std::string message_for(const std::string& text)
 {
     try {
         tour_of(text);
@@ -35,7 +35,7 @@ std::string said(const std::string& text)
     }
 }
 
-/// A tour whose second step is this one.
+/// A tour with this as its second step.
 std::string with(const std::string& step)
 {
     return R"({ "scene": "avenue", "steps": [{ "seconds": 1, "cut": "start" }, { "seconds": 2, )" + step + " }] }";
@@ -46,7 +46,7 @@ const std::string question
 
 } // namespace
 
-TEST(TourFile, ShippedOnesAreReadInEveryLanguage)
+TEST(TourFile, ShippedToursAreReadInEveryLanguage)
 {
     int count = 0;
     for (const auto& file : shipped("config/tours")) {
@@ -58,15 +58,15 @@ TEST(TourFile, ShippedOnesAreReadInEveryLanguage)
             EXPECT_EQ(tour.steps.size(), text["steps"].size());
             EXPECT_TRUE(std::filesystem::exists(source_dir() / "config/scenes" / (tour.scene + ".json")));
             for (const Step& step : tour.steps)
-                EXPECT_TRUE(step.question || !step.caption.empty()) << "nothing is said";
+                EXPECT_TRUE(step.question || !step.caption.empty()) << "a step needs a caption or a question";
         }
         ++count;
     }
     EXPECT_GE(count, 4);
 }
 
-/// No text of a tour is left over: each key stands in some tour.
-TEST(TourFile, EachTextIsSaid)
+/// Every text of a tour is used by some tour.
+TEST(TourFile, EveryTourTextIsUsed)
 {
     std::string tours;
     for (const auto& file : shipped("config/tours"))
@@ -76,7 +76,7 @@ TEST(TourFile, EachTextIsSaid)
             << key;
 }
 
-/// What is said fits: in three lines of letters no smaller than a ninth of the panel, in every language.
+/// Every text fits in three lines with letters of at least a ninth of the panel's height, in every language.
 TEST(TourFile, TextsFitTheDisplay)
 {
     const Typesetter typesetter;
@@ -88,19 +88,19 @@ TEST(TourFile, TextsFitTheDisplay)
     };
     for (const auto& file : shipped("config/tours"))
         for (const auto& language : shipped("config/words")) {
-            const Words said = load_words(language);
-            for (const Step& step : load_tour(file, said, shipped_shot).steps) {
+            const Words texts = load_words(language);
+            for (const Step& step : load_tour(file, texts, shipped_shot).steps) {
                 EXPECT_LE(lines(step.caption), 3u) << step.caption;
                 if (step.question) {
                     EXPECT_LE(lines(step.question->ask), 2u) << step.question->ask;
                     for (const char* prefix : {"touring.right", "touring.wrong", "touring.answer"})
-                        EXPECT_LE(lines(said(prefix) + " " + step.question->explanation), 3u) << step.question->explanation;
+                        EXPECT_LE(lines(texts(prefix) + " " + step.question->explanation), 3u) << step.question->explanation;
                 }
             }
         }
 }
 
-TEST(TourFile, EveryMemberIsTaken)
+TEST(TourFile, EveryMemberIsRead)
 {
     const std::string text = R"({ "scene": "clocks", "again_after_s": 33, "ship_s_per_s": 0.5, "steps": [
         { "seconds": 1.5, "cut": { "time": 7, "position": [1, 2, 3], "velocity": { "direction": [0, 0, 2], "gamma": 4 } },
@@ -127,12 +127,12 @@ TEST(TourFile, EveryMemberIsTaken)
     EXPECT_EQ(tour.steps[0].ship_s_per_s, 0.5);
     EXPECT_EQ(tour.steps[0].caption, "english");
     EXPECT_EQ(german.steps[0].caption, "deutsch");
-    EXPECT_EQ(german.steps[4].question->ask, "?") << "English where the language is not there";
+    EXPECT_EQ(german.steps[4].question->ask, "?") << "English replaces a missing language";
     EXPECT_EQ(tour.steps[0].exposure_ev, -2);
     const Glide& glide = std::get<Glide>(tour.steps[1].motion);
     EXPECT_EQ(glide.position, glm::dvec3(4, 5, 6));
     EXPECT_EQ(glide.time, 9);
-    EXPECT_FALSE(glide.u || glide.ship_from_cockpit) << "what is not named stays";
+    EXPECT_FALSE(glide.u || glide.ship_from_cockpit) << "members that are not given stay";
     EXPECT_EQ(tour.steps[1].ship_s_per_s, 3);
     EXPECT_EQ(tour.steps[1].measure->what, Measure::What::reading_s);
     EXPECT_EQ(tour.steps[1].measure->at, glm::dvec3(1, 0, 0));
@@ -166,7 +166,7 @@ TEST(TourFile, TheSchemasDefaultsAreTheReaders)
         schema["definitions"]["question"]["properties"]["explanation_s"]["default"], tour.steps[1].question->explanation_s);
     EXPECT_EQ(schema["definitions"]["step"]["properties"]["ease_s"]["default"],
         json::array({tour.steps[0].ease_s.x, tour.steps[0].ease_s.y}));
-    // Every measure, and no other.
+    // The schema lists every measure, and no other.
     std::set<std::string> known, described;
     for (const auto& [name, what] : measures)
         known.emplace(name);
@@ -175,7 +175,7 @@ TEST(TourFile, TheSchemasDefaultsAreTheReaders)
     EXPECT_EQ(known, described);
 }
 
-TEST(TourFile, WrongOnesAreRefusedByBoth)
+TEST(TourFile, WrongToursAreRefusedByReaderAndSchema)
 {
     for (const auto& [text, problem] :
         std::vector<std::pair<std::string, std::string>>{
@@ -198,10 +198,10 @@ TEST(TourFile, WrongOnesAreRefusedByBoth)
             {with(R"("question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "what": "gamma" } })"),
                 "needs one way to answer"},
             {with(R"("question": { "explanation": { "en": "!" }, "measure": { "what": "gamma" } })"), "lacks \"ask\""}}) {
-        EXPECT_NE(said(text).find(problem), std::string::npos) << said(text);
+        EXPECT_NE(message_for(text).find(problem), std::string::npos) << message_for(text);
         EXPECT_FALSE(schema_accepts(json::parse(text))) << text;
     }
-    // What a schema can't say.
+    // The schema can't express these rules.
     for (const auto& [text, problem] :
         std::vector<std::pair<std::string, std::string>>{
             {R"({ "scene": "avenue", "steps": [{ "seconds": 1 }] })", "/steps/0: {\"seconds\":1} begins nowhere"},
@@ -219,5 +219,5 @@ TEST(TourFile, WrongOnesAreRefusedByBoth)
             {with(
                  R"("question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "what": "gamma" }, "choices": [{ "text": { "en": "a" }, "from": 2, "below": 2 }, { "text": { "en": "b" } }] })"),
                 "/choices/0: "}})
-        EXPECT_NE(said(text).find(problem), std::string::npos) << said(text);
+        EXPECT_NE(message_for(text).find(problem), std::string::npos) << message_for(text);
 }

@@ -1,4 +1,4 @@
-// The languages: each says all that the others say, with the same places to fill, and nothing that nobody says.
+// Every language has the same texts with the same placeholders, and no text is unused.
 #include "config/model/words.h"
 #include "tests/support/files.h"
 #include <functional>
@@ -13,8 +13,8 @@ using nlohmann::json;
 
 namespace {
 
-/// A shipped language's file, changed.
-std::string said_of(const std::function<void(json&)>& change)
+/// The message for a shipped language's file after a change.
+std::string message_after(const std::function<void(json&)>& change)
 {
     json texts = json::parse(read_text(source_dir() / "config/words/en.json"), nullptr, true, true);
     change(texts);
@@ -24,7 +24,7 @@ std::string said_of(const std::function<void(json&)>& change)
 
 } // namespace
 
-TEST(Words, LanguagesSayTheSame)
+TEST(Words, LanguagesHaveTheSameKeysAndPlaceholders)
 {
     const Words& english = words("en");
     int languages = 0;
@@ -46,8 +46,8 @@ TEST(Words, LanguagesSayTheSame)
     EXPECT_GE(languages, 2);
 }
 
-/// The program's sources name each key that the files have to have: none is left over, and none stands in the sources alone.
-TEST(Words, EachIsSaidSomewhere)
+/// The sources name every key of the languages' files, except tours' texts, modes of flight and the decimal sign.
+TEST(Words, EveryKeyIsUsedInTheSources)
 {
     std::string sources;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(source_dir() / "runtime"))
@@ -59,8 +59,8 @@ TEST(Words, EachIsSaidSomewhere)
     }
 }
 
-/// And what the sources name is there: whatever looks like a key, of a kind that there is.
-TEST(Words, EachThatIsSaidIsThere)
+/// Every key that the sources name exists: that is, every text of the form of a key with a known first part.
+TEST(Words, EveryKeyInTheSourcesExists)
 {
     std::set<std::string> kinds;
     for (const auto& [key, text] : words().texts)
@@ -81,20 +81,22 @@ TEST(Words, EachThatIsSaidIsThere)
 
 TEST(Words, WrongFilesAreRefused)
 {
-    EXPECT_NE(said_of([](json& t) { t.erase("hud.ship"); }).find("lacks \"hud.ship\""), std::string::npos);
-    EXPECT_NE(
-        said_of([](json& t) { t["hud.shop"] = "x"; }).find("/hud.shop: \"x\" stands under an unknown name; \"hud.ship\""),
+    EXPECT_NE(message_after([](json& t) { t.erase("hud.ship"); }).find("lacks \"hud.ship\""), std::string::npos);
+    EXPECT_NE(message_after([](json& t) {
+        t["hud.shop"] = "x";
+    }).find("/hud.shop: \"x\" stands under an unknown name; \"hud.ship\""),
         std::string::npos);
-    EXPECT_NE(said_of([](json& t) {
+    EXPECT_NE(message_after([](json& t) {
         t["tutorial.stop_button"] = "Press it";
     }).find("/tutorial.stop_button: \"Press it\" has other places to fill than are filled; a text with {button} is right"),
         std::string::npos);
-    EXPECT_NE(said_of([](json& t) { t["hud.ship"] = "the {ship}"; }).find("a text with no { } is right"), std::string::npos);
-    EXPECT_NE(said_of([](json& t) { t["hud.ship"] = 3; }).find("is not a text"), std::string::npos);
-    EXPECT_NE(said_of([](json& t) { t = json::array(); }).find("is not an object"), std::string::npos);
+    EXPECT_NE(
+        message_after([](json& t) { t["hud.ship"] = "the {ship}"; }).find("a text with no { } is right"), std::string::npos);
+    EXPECT_NE(message_after([](json& t) { t["hud.ship"] = 3; }).find("is not a text"), std::string::npos);
+    EXPECT_NE(message_after([](json& t) { t = json::array(); }).find("is not an object"), std::string::npos);
 }
 
-TEST(Words, FillsPlaces)
+TEST(Words, PlaceholdersAreFilled)
 {
     EXPECT_EQ(filled("{a} and {b}, {a}", {{"a", "one"}, {"b", "2"}}), "one and 2, one");
     EXPECT_EQ(filled("nothing", {{"a", "1"}}), "nothing");

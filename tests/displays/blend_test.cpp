@@ -1,5 +1,5 @@
-// Ramps where projectors overlap: what falls on each place of the screen, added up by hand. The way from a direction to each
-// projector's pixel is written here again, from what config/layout.h says.
+// Blend ramps where projectors overlap: the light on each place of the screen is summed by hand. This file computes the
+// pixel of a direction in each projector independently, from config/layout.h.
 #include "displays/finish/blend.h"
 #include "displays/finish/shade.h"
 #include "tests/support/files.h"
@@ -16,7 +16,7 @@ using glm::dvec2;
 using glm::dvec3;
 using glm::ivec2;
 
-/// Where a projector of `size` pixels lights a direction; nothing behind it.
+/// The place that a projector of `size` pixels lights a direction from; nothing behind it.
 using Lit = std::function<std::optional<dvec2>(const dvec3&, ivec2 size)>;
 
 Lit planar_light(const Planar& planar)
@@ -37,7 +37,7 @@ Lit planar_light(const Planar& planar)
 Lit wall_light(const Wall& wall)
 {
     return [wall](const dvec3& d, ivec2 size) -> std::optional<dvec2> {
-        // All walls here stand at z.
+        // All walls here are parallel to the xy plane.
         if (d.z >= 0)
             return {};
         const dvec3 at = d * (wall.lower_left_m.z / d.z);
@@ -46,7 +46,7 @@ Lit wall_light(const Wall& wall)
     };
 }
 
-/// An equidistant one that looks straight up, its circle the largest that the picture holds.
+/// An equidistant fisheye that looks straight up, with the largest circle that the picture holds.
 Lit fisheye_light(double aperture_deg)
 {
     return [=](const dvec3& d, ivec2 size) -> std::optional<dvec2> {
@@ -58,7 +58,7 @@ Lit fisheye_light(double aperture_deg)
     };
 }
 
-/// The projectors of dome2: make.py's lenses at the rim of a dome of 4 m that leans forward by 15 degrees.
+/// The projectors of dome2: make.py's lenses at the rim of a dome of 4 m radius that leans forward by 15 degrees.
 Lit dome2_light(bool left)
 {
     return [=](const dvec3& d, ivec2 size) -> std::optional<dvec2> {
@@ -75,8 +75,9 @@ Lit dome2_light(bool left)
 
 struct Rig {
     Layout layout;
-    std::vector<Lit> lights; ///< of each output
-    std::function<bool(const dvec3&)> screen = [](const dvec3&) { return true; }; ///< the part of the sphere that there is
+    std::vector<Lit> lights; ///< one for each output
+    std::function<bool(const dvec3&)> screen
+        = [](const dvec3&) { return true; }; ///< the part of the sphere that is a screen
 
     void add(ivec2 size, const Projection& projection, Lit light)
     {
@@ -91,15 +92,15 @@ struct Rig {
     void add(ivec2 size, const Wall& wall) { add(size, wall, wall_light(wall)); }
 };
 
-/// What each output's light is multiplied by, as the finish pass has it, and which of its pixels are lit at all.
+/// Each output's weights as the finish pass applies them, and its lit pixels.
 struct Weights {
-    struct Own {
+    struct OutputWeights {
         ivec2 size;
         std::vector<float> values;
-        std::vector<int> lit_before; ///< pixels lit above and left of each corner
-        std::shared_ptr<const DirectionMap> map; ///< null where the way from a direction to the pixel is exact
+        std::vector<int> lit_before; ///< number of lit pixels above and left of each corner
+        std::shared_ptr<const DirectionMap> map; ///< null where a direction's pixel is exact
     };
-    std::vector<Own> outputs;
+    std::vector<OutputWeights> outputs;
 
     explicit Weights(const Layout& layout)
     {
@@ -112,30 +113,32 @@ struct Weights {
         for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
             const ivec2 size = layout.outputs[i].size;
             const Shade shade = shade_of(layout, i, size, views, ramps);
-            Own own{size, std::vector<float>(std::size_t(size.x) * size.y, 1.0f),
+            OutputWeights weights_of_output{size, std::vector<float>(std::size_t(size.x) * size.y, 1.0f),
                 std::vector<int>(std::size_t(size.x + 1) * (size.y + 1)), views[i].mesh ? views[i].map : nullptr};
             for (int y = 0; y < size.y; ++y)
                 for (int x = 0; x < size.x; ++x) {
                     const std::size_t k = std::size_t(y) * size.x + x, c = std::size_t(y) * (size.x + 1) + x;
                     if (!shade.weight.empty()) {
-                        own.values[k] = shade.weight[k].r;
-                        EXPECT_EQ(shade.weight[k], glm::vec3(own.values[k]));
+                        weights_of_output.values[k] = shade.weight[k].r;
+                        EXPECT_EQ(shade.weight[k], glm::vec3(weights_of_output.values[k]));
                     }
                     const int lit = !views[i].map || views[i].map->texels[k].w > 0;
-                    own.lit_before[c + size.x + 2]
-                        = lit + own.lit_before[c + 1] + own.lit_before[c + size.x + 1] - own.lit_before[c];
+                    weights_of_output.lit_before[c + size.x + 2] = lit + weights_of_output.lit_before[c + 1]
+                        + weights_of_output.lit_before[c + size.x + 1] - weights_of_output.lit_before[c];
                 }
-            outputs.push_back(std::move(own));
+            outputs.push_back(std::move(weights_of_output));
         }
     }
 
-    /// How many pixels are lit within `reach` of a pixel, both ways.
+    /// The number of lit pixels within `reach` of a pixel in both axes.
     int lit(std::size_t i, ivec2 pixel, int reach) const
     {
-        const Own& own = outputs[i];
-        const ivec2 low = glm::clamp(pixel - reach, ivec2(0), own.size),
-                    high = glm::clamp(pixel + reach + 1, ivec2(0), own.size);
-        auto before = [&](int x, int y) { return own.lit_before[std::size_t(y) * (own.size.x + 1) + x]; };
+        const OutputWeights& weights_of_output = outputs[i];
+        const ivec2 low = glm::clamp(pixel - reach, ivec2(0), weights_of_output.size),
+                    high = glm::clamp(pixel + reach + 1, ivec2(0), weights_of_output.size);
+        auto before = [&](int x, int y) {
+            return weights_of_output.lit_before[std::size_t(y) * (weights_of_output.size.x + 1) + x];
+        };
         return before(high.x, high.y) - before(low.x, high.y) - before(high.x, low.y) + before(low.x, low.y);
     }
     bool edge(std::size_t i, const dvec2& place, int reach) const
@@ -144,7 +147,8 @@ struct Weights {
         return count > 0 && count < (2 * reach + 1) * (2 * reach + 1);
     }
 
-    /// A calibration is straight between its points, which moves things by a third of a pixel: to where the map says.
+    /// A calibration is linear between its points, which is a third of a pixel off. This corrects a place by the direction
+    /// map.
     dvec2 corrected(std::size_t i, const dvec3& d, dvec2 place) const
     {
         const DirectionMap* map = outputs[i].map.get();
@@ -154,22 +158,24 @@ struct Weights {
                 break;
             const dvec3 here = map->at(p.x, p.y), x = 0.5 * dvec3(map->at(p.x + 1, p.y) - map->at(p.x - 1, p.y)),
                         y = 0.5 * dvec3(map->at(p.x, p.y + 1) - map->at(p.x, p.y - 1));
-            // d = here + s x + t y, along its own line
+            // Solves d = here + s x + t y along the ray.
             const dvec3 s = glm::inverse(glm::dmat3(x, y, -d)) * -here;
             place = dvec2(p) + 0.5 + dvec2(s);
         }
         return place;
     }
 
-    /// Straight between the centres of four pixels, and on from these to the picture's edge; beside a hole the pixel's own.
-    /// Nothing where no pixel is lit.
+    /// Interpolates between the centres of four pixels, and extrapolates to the picture's edge. Beside a hole it returns the
+    /// pixel's own weight, and nothing where no pixel is lit.
     std::optional<double> at(std::size_t i, const dvec2& place) const
     {
-        const Own& own = outputs[i];
-        const ivec2 pixel = glm::floor(place), low = glm::clamp(ivec2(glm::floor(place - 0.5)), ivec2(0), own.size - 2);
+        const OutputWeights& weights_of_output = outputs[i];
+        const ivec2 pixel = glm::floor(place),
+                    low = glm::clamp(ivec2(glm::floor(place - 0.5)), ivec2(0), weights_of_output.size - 2);
         if (lit(i, pixel, 0) == 0)
             return {};
-        auto value = [&](int x, int y) { return double(own.values[std::size_t(y) * own.size.x + x]); };
+        auto value
+            = [&](int x, int y) { return double(weights_of_output.values[std::size_t(y) * weights_of_output.size.x + x]); };
         for (ivec2 corner : {ivec2(0, 0), ivec2(1, 0), ivec2(0, 1), ivec2(1, 1)})
             if (lit(i, low + corner, 0) == 0)
                 return value(pixel.x, pixel.y);
@@ -179,16 +185,16 @@ struct Weights {
     }
 };
 
-/// Light over the screen: largest |sum - 1|.
+/// The light over the screen: the largest |sum - 1|.
 struct Sum {
-    double worst = 0; ///< but for where the edges of two pictures cross
-    double crossing = 0; ///< there
-    double alone = 0; ///< where one picture lights, a few pixels or more from the edge of any
-    int all = 0, by[6] = {}, of_alone = 0, over = 0; ///< directions; over: by more than 1 %
+    double worst = 0; ///< except where two pictures' edges cross
+    double crossing = 0; ///< where edges cross
+    double alone = 0; ///< where one picture lights alone, at least a few pixels from any edge
+    int all = 0, by[6] = {}, of_alone = 0, over = 0; ///< numbers of directions; over: those above 1 %
 };
 
-/// Where two edges cross both ramps go from 1 to 0 around one point, and pixels cannot follow: at r pixels from it the ramps
-/// are r pixels long, and straight lines between the pixels cut a kink by up to 1 / (4 r).
+/// Where two edges cross, both ramps go from 1 to 0 around one point, which pixels can't resolve. At r pixels from it the
+/// ramps are r pixels long, and linear interpolation cuts a kink by up to 1 / (4 r).
 constexpr int crossing_reach = 32;
 
 Sum light_of(const Rig& rig, int count = 200000)
@@ -215,7 +221,7 @@ Sum light_of(const Rig& rig, int count = 200000)
             edges += weights.edge(i, place, crossing_reach);
         }
         if (whole == 0)
-            continue; // dark, or the outermost pixel of all: the light ends here
+            continue; // dark, or an outermost pixel, where the light ends
         ++sum.all;
         ++sum.by[std::min(by, 5)];
         const double off = std::abs(light - 1);
@@ -256,7 +262,7 @@ Rig dome2()
 
 } // namespace
 
-TEST(BlendTest, ShippedDome)
+TEST(BlendTest, TheShippedDomesLightAddsUp)
 {
     for (double power : {1.0, 2.0}) {
         Rig rig = dome2();
@@ -265,15 +271,15 @@ TEST(BlendTest, ShippedDome)
     }
 }
 
-TEST(BlendTest, Rigs)
+TEST(BlendTest, OverlappingPicturesAddUp)
 {
-    Rig row; // a panorama of three that do not agree on pixels, the middle one leaning
+    Rig row; // a panorama of three projectors with different pixels, the middle one rolled
     row.add({1280, 800}, Planar{40, {}, {-42, 0, 0}});
     row.add({1024, 768}, Planar{50, {}, {0, 3, 12}});
     row.add({1920, 1080}, Planar{36, {}, {42, -2, -3}});
     check("three in a row", row);
 
-    Rig dome; // a lens for the zenith and four windows around: at their upper corners three light one place
+    Rig dome; // a lens for the zenith and four windows around; at their upper corners three pictures overlap
     dome.add({1000, 1000}, Fisheye{110, 0}, fisheye_light(110));
     dome.add({1280, 800}, Planar{60, {}, {0, 25, 0}});
     dome.add({1280, 1024}, Planar{70, {}, {92, 25, 5}});
@@ -281,21 +287,21 @@ TEST(BlendTest, Rigs)
     dome.add({1400, 1050}, Planar{66, {}, {-90, 26, -20}});
     check("lens and four windows", dome);
 
-    Rig stairs; // of walls: each pair of edges crosses inside the picture of a neighbour
+    Rig stairs; // walls: each pair of edges crosses inside a neighbour's picture
     stairs.add({900, 600}, Wall{{-2, -1, -2}, {0.3, -1, -2}, {-2, 0.53333333333333333, -2}});
     stairs.add({640, 480}, Wall{{-0.2, -0.6, -2}, {1.4, -0.6, -2}, {-0.2, 0.6, -2}});
     stairs.add({1200, 700}, Wall{{-0.8, 0.1, -2}, {1.6, 0.1, -2}, {-0.8, 1.5, -2}});
     check("stairs", stairs);
 
-    Rig stack; // two on the whole of one place
+    Rig stack; // two projectors on the whole of one place
     stack.add({1280, 800}, Planar{50, {}, {}});
     stack.add({640, 400}, Planar{42, {}, {2, 1, 180}});
     stack.add({1280, 800}, Planar{50, {}, {40, 0, 90}});
     check("one inside another", stack);
 }
 
-// Half way across a strip both give half; a quarter of the way from its own edge a quarter, or what the power makes of it.
-TEST(BlendTest, RampsAreStraightOrAsSteepAsAsked)
+// In the middle of a strip both weights are a half; elsewhere they follow the distances to the edges, to the ramp's power.
+TEST(BlendTest, RampsFollowTheirPower)
 {
     Layout layout;
     for (double left : {-1.5, -0.5}) {
@@ -307,12 +313,13 @@ TEST(BlendTest, RampsAreStraightOrAsSteepAsAsked)
     for (double power : {1.0, 2.0, 3.0}) {
         layout.blend.power = power;
         const Weights weights(layout);
-        // The strip is from 200 to 400 in the left picture. Both end at the same height: no row is another's.
+        // The strip is from 200 to 400 in the left picture. Both pictures end at the same height, so that every row is
+        // alike.
         for (int y : {0, 1, 2, 50, 120, 237, 239}) {
             for (int x = 200; x < 400; ++x) {
-                const double own = std::pow(399.5 - x, power), other = std::pow(x + 0.5 - 200, power);
-                // Distances are looked up at every fourth pixel and straight between: 1 % is the bound of their bend.
-                EXPECT_NEAR(weights.outputs[0].values[y * 400 + x], own / (own + other), 0.002)
+                const double weights_of_output = std::pow(399.5 - x, power), other = std::pow(x + 0.5 - 200, power);
+                // Distances are computed at every fourth pixel and interpolated; the interpolation is off by less.
+                EXPECT_NEAR(weights.outputs[0].values[y * 400 + x], weights_of_output / (weights_of_output + other), 0.002)
                     << x << " " << y << " power " << power;
             }
             EXPECT_EQ(weights.outputs[0].values[y * 400 + 150], 1);
@@ -320,8 +327,9 @@ TEST(BlendTest, RampsAreStraightOrAsSteepAsAsked)
     }
 }
 
-// One desktop over two projectors is one output with two viewports; what is drawn over another picture is not beside it.
-TEST(BlendTest, ViewportsOfOneOutputAreBlendedWhereTheyShareNoPixels)
+// One desktop over two projectors is one output with two viewports. A viewport drawn over another one is not blended with
+// it.
+TEST(BlendTest, ViewportsOfOneOutputAreBlendedUnlessTheyOverlap)
 {
     Layout layout;
     layout.outputs.resize(1);
@@ -334,7 +342,7 @@ TEST(BlendTest, ViewportsOfOneOutputAreBlendedWhereTheyShareNoPixels)
     const auto apart = ramps();
     ASSERT_EQ(apart[0].size(), 400u * 240);
     ASSERT_EQ(apart[1].size(), 400u * 240);
-    // Both look 20 degrees aside: straight ahead is as far from the edge of one as of the other.
+    // Both look 20 degrees aside, so that straight ahead is equally far from both edges.
     const double ahead = 200 + std::tan(glm::radians(20.0)) * 120 / std::tan(glm::radians(20.0));
     EXPECT_NEAR(apart[0][120 * 400 + int(ahead)], 0.5, 0.02);
     EXPECT_EQ(apart[0][120 * 400], 1);
@@ -343,15 +351,15 @@ TEST(BlendTest, ViewportsOfOneOutputAreBlendedWhereTheyShareNoPixels)
         EXPECT_TRUE(ramp.empty());
 }
 
-TEST(BlendTest, PicturesThatOnlyTouchStayWhole)
+TEST(BlendTest, PicturesThatOnlyTouchAreNotDimmed)
 {
     Rig rig;
     rig.add({640, 480}, Wall{{-2, -0.75, -2}, {0, -0.75, -2}, {-2, 0.75, -2}});
     rig.add({640, 480}, Wall{{0, -0.75, -2}, {2, -0.75, -2}, {0, 0.75, -2}});
     const Weights weights(rig.layout);
     float least = 1;
-    for (const auto& own : weights.outputs)
-        least = std::min(least, *std::min_element(own.values.begin(), own.values.end()));
+    for (const auto& weights_of_output : weights.outputs)
+        least = std::min(least, *std::min_element(weights_of_output.values.begin(), weights_of_output.values.end()));
     EXPECT_GT(least, 0.99f);
 }
 
@@ -365,15 +373,16 @@ TEST(BlendTest, EyesAndMasksAreNotBlended)
         layout.outputs.push_back(output);
     }
     auto all_one = [&] {
-        for (const auto& own : Weights(layout).outputs)
-            if (std::any_of(own.values.begin(), own.values.end(), [](float w) { return w != 1; }))
+        for (const auto& weights_of_output : Weights(layout).outputs)
+            if (std::any_of(
+                    weights_of_output.values.begin(), weights_of_output.values.end(), [](float w) { return w != 1; }))
                 return false;
         return true;
     };
-    EXPECT_TRUE(all_one()) << "the same place, but each for an eye of its own";
+    EXPECT_TRUE(all_one()) << "the pictures overlap, but each is for another eye";
     layout.outputs[1].viewports[0].eye = Eye::left;
     EXPECT_FALSE(all_one());
-    layout.outputs[1].viewports[0].alpha_mask = "mask.png"; // does the blending by itself
+    layout.outputs[1].viewports[0].alpha_mask = "mask.png"; // a mask replaces the ramps
     MapStore store{std::filesystem::path()};
     std::vector<CompiledView> views;
     for (std::size_t i = 0; i < 2; ++i)

@@ -1,4 +1,4 @@
-// Maps that are compiled once: by content, in memory and in a folder that may be damaged.
+// Direction maps are compiled once for each content, and kept in memory and in a folder, whose files may be damaged.
 #include "displays/compile/compiled_view.h"
 #include "tests/support/files.h"
 #include <chrono>
@@ -44,7 +44,7 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder)
 
 } // namespace
 
-TEST(CompiledTest, FlatPanesNeedNoMap)
+TEST(CompiledTest, FlatViewsNeedNoMap)
 {
     MapStore store{std::filesystem::path()};
     const auto views = compile_output(store, one(Planar{60}, {64, 48}), 0, {64, 48});
@@ -53,7 +53,7 @@ TEST(CompiledTest, FlatPanesNeedNoMap)
     EXPECT_TRUE(views.front().cones->flat());
 }
 
-TEST(CompiledTest, TheSameContentIsOneMapWhileItIsHeld)
+TEST(CompiledTest, EqualContentSharesOneMap)
 {
     MapStore store{std::filesystem::path()};
     const Layout layout = one(Fisheye{180, 20}, {64, 64});
@@ -68,8 +68,8 @@ TEST(CompiledTest, TheSameContentIsOneMapWhileItIsHeld)
     EXPECT_EQ(map_of(other, layout)->texels, held->texels);
 }
 
-// One number of a projection after the other: each makes another map.
-TEST(CompiledTest, EveryNumberCounts)
+// Each parameter of a projection is changed alone, and must give another map.
+TEST(CompiledTest, EveryParameterMakesAnotherMap)
 {
     MapStore store{std::filesystem::path()};
     SphericalMirror mirror{{0, 0.3, -0.4}, Planar{40, {}, {180, 0, 0}}, {0, 0, 0.5}, 0.3, {0, 0, 0}, 3, 10, 180};
@@ -112,7 +112,7 @@ TEST(CompiledTest, EveryNumberCounts)
         for (std::size_t i = 0; i + 1 < held.size(); ++i)
             EXPECT_NE(held[i], held.back()) << i << " and " << held.size() - 1;
     }
-    // The pixels count, and for a mirror where the eye is.
+    // The size in pixels counts, and for a mirror the eye's place.
     EXPECT_NE(map_of(store, one(f, {12, 16})), held.front());
     Layout moved = one(mirror, {16, 12});
     const auto from_middle = map_of(store, moved);
@@ -120,7 +120,7 @@ TEST(CompiledTest, EveryNumberCounts)
     EXPECT_NE(map_of(store, moved), from_middle);
 }
 
-TEST(CompiledTest, AWarpFileCountsByItsContent)
+TEST(CompiledTest, AWarpFileIsIdentifiedByItsContent)
 {
     MapStore store{std::filesystem::path()};
     const std::string text = "2\n2 2\n-1 -1 0 0 1\n1 -1 1 0 1\n-1 1 0 1 1\n1 1 1 1 1\n";
@@ -152,7 +152,7 @@ TEST(CompiledTest, TheFolderKeepsMapsAcrossStarts)
         EXPECT_EQ(map_of(again, a)->texels, of_a->texels);
         EXPECT_EQ(files_in(folder).size(), 2u);
     }
-    // That it is read, not compiled again, shows where the two files change places.
+    // If the two files change places, a store that reads them returns the other's map.
     const auto files = files_in(folder);
     std::filesystem::rename(files[0], folder / "aside");
     std::filesystem::rename(files[1], files[0]);
@@ -162,7 +162,7 @@ TEST(CompiledTest, TheFolderKeepsMapsAcrossStarts)
     EXPECT_EQ(map_of(exchanged, b)->texels, of_a->texels);
 }
 
-TEST(CompiledTest, SmallMapsAndThoseOfATurningHandAreNotWritten)
+TEST(CompiledTest, SmallMapsAndThoseOfAlignmentAreNotWritten)
 {
     const auto folder = fresh_folder("unwritten");
     MapStore store(folder);
@@ -172,7 +172,7 @@ TEST(CompiledTest, SmallMapsAndThoseOfATurningHandAreNotWritten)
     EXPECT_FALSE(std::filesystem::exists(folder) && !files_in(folder).empty());
 }
 
-TEST(CompiledTest, DamagedFilesAreNotBelieved)
+TEST(CompiledTest, DamagedFilesAreCompiledAgain)
 {
     const auto folder = fresh_folder("damaged");
     const Layout layout = one(Fisheye{180, 20}, large);
@@ -193,31 +193,31 @@ TEST(CompiledTest, DamagedFilesAreNotBelieved)
         zeros.begin() + std::ptrdiff_t(whole.size() / 2), zeros.begin() + std::ptrdiff_t(whole.size() / 2) + 512, '\0');
     damages.emplace_back("a sector of zeros", zeros);
     for (int i = 0; i < 24; ++i) {
-        // Half of them in what comes before the directions.
+        // Half of the damages are in the header.
         std::string flipped = whole;
         const std::size_t at = i % 2 ? random() % 32 : random() % whole.size();
         flipped[at] = char(flipped[at] ^ 1 << random() % 8);
         damages.emplace_back("bit at " + std::to_string(at), flipped);
     }
-    for (const auto& [what, content] : damages) {
+    for (const auto& [damage, content] : damages) {
         {
             std::ofstream(file, std::ios::binary | std::ios::trunc) << content;
         }
         MapStore store(folder);
         const auto map = map_of(store, layout);
-        EXPECT_TRUE(map->texels == right->texels && map->intensity == right->intensity) << what;
-        EXPECT_TRUE(read_text(file) == whole) << what << ": mended";
+        EXPECT_TRUE(map->texels == right->texels && map->intensity == right->intensity) << damage;
+        EXPECT_TRUE(read_text(file) == whole) << damage << ": the file must be written anew";
     }
 }
 
-TEST(CompiledTest, AFolderThatCannotBeUsedOnlyCostsTime)
+TEST(CompiledTest, MapsCompileWithoutAUsableFolder)
 {
     const auto blocked = write_text("a file", "in the way") / "folder";
     MapStore store(blocked);
     EXPECT_TRUE(map_of(store, one(Fisheye{180, 20}, large)));
 }
 
-// What an exhibit waits for at its first start.
+// The time that an exhibit waits at its first start.
 TEST(CompiledTest, ADomeOf4096PixelsIsCompiledInSeconds)
 {
     const Layout layout = one(Fisheye{180, 15}, {4096, 4096});
@@ -232,8 +232,8 @@ TEST(CompiledTest, ADomeOf4096PixelsIsCompiledInSeconds)
         "  4096 x 4096: directions in %.2f s, blocks in %.2f s\n", seconds(began, compiled), seconds(compiled, done));
     EXPECT_NEAR(map.at(2048, 2048).y, std::cos(glm::radians(15.0)), 1e-3);
     EXPECT_EQ(cones.size(), map.size);
-    // Two idle cores take 2 s at most; a shared or slow machine must not fail for it, a slower algorithm must. The
-    // sanitizers cost some ten times as much.
+    // Two idle cores take at most 2 s. The bound allows for slow machines and fails for a slower algorithm. The sanitizers
+    // take about ten times as long.
 #if defined(__SANITIZE_ADDRESS__)
     EXPECT_LT(seconds(began, done), 100);
 #else

@@ -1,5 +1,5 @@
-// ConeHierarchy of a direction map, against every pixel one by one; and the way back from a direction to its pixel, against
-// the projections' formulas, written here again.
+// The cone hierarchy of a direction map, compared with every pixel, and the search for a direction's pixel, compared with
+// the projections' formulas.
 #include "config/model/turn.h"
 #include "displays/compile/cone_hierarchy.h"
 #include "tests/support/sphere.h"
@@ -23,7 +23,7 @@ View view_of(const Projection& projection, ivec2 size)
     return views_of(layout, 0, size).front();
 }
 
-/// All pixels' directions and angles, 0 where nothing is shown.
+/// All pixels' directions and angles; the angle is 0 where nothing is shown.
 std::vector<std::pair<dvec3, double>> pixels(const View& view)
 {
     const DirectionMap map = compile_direction_map(view);
@@ -33,12 +33,13 @@ std::vector<std::pair<dvec3, double>> pixels(const View& view)
     return all;
 }
 
-/// Float's rounding of a unit vector.
+/// The rounding of a unit vector in float.
 constexpr double rounding = 1e-6;
 
-void expect_caps_hold(const View& view, const ConeHierarchy& cones)
+void expect_cones_enclose(const View& view, const ConeHierarchy& cones)
 {
-    // A flat view's angle is that of the pixel's centre, a map's that of all of it: apart by the next term in its size.
+    // A flat view has the angle of a pixel's centre, a map that of its whole area. They differ by the next order in the
+    // pixel's size.
     const auto room = [&](double angle) { return 1 + rounding + (cones.flat() ? angle * angle : 0); };
     const auto all = pixels(view);
     ASSERT_EQ(cones.size(), view.size);
@@ -48,7 +49,7 @@ void expect_caps_hold(const View& view, const ConeHierarchy& cones)
         const ivec2 count = cones.count(level);
         for (int j = 0; j < count.y; ++j)
             for (int i = 0; i < count.x; ++i) {
-                const BoundingCone cap = cones.cone(level, {i, j});
+                const BoundingCone cone = cones.cone(level, {i, j});
                 bool any = false;
                 double finest = 1e9, coarsest = 0, widest = 0;
                 for (int y = j * side; y < std::min((j + 1) * side, view.size.y); ++y)
@@ -58,17 +59,17 @@ void expect_caps_hold(const View& view, const ConeHierarchy& cones)
                             continue;
                         any = true;
                         finest = std::min(finest, angle), coarsest = std::max(coarsest, angle);
-                        widest = std::max(widest, sphere::angle(glm::normalize(n), glm::normalize(dvec3(cap.centre))));
+                        widest = std::max(widest, sphere::angle(glm::normalize(n), glm::normalize(dvec3(cone.centre))));
                     }
-                ASSERT_EQ(cap.empty(), !any) << level << " " << i << " " << j;
+                ASSERT_EQ(cone.empty(), !any) << level << " " << i << " " << j;
                 if (!any)
                     continue;
-                ASSERT_LE(widest, cap.radius + rounding);
-                ASSERT_LE(cap.finest, finest * room(finest));
-                ASSERT_GE(cap.coarsest * room(coarsest), coarsest);
-                // And of use: a leaf's cap is about as large as the leaf.
+                ASSERT_LE(widest, cone.radius + rounding);
+                ASSERT_LE(cone.finest, finest * room(finest));
+                ASSERT_GE(cone.coarsest * room(coarsest), coarsest);
+                // A leaf's cone must be about as narrow as the leaf.
                 if (level + 1 == cones.levels()) {
-                    ASSERT_LE(cap.radius, 1.2 * widest + 1e-5) << level << " " << i << " " << j;
+                    ASSERT_LE(cone.radius, 1.2 * widest + 1e-5) << level << " " << i << " " << j;
                 }
             }
     }
@@ -79,29 +80,29 @@ const Projection projections[] = {Planar{60}, Planar{120, {}, {30, -20, 10}}, Pl
 
 } // namespace
 
-TEST(BlocksTest, CapsHoldEveryPixel)
+TEST(ConeHierarchyTest, ConesEncloseEveryPixel)
 {
     for (const Projection& projection : projections)
         for (ivec2 size : {ivec2(61, 40), ivec2(8, 8), ivec2(1, 33)}) {
             SCOPED_TRACE(std::to_string(projection.index()) + " " + std::to_string(size.x));
             const View view = view_of(projection, size);
-            expect_caps_hold(view, ConeHierarchy(compile_direction_map(view)));
+            expect_cones_enclose(view, ConeHierarchy(compile_direction_map(view)));
             if (const auto matrix = view_matrix(view)) {
                 EXPECT_TRUE(ConeHierarchy(*matrix, size).flat());
-                if (size.x > 1) // else the map's pixels are slivers
-                    expect_caps_hold(view, ConeHierarchy(*matrix, size));
+                if (size.x > 1) // a single column makes very narrow pixels in the map
+                    expect_cones_enclose(view, ConeHierarchy(*matrix, size));
             }
         }
 }
 
-TEST(BlocksTest, FindIsTheWayBack)
+TEST(ConeHierarchyTest, FindReturnsTheProjectionsPixel)
 {
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
     struct Case {
         Projection projection;
         ivec2 size;
-        std::function<std::optional<dvec2>(const dvec3&)> wanted;
+        std::function<std::optional<dvec2>(const dvec3&)> expected;
     };
     const double half = std::tan(glm::radians(30.0));
     const dvec3 zenith(0, std::cos(glm::radians(30.0)), -std::sin(glm::radians(30.0))),
@@ -133,18 +134,18 @@ TEST(BlocksTest, FindIsTheWayBack)
         double worst = 0;
         for (int k = 0; k < 20000; ++k) {
             const dvec3 d = glm::normalize(dvec3(normal(random), normal(random), normal(random)));
-            const auto at = find_pixel(map, cones, d), wanted = c.wanted(d);
-            const bool inside = wanted && glm::all(glm::greaterThan(*wanted, dvec2(1)))
-                && glm::all(glm::lessThan(*wanted, dvec2(c.size) - 1.0));
-            const bool outside = !wanted || glm::any(glm::lessThan(*wanted, dvec2(-1)))
-                || glm::any(glm::greaterThan(*wanted, dvec2(c.size) + 1.0));
+            const auto at = find_pixel(map, cones, d), expected = c.expected(d);
+            const bool inside = expected && glm::all(glm::greaterThan(*expected, dvec2(1)))
+                && glm::all(glm::lessThan(*expected, dvec2(c.size) - 1.0));
+            const bool outside = !expected || glm::any(glm::lessThan(*expected, dvec2(-1)))
+                || glm::any(glm::greaterThan(*expected, dvec2(c.size) + 1.0));
             if (c.projection.index() == Projection(Equirectangular{}).index() && std::abs(d.y) > 0.98)
-                continue; // towards the poles, where a row ends in one place
+                continue; // near the poles, where a row is one direction
             if (c.projection.index() == Projection(Fisheye{}).index() && std::abs(glm::dot(d, zenith)) < 0.02)
                 continue; // the rim, where the circle cuts pixels
             if (inside) {
                 ASSERT_TRUE(at) << d.x << " " << d.y << " " << d.z;
-                worst = std::max(worst, glm::distance(*at, *wanted));
+                worst = std::max(worst, glm::distance(*at, *expected));
                 ++found;
             }
             if (outside) {
@@ -152,12 +153,12 @@ TEST(BlocksTest, FindIsTheWayBack)
             }
         }
         std::printf("  find: worst %.3f pixels of %d\n", worst, found);
-        EXPECT_LT(worst, 0.02); // taken as straight over half a pixel of a degree: 0.5^2 / 2 of a degree's bend, 0.002
+        EXPECT_LT(worst, 0.02); // linear over half a pixel of a degree: off by 0.5^2 / 2 of a degree's curvature, 0.002
         EXPECT_GT(found, 1000);
     }
 }
 
-TEST(BlocksTest, NothingIsFoundInNothing)
+TEST(ConeHierarchyTest, AnEmptyMapHasNoPixels)
 {
     DirectionMap dark;
     dark.size = {16, 16};
@@ -168,7 +169,7 @@ TEST(BlocksTest, NothingIsFoundInNothing)
     EXPECT_EQ(pixels_in_pyramid(ConeHierarchy(dark), {&side, 1}).high, ivec2(0));
 }
 
-TEST(BlocksTest, PyramidsHoldTheirPixels)
+TEST(ConeHierarchyTest, BoxesEncloseThePixelsOfAPyramid)
 {
     for (const Projection& projection : projections) {
         const View view = view_of(projection, {96, 72});
@@ -177,7 +178,7 @@ TEST(BlocksTest, PyramidsHoldTheirPixels)
         for (const ConeHierarchy& cones : {ConeHierarchy(compile_direction_map(view)),
                  matrix ? ConeHierarchy(*matrix, view.size) : ConeHierarchy(compile_direction_map(view))})
             for (const Turn& turn : {Turn{0, 0, 0}, Turn{70, 30, 0}, Turn{180, -40, 20}}) {
-                // 20 degrees to each side of the turn's axis.
+                // The pyramid reaches 20 degrees to each side of the turn's axis.
                 const glm::dmat3 axes = cockpit_from_picture(turn);
                 const double s = std::sin(glm::radians(20.0)), c = std::cos(glm::radians(20.0));
                 const dvec3 sides[]
@@ -200,8 +201,8 @@ TEST(BlocksTest, PyramidsHoldTheirPixels)
                     continue;
                 EXPECT_TRUE(glm::all(glm::lessThanEqual(box.low, low)) && glm::all(glm::greaterThanEqual(box.high, high)));
                 EXPECT_LE(box.finest, finest * (1 + rounding));
-                // Not much more than needed: a block of 8 to each side and its neighbours. At the rim of the whole sphere's
-                // fisheye a block looks all round.
+                // The box is at most a block of 8 and its neighbours larger than needed. At the rim of the whole sphere's
+                // fisheye a block covers all azimuths.
                 if (const auto* fisheye = std::get_if<Fisheye>(&projection); fisheye && fisheye->aperture_deg == 360)
                     continue;
                 const ivec2 more = glm::max(low - box.low, box.high - high);

@@ -17,12 +17,12 @@ View view_of(const Projection& projection, glm::ivec2 size)
 
 } // namespace
 
-TEST(DirectionMapTest, CompiledMapsAreTheFunctions)
+TEST(DirectionMapTest, CompiledMapsEqualTheProjections)
 {
     struct Case {
         Projection projection;
         glm::ivec2 size;
-        bool slivers; ///< some of its pixels are drawn out: these count by half their length
+        bool long_pixels; ///< some of its pixels are very long: their angle is half their length
     };
     const Case cases[]{{Planar{60}, {80, 60}, false}, {Planar{179}, {101, 100}, true}, {Fisheye{180, 30}, {64, 48}, false},
         {Fisheye{360, 90}, {255, 256}, true}, {Fisheye{1, 180}, {64, 65}, false}};
@@ -39,22 +39,22 @@ TEST(DirectionMapTest, CompiledMapsAreTheFunctions)
                 const glm::vec4 texel = map.at(x, y);
                 ASSERT_EQ(glm::vec3(texel), seen ? glm::vec3(*seen) : glm::vec3(0));
                 const float angle = float(pixel_angle(view.picture, centre));
-                ASSERT_TRUE(!seen   ? texel.w == 0
-                        : c.slivers ? texel.w >= angle
-                                    : texel.w == angle)
+                ASSERT_TRUE(!seen       ? texel.w == 0
+                        : c.long_pixels ? texel.w >= angle
+                                        : texel.w == angle)
                     << x << " " << y << " " << texel.w << " " << angle;
             }
     }
 }
 
-TEST(DirectionMapTest, SmallestMaps)
+TEST(DirectionMapTest, TheSmallestMapsAreRight)
 {
     EXPECT_NEAR(compile_direction_map(view_of(Planar{60}, {1, 1})).texels.at(0).z, -1, 1e-7);
     EXPECT_EQ(compile_direction_map(view_of(Fisheye{180, 0}, {1, 3})).texels.at(0), glm::vec4(0));
     EXPECT_NEAR(compile_direction_map(view_of(Fisheye{180, 0}, {1, 3})).texels.at(1).y, 1, 1e-7);
 }
 
-// Unfolds the octahedron the long way: each texel's net coordinates are a point on one of eight triangles.
+// Decodes the octahedron's net step by step: a texel's coordinates are a point on one of eight triangles.
 TEST(DirectionMapTest, PackedTexelsKeepTheirDirectionAndAngle)
 {
     DirectionMap map;
@@ -76,13 +76,13 @@ TEST(DirectionMapTest, PackedTexelsKeepTheirDirectionAndAngle)
     for (std::size_t i = 0; i + 1 < all.size(); ++i) {
         const double x = (double(all[i].x >> 8) - 8388608) / 8388607, y = (double(all[i].y >> 8) - 8388608) / 8388607;
         glm::dvec3 n(x, y, 1 - std::abs(x) - std::abs(y));
-        if (n.z < 0) // the outer triangles hold the lower half, mirrored in the square's inner edges
+        if (n.z < 0) // the outer triangles hold the lower half, mirrored at the inner edges
             n = {(x < 0 ? -1 : 1) * (1 - std::abs(y)), (y < 0 ? -1 : 1) * (1 - std::abs(x)), n.z};
         worst = std::max(worst, glm::distance(glm::normalize(n), glm::normalize(glm::dvec3(map.texels[i]))));
         const float angle = std::bit_cast<float>((all[i].x & 255) << 16 | (all[i].y & 255) << 24);
-        ASSERT_NEAR(angle / map.texels[i].w, 1, 1 / 256.0) << i; // 8 bits with the one that goes without saying, rounded
+        ASSERT_NEAR(angle / map.texels[i].w, 1, 1 / 256.0) << i; // 8 bits with the implicit one, rounded
     }
-    // Half a step of 2^-23 in x and y, twice that in z, drawn out by the sphere over the face's middle: sqrt(6 * 3) / 2
+    // Half a step of 2^-23 in x and y, twice that in z, enlarged on the sphere over the face's middle: sqrt(6 * 3) / 2
     // steps.
     EXPECT_LE(worst, std::sqrt(18.0) / 2 / 8388607);
     EXPECT_EQ(all.back(), glm::uvec2(0));

@@ -1,4 +1,4 @@
-// The meshes of the layout dome2: that they are what their generator writes, and that they light the dome.
+// The meshes of the layout dome2: their generator writes the same bytes, and they light the dome.
 #include "config/model/layout.h"
 #include "tests/support/files.h"
 #include <cmath>
@@ -37,16 +37,16 @@ Mesh read_mesh(const std::string& name)
     return mesh;
 }
 
-/// The direction from the dome's centre, in its own frame, of a place in the domemaster that the layout describes.
+/// The direction of a place in the layout's domemaster, from the dome's centre and in its own frame.
 glm::dvec3 dome_direction(double u, double v)
 {
-    const double right = (u - 0.5) / 0.45, front = (0.5 - v) / 0.45; // a circle of 0.9
+    const double right = (u - 0.5) / 0.45, front = (0.5 - v) / 0.45; // the circle's diameter is 0.9
     const double radius = std::hypot(right, front), angle = radius * std::acos(-1) / 2;
     const double side = radius > 0 ? std::sin(angle) / radius : 0;
     return {right * side, std::cos(angle), -front * side};
 }
 
-/// Where the projector at the left or right rim shows a direction: the lens of make.py the other way round.
+/// The place in the left or right projector's picture that lights a direction: the inverse of make.py's lens.
 glm::dvec2 in_picture(bool left, const glm::dvec3& direction)
 {
     const glm::dvec3 lens(left ? -3.9 : 3.9, -0.1, 0), ray = 4.0 * direction - lens;
@@ -81,7 +81,7 @@ TEST(Dome2Test, PointsLieOnTheProjectorsRays)
             if (p.i < 0)
                 continue;
             ++shown;
-            // Five decimals of u are 0.07 mm on a dome of 4 m, which the lens sees from no nearer than a metre.
+            // Five decimals of u are 0.07 mm on a dome of 4 m; the lens is at least a metre away.
             const glm::dvec2 back = in_picture(left, dome_direction(p.u, p.v));
             ASSERT_NEAR(back.x, p.x, 3e-4) << i;
             ASSERT_NEAR(back.y, p.y, 3e-4) << i;
@@ -90,9 +90,8 @@ TEST(Dome2Test, PointsLieOnTheProjectorsRays)
     }
 }
 
-/// Between its points a mesh is taken to be straight: in the middle of each edge that is off by less than a third of a
-/// pixel.
-TEST(Dome2Test, CellsAreSmallEnough)
+/// A mesh is linear between its points: in the middle of each edge it is off by less than a third of a pixel.
+TEST(Dome2Test, TheMeshIsFineEnough)
 {
     double worst_px = 0;
     for (const bool left : {true, false}) {
@@ -115,10 +114,10 @@ TEST(Dome2Test, CellsAreSmallEnough)
             }
     }
     EXPECT_LT(worst_px, 1.0 / 3);
-    EXPECT_GT(worst_px, 0.05); // else this measures nothing
+    EXPECT_GT(worst_px, 0.05); // otherwise this measures nothing
 }
 
-TEST(Dome2Test, EveryPlaceOfTheDomeIsLitAndTheMiddleTwice)
+TEST(Dome2Test, TheWholeDomeIsLitAndTheMiddleTwice)
 {
     const Mesh meshes[2] = {read_mesh("left.data"), read_mesh("right.data")};
     int lit_by[3] = {0, 0, 0};
@@ -149,10 +148,10 @@ TEST(Dome2Test, EveryPlaceOfTheDomeIsLitAndTheMiddleTwice)
             }
         }
     EXPECT_EQ(lit_by[0], 0);
-    EXPECT_GT(lit_by[1], lit_by[2]); // a bit more than half each, not all
+    EXPECT_GT(lit_by[1], lit_by[2]); // somewhat more than half of the directions, not all
 }
 
-TEST(Dome2Test, LayoutShowsTheMeshesDomemaster)
+TEST(Dome2Test, TheLayoutDescribesTheMeshesDomemaster)
 {
     const Layout layout = load_layout(source_dir() / "config/layouts/dome2.json");
     ASSERT_EQ(layout.outputs.size(), 2u);

@@ -4,9 +4,9 @@
 using namespace starbow;
 using namespace sphere;
 
-TEST(FisheyeTest, LevelDome)
+TEST(FisheyeTest, ALevelDomeLooksUpWithTheFrontBelow)
 {
-    // Facing the front and looking up, the right hand stays on the right and the front is below the zenith.
+    // For a visitor who faces the front and looks up, right is on the right, and the front is below the zenith.
     const Picture dome{Fisheye{180, 0}, {1000, 1000}};
     expect_near(direction(dome, {500, 500}), {0, 1, 0});
     expect_near(direction(dome, {500, 1000}), {0, 0, -1}); // bottom: straight ahead
@@ -23,45 +23,45 @@ TEST(FisheyeTest, LevelDome)
 TEST(FisheyeTest, TiltLeansTheDomeForward)
 {
     const glm::ivec2 size(1000, 1000);
-    // 90 degrees: the centre straight ahead, up at the top, as in a window.
+    // At 90 degrees the centre is straight ahead, and up is at the top, as in a window.
     const Picture ahead{Fisheye{180, 90}, size};
     expect_near(direction(ahead, {500, 500}), {0, 0, -1});
     expect_near(direction(ahead, {500, 0}), {0, 1, 0});
     expect_near(direction(ahead, {1000, 500}), {1, 0, 0});
     expect_near(direction(ahead, {500, 1000}), {0, -1, 0});
-    // 30 degrees: the front rim sinks 30 degrees under straight ahead, the back rim rises, the sides stay.
+    // At 30 degrees the front rim sinks 30 degrees below straight ahead, the back rim rises, and the sides stay.
     const Picture leaning{Fisheye{180, 30}, size};
     const double c = std::sqrt(0.75);
     expect_near(direction(leaning, {500, 500}), {0, c, -0.5});
     expect_near(direction(leaning, {500, 1000}), {0, -0.5, -c});
     expect_near(direction(leaning, {500, 0}), {0, 0.5, c});
     expect_near(direction(leaning, {0, 500}), {-1, 0, 0});
-    // Backwards: straight behind.
+    // A negative tilt looks straight behind.
     expect_near(direction(Picture{Fisheye{180, -90}, size}, {500, 500}), {0, 0, 1});
 }
 
 TEST(FisheyeTest, RotationTurnsThePictureCounterclockwise)
 {
     const auto dome = [](double rotation) { return Picture{Fisheye{180, 0, rotation}, {1000, 1000}}; };
-    // The front, at the bottom without rotation, goes to the right, the top, the left.
+    // The front is at the bottom without rotation; it goes to the right, the top, and the left.
     expect_at(pixel(dome(90), {0, 0, -1}), {1000, 500});
     expect_at(pixel(dome(180), {0, 0, -1}), {500, 0});
     expect_at(pixel(dome(-90), {0, 0, -1}), {0, 500});
     expect_at(pixel(dome(45), {0, 0, -1}), glm::dvec2(500) + 500 * std::sqrt(0.5));
     expect_at(pixel(dome(30), {1, 0, 0}), {500 + 500 * std::sqrt(0.75), 250});
-    expect_near(direction(dome(90), {500, 0}), {1, 0, 0}); // the right hand is above now
+    expect_near(direction(dome(90), {500, 0}), {1, 0, 0}); // the right-hand side is at the top now
     expect_near(direction(dome(123), {500, 500}), {0, 1, 0});
 }
 
 TEST(FisheyeTest, CentreAndDiameterPlaceTheCircle)
 {
-    // A truncated dome: the circle is as wide as the picture, its lower part cut off.
+    // A truncated dome: the circle is as wide as the picture, and its lower part is cut off.
     const Picture cut{Fisheye{180, 0, 0, FisheyeMapping::equidistant, {0.5, 2.0 / 3}, 4.0 / 3}, {1600, 1200}};
     expect_near(direction(cut, {800, 800}), {0, 1, 0});
     expect_near(direction(cut, {800, 0}), {0, 0, 1}); // behind, at the upper edge
     expect_near(direction(cut, {1600, 800}), {1, 0, 0});
-    expect_near(direction(cut, {800, 1200}), {0, 1, -1}); // 45 degrees up in front is all there is
-    expect_at(pixel(cut, {0, 0, -1}), {800, 1600}); // beyond the edge the picture goes on
+    expect_near(direction(cut, {800, 1200}), {0, 1, -1}); // the picture ends 45 degrees up in front
+    expect_at(pixel(cut, {0, 0, -1}), {800, 1600}); // the projection goes on beyond the edge
     EXPECT_FALSE(direction(cut, {1590, 1190}));
     const Picture small{Fisheye{180, 0, 0, FisheyeMapping::equidistant, {0.25, 0.5}, 0.5}, {1000, 400}};
     expect_near(direction(small, {350, 200}), {1, 0, 0});
@@ -70,7 +70,8 @@ TEST(FisheyeTest, CentreAndDiameterPlaceTheCircle)
 
 TEST(FisheyeTest, MappingsPutAnglesAtTheirRadii)
 {
-    // 2 sin(a/2), 2 tan(a/2) and sin(a) over their values at the rim, from the values of 30 and 45 degrees.
+    // The radii are 2 sin(a/2), 2 tan(a/2) and sin(a) over their values at the rim, from the exact values at 30 and 45
+    // degrees.
     const double s45 = std::sqrt(0.5), s30 = 0.5, t15 = 2 - std::sqrt(3.), t30 = 1 / std::sqrt(3.), t45 = 1;
     const struct {
         FisheyeMapping mapping;
@@ -114,7 +115,7 @@ TEST(FisheyeTest, TheRimIsHalfTheAperture)
                     const glm::dvec2 way(std::cos(i * pi / 6), std::sin(i * pi / 6));
                     const glm::dvec3 zenith = direction(dome, {320, 240}).value();
                     const glm::dvec3 rim = direction(dome, glm::dvec2(320, 240) + 240 * (1 - 1e-13) * way).value();
-                    // Near 90 degrees an orthographic radius says little: the root of twice 1e-13.
+                    // Near 90 degrees an orthographic radius determines the angle only to the root of twice 1e-13.
                     EXPECT_NEAR(angle(zenith, rim) * 360 / pi, aperture, 1e-4);
                     EXPECT_FALSE(direction(dome, glm::dvec2(320, 240) + 240.000001 * way));
                 }
@@ -127,13 +128,14 @@ TEST(FisheyeTest, AnOrthographicRimKeepsItsPixels)
     for (double r : {200., 250., 255., 255.9, 255.9999, 256.}) {
         const glm::dvec2 point(256 + r * 0.6, 256 - r * 0.8);
         expect_at(pixel(dome, direction(dome, point).value()), point);
-        // Between what a pixel spans a little further in and the width of all that is left: acos(1 - 1/256) of 90 degrees.
+        // The angle lies between that of a pixel a little further in, and the last pixel's whole width: acos(1 - 1/256) of
+        // 90 degrees.
         EXPECT_GT(pixel_angle(dome, point), 1. / 256);
         EXPECT_LT(pixel_angle(dome, point), 0.09);
     }
 }
 
-TEST(FisheyeTest, WholeSphereShowsEveryDirection)
+TEST(FisheyeTest, AWholeSphereShowsEveryDirection)
 {
     for (FisheyeMapping mapping : {FisheyeMapping::equidistant, FisheyeMapping::equisolid})
         for (const glm::dvec3& d : {glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1), glm::dvec3(0, -1, 0), glm::dvec3(0, 1, 0)})
@@ -141,12 +143,12 @@ TEST(FisheyeTest, WholeSphereShowsEveryDirection)
                 const Picture dome{Fisheye{360, tilt, 0, mapping}, {100, 100}};
                 const auto point = pixel(dome, d);
                 ASSERT_TRUE(point);
-                // The closing point of the equisolid sphere is where the root of a rounding is seen.
+                // At the equisolid sphere's closing point the error is the root of a rounding.
                 expect_near(direction(dome, *point), d, mapping == FisheyeMapping::equisolid ? 1e-7 : 1e-14);
             }
 }
 
-TEST(FisheyeTest, PixelsOfADomeFillIt)
+TEST(FisheyeTest, ADomesPixelsAddUpToItsSolidAngle)
 {
     for (FisheyeMapping mapping : {FisheyeMapping::equidistant, FisheyeMapping::equisolid, FisheyeMapping::stereographic,
              FisheyeMapping::orthographic})
@@ -154,20 +156,20 @@ TEST(FisheyeTest, PixelsOfADomeFillIt)
             for (int across : {256, 511, 1024}) {
                 if ((mapping == FisheyeMapping::stereographic && aperture > 180)
                     || (mapping == FisheyeMapping::orthographic && aperture > 90))
-                    continue; // the pixels at the rim are too large to count whole
+                    continue; // the pixels at the rim are too large to be counted whole
                 const PictureRays dome(Picture{Fisheye{aperture, 25, 0, mapping}, {across, across}});
                 double sum = 0;
                 for (int y = 0; y < across; ++y)
                     for (int x = 0; x < across; ++x)
                         sum += std::pow(dome.pixel_angle({x + 0.5, y + 0.5}), 2);
-                // Whole pixels stand for a round rim: of pi * across rim pixels, each in or out, about the root is wrong,
-                // each worth 4 / pi / across^2 of the circle.
+                // Whole pixels approximate a round rim: about the root of the pi * across rim pixels is miscounted, each
+                // worth 4 / pi / across^2 of the circle.
                 const double bound = std::sqrt(pi * across) * 4 / pi / across / across;
                 EXPECT_NEAR(sum / (2 * pi * (1 - std::cos(aperture * pi / 360))), 1, bound) << aperture << " " << across;
             }
 }
 
-TEST(FisheyeTest, TheWholeSpheresRimHasASize)
+TEST(FisheyeTest, TheWholeSpheresRimPixelsHaveAnAngle)
 {
     const Picture sphere{Fisheye{360, 0}, {512, 512}};
     for (double x : {0.0, 0.25, 0.5, 1.0})

@@ -86,7 +86,7 @@ pugi::xml_document parsed(const Layout& layout)
     return document;
 }
 
-template <typename Do> void each(pugi::xml_node node, const char* name, Do what)
+template <typename Visitor> void each(pugi::xml_node node, const char* name, Visitor what)
 {
     for (pugi::xml_node child : node.children()) {
         if (std::strcmp(child.name(), name) == 0)
@@ -104,24 +104,24 @@ int count(const pugi::xml_document& document, const char* name, const std::strin
 
 } // namespace
 
-TEST(CoverageTest, AWindow)
+TEST(CoverageTest, AWindowHasItsSolidAngleAndOutline)
 {
     const std::vector<Coverage> all = coverages(layout_of({output("desk", {800, 600}, Planar{60})}));
     ASSERT_EQ(all.size(), 1u);
     const Coverage& desk = all[0];
     const double h = std::tan(pi / 6), w = h * 4 / 3;
-    // The lattice counts some 20000 cells, and of the 400 at the edge about the root too many or too few.
+    // The lattice has some 20000 cells; about the root of the 400 at the edge is miscounted.
     EXPECT_NEAR(desk.share / (std::asin(w * h / std::sqrt((1 + w * w) * (1 + h * h))) / pi), 1, 2e-3);
     ASSERT_TRUE(desk.azimuths);
     EXPECT_NEAR(desk.azimuths->x, -std::atan(w) * 180 / pi, 0.01);
     EXPECT_NEAR(desk.azimuths->y, std::atan(w) * 180 / pi, 0.01);
     EXPECT_NEAR(desk.elevations.x, -30, 0.01);
     EXPECT_NEAR(desk.elevations.y, 30, 0.01);
-    // 300 pixels are tan(30 degrees); a corner's pixel is (1 + w² + h²)^(3/4) times as narrow.
+    // 300 pixels are tan(30 degrees). A corner's pixel is (1 + w² + h²)^(3/4) times as narrow.
     EXPECT_NEAR(desk.middle, 300 / h * pi / 180, 1e-3);
     EXPECT_NEAR(desk.least, desk.middle, 1e-3);
     EXPECT_NEAR(desk.most, desk.middle * std::pow(1 + w * w + h * h, 0.75), 0.1); // half a pixel from it
-    // Every point of the outline is on an edge: |x| = w or |y| = h one unit ahead; but for corners, cut off by half a cell.
+    // Every point of the outline is on an edge: |x| = w or |y| = h one unit ahead. Corners are cut off by half a cell.
     ASSERT_EQ(desk.outlines.size(), 1u);
     int on_edge = 0;
     for (const glm::dvec2& point : desk.outlines[0]) {
@@ -131,7 +131,7 @@ TEST(CoverageTest, AWindow)
     EXPECT_EQ(on_edge, int(desk.outlines[0].size()));
 }
 
-TEST(CoverageTest, ADomesRim)
+TEST(CoverageTest, ADomeCoversHalfTheSphereUpToItsRim)
 {
     const Coverage dome = coverages(layout_of({output("dome", {512, 512}, Fisheye{180, 30})})).at(0);
     EXPECT_NEAR(dome.share, 0.5, 1e-3);
@@ -149,25 +149,25 @@ TEST(CoverageTest, ADomesRim)
     EXPECT_GT(on_rim, 50);
 }
 
-TEST(CoverageTest, AroundTheBackAndOverThePole)
+TEST(CoverageTest, CoverageWorksAcrossTheBackAndThePole)
 {
     const std::vector<Coverage> all = coverages(projectors());
-    ASSERT_EQ(all.size(), 5u); // a preview shows nothing of its own
+    ASSERT_EQ(all.size(), 5u); // a preview covers nothing of its own
     const double w = std::tan(pi / 6) * 16 / 9;
-    // Turned up by 25 degrees, an upper corner lies at the azimuth whose tangent is w / (cos 25 - tan 30 sin 25).
+    // Turned up by 25 degrees, an upper corner has the azimuth with the tangent w / (cos 25 - tan 30 sin 25).
     const double c = std::cos(25 * pi / 180), s = std::sin(25 * pi / 180),
                  corner = std::atan(w / (c - s / std::sqrt(3.))) * 180 / pi;
     ASSERT_TRUE(all[3].azimuths);
-    EXPECT_NEAR(all[3].azimuths->x, 180 - corner, 0.3); // the lattice rounds corners
+    EXPECT_NEAR(all[3].azimuths->x, 180 - corner, 0.3); // the lattice rounds corners off
     EXPECT_NEAR(all[3].azimuths->y, 180 + corner, 0.3);
     EXPECT_FALSE(all[4].azimuths);
     EXPECT_NEAR(all[4].elevations.y, 90, 1e-9);
     const double h = std::tan(35 * pi / 180);
     EXPECT_NEAR(all[4].elevations.x, 90 - std::atan(h * 5 / 3) * 180 / pi, 0.3); // its diagonal
-    EXPECT_NEAR(all[1].share, all[0].share, 2e-3 * all[1].share); // turning keeps what is shown
+    EXPECT_NEAR(all[1].share, all[0].share, 2e-3 * all[1].share); // a turn does not change the covered part
 }
 
-TEST(CoverageTest, Overlaps)
+TEST(CoverageTest, OverlapsAreCountedForEachPair)
 {
     Layout layout = layout_of({
         output("west", {800, 600}, Equirectangular{{-60, 20, -40, 40}}),
@@ -175,11 +175,11 @@ TEST(CoverageTest, Overlaps)
         output("above", {1000, 600}, Equirectangular{{0, 100, 40, 80}}),
     });
     std::vector<Coverage> all = coverages(layout);
-    EXPECT_NEAR(shared_part(all[0], all[1]), 20. / 80, 1e-12); // edges between cells: counted exactly
+    EXPECT_NEAR(shared_part(all[0], all[1]), 20. / 80, 1e-12); // edges lie between cells, so that the count is exact
     EXPECT_NEAR(shared_part(all[1], all[0]), 20. / 100, 1e-12);
     EXPECT_EQ(shared_part(all[1], all[2]), 0);
     EXPECT_EQ(overlap_lines(layout, all), std::vector<std::string>{"west and east: 25 % of west, 20 % of east"});
-    // Two eyes do not overlap each other; where they see the same it is said once.
+    // The two eyes of an output do not overlap each other. Where both eyes see the same, one line says so.
     for (Output& output : layout.outputs)
         output.packing = Packing::side_by_side_half;
     all = coverages(layout);
@@ -191,20 +191,20 @@ TEST(CoverageTest, Overlaps)
     EXPECT_TRUE(overlap_lines(layout, coverages(layout)).empty());
 }
 
-TEST(CoverageTest, ASightStandsInForAWarpFile)
+TEST(CoverageTest, ASightFunctionReplacesAWarpFile)
 {
-    // The sight says what the projection would: one of a picture around the back, one of a dome with its round rim, a pole.
+    // The sight function replaces the projection: a picture around the back, a dome with its round rim, a pole.
     for (const Picture& picture : {Picture{Planar{70, {}, {170, 20, 10}}, {640, 480}}, Picture{Fisheye{200, 20}, {512, 512}},
              Picture{CubeFaces{CubeFaces::Arrangement::cross}, {800, 600}}}) {
         Layout layout = layout_of({output("a", picture.size, picture.projection), output("b", picture.size, Planar{60})});
         layout.outputs[1].viewports[0].warp = Warp{"b.csv"};
-        int asked = 0;
+        int calls = 0;
         const std::vector<Coverage> all = coverages(layout, [&](const Output& output, const Viewport&, glm::dvec2 pixel) {
-            EXPECT_EQ(output.name, "b"); // the other's projection knows by itself
-            ++asked;
+            EXPECT_EQ(output.name, "b"); // output a has a projection of its own
+            ++calls;
             return direction(picture, pixel);
         });
-        EXPECT_GT(asked, 1000);
+        EXPECT_GT(calls, 1000);
         // A mesh of 256 steps loses up to a step at a rim or between faces.
         EXPECT_NEAR(all[1].share / all[0].share, 1, 0.02);
         EXPECT_GT(shared_part(all[1], all[0]), 0.995);
@@ -214,7 +214,7 @@ TEST(CoverageTest, ASightStandsInForAWarpFile)
     }
 }
 
-TEST(CoverageTest, NothingAndAlmostNothing)
+TEST(CoverageTest, EmptyAndTinyViewsAreNamedInTheTable)
 {
     Layout layout = layout_of({output("behind", {100, 100}, Wall{{-1, -1, 1}, {1, -1, 1}, {-1, 1, 1}}),
         output("narrow", {100, 100}, Planar{0.1, {}, {40, 20, 0}})});
@@ -233,7 +233,7 @@ TEST(CoverageTest, NothingAndAlmostNothing)
     EXPECT_EQ(marks, 1);
 }
 
-TEST(PlanTableTest, Words)
+TEST(PlanTableTest, TheTableDescribesEachProjection)
 {
     Layout layout = layout_of({
         output("desk", {800, 600}, Planar{60, {}, {30, -15, 0}}),
@@ -261,15 +261,15 @@ TEST(PlanDrawingTest, EveryDrawingParsesAndKeepsToItsPage)
         const double width = svg.attribute("width").as_double(), height = svg.attribute("height").as_double();
         ASSERT_GT(width, 1000);
         ASSERT_GT(height, 500);
-        struct Words {
+        struct TheTableDescribesEachProjection {
             glm::dvec2 from, to;
             std::string text;
         };
-        std::vector<Words> all;
+        std::vector<TheTableDescribesEachProjection> all;
         each(document, "text", [&](pugi::xml_node node) {
             const double size = node.attribute("font-size").as_double();
-            EXPECT_GE(size, 11); // to be read
-            // At least half a letter's height for each: narrower than any font without serifs sets a line of words.
+            EXPECT_GE(size, 11); // readable
+            // A letter is at least half its height wide: no sans-serif font sets words narrower.
             const std::string text = node.text().get(), anchor = node.attribute("text-anchor").value();
             const double letters
                 = double(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
@@ -309,9 +309,9 @@ TEST(PlanDrawingTest, OneRegionForEachViewportAndEye)
     EXPECT_EQ(std::count(in_room.begin(), in_room.end(), "eye at height −0.300 m"), 1);
 }
 
-TEST(PlanDrawingTest, TheMapPutsDegreesInTheirPlaces)
+TEST(PlanDrawingTest, TheMapPlacesDegreesLinearly)
 {
-    // A window's outline on the map is 360 degrees wide over the map's ground, the first filled rectangle after the page's.
+    // The map's width is 360 degrees; its frame is the clip path's rectangle.
     const Layout layout = layout_of({output("part", {800, 600}, Equirectangular{{-90, 45, -30, 60}})});
     const pugi::xml_document document = parsed(layout);
     const pugi::xml_node map = document.child("svg").child("clipPath").child("rect");
@@ -332,14 +332,15 @@ TEST(PlanDrawingTest, TheMapPutsDegreesInTheirPlaces)
         low_x = std::min(low_x, x), high_x = std::max(high_x, x);
         low_y = std::min(low_y, y), high_y = std::max(high_y, y);
     }
-    const double degree = across / 360; // and a hundredth of one for the outline and the digits
+    const double degree
+        = across / 360; // the tolerance is a hundredth of a degree for the outline and another for the digits
     EXPECT_NEAR((low_x - left) / degree - 180, -90, 0.02);
     EXPECT_NEAR((high_x - left) / degree - 180, 45, 0.02);
     EXPECT_NEAR(90 - (high_y - top) / degree, -30, 0.02);
     EXPECT_NEAR(90 - (low_y - top) / degree, 60, 0.02);
 }
 
-TEST(PlanDrawingTest, NamesAreText)
+TEST(PlanDrawingTest, NamesAreEscaped)
 {
     Layout layout = layout_of({output("desk", {800, 600}, Planar{60})});
     layout.name = "a <b> & \"c\"\x01";
@@ -348,5 +349,5 @@ TEST(PlanDrawingTest, NamesAreText)
     EXPECT_STREQ(document.child("svg").child("text").text().get(), "a <b> & \"c\"?");
     EXPECT_NE(draw_floor_plan(layout, coverages(layout)).find("bent&lt;1&gt;&amp;.csv"), std::string::npos);
     const Layout empty;
-    EXPECT_TRUE(parsed(empty).child("svg")); // and none at all is still a page
+    EXPECT_TRUE(parsed(empty).child("svg")); // a layout without outputs gives a page too
 }

@@ -1,4 +1,4 @@
-// Wherever a picture shows a direction, its inverse begins the search near by, on the right side of every seam.
+// For every direction that a picture shows, the inverse map begins the search near by, on the right side of every seam.
 #include "displays/compile/inverse_map.h"
 #include "tests/support/files.h"
 #include "tests/support/view.h"
@@ -8,7 +8,7 @@ using namespace starbow;
 
 namespace {
 
-/// The octahedron's net over cells, folded out plainly.
+/// The cell of a direction in the octahedron's net.
 glm::ivec2 cell_of(const glm::dvec3& n, int side)
 {
     const double sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
@@ -22,13 +22,13 @@ glm::ivec2 cell_of(const glm::dvec3& n, int side)
 
 } // namespace
 
-TEST(InverseMapTest, EveryPixelIsNearWhereTheSearchForItBegins)
+TEST(InverseMapTest, TheSearchBeginsNearEveryPixel)
 {
     struct Case {
         const char* name;
         Projection projection;
         glm::ivec2 size;
-        double pole_deg; ///< towards which a row of pixels shows one point
+        double pole_deg; ///< elevation beyond which a row of pixels shows nearly one point
     };
     for (const Case& c : {Case{"fisheye", Fisheye{180, 30}, {400, 400}, 90}, {"small", Fisheye{220, 30}, {60, 60}, 90},
              {"panorama", Equirectangular{}, {600, 300}, 60}, {"cylinder", Cylinder{}, {600, 190}, 90},
@@ -49,20 +49,20 @@ TEST(InverseMapTest, EveryPixelIsNearWhereTheSearchForItBegins)
                     off = std::min(off, glm::distance(glm::dvec2(cell[i] & 0xffff, cell[i] >> 16), glm::dvec2(x, y)));
                 farthest = std::max(farthest, off);
             }
-        // Cells hold 16 pixels on average; those of the octahedron differ in size by up to five, a panorama's pixels by two.
+        // Cells hold 16 pixels on average. The octahedron's cells differ in size by up to five, a panorama's pixels by two.
         std::printf("  %s: %d cells a side, %.1f pixels at most\n", c.name, inverse.side, farthest);
         EXPECT_LT(farthest, 25) << c.name;
     }
 }
 
-TEST(InverseMapTest, WhereNothingIsShownNothingIsFound)
+TEST(InverseMapTest, CellsOutsideThePictureAreEmpty)
 {
     const auto map = starbow::testing::view_of(Fisheye{180, 90}, {400, 400}).map; // the half of the sky ahead
     const InverseMap inverse = starbow::inverse(*map);
     int empty = 0;
     for (const glm::uvec4& cell : inverse.cells)
         empty += cell.x == InverseMap::none;
-    // Half of the cells, but for two rows beyond the rim.
+    // Half of the cells are empty, minus two rows beyond the rim.
     EXPECT_GT(empty, int(0.35 * double(inverse.cells.size())));
     EXPECT_LT(empty, int(0.5 * double(inverse.cells.size())));
 }

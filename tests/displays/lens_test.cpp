@@ -6,7 +6,7 @@ using namespace sphere;
 
 namespace {
 
-/// All three colours the same.
+/// A lens with the same distortion for all three colours.
 Picture lens(Lens::Form form, std::array<double, 4> k, double fov_y_deg = 90)
 {
     Lens lens{form};
@@ -18,7 +18,7 @@ Picture lens(Lens::Form form, std::array<double, 4> k, double fov_y_deg = 90)
 
 } // namespace
 
-TEST(LensTest, WithoutBendItIsAWindow)
+TEST(LensTest, WithoutDistortionALensIsAWindow)
 {
     const double widened = 2 * std::atan(1.5 * std::tan(30 * pi / 180)) * 180 / pi;
     const struct {
@@ -40,9 +40,9 @@ TEST(LensTest, WithoutBendItIsAWindow)
     }
 }
 
-TEST(LensTest, KnownNumbers)
+TEST(LensTest, DistortionFollowsThePublishedPolynomials)
 {
-    // At r = 1/2, where 90 degrees put the point p f at the tangents p f.
+    // 90 degrees put the point p at the tangent p f; r is its distance from the centre in halves of the height.
     const Picture panotools = lens(Lens::Form::panotools, {0.1, 0.2, -0.05, 0.9}); // f = 0.0125 + 0.05 - 0.025 + 0.9
     expect_near(direction(panotools, {750, 500}), {0.5 * 0.9375, 0, -1});
     expect_near(direction(panotools, {500, 250}), {0, 0.5 * 0.9375, -1});
@@ -54,7 +54,7 @@ TEST(LensTest, KnownNumbers)
     expect_at(pixel(vive, {0.3 * f, 0.4 * f, -1}), {650, 300});
 }
 
-TEST(LensTest, EachColourHasItsCentreAndBend)
+TEST(LensTest, EachColourHasItsCentreAndDistortion)
 {
     Lens lens{Lens::Form::panotools};
     lens.colours = {{{{0.5, 0.5}, {0, 0, 0, 1}}, {{0.6, 0.5}, {0, 0, 0, 2}}, {{0.5, 0.25}, {0, 0, 1, 1}}}};
@@ -73,7 +73,7 @@ TEST(LensTest, EachColourHasItsCentreAndBend)
     EXPECT_EQ(direction(picture, {7, 8}), direction(picture, {7, 8}, Channel::green));
 }
 
-TEST(LensTest, NothingWhereThePolynomialFoldsBack)
+TEST(LensTest, NothingIsShownBeyondAFold)
 {
     // r - r³/3 grows up to r = 1, where it is 2/3.
     const Picture folded = lens(Lens::Form::panotools, {0, -1. / 3, 0, 1});
@@ -84,7 +84,7 @@ TEST(LensTest, NothingWhereThePolynomialFoldsBack)
     EXPECT_FALSE(pixel(folded, {2. / 3 + 1e-9, 0, -1}));
     expect_at(pixel(folded, {2. / 3 - 1e-9, 0, -1}), {1000, 500}, 0.02); // 500 times the root of 1e-9
     EXPECT_FALSE(pixel(folded, {0, 0, 1}));
-    // It grows again behind r = 2 (slope (r - 1)(r - 2) / 2 · ...): still nothing there.
+    // It grows again beyond r = 2, and shows nothing there either.
     const Picture again = lens(Lens::Form::panotools, {0, 1. / 6, -0.75, 1}); // r - 3/4 r² + r³/6: slope (r-1)(r-2)/2
     EXPECT_TRUE(direction(again, {999.9999, 500}));
     EXPECT_FALSE(direction(again, {1000.0001, 500}));
@@ -93,7 +93,7 @@ TEST(LensTest, NothingWhereThePolynomialFoldsBack)
     const Picture touching = lens(Lens::Form::panotools, {0, 1. / 3 + 1e-12, -1, 1});
     EXPECT_TRUE(direction(touching, {1400, 500}));
     expect_at(pixel(touching, direction(touching, {1400, 500}).value()), {1400, 500}, 1e-9);
-    // Vive: r / (1 + r²) grows up to r = 1; 1 / (1 - r²) has a pole there, which the picture widens towards without end.
+    // Vive: r / (1 + r²) grows up to r = 1. 1 / (1 - r²) has a pole there, towards which the picture widens without limit.
     const Picture falling = lens(Lens::Form::vive, {1, 0, 0, 0}), pole = lens(Lens::Form::vive, {-1, 0, 0, 0});
     for (const Picture& picture : {falling, pole}) {
         EXPECT_TRUE(direction(picture, {999.9999, 500}));
@@ -101,10 +101,10 @@ TEST(LensTest, NothingWhereThePolynomialFoldsBack)
     }
     EXPECT_FALSE(pixel(falling, {0.5 + 1e-9, 0, -1}));
     expect_at(pixel(pole, {1e9, 0, -1}), {1000, 500}, 1e-5);
-    // r / (1 - r²) = w where r = (sqrt(1 + 4 w²) - 1) / (2 w).
+    // The inverse of r / (1 - r²) = w is r = (sqrt(1 + 4 w²) - 1) / (2 w).
     for (double w : {0.01, 1., 30.})
         expect_at(pixel(pole, {0, w, -1}), {500, 500 - 500 * (std::sqrt(1 + 4 * w * w) - 1) / (2 * w)});
-    // One that shrinks from the start shows nothing.
+    // A polynomial that falls from the start shows nothing.
     EXPECT_FALSE(direction(lens(Lens::Form::panotools, {0, 0, 1, 0}), {600, 500}));
     EXPECT_FALSE(direction(lens(Lens::Form::vive, {0, 0, 0, -1.5}), {600, 500}));
     EXPECT_FALSE(pixel(lens(Lens::Form::vive, {0, 0, 0, -1.5}), {0, 0, -1}));

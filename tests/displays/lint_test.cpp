@@ -1,4 +1,4 @@
-// What `check` doubts in a layout, and that it doubts none that is shipped.
+// The warnings that `check` gives for a layout; a shipped layout has none.
 #include "displays/check/lint.h"
 #include "tests/support/files.h"
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ Layout of(std::vector<std::pair<Projection, glm::ivec2>> views)
     return layout;
 }
 
-std::string told(const Layout& layout)
+std::string warnings(const Layout& layout)
 {
     std::string all;
     for (const std::string& line : lint(layout, coverages(layout)))
@@ -32,10 +32,10 @@ bool has(const std::string& all, const std::string& part) { return all.find(part
 
 } // namespace
 
-TEST(DoubtsTest, NothingShippedIsDoubted)
+TEST(LintTest, ShippedLayoutsHaveNoWarnings)
 {
     for (const auto& entry : std::filesystem::directory_iterator(starbow::testing::source_dir() / "config/layouts")) {
-        if (entry.path().extension() != ".json" || entry.path().stem() == "dome2") // which wants its meshes compiled
+        if (entry.path().extension() != ".json" || entry.path().stem() == "dome2") // its meshes would need compiling
             continue;
         const Layout layout = load_layout(entry.path());
         for (const std::string& line : lint(layout, coverages(layout)))
@@ -43,24 +43,24 @@ TEST(DoubtsTest, NothingShippedIsDoubted)
     }
 }
 
-TEST(DoubtsTest, UnitsPixelsLightAndDisplay)
+TEST(LintTest, WrongUnitsPixelsAndOverlapsGiveWarnings)
 {
     const Wall metres{{-2, -1, -3}, {2, -1, -3}, {-2, 1, -3}};
-    EXPECT_EQ(told(of({{metres, {400, 200}}})), "");
+    EXPECT_EQ(warnings(of({{metres, {400, 200}}})), "");
     const Wall millimetres{{-2000, -1000, -3000}, {2000, -1000, -3000}, {-2000, 1000, -3000}};
-    EXPECT_TRUE(has(told(of({{millimetres, {400, 200}}})), "a: its wall is 4000 m wide; lengths are in metres"));
-    EXPECT_TRUE(has(told(of({{Planar{1.0472}, {400, 300}}})), "angles are in degrees"));
-    EXPECT_TRUE(has(told(of({{Fisheye{.aperture_deg = 3.1416}, {300, 300}}})), "angles are in degrees"));
-    EXPECT_TRUE(has(told(of({{metres, {400, 225}}})), "12.5 % wider than high"));
-    EXPECT_TRUE(has(told(of({{metres, {400, 190}}})), "higher than wide"));
+    EXPECT_TRUE(has(warnings(of({{millimetres, {400, 200}}})), "a: its wall is 4000 m wide; lengths are in metres"));
+    EXPECT_TRUE(has(warnings(of({{Planar{1.0472}, {400, 300}}})), "angles are in degrees"));
+    EXPECT_TRUE(has(warnings(of({{Fisheye{.aperture_deg = 3.1416}, {300, 300}}})), "angles are in degrees"));
+    EXPECT_TRUE(has(warnings(of({{metres, {400, 225}}})), "12.5 % wider than high"));
+    EXPECT_TRUE(has(warnings(of({{metres, {400, 190}}})), "higher than wide"));
 
     Layout twice = of({{Planar{60, {}, {-30, 0, 0}}, {400, 300}}, {Planar{60, {}, {30, 0, 0}}, {400, 300}}});
-    EXPECT_TRUE(has(told(twice), "light it twice"));
+    EXPECT_TRUE(has(warnings(twice), "light it twice"));
     twice.blend.ramps = true;
-    EXPECT_EQ(told(twice), "");
+    EXPECT_EQ(warnings(twice), "");
 
     Layout high = of({{Planar{40, {}, {0, 60, 0}}, {400, 300}}});
-    EXPECT_TRUE(has(told(high), "is seen nowhere"));
+    EXPECT_TRUE(has(warnings(high), "is seen nowhere"));
     high.hud.elevation_deg = 60;
-    EXPECT_EQ(told(high), "");
+    EXPECT_EQ(warnings(high), "");
 }

@@ -4,9 +4,9 @@
 using namespace starbow;
 using namespace sphere;
 
-TEST(PanoramaTest, AnEquirectangularPictureIsALattice)
+TEST(PanoramaTest, AnEquirectangularPictureIsLinearInDegrees)
 {
-    const Picture all{Equirectangular{}, {360, 180}}; // a pixel a degree
+    const Picture all{Equirectangular{}, {360, 180}}; // one pixel for each degree
     for (int azimuth = -179; azimuth < 180; azimuth += 7)
         for (int elevation = -89; elevation < 90; elevation += 7) {
             const glm::dvec2 point(180 + azimuth, 90 - elevation);
@@ -34,7 +34,7 @@ TEST(PanoramaTest, ACylinderKeepsPlumbLines)
     expect_near(direction(all, {360, 100}), {0, 0, -1});
     expect_near(direction(all, {540, 100}), {1, 0, 0});
     expect_near(direction(all, {360, 0}), {0, 1, -1}); // 45 degrees up is as high as the wall is far
-    expect_near(direction(all, {360, 50}), {0, 0.5, -1}); // half as high, not half as steep
+    expect_near(direction(all, {360, 50}), {0, 0.5, -1}); // half as high, not half the angle
     expect_near(direction(all, {180, 150}), {-1, -0.5, 0});
     expect_near(direction(all, {0, 100}), {0, 0, 1});
     expect_at(pixel(all, {0, 3, -1}), {360, -200});
@@ -46,10 +46,10 @@ TEST(PanoramaTest, ACylinderKeepsPlumbLines)
     expect_near(direction(part, {60, 100}), glm::dvec3(0, 1, 0) + down * glm::dvec3(0, 0, -1));
 }
 
-TEST(PanoramaTest, FacesOfACubeLieAsCubeMapsHaveThem)
+TEST(PanoramaTest, CubeFacesFollowTheCubeMapConvention)
 {
-    // The specification's table: for each face the coordinates s, t (from 0 at the left and at the first row) of a direction
-    // r are (sc / |ma| + 1) / 2 and (tc / |ma| + 1) / 2. Its axes are left-handed: its +z is straight ahead.
+    // Vulkan's table: for each face the coordinates s, t (from 0 at the left and at the first row) of a direction r are (sc
+    // / |ma| + 1) / 2 and (tc / |ma| + 1) / 2. Its axes are left-handed, with +z straight ahead.
     struct Selected {
         int face;
         double sc, tc, ma;
@@ -72,15 +72,15 @@ TEST(PanoramaTest, FacesOfACubeLieAsCubeMapsHaveThem)
         expect_at(pixel(row, d), (glm::dvec2(at.face, 0) + st) * 100.);
         expect_at(pixel(cross, d), (in_cross[at.face] + st) * 100.);
     }
-    // In words: from left to right they show the right, the left, above, below, the front and the back.
+    // From left to right the faces are right, left, above, below, front and back.
     const glm::dvec3 middles[]{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, -1}, {0, 0, 1}};
     for (int i = 0; i < 6; ++i)
         expect_near(direction(row, {i * 100 + 50, 50}), middles[i]);
 }
 
-TEST(PanoramaTest, ACrossFolds)
+TEST(PanoramaTest, ACrossIsContinuousAcrossSharedEdges)
 {
-    // Across every edge that two faces share in the cross, the direction goes on.
+    // Across every edge that two faces share in the cross, directions are continuous.
     const PictureRays cross(Picture{CubeFaces{CubeFaces::Arrangement::cross, {20, 10, 5}}, {400, 300}});
     const glm::dvec2 down(0, 1e-9), right(1e-9, 0);
     for (double along : {0.01, 0.3, 0.99}) {
@@ -99,7 +99,7 @@ TEST(PanoramaTest, ACrossFolds)
             EXPECT_FALSE(cross.direction({x, y}));
             EXPECT_EQ(cross.pixel_angle({x, y}), 0);
         }
-    // The outline belongs to the faces, and nothing lies outside the picture.
+    // Points on the faces' outline belong to the picture, points beyond it do not.
     for (const glm::dvec2& p :
         {glm::dvec2(150, 0), glm::dvec2(200, 50), glm::dvec2(200, 0), glm::dvec2(150, 300), glm::dvec2(200, 250),
             glm::dvec2(200, 300), glm::dvec2(400, 200), glm::dvec2(50, 200), glm::dvec2(300, 200), glm::dvec2(0, 100)})

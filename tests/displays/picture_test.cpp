@@ -7,22 +7,23 @@ using namespace sphere;
 
 namespace {
 
-/// What every projection keeps, for one of them.
+/// The properties that every projection must have, for one of them.
 struct Case {
     std::string name;
     Picture picture;
-    double angle_tolerance = 1e-6; ///< of a pixel's solid angle: the numeric one's rounding, and what the header states
-    double direction_tolerance = 1e-12; ///< of pixel and back, radians
-    bool around = false; ///< its left edge shows what its right edge shows
-    using Some = std::function<bool(const glm::dvec3&)>; ///< directions
-    Some lost = [](const glm::dvec3&) { return false; }; ///< have no one pixel
-    Some steep = lost; ///< change too fast for the angle's tolerance
+    double angle_tolerance
+        = 1e-6; ///< relative tolerance of a pixel's solid angle: rounding of the numeric one, and the header's own bound
+    double direction_tolerance = 1e-12; ///< from pixel to direction and back, radians
+    bool around = false; ///< its left edge shows the same as its right edge
+    using Some = std::function<bool(const glm::dvec3&)>; ///< a property of directions
+    Some lost = [](const glm::dvec3&) { return false; }; ///< directions without a single pixel
+    Some steep = lost; ///< directions where the angle changes too fast for its tolerance
 };
 
 Lens headset(Lens::Form form)
 {
     Lens lens{form};
-    // Like an HTC Vive's and a DK2's; the three colours' centres and bends differ.
+    // Like an HTC Vive's and a DK2's; the three colours differ in centre and distortion.
     if (form == Lens::Form::vive)
         lens.colours = {{{{0.55, 0.49}, {-0.187, 0.0215, -0.047, 0}}, {{0.552, 0.491}, {-0.214, 0.03, -0.056, -0.01}},
             {{0.554, 0.492}, {-0.24, 0.04, -0.064, 0.02}}}};
@@ -34,7 +35,7 @@ Lens headset(Lens::Form form)
     return lens;
 }
 
-/// A projector beside the visitors on the floor of a dome, its mirror at the rim in front of them.
+/// A projector on the floor of a dome beside the visitors, with its mirror at the rim in front of them.
 SphericalMirror mirror()
 {
     SphericalMirror mirror;
@@ -58,7 +59,7 @@ std::vector<Case> make_cases()
     const auto dome = [](double aperture, double tilt, FisheyeMapping mapping) {
         return Fisheye{aperture, tilt, 40, mapping, {0.45, 0.6}, 1.3};
     };
-    // A dome's and a lens's angle is taken at the pixel's middle alone; these bounds are step² and what the headers state.
+    // A dome's and a lens's angle is computed at the pixel's middle. The bounds are step² plus the header's.
     const auto step2 = [](double deg, double pixels) { return std::pow(deg * pi / 180 / pixels, 2); };
     std::vector<Case> cases{
         {"window", {Planar{60}, {800, 600}}}, {"upright window", {Planar{60}, {600, 800}}},
@@ -73,7 +74,7 @@ std::vector<Case> make_cases()
         {"tilted dome", {Fisheye{180, 30}, {640, 480}}, 1e-6 + step2(180, 480) / 10},
         {"deep dome", {Fisheye{220, -75}, {480, 640}}, 1e-6 + step2(220, 480) / 10},
         {"whole sphere", {Fisheye{360, 90}, {255, 256}}, 1e-6 + step2(360, 255) / 10, 1e-12, false,
-            // Its rim is one point, the way to which no direction tells.
+            // The rim is one direction, whose azimuth is lost.
             far_from_axis(90, 179.5), far_from_axis(90, 170)},
         {"narrow dome", {Fisheye{1, 180}, {64, 65}}},
         {"cropped dome", {dome(200, 30, FisheyeMapping::equidistant), {700, 512}}, 1e-6 + step2(200, 665) / 10},
@@ -92,7 +93,7 @@ std::vector<Case> make_cases()
         {"faces in a cross", {CubeFaces{CubeFaces::Arrangement::cross, {-45, 0, 0}}, {400, 300}}},
         {"mirror", {mirror(), {1920, 1080}, {0.1, 0.15, 0.2}}, 1e-6, 1e-11},
         {"vive", {headset(Lens::Form::vive), {1080, 1200}}, 1e-5},
-        {"panotools", {headset(Lens::Form::panotools), {960, 1080}}, 2e-4}, // its k2 r has a kink in the central pixel
+        {"panotools", {headset(Lens::Form::panotools), {960, 1080}}, 2e-4}, // its term k2 r has a kink in the central pixel
     };
     return cases;
 }
@@ -100,7 +101,7 @@ std::vector<Case> make_cases()
 const std::vector<Case> cases = make_cases();
 constexpr Channel channels[]{Channel::red, Channel::green, Channel::blue};
 
-/// Solid angle of a pixel as a fan of triangles to points along its edges; nothing where not all of them are shown.
+/// A pixel's solid angle as a fan of triangles to points along its edges; nothing if some of them are not shown.
 std::optional<double> pixel_area(const PictureRays& rays, glm::dvec2 centre, Channel channel)
 {
     constexpr int n = 24;
@@ -131,7 +132,7 @@ TEST(PictureTest, PixelAndDirectionAreInverse)
             int shown = 0;
             for (int j = 0; j <= 48; ++j)
                 for (int i = 0; i <= 48; ++i) {
-                    // Between two faces of a cube a point belongs to either.
+                    // On the edge between two faces a point belongs to either.
                     if (std::holds_alternative<CubeFaces>(c.picture.projection) && (i % 2 == 0 || j % 2 == 0))
                         continue;
                     const glm::dvec2 point = size * glm::dvec2(i, j) / 48.;
@@ -152,7 +153,7 @@ TEST(PictureTest, PixelAndDirectionAreInverse)
                         EXPECT_NEAR(glm::distance(*back, point), 0, 1e-9) << c.name << " " << point.x << " " << point.y;
                     }
                 }
-            EXPECT_GT(shown, 280) << c.name; // an eighth of the points, in the picture that shows least
+            EXPECT_GT(shown, 280) << c.name; // an eighth of the points, in the picture with the smallest part shown
         }
 }
 
@@ -176,7 +177,8 @@ TEST(PictureTest, DirectionAndPixelAreInverse)
                     return;
                 }
             }
-            EXPECT_GT(found, c.name == "narrow dome" ? 0 : 100) << c.name; // a degree holds a few of the spiral's
+            EXPECT_GT(found, c.name == "narrow dome" ? 0 : 100)
+                << c.name; // a view of one degree has a few of the spiral's points
         }
 }
 
@@ -196,8 +198,9 @@ TEST(PictureTest, PixelAngleIsTheRootOfTheSolidAngle)
                     ++compared;
                     const auto density = [&](glm::dvec2 at) { return std::pow(rays.pixel_angle(at, channel), 2); };
                     double mean = density(centre), tolerance = c.angle_tolerance;
-                    // At a mirror's limb pixels widen without bound: there Simpson's mean over the pixel is compared, which
-                    // errs by a part of the fourth power of the change across it, and less than by this part of its square.
+                    // At a mirror's limb the pixels widen without bound. Simpson's mean over the pixel is compared there.
+                    // Its error is a fraction of the fourth power of the change across the pixel, and less than this
+                    // fraction of its square.
                     if (std::holds_alternative<SphericalMirror>(c.picture.projection)) {
                         mean *= 16;
                         for (const glm::dvec2& half : {glm::dvec2(0.5, 0), glm::dvec2(0, 0.5)}) {
@@ -214,7 +217,7 @@ TEST(PictureTest, PixelAngleIsTheRootOfTheSolidAngle)
         }
 }
 
-TEST(PictureTest, PlanarMatrixIsTheDirection)
+TEST(PictureTest, PlanarMatrixGivesTheDirection)
 {
     for (const Case& c : cases) {
         const auto matrix = planar_matrix(c.picture);
@@ -227,7 +230,7 @@ TEST(PictureTest, PlanarMatrixIsTheDirection)
     }
 }
 
-TEST(PictureTest, TheFunctionsAreTheRays)
+TEST(PictureTest, TheFunctionsEqualThePreparedRays)
 {
     for (const Case& c : cases)
         for (Channel channel : channels) {
@@ -244,11 +247,10 @@ TEST(PictureTest, TheFunctionsAreTheRays)
 
 TEST(PictureTest, OnlyAMirrorsPictureIsAMirrorImage)
 {
-    // As on any picture right x up comes towards the eye. What a mirror lights is looked at from the other side of the
-    // light.
+    // On any picture right x up points towards the eye. A mirror's light is seen from the other side.
     for (const Case& c : cases) {
         const PictureRays rays(c.picture);
-        int looked = 0;
+        int compared = 0;
         for (int i = 0; i < 24 * 24; ++i) {
             const glm::dvec2 at = glm::dvec2(c.picture.size) * (glm::dvec2(i % 24, i / 24) + 0.5) / 24.;
             const auto middle = rays.direction(at), left = rays.direction(at - glm::dvec2(0.01, 0)),
@@ -256,11 +258,11 @@ TEST(PictureTest, OnlyAMirrorsPictureIsAMirrorImage)
                        below = rays.direction(at + glm::dvec2(0, 0.01));
             if (!left || !right || !above || !below)
                 continue;
-            ++looked;
+            ++compared;
             const bool mirrored = glm::dot(glm::cross(*right - *left, *above - *below), *middle) > 0;
             EXPECT_EQ(mirrored, std::holds_alternative<SphericalMirror>(c.picture.projection)) << c.name;
         }
-        EXPECT_GT(looked, 60) << c.name;
+        EXPECT_GT(compared, 60) << c.name;
     }
 }
 
@@ -268,7 +270,7 @@ TEST(PictureTest, OnlyLensesSplitColours)
 {
     for (const Case& c : cases)
         EXPECT_EQ(splits_colours(c.picture.projection), std::holds_alternative<Lens>(c.picture.projection)) << c.name;
-    EXPECT_FALSE(splits_colours(Lens{})); // three times the same
+    EXPECT_FALSE(splits_colours(Lens{})); // three equal colours
     Lens lens;
     lens.colours[2].k[1] = 0.1;
     EXPECT_TRUE(splits_colours(lens));
@@ -277,7 +279,7 @@ TEST(PictureTest, OnlyLensesSplitColours)
     EXPECT_TRUE(splits_colours(lens));
 }
 
-TEST(PictureTest, PixelsOfAWindowFillIt)
+TEST(PictureTest, AWindowsPixelsAddUpToItsSolidAngle)
 {
     for (const Case& c : cases) {
         const Planar* planar = std::get_if<Planar>(&c.picture.projection);
@@ -288,16 +290,16 @@ TEST(PictureTest, PixelsOfAWindowFillIt)
         for (int y = 0; y < c.picture.size.y; ++y)
             for (int x = 0; x < c.picture.size.x; ++x)
                 sum += std::pow(rays.pixel_angle({x + 0.5, y + 0.5}), 2);
-        // The solid angle of a pyramid of half extents w, h at distance 1.
+        // The solid angle of a pyramid with the half extents w and h at distance 1.
         const double h = std::tan(planar->fov_y_deg * pi / 360), w = h * c.picture.size.x / c.picture.size.y;
         const double whole = 4 * std::asin(w * h / std::sqrt((1 + w * w) * (1 + h * h)));
         EXPECT_NEAR(sum / whole, 1, 1e-11);
     }
 }
 
-TEST(PictureTest, WholeSpheresFillTheSky)
+TEST(PictureTest, WholeSpheresAddUpToTheSky)
 {
-    // Their pixels are exact: only sums round.
+    // Their pixels are exact, so that only the sum rounds.
     const std::pair<Picture, double> spheres[]{
         {{Equirectangular{}, {128, 64}}, 1e-12},
         {{CubeFaces{}, {96, 16}}, 1e-11},

@@ -1,4 +1,4 @@
-// Masks, black levels and what is left for the picture under them; by hand, pixel by pixel.
+// Masks, black levels, and the light that they leave for the picture, calculated by hand for each pixel.
 #include "displays/finish/shade.h"
 #include "tests/support/warp_fixture.h"
 
@@ -32,7 +32,7 @@ Shade shade(const Layout& layout, const std::vector<std::vector<float>>& ramps =
     return shade_of(layout, 0, layout.outputs[0].size, compile_output(store, layout, 0, layout.outputs[0].size), ramps);
 }
 
-/// Float's own steps and a power in float.
+/// The rounding of float and of powf.
 constexpr float rounding = 1e-6f;
 
 void expect_near(const vec3& a, const vec3& b, const std::string& where = "")
@@ -43,7 +43,7 @@ void expect_near(const vec3& a, const vec3& b, const std::string& where = "")
 
 } // namespace
 
-TEST(ShadeTest, NothingToDoIsNothing)
+TEST(ShadeTest, WithoutMasksShadesAreEmpty)
 {
     EXPECT_TRUE(shade(one({8, 6})).empty());
     EXPECT_EQ(headroom({}), 1);
@@ -82,9 +82,8 @@ TEST(ShadeTest, ColouredMaskAndBlackLevelKeepTheirChannelsAndRows)
     EXPECT_NEAR(headroom(all), 0.8, rounding);
 }
 
-// A mask of another size covers the same viewport: between the centres of its pixels values run straight, beyond them they
-// stay.
-TEST(ShadeTest, SmallMasksAreSpreadOverTheirViewport)
+// A mask of another size covers the same viewport: linear between the centres of its pixels, constant beyond them.
+TEST(ShadeTest, MasksAreScaledToTheirViewport)
 {
     Layout layout = one({8, 1});
     layout.outputs[0].viewports[0].alpha_mask = picture("two.png", 2, 1, 1, {0, 255});
@@ -95,7 +94,7 @@ TEST(ShadeTest, SmallMasksAreSpreadOverTheirViewport)
     }
 }
 
-TEST(ShadeTest, EachViewportHasItsOwn)
+TEST(ShadeTest, EachViewportHasItsOwnMaskAndBlackLevel)
 {
     Layout layout = one({4, 1});
     const auto half = picture("half.png", 1, 1, 1, {51}), dim = picture("dim.png", 1, 1, 1, {102});
@@ -111,7 +110,7 @@ TEST(ShadeTest, EachViewportHasItsOwn)
 
 TEST(ShadeTest, RampMaskAndCalibrationMultiply)
 {
-    // A mesh that shows all of its picture, its brightness from 0.5 on the left to 1 on the right.
+    // A mesh that shows its whole picture, with brightness from 0.5 on the left to 1 on the right.
     const auto mesh = write_text("shade.data", "2\n2 2\n-1 -1 0 0 0.5\n1 -1 1 0 1\n-1 1 0 1 0.5\n1 1 1 1 1\n");
     Layout layout = one({4, 4});
     layout.outputs[0].viewports[0].warp = Warp{mesh};
@@ -129,11 +128,11 @@ TEST(ShadeTest, EyesThatShareAPixelShareItsMask)
     layout.outputs[0].packing = Packing::rows;
     layout.outputs[0].viewports[0].alpha_mask = picture("shared.png", 1, 1, 1, {51});
     for (const vec3& w : shade(layout).weight)
-        expect_near(w, vec3(0.2f)); // once, not for each eye
+        expect_near(w, vec3(0.2f)); // applied once, not for each eye
 }
 
-// However bright the black level, a tenth of the light is left to the picture.
-TEST(ShadeTest, SomeHeadroomIsAlwaysLeft)
+// Even under the brightest black level the picture keeps a tenth of the light.
+TEST(ShadeTest, HeadroomIsAtLeastATenth)
 {
     Shade bright;
     bright.black.assign(4, vec3(0, 1, 0));
@@ -141,7 +140,7 @@ TEST(ShadeTest, SomeHeadroomIsAlwaysLeft)
     EXPECT_NEAR(headroom(all), 0.1, rounding);
 }
 
-TEST(ShadeTest, WrongPicturesAreTold)
+TEST(ShadeTest, WrongPicturesAreNamed)
 {
     Layout layout = one({2, 2});
     layout.outputs[0].viewports[0].alpha_mask = write_text("none.png", "no picture");

@@ -6,7 +6,7 @@ using namespace sphere;
 
 namespace {
 
-/// Where a ray leaves a sphere for good: the larger root of |from + s way - centre|² = radius².
+/// The point at which a ray leaves a sphere: the larger root of |from + s way - centre|² = radius².
 glm::dvec3 leaves(const glm::dvec3& from, const glm::dvec3& way, const glm::dvec3& centre, double radius)
 {
     const long double a = glm::dot(way, way), b = 2 * glm::dot(way, from - centre);
@@ -14,8 +14,7 @@ glm::dvec3 leaves(const glm::dvec3& from, const glm::dvec3& way, const glm::dvec
     return from + double((-b + std::sqrt(b * b - 4 * a * c)) / (2 * a)) * way;
 }
 
-/// Where light is reflected on the way from p to q: Fermat's shortest way by the sphere, by ever finer search around its
-/// top.
+/// The point of reflection on the way from p to q: Fermat's shortest way over the sphere, by a finer and finer search.
 glm::dvec3 shortest_way(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& centre, double radius)
 {
     glm::dvec3 normal = glm::normalize(glm::normalize(p - centre) + glm::normalize(q - centre));
@@ -39,11 +38,12 @@ glm::dvec3 shortest_way(const glm::dvec3& p, const glm::dvec3& q, const glm::dve
 
 } // namespace
 
-TEST(SphericalMirrorTest, ClosedFormAboutOneCentre)
+TEST(SphericalMirrorTest, FollowsTheClosedFormAboutOneCentre)
 {
-    // Mirror, dome and eye share the origin, the lens looks at it from (0, 0, p). A ray at an angle a to the axis passes the
-    // centre at b = p sin(a), meets the mirror at asin(b/R) - a from the axis under asin(b/R) to its normal, and the dome
-    // under asin(b/D): it lands 2 asin(b/R) - a - asin(b/D) from the axis, on the side it left to.
+    // Mirror, dome and eye share the origin, and the lens looks at it from (0, 0, p). A ray at the angle a to the axis
+    // passes the centre at b = p sin(a). It meets the mirror at asin(b/R) - a from the axis with the angle asin(b/R) to the
+    // normal, and the dome with the angle asin(b/D). So it lands at 2 asin(b/R) - a - asin(b/D) from the axis, on its own
+    // side.
     SphericalMirror mirror;
     mirror.projector_m = {0, 0, 2};
     mirror.projector = Planar{30};
@@ -62,23 +62,24 @@ TEST(SphericalMirrorTest, ClosedFormAboutOneCentre)
             expect_near(rays.direction(point), seen, 1e-12);
             expect_at(rays.pixel(seen), point);
         }
-    // The limb is where b = R.
+    // The limb is at b = R.
     const double limb = std::tan(std::asin(0.25)) / step;
     EXPECT_TRUE(rays.direction({500 + limb - 1e-6, 500}));
     EXPECT_FALSE(rays.direction({500 + limb + 1e-6, 500}));
     EXPECT_EQ(rays.pixel_angle({500 + limb + 1e-6, 500}), 0);
     EXPECT_LE(rays.pixel_angle({500 + limb - 1e-9, 500}), std::sqrt(2 * pi));
-    // Beyond the mirror lies its shadow: the light that grazes lands asin(b/R) = 90 degrees: 180 - a - asin(b/D) away.
+    // The mirror's shadow lies beyond: light that grazes it, with asin(b/R) = 90 degrees, lands at 180 - a - asin(b/D)
+    // degrees.
     const double last = pi - std::asin(0.25) - std::asin(0.5 / 3);
     EXPECT_TRUE(rays.pixel({std::sin(last - 1e-6), 0, std::cos(last - 1e-6)}));
     EXPECT_FALSE(rays.pixel({std::sin(last + 1e-6), 0, std::cos(last + 1e-6)}));
     EXPECT_FALSE(rays.pixel({0, 0, -1}));
 }
 
-TEST(SphericalMirrorTest, ARightAngleInThePlane)
+TEST(SphericalMirrorTest, ReflectsLevelLightStraightUp)
 {
-    // Level light at 1 / sqrt(2) of the radius above the mirror's middle goes straight up; 4 m above the mirror's centre, on
-    // the top of the dome, an eye under it looks up. From elsewhere the same place is seen elsewhere.
+    // Level light at 1 / sqrt(2) of the radius above the mirror's middle goes straight up to the dome. Two eyes see that
+    // place in different directions.
     SphericalMirror mirror;
     const double r = 0.4, up = r * std::sqrt(0.5);
     mirror.mirror_m = {0.5, -1, -1 - up}; // light meets it at z = -1
@@ -108,26 +109,26 @@ TEST(SphericalMirrorTest, LightTakesTheShortestWayAndReflectsAtEqualAngles)
     mirror.dome_tilt_deg = 15;
     const glm::dvec3 eye(0.1, 0.15, 0.2);
     const PictureRays rays(Picture{mirror, {1920, 1080}, eye}), projector(Picture{mirror.projector, {1920, 1080}});
-    int looked = 0;
+    int compared = 0;
     for (int y = 20; y < 1080; y += 80)
         for (int x = 20; x < 1920; x += 80) {
             const auto seen = rays.direction({x, y});
             if (!seen)
                 continue;
-            ++looked;
+            ++compared;
             const glm::dvec3 place = leaves(eye, *seen, mirror.dome_m, mirror.dome_radius_m);
             const glm::dvec3 at = shortest_way(mirror.projector_m, place, mirror.mirror_m, mirror.mirror_radius_m);
             const glm::dvec3 out = glm::normalize(at - mirror.projector_m);
-            // A length is flat about its least: the root of a rounding.
+            // A length is flat near its minimum: the tolerance is the root of a rounding.
             expect_near(projector.direction({x, y}), out, 3e-7);
             const glm::dvec3 normal = glm::normalize(at - mirror.mirror_m), on = glm::normalize(place - at);
             EXPECT_NEAR(glm::dot(-out, normal), glm::dot(on, normal), 1e-6);
             EXPECT_NEAR(glm::dot(glm::cross(out, normal), on), 0, 1e-6); // in one plane
         }
-    EXPECT_GT(looked, 50);
+    EXPECT_GT(compared, 50);
 }
 
-TEST(SphericalMirrorTest, NothingBeyondTheDome)
+TEST(SphericalMirrorTest, NothingIsShownBeyondTheDome)
 {
     SphericalMirror mirror;
     mirror.projector_m = {0, 0, 2};
@@ -147,7 +148,7 @@ TEST(SphericalMirrorTest, NothingBeyondTheDome)
     EXPECT_TRUE(backward.pixel(towards(180 - 44.9, 0)));
     EXPECT_FALSE(backward.pixel(towards(180 - 45.1, 0)));
     EXPECT_TRUE(backward.direction(backward.pixel(towards(180 - 44.9, 0)).value()));
-    // A lens inside the mirror, one that looks away from it.
+    // A lens inside the mirror, and one that looks away from it, light nothing.
     mirror.projector_m = {0, 0, 0.4};
     EXPECT_FALSE(rim(360, 0).direction({500, 500}));
     EXPECT_FALSE(rim(360, 0).pixel({0, 0, 1}));

@@ -4,12 +4,12 @@
 namespace starbow::warp_test {
 namespace {
 
-std::string with(std::string text, const std::string& what, const std::string& by)
+std::string with(std::string text, const std::string& old, const std::string& replacement)
 {
-    const std::size_t at = text.find(what);
+    const std::size_t at = text.find(old);
     if (at == text.npos)
-        throw std::logic_error(what + " is not in the text");
-    return text.replace(at, what.size(), by);
+        throw std::logic_error(old + " is not in the text");
+    return text.replace(at, old.size(), replacement);
 }
 
 std::string with_word(std::string bytes, std::size_t at, std::uint32_t word)
@@ -39,7 +39,7 @@ void expect_refused(const std::string& name, const std::vector<Damage>& damages,
     }
 }
 
-TEST(WarpDamageTest, Bourke)
+TEST(WarpDamageTest, FaultsInBourkesFormatAreNamed)
 {
     expect_refused("a.data",
         {{"1\n3 2\n", "line 1", "\"1\" is a type that is not read; 2, a rectangular grid, is right"},
@@ -62,7 +62,7 @@ TEST(WarpDamageTest, Bourke)
             {"2\n2 2\n1 -1 0 0 1\n1 -1 1 0 1\n1 1 0 1 1\n1 1 1 1 1\n", "", "shows nothing: its triangles lie at"}});
 }
 
-TEST(WarpDamageTest, Domeprojection)
+TEST(WarpDamageTest, FaultsInDomeprojectionAreNamed)
 {
     expect_refused("a.csv",
         {{"u;v;x;y\n", "line 1", "not this format's first line; x;y;u;v;column;row is right"},
@@ -86,7 +86,7 @@ TEST(WarpDamageTest, Domeprojection)
     EXPECT_NE(frustum(names + "0;0;0;0;0;0;90;10;10;10\n").find("too far from a flat picture's axis"), std::string::npos);
 }
 
-TEST(WarpDamageTest, Simcad)
+TEST(WarpDamageTest, FaultsInSimcadAreNamed)
 {
     const std::string at = "GeometryFile/GeometryDefinition";
     expect_refused("a.simcad",
@@ -98,13 +98,13 @@ TEST(WarpDamageTest, Simcad)
             {with(simcad, "0 5 0 5", "0 99999 0 5"), at + "/X-FlatParameters, value 2", "too far"},
             {with(simcad, "0 5 0 5", "0 5 0"), at, "3 offsets in X and 4 in Y"},
             {with(with(simcad, "0 5 0 5", "0 5 0"), "0 0 -5 0", "0 0 -5"), at, "3 offsets, which is no square"}});
-    // What an entity would name stays unread.
+    // An external entity must not be read.
     const std::string xxe
         = "<!DOCTYPE a [<!ENTITY e SYSTEM \"file:///etc/passwd\">]>" + with(simcad, "0 5 0 5", "0 &e; 0 5");
     EXPECT_NE(complaint([&] { read("a.simcad", xxe); }).find("\"&e;\" is not a number"), std::string::npos);
 }
 
-TEST(WarpDamageTest, Sciss)
+TEST(WarpDamageTest, FaultsInScissAreNamed)
 {
     const std::string good = sample("channel1_warp_u2.sgc"), two = sample("channel1_warp_u3.sgc");
     const std::size_t indices = 60 + 24 * 1089;
@@ -129,7 +129,7 @@ TEST(WarpDamageTest, Sciss)
             {good.substr(0, good.size() - 2), "byte " + std::to_string(indices), "2080 indices need more"}});
 }
 
-TEST(WarpDamageTest, Scalable)
+TEST(WarpDamageTest, FaultsInScalableAreNamed)
 {
     expect_refused("a.ol",
         {{"OPENMESH Version 2\n", "line 1", "OPENMESH Version 1.1 is right"},
@@ -149,7 +149,7 @@ TEST(WarpDamageTest, Scalable)
             {with(scalable, "MAPPING", "ORTHO_LEFT 1\r\nMAPPING"), "ORTHO_RIGHT", "spans nothing"}});
 }
 
-TEST(WarpDamageTest, Skyskan)
+TEST(WarpDamageTest, FaultsInSkyskanAreNamed)
 {
     expect_refused("a.txt",
         {{with(skyskan, "Dome Azimuth=30\n", ""), "line 4", "comes before Dome Azimuth="},
@@ -162,7 +162,7 @@ TEST(WarpDamageTest, Skyskan)
             {skyskan + "1 1 1 1\n", "line 12", "comes after the last"}, {"Dome Azimuth=30\n", "line 2", "is missing"}});
 }
 
-TEST(WarpDamageTest, Obj)
+TEST(WarpDamageTest, FaultsInObjAreNamed)
 {
     expect_refused("a.obj",
         {{"v 1 2\n", "line 1", "is no vertex; v x y z is right"}, {"v 1 2 z\n", "line 1", "\"z\" is not a number"},
@@ -175,7 +175,7 @@ TEST(WarpDamageTest, Obj)
             {"# nothing\n", "", "holds no mesh"}});
 }
 
-TEST(WarpDamageTest, Headset)
+TEST(WarpDamageTest, FaultsInHeadsetMeshesAreNamed)
 {
     expect_refused("a.mesh",
         {{"starbow headset mesh 2\n", "line 1", "starbow headset mesh 1 is right"},
@@ -185,7 +185,7 @@ TEST(WarpDamageTest, Headset)
             {headset + "0\n", "line 7", "comes after the last"}});
 }
 
-TEST(WarpDamageTest, Pfm)
+TEST(WarpDamageTest, FaultsInPfmAreNamed)
 {
     const std::string good = pfm(4, 3, straight(4, 3));
     std::vector<float> far = straight(4, 3), outside(36, 0.f), holes(36, std::numeric_limits<float>::quiet_NaN());
@@ -206,15 +206,15 @@ TEST(WarpDamageTest, Pfm)
             {pfm(4, 3, holes), "", "shows nothing"}});
 }
 
-TEST(WarpDamageTest, Mpcdi)
+TEST(WarpDamageTest, FaultsInMpcdiAreNamed)
 {
     const std::string region = region_xml("r", frustum_xml), buffer = "<buffer id=\"b\">" + region + "</buffer>";
     const std::string map = pfm(4, 3, straight(4, 3));
     const auto archive = [&](const std::string& xml, const std::string& more = "") {
         return zipped({{"mpcdi.xml", xml}, {"r.pfm", map}, {"mask.png", more}});
     };
-    const auto good = [&](const std::string& what, const std::string& by) {
-        return archive(with(mpcdi_xml("3d", buffer, fileset_xml("r", "r.pfm")), what, by));
+    const auto good = [&](const std::string& old, const std::string& replacement) {
+        return archive(with(mpcdi_xml("3d", buffer, fileset_xml("r", "r.pfm")), old, replacement));
     };
     const auto masked = [&](const std::string& picture) {
         return archive(
@@ -224,7 +224,7 @@ TEST(WarpDamageTest, Mpcdi)
     std::string interlaced = png(2, 2, 3, std::vector<unsigned char>(12)),
                 bomb = png(1024, 1024, 3, std::vector<unsigned char>(3 << 20));
     interlaced[28] = 1;
-    bomb[22] = 1; // 256 rows, of the 1024 that its data are
+    bomb[22] = 1; // 256 rows, while its data have 1024
     expect_refused("a.mpcdi",
         {{"PK\x03\x04", "", "can't be read as a zip archive"}, {zipped({{"a.txt", "x"}}), "", "has 0 XML files at its root"},
             {zipped({{"a.xml", "x"}, {"b.xml", "y"}}), "", "has 2 XML files at its root"},
@@ -246,14 +246,15 @@ TEST(WarpDamageTest, Mpcdi)
             {masked(png(4, 4, 3, std::vector<unsigned char>(48, 9)).substr(0, 60)), "mask.png", "ends early"}});
     expect_refused("a.data", {{bourke, "", "has no regions, and \"r\" is wanted"}}, "r");
 
-    // Axes that are none, and units.
+    // Axes of wrong length or angle, and unknown units.
     const std::string frame = "<coordinateFrame><yawx>0</yawx><yawy>-1</yawy><yawz>0</yawz><pitchx>1</pitchx><pitchy>0</"
                               "pitchy><pitchz>0</pitchz>"
                               "<rollx>0</rollx><rolly>0</rolly><rollz>-1</rollz></coordinateFrame>";
-    const auto points = [&](const std::string& what, const std::string& by) {
+    const auto points = [&](const std::string& old, const std::string& replacement) {
         std::string files = fileset_xml("r", "r.pfm");
         files.insert(files.find("<interpolation>"), "<geometricUnit>m</geometricUnit>");
-        return archive(with(mpcdi_xml("a3", "<buffer id=\"b\">" + region_xml("r", frame) + "</buffer>", files), what, by));
+        return archive(
+            with(mpcdi_xml("a3", "<buffer id=\"b\">" + region_xml("r", frame) + "</buffer>", files), old, replacement));
     };
     expect_refused("a.mpcdi",
         {{points("<rollz>-1</rollz>", "<rollz>0</rollz>"), in + "/coordinateFrame", "roll axis of length 0"},
@@ -262,7 +263,7 @@ TEST(WarpDamageTest, Mpcdi)
             {points(">m<", ">furlong<"), top + "/files/fileset/geometryWarpFile/geometricUnit", "\"furlong\" is no unit"}});
 }
 
-TEST(WarpDamageTest, ArchivesThatGrow)
+TEST(WarpDamageTest, ArchivesThatUnpackToMuchAreRefused)
 {
     // 20 MB of zeros in 20 kB, as the map and as the XML.
     const std::string zeros(20'000'000, '\0');
@@ -278,7 +279,7 @@ TEST(WarpDamageTest, ArchivesThatGrow)
         std::string::npos);
 }
 
-TEST(WarpDamageTest, Files)
+TEST(WarpDamageTest, UnreadableFilesAreNamed)
 {
     EXPECT_NE(complaint([] { load_warp({scratch("none.sgc"), {}, {}, false}); }).find("can't be opened"), std::string::npos);
     EXPECT_NE(complaint([] { load_warp({scratch(""), {}, {}, false}); }).find("is a folder"), std::string::npos);

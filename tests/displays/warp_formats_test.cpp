@@ -20,7 +20,7 @@ void expect_turn(const Turn& turn, double yaw, double pitch, double roll, double
     EXPECT_NEAR(turn.roll_deg, roll, tolerance);
 }
 
-// What the four encodings must agree to: the .csv has six decimals, the .sgc floats near 1, the .simcad all digits.
+// The four encodings agree to this: the .csv has six decimals, the .sgc floats near 1, the .simcad all digits.
 constexpr double encodings_agree = 1e-6;
 
 TEST(WarpFormatsTest, FourEncodingsOfEachChannelAgree)
@@ -46,7 +46,7 @@ TEST(WarpFormatsTest, FourEncodingsOfEachChannelAgree)
             EXPECT_LE(at, encodings_agree);
             EXPECT_LE(place, encodings_agree);
         }
-        // The .csv's frustum in degrees and the .sgc's quaternion of floats.
+        // The .csv has the frustum in degrees, the .sgc a quaternion of floats.
         for (int i : {2, 3}) {
             const Sides csv = meshes[0].frustum.value().sides.value(), sgc = meshes[i].frustum.value().sides.value();
             EXPECT_NEAR(csv.left_deg, sgc.left_deg, 1e-5);
@@ -61,12 +61,12 @@ TEST(WarpFormatsTest, FourEncodingsOfEachChannelAgree)
     }
 }
 
-TEST(WarpFormatsTest, BourkeSample)
+TEST(WarpFormatsTest, BourkesSampleHasItsGridAndPlaces)
 {
     const WarpMesh mesh = load_warp({sample_path("standard_16x9.data"), {}, {}, false});
     EXPECT_EQ(mesh.grid, glm::ivec2(100, 60));
     EXPECT_EQ(mesh.triangles.size(), 2u * 99 * 59);
-    // The file's first row is the picture's lower one; it says "-1.77778 -1 0.160825 0.86737 0.530521".
+    // The file's first row is the picture's lowest. Its first line is "-1.77778 -1 0.160825 0.86737 0.530521".
     const WarpVertex& lower_left = mesh.vertices[59 * 100];
     EXPECT_NEAR(lower_left.at.x, 0, 1e-12);
     EXPECT_NEAR(lower_left.at.y, 1, 1e-12);
@@ -77,13 +77,13 @@ TEST(WarpFormatsTest, BourkeSample)
     EXPECT_NEAR(mesh.vertices[99].at.y, 0, 1e-12);
 }
 
-TEST(WarpFormatsTest, BourkeHoles)
+TEST(WarpFormatsTest, BourkesNegativeIntensitiesAreHoles)
 {
     const WarpMesh mesh = read("a.data", bourke);
     ASSERT_EQ(mesh.grid, glm::ivec2(3, 2));
     EXPECT_EQ(mesh.vertices[2].at, glm::dvec2(1, 0));
     EXPECT_EQ(mesh.vertices[5].intensity, 0.5);
-    EXPECT_EQ(mesh.triangles.size(), 1u); // the middle of the upper row is a hole, and with it three of four
+    EXPECT_EQ(mesh.triangles.size(), 1u); // a hole in the middle of the upper row removes three of four triangles
     EXPECT_FALSE(used(mesh)[1]);
     const WarpMesh outside = read("a.data", "2\n2 2\n-1 -1 0 0 1\n1 -1 1 0 1\n-1 1 0 1.01 1\n1 1 1 1 1\n");
     EXPECT_EQ(outside.triangles.size(), 1u);
@@ -100,10 +100,10 @@ TEST(WarpFormatsTest, DomeprojectionMissingVerticesAreHoles)
     const WarpMesh mesh = read("a_mesh.csv", text);
     EXPECT_EQ(mesh.triangles.size(), 6u);
     EXPECT_FALSE(mesh.frustum.has_value());
-    EXPECT_EQ(mesh.vertices[4].sees[0], glm::dvec3(0.5, 0.25, 0)); // v points down, as here
+    EXPECT_EQ(mesh.vertices[4].sees[0], glm::dvec3(0.5, 0.25, 0)); // v points down, as in WarpMesh
 }
 
-TEST(WarpFormatsTest, FrustumCountsOutwards)
+TEST(WarpFormatsTest, AFrustumsAnglesCountOutwards)
 {
     const WarpFrustum f
         = read_frustum({"f.csv", "x;y;z;heading;pitch;bank;left;right;bottom;top\n1;2;3;30;20;10;25;26;-7;40\n"});
@@ -115,7 +115,7 @@ TEST(WarpFormatsTest, FrustumCountsOutwards)
     EXPECT_EQ(f.eye_m, glm::dvec3(1, 2, 3));
 }
 
-TEST(WarpFormatsTest, SimcadOffsets)
+TEST(WarpFormatsTest, SimcadOffsetsMoveVertices)
 {
     const WarpMesh mesh = read("a.simcad", simcad);
     EXPECT_EQ(mesh.vertices[1].at, glm::dvec2(1.05, 0));
@@ -123,7 +123,7 @@ TEST(WarpFormatsTest, SimcadOffsets)
     EXPECT_EQ(mesh.vertices[2].sees[0], glm::dvec3(0, 1, 0));
 }
 
-/// A SCISS file by hand.
+/// Writes a SCISS file.
 std::string sgc(int version, std::uint32_t type, const std::vector<float>& view, std::array<std::uint32_t, 2> size,
     const std::vector<float>& vertices, const std::vector<std::uint32_t>& indices)
 {
@@ -145,7 +145,7 @@ std::string sgc(int version, std::uint32_t type, const std::vector<float>& view,
     return out;
 }
 
-TEST(WarpFormatsTest, ScissTurnsAndTriangles)
+TEST(WarpFormatsTest, ScissTurnsAndTrianglesAreRead)
 {
     // Yaw to the right, then pitch up, then roll clockwise, as three quaternions of the y-up frame.
     const auto turn = [](double angle, const glm::dvec3& axis) { return glm::angleAxis(glm::radians(angle), axis); };
@@ -160,9 +160,9 @@ TEST(WarpFormatsTest, ScissTurnsAndTriangles)
     EXPECT_EQ(mesh.triangles.size(), 2u);
     EXPECT_EQ(mesh.vertices[0].at, glm::dvec2(0, 0)); // y down
     EXPECT_EQ(mesh.vertices[0].sees[0], glm::dvec3(0, 0, 0)); // v up
-    // A strip without a grid's order.
+    // A strip whose order is not a grid's.
     EXPECT_EQ(read("a.sgc", sgc(2, 0, view, {5, 4}, square, {1, 0, 2, 3})).triangles.size(), 2u);
-    // A cube map's directions, turned.
+    // A cube map's directions, rotated.
     const std::vector<float> ahead{0, 0, 0, 0, 0, -1, 1, 0, 0, 0, 0, -1, 1, 1, 0, 0, 0, -2};
     const WarpMesh cube = read("a.sgc", sgc(2, 1, view, {4, 3}, ahead, {0, 1, 2}));
     EXPECT_EQ(cube.kind, WarpMesh::Kind::colours);
@@ -171,7 +171,7 @@ TEST(WarpFormatsTest, ScissTurnsAndTriangles)
         {std::sin(yaw) * std::cos(pitch), std::sin(pitch), -std::cos(yaw) * std::cos(pitch)}, 1e-6);
 }
 
-TEST(WarpFormatsTest, Scalable)
+TEST(WarpFormatsTest, ScalableCountsFromTheLowerLeft)
 {
     const WarpMesh mesh = read("a.ol", scalable);
     ASSERT_EQ(mesh.vertices.size(), 4u);
@@ -186,10 +186,10 @@ TEST(WarpFormatsTest, Scalable)
     EXPECT_EQ(read("a.ol", turned).vertices[0].at, glm::dvec2(0, 0));
 }
 
-TEST(WarpFormatsTest, Skyskan)
+TEST(WarpFormatsTest, SkyskanHasHolesAndTweaks)
 {
     const WarpMesh mesh = read("a.txt", skyskan);
-    EXPECT_EQ(mesh.triangles.size(), 2u); // the lower right vertex is a hole: both triangles of that cell use it
+    EXPECT_EQ(mesh.triangles.size(), 2u); // the lower right vertex is a hole, and both triangles of that cell use it
     EXPECT_EQ(mesh.vertices[3].at, glm::dvec2(0, 1));
     EXPECT_EQ(mesh.vertices[3].sees[0], glm::dvec3(0, 1, 0));
     expect_turn(mesh.frustum.value().turn, 30, 40, 0, 0);
@@ -204,14 +204,14 @@ TEST(WarpFormatsTest, Skyskan)
     EXPECT_EQ(read("a.txt", tweaked).vertices[2].sees[0].x, 0.5);
 }
 
-TEST(WarpFormatsTest, Obj)
+TEST(WarpFormatsTest, ObjIndicesMayCountFromTheEnd)
 {
     const WarpMesh mesh = read("a.obj", obj);
     EXPECT_EQ(mesh.vertices.size(), 4u);
     EXPECT_EQ(mesh.triangles.size(), 2u);
     EXPECT_EQ(mesh.vertices[0].at, glm::dvec2(0, 1));
     EXPECT_EQ(mesh.vertices[0].sees[0], glm::dvec3(0, 1, 0));
-    // Indices from the end, a polygon, and one vertex with two places.
+    // Indices counted from the end, a polygon, and one vertex with two texture coordinates.
     const WarpMesh other = read("a.obj",
         "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf -4/-4 -3/-3 -2/-2 -1/-1\nf 1/2 2/3 "
         "3/4\n");
@@ -219,7 +219,7 @@ TEST(WarpFormatsTest, Obj)
     EXPECT_EQ(other.vertices.size(), 7u);
 }
 
-TEST(WarpFormatsTest, Headset)
+TEST(WarpFormatsTest, HeadsetMeshesHaveThreeDirections)
 {
     const WarpMesh mesh = read("a.mesh", headset);
     EXPECT_EQ(mesh.kind, WarpMesh::Kind::colours);
@@ -228,10 +228,10 @@ TEST(WarpFormatsTest, Headset)
     expect_near(mesh.vertices[1].sees[2], glm::dvec3(1.2, 1.2, -1) / std::sqrt(1 + 2 * 1.44), 1e-15);
 }
 
-TEST(WarpFormatsTest, PfmByteAndRowOrders)
+TEST(WarpFormatsTest, PfmMayHaveEitherByteAndRowOrder)
 {
     std::vector<float> values = straight(4, 3);
-    values[0] = 0.2f; // of the lower left
+    values[0] = 0.2f; // the lower left pixel
     for (bool little : {true, false}) {
         const WarpMesh mesh = read("a.pfm", pfm(4, 3, values, little));
         EXPECT_EQ(mesh.grid, glm::ivec2(6, 5));
@@ -253,30 +253,30 @@ TEST(WarpFormatsTest, PfmReachesTheEdgesAndLeavesHoles)
     values[3 * 5] = nan; // column 1 of the middle row
     const WarpMesh mesh = read("a.pfm", pfm(4, 3, values));
     EXPECT_FALSE(used(mesh)[2 * 6 + 2]);
-    EXPECT_EQ(mesh.triangles.size(), whole.triangles.size() - 6); // all around an inner vertex
+    EXPECT_EQ(mesh.triangles.size(), whole.triangles.size() - 6); // the triangles around an inner vertex
 }
 
-TEST(WarpFormatsTest, MpcdiSample)
+TEST(WarpFormatsTest, TheMpcdiSampleHasItsFrustumAndOffsets)
 {
     const WarpMesh mesh = load_warp({sample_path("correction_mesh.mpcdi"), {}, {}, true});
     EXPECT_EQ(mesh.format, "MPCDI 2.0, profile 3d, region surface1_region");
     EXPECT_EQ(mesh.grid, glm::ivec2(32));
     expect_turn(mesh.frustum.value().turn, 326.675157, 27.327616, -14.611227, 0);
     EXPECT_EQ(mesh.frustum->sides->up_deg, 34.644394);
-    // Its values are offsets, y up: the first is -0.104621 0.126087.
+    // Its values are offsets with y up: the first is -0.104621 0.126087.
     EXPECT_NEAR(mesh.vertices[0].at.x, -0.104621, 1e-6);
     EXPECT_NEAR(mesh.vertices[0].at.y, -0.126087, 1e-6);
     EXPECT_EQ(mesh.vertices[31].sees[0], glm::dvec3(1, 0, 0));
     EXPECT_FALSE(mesh.alpha.has_value());
 }
 
-TEST(WarpFormatsTest, MpcdiMasks)
+TEST(WarpFormatsTest, MpcdiMasksAreRead)
 {
     const WarpMesh mesh = read("a.mpcdi", mpcdi_3d());
     expect_turn(mesh.frustum.value().turn, 30, 20, 10, 0);
     EXPECT_EQ(mesh.frustum->sides->left_deg, -24);
     ASSERT_TRUE(mesh.alpha && mesh.beta);
-    EXPECT_EQ(mesh.alpha->channels, 1); // grey, though its picture has three
+    EXPECT_EQ(mesh.alpha->channels, 1); // grey, though its picture has three channels
     EXPECT_EQ(mesh.alpha->gamma, 2.2);
     EXPECT_EQ(mesh.alpha->values, (std::vector<float>{0, 1}));
     EXPECT_EQ(mesh.beta->size, glm::ivec2(1, 2));
@@ -284,7 +284,7 @@ TEST(WarpFormatsTest, MpcdiMasks)
     EXPECT_EQ(mesh.beta->values, (std::vector<float>{51 / 255.f, 0, 0, 0, 0, 102 / 255.f}));
 }
 
-TEST(WarpFormatsTest, MpcdiRegions)
+TEST(WarpFormatsTest, MpcdiRegionsAreChosenByName)
 {
     std::vector<float> half = straight(2, 2);
     half[0] = 0.3f;
@@ -305,9 +305,9 @@ TEST(WarpFormatsTest, MpcdiRegions)
     EXPECT_FALSE(read("a.mpcdi", archive, "r").frustum.has_value());
 }
 
-TEST(WarpFormatsTest, MpcdiPoints)
+TEST(WarpFormatsTest, MpcdiPointsAreInTheirFrame)
 {
-    // Axes of a surveyor: x to the right, y ahead, z up; so yaw points along -z, pitch along x, roll along y.
+    // A surveyor's axes: x to the right, y ahead, z up. So yaw points along -z, pitch along x, roll along y.
     const std::string frame
         = "<coordinateFrame><posx>1</posx><posy>2</posy><posz>3</posz><yawx>0</yawx><yawy>0</yawy><yawz>-1</yawz>"
           "<pitchx>1</pitchx><pitchy>0</pitchy><pitchz>0</pitchz><rollx>0</rollx><rolly>1</rolly><rollz>0</rollz></"
@@ -322,7 +322,7 @@ TEST(WarpFormatsTest, MpcdiPoints)
                 {"p.pfm", pfm(2, 3, points)}});
         const WarpMesh mesh = read("a.mpcdi", archive);
         EXPECT_EQ(mesh.kind, WarpMesh::Kind::points);
-        expect_near(mesh.vertices[3 * 4 + 1].sees[0], {0.1, 0.2, -0.5}, 1e-7); // the lower left: right, up, backwards
+        expect_near(mesh.vertices[3 * 4 + 1].sees[0], {0.1, 0.2, -0.5}, 1e-7); // the lower left point: right, up, backwards
         EXPECT_FALSE(used(mesh)[2 * 4 + 2]);
         EXPECT_EQ(mesh.eye_m, glm::dvec3(0));
         EXPECT_FALSE(mesh.frustum.has_value());
@@ -333,7 +333,7 @@ TEST(WarpFormatsTest, MpcdiPoints)
     expect_near(read("a.mpcdi", plain).vertices[3 * 4 + 1].sees[0], {10, 50, 20}, 1e-5); // metres, y up
 }
 
-TEST(WarpFormatsTest, ContentTellsTheFormat)
+TEST(WarpFormatsTest, TheContentDecidesTheFormat)
 {
     for (const auto& [content, format] : {std::pair(bourke, "Bourke"), {csv, "domeprojection"}, {simcad, "SimCAD"},
              {scalable, "Scalable"}, {skyskan, "SkySkan"}, {obj, "OBJ"}, {headset, "headset"}, {mpcdi_3d(), "MPCDI"},

@@ -5,7 +5,7 @@
 #include <map>
 
 #if defined(__SANITIZE_ADDRESS__)
-// Its header is not in every compiler's package.
+// Not every compiler's package has the header with this function.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(
     void (*)(const volatile void*, std::size_t), void (*)(const volatile void*));
 #endif
@@ -14,7 +14,7 @@ namespace starbow::warp_test {
 namespace {
 
 constexpr std::size_t mib = std::size_t(1) << 20;
-std::atomic<std::size_t> largest = 0; ///< block of memory that anybody asked for
+std::atomic<std::size_t> largest = 0; ///< largest block of memory allocated
 
 #if defined(__SANITIZE_ADDRESS__)
 void note_block(const volatile void*, std::size_t size)
@@ -32,7 +32,7 @@ void watch_memory()
 void watch_memory() { } // only the sanitizer has hooks
 #endif
 
-/// A file's parts: one, or those of an archive.
+/// A file's content, or the files of an archive.
 using Parts = std::vector<std::pair<std::string, std::string>>;
 
 struct Seed {
@@ -43,7 +43,7 @@ struct Seed {
 std::vector<Seed> seeds()
 {
     std::vector<Seed> all;
-    // Small ones, so that damage meets every field; the samples' own size only tests patience.
+    // Small files, so that damage meets every field.
     for (const auto& [name, text] : {std::pair("a.data", bourke), {"a.csv", csv}, {"a.simcad", simcad}, {"a.ol", scalable},
              {"a.txt", skyskan}, {"a.obj", obj}, {"a.mesh", headset}})
         all.push_back({name, {{name, text}}});
@@ -77,8 +77,8 @@ std::vector<Seed> seeds()
     for (std::size_t i = 0; i < picture.size(); ++i)
         picture[i] = static_cast<unsigned char>(i * 37);
     const Parts parts{{"mpcdi.xml", flat}, {"r.pfm", pfm(4, 3, straight(4, 3))}, {"a.png", png(5, 4, 3, picture)}};
-    all.push_back({"a.mpcdi", parts}); // damaged inside
-    all.push_back({"b.mpcdi", {{"b.mpcdi", zipped(parts)}}}); // damaged as a whole
+    all.push_back({"a.mpcdi", parts}); // each file inside is damaged
+    all.push_back({"b.mpcdi", {{"b.mpcdi", zipped(parts)}}}); // the archive itself is damaged
     const std::string frame = "<coordinateFrame><yawx>0</yawx><yawy>-1</yawy><yawz>0</yawz><pitchx>1</pitchx><pitchy>0</"
                               "pitchy><pitchz>0</pitchz>"
                               "<rollx>0</rollx><rolly>0</rolly><rollz>-1</rollz></coordinateFrame>";
@@ -140,7 +140,7 @@ WarpMesh read_seed(const Seed& seed, const Parts& parts, bool top)
     }
     if (parts.size() == 1)
         return read_warp({seed.name, parts[0].second}, "", top);
-    // What an archive would give, without the time that packing takes.
+    // Reads the files of an archive without the time that packing takes.
     std::size_t size = 0;
     for (const auto& [name, bytes] : parts)
         size += bytes.size();
@@ -157,11 +157,11 @@ WarpMesh read_seed(const Seed& seed, const Parts& parts, bool top)
         "", top);
 }
 
-void expect_sound(const WarpMesh& mesh, bool sampled = false)
+void expect_valid(const WarpMesh& mesh, bool sampled = false)
 {
     if (!sampled && mesh.triangles.size() < 10000)
-        if (const WarpMesh grid = gridded(mesh, {12, 9}); !grid.triangles.empty()) // else it lies between the vertices
-            expect_sound(grid, true);
+        if (const WarpMesh grid = gridded(mesh, {12, 9}); !grid.triangles.empty()) // otherwise it lies between the vertices
+            expect_valid(grid, true);
     ASSERT_FALSE(mesh.triangles.empty());
     ASSERT_TRUE(mesh.grid == glm::ivec2(0) || std::size_t(mesh.grid.x) * std::size_t(mesh.grid.y) == mesh.vertices.size());
     for (const auto& triangle : mesh.triangles)
@@ -189,7 +189,7 @@ void expect_sound(const WarpMesh& mesh, bool sampled = false)
         raster.row(y, row);
 }
 
-/// STARBOW_FUZZ_COUNT asks for a longer run, STARBOW_FUZZ_SEED for another; each seed's mutations are always the same.
+/// STARBOW_FUZZ_COUNT sets the number of mutations, STARBOW_FUZZ_SEED the seed. A seed's mutations are always the same.
 TEST(WarpFuzzTest, DamagedFilesLoadOrAreRefused)
 {
     const char* seed_text = std::getenv("STARBOW_FUZZ_SEED");
@@ -207,7 +207,7 @@ TEST(WarpFuzzTest, DamagedFilesLoadOrAreRefused)
         const bool map = seed.name.ends_with(".pfm") || seed.name.ends_with(".mpcdi"), top = random() % 2 && map;
         try {
             const WarpMesh mesh = read_seed(seed, parts, top);
-            expect_sound(mesh);
+            expect_valid(mesh);
             ++outcomes[seed.name][1];
         } catch (const InputError& error) {
             const std::string line = error.what();
@@ -222,7 +222,7 @@ TEST(WarpFuzzTest, DamagedFilesLoadOrAreRefused)
         ASSERT_LE(largest, 64 * mib);
     }
     for (const auto& [name, results] : outcomes) {
-        if (count >= 3000) { // otherwise the damage would be so coarse that it tests the first check only
+        if (count >= 3000) { // otherwise nearly all damage would fail at the first check
             EXPECT_GT(results[0], 5) << name;
             EXPECT_GT(results[1], 5) << name;
         }
@@ -234,8 +234,8 @@ TEST(WarpFuzzTest, DamagedFilesLoadOrAreRefused)
 #endif
 }
 
-/// Just below a mebibyte, whatever it announces, no block beyond 64 MiB is asked for.
-TEST(WarpFuzzTest, LargeClaimsTakeLittleMemory)
+/// Files just below a mebibyte announce much, and must not allocate a block above 64 MiB.
+TEST(WarpFuzzTest, AnnouncedSizesAllocateLittle)
 {
     watch_memory();
     const auto filled = [](std::string head, const std::string& piece) {

@@ -7,16 +7,16 @@ namespace {
 
 using Wide = long double;
 
-/// By barycentric coordinates in extended precision, every triangle at every pixel.
-struct Slow {
+/// The expected triangle, by barycentric coordinates in extended precision for every triangle at every pixel.
+struct Expected {
     int triangle = -1;
     Wide weights[3]{};
-    bool close_call = false; ///< a centre so near an edge that rounding may decide
+    bool close_call = false; ///< the centre is so near an edge that rounding may decide
 };
 
-Slow slow(const WarpMesh& mesh, glm::ivec2 size, int x, int y)
+Expected expected_at(const WarpMesh& mesh, glm::ivec2 size, int x, int y)
 {
-    Slow found;
+    Expected found;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         Wide px[3], py[3];
         for (int k = 0; k < 3; ++k) {
@@ -43,7 +43,7 @@ Slow slow(const WarpMesh& mesh, glm::ivec2 size, int x, int y)
     return found;
 }
 
-/// sees[0] names the triangle where every triangle has corners of its own.
+/// Gives every triangle corners of its own, whose intensity is the triangle's number.
 WarpMesh apart(const WarpMesh& mesh)
 {
     WarpMesh out = mesh;
@@ -75,12 +75,12 @@ WarpMesh random_grid(std::mt19937& random, int columns, int rows, double shake)
     return mesh;
 }
 
-TEST(WarpRasterTest, AgreesWithASlowOne)
+TEST(WarpRasterTest, AgreesWithBarycentricCoordinates)
 {
     std::mt19937 random(5);
     int close_calls = 0, shown = 0;
     for (int round = 0; round < 12; ++round) {
-        // From a gentle bend to a heap of folded, overlapping triangles that reach far beyond.
+        // From small distortions to folded, overlapping triangles that reach far beyond the picture.
         WarpMesh mesh = random_grid(random, 5, 4, 0.1 + round * 0.3);
         mesh.kind = WarpMesh::Kind::colours;
         const glm::ivec2 size(37, 29);
@@ -91,7 +91,7 @@ TEST(WarpRasterTest, AgreesWithASlowOne)
             raster.row(y, row);
             names.row(y, name_row);
             for (int x = 0; x < size.x; ++x) {
-                const Slow expected = slow(mesh, size, x, y);
+                const Expected expected = expected_at(mesh, size, x, y);
                 close_calls += expected.close_call;
                 if (expected.close_call)
                     continue;
@@ -100,14 +100,15 @@ TEST(WarpRasterTest, AgreesWithASlowOne)
                 if (!s.shown)
                     continue;
                 ++shown;
-                EXPECT_NEAR(name_row[std::size_t(x)].intensity, expected.triangle, 1e-9) << "the first in the file counts";
+                EXPECT_NEAR(name_row[std::size_t(x)].intensity, expected.triangle, 1e-9)
+                    << "the file's first triangle must win";
                 const auto& t = mesh.triangles[std::size_t(expected.triangle)];
                 for (std::size_t c = 0; c < 3; ++c)
                     for (int axis = 0; axis < 3; ++axis) {
                         Wide value = 0;
                         for (int k = 0; k < 3; ++k)
                             value += expected.weights[k] * mesh.vertices[t[std::size_t(k)]].sees[c][axis];
-                        EXPECT_NEAR(s.sees[c][axis], double(value), 1e-9); // slivers lose a few digits
+                        EXPECT_NEAR(s.sees[c][axis], double(value), 1e-9); // narrow triangles lose a few digits
                     }
             }
         }
@@ -118,12 +119,12 @@ TEST(WarpRasterTest, AgreesWithASlowOne)
 
 TEST(WarpRasterTest, CentresOnEdgesAreNeverLost)
 {
-    // Vertices on pixels' centres, so that edges and corners pass exactly through them, in every way round and order.
+    // Vertices are at pixel centres, so that edges and corners pass exactly through them, with any orientation and order.
     std::mt19937 random(6);
     for (int round = 0; round < 20; ++round) {
         WarpMesh mesh = random_grid(random, 9, 9, 0);
         for (WarpVertex& v : mesh.vertices)
-            v.at = (v.at * 8.0 + 0.5) / 9.0; // centres of a 9 x 9 picture
+            v.at = (v.at * 8.0 + 0.5) / 9.0; // pixel centres of a 9 x 9 picture
         for (auto& t : mesh.triangles) {
             if (random() % 2)
                 std::swap(t[0], t[1]);
@@ -131,7 +132,7 @@ TEST(WarpRasterTest, CentresOnEdgesAreNeverLost)
         }
         std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), random);
         if (round % 2)
-            mesh = apart(mesh); // no vertices shared, only places
+            mesh = apart(mesh); // vertices share places but no index
         for (int size : {9, 18, 27, 45}) {
             const WarpRaster raster(mesh, {size, size});
             std::vector<WarpSample> row(std::size_t(size), WarpSample{});
@@ -145,9 +146,9 @@ TEST(WarpRasterTest, CentresOnEdgesAreNeverLost)
     }
 }
 
-TEST(WarpRasterTest, BentNeighboursLeaveNoGap)
+TEST(WarpRasterTest, DistortedGridsHaveNoGaps)
 {
-    // Inside a bent grid there are no holes, however fine the pixels and however odd the numbers.
+    // The inside of a distorted grid has no holes at any size.
     std::mt19937 random(7);
     WarpMesh mesh = random_grid(random, 20, 20, 0.3);
     for (WarpVertex& v : mesh.vertices)
@@ -190,7 +191,7 @@ TEST(WarpRasterTest, ALargePictureIsFast)
     RecordProperty("milliseconds", int(seconds * 1000));
     std::cout << "4096 x 4096 of a 100 x 60 mesh in " << seconds << " s\n";
     EXPECT_NEAR(sum / 4096, 0.5, 0.1);
-    EXPECT_LT(seconds, 20); // of a busy machine with sanitizers; a second otherwise
+    EXPECT_LT(seconds, 20); // for a busy machine with sanitizers; otherwise a second
 }
 
 } // namespace

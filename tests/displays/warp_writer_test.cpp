@@ -4,7 +4,7 @@
 namespace starbow::warp_test {
 namespace {
 
-/// Where it shows something it must be the same; a hole's numbers say nothing.
+/// Compares two meshes in their used vertices. A hole's numbers have no meaning.
 void expect_same(const WarpMesh& a, const WarpMesh& b, double tolerance)
 {
     ASSERT_EQ(a.grid, b.grid);
@@ -23,7 +23,7 @@ void expect_same(const WarpMesh& a, const WarpMesh& b, double tolerance)
 
 TEST(WarpWriterTest, BourkeReadsBack)
 {
-    // x goes through a multiplication and a division by the aspect: a few units in the last place.
+    // x is multiplied and divided by the aspect: a few units in the last place.
     for (const std::string name : {"standard_16x9.data", "channel2_warp_mesh.csv", "correction_mesh.mpcdi"})
         for (double aspect : {16.0 / 9, 1.0, 0.3}) {
             const WarpMesh mesh = read(name, sample(name), "", name.ends_with(".mpcdi"));
@@ -52,7 +52,7 @@ TEST(WarpWriterTest, DomeprojectionReadsBackToTheBit)
 
 TEST(WarpWriterTest, PfmReadsBackToTheBit)
 {
-    std::vector<float> values = straight(5, 4);
+    std::vector<float> values = unwarped(5, 4);
     values[3 * 7 + 1] = std::numeric_limits<float>::quiet_NaN();
     const std::string bytes = pfm(5, 4, values);
     const WarpMesh mesh = read("a.pfm", bytes);
@@ -61,9 +61,9 @@ TEST(WarpWriterTest, PfmReadsBackToTheBit)
     EXPECT_EQ(write_pfm(read("b.pfm", written), "b"), written);
 }
 
-TEST(WarpWriterTest, SampledMeshesShowTheSame)
+TEST(WarpWriterTest, SampledMeshesShowTheSamePicture)
 {
-    // Bilinear in effect: a mesh of 33 x 33 on four times as many places, compared at places between them.
+    // A mesh of 33 x 33 is sampled at four times as many places per axis, and compared between these.
     const WarpMesh mesh = read("a.csv", sample("channel1_warp_mesh.csv"));
     const WarpMesh back = read("b.pfm", write_pfm(resampled(mesh, {480, 300}), "a"));
     const WarpRaster before(mesh, {120, 75}), after(back, {120, 75});
@@ -76,7 +76,8 @@ TEST(WarpWriterTest, SampledMeshesShowTheSame)
             differ += a[x].shown != b[x].shown;
             if (a[x].shown && b[x].shown) {
                 ++compared;
-                EXPECT_LE(glm::length(a[x].sees[0] - b[x].sees[0]), 2e-4); // a cell's bend, far below a pixel of 1/120
+                EXPECT_LE(glm::length(a[x].sees[0] - b[x].sees[0]),
+                    2e-4); // the curvature within a cell, far below a pixel of 1/120
             }
         }
     }
@@ -84,7 +85,7 @@ TEST(WarpWriterTest, SampledMeshesShowTheSame)
     EXPECT_LT(differ, 150u); // along the outline, where a cell without all its corners is black
 }
 
-TEST(WarpWriterTest, AGridHasTheSizeThatIsAskedFor)
+TEST(WarpWriterTest, AGridHasTheRequestedSize)
 {
     const WarpMesh mesh = read("a.csv", sample("channel1_warp_mesh.csv"));
     EXPECT_EQ(read("b.data", write_bourke(gridded(mesh, {10, 7}), "a", 1.6)).grid, glm::ivec2(10, 7));
@@ -99,7 +100,7 @@ TEST(WarpWriterTest, AGridHasTheSizeThatIsAskedFor)
 
 TEST(WarpWriterTest, AGridEndsWhereTheMeshDoes)
 {
-    // A disc of triangles, which look at a third of the picture about its middle and fade to the right.
+    // A disc of triangles that show a third of the picture around its middle and fade to the right.
     WarpMesh disc;
     disc.format = "disc";
     const glm::dvec2 centre(0.51, 0.47);
@@ -129,12 +130,12 @@ TEST(WarpWriterTest, AGridEndsWhereTheMeshDoes)
     }
     EXPECT_NEAR(shown / (glm::radians(180.0) * 0.16), 1, 0.01); // chords of two cells; without its rim 0.87
     EXPECT_LE(farthest, 0.4 + 1e-9);
-    EXPECT_LE(worst, 1e-12); // all is linear
+    EXPECT_LE(worst, 1e-12); // everything is linear
     EXPECT_LE(differs(disc, grid), 0.01);
     EXPECT_GT(differs(disc, resampled(disc, {30, 24})), 0.03);
 }
 
-TEST(WarpWriterTest, WhatAFormatCannotHoldIsRefused)
+TEST(WarpWriterTest, MeshesThatAFormatCannotHoldAreRefused)
 {
     const WarpMesh none = read("a.obj", obj), three = read("a.mesh", headset);
     EXPECT_NE(complaint([&] { write_bourke(none, "a.obj", 1); }).find("no grid"), std::string::npos);
@@ -143,25 +144,25 @@ TEST(WarpWriterTest, WhatAFormatCannotHoldIsRefused)
     EXPECT_NE(complaint([&] { write_pfm(none, "a"); }).find("not one value per pixel"), std::string::npos);
 }
 
-TEST(WarpWriterTest, PortraitsLinesAreAlikeWhereTheMeshHasSome)
+TEST(WarpWriterTest, PortraitLinesAreEquallyBrightOnMeshLines)
 {
-    // Five columns: the mesh's own lines run where the picture is at 0, 1/4, 1/2 ..., and one half is a white line too.
+    // The mesh's five columns are at 0, 1/4, 1/2 ... of the picture, so that its lines coincide with some of the portrait's.
     const WarpMesh mesh = gridded(read("a.data", sample("standard_16x9.data")), {5, 3});
-    WarpMesh straight = mesh;
-    for (WarpVertex& v : straight.vertices) {
+    WarpMesh unwarped = mesh;
+    for (WarpVertex& v : unwarped.vertices) {
         v.sees[0] = {v.at, 0};
         v.intensity = 1;
     }
-    const std::vector<std::uint8_t> rgba = portrait(straight, {640, 400});
-    const auto light = [&](double place) { // of a place's line, all of it, at 0.33 of the height
+    const std::vector<std::uint8_t> rgba = portrait(unwarped, {640, 400});
+    const auto light = [&](double place) { // the light of a line at a place, at 0.33 of the height
         const int margin = 640 / 16, middle = margin + int(std::lround(place * (640 - 2 * margin)));
         int sum = 0;
         for (int x = middle - 3; x < middle + 3; ++x)
             sum += rgba[std::size_t(4 * (640 * 140 + x))];
         return sum;
     };
-    // The picture grows steadily redder to the right, so that a line is as bright as its neighbours are on average.
-    EXPECT_NEAR(light(0.5), (light(0.4) + light(0.6)) / 2, 30); // of some 800: where in its pixels a line falls
+    // The picture becomes steadily redder to the right, so that a line is as bright as the mean of its neighbours.
+    EXPECT_NEAR(light(0.5), (light(0.4) + light(0.6)) / 2, 30); // of some 800; a line may fall on a pixel's edge
 }
 
 TEST(WarpWriterTest, PortraitShowsHolesBlack)
@@ -172,8 +173,8 @@ TEST(WarpWriterTest, PortraitShowsHolesBlack)
         return std::max({rgba[std::size_t(4 * (160 * y + x))], rgba[std::size_t(4 * (160 * y + x) + 1)],
             rgba[std::size_t(4 * (160 * y + x) + 2)]});
     };
-    EXPECT_LT(at(30, 12), 3); // the upper part, which the hole takes
-    EXPECT_GT(at(145, 88), 60); // the lower right, which is shown
+    EXPECT_LT(at(30, 12), 3); // the upper part, where the hole is
+    EXPECT_GT(at(145, 88), 60); // the lower right, which shows the picture
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// What a visitor's controls do to the ship: smooth, bounded, and safe whatever is pressed; the same at any frame rate.
+// The visitor's controls move the ship smoothly, within bounds and safely, and equally at any frame rate.
 #include "runtime/flight/flight.h"
 #include "runtime/flight/history.h"
 #include "shaders/physics/physics.h"
@@ -37,7 +37,7 @@ Flight hold(Flight flight, const Controls& controls, double seconds, const Flyin
 double rapidity(const Flight& flight) { return std::asinh(glm::length(flight.ship.u.total())); }
 dvec3 nose_of(const Flight& flight) { return flight.ship.ship_from_cockpit * dvec3(0, 0, -1); }
 
-/// Angle between where the ship goes and where its nose points, in the ship's axes.
+/// The angle between the ship's motion and its nose, in the ship's axes.
 double drift(const Flight& flight)
 {
     const dvec3 way = glm::normalize(flight.ship.u.total()), nose = nose_of(flight);
@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Flight, Modes, ::testing::Values(FlightMode::guided, Fl
 
 } // namespace
 
-// A minute of a visitor whose hand moves ten times a second, seen at 10, 60 and 1000 frames a second.
+// For a minute the hand moves ten times a second, at 10, 60 and 1000 frames a second.
 TEST_P(Modes, FlyTheSameAtAnyFrameRate)
 {
     const Flying rules = with(GetParam());
@@ -73,11 +73,11 @@ TEST_P(Modes, FlyTheSameAtAnyFrameRate)
             Controls controls = some_controls(random);
             controls.home = tenth == 300;
             controls.stop = tenth == 400;
-            if (tenth == 401) // what a stop waits for
+            if (tenth == 401) // after a stop the thrust is inhibited until the lever is at 0
                 controls = {.lever = 0.0};
             for (std::int64_t left = 100 * ms; left > 0; left -= dt) {
                 flight = step(flight, controls, std::min(dt, left), rules, 1, start());
-                controls.look_rad = {0, 0}, controls.home = controls.stop = false; // what is told once counts once
+                controls.look_rad = {0, 0}, controls.home = controls.stop = false; // these controls count once
             }
         }
         return flight;
@@ -94,11 +94,11 @@ TEST_P(Modes, FlyTheSameAtAnyFrameRate)
         EXPECT_EQ(slow.look_rad, fast.look_rad);
         EXPECT_EQ(slow.exposure_ev, fast.exposure_ev);
     }
-    EXPECT_GT(glm::length(slow.ship.u.total()), 0.01); // it went somewhere
+    EXPECT_GT(glm::length(slow.ship.u.total()), 0.01); // the ship has moved
 }
 
-// The lever's place is the speed: even in rapidity, reached without a swing beyond, and from above as from below.
-TEST(Flight, TheThrottlesPlaceIsTheSpeed)
+// The lever's place is the speed, evenly in rapidity. The ship reaches it without overshoot, from below and from above.
+TEST(Flight, TheLeversPlaceSetsTheSpeed)
 {
     for (FlightMode mode : {FlightMode::guided, FlightMode::free}) {
         const Flying rules = with(mode);
@@ -108,17 +108,17 @@ TEST(Flight, TheThrottlesPlaceIsTheSpeed)
             double before = 0;
             for (int i = 0; i < 1500; ++i) {
                 flight = step(flight, {.lever = lever}, 10 * ms, rules, 1, start());
-                EXPECT_GE(rapidity(flight), before - 1e-9); // never back
+                EXPECT_GE(rapidity(flight), before - 1e-9); // never slower
                 EXPECT_LE(rapidity(flight) - before, rules.rapidity_per_s * 0.01 + 1e-9);
                 before = rapidity(flight);
             }
-            EXPECT_NEAR(before, lever * most, 1e-5); // settle_s: e^-18 after what is left of 15 s
+            EXPECT_NEAR(before, lever * most, 1e-5); // settle_s: e^-18 remains after the rest of 15 s
             flight = hold(flight, {.lever = 0.5 * lever}, 15, rules);
             EXPECT_NEAR(rapidity(flight), 0.5 * lever * most, 1e-5);
             flight = hold(flight, {.lever = 0.0}, 15, rules);
-            EXPECT_EQ(flight.ship.u.total(), dvec3(0)); // rest, not nearly rest
+            EXPECT_EQ(flight.ship.u.total(), dvec3(0)); // exactly rest
         }
-        // Straight ahead, and only there.
+        // The ship moves straight ahead.
         const Flight flight = hold(flight_at(start(), rules), {.lever = 1.0}, 10, rules);
         EXPECT_LT(drift(flight), 1e-9);
     }
@@ -136,7 +136,7 @@ TEST(Flight, KeysMoveTheThrottle)
     EXPECT_EQ(hold(flight, {}, 10, rules).ship.u.total(), dvec3(0));
 }
 
-// At any speed the velocity comes to the nose, as the ship sees it, and the speed stays the throttle's.
+// At any speed the velocity follows the nose, as seen in the ship, and the speed stays as the throttle sets it.
 TEST(Flight, GuidedVelocityFollowsTheNose)
 {
     for (double gamma : {1.0005, 1.2, 4.0, 100.0, 1e6}) {
@@ -145,23 +145,23 @@ TEST(Flight, GuidedVelocityFollowsTheNose)
         Flight flight = hold(flight_at(start(), rules), {.lever = 1.0}, 20, rules);
         const dvec3 before = glm::normalize(flight.ship.u.total());
         flight = hold(flight, {.lever = 1.0, .turn = {0.3, 1, 0}}, 2, rules);
-        EXPECT_GT(drift(flight), 0.1); // still on the way
+        EXPECT_GT(drift(flight), 0.1); // still turning
         flight = hold(flight, {.lever = 1.0}, 6, rules);
-        EXPECT_LT(drift(flight), 1e-4); // e^-12 of a radian, and what the turn has left
+        EXPECT_LT(drift(flight), 1e-4); // e^-12 of a radian, plus the rest of the turn
         EXPECT_NEAR(rapidity(flight), std::acosh(gamma), 1e-4);
-        // In the world a fast ship turns less: what it sees of the way is drawn together ahead.
+        // In the world a fast ship turns less, because aberration contracts directions ahead.
         const double turned = std::acos(std::min(1.0, glm::dot(before, glm::normalize(flight.ship.u.total()))));
         EXPECT_GT(turned, 0.3 / gamma);
         EXPECT_LT(turned, 3 / gamma + 1e-6);
     }
-    // A nose turned right round, too.
+    // This holds for a nose that is turned right round, too.
     const Flying rules = with(FlightMode::guided);
     Flight flight = hold(flight_at(start(), rules), {.lever = 0.3}, 10, rules);
     flight.ship.ship_from_cockpit *= glm::angleAxis(M_PI, dvec3(0, 1, 0));
     EXPECT_LT(drift(hold(flight, {.lever = 0.3}, 10, rules)), 1e-4);
 }
 
-TEST(Flight, FreeNosesLookWhereTheyLike)
+TEST(Flight, InFreeModeTheNoseTurnsWithoutTheVelocity)
 {
     const Flying rules = with(FlightMode::free);
     Flight flight = hold(flight_at(start(), rules), {.lever = 0.4}, 10, rules);
@@ -173,11 +173,11 @@ TEST(Flight, FreeNosesLookWhereTheyLike)
     EXPECT_NEAR(rapidity(flight), 0.8 * std::acosh(100.0), 1e-4);
 }
 
-// Constant thrust is hyperbolic motion (Misner, Thorne and Wheeler 1973, 6.2); a thrust let go is a speed kept.
+// Constant thrust is hyperbolic motion (Misner, Thorne and Wheeler 1973, 6.2). Without thrust the speed stays.
 TEST(Flight, NewtonianThrustIsProperAcceleration)
 {
     Flying rules = with(FlightMode::newtonian, 1e6);
-    rules.rapidity_jerk_per_s2 = 1e12; // at once: the closed form begins with the thrust
+    rules.rapidity_jerk_per_s2 = 1e12; // full thrust at once, as in the closed form
     Flight flight = hold(flight_at(start(), rules), {.lever = 1.0}, 4, rules);
     const double a = rules.rapidity_per_s, tau = 4;
     EXPECT_NEAR(rapidity(flight), a * tau, 1e-11);
@@ -187,10 +187,10 @@ TEST(Flight, NewtonianThrustIsProperAcceleration)
     const double kept = rapidity(flight);
     flight = hold(flight, {.lever = 0.0, .turn = {1, 1, 1}}, 5, rules);
     EXPECT_NEAR(rapidity(flight), kept, 1e-12);
-    // Thrusters to the side act in the cockpit's axes.
+    // Thrusters to the side act along the cockpit's axes.
     flight = hold(flight_at(start(), rules), {.push = {1, 0, 0}}, 1, rules);
     EXPECT_NEAR(glm::dot(glm::normalize(flight.ship.u.total()), start().ship_from_cockpit * dvec3(1, 0, 0)), 1, 1e-12);
-    // A closed square of small boosts turns the cockpit by the area: Thomas-Wigner, w^2 to first order.
+    // A closed square of small boosts rotates the cockpit by its area: Thomas-Wigner, w^2 to first order.
     flight = flight_at(start(), rules);
     const double w = key_rapidity_per_s * 0.2;
     for (const dvec3& push : {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(-1, 0, 0), dvec3(0, -1, 0)})
@@ -200,7 +200,7 @@ TEST(Flight, NewtonianThrustIsProperAcceleration)
     EXPECT_NEAR(turned, w * w, 0.02 * w * w);
 }
 
-TEST_P(Modes, StopIsAtOnceAndStays)
+TEST_P(Modes, StopIsImmediateAndLasts)
 {
     const Flying rules = with(GetParam());
     Flight flight = hold(flight_at(start(), rules), {.lever = 0.7, .turn = {0, 1, 0}}, 4, rules);
@@ -211,17 +211,17 @@ TEST_P(Modes, StopIsAtOnceAndStays)
     EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
     EXPECT_EQ(stopped.ship.position.total(), place);
     EXPECT_EQ(stopped.ship.ship_from_cockpit, axes);
-    // The throttle, still up, waits until it has been down.
+    // The thrust is inhibited until the throttle has been at 0.
     stopped = hold(stopped, {.lever = 0.7}, 2, rules);
     EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
     stopped = hold(hold(stopped, {.lever = 0.0}, 0.1, rules), {.lever = 0.7}, 2, rules);
     EXPECT_GT(rapidity(stopped), 0.5);
-    // So does a key.
+    // The same holds for a key.
     flight = hold(flight_at(start(), rules), {.throttle_rate = 4}, 3, rules);
     stopped = hold(step(flight, {.throttle_rate = 4, .stop = true}, 0, rules, 1, start()), {.throttle_rate = 4}, 1, rules);
     EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
     EXPECT_GT(rapidity(hold(hold(stopped, {}, 0.1, rules), {.throttle_rate = 4}, 2, rules)), 0.1);
-    // And a key that was let go before the stop leaves nothing to speed up to, nor does the way home.
+    // A key that was released before the stop, or before homing, must not speed the ship up again.
     flight = hold(hold(flight_at(start(), rules), {.throttle_rate = 4}, 3, rules), {}, 0.2, rules);
     stopped = hold(step(flight, {.stop = true}, 0, rules, 1, start()), {}, 2, rules);
     EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
@@ -230,7 +230,7 @@ TEST_P(Modes, StopIsAtOnceAndStays)
     EXPECT_EQ(flight.ship.u.total(), dvec3(0));
 }
 
-// A hand that leaves everything: the nose comes to rest, and the ship goes on straight.
+// The visitor lets go of everything: the turn ends, and the ship flies straight on.
 TEST_P(Modes, LettingGoIsSafe)
 {
     const Flying rules = with(GetParam());
@@ -245,7 +245,7 @@ TEST_P(Modes, LettingGoIsSafe)
     EXPECT_NEAR(std::abs(glm::dot(axes, flight.ship.ship_from_cockpit)), 1, 1e-8);
 }
 
-TEST_P(Modes, BackToTheStartIsFlown)
+TEST_P(Modes, HomingFliesBackToTheStart)
 {
     const Flying rules = with(GetParam());
     for (double seconds : {0.0, 0.5, 20.0}) {
@@ -255,7 +255,7 @@ TEST_P(Modes, BackToTheStartIsFlown)
         for (int i = 0; i < 6000 && flight.homing; ++i) {
             const Ship before = flight.ship;
             flight = step(flight, {.lever = 0.6}, ms, rules, 1, start());
-            // No leap: no farther than the step's own flight, at the greater of its speeds, and the snap at the end.
+            // The ship must not jump: it moves at most as far as its greater speed allows, plus the correction at the end.
             const double most = std::max(glm::length(before.u.total()), glm::length(flight.ship.u.total()));
             ASSERT_LE(glm::distance(before.position.total(), flight.ship.position.total()),
                 1.01 * most * 0.001 + 1e-6 + 1e-9 * glm::length(before.position.total()))
@@ -265,13 +265,13 @@ TEST_P(Modes, BackToTheStartIsFlown)
         EXPECT_EQ(flight.ship.position.total(), start().position);
         EXPECT_EQ(flight.ship.u.total(), dvec3(0));
         EXPECT_EQ(flight.ship.ship_from_cockpit, start().ship_from_cockpit);
-        // And there it stays, though the throttle is still up.
+        // It stays there, though the throttle is not at 0.
         flight = hold(flight, {.lever = 0.6}, 3, rules);
         EXPECT_EQ(flight.ship.u.total(), dvec3(0));
     }
 }
 
-TEST(Flight, UndoLeadsTenSecondsBackAndFurther)
+TEST(Flight, UndoGoesBackTenSecondsEachTime)
 {
     const Flying rules = with(FlightMode::guided);
     Flight flight = flight_at(start(), rules);
@@ -288,13 +288,13 @@ TEST(Flight, UndoLeadsTenSecondsBackAndFurther)
     EXPECT_EQ(flight.ticks, 60'000);
     flight = history.back(flight);
     EXPECT_EQ(flight.ship.position.total(), all[400].ship.position.total());
-    // No further back than is known, and without any history nowhere.
+    // Undo ends at the oldest state, and does nothing without a history.
     flight = history.back(history.back(flight));
     EXPECT_TRUE(std::isfinite(flight.ship.position.total().x));
     EXPECT_EQ(History().back(flight).ship.position.total(), flight.ship.position.total());
 }
 
-TEST(Flight, SwitchesAndReset)
+TEST(Flight, SwitchesToggleAndResetRestores)
 {
     const Flying rules = with(FlightMode::guided);
     Flight flight = step(flight_at(start(), rules), {.doppler = true}, 10 * ms, rules, 1, start());
@@ -311,10 +311,10 @@ TEST(Flight, SwitchesAndReset)
     EXPECT_EQ(flight.ship.position.total(), start().position);
     EXPECT_EQ(flight.ship.u.total(), dvec3(0));
     EXPECT_TRUE(flight.effects.aberration && flight.effects.headlight);
-    EXPECT_FALSE(flight.hud) << "a display switched off stays off";
+    EXPECT_FALSE(flight.hud) << "a display that was switched off stays off";
 }
 
-TEST(Flight, LookingAroundTurnsThePictureOnly)
+TEST(Flight, LookingAroundTurnsOnlyThePicture)
 {
     const Flying rules;
     Shot level;
@@ -329,20 +329,19 @@ TEST(Flight, LookingAroundTurnsThePictureOnly)
 
 namespace {
 
-void expect_sane(const Flight& flight, double most_gamma, const std::string& when)
+void expect_finite_and_bounded(const Flight& flight, double most_gamma, const std::string& when)
 {
     const dvec3 u = flight.ship.u.total(), x = flight.ship.position.total(), t = flight.turn_rad_s;
     ASSERT_TRUE(std::isfinite(u.x + u.y + u.z + x.x + x.y + x.z + t.x + t.y + t.z + flight.ship.time.total()
         + flight.ship.proper_time.total() + flight.lever + flight.throttle_rate + flight.exposure_ev))
         << when;
-    ASSERT_LE(physics::gamma_of(u), 1.001 * most_gamma)
-        << when; // a thrust across the flight at the limit still adds a little
+    ASSERT_LE(physics::gamma_of(u), 1.001 * most_gamma) << when; // a thrust across the motion at the limit adds a little
     ASSERT_NEAR(glm::length(flight.ship.ship_from_cockpit), 1, 1e-12) << when;
 }
 
 } // namespace
 
-TEST(Flight, AHundredThousandRandomStepsStaySane)
+TEST(Flight, AHundredThousandRandomStepsStayFiniteAndBounded)
 {
     for (double greatest : {3.0, 1e6}) {
         const Flying rules = with(FlightMode::guided, greatest);
@@ -363,25 +362,25 @@ TEST(Flight, AHundredThousandRandomStepsStaySane)
                 flight = history.back(flight);
             flight = step(flight, controls, random() % 10 == 0 ? 100 * ms : 16 * ms, rules, 1, start());
             history.keep(flight);
-            // The way home may be faster than a visitor may fly.
-            expect_sane(flight, flight.homing ? 1e300 : greatest, std::to_string(i));
+            // Homing may be faster than a visitor may fly.
+            expect_finite_and_bounded(flight, flight.homing ? 1e300 : greatest, std::to_string(i));
             if (HasFatalFailure())
                 return;
         }
     }
 }
 
-// An hour at the limit, spinning; then right round at a gamma of a million.
-TEST(Flight, TheLimitsAreDull)
+// Ten minutes at the limit, spinning, then a turn right round at a gamma of a million.
+TEST(Flight, LongFlightsAtTheLimitStayFinite)
 {
     for (FlightMode mode : {FlightMode::guided, FlightMode::free, FlightMode::newtonian}) {
         const Flying rules = with(mode, 1e6);
         Flight flight = hold(flight_at(start(), rules), {.lever = 1.0, .turn = {0.1, 0.1, 1}}, 600, rules, 100 * ms);
-        expect_sane(flight, 1e6, "after ten minutes");
+        expect_finite_and_bounded(flight, 1e6, "after ten minutes");
         EXPECT_NEAR(physics::gamma_of(flight.ship.u.total()), 1e6, 2e3);
         flight.ship.ship_from_cockpit *= glm::angleAxis(M_PI, dvec3(0, 1, 0));
         flight = hold(flight, {.lever = 1.0}, 40, rules, 100 * ms);
-        expect_sane(flight, 1e6, "turned round");
+        expect_finite_and_bounded(flight, 1e6, "turned round");
         if (mode == FlightMode::guided) {
             EXPECT_LT(drift(flight), 1e-3);
         }

@@ -1,4 +1,4 @@
-// Records: what is written is read back to the bit, a flight flown again is the same to the bit, and a wrong file is told.
+// Records: lines are read back to the bit, a replayed flight is the same to the bit, and wrong files are refused.
 #include "config/model/shipped.h"
 #include "runtime/flight/history.h"
 #include "runtime/flight/record_files.h"
@@ -15,8 +15,8 @@ using namespace starbow::testing;
 
 namespace {
 
-/// Any double of a range, -0 and the smallest among them.
-double some(std::mt19937_64& random, double low, double high)
+/// A random double of a range, often -0 or a denormal.
+double some_double(std::mt19937_64& random, double low, double high)
 {
     switch (random() % 8) {
     case 0:
@@ -41,7 +41,7 @@ RecordEntry some_entry(std::mt19937_64& random)
     Controls& c = entry.controls;
     const auto maybe = [&](auto& value, auto... range) {
         if (random() % 3 == 0)
-            value = some(random, range...);
+            value = some_double(random, range...);
     };
     const auto maybe3 = [&](glm::dvec3& v, double most) {
         for (int i = 0; i < 3; ++i)
@@ -56,7 +56,7 @@ RecordEntry some_entry(std::mt19937_64& random)
     maybe(c.look_rad.y, -0.1, 0.1);
     maybe3(c.head.moved_m, 10);
     if (random() % 3 == 0)
-        c.head.turned = glm::angleAxis(some(random, -3, 3), glm::normalize(glm::dvec3(1, 2, 3)));
+        c.head.turned = glm::angleAxis(some_double(random, -3, 3), glm::normalize(glm::dvec3(1, 2, 3)));
     maybe(c.exposure, -1, 1);
     for (bool Controls::*flag : {&Controls::look_ahead, &Controls::stop, &Controls::home, &Controls::undo, &Controls::reset,
              &Controls::next_mode, &Controls::aberration, &Controls::doppler, &Controls::headlight, &Controls::hud,
@@ -101,7 +101,7 @@ RecordHeader some_header()
     return header;
 }
 
-void say_nothing(const std::string&) { }
+void ignore_message(const std::string&) { }
 
 std::filesystem::path fresh(const std::string& name)
 {
@@ -111,7 +111,7 @@ std::filesystem::path fresh(const std::string& name)
 
 std::string first_line() { return text_of(some_header()); }
 
-/// Everything of a record, flown.
+/// Replays all of a record.
 Flight replayed(Replay& replay)
 {
     const RecordHeader& header = replay.header();
@@ -134,7 +134,7 @@ void read_all(const std::filesystem::path& file)
 
 } // namespace
 
-TEST(Record, ControlsComeBackToTheBit)
+TEST(Record, ControlsAreReadBackToTheBit)
 {
     std::mt19937_64 random(1);
     for (int i = 0; i < 20'000; ++i) {
@@ -146,10 +146,10 @@ TEST(Record, ControlsComeBackToTheBit)
         ASSERT_EQ(bits(read), bits(entry)) << text;
         ASSERT_EQ(read.controls.time_ns, entry.dt_ns + entry.skipped_ns);
     }
-    EXPECT_EQ(text_of(RecordEntry{.dt_ns = 16666667}), "{\"dt_ns\":16666667}\n"); // what an idle frame costs
+    EXPECT_EQ(text_of(RecordEntry{.dt_ns = 16666667}), "{\"dt_ns\":16666667}\n"); // the size of an idle frame
 }
 
-TEST(Record, TheHeaderComesBackToTheBit)
+TEST(Record, TheHeaderIsReadBackToTheBit)
 {
     const RecordHeader header = some_header();
     std::string text = text_of(header);
@@ -174,8 +174,8 @@ TEST(Record, TheDigestIsFnv1a)
     EXPECT_EQ(digest("foobar"), 0x85944171f73967e8u);
 }
 
-// Every member of a flight counts in its digest, by its lowest bit.
-TEST(Record, TheDigestSeesEveryBit)
+// Every member of a flight changes its digest, even in its lowest bit.
+TEST(Record, TheDigestDependsOnEveryBit)
 {
     Flight flight = flight_at(some_header().start);
     flight.homing = Homing{};
@@ -215,8 +215,8 @@ TEST(Record, TheDigestSeesEveryBit)
     EXPECT_EQ(digest(flight), before);
 }
 
-// 100,000 frames of a hand gone wild, through the file: the same flight to the bit, and 10 s checks on the way.
-TEST(Record, AFlightIsFlownAgainToTheBit)
+// 100,000 frames of random controls pass through the file. The flight is the same to the bit, with a check every 10 s.
+TEST(Record, AReplayIsTheSameToTheBit)
 {
     std::mt19937_64 random(2);
     const RecordHeader header = some_header();
@@ -224,7 +224,7 @@ TEST(Record, AFlightIsFlownAgainToTheBit)
     Flight flight = flight_at(header.start, header.rules);
     History history;
     {
-        Recorder recorder(file, header, say_nothing);
+        Recorder recorder(file, header, ignore_message);
         for (int i = 0; i < 100'000; ++i) {
             RecordEntry entry = some_entry(random);
             entry.dt_ns /= 10; // 200 s
@@ -249,8 +249,8 @@ TEST(Record, AFlightIsFlownAgainToTheBit)
     EXPECT_EQ(replay.verdict().find("cut"), std::string::npos) << replay.verdict();
 }
 
-// One control changed by its last bit: told, with where.
-TEST(Record, AnotherFlightIsTold)
+// One control differs in its last bit; the verdict says so and names the place.
+TEST(Record, ADifferentFlightIsReported)
 {
     const RecordHeader header = some_header();
     std::string text = first_line();
@@ -274,7 +274,7 @@ TEST(Record, AnotherFlightIsTold)
         << replay.verdict();
 }
 
-// A machine that crashed: the line that was being written is left out, with a word.
+// After a crash the incomplete last line is left out, and the verdict says so.
 TEST(Record, AnIncompleteLastLineIsLeftOut)
 {
     std::string text = first_line() + text_of(RecordEntry{.dt_ns = 10}) + text_of(RecordEntry{.dt_ns = 10});
@@ -286,7 +286,7 @@ TEST(Record, AnIncompleteLastLineIsLeftOut)
     }
 }
 
-TEST(Record, WrongFilesAreTold)
+TEST(Record, WrongFilesAreRefused)
 {
     const auto with = [](const std::string& line) { return first_line() + "{\"dt_ns\":1}\n" + line + "\n"; };
     expect_wrong(read_all,
@@ -304,22 +304,22 @@ TEST(Record, WrongFilesAreTold)
             {with("{\"dt_ns\":1,\"undo\":1}"), "/undo", "1", "true"},
             {with("{\"dt_ns\":1,\"undone\":true}"), "/undone", "true", "undo"},
             {with("{\"ticks\":1,\"digest\":\"12\"}"), "/digest", "\"12\"", "16 hexadecimal"}});
-    const auto said = [&](const std::string& text) {
+    const auto message_for = [&](const std::string& text) {
         const auto file = write_text("wrong.jsonl", text);
         const std::string message = complaint([&] { read_all(file); });
         EXPECT_TRUE(message.starts_with(file.string() + ":")) << message;
         EXPECT_TRUE(message.ends_with(" is right")) << message;
         return message.substr(file.string().size());
     };
-    EXPECT_TRUE(said("").starts_with(": is empty"));
-    EXPECT_TRUE(said("{\"starbow_rec").starts_with(":1: is cut off"));
-    EXPECT_TRUE(said("P6 800 600\n").starts_with(":1: column"));
-    EXPECT_TRUE(said(std::string(1 << 20, 'x')).starts_with(":1: is longer than"));
-    EXPECT_TRUE(said(with("{\"dt_ns\":1,\"faster\":NaN}")).starts_with(":3: column"));
-    EXPECT_TRUE(said(with("{\"dt_ns\":1,\"faster\":1e999}")).starts_with(":3: /faster"));
-    EXPECT_TRUE(said(with("{\"dt_ns\":2}\n{\"dt_ns\":-2}")).starts_with(":4: /dt_ns"));
+    EXPECT_TRUE(message_for("").starts_with(": is empty"));
+    EXPECT_TRUE(message_for("{\"starbow_rec").starts_with(":1: is cut off"));
+    EXPECT_TRUE(message_for("P6 800 600\n").starts_with(":1: column"));
+    EXPECT_TRUE(message_for(std::string(1 << 20, 'x')).starts_with(":1: is longer than"));
+    EXPECT_TRUE(message_for(with("{\"dt_ns\":1,\"faster\":NaN}")).starts_with(":3: column"));
+    EXPECT_TRUE(message_for(with("{\"dt_ns\":1,\"faster\":1e999}")).starts_with(":3: /faster"));
+    EXPECT_TRUE(message_for(with("{\"dt_ns\":2}\n{\"dt_ns\":-2}")).starts_with(":4: /dt_ns"));
     const std::string last = text_of(RecordCheck{0, 0, true});
-    EXPECT_TRUE(said(with(last + last)).starts_with(":4: comes after the last line"));
+    EXPECT_TRUE(message_for(with(last + last)).starts_with(":4: comes after the last line"));
 }
 
 TEST(Record, AnyDamageIsReadOrRefused)
@@ -331,18 +331,20 @@ TEST(Record, AnyDamageIsReadOrRefused)
     expect_survives(read_all, {text, text + text_of(RecordCheck{9, 9, true})});
 }
 
-TEST(Record, IsNeverWrittenOverAnotherFile)
+TEST(Record, NeverReplacesAnotherFile)
 {
     const std::filesystem::path there = write_text("there.jsonl", "mine");
-    EXPECT_NE(complaint([&] { Recorder(there, some_header(), say_nothing); }).find("is there already"), std::string::npos);
+    EXPECT_NE(
+        complaint([&] { Recorder(there, some_header(), ignore_message); }).find("is there already"), std::string::npos);
     EXPECT_EQ(read_text(there), "mine");
-    EXPECT_NE(complaint([&] { Recorder("/no/such/folder/a.jsonl", some_header(), say_nothing); }).find("can't be written"),
+    EXPECT_NE(
+        complaint([&] { Recorder("/no/such/folder/a.jsonl", some_header(), ignore_message); }).find("can't be written"),
         std::string::npos);
-    // In a folder each flight has a file of its own.
+    // In a folder each flight gets a file of its own.
     const std::filesystem::path folder = scratch("flights");
     std::filesystem::create_directories(folder);
     for (int i = 0; i < 3; ++i)
-        Recorder(folder, some_header(), say_nothing);
+        Recorder(folder, some_header(), ignore_message);
     int files = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         ++files;
@@ -351,20 +353,20 @@ TEST(Record, IsNeverWrittenOverAnotherFile)
     EXPECT_EQ(files, 3);
 }
 
-// What was kept is on the disk a second or so later, whatever becomes of the program.
-TEST(Record, IsOnTheDiskASecondLater)
+// A frame is on the disk about a second later, even if the program crashes.
+TEST(Record, IsOnTheDiskWithinASecond)
 {
     const std::filesystem::path file = fresh("soon.jsonl");
-    Recorder recorder(file, some_header(), say_nothing);
+    Recorder recorder(file, some_header(), ignore_message);
     recorder.keep({.dt_ns = 10}, flight_at(some_header().start));
     const auto began = std::chrono::steady_clock::now();
     while (read_text(file).find("\"dt_ns\":10") == std::string::npos) {
-        ASSERT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(5)); // one second, on a busy machine
+        ASSERT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(5)); // one second on a busy machine
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
 }
 
-TEST(Record, AFullDiskEndsTheRecordWithASentence)
+TEST(Record, AFullDiskEndsTheRecordWithOneMessage)
 {
     std::vector<std::string> lines;
     std::mutex mutex;
@@ -386,8 +388,8 @@ TEST(Record, AFullDiskEndsTheRecordWithASentence)
     EXPECT_NE(lines[0].find("/dev/full: can't be written (No space left on device)"), std::string::npos) << lines[0];
 }
 
-// In what it was flown is found again; a scene with another measure of time is refused, other changes are told.
-TEST(Record, KnowsWhatItWasFlownIn)
+// A replay finds the scene and the layout again. A scene with another unit of time is refused; other changes are reported.
+TEST(Record, FindsItsSceneAndLayoutAgain)
 {
     const std::string scene = R"({ "gltf": "w.glb", "unit_m": 10, "light_speed_m_s": 5 })";
     const std::filesystem::path scene_file = write_text("scene.json", scene);
@@ -419,9 +421,9 @@ TEST(Record, KnowsWhatItWasFlownIn)
     EXPECT_NE(complaint([&] { reopen(header); }).find("a.jsonl:1: /seconds_per_time_unit: 2 is not"), std::string::npos);
 }
 
-// In a replay each frame comes when its time has: three of 30 ms take 90 at least, and what a stall skipped is not waited
-// for.
-TEST(Record, IsPlayedAtItsOwnPace)
+// A replay shows each frame at its own time: three of 30 ms take at least 90 ms. It does not wait for time that a stall
+// skipped.
+TEST(Record, IsReplayedAtItsOwnPace)
 {
     std::string text = first_line();
     for (int i = 0; i < 3; ++i)
@@ -434,12 +436,12 @@ TEST(Record, IsPlayedAtItsOwnPace)
     Flight flight = flight_at(some_header().start);
     int frames = 1;
     for (record_replay.keep(entry, flight); record_replay.play(entry); ++frames) {
-        EXPECT_FALSE(entry.controls.save); // never writes into a layout
+        EXPECT_FALSE(entry.controls.save); // a replay never saves a layout
         record_replay.keep(entry, flight);
     }
     const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     EXPECT_EQ(frames, 3);
-    EXPECT_GE(took, 0.029); // two frames, the first of which may follow one that came late by a frame
+    EXPECT_GE(took, 0.029); // two frames, of which the first may follow a frame that is late
     EXPECT_LT(took, 5);
     EXPECT_EQ(entry.controls.time_ns, 3 * 3'600'030'000'000);
 }

@@ -1,4 +1,4 @@
-// The flight against the closed form, the equations of motion integrated and Thomas' precession, all in 33 digits.
+// The flight compared with the closed form, with integrated equations of motion, and with Thomas' precession, in 33 digits.
 #include "config/model/angles.h"
 #include "runtime/flight/ship.h"
 #include "tests/support/quad.h"
@@ -23,7 +23,7 @@ using starbow::pi;
 using starbow::Ship;
 
 constexpr double one_g = 9.80665 * 365.25 * 86400 / 299792458; // rapidity per year
-constexpr double within = 1e-9; // required of position and time
+constexpr double within = 1e-9; // required accuracy of position and time
 
 Ship flying(const dvec3& u)
 {
@@ -34,8 +34,8 @@ Ship flying(const dvec3& u)
 
 dvec3 at_gamma(double gamma, const dvec3& way) { return glm::normalize(way) * std::sqrt((gamma - 1) * (gamma + 1)); }
 
-// In the frame of the start the ship leaves rest: x = (cosh - 1)/a, t = sinh/a along the thrust. A boost brings that to the
-// world.
+// In the frame of the start the ship leaves from rest: x = (cosh - 1)/a, t = sinh/a along the thrust. A boost transforms
+// that to the world.
 struct End {
     V3 x, u;
     Q t;
@@ -53,11 +53,11 @@ End closed_form(const dvec3& u, const dvec3& acceleration, Q tau)
 struct Error {
     double x, t, u;
 };
-Error against(const End& want, const Ship& ship)
+Error against(const End& expected, const Ship& ship)
 {
-    return {double(quad::length(quad::of(ship.position.total()) - want.x) / quad::length(want.x)),
-        double(fabsq(ship.time.total() / want.t - 1)),
-        double(quad::length(quad::of(ship.u.total()) - want.u) / quad::length(want.u))};
+    return {double(quad::length(quad::of(ship.position.total()) - expected.x) / quad::length(expected.x)),
+        double(fabsq(ship.time.total() / expected.t - 1)),
+        double(quad::length(quad::of(ship.u.total()) - expected.u) / quad::length(expected.u))};
 }
 
 Ship flown(Ship ship, const dvec3& acceleration, double tau, long steps)
@@ -69,14 +69,14 @@ Ship flown(Ship ship, const dvec3& acceleration, double tau, long steps)
 
 // ---------------------------------------------------------------- sums
 
-TEST(Sum, KeepsWhatRoundingWouldLose)
+TEST(Sum, KeepsSmallTermsThatRoundingWouldLose)
 {
     starbow::Sum sum;
     sum.add(1);
     for (int i = 0; i < 1000000; ++i)
         sum.add(1e-17);
     EXPECT_DOUBLE_EQ(sum.total(), 1 + 1e-11);
-    starbow::Sum swap; // the large one comes last: what Kahan's sum loses and Neumaier's keeps
+    starbow::Sum swap; // the large number comes last: Kahan's sum loses the small ones, Neumaier's keeps them
     for (double x : {1.0, 1e100, 1.0, -1e100})
         swap.add(x);
     EXPECT_EQ(swap.total(), 2);
@@ -84,7 +84,7 @@ TEST(Sum, KeepsWhatRoundingWouldLose)
 
 // ---------------------------------------------------------------- constant thrust
 
-// Ten years on board, shown in one minute or ten, at every frame rate.
+// Ten years on board, shown in one or ten minutes, at every frame rate.
 TEST(Fly, TenYearsAgreeWithTheClosedFormAtAnyFrameRate)
 {
     const dvec3 oblique = glm::normalize(dvec3(1, -2, 2.5));
@@ -99,11 +99,11 @@ TEST(Fly, TenYearsAgreeWithTheClosedFormAtAnyFrameRate)
     Error worst{0, 0, 0};
     for (const auto& flight : flights) {
         const double tau = 10;
-        const End want = closed_form(flight.u, flight.acceleration, tau);
+        const End expected = closed_form(flight.u, flight.acceleration, tau);
         Error of_flight{0, 0, 0};
         for (int rate : {10, 24, 60, 144, 240, 1000})
             for (int seconds : {60, 600}) {
-                const Error e = against(want, flown(flying(flight.u), flight.acceleration, tau, long(rate) * seconds));
+                const Error e = against(expected, flown(flying(flight.u), flight.acceleration, tau, long(rate) * seconds));
                 of_flight = {std::max(of_flight.x, e.x), std::max(of_flight.t, e.t), std::max(of_flight.u, e.u)};
                 EXPECT_LE(e.x, within) << flight.name << ' ' << rate << " Hz, " << seconds << " s";
                 EXPECT_LE(e.t, within) << flight.name << ' ' << rate << " Hz, " << seconds << " s";
@@ -112,11 +112,11 @@ TEST(Fly, TenYearsAgreeWithTheClosedFormAtAnyFrameRate)
         std::printf("  %-26s position %.1e  time %.1e  u %.1e\n", flight.name, of_flight.x, of_flight.t, of_flight.u);
         worst = {std::max(worst.x, of_flight.x), std::max(worst.t, of_flight.t), std::max(worst.u, of_flight.u)};
     }
-    // What is required leaves room for a slow drift; rounding alone, with compensated sums, stays far below.
+    // The required accuracy allows for a slow drift; with compensated sums only rounding remains.
     EXPECT_LE(std::max({worst.x, worst.t, worst.u}), 1e-12);
 }
 
-// 1e8 steps: ten years at some 100 frames a second for twelve days. Only on request: STARBOW_LONG=1.
+// 1e8 steps: ten years at about 100 frames a second for twelve days. It runs only with STARBOW_LONG=1.
 TEST(Fly, TenYearsInAHundredMillionStepsOnRequest)
 {
     const char* requested = std::getenv("STARBOW_LONG");
@@ -131,8 +131,8 @@ TEST(Fly, TenYearsInAHundredMillionStepsOnRequest)
     EXPECT_LE(e.t, within);
 }
 
-// Any cutting gives the same flight, the orientation too: one step, equal steps and very unequal ones.
-TEST(Fly, AnyCuttingGivesTheSameFlight)
+// The flight and its orientation do not depend on the steps: one, equal ones, or very unequal ones.
+TEST(Fly, AnyStepsGiveTheSameFlight)
 {
     const dvec3 acceleration(.7, -.4, .2);
     Ship start = flying({3, -1, 2});
@@ -146,7 +146,7 @@ TEST(Fly, AnyCuttingGivesTheSameFlight)
         uneven = fly(uneven, acceleration, dvec3(0), part);
     }
     for (const Ship& ship : {many, uneven}) {
-        // 3000 roundings of the size of gamma in the worst case: 3e-13.
+        // At worst 3000 roundings of the size of gamma: 3e-13.
         EXPECT_LE(glm::length(ship.position.total() - once.position.total()), 3e-13 * glm::length(once.position.total()));
         EXPECT_LE(std::abs(ship.time.total() - once.time.total()), 3e-13 * once.time.total());
         EXPECT_LE(glm::length(ship.u.total() - once.u.total()), 3e-13 * glm::length(once.u.total()));
@@ -171,7 +171,7 @@ TEST(Fly, CoastingIsUniform)
         1e-15);
 }
 
-TEST(Fly, NoTimeIsNoFlight)
+TEST(Fly, AStepOfNoTimeChangesNothing)
 {
     Ship ship = flying({3, 0, 4});
     ship = fly(ship, {1, 2, 3}, dvec3(0), 0);
@@ -187,7 +187,7 @@ TEST(Fly, ThrustFollowsTheCockpit)
 {
     Ship ship;
     ship.ship_from_cockpit
-        = glm::angleAxis(glm::half_pi<double>(), dvec3(0, 1, 0)); // cockpit's -z looks along the world's -x
+        = glm::angleAxis(glm::half_pi<double>(), dvec3(0, 1, 0)); // the cockpit's -z points along the world's -x
     ship = fly(ship, {0, 0, -1}, dvec3(0), 1);
     EXPECT_NEAR(ship.u.total().x, -std::sinh(1.0), 1e-15);
     EXPECT_NEAR(ship.u.total().y, 0, 1e-15);
@@ -195,18 +195,18 @@ TEST(Fly, ThrustFollowsTheCockpit)
     EXPECT_NEAR(ship.distance.total(), std::cosh(1.0) - 1, 1e-15);
 }
 
-TEST(Fly, TurnsAreInTheCockpit)
+TEST(Fly, TurnsAreAboutTheCockpitsAxes)
 {
     Ship ship;
-    ship = fly(ship, dvec3(0), {0, glm::half_pi<double>(), 0}, 1); // left
-    ship = fly(ship, dvec3(0), {glm::half_pi<double>(), 0, 0}, 1); // nose up, about the axis that has turned too
+    ship = fly(ship, dvec3(0), {0, glm::half_pi<double>(), 0}, 1); // to the left
+    ship = fly(ship, dvec3(0), {glm::half_pi<double>(), 0, 0}, 1); // nose up, about the rotated axis
     const dvec3 nose = ship.ship_from_cockpit * dvec3(0, 0, -1), left = ship.ship_from_cockpit * dvec3(-1, 0, 0);
     EXPECT_NEAR(glm::length(nose - dvec3(0, 1, 0)), 0, 1e-15);
     EXPECT_NEAR(glm::length(left - dvec3(0, 0, 1)), 0, 1e-15);
     EXPECT_EQ(ship.u.total(), dvec3(0));
 }
 
-TEST(Stopped, RestsWhereAndWhenItIs)
+TEST(Stopped, RestsAtTheSameEvent)
 {
     Ship ship = flying({3, 0, 4});
     ship = fly(ship, {1, 2, 3}, {.1, .2, .3}, .5);
@@ -217,14 +217,14 @@ TEST(Stopped, RestsWhereAndWhenItIs)
     EXPECT_EQ(rest.proper_time.total(), ship.proper_time.total());
     EXPECT_EQ(rest.distance.total(), ship.distance.total());
     EXPECT_EQ(rest.ship_from_cockpit, ship.ship_from_cockpit);
-    const Ship later = fly(rest, dvec3(0), dvec3(0), 2); // no remainder of the compensated sum moves it
+    const Ship later = fly(rest, dvec3(0), dvec3(0), 2); // no remainder of the compensated sums moves it
     EXPECT_EQ(later.position.total(), ship.position.total());
 }
 
-// ---------------------------------------------------------------- up and down
+// ---------------------------------------------------------------- speeding up and slowing down
 
-// Rest to gamma 1e6 and back in equal steps of rapidity, in every attitude. What is aside at the top by some angle is aside
-// at the end by gamma times that angle, in u and in the cockpit's axes.
+// From rest to gamma 1e6 and back in equal steps of rapidity, in every attitude. An angle at the top becomes gamma times
+// that angle at the end, in u and in the cockpit's axes.
 TEST(Fly, UpToGammaAMillionAndBackSmoothly)
 {
     std::mt19937_64 random(5);
@@ -250,7 +250,7 @@ TEST(Fly, UpToGammaAMillionAndBackSmoothly)
                 highest = std::max(highest, std::sqrt(1 + glm::dot(u, u)));
             }
             EXPECT_NEAR(highest / 1e6, 1, 1e-12);
-            EXPECT_NEAR(ship.distance.total() / (2 * (1e6 - 1)), 1, 1e-12); // rapidity 1 per unit of proper time
+            EXPECT_NEAR(ship.distance.total() / (2 * (1e6 - 1)), 1, 1e-12); // rapidity 1 for each unit of proper time
             const dquat left = ship.ship_from_cockpit * glm::conjugate(before);
             turned = std::max(turned, 2 * std::sqrt(left.x * left.x + left.y * left.y + left.z * left.z));
             residual = std::max(residual, glm::length(ship.u.total()));
@@ -258,17 +258,17 @@ TEST(Fly, UpToGammaAMillionAndBackSmoothly)
         std::printf("  to gamma 1e6 in %6d steps and back: residual u %.1e, orientation %.1e rad, roughest step %.1e\n",
             steps, residual, turned, roughest);
         EXPECT_LT(residual, 1e-9);
-        EXPECT_LE(roughest, 1e-9); // every frame changes the rapidity by the same: none shows a jump
-        // u and way, rounded, are aside of each other by some 2^-53, so that a frame's turn, which should be none, comes to
-        // step times that. Gamma magnifies it at the top, where chance adds up the frames of the last e-fold, 1/step of
-        // them: one deviation is gamma 2^-53 sqrt(step), and the worst of 40 attitudes stays within four. Below steps of
-        // 0.01 the turn no longer touches the last bit.
+        EXPECT_LE(roughest, 1e-9); // every frame changes the rapidity equally, without a jump
+        // u and the thrust are rounded, so that they differ in direction by some 2^-53. A frame then turns by a step times
+        // that, instead of not at all. At the top gamma magnifies it, and the last e-fold has 1/step frames that add up at
+        // random: one standard deviation is gamma 2^-53 sqrt(step). The worst of 40 attitudes is within four. Steps below
+        // 0.01 no longer change the last bit.
         EXPECT_LE(turned, step > .01 ? 4 * 1e6 * 0x1p-53 * std::sqrt(step) : 1e-12);
     }
 }
 
-// 50 flights out to gamma 1e4 and back, 2000 boosts each.
-TEST(Fly, FiftyFlightsLeaveAlmostNothing)
+// 50 flights to gamma 1e4 and back, with 2000 boosts each.
+TEST(Fly, FiftyFlightsLeaveAlmostNoVelocity)
 {
     for (const dvec3& way : {dvec3(0, 0, -1), glm::normalize(dvec3(1, -2, 2.5))}) {
         Ship ship;
@@ -278,17 +278,17 @@ TEST(Fly, FiftyFlightsLeaveAlmostNothing)
                 ship = fly(ship, i < 1000 ? way : -way, dvec3(0), step);
         const double residual = glm::length(ship.u.total());
         std::printf("  50 flights: residual u %.1e, orientation %.1e\n", residual, 1 - ship.ship_from_cockpit.w);
-        // Across the motion rounding is gamma times 1e-16 on each of the some 150 boosts near the top of each flight, and
-        // adds up as chance does: 1e-12 sqrt(150 * 50) 0.01 of step = 1e-12.
+        // Across the motion each boost rounds by gamma times 1e-16. Some 150 boosts near the top of each flight add up at
+        // random: 1e-12 sqrt(150 * 50) 0.01 of step = 1e-12.
         EXPECT_LE(residual, 4e-12);
     }
 }
 
-// ---------------------------------------------------------------- turning flights
+// ---------------------------------------------------------------- flights that turn
 
-// The traveller's equations with Thomas' precession (Jackson, Classical Electrodynamics, 11.8), integrated in 33 digits:
-// u' = a e + (the rate of gamma along u), and every axis of the cockpit turns among the world's axes carried by the boost
-// by gamma^2/(gamma + 1) a x v per world time plus the visitor's turn.
+// The traveller's equations with Thomas' precession (Jackson, Classical Electrodynamics, 11.8), integrated in 33 digits: u'
+// = a e + (the rate of gamma along u). Each axis of the cockpit turns, relative to the world's axes carried by the boost, by
+// gamma^2/(gamma + 1) a x v for each unit of world time, plus the visitor's turn.
 struct State {
     V3 x, u, e[3]; // place, proper velocity, cockpit axes in the ship
     Q t;
@@ -297,21 +297,21 @@ State rate(const State& s, const dvec3& acceleration, const dvec3& turn)
 {
     const Q gamma = quad::gamma(s.u);
     const V3 v = s.u * (1 / gamma);
-    const V3 felt = s.e[0] * acceleration.x + s.e[1] * acceleration.y + s.e[2] * acceleration.z;
-    // Acceleration in the world: felt across the motion / gamma^2, along it / gamma^3.
+    const V3 proper_acceleration = s.e[0] * acceleration.x + s.e[1] * acceleration.y + s.e[2] * acceleration.z;
+    // Acceleration in the world: the proper one divided by gamma^2 across the motion and by gamma^3 along it.
     const Q speed = quad::length(v);
     const V3 way = speed > 0 ? v * (1 / speed) : V3{0, 0, 0};
-    const V3 along = way * quad::dot(way, felt), across = felt - along;
+    const V3 along = way * quad::dot(way, proper_acceleration), across = proper_acceleration - along;
     const V3 a = across * (1 / (gamma * gamma)) + along * (1 / (gamma * gamma * gamma));
     const V3 thomas = quad::cross(a, v) * (gamma * gamma / (gamma + 1) * gamma); // per proper time
-    const V3 own = s.e[0] * turn.x + s.e[1] * turn.y + s.e[2] * turn.z;
+    const V3 visitor_turn = s.e[0] * turn.x + s.e[1] * turn.y + s.e[2] * turn.z;
     State r;
     r.x = s.u;
     r.t = gamma;
     // d(gamma v)/dtau = gamma (gamma a + gamma^3 (v.a) v)
     r.u = a * (gamma * gamma) + v * (gamma * gamma * gamma * gamma * quad::dot(v, a));
     for (int i = 0; i < 3; ++i)
-        r.e[i] = quad::cross(thomas + own, s.e[i]);
+        r.e[i] = quad::cross(thomas + visitor_turn, s.e[i]);
     return r;
 }
 State moved(const State& s, const State& r, Q h)
@@ -337,7 +337,7 @@ State state_of(const Ship& ship)
     return {quad::of(ship.position.total()), quad::of(ship.u.total()), {axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1})},
         ship.time.total()};
 }
-// Of position, u and time relative to their size, of the axes in radians: the largest.
+// The largest relative difference of position, u and time, or of the axes in radians.
 double difference(const State& a, const State& b)
 {
     Q worst = quad::length(a.x - b.x) / quad::length(a.x);
@@ -348,49 +348,50 @@ double difference(const State& a, const State& b)
     return double(worst);
 }
 
-// A constant thrust across a fast flight: the cockpit turns among the carried axes though nobody turned it.
-TEST(Fly, CockpitIsCarriedAlongAsThomasSays)
+// Constant thrust across a fast flight rotates the cockpit relative to the carried axes, though nobody turns it.
+TEST(Fly, TheCockpitTurnsByThomasPrecession)
 {
     for (const dvec3& u : {dvec3(.1, 0, 0), dvec3(2, -1, 3), dvec3(30, 0, -20)}) {
         Ship start = flying(u);
         start.ship_from_cockpit = glm::normalize(dquat(.5, .1, -.7, .3));
         const dvec3 acceleration(.7, -.4, 1.2);
         const double tau = 1.5;
-        // Runge-Kutta of order 4, 1000 steps of 2.2e-3: (2.2e-3)^4 / 120 * 2.2 = 4e-13, times powers of the rates below 3.
-        const State want = integrated(state_of(start), acceleration, dvec3(0), tau, 1000);
-        EXPECT_LE(difference(want, state_of(fly(start, acceleration, dvec3(0), tau))), 1e-11);
-        EXPECT_LE(difference(want, state_of(flown(start, acceleration, tau, 600))), 1e-11);
+        // Runge-Kutta of order 4 with 1000 steps of 2.2e-3: (2.2e-3)^4 / 120 * 2.2 = 4e-13, times powers of the rates below
+        // 3.
+        const State expected = integrated(state_of(start), acceleration, dvec3(0), tau, 1000);
+        EXPECT_LE(difference(expected, state_of(fly(start, acceleration, dvec3(0), tau))), 1e-11);
+        EXPECT_LE(difference(expected, state_of(flown(start, acceleration, tau, 600))), 1e-11);
     }
 }
 
-// Thrust and turn together: a step is off by its square, so that half the step is a quarter of the error.
+// With thrust and turn together, the error falls with the square of the step.
 TEST(Fly, TurningFlightConvergesAsTheSquareOfTheStep)
 {
     Ship start = flying({2, -1, 3});
     start.ship_from_cockpit = glm::normalize(dquat(.5, .1, -.7, .3));
     const dvec3 acceleration(.7, -.4, 1.2), turn(.3, 1.1, -.6);
     const double tau = 1.5;
-    const State want = integrated(state_of(start), acceleration, turn, tau, 1000);
+    const State expected = integrated(state_of(start), acceleration, turn, tau, 1000);
     double error[3];
     for (int i = 0; i < 3; ++i) {
         const int steps = 60 << i;
         Ship ship = start;
         for (int k = 0; k < steps; ++k)
             ship = fly(ship, acceleration, turn * (tau / steps), tau / steps);
-        error[i] = difference(want, state_of(ship));
+        error[i] = difference(expected, state_of(ship));
     }
     std::printf("  turning at 1.3 rad under thrust 1.4: error %.1e, %.1e, %.1e in 60, 120, 240 steps\n", error[0], error[1],
         error[2]);
-    // A step's error is its length times the rates of thrust and turn, cubed, over 24; with rates of 1.4 and 1.3 the 60
-    // steps come to 1.5 (1.5 / 60)^2 2.7^3 / 24.
+    // A step's error is its length times the rates of thrust and turn, cubed, over 24. With the rates 1.4 and 1.3, 60 steps
+    // give 1.5 (1.5 / 60)^2 2.7^3 / 24.
     EXPECT_LE(error[0], 1.5 * std::pow(1.5 / 60, 2) * std::pow(2.7, 3) / 24);
     EXPECT_NEAR(error[0] / error[1], 4, .1);
     EXPECT_NEAR(error[1] / error[2], 4, .1);
 }
 
-// A round flight: thrust a = gamma^2 v^2 / R always to the cockpit's left, the cockpit turning gamma^2 v/R per proper time
-// among gyroscopes to keep it so. After one orbit ship, velocity and cockpit are back, because the gyroscopes have turned
-// by 360 (gamma - 1) degrees against the orbit.
+// A circular flight: the thrust a = gamma^2 v^2 / R points to the cockpit's left. To keep it there the cockpit turns by
+// gamma^2 v/R per proper time relative to gyroscopes. After one orbit ship, velocity and cockpit are back, because the
+// gyroscopes have turned by 360 (gamma - 1) degrees against the orbit.
 TEST(Fly, CircularOrbitCloses)
 {
     const double R = 2;
@@ -399,7 +400,7 @@ TEST(Fly, CircularOrbitCloses)
         double away[2], off[2], facing[2];
         for (int fine = 0; fine < 2; ++fine) {
             const int steps = 4000 << fine;
-            Ship ship = flying({0, 0, -u}); // nose ahead, left is -x; the orbit runs left about +y
+            Ship ship = flying({0, 0, -u}); // the nose points ahead, left is -x; the orbit turns left about +y
             for (int i = 0; i < steps; ++i)
                 ship = fly(ship, {-u * u / R, 0, 0}, {0, gamma * u / R * tau / steps, 0}, tau / steps);
             away[fine] = glm::length(ship.position.total()) / R;
@@ -411,16 +412,16 @@ TEST(Fly, CircularOrbitCloses)
         }
         std::printf(
             "  orbit at gamma %.2f: off by %.1e R, %.1e u, %.1e rad in 8000 steps\n", gamma, away[1], off[1], facing[1]);
-        // The cut into 8000 steps: (2 pi gamma / 8000)^2 of the turn, times the 2 pi gamma of the orbit.
+        // The error of 8000 steps: (2 pi gamma / 8000)^2 of the turn, times the 2 pi gamma of the orbit.
         const double cut = std::pow(2 * pi * gamma, 3) / 8000 / 8000;
         EXPECT_LE(std::max({away[1], off[1], facing[1]}), cut);
         EXPECT_LE(away[1], .3 * away[0] + 1e-12);
     }
 }
 
-// The same orbit without the visitor's turn: small boosts aimed from outside. What remains in the cockpit's axes is the
-// Thomas turn itself.
-TEST(Fly, ThomasTurnOfAnOrbitOfBoosts)
+// The same orbit without the visitor's turn: small boosts aimed from outside. The remaining turn of the cockpit's axes is
+// Thomas' precession.
+TEST(Fly, AnOrbitOfBoostsTurnsByThomasPrecession)
 {
     for (double gamma : {1.02, 1.25, 2.0}) {
         double turn_deg[2];
@@ -446,12 +447,13 @@ TEST(Fly, ThomasTurnOfAnOrbitOfBoosts)
             }
             turn_deg[fine] = turned * 180 / pi;
         }
-        // A polygon of n velocities is 1/n^2 off the circle, here 2e-5 degrees; Richardson leaves 1/n^4 and rounding.
+        // A polygon of n velocities differs from the circle by 1/n^2, here 2e-5 degrees; Richardson's extrapolation leaves
+        // 1/n^4.
         EXPECT_NEAR(turn_deg[1] + (turn_deg[1] - turn_deg[0]) / 3, -360 * (gamma - 1), 1e-8) << gamma;
     }
 }
 
-TEST(Fly, QuaternionStaysUnit)
+TEST(Fly, TheQuaternionStaysNormalized)
 {
     Ship ship;
     double worst = 0;
@@ -460,7 +462,7 @@ TEST(Fly, QuaternionStaysUnit)
         ship = fly(ship, {s, -.3 * s, std::cos(i * 1e-3)}, {.01 * s, .02, -.015}, .01);
         worst = std::max(worst, std::abs(glm::length(ship.ship_from_cockpit) - 1));
     }
-    EXPECT_LE(worst, 7e-16); // set straight when its square is 1e-15 off, to a rounding
+    EXPECT_LE(worst, 7e-16); // it is normalized when its square is 1e-15 off, up to a rounding
 }
 
 } // namespace

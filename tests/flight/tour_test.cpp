@@ -1,4 +1,4 @@
-// Tours as they are shown: against closed forms, at any frame rate, with visitors and without.
+// Tours while they run: compared with closed forms, at any frame rate, with and without visitors.
 #include "config/model/shipped.h"
 #include "runtime/flight/measuring.h"
 #include "runtime/flight/tour.h"
@@ -44,7 +44,7 @@ Touring played(const Show& show, double seconds, int frames_per_s, const Control
     return touring;
 }
 
-/// For this long, 60 frames a second; what is pressed is pressed in the first.
+/// Advances a tour by this time, with 60 frames a second. Buttons count in the first frame only.
 Touring later(Touring touring, const Show& show, double seconds, Controls controls = {})
 {
     for (int frame = 0; frame < std::lround(60 * seconds); ++frame) {
@@ -57,7 +57,7 @@ Touring later(Touring touring, const Show& show, double seconds, Controls contro
 glm::dvec3 place_of(const Touring& touring) { return touring.flight.ship.position.total(); }
 glm::dvec3 u_of(const Touring& touring) { return touring.flight.ship.u.total(); }
 
-/// When a step begins in a tour that nobody flies in, seconds; its question counts with the step before.
+/// The time at which a step begins in a tour that nobody flies, seconds. The questions of the steps before it are included.
 double begin_of(const Show& show, std::size_t step)
 {
     Touring touring = touring_at(show);
@@ -67,7 +67,7 @@ double begin_of(const Show& show, std::size_t step)
     return seconds;
 }
 
-/// The angle that a small ball around a place straight ahead takes up, from textbook aberration: tan(seen/2) = tan(true/2) /
+/// The angular size of a small ball around a place straight ahead, by textbook aberration: tan(seen/2) = tan(true/2) /
 /// e^rapidity.
 long double seen_angle(const Touring& touring, const glm::dvec3& at, long double radius)
 {
@@ -76,11 +76,11 @@ long double seen_angle(const Touring& touring, const glm::dvec3& at, long double
     return 2 * 2 * std::atan(std::tan(std::asin(radius / distance) / 2) * std::exp(-rapidity));
 }
 
-/// What a clock at a place shows when its light left for the ship: found by going back in time, not by a formula.
+/// A clock's reading when its light left for the ship, by bisection.
 double reading(const Touring& touring, const glm::dvec3& clock)
 {
     const double now = touring.flight.ship.time.total();
-    double low = now - 1e4, high = now; // the light of `low` is past, that of `high` not here yet
+    double low = now - 1e4, high = now; // light from `low` has passed, light from `high` is not here yet
     for (int i = 0; i < 100; ++i) {
         const double then = 0.5 * (low + high);
         (glm::distance(place_of(touring), clock) < now - then ? low : high) = then;
@@ -92,9 +92,9 @@ constexpr const char* measured_size = R"({ "what": "size", "at": [0, 0, -46] })"
 
 } // namespace
 
-/// physics.md: from rest at distance L with proper acceleration a, smallest at e^eta = 1 + aL, there 2 / (2 + aL); as large
-/// as at first at e^eta = 1 + 2aL. L = 12, a = 0.25.
-TEST(Tours, TheFirstMinuteSeemsToMoveBackwards)
+/// physics.md: from rest at the distance L with proper acceleration a, the size is smallest at e^eta = 1 + aL, where it is 2
+/// / (2 + aL). It has its first value again at e^eta = 1 + 2aL. Here L = 12 and a = 0.25.
+TEST(Tours, TheFirstMinutesColumnFirstShrinks)
 {
     const Tour tour = shipped_tour("first-minute");
     const Show show{tour, {}, 1, false};
@@ -112,20 +112,20 @@ TEST(Tours, TheFirstMinuteSeemsToMoveBackwards)
         if (touring.step() > 4)
             break;
         if (touring.step() == 2 || touring.step() == 4) {
-            // The way of constant acceleration in a closed form of its own, and the ratio there.
+            // The place of constant acceleration and the size there, in closed form.
             const double eta = std::log(E), x = (std::cosh(eta) - 1) / a;
             EXPECT_NEAR(place_of(touring).z, -34 - x, 1e-12 * 46);
-            EXPECT_NEAR(size, L / (L - x) / E, 1e-9) << "a ball of 1e-6 is as good as a point to its square, 1e-12";
+            EXPECT_NEAR(size, L / (L - x) / E, 1e-9) << "a ball of 1e-6 equals a point up to its square, 1e-12";
         }
         const Measure measure{Measure::What::size, column, {}};
         EXPECT_NEAR(measured(measure, touring.flight.ship, touring.starts.back().since, 1), size, 1e-9);
         if (size < smallest)
             smallest = size, e_smallest = E, of = touring.step();
     }
-    EXPECT_NEAR(smallest, 2 / (2 + a * L), 1e-6) << "the least of the frames";
-    EXPECT_NEAR(e_smallest, 1 + a * L, 0.02) << "a hundredth of a second's way at the flat bottom";
+    EXPECT_NEAR(smallest, 2 / (2 + a * L), 1e-6) << "the smallest of all frames";
+    EXPECT_NEAR(e_smallest, 1 + a * L, 0.02) << "a hundredth of a second near the flat minimum";
     EXPECT_GE(of, 2u);
-    // Where the thrust ends first it is at the least, where it ends again as large as at first: to the closed form.
+    // The first thrust ends at the smallest size, the second at the first size again, exactly.
     const Touring least = played(show, begin_of(show, 3), 50);
     EXPECT_NEAR(std::exp(std::asinh(glm::length(u_of(least)))), 4, 1e-9);
     EXPECT_NEAR(double(seen_angle(least, column, 1e-6L) / at_first), 0.4, 1e-9);
@@ -134,7 +134,7 @@ TEST(Tours, TheFirstMinuteSeemsToMoveBackwards)
     EXPECT_NEAR(double(seen_angle(again, column, 1e-6L) / at_first), 1, 1e-9);
 }
 
-/// physics.md's clocks: -5.90909, -2.74403, 0, 2.21961, 3.80547 s beside the middle one's, in flight and stopped.
+/// The clocks of physics.md: -5.90909, -2.74403, 0, 2.21961, 3.80547 s relative to the middle one, in flight and stopped.
 TEST(Tours, SimultaneityShowsThePapersReadings)
 {
     const Tour tour = shipped_tour("simultaneity");
@@ -151,7 +151,7 @@ TEST(Tours, SimultaneityShowsThePapersReadings)
     Touring touring = played(show, begin_of(show, 3) + 1, 30);
     EXPECT_NEAR(glm::length(u_of(touring)), 0.5 / std::sqrt(0.75), 1e-12);
     check(touring);
-    // The middle one is seen at a right angle to the motion: in the world at cos = -beta.
+    // The middle clock is seen at a right angle to the motion: in the world at cos = -beta.
     const glm::dvec3 way = -place_of(touring);
     EXPECT_NEAR(way.x / glm::length(way), -0.5, 1e-9);
     touring = played(show, begin_of(show, 6) + 1, 30);
@@ -160,7 +160,7 @@ TEST(Tours, SimultaneityShowsThePapersReadings)
     EXPECT_NEAR(touring.flight.ship.time.total(), 35.79571668975679, 1e-9) << "at the same instant";
 }
 
-/// One flies 8 light-seconds out and back at 0.8 c: gamma is 5/3, 6 s on board are 10 at home.
+/// One twin flies 8 light-seconds out and back at 0.8 c: gamma is 5/3, and 6 s on board are 10 s at home.
 TEST(Tours, TheTwinsMeetAtTwentyAndTwelve)
 {
     const Tour tour = shipped_tour("twins");
@@ -169,9 +169,10 @@ TEST(Tours, TheTwinsMeetAtTwentyAndTwelve)
     World world = load_world(scene.gltf);
     place_bodies(world, scene);
     sort_instances(world);
-    constexpr double deep = 0.08 * 0.62; // of each dial from its ship's middle: those that face astern, and those ahead
+    constexpr double deep
+        = 0.08 * 0.62; // distance of each dial from its ship's middle, for those that face astern and those that face ahead
 
-    // What the clocks on screen show, of those dials whose light is here. Where the traveller stops it may be seen twice.
+    // The readings on screen of those dials whose light has arrived. At the turn the traveller's may be seen twice.
     const auto shown = [&](const Flight& flight, const std::string& material, double way) {
         std::set<std::string> figures;
         const Shot shot = shot_of(flight, "twins");
@@ -188,7 +189,7 @@ TEST(Tours, TheTwinsMeetAtTwentyAndTwelve)
         }
         return figures.size() == 1 ? *figures.begin() : std::to_string(figures.size()) + " readings";
     };
-    // The same by light that starts earlier and earlier from the dial's way in the world: by hand, out and back.
+    // The same by bisection, with the dial's way in the world calculated by hand, out and back.
     const auto traveller = [&](double own, double way) {
         const double ahead = -way * deep, on = own < 6 ? own : own - 6, g = 5.0 / 3, v = own < 6 ? 0.8 : -0.8;
         return std::pair(
@@ -210,53 +211,54 @@ TEST(Tours, TheTwinsMeetAtTwentyAndTwelve)
         return text.data() == std::string("-0.0") ? "0.0" : std::string(text.data());
     };
 
-    // Each step as it begins, and as it ends: a hundredth of a second before the next one.
+    // Each step at its beginning, and at its end a hundredth of a second before the next step.
     std::vector<Touring> first, last;
     for (Touring touring = touring_at(show); !touring.over; touring = advance(touring, show, {}, 10'000'000)) {
         if (touring.step() == first.size())
             first.push_back(touring), last.push_back(touring);
         last[touring.step()] = touring;
     }
-    enum { here, leaves, far, asked, returns, nearer, meet, aboard, before, turn, leap, homeward };
+    enum { here, leaves, far, at_question, returns, nearer, meet, aboard, before, turn, leap, homeward };
     ASSERT_GT(first.size(), std::size_t(homeward));
 
     EXPECT_EQ(shown(last[here].flight, "home dial", 1), "0.0");
     EXPECT_EQ(shown(last[here].flight, "traveller's dial", 1), "0.0");
     const struct {
         int step;
-        double way; // which of the dials is seen
-        double rate; // of the traveller's clock against that at home, on the line between the two
+        double way; // the dial's side that is seen
+        double rate; // the traveller's clock relative to the one at home, on the line between the two
     } flights[] = {{leaves, 1, 1 / 3.0}, {aboard, -1, 3}, {homeward, -1, 1 / 3.0}};
     for (const auto& [step, way, rate] : flights) {
         SCOPED_TRACE(step);
         const Touring &begun = first[std::size_t(step)], &ended = last[std::size_t(step)];
         for (const Touring& touring : {begun, ended}) {
-            if (touring.flight.ship.time.total() > 4) { // it has left
+            if (touring.flight.ship.time.total() > 4) { // the ship has left
                 EXPECT_EQ(shown(touring.flight, "traveller's dial", way), tenths(seen(touring.flight, way)));
             }
             EXPECT_EQ(shown(touring.flight, "home dial", way), tenths(home(touring, way)));
         }
         const double board = seen(ended.flight, way) - seen(begun.flight, way), stayed = home(ended, way) - home(begun, way);
-        EXPECT_NEAR(board / stayed / rate, 1, 0.1) << "the eye stands a little aside of the line";
+        EXPECT_NEAR(board / stayed / rate, 1, 0.1) << "the eye is a little aside of the line";
     }
 
-    // The turn is seen, all of the dial still on the way out. When that was at home, and which answer that makes right.
-    EXPECT_EQ(shown(first[asked].flight, "traveller's dial", 1), "6.0");
-    EXPECT_EQ(shown(first[asked].flight, "home dial", 1), "17.8");
-    const Question& question = *tour.steps[asked].question;
-    const auto [place, time] = traveller(seen(first[asked].flight, 1), 1);
-    const double told = measured(question.measure, first[asked].flight.ship, first[asked].flight.ship, 1);
-    EXPECT_NEAR(told, time, 1e-5) << "the tour names the place to 1e-6";
-    EXPECT_NEAR(told, 10, 0.14) << "0.04 s on board and the dial's depth before the turn";
+    // The turn is seen while the whole dial is still on the way out. Its time at home decides which answer is right.
+    EXPECT_EQ(shown(first[at_question].flight, "traveller's dial", 1), "6.0");
+    EXPECT_EQ(shown(first[at_question].flight, "home dial", 1), "17.8");
+    const Question& question = *tour.steps[at_question].question;
+    const auto [place, time] = traveller(seen(first[at_question].flight, 1), 1);
+    const double measured_s = measured(question.measure, first[at_question].flight.ship, first[at_question].flight.ship, 1);
+    EXPECT_NEAR(measured_s, time, 1e-5) << "the tour names the place to 1e-6";
+    EXPECT_NEAR(measured_s, 10, 0.14) << "0.04 s on board and the dial's depth before the turn";
     const auto& choices = std::get<std::vector<Choice>>(question.answer);
     ASSERT_EQ(choices.size(), 3u);
     for (std::size_t i = 0; i < 3; ++i)
-        EXPECT_EQ(told >= choices[i].from && told < choices[i].below, i == 1);
+        EXPECT_EQ(measured_s >= choices[i].from && measured_s < choices[i].below, i == 1);
 
     EXPECT_EQ(shown(first[meet].flight, "home dial", 1), "20.5");
     EXPECT_EQ(shown(first[meet].flight, "traveller's dial", 1), "12.5");
 
-    // Aboard, at the turn itself, 10 s at home: now is t - 0.8 * 8 there before it, t + 0.8 * 8 after, in the same light.
+    // On board at the turn, 10 s at home: the present there is t - 0.8 * 8 before it and t + 0.8 * 8 after it, in the same
+    // light.
     const auto now_at_home = [&](const Touring& touring, int step) {
         return measured(*tour.steps[std::size_t(step)].measure, touring.flight.ship, touring.flight.ship, 1);
     };
@@ -268,8 +270,8 @@ TEST(Tours, TheTwinsMeetAtTwentyAndTwelve)
         EXPECT_EQ(shown(touring.flight, "home dial", -1), "2.0");
 }
 
-/// physics.md: at beta = 0.5 nothing is shifted 74.45773 degrees from the motion.
-TEST(Tours, TheRainbowsOwnColourIsWhereItShouldBe)
+/// physics.md: at beta = 0.5, D is 1 at 74.45773 degrees from the motion.
+TEST(Tours, TheRainbowShowsDOneAt74Degrees)
 {
     const Tour tour = shipped_tour("rainbow");
     const Show show{tour, {}, 1, false};
@@ -277,25 +279,25 @@ TEST(Tours, TheRainbowsOwnColourIsWhereItShouldBe)
     const glm::dvec3 u = u_of(touring);
     const double gamma = std::sqrt(1 + glm::dot(u, u)), beta = glm::length(u) / gamma;
     EXPECT_NEAR(beta, 0.5, 1e-12);
-    EXPECT_LT(u.x, 0) << "to the left";
+    EXPECT_LT(u.x, 0) << "the motion is to the left";
     const double degrees = 74.45773;
     EXPECT_NEAR(1 / (gamma * (1 - beta * std::cos(glm::radians(degrees)))), 1, 1e-7) << "D by its definition";
     const Measure measure{Measure::What::own_colour_deg, {}, {}};
     EXPECT_NEAR(measured(measure, touring.flight.ship, touring.flight.ship, 1), degrees, 1e-5);
-    // On screen: from the middle of the view, which looks 14 degrees behind the beam, it lies 29.5 degrees to the left.
+    // On screen it lies 29.5 degrees to the left of the view's middle, which looks 14 degrees behind the beam.
     const glm::dvec3 ahead = glm::normalize(u), look = touring.flight.ship.ship_from_cockpit * glm::dvec3(0, 0, -1);
     EXPECT_NEAR(glm::degrees(std::acos(glm::dot(ahead, look))), 104, 0.05);
 }
 
-/// Each measure against textbook formulas with cosines, where those are good.
-TEST(Tours, MeasuresAreTheTextbooks)
+/// Each measure is compared with a textbook formula with cosines, at values where these are accurate.
+TEST(Tours, MeasuresEqualTheTextbooks)
 {
     Ship ship, since;
     const double g = 1 / 0.6; // beta 0.8
     ship.u = Sum3({0, 0.8 * g, 0});
     ship.position = Sum3({1, 2, 3});
     ship.time.value = 50, ship.proper_time.value = 30;
-    const glm::dvec3 at(4, 6, 3); // 5 away, the cosine of the angle from the motion 0.8
+    const glm::dvec3 at(4, 6, 3); // 5 away; the cosine of the angle from the motion is 0.8
     const auto value = [&](Measure::What what) { return measured({what, at, {}}, ship, since, 2); };
     using enum Measure::What;
     EXPECT_NEAR(value(gamma), g, 1e-12);
@@ -310,7 +312,7 @@ TEST(Tours, MeasuresAreTheTextbooks)
     EXPECT_NEAR(value(own_colour_deg), 60, 1e-9);
     EXPECT_NEAR(value(reading_s), 2 * (50 - 5), 1e-12);
     EXPECT_NEAR(value(now_s), 2 * (50 + 0.8 * 4), 1e-12) << "4 along the motion";
-    EXPECT_NEAR(value(size), std::sqrt(16 + 36 + 9) / (5 * g * (1 + 0.8 * 0.8)), 1e-12) << "since: at rest at the origin";
+    EXPECT_NEAR(value(size), std::sqrt(16 + 36 + 9) / (5 * g * (1 + 0.8 * 0.8)), 1e-12) << "relative to rest at the origin";
     EXPECT_NEAR(measured({distance, at, glm::dvec3(1, 2, 4)}, ship, since, 2), 4, 1e-12);
 }
 
@@ -335,9 +337,8 @@ TEST(Tours, AnyFrameRateShowsTheSame)
     }
 }
 
-/// A glide begins and ends at rest on the screen, goes along the geodesic of velocities, and the world's time goes on by
-/// gamma.
-TEST(Tours, AGlideIsSmooth)
+/// A glide begins and ends at rest on the screen and follows the geodesic of velocities; world time advances by gamma.
+TEST(Tours, AGlideIsSmoothAndFollowsTheGeodesic)
 {
     const Tour tour = tour_of(R"({ "seconds": 1, "cut": { "position": [1, 2, 3], "time": 5,
                                    "velocity": { "direction": [0, 0, -1], "rapidity": 0.7 } } },
@@ -352,20 +353,19 @@ TEST(Tours, AGlideIsSmooth)
     const Touring end = at(8 - 1e-9);
     EXPECT_NEAR(glm::distance(place_of(end), glm::dvec3(9, -2, 30)), 0, 1e-12);
     EXPECT_NEAR(glm::distance(u_of(end), glm::dvec3(std::sinh(2.0), 0, 0)), 0, 1e-9);
-    // Speed, acceleration and jerk of the place vanish at both ends: a hundredth of the way in time is less than a millionth
-    // of the way in space.
+    // Speed, acceleration and jerk vanish at both ends: a hundredth of the time is less than a millionth of the way.
     const glm::dvec3 from = place_of(at(0)), to = place_of(end);
     for (double early : {0.08, 8 - 0.08})
         EXPECT_LT(std::min(glm::distance(place_of(at(early)), from), glm::distance(place_of(at(early)), to)),
             1e-6 * glm::distance(from, to));
-    // Rapidity differences along a geodesic add up: from the start to a point and on to the end is the whole.
+    // Rapidity differences along a geodesic add up.
     const auto apart = [](const glm::dvec3& a, const glm::dvec3& b) {
         return std::acosh(std::sqrt(1 + glm::dot(a, a)) * std::sqrt(1 + glm::dot(b, b)) - glm::dot(a, b));
     };
     const glm::dvec3 a = u_of(at(0)), b = u_of(end), m = u_of(at(3));
     EXPECT_NEAR(apart(a, m) + apart(m, b), apart(a, b), 1e-9);
     EXPECT_NEAR(apart(a, b), std::acosh(std::cosh(0.7) * std::cosh(2.0)), 1e-9) << "at right angles";
-    // World time: gamma summed in small steps.
+    // World time is the sum of gamma in small steps.
     double time = at(0).flight.ship.time.total();
     constexpr int steps = 20000;
     for (int i = 0; i < steps; ++i) {
@@ -375,8 +375,8 @@ TEST(Tours, AGlideIsSmooth)
     EXPECT_NEAR(end.flight.ship.time.total(), time, 1e-6) << "the midpoint rule's error";
 }
 
-/// Eased, the ship's time has no leap of its rate: it starts and ends at rest, and all of it passes.
-TEST(Tours, AStepIsEased)
+/// With easing the rate of ship time is continuous: it begins and ends at 0, and the whole time passes.
+TEST(Tours, AnEasedStepChangesItsRateContinuously)
 {
     const Tour tour = tour_of(R"({ "seconds": 1, "cut": { "velocity": { "direction": [1, 0, 0], "beta": 0.6 } },
         "ship_s_per_s": 0 }, { "seconds": 6, "ship_s_per_s": 2, "ease_s": [1, 2] })");
@@ -386,16 +386,16 @@ TEST(Tours, AStepIsEased)
     };
     const auto rate = [&](double seconds) { return (ship_s(seconds + 1e-4) - ship_s(seconds - 1e-4)) / 2e-4; };
     EXPECT_NEAR(ship_s(6 - 1e-9), 12, 1e-8);
-    EXPECT_NEAR(rate(2), 12 / 4.5, 1e-6) << "the whole, in a second and a half less";
+    EXPECT_NEAR(rate(2), 12 / 4.5, 1e-6) << "the whole time in one and a half seconds less";
     EXPECT_NEAR(rate(3.9), 12 / 4.5, 1e-6);
-    EXPECT_NEAR(rate(0.5), 6 / 4.5, 1e-6) << "half of it in the middle of the ramp";
+    EXPECT_NEAR(rate(0.5), 6 / 4.5, 1e-6) << "half the rate in the middle of the ramp";
     EXPECT_NEAR(rate(5), 6 / 4.5, 1e-6);
     EXPECT_LT(rate(0.02), 1e-3);
     EXPECT_LT(rate(5.98), 1e-3);
-    EXPECT_NEAR(rate(1 - 1e-3), rate(1 + 1e-3), 1e-6) << "the ramp joins";
+    EXPECT_NEAR(rate(1 - 1e-3), rate(1 + 1e-3), 1e-6) << "the ramp joins continuously";
     EXPECT_NEAR(rate(4 - 1e-3), rate(4 + 1e-3), 1e-6);
     const Touring end = advance(touring_at(show), show, {}, 7'000'000'000 - 1);
-    EXPECT_NEAR(place_of(end).x, 0.75 * 12, 1e-7) << "the way is that of its time: u = 0.75";
+    EXPECT_NEAR(place_of(end).x, 0.75 * 12, 1e-7) << "the way follows from the time: u = 0.75";
 }
 
 TEST(Tours, AQuestionIsAnsweredFromTheState)
@@ -409,34 +409,35 @@ TEST(Tours, AQuestionIsAnsweredFromTheState)
         { "seconds": 1 })");
     const Show show{tour, {}, 1, true};
     const Controls right{.turn = {0, -1, 0}}, left{.turn = {0, 1, 0}};
-    const Touring asked = later(touring_at(show), show, 1.5);
-    EXPECT_EQ(caption_of(asked, show, words(), {}).text, "gamma?");
-    EXPECT_EQ(caption_of(asked, show, words(), {}).choices.size(), 3u);
-    EXPECT_EQ(caption_of(asked, show, words(), {}).chosen, -1);
-    // A held stick chooses one; let go and pushed again, the next.
-    Touring touring = later(asked, show, 0.3, right);
+    const Touring at_question = later(touring_at(show), show, 1.5);
+    EXPECT_EQ(caption_of(at_question, show, words(), {}).text, "gamma?");
+    EXPECT_EQ(caption_of(at_question, show, words(), {}).choices.size(), 3u);
+    EXPECT_EQ(caption_of(at_question, show, words(), {}).chosen, -1);
+    // A held stick chooses one answer; released and pushed again, it chooses the next.
+    Touring touring = later(at_question, show, 0.3, right);
     EXPECT_EQ(touring.chosen, 0);
     touring = later(later(touring, show, 0.1), show, 0.3, right);
     EXPECT_EQ(touring.chosen, 1);
     const Touring answered = later(touring, show, 0.05, {.stop = true});
     EXPECT_EQ(answered.right, true);
     EXPECT_EQ(caption_of(answered, show, words(), {}).text, "Right! it is 4.00");
-    EXPECT_NEAR(u_of(answered).z, -std::sqrt(15.0), 1e-12) << "the answer is no stop";
+    EXPECT_NEAR(u_of(answered).z, -std::sqrt(15.0), 1e-12) << "the button answers and does not stop the ship";
     touring = later(later(touring, show, 0.1), show, 0.3, left);
     EXPECT_EQ(caption_of(later(touring, show, 0.05, {.stop = true}), show, words(), {}).text, "Not quite. it is 4.00");
-    EXPECT_EQ(later(asked, show, 0.05, {.headlight = true}).right, false) << "3 is the third choice";
-    EXPECT_TRUE(later(asked, show, 0.05, {.headlight = true}).flight.effects.headlight) << "and switches nothing";
-    EXPECT_FALSE(later(asked, show, 0.05, {.stop = true}).measured_answer) << "nothing chosen is no answer";
-    // Told for three seconds, wherever in the time to answer that was.
+    EXPECT_EQ(later(at_question, show, 0.05, {.headlight = true}).right, false) << "3 is the third choice";
+    EXPECT_TRUE(later(at_question, show, 0.05, {.headlight = true}).flight.effects.headlight)
+        << "the key must not switch the effect";
+    EXPECT_FALSE(later(at_question, show, 0.05, {.stop = true}).measured_answer) << "nothing chosen is no answer";
+    // The explanation stays for three seconds, whenever the answer came.
     EXPECT_EQ(later(answered, show, 2.8).step(), 1u);
     EXPECT_EQ(later(answered, show, 3.1).step(), 2u);
-    const Touring silent = later(asked, show, 4.8);
+    const Touring silent = later(at_question, show, 4.8);
     EXPECT_EQ(caption_of(silent, show, words(), {}).text, "The answer: it is 4.00");
     EXPECT_FALSE(silent.right);
-    // The number: a held stick goes on.
+    // A held stick keeps changing the number.
     Touring number = later(answered, show, 3.2);
     EXPECT_EQ(number.number, 1);
-    number = later(number, show, 1.75, right); // at once, and from half a second on ten times a second
+    number = later(number, show, 1.75, right); // once at first, then ten times a second after half a second
     EXPECT_NEAR(number.number, 1 + 0.5 * 13, 0.51);
     while (number.number < 8)
         number = later(later(number, show, 0.04), show, 0.04, right);
@@ -445,7 +446,7 @@ TEST(Tours, AQuestionIsAnsweredFromTheState)
     EXPECT_EQ(later(number, show, 0.05, {.stop = true}).right, false);
 }
 
-TEST(Tours, TheVisitorTries)
+TEST(Tours, AVisitorFliesATryUntilItIsReached)
 {
     const Tour tour = tour_of(R"({ "seconds": 1, "cut": "start" },
         { "seconds": 10, "try": { "max_gamma": 3 }, "question": { "ask": { "en": "go" }, "explanation": { "en": "{measured}" },
@@ -454,25 +455,25 @@ TEST(Tours, TheVisitorTries)
     Show show{tour, {}, 1, true};
     const Touring given = later(touring_at(show), show, 1.1);
     EXPECT_TRUE(flies(given, show));
-    // A throttle that stands open when the ship is handed over at rest waits until it has been closed.
+    // If the throttle is open when the visitor takes over a resting ship, it is inhibited until it has been closed.
     EXPECT_EQ(glm::length(u_of(later(touring_at(show), show, 4, {.lever = 0.9}))), 0);
     Touring touring = later(given, show, 0.1, {.lever = 0.0});
     touring = later(touring, show, 2.5, {.lever = 0.9});
-    EXPECT_TRUE(touring.measured_answer) << "reached";
+    EXPECT_TRUE(touring.measured_answer) << "the place is reached";
     EXPECT_EQ(touring.right, true);
     EXPECT_GT(*touring.measured_answer, 2);
     EXPECT_FALSE(flies(touring, show));
     const Touring idle = later(given, show, 10.5);
-    EXPECT_TRUE(idle.measured_answer) << "time over";
+    EXPECT_TRUE(idle.measured_answer) << "the time is over";
     EXPECT_FALSE(idle.right);
-    // On with the tour at once, and without visitors no such step at all.
+    // Home leads to the next step. Without visitors the step is left out.
     EXPECT_EQ(later(given, show, 0.05, {.home = true}).step(), 2u);
     show.visitors = false;
     EXPECT_EQ(played(show, 1.5, 60).step(), 3u);
     EXPECT_NEAR(length_s(tour), 3, 1e-12);
 }
 
-TEST(Tours, GuidesLeadThroughThem)
+TEST(Tours, GuidesCanPauseSkipAndGoBack)
 {
     const Tour tour = tour_of(R"({ "seconds": 3, "cut": "start" }, { "seconds": 3, "thrust": { "rapidity_per_s": 1 } },
         { "seconds": 3, "turn": { "look": [1, 0, 0] } })");
@@ -481,21 +482,21 @@ TEST(Tours, GuidesLeadThroughThem)
     EXPECT_EQ(flying.step(), 1u);
     const Touring still = later(flying, show, 2, {.stop = true});
     EXPECT_TRUE(still.paused);
-    EXPECT_EQ(u_of(still), u_of(flying)) << "to the bit";
+    EXPECT_EQ(u_of(still), u_of(flying)) << "a paused tour stands still to the bit";
     EXPECT_EQ(caption_of(still, show, words(), {}).aside, "paused");
-    EXPECT_EQ(later(still, show, 1, {.stop = true}).step(), 2u) << "goes on where it stood";
-    // On: to where the step would have led.
+    EXPECT_EQ(later(still, show, 1, {.stop = true}).step(), 2u) << "stop again continues the tour";
+    // Home skips to the state at the step's end.
     const Touring on = later(flying, show, 0.01 + 1e-9, {.home = true});
     EXPECT_EQ(on.step(), 2u);
     EXPECT_NEAR(std::asinh(glm::length(u_of(on))), 3, 1e-6);
-    // Back: to the step's beginning, and soon after that to the one before.
+    // Undo leads to the step's beginning, and soon after that to the step before.
     Touring back = later(flying, show, 0.02, {.undo = true});
     EXPECT_EQ(back.step(), 1u);
     EXPECT_LT(glm::length(u_of(back)), 0.1);
     back = later(back, show, 0.02, {.undo = true});
     EXPECT_EQ(back.step(), 0u);
     EXPECT_EQ(later(on, show, 0.02, {.reset = true}).step(), 0u);
-    // What flies a ship does nothing to a tour that flies itself; looking around does.
+    // Flight controls do nothing to a tour that flies by itself; looking around works.
     Controls hands{.lever = 1.0, .throttle_rate = 1, .turn = {1, 1, 1}};
     const Touring touched = advance(flying, show, hands, 100'000'000), untouched = advance(flying, show, {}, 100'000'000);
     EXPECT_EQ(u_of(touched), u_of(untouched));
@@ -503,14 +504,14 @@ TEST(Tours, GuidesLeadThroughThem)
     EXPECT_EQ(advance(flying, show, {.look_rad = {0.3, 0.1}}, 1).flight.look_rad, glm::dvec2(0.3, 0.1));
 }
 
-TEST(Tours, AtTheEndTheVisitorFliesAndThenItBeginsAnew)
+TEST(Tours, AtTheEndTheVisitorFliesUntilItBeginsAnew)
 {
     const Tour tour = tour_of(R"({ "seconds": 1, "cut": "start" }, { "seconds": 1, "thrust": { "rapidity_per_s": 0.5 } })");
     const Show show{tour, {}, 1, true};
     Touring touring = later(touring_at(show), show, 2.5);
     EXPECT_TRUE(touring.over);
     EXPECT_TRUE(caption_of(touring, show, words(), {}).text.empty());
-    EXPECT_NEAR(std::asinh(glm::length(u_of(touring))), 0.5, 0.05) << "goes on as it flew";
+    EXPECT_NEAR(std::asinh(glm::length(u_of(touring))), 0.5, 0.05) << "the ship flies on with its last velocity";
     touring = later(touring, show, 10, {.throttle_rate = 1});
     EXPECT_GT(std::asinh(glm::length(u_of(touring))), 5);
     EXPECT_TRUE(later(touring, show, 19).over);
@@ -520,20 +521,20 @@ TEST(Tours, AtTheEndTheVisitorFliesAndThenItBeginsAnew)
     EXPECT_EQ(u_of(touring), glm::dvec3(0));
 }
 
-TEST(Tours, ExposureGoesSmoothlyAndStaysTheVisitors)
+TEST(Tours, ExposureChangesSmoothlyAndKeepsTheVisitorsCorrection)
 {
     const Tour tour = tour_of(R"({ "seconds": 2, "cut": { "exposure_ev": -2 } }, { "seconds": 2, "exposure_ev": 4 },
         { "seconds": 2 }, { "seconds": 2, "cut": {}, "exposure_ev": 1, "effects": { "doppler": false } })");
     const Show show{tour, {}, 1, true};
     EXPECT_EQ(played(show, 1, 10).flight.exposure_ev, -2);
-    EXPECT_NEAR(played(show, 3, 10).flight.exposure_ev, 1, 1e-9) << "half way";
+    EXPECT_NEAR(played(show, 3, 10).flight.exposure_ev, 1, 1e-9) << "in the middle of the change";
     EXPECT_NEAR(played(show, 5, 10).flight.exposure_ev, 4, 1e-9);
     EXPECT_EQ(played(show, 7, 10).flight.exposure_ev, 1);
     EXPECT_FALSE(played(show, 7, 10).flight.effects.doppler);
     EXPECT_NEAR(played(show, 1, 10, {.exposure = 1}).brighter_ev, exposure_ev_per_s, 1e-6);
 }
 
-TEST(Tours, CaptionsTellTheirNumber)
+TEST(Tours, CaptionsShowTheirMeasuredNumber)
 {
     const Tour tour = tour_of(std::string(R"({ "seconds": 1, "cut": { "position": [0, 0, -34] } },
         { "seconds": 9, "glide": { "position": [0, 0, -40] }, "caption": "tour.first-minute.back", "measure": )")

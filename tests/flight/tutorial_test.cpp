@@ -1,4 +1,4 @@
-// The first minute, as visitors live it: prompts come in turn, go once done, and come again for the next visitor.
+// The tutorial for visitors: prompts come in order, go once their control is used, and come again for the next visitor.
 #include "config/model/shot.h"
 #include "runtime/flight/tutorial.h"
 #include "tests/support/files.h"
@@ -18,23 +18,23 @@ struct Visitor {
         for (int frame = 0; frame < 60 * seconds; ++frame) {
             flight = step(flight, controls, 16'666'667, rules, 1, start);
             tutorial = advance(tutorial, controls, flight, 1 / 60.0);
-            controls.stop = controls.home = false; // a press is one frame's
+            controls.stop = controls.home = false; // a press lasts one frame
         }
     }
 };
 
 } // namespace
 
-TEST(TutorialTest, EachPromptIsGoneOnceDone)
+TEST(TutorialTest, EachPromptGoesOnceItsControlIsUsed)
 {
     Visitor visitor;
     visitor.hold({}, 20);
     EXPECT_EQ(visitor.tutorial.lesson, 0);
-    visitor.hold({.turn = {0, 1, 0}}, 5); // who turns first still has to learn to go
+    visitor.hold({.turn = {0, 1, 0}}, 5); // a visitor who turns first still has to learn to fly
     EXPECT_EQ(visitor.tutorial.lesson, 0);
     visitor.hold({.lever = 0.3}, 3);
     EXPECT_EQ(visitor.tutorial.lesson, 1);
-    visitor.hold({.lever = 0.3, .turn = {0, 0, 1}}, 3); // a roll turns no nose
+    visitor.hold({.lever = 0.3, .turn = {0, 0, 1}}, 3); // a roll does not turn the nose
     EXPECT_EQ(visitor.tutorial.lesson, 1);
     visitor.hold({.lever = 0.3, .turn = {0.5, 0, 0}}, 3);
     EXPECT_EQ(visitor.tutorial.lesson, 2);
@@ -47,18 +47,18 @@ TEST(TutorialTest, TheNextVisitorBeginsAnew)
 {
     Visitor visitor;
     visitor.hold({.lever = 0.4}, 3);
-    visitor.hold({.lever = 0.4}, 80); // a lever that stands is no hand
+    visitor.hold({.lever = 0.4}, 80); // a lever that does not move is no visitor
     EXPECT_EQ(visitor.tutorial.lesson, 1);
     visitor.hold({.lever = 0.4}, 15);
     EXPECT_EQ(visitor.tutorial.lesson, 0);
-    // In full flight already: another speed is what there is to learn.
+    // In full flight the visitor has to learn to change the speed.
     visitor.hold({.lever = 0.4}, 5);
     EXPECT_EQ(visitor.tutorial.lesson, 0);
     visitor.hold({.lever = 0.2}, 3);
     EXPECT_EQ(visitor.tutorial.lesson, 1);
 }
 
-TEST(TutorialTest, PromptsNameWhatIsInTheHand)
+TEST(TutorialTest, PromptsNameTheDevicesControls)
 {
     Tutorial tutorial;
     EXPECT_EQ(prompt(tutorial, {}, starbow::testing::words()), "Hold W: faster");

@@ -1,4 +1,4 @@
-// Where the head-up display stands: parallel to the flat screen that shows it, before the visitor everywhere else.
+// The head-up display is parallel to a flat screen that shows it, and faces the visitor on all other screens.
 #include "displays/projections/views.h"
 #include "runtime/hud/hud_place.h"
 #include <gtest/gtest.h>
@@ -29,8 +29,8 @@ dvec3 towards(double azimuth_deg, double elevation_deg)
     return {std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e)};
 }
 
-/// The panel's place that a direction meets.
-glm::dvec2 met(const glm::dmat3& panel, const dvec3& direction)
+/// The point of the panel in a direction.
+glm::dvec2 panel_point(const glm::dmat3& panel, const dvec3& direction)
 {
     const dvec3 at = panel * direction;
     return glm::dvec2(at) / at.z;
@@ -38,7 +38,7 @@ glm::dvec2 met(const glm::dmat3& panel, const dvec3& direction)
 
 } // namespace
 
-TEST(HudPlaceTest, ItsMiddleIsWhereTheLayoutSays)
+TEST(HudPlaceTest, ItsMiddleIsInTheLayoutsDirection)
 {
     for (const HudPlacement& hud : {HudPlacement{0, 0, 40}, HudPlacement{30, -20, 40}, HudPlacement{-150, 60, 20}})
         for (const Projection& screen :
@@ -50,20 +50,20 @@ TEST(HudPlaceTest, ItsMiddleIsWhereTheLayoutSays)
         }
 }
 
-TEST(HudPlaceTest, OnAFlatScreenItsLinesAreTheScreens)
+TEST(HudPlaceTest, OnAFlatScreenItsLinesAreParallelToTheScreens)
 {
-    // Along a row of the screen the panel's height stays, whichever way the screen is turned.
+    // Along a row of the screen the panel's height is constant, however the screen is turned.
     for (const dvec3& turn : {dvec3(0, 0, 0), dvec3(0.1, 0, 0), dvec3(40, 0, 0), dvec3(20, 0.1, 0)}) {
         const Planar screen{60, {}, {turn.x, turn.y, turn.z}};
         const glm::dmat3 panel = placed({turn.x, -20, 40}, {Fisheye{120, 90}, screen});
         const Picture picture{screen, {80, 60}};
-        const double height = met(panel, *direction(picture, {40, 50})).y;
+        const double height = panel_point(panel, *direction(picture, {40, 50})).y;
         for (double x : {5.0, 20.0, 75.0})
-            EXPECT_NEAR(met(panel, *direction(picture, {x, 50})).y, height, 1e-9) << turn.x << " " << turn.y;
+            EXPECT_NEAR(panel_point(panel, *direction(picture, {x, 50})).y, height, 1e-9) << turn.x << " " << turn.y;
     }
 }
 
-TEST(HudPlaceTest, ItMovesWithoutAJump)
+TEST(HudPlaceTest, ItMovesContinuouslyWithTheScreen)
 {
     const auto corner = [](double yaw) { return placed({0, -24.5, 62}, {Planar{60, {}, {yaw, 0, 0}}}) * towards(20, -28); };
     EXPECT_LT(glm::distance(corner(0), corner(0.1)), 0.002); // 0.1 degrees are 0.0017
@@ -75,8 +75,9 @@ TEST(HudPlaceTest, ElsewhereItFacesTheVisitor)
         const glm::dmat3 panel = placed({azimuth, elevation, 40}, {Planar{20, {}, {-60, 70, 0}}, Fisheye{180, 0}});
         const dvec3 middle = towards(azimuth, elevation);
         EXPECT_NEAR(glm::length(panel * middle - dvec3(0, 0, 1)), 0, 1e-12);
-        EXPECT_NEAR(met(panel, towards(azimuth + 5, elevation)).y, met(panel, towards(azimuth - 5, elevation)).y, 1e-12);
-        EXPECT_GT(met(panel, towards(azimuth + 5, elevation)).x, 0);
-        EXPECT_GT(met(panel, towards(azimuth, elevation + 5)).y, 0);
+        EXPECT_NEAR(panel_point(panel, towards(azimuth + 5, elevation)).y,
+            panel_point(panel, towards(azimuth - 5, elevation)).y, 1e-12);
+        EXPECT_GT(panel_point(panel, towards(azimuth + 5, elevation)).x, 0);
+        EXPECT_GT(panel_point(panel, towards(azimuth, elevation + 5)).y, 0);
     }
 }

@@ -24,7 +24,7 @@ Readings at_gamma(double gamma, const glm::dvec3& way = {0, 0, -1})
 
 } // namespace
 
-TEST(Hud, TellsTheSpeedWithoutCancellation)
+TEST(Hud, ShowsTheSpeedWithoutCancellation)
 {
     EXPECT_EQ(field(at_gamma(1), "v/c"), "0.0000");
     EXPECT_EQ(field(at_gamma(4), "v/c"), "0.9682");
@@ -32,16 +32,16 @@ TEST(Hud, TellsTheSpeedWithoutCancellation)
     EXPECT_EQ(field(at_gamma(4), "D ahead"), "7.873");
     EXPECT_EQ(field(at_gamma(1e6), "1 − v/c"), "5.0×10⁻¹³"); // 1/(2 gamma^2)
     EXPECT_EQ(field(at_gamma(1e6), "D ahead"), "2.0×10⁶");
-    EXPECT_EQ(field(at_gamma(999999.9), "γ"), "1.0×10⁶"); // the form is chosen for the rounded figure
+    EXPECT_EQ(field(at_gamma(999999.9), "γ"), "1.0×10⁶"); // the format is chosen for the rounded number
 }
 
-TEST(Hud, StraightAheadIsTheNose)
+TEST(Hud, StraightAheadIsAlongTheNose)
 {
     EXPECT_NEAR(at_gamma(4, {1, 0, 0}).doppler_ahead, 0.25, 1e-12); // across the motion D = 1/gamma
     EXPECT_NEAR(at_gamma(4, {0, 0, 1}).doppler_ahead, 4 - std::sqrt(15.0), 1e-12);
 }
 
-TEST(Hud, UnitsSuitTheSize)
+TEST(Hud, UnitsSuitTheValue)
 {
     Readings r = at_gamma(1);
     r.ship_s = 12.34, r.world_s = 5 * 365.25 * 86400, r.distance_m = 3 * 299792458.0;
@@ -61,7 +61,7 @@ TEST(Hud, EveryPanelHasLettersInsideItsPlate)
         for (int width : {160, 400, 1200}) {
             SCOPED_TRACE(language + std::string(" ") + std::to_string(width));
             Panel panel = typesetter.draw(longest, starbow::testing::words(language), width);
-            // Between two columns stands a gap, whatever the figures.
+            // There must be a gap between two columns, whatever their numbers.
             for (double gap : {0.405, 0.63})
                 for (int y = 0; y < panel.size.y * 8 / 10; ++y)
                     EXPECT_LT(panel.texels[2 * (std::size_t(y) * panel.size.x + std::size_t(gap * width))], 128) << y;
@@ -76,7 +76,7 @@ TEST(Hud, EveryPanelHasLettersInsideItsPlate)
         }
 }
 
-TEST(Hud, SpeaksItsLanguage)
+TEST(Hud, UsesTheLanguagesWordsAndDecimalSign)
 {
     const Words& german = starbow::testing::words("de");
     EXPECT_EQ(field(at_gamma(4), "D voraus", german), "7,873");
@@ -88,10 +88,10 @@ TEST(Hud, SpeaksItsLanguage)
     EXPECT_EQ(field(r, "Belichtung", german), "−1,3 EV fest");
     EXPECT_EQ(shown_duration(-2.5, german), "−2,5 s");
     EXPECT_EQ(shown_duration(-720, german), "−12,0 min");
-    EXPECT_EQ(shown_duration(-0.001, german, 2), "0,00 s"); // no minus before nothing
+    EXPECT_EQ(shown_duration(-0.001, german, 2), "0,00 s"); // no minus before zero
 }
 
-TEST(Hud, TheLightThatIsShownHasAName)
+TEST(Hud, EachCombinationOfLightEffectsHasAName)
 {
     EXPECT_EQ(light_name({}, starbow::testing::words()), "spectra shifted, times D³: as eyes see them");
     EXPECT_EQ(light_name({.headlight = false}, starbow::testing::words()), "spectra shifted, without D³");

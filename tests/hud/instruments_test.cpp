@@ -1,5 +1,5 @@
-// What the instruments read, without a device: the paper's clocks by pencil, directions and lengths against the tests' own
-// boosts in 33 digits, the log as a spreadsheet reads it, and the pages' words.
+// Readings of the instruments without a device: the paper's clocks by hand, directions and lengths by the tests' own boosts
+// in 33 digits, the log as a spreadsheet reads it, and the texts of the pages.
 #include "config/json/error.h"
 #include "config/model/angles.h"
 #include "config/model/scene_file.h"
@@ -35,7 +35,7 @@ const World& clocks()
     return world;
 }
 
-/// The clock at x of the row.
+/// The spot of the clock at x of the row.
 Spot clock_at(double x)
 {
     for (std::size_t i = 0; i < 5; ++i) {
@@ -97,13 +97,13 @@ std::string refusal(const std::filesystem::path& file)
 
 } // namespace
 
-// The figures of the paper's clocks, worked out by hand to the digits given.
-TEST(Instruments, ThePapersClocksFromTheMovingShip)
+// The paper's clocks, calculated by hand to the digits given.
+TEST(Instruments, ThePapersClocksHaveTheirReadingsFromTheMovingShip)
 {
     const MeasuringObserver ship = passing();
     const double readings_s[] = {-5.90909, -2.74403, 0, 2.21961, 3.80547};
     const double from_motion_deg[]
-        = {104.70466, 97.69614, 90, 81.75503, 73.21615}; // 90 - what is seen from the perpendicular
+        = {104.70466, 97.69614, 90, 81.75503, 73.21615}; // 90 degrees minus the angle from the perpendicular
     for (int k = 0; k < 5; ++k) {
         const SpotReading reading = read_spot(ship, clock_at(5 * (k - 2)), clocks(), 1);
         EXPECT_NEAR(*reading.clock_s, readings_s[k], 1e-5);
@@ -113,7 +113,7 @@ TEST(Instruments, ThePapersClocksFromTheMovingShip)
     const SpotReading middle = read_spot(ship, clock_at(0), clocks(), 1);
     EXPECT_NEAR(*middle.distance_s, 35.79572, 1e-5);
     EXPECT_NEAR(*middle.from_motion_world_rad / degree, 120, 1e-5);
-    EXPECT_NEAR(*middle.ship_distance_s, 31, 1e-5); // across the motion it is as at rest
+    EXPECT_NEAR(*middle.ship_distance_s, 31, 1e-5); // across the motion it equals the distance at rest
     EXPECT_NEAR(middle.ray.D, 0.8660254, 1e-7);
     EXPECT_NEAR(middle.seen_nm, 550 / 0.8660254, 1e-4);
     const PairReading row = read_pair(ship, clock_at(-10), clock_at(10), clocks(), 1);
@@ -125,8 +125,8 @@ TEST(Instruments, ThePapersClocksFromTheMovingShip)
     EXPECT_NEAR(*unshifted_angle(ship) / degree, 74.45773, 1e-5);
 }
 
-// Stopped at once: the same readings, other angles.
-TEST(Instruments, TheSameLightStopped)
+// A ship that stops at once has the same readings at other angles.
+TEST(Instruments, AStoppedShipHasTheSameReadings)
 {
     MeasuringObserver ship = passing();
     ship.u = dvec3(0);
@@ -137,9 +137,9 @@ TEST(Instruments, TheSameLightStopped)
     EXPECT_FALSE(read_spot(ship, clock_at(0), clocks(), 1).from_motion_rad);
 }
 
-// Any place, velocity and look: where the light of a resting point comes from, and where the point was in the ship's frame,
-// by boosts of events.
-TEST(Instruments, AgreeWithBoostsOfEvents)
+// For any place, velocity and look: the direction of a resting point's light, and the point's place in the ship's frame, by
+// boosts of events.
+TEST(Instruments, DirectionsAndLengthsEqualBoostsOfEvents)
 {
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
@@ -153,17 +153,17 @@ TEST(Instruments, AgreeWithBoostsOfEvents)
         const Spot a{.at = 20.0 * any()}, b{.at = 20.0 * any()};
         std::array<dvec3, 2> was;
         for (int k = 0; k < 2; ++k) {
-            // The event of emission from the observer, boosted into the ship.
+            // The event of emission relative to the observer, boosted into the ship.
             const dvec3 to = (k == 0 ? a : b).at - ship.place;
             const quad::V3 way = quad::of(to);
             const quad::V4 emission = quad::boosted(quad::of(-ship.u), {-quad::length(way), way});
             was[std::size_t(k)] = {double(emission.x.x), double(emission.x.y), double(emission.x.z)};
             const SpotReading reading = read_spot(ship, k == 0 ? a : b, clocks(), 1);
-            // Rounding of the place, which the rear view magnifies by twice gamma.
+            // The rounding of the place, which is 2 gamma times as large behind.
             const double tolerance = 1e-14 * (1 + u * u);
             EXPECT_LT(angle_between(reading.ray.ship, was[std::size_t(k)]), tolerance + 1e-13);
             EXPECT_NEAR(*reading.ship_distance_s / -double(emission.t), 1, tolerance + 1e-12);
-            // And back: what is seen along that direction is the point.
+            // The ray along that direction must lead back to the point.
             EXPECT_LT(angle_between(ray_from_ship(ship, reading.ray.ship).world, to), tolerance + 1e-12);
         }
         const PairReading pair = read_pair(ship, a, b, clocks(), 1);
@@ -172,7 +172,7 @@ TEST(Instruments, AgreeWithBoostsOfEvents)
     }
 }
 
-TEST(Instruments, WhatIsNotThereIsNotTold)
+TEST(Instruments, ReadingsThatDoNotExistAreLeftOut)
 {
     const MeasuringObserver ship = passing();
     const Spot sky = spot_at(ship, {aim_of(ship), INFINITY}, clocks());
@@ -182,7 +182,7 @@ TEST(Instruments, WhatIsNotThereIsNotTold)
     EXPECT_NEAR(reading.ray.D, 0.8660254, 1e-7);
     const PairReading pair = read_pair(ship, sky, clock_at(0), clocks(), 1);
     EXPECT_FALSE(pair.apparent_s || pair.rest_s || pair.clocks_s);
-    MeasuringObserver plain = ship; // without aberration the picture shows no such length
+    MeasuringObserver plain = ship; // without aberration the picture does not show this length
     plain.aberration = false;
     EXPECT_FALSE(read_pair(plain, clock_at(0), clock_at(5), clocks(), 1).apparent_s);
     EXPECT_LT(angle_between(ray_from_ship(plain, {0, 0, -1}).world, {0, 0, -1}), 1e-15);
@@ -203,9 +203,9 @@ TEST(Instruments, ADialIsAimedAtAnywhereOnIt)
                      .clock);
 }
 
-TEST(Instruments, AClockOnABodyThatMoves)
+TEST(Instruments, AClockOnAMovingBodyHasItsRetardedReading)
 {
-    // The middle clock passes the ship, which flies itself; where and when its light left is found by halving, in 33 digits.
+    // The middle clock is on a moving body, and the ship moves too. Bisection finds its event of emission in 33 digits.
     SceneFile scene = load_scene_file(source_dir() / "config/scenes/clocks.json");
     const dvec3 u(0.9, 0.2, -0.4);
     scene.bodies = {{"clock", {"dial 3"}, u, {2, {1, -1, 4}}, {}}};
@@ -218,7 +218,7 @@ TEST(Instruments, AClockOnABodyThatMoves)
     MeasuringObserver ship{{3, 2, 20}, 40, {-0.3, 0.5, 1.2}};
 
     const quad::V3 qu = quad::of(u);
-    auto event = [&](quad::Q tau) { // in the world, of its own time since it was at (2, 1, -1, 4)
+    auto event = [&](quad::Q tau) { // in the world, by the body's own time since the event (2, 1, -1, 4)
         const quad::V4 from = quad::boosted(qu, {tau, quad::of(middle)});
         return quad::V4{2 + from.t, quad::V3{1, -1, 4} + from.x};
     };
@@ -233,7 +233,7 @@ TEST(Instruments, AClockOnABodyThatMoves)
     const double delay = double(quad::length(way));
     const auto on_board = quad::camera_from_world(way, quad::of(ship.u));
     const dvec3 seen(double(on_board.n.x), double(on_board.n.y), double(on_board.n.z));
-    // D of both: what the ship has over the world's, over what the body has.
+    // D is the product of the ship's Doppler factor and the body's.
     const auto body = quad::camera_from_world(way, qu);
     const double D = double(on_board.D / body.D);
 
@@ -247,14 +247,14 @@ TEST(Instruments, AClockOnABodyThatMoves)
     EXPECT_NEAR(*reading.emitted_s, ship.time - delay, 1e-9);
     EXPECT_NEAR(reading.ray.D / D, 1, 1e-12);
     EXPECT_LT(angle_between(reading.ray.ship, seen), 1e-12);
-    // What moves against each other has no length at rest.
+    // Points that move relative to each other have no length at rest.
     const Spot still{.at = {0, 0, 0}};
     const PairReading pair = read_pair(ship, spot, still, world, 1);
     EXPECT_FALSE(pair.rest_s || pair.contracted_s);
     EXPECT_TRUE(pair.apparent_s);
 }
 
-TEST(Instruments, ALogIsATableOfOneShape)
+TEST(Instruments, EveryLineOfALogHasTheSameColumns)
 {
     const std::vector<std::string> names = cells(log_header());
     const Measured full = some_measured();
@@ -278,7 +278,7 @@ TEST(Instruments, ALogIsATableOfOneShape)
     EXPECT_EQ(value(bare, "doppler_1_from_motion_deg"), "");
     std::vector<std::string> sorted = names;
     std::sort(sorted.begin(), sorted.end());
-    EXPECT_EQ(std::adjacent_find(sorted.begin(), sorted.end()), sorted.end()) << "a name stands twice";
+    EXPECT_EQ(std::adjacent_find(sorted.begin(), sorted.end()), sorted.end()) << "a column's name is there twice";
 }
 
 TEST(Instruments, ALogIsContinuedOrRefused)
@@ -287,7 +287,7 @@ TEST(Instruments, ALogIsContinuedOrRefused)
     {
         LabLog log(file);
         EXPECT_TRUE(log.write(some_measured(), "aim"));
-        // There at once: whatever becomes of the program.
+        // The line is in the file at once, even if the program crashes.
         ASSERT_EQ(lines_of(file).size(), 2u);
         EXPECT_EQ(log.lines(), 1);
     }
@@ -301,7 +301,7 @@ TEST(Instruments, ALogIsContinuedOrRefused)
     EXPECT_EQ(lines[0], log_header() + "\r");
     for (const std::string& line : lines)
         EXPECT_TRUE(line.ends_with('\r'));
-    // A line that a loss of power cut: the next one stands by itself.
+    // A loss of power cuts a line; the next line begins on its own.
     std::filesystem::resize_file(file, std::filesystem::file_size(file) - 9);
     LabLog(file).write(some_measured(), "ring");
     lines = lines_of(file);
@@ -318,7 +318,7 @@ TEST(Instruments, ALogIsContinuedOrRefused)
     EXPECT_EQ(lines_of(scratch("empty.csv")).size(), 2u);
 }
 
-TEST(Instruments, EveryPageHasItsWordsAndNumbers)
+TEST(Instruments, EveryPageHasItsTextAndNumbers)
 {
     Measured full = some_measured(), bare;
     bare.aim.distance_s.reset();
@@ -334,7 +334,8 @@ TEST(Instruments, EveryPageHasItsWordsAndNumbers)
                 all.insert(all.end(), {page.title, page.formula});
                 EXPECT_FALSE(page.numbers.empty());
                 for (const std::string& line : all) {
-                    EXPECT_LT(typesetter.width_of(line, 20), 930) << line << " is smaller than a fiftieth of its panel";
+                    EXPECT_LT(typesetter.width_of(line, 20), 930)
+                        << line << " needs letters smaller than a fiftieth of the panel";
                     EXPECT_FALSE(line.empty());
                     EXPECT_EQ(line.find_first_of("{}"), line.npos) << line;
                     EXPECT_EQ(line.find("nan"), line.npos) << line;
@@ -360,7 +361,7 @@ TEST(Instruments, EveryPageHasItsWordsAndNumbers)
     EXPECT_TRUE(holds(Why::length, "in Ruhe 20,00 Licht-s, verkürzt 17,32 Licht-s", "de"));
 }
 
-TEST(Instruments, ReadingsSpeakTheirLanguage)
+TEST(Instruments, ReadingsUseTheLanguagesWords)
 {
     using Field = std::pair<std::string, std::string>;
     Measured m = some_measured();
@@ -378,7 +379,7 @@ TEST(Instruments, ReadingsSpeakTheirLanguage)
     EXPECT_EQ(reading_fields(m, words("de"))[6], Field("zwei Dinge markieren: X", ""));
 }
 
-// Nothing is cut off, on a panel of any width, and letters stand on the plate.
+// No letter is cut off on a panel of any width, and all letters are on the plate.
 TEST(Instruments, LettersStayOnTheirPlate)
 {
     Typesetter typesetter;
@@ -402,8 +403,8 @@ TEST(Instruments, LettersStayOnTheirPlate)
                 }
 }
 
-// A portrait picture that looks down has no room across from its display: right above it is.
-TEST(Instruments, ThePanelIsWhereItIsSeen)
+// An upright picture that looks down has no room opposite its display; the panel is right above it.
+TEST(Instruments, ThePanelIsWithinThePicture)
 {
     Layout layout;
     layout.outputs.resize(1);
@@ -413,27 +414,27 @@ TEST(Instruments, ThePanelIsWhereItIsSeen)
     for (const Projection& projection : {Projection(Planar{50, {}, {0, -20, 0}}), Projection(Fisheye{100, 45})}) {
         layout.outputs[0].viewports = {{.projection = projection}};
         const std::vector<std::vector<CompiledView>> views = {compile_output(store, layout, 0, {300, 400})};
-        const HudPlacement own = instruments_place(hud, readings_aspect, views);
+        const HudPlacement place = instruments_place(hud, readings_aspect, views);
         const bool flat = std::holds_alternative<Planar>(projection);
         if (flat) {
-            EXPECT_NEAR(own.elevation_deg, -26 + 20 * panel_aspect, 3);
+            EXPECT_NEAR(place.elevation_deg, -26 + 20 * panel_aspect, 3);
         } else {
-            EXPECT_GT(own.elevation_deg, 15);
+            EXPECT_GT(place.elevation_deg, 15);
         }
     }
 }
 
-// It hangs across from the display, and never on it.
-TEST(Instruments, ThePanelLeavesTheDisplayFree)
+// The panel is opposite the display and never covers it.
+TEST(Instruments, ThePanelDoesNotCoverTheDisplay)
 {
     for (const double elevation : {-30.0, -24.5, -21.0, -13.0, -6.0, 0.0, 6.5, 20.0})
         for (const double width : {26.0, 40.0, 62.0})
             for (const double aspect : {readings_aspect, scaled_aspect, why_aspect}) {
-                const HudPlacement hud{10, elevation, width}, own = instruments_place(hud, aspect, {});
+                const HudPlacement hud{10, elevation, width}, place = instruments_place(hud, aspect, {});
                 const double half = std::tan(width / 2 * degree), at = std::tan(elevation * degree),
-                             own_at = std::tan(own.elevation_deg * degree);
+                             own_at = std::tan(place.elevation_deg * degree);
                 EXPECT_GE(std::abs(own_at - at), half * (panel_aspect + aspect) * 0.999) << elevation << ' ' << width;
-                EXPECT_EQ(own.azimuth_deg, 10);
-                EXPECT_EQ(own.width_deg, width);
+                EXPECT_EQ(place.azimuth_deg, 10);
+                EXPECT_EQ(place.width_deg, width);
             }
 }

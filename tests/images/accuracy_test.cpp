@@ -1,4 +1,4 @@
-// What is tried and chosen, on numbers made up by hand.
+// The choice of settings to measure and of preset levels, on made-up numbers.
 #include "runtime/images/accuracy.h"
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ const std::vector<MeasuredSetting> some
 
 } // namespace
 
-TEST(AccuracyTest, TheFrontierIsWhatNothingBeats)
+TEST(AccuracyTest, TheFrontierHasTheSettingsThatNothingBeats)
 {
     EXPECT_EQ(frontier(some), (std::vector<bool>{true, false, false, false, true}));
     const std::vector<MeasuredSetting> same_light(some.begin(), some.end() - 1);
@@ -31,7 +31,7 @@ TEST(AccuracyTest, TheFrontierIsWhatNothingBeats)
     EXPECT_EQ(frontier({made_up("x", 1, 1), made_up("y", 1, 1)}), (std::vector<bool>{true, true}));
 }
 
-TEST(AccuracyTest, BetterByMoreThanNoise)
+TEST(AccuracyTest, ABetterSettingIsBetterByMoreThanNoise)
 {
     const std::vector<MeasuredSetting> all = {made_up("a", 10, 0.1), made_up("b", 9.5, 0.095), made_up("c", 8, 0.08)};
     EXPECT_EQ(better_than(all[0], {all[0], all[1]}, 0.1), nullptr);
@@ -40,14 +40,14 @@ TEST(AccuracyTest, BetterByMoreThanNoise)
     EXPECT_EQ(better->setting.name, "c");
 }
 
-TEST(AccuracyTest, TheBestWithinATime)
+TEST(AccuracyTest, TheBestSettingWithinATimeIsFound)
 {
     EXPECT_EQ(best_within(some, 5), nullptr);
     EXPECT_EQ(best_within(some, 12)->setting.name, "a");
     EXPECT_EQ(best_within(some, 100)->setting.name, "other light");
 }
 
-TEST(AccuracyTest, ALadderHasWhatAFlightCanChange)
+TEST(AccuracyTest, ALadderHasOnlySettingsThatAFlightCanChange)
 {
     const std::vector<MeasuredSetting> same_light(some.begin(), some.end() - 1);
     const std::vector<PresetLevel> ladder = ladder_of(same_light);
@@ -64,7 +64,7 @@ TEST(AccuracyTest, ALadderHasWhatAFlightCanChange)
         EXPECT_EQ(level.quality.spectra, std::nullopt);
 }
 
-TEST(AccuracyTest, EveryKnobIsTriedOnce)
+TEST(AccuracyTest, EverySettingIsTriedOnce)
 {
     const std::vector<Setting> shipped = {{"standard", {}, true}};
     const std::vector<Setting> all = settings_to_try(shipped, {}, true, SpectralLevel::colours);

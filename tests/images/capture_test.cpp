@@ -12,7 +12,7 @@ using namespace starbow::testing;
 
 namespace {
 
-/// Any bits at all: NaNs with payloads, infinities, denormals.
+/// Random bits: NaNs with payloads, infinities, denormals.
 Channels planes(glm::ivec2 size, const std::vector<std::string>& names, bool smooth)
 {
     std::mt19937 random(7);
@@ -54,7 +54,7 @@ std::filesystem::path folder(const std::string& name)
 
 } // namespace
 
-TEST(CaptureTest, PngRoundTrip)
+TEST(CaptureTest, PngKeepsEveryByteWithoutAlpha)
 {
     const glm::ivec2 size(37, 23);
     std::vector<std::uint8_t> rgba;
@@ -67,13 +67,13 @@ TEST(CaptureTest, PngRoundTrip)
     const std::unique_ptr<stbi_uc, void (*)(void*)> read(stbi_load(file.c_str(), &w, &h, &n, 0), stbi_image_free);
     ASSERT_TRUE(read);
     ASSERT_EQ(glm::ivec2(w, h), size);
-    ASSERT_EQ(n, 3); // alpha dropped
+    ASSERT_EQ(n, 3); // alpha is dropped
     for (int i = 0; i < w * h; ++i)
         for (int c = 0; c < 3; ++c)
             ASSERT_EQ(read.get()[i * 3 + c], rgba[std::size_t(i) * 4 + c]);
 }
 
-TEST(CaptureTest, ExrRoundTripKeepsEveryBit)
+TEST(CaptureTest, ExrKeepsEveryBit)
 {
     const std::vector<std::string> names{
         "Y", "cameraDirection.X", "cameraDirection.Z", "A", "B", "aNameBeyondTheThirtyOneLettersOfOldFiles.X"};
@@ -95,7 +95,7 @@ TEST(CaptureTest, ExrRoundTripKeepsEveryBit)
         }
 }
 
-TEST(CaptureTest, SamePictureSameBytes)
+TEST(CaptureTest, TheSamePictureGivesTheSameBytes)
 {
     Channels channels = planes({40, 50}, {"R", "G", "B"}, true);
     write_exr(scratch("one.exr"), {40, 50}, channels);
@@ -105,7 +105,7 @@ TEST(CaptureTest, SamePictureSameBytes)
     EXPECT_LT(read_text(scratch("one.exr")).size(), 3u * 40 * 50 * 4); // compressed
 }
 
-TEST(CaptureTest, PlacesThatCantBeWritten)
+TEST(CaptureTest, PlacesThatCantBeWrittenAreNamed)
 {
     const std::vector<std::uint8_t> pixel{1, 2, 3, 4};
     const auto missing = scratch("no/such/folder/a.png");
@@ -120,7 +120,7 @@ TEST(CaptureTest, PlacesThatCantBeWritten)
     EXPECT_NE(complaint([&] { write_png("/proc/a.png", {1, 1}, pixel); }).find("can't be written"), std::string::npos);
 }
 
-TEST(CaptureTest, AFailureLeavesTheOldFileAndNoPart)
+TEST(CaptureTest, AFailureLeavesTheOldFileAndNoTemporaryFile)
 {
     const auto file = folder("full") / "old.png";
     std::ofstream(file) << "old";
@@ -153,7 +153,7 @@ TEST(CaptureTest, LinksStayLinks)
     EXPECT_NE(read_text(place / "true.png"), "old");
 }
 
-TEST(CaptureTest, TheProgramsMistakesStopIt)
+TEST(CaptureTest, WrongCallsThrowALogicError)
 {
     EXPECT_THROW(write_png(scratch("a.png"), {2, 2}, {1, 2, 3, 4}), std::logic_error);
     EXPECT_THROW(write_png(scratch("a.png"), {0, 2}, {}), std::logic_error);

@@ -1,4 +1,4 @@
-// What pictures are compared by, against what is known of each measure without its code.
+// The measures for comparing pictures, against known values that do not need their code.
 #include "runtime/images/picture_errors.h"
 #include <cmath>
 #include <gtest/gtest.h>
@@ -34,8 +34,8 @@ double mean(const std::vector<double>& values)
     return sum / double(values.size());
 }
 
-/// Bright right of a line that leans, its place known to any part of a pixel: each pixel's share of brightness, encoded as
-/// it is (so that half a share is half a byte).
+/// A slanted edge with brightness to its right, placed to any fraction of a pixel. Each pixel has its share of brightness,
+/// without sRGB, so that half a share is half a byte.
 Picture edge(glm::ivec2 size, double at, double lean)
 {
     Picture picture(size);
@@ -49,7 +49,7 @@ Picture edge(glm::ivec2 size, double at, double lean)
 
 } // namespace
 
-TEST(PictureErrorsTest, NothingDiffersFromItself)
+TEST(PictureErrorsTest, APictureHasNoErrorsAgainstItself)
 {
     const Picture picture = edge({64, 48}, 20.3, 0.2);
     const PictureErrors errors = picture_errors(picture, picture);
@@ -59,22 +59,22 @@ TEST(PictureErrorsTest, NothingDiffersFromItself)
     EXPECT_EQ(errors.edges_95_px, 0);
 }
 
-TEST(PictureErrorsTest, PsnrOfOneStepEverywhere)
+TEST(PictureErrorsTest, PsnrFollowsItsDefinition)
 {
-    // 20 log10(255) for a difference of 1 in every byte, by the definition.
+    // 20 log10(255) for a difference of 1 in every byte, by definition.
     EXPECT_NEAR(psnr_dB(Picture({8, 8}, {100, 101, 102}), Picture({8, 8}, {101, 102, 101})), 48.1308, 1e-4);
     EXPECT_NEAR(psnr_dB(Picture({8, 8}, {0, 0, 0}), Picture({8, 8}, {255, 255, 255})), 0, 1e-12);
 }
 
 TEST(PictureErrorsTest, FlipSpansItsWholeRange)
 {
-    // Green against blue is what its colour difference is normalised by.
+    // The measure normalizes its colour difference by that of green and blue.
     EXPECT_NEAR(mean(flip(Picture({32, 32}, {0, 255, 0}), Picture({32, 32}, {0, 0, 255}))), 1, 1e-9);
-    // Black against white, by hand: HyAB 100; of green and blue, with Hunt's factor on their L*a*b* (87.73, -86.18, 83.18)
-    // and (32.30, 79.19, -107.86), 203.3. To the power 0.7 that is 25.12 and 41.26: above 0.4 of it, 16.50.
+    // Black and white, by hand: HyAB is 100. For green and blue it is 203.3, with Hunt's factor on their L*a*b* (87.73,
+    // -86.18, 83.18) and (32.30, 79.19, -107.86). To the power 0.7 these are 25.12 and 41.26; 0.4 of the second is 16.50.
     EXPECT_NEAR(mean(flip(Picture({32, 32}, {0, 0, 0}), Picture({32, 32}, {255, 255, 255}))),
         0.95 + 0.05 * (25.12 - 16.50) / (41.26 - 16.50), 2e-3);
-    // sRGB 100 and 101 are 0.41 apart in L*: 0.41^0.7 * 0.95 / 16.50.
+    // sRGB 100 and 101 differ by 0.41 in L*: 0.41^0.7 * 0.95 / 16.50.
     EXPECT_NEAR(mean(flip(Picture({32, 32}, {100, 100, 100}), Picture({32, 32}, {101, 101, 101}))), 0.0308, 1e-3);
     double before = 0;
     for (int step : {1, 4, 16, 64}) {
@@ -84,10 +84,10 @@ TEST(PictureErrorsTest, FlipSpansItsWholeRange)
     }
 }
 
-TEST(PictureErrorsTest, FlipForgivesWhatTheEyeBlursAndPunishesEdges)
+TEST(PictureErrorsTest, FlipIgnoresBlurredDetailAndWeightsEdges)
 {
-    // A checkerboard of single pixels against its mean grey: 67 pixels in a degree blur most of it away; one of 16 pixels
-    // not.
+    // A checkerboard against its mean grey: at 67 pixels in a degree the eye blurs squares of one pixel mostly away, but not
+    // squares of 16 pixels.
     const auto board = [](int square, int low, int high) {
         Picture picture({96, 96});
         for (int y = 0; y < 96; ++y)
@@ -95,9 +95,9 @@ TEST(PictureErrorsTest, FlipForgivesWhatTheEyeBlursAndPunishesEdges)
                 picture.put(x, y, glm::ivec3((x / square + y / square) % 2 ? low : high));
         return picture;
     };
-    const Picture grey({96, 96}, glm::ivec3(188)); // as bright as half of the pixels white
+    const Picture grey({96, 96}, glm::ivec3(188)); // as bright as if half of the pixels were white
     EXPECT_LT(mean(flip(board(1, 0, 255), grey)), 0.6 * mean(flip(board(16, 0, 255), grey)));
-    // The same faint difference counts for more where it makes an edge.
+    // The same small difference counts more at an edge.
     Picture half({96, 96}, glm::ivec3(120));
     for (int y = 0; y < 96; ++y)
         for (int x = 48; x < 96; ++x)
@@ -106,10 +106,10 @@ TEST(PictureErrorsTest, FlipForgivesWhatTheEyeBlursAndPunishesEdges)
     EXPECT_GT(errors[48 * 96 + 48], 1.1 * errors[48 * 96 + 90]);
 }
 
-TEST(PictureErrorsTest, CiedeOfAKnownPair)
+TEST(PictureErrorsTest, Ciede2000OfAKnownPairIsRight)
 {
-    // Neutral greys differ in lightness alone: sRGB 119 and 120 have L* 50.0344 and 50.4316 (by the definition of sRGB);
-    // dL' / SL, SL being 1 at L* = 50 within 1e-4.
+    // Neutral greys differ only in lightness: sRGB 119 and 120 have L* 50.0344 and 50.4316. The result is dL' / SL, where SL
+    // is 1 within 1e-4 at L* = 50.
     const PictureErrors errors = picture_errors(Picture({16, 16}, {119, 119, 119}), Picture({16, 16}, {120, 120, 120}));
     EXPECT_NEAR(errors.ciede2000_mean, 0.397, 0.01);
     EXPECT_NEAR(errors.ciede2000_95, errors.ciede2000_mean, 1e-12);
@@ -122,11 +122,11 @@ TEST(PictureErrorsTest, EdgesAreFoundToATenthOfAPixel)
             const std::vector<double> found
                 = edge_displacements_px(edge({120, 60}, 60 + moved, lean), edge({120, 60}, 60, lean));
             ASSERT_GT(found.size(), 30u);
-            // Across itself a leaning edge moves by less than along the row. Towards brighter pixels is positive. The
-            // pixels' own steps are what the tenth allows for.
+            // A slanted edge moves less across itself than along the row. Positive is towards brighter pixels. The tolerance
+            // of a tenth covers the steps between pixels.
             EXPECT_NEAR(quantile(found, 0.5), moved / std::hypot(1, lean), 0.1) << lean << " " << moved;
         }
-    // Blur alone moves nothing.
+    // Blur alone does not move an edge.
     Picture sharp = edge({120, 60}, 60, 0), soft({120, 60});
     for (int y = 0; y < 60; ++y)
         for (int x = 1; x < 119; ++x)
@@ -138,7 +138,7 @@ TEST(PictureErrorsTest, EdgesAreFoundToATenthOfAPixel)
     EXPECT_NEAR(quantile(edge_displacements_px(soft, sharp), 0.5), 0, 0.02);
 }
 
-TEST(PictureErrorsTest, QuantilesAreBetweenNeighbours)
+TEST(PictureErrorsTest, QuantilesInterpolateBetweenNeighbours)
 {
     EXPECT_EQ(quantile({3, 1, 2}, 0.5), 2);
     EXPECT_EQ(quantile({3, 1, 2, 4}, 0.5), 2.5);

@@ -7,7 +7,7 @@ using namespace starbow::testing;
 
 namespace {
 
-/// What stands at a pointer, as the file has it.
+/// The text of the value at a pointer, as the file has it.
 std::string slice(const std::string& text, const std::string& pointer)
 {
     const Document d = parse_document("a.json", text);
@@ -23,7 +23,7 @@ int line(const std::string& text, const std::string& pointer)
     return find_span(d, pointer).value().line;
 }
 
-/// Every value of a document with its pointer.
+/// Calls act for every value of a document, with its pointer.
 void each(const Place& place, const std::function<void(const Place&)>& act)
 {
     act(place);
@@ -35,13 +35,14 @@ void each(const Place& place, const std::function<void(const Place&)>& act)
             each(element, act);
 }
 
-/// The bytes of every value, parsed alone, are that value: no other bytes of the file could be, since a value that ended
-/// too early or late would be another number, or none.
+/// The bytes of every value's span, parsed alone, must give that value. A span that is too short or too long would give
+/// another number, or none.
 void expect_slices_parse_back(const std::string& text)
 {
     SCOPED_TRACE(text.substr(0, 300));
     const Document d = parse_document("a.json", text);
-    // Each takes as long as the file is: of a long one's values only some, unless STARBOW_FUZZ_COUNT asks for a long run.
+    // Each search takes time in proportion to the file, so only some values of a long one are checked, except with
+    // STARBOW_FUZZ_COUNT.
     std::size_t index = 0;
     const std::size_t step = std::getenv("STARBOW_FUZZ_COUNT") ? 1 : 1 + text.size() / 4096;
     each(root(d), [&](const Place& place) {
@@ -53,7 +54,7 @@ void expect_slices_parse_back(const std::string& text)
         ASSERT_LE(span->end, text.size());
         const std::string bytes = text.substr(span->begin, span->end - span->begin);
         EXPECT_EQ(nlohmann::json::parse(bytes, nullptr, true, true), *place.json) << place.pointer << ": " << bytes;
-        // Neither white space nor a comment belongs to a value.
+        // A value's span has no white space and no comment around it.
         EXPECT_EQ(bytes.find_first_of(" \t\r\n/"), bytes.find_first_of(" \t\r\n/", 1));
         EXPECT_TRUE(bytes.front() == '{' || bytes.front() == '[' || bytes.front() == '"'
             || bytes.find_first_of(" \t\r\n,:]}/") == bytes.npos)
@@ -72,7 +73,7 @@ void expect_slices_parse_back(const std::string& text)
 
 } // namespace
 
-TEST(SpanTest, EveryKindOfValue)
+TEST(SpanTest, EveryKindOfValueHasItsSpan)
 {
     const std::string text
         = R"({ "n": -1.5e+3, "i": 0, "t": true, "f": false, "z": null, "s": "a", "l": [1, [ ], {}], "o": { "x": 12 } })";
@@ -93,7 +94,7 @@ TEST(SpanTest, EveryKindOfValue)
         EXPECT_EQ(slice(text, none), "nothing") << none;
 }
 
-TEST(SpanTest, NumbersEndAtWhatFollows)
+TEST(SpanTest, NumbersEndAtTheNextCharacter)
 {
     for (const char* number : {"0", "-0", "12", "1.25", "-1E5", "1e-05", "99999999999999999999"})
         for (const char* after : {"]", ",0]", " ]", "\n]", "\r\n]", "\t]", "/* 9 */]", "// 9\n]"}) {
@@ -110,7 +111,7 @@ TEST(SpanTest, NumbersEndAtWhatFollows)
         "12"); // a byte order mark
 }
 
-TEST(SpanTest, StringsWithQuotesAndBackslashes)
+TEST(SpanTest, StringsMayHaveQuotesAndBackslashes)
 {
     for (const char* string : {R"("")", R"("\"")", R"("\\")", R"("\\\"")", R"("a\"b\\")", R"("\u0022\\\\")",
              R"("// no /* comment")", R"("{[,:")", "\"\xc3\xa4\"", R"("\"\"\"")"}) {
@@ -123,7 +124,7 @@ TEST(SpanTest, StringsWithQuotesAndBackslashes)
     }
 }
 
-TEST(SpanTest, Lines)
+TEST(SpanTest, ValuesKnowTheirLine)
 {
     const std::string text = "// one\n{\r\n \"a\": 1,\r\n \"b\": [\n2,\n /* \n */ 3 ],\n\"c\": { \"d\":\n\"x\\ny\" } }";
     EXPECT_EQ(line(text, ""), 2);
@@ -139,7 +140,7 @@ TEST(SpanTest, Lines)
     EXPECT_EQ(complaint([&] { member(root(d), "e"); }).substr(0, 10), "a.json:2: ");
 }
 
-TEST(SpanTest, NamesThatNeedEscapes)
+TEST(SpanTest, NamesMayNeedEscapes)
 {
     const std::string text = R"({ "a/b": 1, "~": 2, "": 3, "\u0041": 4, "0": [5], "~1": 6 })";
     EXPECT_EQ(slice(text, "/a~1b"), "1");
@@ -150,7 +151,7 @@ TEST(SpanTest, NamesThatNeedEscapes)
     EXPECT_EQ(slice(text, "/~01"), "6");
 }
 
-TEST(SpanTest, ShippedFilesAndMutatedOnes)
+TEST(SpanTest, SpansOfShippedAndMutatedFilesParseBack)
 {
     std::vector<std::string> seeds;
     for (const char* folder : {"config/layouts", "config/scenes", "config/shots"})

@@ -1,4 +1,4 @@
-// What the samples of a calibration say, and the profile that comes of them. The axes here are made by hand.
+// The evaluation of a calibration's samples, and the profile made from them. The axes of these tests are artificial.
 #include "input/calibration.h"
 #include "tests/support/files.h"
 #include <gtest/gtest.h>
@@ -25,35 +25,35 @@ Descriptor stick()
     return descriptor;
 }
 
-DeviceState telling(const std::vector<std::int64_t>& raw)
+DeviceState state_of(const std::vector<std::int64_t>& raw)
 {
     DeviceState state;
     state.raw.assign(raw.begin(), raw.end());
     return state;
 }
 
-/// What was seen of one axis.
+/// The samples of one axis.
 SeenAxis seen(std::vector<std::int64_t> before, std::vector<std::int64_t> moved, std::vector<std::int64_t> after = {})
 {
     std::vector<SeenAxis> axes{{.field = 0, .usage = 0x30}};
     for (const auto raw : before)
-        take_rest(telling({raw}), 0, axes);
+        take_rest(state_of({raw}), 0, axes);
     for (const auto raw : moved)
-        take_ends(telling({raw}), axes);
+        take_ends(state_of({raw}), axes);
     for (const auto raw : after)
-        take_rest(telling({raw}), 1, axes);
+        take_rest(state_of({raw}), 1, axes);
     return axes[0];
 }
 
-/// The stick with every axis moved to its ends: X noisy, Y from end to end, the slider left elsewhere than it was.
+/// The stick after every axis was moved to its ends: X is noisy, Y moved from end to end, and the slider stays elsewhere.
 std::vector<SeenAxis> moved_stick(const Descriptor& descriptor)
 {
     std::vector<SeenAxis> axes = axes_of(descriptor);
     for (const std::int64_t x : {490, 510, 500, 495, 505})
-        take_rest(telling({x, 500, 520, 1000, 0}), 0, axes);
-    take_ends(telling({20, 40, 0, 0, 0}), axes);
-    take_ends(telling({980, 900, 1000, 1000, 255}), axes);
-    take_rest(telling({500, 500, 520, 200, 0}), 1, axes);
+        take_rest(state_of({x, 500, 520, 1000, 0}), 0, axes);
+    take_ends(state_of({20, 40, 0, 0, 0}), axes);
+    take_ends(state_of({980, 900, 1000, 1000, 255}), axes);
+    take_rest(state_of({500, 500, 520, 200, 0}), 1, axes);
     return axes;
 }
 
@@ -69,11 +69,12 @@ const Field thousand = axis(1, 0x30, 0, 1000);
 
 } // namespace
 
-TEST(CalibrationTest, AxesAreNamedAsProfilesNameThem)
+TEST(CalibrationTest, AxesHaveTheNamesOfProfiles)
 {
     Descriptor descriptor = stick();
     descriptor.fields.push_back(axis(1, 0x36, 0, 1000)); // a second slider
-    descriptor.fields.push_back({.usage = {1, 0x32}, .bits = 1, .logical_max = 1}); // a bit is a button, whatever it says
+    descriptor.fields.push_back(
+        {.usage = {1, 0x32}, .bits = 1, .logical_max = 1}); // a field of one bit is a button, whatever its usage
     descriptor.fields.push_back({.usage = {9, 1}, .bits = 1, .logical_max = 1});
     descriptor.fields.push_back({.usage = {1, 0x39}, .bits = 4, .logical_max = 7}); // the hat
     const auto axes = axes_of(descriptor);
@@ -94,7 +95,7 @@ TEST(CalibrationTest, TheMiddleIsWhereItRestsAndTheNoiseTheFurthestFromThere)
     EXPECT_EQ(is.rests, Rest::middle);
     EXPECT_EQ(is.middle, 450);
     EXPECT_EQ(is.noise, 10);
-    // Coming back from the other side 30 short: that, too, is its middle's play.
+    // It comes back from the other side 30 short, which is part of the middle's play.
     EXPECT_GE(measured(seen({450, 450, 450}, {50, 960}, {480}), thousand).noise, 30);
     EXPECT_TRUE(kept_still({440, 450, 452}, thousand));
     EXPECT_FALSE(kept_still({440, 600}, thousand));
@@ -102,39 +103,39 @@ TEST(CalibrationTest, TheMiddleIsWhereItRestsAndTheNoiseTheFurthestFromThere)
     EXPECT_TRUE(kept_still({1, 2}, axis(1, 0x30, 1, 3))); // a pad's cross: one step is noise
 }
 
-TEST(CalibrationTest, WhatIsNotMovedIsLeftAsItWas)
+TEST(CalibrationTest, AxesThatDidNotMoveAreLeftAsTheyWere)
 {
-    EXPECT_FALSE(measured(seen({500}, {500}), thousand).moved); // never, or stuck
-    EXPECT_FALSE(measured(seen({500}, {450, 560}), thousand).moved); // shaken by its neighbour
-    EXPECT_FALSE(measured(seen({}, {}), thousand).moved); // never told of
-    EXPECT_FALSE(measured(seen({5}, {5}), axis(1, 0x30, 5, 5)).moved); // of no width
+    EXPECT_FALSE(measured(seen({500}, {500}), thousand).moved); // never moved, or stuck
+    EXPECT_FALSE(measured(seen({500}, {450, 560}), thousand).moved); // shaken by a movement of another axis
+    EXPECT_FALSE(measured(seen({}, {}), thousand).moved); // it never had a value
+    EXPECT_FALSE(measured(seen({5}, {5}), axis(1, 0x30, 5, 5)).moved); // its range is empty
     EXPECT_TRUE(measured(seen({500}, {400, 600}), thousand).moved);
-    // In the profile, too; with an old range and dead zone.
+    // In the profile such an axis keeps its old range and dead zone.
     const Descriptor descriptor = stick();
     auto axes = axes_of(descriptor);
     Profile present;
     present.axes = {{.usage = 0x30, .role = AxisRole::nose_right, .dead_zone = 0.11, .range = std::array{1.0, 2.0, 3.0}},
         {.usage = 0x99, .role = AxisRole::look_up}};
     for (int i = 0; i < 3; ++i)
-        take_rest(telling({500, 500, 500, 500, 0}), 0, axes);
-    take_ends(telling({510, 500, 500, 500, 0}), axes);
+        take_rest(state_of({500, 500, 500, 500, 0}), 0, axes);
+    take_ends(state_of({510, 500, 500, 500, 0}), axes);
     EXPECT_EQ(calibrated(present, descriptor, axes, {}).axes, present.axes);
 }
 
-TEST(CalibrationTest, WhatStaysWhereItIsPutHasItsMiddleBetweenItsEnds)
+TEST(CalibrationTest, AnAxisWithoutASpringHasItsMiddleBetweenItsEnds)
 {
     const AxisMeasure is = measured(seen({990, 991, 990}, {10, 1000}, {200, 200}), thousand);
     EXPECT_EQ(is.rests, Rest::anywhere);
     EXPECT_EQ(is.middle, 505);
     EXPECT_EQ(is.noise, 1);
-    // A slider says so itself, though it was put back to where it stood.
+    // A slider's usage says so, even if it was put back to its first place.
     SeenAxis slider = seen({100}, {0, 1000}, {100});
     slider.usage = 0x36;
     EXPECT_EQ(measured(slider, thousand).rests, Rest::anywhere);
     EXPECT_EQ(measured(slider, thousand).middle, 500);
 }
 
-TEST(CalibrationTest, ACentreAtAnEndIsThatOfAPedal)
+TEST(CalibrationTest, AnAxisThatRestsAtAnEndIsAPedal)
 {
     EXPECT_EQ(measured(seen({3, 5}, {0, 1000}, {4}), thousand).rests, Rest::low_end);
     EXPECT_EQ(measured(seen({1000}, {0, 1000}, {990}), thousand).rests, Rest::high_end);
@@ -142,13 +143,13 @@ TEST(CalibrationTest, ACentreAtAnEndIsThatOfAPedal)
     const Descriptor descriptor = stick();
     const auto axes = moved_stick(descriptor);
     const Field& pedal = descriptor.fields[4];
-    // As a trigger it asks for nothing when let go, whichever way round it was pulled or said to be.
+    // As a trigger it gives 0 when released, whichever way it was pulled or described.
     for (const bool to_high : {true, false}) {
         const Profile profile = calibrated({}, descriptor, axes, {{{AxisRole::faster, Push{4, to_high, 1}}}, {}});
         EXPECT_EQ(shaped(with(profile, AxisRole::faster), pedal, 0), 0);
         EXPECT_EQ(shaped(with(profile, AxisRole::faster), pedal, 255), 1);
     }
-    // Of a control with two sides it works one.
+    // On a control with two sides it moves one side.
     for (const bool to_high : {true, false}) {
         const Profile profile = calibrated({}, descriptor, axes, {{{AxisRole::roll_right, Push{4, to_high, 1}}}, {}});
         EXPECT_EQ(shaped(with(profile, AxisRole::roll_right), pedal, 0), 0);
@@ -158,14 +159,14 @@ TEST(CalibrationTest, ACentreAtAnEndIsThatOfAPedal)
     }
 }
 
-TEST(CalibrationTest, TheMovedAxisIsFoundWithItsSense)
+TEST(CalibrationTest, TheMovedAxisIsFoundWithItsDirection)
 {
     const Descriptor descriptor = stick();
     const auto axes = moved_stick(descriptor);
-    const DeviceState rest = telling({500, 500, 520, 200, 0});
-    const auto found = [&](const std::vector<std::int64_t>& raw) { return pushed(descriptor, axes, rest, telling(raw)); };
+    const DeviceState rest = state_of({500, 500, 520, 200, 0});
+    const auto found = [&](const std::vector<std::int64_t>& raw) { return pushed(descriptor, axes, rest, state_of(raw)); };
     EXPECT_TRUE(found({505, 495, 520, 200, 0}).empty());
-    EXPECT_TRUE(found({600, 500, 520, 200, 0}).empty()); // not half of the way
+    EXPECT_TRUE(found({600, 500, 520, 200, 0}).empty()); // less than half of the way
     auto one = found({30, 560, 520, 200, 0});
     ASSERT_EQ(one.size(), 1u);
     EXPECT_EQ(one[0].axis, 0u);
@@ -175,13 +176,13 @@ TEST(CalibrationTest, TheMovedAxisIsFoundWithItsSense)
     EXPECT_EQ(one[0].axis, 1u);
     EXPECT_TRUE(one[0].to_high);
     EXPECT_EQ(found({960, 880, 520, 200, 0}).size(), 2u); // pulled aslant
-    // A slider that stands near its end and trembles is no push, however little way is left.
-    EXPECT_TRUE(pushed(descriptor, axes, telling({500, 500, 520, 5, 0}), telling({500, 500, 520, 0, 0})).empty());
-    // What has not told anything is not moved.
-    EXPECT_TRUE(pushed(descriptor, axes, {}, telling({0, 0, 0, 0, 0})).empty());
+    // A slider near its end that trembles is no push, however short the rest of its way is.
+    EXPECT_TRUE(pushed(descriptor, axes, state_of({500, 500, 520, 5, 0}), state_of({500, 500, 520, 0, 0})).empty());
+    // An axis without a value has not moved.
+    EXPECT_TRUE(pushed(descriptor, axes, {}, state_of({0, 0, 0, 0, 0})).empty());
 }
 
-TEST(CalibrationTest, AProfileComesOfIt)
+TEST(CalibrationTest, TheProfileHasTheChosenRolesAndMeasuredRanges)
 {
     const Descriptor descriptor = stick();
     const auto axes = moved_stick(descriptor);
@@ -193,7 +194,7 @@ TEST(CalibrationTest, AProfileComesOfIt)
     const Profile profile = calibrated(present, descriptor, axes, chosen);
     const AxisUse &up = with(profile, AxisRole::nose_up), &right = with(profile, AxisRole::nose_right),
                   &lever = with(profile, AxisRole::throttle);
-    // Where the hand was when it was asked, it is asked for from now on.
+    // The control is now full where the hand was during the step.
     EXPECT_EQ(shaped(up, descriptor.fields[1], 40), 1);
     EXPECT_EQ(shaped(up, descriptor.fields[1], 900), -1);
     EXPECT_EQ(shaped(right, descriptor.fields[0], 980), 1);
@@ -201,15 +202,15 @@ TEST(CalibrationTest, AProfileComesOfIt)
     EXPECT_EQ(shaped(lever, descriptor.fields[3], 0), 1);
     EXPECT_EQ(shaped(lever, descriptor.fields[3], 1000), 0);
     EXPECT_NEAR(shaped(lever, descriptor.fields[3], 500), 0.5, 1e-12);
-    // Let go it asks for nothing, noise and all; Y's upper side is the shorter one.
+    // Released it gives 0, with all its noise. Y's upper side is the shorter one.
     for (int x = 490; x <= 510; ++x)
         EXPECT_EQ(shaped(right, descriptor.fields[0], x), 0) << x;
-    EXPECT_EQ(right.dead_zone, 0.032); // 10 of 480, half more: 0.03125, upwards
+    EXPECT_EQ(right.dead_zone, 0.032); // 10 of 480, one and a half times: 0.03125, rounded up
     EXPECT_EQ(right.curve, 2);
-    EXPECT_EQ(up.dead_zone, 0.03); // no noise: the least
+    EXPECT_EQ(up.dead_zone, 0.03); // the least dead zone without noise
     EXPECT_EQ(up.range, (std::array{40.0, 500.0, 900.0}));
-    // The twist was moved and does nothing: it keeps its range for whoever gives it something to do. So does the pedal's
-    // own throttle, which fell to the slider.
+    // The twist was moved but has no role; it keeps its range for a later role. So does the pedal, whose throttle role went
+    // to the slider.
     EXPECT_THROW(with(profile, AxisRole::roll_right), std::runtime_error);
     const auto twist
         = std::find_if(profile.axes.begin(), profile.axes.end(), [](const AxisUse& u) { return u.usage == 0x35; });
@@ -219,12 +220,12 @@ TEST(CalibrationTest, AProfileComesOfIt)
     EXPECT_EQ(std::count_if(
                   profile.axes.begin(), profile.axes.end(), [](const AxisUse& u) { return u.role == AxisRole::throttle; }),
         1);
-    // Of the usual buttons 1 stopped, 3 went ten seconds back and 4 was the Doppler effect.
+    // In the usual profile button 1 stopped, 3 went ten seconds back and 4 was the Doppler effect.
     EXPECT_EQ(profile.buttons,
         (std::vector<ButtonUse>{{2, ButtonRole::home}, {4, ButtonRole::stop}, {5, ButtonRole::headlight},
             {6, ButtonRole::aberration}, {7, ButtonRole::hud}, {8, ButtonRole::next_mode}}));
     EXPECT_EQ(profile.hat_x, AxisRole::look_right);
-    // Once more, its roles left alone, it says the same.
+    // Another calibration that keeps the roles gives the same.
     EXPECT_EQ(calibrated(profile, descriptor, axes, {}).axes, profile.axes);
 }
 
@@ -243,8 +244,8 @@ TEST(CalibrationTest, TwoTriggersOnOneAxisEachHaveAHalf)
     EXPECT_EQ(calibrated(profile, descriptor, axes, {}).axes, profile.axes);
 }
 
-// A range in a profile may run from high to low: what the axis does must not turn round when it is measured anew.
-TEST(CalibrationTest, ARangeThatRunsDownwardsKeepsItsSense)
+// A profile's range may run from high to low; a new measurement must keep the axis's direction.
+TEST(CalibrationTest, ARangeThatRunsDownwardsKeepsItsDirection)
 {
     const Descriptor descriptor = stick();
     const auto axes = moved_stick(descriptor);
@@ -259,7 +260,7 @@ TEST(CalibrationTest, ARangeThatRunsDownwardsKeepsItsSense)
     }
 }
 
-// Whatever is seen, the profile can be read back.
+// Any samples make a profile that can be read back.
 TEST(CalibrationTest, AnySamplesMakeAProfileThatLoads)
 {
     std::mt19937 random(7);

@@ -1,4 +1,4 @@
-// What befalls devices in months of use: worn axes, short taps, several levers, and who of them is at the helm.
+// Devices over months of use: worn axes, short taps, and several levers.
 #include "config/model/angles.h"
 #include "input/health.h"
 #include "input/lever.h"
@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t ms = 1'000'000, s = 1000 * ms;
 constexpr double two_pi = 2 * pi;
 
-/// An axis of eight bits and a button, in one report of two bytes.
+/// An axis of eight bits, a slider and a button, in one report of three bytes.
 const Descriptor stick{.fields = {{.usage = {1, 0x30}, .bits = 8, .logical_max = 255},
                            {.usage = {1, 0x36}, .bit_offset = 8, .bits = 8, .logical_max = 255},
                            {.usage = {9, 1}, .bit_offset = 16, .bits = 1, .logical_max = 1}},
@@ -32,8 +32,8 @@ struct Hand {
         const std::array<std::uint8_t, 3> bytes{x, slider, button};
         EXPECT_TRUE(take_report(stick, bytes, now_ns, state));
     }
-    /// As Hid asks for each frame.
-    Controls asked(std::int64_t now_ns)
+    /// The controls of a frame, as Hid reads them.
+    Controls controls_at(std::int64_t now_ns)
     {
         Controls controls;
         mapping.add(state, now_ns, 0.016, controls);
@@ -45,7 +45,7 @@ struct Hand {
 } // namespace
 
 // A hand shakes a stick at most six or seven times a second; a worn track jumps with every report.
-TEST(AxisHealthTest, NoiseIsToldFromShaking)
+TEST(AxisHealthTest, NoiseIsDistinguishedFromShaking)
 {
     const auto noisy = [](double hertz, double size, double report_s) {
         AxisHealth health;
@@ -53,7 +53,7 @@ TEST(AxisHealthTest, NoiseIsToldFromShaking)
             health.take(0.5 + 0.5 * size * std::sin(two_pi * hertz * t), std::int64_t(t * 1e9) + 1);
         return health.noisy(3 * s);
     };
-    EXPECT_FALSE(noisy(7, 1, 0.008)); // as fast as anyone can, from end to end
+    EXPECT_FALSE(noisy(7, 1, 0.008)); // the fastest that a hand can move, from end to end
     EXPECT_TRUE(noisy(20, 0.2, 0.004));
     EXPECT_FALSE(noisy(50, 0.02, 0.004)); // the last digits of a good sensor
     std::mt19937 random(3);
@@ -62,70 +62,70 @@ TEST(AxisHealthTest, NoiseIsToldFromShaking)
     for (int i = 0; i < 250; ++i)
         worn.take(anywhere(random), 4 * ms * i + 1);
     EXPECT_TRUE(worn.noisy(1 * s));
-    // Calm for three seconds: believed again.
+    // After three quiet seconds the axis counts again.
     for (int i = 250; i < 1000; ++i)
         worn.take(0.5, 4 * ms * i);
     EXPECT_TRUE(worn.noisy(3 * s));
     EXPECT_FALSE(worn.noisy(4 * s));
 }
 
-TEST(AxisHealthTest, ANoisyAxisIsNamedAndAsksForNothing)
+TEST(AxisHealthTest, ANoisyAxisIsReportedAndIgnored)
 {
     Hand hand;
     for (int i = 0; i < 500; ++i)
         hand.report(i % 2 ? 255 : 128, i % 2 ? 0 : 255, false, 1 + 4 * ms * i);
-    EXPECT_EQ(hand.asked(2 * s).turn, glm::dvec3(0));
+    EXPECT_EQ(hand.controls_at(2 * s).turn, glm::dvec3(0));
     EXPECT_TRUE(hand.mapping.levers().empty());
     EXPECT_EQ(hand.mapping.troubles(), (std::vector<std::string>{"axis X jitters", "axis slider jitters"}));
     hand.report(255, 255, false, 2 * s);
-    EXPECT_EQ(hand.asked(6 * s).turn, glm::dvec3(0, -1, 0));
+    EXPECT_EQ(hand.controls_at(6 * s).turn, glm::dvec3(0, -1, 0));
     EXPECT_EQ(hand.mapping.levers().size(), 1u);
     EXPECT_TRUE(hand.mapping.troubles().empty());
 }
 
-// Something lies on the stick overnight, or its spring has broken.
-TEST(AxisHealthTest, AStuckAxisIsNamedAndAsksForNothingUntilItMoves)
+// A thing lies on the stick overnight, or its spring has broken.
+TEST(AxisHealthTest, AStuckAxisIsReportedAndIgnoredUntilItMoves)
 {
     Hand hand;
     hand.report(128, 200, false, 1);
     hand.report(255, 200, false, 1 * s);
-    EXPECT_EQ(hand.asked(60 * s).turn.y, -1);
-    EXPECT_EQ(hand.asked(62 * s).turn.y, 0);
+    EXPECT_EQ(hand.controls_at(60 * s).turn.y, -1);
+    EXPECT_EQ(hand.controls_at(62 * s).turn.y, 0);
     EXPECT_EQ(hand.mapping.troubles(), std::vector<std::string>{"axis X is stuck"}); // a lever may rest anywhere
     EXPECT_EQ(hand.mapping.levers().size(), 1u);
     hand.report(250, 200, false, 63 * s);
-    EXPECT_LT(hand.asked(63 * s).turn.y, -0.9);
-    // Let go it may stay so for ever.
+    EXPECT_LT(hand.controls_at(63 * s).turn.y, -0.9);
+    // A released axis may stay so for ever.
     hand.report(128, 200, false, 64 * s);
-    EXPECT_EQ(hand.asked(1000 * s).turn.y, 0);
+    EXPECT_EQ(hand.controls_at(1000 * s).turn.y, 0);
     EXPECT_TRUE(hand.mapping.troubles().empty());
 }
 
-TEST(AxisHealthTest, OffItsMiddleSinceItWasPluggedIn)
+TEST(AxisHealthTest, AnAxisOffItsMiddleSincePluggedInIsStuckAfterAMinute)
 {
     Hand hand;
     hand.report(0, 0, false, 5 * s);
-    EXPECT_EQ(hand.asked(6 * s).turn.y, 1);
-    EXPECT_EQ(hand.asked(66 * s).turn.y, 0);
+    EXPECT_EQ(hand.controls_at(6 * s).turn.y, 1);
+    EXPECT_EQ(hand.controls_at(66 * s).turn.y, 0);
 }
 
-// At ten frames per second a tap comes and goes between two readings.
+// At ten frames a second a tap may come and go between two frames.
 TEST(DevicesTest, NoTapIsTooShort)
 {
     Hand hand;
     hand.report(128, 0, false, 1);
-    EXPECT_FALSE(hand.asked(1).stop);
+    EXPECT_FALSE(hand.controls_at(1).stop);
     hand.report(128, 0, true, 2);
     hand.report(128, 0, false, 3);
-    EXPECT_TRUE(hand.asked(4).stop);
-    EXPECT_FALSE(hand.asked(5).stop);
+    EXPECT_TRUE(hand.controls_at(4).stop);
+    EXPECT_FALSE(hand.controls_at(5).stop);
     hand.report(128, 0, true, 6);
-    EXPECT_TRUE(hand.asked(7).stop);
+    EXPECT_TRUE(hand.controls_at(7).stop);
     hand.report(128, 0, true, 8);
-    EXPECT_FALSE(hand.asked(9).stop); // held
+    EXPECT_FALSE(hand.controls_at(9).stop); // held
 }
 
-TEST(LeverTest, TheOneMovedLastCounts)
+TEST(LeverTest, TheLeverMovedLastCounts)
 {
     LeverChoice choice;
     Lever own{"stick", 3, 0.5, 0}, throttle{"throttle", 0, 0.2, 0};
@@ -133,7 +133,7 @@ TEST(LeverTest, TheOneMovedLastCounts)
         const std::array both{own, throttle};
         return choice.place(both, now);
     };
-    EXPECT_EQ(place(1), 0.2); // no one has moved any: the slower
+    EXPECT_EQ(place(1), 0.2); // none has moved yet: the slower one
     own.moved_ns = 5, own.place = 0.6;
     EXPECT_EQ(place(6), 0.6);
     throttle.moved_ns = 7, throttle.place = 0.9;
@@ -141,7 +141,7 @@ TEST(LeverTest, TheOneMovedLastCounts)
     EXPECT_EQ(place(9), 0.9);
 }
 
-TEST(LeverTest, AnUnpluggedOneIsNotReplacedByOneThatLiesThere)
+TEST(LeverTest, AnUnpluggedLeverIsNotReplacedByOneThatHasNotMoved)
 {
     LeverChoice choice;
     const Lever slider{"stick", 3, 1.0, 4};
@@ -149,7 +149,7 @@ TEST(LeverTest, AnUnpluggedOneIsNotReplacedByOneThatLiesThere)
     EXPECT_EQ(choice.place(std::array{slider, throttle}, 10), 0.3);
     EXPECT_FALSE(choice.place(std::array{slider}, 20)); // coasts
     EXPECT_FALSE(choice.place(std::array{slider}, 30));
-    throttle.moved_ns = 0; // plugged in anew, and not moved yet
+    throttle.moved_ns = 0; // plugged in again, and not moved yet
     EXPECT_EQ(choice.place(std::array{slider, throttle}, 40), 0.3);
     EXPECT_EQ(choice.place(std::array{slider, throttle}, 50), 0.3);
     EXPECT_FALSE(choice.place(std::array{slider}, 60));

@@ -40,7 +40,7 @@ private:
     sockaddr_in to_{};
 };
 
-/// A tracker's listener on the first free port from one that few use.
+/// A listener on the first free port from 42420 on.
 std::unique_ptr<HeadTracker> listener()
 {
     for (int port = 42420;; ++port)
@@ -64,12 +64,12 @@ TEST(HeadTrackerTest, PacketsAreCentimetresAndDegrees)
     const auto head = parsed({10, -20, 30, 90, 0, 0});
     ASSERT_TRUE(head);
     expect_near(head->moved_m, {0.1, -0.2, 0.3}, 1e-15);
-    expect_near(head->turned * dvec3(1, 0, 0), {0, 0, -1}, 1e-12); // yawed left, the right hand is ahead
+    expect_near(head->turned * dvec3(1, 0, 0), {0, 0, -1}, 1e-12); // yawed to the left, the right hand is ahead
     expect_near(parsed({0, 0, 0, 0, 90, 0})->turned * dvec3(0, 0, -1), {0, 1, 0}, 1e-12); // pitched up, ahead is up
-    expect_near(parsed({0, 0, 0, 0, 0, 90})->turned * dvec3(1, 0, 0), {0, 1, 0}, 1e-12); // rolled left, right is up
+    expect_near(parsed({0, 0, 0, 0, 0, 90})->turned * dvec3(1, 0, 0), {0, 1, 0}, 1e-12); // rolled to the left, right is up
 }
 
-TEST(HeadTrackerTest, WhatIsNoHeadIsRefused)
+TEST(HeadTrackerTest, PacketsThatAreNoHeadAreRefused)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 6; ++i)
@@ -126,7 +126,7 @@ TEST(HeadTrackerTest, TheLastOfManyPacketsCounts)
     EXPECT_FALSE(tracker->heard(now + 10s));
 }
 
-TEST(HeadTrackerTest, ATakenPortIsTold)
+TEST(HeadTrackerTest, APortInUseIsReported)
 {
     auto tracker = listener();
     try {

@@ -1,4 +1,4 @@
-// Profiles and what becomes of a device's values: every shipped profile on its real device, the shapes of axes, wrong files.
+// Profiles and the mapping of a device's values: every shipped profile on its real device, the shapes of axes, wrong files.
 #include "config/model/profile.h"
 #include "input/mapping.h"
 #include "tests/support/files.h"
@@ -41,7 +41,7 @@ std::vector<std::filesystem::path> shipped()
     return all;
 }
 
-/// Every axis in its middle, throttles too, nothing pressed, hats let go.
+/// Every axis in its middle, throttles too, with no button pressed and hats released.
 DeviceState at_rest(const Descriptor& descriptor)
 {
     DeviceState state;
@@ -70,10 +70,10 @@ TEST(ProfileTest, ShippedProfilesAreValidAndFitTheirDevices)
     EXPECT_GE(shipped().size(), 8u);
     for (const auto& file : shipped()) {
         SCOPED_TRACE(file.filename().string());
-        const json own = json_of(file);
-        EXPECT_TRUE(schema_accepts("profile", own));
+        const json profile_json = json_of(file);
+        EXPECT_TRUE(schema_accepts("profile", profile_json));
         const Profile profile = load_profile(file);
-        const auto real = device(own["vendor"], own["product"]);
+        const auto real = device(profile_json["vendor"], profile_json["product"]);
         if (!real)
             continue;
         ++on_devices;
@@ -82,7 +82,7 @@ TEST(ProfileTest, ShippedProfilesAreValidAndFitTheirDevices)
             EXPECT_NO_THROW(field(descriptor, {std::uint16_t(use.page), std::uint16_t(use.usage)})) << use.usage;
         for (const ButtonUse& use : profile.buttons)
             EXPECT_NO_THROW(field(descriptor, {9, std::uint16_t(use.button)})) << use.button;
-        // At rest it asks for nothing but the throttle's middle.
+        // At rest all controls are 0, except the throttle in its middle.
         Controls controls;
         Mapping mapping(descriptor, profile);
         mapping.add(at_rest(descriptor), 0, 0.01, controls);
@@ -96,7 +96,7 @@ TEST(ProfileTest, ShippedProfilesAreValidAndFitTheirDevices)
     EXPECT_GE(on_devices, 8);
 }
 
-TEST(ProfileTest, AnyDeviceFliesFromItsUsages)
+TEST(ProfileTest, AnyDeviceFliesByItsUsages)
 {
     for (const auto& entry : std::filesystem::directory_iterator(source_dir() / "tests/hid")) {
         if (entry.path().extension() != ".json")
@@ -104,12 +104,12 @@ TEST(ProfileTest, AnyDeviceFliesFromItsUsages)
         SCOPED_TRACE(entry.path().filename().string());
         const Descriptor descriptor = descriptor_of(json_of(entry.path()));
         if (entry.path().filename().string().starts_with("sony-buzz") || entry.path().filename().string().starts_with("ion"))
-            continue; // buttons and keys alone: nothing to fly with
+            continue; // buttons and keys alone can't fly
         Mapping mapping(descriptor, usual_profile(descriptor));
         Controls rest;
         mapping.add(at_rest(descriptor), 0, 0.01, rest);
         EXPECT_EQ(rest.turn, glm::dvec3(0));
-        // Some axis turns the nose to the right at its end, and back at the other.
+        // Some axis turns the nose to the right at one end and to the left at the other.
         bool turns = false;
         for (std::size_t i = 0; i < descriptor.fields.size(); ++i) {
             DeviceState state = at_rest(descriptor);
@@ -124,13 +124,13 @@ TEST(ProfileTest, AnyDeviceFliesFromItsUsages)
     }
 }
 
-// A stick of known make, by hand: right is right, back is up, forward on the slider is full speed.
-TEST(ProfileTest, AStickDoesWhatItsHandDoes)
+// A stick of known make: right is right, back is up, forward on the slider is full speed.
+TEST(ProfileTest, AStickMovesTheShipAsTheHandMoves)
 {
     const Descriptor descriptor = descriptor_of(*device("044f", "b10a"));
     Mapping mapping(descriptor, load_profile(source_dir() / "config/profiles/thrustmaster-t16000m.json"));
     DeviceState state = at_rest(descriptor);
-    const auto asked = [&] {
+    const auto controls_now = [&] {
         Controls controls;
         mapping.add(state, 0, 0.1, controls);
         if (!mapping.levers().empty())
@@ -138,28 +138,28 @@ TEST(ProfileTest, AStickDoesWhatItsHandDoes)
         return controls;
     };
     state.raw[field(descriptor, {1, 0x30})] = 16383;
-    EXPECT_EQ(asked().turn, glm::dvec3(0, -1, 0)); // to the right: against the right-handed turn about y
+    EXPECT_EQ(controls_now().turn, glm::dvec3(0, -1, 0)); // to the right: against the right-handed rotation about y
     state = at_rest(descriptor);
     state.raw[field(descriptor, {1, 0x31})] = 16383;
-    EXPECT_EQ(asked().turn, glm::dvec3(1, 0, 0));
+    EXPECT_EQ(controls_now().turn, glm::dvec3(1, 0, 0));
     state = at_rest(descriptor);
     state.raw[field(descriptor, {1, 0x36})] = 0;
-    EXPECT_EQ(asked().lever, 1);
+    EXPECT_EQ(controls_now().lever, 1);
     state.raw[field(descriptor, {1, 0x36})] = 255;
-    EXPECT_EQ(asked().lever, 0);
-    // A press counts once; the hat looks around; what was not told of asks for nothing.
+    EXPECT_EQ(controls_now().lever, 0);
+    // A press counts once, the hat looks around, and fields without a value do nothing.
     state.raw[field(descriptor, {9, 1})] = 1;
-    EXPECT_TRUE(asked().stop);
-    EXPECT_FALSE(asked().stop);
+    EXPECT_TRUE(controls_now().stop);
+    EXPECT_FALSE(controls_now().stop);
     state = at_rest(descriptor);
     state.raw[field(descriptor, {1, 0x39})] = 2;
-    EXPECT_LT(asked().look_rad.x, -0.1);
+    EXPECT_LT(controls_now().look_rad.x, -0.1);
     state.raw.assign(descriptor.fields.size(), std::nullopt);
-    EXPECT_FALSE(asked().lever);
-    EXPECT_EQ(asked().turn, glm::dvec3(0));
+    EXPECT_FALSE(controls_now().lever);
+    EXPECT_EQ(controls_now().turn, glm::dvec3(0));
 }
 
-TEST(ProfileTest, AxesAreShaped)
+TEST(ProfileTest, AxesHaveDeadZonesCurvesAndDetents)
 {
     const Field stick{.bits = 16, .logical_min = 0, .logical_max = 1000};
     AxisUse use{.role = AxisRole::nose_up, .dead_zone = 0.1, .curve = 2};
@@ -170,7 +170,7 @@ TEST(ProfileTest, AxesAreShaped)
     EXPECT_NEAR(shaped(use, stick, 775), 0.25, 1e-12); // half of the way beyond the dead zone, squared
     use.inverted = true;
     EXPECT_EQ(shaped(use, stick, 1000), -1);
-    // Calibrated: the ends are reached where the device's are, on both sides of its middle; also from high to low.
+    // A calibrated axis reaches its ends at the device's, on both sides of its middle, also with a range from high to low.
     use = {.role = AxisRole::nose_up, .dead_zone = 0, .curve = 1, .range = std::array{100.0, 400.0, 900.0}};
     EXPECT_EQ(shaped(use, stick, 50), -1);
     EXPECT_EQ(shaped(use, stick, 250), -0.5);
@@ -184,14 +184,14 @@ TEST(ProfileTest, AxesAreShaped)
     EXPECT_EQ(shaped(use, stick, 990), 1);
     EXPECT_EQ(shaped(use, stick, 515), 0.5);
     EXPECT_GT(shaped(use, stick, 560), 0.55);
-    // With the largest dead zone it is a switch, of which no place is no number.
+    // With the largest dead zone it is a switch without undefined places.
     use.dead_zone = 0.5;
     EXPECT_EQ(shaped(use, stick, 400), 0);
     EXPECT_EQ(shaped(use, stick, 500), 0);
     EXPECT_EQ(shaped(use, stick, 600), 1);
 }
 
-TEST(ProfileTest, ReportsCutShortOrOfNoKnownNumberLeaveTheRest)
+TEST(ProfileTest, ShortOrUnknownReportsKeepTheOtherValues)
 {
     const Descriptor descriptor = descriptor_of(*device("046d", "c626"));
     DeviceState state;
@@ -208,7 +208,7 @@ TEST(ProfileTest, ReportsCutShortOrOfNoKnownNumberLeaveTheRest)
 
 TEST(ProfileTest, WrongProfilesAreRefused)
 {
-    const auto said = [](const std::string& text) {
+    const auto result_of = [](const std::string& text) {
         try {
             load_profile(write_text("profile.json", text));
             return std::string("read");
@@ -217,7 +217,7 @@ TEST(ProfileTest, WrongProfilesAreRefused)
         }
     };
     const std::string head = R"({ "name": "a", "vendor": "044f", "product": "b10a")";
-    EXPECT_EQ(said(head + "}"), "read");
+    EXPECT_EQ(result_of(head + "}"), "read");
     for (const auto& [more, problem] : std::vector<std::pair<std::string, std::string>>{
              {R"(, "axes": [{ "usage": 48, "role": "nose-upp" }])", "/axes/0/role: \"nose-upp\""},
              {R"(, "axes": [{ "role": "nose-up" }])", "lacks \"usage\""},
@@ -225,12 +225,12 @@ TEST(ProfileTest, WrongProfilesAreRefused)
              {R"(, "axes": [{ "usage": 48, "role": "none", "range": [0, 9, 5] }])", "not between its ends"},
              {R"(, "buttons": [{ "button": 0, "role": "stop" }])", "/buttons/0/button: 0 is too small"},
              {R"(, "hat": { "z": "none" })", "/hat/z"}})
-        EXPECT_NE(said(head + more + "}").find(problem), std::string::npos) << said(head + more + "}");
-    EXPECT_NE(
-        said(R"({ "name": "a", "vendor": "44f", "product": "b10a" })").find("four hexadecimal digits"), std::string::npos);
+        EXPECT_NE(result_of(head + more + "}").find(problem), std::string::npos) << result_of(head + more + "}");
+    EXPECT_NE(result_of(R"({ "name": "a", "vendor": "44f", "product": "b10a" })").find("four hexadecimal digits"),
+        std::string::npos);
 }
 
-TEST(ProfileTest, WhatIsWrittenReadsBackTheSame)
+TEST(ProfileTest, WrittenProfilesReadBackTheSame)
 {
     std::vector<Profile> all;
     for (const auto& file : shipped())
@@ -246,7 +246,7 @@ TEST(ProfileTest, WhatIsWrittenReadsBackTheSame)
     Profile bare;
     bare.name = "b", bare.vendor = 1, bare.product = 0;
     all.push_back(bare);
-    const std::filesystem::path file = scratch("profiles/of/mine/written.json"); // folders that are not there yet
+    const std::filesystem::path file = scratch("profiles/of/mine/written.json"); // folders that do not exist yet
     for (const Profile& profile : all) {
         SCOPED_TRACE(profile.name);
         save_profile(profile, file);
@@ -261,7 +261,7 @@ TEST(ProfileTest, WhatIsWrittenReadsBackTheSame)
         EXPECT_EQ(back.hat_x, profile.hat_x);
         EXPECT_EQ(back.hat_y, profile.hat_y);
     }
-    // A name that is no UTF-8 loses what is wrong with it; the file loads.
+    // A name that is not UTF-8 loses the wrong bytes, and the file loads.
     bare.name = "a\xff";
     save_profile(bare, file);
     EXPECT_TRUE(load_profile(file).name.starts_with("a"));
@@ -276,7 +276,7 @@ TEST(ProfileTest, AProfileThatCantBeWrittenLeavesTheOldOne)
         complaint([&] { save_profile(profile, file / "in-a-file.json"); }).find("can't be written"), std::string::npos);
     EXPECT_NE(complaint([&] { save_profile(profile, file.parent_path()); }).find("is not a file"), std::string::npos);
     EXPECT_EQ(read_text(file), "old");
-    // A link stays one: what it leads to is replaced.
+    // A link stays a link; the file that it leads to is replaced.
     const auto link = scratch("profile-link.json");
     std::filesystem::remove(link);
     std::filesystem::create_symlink(file, link);

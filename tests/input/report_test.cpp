@@ -1,5 +1,5 @@
-// HID report descriptors: the fields that real devices declare, the corners of HID 1.11, and that no bytes do harm.
-// tests/hid/ holds the devices, each with the place where its bytes were published.
+// HID report descriptors: the fields that real devices declare, rare cases of HID 1.11, and damaged bytes. tests/hid/ has
+// the devices, each with the source of its bytes.
 #include "input/report.h"
 #include "tests/support/files.h"
 #include <algorithm>
@@ -32,8 +32,8 @@ std::vector<json> devices()
     return all;
 }
 
-/// As the files of tests/hid tell it.
-json told(const Field& field)
+/// A field as the files of tests/hid describe it.
+json json_of(const Field& field)
 {
     json out = {{"report_id", field.report_id}, {"usage_page", field.usage.page}, {"usage", field.usage.id},
         {"bit_offset", field.bit_offset}, {"bits", field.bits}, {"logical_min", field.logical_min},
@@ -51,7 +51,7 @@ json told(const Field& field)
     return out;
 }
 
-/// Bit by bit, as a person would.
+/// The value computed bit by bit.
 std::int64_t bit_by_bit(const Field& field, const Bytes& payload)
 {
     std::int64_t value = 0;
@@ -81,7 +81,7 @@ TEST(ReportTest, RealDevicesDeclareTheirFields)
         EXPECT_EQ(found.uses_report_ids, device["uses_report_ids"].get<bool>());
         ASSERT_EQ(found.fields.size(), device["fields"].size());
         for (std::size_t i = 0; i < found.fields.size(); ++i)
-            EXPECT_EQ(told(found.fields[i]), device["fields"][i]) << i;
+            EXPECT_EQ(json_of(found.fields[i]), device["fields"][i]) << i;
         json bits = json::object();
         for (const auto& [id, count] : found.report_bits)
             bits[std::to_string(id)] = count;
@@ -103,7 +103,7 @@ TEST(ReportTest, RealDevicesDeclareTheirFields)
     }
 }
 
-TEST(ReportTest, CornersOfTheStandard)
+TEST(ReportTest, RareCasesOfTheStandardAreRead)
 {
     // Usage page 1, usage X; 1 x 12 bits; min -2048 in two bytes, max 2047.
     Descriptor d = parsed({0x05, 1, 0x09, 0x30, 0x16, 0x00, 0xf8, 0x26, 0xff, 0x07, 0x75, 12, 0x95, 1, 0x81, 0x02});
@@ -113,20 +113,20 @@ TEST(ReportTest, CornersOfTheStandard)
     EXPECT_EQ(raw_value(d.fields[0], Bytes{0x00, 0x08}), -2048);
     EXPECT_EQ(centred(d.fields[0], 2047), 1);
     EXPECT_EQ(centred(d.fields[0], -4000), -1);
-    // A maximum of ff in one byte is 255 where the minimum is 0, and -1 where it is below 0.
+    // A maximum of ff in one byte is 255 if the minimum is 0, and -1 if it is negative.
     d = parsed({0x05, 1, 0x09, 0x30, 0x15, 0, 0x25, 0xff, 0x75, 8, 0x95, 1, 0x81, 2});
     EXPECT_EQ(d.fields.at(0).logical_max, 255);
     d = parsed({0x05, 1, 0x09, 0x30, 0x25, 0xff, 0x15, 0x81, 0x75, 8, 0x95, 1, 0x81, 2}); // in the other order
     EXPECT_EQ(d.fields.at(0).logical_max, -1);
-    // A four-byte usage has a page of its own; a page after the last usage is that of all short ones.
+    // A four-byte usage has a page of its own. A page after the last usage applies to all short ones.
     d = parsed({0x05, 1, 0x0b, 0x01, 0, 9, 0, 0x09, 0x31, 0x05, 2, 0x75, 1, 0x95, 2, 0x81, 2});
     EXPECT_EQ(d.fields.at(0).usage, (Usage{9, 1}));
     EXPECT_EQ(d.fields.at(1).usage, (Usage{2, 0x31}));
-    // Between delimiters the first usage is meant.
+    // Between delimiters the first usage applies.
     d = parsed({0x05, 1, 0xa9, 1, 0x09, 0x30, 0x09, 0x31, 0xa9, 0, 0x09, 0x32, 0x75, 8, 0x95, 2, 0x81, 2});
     EXPECT_EQ(d.fields.at(0).usage, (Usage{1, 0x30}));
     EXPECT_EQ(d.fields.at(1).usage, (Usage{1, 0x32}));
-    // A long item is stepped over; 32 bits are read whole; an array of buttons names what is held.
+    // Long items are skipped, 32 bits are read whole, and an array of buttons names those that are held.
     d = parsed({0xfe, 2, 0x77, 1, 2, 0x05, 9, 0x19, 1, 0x29, 8, 0x15, 1, 0x25, 8, 0x75, 4, 0x95, 2, 0x81, 0});
     ASSERT_EQ(d.fields.size(), 2u);
     EXPECT_EQ(array_usage(d.fields[0], 3), (Usage{9, 3}));
@@ -134,8 +134,8 @@ TEST(ReportTest, CornersOfTheStandard)
     EXPECT_FALSE(array_usage(d.fields[0], 9));
     d = parsed({0x05, 1, 0x09, 0x30, 0x17, 0, 0, 0, 0x80, 0x27, 0xff, 0xff, 0xff, 0x7f, 0x75, 32, 0x95, 1, 0x81, 2});
     EXPECT_EQ(raw_value(d.fields.at(0), Bytes{0, 0, 0, 0x80}), -2147483648ll);
-    EXPECT_EQ(raw_value(d.fields.at(0), Bytes{0xff}), 255); // a report cut short
-    // Push and pop keep every global item; more values than usages repeat the last.
+    EXPECT_EQ(raw_value(d.fields.at(0), Bytes{0xff}), 255); // a short report
+    // Push and pop keep every global item. Further values repeat the last usage.
     d = parsed({0x05, 1, 0x15, 0, 0x25, 9, 0x75, 4, 0x95, 1, 0xa4, 0x05, 9, 0x25, 1, 0x75, 1, 0x95, 4, 0x09, 1, 0x81, 2,
         0xb4, 0x09, 0x39, 0x81, 0x42});
     ASSERT_EQ(d.fields.size(), 5u);
@@ -143,7 +143,7 @@ TEST(ReportTest, CornersOfTheStandard)
     EXPECT_EQ(d.fields[4].usage, (Usage{1, 0x39}));
     EXPECT_EQ(d.fields[4].logical_max, 9);
     EXPECT_TRUE(d.fields[4].null_state);
-    // Hats: eight directions from 1, let go at 0; four.
+    // A hat with eight directions from 1, released at 0, and a hat with four.
     Field hat{.bits = 4, .logical_min = 1, .logical_max = 8};
     EXPECT_EQ(hat_degrees(hat, 3), 90);
     EXPECT_FALSE(hat_degrees(hat, 0));
@@ -151,7 +151,7 @@ TEST(ReportTest, CornersOfTheStandard)
     EXPECT_EQ(hat_degrees(hat, 3), 270);
 }
 
-TEST(ReportTest, WhatIsWrongIsToldAndTheRestKept)
+TEST(ReportTest, FaultsAreReportedAndEarlierFieldsKept)
 {
     const std::initializer_list<int> good = {0x05, 1, 0x09, 0x30, 0x75, 8, 0x95, 1, 0x81, 2};
     const auto after = [&](std::initializer_list<int> more) {
@@ -173,7 +173,7 @@ TEST(ReportTest, WhatIsWrongIsToldAndTheRestKept)
     EXPECT_NE(after({0x19, 9, 0x29, 3}).find("before it begins"), std::string::npos);
 }
 
-/// STARBOW_FUZZ_COUNT asks for a longer run, STARBOW_FUZZ_SEED for another; each seed's mutations are always the same.
+/// STARBOW_FUZZ_COUNT sets the number of mutations, STARBOW_FUZZ_SEED the seed. A seed's mutations are always the same.
 TEST(ReportFuzzTest, DamagedDescriptorsAndReportsDoNoHarm)
 {
     const char* count_text = std::getenv("STARBOW_FUZZ_COUNT");
@@ -197,7 +197,7 @@ TEST(ReportFuzzTest, DamagedDescriptorsAndReportsDoNoHarm)
             case 2:
                 bytes.insert(bytes.begin() + std::ptrdiff_t(random() % bytes.size()), std::uint8_t(random()));
                 break;
-            case 3: // a global item of four bytes with a large number: sizes, counts and limits that overflow
+            case 3: // a global item of four bytes with a large number: sizes, counts and limits may overflow
                 bytes.insert(bytes.begin() + std::ptrdiff_t(random() % bytes.size()),
                     {std::uint8_t(0x07 | random() % 11 << 4), 0xff, 0xff, 0xff, std::uint8_t(random() % 2 ? 0xff : 0x7f)});
                 break;

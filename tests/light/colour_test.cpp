@@ -1,4 +1,4 @@
-// The Doppler table: nothing at rest, black bodies for greys, the rainbow for a pure blue.
+// Colours under the Doppler effect: unchanged at rest, black bodies for greys, the rainbow for a pure blue.
 #include "runtime/light/colour.h"
 #include "runtime/light/response.h"
 #include "shaders/shared_structs.h"
@@ -10,7 +10,7 @@ using namespace starbow;
 
 namespace {
 
-/// The coarsest level, with default ultraviolet and infrared, as the device finds it.
+/// A colour at the lowest spectral level with default ultraviolet and infrared, as the device's table gives it.
 glm::dvec3 shifted(const glm::dvec3& rgb, double D)
 {
     static const Response response = response_of(spectral_basis(3, {}), eye());
@@ -29,9 +29,9 @@ glm::dvec3 black_body_xyz(double kelvin)
 
 } // namespace
 
-TEST(Colour, AtRestNothingChanges)
+TEST(Colour, AtRestColoursAreUnchanged)
 {
-    // D = 1 is a row of the table, exact but for its halves.
+    // D = 1 is a row of the table, exact apart from fp16's rounding.
     for (glm::dvec3 rgb : {glm::dvec3(1, 1, 1), glm::dvec3(0.2, 0.5, 0.8), glm::dvec3(0, 0, 1), glm::dvec3(1, 0.3, 0)})
         for (int i = 0; i < 3; ++i)
             EXPECT_NEAR(shifted(rgb, 1)[i], rgb[i], 1e-3) << i;
@@ -49,15 +49,15 @@ TEST(Colour, BlackBodiesHaveTheirChromaticity)
     }
 }
 
-TEST(Colour, TheObserverIsTheTable)
+TEST(Colour, TheObserverIsCIEsTable)
 {
-    // A value of the table, and two between that CIE gives too, by its own interpolation.
+    // One value of CIE's table, and two between that CIE gives by its own interpolation.
     EXPECT_EQ(xyz_response(555), glm::dvec3(0.5120501, 1, 0.005749999));
     EXPECT_NEAR(xyz_response(552).y, 0.9980983, 1e-5);
     EXPECT_NEAR(xyz_response(553).y, 0.9991120, 1e-5);
     EXPECT_EQ(xyz_response(359), glm::dvec3(0));
     EXPECT_EQ(xyz_response(831), glm::dvec3(0));
-    // Equal energy is equally white: the three functions have the same area (CIE 015).
+    // Light of equal energy is white: the three functions have the same area (CIE 015).
     glm::dvec3 area(0);
     for (int nm = 360; nm <= 830; ++nm)
         area += xyz_response(nm);
@@ -68,21 +68,21 @@ TEST(Colour, TheObserverIsTheTable)
 
 TEST(Colour, ASunlitGreyIsABlackBodyAtDT)
 {
-    // Headlight on: D^3 times the shift. A grey under the Sun brightens straight ahead at gamma 4 by 118, not by D^3 = 488.
+    // With the headlight effect a sunlit grey straight ahead at gamma 4 brightens by 118, not by D^3 = 488.
     double D = 4 + std::sqrt(15.0);
     glm::dvec3 rgb = shifted({1, 1, 1}, D) * (D * D * D);
     double luminance = 0.2126 * rgb.r + 0.7152 * rgb.g + 0.0722 * rgb.b;
     double truth = black_body_xyz(5772 * D).y / black_body_xyz(5772).y;
-    EXPECT_NEAR(truth, 118, 1); // the figure of the spectra's own integral
-    EXPECT_NEAR(luminance / truth, 1, 0.02); // adapted to the Sun, whose white has another luminance in each channel
+    EXPECT_NEAR(truth, 118, 1); // from the integral over the spectra
+    EXPECT_NEAR(luminance / truth, 1, 0.02); // the adaptation to the Sun gives the channels other luminances
     EXPECT_GT(rgb.b, rgb.r);
     glm::dvec3 red = shifted({1, 1, 1}, 0.5);
     EXPECT_GT(red.r, 3 * red.b);
 }
 
-TEST(Colour, BaseColoursRunAlongTheSpectrumAsTheirReflectancesDo)
+TEST(Colour, BaseColoursShiftAsTheirReflectancesDo)
 {
-    // Against the sum over every nanometre of the smooth reflectance under the Sun.
+    // The sum over every nanometre of the smooth reflectance under the Sun.
     const Spectrum sun = sunlit_white();
     for (const glm::dvec3& rgb : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(0.8, 0.5, 0.1)})
         for (double D : {0.25, 0.5, 1 / 1.4434, 1 / 1.309, 1 / 1.1547, 1.5, 3.0}) {
@@ -93,7 +93,7 @@ TEST(Colour, BaseColoursRunAlongTheSpectrumAsTheirReflectancesDo)
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(shifted(rgb, D)[c], std::max(truth[c], 0.0), 2e-3 * white) << D << " " << c;
         }
-    // What is blue at rest is greener where light is redder: the rainbow of a cylinder at 0.5 c.
+    // A surface that is blue at rest looks greener where light is shifted to the red: the rainbow of a cylinder at 0.5 c.
     const glm::dvec3 blue(0, 0, 1), centre = shifted(blue, 1 / 1.1547);
     EXPECT_GT(centre.g, centre.r);
     EXPECT_GT(centre.g / centre.b, 0.5);

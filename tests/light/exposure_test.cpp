@@ -1,4 +1,4 @@
-// The exposure: what is metered, how it adapts; and the curve from light to what a screen shows.
+// Metering, adaptation, and the tone curve from light to a screen's range.
 #include "config/model/angles.h"
 #include "runtime/hud/hud.h"
 #include "runtime/light/colour.h"
@@ -47,13 +47,13 @@ TEST(Metering, AnEvenViewIsBroughtToMidGrey)
 
 TEST(Metering, IsTheLogAverageOfTheBrighterHalfWithoutTheBrightest)
 {
-    // A thousand luminances, even in log2 over ten stops: the mean from 50 % to 98 % stands at 74 %.
+    // A thousand luminances, evenly spaced in log2 over ten stops: the mean from 50 % to 98 % is at 74 %.
     std::vector<float> luminances;
     for (int i = 0; i < 1000; ++i)
         luminances.push_back(float(std::exp2(-8 + 10 * (i * 617 % 1000 + 0.5) / 1000)));
-    // A bin of a sixteenth of a stop is cut at either end.
+    // Bins of a sixteenth of a stop are cut at both ends.
     EXPECT_NEAR(*metered_ev(even(luminances)), std::log2(0.18) - (-8 + 7.4), 0.01);
-    // What shines beyond 98 % may shine as it likes.
+    // Light above the 98th percentile does not matter.
     std::vector<float> lamps = luminances;
     std::sort(lamps.begin(), lamps.end());
     for (int i = 985; i < 1000; ++i)
@@ -63,68 +63,68 @@ TEST(Metering, IsTheLogAverageOfTheBrighterHalfWithoutTheBrightest)
 
 TEST(Metering, IsWeightedBySolidAngle)
 {
-    // The same sky, a part of it sampled more finely: as a dome's rim is, or the second eye's picture.
+    // The same sky with a part sampled more finely, as at a dome's rim or by a second eye.
     View view = even({0.01f, 0.1f, 0.2f, 0.3f}, 1.0f), finer = view;
     finer[2].solid_angle_sr = 0.25f;
     for (int i = 0; i < 3; ++i)
         finer.push_back(finer[2]);
     EXPECT_NEAR(*metered_ev(view), *metered_ev(finer), 1e-9);
-    // The half that counts is 0.2 and nearly all of 0.3.
+    // The brighter half is a part of 0.2 and nearly all of 0.3.
     EXPECT_NEAR(*metered_ev(view), std::log2(0.18) - (0.25 * std::log2(0.2) + 0.23 * std::log2(0.3)) / 0.48, 1e-6);
 }
 
 TEST(Metering, ASmallBrightDiscIsNotBurntOut)
 {
-    // A tenth of the view is lit, as at great gamma; the rest is dark by 20 stops.
+    // A tenth of the view is lit, as at great gamma; the rest is 20 stops darker.
     std::vector<float> luminances(900, 1e-6f);
     luminances.resize(1000, 1.0f);
     EXPECT_NEAR(*metered_ev(even(luminances)), 2, 1e-6); // two stops above white
 }
 
-// Stars of a hundredfold range of brightness, even in its logarithm, in a twilight.
-TEST(Metering, StarsAreNotBroughtBeyondMidGrey)
+// Stars in twilight, with a hundredfold range of brightness, evenly spaced in its logarithm.
+TEST(Metering, StarsAreExposedToMidGreyAtMost)
 {
     const View twilight = even(std::vector<float>(1000, 0.01f));
     std::vector<float> luminances;
     for (int i = 0; i < 300; ++i)
         luminances.push_back(float(std::pow(10, -1 + 2 * (i + 0.5) / 300)));
     const View stars = even(luminances, 1e-6f);
-    const double alone = std::log2(0.18) - std::log2(10) * (-1 + 2 * 0.74); // as the brighter half's above
+    const double alone = std::log2(0.18) - std::log2(10) * (-1 + 2 * 0.74); // the brighter half's mean, as above
     EXPECT_NEAR(*metered_ev({}, stars), alone, 0.01);
-    // Among so many the sixteen that are thought to be there count for 5 %.
+    // Among 300 stars the sixteen assumed ones count for 5 %.
     EXPECT_NEAR(*metered_ev(twilight, stars), alone + (std::log2(18) - alone) * 16 / 316, 0.01);
-    // By day they do not count.
+    // By day the stars do not count.
     EXPECT_EQ(*metered_ev(even({5, 5, 5, 5}), stars), *metered_ev(even({5, 5, 5, 5})));
-    EXPECT_EQ(metered_ev(twilight, even({0, 0, 0})), metered_ev(twilight)); // out of sight
-    // A few bright ones that come into view.
+    EXPECT_EQ(metered_ev(twilight, even({0, 0, 0})), metered_ev(twilight)); // stars without light do not count
+    // A few bright stars come into view.
     View with_bright = stars;
     for (const float bright : {300.0f, 1000.0f, 3000.0f})
         with_bright.push_back({bright, 1e-6f});
     EXPECT_NEAR(*metered_ev(twilight, with_bright), *metered_ev(twilight, stars), 0.1);
-    // One alone can't darken a twilight much, nor tear it as it comes and goes.
+    // One bright star changes the exposure of a twilight little.
     EXPECT_NEAR(*metered_ev(twilight, even({30.0f}, 1e-6f)), std::log2(18) - std::log2(30 / 0.01) / 17, 0.01);
 }
 
-TEST(Metering, OfDarknessAndOfWhatIsNoNumberThereIsNothing)
+TEST(Metering, DarknessAndInvalidNumbersGiveNoReading)
 {
     const float none = std::numeric_limits<float>::quiet_NaN(), most = std::numeric_limits<float>::infinity();
     EXPECT_FALSE(metered_ev({}));
     EXPECT_FALSE(metered_ev(even(std::vector<float>(100, 0.0f))));
     EXPECT_FALSE(metered_ev(even({none, most, -1.0f, 1e-45f})));
     EXPECT_FALSE(metered_ev(View{{1, 0}, {1, none}, {1, -1}}));
-    // Nor does it count beside light.
+    // These values do not count beside light.
     EXPECT_NEAR(*metered_ev(even({none, most, 0, 0, 0, 0, 0.18f})), 0, 1e-6);
 }
 
 // ---------------------------------------------------------------- adaptation
 
-TEST(Adaptation, TimeConstants)
+TEST(Adaptation, TakesHalfASecondUpAndThreeDown)
 {
     const Exposing rules;
-    const double part = 1 - std::exp(-1.0); // of the way, after the time constant
+    const double part = 1 - std::exp(-1.0); // the fraction after one time constant
     Exposure exposure{0.0};
     EXPECT_NEAR(*adapted(exposure, -10.0, 0.5, rules).ev, -10 * part, 1e-12); // ten stops brighter: half a second
-    EXPECT_NEAR(*adapted(exposure, 10.0, 3, rules).ev, 10 * part, 1e-12); // ten stops darker: three
+    EXPECT_NEAR(*adapted(exposure, 10.0, 3, rules).ev, 10 * part, 1e-12); // ten stops darker: three seconds
     EXPECT_EQ(*adapted(exposure, 10.0, 0, rules).ev, 0);
     EXPECT_EQ(*adapted(exposure, 10.0, -1, rules).ev, 0);
 }
@@ -132,18 +132,18 @@ TEST(Adaptation, TimeConstants)
 TEST(Adaptation, IsTheSameAtAnyFrameRate)
 {
     const Exposing rules;
-    for (const double wanted : {-12.0, 7.0})
+    for (const double target : {-12.0, 7.0})
         for (const int rate : {5, 24, 60, 144, 1000}) {
             Exposure exposure{2.0};
             for (int i = 0; i < rate; ++i)
-                exposure = adapted(exposure, wanted, 1.0 / rate, rules);
-            const double time_s = wanted < 2 ? 0.5 : 3;
+                exposure = adapted(exposure, target, 1.0 / rate, rules);
+            const double time_s = target < 2 ? 0.5 : 3;
             // A thousand roundings of numbers up to 12.
-            EXPECT_NEAR(*exposure.ev, wanted + (2 - wanted) * std::exp(-1 / time_s), 1e-11) << rate;
+            EXPECT_NEAR(*exposure.ev, target + (2 - target) * std::exp(-1 / time_s), 1e-11) << rate;
         }
 }
 
-TEST(Adaptation, NeverGoesBeyondWhatIsWanted)
+TEST(Adaptation, NeverOvershootsItsTarget)
 {
     const Exposing rules;
     Exposure exposure{0.0};
@@ -156,7 +156,7 @@ TEST(Adaptation, NeverGoesBeyondWhatIsWanted)
     EXPECT_NEAR(*exposure.ev, -5, 1e-12);
 }
 
-TEST(Adaptation, TheFirstViewIsTakenAtOnceAndDarknessChangesNothing)
+TEST(Adaptation, TheFirstViewAppliesAtOnceAndDarknessChangesNothing)
 {
     const Exposing rules;
     Exposure exposure;
@@ -167,8 +167,8 @@ TEST(Adaptation, TheFirstViewIsTakenAtOnceAndDarknessChangesNothing)
     EXPECT_EQ(adapted(exposure, {}, 100, rules).ev, -4.0);
 }
 
-// What config/exposing.h says of the greatest exposure, from SI's constants.
-TEST(Adaptation, TheGreatestExposureIsForTheEyesThreshold)
+// The greatest exposure, as config/exposing.h derives it, from SI's constants.
+TEST(Adaptation, TheGreatestExposureFollowsFromTheEyesThreshold)
 {
     const double h = 6.62607015e-34, c = 299792458, k = 1.380649e-23, kelvin = 5772;
     double all = 0, seen = 0;
@@ -178,7 +178,7 @@ TEST(Adaptation, TheGreatestExposureIsForTheEyesThreshold)
     }
     const double sunlit_cd_m2 = 683 * 1361 * (seen / all) / pi;
     EXPECT_NEAR(sunlit_cd_m2, 39900, 100);
-    EXPECT_NEAR(Exposing().max_ev, std::log2(0.18 * sunlit_cd_m2 / 1e-6), 0.5); // a whole number
+    EXPECT_NEAR(Exposing().max_ev, std::log2(0.18 * sunlit_cd_m2 / 1e-6), 0.5); // rounded to a whole number
 }
 
 TEST(Adaptation, KeepsToTheLimitsAndToTheLock)
@@ -191,21 +191,21 @@ TEST(Adaptation, KeepsToTheLimitsAndToTheLock)
     EXPECT_EQ(adapted({1.0, true}, 20.0, 1000, rules).ev, 1.0);
 }
 
-TEST(Adaptation, TheVisitorsTurnIsAdded)
+TEST(Adaptation, TheVisitorsCorrectionIsAdded)
 {
     Exposing rules;
-    // A start at -3 EV that nobody has turned adds nothing.
+    // A start at -3 EV that the visitor has not changed adds nothing.
     EXPECT_EQ(shown_ev({-1.5}, rules, -3, -3), -1.5);
     EXPECT_EQ(shown_ev({-1.5}, rules, -1, -3), 0.5);
-    EXPECT_EQ(shown_ev({}, rules, -2, -3), -2) << "before anything was seen";
+    EXPECT_EQ(shown_ev({}, rules, -2, -3), -2) << "before the first metered view";
     EXPECT_EQ(shown_ev({55.0}, rules, 30, 0), 60);
     rules.automatic = false;
     EXPECT_EQ(shown_ev({-1.5}, rules, -2, -3), -2);
 }
 
-TEST(Adaptation, IsToldInEv)
+TEST(Adaptation, IsDisplayedInEv)
 {
-    auto told = [](double ev, bool locked) {
+    auto exposure_field = [](double ev, bool locked) {
         Readings readings{};
         readings.gamma = readings.doppler_ahead = 1;
         readings.exposure_ev = ev, readings.exposure_locked = locked;
@@ -214,17 +214,17 @@ TEST(Adaptation, IsToldInEv)
                 return value;
         return std::string();
     };
-    EXPECT_EQ(told(0.04, false), "0.0 EV");
-    EXPECT_EQ(told(-0.04, false), "0.0 EV");
-    EXPECT_EQ(told(-3.16, false), "−3.2 EV");
-    EXPECT_EQ(told(11.5, true), "+11.5 EV locked");
+    EXPECT_EQ(exposure_field(0.04, false), "0.0 EV");
+    EXPECT_EQ(exposure_field(-0.04, false), "0.0 EV");
+    EXPECT_EQ(exposure_field(-3.16, false), "−3.2 EV");
+    EXPECT_EQ(exposure_field(11.5, true), "+11.5 EV locked");
 }
 
-// ---------------------------------------------------------------- the curve
+// ---------------------------------------------------------------- tone curve
 
 namespace {
 
-/// Fully bright and saturated colours and paler ones: white where saturation is 0.
+/// A colour of full brightness; at saturation 0 it is white.
 glm::dvec3 colour_of(double hue_deg, double saturation)
 {
     glm::dvec3 colour;
@@ -235,7 +235,7 @@ glm::dvec3 colour_of(double hue_deg, double saturation)
     return colour;
 }
 
-/// Lightness and opponent colours: Björn Ottosson, "A perceptual color space for image processing" (2020).
+/// Lightness and opponent colours by Björn Ottosson, "A perceptual color space for image processing" (2020).
 glm::dvec3 oklab(const glm::dvec3& c)
 {
     const double l = std::cbrt(0.4122214708 * c.r + 0.5363325363 * c.g + 0.0514459929 * c.b),
@@ -249,7 +249,7 @@ double luminance(const glm::dvec3& c) { return glm::dot(c, {0.2126, 0.7152, 0.07
 
 } // namespace
 
-TEST(ToneCurve, BelowItsKneeItIsStraight)
+TEST(ToneCurve, IsLinearBelowItsKnee)
 {
     for (int hue = 0; hue < 360; hue += 30)
         for (const double saturation : {0.0, 0.5, 1.0})
@@ -260,8 +260,8 @@ TEST(ToneCurve, BelowItsKneeItIsStraight)
     EXPECT_EQ(shader::tone_map({0, 0, 0}), glm::vec3(0));
 }
 
-// Twelve hues, of four saturations, over sixteen stops.
-TEST(ToneCurve, GoesToWhiteWithoutTurningTheHue)
+// Twelve hues with four saturations over sixteen stops.
+TEST(ToneCurve, GoesToWhiteAndKeepsTheHue)
 {
     double worst = 0, turned_most = 0;
     for (int hue = 0; hue < 360; hue += 30)
@@ -274,11 +274,11 @@ TEST(ToneCurve, GoesToWhiteWithoutTurningTheHue)
                 EXPECT_GT(luminance(shown), before) << hue << " at " << ev;
                 before = luminance(shown);
                 const glm::dvec3 of_light = oklab(light), of_shown = oklab(shown);
-                // A colour's strength beside its lightness never grows.
+                // Chroma relative to lightness must never grow.
                 const double chroma = std::hypot(of_shown.y, of_shown.z) / of_shown.x;
                 EXPECT_LT(chroma, chroma_before + 1e-5) << hue << " at " << ev;
                 chroma_before = chroma;
-                // Nearly white: 0.02 is twice what one can just tell from white on a good screen.
+                // Nearly white: 0.02 is twice the least visible difference from white on a good screen.
                 if (std::hypot(of_shown.y, of_shown.z) < 0.02)
                     continue;
                 const double angle = std::remainder(
@@ -288,17 +288,17 @@ TEST(ToneCurve, GoesToWhiteWithoutTurningTheHue)
                     = std::max(turned_most, chroma < 0.5 * std::hypot(of_light.y, of_light.z) / of_light.x ? 1.0 : 0);
             }
             const glm::dvec3 last = shader::tone_map(colour_of(hue, saturation) * 1024.0);
-            // Of a screen's 255 steps it misses white by one: the steps near white are 2.27 / 255 of the light.
+            // The last value misses white by one of a screen's 255 steps; near white a step is 2.27 / 255 of the light.
             for (int k = 0; k < 3; ++k)
                 EXPECT_GT(last[k], 1 - 1.5 * 2.27 / 255) << hue;
         }
-    EXPECT_EQ(turned_most, 1); // the way was gone by more than half
+    EXPECT_EQ(turned_most, 1); // the chroma has fallen by more than half
     std::printf("  the hue turns by %.2f degrees at most\n", worst);
-    // People tell hues apart from about 2 degrees on, side by side; the fit of the roots costs half of one.
+    // Side by side, people distinguish hues from about 2 degrees on; the fit of the roots takes half a degree.
     EXPECT_LT(worst, 1);
 }
 
-TEST(ToneCurve, TakesAnyLight)
+TEST(ToneCurve, AnyLightStaysInRange)
 {
     for (const float light : {1e-38f, 1e-10f, 1e10f, 1e30f}) {
         const glm::vec3 shown = shader::tone_map({light, 0.5f * light, 0});

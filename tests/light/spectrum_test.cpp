@@ -1,5 +1,5 @@
-// Spectra against themselves at every nanometre: black bodies, sunlit greys and a chart of smooth reflectances, at D from
-// 1/8 to 8, by few numbers and in full.
+// Spectral coefficients compared with sums over every nanometre: black bodies, sunlit greys and a chart of smooth
+// reflectances, at D from 1/8 to 8.
 #include "runtime/light/colour.h"
 #include "runtime/light/colour_difference.h"
 #include "runtime/light/response.h"
@@ -14,8 +14,8 @@ namespace {
 
 glm::dvec2 chromaticity(const glm::dvec3& xyz) { return glm::dvec2(xyz) / (xyz.x + xyz.y + xyz.z); }
 
-/// Back from the colour that is shown.
-glm::dvec3 told_xyz(const Response& response, std::span<const double> numbers, double D)
+/// Converts the displayed colour back to XYZ.
+glm::dvec3 xyz_of_coefficients(const Response& response, std::span<const double> numbers, double D)
 {
     return glm::inverse(eye().rec709) * seen(response, numbers, D);
 }
@@ -36,7 +36,7 @@ TEST(SpectrumTest, ColourDifferencesAreThePublishedOnes)
     }
 }
 
-TEST(SpectrumTest, ABaseColourLooksAsItSaysUnderTheSun)
+TEST(SpectrumTest, ABaseColourHasItsColourUnderTheSun)
 {
     const glm::dmat3 rec709 = rec709_from_sunlit_xyz();
     const Spectrum sun = sunlit_white();
@@ -46,7 +46,7 @@ TEST(SpectrumTest, ABaseColourLooksAsItSaysUnderTheSun)
         const glm::dvec3 seen
             = rec709 * seen_xyz([&](double nm) { return sun(nm) * base_reflectance(rgb, mean, mean, nm); }, 1);
         for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(seen[c], rgb[c], 1e-4) << c; // the primaries are told to five digits
+            EXPECT_NEAR(seen[c], rgb[c], 1e-4) << c; // the primaries' tables have five digits
         for (double nm = 40; nm < 12000; nm *= 1.02) {
             EXPECT_GE(base_reflectance(rgb, mean, mean, nm), -1e-6);
             EXPECT_LE(base_reflectance(rgb, mean, mean, nm), 1 + 1e-6);
@@ -56,45 +56,46 @@ TEST(SpectrumTest, ABaseColourLooksAsItSaysUnderTheSun)
     }
 }
 
-TEST(SpectrumTest, ABlackBodyStaysOne)
+TEST(SpectrumTest, AShiftedBlackBodyIsABlackBody)
 {
-    // The truth path: T at D is DT, in colour to rounding and in luminance as D^-3 once the headlight's D^3 is taken off.
+    // The reference's path: T at D becomes DT, in colour to rounding, and in luminance as D^-3 without the headlight
+    // effect's D^3.
     for (double kelvin : {1000.0, 2856.0, 5772.0, 40000.0})
         for (double D : {0.05, 0.5, 3.0, 20.0}) {
             if (kelvin * D < 300)
-                continue; // nothing is seen
+                continue; // nothing visible
             const glm::dvec3 moving = seen_xyz(black_body(kelvin), D), hotter = seen_xyz(black_body(kelvin * D), 1);
             EXPECT_LT(glm::distance(chromaticity(moving), chromaticity(hotter)), 1e-12);
             EXPECT_NEAR(moving.y * D * D * D / hotter.y, 1, 1e-9);
         }
 }
 
-TEST(SpectrumTest, FewNumbersHoldBlackBodiesAndGreys)
+TEST(SpectrumTest, CoefficientsRepresentBlackBodiesAndGreys)
 {
     const std::vector<double> kelvins = {1000, 2856, 5772, 40000};
-    std::vector<EmissionSpectrum> own;
+    std::vector<EmissionSpectrum> spectra;
     for (double kelvin : kelvins)
-        own.push_back({BlackBody{kelvin}});
-    const SpectralBasis basis = spectral_basis(12, own);
+        spectra.push_back({BlackBody{kelvin}});
+    const SpectralBasis basis = spectral_basis(12, spectra);
     const Response response = response_of(basis, eye());
     for (std::size_t i = 0; i < kelvins.size(); ++i)
-        for (int step = -34; step <= 34; ++step) { // 1/20 to 20
+        for (int step = -34; step <= 34; ++step) { // D from 1/20 to 20
             const double D = std::exp2(step * std::log2(20.0) / 34);
             std::vector<double> numbers(std::size_t(basis.size()), 0.0);
             numbers[std::size_t(basis.reflected) + i] = 1;
-            const glm::dvec3 shown = told_xyz(response, numbers, D), truth = seen_xyz(black_body(kelvins[i]), D);
+            const glm::dvec3 shown = xyz_of_coefficients(response, numbers, D), truth = seen_xyz(black_body(kelvins[i]), D);
             EXPECT_LT(glm::distance(chromaticity(shown), chromaticity(truth)), 0.002) << kelvins[i] << " K at " << D;
         }
     for (SpectralLevel level : {SpectralLevel::colours, SpectralLevel::middle, SpectralLevel::fine}) {
         const SpectralErrors greys = chart_errors(level, ChartFields::greys);
         std::printf("  greys, %2d numbers: CIEDE2000 worst %.4f, luminance %.4f %%\n", reflected_numbers[std::size_t(level)],
             greys.worst, 100 * greys.luminance);
-        EXPECT_LT(greys.worst, 0.05); // a half has eleven digits
+        EXPECT_LT(greys.worst, 0.05); // fp16 has eleven bits
         EXPECT_LT(greys.luminance, 1e-3);
     }
 }
 
-TEST(SpectrumTest, FewNumbersHoldAColourChart)
+TEST(SpectrumTest, CoefficientsRepresentAColourChart)
 {
     for (SpectralLevel level : {SpectralLevel::colours, SpectralLevel::middle, SpectralLevel::fine}) {
         const SpectralErrors errors = chart_errors(level, ChartFields::colours);
@@ -108,9 +109,9 @@ TEST(SpectrumTest, FewNumbersHoldAColourChart)
     }
 }
 
-TEST(SpectrumTest, ALineMovesAsAWholeAndKeepsItsEnergy)
+TEST(SpectrumTest, ALineIsShiftedAndKeepsItsEnergy)
 {
-    // Against a needle of a nanometre's width at every hundredth of one: 450 nm across the eye, D from 0.6 to 1.2.
+    // A rectangle one nanometre wide, summed at every hundredth of one: 450 nm, with D from 0.6 to 1.2.
     const double energy = [] {
         double sum = 0;
         const Spectrum sun = sunlit_white();
@@ -124,9 +125,9 @@ TEST(SpectrumTest, ALineMovesAsAWholeAndKeepsItsEnergy)
             sum += eye().response(nm / D) * (energy * nm * nm * 0.01 / (nm * nm)) * D; // d nm' / nm'^2 = D d nm / nm^2
         const glm::dvec3 line = seen(eye(), Emission(SpectralLine{450}), D);
         for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(line[c], sum[c], 5e-3 * sum[c] + 1e-9) << D; // the eye curves within the nanometre
+            EXPECT_NEAR(line[c], sum[c], 5e-3 * sum[c] + 1e-9) << D; // the eye's response is curved within the nanometre
     }
-    // A table with the same needle, and one that is the Sun's own spectrum.
+    // A table with a narrow peak, and a table of the Sun's spectrum.
     const SpectralTable needle{{{448, 0}, {450, 1}, {452, 0}}};
     std::vector<std::pair<double, double>> points;
     for (double nm = 40; nm <= 12000; nm *= 1.005)
@@ -135,9 +136,9 @@ TEST(SpectrumTest, ALineMovesAsAWholeAndKeepsItsEnergy)
         const glm::dvec3 a = seen(eye(), Emission(needle), D), b = seen(eye(), Emission(SpectralLine{450}), D);
         const glm::dvec3 c = seen(eye(), Emission(SpectralTable{points}), D), d = seen(eye(), sunlit_white(), D);
         EXPECT_LE(glm::distance(a, b), 0.03 * glm::length(b)) << D; // two nanometres are two steps of the sum
-        EXPECT_LT(glm::distance(c, d), 0.002 * glm::length(d)) << D; // what lies beyond 12 um is not in the table
+        EXPECT_LT(glm::distance(c, d), 0.002 * glm::length(d)) << D; // the table ends at 12 um
     }
-    // As much energy as a sunlit white, whatever the temperature.
+    // A lamp has a sunlit white's energy at any temperature.
     for (double kelvin : {300.0, 2856.0, 20000.0}) {
         double sum = 0;
         for (double nm = 1; nm < 1e7; nm *= 1.001)
@@ -146,35 +147,36 @@ TEST(SpectrumTest, ALineMovesAsAWholeAndKeepsItsEnergy)
     }
 }
 
-TEST(SpectrumTest, LampsOfTheirOwnLightGreysExactly)
+TEST(SpectrumTest, LampsWithTheirOwnSpectrumLightGreysExactly)
 {
     const std::vector<Emission> lamps = {BlackBody{2856}, SpectralLine{589.3}};
     const SpectralBasis basis = spectral_basis(
         12, std::array{EmissionSpectrum{lamps[0]}, EmissionSpectrum{lamps[0], true}, EmissionSpectrum{lamps[1]}});
     const Response response = response_of(basis, eye());
     for (double D : {0.5, 0.9, 1.0, 1.1, 2.0}) {
-        const glm::dvec3 grey = told_xyz(response, lit(basis, lamps[0], [](double) { return 0.5; }), D);
+        const glm::dvec3 grey = xyz_of_coefficients(response, lit(basis, lamps[0], [](double) { return 0.5; }), D);
         const glm::dvec3 truth = 0.5 * sunlit_part(lamps[0]) * seen(eye(), lamps[0], D);
         EXPECT_LT(glm::distance(grey, truth), 2e-3 * glm::length(truth)) << D;
-        // Whatever the surface, a line stays one: it takes what is reflected there.
+        // A line stays a line on any surface, times the reflectance at its wavelength.
         auto ramp = [](double nm) { return std::clamp((nm - 400) / 400, 0.0, 1.0); };
-        const glm::dvec3 sodium = told_xyz(response, lit(basis, lamps[1], ramp), D);
+        const glm::dvec3 sodium = xyz_of_coefficients(response, lit(basis, lamps[1], ramp), D);
         const glm::dvec3 known = ramp(589.3) * seen(eye(), lamps[1], D);
         EXPECT_LT(glm::distance(sodium, known), 0.02 * std::max(glm::length(known), 1e-3)) << D; // rows are 5 nm apart
-        // A smooth reflectance under the lamp, within what the chart's errors are under the Sun.
-        const glm::dvec3 shown = told_xyz(response, lit(basis, lamps[0], ramp), D);
+        // A smooth reflectance under the lamp has errors like those of the chart under the Sun.
+        const glm::dvec3 shown = xyz_of_coefficients(response, lit(basis, lamps[0], ramp), D);
         const glm::dvec3 lamp = sunlit_part(lamps[0])
             * seen(
                 eye(), [&](double nm) { return ramp(nm) * black_body(2856)(nm); }, D);
         const glm::dvec3 white = sunlit_part(lamps[0]) * seen(eye(), lamps[0], D);
         EXPECT_LT(glm::distance(shown, lamp), 0.025 * glm::length(white))
-            << D; // the ramp has corners, sharper than basis functions are
+            << D; // the ramp has corners, sharper than the basis functions
     }
 }
 
-TEST(SpectrumTest, FalseColoursShowWhatEyesDoNot)
+TEST(SpectrumTest, FalseColoursShowTheInfraredAndTheUltraviolet)
 {
-    // A sunlit white is white, whatever the level; leaves, bright in the infrared alone, are red; a room's own heat is.
+    // At any level a sunlit white is white. Leaves are bright only in the infrared, so they are red; so is a room's own
+    // heat.
     const StandardObserver& all = false_colours();
     EXPECT_LT(glm::distance(seen(all, sunlit_white(), 1), glm::dvec3(1)), 1e-9);
     for (int numbers : {3, 12}) {
@@ -184,7 +186,7 @@ TEST(SpectrumTest, FalseColoursShowWhatEyesDoNot)
         std::vector<double> room(std::size_t(basis.size()), 0.0);
         room.back() = 1;
         const glm::dvec3 warm = seen(response, room, 1);
-        EXPECT_GT(warm.r, 0.2); // 390 W/m2, of which 3/4 lies below 12 um, over the Sun's infrared
+        EXPECT_GT(warm.r, 0.2); // 390 W/m2, of which 3/4 is below 12 um, over the Sun's infrared
         EXPECT_LT(warm.g + warm.b, 1e-9);
     }
     const SpectralBasis basis = spectral_basis(12, {});
@@ -195,7 +197,7 @@ TEST(SpectrumTest, FalseColoursShowWhatEyesDoNot)
                 return base_reflectance({0.05, 0.1, 0.03}, 0.02, 0.5, nm);
             }),
         1);
-    EXPECT_NEAR(leaf.r, 0.5, 0.025); // by 860 nm it is as bright as beyond
+    EXPECT_NEAR(leaf.r, 0.5, 0.025); // at 860 nm it is as bright as beyond
     EXPECT_NEAR(leaf.b, 0.02, 0.01);
     EXPECT_LT(leaf.g, 0.2);
 }

@@ -1,4 +1,5 @@
-// A frame's time held by moving along the ladder: simulated, since real loads don't come twice.
+// The governor holds a frame's time by moving along the ladder. The load is simulated, because real loads are not
+// repeatable.
 #include "runtime/operation/governor.h"
 #include <cmath>
 #include <functional>
@@ -19,10 +20,10 @@ std::vector<PresetLevel> ladder_of_times(const std::vector<double>& times)
 
 struct Flown {
     int frames = 0, late = 0, moves = 0, most_moves_a_second = 0;
-    std::vector<std::size_t> levels; ///< of each second's end
+    std::vector<std::size_t> levels; ///< the level at the end of each second
 };
 
-/// So many seconds at 60 Hz. load: what a millisecond of the ladder takes, by the time. A frame that is late holds up the
+/// Simulates so many seconds at 60 Hz. load: factor on the ladder's times, as a function of time. A late frame delays the
 /// next.
 Flown fly(Governor& governor, double seconds, const std::function<double(double)>& load, double noise = 0.03)
 {
@@ -32,8 +33,8 @@ Flown fly(Governor& governor, double seconds, const std::function<double(double)
     Flown flown;
     std::vector<double> moves;
     for (double now = 0; now < seconds;) {
-        const double own = governor.ladder()[governor.level()].ms;
-        const double ms = load(now) * own * std::exp(chance(random));
+        const double level_ms = governor.ladder()[governor.level()].ms;
+        const double ms = load(now) * level_ms * std::exp(chance(random));
         ++flown.frames;
         flown.late += ms > 1.5 * turn;
         now += std::max(ms, turn) / 1000;
@@ -61,19 +62,19 @@ TEST(GovernorTest, HoldsUnderALoadThatDoublesAndHalvesEveryFiveSeconds)
     const Flown flown = fly(governor, 120, [](double now) { return int(now / 5) % 2 ? 2.0 : 1.0; });
     EXPECT_LE(flown.late, 0.01 * flown.frames);
     EXPECT_LE(flown.most_moves_a_second, 2);
-    // No pumping: in the second minute it hardly ever goes up any more.
+    // The level must not oscillate: in the second minute it hardly changes.
     std::size_t changes = 0;
     for (std::size_t s = 61; s < flown.levels.size(); ++s)
         changes += flown.levels[s] != flown.levels[s - 1];
     EXPECT_LE(changes, 4u);
 }
 
-TEST(GovernorTest, TakesTheFinestThatFitsAndStays)
+TEST(GovernorTest, TakesTheFinestLevelThatFitsAndStays)
 {
     for (double load : {0.5, 1.0, 1.7, 3.0}) {
         Governor governor(ladder_of_times(times), 1000.0 / 60);
         const Flown flown = fly(governor, 30, [&](double) { return load; });
-        // Within the quarter that is left as room, and not more than one step coarser.
+        // It fits into three quarters of the frame, and is at most one step coarser.
         std::size_t finest = 0;
         for (std::size_t i = 0; i < times.size(); ++i)
             if (load * times[i] <= 0.75 * 1000 / 60)
@@ -84,7 +85,7 @@ TEST(GovernorTest, TakesTheFinestThatFitsAndStays)
     }
 }
 
-TEST(GovernorTest, OneLateFrameIsChance)
+TEST(GovernorTest, SingleLateFramesCauseNoMove)
 {
     Governor governor(ladder_of_times(times), 1000.0 / 60);
     fly(governor, 20, [](double) { return 1.0; });
@@ -95,7 +96,7 @@ TEST(GovernorTest, OneLateFrameIsChance)
     EXPECT_EQ(governor.level(), before);
 }
 
-TEST(GovernorTest, WhatNothingHoldsIsDrawnOnTheFirstRung)
+TEST(GovernorTest, ALoadThatIsTooHighUsesTheFirstLevel)
 {
     Governor governor(ladder_of_times(times), 1000.0 / 60);
     fly(governor, 10, [](double) { return 50.0; });
@@ -103,7 +104,7 @@ TEST(GovernorTest, WhatNothingHoldsIsDrawnOnTheFirstRung)
     EXPECT_NE(describe(governor).find("quality 1 of 8"), std::string::npos) << describe(governor);
 }
 
-TEST(GovernorTest, OneRungIsEnough)
+TEST(GovernorTest, ALadderOfOneLevelNeverMoves)
 {
     Governor governor(ladder_of_times({10}), 1000.0 / 60);
     EXPECT_EQ(fly(governor, 10, [](double now) { return now > 5 ? 9.0 : 0.1; }).moves, 0);

@@ -1,10 +1,10 @@
-// The figures of starbow bench --input.
+// The statistics of starbow bench --input.
 #include "runtime/operation/latency.h"
 #include <gtest/gtest.h>
 
 using namespace starbow;
 
-// The worked example of nearest rank that textbooks have: 15, 20, 35, 40, 50.
+// The textbooks' example of nearest rank: 15, 20, 35, 40, 50.
 TEST(Latency, PercentilesAreOfNearestRank)
 {
     const std::vector<double> five{35, 20, 15, 50, 40};
@@ -15,7 +15,7 @@ TEST(Latency, PercentilesAreOfNearestRank)
     EXPECT_EQ(percentile(five, 1), 50);
     EXPECT_EQ(percentile({}, 0.5), 0);
     EXPECT_EQ(percentile({7}, 0.99), 7);
-    // Of 1 to 100 the n-th percentile is n, also where n / 100 times 100 is not n in binary.
+    // For 1 to 100 the n-th percentile is n, even where n / 100 times 100 is not n in binary.
     std::vector<double> hundred;
     for (int i = 100; i > 0; --i)
         hundred.push_back(i);
@@ -23,7 +23,7 @@ TEST(Latency, PercentilesAreOfNearestRank)
         EXPECT_EQ(percentile(hundred, i / 100.0), i);
 }
 
-// Four frames of 16 ms: a report before the first, one that waits a frame, none, two of which the last counts.
+// Four frames of 16 ms: a report before the first, one that waits for a frame, none, and two of which the later counts.
 TEST(Latency, AReportCountsInTheFrameThatFirstShowsIt)
 {
     constexpr std::int64_t ms = 1'000'000;
@@ -41,7 +41,7 @@ TEST(Latency, AReportCountsInTheFrameThatFirstShowsIt)
     EXPECT_EQ(latency.present_ms(), (std::vector<double>{8, 7, 9, 8}));
     EXPECT_EQ(latency.bound_ms(), (std::vector<double>{15, 26, 26, 28}));
     EXPECT_NE(latency.describe().find("15.00     25.00     25.00"), std::string::npos) << latency.describe();
-    // Stamped before the last controls were read, and handed over after.
+    // The report came before the last controls were read, and those were handed over after it.
     latency.add({.report_ns = 147 * ms + 1, .read_ns = 164 * ms, .handed_ns = 165 * ms, .shown_ns = 166 * ms});
     EXPECT_NEAR(latency.bound_ms().back(), 19, 1e-5);
 }

@@ -1,4 +1,4 @@
-// The log's lines, as a person and as the journal get them.
+// The log's lines in a terminal and in the journal.
 #include "runtime/operation/log.h"
 #include "tests/support/files.h"
 #include <regex>
@@ -10,7 +10,7 @@ using namespace starbow::testing;
 
 namespace {
 
-/// A log that goes to a file while it lives.
+/// A log that writes into a file as long as this object lives.
 class LogFile {
 public:
     explicit LogFile(const std::string& name)
@@ -25,7 +25,7 @@ public:
         std::fclose(stream_);
     }
     void open(LogLevel lowest = LogLevel::info) { open_log({.lowest = lowest, .stream = stream_}); }
-    /// What the service manager sets for this stream, but for an inode that is added.
+    /// The service manager's value for this stream, with `other` added to the inode.
     std::string journal_stream(unsigned long long other = 0) const
     {
         struct stat found { };

@@ -11,7 +11,7 @@ using namespace starbow::testing;
 
 namespace {
 
-/// The example of the standard itself (VESA E-EDID 1.3, appendix: "DELL UR111").
+/// The standard's own example (VESA E-EDID 1.3, appendix: "DELL UR111").
 constexpr std::uint8_t example[128] = {0x00, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0x00, 0x10, 0xac, 0xab, 0x50, 0x00, 0x00,
     0x00, 0x00, 0x2a, 0x09, 0x01, 0x03, 0x0e, 0x26, 0x1d, 0x96, 0xef, 0xee, 0x91, 0xa3, 0x54, 0x4c, 0x99, 0x26, 0x0f, 0x50,
     0x54, 0xa5, 0x43, 0x00, 0xa9, 0x4f, 0xa9, 0x59, 0x71, 0x59, 0x61, 0x59, 0x45, 0x59, 0x31, 0x59, 0xc2, 0x8f, 0x01, 0x01,
@@ -23,7 +23,7 @@ constexpr std::uint8_t example[128] = {0x00, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff,
 using Bytes = std::vector<std::uint8_t>;
 Bytes standard() { return Bytes(std::begin(example), std::end(example)); }
 
-/// With a right checksum whatever was changed.
+/// Sets the right checksum.
 Bytes summed(Bytes bytes)
 {
     unsigned sum = 0;
@@ -42,7 +42,7 @@ const std::vector<Monitor> wall
     = {monitor("DP-1", {0, 0}, "DELL U2415", "7MT01"), monitor("DP-2", {1920, 0}, "DELL U2415", "7MT02"),
         monitor("HDMI-1", {3840, 0}, "EPSON PJ"), monitor("VGA-1", {5760, 0})};
 
-std::optional<std::size_t> meant(const MonitorName& name, const std::vector<Monitor>& monitors = wall)
+std::optional<std::size_t> chosen(const MonitorName& name, const std::vector<Monitor>& monitors = wall)
 {
     const MonitorChoice choice = choose_monitor(name, monitors);
     EXPECT_EQ(choice.problem.empty(), choice.monitor.has_value());
@@ -51,16 +51,16 @@ std::optional<std::size_t> meant(const MonitorName& name, const std::vector<Moni
 
 } // namespace
 
-TEST(Edid, TheStandardsOwnExample)
+TEST(Edid, TheStandardsExampleIsRead)
 {
     const auto edid = parse_edid(example);
     ASSERT_TRUE(edid);
     EXPECT_EQ(edid->model, "DELL UR111");
     EXPECT_EQ(edid->serial, "55347BONZH47");
-    EXPECT_EQ(edid->size_mm, glm::ivec2(380, 290)); // the standard's: 38 x 29 cm
+    EXPECT_EQ(edid->size_mm, glm::ivec2(380, 290)); // the standard says 38 x 29 cm
 }
 
-TEST(Edid, WithoutDescriptorsTheNumbersServe)
+TEST(Edid, WithoutDescriptorsTheNumbersAreUsed)
 {
     Bytes bytes = standard();
     bytes[75] = bytes[93] = 0x10; // dummies instead of serial and name
@@ -78,11 +78,11 @@ TEST(Edid, AProjectorHasNoSize)
     Bytes bytes = standard();
     bytes[21] = bytes[22] = bytes[66] = bytes[67] = bytes[68] = 0;
     EXPECT_EQ(parse_edid(summed(bytes))->size_mm, glm::ivec2(0));
-    bytes[21] = 0x4f; // 1.4: the picture's shape, 16:9, is no size either
+    bytes[21] = 0x4f; // 1.4: this byte is the picture's shape, 16:9, which is no size either
     EXPECT_EQ(parse_edid(summed(bytes))->size_mm, glm::ivec2(0));
 }
 
-TEST(Edid, ADamagedOneNamesNobody)
+TEST(Edid, ADamagedEdidIsRefused)
 {
     EXPECT_FALSE(parse_edid({}));
     for (std::size_t length : {1, 8, 64, 127})
@@ -95,10 +95,10 @@ TEST(Edid, ADamagedOneNamesNobody)
         }
     Bytes bytes = standard();
     bytes[3] = 0;
-    EXPECT_FALSE(parse_edid(summed(bytes))) << "no EDID's beginning";
+    EXPECT_FALSE(parse_edid(summed(bytes))) << "this is not how an EDID begins";
 }
 
-TEST(Edid, WhateverItSaysIsOnePrintableLine)
+TEST(Edid, NamesAreAlwaysOnePrintableLine)
 {
     std::mt19937 random(1);
     for (int round = 0; round < 20000; ++round) {
@@ -114,24 +114,24 @@ TEST(Edid, WhateverItSaysIsOnePrintableLine)
     }
 }
 
-TEST(Monitors, AreMeantByWhateverIsGiven)
+TEST(Monitors, AreChosenByAnyMember)
 {
-    EXPECT_EQ(meant({.connector = "DP-2"}), 1u);
-    EXPECT_EQ(meant({.model = "EPSON PJ"}), 2u);
-    EXPECT_EQ(meant({.serial = "7MT01"}), 0u);
-    EXPECT_EQ(meant({.model = "DELL U2415", .serial = "7MT02"}), 1u);
-    EXPECT_EQ(meant({.position = glm::ivec2(5760, 0)}), 3u);
+    EXPECT_EQ(chosen({.connector = "DP-2"}), 1u);
+    EXPECT_EQ(chosen({.model = "EPSON PJ"}), 2u);
+    EXPECT_EQ(chosen({.serial = "7MT01"}), 0u);
+    EXPECT_EQ(chosen({.model = "DELL U2415", .serial = "7MT02"}), 1u);
+    EXPECT_EQ(chosen({.position = glm::ivec2(5760, 0)}), 3u);
 }
 
-TEST(Monitors, EveryMemberMustFit)
+TEST(Monitors, EveryMemberMustMatch)
 {
-    EXPECT_FALSE(meant({.connector = "DP-1", .serial = "7MT02"}));
-    EXPECT_FALSE(meant({.connector = "DP-1", .position = glm::ivec2(1920, 0)}));
-    EXPECT_FALSE(meant({.connector = "dp-1"}));
-    EXPECT_FALSE(meant({.connector = "DP"}));
+    EXPECT_FALSE(chosen({.connector = "DP-1", .serial = "7MT02"}));
+    EXPECT_FALSE(chosen({.connector = "DP-1", .position = glm::ivec2(1920, 0)}));
+    EXPECT_FALSE(chosen({.connector = "dp-1"}));
+    EXPECT_FALSE(chosen({.connector = "DP"}));
 }
 
-TEST(Monitors, AMissingOneIsToldWithThoseThatAre)
+TEST(Monitors, AMissingMonitorIsReportedWithTheOthers)
 {
     const std::string problem = choose_monitor({.connector = "DP-9"}, wall).problem;
     EXPECT_NE(problem.find("\"DP-9\" is plugged in nowhere"), std::string::npos) << problem;
@@ -139,23 +139,23 @@ TEST(Monitors, AMissingOneIsToldWithThoseThatAre)
     EXPECT_NE(choose_monitor({.connector = "DP-9"}, {}).problem.find("there are: none"), std::string::npos);
 }
 
-TEST(Monitors, TwoThatFitAreNoAnswer)
+TEST(Monitors, TwoMatchingMonitorsAreRefused)
 {
     const MonitorChoice choice = choose_monitor({.model = "DELL U2415"}, wall);
     EXPECT_FALSE(choice.monitor);
     EXPECT_NE(choice.problem.find("DP-1"), std::string::npos) << choice.problem;
     EXPECT_NE(choice.problem.find("DP-2"), std::string::npos) << choice.problem;
-    // Unless they show the same part of the desktop.
-    EXPECT_EQ(meant({.position = glm::ivec2(0, 0)}, {monitor("A", {0, 0}), monitor("B", {0, 0})}), 0u);
+    // Two monitors that show the same part of the desktop are one.
+    EXPECT_EQ(chosen({.position = glm::ivec2(0, 0)}, {monitor("A", {0, 0}), monitor("B", {0, 0})}), 0u);
 }
 
-TEST(Monitors, NobodyNamedMeansThePrimary)
+TEST(Monitors, WithoutANameThePrimaryIsChosen)
 {
-    EXPECT_EQ(meant({}), 0u);
+    EXPECT_EQ(chosen({}), 0u);
     auto monitors = wall;
     monitors[2].primary = true;
-    EXPECT_EQ(meant({}, monitors), 2u);
-    EXPECT_FALSE(meant({}, {}));
+    EXPECT_EQ(chosen({}, monitors), 2u);
+    EXPECT_FALSE(chosen({}, {}));
 }
 
 TEST(Monitors, AWindowStaysOnItsMonitor)
@@ -164,7 +164,7 @@ TEST(Monitors, AWindowStaysOnItsMonitor)
     EXPECT_EQ(place_on(screen, {.size = {640, 480}, .whole_monitor = true}), (WindowPlace{{1920, 100}, {1280, 720}}));
     EXPECT_EQ(place_on(screen, {.size = {640, 480}}), (WindowPlace{{1920, 100}, {640, 480}}));
     EXPECT_EQ(place_on(screen, {.size = {2560, 720}}), (WindowPlace{{1920, 100}, {1280, 360}})); // shrunk to fit
-    // Placed by the layout: as it says, also across several monitors.
+    // With a place the layout decides, even across several monitors.
     EXPECT_EQ(
         place_on(screen, {.size = {2560, 720}, .place = glm::ivec2(-10, 20)}), (WindowPlace{{1910, 120}, {2560, 720}}));
 }
@@ -178,13 +178,13 @@ TEST(Monitors, TheLineForALayoutReadsBackAsTheSameMonitor)
             const auto file = write_text("layout.json",
                 "{ \"outputs\": [{ \"name\": \"a\", \"viewports\": [{ \"projection\": { \"type\": \"planar\" } }], "
                     + layout_line(wall[i], by_edid) + " }] }");
-            EXPECT_EQ(meant(load_layout(file).outputs[0].monitor), i);
+            EXPECT_EQ(chosen(load_layout(file).outputs[0].monitor), i);
         }
     Monitor odd = monitor("a\"b\\c", {0, 0});
     EXPECT_EQ(layout_line(odd, false), R"("monitor": { "connector": "a\"b\\c" })");
 }
 
-TEST(Skew, MedianAndWorst)
+TEST(Skew, MedianFollowsAndWorstStays)
 {
     Skew skew;
     EXPECT_EQ(skew.median_s(), 0);
@@ -192,14 +192,14 @@ TEST(Skew, MedianAndWorst)
         skew.add(s);
     EXPECT_FLOAT_EQ(float(skew.median_s()), 0.002f);
     EXPECT_EQ(skew.worst_s(), 0.003);
-    for (int i = 0; i < 100000; ++i) // the median forgets, the worst does not
+    for (int i = 0; i < 100000; ++i) // the median forgets old values, the worst does not
         skew.add(0.001);
     EXPECT_FLOAT_EQ(float(skew.median_s()), 0.001f);
     EXPECT_EQ(skew.worst_s(), 0.003);
     EXPECT_EQ(skew.frames(), 100003u);
 }
 
-TEST(FileWatch, TellsOnceOfAChangeThatHasSettled)
+TEST(FileWatch, ReportsASettledChangeOnce)
 {
     const auto file = write_text("a.json", "1");
     FileWatch watch({file});
@@ -207,31 +207,31 @@ TEST(FileWatch, TellsOnceOfAChangeThatHasSettled)
     auto look = [&] { return watch.changed(now += std::chrono::milliseconds(110)); };
     EXPECT_FALSE(look());
     write_text("a.json", "22");
-    EXPECT_FALSE(look()) << "it may be half written";
+    EXPECT_FALSE(look()) << "the file may be half written";
     EXPECT_FALSE(look());
     EXPECT_TRUE(look());
     EXPECT_FALSE(look());
-    // Replaced by another file of the same size, as editors do; gone in between.
+    // Editors replace a file by another one of the same size; in between it is missing.
     std::filesystem::remove(file);
     EXPECT_FALSE(look());
     const auto other = write_text("b.json", "33");
     std::filesystem::rename(other, file);
-    int told = 0;
+    int reported = 0;
     for (int i = 0; i < 6; ++i)
-        told += look();
-    EXPECT_EQ(told, 1);
-    // Gone for good it is told of once, and again when it is back.
+        reported += look();
+    EXPECT_EQ(reported, 1);
+    // A file that stays missing is reported once, and again when it is back.
     const auto aside = file.parent_path() / "aside.json";
     std::filesystem::rename(file, aside);
-    told = 0;
+    reported = 0;
     for (int i = 0; i < 30; ++i)
-        told += look();
-    EXPECT_EQ(told, 1);
+        reported += look();
+    EXPECT_EQ(reported, 1);
     std::filesystem::rename(aside, file);
     for (int i = 0; i < 6; ++i)
-        told += look();
-    EXPECT_EQ(told, 2);
-    // One that is written again and again is waited for.
+        reported += look();
+    EXPECT_EQ(reported, 2);
+    // A file that is written again and again is not reported until it settles.
     for (int i = 0; i < 6; ++i) {
         write_text("a.json", std::string(std::size_t(i), 'x'));
         EXPECT_FALSE(look());

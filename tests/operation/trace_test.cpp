@@ -1,4 +1,4 @@
-// A trace is read back with a JSON reader that shares no code with its writer's layout of events.
+// A JSON reader reads the trace back; it shares no code with the writer.
 #include "runtime/operation/log.h"
 #include "runtime/operation/trace.h"
 #include "tests/support/files.h"
@@ -77,7 +77,7 @@ TEST(Trace, SpansNestAndLastAsLongAsTheirScopes)
         EXPECT_EQ(inner["ph"], "X");
         EXPECT_EQ(inner["tid"], frame["tid"]);
         EXPECT_GE(begin(inner), begin(frame));
-        EXPECT_LE(end(inner), end(frame) + 0.001); // printed to 1 ns, begin and duration each
+        EXPECT_LE(end(inner), end(frame) + 0.001); // begin and duration are each printed to 1 ns
     }
     EXPECT_LE(end(plan), begin(record) + 0.001);
     EXPECT_GE(plan["dur"].get<double>(), 3000); // microseconds
@@ -85,7 +85,7 @@ TEST(Trace, SpansNestAndLastAsLongAsTheirScopes)
     EXPECT_EQ(track_of(events, frame), "frame loop");
 }
 
-TEST(Trace, TheGpuHasATrackOfItsOwnInTheSameTime)
+TEST(Trace, TheGpuHasATrackOfItsOwnOnTheSameClock)
 {
     const auto file = scratch("gpu.json");
     std::int64_t began = 0;
@@ -118,7 +118,7 @@ TEST(Trace, CountersAndInstantsAreEvents)
     {
         Trace trace(file);
         trace.counter("frame ms", 16.25);
-        trace.counter("frame ms", std::numeric_limits<double>::quiet_NaN()); // JSON has no word for it
+        trace.counter("frame ms", std::numeric_limits<double>::quiet_NaN()); // JSON can't express it
         trace.counter("frame ms", std::numeric_limits<double>::infinity());
         trace.instant("late frame");
     }
@@ -171,9 +171,9 @@ TEST(Trace, EachThreadHasItsTrack)
     EXPECT_EQ(track.size(), 4u);
 }
 
-TEST(Trace, NullIsOff)
+TEST(Trace, ASpanWithoutATraceDoesNothing)
 {
-    const Trace::Span span(nullptr, "plan"); // touches neither a file nor a clock
+    const Trace::Span span(nullptr, "plan"); // this needs neither a file nor a clock
 }
 
 TEST(Trace, ACrashLosesOnlyTheLastBracket)
@@ -194,11 +194,11 @@ TEST(Trace, ACrashLosesOnlyTheLastBracket)
     ASSERT_TRUE(WIFSIGNALED(status));
     const std::string text = read_text(file);
     EXPECT_FALSE(text.ends_with("]"));
-    const json events = json::parse(text + "]"); // as the viewers do
-    EXPECT_GE(all_of(events, "X").size(), 8u); // 600 ms: all but those of the last 250 ms
+    const json events = json::parse(text + "]"); // viewers close the list too
+    EXPECT_GE(all_of(events, "X").size(), 8u); // of 600 ms, all frames but those of the last 250 ms
 }
 
-TEST(Trace, AFileThatCantBeWrittenIsToldBeforeTheFlight)
+TEST(Trace, AFileThatCantBeWrittenIsRefusedAtOnce)
 {
     std::filesystem::create_directories(scratch("folder.json"));
     const std::string folder = complaint([] { Trace trace(scratch("folder.json")); });
@@ -222,7 +222,7 @@ TEST(Trace, MakesItsFolderAndReplacesAnOlderTrace)
     EXPECT_EQ(all_of(events, "i")[0]["name"], "second");
 }
 
-TEST(Trace, EndsBeforeItFillsTheDisk)
+TEST(Trace, EndsAtItsLimitOfBytes)
 {
     const auto file = scratch("large.json");
     std::FILE* log = std::fopen(scratch("large.log").c_str(), "w");
@@ -237,7 +237,7 @@ TEST(Trace, EndsBeforeItFillsTheDisk)
     EXPECT_LE(std::filesystem::file_size(file), 10'000u);
     EXPECT_GE(std::filesystem::file_size(file), 9'000u);
     EXPECT_GE(all_of(json::parse(read_text(file)), "X").size(), 50u);
-    const std::string said = read_text(scratch("large.log"));
-    EXPECT_NE(said.find("the trace ends here, the flight goes on"), std::string::npos);
-    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1);
+    const std::string messages = read_text(scratch("large.log"));
+    EXPECT_NE(messages.find("the trace ends here, the flight goes on"), std::string::npos);
+    EXPECT_EQ(std::count(messages.begin(), messages.end(), '\n'), 1);
 }

@@ -1,4 +1,4 @@
-// Culling and detail by themselves: nothing that a pixel could see is left out, and coarser surfaces stay close.
+// Culling and levels of detail: nothing that a pixel could see is left out, and coarser surfaces stay close to the full one.
 #include "config/model/angles.h"
 #include "runtime/plan/cull.h"
 #include "runtime/world/detail.h"
@@ -28,7 +28,7 @@ bool ray_hits(const Instance& instance, const Primitive& primitive, const glm::d
 
 } // namespace
 
-TEST(Cull, KeepsWhatAnyDirectionOfAnImageHits)
+TEST(Cull, KeepsEveryInstanceThatAnImagesDirectionHits)
 {
     World world = boxes(60, 5);
     glm::dvec3 eye(0.3, -0.2, 0.5);
@@ -64,7 +64,7 @@ TEST(Cull, KeepsWhatAnyDirectionOfAnImageHits)
     EXPECT_LT(drawn, long(images.size() * world.instances.size() * 2 / 3)) << "hardly anything was culled";
 }
 
-TEST(Cull, InstancesMoveAroundTheEyeInDouble)
+TEST(Cull, InstancesAreRelativeToTheEyeInDouble)
 {
     World world = boxes(1, 1);
     world.instances[0].frame_from_local[3] = glm::dvec4(1e9, 2, -3, 1);
@@ -75,7 +75,7 @@ TEST(Cull, InstancesMoveAroundTheEyeInDouble)
 
 TEST(Detail, CoarserSurfacesStayWithinTheirError)
 {
-    // A ball of 96 x 48: every vertex of a level lies on it, and every middle of a triangle within the level's error of it.
+    // A ball of 96 x 48 faces: a level's vertices lie on it, and the middles of its triangles within the level's error.
     World world;
     world.materials.push_back({});
     constexpr int n = 48;
@@ -116,14 +116,14 @@ TEST(Detail, CoarserSurfacesStayWithinTheirError)
                 middle += glm::dvec3(world.vertices[world.indices[level.first_index + i + k]].position) / 3.0;
             worst = std::max(worst, 1 - glm::length(middle));
         }
-        // The simplifier's error is a mean over planes, not a bound; a factor of four holds for balls.
+        // The simplifier's error is a mean over planes, not a bound; for balls a factor of four holds.
         EXPECT_LT(worst, 4 * level.error + 0.002) << level.index_count;
     }
 }
 
-TEST(Detail, TellsWhereItIsShadedOtherwise)
+TEST(Detail, ReportsADifferenceInShading)
 {
-    // Two pipes alike in depth but for ripples of a thousandth, whose normals turn by 30 degrees either way.
+    // Two pipes of nearly the same depth. One has ripples of a thousandth, whose normals turn by 30 degrees either way.
     auto pipe = [](double tilt) {
         World world;
         world.materials.push_back({});
@@ -156,13 +156,13 @@ TEST(Detail, TellsWhereItIsShadedOtherwise)
     const auto smooth = pipe(0), rippled = pipe(30 * pi / 180);
     ASSERT_GE(smooth.size(), 3u);
     ASSERT_GE(rippled.size(), 3u);
-    // With an eighth of the triangles the ripples, 0.26 from one to the next, are gone; a round pipe shades as before.
+    // An eighth of the triangles can't show ripples 0.26 apart; a round pipe keeps its shading.
     EXPECT_LT(smooth[2].shading, 0.004);
     EXPECT_GT(rippled[2].shading, 0.02);
     EXPECT_LT(rippled[0].error, 0.01);
 }
 
-TEST(Detail, LeavesCloudsOfSmallThingsAlone)
+TEST(Detail, KeepsManySmallTrianglesAsTheyAre)
 {
     World world;
     world.materials.push_back({});

@@ -1,4 +1,4 @@
-// The plan by itself: whatever a pixel reads of the atlas was drawn, at the density that was asked for.
+// The cube-map plan: every texel that a pixel reads is drawn, at the requested density.
 #include "config/model/angles.h"
 #include "runtime/plan/cube_map_plan.h"
 #include "runtime/world/eye_event.h"
@@ -40,7 +40,7 @@ glm::dquat turn(int i)
     return glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random)));
 }
 
-/// Calls check(tile place, world angle of the pixel, image or null) for every pixel centre.
+/// Calls check(plan, place in a tile, angle of the pixel in the world, image or null) for every pixel centre.
 template <class Check> void each_pixel(const Case& c, double gamma, int turned, const Quality& quality, Check&& check)
 {
     glm::dvec3 u(0, 0, -u_of_gamma(gamma));
@@ -49,16 +49,16 @@ template <class Check> void each_pixel(const Case& c, double gamma, int turned, 
     glm::dmat3 motion_from_cockpit = motion_from_world(u, ship_from_cockpit) * glm::dmat3(glm::mat3_cast(ship_from_cockpit));
     const CompiledView view = view_of(c.projection, c.size);
     CubeMapPlan plan = plan_cube_map({{view.cones.get(), motion_from_cockpit}}, E, quality);
-    std::vector<const PlannedImage*> by_cell(TILE_COUNT * SUB_TILE_COUNT, nullptr);
+    std::vector<const PlannedImage*> by_sub_tile(TILE_COUNT * SUB_TILE_COUNT, nullptr);
     for (const PlannedImage& image : plan.images)
         for (int y = 0; y < image.sub_tiles.count.y; ++y)
             for (int x = 0; x < image.sub_tiles.count.x; ++x) {
-                const glm::ivec2 cell = image.sub_tiles.first + glm::ivec2(x, y);
-                by_cell[std::size_t(image.tile * SUB_TILE_COUNT + cell.y * TILE_SUB_TILES + cell.x)] = &image;
+                const glm::ivec2 sub_tile = image.sub_tiles.first + glm::ivec2(x, y);
+                by_sub_tile[std::size_t(image.tile * SUB_TILE_COUNT + sub_tile.y * TILE_SUB_TILES + sub_tile.x)] = &image;
             }
     auto image = [&](const TilePlace& place) {
-        const glm::ivec2 cell = sub_tiles_in(place.tile, {place.at, place.at}).first;
-        return by_cell[std::size_t(place.tile * SUB_TILE_COUNT + cell.y * TILE_SUB_TILES + cell.x)];
+        const glm::ivec2 sub_tile = sub_tiles_in(place.tile, {place.at, place.at}).first;
+        return by_sub_tile[std::size_t(place.tile * SUB_TILE_COUNT + sub_tile.y * TILE_SUB_TILES + sub_tile.x)];
     };
     for (int y = 0; y < c.size.y; ++y)
         for (int x = 0; x < c.size.x; ++x) {
@@ -66,9 +66,9 @@ template <class Check> void each_pixel(const Case& c, double gamma, int turned, 
             auto n = direction(view.view.picture, pixel);
             if (!n)
                 continue;
-            auto sight = physics::world_from_camera(motion_from_cockpit * *n, E, 1 / E);
-            TilePlace place = tile_of(sight.n, plan.finest_clip_level[0]);
-            check(plan, place, sight.D * pixel_angle(view.view.picture, pixel), image(place));
+            auto ray = physics::world_from_camera(motion_from_cockpit * *n, E, 1 / E);
+            TilePlace place = tile_of(ray.n, plan.finest_clip_level[0]);
+            check(plan, place, ray.D * pixel_angle(view.view.picture, pixel), image(place));
         }
 }
 
@@ -85,7 +85,7 @@ TEST(CubeMapPlan, EveryTexelThatAnyPixelReadsWasDrawn)
                         ++pixels;
                         if (!image)
                             return void(++missing);
-                        // The level read, and the two by two texels of it around the point; half a texel is for the
+                        // The level that is read, and its two by two texels around the point. Half a texel covers the
                         // shader's float arithmetic.
                         double texels
                             = world_angle * image->texels_per_unit * std::pow(1 + glm::dot(place.at, place.at), 0.75);
@@ -125,10 +125,10 @@ TEST(CubeMapPlan, ImagesLieApartInTheAtlas)
                     });
 }
 
-TEST(CubeMapPlan, HoldsTheDensityThatWasAskedFor)
+TEST(CubeMapPlan, HoldsTheRequestedDensity)
 {
-    // Without a ceiling on texels no pixel is served by less than one texel, but for the difference between a disc's middle
-    // and its edge (cells of 24 pixels: 15 %), nor, mips counted, by more than about two across.
+    // Without a limit on texels each pixel gets at least one texel, minus the variation over a block's cone (blocks of 24
+    // pixels: 15 %). With mip levels it gets at most about two across.
     for (double gamma : {1.0, 4.0, 100.0}) {
         double least = 1e9, most = 0;
         each_pixel(cases[0], gamma, 0, {.texels_per_pixel = 1, .max_texels_per_pixel = 1e9},
@@ -142,15 +142,15 @@ TEST(CubeMapPlan, HoldsTheDensityThatWasAskedFor)
     }
 }
 
-// Every pixel by one texel at least, whichever way a visitor looks, however fast. (A window of 150 degrees takes up to 9: a
-// flat picture's pixels are stretched four times at its edges, and texels are not.)
+// Each pixel gets at least one texel at any speed and in any direction of view. (A window of 150 degrees takes up to 9,
+// because its pixels are stretched four times at its edges, and texels are not.)
 TEST(CubeMapPlan, SpendsAtMostThreeTexelsOnAPixel)
 {
     const Case displays[] = {{"window, 60 degrees", Planar{60}, {800, 600}}, {"window, 20 degrees", Planar{20}, {800, 600}},
         {"wall, 90 degrees", Planar{90}, {1920, 1080}}, {"headset, 110 degrees", Planar{110}, {1600, 1600}},
         {"dome", Fisheye{180, 0}, {1024, 1024}}, {"whole sky", Equirectangular{}, {2048, 1024}}};
     const double speeds[] = {1, 1.5, 2, 4, 10, 100, 1000, 1e6};
-    std::printf("  texels a pixel, and images, in the direction that takes most\n  %-22s", "gamma");
+    std::printf("  texels a pixel and images, for the most expensive direction\n  %-22s", "gamma");
     for (double gamma : speeds)
         std::printf("%12g", gamma);
     for (const Case& c : displays) {
@@ -177,7 +177,7 @@ TEST(CubeMapPlan, SpendsAtMostThreeTexelsOnAPixel)
     std::printf("\n");
 }
 
-TEST(CubeMapPlan, WeighsTexelsAgainstImages)
+TEST(CubeMapPlan, TradesTexelsForImagesByTheirCost)
 {
     const CompiledView view = view_of(Planar{60}, {800, 600});
     const glm::dvec3 u(0, 0, -u_of_gamma(4));
@@ -194,8 +194,8 @@ TEST(CubeMapPlan, WeighsTexelsAgainstImages)
     }
 }
 
-// What the warp shader reads leads to the image that holds a direction, in float: half a texel beside a cell's edge it may
-// be the next one, which has been drawn beyond its own.
+// The table leads the warp shader to the image that holds a direction, in float. Within half a texel of a cell's edge it may
+// be the next image, which is drawn beyond its edge.
 TEST(CubeMapPlan, TableLeadsToTheImageOfADirection)
 {
     const auto table = std::make_unique<shared::TileTable>();
@@ -213,11 +213,11 @@ TEST(CubeMapPlan, TableLeadsToTheImageOfADirection)
                 const TilePlace place = tile_of(physics::world_from_camera(n, E, 1 / E).n, plan.finest_clip_level[0]);
                 const glm::vec2 at(place.at), spread = place.face == 1 ? at * glm::abs(at) : at;
                 const glm::vec4 sub_tiles = table->sub_tiles_from_face[place.tile];
-                const glm::ivec2 cell
+                const glm::ivec2 sub_tile
                     = glm::min(glm::ivec2(spread * glm::vec2(sub_tiles) + glm::vec2(sub_tiles.z, sub_tiles.w)),
                         glm::ivec2(TILE_SUB_TILES - 1));
                 const shared::TileEntry& entry
-                    = table->entries[place.tile * SUB_TILE_COUNT + cell.y * TILE_SUB_TILES + cell.x];
+                    = table->entries[place.tile * SUB_TILE_COUNT + sub_tile.y * TILE_SUB_TILES + sub_tile.x];
                 const glm::vec2 texel
                     = at * entry.texel_from_face.x + glm::vec2(entry.texel_from_face.y, entry.texel_from_face.z);
                 ASSERT_GE(texel.x, entry.texels.x + 0.5f) << gamma << " " << x << " " << y;
@@ -228,7 +228,7 @@ TEST(CubeMapPlan, TableLeadsToTheImageOfADirection)
     }
 }
 
-TEST(CubeMapPlan, StaysUnderTheCeiling)
+TEST(CubeMapPlan, StaysUnderTheLimitOfTexels)
 {
     for (double gamma : {1.0, 4.0, 10.0, 100.0, 1e4})
         for (int turned = 0; turned < 5; ++turned)
@@ -245,7 +245,7 @@ TEST(CubeMapPlan, FitsTheDeviceHoweverLargeTheOutput)
     const ConeHierarchy cones(*planar_matrix({Planar{120}, {16384, 16384}}), {16384, 16384});
     for (double gamma : {1.0, 4.0, 1000.0}) {
         glm::dvec3 u(0, 0, -u_of_gamma(gamma));
-        // As flat as a dome of 16384 pixels is large: its map would fill the test's memory.
+        // A flat display; a dome of 16384 pixels would need a map that fills the test's memory.
         CubeMapPlan plan
             = plan_cube_map({{&cones, motion_from_world(u, glm::dquat(1, 0, 0, 0))}}, physics::exp_rapidity(glm::length(u)),
                 {.texels_per_pixel = 1.25, .max_texels_per_pixel = 8, .max_texels = 48e6, .max_atlas_side = 4096});
@@ -254,14 +254,14 @@ TEST(CubeMapPlan, FitsTheDeviceHoweverLargeTheOutput)
     }
 }
 
-TEST(CubeMapPlan, AtRestLookingAheadIsOneImage)
+TEST(CubeMapPlan, AtRestAViewAheadNeedsOneImage)
 {
     const CompiledView view = view_of(Planar{60}, {800, 600});
     CubeMapPlan plan = plan_cube_map({{view.cones.get(), motion_from_world({}, glm::dquat(1, 0, 0, 0))}}, 1, {});
     ASSERT_EQ(plan.images.size(), 1u);
     EXPECT_EQ(plan.images[0].tile, TILE_FRONT);
     EXPECT_EQ(plan.levels, 1);
-    // The corners' texels are twice the middle's share of sky, and 4 texels of gutter all round.
+    // Texels in the corners cover half the middle's solid angle, and 4 texels of gutter surround the image.
     EXPECT_LT(plan.texels / plan.pixels, 1.3);
 }
 
@@ -280,7 +280,7 @@ TEST(CubeMapPlan, ClipMapsTheRectangleToTheSquare)
     }
 }
 
-TEST(CubeMapPlan, ServesOnceMoreWhatItHolds)
+TEST(CubeMapPlan, IsReusedForRequestsThatItCovers)
 {
     const Quality quality{.texels_per_pixel = 1, .max_texels_per_pixel = 50};
     const CompiledView view = view_of(Planar{60}, {400, 300});
@@ -292,10 +292,10 @@ TEST(CubeMapPlan, ServesOnceMoreWhatItHolds)
     };
     const CubeMapPlan plan = plan_at(2, 0.3);
     EXPECT_TRUE(can_reuse(plan, plan));
-    // Whoever turns on looks past its edges; faster, other images are wanted, and finer ones.
+    // A turn leads beyond the plan's edges; at a higher speed other and finer images are requested.
     EXPECT_FALSE(can_reuse(plan, plan_at(2, 0.8)));
     EXPECT_FALSE(can_reuse(plan, plan_at(8, 0.3)));
-    // And what is as wide but coarser does not do.
+    // An image of the same extent but coarser can't be reused.
     CubeMapPlan coarse = plan;
     coarse.images[0].texels_per_unit *= 0.5;
     EXPECT_FALSE(can_reuse(coarse, plan));

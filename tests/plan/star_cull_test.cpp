@@ -1,4 +1,4 @@
-// Which stars are drawn: none that an image of the plan holds is left out, and most of the others are.
+// Star culling: every star that an image of the plan holds is drawn, and most others are not.
 #include "runtime/plan/star_cull.h"
 #include "runtime/world/stars.h"
 #include <glm/gtc/quaternion.hpp>
@@ -43,7 +43,7 @@ TEST(StarCull, PatchesHoldAllStarsInOrder)
     }
 }
 
-TEST(StarCull, KeepsWhatTheViewShowsAndLittleElse)
+TEST(StarCull, KeepsTheStarsInViewAndFewOthers)
 {
     const auto stars = even_sky(100000);
     const auto patches = star_patches(stars);
@@ -59,7 +59,7 @@ TEST(StarCull, KeepsWhatTheViewShowsAndLittleElse)
             const CubeMapPlan plan = plan_cube_map({{&cones, motion_from_cockpit}}, E, {});
             const auto runs = stars_in(plan.images, patches, turn);
             std::vector<bool> kept(stars.size());
-            std::size_t sum = 0, wanted = 0;
+            std::size_t sum = 0, in_view = 0;
             for (const StarRun& run : runs) {
                 ASSERT_LE(run.first + run.count, stars.size());
                 for (std::uint32_t k = run.first; k < run.first + run.count; ++k) {
@@ -69,20 +69,20 @@ TEST(StarCull, KeepsWhatTheViewShowsAndLittleElse)
             }
             const double gamma = 0.5 * (E + 1 / E), u = 0.5 * (E - 1 / E);
             for (std::size_t k = 0; k < stars.size(); ++k) {
-                // The boost of the ray's 4-vector along z, then into the view: a pinhole with this field.
+                // The ray's 4-vector, boosted along z and transformed into the view, a pinhole with this field.
                 const glm::dvec3 n = turn * glm::dvec3(stars[k].direction);
                 const glm::dvec3 seen
                     = glm::transpose(motion_from_cockpit) * glm::dvec3(n.x, n.y, gamma * n.z + u * glm::length(n));
                 const double half = std::tan(glm::radians(35.0));
                 if (seen.z < 0 && std::abs(seen.x / seen.z) < half && std::abs(seen.y / seen.z) < 0.75 * half) {
                     ASSERT_TRUE(kept[k]) << "E " << E << " star " << k;
-                    ++wanted;
+                    ++in_view;
                 }
             }
-            // The images are rectangles on a cube's faces, patches have a width, and so has the margin for spots; at greater
-            // speed a pixel is many degrees wide.
+            // The images are rectangles on a cube's faces, the patches have a width, and spots need a margin. At greater
+            // speeds a pixel is many degrees wide.
             if (E <= 2) {
-                EXPECT_LE(double(sum), 3 * double(wanted) + 0.12 * double(stars.size())) << "E " << E;
+                EXPECT_LE(double(sum), 3 * double(in_view) + 0.12 * double(stars.size())) << "E " << E;
             }
             EXPECT_LT(runs.size(), 300u);
         }

@@ -1,5 +1,5 @@
-// The live picture against the one by rays, which shares neither the cube map nor the warp with it: in every shipped layout,
-// in worlds with clocks, bodies, lines and glows, and the closer the finer the cube map is.
+// The live picture compared with the reference, which uses neither the cube map nor the warp pass: in every shipped layout,
+// in worlds with clocks, bodies, lines and glows, and with finer and finer cube maps.
 #include "runtime/images/picture_errors.h"
 #include "runtime/reference/reference.h"
 #include "tests/support/stage.h"
@@ -26,7 +26,7 @@ double mean(const Bytes& a)
     return sum / (0.75 * double(a.size()));
 }
 
-/// A layout whose longer sides are so many pixels.
+/// The layout with its outputs' longer sides reduced to `side` pixels.
 Layout small_layout(const std::filesystem::path& file, int side)
 {
     Layout layout = load_layout(file);
@@ -50,7 +50,7 @@ const ReferenceWorld& avenue_by_rays()
 
 } // namespace
 
-TEST(LivePicture, ConvergesToTheOneByRaysInEveryShippedLayout)
+TEST(LivePicture, ConvergesToTheReferenceInEveryShippedLayout)
 {
     const Shot shot = shipped_shot("avenue-gamma4");
     for (const auto& file : starbow::testing::shipped("config/layouts")) {
@@ -74,19 +74,20 @@ TEST(LivePicture, ConvergesToTheOneByRaysInEveryShippedLayout)
                 EXPECT_NEAR(mean(pictures[i]), mean(truth[i]), 0.02 * mean(truth[i]) + 0.5) << name;
             }
         }
-        // A picture that is moved by one pixel, or another eye's, has 20 dB or less; the rays' own grain leaves 35.
+        // A picture shifted by one pixel, or another eye's, has at most 20 dB; the reference's own noise allows 35.
         for (double reached : before)
             EXPECT_GT(reached, 29) << file.stem();
     }
 }
 
-TEST(LivePicture, IsTheOneByRaysInEveryWorld)
+TEST(LivePicture, EqualsTheReferenceInEveryWorld)
 {
     struct Case {
         const char* shot;
         double floor_db;
     };
-    // Bodies, clocks, existence intervals; what spins; a line, a glow, pigments under lamps, all of it shifted.
+    // The worlds have bodies, clocks, existence intervals, spins, a line, a glow, and pigments under lamps, all
+    // Doppler-shifted.
     for (const Case& one :
         {Case{"alice-and-bob", 30}, {"train-aboard-long", 30}, {"light-clock-flying", 30}, {"twins-turn", 28},
             {"clocks-passing", 30}, {"gamow-cycling", 28}, {"rainbow-line", 30}, {"warm-wall-4", 30}, {"chart-0.5", 30}}) {
@@ -101,25 +102,26 @@ TEST(LivePicture, IsTheOneByRaysInEveryWorld)
         const Reference truth = reference(world.input(), layout, shot, 0, {.samples = 8});
         std::printf("%s: %.2f dB\n", one.shot, psnr(picture, shown(truth)));
         EXPECT_GT(psnr(picture, shown(truth)), one.floor_db) << one.shot;
-        // Light as numbers, D and distances, where neither edge nor grain is: the middle one of all pixels.
+        // Light, D and distances are compared by their median, which edges and noise don't affect; for D the 90th percentile
+        // holds.
         const gpu_test::Numbers numbers(live, shot);
         std::vector<double> light, D, distance;
         for (int i = 0; i < numbers.count(); ++i) {
-            const Reference::Numbers& own = truth.numbers[std::size_t(i)];
+            const Reference::Numbers& rays_numbers = truth.numbers[std::size_t(i)];
             const dvec3 rays = truth.light[0][std::size_t(i)] / truth.exposure;
             light.push_back(glm::length(numbers.light(i) - rays) / std::max(glm::length(rays), 1e-9));
-            D.push_back(std::abs(numbers.D(i) / own.D - 1));
-            distance.push_back(std::isinf(own.distance) != std::isinf(numbers.depth(i)) ? 1
-                    : std::isinf(own.distance)                                          ? 0
-                                               : std::abs(numbers.depth(i) / own.distance - 1));
-            EXPECT_LT(between(numbers.camera(i), own.camera), 1e-6);
+            D.push_back(std::abs(numbers.D(i) / rays_numbers.D - 1));
+            distance.push_back(std::isinf(rays_numbers.distance) != std::isinf(numbers.depth(i)) ? 1
+                    : std::isinf(rays_numbers.distance)                                          ? 0
+                                                        : std::abs(numbers.depth(i) / rays_numbers.distance - 1));
+            EXPECT_LT(between(numbers.camera(i), rays_numbers.camera), 1e-6);
         }
         auto part = [](std::vector<double>& all, double at) {
             const auto middle = all.begin() + std::ptrdiff_t(at * double(all.size() - 1));
             std::nth_element(all.begin(), middle, all.end());
             return *middle;
         };
-        // 12 numbers tell shifted pigments within 1 % mostly; halves and the table's steps 0.1 %.
+        // 12 coefficients represent shifted pigments mostly within 1 %; fp16 and the table's steps add 0.1 %.
         std::printf("   light %.5f D %.2e distance %.5f\n", part(light, 0.5), part(D, 0.9), part(distance, 0.5));
         EXPECT_LT(part(light, 0.5), 0.012) << one.shot;
         EXPECT_LT(part(D, 0.9), 1e-4) << one.shot;
@@ -128,7 +130,7 @@ TEST(LivePicture, IsTheOneByRaysInEveryWorld)
     }
 }
 
-TEST(LivePicture, ComesCloserToTheOneByRaysAsItsQualityRises)
+TEST(LivePicture, ComesCloserToTheReferenceWithHigherQuality)
 {
     const Shot shot = shipped_shot("avenue-gamma4");
     for (const char* name : {"desk", "dome"}) {
@@ -142,7 +144,7 @@ TEST(LivePicture, ComesCloserToTheOneByRaysAsItsQualityRises)
             OffscreenRenderer live(device(), pipelines(), avenue().world, layout, quality, false);
             const double now = psnr(live.picture(shot)[0], truth);
             std::printf("%s: %.1f texels a pixel: %.2f dB\n", name, texels, now);
-            // From two on it is the rays' own grain and the edges' four samples of a texel that are left.
+            // From two texels on, the reference's noise and the cube map's four samples in a texel remain.
             EXPECT_GT(now, texels > 2 ? before - 0.3 : before + 2) << name << ", " << texels << " texels a pixel";
             before = now;
         }

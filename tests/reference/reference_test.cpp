@@ -1,5 +1,5 @@
-// The picture by rays, against what can be said of simple worlds without any renderer: formulas in closed form, retarded
-// places by bisection in 33 digits, published colours.
+// The reference picture in simple worlds that need no renderer: closed formulas, retarded positions by bisection in 33
+// digits, and published colours.
 #include "config/model/angles.h"
 #include "config/model/one_view.h"
 #include "runtime/light/colour.h"
@@ -21,13 +21,14 @@ namespace {
 
 using starbow::testing::u_of_beta, starbow::testing::u_of_gamma;
 
-/// A world of flat plates, one material each.
+/// A world of rectangles with one material each.
 struct Plates {
     World world;
     SceneFile scene;
     std::vector<Star> stars;
 
-    /// The front shows `right` to the right and `up` upwards; texture coordinates 0, 0 at its top left.
+    /// Adds a rectangle. Seen from its front, `right` points right and `up` upwards; texture coordinates 0, 0 are at its top
+    /// left.
     Material& add(const dvec3& centre, const dvec3& right, const dvec3& up, const std::string& node = "still")
     {
         const auto first = std::uint32_t(world.vertices.size());
@@ -68,7 +69,7 @@ private:
     bool placed_ = false;
 };
 
-/// Shapes alone.
+/// A shot without colour effects.
 Shot shot_at(const dvec3& position, const dvec3& u, const dvec3& look = {0, 0, -1}, const dvec3& up = {0, 1, 0})
 {
     Shot shot;
@@ -79,7 +80,7 @@ Shot shot_at(const dvec3& position, const dvec3& u, const dvec3& look = {0, 0, -
     return shot;
 }
 
-/// The middle of the light in a picture, pixels, and its sum.
+/// The light's mean place in pixels, and its sum.
 dvec3 middle(const Reference& picture)
 {
     dvec3 sum(0);
@@ -96,7 +97,7 @@ std::size_t central(const Reference& picture)
 
 } // namespace
 
-TEST(Reference, LampsFallOnASurfaceAsTheySay)
+TEST(Reference, LampsLightASurfaceByTheirRadiance)
 {
     Plates plates;
     const dvec3 base(0.5, 0.25, 0.125);
@@ -106,10 +107,10 @@ TEST(Reference, LampsFallOnASurfaceAsTheySay)
     plates.scene.lights = {
         DirectionalLight{{0, std::sin(60 * degree), std::cos(60 * degree)}, sun, {}}, PointLight{{3, 0, -1}, 2, lamp, {}}};
     const Reference picture = plates.seen(shot_at(dvec3(0), dvec3(0)), one_view(Planar{.fov_y_deg = 0.01}, {1, 1}));
-    // The lamp is 5 away, its light falls at an angle whose cosine is 4/5.
+    // The lamp is 5 away, and its light arrives at an angle whose cosine is 4/5.
     const dvec3 light = base * (plates.scene.ambient + sun * 0.5 + lamp * (0.8 * 4.0 / 25));
     const dvec3 seen = picture.light[0][0];
-    // The primaries' reflectances are tables of five digits; the picture's pixel is not a point: 1e-4 rad.
+    // The primaries' reflectances are tables with five digits, and the pixel is 1e-4 rad wide.
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(seen[c], light[c], 1e-3 * light[c]);
     EXPECT_NEAR(picture.numbers[0].distance, 5, 1e-12);
@@ -117,17 +118,18 @@ TEST(Reference, LampsFallOnASurfaceAsTheySay)
 
 TEST(Reference, DirectionsAreAberratedAsTheTextbookSays)
 {
-    // cos of the ship's angle = (cos + beta) / (1 + beta cos) of the world's: a form that rays do not use.
+    // The cosine in the ship is (cos + beta) / (1 + beta cos) of the world's. The reference uses another form.
     for (double beta : {0.5, 0.9, 0.99}) {
         Plates plates;
         const double small = 1e-4;
-        // Straight aside of a motion along -z.
+        // At right angles to a motion along -z.
         plates.shining({1, 0, 0}, {0, 0, small}, {0, small, 0});
-        const double expected = std::acos(beta) / degree; // from the motion, of what stands 90 degrees aside
+        const double expected
+            = std::acos(beta) / degree; // angle from the motion of a direction at right angles to it in the world
         const Layout layout = one_view(Planar{.fov_y_deg = 0.067}, {101, 101});
         const dvec3 look(std::sin(expected * degree), 0, -std::cos(expected * degree));
         const dvec3 at = middle(plates.seen(shot_at(dvec3(0), {0, 0, -u_of_beta(beta)}, look), layout, {.samples = 16}));
-        // Its own size bends it by its square, 1e-8; a pixel is 1e-5 rad, an edge off by 1/16 of one.
+        // Its width changes the direction by its square, 1e-8. A pixel is 1e-5 rad; an edge is off by 1/16 of one.
         EXPECT_GT(at.z, 4) << beta;
         EXPECT_NEAR(at.x, 50.5, 0.1) << "beta " << beta;
         EXPECT_NEAR(at.y, 50.5, 0.1);
@@ -136,33 +138,34 @@ TEST(Reference, DirectionsAreAberratedAsTheTextbookSays)
 
 TEST(Reference, StraightBehindAtGamma1000ALineIsSharpToAThousandthOfAPixel)
 {
-    // tan of half the angle from straight behind: E times as large in the ship. A pixel here is 0.7e-6 rad of the world.
+    // The tangent of half the angle from straight behind is E times as large in the ship. A pixel is 0.7e-6 rad of the
+    // world.
     const double gamma = 1000, u = u_of_gamma(gamma), E = u + gamma;
     Plates plates;
-    const double from = 4.1234567e-5, to = 8.7654321e-5; // from the axis; to the right of who looks behind is -x
+    const double from = 4.1234567e-5, to = 8.7654321e-5; // from the axis; -x is to the right when looking back
     plates.shining({-0.5 * (from + to) * 7, 0, 7}, {-3.5 * (to - from), 0, 0}, {0, 1, 0});
     const Layout layout = one_view(Planar{.fov_y_deg = 2.0 / 3}, {400, 1});
     const Reference picture = plates.seen(shot_at(dvec3(0), {0, 0, -u}, {0, 0, 1}), layout, {.samples = 4096});
     const double focal = 0.5 / std::tan(1.0 / 3 * degree);
     auto pixel_of
         = [&](double tangent) { return 200 + focal * std::tan(2 * std::atan(E * std::tan(0.5 * std::atan(tangent)))); };
-    // Vertices are floats: the plate's ends are where floats have them.
+    // Vertices are floats, so that the plate's ends are rounded.
     const float half = float(3.5 * (to - from));
     const double centre = 0.5 * (from + to) * 7;
     const double left = pixel_of((centre - double(half)) / 7), right = pixel_of((centre + double(half)) / 7);
     ASSERT_GT(left, 200);
     ASSERT_LT(right, 400);
-    // What the light adds up to, and where its middle lies. 4096 columns of samples a pixel.
+    // The light's sum and its first lit place, with 4096 columns of samples in a pixel.
     double sum = 0, at = 0;
     for (std::size_t x = 0; x < 400; ++x)
         sum += picture.light[0][x].g, at += picture.light[0][x].g * (double(x) + 0.5);
-    // A row's height bends the line by 1e-4 pixels; each end falls between columns; white is white within 1e-4.
+    // The row's height shifts the line by 1e-4 pixels, each end falls between two columns, and white is right to 1e-4.
     EXPECT_NEAR(sum, right - left, 1e-3 + 1e-4 * (right - left));
     double first = 0;
     for (std::size_t x = 0; x < 400; ++x) {
         const double here = picture.light[0][x].g;
         if (here > 0) {
-            first = double(x) + 1 - here; // the first pixel is lit from here on
+            first = double(x) + 1 - here; // the first lit pixel is lit from here on
             break;
         }
     }
@@ -171,7 +174,7 @@ TEST(Reference, StraightBehindAtGamma1000ALineIsSharpToAThousandthOfAPixel)
 
 TEST(Reference, ShiftedBlackBodiesHaveTheColoursOfTheirNewTemperature)
 {
-    // CIE 1931 x, y as published for the temperature that D makes of another one.
+    // Published CIE 1931 chromaticities of the temperature that D makes of another one.
     struct Known {
         double kelvin, x, y;
     };
@@ -190,7 +193,7 @@ TEST(Reference, ShiftedBlackBodiesHaveTheColoursOfTheirNewTemperature)
             // Four digits are published.
             EXPECT_NEAR(xyz.x / sum, known.x, 1e-4) << known.kelvin << " K at D " << D;
             EXPECT_NEAR(xyz.y / sum, known.y, 1e-4) << known.kelvin << " K at D " << D;
-            // The same as one that rests: with the headlight effect nothing but T is changed.
+            // It must equal a resting plate of the new temperature: with the headlight effect only T changes.
             Plates rest;
             rest.add({0, 0, -5}, {1, 0, 0}, {0, 1, 0}).temperature_K = known.kelvin;
             rest.world.materials[0].emissivity = 1, rest.world.materials[0].base_colour = glm::vec4(0, 0, 0, 1);
@@ -202,7 +205,8 @@ TEST(Reference, ShiftedBlackBodiesHaveTheColoursOfTheirNewTemperature)
 
 TEST(Reference, AStarGivesAllItsLight)
 {
-    // 5772 K is 2.88 times as bright at D = 2.90 as at rest, and as much over a solid angle as its magnitude says.
+    // At D = 2.90 the Sun's 5772 K is 2.88 times as bright as at rest. Its light over a solid angle follows from its
+    // magnitude.
     const double D = 2.90, beta = (D * D - 1) / (D * D + 1);
     double illuminance[2];
     for (int flying = 0; flying < 2; ++flying) {
@@ -213,10 +217,10 @@ TEST(Reference, AStarGivesAllItsLight)
         plates.stars = {{equatorial(30, 20), 1.5, 5772}};
         Shot shot = shot_at(dvec3(0), {0, 0, flying ? -u_of_beta(beta) : 0.0});
         shot.effects = {true, true, true};
-        const glm::ivec2 size(21, 16); // its middle lies in a pixel's middle one way, between two the other
+        const glm::ivec2 size(21, 16); // the picture's middle is a pixel's middle across, and a pixel's edge down
         const Reference picture = plates.seen(shot, one_view(Planar{.fov_y_deg = 1}, size));
         const double pixel = 2 * std::tan(0.5 * degree) / size.y;
-        dvec3 light(0); // all of it near the axis
+        dvec3 light(0); // the whole picture is near the axis
         for (const dvec3& one : picture.light[0])
             light += one * (pixel * pixel);
         illuminance[flying] = (glm::inverse(rec709_from_sunlit_xyz()) * light).y;
@@ -224,12 +228,12 @@ TEST(Reference, AStarGivesAllItsLight)
         EXPECT_NEAR(middle(picture).y, 8, 1e-3);
     }
     // A spot's sum over pixels is 1 within 0.5 %.
-    const double wanted = 200 * std::pow(degree / 60, 2) * std::pow(10, -0.4 * 1.5);
-    EXPECT_NEAR(illuminance[0] / wanted, 1, 0.006);
+    const double expected = 200 * std::pow(degree / 60, 2) * std::pow(10, -0.4 * 1.5);
+    EXPECT_NEAR(illuminance[0] / expected, 1, 0.006);
     EXPECT_NEAR(illuminance[1] / illuminance[0], 2.88, 0.006); // three digits are known
 }
 
-TEST(Reference, AStarBehindSomethingIsHidden)
+TEST(Reference, AStarBehindAPlateIsHidden)
 {
     for (bool hidden : {false, true}) {
         Plates plates;
@@ -242,30 +246,30 @@ TEST(Reference, AStarBehindSomethingIsHidden)
     }
 }
 
-TEST(ClockFace, HasItsHandWhereTheTimeIs)
+TEST(ClockFace, TheHandPointsToTheTime)
 {
     for (double seconds : {0.0, 3.8, 29.5, 44.25, 3599.9, -5.9, 1e7 + 0.3}) {
         const double angle = 2 * pi * std::fmod(seconds, 60) / 60;
         for (double r : {0.65, 0.75}) {
             const dvec2 way(std::sin(angle), std::cos(angle)), aside(way.y, -way.x);
             EXPECT_EQ(mark(way * r, seconds, "0.0"), 1) << seconds;
-            EXPECT_EQ(mark(way * r + aside * 0.03, seconds, "0.0"), 0) << seconds; // its margin
+            EXPECT_EQ(mark(way * r + aside * 0.03, seconds, "0.0"), 0) << seconds; // the hand's margin
         }
         EXPECT_EQ(mark(dvec2(std::sin(angle), std::cos(angle)) * 0.835, seconds, "0.0"), 0) << seconds;
     }
-    // The figures' ink is that of their segments: seven of an 8, two of a 1.
-    auto ink = [](const std::string& told) {
+    // The figures' ink grows with their segments: a 1 has two, a 7 three, an 8 seven.
+    auto ink = [](const std::string& figures) {
         int count = 0;
         for (int y = 0; y < 400; ++y)
             for (int x = 0; x < 400; ++x)
-                count += mark({(x - 200) / 500.0, -0.43 + (y - 200) / 1200.0}, 0, told) == 1;
+                count += mark({(x - 200) / 500.0, -0.43 + (y - 200) / 1200.0}, 0, figures) == 1;
         return count;
     };
     EXPECT_LT(ink("1.1"), ink("7.1"));
     EXPECT_LT(ink("7.1"), ink("8.1"));
 }
 
-TEST(Reference, AClockShowsWhenItsLightLeft)
+TEST(Reference, AClockShowsItsRetardedTime)
 {
     Plates plates;
     Material& dial = plates.add({0, 0, -31}, {1, 0, 0}, {0, 1, 0});
@@ -275,7 +279,7 @@ TEST(Reference, AClockShowsWhenItsLightLeft)
     shot.time = 100;
     const glm::ivec2 size(201, 201);
     const Reference picture = plates.seen(shot, one_view(Planar{.fov_y_deg = 2 * std::atan(1.0 / 31) / degree}, size));
-    // The hand's middle beyond the small dials and the figures, before the strokes.
+    // The hand's mean direction between the small dials and the strokes.
     dvec2 sum(0);
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
@@ -284,14 +288,14 @@ TEST(Reference, AClockShowsWhenItsLightLeft)
             if (r > 0.72 && r < 0.8)
                 sum += at / r * std::max(0.0, 1 - picture.light[0][std::size_t(y * size.x + x)].g);
         }
-    const double told = std::fmod(std::atan2(sum.x, sum.y) / (2 * pi) * 60 + 60, 60);
-    EXPECT_NEAR(told, std::fmod(100 - 31 - 2.5, 60), 0.02); // a pixel at the hand's end is 0.12 s
+    const double shown_s = std::fmod(std::atan2(sum.x, sum.y) / (2 * pi) * 60 + 60, 60);
+    EXPECT_NEAR(shown_s, std::fmod(100 - 31 - 2.5, 60), 0.02); // a pixel at the hand's end is 0.12 s
 }
 
-TEST(Reference, WhatMovesIsSeenWhereItWas)
+TEST(Reference, AMovingPlateIsSeenAtItsRetardedPosition)
 {
-    // A small plate on a body that passes at half the speed of light, seen from a ship that flies at 0.8 another way. Its
-    // place on the past light cone by bisection, its direction on board by a textbook's boost, in 33 digits.
+    // A small plate on a body passes at half the speed of light; the ship flies at 0.8 c in another direction. Its place on
+    // the past light cone comes from bisection, its direction on board from a textbook's boost, in 33 digits.
     const dvec3 u(u_of_beta(0.5), 0, 0), ship_u(0, u_of_beta(0.8), 0);
     const dvec3 at_zero(1, 2, -9); // the plate's middle in the world at time 0
     Plates plates;
@@ -305,7 +309,7 @@ TEST(Reference, WhatMovesIsSeenWhereItWas)
         (quad::length(place) < quad::Q(now) - t ? low : high) = t;
     }
     const quad::V3 place = quad::of(at_zero) + quad::of(dvec3(0.5, 0, 0)) * low;
-    // The light's way there and back in time, boosted into the ship.
+    // The event of emission relative to the eye's, boosted into the ship.
     const quad::V4 way = quad::boosted(quad::of(-ship_u), {low - quad::Q(now), place});
     const dvec3 look(double(way.x.x), double(way.x.y), double(way.x.z));
     Shot shot = shot_at(dvec3(0), ship_u, look, {0, 0, 1});
@@ -313,21 +317,22 @@ TEST(Reference, WhatMovesIsSeenWhereItWas)
     const Reference picture = plates.seen(shot, one_view(Planar{.fov_y_deg = 1}, {201, 201}), {.samples = 16});
     const dvec3 seen = middle(picture);
     ASSERT_GT(seen.z, 4);
-    // A pixel is 9e-5 rad; the plate is seen a few of them wide, bent by their squares.
+    // A pixel is 9e-5 rad. The plate is a few pixels wide; its width changes the direction by its square.
     EXPECT_NEAR(seen.x, 100.5, 0.1);
     EXPECT_NEAR(seen.y, 100.5, 0.1);
     const Reference::Numbers& numbers = picture.numbers[central(picture)];
-    EXPECT_NEAR(numbers.distance, double(quad::length(place)), 2e-3); // as long as the light was under way; the plate's size
+    EXPECT_NEAR(numbers.distance, double(quad::length(place)),
+        2e-3); // the light's travel distance; the tolerance is the plate's size
     // D = k.U(ship) / k.U(plate), k = (1, -n).
     const quad::V3 n = quad::unit(place);
     auto shift = [&](const dvec3& v) { return quad::gamma(quad::of(v)) + quad::dot(n, quad::of(v)); };
     EXPECT_NEAR(numbers.D, double(shift(ship_u) / shift(u)), 2e-4);
 }
 
-TEST(Reference, WhatSpinsIsSeenAsItStood)
+TEST(Reference, ASpinningBarIsSeenAtItsRetardedAngle)
 {
-    // A bar that turns about the line of sight, 6 to each side, at 0.15 at its ends: their light left later than the
-    // middle's by what they are farther off. The end's angle by bisection.
+    // A bar turns about the line of sight, 6 long to each side, with 0.15 c at its ends. Light from the ends left earlier
+    // than from the middle, because they are farther away. The expected angle follows from the retarded time.
     Plates plates;
     plates.shining(dvec3(0), {6, 0, 0}, {0, 0.05, 0}).double_sided = true;
     const double turns = 0.15 / (2 * pi * 6), far = 8;
@@ -340,8 +345,8 @@ TEST(Reference, WhatSpinsIsSeenAsItStood)
     const Reference picture = plates.seen(shot, one_view(Planar{.fov_y_deg = 100}, {251, 251}), {.samples = 4});
     const double focal = 125.5 / std::tan(50 * degree);
     for (double r : {2.0, 4.0, 5.5}) {
-        const double angle = 2 * pi * turns * (20 - std::hypot(r, far)); // a circle around the line of sight: r stays
-        // Where the light has its middle on that circle, near there.
+        const double angle = 2 * pi * turns * (20 - std::hypot(r, far)); // a circle around the line of sight: r is constant
+        // The light's mean angle on that circle near the expected one.
         double sum = 0, off = 0;
         for (int i = -2000; i <= 2000; ++i) {
             const double a = angle + i * 1e-4;
@@ -350,12 +355,12 @@ TEST(Reference, WhatSpinsIsSeenAsItStood)
             sum += light, off += light * (a - angle);
         }
         ASSERT_GT(sum, 0) << r;
-        // A thousandth of the circle is a tenth of a pixel.
+        // 0.3 pixels are about a hundredth of the angle
         EXPECT_NEAR(off / sum * focal * r / far, 0, 0.3) << "pixels, at r " << r;
     }
 }
 
-TEST(Reference, GoesOnWhereItWasInterrupted)
+TEST(Reference, ContinuesAnInterruptedPicture)
 {
     Plates plates;
     plates.add({0, 0, -5}, {1, 0.3, 0}, {0, 1, 0}).unlit = true;
@@ -381,7 +386,7 @@ TEST(Reference, GoesOnWhereItWasInterrupted)
     EXPECT_GT(rows, 0);
     EXPECT_EQ(shown(again), shown(whole));
     EXPECT_EQ(again.light, whole.light);
-    // Of another picture no row is taken.
+    // Rows of another picture are not reused.
     Shot other = shot;
     other.position.x += 1e-9;
     rows = 0;

@@ -1,4 +1,4 @@
-// The heap in a frame's loop. This file replaces the program's operator new, for all tests of this binary.
+// A frame in the live loop allocates nothing. This file replaces operator new for all tests of this binary.
 #include "tests/support/small_world.h"
 #include <chrono>
 #include <cstdlib>
@@ -6,11 +6,11 @@
 
 namespace {
 
-thread_local long* counted = nullptr; // while something is counted, of this thread alone
+thread_local long* counted = nullptr; // not null while this thread's allocations are counted
 
 }
 
-// Not inline: GCC 12 would take their halves for a mismatch.
+// Not inline: otherwise GCC 12 warns that new and delete do not match.
 [[gnu::noinline]] void* operator new(std::size_t size)
 {
     if (counted)
@@ -34,8 +34,8 @@ template <class Work> long allocations(Work&& work)
     return count;
 }
 
-/// A thousand objects in a flight of changing speed, as an exhibit runs it; on a device without layers, whose own vectors
-/// would count.
+/// A thousand objects are drawn on a flight of changing speed, as an exhibit draws them. The device has no validation
+/// layers, because the count would include their allocations.
 TEST(Allocations, AFrameTakesNothingFromTheHeap)
 {
     Doc doc;

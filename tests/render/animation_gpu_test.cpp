@@ -1,4 +1,4 @@
-// What blinks, spins or is animated, in the picture.
+// Blinking, spinning and animated objects in the picture.
 #include "config/model/angles.h"
 #include "runtime/plan/cull.h"
 #include "tests/support/quad.h"
@@ -12,10 +12,10 @@ Json velocity_of(const dvec3& u) { return {{"direction", numbers_of(u)}, {"rapid
 
 dvec3 vec(const quad::V3& v) { return {double(v.x), double(v.y), double(v.z)}; }
 
-/// From the world to the frame that moves with u.
+/// Transforms from the world to the frame that moves with u.
 quad::V4 into(const dvec3& u, const quad::V4& e) { return quad::boosted(quad::of(u) * -1, e); }
 
-/// Light that blinks on a surface that gives back nothing.
+/// Adds a material that blinks and reflects nothing.
 int blinking(Doc& doc, const dvec3& colour, const Json& blink)
 {
     return doc.put("materials",
@@ -23,37 +23,37 @@ int blinking(Doc& doc, const dvec3& colour, const Json& blink)
             {"extras", {{"starbow", {{"blink", blink}}}}}});
 }
 
-Json slow() { return {{"light_speed_m_s", 1}}; } // a unit is a metre, and light flies one metre a second
+Json slow() { return {{"light_speed_m_s", 1}}; } // one unit is a metre, and light flies one metre a second
 
 } // namespace
 
 TEST(Blinking, SweepsOverAWallAsItsLightArrives)
 {
-    // On a wall 3 away each ring is as far as its light was under way.
+    // The wall is 3 away. Its rings of light are as large as their light's travel time allows.
     const double period = 2, on = 0.3, zero = 0.7;
     Doc doc;
     quad(doc, {0, 0, -3}, {20, 0, 0}, {0, 20, 0},
         blinking(doc, {0.5, 0.25, 0.125}, {{"period_s", period}, {"on", on}, {"zero_s", zero}}), {{"name", "wall"}});
     for (const dvec3& u : {dvec3(0), dvec3(0.7, 0.2, 0.4)}) {
-        // At rest before a ship that may move, and the wall itself moving; after months too.
-        for (bool rides : {false, true}) {
+        // The ship is at rest or moves, and so is the wall. A start after months covers large times.
+        for (bool on_body : {false, true}) {
             Json scene = slow();
-            if (rides)
+            if (on_body)
                 scene["bodies"] = {{{"name", "wall"}, {"nodes", {"wall"}}, {"velocity", velocity_of({0.3, -0.6, 0.5})}}};
-            const dvec3 wall_u = rides ? dvec3(0.3, -0.6, 0.5) : dvec3(0);
+            const dvec3 wall_u = on_body ? dvec3(0.3, -0.6, 0.5) : dvec3(0);
             const GpuWorld world = open_world("rings", doc, scene);
-            for (double time : {0.4, 1.1, rides ? 0.0 : 1e7}) {
+            for (double time : {0.4, 1.1, on_body ? 0.0 : 1e7}) {
                 Shot shot = shot_at({0.3, -0.2, 0}, u, {0, 0, -1});
                 shot.time = time;
                 Quality quality = test_quality();
-                quality.max_texels_per_pixel = 1000; // as fine as asked
+                quality.max_texels_per_pixel = 1000; // not limited below the finest texel that the pixels need
                 OffscreenRenderer stage(device(), pipelines(), world, one_view(Planar{100}, {320, 240}), quality, true);
                 const Numbers numbers(stage, shot);
                 long lit = 0, dark = 0, wrong = 0;
                 for (int i = 0; i < numbers.count(); i += 7) {
                     if (!numbers.shown(i))
                         continue;
-                    auto state = [&](int pixel) { // periods since the beginning, when its light left
+                    auto state = [&](int pixel) { // periods since the first flash, at the retarded time
                         const quad::V4 p
                             = into(wall_u, quad::boosted(quad::of(shot.u), {1, quad::of(numbers.camera(pixel)) * -1}));
                         const quad::V4 e = into(wall_u, {shot.time, quad::of(shot.position)});
@@ -63,7 +63,7 @@ TEST(Blinking, SweepsOverAWallAsItsLightArrives)
                         return r > 0 && std::max(std::abs(at.x), std::abs(at.y)) < 19.5 ? double((e.t - r - zero) / period)
                                                                                         : std::nan("");
                     };
-                    // No edge within four pixels: texels are filtered.
+                    // Pixels within four pixels of an edge are left out, because texels are filtered.
                     const ivec2 size = numbers.size, at(i % size.x, i / size.x);
                     if (at.x < 4 || at.y < 4 || at.x + 4 >= size.x || at.y + 4 >= size.y)
                         continue;
@@ -83,9 +83,9 @@ TEST(Blinking, SweepsOverAWallAsItsLightArrives)
                     if (!right && wrong < 4)
                         ADD_FAILURE() << "pixel " << at.x << ", " << at.y << ": " << light.r << " at phase " << here;
                 }
-                EXPECT_EQ(wrong, 0) << time << " rides " << rides;
-                EXPECT_GT(lit, 150) << time << " rides " << rides;
-                EXPECT_GT(dark, 500) << time << " rides " << rides;
+                EXPECT_EQ(wrong, 0) << time << " on_body " << on_body;
+                EXPECT_GT(lit, 150) << time << " on_body " << on_body;
+                EXPECT_GT(dark, 500) << time << " on_body " << on_body;
             }
         }
     }
@@ -93,7 +93,7 @@ TEST(Blinking, SweepsOverAWallAsItsLightArrives)
 
 TEST(Blinking, RingsMoveOutwards)
 {
-    // One flash: its ring on the wall has the radius sqrt(t^2 - 9) in every direction.
+    // The ring of one flash has the radius sqrt(t^2 - 9) on the wall in every direction.
     Doc doc;
     quad(doc, {0, 0, -3}, {20, 0, 0}, {0, 20, 0}, blinking(doc, {1, 1, 1}, {{"period_s", 1000}, {"on", 0.0005}}));
     const GpuWorld world = open_world("flash", doc, slow());
@@ -103,7 +103,7 @@ TEST(Blinking, RingsMoveOutwards)
         Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
         shot.time = t;
         const Numbers numbers(stage, shot);
-        double outer = 0; // by the last light on the way to the right
+        double outer = 0; // from the outermost lit pixel to the right
         for (int x = 200; x < 401; ++x)
             if (numbers.light(200 * 401 + x).g > 0.5)
                 outer = 3 * (x + 0.5 - 200) / 200.5;
@@ -115,7 +115,7 @@ TEST(Blinking, RingsMoveOutwards)
 
 namespace {
 
-/// Small bright octahedra in one mesh, each in its own colour.
+/// Adds small bright octahedra as one mesh, each in its own colour.
 int blobs(Doc& doc, const std::vector<std::pair<dvec3, dvec3>>& places_and_colours, double radius)
 {
     std::vector<float> positions, colours;
@@ -140,7 +140,7 @@ int blobs(Doc& doc, const std::vector<std::pair<dvec3, dvec3>>& places_and_colou
                 {"indices", doc.accessor(indices, "SCALAR")}, {"material", material}}}}});
 }
 
-/// Where the light of one colour comes from: the middle of its pixels' directions.
+/// The mean direction of the pixels that are lit in one colour.
 dvec3 direction_of(const Numbers& numbers, int colour)
 {
     dvec3 sum(0);
@@ -149,8 +149,8 @@ dvec3 direction_of(const Numbers& numbers, int colour)
     return glm::normalize(sum);
 }
 
-/// Where an eye at rest in the world sees a point of a body that moves with u, whose place there is known at any time: the
-/// light cone's equation by halving an interval.
+/// The direction in which an eye at rest in the world sees a point of a body that moves with u. `place` gives the point's
+/// place in the body's rest frame at any time. Bisection solves the light cone's equation.
 template <class Place> dvec3 seen_from(const dvec3& u, double time, const dvec3& eye, Place place)
 {
     const quad::V4 e = into(u, {time, quad::of(eye)});
@@ -166,7 +166,7 @@ template <class Place> dvec3 seen_from(const dvec3& u, double time, const dvec3&
 
 TEST(Spinning, TipsAreSeenWhereTheirLightLeft)
 {
-    // A bar that turns about a slanted axis, 0.2 c at its tips, seen as bent; at rest, and on a body at 0.8 c.
+    // A bar turns about a slanted axis with 0.2 c at its tips, so that it looks bent. It is at rest, or on a body at 0.8 c.
     const dvec3 axis = glm::normalize(dvec3(0.2, 1, 0.4)), middle(0.3, 0.1, -9);
     const double reach = 3, turns = 0.19 / (2 * pi * reach);
     Doc doc;
@@ -174,7 +174,7 @@ TEST(Spinning, TipsAreSeenWhereTheirLightLeft)
     Json node = {{"name", "bar"}, {"mesh", mesh}, {"translation", numbers_of(middle)}};
     node["extras"]["starbow"]["spin"] = {{"axis", numbers_of(axis)}, {"turns_per_s", turns}};
     doc.json["scenes"][0]["nodes"] = {doc.put("nodes", node)};
-    double worst = 0, warped = 0;
+    double worst = 0, largest_offset = 0;
     for (double beta : {0.0, 0.8}) {
         const dvec3 u = glm::normalize(dvec3(1, 0.1, 0.2)) * u_of_beta(beta);
         Json scene = slow();
@@ -206,17 +206,17 @@ TEST(Spinning, TipsAreSeenWhereTheirLightLeft)
                 EXPECT_LT(between(want, got), 0.5 * pixel)
                     << "beta " << beta << " time " << time << " tip " << sign << ", pixels " << between(want, got) / pixel;
                 worst = std::max(worst, between(want, got) / pixel);
-                // What it would be without its own light's way.
-                const dvec3 straight = seen_from(u, time, eye, [&](quad::Q) {
+                // The direction in which the tip would be seen with the retarded time of the bar's middle.
+                const dvec3 without_offset = seen_from(u, time, eye, [&](quad::Q) {
                     const quad::V4 e = into(u, {time, quad::of(eye)});
                     return tip(sign)(e.t - quad::length(quad::of(middle) - e.x));
                 });
-                warped = std::max(warped, between(straight, want) / pixel);
+                largest_offset = std::max(largest_offset, between(without_offset, want) / pixel);
             }
         }
     }
-    std::printf("  tips: at most %.2f px off, bent by up to %.1f px\n", worst, warped);
-    EXPECT_GT(warped, 5);
+    std::printf("  tips: at most %.2f px off, light-travel offset up to %.1f px\n", worst, largest_offset);
+    EXPECT_GT(largest_offset, 5);
 }
 
 TEST(Animated, AShuttleIsSeenWhereItsLightLeft)

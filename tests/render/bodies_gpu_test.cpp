@@ -1,5 +1,5 @@
-// Bodies that move, in the picture: against rays that are sent into each body's frame in 33 digits, against the same things
-// at rest before a ship that moves, and against what books say of spheres that pass.
+// Moving bodies in the picture. They are compared with rays transformed into each body's frame with 33 digits, with the same
+// objects at rest before a moving ship, and with textbook results for passing spheres.
 #include "config/model/angles.h"
 #include "runtime/world/worldline.h"
 #include "tests/support/quad.h"
@@ -18,7 +18,7 @@ dvec3 random_way(std::mt19937& random)
 Json numbers_of(const dvec3& v) { return {v.x, v.y, v.z}; }
 Json velocity_of(const dvec3& u) { return {{"direction", numbers_of(u)}, {"rapidity", std::asinh(glm::length(u))}}; }
 
-/// A flat thing of one body.
+/// A rectangle that belongs to one body.
 struct Plate {
     dvec3 centre, right, up, colour;
     std::size_t body;
@@ -26,15 +26,15 @@ struct Plate {
 
 dvec3 vec(const quad::V3& v) { return {double(v.x), double(v.y), double(v.z)}; }
 
-/// Otherwise a plan with much to show draws all of it coarser.
-Quality as_fine_as_asked()
+/// With the usual limit of texels, a plan with many images draws all of them coarser.
+Quality unlimited_texels()
 {
     Quality quality = test_quality();
     quality.max_texels_per_pixel = 1000;
     return quality;
 }
 
-/// From the world to the frame that moves with u.
+/// Transforms from the world to the frame that moves with u.
 quad::V4 into(const dvec3& u, const quad::V4& e) { return quad::boosted(quad::of(u) * -1, e); }
 
 } // namespace
@@ -44,7 +44,7 @@ TEST(BodiesGpuTest, EveryRayMeetsWhatIsNearest)
     std::mt19937 random(11);
     std::uniform_real_distribution<double> part(0, 1);
     for (int round = 0; round < 6; ++round) {
-        // Rest, three velocities, and a body that turns round (two more).
+        // The bodies: one at rest, three with constant velocities, and one that turns round and so has two more velocities.
         std::vector<dvec3> velocities = {{0, 0, 0}};
         for (int i = 0; i < 3; ++i)
             velocities.push_back(random_way(random) * std::pow(10, 1.5 * part(random) - 0.7));
@@ -77,50 +77,50 @@ TEST(BodiesGpuTest, EveryRayMeetsWhatIsNearest)
             random_way(random), random_way(random));
         shot.time = 2 * part(random) - 1;
         const ivec2 size(320, 240);
-        OffscreenRenderer stage(device(), pipelines(), world,
-            one_view(round % 2 ? Projection(Fisheye{}) : Projection(Planar{100}), size), as_fine_as_asked(), true);
-        const Numbers numbers(stage, shot);
+        OffscreenRenderer offscreen(device(), pipelines(), world,
+            one_view(round % 2 ? Projection(Fisheye{}) : Projection(Planar{100}), size), unlimited_texels(), true);
+        const Numbers numbers(offscreen, shot);
 
-        // One frame for each way of being: u, its origin's event, and when it is there.
-        struct Being {
+        // One frame for each worldline segment: its proper velocity, the event of its origin, and its existence interval.
+        struct Segment {
             std::size_t body;
             dvec3 u;
             Event at;
-            double begin, end; // of its own time at `at`
+            double begin, end; // in the segment's own time since `at`
         };
-        std::vector<Being> beings;
+        std::vector<Segment> segments;
         for (std::size_t i = 0; i < 4; ++i)
-            beings.push_back({i, velocities[i], {}, -1e300, 1e300});
+            segments.push_back({i, velocities[i], {}, -1e300, 1e300});
         const double out = std::sqrt(49.0 - 9), back = std::sqrt(100.0 - 9);
-        beings.push_back({4, turn_place / out, {-14, {0, 0, 0}}, 0, out});
-        beings.push_back({4, -turn_place / back, {-7, turn_place}, 0, back});
+        segments.push_back({4, turn_place / out, {-14, {0, 0, 0}}, 0, out});
+        segments.push_back({4, -turn_place / back, {-7, turn_place}, 0, back});
 
         struct Hit {
             double way = 1e300, D = 0, distance = 0;
             dvec3 colour{0};
             const Plate* plate = nullptr;
-            const Being* being = nullptr;
+            const Segment* segment = nullptr;
         };
         auto truth = [&](const dvec3& n) {
             Hit nearest;
-            for (const Being& being : beings) {
-                // The event and the light's 4-momentum, from the ship to the world to the body.
-                const quad::V4 p = into(being.u, quad::boosted(quad::of(shot.u), {1, quad::of(n) * -1}));
-                const quad::V4 e
-                    = into(being.u, {shot.time - being.at.time, quad::of(shot.position) + quad::of(-being.at.position)});
+            for (const Segment& segment : segments) {
+                // Transforms the eye's event and the light's 4-momentum from the ship to the world, then to the body.
+                const quad::V4 p = into(segment.u, quad::boosted(quad::of(shot.u), {1, quad::of(n) * -1}));
+                const quad::V4 e = into(
+                    segment.u, {shot.time - segment.at.time, quad::of(shot.position) + quad::of(-segment.at.position)});
                 const dvec3 from = vec(e.x), way = vec(p.x * (-1 / p.t));
                 for (const Plate& plate : plates) {
-                    if (plate.body != being.body)
+                    if (plate.body != segment.body)
                         continue;
                     const dvec3 front = glm::cross(plate.right, plate.up);
                     const double r = glm::dot(front, plate.centre - from) / glm::dot(front, way);
                     const dvec3 on = from + r * way - plate.centre;
                     const double left = double(e.t) - r;
                     if (r > 1e-6 && std::abs(glm::dot(on, plate.right)) < glm::dot(plate.right, plate.right)
-                        && std::abs(glm::dot(on, plate.up)) < glm::dot(plate.up, plate.up) && left > being.begin
-                        && left < being.end && r / double(p.t) < nearest.way) {
-                        // The light's way is as its frequency: D times that in the body's frame.
-                        nearest = {r / double(p.t), 1 / double(p.t), 0, plate.colour, &plate, &being};
+                        && std::abs(glm::dot(on, plate.up)) < glm::dot(plate.up, plate.up) && left > segment.begin
+                        && left < segment.end && r / double(p.t) < nearest.way) {
+                        // The length of the light's path scales as its frequency: in the body's frame it is multiplied by D.
+                        nearest = {r / double(p.t), 1 / double(p.t), 0, plate.colour, &plate, &segment};
                         nearest.distance = nearest.way * double(quad::boosted(quad::of(shot.u), {1, quad::of(n) * -1}).t);
                     }
                 }
@@ -136,14 +136,14 @@ TEST(BodiesGpuTest, EveryRayMeetsWhatIsNearest)
             const Hit hit = truth(numbers.camera(i));
             bool edge = false;
             double nearest = hit.distance,
-                   farthest = hit.distance; // within a pixel: a plate may be seen nearly from its edge
-            // Texels are filtered, as wide as a pixel or two.
+                   farthest = hit.distance; // the range within a pixel, because a plate may be seen nearly edge-on
+            // Filtered texels are one or two pixels wide, so that no edge may be within two pixels.
             for (int k = 0; k < 25 && !edge; ++k) {
                 const int beside = i + (k / 5 - 2) * size.x + k % 5 - 2;
                 if ((edge = !numbers.shown(beside)))
                     break;
                 const Hit other = truth(numbers.camera(beside));
-                edge = other.plate != hit.plate || other.being != hit.being;
+                edge = other.plate != hit.plate || other.segment != hit.segment;
                 nearest = std::min(nearest, other.distance), farthest = std::max(farthest, other.distance);
             }
             if (edge)
@@ -151,7 +151,7 @@ TEST(BodiesGpuTest, EveryRayMeetsWhatIsNearest)
             ++compared;
             if (!hit.plate) {
                 wrong += glm::length(numbers.light(i))
-                    > 0.02; // coarser texels, beyond these pixels, at a weight of nearly nought
+                    > 0.02; // coarser texels from beyond these pixels have a weight near zero
                 continue;
             }
             ++hits;
@@ -173,7 +173,7 @@ TEST(BodiesGpuTest, EveryRayMeetsWhatIsNearest)
 
 namespace {
 
-/// Things of every kind that a picture's comparison needs, and a lamp among them.
+/// Plates all around for comparing two pictures.
 Doc still_life()
 {
     Doc doc;
@@ -190,7 +190,7 @@ Doc still_life()
     }
     return doc;
 }
-/// Light under a filter of three pixels: how sharp texels are differs, with how much of a world shares their images.
+/// Light under a filter three pixels wide. The sharpness of texels depends on how much of the world shares their images.
 std::vector<dvec3> softened(const Numbers& numbers)
 {
     const ivec2 size = numbers.size;
@@ -217,7 +217,7 @@ const Json lamp = {{"type", "point"}, {"position", {0, 0, -3}}, {"distance", 5},
 
 TEST(BodiesGpuTest, WhoMovesDoesNotMatter)
 {
-    // The same things at rest before a ship that moves, and moving past a ship that rests, with their lamp.
+    // The objects rest before a moving ship, or the objects and their lamp move past a resting ship.
     for (auto [beta, way] : {std::pair(0.5, dvec3(0, 0, -1)), {0.9, dvec3(1, 0, -1)}, {0.8, dvec3(0, 1, 1)}}) {
         const dvec3 u = glm::normalize(way) * u_of_beta(beta);
         const GpuWorld still = open_world("still", still_life(), {{"lights", {lamp}}});
@@ -230,7 +230,7 @@ TEST(BodiesGpuTest, WhoMovesDoesNotMatter)
         passing.effects = {};
         Shot resting = passing;
         resting.u = dvec3(0);
-        Quality fine = as_fine_as_asked();
+        Quality fine = unlimited_texels();
         fine.texels_per_pixel = 3;
         OffscreenRenderer a(device(), pipelines(), still, layout, fine, true),
             b(device(), pipelines(), moving, layout, fine, true);
@@ -249,8 +249,8 @@ TEST(BodiesGpuTest, WhoMovesDoesNotMatter)
             brightest = std::max(brightest, glm::length(first.light(i)));
         for (int i = 0; i < first.count(); ++i) {
             lit += glm::length(first.light(i)) > 0.01 * brightest;
-            // Room for edges, which lie within half a texel in either picture, a third of a pixel together; for colours 1 %
-            // of what is near.
+            // Edges may differ by half a texel in either picture, a third of a pixel together. Colours may differ by 1 % of
+            // the light near them.
             dvec3 low(1e300), high(-1e300), near(0);
             for (double dy : {-0.5, 0.0, 0.5})
                 for (double dx : {-0.5, 0.0, 0.5}) {
@@ -291,9 +291,9 @@ TEST(BodiesGpuTest, ASphereKeepsACircularOutline)
         {"indices", doc.accessor(indices, "SCALAR")}, {"material", material}};
     doc.json["scenes"][0]["nodes"].push_back(
         doc.put("nodes", {{"name", "ball"}, {"mesh", doc.put("meshes", {{"primitives", {primitive}}})}}));
-    // The ball's frame sees the eye at its own origin's side, at right angles to the motion.
+    // In the ball's frame the light reaches the eye at right angles to the motion.
     const double beta = 0.9, distance = 1 / std::sin(20 * degree);
-    const dvec3 u(0, 0, u_of_beta(beta)); // the ball comes from ahead, moving backwards
+    const dvec3 u(0, 0, u_of_beta(beta)); // the ball comes from ahead and moves backwards
     const dvec3 in_ball(0, distance, 0); // the eye
     const GpuWorld world = open_world("ball", doc,
         {{"bodies",
@@ -301,9 +301,9 @@ TEST(BodiesGpuTest, ASphereKeepsACircularOutline)
                 {"at", {{"time", 0}, {"position", numbers_of(-in_ball)}}}}}}});
     // 90 degrees from the ship's motion (-z in the ball's frame), below.
     const dvec3 look = glm::normalize(dvec3(0, -std::sin(27.26680 * degree), -std::cos(27.26680 * degree)));
-    OffscreenRenderer stage = renderer(world, one_view(Planar{30}, {600, 600}));
-    const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, 0}, look));
-    // Where light meets dark, a pixel's part: directions on the outline.
+    OffscreenRenderer offscreen = renderer(world, one_view(Planar{30}, {600, 600}));
+    const Numbers numbers(offscreen, shot_at({0, 0, 0}, {0, 0, 0}, look));
+    // Pixels between light and dark give directions on the outline.
     const double pixel = 30 * degree / 600;
     double radius_low = 10, radius_high = 0, area = 0;
     for (int i = 0; i < numbers.count(); ++i) {
@@ -313,7 +313,8 @@ TEST(BodiesGpuTest, ASphereKeepsACircularOutline)
             radius_low = std::min(radius_low, r), radius_high = std::max(radius_high, r);
         }
         const dvec3 c = numbers.camera(i);
-        area += light * std::pow(glm::dot(c, look), 3); // solid angle of a flat view's pixel, of the middle one's
+        area += light
+            * std::pow(glm::dot(c, look), 3); // the solid angle of a flat view's pixel, in units of the middle pixel's
     }
     const double step = 2 * std::tan(15 * degree) / 600;
     const double radius = std::acos(1 - area * step * step / (2 * pi));
@@ -326,8 +327,8 @@ TEST(BodiesGpuTest, ASphereKeepsACircularOutline)
 
 TEST(BodiesGpuTest, ABodySeenAbeamSeemsTurned)
 {
-    // Terrell: a small body that passes, seen at right angles to its way, shows itself turned by asin(beta): of its marks,
-    // one ahead by a of its own length and one nearer by a, the first appears a cos and the second a sin further on.
+    // Terrell: a small passing body, seen at right angles to its motion, appears rotated by asin(beta). One mark lies ahead
+    // of the middle by a, another nearer by a. They appear further on by a cos and a sin of that angle.
     constexpr double a = 0.1, L = 20;
     for (auto [beta, turn_deg] : {std::pair(0.5, 30.0), {0.8, 53.1301}, {0.99, 81.8904}}) {
         Doc doc;
@@ -336,15 +337,15 @@ TEST(BodiesGpuTest, ABodySeenAbeamSeemsTurned)
         quad(doc, {a, 0, 0}, right, up, unlit(doc, {0, 1, 0}), {{"name", "body"}});
         quad(doc, {0, 0.03, a}, right, up, unlit(doc, {0, 0, 1}), {{"name", "body"}});
         for (auto& material : doc.json["materials"])
-            material["doubleSided"] = true; // it shows its back when it turns far
+            material["doubleSided"] = true; // a body that appears far rotated shows its back
         const double u = u_of_beta(beta), gamma = std::sqrt(1 + u * u);
-        // Seen abeam at time 0: at the emission, L earlier, the middle was straight ahead.
+        // The body is seen abeam at time 0: its middle was straight ahead at the emission, L earlier.
         const GpuWorld world = open_world("terrell", doc,
             {{"bodies",
                 {{{"name", "body"}, {"nodes", {"body"}}, {"velocity", velocity_of({u, 0, 0})},
                     {"at", {{"time", -L}, {"position", {0, 0, -L}}}}}}}});
-        OffscreenRenderer stage = renderer(world, one_view(Planar{2.0}, {600, 600}));
-        const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
+        OffscreenRenderer offscreen = renderer(world, one_view(Planar{2.0}, {600, 600}));
+        const Numbers numbers(offscreen, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
         std::array<dvec2, 3> middle{};
         std::array<double, 3> sum{};
         double D = 0;
@@ -360,16 +361,17 @@ TEST(BodiesGpuTest, ABodySeenAbeamSeemsTurned)
             ASSERT_GT(sum[c], 1) << "beta " << beta << " mark " << c;
             middle[c] /= sum[c];
         }
-        // To first order in a / L, of which the second is 3e-5 units: a hundredth of a pixel's 1.2e-3.
+        // This holds to first order in a / L. The second order is 3e-5 units, a hundredth of a pixel's 1.2e-3.
         EXPECT_NEAR((middle[1].x - middle[0].x) * pixel, a * std::cos(turn_deg * degree), 0.5 * pixel) << beta;
         EXPECT_NEAR((middle[2].x - middle[0].x) * pixel, a * std::sin(turn_deg * degree), 0.5 * pixel) << beta;
-        EXPECT_NEAR(D, 1 / gamma, 2e-3 / gamma) << beta; // the mark is not all at right angles
+        EXPECT_NEAR(D, 1 / gamma, 2e-3 / gamma) << beta; // parts of the mark are not exactly at right angles
     }
 }
 
 TEST(BodiesGpuTest, TwoWatchersAtOneEvent)
 {
-    // Side by side: the ship's view, who rests there, and who passes it; each as a picture of his own would be.
+    // Three viewports side by side: the ship's own, an observer at rest, and one who passes the ship. Each must equal its
+    // observer's own picture.
     Layout three = one_view(Planar{60}, {600, 200});
     auto& viewports = three.outputs[0].viewports;
     viewports.assign(3, viewports[0]);
@@ -385,7 +387,7 @@ TEST(BodiesGpuTest, TwoWatchersAtOneEvent)
 
     Shot resting = ship, past = ship;
     resting.u = dvec3(0);
-    // The passing one by boosts in 33 digits: his velocity, and where his axes lie.
+    // The passing observer's velocity follows from boosts with 33 digits; so does the orientation of his axes.
     const dvec3 w = ship.ship_from_cockpit * passing;
     const quad::V4 velocity = quad::boosted(quad::of(ship.u), {quad::gamma(quad::of(w)), quad::of(w)});
     past.u = vec(velocity.x);
@@ -398,11 +400,11 @@ TEST(BodiesGpuTest, TwoWatchersAtOneEvent)
         for (int i = 0; i < alone.count(); ++i) {
             const int there = (i / 200) * 600 + k * 200 + i % 200;
             if (k < 2) {
-                // The meter and the plan are shared: the same to a filter's rounding.
+                // The viewports share the meter and the plan, so that pictures agree to a filter's rounding.
                 worst = std::max(worst, between(numbers.camera(there), alone.camera(i)));
                 off += glm::length(numbers.light(there) - alone.light(i)) > 0.02 * (0.05 + glm::length(alone.light(i)));
             } else {
-                // By its own direction: from his cockpit to the ship to the world.
+                // The pixel's own direction, transformed from his cockpit to the ship to the world.
                 const dvec3 in_cockpit = glm::normalize(dvec3((i % 200 + 0.5 - 100) / 100 * std::tan(30 * degree),
                     (100 - (i / 200 + 0.5)) / 100 * std::tan(30 * degree), -1));
                 const auto in_ship = quad::world_from_camera(quad::of(ship.ship_from_cockpit * in_cockpit), quad::of(w));
@@ -413,7 +415,7 @@ TEST(BodiesGpuTest, TwoWatchersAtOneEvent)
             ++compared;
         }
         EXPECT_LT(worst, 2e-6) << k; // float directions
-        EXPECT_LT(double(off), 0.005 * compared) << k; // edges, where texels fall otherwise
+        EXPECT_LT(double(off), 0.005 * compared) << k; // edges, where texels lie elsewhere
     }
 }
 

@@ -1,5 +1,5 @@
-// Clocks in the picture, read as a visitor reads them: by the hands' directions and the lit segments of the figures, in
-// pixels alone. Where a pixel looks is a textbook's pinhole and boost, where that meets a dial a plane's geometry.
+// Clocks in the picture, read as a visitor reads them: from the hands' directions and the lit segments of the figures, by
+// pixels alone. A textbook's pinhole and boost give a pixel's direction; plane geometry gives its place on a dial.
 #include "config/model/angles.h"
 #include "tests/support/quad.h"
 #include "tests/support/small_world.h"
@@ -17,7 +17,7 @@ struct Dial {
     double radius;
 };
 
-/// From the ship to the world: a boost of the light's 4-momentum, along and across the motion.
+/// Transforms a direction from the ship to the world by a boost of the light's 4-momentum, along and across the motion.
 dvec3 world_of(const dvec3& camera, const dvec3& u)
 {
     const double speed = glm::length(u);
@@ -31,22 +31,22 @@ dvec3 world_of(const dvec3& camera, const dvec3& u)
 
 /// A pixel that shows part of a dial.
 struct Spot {
-    dvec2 at; ///< on the dial, its radius 1, y up
-    double later; ///< by how much its light left after that of the dial's middle, scene time
-    double ink; ///< 0 the face, 1 a mark
+    dvec2 at; ///< on the dial, in units of its radius, y up
+    double offset; ///< light-travel offset to the dial's middle, in scene time
+    double ink; ///< 0 on the face, 1 on a mark
 };
 
-/// Where and when an eye is that stands at `beside` of the ship's place, in the ship and simultaneous there.
+/// The event of an eye that stands beside the ship's place by `beside`, simultaneous in the ship.
 quad::V4 eye_event(const Shot& shot, const dvec3& beside)
 {
     const quad::V4 from = quad::boosted(quad::of(shot.u), {0, quad::of(beside)});
     return {shot.time + from.t, quad::of(shot.position) + from.x};
 }
 
-/// What is seen of one dial in a view of its own, straight at it, from an eye beside the ship's place (ship frame). widely:
-/// the view's half, in radii of a dial that is seen from the front.
+/// Draws a view straight at one dial, from an eye beside the ship's place (ship frame), and returns its spots.
+/// half_width: half the view's width, in radii of a dial seen from the front.
 std::vector<Spot> look_at(
-    const GpuWorld& world, Shot shot, const Dial& dial, int size, const dvec3& beside = {0, 0, 0}, double widely = 1.15)
+    const GpuWorld& world, Shot shot, const Dial& dial, int size, const dvec3& beside = {0, 0, 0}, double half_width = 1.15)
 {
     const quad::V4 eye = eye_event(shot, beside);
     const dvec3 to = dial.middle - dvec3(double(eye.x.x), double(eye.x.y), double(eye.x.z));
@@ -55,11 +55,11 @@ std::vector<Spot> look_at(
     const dvec3 up = std::abs(look.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(0, 0, 1), right = glm::normalize(glm::cross(look, up));
     const dmat3 ship_from_cockpit(right, glm::cross(right, look), -look);
     shot.ship_from_cockpit = orientation(look, up);
-    const double half = widely * dial.radius / (glm::length(to) * double(seen.D));
+    const double half = half_width * dial.radius / (glm::length(to) * double(seen.D));
     Layout layout = one_view(Planar{2 * std::atan(half) / degree}, {size, size});
     layout.outputs[0].viewports[0].eye_m = glm::transpose(ship_from_cockpit) * beside;
-    OffscreenRenderer stage = renderer(world, layout);
-    const Numbers numbers(stage, shot);
+    OffscreenRenderer offscreen = renderer(world, layout);
+    const Numbers numbers(offscreen, shot);
     std::vector<Spot> spots;
     std::vector<double> face;
     const dvec3 front = glm::cross(dial.right, dial.up);
@@ -82,7 +82,7 @@ std::vector<Spot> look_at(
     return spots;
 }
 
-/// What a hand around `middle` shows, from its part between two distances, at the dial's middle: seconds, 0 to a turn's.
+/// Reads a hand around `middle` from its part between two distances: seconds at the dial's middle, from 0 to turn_s.
 double read_hand(
     const std::vector<Spot>& spots, const dvec2& middle, double low, double high, double turn_s, double seconds_per_time)
 {
@@ -91,8 +91,8 @@ double read_hand(
         const dvec2 from = spot.at - middle;
         if (glm::length(from) < low || glm::length(from) > high || spot.ink < 0.03)
             continue;
-        // Where this part of the hand points, and what that would be where the middle's light left.
-        const double turn = std::atan2(from.x, from.y) / (2 * pi) - spot.later * seconds_per_time / turn_s;
+        // The direction of this part of the hand, corrected to the retarded time of the dial's middle.
+        const double turn = std::atan2(from.x, from.y) / (2 * pi) - spot.offset * seconds_per_time / turn_s;
         sum += std::polar(std::min(spot.ink, 1.0), 2 * pi * turn);
     }
     const double turn = std::arg(sum) / (2 * pi);
@@ -112,7 +112,7 @@ Hands read_hands(const std::vector<Spot>& spots, double seconds_per_time = 1)
 /// The difference of two readings of a hand.
 double apart(double a, double b, double turn_s) { return std::abs(std::remainder(a - b, turn_s)); }
 
-/// Seven segments: a figure, '-', or 0.
+/// Reads seven segments: a figure, '-', or 0 if they are none.
 char figure_of(int lit)
 {
     const std::map<int, char> known
@@ -133,7 +133,7 @@ double ink_around(const std::vector<Spot>& spots, const dvec2& at, double half)
     return sum / count;
 }
 
-/// The figures, however many they are: the longest run of cells that all show one.
+/// Reads a number of unknown length: the longest row of cells that all show a figure.
 std::string read_figures(const std::vector<Spot>& spots)
 {
     for (int count = 12; count > 1; --count) {
@@ -167,7 +167,7 @@ std::string tenths(double reading)
 
 // ---------------------------------------------------------------- the paper's figure
 
-GpuWorld paper_world()
+GpuWorld clocks_world()
 {
     const SceneFile scene = load_scene_file(testing::source_dir() / "config/scenes/clocks.json");
     World world = load_world(scene.gltf);
@@ -179,11 +179,11 @@ constexpr double dial_radius = 1.9;
 Dial clock_at(double x) { return {{x, 0, 0}, {1, 0, 0}, {0, 1, 0}, dial_radius}; }
 const std::vector<double> row = {-10, -5, 0, 5, 10};
 
-/// The paper's figure by pencil: readings relative to the middle clock's, and directions from the motion, degrees.
+/// The paper's figure, calculated by hand: readings relative to the middle clock's, and angles from the motion in degrees.
 struct Figure {
     const char* shot;
     std::vector<double> readings_s, from_motion_deg;
-    double middle_s; ///< what the middle one shows in the shipped shot
+    double middle_s; ///< the middle clock's reading in the shipped shot
 };
 const std::vector<double> seen_passing = {-5.90909, -2.74403, 0, 2.21961, 3.80547};
 const std::vector<Figure> figures = {{"clocks-rest", {31 - 32.57299, 31 - 31.40064, 0, 31 - 31.40064, 31 - 32.57299},
@@ -198,30 +198,31 @@ Shot shipped_shot(const char* name)
     return load_shot(testing::source_dir() / "config/shots" / (std::string(name) + ".json"));
 }
 
-TEST(Clocks, ThePapersReadings)
+TEST(Clocks, ReadingsEqualThePapers)
 {
-    const GpuWorld paper = paper_world();
+    const GpuWorld paper = clocks_world();
     for (const Figure& figure : figures) {
         const Shot shot = shipped_shot(figure.shot);
         std::printf("  %s:", figure.shot);
         for (std::size_t k = 0; k < row.size(); ++k) {
             SCOPED_TRACE(std::string(figure.shot) + ", clock " + std::to_string(k + 1));
             const std::vector<Spot> spots = look_at(paper, shot, clock_at(row[k]), 512);
-            const double want = figure.middle_s + figure.readings_s[k];
+            const double expected_s = figure.middle_s + figure.readings_s[k];
             const Hands hands = read_hands(spots);
-            // A hundredth of a second: 0.06 degrees of the long hand, a sixth of a pixel at its tip; 0.36 of the fast one.
-            EXPECT_LT(apart(hands.main_s, want, 60), 0.01);
-            EXPECT_LT(apart(hands.fast_s, want, 10), 0.01);
-            EXPECT_LT(apart(hands.slow_s, want, 3600), 0.01 * 360); // 0.36 degrees, as the fast one's
-            EXPECT_EQ(read_figures(spots), tenths(want));
-            std::printf(" %+.4f", want + std::remainder(hands.main_s - want, 60));
-            std::printf("/%+.4f", want + std::remainder(hands.fast_s - want, 10));
+            // A hundredth of a second is 0.06 degrees of the long hand, a sixth of a pixel at its tip; it is 0.36 degrees of
+            // the fast one.
+            EXPECT_LT(apart(hands.main_s, expected_s, 60), 0.01);
+            EXPECT_LT(apart(hands.fast_s, expected_s, 10), 0.01);
+            EXPECT_LT(apart(hands.slow_s, expected_s, 3600), 0.01 * 360); // 0.36 degrees, as for the fast hand
+            EXPECT_EQ(read_figures(spots), tenths(expected_s));
+            std::printf(" %+.4f", expected_s + std::remainder(hands.main_s - expected_s, 60));
+            std::printf("/%+.4f", expected_s + std::remainder(hands.fast_s - expected_s, 10));
         }
         std::printf(" s\n");
     }
 }
 
-/// Where the bright pin in the middle of a clock is, pixels: the centroid of light in a disc that follows it.
+/// Finds the bright pin in a clock's middle, in pixels: the centroid of light in a disc that follows it.
 dvec2 pin_near(const Numbers& numbers, dvec2 at, double radius)
 {
     for (int round = 0; round < 8; ++round) {
@@ -239,24 +240,24 @@ dvec2 pin_near(const Numbers& numbers, dvec2 at, double radius)
     return at;
 }
 
-TEST(Clocks, ThePapersAnglesAndLength)
+TEST(Clocks, AnglesAndLengthEqualThePapers)
 {
-    const GpuWorld paper = paper_world();
+    const GpuWorld paper = clocks_world();
     constexpr ivec2 size(2000, 1000);
     const double tangent = std::tan(30 * degree), pixels_per_unit = 0.5 * size.y / tangent;
-    OffscreenRenderer stage = renderer(paper, one_view(Planar{60}, size));
+    OffscreenRenderer offscreen = renderer(paper, one_view(Planar{60}, size));
     for (const Figure& figure : figures) {
         const Shot shot = shipped_shot(figure.shot);
-        const Numbers numbers(stage, shot);
+        const Numbers numbers(offscreen, shot);
         const dmat3 ship_from_cockpit(glm::mat3_cast(shot.ship_from_cockpit));
-        std::vector<double> aside; // of the perpendicular to the row, tangents
+        std::vector<double> aside; // of the perpendicular to the row, as tangents
         for (std::size_t k = 0; k < row.size(); ++k) {
             SCOPED_TRACE(std::string(figure.shot) + ", clock " + std::to_string(k + 1));
             const double a = figure.from_motion_deg[k] * degree;
-            const dvec3 want(std::cos(a), 0, -std::sin(a)); // the motion is along +x, the row lies at -z
-            const dvec3 cockpit = glm::transpose(ship_from_cockpit) * want;
+            const dvec3 towards(std::cos(a), 0, -std::sin(a)); // the motion is along +x, the row lies at -z
+            const dvec3 cockpit = glm::transpose(ship_from_cockpit) * towards;
             const dvec2 expected = 0.5 * dvec2(size) + pixels_per_unit * dvec2(cockpit.x, -cockpit.y) / -cockpit.z;
-            // Two pixels: less than the dark disc around the pin, more than what is asked for.
+            // The disc's radius is two pixels: less than the dark ring around the pin, more than the tolerance.
             const dvec2 found = pin_near(numbers, expected + dvec2(0.6, -0.6), 2.0);
             EXPECT_LT(glm::distance(found, expected), 0.5) << found.x << ' ' << found.y;
             const dvec2 tangents = (found - 0.5 * dvec2(size)) / pixels_per_unit;
@@ -278,7 +279,7 @@ TEST(Clocks, ThePapersAnglesAndLength)
 
 // ---------------------------------------------------------------- clocks of our own
 
-/// A quad from -1 to 1 across, as a node of its own, that is a clock with black marks on white.
+/// Adds a square clock with black marks on white as a node of its own.
 void clock(Doc& doc, const Dial& dial, double zero_s)
 {
     const int material = unlit(doc, {1, 1, 1});
@@ -289,7 +290,7 @@ void clock(Doc& doc, const Dial& dial, double zero_s)
 /// One unit is a metre, and light flies one metre a second.
 GpuWorld slow_world(const std::string& name, const Doc& doc) { return open_world(name, doc, {{"light_speed_m_s", 1}}); }
 
-TEST(Clocks, EachFromItsOwnZeroAfterMonths)
+TEST(Clocks, EachClockRunsFromItsOwnZeroForMonths)
 {
     const Dial left{{-2, 0, -6}, {1, 0, 0}, {0, 1, 0}, 1}, right{{2, 0.5, -6}, {1, 0, 0}, {0, 1, 0}, 1};
     Doc doc;
@@ -300,41 +301,41 @@ TEST(Clocks, EachFromItsOwnZeroAfterMonths)
         Shot shot = shot_at({0, 0, 0}, u, {0, 0, -1});
         shot.time = 1e7 + 44.125;
         for (const auto& [dial, zero_s] : {std::pair(left, 0.0), std::pair(right, 1e7 + 10.75)}) {
-            const double want = 1e7 + 44.125 - glm::length(dial.middle) - zero_s;
+            const double expected_s = 1e7 + 44.125 - glm::length(dial.middle) - zero_s;
             const std::vector<Spot> spots = look_at(world, shot, dial, 512);
             const Hands hands = read_hands(spots);
-            EXPECT_LT(apart(hands.main_s, want, 60), 0.01) << hands.main_s;
-            EXPECT_LT(apart(hands.fast_s, want, 10), 0.01) << hands.fast_s;
-            EXPECT_EQ(read_figures(spots), tenths(want));
+            EXPECT_LT(apart(hands.main_s, expected_s, 60), 0.01) << hands.main_s;
+            EXPECT_LT(apart(hands.fast_s, expected_s, 10), 0.01) << hands.fast_s;
+            EXPECT_EQ(read_figures(spots), tenths(expected_s));
         }
     }
 }
 
-// The edges of a dial that is as large as it is far are seen at other times than its middle: by up to a third of a turn of
-// the fast hand here.
-TEST(Clocks, ALargeDialIsSeenAsEachPartOfItWas)
+// A dial is as large as it is far. Its edges are seen at other times than its middle, by up to a third of the fast hand's
+// turn.
+TEST(Clocks, EachPartOfALargeDialShowsItsOwnRetardedTime)
 {
     const Dial wide{{0, 0, -2}, {std::cos(0.7), 0, -std::sin(0.7)}, {0, 1, 0}, 4};
     Doc doc;
     clock(doc, wide, 0);
     const GpuWorld world = slow_world("wide", doc);
     for (const dvec3& u : {dvec3(0), dvec3(0, u_of_beta(0.5), 0)})
-        for (double want : {7.0, 22.0, 37.0, 52.0}) {
+        for (double expected_s : {7.0, 22.0, 37.0, 52.0}) {
             Shot shot = shot_at({0, 0, 3}, u, {0, 0, -1});
-            shot.time = want + 5;
+            shot.time = expected_s + 5;
             const std::vector<Spot> spots = look_at(world, shot, wide, 800, {0, 0, 0}, 1.8);
             const auto [first, last] = std::minmax_element(
-                spots.begin(), spots.end(), [](const Spot& a, const Spot& b) { return a.later < b.later; });
-            EXPECT_GT(last->later - first->later, 3);
+                spots.begin(), spots.end(), [](const Spot& a, const Spot& b) { return a.offset < b.offset; });
+            EXPECT_GT(last->offset - first->offset, 3);
             const Hands hands = read_hands(spots);
-            EXPECT_LT(apart(hands.main_s, want, 60), 0.01) << hands.main_s;
-            if (want != 52) { // when the long hand lies across the small dial
-                EXPECT_LT(apart(hands.fast_s, want, 10), 0.01) << hands.fast_s;
+            EXPECT_LT(apart(hands.main_s, expected_s, 60), 0.01) << hands.main_s;
+            if (expected_s != 52) { // at 52 s the long hand covers part of the small dial
+                EXPECT_LT(apart(hands.fast_s, expected_s, 10), 0.01) << hands.fast_s;
             }
         }
 }
 
-TEST(Clocks, MarksShineAsTheMaterialDoes)
+TEST(Clocks, MarksEmitTheMaterialsLight)
 {
     const Dial dial{{0, 0, -6}, {1, 0, 0}, {0, 1, 0}, 1};
     Doc doc;
@@ -344,7 +345,7 @@ TEST(Clocks, MarksShineAsTheMaterialDoes)
     quad(doc, dial.middle, dial.right, dial.up, material);
     const GpuWorld world = open_world("shining", doc, {{"light_speed_m_s", 1}, {"ambient", {1, 1, 1}}});
     const std::vector<Spot> spots = look_at(world, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}), dial, 256);
-    // The face is 0.1, a mark 0.5 and nothing of the face; in halves, filtered between texels.
+    // The face has 0.1; a mark has 0.5 and nothing of the face. Filtering between texels mixes the two.
     const auto [mark, face]
         = std::minmax_element(spots.begin(), spots.end(), [](const Spot& a, const Spot& b) { return a.ink < b.ink; });
     EXPECT_NEAR(mark->ink, 1 - 0.5 / 0.1, 0.02);
@@ -352,7 +353,7 @@ TEST(Clocks, MarksShineAsTheMaterialDoes)
     EXPECT_LT(face->ink, 1);
 }
 
-// Two eyes of a moving ship are simultaneous there and not in the world: the front one sees clocks later.
+// The two eyes of a moving ship are simultaneous in the ship, not in the world: the front one sees later readings.
 TEST(Clocks, EyesSeeTheTimesOfTheirOwnEvents)
 {
     const Dial dial{{0, 0, -6}, {1, 0, 0}, {0, 1, 0}, 1};
@@ -363,21 +364,21 @@ TEST(Clocks, EyesSeeTheTimesOfTheirOwnEvents)
     shot.time = 22;
     for (const dvec3& beside : {dvec3(0.5, 0, 0), dvec3(-0.5, 0.1, 0), dvec3(0, 0, -0.7)}) {
         const quad::V4 eye = eye_event(shot, beside);
-        const double want = double(eye.t - quad::length(quad::of(dial.middle) - eye.x));
+        const double expected_s = double(eye.t - quad::length(quad::of(dial.middle) - eye.x));
         const std::vector<Spot> spots = look_at(world, shot, dial, 512, beside);
         const Hands hands = read_hands(spots);
-        EXPECT_LT(apart(hands.main_s, want, 60), 0.01) << hands.main_s;
-        EXPECT_LT(apart(hands.fast_s, want, 10), 0.01) << hands.fast_s;
-        EXPECT_EQ(read_figures(spots), tenths(want));
+        EXPECT_LT(apart(hands.main_s, expected_s, 60), 0.01) << hands.main_s;
+        EXPECT_LT(apart(hands.fast_s, expected_s, 10), 0.01) << hands.fast_s;
+        EXPECT_EQ(read_figures(spots), tenths(expected_s));
     }
 }
 
-TEST(Clocks, AWorldWithoutThemHasNoneOfTheirCode)
+TEST(Clocks, AWorldWithoutClocksUsesNoClockShaders)
 {
     const GpuWorld& without = avenue().world;
     for (std::size_t m = 0; m < without.world.materials.size(); ++m)
         EXPECT_FALSE(without.variant(int(m)).clock);
-    const GpuWorld paper = paper_world();
+    const GpuWorld paper = clocks_world();
     int with = 0;
     for (std::size_t m = 0; m < paper.world.materials.size(); ++m)
         with += paper.variant(int(m)).clock;

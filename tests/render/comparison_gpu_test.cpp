@@ -1,4 +1,4 @@
-// The views to compare with: velocities that simply add, and everything where it is now in the ship's frame.
+// The views for comparison: Galilean aberration, and the present of the ship's frame without light delay.
 #include "config/model/angles.h"
 #include "runtime/world/clock.h"
 #include "runtime/world/instances.h"
@@ -10,7 +10,7 @@
 namespace starbow::gpu_test {
 namespace {
 
-/// Where a colour's light is seen, by its middle.
+/// The mean direction of one colour's light.
 dvec3 seen_at(const Numbers& numbers, int channel)
 {
     dvec3 sum(0);
@@ -22,7 +22,7 @@ dvec3 seen_at(const Numbers& numbers, int channel)
 
 const std::array<dvec3, 3> places = {dvec3(2, 1, -10), dvec3(-6, 0, -7), dvec3(1, -2, -7)};
 
-/// A small quad of its own colour at each place; what: its node's name.
+/// A world with a small quad of its own colour at each place.
 GpuWorld three(const Json& scene)
 {
     Doc doc;
@@ -52,12 +52,13 @@ TEST(ComparisonTest, GalileanFormulasAddVelocities)
         for (double theta = 0; theta <= 180; theta += 7.5) {
             const double u = beta / std::sqrt((1 - beta) * (1 + beta)), E = physics::exp_rapidity(u);
             const dvec3 world(std::sin(theta * degree), 0, std::cos(theta * degree));
-            // Light flies along -world; on board the ship's velocity is taken off: it comes from there.
+            // The light's velocity is -world. On board the ship's velocity is subtracted, and the light comes from the
+            // opposite direction.
             const dvec3 on_board = -(-world - dvec3(0, 0, beta));
             const auto camera = physics::galilean_camera_from_world(world, E, 1 / E);
             EXPECT_LT(between(camera.n, on_board), 1e-14);
             const auto back = physics::galilean_world_from_camera(camera.n, E, 1 / E);
-            // Behind, at nearly the speed of light, a camera's angle is little of the world's.
+            // Near the speed of light, the angles behind are small for the camera and large in the world.
             EXPECT_LT(between(back.n, world), 2e-15 / (1 - beta));
             EXPECT_NEAR(back.D, 1 + beta * world.z, 2e-15 / (1 - beta));
             if (theta == 0 || theta == 180)
@@ -73,22 +74,22 @@ TEST(ComparisonTest, GalileanFormulasAddVelocities)
         }
 }
 
-TEST(ComparisonTest, GalileanPicture)
+TEST(ComparisonTest, GalileanPictureAddsVelocities)
 {
     const dvec3 u = glm::normalize(dvec3(0.3, 0.1, -1)) * u_of_beta(0.8);
     const GpuWorld world = three({});
-    OffscreenRenderer stage = renderer(world, one_view(Planar{100}, {900, 600}));
-    const Numbers numbers(stage, compared(u, Comparison::galilean));
+    OffscreenRenderer offscreen = renderer(world, one_view(Planar{100}, {900, 600}));
+    const Numbers numbers(offscreen, compared(u, Comparison::galilean));
     for (int i = 0; i < 3; ++i) {
-        const dvec3 wanted = glm::normalize(places[std::size_t(i)]) + 0.8 * glm::normalize(u);
-        EXPECT_LT(between(seen_at(numbers, i), wanted), 0.5 * 100 * degree / 600) << i;
+        const dvec3 expected = glm::normalize(places[std::size_t(i)]) + 0.8 * glm::normalize(u);
+        EXPECT_LT(between(seen_at(numbers, i), expected), 0.5 * 100 * degree / 600) << i;
     }
 }
 
-TEST(ComparisonTest, EverythingWhereItIsNow)
+TEST(ComparisonTest, WithoutLightDelayBodiesAreContractedAlongTheMotion)
 {
-    // At rest before a ship that moves: contracted along the motion. On a body that moves with the ship, as it is; on one
-    // that moves past a ship at rest, contracted too.
+    // Objects at rest before a moving ship are contracted along the motion. A body that moves with the ship is not. A body
+    // that moves past a resting ship is contracted too.
     const dvec3 way = glm::normalize(dvec3(0.4, 0.2, -1)), u = way * u_of_beta(0.9);
     const double gamma = std::sqrt(1 + glm::dot(u, u));
     auto contracted = [&](const dvec3& x) { return x - way * glm::dot(way, x) * (1 - 1 / gamma); };
@@ -96,8 +97,8 @@ TEST(ComparisonTest, EverythingWhereItIsNow)
         = {{{"name", "all"}, {"nodes", {"quads"}}, {"velocity", {{"direction", {way.x, way.y, way.z}}, {"beta", 0.9}}}}};
     for (int kind = 0; kind < 3; ++kind) {
         const GpuWorld world = three(kind == 0 ? Json::object() : Json{{"bodies", riding}});
-        OffscreenRenderer stage = renderer(world, one_view(Planar{100}, {900, 600}));
-        const Numbers numbers(stage, compared(kind == 2 ? dvec3(0) : u, Comparison::no_light_delay));
+        OffscreenRenderer offscreen = renderer(world, one_view(Planar{100}, {900, 600}));
+        const Numbers numbers(offscreen, compared(kind == 2 ? dvec3(0) : u, Comparison::no_light_delay));
         for (int i = 0; i < 3; ++i) {
             const dvec3& place = places[std::size_t(i)];
             EXPECT_LT(between(seen_at(numbers, i), kind == 1 ? place : contracted(place)), 0.5 * 100 * degree / 600)
@@ -106,7 +107,7 @@ TEST(ComparisonTest, EverythingWhereItIsNow)
     }
 }
 
-TEST(ComparisonTest, ClocksTellWhatTimeItIsThereInTheShip)
+TEST(ComparisonTest, WithoutLightDelayClocksShowTheShipsPresent)
 {
     World world = load_world(testing::source_dir() / "scenes/clocks/clocks.glb");
     sort_instances(world);
@@ -119,7 +120,7 @@ TEST(ComparisonTest, ClocksTellWhatTimeItIsThereInTheShip)
     const auto entries = time_entries(
         world, {0, shot.position, shot.time, layer.motion_from_frame, layer.now, layer.contraction, layer.beta}, 1);
     ASSERT_EQ(entries.size(), 5u);
-    // Simultaneous on board: each five light-seconds further ahead is 2.5 s later in the world.
+    // The times are simultaneous on board: each clock is five light-seconds further ahead, and so 2.5 s later in the world.
     for (int i = 0; i < 5; ++i)
         EXPECT_NEAR(entries[std::size_t(i)].turns.y * 10, std::fmod(100 + 0.5 * (5 * i - 10 - 1), 10), 1e-5) << i;
 }

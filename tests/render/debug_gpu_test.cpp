@@ -1,5 +1,5 @@
-// Captures read like the frame: every Vulkan object that a frame needs has a name, and every pass a label. The device's own
-// functions are replaced by ones that take note before they pass the call on.
+// A debugger's capture can be read: every Vulkan object of a frame has a name, and every pass has a label. The test replaces
+// device functions by ones that take notes and pass the call on.
 #include "config/model/one_view.h"
 #include "runtime/render/offscreen.h"
 #include "runtime/render/render_context.h"
@@ -15,13 +15,13 @@ using starbow::gpu_test::Stage;
 namespace {
 
 struct Notes {
-    std::map<std::uint64_t, std::string> made; ///< handle: the kind of object
+    std::map<std::uint64_t, std::string> made; ///< the kind of object, by handle
     std::map<std::uint64_t, std::string> names;
     std::vector<std::string> labels;
-    int open = 0; ///< labels that have begun
+    int open = 0; ///< labels that have begun and not ended
 };
 Notes notes;
-std::optional<vk::raii::DeviceDispatcher> next; ///< the functions as they were
+std::optional<vk::raii::DeviceDispatcher> next; ///< the device's own functions
 
 template <class Handle> std::uint64_t number(Handle handle) { return reinterpret_cast<std::uint64_t>(handle); }
 
@@ -139,7 +139,7 @@ TEST(Debug, EveryObjectHasANameAndEveryPassALabel)
     for (const char* kind : {"Image", "ImageView", "Buffer", "Sampler", "DescriptorSet", "Pipeline", "DeviceMemory"})
         EXPECT_GT(counts[kind], 3) << kind;
     EXPECT_EQ(notes.open, 0);
-    // The frame in order; two eyes share the output's pixels, so stars and bloom come twice.
+    // The passes are in the frame's order. Two eyes share the output's pixels, so stars and bloom come twice.
     EXPECT_EQ(notes.labels,
         (std::vector<std::string>{
             "cube pass", "meter", "probes", "warp", " stars", " bloom", " stars", " bloom", "overlay", "HUD", "finish"}));

@@ -1,4 +1,4 @@
-// The last step of an output, from light to the bytes that its screen gets: every pixel worked out again in double from the
+// The last step of an output, from light to the bytes that its screen gets. Every pixel is computed again in double from the
 // light that the same pixel has in the numbers.
 #include "tests/support/small_world.h"
 #include <functional>
@@ -6,7 +6,7 @@
 namespace starbow::gpu_test {
 namespace {
 
-/// From hardly anything to nearly the tone curve's knee, in every channel; no hue is like another.
+/// From nearly black to nearly the tone curve's knee in every channel, so that no two hues are alike.
 const Json wide_sky = {{"zenith", {0.70, 0.01, 0.20}}, {"horizon", {0.02, 0.60, 0.002}}, {"nadir", {0.003, 0.10, 0.70}}};
 
 class Finish : public ::testing::Test {
@@ -14,7 +14,7 @@ protected:
     static void SetUpTestSuite()
     {
         Doc doc;
-        quad(doc, {0, 0, 900}, {0.01, 0, 0}, {0, 0.01, 0}, unlit(doc, {1, 1, 1})); // far behind, small, its back to us
+        quad(doc, {0, 0, 900}, {0.01, 0, 0}, {0, 0.01, 0}, unlit(doc, {1, 1, 1})); // far behind, small, and turned away
         world = std::make_unique<GpuWorld>(open_world("wide_sky", doc, {{"sky", wide_sky}}));
     }
     static void TearDownTestSuite()
@@ -36,7 +36,7 @@ Shot at_rest(double exposure_ev = 0)
     return shot;
 }
 
-/// The light of each pixel, without any finish.
+/// The light of each pixel without any colour conversion, mask or blend.
 std::vector<dvec3> light_of(Layout layout, std::size_t output = 0)
 {
     for (Output& out : layout.outputs) {
@@ -45,8 +45,8 @@ std::vector<dvec3> light_of(Layout layout, std::size_t output = 0)
             viewport.alpha_mask.clear(), viewport.black_level.clear();
     }
     layout.blend = {};
-    OffscreenRenderer stage = renderer(*Finish::world, layout);
-    const Numbers numbers(stage, at_rest(), output);
+    OffscreenRenderer offscreen = renderer(*Finish::world, layout);
+    const Numbers numbers(offscreen, at_rest(), output);
     std::vector<dvec3> light;
     for (int i = 0; i < numbers.count(); ++i)
         light.push_back(numbers.shown(i) ? numbers.light(i) : dvec3(0));
@@ -66,33 +66,32 @@ std::filesystem::path picture(
     return file;
 }
 
-/// What the file has for the value.
+/// A value as the 8-bit file holds it.
 double byte(double value) { return std::lround(255 * value) / 255.0; }
 
-/// Every pixel of an output against wanted(light, x, y), the input from 0 to 1.
-void expect_pixels(const Layout& layout, const std::function<dvec3(dvec3, int, int)>& wanted, std::size_t output = 0,
+/// Compares every pixel of an output with expected(light, x, y), the screen's input from 0 to 1.
+void expect_pixels(const Layout& layout, const std::function<dvec3(dvec3, int, int)>& expected, std::size_t output = 0,
     double exposure_ev = 0)
 {
-    OffscreenRenderer stage = renderer(*Finish::world, layout, false);
-    const auto bytes = stage.picture(at_rest(exposure_ev)).at(output);
+    OffscreenRenderer offscreen = renderer(*Finish::world, layout, false);
+    const auto bytes = offscreen.picture(at_rest(exposure_ev)).at(output);
     const std::vector<dvec3> light = light_of(layout, output);
     const ivec2 size = layout.outputs[output].size;
     double worst = 0, least = 1, most = 0;
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
             const std::size_t i = std::size_t(y) * size.x + x;
-            const dvec3 right = wanted(light[i] * std::exp2(exposure_ev), x, y);
+            const dvec3 right = expected(light[i] * std::exp2(exposure_ev), x, y);
             ASSERT_EQ(bytes[4 * i + 3], 255);
             for (int k = 0; k < 3; ++k) {
                 worst = std::max(worst, std::abs(bytes[4 * i + k] - 255 * right[k]));
                 least = std::min(least, right[k]), most = std::max(most, right[k]);
             }
         }
-    // Half a byte of rounding, half of dither. fp16 keeps light to 2^-11 of itself, weights too; a gamma's inverse makes
-    // less of it, a matrix' or a table's slope up to four times as much: 255 * 4 * 2^-11. The device's own sRGB table adds a
-    // bit.
+    // Rounding adds half a byte, dither another half. fp16 keeps light and weights to 2^-11 of themselves. A gamma's inverse
+    // reduces that; a matrix or a table multiplies it by up to four: 255 * 4 * 2^-11. The device's sRGB table adds a little.
     EXPECT_LE(worst, 1.55);
-    EXPECT_GT(most - least, 0.3); // else there is nothing to see
+    EXPECT_GT(most - least, 0.3); // otherwise the picture is too even for a test
 }
 
 dvec3 each(const dvec3& v, const std::function<double(double)>& of) { return {of(v.r), of(v.g), of(v.b)}; }
@@ -101,17 +100,17 @@ dvec3 encoded(const dvec3& v) { return each(within(v), srgb); }
 
 // ---------------------------------------------------------------- colour
 
-TEST_F(Finish, TheSkyIsWhatItShouldBe)
+TEST_F(Finish, TheSkyFollowsItsFormula)
 {
-    // What the rest of this file starts from.
-    OffscreenRenderer stage = renderer(*Finish::world, all_round());
-    const Numbers numbers(stage, at_rest());
+    // The other tests of this file rely on this.
+    OffscreenRenderer offscreen = renderer(*Finish::world, all_round());
+    const Numbers numbers(offscreen, at_rest());
     for (int i = 0; i < numbers.count(); ++i)
         EXPECT_LT(glm::length(numbers.light(i) - sky_colour(numbers.camera(i), wide_sky)), 0.01);
     expect_pixels(all_round(), [](dvec3 light, int, int) { return encoded(light); });
 }
 
-TEST_F(Finish, Gamma)
+TEST_F(Finish, GammaEncodesTheLight)
 {
     for (double gamma : {1.0, 1.8, 2.2, 2.6}) {
         SCOPED_TRACE(gamma);
@@ -122,7 +121,7 @@ TEST_F(Finish, Gamma)
     }
 }
 
-TEST_F(Finish, TablesByChannelStraightBetweenEntries)
+TEST_F(Finish, TablesInterpolateLinearlyByChannel)
 {
     Layout layout = all_round();
     for (const std::vector<dvec3>& lut : {std::vector<dvec3>{{0, 0.1, 1}, {1, 0.9, 0}},
@@ -140,22 +139,22 @@ TEST_F(Finish, TablesByChannelStraightBetweenEntries)
     }
 }
 
-TEST_F(Finish, TablesHoldTheirEnds)
+TEST_F(Finish, TablesKeepTheirLastEntryAboveWhite)
 {
-    // White light, four stops above white: the last entry, not beyond.
+    // Four stops above white, the table's last entry holds.
     Layout layout = all_round({16, 8});
     layout.outputs[0].colour.lut = {{0.25, 0.25, 0.25}, {0.5, 0.5, 0.5}, {0.75, 0.75, 0.75}};
-    OffscreenRenderer stage = renderer(*Finish::world, layout, false);
-    const auto bright = stage.picture(at_rest(14)).front(), dark = stage.picture(at_rest(-60)).front();
+    OffscreenRenderer offscreen = renderer(*Finish::world, layout, false);
+    const auto bright = offscreen.picture(at_rest(14)).front(), dark = offscreen.picture(at_rest(-60)).front();
     for (const std::uint8_t value : bright)
         EXPECT_TRUE(value == 255 || (value >= 190 && value <= 192))
-            << int(value); // alpha; 191.25 and dither, tone curve just below
+            << int(value); // alpha; or 191.25 with dither, and the tone curve just below white
     for (const std::uint8_t value : dark)
         EXPECT_TRUE(value == 255 || value == 63 || value == 64) << int(value); // 63.75 and dither
 }
 
-// Rows make red, green and blue; what is out of reach is cut off.
-TEST_F(Finish, Matrix)
+// Rows make red, green and blue; values outside the screen's range are cut off.
+TEST_F(Finish, AMatrixMultipliesTheLightByRows)
 {
     Layout layout = all_round();
     const double rows[3][3] = {{0.8, 0.3, -0.1}, {-0.2, 1.1, 0.1}, {0.05, -0.15, 1.3}};
@@ -206,8 +205,9 @@ TEST_F(Finish, MasksMultiplyLinearLight)
     }
 }
 
-// Order: matrix, weight, black level, curve. The light makes room for the highest black level of all outputs.
-TEST_F(Finish, BlackLevelsAreAddedAndAllOutputsMakeRoom)
+// The order is matrix, weight, black level, curve. The light is scaled to leave room for the highest black level of all
+// outputs.
+TEST_F(Finish, BlackLevelsAreAddedAndScaleAllOutputs)
 {
     Layout layout = all_round();
     const ivec2 size = layout.outputs[0].size;
@@ -228,19 +228,19 @@ TEST_F(Finish, BlackLevelsAreAddedAndAllOutputsMakeRoom)
     expect_pixels(
         layout, [&](dvec3 light, int, int) { return encoded(light * room); }, 1);
 
-    // Without light the black level stays: it is not multiplied.
-    OffscreenRenderer stage = renderer(*Finish::world, layout, false);
-    const auto dark = stage.picture(at_rest(-60));
+    // Without light the black level stays, because no weight multiplies it.
+    OffscreenRenderer offscreen = renderer(*Finish::world, layout, false);
+    const auto dark = offscreen.picture(at_rest(-60));
     for (int x = 0; x < size.x; ++x)
         EXPECT_NEAR(dark[0][4 * x + 1], 255 * std::pow(byte(lift(x, 0, 1)), 1 / 2.2), 1) << x;
     for (std::size_t i = 0; i < dark[1].size(); i += 4)
         EXPECT_EQ(dark[1][i], 0);
-    // White light over it is just white.
-    const auto bright = stage.picture(at_rest(14))[0];
+    // White light above the black level is exactly white.
+    const auto bright = offscreen.picture(at_rest(14))[0];
     EXPECT_GE(bright[4 * (size.x - 1) + 1], 254);
 }
 
-TEST_F(Finish, OneExposureForAllOutputs)
+TEST_F(Finish, AllOutputsHaveOneExposure)
 {
     Layout layout = all_round();
     layout.outputs.push_back(one_view(Planar{60}, {64, 48}).outputs[0]);
@@ -249,9 +249,9 @@ TEST_F(Finish, OneExposureForAllOutputs)
     for (double ev : {-3.0, -1.0, 0.0}) {
         expect_pixels(
             layout, [](dvec3 light, int, int) { return encoded(light); }, 0, ev);
-        OffscreenRenderer stage = renderer(*Finish::world, layout, false);
-        const auto pictures = stage.picture(at_rest(ev));
-        // The same light whatever the output: straight ahead is the horizon.
+        OffscreenRenderer offscreen = renderer(*Finish::world, layout, false);
+        const auto pictures = offscreen.picture(at_rest(ev));
+        // Straight ahead is the horizon, which must have equal light in every output.
         const dvec3 horizon = sky_colour({0, 0, -1}, wide_sky) * std::exp2(ev);
         for (int k = 0; k < 3; ++k)
             EXPECT_NEAR(pictures[1][4 * (24 * 64 + 32) + k], 255 * std::sqrt(horizon[k]), 2) << ev;
@@ -263,9 +263,9 @@ TEST_F(Finish, OneExposureForAllOutputs)
 
 // ---------------------------------------------------------------- blend
 
-// Two walls that overlap by half: in the row at eye height the ramp is the place between the two edges, and the light of
-// both together is the light of one.
-TEST_F(Finish, BlendedOutputsAddUp)
+// Two walls overlap by half. In the row at eye height the ramp follows the distances to the two edges; both outputs' light
+// adds up to that of one.
+TEST_F(Finish, BlendedOutputsAddUpToOne)
 {
     Layout layout;
     for (double left : {-1.5, -0.5}) {
@@ -278,8 +278,8 @@ TEST_F(Finish, BlendedOutputsAddUp)
     layout.blend.ramps = true;
     for (double power : {1.0, 2.0}) {
         layout.blend.power = power;
-        OffscreenRenderer stage = renderer(*Finish::world, layout, false);
-        const auto pictures = stage.picture(at_rest());
+        OffscreenRenderer offscreen = renderer(*Finish::world, layout, false);
+        const auto pictures = offscreen.picture(at_rest());
         const int y = 89;
         double worst = 0;
         for (int x = 0; x < 200; ++x) {
@@ -288,17 +288,17 @@ TEST_F(Finish, BlendedOutputsAddUp)
             const std::size_t i = 4 * std::size_t(y * 200 + x);
             const dvec3 light = plain[i / 4];
             for (int k = 0; k < 3; ++k) {
-                // A hundredth of the ramp is half a pixel of it; in the bytes that is least where it is bright.
-                const double wanted = x < 100 ? light[k] : light[k] * weight;
+                // Half a pixel is a hundredth of the ramp; where light is bright, bytes resolve less than that.
+                const double expected = x < 100 ? light[k] : light[k] * weight;
                 const double shown = std::pow(pictures[0][i + k] / 255.0, 2.2);
-                EXPECT_NEAR(shown, wanted, 0.01 * light[k] + 0.01) << x << " " << k;
+                EXPECT_NEAR(shown, expected, 0.01 * light[k] + 0.01) << x << " " << k;
                 if (x < 100 || light[k] < 0.1)
                     continue;
                 const double both = shown + std::pow(pictures[1][i + k - 400] / 255.0, 1.8);
                 worst = std::max(worst, std::abs(both / light[k] - 1));
             }
         }
-        // The bytes alone: half of 1/255 of each, times gamma, of light above 0.1 (a byte of 90 or 71).
+        // The bytes alone: each is off by half of 1/255, times gamma, for light above 0.1 (a byte of 90 or 71).
         EXPECT_LT(worst, 0.5 * (2.2 / 90 + 1.8 / 71));
         EXPECT_GT(worst, 0);
     }
@@ -322,8 +322,8 @@ TEST_F(Finish, ThePreviewShowsEveryOutputSmallAndUnshaded)
     preview.size = {240, 200};
     preview.preview = true;
     layout.outputs.insert(layout.outputs.begin() + 1, preview);
-    OffscreenRenderer stage = renderer(*Finish::world, layout, false);
-    const auto bytes = stage.picture(at_rest()).at(1);
+    OffscreenRenderer offscreen = renderer(*Finish::world, layout, false);
+    const auto bytes = offscreen.picture(at_rest()).at(1);
     const auto cells = preview_cells(layout, 1, preview.size);
     ASSERT_EQ(cells.size(), 4u);
     EXPECT_EQ(cells[1], glm::ivec4(0));
@@ -331,8 +331,9 @@ TEST_F(Finish, ThePreviewShowsEveryOutputSmallAndUnshaded)
     for (int i : {0, 2, 3}) {
         const glm::ivec4 cell = cells[i];
         const Output& shown = layout.outputs[i];
-        EXPECT_GE(cell.z * cell.w, 1500) << "so that one can see something";
-        EXPECT_NEAR(double(cell.z) / cell.w, double(shown.size.x) / shown.size.y, 0.03); // a pixel of fifty
+        EXPECT_GE(cell.z * cell.w, 1500) << "a cell must be large enough to see something";
+        EXPECT_NEAR(double(cell.z) / cell.w, double(shown.size.x) / shown.size.y,
+            0.03); // the cell's size rounds to a pixel of fifty
         for (int y = cell.y; y < cell.y + cell.w; ++y)
             for (int x = cell.x; x < cell.x + cell.z; ++x) {
                 ASSERT_TRUE(x >= 0 && y >= 0 && x < 240 && y < 200);
@@ -345,7 +346,8 @@ TEST_F(Finish, ThePreviewShowsEveryOutputSmallAndUnshaded)
                 const dvec3 d = glm::normalize(
                     dvec3(right, std::sin(pitch) + up * std::cos(pitch), -std::cos(pitch) + up * std::sin(pitch)));
                 const dvec3 light = sky_colour(d, wide_sky);
-                // A pixel of the preview is half a degree and filtered over that; the sky's greatest slope is 1 a radian.
+                // A pixel of the preview is half a degree wide, and filtered over that; the sky's greatest slope is 1 for
+                // each radian.
                 for (int k = 0; k < 3; ++k)
                     ASSERT_NEAR(bytes[4 * (y * 240 + x) + k], 255 * srgb(light[k]), 4) << shown.name << " " << x << " " << y;
             }

@@ -1,4 +1,4 @@
-// A head that moves while the exhibit flies sees what a layout with the head there from the start shows.
+// A head that moves during the exhibit sees the same as in a layout with the eye there from the start.
 #include "displays/projections/wall.h"
 #include "tests/support/stage.h"
 
@@ -22,12 +22,12 @@ Shot flown() { return shot_at({0, 0, 1}, {0, 0, -u_of_gamma(2)}, {0, 0, -1}); }
 
 std::vector<std::uint8_t> seen(const Layout& layout, const Head& head)
 {
-    OffscreenRenderer stage = renderer(avenue().world, layout, false);
-    stage.frame().move_head(head);
-    return stage.picture(flown())[0];
+    OffscreenRenderer offscreen = renderer(avenue().world, layout, false);
+    offscreen.frame().move_head(head);
+    return offscreen.picture(flown())[0];
 }
 
-/// How many of the RGBA8 pixels differ by more than 2 of 255 in a channel: the projections differ in their last bits.
+/// Counts RGBA8 pixels that differ by more than 2 of 255 in a channel, because the projections differ in their last bits.
 int differing(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b)
 {
     int count = 0;
@@ -44,27 +44,27 @@ int differing(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t
 
 class HeadMethods : public ::testing::TestWithParam<StereoMethod> { };
 
-TEST_P(HeadMethods, AMovedHeadIsAnotherEye)
+TEST_P(HeadMethods, AMovedHeadEqualsAnEyeThere)
 {
     const dvec3 by(0.25, -0.15, 0.3);
     const auto still = seen(walled(dvec3(0), GetParam()), {});
     const auto moved = seen(walled(dvec3(0), GetParam()), {by});
     const int pixels = 240 * 90;
-    EXPECT_GT(differing(still, moved), pixels / 4); // it moved at all
+    EXPECT_GT(differing(still, moved), pixels / 4); // the picture must change
     EXPECT_LE(differing(moved, seen(walled(by, GetParam()), {})), pixels / 1000);
 }
 
-TEST_P(HeadMethods, AMovedHeadGoesBack)
+TEST_P(HeadMethods, AHeadThatReturnsSeesTheFirstPicture)
 {
-    OffscreenRenderer stage = renderer(avenue().world, walled(dvec3(0), GetParam()), false);
-    const auto before = stage.picture(flown())[0];
-    stage.frame().move_head({dvec3(0.2, 0.1, -0.3), glm::angleAxis(0.7, dvec3(0, 1, 0))});
-    (void)stage.picture(flown());
-    stage.frame().move_head({});
-    EXPECT_EQ(differing(before, stage.picture(flown())[0]), 0);
+    OffscreenRenderer offscreen = renderer(avenue().world, walled(dvec3(0), GetParam()), false);
+    const auto before = offscreen.picture(flown())[0];
+    offscreen.frame().move_head({dvec3(0.2, 0.1, -0.3), glm::angleAxis(0.7, dvec3(0, 1, 0))});
+    (void)offscreen.picture(flown());
+    offscreen.frame().move_head({});
+    EXPECT_EQ(differing(before, offscreen.picture(flown())[0]), 0);
 }
 
-// Upside down, the right eye is where the left was.
+// Upside down, the right eye is at the left eye's place.
 TEST_P(HeadMethods, ATurnedHeadTurnsItsEyes)
 {
     const auto still = seen(walled(dvec3(0), GetParam()), {});
@@ -81,12 +81,12 @@ TEST_P(HeadMethods, ATurnedHeadTurnsItsEyes)
 INSTANTIATE_TEST_SUITE_P(
     Stereo, HeadMethods, ::testing::Values(StereoMethod::shared, StereoMethod::exact, StereoMethod::reprojected));
 
-// A visitor who walks around behind a wall's plane leaves it as it was; the others go on.
-TEST(HeadTest, BehindAWallItStaysAsItWas)
+// A head behind a wall's plane leaves the view as it was.
+TEST(HeadTest, BehindAWallTheViewStaysAsItWas)
 {
     Layout layout = one_view(wall, {120, 90});
     const auto still = seen(layout, {});
-    const auto behind = seen(layout, {dvec3(0, 0, -1.5)}); // half a metre behind
+    const auto behind = seen(layout, {dvec3(0, 0, -1.5)}); // half a metre behind the wall
     EXPECT_EQ(still.size(), behind.size());
-    EXPECT_EQ(differing(still, behind), 0) << "the world is light-seconds large: 1.5 m are nothing in it";
+    EXPECT_EQ(differing(still, behind), 0) << "the world is light-seconds large: 1.5 m change nothing in it";
 }

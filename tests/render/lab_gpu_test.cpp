@@ -1,5 +1,5 @@
-// docs/lab.md played through: every number that it asks for, measured on the real scenes with the instruments, as with a
-// hand that aims to 0.1 degrees. The theory's values are worked out here once more, without the formulas of shaders/physics.
+// docs/lab.md is worked through: every number in its tables is measured on the real scenes with the instruments, aimed to
+// 0.1 degrees as by hand. The theoretical values come from formulas of this file, not from shaders/physics.
 #include "config/model/angles.h"
 #include "runtime/exhibit/still_measurement.h"
 #include "runtime/flight/flight.h"
@@ -32,13 +32,13 @@ std::vector<Row> rows_of_the_document()
             const auto from = cell.find_first_not_of(' '), to = cell.find_last_not_of(' ');
             row.cells.push_back(from == cell.npos ? "" : cell.substr(from, to - from + 1));
         }
-        if (row.cells.size() >= 5) // not a key
+        if (row.cells.size() >= 5) // the legend has fewer cells
             rows.push_back(row);
     }
     return rows;
 }
 
-/// By school mathematics: cosines and a speed.
+/// By school mathematics, from cosines and a speed.
 double doppler(double beta, double theta_deg)
 {
     return std::sqrt(1 - beta * beta) / (1 - beta * std::cos(theta_deg * degree));
@@ -49,11 +49,11 @@ double seen_deg(double beta, double theta_deg)
     return std::acos((c + beta) / (1 + beta * c)) / degree;
 }
 
-/// What each measurement should give.
+/// The theoretical value of each measurement.
 std::map<std::string, double> theory()
 {
     const double b4 = std::sqrt(15.0) / 4, half = std::atan(10.0 / 31) / degree;
-    // The clock at x is seen from (17.897.., 0, 31), 35.79.. s after it showed 0.
+    // The ship is at (17.897.., 0, 31) 35.79.. s after the clock at x showed 0.
     const double past = 31 / std::sqrt(3.0), now = 2 * past;
     const auto reading = [&](double x) { return now - std::hypot(past - x, 31.0); };
     const auto world_deg = [&](double x) { return std::atan2(31.0, x - past) / degree; };
@@ -91,7 +91,7 @@ const std::map<std::string, Read> readings = {
     {"light / light without the key", [](const StillMeasurement& s) { return s.points[1].aim.light; }},
 };
 
-/// The points, each moved by a hand that is not steady.
+/// Moves each point as an unsteady hand does.
 std::vector<Point> unsteady(std::vector<Point> points, double right_deg, double up_deg)
 {
     for (Point& point : points) {
@@ -102,36 +102,36 @@ std::vector<Point> unsteady(std::vector<Point> points, double right_deg, double 
     return points;
 }
 
-TEST(Lab, TheSessionGivesTheTheorysValues)
+TEST(Lab, EveryMeasurementGivesTheTheorysValue)
 {
-    const std::map<std::string, double> wanted = theory();
-    std::map<std::string, std::unique_ptr<RenderContext>> theatres;
+    const std::map<std::string, double> expected = theory();
+    std::map<std::string, std::unique_ptr<RenderContext>> contexts;
     const Layout desk = one_view(Planar{60}, {400, 300});
-    std::map<std::string, std::unique_ptr<OffscreenRenderer>> studios;
+    std::map<std::string, std::unique_ptr<OffscreenRenderer>> renderers;
     int measured = 0;
     for (const Row& row : rows_of_the_document()) {
         if (row.no()[0] == 'S')
             continue;
         SCOPED_TRACE(row.no());
         ASSERT_EQ(row.cells.size(), 7u);
-        ASSERT_TRUE(wanted.contains(row.no()));
+        ASSERT_TRUE(expected.contains(row.no()));
         ASSERT_TRUE(readings.contains(row.cells[4])) << row.cells[4];
-        const double told = std::stod(row.cells[5]), error = std::stod(row.cells[6]);
-        // The document rounds to what it writes.
-        EXPECT_NEAR(told, wanted.at(row.no()), 0.1 * error + 5e-4 * std::abs(told));
+        const double documented = std::stod(row.cells[5]), error = std::stod(row.cells[6]);
+        // The document's rounding is within its error.
+        EXPECT_NEAR(documented, expected.at(row.no()), 0.1 * error + 5e-4 * std::abs(documented));
         const std::filesystem::path file = testing::source_dir() / "config/shots" / (row.cells[1] + ".json");
         const Shot shot = load_shot(file);
-        if (!studios[shot.scene]) {
+        if (!renderers[shot.scene]) {
             const SceneFile scene = load_scene_file(testing::source_dir() / "config/scenes" / (shot.scene + ".json"));
-            theatres[shot.scene]
+            contexts[shot.scene]
                 = std::make_unique<RenderContext>(testing::source_dir() / "config/scenes" / (shot.scene + ".json"),
                     Device::Options{.validation = true, .name = device_options(false).name});
-            RenderContext& context = *theatres[shot.scene];
-            studios[shot.scene] = std::make_unique<OffscreenRenderer>(
+            RenderContext& context = *contexts[shot.scene];
+            renderers[shot.scene] = std::make_unique<OffscreenRenderer>(
                 context.device, context.pipelines, context.world, desk, default_quality(context.device, false), false);
         }
-        OffscreenRenderer& renderer = *studios[shot.scene];
-        const GpuWorld& world = theatres[shot.scene]->world;
+        OffscreenRenderer& renderer = *renderers[shot.scene];
+        const GpuWorld& world = contexts[shot.scene]->world;
         Shot pressed = shot;
         for (char key : row.cells[2]) {
             pressed.effects.aberration ^= key == '1';
@@ -149,19 +149,19 @@ TEST(Lab, TheSessionGivesTheTheorysValues)
             if (row.no()[0] == 'H')
                 value /= *readings.at(row.cells[4])(
                     measure_still(renderer, world, shot, aimed, "off", "none", testing::words()));
-            EXPECT_NEAR(value, told, error) << "aimed off by " << right << ", " << up;
+            EXPECT_NEAR(value, documented, error) << "aimed off by " << right << ", " << up;
         }
         ++measured;
     }
-    EXPECT_EQ(measured, int(wanted.size()) - 3);
-    for (const auto& [name, context] : theatres)
+    EXPECT_EQ(measured, int(expected.size()) - 3);
+    for (const auto& [name, context] : contexts)
         if (context)
             Stage::expect_no_complaints(context->device);
-    studios.clear();
+    renderers.clear();
 }
 
-// With the engine on: the flight itself, its controls held as a hand holds them, and the marks of the document.
-TEST(Lab, BackwardsAtFirst)
+// With the engine on: the real flight with its controls held, and the document's marks.
+TEST(Lab, UnderThrustTheClocksFirstSeemToMoveBackwards)
 {
     const std::filesystem::path folder = testing::source_dir() / "config";
     const Shot start = load_shot(folder / "shots/clocks-rest.json");
@@ -195,12 +195,12 @@ TEST(Lab, BackwardsAtFirst)
     }
     std::printf("  smallest %.4f at %.3f, at %.3f %.4f degrees\n", smallest, smallest_at, nearest_to_4, angle_at_4);
     const std::map<std::string, double> measured = {{"S1", smallest_at}, {"S2", smallest}, {"S3", angle_at_4}};
-    const std::map<std::string, double> wanted = theory();
+    const std::map<std::string, double> expected = theory();
     for (const Row& row : rows_of_the_document())
         if (row.no()[0] == 'S') {
-            const double told = std::stod(row.cells[3]), error = std::stod(row.cells[4]);
-            EXPECT_NEAR(told, wanted.at(row.no()), 0.1 * error + 5e-4 * told) << row.no();
-            EXPECT_NEAR(measured.at(row.no()), told, error) << row.no();
+            const double documented = std::stod(row.cells[3]), error = std::stod(row.cells[4]);
+            EXPECT_NEAR(documented, expected.at(row.no()), 0.1 * error + 5e-4 * documented) << row.no();
+            EXPECT_NEAR(measured.at(row.no()), documented, error) << row.no();
         }
     Stage::expect_no_complaints(context.device);
 }

@@ -1,5 +1,5 @@
-// Test patterns: that lines, letters and fields are where who lines up projectors takes them to be. Where a direction is on
-// a screen is worked out here by itself.
+// Test patterns: lines, letters and fields must be where a builder expects them when lining up projectors. This file
+// computes a direction's place on a screen by itself.
 #include "config/model/angles.h"
 #include "tests/support/small_world.h"
 #include <functional>
@@ -25,7 +25,7 @@ struct Drawn {
         const dvec3 c = at(p);
         return std::max({c.r, c.g, c.b});
     }
-    /// Whether anything within `reach` pixels is as bright as this.
+    /// True if a pixel within `reach` is at least as bright.
     bool near(dvec2 p, double bright, int reach = 1) const
     {
         for (int y = -reach; y <= reach; ++y)
@@ -38,10 +38,10 @@ struct Drawn {
 
 std::vector<Drawn> draw(const Layout& layout, Pattern pattern)
 {
-    OffscreenRenderer stage = renderer(avenue().world, layout, false);
-    stage.frame().show(pattern);
+    OffscreenRenderer offscreen = renderer(avenue().world, layout, false);
+    offscreen.frame().show(pattern);
     std::vector<Drawn> drawn;
-    const auto pictures = stage.picture(shot_at({0, 0, 0}, {0, 0, -4}, {0, 0, -1}));
+    const auto pictures = offscreen.picture(shot_at({0, 0, 0}, {0, 0, -4}, {0, 0, -1}));
     for (std::size_t i = 0; i < pictures.size(); ++i)
         drawn.push_back({layout.outputs[i].size, pictures[i]});
     return drawn;
@@ -59,7 +59,7 @@ dvec3 towards(double azimuth_deg, double elevation_deg)
     return {std::cos(e) * std::sin(a), std::sin(e), -std::cos(e) * std::cos(a)};
 }
 
-/// A display and where it shows a direction.
+/// A display, and the pixel at which it shows a direction.
 struct Screen {
     Layout layout;
     std::function<dvec2(const dvec3&)> pixel;
@@ -88,7 +88,7 @@ Screen window(ivec2 size, double fov_y_deg, double yaw_deg)
 
 // ---------------------------------------------------------------- grid
 
-TEST(Pattern, GridOfEveryPixelThatThereIs)
+TEST(Pattern, TheGridReachesEveryEdge)
 {
     for (const Screen& screen : {window({640, 480}, 60, 0), dome(512, 20)}) {
         const Drawn drawn = draw(screen.layout, Pattern::grid).front();
@@ -106,7 +106,7 @@ TEST(Pattern, GridOfEveryPixelThatThereIs)
                 if (std::abs(glm::length(field - middle) - 0.5 * std::min(size.x, size.y)) > 4 && drawn.inside(field)) {
                     EXPECT_EQ(drawn.at(field), dvec3(0)) << field.x << " " << field.y;
                 }
-                // Half way along a field's upper side.
+                // The middle of a field's upper side.
                 const dvec2 line = middle + 64.0 * dvec2(i + 0.5, j);
                 if (j != 0 && std::abs(glm::length(line - middle) - 0.5 * std::min(size.x, size.y)) > 4
                     && drawn.inside(line)) {
@@ -123,14 +123,14 @@ TEST(Pattern, GridOfEveryPixelThatThereIs)
 
 // ---------------------------------------------------------------- rings
 
-TEST(Pattern, RingsOfAzimuthAndElevation)
+TEST(Pattern, RingsLieAtTheirAzimuthAndElevation)
 {
     for (const Screen& screen : {dome(1000, 0), dome(1000, 30), window({1000, 700}, 70, 35), window({1000, 700}, 70, 180)}) {
         const Drawn drawn = draw(screen.layout, Pattern::rings).front();
         int lines = 0, fields = 0;
         for (int azimuth = -180; azimuth < 180; azimuth += 15)
             for (int elevation = -60; elevation <= 75; elevation += 15) {
-                // Between crossings, a third of the way so as to stay away from letters.
+                // Between two crossings, a third of the way, so that no letters are near.
                 for (const dvec3& d : {towards(azimuth + 10, elevation), towards(azimuth, elevation + 10)}) {
                     const dvec2 p = screen.pixel(d);
                     if (!drawn.inside(p - 3.0) || !drawn.inside(p + 3.0))
@@ -146,7 +146,7 @@ TEST(Pattern, RingsOfAzimuthAndElevation)
             }
         EXPECT_GT(lines, 20);
         EXPECT_GT(fields, 10);
-        // The horizon is orange, straight ahead green.
+        // The horizon is orange, the meridian straight ahead green.
         const dvec2 horizon = screen.pixel(towards(20, 0)), ahead = screen.pixel(towards(0, 22));
         if (drawn.inside(horizon - 3.0) && drawn.inside(horizon + 3.0))
             expect_colour(drawn.at(horizon), {1, 0.45, 0.1}, 3, "the horizon");
@@ -155,7 +155,7 @@ TEST(Pattern, RingsOfAzimuthAndElevation)
     }
 }
 
-// Every azimuth that is written can be read: upright towards the zenith, not mirrored, on nothing but black.
+// Every azimuth's number must be readable: upright towards the zenith, not mirrored, and on black alone.
 TEST(Pattern, NumbersCanBeRead)
 {
     const char* digits[10][5] = {{"###", "# #", "# #", "# #", "###"}, {" # ", "## ", " # ", " # ", "###"},
@@ -174,7 +174,8 @@ TEST(Pattern, NumbersCanBeRead)
                 for (std::size_t k = 0; k < text.size(); ++k)
                     for (int y = 0; y < 5; ++y)
                         for (int x = 0; x < 3; ++x) {
-                            // Four cells a digit, the last one free; its lower edge a cell and a half above the ring.
+                            // A digit takes four cells, of which the last is empty. Its lower edge lies one and a half cells
+                            // above the ring.
                             const double right = (4.0 * double(k) + x + 0.5 - (4.0 * double(text.size()) - 1) / 2) * cell;
                             const double elevation = ring + (6.5 - y - 0.5) * cell;
                             const double aside = right / std::cos(elevation * degree);
@@ -194,7 +195,7 @@ TEST(Pattern, NumbersCanBeRead)
 
 // ---------------------------------------------------------------- names
 
-TEST(Pattern, NamesInTheMiddleAndTheCornersEachEyeInItsColour)
+TEST(Pattern, NamesAreInTheMiddleAndCornersInEachEyesColour)
 {
     Layout layout = one_view(Planar{60}, {640, 240});
     layout.outputs[0].viewports = {{.rect = {0, 0, 0.5, 1}, .projection = Planar{60}, .eye = Eye::left},
@@ -205,7 +206,7 @@ TEST(Pattern, NamesInTheMiddleAndTheCornersEachEyeInItsColour)
     expect_colour(drawn[0].at(ivec2(3, 120)), {1, 0.08, 0.05}, 1, "left eye red");
     expect_colour(drawn[0].at(ivec2(323, 120)), {0.05, 0.25, 1}, 1, "right eye blue");
     expect_colour(drawn[1].at(ivec2(3, 150)), {0.5, 0.5, 0.5}, 1, "no eye of its own: grey");
-    // Letters, nearly white (a grey frame is 187); as many in each corner as in the middle.
+    // Letters are nearly white (a grey frame is 187). Each corner has as many letter pixels as the middle.
     auto letters = [](const Drawn& d, ivec2 low, ivec2 high) {
         int count = 0;
         for (int y = low.y; y < high.y; ++y)
@@ -220,14 +221,14 @@ TEST(Pattern, NamesInTheMiddleAndTheCornersEachEyeInItsColour)
         for (ivec2 corner : {ivec2(0, 0), ivec2(1, 0), ivec2(0, 1), ivec2(1, 1)})
             EXPECT_EQ(letters(*picture, low + corner * size * 2 / 3, low + size / 3 + corner * (size - size / 3)), middle);
     }
-    // An output's name is its own.
+    // Each output shows its own name.
     layout.outputs[1].name = "another";
     EXPECT_NE(draw(layout, Pattern::names)[1].bytes, drawn[1].bytes);
 }
 
 // ---------------------------------------------------------------- wedges
 
-TEST(Pattern, WedgesAreEvenStepsOfInputWhateverTheCurve)
+TEST(Pattern, WedgesAreEvenStepsOfInputWithAnyCurve)
 {
     for (double gamma : {0.0, 1.8, 2.2, 2.6}) {
         SCOPED_TRACE(gamma);
@@ -235,13 +236,13 @@ TEST(Pattern, WedgesAreEvenStepsOfInputWhateverTheCurve)
             Layout layout = screen.layout;
             layout.outputs[0].colour.gamma = gamma;
             const Drawn drawn = draw(layout, Pattern::wedges).front();
-            // On a dome all of it is within the circle: the square in it.
+            // On a dome the pattern lies within the circle: in the inscribed square.
             const double part = std::holds_alternative<Fisheye>(layout.outputs[0].viewports[0].projection) ? 0.7 : 1;
             auto place = [&](double x, double y) { return dvec2(drawn.size) * (0.5 + part * (dvec2(x, y) - 0.5)); };
             for (int i = 0; i < 17; ++i)
                 EXPECT_NEAR(drawn.at(place((i + 0.5) / 17, 0.2)).g, 255 * i / 16.0, 1) << "step " << i;
             for (int i = 0; i < 12; ++i) {
-                // The darkest is 2 of 255: it can be seen where black level and gamma are right.
+                // The darkest is 2 of 255. A viewer sees it if black level and gamma are right.
                 EXPECT_NEAR(drawn.at(place((i + 0.5) / 12, 0.85)).g, 2 * (i + 1), 0.6) << "dark field " << i;
                 EXPECT_EQ(drawn.at(place((i + 0.05) / 12, 0.85)).g, 0);
             }
@@ -274,29 +275,29 @@ TEST(Pattern, OverlapMixesTheOutputsColours)
     auto light = [](double byte) {
         return byte / 255 <= 0.04045 ? byte / 255 / 12.92 : std::pow((byte / 255 + 0.055) / 1.055, 2.4);
     };
-    // Each alone outside, in the ramp both together as much as one.
+    // Outside the ramp each output is alone; in the ramp both add up to one.
     const dvec3 left = drawn[0].at(ivec2(20, 60)), right = drawn[1].at(ivec2(380, 60));
     EXPECT_GT(left.r, 200);
     EXPECT_GT(right.g, 180);
     for (int x = 210; x < 390; x += 20) {
         const dvec3 a = drawn[0].at(ivec2(x, 60)), b = drawn[1].at(ivec2(x - 200, 60));
         const double share_a = light(a.r) / light(left.r), share_b = light(b.g) / light(right.g);
-        EXPECT_NEAR(share_a + share_b, 1, 0.02) << x; // the dim part of each, and bytes
+        EXPECT_NEAR(share_a + share_b, 1, 0.02) << x; // the dim part of each, and rounding to bytes
     }
-    // The middle tells whose it is.
+    // The middle has the output's name.
     int dark = 0;
     for (int y = 100; y < 140; ++y)
         for (int x = 150; x < 250; ++x)
             dark += drawn[0].at(ivec2(x, y)) == dvec3(0);
     EXPECT_GT(dark, 50);
 
-    // Lines are aligned without blend.
+    // Patterns for aligning lines are drawn without blending.
     for (Pattern plain : {Pattern::grid, Pattern::names}) {
         Layout unblended = layout;
         unblended.blend = {};
         const auto a = draw(layout, plain), b = draw(unblended, plain);
         for (std::size_t i = 0; i < a.size(); ++i) {
-            int most = 0; // fp16 on the way may turn a byte's rounding
+            int most = 0; // fp16 on the way may change a byte's rounding
             for (std::size_t k = 0; k < a[i].bytes.size(); ++k)
                 most = std::max(most, std::abs(a[i].bytes[k] - b[i].bytes[k]));
             EXPECT_LE(most, 1);

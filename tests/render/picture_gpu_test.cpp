@@ -1,5 +1,5 @@
-// What a picture must be whatever the world: the same bytes each time, no seams, no mirror images, the right thing in front;
-// in small worlds made for the purpose.
+// Properties of every picture: the same bytes each time, no seams, no mirror images, the nearest object in front. Most tests
+// use small worlds of their own.
 #include "config/model/angles.h"
 #include "config/model/shipped.h"
 #include "displays/compile/direction_map.h"
@@ -25,11 +25,11 @@ TEST(Picture, StillsAreTheSameBytesEachTime)
     const Panel panel
         = Typesetter().draw(readings(ship_at(shot), avenue().world.scene, shot.effects), starbow::testing::words(), 320);
 
-    OffscreenRenderer stage = renderer(avenue().world, layout, false);
-    const auto first = stage.picture(shot, &panel);
+    OffscreenRenderer offscreen = renderer(avenue().world, layout, false);
+    const auto first = offscreen.picture(shot, &panel);
     ASSERT_EQ(first.size(), 2u);
-    stage.picture(shipped_shot("rainbow")); // no frame depends on an earlier one
-    EXPECT_EQ(stage.picture(shot, &panel), first);
+    offscreen.picture(shipped_shot("rainbow")); // no frame depends on an earlier one
+    EXPECT_EQ(offscreen.picture(shot, &panel), first);
 
     RenderContext again(testing::source_dir() / "config/scenes/avenue.json",
         Device::Options{.validation = true, .name = device_options(false).name});
@@ -42,12 +42,12 @@ TEST(Picture, StillsAreTheSameBytesEachTime)
 
 TEST(Picture, AtRestEveryEffectIsTheIdentity)
 {
-    OffscreenRenderer stage = renderer(avenue().world, one_view(Planar{60}, {200, 150}), false);
+    OffscreenRenderer offscreen = renderer(avenue().world, one_view(Planar{60}, {200, 150}), false);
     Shot shot = shipped_shot("start");
     std::vector<std::vector<std::uint8_t>> first;
     for (int bits = 0; bits < 8; ++bits) {
         shot.effects = {bool(bits & 1), bool(bits & 2), bool(bits & 4)};
-        const auto picture = stage.picture(shot);
+        const auto picture = offscreen.picture(shot);
         if (bits == 0)
             first = picture;
         EXPECT_EQ(picture, first) << bits;
@@ -57,22 +57,22 @@ TEST(Picture, AtRestEveryEffectIsTheIdentity)
 TEST(Picture, WithoutAberrationDirectionsAreThoseAtRest)
 {
     for (const Projection& projection : {Projection(Planar{60}), Projection(Fisheye{180, 30})}) {
-        OffscreenRenderer stage = renderer(avenue().world, one_view(projection, {160, 160}));
+        OffscreenRenderer offscreen = renderer(avenue().world, one_view(projection, {160, 160}));
         Shot shot = shot_at({0.1, 0.2, -7}, u_of_gamma(4) * glm::normalize(dvec3(1, 0.5, -2)), {0, 0, -1});
         shot.effects.aberration = false;
-        const Numbers moving(stage, shot);
+        const Numbers moving(offscreen, shot);
         shot.u = {0, 0, 0};
-        const Numbers rest(stage, shot);
+        const Numbers rest(offscreen, shot);
         int edges = 0, seen = 0;
         for (int i = 0; i < rest.count(); ++i) {
             ASSERT_EQ(rest.shown(i), moving.shown(i));
             if (!rest.shown(i))
                 continue;
-            // Both turn the same pixel into other axes in float: two of the camera's 4.2e-7 (see paper_gpu_test).
+            // Both transform the same pixel into other axes in float: twice the camera's 4.2e-7 (see paper_gpu_test).
             ASSERT_LT(between(moving.world(i), rest.world(i)), 8.4e-7);
             ASSERT_LT(between(moving.world(i), moving.camera(i)), 1e-7);
             ++seen;
-            // The two cube maps stand differently, so only at edges may they see different things.
+            // The two cube maps have different orientations, so that depths may differ at edges alone.
             edges += std::isinf(moving.depth(i)) != std::isinf(rest.depth(i)) || moving.depth(i) > 1.02 * rest.depth(i)
                 || rest.depth(i) > 1.02 * moving.depth(i);
         }
@@ -82,13 +82,13 @@ TEST(Picture, WithoutAberrationDirectionsAreThoseAtRest)
 
 TEST(Picture, HeadlightAloneMultipliesByTheCubeOfD)
 {
-    const WithoutStars only_surfaces; // points take another power
+    const WithoutStars only_surfaces; // the stars' points take another power of D
     for (double gamma : {1.5, 4.0, 100.0}) {
-        OffscreenRenderer stage = renderer(avenue().world, one_view(Fisheye{180, 30}, {200, 200}));
+        OffscreenRenderer offscreen = renderer(avenue().world, one_view(Fisheye{180, 30}, {200, 200}));
         Shot shot = shot_at({0, 0, -8}, {0, 0, -u_of_gamma(gamma)}, {0, 0, -1});
-        const Numbers off(stage, shot);
+        const Numbers off(offscreen, shot);
         shot.effects.headlight = true;
-        const Numbers on(stage, shot);
+        const Numbers on(offscreen, shot);
         double worst = 0;
         int compared = 0;
         for (int i = 0; i < off.count(); ++i) {
@@ -97,7 +97,7 @@ TEST(Picture, HeadlightAloneMultipliesByTheCubeOfD)
             const double cube = std::pow(off.D(i), 3);
             for (int k = 0; k < 3; ++k) {
                 ASSERT_TRUE(std::isfinite(on.light(i)[k]));
-                if (off.light(i)[k] < 1e-6) // so small that its product may be no normal float any more
+                if (off.light(i)[k] < 1e-6) // the product may underflow a normal float
                     continue;
                 worst = std::max(worst, std::abs(on.light(i)[k] / (off.light(i)[k] * cube) - 1));
                 ++compared;
@@ -105,24 +105,23 @@ TEST(Picture, HeadlightAloneMultipliesByTheCubeOfD)
         }
         std::printf("  gamma %g: worst %.1e of %d\n", gamma, worst, compared);
         EXPECT_GT(compared, 50000);
-        // Two products for the cube, one for the light; the light before it is the same number, fp16's rounding included.
+        // Two products for D^3, one for the light. The light itself is the same number in both, with the same fp16 rounding.
         EXPECT_LE(worst, 4 * 0x1p-24);
     }
 }
 
-// The PNG is the EXR's light, exposed and encoded. What is brighter than tone_map's knee at 0.76 bends; below it is
-// straight.
+// The PNG must be the EXR's light, exposed and encoded. The tone curve is linear below its knee at 0.76.
 TEST(Picture, PixelsAreTheNumbersEncoded)
 {
-    OffscreenRenderer stage = renderer(avenue().world, one_view(Planar{60}, {240, 180}));
+    OffscreenRenderer offscreen = renderer(avenue().world, one_view(Planar{60}, {240, 180}));
     for (const char* name : {"start", "avenue-gamma4", "starbow", "rainbow"}) {
         const Shot shot = shipped_shot(name);
-        const auto picture = stage.picture(shot).front();
-        const Numbers numbers(stage, shot);
+        const auto picture = offscreen.picture(shot).front();
+        const Numbers numbers(offscreen, shot);
         const double gain = std::exp2(shot.exposure_ev);
-        int straight = 0;
+        int linear = 0;
         for (int i = 0; i < numbers.count(); ++i) {
-            const dvec3 light = glm::max(numbers.light(i) * gain, 0.0); // no screen shows what is outside its colours
+            const dvec3 light = glm::max(numbers.light(i) * gain, 0.0); // no screen shows colours outside its range
             const double peak = std::max({light.r, light.g, light.b});
             for (int k = 0; k < 3; ++k) {
                 const int byte = picture[4 * i + k];
@@ -132,41 +131,41 @@ TEST(Picture, PixelsAreTheNumbersEncoded)
                 else
                     ASSERT_GE(byte, int(255 * srgb(0.7 * light[k] / peak))) << name << " pixel " << i;
             }
-            straight += peak < 0.75;
+            linear += peak < 0.75;
         }
-        EXPECT_GT(straight, 1000) << name;
+        EXPECT_GT(linear, 1000) << name;
     }
 }
 
 // ---------------------------------------------------------------- seams
 
-TEST(Picture, NoSeamsInASmoothSky)
+TEST(Picture, ASmoothSkyHasNoSeams)
 {
     Doc doc;
-    quad(doc, {0, 0, 900}, {0.01, 0, 0}, {0, 0.01, 0}, unlit(doc, {1, 1, 1})); // far behind, small, and its back to us
+    quad(doc, {0, 0, 900}, {0.01, 0, 0}, {0, 0.01, 0}, unlit(doc, {1, 1, 1})); // far behind, small, and turned away
     const GpuWorld world = open_world("sky", doc, {{"sky", smooth_sky}});
     const std::map<std::string, Layout> layouts = {{"window", one_view(Planar{60}, {160, 120})},
         {"180", one_view(Fisheye{180, 30}, {160, 160})}, {"360", one_view(Fisheye{360, 90}, {200, 200})}};
-    const dvec3 way = glm::normalize(dvec3(0.3, 0.45, -0.84)); // the sky's bands cross the cube's faces aslant
+    const dvec3 way = glm::normalize(dvec3(0.3, 0.45, -0.84)); // the sky's bands cross the cube's faces at a slant
     const dvec3 aside = glm::normalize(glm::cross(way, dvec3(0, 1, 0)));
-    // A pixel that covers an angle f of the world shows the sky filtered: texels of about f, each the mean over itself
-    // (variance f^2/12 along a line) and between them straight lines (f^2/4 at most); in a face's corner texels are 1.3
-    // times as long one way. Half the variance times the sky's greatest curvature, 6 x 0.45 at the horizon, is 0.8 f^2, with
-    // the two levels that are mixed 0.9 f^2. fp16 steps by 2^-11 below 1, a device may cut off instead of rounding, and up
-    // to the coarsest level light is stored five times: 0.6/255.
+    // The picture shows the sky filtered over a pixel's angle f in the world. Texels of about f average over themselves
+    // (variance f^2/12 along a line), and linear interpolation between them adds at most f^2/4. In a face's corner texels
+    // are 1.3 times as long one way. Half the variance times the sky's greatest curvature, 6 x 0.45 at the horizon, is 0.8
+    // f^2; with the two levels that are mixed it is 0.9 f^2. fp16 steps by 2^-11 below 1, a device may truncate instead of
+    // rounding, and light is stored five times up to the coarsest level: 0.6/255.
     auto filtered = [](double f) { return 0.9 * f * f + 5 * 0x1p-11; };
-    constexpr double fine = 0.04; // up to here that is less than 1/255
+    constexpr double fine = 0.04; // up to this footprint the filter's error is below 1/255
     for (const auto& [name, layout] : layouts) {
-        OffscreenRenderer stage = renderer(world, layout);
+        OffscreenRenderer offscreen = renderer(world, layout);
         const Projection& projection = layout.outputs[0].viewports[0].projection;
-        // Along the radius a fisheye's pixel is one step long, however narrow it is near the rim.
+        // A fisheye's pixel has this length along the radius, however narrow it is near the rim.
         const auto* fisheye = std::get_if<Fisheye>(&projection);
         const double length = fisheye ? fisheye->aperture_deg * degree / layout.outputs[0].size.x : 0;
         for (double gamma : {1.0, 1.5, 4.0, 10.0, 100.0}) {
             double worst = 0, step = 0, coarse = 0;
             for (const dvec3& look : {way, aside, -way}) {
                 const Shot shot = shot_at({0, 0, 0}, way * (gamma > 1 ? u_of_gamma(gamma) : 0), look);
-                const Numbers numbers(stage, shot);
+                const Numbers numbers(offscreen, shot);
                 std::vector<dvec3> error(numbers.count());
                 std::vector<double> footprint(numbers.count(), 10);
                 for (int i = 0; i < numbers.count(); ++i) {
@@ -180,7 +179,7 @@ TEST(Picture, NoSeamsInASmoothSky)
                     worst = std::max(worst, footprint[i] <= fine ? off : 0);
                     if (footprint[i] <= 0.3)
                         coarse = std::max(coarse, off / filtered(footprint[i]));
-                    ASSERT_LE(off, 0.55); // and a pixel that covers much of the sky still has one of its colours
+                    ASSERT_LE(off, 0.55); // even a pixel that covers much of the sky has one of its colours
                 }
                 auto pair = [&](int i, int j) {
                     if (std::max(footprint[i], footprint[j]) <= fine)
@@ -205,15 +204,15 @@ TEST(Picture, NoSeamsInASmoothSky)
     }
 }
 
-// ---------------------------------------------------------------- what is where
+// ---------------------------------------------------------------- the places of objects
 
 struct Marker {
     dvec3 centre, right, up; ///< half sides
     dvec3 colour;
 };
 
-/// Where the middle of what a marker covers lies in the picture, and how many pixels it covers; fewer than 1 if it is not
-/// wholly inside. By the exact boost of its parts.
+/// The centre of a marker's area in the picture, and the area in pixels; 0 if the marker is not wholly inside. Computed by
+/// the exact boost of the marker's parts.
 std::pair<dvec2, double> expected(const Marker& marker, const Shot& shot, const Projection& projection, ivec2 size)
 {
     constexpr int n = 12;
@@ -230,7 +229,7 @@ std::pair<dvec2, double> expected(const Marker& marker, const Shot& shot, const 
             const auto p = pixel(Picture{projection, size}, cockpit);
             if (!p || glm::any(glm::lessThan(*p, dvec2(3))) || glm::any(glm::greaterThan(*p, dvec2(size) - 3.0)))
                 return {{}, 0};
-            // A fisheye of the whole sphere draws what is right behind as a ring.
+            // A fisheye of the whole sphere stretches the direction right behind into a ring.
             if (const auto* fisheye = std::get_if<Fisheye>(&projection);
                 fisheye && glm::length(*p - dvec2(size) * 0.5) > 0.42 * size.x)
                 return {{}, 0};
@@ -250,13 +249,13 @@ std::pair<dvec2, double> expected(const Marker& marker, const Shot& shot, const 
     return {middle / area, area};
 }
 
-TEST(Picture, EveryFaceShowsThingsInTheirPlaceUnmirroredAndFromOutside)
+TEST(Picture, EveryFaceShowsFrontsInTheirPlaceUnmirrored)
 {
     Doc doc;
     std::vector<Marker> markers;
     const dvec3 hidden(0.9, 0.9, 0.9);
     auto next_colour = [&, k = 0]() mutable {
-        // The greatest part is always 0.9, so no two are the same hue, however dark.
+        // The greatest channel is always 0.9, so that no two colours have the same hue at any brightness.
         const double steps[] = {0, 0.15, 0.3, 0.45, 0.6, 0.75};
         dvec3 colour(0.9, steps[k / 3 % 6], steps[k / 18 % 6]);
         colour = k % 3 == 0 ? colour : k % 3 == 1 ? dvec3(colour.y, 0.9, colour.z) : dvec3(colour.y, colour.z, 0.9);
@@ -282,9 +281,9 @@ TEST(Picture, EveryFaceShowsThingsInTheirPlaceUnmirroredAndFromOutside)
                              l = marker(-1.1, 0, 0.3);
                 for (const Marker& front : {m, r, u})
                     quad(doc, front.centre, front.right, front.up, unlit(doc, front.colour));
-                // Its node mirrors: the front of what is drawn the other way round.
+                // The node mirrors, so that its front is that of vertices in the other order.
                 quad(doc, mirrored(l.centre), -mirrored(l.right), mirrored(l.up), unlit(doc, l.colour), mirror);
-                // Backs, which must not show: turned round, and mirrored.
+                // Backs must not show: neither of a turned quad nor of a mirrored one.
                 const dvec3 below = 5.0 * d - 1.1 * up;
                 quad(doc, below, -0.3 * right, 0.3 * up, of_hidden);
                 const dvec3 corner = 5.0 * d - 1.1 * up + 0.9 * right;
@@ -297,9 +296,9 @@ TEST(Picture, EveryFaceShowsThingsInTheirPlaceUnmirroredAndFromOutside)
              dvec3(-u_of_gamma(2), 0, 0)}) {
         std::vector<int> found(markers.size());
         auto look_around = [&](const Projection& projection, ivec2 size, const dvec3& look, const dvec3& up) {
-            OffscreenRenderer stage = renderer(world, one_view(projection, size));
+            OffscreenRenderer offscreen = renderer(world, one_view(projection, size));
             const Shot shot = shot_at({0, 0, 0}, u, look, up);
-            const Numbers numbers(stage, shot);
+            const Numbers numbers(offscreen, shot);
             std::vector<dvec2> sums(markers.size(), dvec2(0));
             std::vector<double> covered(markers.size());
             for (int i = 0; i < numbers.count(); ++i) {
@@ -307,7 +306,7 @@ TEST(Picture, EveryFaceShowsThingsInTheirPlaceUnmirroredAndFromOutside)
                     continue;
                 const dvec3 light = numbers.light(i);
                 EXPECT_FALSE(near_colour(light, hidden, 0.1)) << "a back at pixel " << i;
-                // At its edge a marker fades into black without changing its hue.
+                // At its edge a marker fades to black and keeps its hue.
                 const double part = std::max({light.r, light.g, light.b}) / 0.9;
                 if (part < 0.01)
                     continue;
@@ -317,10 +316,10 @@ TEST(Picture, EveryFaceShowsThingsInTheirPlaceUnmirroredAndFromOutside)
             }
             for (std::size_t k = 0; k < markers.size(); ++k) {
                 const auto [middle, area] = expected(markers[k], shot, projection, size);
-                if (area < 9) // not here, or too small to measure
+                if (area < 9) // outside the picture, or too small to measure
                     continue;
                 ++found[k];
-                // The filter spreads light but keeps its sum where a pixel's angle changes little from one to the next.
+                // The filter spreads light. It keeps the sum where neighbouring pixels have nearly the same angle.
                 EXPECT_NEAR(covered[k], area, 0.1 * area + 2) << k;
                 if (covered[k] > 0) {
                     const double off = glm::length(sums[k] / covered[k] - middle);
@@ -340,11 +339,11 @@ TEST(Picture, EveryFaceShowsThingsInTheirPlaceUnmirroredAndFromOutside)
     std::printf("  worst middle of %zu markers %.2f pixels off\n", markers.size(), worst);
 }
 
-TEST(Picture, FromATenthToABillionUnitsAwayInOneView)
+TEST(Picture, DepthOrdersATenthToABillionUnitsInOneView)
 {
-    // Squares one behind the other, each looking larger than those before it. Listed in a mixed order.
+    // Squares one behind the other. Each looks larger than those in front of it; the file lists them in mixed order.
     struct Square {
-        double distance, half; // half: tangent of what half its side looks like
+        double distance, half; // half: the tangent of half its angular size
         dvec3 colour;
     };
     const std::vector<Square> squares = {{0.1, 0.05, {0.9, 0, 0}}, {0.1001, 0.1, {0, 0.9, 0}}, {1, 0.15, {0, 0, 0.9}},
@@ -357,11 +356,11 @@ TEST(Picture, FromATenthToABillionUnitsAwayInOneView)
     }
     const GpuWorld world = open_world("distances", doc);
     for (double gamma : {1.0, 4.0}) {
-        // At gamma 4 straight ahead all look 7.9 times smaller.
+        // At gamma 4 everything straight ahead looks 7.9 times smaller.
         const double E = physics::exp_rapidity(u_of_gamma(gamma)), fov = 2 * std::atan(std::tan(0.4) / E) / degree;
-        OffscreenRenderer stage = renderer(world, one_view(Planar{fov}, {300, 300}));
+        OffscreenRenderer offscreen = renderer(world, one_view(Planar{fov}, {300, 300}));
         const Shot shot = shot_at({0, 0, 0}, {0, 0, -u_of_gamma(gamma)}, {0, 0, -1});
-        const Numbers numbers(stage, shot);
+        const Numbers numbers(offscreen, shot);
         const double pixel = 2 * std::tan(0.4) / 300;
         std::vector<int> counts(squares.size() + 1);
         for (int i = 0; i < numbers.count(); ++i) {
@@ -381,7 +380,8 @@ TEST(Picture, FromATenthToABillionUnitsAwayInOneView)
                 ASSERT_EQ(numbers.light(i), dvec3(0));
             } else {
                 ASSERT_TRUE(near_colour(numbers.light(i), squares[k].colour, 0.001)) << at; // fp16 holds 0.9 to 2e-4
-                // The plane stands across the face: its distance is the same all over, to a dozen roundings of float.
+                // The plane is parallel to the cube's face: its distance is the same everywhere, to a dozen roundings of
+                // float.
                 ASSERT_NEAR(numbers.depth(i) * -n.z / squares[k].distance, 1, 12 * 0x1p-24) << at;
             }
         }
@@ -401,10 +401,10 @@ TEST(Picture, TexturesBeginAtTheTopLeft)
     doc.json["materials"][material]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", texture}};
     quad(doc, {0, 0, -2}, {1, 0, 0}, {0, 1, 0}, material);
     const GpuWorld world = open_world("texture", doc);
-    OffscreenRenderer stage = renderer(world, one_view(Planar{60}, {100, 100}));
+    OffscreenRenderer offscreen = renderer(world, one_view(Planar{60}, {100, 100}));
     for (double gamma : {1.0, 2.0}) {
         const Shot shot = shot_at({0, 0, 0}, {0, 0, -u_of_gamma(gamma)}, {0, 0, -1});
-        const Numbers numbers(stage, shot);
+        const Numbers numbers(offscreen, shot);
         const int off = gamma > 1 ? 6 : 20; // inside the square, which looks smaller from the moving ship
         EXPECT_TRUE(near_colour(numbers.light((50 - off) * 100 + 50 - off), {1, 0, 0}, 0.001)) << "top left";
         EXPECT_TRUE(near_colour(numbers.light((50 - off) * 100 + 50 + off), {0, 1, 0}, 0.001)) << "top right";
@@ -418,7 +418,7 @@ TEST(Picture, TexturesBeginAtTheTopLeft)
 TEST(Picture, EachEyeSeesFromItsOwnEvent)
 {
     Doc doc;
-    // Close by, so that 65 mm count.
+    // So near that 65 mm matter.
     for (int i = 0; i < 9; ++i) {
         const dvec3 centre(0.3 * (i % 3 - 1), 0.25 * (i / 3 - 1), -0.5 - 0.15 * (i * 5 % 7));
         quad(doc, centre, {0.08, 0, 0}, {0, 0.08, 0}, unlit(doc, {0.1 * i, 0.9 - 0.1 * i, i % 2 ? 0.8 : 0.2}));
@@ -436,10 +436,11 @@ TEST(Picture, EachEyeSeesFromItsOwnEvent)
             = shot_at({0.02, -0.01, 0.1}, u_of_gamma(gamma) * glm::normalize(dvec3(0.7, 0.2, -0.6)), {0.1, 0, -1});
         const auto picture = both.picture(shot).front();
         const Numbers numbers(both, shot);
-        EXPECT_EQ(both.frame().plans().size(), 2u); // a cube map for each eye
+        EXPECT_EQ(both.frame().plans().size(), 2u); // each eye has a cube map
         int apart = 0;
         for (int eye = 0; eye < 2; ++eye) {
-            // At one moment of the ship: in the world the part across is the same, the part along gamma times as long.
+            // The eyes are simultaneous in the ship. In the world the part across the motion is the same, the part along it
+            // gamma times as long.
             const dvec3 e = shot.ship_from_cockpit * eyes[eye] * 1.5;
             const dvec3 way = shot.u == dvec3(0) ? dvec3(0) : glm::normalize(shot.u);
             Shot alone = shot;
@@ -456,10 +457,10 @@ TEST(Picture, EachEyeSeesFromItsOwnEvent)
                     different += std::isinf(a) != std::isinf(b) || (std::isfinite(a) && std::abs(a / b - 1) > 1e-5);
                     apart += eye == 0 && std::isinf(a) != std::isinf(numbers.depth(i + half.x));
                 }
-            // The same work from the same place but for its last bit, which may move an edge across a sample.
+            // The two places agree but for their last bit, which may move an edge across a sample.
             EXPECT_LE(different, 4) << "eye " << eye << " at gamma " << gamma;
         }
-        EXPECT_GT(apart, 100) << "the eyes see alike"; // else the comparison says nothing
+        EXPECT_GT(apart, 100) << "the eyes see the same"; // otherwise the comparison proves nothing
     }
 }
 
@@ -468,19 +469,20 @@ TEST(Picture, EyesInOnePlaceShareACubeMap)
     Layout layout = one_view(Planar{60}, {100, 50});
     layout.outputs[0].viewports
         = {{.rect = {0, 0, 0.5, 1}, .projection = Planar{60}}, {.rect = {0.5, 0, 0.5, 1}, .projection = Planar{30}}};
-    OffscreenRenderer stage = renderer(avenue().world, layout, false);
-    stage.picture(shipped_shot("start"));
-    EXPECT_EQ(stage.frame().plans().size(), 1u);
+    OffscreenRenderer offscreen = renderer(avenue().world, layout, false);
+    offscreen.picture(shipped_shot("start"));
+    EXPECT_EQ(offscreen.frame().plans().size(), 1u);
 }
 
-// ---------------------------------------------------------------- what the user can mend
+// ---------------------------------------------------------------- errors that the user can correct
 
 TEST(WrongDevice, AnUnknownGpuIsRefusedInOneLine)
 {
     const std::string message = testing::complaint([] { Device({.name = "no such GPU"}); });
     EXPECT_NE(message.find("no such GPU"), std::string::npos) << message;
     EXPECT_NE(message.find("install"), std::string::npos) << message;
-    EXPECT_NE(message.find(device().properties.deviceName.data()), std::string::npos) << message << ": tells what there is";
+    EXPECT_NE(message.find(device().properties.deviceName.data()), std::string::npos)
+        << message << ": lists the available GPUs";
 }
 
 TEST(WrongDevice, AnOutputAboveTheDevicesLimitIsRefusedInOneLine)

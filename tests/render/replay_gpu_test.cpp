@@ -1,4 +1,4 @@
-// A flight that is flown again from its record shows the same pictures to the byte.
+// A flight's replay draws the same pictures to the byte.
 #include "runtime/exhibit/replay_renderer.h"
 #include "runtime/flight/history.h"
 #include "runtime/flight/record_files.h"
@@ -13,7 +13,7 @@ namespace {
 
 using Pictures = std::vector<std::vector<std::uint8_t>>;
 
-/// A visitor's hand: faster, a turn, an effect off, the head aside, a builder's tilt, a test pattern, ten seconds back.
+/// The visitor's and builder's input: thrust, a turn, an effect off, the head aside, the tilt key, a test pattern, undo.
 RecordEntry at(int frame)
 {
     RecordEntry entry{.dt_ns = 16'000'000 + 1237 * frame};
@@ -42,8 +42,8 @@ TEST(ReplayFrames, AreTheSameToTheByte)
     std::vector<Pictures> live;
     {
         Recorder recorder(file, header, [](const std::string& line) { ADD_FAILURE() << line; });
-        OffscreenRenderer stage = renderer(avenue().world, layout, false);
-        ReplayRenderer replay_renderer(stage, Pattern::none, header.exposing, header.start.exposure_ev);
+        OffscreenRenderer offscreen = renderer(avenue().world, layout, false);
+        ReplayRenderer replay_renderer(offscreen, Pattern::none, header.exposing, header.start.exposure_ev);
         Flight flight = flight_at(header.start, header.rules);
         History history;
         for (int i = 0; i < 60; ++i) {
@@ -57,8 +57,8 @@ TEST(ReplayFrames, AreTheSameToTheByte)
         recorder.end(flight);
     }
     Replay replay(file);
-    OffscreenRenderer stage = renderer(avenue().world, layout, false);
-    ReplayRenderer replay_renderer(stage, Pattern::none, replay.header().exposing, replay.header().start.exposure_ev);
+    OffscreenRenderer offscreen = renderer(avenue().world, layout, false);
+    ReplayRenderer replay_renderer(offscreen, Pattern::none, replay.header().exposing, replay.header().start.exposure_ev);
     Flight flight = flight_at(replay.header().start, replay.header().rules);
     History history;
     std::size_t frame = 0;
@@ -73,6 +73,6 @@ TEST(ReplayFrames, AreTheSameToTheByte)
         changed += frame > 0 && live[frame] != live[frame - 1];
     }
     EXPECT_EQ(frame, live.size());
-    EXPECT_GT(changed, 55); // the pictures tell frames apart
+    EXPECT_GT(changed, 55); // otherwise all pictures could be one
     EXPECT_EQ(replay.verdict(), "the same to the bit at 1 check");
 }

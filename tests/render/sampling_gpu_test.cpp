@@ -1,4 +1,4 @@
-// How finely the cube map holds what is looked at: straight ahead, straight back, and across what its images meet at.
+// The cube map's resolution where it matters: straight ahead, straight behind, and across the edges between its images.
 #include "config/model/angles.h"
 #include "displays/compile/compiled_view.h"
 #include "runtime/images/picture_errors.h"
@@ -12,12 +12,12 @@ using namespace starbow::gpu_test;
 
 namespace {
 
-/// A ball around the eye, painted in ln tan(theta / 2) and the azimuth about the z axis. A boost along z is a plain shift
-/// there, so the picture is as rich at every speed; an ideal sampling is as good at every speed.
+/// A ball around the eye, painted in ln tan(theta / 2) and in the azimuth about the z axis. There a boost along z is a
+/// translation, so that the picture is equally rich at every speed, and an ideal sampling equally good.
 World self_similar_world()
 {
-    constexpr double first = -17, last = 17; // of ln tan(theta / 2): further than gamma 1000 moves what a pixel shows
-    constexpr int steps = 32, sectors = 160; // of an e-fold
+    constexpr double first = -17, last = 17; // of ln tan(theta / 2): beyond the range that a pixel shows at gamma 1000
+    constexpr int steps = 32, sectors = 160; // steps for each e-fold
     World world;
     const int rings = int((last - first) * steps) + 1;
     for (int ring = 0; ring < rings; ++ring)
@@ -53,7 +53,7 @@ World self_similar_world()
 
 } // namespace
 
-// The bounds are what the exhibit promises; a uniform cube map of 2048 texels a side falls from 37 to 7 dB here.
+// docs/accuracy.md promises these bounds. A uniform cube map of 2048 texels a side falls from 37 to 7 dB here.
 TEST(Sampling, StraightBackAndAheadIsAsGoodAtEverySpeed)
 {
     SceneFile scene;
@@ -82,13 +82,13 @@ TEST(Sampling, StraightBackAndAheadIsAsGoodAtEverySpeed)
     }
 }
 
-// Faces, nested images and outputs meet where nobody sees it: from pixel to pixel light changes as the sky does, within a
-// 255th of white. Where a pixel shows more than 3 degrees of the sky, it shows its mean, which this does not know.
+// Faces, nested images and outputs meet without a seam: between pixels the light changes as the sky does, within 1/255 of
+// white. A pixel that shows more than 3 degrees of the sky shows a mean and is left out.
 TEST(Sampling, NoSeamOnASmoothSky)
 {
     Doc doc;
     quad(doc, dvec3(0, -1e4, 0), dvec3(0.001, 0, 0), dvec3(0, 0, 0.001),
-        unlit(doc, dvec3(0.3, 0.2, 0.55))); // a world needs one
+        unlit(doc, dvec3(0.3, 0.2, 0.55))); // a world needs at least one object
     const GpuWorld world = open_world("seams", doc, {{"sky", smooth_sky}});
     for (const char* name : {"desk", "dome", "cave5", "wall3"}) {
         Layout layout = load_layout(starbow::testing::source_dir() / "config/layouts" / (std::string(name) + ".json"));
@@ -121,7 +121,7 @@ TEST(Sampling, NoSeamOnASmoothSky)
                     all_compared += compared;
                 }
             }
-            // Ahead of a fast ship each pixel shows too much of the sky; what is behind is compared at any speed.
+            // Ahead of a fast ship each pixel shows too much of the sky; the view behind is compared at any speed.
             std::printf("%s, gamma %g: %d pairs\n", name, gamma, all_compared);
             EXPECT_GT(all_compared, 10000) << name << ", gamma " << gamma;
         }

@@ -1,5 +1,5 @@
-// Light as numbers, through the cube map and the warp pass, against sums over every nanometre: black bodies, pigments,
-// lines, what is beyond the visible.
+// Light as numbers through the cube map and the warp pass, compared with sums over every nanometre: black bodies, pigments,
+// lines, infrared and ultraviolet.
 #include "runtime/light/colour_difference.h"
 #include "runtime/light/spectrum.h"
 #include "tests/support/small_world.h"
@@ -8,15 +8,15 @@
 namespace starbow::gpu_test {
 namespace {
 
-/// Something must be there, and is not seen.
+/// A world needs at least one object; this one is never seen.
 void speck(Doc& doc) { quad(doc, {0, 0, 1e6}, {1e-3, 0, 0}, {0, 1e-3, 0}, unlit(doc, {0, 0, 0})); }
 
-Json own(const Json& members) { return {{"extras", {{"starbow", members}}}}; }
+Json starbow_extras(const Json& members) { return {{"extras", {{"starbow", members}}}}; }
 
 dvec3 xyz_of(const dvec3& light) { return glm::inverse(rec709_from_sunlit_xyz()) * light; }
 dvec2 chromaticity(const dvec3& xyz) { return dvec2(xyz) / (xyz.x + xyz.y + xyz.z); }
 
-/// E ahead of a ship that flies along -z.
+/// A shot that looks ahead from a ship that flies along -z with the Doppler factor E.
 Shot ahead(double E, bool headlight = true)
 {
     Shot shot = shot_at({0, 0, 0}, {0, 0, -0.5 * (E - 1 / E)}, {0, 0, -1});
@@ -24,25 +24,26 @@ Shot ahead(double E, bool headlight = true)
     return shot;
 }
 
-/// What the eye sees at every pixel of one that D tells, from the numbers' light.
-struct RetardedPosition {
+/// One pixel's light and D.
+struct PixelLight {
     dvec3 xyz;
     double D;
     int pixel;
 };
-std::vector<RetardedPosition> all_around(const GpuWorld& world, const Shot& shot, ivec2 size = {96, 48})
+std::vector<PixelLight> all_around(const GpuWorld& world, const Shot& shot, ivec2 size = {96, 48})
 {
-    OffscreenRenderer stage = renderer(world, one_view(Equirectangular{}, size));
-    const Numbers numbers(stage, shot);
-    std::vector<RetardedPosition> seen;
+    OffscreenRenderer offscreen = renderer(world, one_view(Equirectangular{}, size));
+    const Numbers numbers(offscreen, shot);
+    std::vector<PixelLight> seen;
     for (int i = 0; i < numbers.count(); ++i)
         seen.push_back({xyz_of(numbers.light(i)), numbers.D(i), i});
     return seen;
 }
 
-constexpr double faintest = 1e-34; // a float below 1.2e-38 has fewer digits, and D^3 or the exposure may come before
+constexpr double faintest
+    = 1e-34; // below it a float's digits are too few: D^3 and the exposure may come before a float's limit of 1.2e-38
 
-/// A reflectance as a pigment's: steps and bumps, its ultraviolet and its infrared its own.
+/// A reflectance like a pigment's: steps and bumps, with its own values in the ultraviolet and the infrared.
 struct Pigment {
     double level, step, step_nm, bump, bump_nm, ultraviolet, infrared;
     double operator()(double nm) const
@@ -67,7 +68,7 @@ const std::vector<Pigment> pigments
 
 } // namespace
 
-TEST(Spectra, ABlackBodySkyIsOneAtEveryD)
+TEST(Spectra, ABlackBodySkyIsABlackBodyAtEveryD)
 {
     double worst = 0;
     int compared = 0;
@@ -77,14 +78,15 @@ TEST(Spectra, ABlackBodySkyIsOneAtEveryD)
         const GpuWorld world = open_world("black-body", doc, {{"sky", {{"temperature_K", kelvin}}}});
         EXPECT_EQ(world.spectra.level, SpectralLevel::colours); // a glow is exact at every level
         for (double E : {1.0, 3.0, 20.0})
-            for (const RetardedPosition& seen : all_around(world, ahead(E))) {
+            for (const PixelLight& seen : all_around(world, ahead(E))) {
                 const dvec3 truth = seen_xyz(black_body(kelvin * seen.D), 1);
                 if (truth.y < faintest)
                     continue;
                 ++compared;
                 worst = std::max(worst, glm::distance(chromaticity(seen.xyz), chromaticity(truth)));
                 ASSERT_LT(glm::distance(chromaticity(seen.xyz), chromaticity(truth)), 0.002) << kelvin << " K at " << seen.D;
-                // Where the light falls by half with each percent of D, a float's D and a half's row are a percent.
+                // The light may fall by half with each percent of D. There the rounding of D to float and the fp16 row make
+                // a percent.
                 ASSERT_NEAR(seen.xyz.y / truth.y, 1, 0.01) << kelvin << " K at " << seen.D;
             }
     }
@@ -92,9 +94,9 @@ TEST(Spectra, ABlackBodySkyIsOneAtEveryD)
     EXPECT_GT(compared, 30000);
 }
 
-TEST(Spectra, PigmentsUnderTheSunAreWhatTheyAreAtEveryNanometre)
+TEST(Spectra, PigmentsUnderTheSunEqualTheSumOverEveryNanometre)
 {
-    // Tiles all around at rest; flights along six directions show each at D from 1/8 to 8.
+    // Tiles stand all around at rest. Flights along several directions show each tile at D from 1/8 to 8.
     Doc doc;
     std::vector<dvec3> places;
     const int count = int(pigments.size());
@@ -104,7 +106,7 @@ TEST(Spectra, PigmentsUnderTheSunAreWhatTheyAreAtEveryNanometre)
             const dvec3 place = glm::normalize(dvec3(std::sin(a), up, std::cos(a)));
             const dvec3 right = glm::normalize(glm::cross(dvec3(0, 1, 0), -place)), top = glm::cross(-place, right);
             places.push_back(place);
-            Json material = own({{"reflectance", pigments[std::size_t(i)].table()}});
+            Json material = starbow_extras({{"reflectance", pigments[std::size_t(i)].table()}});
             quad(doc, 10.0 * place, 1.2 * right, 1.2 * top, doc.put("materials", material));
         }
     const GpuWorld world = open_world("pigments", doc, {{"ambient", {0.5, 0.5, 0.5}}});
@@ -113,15 +115,15 @@ TEST(Spectra, PigmentsUnderTheSunAreWhatTheyAreAtEveryNanometre)
     const dvec3 white = seen_xyz(sun, 1);
     std::vector<double> differences;
     double luminance = 0;
-    OffscreenRenderer stage = renderer(world, one_view(Equirectangular{}, {768, 384}));
+    OffscreenRenderer offscreen = renderer(world, one_view(Equirectangular{}, {768, 384}));
     for (double E : {1.0, 2.0, 8.0})
         for (const dvec3& way : {dvec3(0, 0, -1), dvec3(1, 0, 0), dvec3(0.3, -0.8, 0.5)}) {
             Shot shot = ahead(E, false);
             shot.u = glm::normalize(way) * (0.5 * (E - 1 / E));
-            const Numbers numbers(stage, shot);
+            const Numbers numbers(offscreen, shot);
             for (int i = 0; i < numbers.count(); ++i)
                 for (std::size_t tile = 0; tile < places.size(); ++tile) {
-                    // The pixel's whole footprint, 0.065 wide at D = 8, is inside the tile.
+                    // The pixel's whole footprint, 0.065 wide at D = 8, lies inside the tile.
                     if (glm::dot(numbers.world(i), places[tile]) < std::cos(0.03))
                         continue;
                     const Pigment& pigment = pigments[tile % pigments.size()];
@@ -155,28 +157,28 @@ TEST(Spectra, EveryLevelShowsBaseColoursAlike)
     GpuWorld world = open_world("levels", doc, scene);
     ASSERT_EQ(world.spectra.level, SpectralLevel::colours);
     const dvec3 white = seen_xyz(sunlit_white(), 1);
-    std::array<std::vector<RetardedPosition>, 3> seen;
+    std::array<std::vector<PixelLight>, 3> seen;
     for (SpectralLevel level : {SpectralLevel::colours, SpectralLevel::middle, SpectralLevel::fine}) {
         put_spectra(device(), world, level);
         seen[std::size_t(level)] = all_around(world, ahead(2), {128, 64});
     }
     double middle = 0, fine = 0;
     for (std::size_t i = 0; i < seen[0].size(); ++i) {
-        auto lab = [&](const RetardedPosition& s) { return cielab(s.xyz * (0.5 / s.xyz.y), white); };
+        auto lab = [&](const PixelLight& s) { return cielab(s.xyz * (0.5 / s.xyz.y), white); };
         middle = std::max(middle, ciede2000(lab(seen[0][i]), lab(seen[1][i])));
         fine = std::max(fine, ciede2000(lab(seen[0][i]), lab(seen[2][i])));
     }
     std::printf("  CIEDE2000 to the colours': middle %.3f, fine %.2f\n", middle, fine);
-    EXPECT_LT(middle, 0.3); // exact but for halves
+    EXPECT_LT(middle, 0.3); // exact apart from fp16's rounding
     EXPECT_LT(fine, 3);
 }
 
-TEST(Spectra, ALineRunsAlongTheSpectrum)
+TEST(Spectra, ALineShiftsAlongTheSpectrum)
 {
-    // 450 nm all around, at 0.5 c: its chromaticity is the spectrum's own at 450 nm / D.
+    // At 0.5 c, a line of 450 nm all around has the chromaticity of the spectrum at 450 nm / D.
     Doc doc;
     const int line = [&] {
-        Json material = own({{"emission", {{"line_nm", 450}}}});
+        Json material = starbow_extras({{"emission", {{"line_nm", 450}}}});
         material["emissiveFactor"] = {1, 1, 1};
         return doc.put("materials", material);
     }();
@@ -184,9 +186,10 @@ TEST(Spectra, ALineRunsAlongTheSpectrum)
         quad(doc, 5.0 * way, 5.0 * glm::cross(dvec3(0, 1, 0), -way), {0, 5, 0}, line);
     const GpuWorld world = open_world("line", doc);
     const double E = std::sqrt(3.0);
-    OffscreenRenderer stage = renderer(world, one_view(Equirectangular{}, {720, 90}));
-    const Numbers numbers(stage, ahead(E, false));
-    const double wavelengths[][2] = {{90, 520}, {105.5, 589}, {120, 650}}; // camera angle from the motion, and what is seen
+    OffscreenRenderer offscreen = renderer(world, one_view(Equirectangular{}, {720, 90}));
+    const Numbers numbers(offscreen, ahead(E, false));
+    const double wavelengths[][2]
+        = {{90, 520}, {105.5, 589}, {120, 650}}; // camera angle from the motion, and the wavelength seen there
     int found = 0, compared = 0;
     for (int i = 0; i < numbers.count(); ++i) {
         if (std::abs(numbers.camera(i).y) > 0.3)
@@ -196,7 +199,7 @@ TEST(Spectra, ALineRunsAlongTheSpectrum)
         if (truth.y < 1e-4 * eye().response(555).y)
             continue;
         ++compared;
-        // Rows of the table are 2.5 nm apart.
+        // The table's rows are 2.5 nm apart.
         ASSERT_LT(glm::distance(chromaticity(seen), chromaticity(truth)), 0.003) << nm << " nm";
         for (const auto& known : wavelengths)
             if (std::abs(angle - known[0]) < 0.1) {
@@ -211,16 +214,16 @@ TEST(Spectra, ALineRunsAlongTheSpectrum)
 TEST(Spectra, ARoomTemperatureWallGlowsDullRedFromGammaOneAndAHalf)
 {
     Doc doc;
-    Json material = own({{"temperature_K", 288}, {"emissivity", 0.9}});
+    Json material = starbow_extras({{"temperature_K", 288}, {"emissivity", 0.9}});
     material["pbrMetallicRoughness"] = {{"baseColorFactor", {0.1, 0.1, 0.1, 1}}};
     quad(doc, {0, 0, -5}, {50, 0, 0}, {0, 50, 0}, doc.put("materials", material));
     const GpuWorld world = open_world("wall", doc);
-    OffscreenRenderer stage = renderer(world, one_view(Planar{20}, {64, 48}));
+    OffscreenRenderer offscreen = renderer(world, one_view(Planar{20}, {64, 48}));
     double before = 0;
     for (double gamma : {1.0, 1.2, 1.5, 2.0, 4.0}) {
         const double E = gamma + u_of_gamma(gamma);
         const Shot shot = ahead(E);
-        const Numbers numbers(stage, shot);
+        const Numbers numbers(offscreen, shot);
         const int middle = 24 * 64 + 32;
         const dvec3 light = numbers.light(middle), xyz = xyz_of(light);
         const dvec3 truth = 0.9 * seen_xyz(black_body(288 * numbers.D(middle)), 1);
@@ -231,22 +234,22 @@ TEST(Spectra, ARoomTemperatureWallGlowsDullRedFromGammaOneAndAHalf)
         before = xyz.y;
         const double nits = xyz.y * 39870; // a sunlit white's luminance, cd/m2
         if (gamma == 1.2) {
-            EXPECT_LT(nits, 1e-6); // less than an eye sees in the dark
+            EXPECT_LT(nits, 1e-6); // less than a dark-adapted eye sees
         }
         if (gamma == 1.5) {
-            EXPECT_GT(nits, 1e-4); // a moonless night's ground
+            EXPECT_GT(nits, 1e-4); // like the ground in a moonless night
             EXPECT_LT(nits, 1e-1);
             EXPECT_GT(light.r, 0);
             EXPECT_LT(std::max(light.g, light.b), 0.05 * light.r);
         }
-        // Shown as an eye that is used to the dark would see it.
+        // The meter exposes the picture for a dark-adapted eye.
         if (gamma == 1.5) {
             Shot dark = shot;
-            dark.exposure_ev = stage.metered(shot).value_or(0);
+            dark.exposure_ev = offscreen.metered(shot).value_or(0);
             EXPECT_NEAR(dark.exposure_ev, 24, 3);
-            const auto picture = stage.picture(dark).front();
+            const auto picture = offscreen.picture(dark).front();
             EXPECT_GT(picture[4 * middle], 60);
-            EXPECT_GT(picture[4 * middle], 2 * picture[4 * middle + 2]); // what is bright goes towards white
+            EXPECT_GT(picture[4 * middle], 2 * picture[4 * middle + 2]); // bright light tends to white
         }
     }
 }
@@ -256,9 +259,9 @@ TEST(Spectra, TheMicrowaveBackgroundAppearsNearGamma150)
     Doc doc;
     speck(doc);
     const GpuWorld world = open_world("microwaves", doc, {{"sky", {{"temperature_K", 2.725}}}});
-    OffscreenRenderer stage = renderer(world, one_view(Planar{0.5}, {65, 49}));
+    OffscreenRenderer offscreen = renderer(world, one_view(Planar{0.5}, {65, 49}));
     for (double gamma : {50.0, 146.0, 1000.0, 1e6}) {
-        const Numbers numbers(stage, ahead(gamma + u_of_gamma(gamma)));
+        const Numbers numbers(offscreen, ahead(gamma + u_of_gamma(gamma)));
         const int middle = 24 * 65 + 32;
         const dvec3 xyz = xyz_of(numbers.light(middle));
         const dvec3 truth = seen_xyz(black_body(2.725 * numbers.D(middle)), 1);
@@ -267,7 +270,7 @@ TEST(Spectra, TheMicrowaveBackgroundAppearsNearGamma150)
             EXPECT_NEAR(xyz.y / truth.y, 1, 0.01) << gamma;
             EXPECT_LT(glm::distance(chromaticity(xyz), chromaticity(truth)), 0.002) << gamma;
         }
-        // As bright as the wall at gamma 1.5: both are near 800 K.
+        // The sky is as bright as the wall at gamma 1.5: both are near 800 K.
         if (gamma == 50) {
             EXPECT_LT(xyz.y * 39870, 1e-6);
         }
@@ -281,23 +284,23 @@ TEST(Spectra, FalseColoursShowTheInfraredRedAndTheUltravioletBlue)
 {
     Doc doc;
     auto material = [&](const Json& beyond) {
-        Json material = own(beyond);
+        Json material = starbow_extras(beyond);
         material["pbrMetallicRoughness"] = {{"baseColorFactor", {0.2, 0.2, 0.2, 1}}};
         return doc.put("materials", material);
     };
     quad(doc, {-1, 0, -4}, {0.9, 0, 0}, {0, 2, 0}, material({{"infrared", 0.9}, {"ultraviolet", 0.05}}));
     quad(doc, {1, 0, -4}, {0.9, 0, 0}, {0, 2, 0}, material({{"infrared", 0.05}, {"ultraviolet", 0.9}}));
     GpuWorld world = open_world("false", doc, {{"ambient", {1, 1, 1}}});
-    ASSERT_EQ(world.spectra.level, SpectralLevel::middle); // five numbers tell all of this
+    ASSERT_EQ(world.spectra.level, SpectralLevel::middle); // five coefficients represent all of these materials
     for (SpectralLevel level : {SpectralLevel::middle, SpectralLevel::fine}) {
         put_spectra(device(), world, level);
-        OffscreenRenderer stage = renderer(world, one_view(Planar{40}, {64, 48}));
+        OffscreenRenderer offscreen = renderer(world, one_view(Planar{40}, {64, 48}));
         Shot shot = ahead(1);
-        const Numbers plain(stage, shot);
+        const Numbers plain(offscreen, shot);
         shot.effects.false_colours = true;
-        const Numbers shown(stage, shot);
+        const Numbers shown(offscreen, shot);
         const int left = 24 * 64 + 16, right = 24 * 64 + 48;
-        for (int i : {left, right}) // to eyes both are the same grey
+        for (int i : {left, right}) // the visible light of both is the same grey
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(plain.light(i)[c], 0.2, 0.01);
         EXPECT_NEAR(shown.light(left).r, 0.9, 0.06); // the bands overlap the reflectance's rise

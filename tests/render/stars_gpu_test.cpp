@@ -1,5 +1,5 @@
-// The stars in the picture: at their places, as bright as a point is and no larger at any speed, hidden by what stands
-// before them; on every kind of display.
+// The stars in the picture on every kind of display: their places, a point's brightness and size at any speed, and objects
+// that hide them.
 #include "config/model/angles.h"
 #include "runtime/light/colour.h"
 #include "runtime/light/spectrum.h"
@@ -15,7 +15,7 @@ namespace {
 constexpr double arcmin2_sr = degree * degree / 3600;
 constexpr double brightness_arcmin2 = 1e4;
 
-/// A world with a black sky, one small square, red if not told, at `square` (facing the origin from -z), and stars.
+/// A world with a black sky, stars, and one small square at `square`, whose front faces +z; it is red by default.
 GpuWorld sky_world(const std::string& name, const dvec3& square = {0, -50, 0}, double half = 0.1,
     const std::string& catalogue = "", const dvec2& ahead_deg = {0, 0}, const dvec3& colour = {1, 0, 0})
 {
@@ -28,13 +28,13 @@ GpuWorld sky_world(const std::string& name, const dvec3& square = {0, -50, 0}, d
                 {"ahead_deg", {ahead_deg.x, ahead_deg.y}}}}});
 }
 
-/// A star of magnitude 0 in the world's direction n, where ahead_deg is 0, 0.
+/// A star of magnitude 0 in the world's direction n, if ahead_deg is 0, 0.
 Star star_at(const dvec3& n, double temperature_K = 5772)
 {
     return {glm::transpose(world_from_equatorial({0, 0})) * glm::normalize(n), 0, temperature_K};
 }
 
-/// Solid angle of each pixel, steradians: from the directions of the picture's own pixels; 0 at its edges.
+/// Each pixel's solid angle in steradians, from the directions of its neighbours; 0 at the picture's edges.
 std::vector<double> solid_angles(const Numbers& numbers)
 {
     std::vector<double> all(numbers.count(), 0);
@@ -47,13 +47,13 @@ std::vector<double> solid_angles(const Numbers& numbers)
                 continue;
             const dvec3 right = numbers.camera(i + 1) - numbers.camera(i - 1),
                         down = numbers.camera(i + size.x) - numbers.camera(i - size.x);
-            if (glm::length(right) < 0.1) // else a seam in the picture
+            if (glm::length(right) < 0.1) // larger steps are seams in the picture
                 all[i] = 0.25 * glm::length(glm::cross(right, down));
         }
     return all;
 }
 
-/// All light of a picture, per channel, and where its middle is seen from the ship.
+/// All light of a picture by channel, and its mean direction from the ship.
 struct Sum {
     dvec3 light{0}, middle{0};
     int pixels = 0;
@@ -72,7 +72,7 @@ Sum sum_of(const Numbers& numbers)
     return sum;
 }
 
-/// Back from the picture's light, which is for an eye adapted to the Sun.
+/// Converts the picture's light, which is for an eye adapted to the Sun, back to XYZ.
 dvec3 xyz_of(const dvec3& rgb)
 {
     static const dmat3 xyz_from_rec709 = glm::inverse(rec709_from_sunlit_xyz());
@@ -87,8 +87,8 @@ dvec2 chromaticity_of(const dvec3& rgb)
     return dvec2(xyz) / (xyz.x + xyz.y + xyz.z);
 }
 
-/// Where an observer with the proper velocity u sees the world's direction n: the boost of the light ray's 4-vector, whose
-/// time part is the frequency.
+/// The direction in which an observer with the proper velocity u sees the world's direction n: a boost of the light's
+/// 4-vector, whose time component is the frequency.
 dvec3 seen(const dvec3& n, const dvec3& u)
 {
     const double gamma = std::sqrt(1 + glm::dot(u, u)), D = gamma + glm::dot(u, n);
@@ -105,7 +105,7 @@ const std::map<std::string, Projection> displays
                                                                             return lens;
                                                                         }()}};
 
-/// A size at which a display's pixels are about square.
+/// The size at which a display's pixels are about square.
 ivec2 size_for(const std::string& display)
 {
     return display == "equirectangular" ? ivec2(480, 240)
@@ -118,20 +118,20 @@ ivec2 size_for(const std::string& display)
 
 struct Place {
     double hours, minutes, seconds;
-    double degrees, arcmin, arcsec; ///< of declination: its sign on all three
+    double degrees, arcmin, arcsec; ///< of declination, with its sign on all three
     dvec3 direction() const
     {
         return equatorial(15 * (hours + minutes / 60 + seconds / 3600), degrees + arcmin / 60 + arcsec / 3600);
     }
 };
 
-// The brightest pair in the picture, by its light's middle; angles from the Hipparcos J2000 places, worked out here.
-TEST(Stars, KnownSeparationsInThePicture)
+// The two brightest spots, by their mean directions. The expected angles come from the Hipparcos J2000 places.
+TEST(Stars, KnownPairsHaveTheirSeparation)
 {
     struct Pair {
         const char* name;
         Place a, b;
-        double apart_deg; ///< as textbooks have it
+        double apart_deg; ///< the textbook's separation
     };
     for (const Pair& pair : {Pair{"Betelgeuse, Rigel", {5, 55, 10.31, 7, 24, 25.4}, {5, 14, 32.27, -8, -12, -5.9}, 18.6},
              Pair{"Dubhe, Merak", {11, 3, 43.67, 61, 45, 3.7}, {11, 1, 50.48, 56, 22, 56.7}, 5.4},
@@ -141,8 +141,8 @@ TEST(Stars, KnownSeparationsInThePicture)
         GpuWorld world = sky_world(
             "constellation", {0, -50, 0}, 0.1, absolute(testing::source_dir() / "scenes/stars/stars.txt").string(), ahead);
         const double fov = pair.apart_deg * 1.3;
-        OffscreenRenderer stage = renderer(world, one_view(Planar{fov}, {300, 300}));
-        const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
+        OffscreenRenderer offscreen = renderer(world, one_view(Planar{fov}, {300, 300}));
+        const Numbers numbers(offscreen, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
         std::vector<dvec3> found;
         std::vector<bool> taken(numbers.count());
         for (int star = 0; star < 2; ++star) {
@@ -158,11 +158,11 @@ TEST(Stars, KnownSeparationsInThePicture)
                 }
             found.push_back(glm::normalize(sum));
         }
-        const double pixel = fov / 300, got = between(found[0], found[1]) / degree, want = between(a, b) / degree;
-        std::printf("  %s: %.3f degrees, known %.3f, a pixel is %.3f\n", pair.name, got, want, pixel);
-        EXPECT_NEAR(want, pair.apart_deg, 0.06);
-        EXPECT_NEAR(got, want, pixel);
-        // Not mirrored: east (greater right ascension) is on the left.
+        const double pixel = fov / 300, measured = between(found[0], found[1]) / degree, expected = between(a, b) / degree;
+        std::printf("  %s: %.3f degrees, known %.3f, a pixel is %.3f\n", pair.name, measured, expected, pixel);
+        EXPECT_NEAR(expected, pair.apart_deg, 0.06);
+        EXPECT_NEAR(measured, expected, pixel);
+        // The picture is not mirrored: east (greater right ascension) is on the left.
         const double east = pair.a.hours * 60 + pair.a.minutes - pair.b.hours * 60 - pair.b.minutes;
         const dvec3 at_a = world_from_equatorial(ahead) * a;
         const dvec3& found_a = glm::distance(found[0], at_a) < glm::distance(found[1], at_a) ? found[0] : found[1];
@@ -172,10 +172,11 @@ TEST(Stars, KnownSeparationsInThePicture)
     }
 }
 
-// ---------------------------------------------------------------- one star anywhere
+// ---------------------------------------------------------------- one star in any direction
 
-// In every display and at every speed: where the forward transform of a 4-vector says, the same light, the same few pixels.
-TEST(Stars, PlaceLightAndSizeAtEverySpeedOnEveryDisplay)
+// In every display and at every speed a star lies where the boost of a 4-vector puts it, with the same light on the same few
+// pixels.
+TEST(Stars, AStarKeepsItsLightAndSizeAtEverySpeedOnEveryDisplay)
 {
     const dvec3 n(0, 0, -1);
     GpuWorld world = sky_world("single");
@@ -183,27 +184,27 @@ TEST(Stars, PlaceLightAndSizeAtEverySpeedOnEveryDisplay)
     std::mt19937 random(3);
     std::uniform_real_distribution<double> one(-1, 1);
     for (const auto& [name, projection] : displays) {
-        OffscreenRenderer stage = renderer(world, one_view(projection, size_for(name)));
+        OffscreenRenderer offscreen = renderer(world, one_view(projection, size_for(name)));
         int drawn = 0, most = 0;
         double off = 0, low = 1e9, high = 0;
         for (double gamma : {1.0, 1.5, 4.0, 100.0})
             for (int i = 0; i < 6; ++i) {
-                // The cockpit is turned so that it has the star anywhere in the picture.
+                // The cockpit is turned so that the star may be anywhere in the picture.
                 const dvec3 u = u_of_gamma(gamma) * glm::normalize(dvec3(one(random), one(random), one(random)));
-                const dvec3 want = seen(n, u), way(0.5 * one(random), 0.4 * one(random) + 0.1, -1);
+                const dvec3 expected = seen(n, u), way(0.5 * one(random), 0.4 * one(random) + 0.1, -1);
                 Shot shot = shot_at({0, 0, 0}, u, {0, 0, -1});
-                shot.ship_from_cockpit = glm::rotation(glm::normalize(way), want);
-                const Numbers numbers(stage, shot);
+                shot.ship_from_cockpit = glm::rotation(glm::normalize(way), expected);
+                const Numbers numbers(offscreen, shot);
                 const Sum sum = sum_of(numbers);
                 if (sum.pixels == 0)
-                    continue; // where the test can't tell a pixel's solid angle
+                    continue; // the star is where the test knows no solid angle
                 ++drawn;
-                double pixel = 1; // the least angle between neighbours around
+                double pixel = 1; // the least angle between neighbours near the star
                 for (int k = 1; k < numbers.count(); ++k)
-                    if (numbers.shown(k) && numbers.shown(k - 1) && between(numbers.camera(k), want) < 3 * degree)
+                    if (numbers.shown(k) && numbers.shown(k - 1) && between(numbers.camera(k), expected) < 3 * degree)
                         pixel = std::min(pixel, between(numbers.camera(k), numbers.camera(k - 1)));
                 const double light = luminance(sum.light) / (brightness_arcmin2 * arcmin2_sr);
-                off = std::max(off, between(sum.middle, want) / pixel);
+                off = std::max(off, between(sum.middle, expected) / pixel);
                 low = std::min(low, light), high = std::max(high, light);
                 most = std::max(most, sum.pixels);
             }
@@ -211,50 +212,51 @@ TEST(Stars, PlaceLightAndSizeAtEverySpeedOnEveryDisplay)
             drawn, off, low, high, most);
         EXPECT_GE(drawn, 22);
         EXPECT_LT(off, 0.1);
-        // Required: 1 %, of which the spot takes a half. A lens's three pictures are judged by green's solid angles here.
+        // 1 % is required; the spot's own error is half of it. For the lens, solid angles of green serve for all three
+        // channels.
         const double tolerance = name == "lens" ? 0.02 : 0.01;
         EXPECT_GT(low, 1 - tolerance);
         EXPECT_LT(high, 1 + tolerance);
-        EXPECT_LE(most, name == "lens" ? 40 : 16); // a disc of 4 pixels across
+        EXPECT_LE(most, name == "lens" ? 40 : 16); // a disc 4 pixels wide
     }
 }
 
-// It drifts over the pixels in small steps: no flicker.
-TEST(Stars, LightIsTheSameWhereverBetweenPixels)
+// A star that drifts over the pixels in small steps must not flicker.
+TEST(Stars, LightIsTheSameAnywhereBetweenPixels)
 {
     GpuWorld world = sky_world("drifting");
     put_stars(device(), world, {star_at({0, 0, -1})});
-    OffscreenRenderer stage = renderer(world, one_view(Planar{20}, {64, 64}));
+    OffscreenRenderer offscreen = renderer(world, one_view(Planar{20}, {64, 64}));
     double low = 1e9, high = 0;
     for (int step = 0; step < 64; ++step) {
         const double pixel = 2 * std::tan(10 * degree) / 64;
         const dvec3 look(pixel * 0.131 * step, pixel * 0.0713 * step, -1);
-        const Sum sum = sum_of(Numbers(stage, shot_at({0, 0, 0}, {0, 0, 0}, look)));
+        const Sum sum = sum_of(Numbers(offscreen, shot_at({0, 0, 0}, {0, 0, 0}, look)));
         const double light = luminance(sum.light) / (brightness_arcmin2 * arcmin2_sr);
         low = std::min(low, light), high = std::max(high, light);
     }
     std::printf("  light %.4f to %.4f\n", low, high);
-    EXPECT_GT(low, 0.99); // required; the spot's sum is good to 0.5 %
+    EXPECT_GT(low, 0.99); // required; the spot's sum is right to 0.5 %
     EXPECT_LT(high, 1.01);
 }
 
-// ---------------------------------------------------------------- what speed does
+// ---------------------------------------------------------------- effects of speed
 
-// An evenly spread sky: of all its stars this part is seen in the front half.
+// With evenly spread stars, (1 + beta) / 2 of them appear in the front half of the sky.
 TEST(Stars, TheSkyCrowdsAhead)
 {
     GpuWorld world = sky_world("even");
     constexpr int count = 4000;
     std::vector<Star> stars;
-    for (int i = 0; i < count; ++i) { // a spiral of even steps in height and of the golden angle
+    for (int i = 0; i < count; ++i) { // a spiral with even steps in height, turning by the golden angle
         const double z = 1 - (2 * i + 1.0) / count, across = std::sqrt(1 - z * z), a = i * pi * (3 - std::sqrt(5.0));
         stars.push_back(star_at({across * std::cos(a), across * std::sin(a), z}));
     }
     put_stars(device(), world, stars);
-    OffscreenRenderer stage = renderer(world, one_view(Fisheye{180, 90}, {400, 400}));
+    OffscreenRenderer offscreen = renderer(world, one_view(Fisheye{180, 90}, {400, 400}));
     for (double gamma : {1.0, 2.0, 4.0, 10.0}) {
-        const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, -u_of_gamma(gamma)}, {0, 0, -1}));
-        // Light over solid angle: an equidistant circle's pixel has (90 degrees / 200)^2 sin(a) / a.
+        const Numbers numbers(offscreen, shot_at({0, 0, 0}, {0, 0, -u_of_gamma(gamma)}, {0, 0, -1}));
+        // Sums light times solid angle; a pixel of an equidistant circle has (90 degrees / 200)^2 sin(a) / a.
         double sum = 0;
         for (int i = 0; i < numbers.count(); ++i)
             if (numbers.shown(i)) {
@@ -264,12 +266,12 @@ TEST(Stars, TheSkyCrowdsAhead)
         const double beta = u_of_gamma(gamma) / gamma;
         const double share = sum / (count * brightness_arcmin2 * arcmin2_sr);
         std::printf("  gamma %g: %.5f of the sky in the front half, (1 + beta) / 2 = %.5f\n", gamma, share, (1 + beta) / 2);
-        EXPECT_NEAR(share, (1 + beta) / 2, 0.004); // the packed pixel angles' 0.4 %
+        EXPECT_NEAR(share, (1 + beta) / 2, 0.004); // the packed pixel angles are off by 0.4 %
     }
 }
 
-// A black body at D T, its light that of a point.
-TEST(Stars, BlackBodiesAtDT)
+// A star appears as a black body of temperature D T, with a point's flux.
+TEST(Stars, AStarIsABlackBodyAtDT)
 {
     GpuWorld world = sky_world("black");
     auto integral = [](double kelvin) {
@@ -284,45 +286,46 @@ TEST(Stars, BlackBodiesAtDT)
     for (const Case& c : {Case{5772, 2.90}, {5772, 10000 / 5772.0}, {2856, 5772 / 2856.0}, {10000, 0.2856}, {5772, 7.872983},
              {3500, 1.001}, {30000, 0.5}, {2300, 1e3}}) {
         put_stars(device(), world, {star_at({0, 0, -1}, c.T)});
-        OffscreenRenderer stage = renderer(world, one_view(Planar{20}, {64, 64}));
+        OffscreenRenderer offscreen = renderer(world, one_view(Planar{20}, {64, 64}));
         Shot shot = shot_at({0, 0, 0}, {0, 0, -0.5 * (c.D - 1 / c.D)}, {0, 0, -1});
         shot.effects = {true, true, true};
-        const dvec3 light = sum_of(Numbers(stage, shot)).light / (brightness_arcmin2 * arcmin2_sr);
+        const dvec3 light = sum_of(Numbers(offscreen, shot)).light / (brightness_arcmin2 * arcmin2_sr);
         const dvec2 xy = chromaticity_of(light);
         const dvec3 at_DT = integral(c.D * c.T), at_rest = integral(c.T);
-        const dvec2 want = dvec2(at_DT) / (at_DT.x + at_DT.y + at_DT.z);
+        const dvec2 expected = dvec2(at_DT) / (at_DT.x + at_DT.y + at_DT.z);
         const double growth = at_DT.y / at_rest.y / (c.D * c.D);
-        std::printf("  %g K, D %.4g: x %.4f y %.4f (%.4f %.4f), light x %.4g (%.4g)\n", c.T, c.D, xy.x, xy.y, want.x, want.y,
-            luminance(light), growth);
-        EXPECT_LT(glm::length(xy - want), 0.002); // required
-        EXPECT_NEAR(luminance(light) / growth, 1, 0.01); // the spot
+        std::printf("  %g K, D %.4g: x %.4f y %.4f (%.4f %.4f), light x %.4g (%.4g)\n", c.T, c.D, xy.x, xy.y, expected.x,
+            expected.y, luminance(light), growth);
+        EXPECT_LT(glm::length(xy - expected), 0.002); // required accuracy
+        EXPECT_NEAR(luminance(light) / growth, 1, 0.01); // the spot's error
         if (c.D == 2.90) {
             EXPECT_NEAR(luminance(light), 2.88, 0.03);
         }
-        shot.effects = {true, true, false}; // the shift alone: without the D of a point's flux
-        EXPECT_NEAR(luminance(sum_of(Numbers(stage, shot)).light) / luminance(light * brightness_arcmin2 * arcmin2_sr) * c.D,
-            1, 1e-5);
-        shot.effects = {true, false, true}; // and that D alone
-        EXPECT_NEAR(luminance(sum_of(Numbers(stage, shot)).light) / (brightness_arcmin2 * arcmin2_sr) / c.D, 1, 0.01);
+        shot.effects = {true, true, false}; // the Doppler shift alone, without the D of a point's flux
+        EXPECT_NEAR(
+            luminance(sum_of(Numbers(offscreen, shot)).light) / luminance(light * brightness_arcmin2 * arcmin2_sr) * c.D, 1,
+            1e-5);
+        shot.effects = {true, false, true}; // the D of the flux alone
+        EXPECT_NEAR(luminance(sum_of(Numbers(offscreen, shot)).light) / (brightness_arcmin2 * arcmin2_sr) / c.D, 1, 0.01);
     }
 }
 
-TEST(Stars, WithoutAberrationTheyStayAndTakeTheirPixelsD)
+TEST(Stars, WithoutAberrationStarsStayAndUseTheirPixelsD)
 {
     GpuWorld world = sky_world("still");
     const dvec3 n = glm::normalize(dvec3(0.1, 0.05, -1));
     put_stars(device(), world, {star_at(n)});
-    OffscreenRenderer stage = renderer(world, one_view(Planar{20}, {64, 64}));
+    OffscreenRenderer offscreen = renderer(world, one_view(Planar{20}, {64, 64}));
     Shot shot = shot_at({0, 0, 0}, {0, u_of_gamma(3), 0}, {0, 0, -1});
     shot.effects = {false, false, true};
-    const Sum sum = sum_of(Numbers(stage, shot));
+    const Sum sum = sum_of(Numbers(offscreen, shot));
     EXPECT_LT(between(sum.middle, n), 0.1 * 20 * degree / 64);
-    // D of a direction of the ship: 1 / (gamma - u.n).
+    // D of a direction in the ship is 1 / (gamma - u.n).
     EXPECT_NEAR(luminance(sum.light) / (brightness_arcmin2 * arcmin2_sr), 1 / (3 - u_of_gamma(3) * n.y), 0.01 * 0.3);
 }
 
-// All light of the shipped sky, its stars at one temperature, against a sum over the catalogue: a point's flux is D^-2 of a
-// black body at D T, and where it is seen does not matter.
+// The shipped sky's total light, with all stars at one temperature, must equal a sum over the catalogue. A point's flux is
+// D^-2 of a black body at D T, and does not depend on its direction.
 TEST(Stars, TheWholeSkysLightIsTheCataloguesSum)
 {
     GpuWorld world = sky_world("whole_sky");
@@ -332,7 +335,7 @@ TEST(Stars, TheWholeSkysLightIsTheCataloguesSum)
         star.temperature_K = T;
     put_stars(device(), world, stars);
     const dvec2 size(720, 360);
-    OffscreenRenderer stage = renderer(world, one_view(Equirectangular{}, ivec2(size)));
+    OffscreenRenderer offscreen = renderer(world, one_view(Equirectangular{}, ivec2(size)));
     auto luminance_of = [](double kelvin) {
         double sum = 0;
         for (double nm = 360.5; nm < 830; ++nm)
@@ -344,7 +347,7 @@ TEST(Stars, TheWholeSkysLightIsTheCataloguesSum)
         Shot shot = shot_at({0, 0, 0}, u, {0, 0, -1});
         shot.effects = {true, true, true};
         const auto folder = testing::scratch("whole_sky");
-        render_still(folder, stage, shot, true);
+        render_still(folder, offscreen, shot, true);
         const auto [read_size, channels] = read_exr(folder / "view.exr");
         ASSERT_EQ(read_size, ivec2(size));
         auto channel = [&](const std::string& name) {
@@ -354,36 +357,38 @@ TEST(Stars, TheWholeSkysLightIsTheCataloguesSum)
             throw std::runtime_error("no channel " + name);
         };
         const auto red = channel("R"), green = channel("G"), blue = channel("B"), depth = channel("depth");
-        double got = 0, want = 0;
+        double measured = 0, expected = 0;
         for (int y = 0; y < int(size.y); ++y) {
             const double across = 2 * pi / size.x * std::cos(pi * ((y + 0.5) / size.y - 0.5)), down = pi / size.y;
-            const double solid = std::max(across * down, 0.25 * down * down); // direction_map.h: of slivers
+            const double solid
+                = std::max(across * down, 0.25 * down * down); // direction_map.h uses this minimum for very narrow pixels
             for (int x = 0; x < int(size.x); ++x) {
                 const std::size_t i = std::size_t(y) * std::size_t(size.x) + x;
-                if (std::isinf(depth[i])) // else the red square
-                    got += solid * luminance({red[i], green[i], blue[i]});
+                if (std::isinf(depth[i])) // a finite depth is the red square
+                    measured += solid * luminance({red[i], green[i], blue[i]});
             }
         }
         for (const Star& star : stars) {
             const double D = gamma + glm::dot(u, world_from_equatorial({0, 0}) * star.direction);
-            want += brightness_arcmin2 * arcmin2_sr * std::pow(10, -0.4 * star.magnitude) * luminance_of(D * T)
+            expected += brightness_arcmin2 * arcmin2_sr * std::pow(10, -0.4 * star.magnitude) * luminance_of(D * T)
                 / luminance_of(T) / (D * D);
         }
-        std::printf("  gamma %g: %.5g, the sum %.5g, ratio %.4f\n", gamma, got, want, got / want);
-        EXPECT_NEAR(got / want, 1, 0.01); // required; the spots' half a per cent
+        std::printf("  gamma %g: %.5g, the sum %.5g, ratio %.4f\n", gamma, measured, expected, measured / expected);
+        EXPECT_NEAR(measured / expected, 1, 0.01); // required; the spots are off by half a percent
     }
 }
 
-// ---------------------------------------------------------------- where displays end and close
+// ---------------------------------------------------------------- displays all round: ends, poles and seams
 
-/// A display's own formula, written again.
+/// A panorama's formulas, written independently.
 struct AllRound {
     const char* name;
     Projection projection;
     ivec2 size;
-    dvec2 (*steps)(const dvec3& n, dvec2 size); ///< to the pixels beside and below the one that shows n, radians
-    double (*solid_angle)(const dvec3& n, dvec2 size); ///< of that pixel
-    double (*pixels_to_pole)(const dvec3& n, dvec2 size); ///< to where the picture draws a point out to a line
+    dvec2 (*steps)(const dvec3& n, dvec2 size); ///< radians from the pixel at n to the pixels beside and below it
+    double (*solid_angle)(const dvec3& n, dvec2 size); ///< the solid angle of the pixel at n
+    double (*pixels_to_pole)(
+        const dvec3& n, dvec2 size); ///< pixels from n to the direction that the picture stretches into a line
 };
 
 double elevation(const dvec3& n) { return std::atan2(n.y, std::hypot(n.x, n.z)); }
@@ -416,9 +421,9 @@ const AllRound all_round[]
                 return between(n, {0, 0, 1}) / (2 * pi) * size.x;
             }}};
 
-// Every star once, in its place to half a pixel, no larger than anywhere, with all its light: about the poles, where pixels
-// are slivers, where a picture closes on itself, and all over.
-TEST(Stars, OnceInPlaceAndWholeOnDisplaysAllRound)
+// Every star appears once, within half a pixel of its place, no larger than elsewhere, with all its light. This holds near
+// the poles with their narrow pixels, where the picture's edges join, and everywhere else.
+TEST(Stars, EachStarAppearsOnceAndWholeOnPanoramas)
 {
     GpuWorld world = sky_world("all_round");
     put_stars(device(), world, {star_at({0, 0, -1})});
@@ -434,17 +439,17 @@ TEST(Stars, OnceInPlaceAndWholeOnDisplaysAllRound)
         ways.emplace_back("all over", dvec3(one(random), one(random), one(random)));
     }
     for (const AllRound& display : all_round) {
-        OffscreenRenderer stage = renderer(world, one_view(display.projection, display.size));
+        OffscreenRenderer offscreen = renderer(world, one_view(display.projection, display.size));
         std::map<std::string, int> tried;
         double off = 0, low = 1e9, high = 0, farthest = 0;
         int most = 0;
         for (const auto& [where, way] : ways) {
             const dvec3 n = glm::normalize(way);
             if (std::holds_alternative<Cylinder>(display.projection) && std::abs(elevation(n)) > 59 * degree)
-                continue; // above or below it
+                continue; // outside the cylinder's range
             Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
             shot.ship_from_cockpit = glm::rotation(n, dvec3(0, 0, -1));
-            const Numbers numbers(stage, shot);
+            const Numbers numbers(offscreen, shot);
             const dvec2 steps = display.steps(n, dvec2(display.size));
             const double pixel = std::max(steps.x, steps.y), pole = display.pixels_to_pole(n, dvec2(display.size));
             dvec3 middle(0);
@@ -459,35 +464,35 @@ TEST(Stars, OnceInPlaceAndWholeOnDisplaysAllRound)
                 middle += luminance(numbers.light(i)) * seen;
                 apart = std::max(apart, between(seen, n) / pixel);
             }
-            // It is spread over the solid angle of a pixel, never less than of a square of half the longer step.
+            // A spot is normalized to its pixel's solid angle, or to a square of half the longer step if that is more.
             light *= std::max(display.solid_angle(n, dvec2(display.size)), 0.25 * pixel * pixel)
                 / (brightness_arcmin2 * arcmin2_sr);
             ++tried[where];
             farthest = std::max(farthest, apart), most = std::max(most, pixels);
-            EXPECT_LT(between(middle, n) / pixel, 1.1) << where; // anywhere
+            EXPECT_LT(between(middle, n) / pixel, 1.1) << where; // everywhere
             EXPECT_GT(light, 0.25) << where;
             EXPECT_LT(light, 2) << where;
             if (pole < 3)
-                continue; // where a spot is as wide as its whole parallel, it is one, and there
+                continue; // near a pole the spot covers a whole parallel and is too wide for the limits below
             off = std::max(off, between(middle, n) / pixel);
             low = std::min(low, light), high = std::max(high, light);
         }
         std::printf("  %-16s off by %.3f pixels at most, light %.4f to %.4f, at most %d pixels, none farther than %.2f\n",
             display.name, off, low, high, most, farthest);
-        EXPECT_LT(off, 0.5); // required
-        EXPECT_GT(low, 0.97); // the spot's half a per cent, and how the test's formula for a pixel differs from the mean
+        EXPECT_LT(off, 0.5); // required accuracy
+        EXPECT_GT(low, 0.97); // the spot's half a percent, and the difference of the test's pixel formula from the mean
         EXPECT_LT(high, 1.03);
-        EXPECT_LE(most, 16); // a disc of 4 pixels across, in two parts where it is cut
-        EXPECT_LT(farthest, 3); // no streaks: the radius is 2 pixels, and beyond a rim they are slivers
+        EXPECT_LE(most, 16); // a disc 4 pixels wide, in two parts at a seam
+        EXPECT_LT(farthest, 3); // no streaks: the radius is 2 pixels, and the pixels beyond a rim are narrow
         EXPECT_GE(tried["all over"], 9);
         EXPECT_GE(tried["seam"], 9);
     }
 }
 
-// ---------------------------------------------------------------- how bright they make the view
+// ---------------------------------------------------------------- the exposure under stars
 
-// Against every star's place, pixel and light, worked out one by one; a black square stands before a quarter of the view.
-TEST(Stars, TheExposureIsByWhatIsSeenOfThem)
+// The expected exposure uses every star's place, pixel and light. A black square hides a quarter of the view.
+TEST(Stars, TheExposureFollowsTheVisibleStars)
 {
     GpuWorld world = sky_world("metered_stars", {-10, 0, -20}, 10, "", {0, 0}, {0, 0, 0});
     std::mt19937 random(8);
@@ -501,24 +506,25 @@ TEST(Stars, TheExposureIsByWhatIsSeenOfThem)
     const dmat3 turn = world_from_equatorial({0, 0});
     for (const auto& [name, projection] : displays)
         for (double gamma : {2.0}) {
-            OffscreenRenderer stage = renderer(world, one_view(projection, size_for(name)));
+            OffscreenRenderer offscreen = renderer(world, one_view(projection, size_for(name)));
             const dvec3 u(0, 0, -u_of_gamma(gamma));
             const Shot shot = shot_at({0, 0, 0}, u, {0, 0, -1});
-            const Numbers numbers(stage, shot);
+            const Numbers numbers(offscreen, shot);
             const std::vector<double> solid = solid_angles(numbers);
-            std::vector<std::pair<double, double>> spots; // log2 of the luminance in the middle, solid angle
+            std::vector<std::pair<double, double>>
+                spots; // log2 of the luminance in the spot's middle, and the spot's solid angle
             double all = 0;
             for (const Star& star : stars) {
-                const dvec3 want = seen(turn * star.direction, u);
+                const dvec3 expected = seen(turn * star.direction, u);
                 int nearest = -1;
                 double best = 0;
                 for (int i = 0; i < numbers.count(); ++i)
-                    if (const double along = numbers.shown(i) ? glm::dot(numbers.camera(i), want) : -1; along > best)
+                    if (const double along = numbers.shown(i) ? glm::dot(numbers.camera(i), expected) : -1; along > best)
                         best = along, nearest = i;
                 if (nearest < 0 || solid[nearest] == 0 || best < std::cos(1.5 * std::sqrt(solid[nearest]))
                     || std::isfinite(numbers.depth(nearest)))
                     continue;
-                // The integral of the spot, (1 - r^2 / 4)^4, is 4 pi / 5 pixels.
+                // The spot's profile (1 - r^2 / 4)^4 integrates to 4 pi / 5 pixels.
                 const double area = 0.8 * pi * solid[nearest];
                 const double light = brightness_arcmin2 * arcmin2_sr * std::pow(10, -0.4 * star.magnitude);
                 spots.emplace_back(std::log2(light / area), area);
@@ -531,38 +537,38 @@ TEST(Stars, TheExposureIsByWhatIsSeenOfThem)
                     weight += area, mean += area * log;
                 below += area;
             }
-            const double want = std::log2(0.18) - mean / weight, got = *stage.metered(shot);
-            std::printf(
-                "  %-16s gamma %g: %zu stars seen, EV %.3f, by hand %.3f\n", name.c_str(), gamma, spots.size(), got, want);
+            const double expected = std::log2(0.18) - mean / weight, measured = *offscreen.metered(shot);
+            std::printf("  %-16s gamma %g: %zu stars seen, EV %.3f, by hand %.3f\n", name.c_str(), gamma, spots.size(),
+                measured, expected);
             EXPECT_GT(spots.size(), 50u);
-            EXPECT_NEAR(got, want, 0.05) << name; // a few stars at edges, where the test can't tell
+            EXPECT_NEAR(measured, expected, 0.05) << name; // a few stars lie at edges, where the test has no solid angle
         }
 }
 
-// Turning about under the shipped stars alone.
-TEST(Stars, TheExposureStaysWhileOneTurns)
+// The ship turns under the shipped stars.
+TEST(Stars, TheExposureStaysWhileTheShipTurns)
 {
     GpuWorld world
         = sky_world("turning", {0, -50, 0}, 0.1, absolute(testing::source_dir() / "scenes/stars/stars.txt").string());
-    OffscreenRenderer stage = renderer(world, one_view(Planar{60}, {400, 300}), false);
+    OffscreenRenderer offscreen = renderer(world, one_view(Planar{60}, {400, 300}), false);
     double low = 1e9, high = -1e9, step = 0, before = 0;
     for (int deg = 0; deg <= 360; deg += 5) {
         const double ev
-            = *stage.metered(shot_at({0, 0, 0}, {0, 0, 0}, {std::sin(deg * degree), 0.2, -std::cos(deg * degree)}));
+            = *offscreen.metered(shot_at({0, 0, 0}, {0, 0, 0}, {std::sin(deg * degree), 0.2, -std::cos(deg * degree)}));
         if (deg > 0)
             step = std::max(step, std::abs(ev - before));
         before = ev, low = std::min(low, ev), high = std::max(high, ev);
     }
     std::printf("  from %.2f to %.2f EV, at most %.2f in a step of five degrees\n", low, high, step);
-    EXPECT_LT(high - low, 0.7); // half a stop up or down is what a visitor sees when told
+    EXPECT_LT(high - low, 0.7); // a change of half a stop either way is hardly visible
     EXPECT_LT(step, 0.35);
 }
 
-// ---------------------------------------------------------------- what stands before them
+// ---------------------------------------------------------------- occlusion
 
-TEST(Stars, HiddenByWhatStandsBeforeThem)
+TEST(Stars, ObjectsHideTheStarsBehindThem)
 {
-    // A square of twenty degrees, seen from close by and then in flight away from it, larger.
+    // A square twenty degrees wide is seen at rest, and from a ship that flies away from it, where it looks larger.
     GpuWorld world = sky_world("hidden", {0, 0, -10}, 10 * std::tan(10 * degree));
     struct Case {
         double right_deg, up_deg;
@@ -576,37 +582,37 @@ TEST(Stars, HiddenByWhatStandsBeforeThem)
     put_stars(device(), world, stars);
     for (const auto& [name, projection] : displays)
         for (double gamma : {1.0, 1.5}) {
-            OffscreenRenderer stage = renderer(world, one_view(projection, size_for(name)));
+            OffscreenRenderer offscreen = renderer(world, one_view(projection, size_for(name)));
             const dvec3 u = u_of_gamma(gamma) * glm::normalize(dvec3(0.05, 0.1, 1));
-            const Numbers numbers(stage, shot_at({0, 0, 0}, u, {0, 0, -1}));
+            const Numbers numbers(offscreen, shot_at({0, 0, 0}, u, {0, 0, -1}));
             for (const Case& c : cases) {
-                const dvec3 want = seen(glm::normalize(direction(c)), u);
+                const dvec3 expected = seen(glm::normalize(direction(c)), u);
                 int nearest = 0;
                 for (int i = 0; i < numbers.count(); ++i)
                     if (numbers.shown(i)
                         && (!numbers.shown(nearest)
-                            || between(numbers.camera(i), want) < between(numbers.camera(nearest), want)))
+                            || between(numbers.camera(i), expected) < between(numbers.camera(nearest), expected)))
                         nearest = i;
-                ASSERT_LT(between(numbers.camera(nearest), want), 2 * degree);
+                ASSERT_LT(between(numbers.camera(nearest), expected), 2 * degree);
                 EXPECT_EQ(numbers.light(nearest).g == 0, c.hidden)
                     << name << " gamma " << gamma << " " << c.right_deg << " " << c.up_deg;
             }
         }
 }
 
-// Both eyes of a pair that shares one cube map see a near thing hide different stars.
-TEST(Stars, HiddenForEachEye)
+// Two eyes that share one cube map see a near object hide different stars.
+TEST(Stars, ObjectsHideOtherStarsFromEachEye)
 {
     GpuWorld world = sky_world("eyes", {0, 0, -1}, 0.01);
     for (StereoMethod method : {StereoMethod::exact, StereoMethod::reprojected})
         for (double x : {-0.03, 0.0, 0.03}) {
-            // Seen from an eye at x the square's middle stands before the star at (-x, 0, -1).
+            // From an eye at x, the square covers the star at (-x, 0, -1).
             put_stars(device(), world, {star_at({-x, 0, -1})});
             Layout layout = one_view(Planar{20}, {400, 200});
             layout.outputs[0].packing = Packing::side_by_side;
             layout.stereo = {.method = method, .separation_m = 0.06};
-            OffscreenRenderer stage = renderer(world, layout);
-            const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
+            OffscreenRenderer offscreen = renderer(world, layout);
+            const Numbers numbers(offscreen, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
             double green[2] = {0, 0};
             for (int i = 0; i < numbers.count(); ++i)
                 green[i % 400 / 200] += numbers.light(i).g;
@@ -615,20 +621,20 @@ TEST(Stars, HiddenForEachEye)
         }
 }
 
-TEST(Stars, ASpotGoesOnAcrossTheSeamOfTwoViewports)
+TEST(Stars, ASpotIsWholeAcrossTheSeamOfTwoViewports)
 {
     GpuWorld world = sky_world("seam");
-    // Two halves of one wide picture.
+    // The viewports are the two halves of one wide picture.
     Layout layout = one_view(Planar{20}, {128, 64});
     layout.outputs[0].viewports = {{.rect = {0, 0, 0.5, 1}, .projection = Planar{20, Sides{-20, 0, -10, 10}}},
         {.rect = {0.5, 0, 0.5, 1}, .projection = Planar{20, Sides{0, 20, -10, 10}}}};
     for (double offset : {-0.7, -0.2, 0.3, 1.1}) {
         const double pixel = std::tan(20 * degree) / 64;
         put_stars(device(), world, {star_at({offset * pixel, 0, -1})});
-        OffscreenRenderer stage = renderer(world, layout);
-        const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
+        OffscreenRenderer offscreen = renderer(world, layout);
+        const Numbers numbers(offscreen, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
         const double light = luminance(sum_of(numbers).light) / (brightness_arcmin2 * arcmin2_sr);
-        EXPECT_NEAR(light, 1, 0.015) << offset; // at the seam the test's own solid angles are the worse ones
+        EXPECT_NEAR(light, 1, 0.015) << offset; // at the seam the test's own solid angles are less accurate
     }
 }
 

@@ -1,5 +1,5 @@
-// Two eyes: that each packing puts each eye's pixel where a display of its kind wants it, and that each method puts things
-// where the eye would see them. Where that is, is worked out here in double from the places of things alone.
+// Two eyes: each packing puts each eye's pixels where such a display expects them, and each method shows objects where the
+// eye sees them. The expected places are computed here in double from the objects' places alone.
 #include "config/model/angles.h"
 #include "runtime/render/disparity.h"
 #include "tests/support/small_world.h"
@@ -10,8 +10,8 @@ namespace {
 
 // ---------------------------------------------------------------- packings
 
-/// Each eye sits in a box of its own, papered with tiles: what it sees in a direction needs no renderer. Left and right eye
-/// 2 m apart, the boxes' walls 0.9 m from the eye.
+/// Each eye is in a box of its own whose walls have tiles, so that its view in a direction is known without a renderer. The
+/// eyes are 2 m apart, the walls 0.9 m from the eye.
 constexpr double apart = 2, wall = 0.9;
 constexpr int tiles = 6;
 
@@ -21,7 +21,7 @@ dvec3 tile_colour(Eye eye, int face, int i, int j)
     return eye == Eye::left ? c : dvec3(0.75 - c.y, c.z, 0.7 - 0.9 * c.x);
 }
 
-/// Face and tile in the direction d: faces by axis, tiles by the other two coordinates.
+/// The face and the tile in the direction d: the axis gives the face, the other two coordinates the tile.
 glm::ivec3 tile_of(const dvec3& d)
 {
     int axis = 0;
@@ -47,7 +47,7 @@ Doc boxes()
                     b[(face / 2 + 2) % 3] = 1;
                     const dvec3 centre
                         = middle + wall * (out + a * ((2 * i + 1.0) / tiles - 1) + b * ((2 * j + 1.0) / tiles - 1));
-                    // Front to the eye: right x up looks against `out`.
+                    // The front faces the eye: right x up points against `out`.
                     const dvec3 right = glm::dot(glm::cross(a, b), out) < 0 ? a : b, up = right == a ? b : a;
                     quad(doc, centre, right * (wall / tiles), up * (wall / tiles), unlit(doc, tile_colour(eye, face, i, j)));
                 }
@@ -75,12 +75,12 @@ protected:
     }
     static std::vector<std::uint8_t> bytes(const Layout& layout, std::size_t output = 0)
     {
-        OffscreenRenderer stage = renderer(*world, layout, false);
-        return stage.picture(shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1})).at(output);
+        OffscreenRenderer offscreen = renderer(*world, layout, false);
+        return offscreen.picture(shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1})).at(output);
     }
 
-    /// What an eye sees at a point of its picture, from (0, 0) at the top left to (1, 1), in its true shape width / height =
-    /// aspect; nothing where a tile's edge is nearer than `room` (in the same fractions).
+    /// The colour at a point of an eye's picture, from (0, 0) at the top left to (1, 1); aspect is its true width / height.
+    /// Nothing if a tile's edge is nearer than `room`, in the same fractions.
     static std::optional<dvec3> colour_at(Eye eye, dvec2 at, double aspect, dvec2 room)
     {
         std::optional<glm::ivec3> tile;
@@ -95,7 +95,7 @@ protected:
         return tile_colour(eye, tile->x, tile->y, tile->z);
     }
 
-    /// Each pixel of which `source` knows the eye and the place in its picture.
+    /// The eye and the place in its picture that a pixel of the screen belongs to.
     struct Source {
         Eye eye;
         dvec2 at, room; ///< room: two of the screen's pixels
@@ -109,13 +109,13 @@ protected:
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
                 const Source from = source(x, y);
-                const auto wanted = colour_at(from.eye, from.at, from.aspect, from.room);
-                if (!wanted)
+                const auto expected = colour_at(from.eye, from.at, from.aspect, from.room);
+                if (!expected)
                     continue;
                 ++compared[from.eye == Eye::right];
                 for (int k = 0; k < 3; ++k)
-                    // fp16 and rounding: one byte. Tiles differ by 10 and more.
-                    ASSERT_NEAR(picture[4 * (y * size.x + x) + k], 255 * srgb((*wanted)[k]), 1.2)
+                    // fp16 and rounding make up to one byte. Tiles differ by 10 and more.
+                    ASSERT_NEAR(picture[4 * (y * size.x + x) + k], 255 * srgb((*expected)[k]), 1.2)
                         << x << " " << y << " channel " << k << (from.eye == Eye::left ? " left" : " right");
             }
         EXPECT_GT(compared[0] + compared[1], 0.4 * size.x * size.y);
@@ -126,7 +126,7 @@ protected:
     static inline std::unique_ptr<GpuWorld> world;
 };
 
-TEST_F(Packings, SideBySideGivesEachEyeHalfInItsTrueShape)
+TEST_F(Packings, SideBySideGivesEachEyeAHalfInItsTrueShape)
 {
     const ivec2 size(400, 160);
     expect_each(layout(Packing::side_by_side, size), [&](int x, int y) {
@@ -135,7 +135,7 @@ TEST_F(Packings, SideBySideGivesEachEyeHalfInItsTrueShape)
     });
 }
 
-TEST_F(Packings, SideBySideHalfSqueezes)
+TEST_F(Packings, SideBySideHalfSqueezesEachEyesPicture)
 {
     const ivec2 size(400, 225);
     expect_each(layout(Packing::side_by_side_half, size), [&](int x, int y) {
@@ -144,7 +144,7 @@ TEST_F(Packings, SideBySideHalfSqueezes)
     });
 }
 
-TEST_F(Packings, TopAndBottom)
+TEST_F(Packings, TopAndBottomGivesTheLeftEyeTheUpperHalf)
 {
     const ivec2 size(240, 320);
     for (Packing packing : {Packing::top_and_bottom, Packing::top_and_bottom_half})
@@ -154,7 +154,7 @@ TEST_F(Packings, TopAndBottom)
         });
 }
 
-TEST_F(Packings, Interlaced)
+TEST_F(Packings, InterlacedPackingsAlternateTheEyes)
 {
     const ivec2 size(240, 180);
     for (Packing packing : {Packing::rows, Packing::columns, Packing::checkerboard})
@@ -165,10 +165,10 @@ TEST_F(Packings, Interlaced)
         });
 }
 
-TEST_F(Packings, OneEyePerViewport)
+TEST_F(Packings, AViewportShowsTheEyeItNames)
 {
     Layout pair = layout(Packing::mono, {300, 120});
-    // Crossed on purpose, and of different widths: the layout says, not the order.
+    // The order and the widths are crossed on purpose: the layout decides which eye a viewport belongs to.
     pair.outputs[0].viewports = {{.rect = {0, 0, 0.4, 1}, .projection = Planar{fov_y}, .eye = Eye::right},
         {.rect = {0.4, 0, 0.6, 1}, .projection = Planar{fov_y}, .eye = Eye::left}};
     expect_each(pair, [&](int x, int y) {
@@ -179,7 +179,7 @@ TEST_F(Packings, OneEyePerViewport)
     });
 }
 
-TEST_F(Packings, OneEyePerOutput)
+TEST_F(Packings, AnOutputShowsTheEyeItNames)
 {
     Layout pair = layout(Packing::mono, {160, 120});
     pair.outputs.push_back(pair.outputs[0]);
@@ -196,9 +196,9 @@ TEST_F(Packings, OneEyePerOutput)
             output);
 }
 
-TEST_F(Packings, Anaglyphs)
+TEST_F(Packings, AnaglyphsMixTheEyesByTheirMatrices)
 {
-    // Linear light of the screen from that of the left and the right eye's picture, by rows.
+    // Rows give the screen's linear light from that of the left and of the right eye's picture.
     struct Glasses {
         Packing packing;
         double left[3][3], right[3][3];
@@ -218,7 +218,7 @@ TEST_F(Packings, Anaglyphs)
             double white = 0;
             for (int j = 0; j < 3; ++j)
                 white += glasses.left[i][j] + glasses.right[i][j];
-            EXPECT_NEAR(white, 1, 0.02) << "what is white to both eyes is white on the screen";
+            EXPECT_NEAR(white, 1, 0.02) << "white for both eyes must be white on the screen";
         }
         const std::vector<std::uint8_t> picture = bytes(layout(glasses.packing, size));
         int compared = 0;
@@ -242,16 +242,16 @@ TEST_F(Packings, Anaglyphs)
     }
 }
 
-// ---------------------------------------------------------------- where things are
+// ---------------------------------------------------------------- places of objects
 
-/// A plain rectangle; no two of a world are of one colour.
-struct Thing {
+/// A rectangle; each has a colour of its own within a world.
+struct Object {
     dvec3 centre, right, up, colour;
     dvec3 point(double a, double b) const { return centre + a * right + b * up; }
 };
 
-/// Faces the middle of the head.
-Thing facing(double azimuth_deg, double elevation_deg, double distance, double half_deg, const dvec3& colour)
+/// The rectangle faces the point between the eyes.
+Object facing(double azimuth_deg, double elevation_deg, double distance, double half_deg, const dvec3& colour)
 {
     const double a = azimuth_deg * degree, e = elevation_deg * degree, half = distance * std::tan(half_deg * degree);
     const dvec3 d(std::cos(e) * std::sin(a), std::sin(e), -std::cos(e) * std::cos(a));
@@ -259,15 +259,15 @@ Thing facing(double azimuth_deg, double elevation_deg, double distance, double h
     return {distance * d, half * right, half * glm::cross(right, d), colour};
 }
 
-GpuWorld world_of(const std::string& name, const std::vector<Thing>& things)
+GpuWorld world_of(const std::string& name, const std::vector<Object>& objects)
 {
     Doc doc;
-    for (const Thing& thing : things)
-        quad(doc, thing.centre, thing.right, thing.up, unlit(doc, thing.colour));
+    for (const Object& object : objects)
+        quad(doc, object.centre, object.right, object.up, unlit(doc, object.colour));
     return open_world(name, doc);
 }
 
-/// Left and right eye beside each other, each with a picture of `size`.
+/// The left and the right eye's pictures side by side, each of `size`.
 Layout pair_of(const Projection& projection, ivec2 size, StereoMethod method)
 {
     Layout layout = one_view(projection, {2 * size.x, size.y});
@@ -276,13 +276,13 @@ Layout pair_of(const Projection& projection, ivec2 size, StereoMethod method)
     return layout;
 }
 
-/// The light of a thing's hue in one eye's half of the picture, in whole pixels of it: its middle, in pixels from the half's
-/// corner, and its area, both within `reach` of where it should be; and what is farther away.
+/// The light of one object's hue in one eye's half of the picture: its mean place in pixels from the half's corner, and its
+/// area, both within `reach` of the expected place. `astray` is the light farther away.
 struct Found {
     dvec2 middle{0};
     double area = 0, astray = 0;
 };
-Found find_thing(const Numbers& numbers, Eye eye, const dvec3& colour, const dvec2& wanted, double reach)
+Found find_object(const Numbers& numbers, Eye eye, const dvec3& colour, const dvec2& expected, double reach)
 {
     const int half = numbers.size.x / 2;
     Found found;
@@ -294,7 +294,7 @@ Found find_thing(const Numbers& numbers, Eye eye, const dvec3& colour, const dve
         if (part < 0.01 || !near_colour(light / part, colour, 0.02))
             continue;
         const dvec2 at = numbers.centre(i) - dvec2(eye == Eye::right ? half : 0, 0);
-        if (std::max(std::abs(at.x - wanted.x), std::abs(at.y - wanted.y)) > reach) {
+        if (std::max(std::abs(at.x - expected.x), std::abs(at.y - expected.y)) > reach) {
             found.astray += part;
             continue;
         }
@@ -305,15 +305,15 @@ Found find_thing(const Numbers& numbers, Eye eye, const dvec3& colour, const dve
     return found;
 }
 
-/// The same as geometry has it. see: the direction in which a point is seen; pixel: where that is.
-dvec2 wanted_middle(
-    const Thing& thing, const std::function<dvec3(const dvec3&)>& see, const std::function<dvec2(const dvec3&)>& pixel)
+/// The expected centre. see: the direction in which the eye sees a point; pixel: the place of a direction in the picture.
+dvec2 expected_centre(
+    const Object& object, const std::function<dvec3(const dvec3&)>& see, const std::function<dvec2(const dvec3&)>& pixel)
 {
     constexpr int n = 16;
     std::vector<dvec2> at;
     for (int j = 0; j <= n; ++j)
         for (int i = 0; i <= n; ++i)
-            at.push_back(pixel(see(thing.point(2.0 * i / n - 1, 2.0 * j / n - 1))));
+            at.push_back(pixel(see(object.point(2.0 * i / n - 1, 2.0 * j / n - 1))));
     dvec2 sum(0);
     double area = 0;
     for (int j = 0; j < n; ++j)
@@ -333,7 +333,7 @@ dvec2 planar_pixel(const dvec3& d, double fov_y_deg, ivec2 size)
     return 0.5 * dvec2(size) + dvec2(d.x, -d.y) / -d.z * (0.5 * size.y / std::tan(fov_y_deg / 2 * degree));
 }
 
-/// A dome's that looks straight up, 180 degrees across the picture.
+/// A dome's picture looks straight up and is 180 degrees wide.
 dvec2 dome_pixel(const dvec3& d, int size)
 {
     const double angle = std::atan2(std::hypot(d.x, d.z), d.y), flat = std::hypot(d.x, d.z);
@@ -343,26 +343,26 @@ dvec2 dome_pixel(const dvec3& d, int size)
 constexpr double eyes_m = 0.065;
 dvec3 eye_at(Eye eye, double separation) { return {(eye == Eye::left ? -0.5 : 0.5) * separation, 0, 0}; }
 
-const std::vector<Thing> things = {facing(0, 0, 0.5, 2, {0.7, 0, 0}), facing(-18, 8, 1, 2, {0, 0.7, 0}),
+const std::vector<Object> objects = {facing(0, 0, 0.5, 2, {0.7, 0, 0}), facing(-18, 8, 1, 2, {0, 0.7, 0}),
     facing(15, -10, 2, 2, {0, 0, 0.7}), facing(-12, -12, 10, 2, {0.7, 0.7, 0}), facing(14, 12, 1e4, 2, {0, 0.7, 0.7})};
 
-/// Where all things should be against where they are.
+/// The deviation of all objects from their expected places.
 struct Off {
-    double worst = 0; ///< middle, pixels
-    double astray = 0; ///< of all their light, the part that is elsewhere
+    double worst = 0; ///< of a centre, pixels
+    double astray = 0; ///< fraction of all light that is elsewhere
 };
-Off off_of(const GpuWorld& world, const Layout& layout, const std::vector<Thing>& all,
-    const std::function<dvec2(const Thing&, Eye)>& wanted)
+Off off_of(const GpuWorld& world, const Layout& layout, const std::vector<Object>& all,
+    const std::function<dvec2(const Object&, Eye)>& expected)
 {
-    OffscreenRenderer stage = renderer(world, layout);
-    const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
+    OffscreenRenderer offscreen = renderer(world, layout);
+    const Numbers numbers(offscreen, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
     Off off;
     double area = 0;
-    for (const Thing& thing : all)
+    for (const Object& object : all)
         for (Eye eye : {Eye::left, Eye::right}) {
-            const dvec2 right = wanted(thing, eye);
-            const Found found = find_thing(numbers, eye, thing.colour, right, 18); // they are 12 to each side
-            EXPECT_GT(found.area, 50) << "not to be seen";
+            const dvec2 right = expected(object, eye);
+            const Found found = find_object(numbers, eye, object.colour, right, 18); // objects reach 12 pixels to each side
+            EXPECT_GT(found.area, 50) << "the object is not in the picture";
             off.worst = std::max(off.worst, glm::length(found.middle - right));
             off.astray += found.astray;
             area += found.area + found.astray;
@@ -372,28 +372,28 @@ Off off_of(const GpuWorld& world, const Layout& layout, const std::vector<Thing>
     return off;
 }
 
-/// The cube map has four samples in a texel of 0.8 pixels: an edge is known to half of a quarter.
+/// A texel has 0.8 pixels and the cube map four samples in it: an edge is known to half of a quarter.
 constexpr double sharp = 0.2;
-/// Reprojected edges are those of the depth's texels, 0.8 pixels: with one too few along two sides a middle is off by 0.6,
-/// and what is slanted has a step in its edge.
+/// Reprojected edges follow the depth's texels, 0.8 pixels wide. One row too few along two sides shifts the centre by 0.6,
+/// and slanted edges have steps.
 constexpr double blunt = 0.8;
-/// Beside an edge of what was drawn a texel of the sky has some of the edge's light: a dim outline stays where the eye sees
-/// on to the sky. Of a thing of 24 pixels the outline is a sixth, less than half as bright.
+/// Beside an edge, a texel of the sky has some of the object's light. This dim outline remains where the eye sees the sky
+/// behind. For an object of 24 pixels it has a sixth of the area, less than half as bright.
 constexpr double outlines = 0.03;
 
 TEST(Stereo, ExactHasTheParallaxOfTheDistance)
 {
-    const GpuWorld world = world_of("parallax", things);
+    const GpuWorld world = world_of("parallax", objects);
     const ivec2 size(360, 300);
     for (double hyper : {1.0, 3.0}) {
         Layout layout = pair_of(Planar{50}, size, StereoMethod::exact);
         layout.stereo.hyper_stereo = hyper;
-        const Off off = off_of(world, layout, things, [&](const Thing& thing, Eye eye) {
-            return wanted_middle(
-                thing, [&](const dvec3& p) { return p - eye_at(eye, eyes_m * hyper); },
+        const Off off = off_of(world, layout, objects, [&](const Object& object, Eye eye) {
+            return expected_centre(
+                object, [&](const dvec3& p) { return p - eye_at(eye, eyes_m * hyper); },
                 [&](const dvec3& d) { return planar_pixel(d, 50, size); });
         });
-        // The nearest has 42 pixels of parallax, or 126.
+        // The nearest object has a parallax of 42 or 126 pixels.
         EXPECT_LT(off.worst, sharp);
         EXPECT_EQ(off.astray, 0);
     }
@@ -401,14 +401,14 @@ TEST(Stereo, ExactHasTheParallaxOfTheDistance)
 
 TEST(Stereo, ReprojectedHasTheParallaxOfTheDistance)
 {
-    const GpuWorld world = world_of("parallax", things);
+    const GpuWorld world = world_of("parallax", objects);
     const ivec2 size(360, 300);
     for (double hyper : {1.0, 3.0}) {
         Layout layout = pair_of(Planar{50}, size, StereoMethod::reprojected);
         layout.stereo.hyper_stereo = hyper;
-        const Off off = off_of(world, layout, things, [&](const Thing& thing, Eye eye) {
-            return wanted_middle(
-                thing, [&](const dvec3& p) { return p - eye_at(eye, eyes_m * hyper); },
+        const Off off = off_of(world, layout, objects, [&](const Object& object, Eye eye) {
+            return expected_centre(
+                object, [&](const dvec3& p) { return p - eye_at(eye, eyes_m * hyper); },
                 [&](const dvec3& d) { return planar_pixel(d, 50, size); });
         });
         EXPECT_LT(off.worst, blunt);
@@ -416,23 +416,23 @@ TEST(Stereo, ReprojectedHasTheParallaxOfTheDistance)
     }
 }
 
-// On a wall things without parallax in the world stand as far apart as the eyes do: at infinity.
+// On a wall, objects without parallax in the world are as far apart as the eyes: at infinity.
 TEST(Stereo, SharedShowsEverythingAtInfinity)
 {
-    const GpuWorld world = world_of("parallax", things);
+    const GpuWorld world = world_of("parallax", objects);
     const ivec2 size(360, 300);
     Layout layout = pair_of(Planar{50}, size, StereoMethod::shared);
-    auto straight = [](const dvec3& p) { return p; };
-    const Off flat = off_of(world, layout, things, [&](const Thing& thing, Eye) {
-        return wanted_middle(thing, straight, [&](const dvec3& d) { return planar_pixel(d, 50, size); });
+    auto unchanged = [](const dvec3& p) { return p; };
+    const Off flat = off_of(world, layout, objects, [&](const Object& object, Eye) {
+        return expected_centre(object, unchanged, [&](const dvec3& d) { return planar_pixel(d, 50, size); });
     });
     EXPECT_LT(flat.worst, sharp);
 
     const Wall wall{{-0.9, -0.75, -1.5}, {0.9, -0.75, -1.5}, {-0.9, 0.75, -1.5}};
     layout = pair_of(wall, size, StereoMethod::shared);
-    layout.stereo.hyper_stereo = 100; // of the world alone
-    const Off on_wall = off_of(world, layout, things, [&](const Thing& thing, Eye eye) {
-        return wanted_middle(thing, straight, [&](const dvec3& d) {
+    layout.stereo.hyper_stereo = 100; // applies to the world alone
+    const Off on_wall = off_of(world, layout, objects, [&](const Object& object, Eye eye) {
+        return expected_centre(object, unchanged, [&](const dvec3& d) {
             const dvec3 at = eye_at(eye, eyes_m) + d * (1.5 / -d.z);
             return dvec2((at.x + 0.9) / 1.8 * size.x, (0.75 - at.y) / 1.5 * size.y);
         });
@@ -440,28 +440,28 @@ TEST(Stereo, SharedShowsEverythingAtInfinity)
     EXPECT_LT(on_wall.worst, sharp);
 }
 
-// A wall's picture for each eye and the world's parallax together: a thing in the wall's plane is at one place for both
-// eyes.
-TEST(Stereo, AThingOnTheWallHasNoParallaxOnIt)
+// The wall gives each eye its own picture, and the world adds its parallax: an object in the wall's plane is at one place
+// for both eyes.
+TEST(Stereo, AnObjectInTheWallsPlaneHasNoParallaxOnIt)
 {
     const Wall wall{{-0.9, -0.75, -1.5}, {0.9, -0.75, -1.5}, {-0.9, 0.75, -1.5}};
     const ivec2 size(360, 300);
-    const std::vector<Thing> on_it = {{{0, 0, -1.5}, {0.05, 0, 0}, {0, 0.05, 0}, {0.7, 0, 0}},
+    const std::vector<Object> on_it = {{{0, 0, -1.5}, {0.05, 0, 0}, {0, 0.05, 0}, {0.7, 0, 0}},
         {{0.6, 0.5, -1.5}, {0.05, 0, 0}, {0, 0.05, 0}, {0, 0.7, 0}},
         {{-0.6, -0.4, -1.5}, {0.05, 0, 0}, {0, 0.05, 0}, {0, 0, 0.7}}};
     const GpuWorld world = world_of("on_wall", on_it);
     for (StereoMethod method : {StereoMethod::exact, StereoMethod::reprojected}) {
-        const Off off = off_of(world, pair_of(wall, size, method), on_it, [&](const Thing& thing, Eye) {
-            return dvec2((thing.centre.x + 0.9) / 1.8 * size.x, (0.75 - thing.centre.y) / 1.5 * size.y);
+        const Off off = off_of(world, pair_of(wall, size, method), on_it, [&](const Object& object, Eye) {
+            return dvec2((object.centre.x + 0.9) / 1.8 * size.x, (0.75 - object.centre.y) / 1.5 * size.y);
         });
         EXPECT_LT(off.worst, method == StereoMethod::exact ? sharp : blunt);
     }
 }
 
-// ---------------------------------------------------------------- reprojected, pixel by pixel
+// ---------------------------------------------------------------- reprojection, pixel by pixel
 
-/// Which thing a ray from `eye` along d meets first, and where.
-std::pair<int, dvec3> meet(const std::vector<Thing>& all, const dvec3& eye, const dvec3& d)
+/// The first object that a ray from `eye` along d meets, and the point where it does.
+std::pair<int, dvec3> meet(const std::vector<Object>& all, const dvec3& eye, const dvec3& d)
 {
     int first = -1;
     double nearest = 1e300;
@@ -477,10 +477,10 @@ std::pair<int, dvec3> meet(const std::vector<Thing>& all, const dvec3& eye, cons
     return {first, eye + nearest * d};
 }
 
-/// A room: walls, floor and things before them, nearest at 0.8 m.
-std::vector<Thing> room()
+/// A room with walls, a floor and objects, the nearest at 0.8 m.
+std::vector<Object> room()
 {
-    std::vector<Thing> all = {{{0, 0, -4}, {4, 0, 0}, {0, 2, 0}, {0.2, 0.2, 0.4}},
+    std::vector<Object> all = {{{0, 0, -4}, {4, 0, 0}, {0, 2, 0}, {0.2, 0.2, 0.4}},
         {{0, -1.2, -2}, {4, 0, 0}, {0, 0, -2}, {0.4, 0.3, 0.2}}, {{-1.5, 0, -2}, {0, 0, -2}, {0, 2, 0}, {0.2, 0.5, 0.2}}};
     for (int i = 0; i < 12; ++i)
         all.push_back(facing(-35 + 7 * i, -20 + 11 * (i * 5 % 7) * 0.6, 0.8 + 0.21 * (i * 7 % 12), 2.5,
@@ -492,14 +492,14 @@ struct Errors {
     double median = 0, high = 0, hidden = 0;
 };
 
-/// Of all pixels: the angle, in pixels, between what is shown and where the eye would see that; and how many show another
-/// thing than a ray meets. eye: its place for a direction.
+/// Over all pixels: the angle in pixels between a pixel's direction and the direction in which the eye sees its point, and
+/// the fraction of pixels that show another object than the ray meets. eye_for: the eye's place for a direction.
 Errors errors_of(
-    OffscreenRenderer& stage, const std::vector<Thing>& all, const std::function<dvec3(Eye, const dvec3&)>& eye_for)
+    OffscreenRenderer& offscreen, const std::vector<Object>& all, const std::function<dvec3(Eye, const dvec3&)>& eye_for)
 {
     const Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
-    const Numbers numbers(stage, shot);
-    const Layout& layout = stage.layout();
+    const Numbers numbers(offscreen, shot);
+    const Layout& layout = offscreen.layout();
     const int half = numbers.size.x / 2;
     const bool own = layout.stereo.method == StereoMethod::exact;
     std::vector<double> off;
@@ -509,15 +509,15 @@ Errors errors_of(
             continue;
         const Eye side = i % numbers.size.x < half ? Eye::left : Eye::right;
         const dvec3 n = numbers.camera(i), eye = eye_for(side, n);
-        const auto [thing, point] = meet(all, eye, n);
+        const auto [object, point] = meet(all, eye, n);
         const double depth = numbers.depth(i);
-        if (thing < 0 && std::isinf(depth))
+        if (object < 0 && std::isinf(depth))
             continue;
-        // What is shown, from where it was drawn.
+        // The shown point, seen from the eye; its depth starts at the place the pixel was drawn from.
         const dvec3 shown = (own ? eye : dvec3(0)) + depth * numbers.world(i) - eye;
         const int next = i % half + 1 < half ? i + 1 : i - 1;
         const double pixel = between(n, numbers.camera(next));
-        hidden += thing < 0 || std::isinf(depth) || std::abs(glm::length(shown) / glm::length(point - eye) - 1) > 0.02;
+        hidden += object < 0 || std::isinf(depth) || std::abs(glm::length(shown) / glm::length(point - eye) - 1) > 0.02;
         if (std::isfinite(depth))
             off.push_back(between(shown, n) / pixel);
     }
@@ -526,38 +526,39 @@ Errors errors_of(
     return {off[off.size() / 2], off[off.size() * 99 / 100], double(hidden) / double(off.size())};
 }
 
-TEST(Stereo, ReprojectedAgainstExactPixelByPixel)
+TEST(Stereo, ReprojectedEqualsExactPixelByPixel)
 {
-    const std::vector<Thing> all = room();
+    const std::vector<Object> all = room();
     const GpuWorld world = world_of("room", all);
     const ivec2 size(320, 240);
     auto eye_for = [](Eye eye, const dvec3&) { return eye_at(eye, eyes_m); };
     OffscreenRenderer exact = renderer(world, pair_of(Planar{60}, size, StereoMethod::exact)),
                       tested = renderer(world, pair_of(Planar{60}, size, StereoMethod::reprojected));
     const Errors of_exact = errors_of(exact, all, eye_for), of_tested = errors_of(tested, all, eye_for);
-    std::printf("  exact: median %.4f, 99 %% %.4f pixels, other things %.2f %%\n  reprojected: median %.4f, 99 %% %.4f "
-                "pixels, other things %.2f %%\n",
+    std::printf("  exact: median %.4f, 99 %% %.4f pixels, other objects %.2f %%\n  reprojected: median %.4f, 99 %% %.4f "
+                "pixels, other objects %.2f %%\n",
         of_exact.median, of_exact.high, 100 * of_exact.hidden, of_tested.median, of_tested.high, 100 * of_tested.hidden);
-    EXPECT_LT(of_exact.high, 0.001); // by construction: what is asked for is what is looked up
-    EXPECT_LT(of_exact.hidden, 0.008); // along edges the depth of the nearest texel, half a texel off
-    // The way to a surface stops at a twentieth of a texel of 0.8 pixels, most often far sooner; beside edges it does not
-    // get there, but these are less than a hundredth.
+    EXPECT_LT(of_exact.high, 0.001); // exact by construction: each eye looks its own direction up
+    EXPECT_LT(of_exact.hidden, 0.008); // along edges the depth is the nearest texel's, half a texel off
+    // The search for a surface stops at a twentieth of a texel of 0.8 pixels, mostly far sooner. Beside edges it stops
+    // elsewhere, but these are less than a hundredth of the pixels.
     EXPECT_LT(of_tested.median, 0.02);
     EXPECT_LT(of_tested.high, 0.1);
-    // The edges once more for each eye, and what the middle of the head does not see beside the nearest things.
+    // Each eye adds its edges, and the parts beside near objects that the point between the eyes does not see.
     EXPECT_LT(of_tested.hidden, 0.012);
-    // What the program tells about itself is that.
-    const Disparity told = disparity(tested, &exact, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}), 0, 1);
-    EXPECT_NEAR(told.median, of_tested.median, 0.2 * of_tested.median);
-    EXPECT_NEAR(told.high, of_tested.high, 0.2 * of_tested.high);
-    EXPECT_NEAR(told.hidden, of_tested.hidden, 0.006); // against the other's depth, not the ray's
+    // The program's own measurement must agree.
+    const Disparity reported = disparity(tested, &exact, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}), 0, 1);
+    EXPECT_NEAR(reported.median, of_tested.median, 0.2 * of_tested.median);
+    EXPECT_NEAR(reported.high, of_tested.high, 0.2 * of_tested.high);
+    EXPECT_NEAR(
+        reported.hidden, of_tested.hidden, 0.006); // the program compares with the other renderer's depth, not with the ray
 }
 
-// In flight both eyes are where the ship's moment puts them in the world: the part along the motion is gamma times as far
-// from the middle. That `exact` does so is tested in picture_gpu_test.
-TEST(Stereo, ReprojectedAgainstExactInFlight)
+// In flight both eyes are simultaneous in the ship: in the world their distance along the motion is gamma times as large.
+// picture_gpu_test tests the same for `exact`.
+TEST(Stereo, ReprojectedEqualsExactInFlight)
 {
-    const std::vector<Thing> all = room();
+    const std::vector<Object> all = room();
     const GpuWorld world = world_of("room", all);
     const ivec2 size(320, 240);
     OffscreenRenderer exact = renderer(world, pair_of(Planar{60}, size, StereoMethod::exact)),
@@ -584,17 +585,17 @@ TEST(Stereo, ReprojectedAgainstExactInFlight)
     }
     ASSERT_GT(off.size(), 50000u);
     std::sort(off.begin(), off.end());
-    std::printf("  in flight: median %.4f, 99 %% %.4f pixels, other things %.2f %%\n", off[off.size() / 2],
+    std::printf("  in flight: median %.4f, 99 %% %.4f pixels, other objects %.2f %%\n", off[off.size() / 2],
         off[off.size() * 99 / 100], 100.0 * other / both);
-    EXPECT_LT(off[off.size() / 2], 0.02); // as at rest
+    EXPECT_LT(off[off.size() / 2], 0.02); // the same limit as at rest
     EXPECT_LT(off[off.size() * 99 / 100], 0.15);
     EXPECT_LT(other, 0.03 * both); // the edges of two pictures
 }
 
 // ---------------------------------------------------------------- domes
 
-/// Where an eye is that looks at the azimuth of d: beside the middle, at right angles to the look; nearer towards the
-/// zenith.
+/// The place of an eye that looks along the azimuth of d: beside the middle, at right angles to the look, and closer to the
+/// middle near the zenith.
 dvec3 turned_eye(Eye eye, const dvec3& d, double separation, double full_from_zenith_deg)
 {
     const double azimuth = std::atan2(d.x, -d.z), from_zenith = std::atan2(std::hypot(d.x, d.z), std::abs(d.y));
@@ -602,7 +603,7 @@ dvec3 turned_eye(Eye eye, const dvec3& d, double separation, double full_from_ze
     return (eye == Eye::left ? -0.5 : 0.5) * separation * fade * dvec3(std::cos(azimuth), 0, std::sin(azimuth));
 }
 
-/// The direction in which that eye sees a point: it looks there with the eye that is beside that direction.
+/// The direction in which that eye sees a point: the eye's place depends on the direction itself.
 dvec3 turned_look(Eye eye, const dvec3& p, double separation, double full_from_zenith_deg)
 {
     dvec3 d = glm::normalize(p);
@@ -613,10 +614,10 @@ dvec3 turned_look(Eye eye, const dvec3& p, double separation, double full_from_z
 
 TEST(Stereo, ADomesBaselineTurnsAndFades)
 {
-    std::vector<Thing> around;
+    std::vector<Object> around;
     for (int i = 0; i < 4; ++i)
         around.push_back(facing(90 * i, 25, 2, 3, dvec3(0.7, 0.23 * i, i % 2 ? 0.7 : 0)));
-    around.push_back(facing(30, 70, 2, 3, {0.1, 0.7, 0.4})); // 20 degrees from the zenith: faded
+    around.push_back(facing(30, 70, 2, 3, {0.1, 0.7, 0.4})); // 20 degrees from the zenith, where the baseline is reduced
     around.push_back(facing(0, 90, 2, 3, {0.1, 0.1, 0.7}));
     const GpuWorld world = world_of("around", around);
     const int size = 640;
@@ -626,43 +627,45 @@ TEST(Stereo, ADomesBaselineTurnsAndFades)
         layout.stereo.separation_m = 0.1;
         layout.stereo.hyper_stereo = hyper;
         const double separation = 0.1 * hyper, full = layout.stereo.full_from_zenith_deg;
-        OffscreenRenderer stage = renderer(world, layout);
-        const Numbers numbers(stage, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
+        OffscreenRenderer offscreen = renderer(world, layout);
+        const Numbers numbers(offscreen, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
         double worst = 0;
-        std::vector<double> told;
-        for (const Thing& thing : around) {
+        std::vector<double> parallaxes;
+        for (const Object& object : around) {
             dvec2 seen[2];
             for (Eye eye : {Eye::left, Eye::right}) {
-                const dvec2 wanted = wanted_middle(
-                    thing, [&](const dvec3& p) { return turned_look(eye, p, separation, full); },
+                const dvec2 expected = expected_centre(
+                    object, [&](const dvec3& p) { return turned_look(eye, p, separation, full); },
                     [&](const dvec3& d) { return dome_pixel(d, size); });
-                const Found found = find_thing(numbers, eye, thing.colour, wanted, 20); // 11 to each side, 16 aside
+                const Found found = find_object(numbers, eye, object.colour, expected,
+                    20); // objects reach 11 pixels to each side and are up to 16 aside
                 ASSERT_GT(found.area, 50);
-                worst = std::max(worst, glm::length(found.middle - wanted));
+                worst = std::max(worst, glm::length(found.middle - expected));
                 seen[eye == Eye::right] = found.middle;
             }
-            // The right eye sees what is near further to the left: against the turn to the right that it looks along.
-            const dvec3 c = thing.centre;
+            // The right eye sees near objects further to the left, against the direction to the right of the look.
+            const dvec3 c = object.centre;
             const dvec2 right = glm::length(dvec2(c.x, c.z)) > 0.01 ? glm::normalize(dvec2(-c.z, -c.x)) : dvec2(1, 0);
-            told.push_back(glm::dot(seen[0] - seen[1], right));
+            parallaxes.push_back(glm::dot(seen[0] - seen[1], right));
         }
-        // On a dome's picture an angle aside from the azimuth is stretched by angle / sine from the zenith.
+        // In a dome's picture, an angle across the azimuth is stretched by angle / sine of the distance from the zenith.
         const double pixels_per_radian = size / pi, parallax = 2 * std::atan(0.5 * separation / 2) * pixels_per_radian;
         const double stretch = 65 * degree / std::sin(65 * degree);
-        constexpr double close = 1; // each eye's half a pixel, as on a window
+        constexpr double close = 1; // each eye is off by up to half a pixel, as on a window
         for (int i = 0; i < 4; ++i)
-            EXPECT_NEAR(told[i], parallax * stretch, close) << "azimuth " << 90 * i;
+            EXPECT_NEAR(parallaxes[i], parallax * stretch, close) << "azimuth " << 90 * i;
         const double faded = std::sin(20 * degree) / std::sin(full * degree) * 20 * degree / std::sin(20 * degree);
-        EXPECT_NEAR(told[4], parallax * faded, close);
-        EXPECT_NEAR(told[5], 0, 0.3) << "at the zenith";
+        EXPECT_NEAR(parallaxes[4], parallax * faded, close);
+        EXPECT_NEAR(parallaxes[5], 0, 0.3) << "at the zenith";
         std::printf("  dome, hyper-stereo %g: parallax %.2f %.2f %.2f %.2f pixels around (%.2f), %.2f faded (%.2f), %.2f at "
                     "the zenith; worst middle %.2f off\n",
-            hyper, told[0], told[1], told[2], told[3], parallax * stretch, told[4], parallax * faded, told[5], worst);
+            hyper, parallaxes[0], parallaxes[1], parallaxes[2], parallaxes[3], parallax * stretch, parallaxes[4],
+            parallax * faded, parallaxes[5], worst);
         EXPECT_LT(worst, blunt);
     }
 }
 
-TEST(Stereo, EyesBesideADirectionAreTheTestsOwn)
+TEST(Stereo, EyesBesideADirectionFollowTheFormula)
 {
     Stereo stereo;
     stereo.turning = true;

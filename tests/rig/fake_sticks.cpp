@@ -1,18 +1,18 @@
-// Devices that are not there: a stick and a throttle as the kernel would show them, plugged in, moved and unplugged by a
-// script, around an unmodified program. Wants umockdev:
+// Simulated devices: a stick and a throttle as the kernel shows them. A script plugs them in, moves and unplugs them while
+// an unmodified program runs. Needs umockdev:
 //   umockdev-wrapper fake_sticks FOLDER SCRIPT PROGRAM ARGUMENTS...
 // FOLDER holds descriptors as tests/hid/*.json. SCRIPT, a line each:
 //   plug NAME NODE          a device of FOLDER/NAME.json appears as /dev/hidrawNODE
 //   unplug NAME
-//   report NAME HEX [COUNT] its report, as often, five milliseconds apart
-//   start                   the program begins; devices plugged in before are there already
-//   start typed             the same, with what `type` says on its standard input, which ends with the script
-//   until TEXT              the typed program has said it, after what was waited for before
-//   type TEXT               a line, once all reports were read
-//   interrupt               as Ctrl-C does
+//   report NAME HEX [COUNT] sends the report COUNT times, five milliseconds apart
+//   start                   starts the program; devices plugged in before are there already
+//   start typed             the same; `type` writes to the program's standard input, which closes when the script ends
+//   until TEXT              waits until the program's output has TEXT, after the text of the `until` before
+//   type TEXT               types a line, once the program has read all reports
+//   interrupt               sends SIGINT, as Ctrl-C does
 //   wait SECONDS
-//   run COMMAND             a shell command, waited for
-//   say TEXT                on standard error
+//   run COMMAND             runs a shell command and waits for it
+//   say TEXT                prints TEXT on standard error
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -51,14 +51,14 @@ Bytes bytes_of(const std::string& hex)
 
 struct Stick {
     UMockdevTestbed* testbed = nullptr;
-    std::string root; ///< of the pretended file system
-    std::string name, vendor, product, serial, descriptor; ///< the last in hexadecimal
+    std::string root; ///< of the simulated file system
+    std::string name, vendor, product, serial, descriptor; ///< the descriptor is in hexadecimal
     std::string usb, hid, hidraw, node;
     unsigned major_number = 0, minor_number = 0;
     int master = -1, slave = -1;
     UMockdevIoctlBase* answers = nullptr;
 
-    /// What hidraw's driver is asked for (linux/hidraw.h).
+    /// Answers the requests of hidraw's users (linux/hidraw.h).
     static gboolean answer(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self)
     {
         const Stick& stick = *static_cast<const Stick*>(self);
@@ -73,8 +73,8 @@ struct Stick {
             umockdev_ioctl_data_update(data, 0, reinterpret_cast<guint8*>(&size), sizeof size);
             umockdev_ioctl_client_complete(client, 0, 0);
         } else if (_IOC_NR(request) == 2) {
-            const auto* wanted = reinterpret_cast<const hidraw_report_descriptor*>(data->data);
-            umockdev_ioctl_data_update(data, 4, bytes.data(), int(std::min<std::size_t>(wanted->size, bytes.size())));
+            const auto* requested = reinterpret_cast<const hidraw_report_descriptor*>(data->data);
+            umockdev_ioctl_data_update(data, 4, bytes.data(), int(std::min<std::size_t>(requested->size, bytes.size())));
             umockdev_ioctl_client_complete(client, 0, 0);
         } else if (_IOC_NR(request) == 3) {
             hidraw_devinfo info{
@@ -91,7 +91,7 @@ struct Stick {
 
     void plug(int number, int generation)
     {
-        // A terminal's two ends stand in for the device: closing one hangs up the other, as pulling a cable does.
+        // A pseudo-terminal stands in for the device: if one end closes, the other hangs up, as when a cable is pulled.
         char terminal[128];
         openpty(&master, &slave, terminal, nullptr, nullptr);
         termios raw;
@@ -145,14 +145,14 @@ struct Stick {
             std::fprintf(stderr, "fake_sticks: %s\n", error->message);
             std::exit(2);
         }
-        umockdev_testbed_uevent(testbed, hidraw.c_str(), "add"); // once more, now that its parents exist
+        umockdev_testbed_uevent(testbed, hidraw.c_str(), "add"); // again, because its parents exist only now
     }
 
     void unplug()
     {
         umockdev_testbed_uevent(testbed, hidraw.c_str(), "remove");
         const std::string interface = usb + "/" + usb.substr(usb.rfind('/') + 1) + ":1.0";
-        for (const std::string& path : {hidraw, hid, interface, usb}) // leaves first
+        for (const std::string& path : {hidraw, hid, interface, usb}) // children before their parents
             umockdev_testbed_remove_device(testbed, path.c_str());
         unlink((root + "/sys/dev/char/" + std::to_string(major_number) + ":" + std::to_string(minor_number)).c_str());
         unlink((root + "/dev/.node/" + node.substr(5)).c_str());
@@ -165,7 +165,7 @@ struct Stick {
         master = slave = -1;
     }
 
-    /// Waits until what was written is read.
+    /// Waits until the program has read everything that was written.
     void drain() const
     {
         for (int i = 0; i < 2000; ++i) {
@@ -177,7 +177,7 @@ struct Stick {
         }
     }
 
-    /// One report a read: a terminal would join two that wait.
+    /// Sends one report for each read, because a terminal would join two waiting ones.
     void report(const Bytes& bytes)
     {
         drain();
@@ -186,20 +186,20 @@ struct Stick {
     }
 };
 
-/// There is nobody left to report to.
+/// True once the program has ended; a report would have no reader then.
 bool has_ended(pid_t program)
 {
     siginfo_t info{};
     return program > 0 && waitid(P_PID, id_t(program), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == program;
 }
 
-/// What the program under test says and is told, where the script types.
+/// The program's standard input and output, for scripts with `start typed`.
 struct Dialogue {
     int keyboard = -1, screen = -1;
     std::string said;
-    std::size_t heard = 0; ///< of `said`
+    std::size_t matched = 0; ///< end of the text in `said` that `until` has already found
 
-    /// Passes on what there is within so long; false at its end.
+    /// Copies the program's output for at most wait_ms. Returns false when the output has ended.
     bool listen(int wait_ms)
     {
         char bytes[4096];
@@ -216,14 +216,14 @@ struct Dialogue {
     bool until(const std::string& text)
     {
         for (int i = 0; i < 1000; ++i) {
-            if (const auto at = said.find(text, heard); at != said.npos) {
-                heard = at + text.size();
+            if (const auto at = said.find(text, matched); at != said.npos) {
+                matched = at + text.size();
                 return true;
             }
             if (!listen(10))
                 break;
         }
-        std::fprintf(stderr, "fake_sticks: it did not say: %s\n", text.c_str());
+        std::fprintf(stderr, "fake_sticks: the program's output lacks: %s\n", text.c_str());
         return false;
     }
 
@@ -251,7 +251,7 @@ int main(int count, char** arguments)
     std::ifstream script(arguments[2]);
     pid_t program = -1;
     Dialogue dialogue;
-    std::signal(SIGPIPE, SIG_IGN); // the program may end before the typing does
+    std::signal(SIGPIPE, SIG_IGN); // the program may end while the script still types
     for (std::string line; std::getline(script, line);) {
         std::istringstream words(line);
         std::string verb, name, rest;
@@ -277,13 +277,13 @@ int main(int count, char** arguments)
         } else if (verb == "until") {
             std::getline(words >> std::ws, rest);
             if (!dialogue.until(rest))
-                break; // the end of its input ends it
+                break; // the program ends when its input closes
         } else if (verb == "type") {
             std::getline(words >> std::ws, rest);
             for (const auto& [key, stick] : sticks)
                 if (stick.slave >= 0)
                     stick.drain();
-            usleep(20000); // from being read to being known
+            usleep(20000); // time from the read of a report to its evaluation
             rest += '\n';
             (void)!write(dialogue.keyboard, rest.data(), rest.size());
         } else if (verb == "interrupt") {

@@ -1,16 +1,17 @@
-// A Vulkan layer for tests: makes chosen calls fail as drivers do, and stay failed until the program has done what mends it.
+// A Vulkan layer for tests: it makes chosen calls fail as drivers do. They go on failing until the program makes the failed
+// object anew.
 //
 // STARBOW_FAULTS=CALL:NTH:RESULT[,...]
-//   CALL    acquire, present (both counted per picture), swapchain (creation) or submit
+//   CALL    acquire, present (both counted for each picture), swapchain (its creation) or submit
 //   NTH     the call that fails first, counted from 1
-//   RESULT  OUT_OF_DATE   of a swapchain: until it is made anew
-//           SURFACE_LOST  of a surface: until it is made anew
-//           DEVICE_LOST   until the device is made anew
-//           SUBOPTIMAL    this once; the call itself succeeds
-//           FROZEN        the swapchain's next 100 acquires have no picture to give in time
-// When a swapchain goes it is told on stderr how many pictures it has shown.
-// STARBOW_SHOWN_LATE_MS=MS: the driver can tell when pictures are shown (VK_KHR_present_wait): each swapchain's MS after the
-//   one's that was made before it.
+//   RESULT  OUT_OF_DATE   the swapchain fails until it is made anew
+//           SURFACE_LOST  the surface fails until it is made anew
+//           DEVICE_LOST   the device fails until it is made anew
+//           SUBOPTIMAL    only this call returns it; it succeeds
+//           FROZEN        the swapchain's next 100 acquires time out
+// When a swapchain is destroyed, the layer prints on stderr how many pictures it has shown.
+// STARBOW_SHOWN_LATE_MS=MS: the layer provides VK_KHR_present_wait. Each swapchain shows its pictures MS later than the
+// swapchain made before it.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -28,19 +29,20 @@
 
 namespace {
 
-std::mutex mutex; // of everything below
+std::mutex mutex; // guards everything below
 std::map<void*, PFN_vkGetInstanceProcAddr> instances;
 std::map<void*, PFN_vkGetDeviceProcAddr> devices;
 std::map<void*, VkDevice> handles;
 VkInstance last_instance;
-// Of the last instance, asked for while it was made: later the loader would answer with this layer's own.
+// These belong to the last instance. The layer looks them up while the instance is made: later the loader would return this
+// layer's own functions.
 PFN_vkEnumerateDeviceExtensionProperties next_enumerate;
 PFN_vkGetPhysicalDeviceFeatures2 next_features;
 PFN_vkDestroySurfaceKHR next_destroy_surface;
 std::map<std::string, int> counts;
 std::map<VkSwapchainKHR, VkSurfaceKHR> surfaces;
 std::map<VkSwapchainKHR, int> order, frozen, shown;
-std::set<VkSwapchainKHR> spent;
+std::set<VkSwapchainKHR> out_of_date;
 std::set<VkSurfaceKHR> lost;
 std::set<void*> lost_devices;
 
@@ -58,7 +60,7 @@ double late_ms()
     return text ? std::atof(text) : -1;
 }
 
-/// Counts a call; what shall happen to it, or nothing.
+/// Counts a call. Returns the fault that shall happen to it, or "".
 std::string fault(const std::string& call)
 {
     const int n = ++counts[call];
@@ -76,7 +78,7 @@ std::string fault(const std::string& call)
     return {};
 }
 
-/// What has become of a swapchain, after a fault that may befall it now.
+/// Applies the new fault `now`, and returns the swapchain's state with all earlier faults.
 VkResult state(const void* device_or_queue, VkSwapchainKHR swapchain, const std::string& now)
 {
     if (now == "DEVICE_LOST")
@@ -84,14 +86,14 @@ VkResult state(const void* device_or_queue, VkSwapchainKHR swapchain, const std:
     if (now == "SURFACE_LOST")
         lost.insert(surfaces[swapchain]);
     if (now == "OUT_OF_DATE")
-        spent.insert(swapchain);
+        out_of_date.insert(swapchain);
     if (now == "FROZEN")
         frozen[swapchain] = 100;
     if (lost_devices.count(key(device_or_queue)))
         return VK_ERROR_DEVICE_LOST;
     if (lost.count(surfaces[swapchain]))
         return VK_ERROR_SURFACE_LOST_KHR;
-    if (spent.count(swapchain))
+    if (out_of_date.count(swapchain))
         return VK_ERROR_OUT_OF_DATE_KHR;
     return now == "SUBOPTIMAL" ? VK_SUBOPTIMAL_KHR : VK_SUCCESS;
 }
@@ -99,25 +101,25 @@ VkResult state(const void* device_or_queue, VkSwapchainKHR swapchain, const std:
 VKAPI_ATTR VkResult VKAPI_CALL acquire(
     VkDevice device, VkSwapchainKHR swapchain, uint64_t timeout, VkSemaphore semaphore, VkFence fence, uint32_t* image)
 {
-    VkResult mine;
+    VkResult injected;
     bool waits = false;
     {
         const std::lock_guard lock(mutex);
-        mine = state(device, swapchain, fault("acquire"));
-        if (mine < 0)
-            return mine;
+        injected = state(device, swapchain, fault("acquire"));
+        if (injected < 0)
+            return injected;
         if (frozen[swapchain] > 0) {
             --frozen[swapchain];
             waits = true;
         }
     }
-    if (waits) { // as long as it is told to, which may be for ever
+    if (waits) { // as long as the caller allows, which may be for ever
         std::this_thread::sleep_for(std::chrono::nanoseconds(std::min(timeout, uint64_t(3600) * 1'000'000'000)));
         return timeout == 0 ? VK_NOT_READY : VK_TIMEOUT;
     }
     const VkResult result = next<PFN_vkAcquireNextImageKHR>(device, "vkAcquireNextImageKHR")(
         device, swapchain, timeout, semaphore, fence, image);
-    return result == VK_SUCCESS ? mine : result;
+    return result == VK_SUCCESS ? injected : result;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* info)
@@ -129,9 +131,9 @@ VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* in
     VkResult worst = next<PFN_vkQueuePresentKHR>(queue, "vkQueuePresentKHR")(queue, &copy);
     const std::lock_guard lock(mutex);
     for (uint32_t i = 0; i < info->swapchainCount; ++i) {
-        const VkResult mine = state(queue, info->pSwapchains[i], fault("present"));
+        const VkResult injected = state(queue, info->pSwapchains[i], fault("present"));
         if (results[i] == VK_SUCCESS)
-            results[i] = mine;
+            results[i] = injected;
         shown[info->pSwapchains[i]] += results[i] >= 0;
         if (results[i] < 0 || worst == VK_SUCCESS)
             worst = results[i];
@@ -198,7 +200,7 @@ VKAPI_ATTR void VKAPI_CALL destroy_swapchain(
     std::fprintf(stderr, "fault: shown %d\n", shown[swapchain]);
     shown.erase(swapchain);
     surfaces.erase(swapchain);
-    spent.erase(swapchain);
+    out_of_date.erase(swapchain);
     frozen.erase(swapchain);
     order.erase(swapchain);
 }
@@ -231,7 +233,7 @@ VKAPI_ATTR VkResult VKAPI_CALL wait_for_present(VkDevice, VkSwapchainKHR swapcha
     return VK_SUCCESS;
 }
 
-// The extensions that the layer, not the driver, provides.
+// The layer provides these extensions, not the driver.
 const char* const provided[] = {VK_KHR_PRESENT_ID_EXTENSION_NAME, VK_KHR_PRESENT_WAIT_EXTENSION_NAME};
 
 VKAPI_ATTR VkResult VKAPI_CALL enumerate_extensions(
@@ -245,10 +247,10 @@ VKAPI_ATTR VkResult VKAPI_CALL enumerate_extensions(
     std::vector<VkExtensionProperties> all(theirs);
     below(physical, nullptr, &theirs, all.data());
     for (const char* name : provided) {
-        VkExtensionProperties mine{};
-        std::strncpy(mine.extensionName, name, sizeof mine.extensionName - 1);
-        mine.specVersion = 1;
-        all.push_back(mine);
+        VkExtensionProperties extension{};
+        std::strncpy(extension.extensionName, name, sizeof extension.extensionName - 1);
+        extension.specVersion = 1;
+        all.push_back(extension);
     }
     if (!properties) {
         *count = uint32_t(all.size());
@@ -271,7 +273,7 @@ VKAPI_ATTR void VKAPI_CALL get_features(VkPhysicalDevice physical, VkPhysicalDev
     }
 }
 
-/// The link to the next layer, which each layer moves on.
+/// The link to the next layer. Each layer moves it on for the next one.
 template <class Link> Link* link_of(const void* chain, VkStructureType type)
 {
     auto* link = static_cast<Link*>(const_cast<void*>(chain));
@@ -308,7 +310,7 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(
     const auto device_calls = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
     link->u.pLayerInfo = link->u.pLayerInfo->pNext;
 
-    // The driver must not see what only the layer provides.
+    // The driver must not see the extensions that only the layer provides.
     VkDeviceCreateInfo copy = *info;
     std::vector<const char*> names;
     for (uint32_t i = 0; i < info->enabledExtensionCount; ++i) {
@@ -320,9 +322,9 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(
     copy.ppEnabledExtensionNames = names.data();
     auto* before = reinterpret_cast<VkBaseOutStructure*>(&copy);
     while (before->pNext && late_ms() >= 0) {
-        const bool mine = before->pNext->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_ID_FEATURES_KHR
+        const bool provided_here = before->pNext->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_ID_FEATURES_KHR
             || before->pNext->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_WAIT_FEATURES_KHR;
-        if (mine)
+        if (provided_here)
             before->pNext = before->pNext->pNext;
         else
             before = before->pNext;
@@ -338,21 +340,21 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(
     return result;
 }
 
-PFN_vkVoidFunction own(std::string_view name);
+PFN_vkVoidFunction layer_function(std::string_view name);
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_proc(VkDevice device, const char* name)
 {
-    const auto mine = own(name);
-    return mine ? mine : devices[key(device)](device, name);
+    const auto function = layer_function(name);
+    return function ? function : devices[key(device)](device, name);
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_instance_proc(VkInstance instance, const char* name)
 {
-    const auto mine = own(name);
-    return mine ? mine : instance ? instances[key(instance)](instance, name) : nullptr;
+    const auto function = layer_function(name);
+    return function ? function : instance ? instances[key(instance)](instance, name) : nullptr;
 }
 
-PFN_vkVoidFunction own(std::string_view name)
+PFN_vkVoidFunction layer_function(std::string_view name)
 {
     const std::map<std::string_view, PFN_vkVoidFunction> functions = {
 #define FUNCTION(name, function) {name, reinterpret_cast<PFN_vkVoidFunction>(function)}

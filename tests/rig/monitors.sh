@@ -1,4 +1,4 @@
-# Sourced by shell tests: X servers without hardware. Every process that is started here ends with the test.
+# Shell tests source this file: it starts X servers without hardware, and ends every process it started with the test.
 
 folder=$(mktemp -d)
 started=()
@@ -17,7 +17,7 @@ fail() {
     exit 1
 }
 
-# until_true SECONDS COMMAND...: runs it again and again until it succeeds.
+# until_true SECONDS COMMAND...: repeats the command until it succeeds or the time is over.
 until_true() {
     local end=$((${EPOCHREALTIME/./} + $1 * 1000000))
     shift
@@ -27,16 +27,16 @@ until_true() {
     done
 }
 
-serve() { # COMMAND...: an X server that chooses its own number; sets DISPLAY.
+serve() { # COMMAND...: starts an X server that chooses its own number, and sets DISPLAY.
     : >"$folder/number"
     "$@" -displayfd 9 9>"$folder/number" >"$folder/server-log" 2>&1 &
     started+=($!)
-    until_true 20 test -s "$folder/number" || fail "no X server starts ($1; Xorg wants to be root)"
+    until_true 20 test -s "$folder/number" || fail "no X server starts ($1; Xorg must run as root)"
     DISPLAY=:$(cat "$folder/number")
     export DISPLAY
 }
 
-# start_monitors COUNT WIDTHxHEIGHT: DUMMY0, DUMMY1, ... from left to right.
+# start_monitors COUNT WIDTHxHEIGHT: starts Xorg with the monitors DUMMY0, DUMMY1, ... from left to right.
 start_monitors() {
     serve Xorg -noreset -nolisten tcp -novtswitch -sharevts -config "$rig/xorg.conf" -logfile "$folder/xorg-log"
     xrandr --output DUMMY0 --mode "$2" --pos 0x0 --primary || fail "xrandr"
@@ -44,5 +44,5 @@ start_monitors() {
     for ((i = 1; i < $1; i++)); do
         xrandr --addmode DUMMY$i "$2" && xrandr --output DUMMY$i --mode "$2" --right-of DUMMY$((i - 1)) || fail "xrandr DUMMY$i"
     done
-    xrandr -q >/dev/null # without it the server hides all but one
+    xrandr -q >/dev/null # without this query the server hides all but one monitor
 }

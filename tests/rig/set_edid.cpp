@@ -1,4 +1,4 @@
-// Gives an output of the X server an identity, as its driver would: set_edid CONNECTOR MODEL SERIAL.
+// Gives a monitor of the X server an EDID, as its driver does: set_edid CONNECTOR MODEL SERIAL.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -44,7 +44,8 @@ int main(int count, char** arguments)
         if (connector == arguments[1]) {
             xcb_randr_change_output_property(
                 x, outputs[i], name, XCB_ATOM_INTEGER, 8, XCB_PROP_MODE_REPLACE, sizeof edid, edid);
-            xcb_get_input_focus_reply(x, xcb_get_input_focus(x), nullptr); // comes after the change is made
+            xcb_get_input_focus_reply(x, xcb_get_input_focus(x),
+                nullptr); // waits for the server, so that the change is made before the program ends
             return 0;
         }
     }

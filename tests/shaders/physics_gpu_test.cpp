@@ -1,5 +1,5 @@
-// The formulas of shaders/physics as the device computes them, against the same text compiled as float and as double. That
-// the double build is right, physics_test shows.
+// The formulas of shaders/physics as the device computes them, compared with the same text compiled as float and as double.
+// physics_test shows that the double build is right.
 #include "config/model/angles.h"
 #include "shaders/physics/physics.h"
 #include "spirv/physics_probe_comp.h"
@@ -19,7 +19,7 @@ namespace pf = physics_float;
 
 constexpr double round_float = 0x1p-24;
 
-/// physics_probe.comp on the device: see its head for what goes in and comes out.
+/// Runs physics_probe.comp on the device; that file describes the inputs and outputs.
 std::vector<vec4> probe(const std::vector<vec4>& inputs, std::uint32_t mode, double E = 1)
 {
     const std::uint32_t in = mode == 0 ? 1 : 4, out = mode == 0 ? 2 : 7;
@@ -61,7 +61,8 @@ std::vector<vec4> probe(const std::vector<vec4>& inputs, std::uint32_t mode, dou
     return outputs;
 }
 
-// Everywhere, logarithmically close to both poles, the poles, the axes and both zeros of z. Unit to a float's rounding.
+// Directions everywhere: logarithmically close to both poles, the poles, the axes, and both zeros of z. They are unit
+// vectors to a float's rounding.
 std::vector<vec4> directions()
 {
     std::vector<vec4> list = {{0, 0, 1, 0}, {0, 0, -1, 0}, {1, 0, 0, 0}, {-1, 0, 0, 0}, {0, 1, -0.0f, 0}, {0, -1, 0, 0},
@@ -71,7 +72,7 @@ std::vector<vec4> directions()
     for (int i = 0; i < 40000; ++i) {
         double phi = 2 * pi * one(random), z = 2 * one(random) - 1, across = std::sqrt((1 - z) * (1 + z));
         list.push_back(vec4(dvec3(across * std::cos(phi), across * std::sin(phi), z), 0));
-        double theta = std::pow(1e-18, one(random)); // down to what a float's square still holds
+        double theta = std::pow(1e-18, one(random)); // down to the smallest angle whose square a float holds
         list.push_back(vec4(
             dvec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), (i % 2 ? 1 : -1) * std::cos(theta)), 0));
     }
@@ -82,10 +83,10 @@ double angle(const dvec3& a, const dvec3& b) { return quad::angle(quad::of(a), q
 
 bool finite(const vec4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w); }
 
-// Required. The 14 roundings on the way (see physics_test) come to 8e-7.
+// Required accuracy. The 14 roundings of the computation (see physics_test) make 8e-7.
 constexpr double required = 1e-6;
 
-TEST(PhysicsOnTheDevice, SightAgreesWithFloatAndDoubleAtEveryGamma)
+TEST(PhysicsOnTheDevice, AberrationAgreesWithFloatAndDoubleAtEveryGamma)
 {
     const std::vector<vec4> inputs = directions();
     for (double gamma : {1.0, 1 + 1e-7, 2.0, 4.0, 10.0, 1e2, 1e3, 1e4, 1e6}) {
@@ -96,13 +97,13 @@ TEST(PhysicsOnTheDevice, SightAgreesWithFloatAndDoubleAtEveryGamma)
             const vec3 n(inputs[i]);
             const vec4 world = outputs[2 * i], camera = outputs[2 * i + 1];
             ASSERT_TRUE(finite(world) && finite(camera)) << gamma << ' ' << n.x << ' ' << n.y << ' ' << n.z;
-            const pd::AberratedRay want = pd::world_from_camera(dvec3(n), E, 1 / E);
+            const pd::AberratedRay expected = pd::world_from_camera(dvec3(n), E, 1 / E);
             const pf::AberratedRay same = pf::world_from_camera(n, float(E), float(1 / E));
-            // A world direction's error shows in the camera 1/D times as large.
-            direction = std::max(direction, angle(dvec3(world), want.n) / want.D);
-            D = std::max(D, std::abs(world.w / want.D - 1));
+            // A world direction's error appears in the camera 1/D times as large.
+            direction = std::max(direction, angle(dvec3(world), expected.n) / expected.D);
+            D = std::max(D, std::abs(world.w / expected.D - 1));
             length = std::max(length, std::abs(glm::length(dvec3(world)) - 1));
-            float_direction = std::max(float_direction, angle(dvec3(world), dvec3(same.n)) / want.D);
+            float_direction = std::max(float_direction, angle(dvec3(world), dvec3(same.n)) / expected.D);
             float_D = std::max(float_D, std::abs(double(world.w) / same.D - 1));
             const pd::AberratedRay again = pd::camera_from_world(dvec3(world), E, 1 / E);
             back = std::max(back, angle(dvec3(camera), again.n));
@@ -157,12 +158,12 @@ TEST(PhysicsOnTheDevice, BoostsAndMotionAgreeWithDouble)
         const dvec3 u(in[0]), way(in[1]), x(in[2]), w(in[3]);
         const double strength = in[0].w, dtau = in[1].w, t = in[2].w, D = in[3].w, angle = strength * dtau;
         const double gamma = pd::gamma_of(u), gamma_w = pd::gamma_of(w);
-        const pd::ThrustSegment want = pd::thrust_segment(u, way, strength, dtau);
-        // Errors are of the size of what was added up.
+        const pd::ThrustSegment expected = pd::thrust_segment(u, way, strength, dtau);
+        // Errors are relative to the size of the summands.
         const double reach = gamma * std::exp(std::abs(angle));
-        worst(segment, glm::length(dvec3(out[0]) - want.du) / reach);
-        worst(segment, glm::length(dvec3(out[1]) - want.dx) / reach);
-        worst(segment, std::abs(out[0].w - want.dt) / reach);
+        worst(segment, glm::length(dvec3(out[0]) - expected.du) / reach);
+        worst(segment, glm::length(dvec3(out[1]) - expected.dx) / reach);
+        worst(segment, std::abs(out[0].w - expected.dt) / reach);
         worst(composed, glm::length(dvec3(out[2]) - pd::composed(u, w)) / (gamma * gamma_w));
         worst(turn, glm::length(dvec4(out[3]) - dvec4(pd::wigner_turn(u, w))) / std::min(gamma, gamma_w));
         worst(eye, glm::length(dvec3(out[4]) - pd::eye_place(u, x)) / (gamma * glm::length(x)));
@@ -179,9 +180,9 @@ TEST(PhysicsOnTheDevice, BoostsAndMotionAgreeWithDouble)
         scalar(out[6].z, pd::sinh_ratio(angle), pd::sinh_ratio(angle));
         scalar(out[6].w, pd::cosh_less_one_ratio(angle), pd::sinh_ratio(angle));
     }
-    std::printf("  leg %.1e  composed %.1e  turn %.1e  eye %.1e  event %.1e  scalars %.1e\n", segment, composed, turn, eye,
-        event, scalars);
-    EXPECT_LE(segment, 20 * round_float); // a dozen roundings as in physics_test, and a device's sinh and square roots
+    std::printf("  thrust segment %.1e  composed %.1e  turn %.1e  eye %.1e  event %.1e  scalars %.1e\n", segment, composed,
+        turn, eye, event, scalars);
+    EXPECT_LE(segment, 20 * round_float); // a dozen roundings as in physics_test, plus the device's sinh and square roots
     EXPECT_LE(composed, 12 * round_float);
     EXPECT_LE(eye, 12 * round_float);
     EXPECT_LE(event, 12 * round_float);

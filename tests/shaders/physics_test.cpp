@@ -1,5 +1,5 @@
-// The formulas of shaders/physics against relativity done another way: double against boosts in 33 digits (quad.h), float
-// against double, and the numbers that the literature and pencil give.
+// The formulas of shaders/physics compared with independent relativity: double with boosts in 33 digits (quad.h), float with
+// double, and both with published and hand-calculated numbers.
 #include "config/model/angles.h"
 #include "shaders/physics/physics.h"
 #include "tests/support/quad.h"
@@ -24,7 +24,7 @@ using glm::vec3;
 namespace pd = starbow::physics_double;
 namespace pf = starbow::physics_float;
 
-// One rounding. A bound of "k roundings" counts the operations between the input and the result.
+// One rounding. A bound of "k roundings" counts the operations between input and result.
 constexpr double round_double = 0x1p-53;
 constexpr double round_float = 0x1p-24;
 
@@ -58,11 +58,11 @@ double world_angle(double theta_c_deg, double beta)
     return angle_from_motion(world(at(theta_c_deg * degree), beta).n) / degree;
 }
 
-// What the tables print is half of the last digit away from the truth.
+// A table's number differs from the truth by at most half of its last digit.
 constexpr double half_1e5 = 0.5e-5, half_1e6 = 0.5e-6, half_1e7 = 0.5e-7;
 
-// Directions everywhere, logarithmically close to both poles (down to `closest` radians), the poles themselves, the axes and
-// the seam z = +-0 of the two half-angle branches.
+// Directions everywhere: logarithmically close to both poles (down to `closest` radians), the poles, the axes, and the seam
+// z = +-0 between the two half-angle branches.
 std::vector<dvec3> directions(int count, double closest)
 {
     std::vector<dvec3> list = {{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {1, 0, -0.0},
@@ -95,11 +95,11 @@ void report(const char* what, double gamma, const Worst& w)
     std::printf("  %-34s gamma-1 %8.1e  direction %.2e  D %.2e  length %.2e\n", what, gamma - 1, w.direction, w.D, w.length);
 }
 
-// ---------------------------------------------------------------- double against 33 digits
+// ---------------------------------------------------------------- double compared with 33 digits
 
-// Roundings on the way to a direction or a D: E and 1/E 4, the input's length 2, half angle 4, A or B 1, their sum 1, the
+// The roundings of a direction or a D: E and 1/E 4, the input's length 2, the half angle 4, A or B 1, their sum 1, the
 // quotient 1, the product 1.
-constexpr double sight_double = 14 * round_double;
+constexpr double ray_double = 14 * round_double;
 
 TEST(AberratedRay, WorldFromCameraInDoubleAgreesWithLorentzBoost)
 {
@@ -110,17 +110,17 @@ TEST(AberratedRay, WorldFromCameraInDoubleAgreesWithLorentzBoost)
         Worst worst;
         for (const dvec3& n : directions(20000, 1e-18)) {
             const auto got = pd::world_from_camera(n, E, 1 / E);
-            const auto want = quad::world_from_camera(quad::of(n), {0, 0, u});
+            const auto expected = quad::world_from_camera(quad::of(n), {0, 0, u});
             worst.finite &= finite(got.n, got.D);
-            worst.direction = std::max(worst.direction, quad::angle(quad::of(got.n), want.n) / got.D);
-            worst.D = std::max(worst.D, double(fabsq(got.D / want.D - 1)));
+            worst.direction = std::max(worst.direction, quad::angle(quad::of(got.n), expected.n) / got.D);
+            worst.D = std::max(worst.D, double(fabsq(got.D / expected.D - 1)));
             worst.length = std::max(worst.length, double(fabsq(quad::length(quad::of(got.n)) - 1)));
         }
         report("double-quad world_from_camera", gamma, worst);
         EXPECT_TRUE(worst.finite) << gamma;
-        EXPECT_LE(worst.direction, sight_double) << gamma;
-        EXPECT_LE(worst.D, sight_double) << gamma;
-        EXPECT_LE(worst.length, sight_double) << gamma;
+        EXPECT_LE(worst.direction, ray_double) << gamma;
+        EXPECT_LE(worst.D, ray_double) << gamma;
+        EXPECT_LE(worst.length, ray_double) << gamma;
     }
 }
 
@@ -133,27 +133,27 @@ TEST(AberratedRay, CameraFromWorldInDoubleAgreesWithLorentzBoost)
         Worst worst;
         for (const dvec3& n : directions(20000, 1e-18)) {
             const auto got = pd::camera_from_world(n, E, 1 / E);
-            const auto want = quad::camera_from_world(quad::of(n), {0, 0, u});
+            const auto expected = quad::camera_from_world(quad::of(n), {0, 0, u});
             worst.finite &= finite(got.n, got.D);
-            // The result is the camera's direction: its error counts as it is.
-            worst.direction = std::max(worst.direction, quad::angle(quad::of(got.n), want.n));
-            worst.D = std::max(worst.D, double(fabsq(got.D / want.D - 1)));
+            // The result is a camera direction, so that its error counts as it is.
+            worst.direction = std::max(worst.direction, quad::angle(quad::of(got.n), expected.n));
+            worst.D = std::max(worst.D, double(fabsq(got.D / expected.D - 1)));
             worst.length = std::max(worst.length, double(fabsq(quad::length(quad::of(got.n)) - 1)));
         }
         report("double-quad camera_from_world", gamma, worst);
         EXPECT_TRUE(worst.finite) << gamma;
-        EXPECT_LE(worst.direction, sight_double) << gamma;
-        EXPECT_LE(worst.D, sight_double) << gamma;
-        EXPECT_LE(worst.length, sight_double) << gamma;
+        EXPECT_LE(worst.direction, ray_double) << gamma;
+        EXPECT_LE(worst.D, ray_double) << gamma;
+        EXPECT_LE(worst.length, ray_double) << gamma;
     }
 }
 
-// ---------------------------------------------------------------- float against double
+// ---------------------------------------------------------------- float compared with double
 
-constexpr double sight_float = 1e-6; // required; the 14 roundings of a float come to 8e-7
+constexpr double ray_float = 1e-6; // required; the 14 roundings of a float make 8e-7
 
-// The truth for a float direction is the double formula, and the boost in 33 digits, of the same numbers; E goes to the
-// shader as float from double.
+// The expected value for a float direction is the double formula, and the boost in 33 digits, of the same numbers. E is
+// computed in double and passed as float, as for the shader.
 TEST(AberratedRay, FloatAgreesWithDoubleAtEveryGamma)
 {
     for (double gamma : gammas) {
@@ -163,21 +163,23 @@ TEST(AberratedRay, FloatAgreesWithDoubleAtEveryGamma)
         for (const dvec3& drawn : directions(50000, 1e-18)) {
             const vec3 n(drawn);
             const auto got = pf::world_from_camera(n, E_float, inverse_E_float);
-            const auto want = pd::world_from_camera(dvec3(n), E, 1 / E);
+            const auto expected = pd::world_from_camera(dvec3(n), E, 1 / E);
             to_world.finite &= finite(got.n, got.D);
-            to_world.direction = std::max(to_world.direction, quad::angle(quad::of(got.n), quad::of(want.n)) / want.D);
-            to_world.D = std::max(to_world.D, std::abs(got.D / want.D - 1));
+            to_world.direction
+                = std::max(to_world.direction, quad::angle(quad::of(got.n), quad::of(expected.n)) / expected.D);
+            to_world.D = std::max(to_world.D, std::abs(got.D / expected.D - 1));
             to_world.length = std::max(to_world.length, std::abs(glm::length(dvec3(got.n)) - 1));
 
             const auto boost = quad::world_from_camera(quad::of(n), {0, 0, u});
-            of_boost.direction = std::max(of_boost.direction, quad::angle(quad::of(got.n), boost.n) / want.D);
+            of_boost.direction = std::max(of_boost.direction, quad::angle(quad::of(got.n), boost.n) / expected.D);
             of_boost.D = std::max(of_boost.D, double(fabsq(got.D / boost.D - 1)));
 
             const auto got_back = pf::camera_from_world(n, E_float, inverse_E_float);
-            const auto want_back = pd::camera_from_world(dvec3(n), E, 1 / E);
+            const auto expected_back = pd::camera_from_world(dvec3(n), E, 1 / E);
             to_camera.finite &= finite(got_back.n, got_back.D);
-            to_camera.direction = std::max(to_camera.direction, quad::angle(quad::of(got_back.n), quad::of(want_back.n)));
-            to_camera.D = std::max(to_camera.D, std::abs(got_back.D / want_back.D - 1));
+            to_camera.direction
+                = std::max(to_camera.direction, quad::angle(quad::of(got_back.n), quad::of(expected_back.n)));
+            to_camera.D = std::max(to_camera.D, std::abs(got_back.D / expected_back.D - 1));
             to_camera.length = std::max(to_camera.length, std::abs(glm::length(dvec3(got_back.n)) - 1));
         }
         report("float-double world_from_camera", gamma, to_world);
@@ -185,9 +187,9 @@ TEST(AberratedRay, FloatAgreesWithDoubleAtEveryGamma)
         report("float-quad   world_from_camera", gamma, of_boost);
         for (const Worst& worst : {to_world, to_camera, of_boost}) {
             EXPECT_TRUE(worst.finite) << gamma;
-            EXPECT_LE(worst.direction, sight_float) << gamma;
-            EXPECT_LE(worst.D, sight_float) << gamma;
-            EXPECT_LE(worst.length, sight_float) << gamma;
+            EXPECT_LE(worst.direction, ray_float) << gamma;
+            EXPECT_LE(worst.D, ray_float) << gamma;
+            EXPECT_LE(worst.length, ray_float) << gamma;
         }
     }
 }
@@ -208,8 +210,8 @@ TEST(AberratedRay, FloatThereAndBackReturnsTheDirection)
         }
         report("float there and back", gamma, worst);
         EXPECT_TRUE(worst.finite);
-        EXPECT_LE(worst.direction, 2 * sight_float) << gamma; // two transforms
-        EXPECT_LE(worst.D, 2 * sight_float) << gamma;
+        EXPECT_LE(worst.direction, 2 * ray_float) << gamma; // two transformations
+        EXPECT_LE(worst.D, 2 * ray_float) << gamma;
     }
 }
 
@@ -228,8 +230,8 @@ TEST(AberratedRay, DoubleThereAndBackReturnsTheDirectionBothWays)
             const auto again = pd::world_from_camera(seen.n, E, 1 / E);
             from_world = std::max(from_world, quad::angle(quad::of(again.n), quad::of(n)) / seen.D);
         }
-        EXPECT_LE(from_camera, 2 * sight_double) << gamma;
-        EXPECT_LE(from_world, 2 * sight_double) << gamma;
+        EXPECT_LE(from_camera, 2 * ray_double) << gamma;
+        EXPECT_LE(from_world, 2 * ray_double) << gamma;
     }
 }
 
@@ -238,14 +240,14 @@ template <class Vec, class Real, class Transform> void expect_identity(Transform
     std::mt19937_64 random(2);
     std::uniform_real_distribution<Real> one(-1, 1);
     for (int i = 0; i < 100000; ++i) {
-        Vec n(one(random), one(random), one(random)); // of any length: nothing may touch it
+        Vec n(one(random), one(random), one(random)); // of any length: no operation may change it
         if (i % 7 == 0)
             n[i % 3] = Real(-0.0);
         if (i % 11 == 0)
             n[i % 3] = std::numeric_limits<Real>::denorm_min();
-        const auto sight = transform(n);
-        ASSERT_EQ(std::memcmp(&sight.n, &n, sizeof n), 0) << n.x << ' ' << n.y << ' ' << n.z;
-        ASSERT_EQ(sight.D, Real(1));
+        const auto ray = transform(n);
+        ASSERT_EQ(std::memcmp(&ray.n, &n, sizeof n), 0) << n.x << ' ' << n.y << ' ' << n.z;
+        ASSERT_EQ(ray.D, Real(1));
     }
 }
 
@@ -259,15 +261,15 @@ TEST(AberratedRay, AtRestIsTheIdentityToTheBit)
     expect_identity<dvec3, double>([](const dvec3& n) { return pd::camera_from_world(n, 1, 1); });
 }
 
-// Leaving rest does not show as a jump: the first E above 1 that float has moves nothing by more than that last bit.
+// Leaving rest makes no jump: the first float E above 1 moves directions by no more than its last bit.
 TEST(AberratedRay, LeavingRestIsSmooth)
 {
     const float E = std::nextafter(1.0f, 2.0f);
     for (const dvec3& drawn : directions(20000, 1e-12)) {
         const vec3 n(drawn);
-        const auto sight = pf::world_from_camera(n, E, 1 / E);
-        EXPECT_LE(quad::angle(quad::of(sight.n), quad::of(n)), 8 * round_float);
-        EXPECT_NEAR(sight.D, 1, 8 * round_float);
+        const auto ray = pf::world_from_camera(n, E, 1 / E);
+        EXPECT_LE(quad::angle(quad::of(ray.n), quad::of(n)), 8 * round_float);
+        EXPECT_NEAR(ray.D, 1, 8 * round_float);
     }
 }
 
@@ -280,17 +282,17 @@ TEST(AberratedRay, DenormalComponentsAndExtremeGammasStayFinite)
         for (double z : {1.0, -1.0})
             for (double size : {d, 1e-310, 1e-200, double(f), 1e-40, 1e-30}) {
                 const dvec3 n(size, -size, z);
-                for (const auto& sight : {pd::world_from_camera(n, E, 1 / E), pd::camera_from_world(n, E, 1 / E)}) {
-                    EXPECT_TRUE(finite(sight.n, sight.D));
-                    EXPECT_NEAR(glm::length(sight.n), 1, sight_double);
-                    EXPECT_NEAR(sight.n.z, z, 4 * round_double); // nothing this close to a pole leaves it
+                for (const auto& ray : {pd::world_from_camera(n, E, 1 / E), pd::camera_from_world(n, E, 1 / E)}) {
+                    EXPECT_TRUE(finite(ray.n, ray.D));
+                    EXPECT_NEAR(glm::length(ray.n), 1, ray_double);
+                    EXPECT_NEAR(ray.n.z, z, 4 * round_double); // a direction this close to a pole stays there
                 }
                 const vec3 n_float(n);
-                for (const auto& sight : {pf::world_from_camera(n_float, float(E), float(1 / E)),
+                for (const auto& ray : {pf::world_from_camera(n_float, float(E), float(1 / E)),
                          pf::camera_from_world(n_float, float(E), float(1 / E))}) {
-                    EXPECT_TRUE(finite(sight.n, sight.D));
-                    EXPECT_NEAR(glm::length(dvec3(sight.n)), 1, sight_float);
-                    EXPECT_NEAR(sight.n.z, z, sight_float);
+                    EXPECT_TRUE(finite(ray.n, ray.D));
+                    EXPECT_NEAR(glm::length(dvec3(ray.n)), 1, ray_float);
+                    EXPECT_NEAR(ray.n.z, z, ray_float);
                 }
             }
     }
@@ -307,26 +309,26 @@ TEST(AberratedRay, PlusAndMinusZeroOfZAreOneDirection)
     }
 }
 
-// In (ln tan(theta/2), azimuth) a boost is a plain shift by the rapidity, all over the sky.
+// In (ln tan(theta/2), azimuth) a boost is a translation by the rapidity, all over the sky.
 TEST(AberratedRay, BoostShiftsLogTanHalfAngleByTheRapidity)
 {
     for (double eta : {0.1, 1.0, 5.0, 14.5}) {
         const double E = std::exp(eta);
         for (double s = -20; s <= 20; s += 0.5) {
             const dvec3 n(std::cos(2.0) / std::cosh(s), std::sin(2.0) / std::cosh(s), -std::tanh(s)); // ln tan(theta/2) = s
-            const auto sight = pd::world_from_camera(n, E, 1 / E);
-            const double across = std::hypot(sight.n.x, sight.n.y);
-            // Where the pole is near, 1 - |z| has lost what `across` still holds.
-            const double shifted = sight.n.z > 0 ? std::log(across / (1 + sight.n.z)) : -std::log(across / (1 - sight.n.z));
+            const auto ray = pd::world_from_camera(n, E, 1 / E);
+            const double across = std::hypot(ray.n.x, ray.n.y);
+            // Near a pole 1 - |z| loses digits that `across` still has.
+            const double shifted = ray.n.z > 0 ? std::log(across / (1 + ray.n.z)) : -std::log(across / (1 - ray.n.z));
             EXPECT_NEAR(shifted - s, eta, 1e-14) << s; // logarithms up to 35 with 53 bits
-            EXPECT_NEAR(std::atan2(sight.n.y, sight.n.x), 2.0, 4 * round_double);
+            EXPECT_NEAR(std::atan2(ray.n.y, ray.n.x), 2.0, 4 * round_double);
         }
     }
 }
 
 // ---------------------------------------------------------------- the table of numbers
 
-TEST(Numbers, AberrationFromWorldToCamera)
+TEST(Numbers, AberrationHasItsTabulatedValues)
 {
     const double b4 = std::sqrt(15.0) / 4;
     const struct {
@@ -337,14 +339,14 @@ TEST(Numbers, AberrationFromWorldToCamera)
     for (const auto& row : table) {
         EXPECT_NEAR(camera_angle(row.world, row.beta), row.camera, row.half_digit) << row.beta << ' ' << row.world;
         EXPECT_NEAR(camera_angle(world_angle(row.camera, row.beta), row.beta), row.camera, 1e-12);
-        // cos theta_c = (cos theta_w + b) / (1 + b cos theta_w), as every textbook has it
+        // the textbook's cos theta_c = (cos theta_w + b) / (1 + b cos theta_w)
         const double cosine = std::cos(row.world * degree);
         EXPECT_NEAR(
             camera_angle(row.world, row.beta), std::acos((cosine + row.beta) / (1 + row.beta * cosine)) / degree, 1e-11);
     }
 }
 
-TEST(Numbers, DopplerAheadBehindAndAcross)
+TEST(Numbers, DopplerFactorsHaveTheirTabulatedValues)
 {
     const double b4 = std::sqrt(15.0) / 4;
     const struct {
@@ -363,7 +365,7 @@ TEST(Numbers, DopplerAheadBehindAndAcross)
     EXPECT_NEAR(camera({1, 0, 0}, .6).D, 1.25, 8 * round_double); // gamma (1 + b cos theta_w)
 }
 
-TEST(Numbers, UnshiftedAngle)
+TEST(Numbers, UnshiftedAngleHasItsTabulatedValues)
 {
     const double b4 = std::sqrt(15.0) / 4;
     const struct {
@@ -379,8 +381,8 @@ TEST(Numbers, UnshiftedAngle)
     EXPECT_EQ(pd::unshifted_cosine(1.0), 0); // 90 degrees at rest
 }
 
-// Small circles show the magnification 1/D: 1e-5 rad is small enough for 1e-10, and large against 1e-16.
-TEST(Numbers, SizeStraightAheadFromRest)
+// Small circles show the magnification 1/D. 1e-5 rad is small enough for 1e-10, and large compared with 1e-16.
+TEST(Numbers, SizeStraightAheadIsOneOverD)
 {
     const struct {
         double beta, size;
@@ -389,7 +391,7 @@ TEST(Numbers, SizeStraightAheadFromRest)
         EXPECT_NEAR(angle_from_motion(camera(at(1e-5), row.beta).n) / 1e-5, row.size, half_1e7);
 }
 
-TEST(Numbers, SphereHeadOn)
+TEST(Numbers, ASphereSeenHeadOnHasTheTabulatedRadius)
 {
     const double b4 = std::sqrt(15.0) / 4;
     EXPECT_NEAR(camera_angle(30, .5), 17.58795, half_1e5);
@@ -404,7 +406,7 @@ struct Circle {
     double centre_deg, radius_deg, residual;
 };
 
-// The camera's picture of a world circle, fitted: a circle of a sphere is a plane cut.
+// Fits a circle to the camera's image of a world circle: a circle on a sphere is a plane cut.
 template <class Real, class Transform> Circle seen_circle(double centre, double radius, Transform transform)
 {
     using Vec = glm::vec<3, Real>;
@@ -437,7 +439,7 @@ TEST(Numbers, CirclesStayCircles)
         = seen_circle<double>(90 * degree, 20 * degree, [&](dvec3 n) { return pd::camera_from_world(n, E, 1 / E).n; });
     EXPECT_NEAR(in_double.centre_deg, 27.26680, half_1e5);
     EXPECT_NEAR(in_double.radius_deg, 9.01490, half_1e5);
-    EXPECT_LE(in_double.residual, 1e-12); // inverting the fit's 3 x 3 of a circle this small loses two digits
+    EXPECT_LE(in_double.residual, 1e-12); // inverting the 3 x 3 matrix of so small a circle loses two digits
     const auto in_float = seen_circle<float>(
         90 * degree, 20 * degree, [&](vec3 n) { return pf::camera_from_world(n, float(E), float(1 / E)).n; });
     EXPECT_NEAR(in_float.centre_deg, 27.26680, 1e-6 / degree);
@@ -445,8 +447,8 @@ TEST(Numbers, CirclesStayCircles)
     EXPECT_LE(in_float.residual, 1e-6);
 }
 
-// Mean over the camera's sky, or its part beyond s = from, of f(D). z = tanh s: the trapezoid rule in s converges faster
-// than any power, the step 1/64 is far beyond double; past |s| = 40 the sky is below 1e-34.
+// The mean of f(D) over the camera's sky. z = tanh s: the trapezoid rule in s converges faster than any power, and a step of
+// 1/64 is far beyond double. Beyond |s| = 40 the sky is below 1e-34.
 double sky_mean(double gamma, const std::function<double(double)>& f)
 {
     const double E = E_of_gamma(gamma), h = 1.0 / 64;
@@ -458,7 +460,7 @@ double sky_mean(double gamma, const std::function<double(double)>& f)
     return 0.5 * sum * h;
 }
 
-TEST(Numbers, MeansOverTheCamerasSky)
+TEST(Numbers, MeansOverTheCamerasSkyHaveClosedForms)
 {
     const struct {
         double gamma, fourth;
@@ -473,8 +475,9 @@ TEST(Numbers, MeansOverTheCamerasSky)
     }
 }
 
-// The share of the world's sky within the camera's front half: D^2 carries solid angle from the camera's sky to the world's.
-// Simpson's rule on a smooth function over [0, 20] in 20000 steps is beyond double; past 20 the sky is below 1e-16.
+// The fraction of the world's sky that appears in the camera's front half: D^2 transforms solid angle from the camera's sky
+// to the world's. Simpson's rule over [0, 20] in 20000 steps is beyond double for this smooth function; the rest is below
+// 1e-16.
 TEST(Numbers, IsotropicSkyCrowdsIntoTheFrontHalf)
 {
     const struct {
@@ -489,7 +492,7 @@ TEST(Numbers, IsotropicSkyCrowdsIntoTheFrontHalf)
             sum += (i == 0 || i == 20000 ? 1 : i % 2 ? 4 : 2) * across * across * D * D;
         }
         EXPECT_NEAR(0.5 * sum * h / 3, row.share, half_1e7);
-        const double cap = pd::world_from_camera({1, 0, 0}, E, 1 / E).n.z; // the edge of that half, seen as a cap
+        const double cap = pd::world_from_camera({1, 0, 0}, E, 1 / E).n.z; // the edge of that half is a circle in the world
         EXPECT_NEAR(0.5 * (1 - cap), row.share, half_1e7);
     }
 }
@@ -502,23 +505,23 @@ TEST(Numbers, HeadlightSpansTheStopsOfTheTable)
         const double behind = pd::headlight(pd::world_from_camera({0, 0, -1}, E, 1 / E).D);
         EXPECT_EQ(std::lround(std::log2(ahead / behind)), stops);
     }
-    const double E = E_of_gamma(20.5); // half precision ends at 65504: above gamma 20 it cannot hold the gain
+    const double E = E_of_gamma(20.5); // half precision ends at 65504: above gamma 20 it can't hold the gain
     EXPECT_GT(pd::headlight(pd::world_from_camera({0, 0, 1}, E, 1 / E).D), 65504);
     EXPECT_LT(pd::headlight(pd::world_from_camera({0, 0, 1}, E_of_gamma(20), 1 / E_of_gamma(20)).D), 65504);
     EXPECT_EQ(pf::headlight(3.0f), 27.0f);
 }
 
-TEST(Numbers, SpectrumAndHeatAtGammaFour)
+TEST(Numbers, GammaFourShiftsToTheTabulatedWavelengths)
 {
     const double E = E_of_gamma(4);
     const double ahead = pd::world_from_camera({0, 0, 1}, E, 1 / E).D,
                  behind = pd::world_from_camera({0, 0, -1}, E, 1 / E).D;
-    EXPECT_NEAR(380 * behind, 48, 0.5); // nm seen at 380 behind
-    EXPECT_NEAR(0.78 * ahead, 6.1, 0.05); // um seen at 780 nm ahead
+    EXPECT_NEAR(380 * behind, 48, 0.5); // wavelength in nm that is seen at 380 nm behind
+    EXPECT_NEAR(0.78 * ahead, 6.1, 0.05); // um, seen at 780 nm ahead
     EXPECT_NEAR(288 * ahead, 2267, 0.5); // K
 }
 
-// The camera's rear half is the cone of acos(b) about the rear axis, and D changes at most 2-fold in it.
+// The camera's rear half is the cone of acos(b) about the rear axis. D varies by at most a factor of 2 in it.
 TEST(Numbers, RearHalfIsOneNarrowCone)
 {
     for (double gamma : {2.0, 4.0, 100.0, 1e6}) {
@@ -530,16 +533,16 @@ TEST(Numbers, RearHalfIsOneNarrowCone)
     }
 }
 
-TEST(Numbers, TerrellTurnOfASmallBodySeenAcross)
+TEST(Numbers, ASmallBodySeenAbeamAppearsRotated)
 {
     for (const auto& [beta, turn] : {std::pair{.5, 30.0}, {.8, 53.1301}, {.99, 81.8904}})
-        EXPECT_NEAR(world_angle(90, beta) - 90, turn, 0.5e-4); // it shows the face that the world's direction meets
+        EXPECT_NEAR(world_angle(90, beta) - 90, turn, 0.5e-4); // the body shows the face that the world's direction meets
 }
 
-// A body passes at distance L with b. In its own frame the light that matters left from abeam a time L before; its event in
-// the observer's frame is a boost by the body's u. "Behind" is against the body's flight, which is along the observer's own
-// motion in the body's frame, the z of the sight.
-TEST(Numbers, BodyPassingByAtTheMomentItIsAbeam)
+// A body passes at the distance L with b. In its own frame, the light left from abeam a time L before. A boost by the body's
+// u gives the event in the observer's frame. "Behind" is against the body's motion, which is along the observer's own motion
+// in the body's frame: the z axis of these formulas.
+TEST(Numbers, APassingBodyHasTheTextbooksValues)
 {
     const double L = 3;
     for (double beta : {.3, .5, .9, .999}) {
@@ -550,29 +553,31 @@ TEST(Numbers, BodyPassingByAtTheMomentItIsAbeam)
         EXPECT_NEAR(t / (-gamma * L), 1, 8 * round_double);
         EXPECT_NEAR(std::atan2(place.z, place.x), std::atan(gamma * beta), 8 * round_double);
         EXPECT_NEAR(glm::length(place), -t, 1e-14 * gamma * L); // on the light cone
-        EXPECT_NEAR(place.z - -beta * t, 0, 1e-14 * gamma * L); // flies on to be abeam at time 0
+        EXPECT_NEAR(place.z - -beta * t, 0, 1e-14 * gamma * L); // it flies on and is abeam at time 0
 
         const auto seen = camera(at(90 * degree), beta);
         EXPECT_NEAR(angle_from_motion(seen.n), angle_from_motion(place), 1e-14);
         EXPECT_NEAR(seen.D / gamma, 1, 8 * round_double);
         EXPECT_NEAR(world(at(90 * degree), beta).D * gamma, 1, 8 * round_double); // when it is seen abeam
 
-        // Apparent speed along the line of sight: way b gamma per tick of the body, which is seen to tick D times as fast.
+        // Apparent speed along the line of sight: the distance b gamma for each tick of the body, whose ticks appear D times
+        // as fast.
         EXPECT_NEAR(beta * gamma * world({0, 0, 1}, beta).D / (beta / (1 - beta)), 1, 1e-12); // 1 - b loses 3 digits at .999
         EXPECT_NEAR(beta * gamma * world({0, 0, -1}, beta).D / (beta / (1 + beta)), 1, 1e-12);
     }
 }
 
-// Five clocks in a row along the motion, 5 apart, 31 away across; the camera sees the centre one at 90 degrees.
-TEST(Numbers, ClocksOfThePaper)
+// Five clocks in a row along the motion, 5 apart and 31 away. The camera sees the middle one at 90 degrees.
+TEST(Numbers, ClocksHaveThePapersReadings)
 {
     const double away = 31, apart = 5, beta = .5;
     const double delays_at_rest[] = {32.57299, 31.40064, 31, 31.40064, 32.57299};
     const double readings[] = {-5.90909, -2.74403, 0, 2.21961, 3.80547};
-    const double seen[] = {-14.70466, -7.69614, 0, 8.24497, 16.78385}; // from the perpendicular, ahead positive
+    const double seen[] = {-14.70466, -7.69614, 0, 8.24497, 16.78385}; // from the perpendicular, positive ahead
     const double stopped[] = {131.985, 126.451, 120, 112.590, 104.293}; // from the motion
 
-    // The world's direction of the centre and the row's distance fix where the camera is; light cone from there.
+    // The world's direction of the middle clock and the row's distance determine the camera's place, and with it the light
+    // cone.
     const dvec3 centre = world(at(90 * degree), beta).n;
     const double to_centre = away / centre.x;
     EXPECT_NEAR(to_centre, 35.79572, half_1e5);
@@ -583,13 +588,13 @@ TEST(Numbers, ClocksOfThePaper)
 
         const dvec3 clock(away, 0, centre.z * to_centre + apart * k);
         EXPECT_NEAR(to_centre - glm::length(clock), readings[k + 2], half_1e5);
-        EXPECT_NEAR(angle_from_motion(clock) / degree, stopped[k + 2], 0.5e-3); // after a stop at once
+        EXPECT_NEAR(angle_from_motion(clock) / degree, stopped[k + 2], 0.5e-3); // after an immediate stop
 
         const double angle = angle_from_motion(camera(glm::normalize(clock), beta).n);
         EXPECT_NEAR(90 - angle / degree, seen[k + 2], half_1e5);
         (k == -2 ? first_tangent : last_tangent) = std::tan(90 * degree - angle);
 
-        // And the other way: from the angle seen, along the world's line of sight, to the clock and its reading.
+        // Backwards: from the angle seen, along the world's line of sight, to the clock and its reading.
         const dvec3 back = world(at((90 - seen[k + 2]) * degree), beta).n;
         const double delay = away / back.x;
         EXPECT_NEAR(delay * back.z - centre.z * to_centre, apart * k, 2e-5); // seen[] is printed to 1e-7 rad, times 45
@@ -599,7 +604,7 @@ TEST(Numbers, ClocksOfThePaper)
     EXPECT_NEAR(readings[4] - readings[0], 9.71455, 1.5e-5);
 }
 
-TEST(Numbers, RainbowOfThePaper)
+TEST(Numbers, RainbowHasThePapersWavelengths)
 {
     EXPECT_NEAR(450 / world(at(90 * degree), .5).D, 520, 0.5);
     EXPECT_NEAR(450 / world(at(105.5 * degree), .5).D, 589, 0.5);
@@ -621,21 +626,22 @@ std::vector<dvec3> velocities(int count, double most)
     return list;
 }
 
-// Errors are of the size of what was added up: gamma times the event, a dozen roundings.
+// Errors are relative to the size of the summands: gamma times the event, a dozen roundings.
 TEST(Boost, EventsAgreeWithTheTextbookBoost)
 {
     const auto places = velocities(50, 1e3);
     for (const dvec3& u : velocities(400, 1e9))
         for (const dvec3& x : places) {
             const double t = x.x - 2 * x.y;
-            const auto want = quad::boosted(quad::of(u), {t, quad::of(x)});
+            const auto expected = quad::boosted(quad::of(u), {t, quad::of(x)});
             const double size = std::sqrt(1 + glm::dot(u, u)) * (std::abs(t) + glm::length(x));
-            EXPECT_LE(double(fabsq(pd::world_time(u, t, x) - want.t)), 12 * round_double * size);
-            EXPECT_LE(double(quad::length(quad::of(pd::world_place(u, t, x)) - want.x)), 12 * round_double * size);
+            EXPECT_LE(double(fabsq(pd::world_time(u, t, x) - expected.t)), 12 * round_double * size);
+            EXPECT_LE(double(quad::length(quad::of(pd::world_place(u, t, x)) - expected.x)), 12 * round_double * size);
         }
 }
 
-// Two eyes at one moment of the ship: the part across unchanged, the part along times gamma, later by u . offset.
+// Two eyes simultaneous in the ship: the part across the motion is the same, the part along it gamma times, the time u .
+// offset.
 TEST(Boost, EyesAreSimultaneousInTheShip)
 {
     const dvec3 left(-.032, .01, 0), right(.032, .01, .002);
@@ -647,13 +653,13 @@ TEST(Boost, EyesAreSimultaneousInTheShip)
         const dvec3 apart = pd::eye_place(u, right) - pd::eye_place(u, left);
         worst = std::max(
             {worst, double(fabsq(later - (r.t - l.t))) / size, double(quad::length(quad::of(apart) - (r.x - l.x))) / size});
-        // Proper distance is the ship's own, whatever the speed; the difference of squares costs gamma^2.
+        // The interval is the ship's own distance at any speed; the difference of squares loses a factor of gamma^2.
         if (size < 1e3 * glm::length(right)) {
             const double interval = std::sqrt(glm::dot(apart, apart) - later * later);
             EXPECT_NEAR(interval / glm::length(right - left), 1, 1e-14 * (1 + glm::dot(u, u)));
         }
     }
-    EXPECT_LE(worst, 24 * round_double); // two events, a dozen roundings each
+    EXPECT_LE(worst, 24 * round_double); // two events with a dozen roundings each
     const dvec3 place = pd::eye_place({0, 0, std::sqrt(15.0)}, {1, 2, 3});
     EXPECT_NEAR(place.x, 1, 1e-14);
     EXPECT_NEAR(place.y, 2, 1e-14);
@@ -692,15 +698,15 @@ TEST(Boost, CompositionAgreesWithTheTextbookBoost)
 {
     for (const dvec3& u : velocities(300, 1e6))
         for (const dvec3& w : velocities(30, 1e6)) {
-            const auto want = quad::boosted(quad::of(u), {quad::gamma(quad::of(w)), quad::of(w)});
+            const auto expected = quad::boosted(quad::of(u), {quad::gamma(quad::of(w)), quad::of(w)});
             const double size = std::sqrt((1 + glm::dot(u, u)) * (1 + glm::dot(w, w)));
-            EXPECT_LE(double(quad::length(quad::of(pd::composed(u, w)) - want.x)), 12 * round_double * size);
+            EXPECT_LE(double(quad::length(quad::of(pd::composed(u, w)) - expected.x)), 12 * round_double * size);
         }
 }
 
-// boost(u) boost(w) = boost(composed) turn, on the three axes. In 33 digits the inverse boost leaves about
-// 1e-33 (gamma_u gamma_w)^2, far below double for these.
-TEST(Boost, WignerTurnIsWhatTwoBoostsLeave)
+// boost(u) boost(w) = boost(composed) turn holds for the three axes. In 33 digits the inverse boost leaves about 1e-33
+// (gamma_u gamma_w)^2, far below double for these velocities.
+TEST(Boost, WignerTurnIsTheRotationInTwoBoosts)
 {
     double worst = 0;
     for (const dvec3& u : velocities(200, 300))
@@ -711,16 +717,17 @@ TEST(Boost, WignerTurnIsWhatTwoBoostsLeave)
             for (const quad::V3& axis : {quad::V3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) {
                 const quad::V4 there = quad::boosted(quad::of(u), quad::boosted(quad::of(w), {0, axis}));
                 const quad::V4 turned = quad::boosted(both * -1, there);
-                ASSERT_LE(double(fabsq(turned.t)), 1e-20); // a pure turn
+                ASSERT_LE(double(fabsq(turned.t)), 1e-20); // a pure rotation
                 worst = std::max(worst, double(quad::length(turned.x - quad::turned(q, axis))));
             }
         }
     std::printf("  wigner_turn, worst error of an axis %.2e rad\n", worst);
-    // Where the boosts nearly cancel, scalar and axis lose up to the ratio gamma_u gamma_w / (gamma_u + gamma_w), here 150.
+    // Where the boosts nearly cancel, scalar and axis lose a factor of gamma_u gamma_w / (gamma_u + gamma_w), here up to
+    // 150.
     EXPECT_LE(worst, 150 * 8 * round_double);
 }
 
-TEST(Boost, WignerAnglesOfTheTable)
+TEST(Boost, WignerAnglesHaveTheirTabulatedValues)
 {
     const struct {
         double first, second, angle;
@@ -734,7 +741,7 @@ TEST(Boost, WignerAnglesOfTheTable)
         EXPECT_NEAR(std::cos(angle), (g1 + g2) / (1 + g1 * g2), 1e-15);
         EXPECT_EQ(q.x, 0);
         EXPECT_EQ(q.y, 0);
-        EXPECT_LT(q.z, 0); // against the sense in which the velocity turns
+        EXPECT_LT(q.z, 0); // against the turn of the velocity
         const dvec3 u = pd::composed({u1, 0, 0}, {0, u2, 0});
         EXPECT_NEAR(pd::gamma_of(u), g1 * g2, 8 * round_double * g1 * g2);
         EXPECT_NEAR(u.x, u1 * g2, 8 * round_double * g1 * g2);
@@ -742,7 +749,7 @@ TEST(Boost, WignerAnglesOfTheTable)
     }
 }
 
-// The angle of any two boosts, up to gamma 1e6, from the textbook's symmetric cosine, in 33 digits.
+// The angle of any two boosts up to gamma 1e6, from the textbook's symmetric cosine formula in 33 digits.
 TEST(Boost, WignerAngleAtHighGammaAgreesWithTheCosineFormula)
 {
     std::mt19937_64 random(4);
@@ -755,15 +762,16 @@ TEST(Boost, WignerAngleAtHighGammaAgreesWithTheCosineFormula)
         const quad::Q g1 = quad::gamma(quad::of(u)), g2 = quad::gamma(quad::of(w)),
                       g = g1 * g2 + quad::dot(quad::of(u), quad::of(w));
         const quad::Q sum = 1 + g + g1 + g2;
-        const double want = double(acosq(sum * sum / ((1 + g) * (1 + g1) * (1 + g2)) - 1));
+        const double expected = double(acosq(sum * sum / ((1 + g) * (1 + g1) * (1 + g2)) - 1));
         const dvec4 q = pd::wigner_turn(u, w);
         const double got = 2 * std::atan2(glm::length(dvec3(q)), q.w);
-        EXPECT_NEAR(got, want, 1e-13) << i; // nearly opposite, 0.13 apart: roundings of 1e-15 grow by 1 / (1 - cos) < 120
+        EXPECT_NEAR(got, expected, 1e-13)
+            << i; // nearly opposite, 0.13 apart: roundings of 1e-15 grow by 1 / (1 - cos) < 120
     }
 }
 
 // Many small boosts around a circle of velocities. The polygon differs from the circle by 1/n^2.
-TEST(Boost, ThomasTurnOfOneCircularOrbit)
+TEST(Boost, ACircularOrbitTurnsByThomasPrecession)
 {
     for (double gamma : {1.01, 1.5, 2.0, 4.0}) {
         double turn[2];
@@ -783,7 +791,7 @@ TEST(Boost, ThomasTurnOfOneCircularOrbit)
             turn[fine] = total / degree;
         }
         EXPECT_LT(turn[1], 0); // against the orbit
-        const double limit = turn[1] + (turn[1] - turn[0]) / 3; // Richardson
+        const double limit = turn[1] + (turn[1] - turn[0]) / 3; // Richardson's extrapolation
         EXPECT_NEAR(limit, -360 * (gamma - 1), 1e-8);
     }
 }
@@ -802,7 +810,7 @@ TEST(Motion, HelpersAgreeWithHyperbolicFunctions)
         }
 }
 
-// The world of a ship under thrust, integrated: dX = U, dU = a A, dA = a U (Fermi-Walker), Runge-Kutta in 33 digits.
+// The worldline of a ship under thrust, integrated: dX = U, dU = a A, dA = a U (Fermi-Walker), by Runge-Kutta in 33 digits.
 struct Course {
     quad::V4 X, U, A;
 };
@@ -826,23 +834,23 @@ Course integrated(quad::V3 u, quad::V3 way, quad::Q strength, quad::Q tau, int s
     return c;
 }
 
-TEST(Motion, ThrustLegAgreesWithIntegration)
+TEST(Motion, ThrustSegmentAgreesWithIntegration)
 {
     const dvec3 way = glm::normalize(dvec3(1, -2, 2.5));
     for (const dvec3& u : {dvec3(0), dvec3(.3, .1, -.2), dvec3(-3, 4, 1), dvec3(100, 5, 0), dvec3(-1e6, 2e6, 0)})
         for (const auto& [strength, tau] : {std::pair{1., .005}, {1.03, 2.}, {.01, 3.}, {5., .4}, {-1., .7}, {0., 1.}}) {
             const auto segment = pd::thrust_segment(u, way, strength, tau);
-            // 4000 steps of Runge-Kutta's fourth order in at most 2.06 of rapidity: 2.06 (5e-4)^4 / 120 = 1e-15.
-            const Course want = integrated(quad::of(u), quad::of(way), strength, tau, 4000);
-            const double size = double(want.U.t) + std::sqrt(1 + glm::dot(u, u));
-            EXPECT_LE(double(quad::length(quad::of(segment.du) - (want.U.x - quad::of(u)))), 4e-15 * size);
-            EXPECT_LE(double(quad::length(quad::of(segment.dx) - want.X.x)), 4e-15 * size * tau);
-            EXPECT_LE(double(fabsq(segment.dt - want.X.t)), 4e-15 * size * tau);
+            // 4000 steps of fourth-order Runge-Kutta over at most 2.06 of rapidity: 2.06 (5e-4)^4 / 120 = 1e-15.
+            const Course expected = integrated(quad::of(u), quad::of(way), strength, tau, 4000);
+            const double size = double(expected.U.t) + std::sqrt(1 + glm::dot(u, u));
+            EXPECT_LE(double(quad::length(quad::of(segment.du) - (expected.U.x - quad::of(u)))), 4e-15 * size);
+            EXPECT_LE(double(quad::length(quad::of(segment.dx) - expected.X.x)), 4e-15 * size * tau);
+            EXPECT_LE(double(fabsq(segment.dt - expected.X.t)), 4e-15 * size * tau);
         }
 }
 
-// One g, in years and light years; the closed form evaluated in 40 decimal digits.
-TEST(Motion, OneGTable)
+// One g in years and light years; the closed form was evaluated with 40 decimal digits.
+TEST(Motion, OneGHasTheTabulatedTimesAndDistances)
 {
     const double year_s = 365.25 * 86400, g = 9.80665 * year_s / 299792458;
     const struct {
@@ -857,15 +865,15 @@ TEST(Motion, OneGTable)
     }
 }
 
-// "It seems to move backwards": a small body ahead first shrinks while one thrusts towards it.
-TEST(Motion, BodyAheadSeemsToMoveBackwards)
+// "It seems to move backwards": a small body ahead first shrinks while the ship thrusts towards it.
+TEST(Motion, UnderThrustABodyAheadFirstShrinks)
 {
     const double L = 8;
     for (double a : {.2, 1.0, 5.0}) {
         const auto size = [&](double eta) {
             const auto segment = pd::thrust_segment({0, 0, 0}, {0, 0, 1}, a, eta / a);
             const double E = pd::exp_rapidity(segment.du.z);
-            // A small body's apparent size over the world's, from the code's own sight of its edge.
+            // The body's apparent size relative to the world's, from the direction of its edge.
             const double edge = 1e-6;
             const double shrink = angle_from_motion(pd::camera_from_world(at(edge), E, 1 / E).n) / edge;
             return L / (L - segment.dx.z) * shrink;
@@ -878,14 +886,14 @@ TEST(Motion, BodyAheadSeemsToMoveBackwards)
             const double p = high - .618 * (high - low), q = low + .618 * (high - low);
             (size(p) < size(q) ? high : low) = size(p) < size(q) ? q : p;
         }
-        EXPECT_NEAR(.5 * (low + high), least, 1e-4); // a minimum is flat: 1e-4 there is 1e-8 of size
+        EXPECT_NEAR(.5 * (low + high), least, 1e-4); // a minimum is flat: 1e-4 there is 1e-8 of the size
     }
 }
 
-// The float flavours of boosts and motion run on the device; each against double of the same numbers.
+// The float versions of boosts and motion run on the device; each is compared with double of the same numbers.
 TEST(Motion, FloatAgreesWithDouble)
 {
-    double place = 0, turn = 0, leg_worst = 0;
+    double place = 0, turn = 0, segment_worst = 0;
     for (const dvec3& drawn : velocities(500, 1e4))
         for (const dvec3& other : velocities(20, 10)) {
             const vec3 u(drawn), w(other);
@@ -896,15 +904,15 @@ TEST(Motion, FloatAgreesWithDouble)
             for (float strength : {.001f, .5f, 2.f}) {
                 const vec3 way = glm::normalize(vec3(1, 2, -1));
                 const auto got = pf::thrust_segment(u, way, strength, .7f);
-                const auto want = pd::thrust_segment(ud, dvec3(way), strength, double(.7f));
+                const auto expected = pd::thrust_segment(ud, dvec3(way), strength, double(.7f));
                 const double reach = std::sqrt(1 + glm::dot(ud, ud)) * std::exp(strength * .7);
-                leg_worst = std::max({leg_worst, glm::length(dvec3(got.du) - want.du) / reach,
-                    glm::length(dvec3(got.dx) - want.dx) / reach, std::abs(got.dt - want.dt) / reach});
+                segment_worst = std::max({segment_worst, glm::length(dvec3(got.du) - expected.du) / reach,
+                    glm::length(dvec3(got.dx) - expected.dx) / reach, std::abs(got.dt - expected.dt) / reach});
             }
         }
-    std::printf("  float: composed %.2e  wigner_turn %.2e  thrust_leg %.2e\n", place, turn, leg_worst);
+    std::printf("  float: composed %.2e  wigner_turn %.2e  thrust_segment %.2e\n", place, turn, segment_worst);
     EXPECT_LE(place, 12 * round_float);
-    EXPECT_LE(leg_worst, 12 * round_float);
+    EXPECT_LE(segment_worst, 12 * round_float);
     EXPECT_LE(turn, 20 * 12 * round_float); // boosts that nearly cancel lose up to the smaller gamma, doubled: 20
 }
 

@@ -5,7 +5,8 @@
 
 namespace starbow::testing {
 
-/// A world of one box-bounded primitive at `count` random places, sizes and turns.
+/// Returns a world with `count` instances of one primitive, which has a bounding box; places, sizes and rotations are
+/// random.
 inline World boxes(int count, unsigned seed)
 {
     World world;

@@ -4,7 +4,7 @@
 
 namespace starbow::testing {
 
-/// What an entry's figures say, by its own bits.
+/// Decodes a dial's figures from the bits of its entry.
 inline std::string said(const shared::TimeEntry& entry)
 {
     std::string out;

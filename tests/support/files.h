@@ -22,7 +22,7 @@ inline std::filesystem::path source_dir()
     return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
 }
 
-/// A folder of this process's own, gone at its end.
+/// Returns the path of `name` in this process's own folder, which is removed when the process ends.
 inline std::filesystem::path scratch(const std::string& name)
 {
     struct Folder {
@@ -71,7 +71,7 @@ inline const Words& words(const std::string& language = "en")
     return read[language];
 }
 
-/// What() of the InputError that `act` throws, or "" with a failure.
+/// Returns the message of the InputError that `act` throws. Anything else fails the test and returns "".
 template <class Act> std::string complaint(Act act)
 {
     try {
@@ -87,7 +87,7 @@ template <class Act> std::string complaint(Act act)
     return "";
 }
 
-/// "FILE:LINE: rest" split into its line and the rest; line 0 where the message names the file alone.
+/// Splits "FILE:LINE: rest" into its line and the rest. The line is 0 if the message names the file alone.
 inline std::pair<int, std::string> line_and_rest(const std::string& message, const std::filesystem::path& file)
 {
     const std::string name = file.string();
@@ -100,8 +100,7 @@ inline std::pair<int, std::string> line_and_rest(const std::string& message, con
     return {line, message.substr(std::min(at + 1, message.size()))};
 }
 
-/// A wrong file: its text, where the complaint points ("" for the whole file), the value it shows and a part of what it
-/// says.
+/// A faulty file: its text, where the message points ("" for the whole file), the value it shows and a part of the reason.
 struct Wrong {
     std::string text, pointer, value, says;
 };
@@ -113,8 +112,8 @@ template <class Load> void expect_wrong(Load load, const std::vector<Wrong>& cas
         const std::filesystem::path file = write_text("wrong.json", wrong.text);
         const std::string message = complaint([&] { load(file); });
         const auto [line, rest] = line_and_rest(message, file);
-        const bool begun
-            = wrong.value.starts_with("{") && !wrong.value.ends_with("}"); // of a long object only the beginning
+        const bool begun = wrong.value.starts_with("{")
+            && !wrong.value.ends_with("}"); // the message shows only the beginning of a long object
         const std::string start = (wrong.pointer.empty() ? "" : wrong.pointer + ": ") + wrong.value + (begun ? "" : " ");
         EXPECT_EQ(rest.substr(0, start.size()), start);
         EXPECT_GE(line, 1);
@@ -124,7 +123,7 @@ template <class Load> void expect_wrong(Load load, const std::vector<Wrong>& cas
     }
 }
 
-/// A text with a few random faults of the kinds that hands and disks make.
+/// Returns the text with a few random faults, as typing mistakes and bad disks make them.
 inline std::string mutated(std::string text, std::mt19937& random)
 {
     static const std::vector<std::string> pieces{"1e999", "-1", "0", "1e308", "1e-320", "null", "true", "\"\"", "[]", "{}",
@@ -150,7 +149,7 @@ inline std::string mutated(std::string text, std::mt19937& random)
             if (at < text.size())
                 text[at] = char(random());
             break;
-        default: { // a number in place of a number, which most often still is JSON
+        default: { // a number replaces a number, so that the text mostly stays JSON
             const std::size_t digit = text.find_first_of("0123456789", at);
             if (digit != std::string::npos)
                 text.replace(digit, 1, pieces[random() % 5]);
@@ -166,7 +165,7 @@ inline int fuzz_count()
     return count ? std::atoi(count) : 3000;
 }
 
-/// Whatever the file holds, it loads or is refused in one line; anything else thrown fails the test by itself.
+/// Every mutated file either loads or is refused in one line. Any other exception fails the test.
 template <class Load> void expect_survives(Load load, const std::vector<std::string>& seeds, int count = fuzz_count())
 {
     std::mt19937 random(20070704);
@@ -184,7 +183,7 @@ template <class Load> void expect_survives(Load load, const std::vector<std::str
             FAIL() << error.what() << " thrown for:\n" << text;
         }
     }
-    EXPECT_GT(loaded, 0); // else the mutations would miss what lies behind the parser
+    EXPECT_GT(loaded, 0); // otherwise no mutation gets past the parser
     EXPECT_GT(refused, 0);
 }
 

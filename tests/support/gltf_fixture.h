@@ -58,7 +58,7 @@ inline Bytes glb_bytes(const std::string& json, const Bytes& bin)
     return out;
 }
 
-/// A glTF document under construction; everything binary goes into its one buffer.
+/// A glTF document under construction. All binary data goes into its one buffer.
 struct Doc {
     Json json = {{"asset", {{"version", "2.0"}}}};
     Bytes bin;
@@ -95,7 +95,7 @@ struct Doc {
                 {"count", values.size() / std::size_t(width)}, {"normalized", normalized}});
     }
 
-    /// A mesh of one primitive with a node and the scene that shows it.
+    /// Adds a mesh of one primitive, a node with it, and the node to the scene.
     Json& show(Json primitive)
     {
         int mesh = put("meshes", {{"primitives", {primitive}}});
@@ -113,7 +113,7 @@ struct Doc {
     }
 };
 
-/// The right triangle 000, 200, 010: its flat normal is +z.
+/// The right triangle with the corners (0, 0, 0), (2, 0, 0) and (0, 1, 0); its flat normal is +z.
 inline const std::vector<float> corner_positions = {0, 0, 0, 2, 0, 0, 0, 1, 0};
 
 inline Doc triangle_doc()
@@ -136,7 +136,7 @@ inline Bytes png(int width, int height, const Bytes& rgba)
     return out;
 }
 
-/// 16 x 8 pixels, all of the level 100.
+/// 16 x 8 pixels, all of them 100.
 inline Bytes grey_jpeg()
 {
     Bytes out, grey(16 * 8 * 3, 100);
@@ -149,7 +149,7 @@ inline Bytes small_png() { return png(2, 1, {255, 0, 0, 255, 0, 0, 255, 128}); }
 
 inline std::string png_uri() { return "data:image/png;base64," + base64(small_png()); }
 
-/// A folder of the test's own, gone afterwards.
+/// Each test has a folder of its own, which is removed at the test's end.
 class GltfTest : public testing::Test {
 protected:
     std::filesystem::path folder
@@ -169,7 +169,7 @@ protected:
 
     World load(const Doc& doc) const { return load_world(write("world.gltf", doc.text())); }
 
-    /// The complaint that the file draws, having checked that it is one line and names the file.
+    /// Returns the message with which the file is refused. It must be one line and begin with the file's name.
     std::string complaint(const std::filesystem::path& file) const
     {
         try {

@@ -1,6 +1,6 @@
 #pragma once
-// The tests' own relativity, in 33 digits: a boost is done to the parts of a 4-vector along and across the motion, as in a
-// first textbook. It shares no formula with shaders/physics: no half angles, no 1/(1 + gamma), no E.
+// Special relativity with 33 digits, for the tests alone. A boost changes the parts of a 4-vector along and across the
+// motion, as in a first textbook. It shares no formula with shaders/physics: no half angles, no 1/(1 + gamma), no E.
 #include <array>
 #include <glm/glm.hpp>
 extern "C" {
@@ -25,17 +25,17 @@ inline V3 cross(V3 a, V3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b
 inline Q length(V3 a) { return sqrtq(dot(a, a)); }
 inline V3 unit(V3 a) { return a * (1 / length(a)); }
 
-/// Angle between two vectors of any length, as sharp for small angles as for large ones.
+/// Angle between two vectors of any length. It is as accurate for small angles as for large ones.
 inline double angle(V3 a, V3 b) { return double(atan2q(length(cross(a, b)), dot(a, b))); }
 
-/// Event or 4-momentum.
+/// An event or a 4-momentum.
 struct V4 {
     Q t;
     V3 x;
 };
 inline Q gamma(V3 u) { return sqrtq(1 + dot(u, u)); }
 
-/// From the frame that moves with proper velocity u to the world: along and across the motion separately.
+/// Transforms from the frame that moves with proper velocity u to the world, separately along and across the motion.
 inline V4 boosted(V3 u, V4 e)
 {
     const Q speed = length(u);
@@ -47,8 +47,7 @@ inline V4 boosted(V3 u, V4 e)
     return {gamma(u) * e.t + speed * along, across + way * (gamma(u) * along + speed * e.t)};
 }
 
-/// World frequency of light of camera frequency 1, and where in the world it comes from: light that comes from n flies
-/// along -n.
+/// A direction to the light's source, and the Doppler factor. Light that comes from n flies along -n.
 struct Light {
     V3 n;
     Q D; // f_camera / f_world
@@ -64,7 +63,7 @@ inline Light camera_from_world(V3 n, V3 u)
     return {p.x * (-1 / p.t), p.t};
 }
 
-/// A vector turned by a unit quaternion (x, y, z; w), by angle and axis.
+/// Rotates a vector by a unit quaternion (x, y, z; w), by way of its angle and axis.
 inline V3 turned(const glm::dvec4& q, V3 v)
 {
     const V3 part{q.x, q.y, q.z};

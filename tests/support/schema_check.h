@@ -4,7 +4,7 @@
 
 namespace starbow::testing {
 
-/// Whether config/schema/NAME.schema.json, the one that editors use, accepts it.
+/// Returns true if config/schema/NAME.schema.json, which editors use, accepts `json`.
 bool schema_accepts(const std::string& name, const nlohmann::json& json);
 
 } // namespace starbow::testing

@@ -1,5 +1,5 @@
 #pragma once
-// Worlds made for one test: flat things in plain colours.
+// Worlds made for one test: flat shapes in plain colours.
 #include "gltf_fixture.h"
 #include "runtime/world/detail.h"
 #include "stage.h"
@@ -9,7 +9,7 @@ namespace starbow::gpu_test {
 using gltf_test::Doc;
 using gltf_test::Json;
 
-/// A colour that shines as it is, without lamps.
+/// Adds a material whose colour needs no lamp, and returns its index.
 inline int unlit(Doc& doc, const dvec3& colour)
 {
     doc.json["extensionsUsed"] = {"KHR_materials_unlit"};
@@ -18,8 +18,9 @@ inline int unlit(Doc& doc, const dvec3& colour)
             {"extensions", {{"KHR_materials_unlit", Json::object()}}}});
 }
 
-/// A rectangle whose front shows `right` to the right and `up` upwards; texture coordinates 0, 0 at its top left.
-/// `node`: the node's own members; the corners are in its frame.
+/// Adds a rectangle. Seen from its front, `right` points to the right and `up` upwards; texture coordinates 0, 0 are at its
+/// top left.
+/// `node` has the node's further members; the corners are in its frame.
 inline void quad(
     Doc& doc, const dvec3& centre, const dvec3& right, const dvec3& up, int material, Json node = Json::object())
 {
@@ -35,7 +36,7 @@ inline void quad(
     doc.json["scenes"][0]["nodes"].push_back(doc.put("nodes", node));
 }
 
-/// As `starbow` opens it: a scene file and its glTF, one unit a metre.
+/// Opens a scene file and its glTF as `starbow` does. One unit is a metre.
 inline GpuWorld open_world(const std::string& name, const Doc& doc, Json scene = Json::object())
 {
     testing::write_text(name + ".gltf", doc.text());
@@ -51,7 +52,7 @@ inline GpuWorld open_world(const std::string& name, const Doc& doc, Json scene =
 inline const Json smooth_sky
     = {{"zenith", {0.25, 0.45, 0.80}}, {"horizon", {0.70, 0.60, 0.40}}, {"nadir", {0.30, 0.20, 0.55}}};
 
-/// What a sky shows in the direction n.
+/// Returns the sky's colour in the direction n.
 inline dvec3 sky_colour(const dvec3& n, const Json& sky = smooth_sky)
 {
     auto colour = [&](const char* at) {
@@ -64,7 +65,7 @@ inline dvec3 sky_colour(const dvec3& n, const Json& sky = smooth_sky)
 
 inline bool near_colour(const dvec3& a, const dvec3& b, double by) { return glm::length(a - b) < by; }
 
-/// From linear light to what a pixel's byte holds, 0 to 1: IEC 61966-2-1.
+/// Converts linear light to a pixel's encoded value, 0 to 1: IEC 61966-2-1.
 inline double srgb(double linear)
 {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;

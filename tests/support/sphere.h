@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <optional>
 
-/// Geometry on the unit sphere for tests of displays, by other formulas than theirs.
+/// Geometry on the unit sphere for tests of displays. It shares no formula with them.
 namespace sphere {
 
 using starbow::pi;
@@ -25,7 +25,7 @@ inline void expect_at(const std::optional<glm::dvec2>& pixel, const glm::dvec2& 
         << pixel->x << " " << pixel->y << " is not " << expected.x << " " << expected.y;
 }
 
-/// Angle between unit vectors, exact for small ones too.
+/// Angle between unit vectors, accurate for small angles too.
 inline double angle(const glm::dvec3& a, const glm::dvec3& b) { return 2 * std::asin(glm::distance(a, b) / 2); }
 
 /// Area of a spherical triangle from its sides (L'Huilier).
@@ -36,7 +36,7 @@ inline double triangle_area(const glm::dvec3& a, const glm::dvec3& b, const glm:
     return 4 * std::atan(std::sqrt(std::max(t, 0.0)));
 }
 
-/// To the right by `azimuth_deg`, then up by `elevation_deg`.
+/// Direction that is `azimuth_deg` to the right, then `elevation_deg` up.
 inline glm::dvec3 towards(double azimuth_deg, double elevation_deg)
 {
     const double a = azimuth_deg * pi / 180, e = elevation_deg * pi / 180;

@@ -1,6 +1,6 @@
 #pragma once
-// What the tests that need a GPU share: one device with the validation layers on for the whole run, worlds on it, and
-// pictures' numbers by name.
+// Shared by all tests that need a GPU: one device with the validation layers on for the whole run, worlds on it, and the
+// channels of pictures by name.
 #include "config/json/error.h"
 #include "config/model/one_view.h"
 #include "files.h"
@@ -22,14 +22,14 @@ using glm::dvec2;
 using glm::dvec3;
 using glm::ivec2;
 
-/// The avenue on a device that complains; opened before the first test. Whatever the layers say fails the run.
+/// The avenue on a device with validation layers; it opens before the first test. Any message of the layers fails the run.
 class Stage : public ::testing::Environment {
 public:
     void SetUp() override
     {
 #ifdef __GLIBC__
-        // A device in software has its memory from malloc. Filled with 0x7e it is NaN to fp16 and 8e37 to float: what is
-        // read without having been written shows.
+        // A software device allocates with malloc. Memory filled with 0x7e is NaN in fp16 and 8e37 in float, so that a read
+        // of memory that was never written shows in the picture.
         mallopt(M_MMAP_MAX, 0);
         mallopt(M_PERTURB, 0x81);
 #endif
@@ -59,13 +59,14 @@ inline RenderContext& avenue() { return *Stage::context; }
 inline Device& device() { return Stage::context->device; }
 inline Pipelines& pipelines() { return Stage::context->pipelines; }
 
-/// The avenue under an empty sky, while this object lives.
+/// The avenue under an empty sky, as long as this object lives.
 struct WithoutStars {
     WithoutStars() { put_stars(device(), avenue().world, {}); }
     ~WithoutStars() { put_stars(device(), avenue().world, load_stars(avenue().world.scene.stars->catalogue)); }
 };
 
-/// What tests of shapes and numbers are drawn with, and their bounds made for: smooth edges, and one ray a pixel.
+/// The quality in which tests measure shapes and numbers; their bounds belong to it. It has smooth edges and one ray a
+/// pixel.
 inline Quality test_quality()
 {
     return within(
@@ -79,7 +80,7 @@ inline OffscreenRenderer renderer(const GpuWorld& world, const Layout& layout, b
 
 using starbow::testing::u_of_beta, starbow::testing::u_of_gamma;
 
-/// A shot without colour effects: shapes alone.
+/// A shot without colour effects, for tests of shapes alone.
 inline Shot shot_at(const dvec3& position, const dvec3& u, const dvec3& look, const dvec3& up = {0, 1, 0})
 {
     Shot shot;
@@ -90,7 +91,7 @@ inline Shot shot_at(const dvec3& position, const dvec3& u, const dvec3& look, co
     return shot;
 }
 
-/// The EXR's channels of one output by name.
+/// One output's EXR channels by name.
 struct Numbers {
     ivec2 size;
     Channels channels;
@@ -117,7 +118,7 @@ struct Numbers {
     bool shown(int i) const { return !std::isnan(channels[9].second[i]); }
 };
 
-/// Angle between directions of any length, sharp for small ones.
+/// Angle between directions of any length, accurate for small angles.
 inline double between(const dvec3& a, const dvec3& b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
 
 } // namespace starbow::gpu_test

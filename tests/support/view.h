@@ -4,7 +4,7 @@
 
 namespace starbow::testing {
 
-/// A display of one view, compiled as an exhibit's.
+/// Compiles a display of one view as an exhibit does.
 inline CompiledView view_of(const Projection& projection, glm::ivec2 size)
 {
     MapStore store{std::filesystem::path()};

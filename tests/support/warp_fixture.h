@@ -19,7 +19,7 @@ inline WarpMesh read(const std::string& name, const std::string& content, const 
     return read_warp({name, content}, region, top);
 }
 
-/// A zip archive of files, each packed by deflate.
+/// A zip archive of files, each compressed with deflate.
 inline std::string zipped(const std::vector<std::pair<std::string, std::string>>& files)
 {
     zip_error_t error;
@@ -64,7 +64,7 @@ inline std::string pfm(int width, int height, const std::vector<float>& values, 
     return out;
 }
 
-/// The PFM of a map that bends nothing: the lower row first, u to the right, v down.
+/// The PFM of a map that warps nothing: the bottom row first, u to the right, v down.
 inline std::vector<float> straight(int width, int height)
 {
     std::vector<float> values;
@@ -125,7 +125,7 @@ inline const std::string obj
 inline const std::string headset = "starbow headset mesh 1\n2 2\n0 0 -1 1 -1.1 1.1 -1.2 1.2\n1 0 1 1 1.1 1.1 1.2 1.2\n"
                                    "0 1 -1 -1 -1.1 -1.1 -1.2 -1.2\n1 1 1 -1 1.1 -1.1 1.2 -1.2\n";
 
-/// The vertices that some triangle uses.
+/// Flags the vertices that some triangle uses.
 inline std::vector<char> used(const WarpMesh& mesh)
 {
     std::vector<char> flags(mesh.vertices.size());

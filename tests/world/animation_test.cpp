@@ -1,5 +1,5 @@
-// What blinks, spins or is animated, in numbers: against retarded times by bisection in 33 digits and against glTF's
-// formulas, written here once more.
+// Blinking, spinning and animated objects in numbers, compared with retarded times by bisection in 33 digits, and with
+// glTF's formulas written independently.
 #include "config/json/error.h"
 #include "runtime/plan/cull.h"
 #include "runtime/world/clock.h"
@@ -21,7 +21,7 @@ namespace {
 
 using starbow::testing::u_of_beta;
 
-/// One small box on a node "thing" whose material blinks.
+/// One small box on a node "thing" with a blinking material.
 World lamp(const Blink& blink)
 {
     World world;
@@ -33,7 +33,7 @@ World lamp(const Blink& blink)
     return world;
 }
 
-/// What an eye at rest in the world sees of a frame, from the world's event.
+/// The event of an eye that rests in the world, in the coordinates of a frame.
 EyeEvent eye_event_of(const World& world, int frame, const Event& at)
 {
     Shot shot;
@@ -44,9 +44,9 @@ EyeEvent eye_event_of(const World& world, int frame, const Event& at)
 
 } // namespace
 
-TEST(Blink, IsSeenAtTheRateOfItsColour)
+TEST(Blink, ArrivesAtDTimesItsRate)
 {
-    // A lamp that passes: how many of its blinks arrive in a second is D of its light, all along the way.
+    // A lamp passes by. Its blinks arrive at D times their own rate, along the whole way.
     for (double beta : {0.3, 0.8, 0.95}) {
         const double u = u_of_beta(beta), gamma = std::sqrt(1 + u * u), period = 0.02;
         World world = lamp({period, 0.25, 0.3});
@@ -60,7 +60,7 @@ TEST(Blink, IsSeenAtTheRateOfItsColour)
             return double(entries.at(0).blink.x);
         };
         auto seen = [&](double t) { return physics::retarded_position({beta * (t - 1), 0, -2}, {1, 0, 0}, u, gamma); };
-        const double step = 0.0005, window = 100 * step; // at most 6.3 blinks a period of the eye's: 0.16 in a step
+        const double step = 0.0005, window = 100 * step; // at most 6.3 blinks in a period of the eye's: 0.16 in a step
         double t = -15, before = phase(t), count = 0;
         for (; t < 18; t += window) {
             const double first = count;
@@ -70,15 +70,15 @@ TEST(Blink, IsSeenAtTheRateOfItsColour)
                 before = now;
             }
             const double D = (seen(t).D + 4 * seen(t + window / 2).D + seen(t + window).D) / 6; // Simpson's mean
-            // Of 2.5 to 16 blinks in a window each end is known to a float's 6e-8.
+            // A window has 2.5 to 16 blinks; each of its ends is known to a float's 6e-8.
             const double blinks = D * window / period;
             EXPECT_NEAR((count - first) / blinks, 1, 1e-6 * std::max(1.0, 0.13 / blinks)) << beta << " at " << t;
         }
-        // In all, from the light cone's equation by halving an interval.
+        // The total, from the light cone's equation by bisection.
         auto own = [&](double at) {
             quad::Q low = -1e4, high = 0;
             for (int k = 0; k < 150; ++k) {
-                const quad::Q middle = (low + high) / 2; // the world's time that has gone by since
+                const quad::Q middle = (low + high) / 2; // time in the world since the emission
                 const quad::Q x = quad::Q(beta) * (at + middle - 1);
                 (middle + sqrtq(x * x + 4) > 0 ? high : low) = middle;
             }
@@ -88,11 +88,11 @@ TEST(Blink, IsSeenAtTheRateOfItsColour)
     }
 }
 
-TEST(Blink, StartsAtItsZeroInItsOwnTime)
+TEST(Blink, StartsAtItsZeroInItsProperTime)
 {
     World world = lamp({4, 0.25, 3});
     sort_instances(world);
-    // 10 s of light away, two seconds a unit: at 21 s it is seen as at 1 s.
+    // The lamp is 10 s of light away, with two seconds for a unit of time: at 21 s its state of 11 s is seen.
     const auto entries = time_entries(world, {0, {0, 0, 5}, 10.5}, 2);
     ASSERT_EQ(entries.size(), 1u);
     EXPECT_NEAR(entries[0].blink.x, (11 - 3) % 4 / 4.0, 1e-7);
@@ -110,8 +110,8 @@ dvec4 random4(std::mt19937& random)
     return {normal(random), normal(random), normal(random), normal(random)};
 }
 
-/// glTF 2.0, appendix C, as it stands there; t within the keys.
-dvec4 by_the_book(const Track& track, double t)
+/// glTF 2.0, appendix C; t lies within the keys.
+dvec4 by_specification(const Track& track, double t)
 {
     std::size_t k = 0;
     while (k + 2 < track.times_s.size() && track.times_s[k + 1] <= t)
@@ -136,7 +136,7 @@ dvec4 by_the_book(const Track& track, double t)
 
 } // namespace
 
-TEST(Animation, GoesAsTheSpecificationSays)
+TEST(Animation, FollowsTheSpecification)
 {
     std::mt19937 random(8);
     std::uniform_real_distribution<double> part(0, 1);
@@ -157,21 +157,21 @@ TEST(Animation, GoesAsTheSpecificationSays)
         track.length_s = track.times_s.back() + (round % 5 == 0 ? 0.7 : 0);
         for (int i = 0; i < 40; ++i) {
             const double t = part(random) * track.length_s;
-            const double held = std::clamp(t, track.times_s.front(), track.times_s.back());
-            dvec4 want = by_the_book(track, held);
+            const double clamped = std::clamp(t, track.times_s.front(), track.times_s.back());
+            dvec4 want = by_specification(track, clamped);
             if (t >= track.times_s.back()) // a step's last value begins with its key
                 want = track.values[values == 3 ? track.values.size() - 2 : track.values.size() - 1];
             for (int rounds : {0, 1, -1, 7}) {
                 dvec4 got = value_at(track, t + rounds * track.length_s);
                 if (track.rotation && glm::dot(got, want) < 0)
                     got = -got;
-                EXPECT_LT(glm::length(got - want), 1e-12) << round << " at " << t; // the time's rounding of some units
+                EXPECT_LT(glm::length(got - want), 1e-12) << round << " at " << t; // the rounding of a time of some units
             }
         }
     }
 }
 
-TEST(Animation, KnowsWhereItJumps)
+TEST(Animation, UnbrokenSpansEndAtJumps)
 {
     Track steps{Interpolation::step, false, 10, {1, 4, 6}, {dvec4(0), dvec4(1), dvec4(0)}};
     auto expect = [](const Unbroken& got, double begin, double end) {
@@ -179,13 +179,13 @@ TEST(Animation, KnowsWhereItJumps)
         EXPECT_NEAR(got.end_s, end, 1e-12);
     };
     expect(unbroken(steps, 4.5), 4, 6);
-    expect(unbroken(steps, 8), 6, 14); // around the end, where it does not jump
+    expect(unbroken(steps, 8), 6, 14); // the track repeats here without a jump
     expect(unbroken(steps, -7), -14, -6);
 }
 
 namespace {
 
-/// A thing of that box on a joint of those tracks, at rest in the world.
+/// One instance of a box on an animated joint, at rest in the world.
 World moving_world(const Joint& joint, std::vector<Track> tracks, const dvec3& low, const dvec3& high)
 {
     World world;
@@ -201,7 +201,7 @@ World moving_world(const Joint& joint, std::vector<Track> tracks, const dvec3& l
     return world;
 }
 
-/// To and fro between two places, evenly, 20 s for both ways.
+/// A movement between two places and back, at even speed, 20 s for both ways.
 Track shuttle(const dvec3& a, const dvec3& b)
 {
     return {Interpolation::linear, false, 20, {0, 10, 20}, {dvec4(a, 0), dvec4(b, 0), dvec4(a, 0)}};
@@ -216,7 +216,7 @@ quad::V3 shuttle_place(const dvec3& a, const dvec3& b, quad::Q t)
 
 } // namespace
 
-TEST(Animation, ShuttlesAreSeenWhereTheirLightLeft)
+TEST(Animation, AShuttleIsSeenAtItsRetardedPosition)
 {
     const dvec3 a(-1.3, 0.2, -4), b(0.5, 0.4, -4.6);
     for (const dvec3& u : {dvec3(0), dvec3(0.9, -0.4, 1.2)}) {
@@ -228,7 +228,7 @@ TEST(Animation, ShuttlesAreSeenWhereTheirLightLeft)
         sort_instances(world);
         const int frame = u == dvec3(0) ? 0 : 1;
         for (double t : {-31.7, 0.0, 0.01, 5.0, 9.99, 27.2, 1e7 + 3.3}) {
-            // Where the eye is there; on a body after months it would be far away.
+            // The eye's event is where the body is; after months a resting eye would be far away.
             const Event at{t, u / physics::gamma_of(u) * (t - 3)};
             const EyeEvent eye_event = eye_event_of(world, frame, at);
             const SeenPose seen = seen_pose(world, world.instances[0], eye_event);
@@ -243,7 +243,7 @@ TEST(Animation, ShuttlesAreSeenWhereTheirLightLeft)
                 (middle + quad::length(from) > eye_event.time ? high : low) = middle;
             }
             const quad::V3 want = shuttle_place(a, b, low - zero) + quad::of(place);
-            // 1e-12 of the way, and what a double keeps of the time.
+            // 1e-12 of the distance, plus a double's rounding of the time.
             const double room = 1e-11 + 8 * 0x1p-52 * std::abs(eye_event.time);
             EXPECT_LT(double(quad::length(quad::of(dvec3(seen.frame_from_local[3])) - want)), room) << t;
             EXPECT_NEAR(seen.sent, double(low), room) << t;
@@ -251,9 +251,10 @@ TEST(Animation, ShuttlesAreSeenWhereTheirLightLeft)
     }
 }
 
-TEST(Animation, ThroughAJumpSomethingIsSeenAtAnyTime)
+TEST(Animation, DuringAJumpAWholePoseIsAlwaysSeen)
 {
-    // Away from the eye at 5 s: for a while no light of either place arrives. Towards it at 10 s: for a while that of both.
+    // At 5 s the object jumps away from the eye: for a while no light of either place arrives. At 10 s it jumps back, and
+    // for a while the light of both arrives.
     Track jump{Interpolation::step, false, 20, {0, 5, 10}, {dvec4(0, 0, -1, 0), dvec4(0, 0, -8, 0), dvec4(0, 0, -1, 0)}};
     World world = moving_world({.node = 0, .translations = 0}, {jump}, dvec3(-3), dvec3(3));
     for (double t = 0; t < 40; t += 0.0625) {
@@ -262,19 +263,20 @@ TEST(Animation, ThroughAJumpSomethingIsSeenAtAnyTime)
         const double away = -seen.frame_from_local[3].z;
         EXPECT_TRUE(away == 1 || away == 8) << t;
         const double in = std::fmod(t, 20);
-        if (in < 5.9 || (in > 11.1 && in < 12.9) || in > 18.1) { // of 6 to 11 s nothing, of 13 to 18 s both
+        if (in < 5.9 || (in > 11.1 && in < 12.9)
+            || in > 18.1) { // no light from 6 to 11 s, light of both places from 13 to 18 s
             EXPECT_EQ(away, 1) << t;
         }
-        // All of it at once.
+        // All poses of the draw are the same place.
         for (double time : pose_times(world, world.instances[0], seen))
             EXPECT_EQ(pose_at(world, world.instances[0], time)[3].z, seen.frame_from_local[3].z) << t;
     }
 }
 
-TEST(Animation, NothingIsSeenOutsideItsBall)
+TEST(Animation, EveryCornerLiesWithinTheBounds)
 {
-    // Each corner of each box, its own light's time by halving: how far it is seen from where the middle is, and how much
-    // later.
+    // Bisection finds the retarded time of each box corner: the corner's distance from the middle, and its light-travel
+    // offset, must lie within the bounds.
     std::mt19937 random(4);
     std::uniform_real_distribution<double> part(0, 1);
     std::normal_distribution<double> normal;
@@ -282,7 +284,7 @@ TEST(Animation, NothingIsSeenOutsideItsBall)
     for (int round = 0; round < 200; ++round) {
         const dvec3 low(-part(random), -part(random), -part(random)), high(part(random), part(random), part(random));
         Joint joint{.node = 0};
-        const double reach = std::sqrt(3.0); // at most, so that the tips stay below 0.2
+        const double reach = std::sqrt(3.0); // the greatest extent, which keeps the tips below 0.2 c
         joint.spin = Spin{dvec3(normal(random), normal(random), normal(random)), 0.1 * part(random) / (2 * 3.1416 * reach)};
         joint.translations = 0;
         joint.above_from_parent = glm::translate(glm::dmat4(1), dvec3(normal(random), normal(random), normal(random)) * 3.0);
@@ -309,7 +311,7 @@ TEST(Animation, NothingIsSeenOutsideItsBall)
             largest = std::max(largest, glm::distance(at, middle) / seen.window);
         }
     }
-    EXPECT_GT(largest, 0.8); // no wider than it has to be
+    EXPECT_GT(largest, 0.8); // the bound is not much wider than necessary
 }
 
 namespace {
@@ -318,7 +320,7 @@ using AnimationFile = gltf_test::GltfTest;
 using gltf_test::Doc;
 using gltf_test::Json;
 
-/// A triangle on a node that moves below one that stands turned, and above one that stands shifted.
+/// A triangle on a fixed node below an animated one, which is below a rotated one.
 Doc animated()
 {
     Doc doc = gltf_test::triangle_doc();
@@ -351,7 +353,7 @@ std::string speed_complaint(const World& world, const SceneFile& scene)
 
 } // namespace
 
-TEST_F(AnimationFile, ComesWithTheNodesAboveAndBelow)
+TEST_F(AnimationFile, AppliesTheNodesAboveAndBelow)
 {
     const World world = load(animated());
     EXPECT_EQ(world.notes, std::vector<std::string>{});
@@ -359,15 +361,15 @@ TEST_F(AnimationFile, ComesWithTheNodesAboveAndBelow)
     ASSERT_EQ(world.joints.size(), 1u);
     ASSERT_EQ(world.tracks.size(), 2u);
     ASSERT_EQ(world.instances.size(), 1u);
-    // The corner (0, 1, 0) by hand: shifted by 1, doubled, turned by the animation, shifted, turned by 90 degrees, raised
-    // by 5.
+    // The corner (0, 1, 0) by hand: translated by 1, scaled by 2, rotated by the animation, translated, rotated by 90
+    // degrees, raised by 5.
     auto corner = [&](double time) { return dvec3(pose_at(world, world.instances[0], time) * dvec4(0, 1, 0, 1)); };
     const double root = std::sqrt(0.5);
     EXPECT_LT(glm::distance(corner(0), dvec3(-2, 7, 0)), 1e-6); // before the first key
     EXPECT_LT(glm::distance(corner(0.5), dvec3(-2, 7, 0)), 1e-6);
-    // Halfway to the second: by 45 degrees, and by 0.5.
+    // Halfway to the second key: 45 degrees, and a translation by 0.5.
     EXPECT_LT(
-        glm::distance(corner(10.5), dvec3(-(2 * root + 2 * root), 5 + 0.5 + 2 * root - 2 * root, 0)), 1e-4); // of 16 bits
+        glm::distance(corner(10.5), dvec3(-(2 * root + 2 * root), 5 + 0.5 + 2 * root - 2 * root, 0)), 1e-4); // 16-bit values
     EXPECT_LT(glm::distance(corner(20.5), dvec3(-2, 5 + 1 - 2, 0)), 1e-4);
     EXPECT_LT(glm::distance(corner(20.5 + 40.5), corner(20.5)), 1e-12);
     EXPECT_LT(glm::distance(corner(20.5 - 81), corner(20.5)), 1e-12);
@@ -387,21 +389,21 @@ TEST_F(AnimationFile, SpinsTurnRigidlyAboutTheNodesOrigin)
     EXPECT_LT(glm::distance(at(25, {2, 0, 0}), dvec3(3, 2, 0)), 1e-12);
     EXPECT_LT(glm::distance(at(25, {0, 1, 0}), dvec3(1, 0, 0)), 1e-12);
     EXPECT_LT(glm::distance(at(1e7 + 25, {2, 0, 0}), dvec3(3, 2, 0)), 1e-9);
-    // As in a mirror, where the node's own is one.
+    // A mirroring node reverses the rotation.
     doc.json["nodes"][0]["scale"] = {-1, 2, 1};
     world = load(doc);
     EXPECT_LT(glm::distance(at(25, {2, 0, 0}), dvec3(3, 2, 0)), 1e-12);
     EXPECT_LT(glm::distance(at(0, {2, 0, 0}), dvec3(1, 0, 0)), 1e-12);
 }
 
-TEST_F(AnimationFile, TooFastIsToldInASentence)
+TEST_F(AnimationFile, AMovementThatIsTooFastIsRefused)
 {
     SceneFile scene;
     scene.gltf = "w.glb";
-    // The furthest corner, (2, 0, 0), is 6 from the arm's origin and goes round by pi / 2 in 20 s; across to that, as it
-    // begins, the arm goes along by 1 / 20.
+    // The farthest corner, (2, 0, 0), is 6 from the arm's origin and moves by pi / 2 in 20 s. At its start the translation
+    // of 1 / 20 is at right angles to that.
     const double most = std::hypot(6 * 1.5707963 / 20, 0.05);
-    ASSERT_EQ(scene.unit_m, scene.light_speed_m_s); // a second for a unit
+    ASSERT_EQ(scene.unit_m, scene.light_speed_m_s); // one second for a unit
     scene.unit_m *= 0.2 / most * 1.01;
     EXPECT_NE(speed_complaint(load(animated()), scene).find("(\"arm\") moves at 0.2"), std::string::npos);
     scene.unit_m = scene.light_speed_m_s * 0.2 / most * 0.99;
@@ -417,15 +419,15 @@ TEST_F(AnimationFile, TooFastIsToldInASentence)
         EXPECT_EQ(line.starts_with("w.glb: /nodes/0: (\"wheel\") moves at 0.201 of the scene's speed of light"), wrong)
             << line;
     }
-    // Steps and new rounds are no speed.
+    // A step or a repetition is no speed.
     doc = animated();
-    doc.json["animations"][0]["channels"].erase(1); // its turns
+    doc.json["animations"][0]["channels"].erase(1); // removes the rotation
     doc.json["animations"][0]["samplers"][0]["interpolation"] = "STEP";
     doc.json["animations"][0]["samplers"][0]["output"] = doc.accessor<float>({0, 0, 0, 100, 0, 0, 0, 90, 0}, "VEC3");
     EXPECT_EQ(speed_complaint(load(doc), scene), "");
 }
 
-TEST_F(AnimationFile, AWorldWithoutAnyHasNothingOfIt)
+TEST_F(AnimationFile, AWorldWithoutAnimationAllocatesNothingForIt)
 {
     World world = load(gltf_test::triangle_doc());
     sort_instances(world);

@@ -29,7 +29,7 @@ struct Shown {
     std::vector<glm::dvec3> points;
 };
 
-/// Everything whose material is called so, in the world's frame.
+/// All instances with the material of this name, in the world's frame.
 std::vector<Shown> shown(const std::string& material)
 {
     std::vector<Shown> out;
@@ -63,7 +63,7 @@ double apart_deg(const glm::dvec3& a, const glm::dvec3& b)
     return glm::degrees(std::acos(glm::dot(glm::normalize(a), glm::normalize(b))));
 }
 
-/// Whether the line from the start to a place passes through the thing.
+/// True if the line from the start to a place passes through the object.
 bool stands_before(const Shown& thing, const glm::dvec3& place)
 {
     for (std::size_t i = 0; i < thing.points.size(); i += 3) {
@@ -93,14 +93,14 @@ TEST(AvenueTest, GeneratorWritesTheCommittedBytes)
     EXPECT_LT(std::filesystem::file_size(avenue / "avenue.glb"), 3.5 * 1024 * 1024);
 }
 
-TEST(AvenueTest, LoadsWithoutANote)
+TEST(AvenueTest, LoadsWithoutAWarning)
 {
     EXPECT_EQ(world().notes, std::vector<std::string>{});
     EXPECT_LT(world().indices.size() / 3, 65000u);
     EXPECT_EQ(world().textures.size(), 4u);
 }
 
-TEST(AvenueTest, ColumnsStandWhereTheyShould)
+TEST(AvenueTest, ColumnsStandAtTheirPlaces)
 {
     std::multiset<std::pair<double, double>> expected = {{0, -46}}, found;
     for (int k = 0; k < 20; ++k)
@@ -128,7 +128,7 @@ TEST(AvenueTest, TheColumnsMiddleIsAboutAsThickAsPlanned)
     EXPECT_NEAR(widest, 0.145, 0.005);
 }
 
-TEST(AvenueTest, HoopsAndCubes)
+TEST(AvenueTest, HoopsAndCubesHaveTheirPlacesAndSizes)
 {
     const std::map<std::string, double> hoops
         = {{"red", 4}, {"yellow", 7}, {"green", 10}, {"cyan", -15}, {"violet", -27}, {"orange", -39}};
@@ -174,8 +174,8 @@ TEST(AvenueTest, TheSunIsSeenBesideTheEarthFromTheStart)
     glm::dvec3 earth = shown("Earth").at(0).position, sun = shown("Sun").at(0).position;
     EXPECT_GT(apart_deg(earth, sun), 3);
     EXPECT_LT(apart_deg(earth, sun), 8);
-    EXPECT_GT(sun.x / -sun.z, earth.x / -earth.z) << "to its right";
-    EXPECT_GT(sun.y / -sun.z, earth.y / -earth.z) << "and above";
+    EXPECT_GT(sun.x / -sun.z, earth.x / -earth.z) << "the Sun must be to the right of the Earth";
+    EXPECT_GT(sun.y / -sun.z, earth.y / -earth.z) << "the Sun must be above the Earth";
     for (const Material& material : world().materials) {
         if (material.name == "Sun")
             continue;
@@ -188,7 +188,7 @@ TEST(AvenueTest, TheSunIsSeenBesideTheEarthFromTheStart)
     }
 }
 
-TEST(AvenueTest, TheSceneFileMeansThisWorldAndItsSun)
+TEST(AvenueTest, TheSceneFileNamesThisWorldAndItsSun)
 {
     std::filesystem::path file = avenue.parent_path().parent_path() / "config/scenes/avenue.json";
     nlohmann::json scene = nlohmann::json::parse(content(file), nullptr, true, true);
@@ -202,7 +202,7 @@ TEST(AvenueTest, TheSceneFileMeansThisWorldAndItsSun)
     EXPECT_NEAR(glm::length(glm::dvec3(key.at(0), key.at(1), key.at(2))), 1, 1e-6);
 }
 
-TEST(AvenueTest, StippledCylinder)
+TEST(AvenueTest, TheStippledCylinderHasItsPlaceAndColour)
 {
     Shown cylinder = shown("stippled blue").at(0);
     EXPECT_EQ(cylinder.position, glm::dvec3(-14, 0, 8));

@@ -1,5 +1,5 @@
-// What moves, in numbers: frames against boosts in 33 digits, retarded times against bisection, worldlines, and what a scene
-// file may say of bodies.
+// Moving bodies in numbers: rest frames compared with boosts in 33 digits, retarded times with bisection, worldlines, and
+// the errors in scene files.
 #include "config/json/error.h"
 #include "config/model/angles.h"
 #include "runtime/plan/cull.h"
@@ -26,31 +26,32 @@ dvec3 random_way(std::mt19937& random)
     return glm::normalize(dvec3(normal(random), normal(random), normal(random)));
 }
 
-/// The 4-vector of the world that the frame moving with u sees as e: back along and across the motion.
+/// The 4-vector e of the world, in the frame that moves with u: a boost along and across the motion.
 quad::V4 into(const quad::V3& u, const quad::V4& e) { return quad::boosted(u * -1, e); }
 
 double off(const dvec3& a, const quad::V3& b) { return double(quad::length(quad::of(a) - b)); }
 
 } // namespace
 
-TEST(Relative, IsOneBoostAfterTheOther)
+TEST(Relative, EqualsOneBoostAfterTheOther)
 {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> decades(0, 6), small(-8, 0);
     for (int i = 0; i < 4000; ++i) {
         const double gamma = std::pow(10, decades(random));
         const dvec3 w = random_way(random) * u_of_gamma(gamma);
-        // Every other pair nearly alike.
+        // Every other pair is nearly equal.
         const dvec3 u = i % 2 ? random_way(random) * u_of_gamma(std::pow(10, decades(random)))
                               : w + random_way(random) * (gamma * std::pow(10, small(random)));
         const auto relative = physics::relative(w, u);
         const quad::V3 qw = quad::of(w), qu = quad::of(u);
         const quad::V4 truth = into(qw, {quad::gamma(qu), qu});
         const double size = double(quad::length(truth.x));
-        // As much as eight roundings of u or w would move it: in the other's frame one is gamma 1e-16 of a turn.
+        // The tolerance is the effect of eight roundings of u or w: in the other's frame one rounding is gamma 1e-16 of a
+        // turn.
         const double most = std::max(physics::gamma_of(u), gamma);
         EXPECT_LT(off(relative.u, truth.x), 8 * 0x1p-53 * most * (1 + size)) << "gamma " << gamma << " size " << size;
-        // The cockpit's axes: boost(w) boost(relative) turn = boost(u), asked of one light ray and one axis.
+        // The cockpit's axes must satisfy boost(w) boost(relative) turn = boost(u); one axis is checked.
         const dvec3 x = random_way(random);
         const glm::dquat turn(relative.turn.w, relative.turn.x, relative.turn.y, relative.turn.z);
         const quad::V4 direct = quad::boosted(qu, {0, quad::of(x)});
@@ -70,28 +71,28 @@ TEST(Relative, OfTheSameVelocityIsRest)
     }
 }
 
-TEST(Relative, WignerAngles)
+TEST(Relative, RotatesByTheWignerAngle)
 {
-    // physics.md: perpendicular boosts.
+    // Angles of perpendicular boosts from physics.md.
     for (auto [a, b, angle] : {std::tuple(0.5, 0.5, 8.21321), {0.8, 0.6, 18.92464}, {0.9, 0.9, 42.89620}}) {
         const auto relative = physics::relative(dvec3(u_of_beta(a), 0, 0), dvec3(0, u_of_beta(b), 0));
         EXPECT_NEAR(2 * std::asin(glm::length(dvec3(relative.turn))) / degree, angle, 1e-5);
     }
 }
 
-TEST(SeenMoving, IsOnThePastLightCone)
+TEST(RetardedPositionTest, IsOnThePastLightCone)
 {
-    // The light cone's equation in 33 digits, solved by halving an interval: nothing shared with the closed form.
+    // Bisection of the light cone's equation in 33 digits; it shares nothing with the closed form.
     std::mt19937 random(3);
     std::uniform_real_distribution<double> decades(0, 4), scale(-3, 3);
     for (int i = 0; i < 2000; ++i) {
         const double gamma = i < 4 ? std::array{1.0, 1 + 1e-9, 2.0, 1e4}[std::size_t(i)] : std::pow(10, decades(random));
         const double u = u_of_gamma(gamma);
         dvec3 r = random_way(random) * std::pow(10, scale(random));
-        if (i % 3 == 0) // passing closely, where the two roots are far apart in size
+        if (i % 3 == 0) // a close pass, where the two roots have very different sizes
             r.x *= 1 / gamma, r.y *= 1 / gamma;
         const quad::Q qg = gamma, qu = sqrtq(qg * qg - 1), v = qu / qg;
-        auto late = [&](quad::Q t) { // how much later than the observer light arrives that leaves at t < 0
+        auto late = [&](quad::Q t) { // time between the observer's event and the arrival of light that leaves at t < 0
             return t + quad::length({r.x, r.y, quad::Q(r.z) + v * t});
         };
         quad::Q low = -1, high = 0;
@@ -109,7 +110,7 @@ TEST(SeenMoving, IsOnThePastLightCone)
         EXPECT_NEAR(fine.delay / delay, 1, 1e-14);
         EXPECT_NEAR(fine.D / D, 1, 1e-13);
         EXPECT_NEAR(fine.place.z, far, 1e-13 * std::max(delay, glm::length(r)));
-        // In float, of the same inputs rounded: retarded times within 1e-6.
+        // In float with the same rounded inputs, retarded times agree within 1e-6.
         const glm::vec3 rf(r);
         const auto coarse = physics_float::retarded_position(rf, {0, 0, 1}, float(u), float(gamma));
         const auto rounded = physics_double::retarded_position(dvec3(rf), {0, 0, 1}, double(float(u)), double(float(gamma)));
@@ -119,11 +120,12 @@ TEST(SeenMoving, IsOnThePastLightCone)
     }
 }
 
-TEST(SeenMoving, PassingByAsInTheBook)
+TEST(RetardedPositionTest, APassHasTheTextbooksValues)
 {
     for (double beta : {0.5, 0.9, 0.999}) {
         const double u = u_of_beta(beta), gamma = std::sqrt(1 + u * u), L = 3;
-        // Abeam now: seen atan(gamma beta) behind, the light gamma L under way; its own clock then -L. D = gamma?
+        // Abeam now: it is seen atan(gamma beta) behind, and its light travelled gamma L. Its own clock then showed -L, and
+        // D = gamma.
         const auto abeam = physics::retarded_position({L, 0, 0}, {0, 0, 1}, u, gamma);
         EXPECT_NEAR(std::atan2(-abeam.place.z, abeam.place.x), std::atan(u), 1e-14);
         EXPECT_NEAR(abeam.delay, gamma * L, 1e-13 * gamma * L);
@@ -132,7 +134,7 @@ TEST(SeenMoving, PassingByAsInTheBook)
         const auto seen = physics::retarded_position({L, 0, beta * L}, {0, 0, 1}, u, gamma);
         EXPECT_NEAR(seen.place.z, 0, 1e-11);
         EXPECT_NEAR(seen.D, 1 / gamma, 1e-12);
-        // Coming and going: how fast its place seems to change.
+        // The apparent speed before and after the closest point.
         const double step = 1e-4;
         auto apparent = [&](double from) {
             return std::abs(physics::retarded_position({0, 0, from + beta * step}, {0, 0, 1}, u, gamma).place.z
@@ -144,16 +146,16 @@ TEST(SeenMoving, PassingByAsInTheBook)
     }
 }
 
-TEST(Worldline, LegsKeepTheBodysOwnTime)
+TEST(Worldline, SegmentsKeepTheBodysProperTime)
 {
-    Body twin;
-    twin.worldline = {{-5, {0, 0, 0}}, {0, {0, 0, 0}}, {10, {0, 0, -8}}, {20, {0, 0, 0}}, {30, {0, 0, 0}}};
-    const auto segments = segments_of(twin);
+    Body traveller;
+    traveller.worldline = {{-5, {0, 0, 0}}, {0, {0, 0, 0}}, {10, {0, 0, -8}}, {20, {0, 0, 0}}, {30, {0, 0, 0}}};
+    const auto segments = segments_of(traveller);
     ASSERT_EQ(segments.size(), 4u);
     EXPECT_EQ(segments[0].u, dvec3(0));
     EXPECT_NEAR(segments[1].u.z, -4.0 / 3, 1e-15);
     EXPECT_NEAR(segments[2].u.z, 4.0 / 3, 1e-15);
-    // 5 at home, 6 out, 6 back: eight years younger than who stayed.
+    // The twin ages by 5 at home, 6 out and 6 back: eight years less than the other.
     EXPECT_NEAR(segments[3].begin, 17, 1e-14);
     EXPECT_NEAR(segments[3].end, 27, 1e-14);
     EXPECT_EQ(segments[1].begin, segments[0].end);
@@ -172,7 +174,7 @@ TEST(Worldline, AFrameSeesTheShipByTwoBoosts)
             = into(quad::of(frame.u), {shot.time - frame.origin.time, quad::of(shot.position - frame.origin.position)});
         EXPECT_NEAR(moved.time, double(event.t), 1e-12);
         EXPECT_LT(off(moved.position, event.x), 1e-12);
-        // Where a light ray of the cockpit comes from, by way of the frame and directly.
+        // The origin of a light ray in the cockpit, by way of the frame and directly.
         const dvec3 ray = random_way(random);
         const auto direct = quad::world_from_camera(quad::of(shot.ship_from_cockpit * ray), quad::of(shot.u));
         const auto there = quad::world_from_camera(quad::of(moved.ship_from_cockpit * ray), quad::of(moved.u));
@@ -182,7 +184,7 @@ TEST(Worldline, AFrameSeesTheShipByTwoBoosts)
     }
 }
 
-TEST(Worldline, LightFromInfinity)
+TEST(Worldline, LightFromInfinityIsAberratedAsA4Vector)
 {
     std::mt19937 random(4);
     for (double gamma : {1.0, 2.0, 50.0, 1e5})
@@ -194,11 +196,11 @@ TEST(Worldline, LightFromInfinity)
             const quad::V4 p = into(quad::of(u), {1, quad::unit(quad::of(way)) * -1});
             EXPECT_NEAR(D / double(p.t), 1, 1e-9) << gamma;
             EXPECT_LT(quad::angle(quad::of(n), p.x * -1), 4e-15 * gamma + 1e-14)
-                << gamma; // a few roundings, seen 2 gamma times as large behind
+                << gamma; // a few roundings, which are 2 gamma times as large behind
         }
 }
 
-TEST(Bodies, FilesSayWhatIsWrong)
+TEST(Bodies, WrongFilesAreRefusedWithTheReason)
 {
     const std::string before = R"({"gltf": "w.glb", "bodies": [)", after = "]}";
     const std::vector<std::pair<std::string, std::string>> wrong = {
@@ -228,7 +230,7 @@ TEST(Bodies, FilesSayWhatIsWrong)
 
 namespace {
 
-/// Some small boxes, each on a node of its own name.
+/// Small boxes, each on a node with a name of its own.
 World boxes(const std::vector<std::string>& names)
 {
     World world;
@@ -243,7 +245,7 @@ World boxes(const std::vector<std::string>& names)
 
 } // namespace
 
-TEST(Bodies, StandInTheirFramesWhenTheyAreThere)
+TEST(Bodies, AreSeenInTheFrameOfTheirSegment)
 {
     World world = boxes({"home", "ship", "wheel"});
     world.nodes[2].parent = 1; // part of the ship
@@ -260,7 +262,7 @@ TEST(Bodies, StandInTheirFramesWhenTheyAreThere)
         EXPECT_EQ(range.last - range.first, 2u);
         EXPECT_TRUE(timed(world, world.instances[range.first]));
     }
-    // From home, 5 after the turn at (10, -8): its light of the turn comes at 18, so the ship is still seen going out.
+    // The ship turns at (10, -8), and the light of the turn reaches home at 18: until then the ship is seen going out.
     auto seen = [&](double time) {
         std::array<std::size_t, 3> counts{};
         for (int frame = 0; frame < 3; ++frame) {
@@ -277,7 +279,7 @@ TEST(Bodies, StandInTheirFramesWhenTheyAreThere)
     EXPECT_EQ(seen(35), (std::array<std::size_t, 3>{1, 0, 0}));
 }
 
-TEST(Bodies, MissingNodesAndTooManyVelocitiesAreToldInASentence)
+TEST(Bodies, MissingNodesAndTooManyVelocitiesAreRefused)
 {
     SceneFile scene;
     scene.file = "s.json", scene.gltf = "w.glb";
@@ -296,7 +298,7 @@ TEST(Bodies, MissingNodesAndTooManyVelocitiesAreToldInASentence)
     EXPECT_THROW(place_bodies(world, scene), InputError);
 }
 
-TEST(CubeMapPlan, WhatNoPixelSeesCostsNothing)
+TEST(CubeMapPlan, AFrameOutsideTheViewGetsNoImages)
 {
     const ConeHierarchy cones(
         glm::dmat3(glm::dvec3(0.01, 0, 0), glm::dvec3(0, -0.01, 0), glm::dvec3(-0.5, 0.5, -1)), {100, 100});
@@ -312,5 +314,5 @@ TEST(CubeMapPlan, WhatNoPixelSeesCostsNothing)
         EXPECT_EQ(plan_with(behind).images.size(), none.images.size());
     const CubeMapPlan seen = plan_with({0, 0, -20});
     EXPECT_GT(seen.images.size(), none.images.size());
-    EXPECT_LT(seen.texels, 1.3 * none.texels); // a ball 6 degrees across in a view of 53
+    EXPECT_LT(seen.texels, 1.3 * none.texels); // a ball 6 degrees wide in a view of 53 degrees
 }

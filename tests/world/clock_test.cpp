@@ -1,4 +1,4 @@
-// What clocks show, without a device: the arithmetic after months, figures, entries, and the shipped scene.
+// Clocks without a device: the arithmetic after months, figures, table entries, and the shipped scene.
 #include "config/model/scene_file.h"
 #include "runtime/world/clock.h"
 #include "runtime/world/eye_event.h"
@@ -18,14 +18,14 @@ using namespace starbow::testing;
 
 namespace {
 
-/// A reading in 33 digits.
+/// The reading in 33 digits.
 __float128 exact_reading(double zero_s, double time, const glm::dvec3& place, double spt)
 {
     const __float128 x = place.x, y = place.y, z = place.z;
     return (__float128(time) - sqrtq(x * x + y * y + z * z)) * spt - zero_s;
 }
 
-/// Flat things at places, all of the material of that index, the mesh of each from -1 to 3 across.
+/// Flat objects at places; each names its material by index, and its mesh reaches from -1 to 3.
 World world_of(const std::vector<std::pair<int, glm::dvec3>>& things, std::vector<Material> materials)
 {
     World world;
@@ -54,7 +54,7 @@ Material clock_of(double zero_s)
 
 } // namespace
 
-TEST(ClockTest, TheLightsWayIsTakenOff)
+TEST(ClockTest, TheLightTravelTimeIsSubtracted)
 {
     // A Gamow world: a unit is 2 m, light flies at 5 m/s.
     EXPECT_EQ(reading_s({0}, 100, 10, 0.4), 36);
@@ -62,7 +62,7 @@ TEST(ClockTest, TheLightsWayIsTakenOff)
     EXPECT_EQ(reading_s({}, 5, 10, 1), -5);
 }
 
-TEST(ClockTest, ReadingsHoldAfterMonths)
+TEST(ClockTest, ReadingsAreExactAfterMonths)
 {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> part(-1, 1);
@@ -73,13 +73,13 @@ TEST(ClockTest, ReadingsHoldAfterMonths)
         const double got = reading_s({zero_s}, time, glm::length(place), 1);
         worst = std::max(worst, std::abs(double(got - exact_reading(zero_s, time, place, 1))));
     }
-    // Two roundings of numbers below 2^24, and of one below 2^25: 2^-29 at most each.
+    // Two roundings of numbers below 2^24 and one below 2^25: at most 2^-29 each.
     EXPECT_LT(worst, 3 * std::ldexp(1, -29));
-    // A unit of a metre: times are 3e15 and resolve half a metre of light.
+    // With a metre for a unit, times are 3e15 and resolve half a metre of light.
     EXPECT_NEAR(reading_s({0}, 1e7 * 299792458, 31, 1.0 / 299792458), 1e7 - 31 / 299792458.0, 4e-9);
 }
 
-TEST(ClockTest, Figures)
+TEST(ClockTest, FiguresRoundToTenths)
 {
     const std::vector<std::pair<double, const char*>> cases = {{0, "0.0"}, {-0.04, "0.0"}, {0.04, "0.0"}, {-5.90909, "-5.9"},
         {2.21961, "2.2"}, {9.96, "10.0"}, {-0.06, "-0.1"}, {1e7 + 0.26, "10000000.3"}, {9999999999.9, "9999999999.9"},
@@ -88,7 +88,7 @@ TEST(ClockTest, Figures)
         EXPECT_EQ(figures(reading), shown) << reading;
 }
 
-TEST(ClockTest, EntriesStandInFrontOfTheEyeAndFirst)
+TEST(ClockTest, EntriesAreRelativeToTheEyeAndComeFirst)
 {
     const World world = world_of({{0, {0, 0, 0}}, {2, {4, 0, -10}}, {1, {0, 5, -10}}, {0, {1, 1, 1}}, {1, {-4, 0, 2}}},
         {{}, clock_of(0), clock_of(7)});
@@ -97,7 +97,7 @@ TEST(ClockTest, EntriesStandInFrontOfTheEyeAndFirst)
     const glm::dmat3 turn = glm::mat3_cast(glm::normalize(glm::dquat(0.3, -0.5, 0.2, 0.9)));
     const auto entries = time_entries(world, {0, eye, time, turn}, spt);
     ASSERT_EQ(entries.size(), 3u);
-    // The middle of each mesh lies at 1, 0, 0 of it.
+    // The middle of each mesh is at 1, 0, 0.
     const std::vector<std::pair<double, glm::dvec3>> want = {{0, {1, 5, -10}}, {0, {-3, 0, 2}}, {7, {5, 0, -10}}};
     for (std::size_t i = 0; i < 3; ++i) {
         const auto& [zero_s, middle] = want[i];
@@ -105,7 +105,7 @@ TEST(ClockTest, EntriesStandInFrontOfTheEyeAndFirst)
         EXPECT_NEAR(entries[i].middle.w, glm::length(middle - eye), 1e-5);
         const __float128 reading = exact_reading(zero_s, time, middle - eye, spt);
         for (auto [got, turn_s] : {std::pair(entries[i].turns.x, 60), {entries[i].turns.y, 10}, {entries[i].turns.z, 3600}})
-            // A double's rounding at 2e7 s, then a float's of up to one turn.
+            // A double's rounding at 2e7 s, then a float's over one turn.
             EXPECT_NEAR(got * turn_s, double(fmodq(reading, turn_s)), 1e-8 + 6e-8 * turn_s);
         EXPECT_EQ(entries[i].turns.w, 2);
         EXPECT_NEAR(std::stod(said(entries[i])), double(reading), 0.05 + 1e-8);
@@ -123,9 +123,12 @@ TEST(ClockTest, HandsGoBackwardsBeforeZero)
     EXPECT_EQ(said(entries[0]), "-5.9");
 }
 
-TEST(ClockTest, WithoutClocksThereIsNothing) { EXPECT_TRUE(time_entries(world_of({{0, {0, 0, 0}}}, {{}}), {}, 1).empty()); }
+TEST(ClockTest, AWorldWithoutClocksHasNoEntries)
+{
+    EXPECT_TRUE(time_entries(world_of({{0, {0, 0, 0}}}, {{}}), {}, 1).empty());
+}
 
-TEST(ClockTest, TheShippedSceneIsThePapers)
+TEST(ClockTest, TheShippedSceneIsThePapersRow)
 {
     const auto folder = source_dir() / "scenes/clocks", made = scratch("clocks.glb");
     const std::string command = "/usr/bin/python3 -B '" + (folder / "make.py").string() + "' '" + made.string() + "'";
@@ -143,7 +146,7 @@ TEST(ClockTest, TheShippedSceneIsThePapers)
     ASSERT_EQ(entries.size(), 5u);
     for (int i = 0; i < 5; ++i)
         EXPECT_LT(glm::length(glm::dvec3(entries[std::size_t(i)].middle) - glm::dvec3(5 * i - 10, 0, -31)), 1e-5);
-    // The passing and the stopped shot are one event.
+    // The passing and the stopped shot are at one event.
     const Shot passing = load_shot(source_dir() / "config/shots/clocks-passing.json"),
                stopped = load_shot(source_dir() / "config/shots/clocks-stopped.json");
     EXPECT_EQ(passing.position, stopped.position);

@@ -1,6 +1,5 @@
-// The shipped scenes with bodies that move: made by their programs, accepted, and their clocks and doors as closed forms
-// have them. The readings are those of the shots' comments, from light cones solved for each clock's own time apart from
-// this program.
+// The shipped scenes with moving bodies: their programs write the committed files, the scenes load, and clocks and doors
+// follow closed forms. The readings are those in the shots' comments, from light cones solved for each clock independently.
 #include "runtime/world/clock.h"
 #include "runtime/world/eye_event.h"
 #include "runtime/world/instances.h"
@@ -35,19 +34,19 @@ const World& world_of(const std::string& name)
     return at->second;
 }
 
-/// What is timed of one material.
-struct RetardedPosition {
-    dvec3 place; ///< from the eye, in the frame where it rests, the world's axes
-    bool there; ///< when the light of its middle left
+/// An object with a time entry.
+struct TimedObject {
+    dvec3 place; ///< from the eye, in the object's rest frame, along the world's axes
+    bool there; ///< the object existed when the light of its middle left
     std::string figures;
 };
 
-/// All of a material that faces `way` (or any way, where that is 0), from the left to the right: by x.
-std::vector<RetardedPosition> seen(const Shot& shot, const std::string& material, const dvec3& way)
+/// All objects of a material that face `way`, or any way if that is 0, sorted by x from left to right.
+std::vector<TimedObject> seen(const Shot& shot, const std::string& material, const dvec3& way)
 {
     const World& world = world_of(shot.scene);
     const double spt = scene_of(shot.scene).seconds_per_time_unit();
-    std::vector<RetardedPosition> out;
+    std::vector<TimedObject> out;
     for (int frame = 0; frame < int(world.frames.size()); ++frame) {
         const Shot eye = in_frame(world.frames[std::size_t(frame)], shot);
         const auto entries = time_entries(world, {frame, eye.position, eye.time}, spt);
@@ -61,15 +60,14 @@ std::vector<RetardedPosition> seen(const Shot& shot, const std::string& material
                     {dvec3(entries[i].middle), entries[i].there.x <= 0 && entries[i].there.y > 0, said(entries[i])});
         }
     }
-    std::sort(
-        out.begin(), out.end(), [](const RetardedPosition& a, const RetardedPosition& b) { return a.place.x < b.place.x; });
+    std::sort(out.begin(), out.end(), [](const TimedObject& a, const TimedObject& b) { return a.place.x < b.place.x; });
     return out;
 }
 
 std::vector<std::string> figures_of(const std::string& shot, const std::string& material, const dvec3& way = {0, 0, 1})
 {
     std::vector<std::string> out;
-    for (const RetardedPosition& s : seen(shipped_shot(shot), material, way))
+    for (const TimedObject& s : seen(shipped_shot(shot), material, way))
         if (s.there)
             out.push_back(s.figures);
     return out;
@@ -77,12 +75,12 @@ std::vector<std::string> figures_of(const std::string& shot, const std::string& 
 
 using Figures = std::vector<std::string>;
 
-/// Whether the western and the eastern door's lamp or planks of that material are seen.
+/// True for the western and for the eastern door, if its lamp or its planks of that material are seen.
 std::array<bool, 2> seen_at_doors(const std::string& shot, const std::string& material)
 {
     std::array<bool, 2> out{};
     const double x = shipped_shot(shot).position.x;
-    for (const RetardedPosition& s : seen(shipped_shot(shot), material, {}))
+    for (const TimedObject& s : seen(shipped_shot(shot), material, {}))
         out[s.place.x + x > 0] |= s.there;
     return out;
 }
@@ -110,7 +108,7 @@ TEST(MovingScenesTest, ProgramsWriteTheCommittedBytes)
             << "run scenes/" << name << "/make.py and commit what it writes";
 }
 
-TEST(MovingScenesTest, WorldsLoadWithoutANoteAndBodiesOfOneVelocityShareAFrame)
+TEST(MovingScenesTest, WorldsLoadWithoutAWarningAndEqualVelocitiesShareAFrame)
 {
     const std::map<std::string, std::size_t> frames
         = {{"train", 2}, {"twins", 3}, {"light-clock", 2}, {"alice-and-bob", 2}, {"gamow", 3}};
@@ -123,7 +121,7 @@ TEST(MovingScenesTest, WorldsLoadWithoutANoteAndBodiesOfOneVelocityShareAFrame)
     EXPECT_EQ(scene_of("gamow").seconds_per_time_unit(), 0.2);
 }
 
-TEST(MovingScenesTest, ClocksReadWhatTheShotsCommentsSay)
+TEST(MovingScenesTest, ClocksShowTheReadingsInTheShotsComments)
 {
     EXPECT_EQ(figures_of("train-tunnel", "train dial"), (Figures{"6.8", "-4.9"}));
     EXPECT_EQ(figures_of("train-tunnel", "tunnel dial"), (Figures{"-1.0", "-1.0"}));
@@ -168,12 +166,12 @@ TEST(MovingScenesTest, TwinsMeetAtTwentyAndTwelve)
 {
     Shot shot;
     shot.scene = "twins";
-    const double deep = 0.08 * 0.62; // of the dials before the ships' origins
+    const double deep = 0.08 * 0.62; // the dials' distance in front of the ships' origins
     shot.position = {0, 0, deep + 3};
-    shot.time = 20.02 + std::hypot(1.3, 3); // as far from one as from the other; a moment later, when both rest
+    shot.time = 20.02 + std::hypot(1.3, 3); // equally far from both, a moment after both came to rest
     for (auto [dial, figures] : {std::pair("home dial", "20.0"), {"traveller's dial", "12.0"}}) {
-        int there = 0; // once or, at the bend, as that which arrives and as that which rests
-        for (const RetardedPosition& s : seen(shot, dial, {0, 0, 1}))
+        int there = 0; // two at the bend: the arriving and the resting segment
+        for (const TimedObject& s : seen(shot, dial, {0, 0, 1}))
             if (s.there) {
                 EXPECT_EQ(s.figures, figures) << dial;
                 ++there;
@@ -182,23 +180,23 @@ TEST(MovingScenesTest, TwinsMeetAtTwentyAndTwelve)
     }
 }
 
-TEST(MovingScenesTest, TheTrainFitsAndItsDoorsAreShutOneAfterTheOtherForIt)
+TEST(MovingScenesTest, TheTrainFitsAndSeesTheDoorsShutOneAfterTheOther)
 {
     const SceneFile scene = scene_of("train");
     const World& world = world_of("train");
-    // gamma = 5/3: own time = 5/3 (t - 0.8 x).
+    // At gamma = 5/3 the train's own time is 5/3 (t - 0.8 x).
     for (auto [t, x, own, ahead] :
         {std::tuple(-1.5, 7.5, -12.5, 14.5), {1.5, 7.5, -7.5, 10.5}, {-1.5, -7.5, 7.5, -10.5}, {1.5, -7.5, 12.5, -14.5}}) {
         const Event at = in_frame(world.frames[1], {t, {x, 0, 0}});
         EXPECT_NEAR(at.time, own, 1e-13);
         EXPECT_NEAR(at.position.x, ahead, 1e-13);
-        EXPECT_GT(std::abs(ahead), 10); // not where the train is
+        EXPECT_GT(std::abs(ahead), 10); // outside the train
     }
     const Body& shut = scene.bodies[1];
     ASSERT_EQ(shut.name, "shut");
     EXPECT_EQ(shut.worldline, (std::vector<Event>{{-1.5, dvec3(0)}, {1.5, dvec3(0)}}));
 
-    // Nothing of the train is beyond its 20 and the depth of its lamps.
+    // The train is 20 long, plus the depth of its lamps.
     double low = 0, high = 0;
     const InstanceRange range = instances_of(world, 1);
     for (std::size_t i = range.first; i < range.last; ++i) {
@@ -224,7 +222,7 @@ TEST(MovingScenesTest, TheTrainFitsAndItsDoorsAreShutOneAfterTheOtherForIt)
     }
 }
 
-TEST(MovingScenesTest, TheLightClocksPulsesFlyAtLightsSpeed)
+TEST(MovingScenesTest, TheLightClocksPulsesMoveAtTheSpeedOfLight)
 {
     const SceneFile scene = scene_of("light-clock");
     std::map<std::string, std::vector<Event>> pulses;
@@ -244,9 +242,9 @@ TEST(MovingScenesTest, TheLightClocksPulsesFlyAtLightsSpeed)
             up = std::max(up, flashes[i].position.y);
         }
         EXPECT_EQ(up, 2) << name;
-        EXPECT_EQ(flashes[16].time - flashes[0].time, name == "moving" ? 5 : 4); // up and down
+        EXPECT_EQ(flashes[16].time - flashes[0].time, name == "moving" ? 5 : 4); // the period, up and down
     }
-    // The clock that moves is where its flashes are.
+    // The moving clock is where its flashes are.
     const auto& clock = scene.bodies[0].worldline;
     const dvec3 velocity = (clock[1].position - clock[0].position) / (clock[1].time - clock[0].time);
     for (const Event& flash : pulses["moving"]) {
@@ -254,10 +252,10 @@ TEST(MovingScenesTest, TheLightClocksPulsesFlyAtLightsSpeed)
         EXPECT_NEAR(at.x, flash.position.x, 1e-9);
         EXPECT_EQ(at.z, flash.position.z);
     }
-    // In each shot each pulse is one flash, whole.
+    // In each shot each pulse appears as one whole flash.
     for (const std::string shot : {"light-clock", "light-clock-flying"}) {
         int flashes = 0;
-        for (const RetardedPosition& s : seen(shipped_shot(shot), "flash", {}))
+        for (const TimedObject& s : seen(shipped_shot(shot), "flash", {}))
             flashes += s.there;
         EXPECT_EQ(flashes, 2) << shot;
     }
@@ -268,11 +266,11 @@ TEST(MovingScenesTest, ATramAndACyclistPassEachOtherInTheGamowStreet)
     const Shot shot = shipped_shot("gamow-pavement");
     for (const std::string material : {"tram green", "coat"}) {
         int before = 0;
-        for (const RetardedPosition& s : seen(shot, material, {}))
+        for (const TimedObject& s : seen(shot, material, {}))
             before += s.there && s.place.x < 0 && glm::length(s.place) < 12;
         EXPECT_EQ(before, 1) << material;
     }
-    // For half an hour: 9000 m of light.
+    // The scene lasts half an hour: 9000 m of light travel.
     double last = 0;
     for (const Body& body : scene_of("gamow").bodies)
         last = std::max(last, body.worldline.back().time);

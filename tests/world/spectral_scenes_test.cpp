@@ -1,4 +1,4 @@
-// The three worlds that show spectra: made by their programs, accepted, and built as their shots take them to be.
+// Three worlds that show spectra: their programs write the committed files, they load, and their geometry fits their shots.
 #include "config/model/scene_file.h"
 #include "config/model/shot.h"
 #include "runtime/world/world.h"
@@ -32,7 +32,7 @@ struct Box {
     glm::dvec3 low{INFINITY}, high{-INFINITY};
 };
 
-/// Around the corners of everything made of a material, in the world.
+/// The bounding box of everything made of a material, in the world.
 Box box_of(const World& world, const std::string& name)
 {
     Box box;
@@ -50,7 +50,7 @@ Box box_of(const World& world, const std::string& name)
     return box;
 }
 
-/// D in the direction that stands `deg` from the motion, as the ship sees it.
+/// D in a direction `deg` from the motion, as the ship sees it.
 double seen_D(double beta, double deg) { return std::sqrt(1 - beta * beta) / (1 - beta * std::cos(glm::radians(deg))); }
 
 } // namespace
@@ -68,7 +68,7 @@ TEST(SpectralScenesTest, ProgramsWriteTheCommittedBytes)
     }
 }
 
-TEST(SpectralScenesTest, ShotsNameScenesWhoseWorldsLoadWithoutANote)
+TEST(SpectralScenesTest, ShotsNameScenesWhoseWorldsLoadWithoutAWarning)
 {
     for (const std::string shot :
         {"rainbow-line", "warm-wall-1.5", "warm-wall-4", "microwaves", "chart-rest", "chart-0.5"}) {
@@ -77,7 +77,7 @@ TEST(SpectralScenesTest, ShotsNameScenesWhoseWorldsLoadWithoutANote)
         const World& world = world_of(seen.scene);
         EXPECT_TRUE(std::filesystem::equivalent(scene.gltf, source_dir() / "scenes" / seen.scene / (seen.scene + ".glb")));
         EXPECT_EQ(world.notes, std::vector<std::string>{});
-        // No more than four spectra beside sunlight can be drawn at once.
+        // At most four emission basis spectra can be drawn besides sunlight.
         std::set<double> kelvins, lines;
         if (scene.sky.temperature_K > 0)
             kelvins.insert(scene.sky.temperature_K);
@@ -112,12 +112,12 @@ TEST(SpectralScenesTest, TheLampLiesAcrossTheRainbowsView)
     EXPECT_LT(shot.u.x, 0);
     const glm::dvec3 look = shot.ship_from_cockpit * glm::dvec3(0, 0, -1);
     const double middle_deg = glm::degrees(std::acos(glm::dot(look, glm::dvec3(-1, 0, 0))));
-    // The desk's 60 degrees of height at 4:3.
+    // The desk's height of 60 degrees at 4:3.
     const double half_deg = glm::degrees(std::atan(std::tan(glm::radians(30.0)) * 4 / 3));
-    EXPECT_GT(seen_D(beta, middle_deg - half_deg), 1) << "the lamp's own colour is within the view";
-    EXPECT_GT(450 / seen_D(beta, middle_deg - half_deg), 400) << "and is seen up to the edge";
-    EXPECT_GT(450 / seen_D(beta, middle_deg + half_deg), 700) << "deep red";
-    // The paper's numbers.
+    EXPECT_GT(seen_D(beta, middle_deg - half_deg), 1) << "the lamp's own colour must be within the view";
+    EXPECT_GT(450 / seen_D(beta, middle_deg - half_deg), 400) << "the spectrum must be visible up to the view's edge";
+    EXPECT_GT(450 / seen_D(beta, middle_deg + half_deg), 700) << "the other edge must be deep red";
+    // The wavelengths in the paper.
     EXPECT_NEAR(450 / seen_D(beta, 90), 520, 0.5);
     EXPECT_NEAR(450 / seen_D(beta, 105.5), 589, 0.5);
     EXPECT_NEAR(450 / seen_D(beta, 120), 650, 0.5);
@@ -135,15 +135,16 @@ TEST(SpectralScenesTest, TheCourtIsDarkAndTheSkyBehindTheMicrowavesOpen)
         EXPECT_GT(m.temperature_K, 270) << m.name;
         EXPECT_LT(m.temperature_K, 310) << m.name;
         EXPECT_EQ(m.emissive, glm::vec3(0)) << m.name;
-        EXPECT_LE(double(m.base_colour.r) + m.emissivity, 1) << m.name << ": what a surface takes up and gives back";
+        EXPECT_LE(double(m.base_colour.r) + m.emissivity, 1)
+            << m.name << ": reflectance and emissivity add up to more than 1";
         if (m.temperature_K == 288) {
             low = std::min(low, m.emissivity);
             high = std::max(high, m.emissivity);
         }
     }
-    EXPECT_GT(high / low, 5) << "the wall has something to be recognised by";
+    EXPECT_GT(high / low, 5) << "the wall needs a visible pattern";
 
-    // At gamma 150 whatever stands further than 11 degrees from straight behind is brighter than the sky ahead.
+    // At gamma 150, any surface more than 11 degrees from straight behind is brighter than the sky ahead.
     const Shot shot = load_shot(source_dir() / "config/shots/microwaves.json");
     const double gamma = std::sqrt(1 + glm::dot(shot.u, shot.u)), beta = glm::length(shot.u) / gamma;
     EXPECT_NEAR(gamma, 150, 1e-9);
@@ -159,7 +160,7 @@ TEST(SpectralScenesTest, TheCourtIsDarkAndTheSkyBehindTheMicrowavesOpen)
     }
 }
 
-TEST(SpectralScenesTest, TheChartsFieldsAreToldFrom300To1000Nm)
+TEST(SpectralScenesTest, TheChartsFieldsHaveReflectancesFrom300To1000Nm)
 {
     const World& world = world_of("chart");
     int fields = 0;
@@ -169,14 +170,14 @@ TEST(SpectralScenesTest, TheChartsFieldsAreToldFrom300To1000Nm)
             EXPECT_EQ(m.reflectance.size(), 71u) << m.name;
             EXPECT_EQ(m.reflectance.front().first, 300);
             EXPECT_EQ(m.reflectance.back().first, 1000);
-            EXPECT_EQ(m.base_colour, glm::vec4(1)) << m.name << ": the table is scaled by it";
+            EXPECT_EQ(m.base_colour, glm::vec4(1)) << m.name << ": it would scale the table";
         }
     EXPECT_EQ(fields, 24);
     const auto at
         = [&](const char* name, int nm) { return material(world, name).reflectance.at(std::size_t(nm - 300) / 10).second; };
     EXPECT_EQ(at("white", 300), 0.9);
     EXPECT_EQ(at("neutral 5", 1000), 0.19);
-    // Worked by hand: where a step is halfway, and where others have saturated or not begun.
+    // Calculated by hand, where a step is halfway and the other terms are saturated or zero.
     EXPECT_NEAR(at("dark skin", 600), 0.06 + 0.14 / 2, 2e-3);
     EXPECT_NEAR(at("yellow", 620), 0.055 + 0.7, 5e-3);
     EXPECT_NEAR(at("red", 500), 0.045, 1e-3);

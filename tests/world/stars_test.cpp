@@ -1,4 +1,4 @@
-// The stars before any device: the catalogue, its reader, black bodies, how the sky is turned.
+// The stars without a device: the catalogue, its reader, black bodies, and the sky's orientation.
 #include "config/model/angles.h"
 #include "runtime/light/spectrum.h"
 #include "runtime/world/stars.h"
@@ -19,7 +19,7 @@ double apart_deg(const glm::dvec3& a, const glm::dvec3& b)
 
 glm::dvec2 chromaticity(const glm::dvec3& xyz) { return glm::dvec2(xyz) / (xyz.x + xyz.y + xyz.z); }
 
-/// What star.vert's black_body() reads, in double: Rec. 709 linear.
+/// The value that star.vert's black_body() reads, in double: Rec. 709, linear.
 glm::dvec3 from_table(double kelvin)
 {
     static const std::vector<glm::vec4> table = black_body_table(eye());
@@ -31,7 +31,7 @@ glm::dvec3 from_table(double kelvin)
 
 } // namespace
 
-TEST(StarsTest, TheShippedCatalogue)
+TEST(StarsTest, TheShippedCatalogueHasKnownStars)
 {
     const std::vector<Star> stars = load_stars(catalogue);
     EXPECT_EQ(stars.size(), 5044u);
@@ -46,9 +46,9 @@ TEST(StarsTest, TheShippedCatalogue)
         brighter_than_1_5 += star.magnitude < 1.5;
         south += star.direction.z < 0;
     }
-    EXPECT_NEAR(brighter_than_1_5, 22, 1); // the stars "of first magnitude" are 22; one is at 1.50
+    EXPECT_NEAR(brighter_than_1_5, 22, 1); // 22 stars are "of first magnitude"; one more is at 1.50
     EXPECT_NEAR(south, 2522, 200); // the Milky Way's brighter half is in the south
-    // Sirius, Canopus and Betelgeuse by their J2000 places, magnitudes and B-V as the Bright Star Catalogue has them.
+    // Sirius, Canopus and Betelgeuse: J2000 places, magnitudes and B-V from the Bright Star Catalogue.
     struct Known {
         double ra_deg, dec_deg, magnitude, b_v;
     };
@@ -65,17 +65,17 @@ TEST(StarsTest, TheShippedCatalogue)
     }
 }
 
-TEST(StarsTest, CommentsAndGapsAreNoStars)
+TEST(StarsTest, CommentsAndBlankLinesAreNoStars)
 {
     const auto stars = load_stars(write_text("few.txt", "# two\n\n  \r\n0 0 100 65\r\n2700000\t900000 -146 -\n"));
     ASSERT_EQ(stars.size(), 2u);
     EXPECT_NEAR(glm::distance(stars[0].direction, glm::dvec3(1, 0, 0)), 0, 1e-12);
     EXPECT_NEAR(glm::distance(stars[1].direction, glm::dvec3(0, 0, 1)), 0, 1e-12);
     EXPECT_EQ(stars[1].magnitude, -1.46);
-    EXPECT_EQ(stars[1].temperature_K, stars[0].temperature_K); // without a B-V it has the Sun's
+    EXPECT_EQ(stars[1].temperature_K, stars[0].temperature_K); // a star without B-V gets the Sun's temperature
 }
 
-TEST(StarsTest, WrongCatalogues)
+TEST(StarsTest, WrongCataloguesAreRefused)
 {
     struct Case {
         const char *text, *says;
@@ -103,10 +103,10 @@ TEST(StarsTest, MutatedCataloguesLoadOrAreRefused)
     expect_survives(load_stars, {"# three stars\n887929 74071 45 150\n786345 -82016 18 -3\n0 0 600 -\n"});
 }
 
-TEST(StarsTest, TemperaturesOfKnownColours)
+TEST(StarsTest, KnownColoursHaveTheirTemperatures)
 {
     EXPECT_NEAR(temperature_of(0.65), 5772, 30); // the Sun
-    EXPECT_NEAR(temperature_of(0.00), 9602, 700); // Vega: the formula's few per cent
+    EXPECT_NEAR(temperature_of(0.00), 9602, 700); // Vega; the formula is right to a few percent
     EXPECT_NEAR(temperature_of(1.85), 3500, 300); // Betelgeuse
     for (double b_v = -0.5; b_v < 6; b_v += 0.01)
         EXPECT_GT(temperature_of(b_v), temperature_of(b_v + 0.01));
@@ -114,8 +114,8 @@ TEST(StarsTest, TemperaturesOfKnownColours)
 
 TEST(StarsTest, BlackBodiesHaveTheirColour)
 {
-    // CIE 1931 chromaticities of Planckian radiators, as books have them: to the last digit or so, as the second radiation
-    // constant was another before 2018.
+    // Textbook chromaticities (CIE 1931) of black bodies. They hold to about the last digit, because the second radiation
+    // constant was different before 2018.
     const double known[][3]
         = {{2856, 0.4475, 0.4074}, {5772, 0.3266, 0.3358}, {10000, 0.2806, 0.2883}, {45443, 0.2462, 0.2433}};
     for (const auto& [kelvin, x, y] : known) {
@@ -125,12 +125,12 @@ TEST(StarsTest, BlackBodiesHaveTheirColour)
     EXPECT_NEAR(black_body_xyz(5772).y, 1, 1e-12);
 }
 
-// A point's light is that of a black body at D T from a solid angle of D^-2. The Sun is at its brightest, 2.88 times as
-// bright as at rest, at D = 2.90; then its peak has left the visible.
-TEST(StarsTest, TheBrightestThatTheSunGets)
+// A point's light is that of a black body at D T from a solid angle of D^-2. The Sun is brightest at D = 2.90, 2.88 times as
+// bright as at rest; above that its peak leaves the visible range.
+TEST(StarsTest, TheSunIsBrightestAtD2_9)
 {
     auto brightness = [](double D) { return black_body_xyz(D * 5772).y / (D * D); };
-    EXPECT_NEAR(brightness(2.90), 2.88, 0.01); // two decimals are known
+    EXPECT_NEAR(brightness(2.90), 2.88, 0.01); // the textbook gives two decimals
     EXPECT_GT(brightness(2.90), brightness(2.80));
     EXPECT_GT(brightness(2.90), brightness(3.00));
 }
@@ -139,22 +139,22 @@ TEST(StarsTest, TheTableIsTheIntegral)
 {
     for (double kelvin = 530; kelvin < 2e6; kelvin *= 1.0173) {
         const glm::dvec3 want = rec709_from_sunlit_xyz() * black_body_xyz(kelvin), got = from_table(kelvin);
-        // The header's bound on the luminance; the primaries are linear between steps of 1.1 %.
+        // The header's bound on the luminance. The primaries are interpolated linearly between steps of 1.1 %.
         EXPECT_NEAR(glm::length(got - want) / glm::length(want), 0, kelvin < 2000 ? 1.5e-3 : 2e-4) << kelvin;
     }
 }
 
-// As a sunlit grey is: the whole picture is for an eye that lives under the Sun.
+// The picture is for an eye adapted to sunlight, so that such a star is as white as a sunlit grey.
 TEST(StarsTest, AStarLikeTheSunIsWhite)
 {
     const glm::dvec3 sun = from_table(5772);
     for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(sun[c], 1, 2e-4); // the table's
+        EXPECT_NEAR(sun[c], 1, 2e-4); // the table's accuracy
     EXPECT_GT(from_table(5000).r, from_table(5000).b);
     EXPECT_LT(from_table(6500).r, from_table(6500).b);
 }
 
-TEST(StarsTest, TheSkyIsTurnedAndNotMirrored)
+TEST(StarsTest, TheSkyIsRotatedAndNotMirrored)
 {
     for (const glm::dvec2& ahead : {glm::dvec2(0, 0), {84, -19}, {250, 40}, {10, 90}}) {
         const glm::dmat3 turn = world_from_equatorial(ahead);
@@ -162,14 +162,14 @@ TEST(StarsTest, TheSkyIsTurnedAndNotMirrored)
         EXPECT_NEAR(glm::distance(turn * equatorial(ahead.x, ahead.y), glm::dvec3(0, 0, -1)), 0, 1e-12);
         EXPECT_GT((turn * equatorial(ahead.x, ahead.y - 1)).z, -1 + 1e-6);
         EXPECT_LT((turn * equatorial(ahead.x, ahead.y - 1)).y, 0) << "south is down";
-        // A degree east of what stands ahead, along the equator of that place.
+        // A degree east of the point ahead, along its parallel.
         const glm::dvec3 east = glm::normalize(equatorial(ahead.x, ahead.y)
             + 0.01 * glm::dvec3(-std::sin(glm::radians(ahead.x)), std::cos(glm::radians(ahead.x)), 0));
-        EXPECT_LT((turn * east).x, 0) << "east is on the left of who faces the sky, north up";
+        EXPECT_LT((turn * east).x, 0) << "east is on the left when north is up";
     }
 }
 
-TEST(StarsTest, MagnitudesAreLight)
+TEST(StarsTest, FiveMagnitudesAreAFactorOf100)
 {
     const StarSky sky{"", 500, {0, 0}};
     const std::vector<Star> stars = {{{1, 0, 0}, 0, 5772}, {{1, 0, 0}, 5, 9000}};
@@ -177,6 +177,6 @@ TEST(StarsTest, MagnitudesAreLight)
     const double arcmin = pi / 10800;
     EXPECT_NEAR(entries[0].light.y / (500 * arcmin * arcmin), 1, 1e-6);
     EXPECT_NEAR(entries[0].light.y / entries[1].light.y, 100, 1e-4);
-    for (std::size_t i = 0; i < 2; ++i) // a star gives its light at rest whatever its temperature
+    for (std::size_t i = 0; i < 2; ++i) // a star's light at rest does not depend on its temperature
         EXPECT_NEAR(entries[i].light.x * black_body_xyz(stars[i].temperature_K).y / entries[i].light.y, 1, 1e-6);
 }

@@ -6,8 +6,8 @@ namespace {
 
 using WorldBrokenTest = GltfTest;
 
-/// A sound world with a bit of everything, to be damaged.
-Doc sound()
+/// A valid world with one of everything, to be damaged.
+Doc valid()
 {
     Doc doc = triangle_doc();
     Json& primitive = doc.json["meshes"][0]["primitives"][0];
@@ -26,13 +26,13 @@ Doc sound()
 }
 
 struct Damage {
-    std::string at, value; ///< JSON pointer; the new value, or nothing to take the old one away
-    std::string complaint; ///< how what follows the file's name begins
+    std::string at, value; ///< JSON pointer; the new value, or "" to remove the old one
+    std::string complaint; ///< the beginning of the message after the file's name
 };
 
-TEST_F(WorldBrokenTest, EveryDamageIsNamedByItsPlace)
+TEST_F(WorldBrokenTest, EveryFaultIsNamedByItsPointer)
 {
-    EXPECT_EQ(load(sound()).vertices.size(), 3u);
+    EXPECT_EQ(load(valid()).vertices.size(), 3u);
     const std::vector<Damage> damages = {
         {"/asset", "", "/: has no \"asset\""},
         {"/asset/version", "\"1.0\"", "/asset/version: is \"1.0\"; should be \"2.0\""},
@@ -171,7 +171,7 @@ TEST_F(WorldBrokenTest, EveryDamageIsNamedByItsPlace)
     std::filesystem::create_symlink("loop.bin", folder / "loop.bin");
     for (const Damage& damage : damages) {
         SCOPED_TRACE(damage.at + " = " + damage.value);
-        Doc doc = sound();
+        Doc doc = valid();
         Json::json_pointer at(damage.at);
         if (damage.value.empty() && at.back() != "uri")
             doc.json[at.parent_pointer()].erase(at.back());
@@ -185,11 +185,11 @@ TEST_F(WorldBrokenTest, EveryDamageIsNamedByItsPlace)
     EXPECT_GE(damages.size(), 40u);
 }
 
-TEST_F(WorldBrokenTest, NumbersThatAreNone)
+TEST_F(WorldBrokenTest, NumbersThatAreNotFiniteAreRefused)
 {
     for (float bad : {NAN, INFINITY, -INFINITY, 1e30f})
         for (const char* attribute : {"POSITION", "NORMAL", "TEXCOORD_0"}) {
-            Doc doc = sound();
+            Doc doc = valid();
             bool is_uv = attribute[0] == 'T';
             std::vector<float> values(is_uv ? 6 : 9, 1);
             values[is_uv ? 3 : 5] = bad;
@@ -199,14 +199,14 @@ TEST_F(WorldBrokenTest, NumbersThatAreNone)
                 line.starts_with(std::string("/meshes/0/primitives/0/attributes/") + attribute + ": element 1 is not"))
                 << line;
         }
-    Doc doc = sound();
+    Doc doc = valid();
     doc.json["nodes"][0]["scale"] = doc.json["nodes"][1]["scale"] = {1e20, 1e20, 1e20};
     EXPECT_TRUE(complaint(doc).starts_with("/nodes/0: with its parents' transforms leads beyond"));
 }
 
-TEST_F(WorldBrokenTest, ShapesOfTheWrongLength)
+TEST_F(WorldBrokenTest, StripsOfTheWrongLengthAreRefused)
 {
-    Doc doc = sound();
+    Doc doc = valid();
     Json& primitive = doc.json["meshes"][0]["primitives"][0];
     primitive["indices"] = doc.accessor<std::uint8_t>({0, 1}, "SCALAR");
     primitive["mode"] = 5;
@@ -215,7 +215,7 @@ TEST_F(WorldBrokenTest, ShapesOfTheWrongLength)
     EXPECT_TRUE(complaint(doc).starts_with("/meshes/0/primitives/0/indices: index 2 is 255; the vertices are 0 to 2"));
 }
 
-TEST_F(WorldBrokenTest, FilesThatAreNoFiles)
+TEST_F(WorldBrokenTest, OtherThanRegularFilesAreRefused)
 {
     EXPECT_TRUE(complaint(folder / "missing.glb").starts_with("cannot be opened"));
     EXPECT_TRUE(complaint(folder).starts_with("is not a file but a folder or a device"));
@@ -226,7 +226,7 @@ TEST_F(WorldBrokenTest, FilesThatAreNoFiles)
     EXPECT_TRUE(complaint(folder / "vast.glb").starts_with("has 1073741825 bytes; 1073741824 are allowed"));
 }
 
-TEST_F(WorldBrokenTest, TextsThatAreNoGltf)
+TEST_F(WorldBrokenTest, TextsThatAreNoGltfAreRefused)
 {
     auto text = [&](const std::string& content) { return complaint(write("world.gltf", content)); };
     EXPECT_TRUE(text("").starts_with("line 1, column 1: is neither glTF's JSON nor GLB"));
@@ -245,9 +245,9 @@ TEST_F(WorldBrokenTest, TextsThatAreNoGltf)
     EXPECT_TRUE(text(many + "]").starts_with("line 1: more than 2000000 JSON values"));
 }
 
-TEST_F(WorldBrokenTest, GlbThatIsNone)
+TEST_F(WorldBrokenTest, WrongGlbIsRefused)
 {
-    Doc doc = sound();
+    Doc doc = valid();
     Bytes good = glb_bytes(doc.json.dump(), doc.bin);
     EXPECT_EQ(load_world(write("good.glb", good)).vertices.size(), 3u);
     auto damaged = [&](auto damage) {
@@ -272,9 +272,9 @@ TEST_F(WorldBrokenTest, GlbThatIsNone)
     }).ends_with("ends inside a chunk's header"));
 }
 
-TEST_F(WorldBrokenTest, AnimationsAreNamedByTheirPlace)
+TEST_F(WorldBrokenTest, FaultyAnimationsAreNamedByTheirPointer)
 {
-    Doc moving = sound();
+    Doc moving = valid();
     const int times = moving.accessor<float>({0, 1, 2}, "SCALAR");
     const int places = moving.accessor<float>({0, 0, 0, 1, 0, 0, 0, 0, 0}, "VEC3");
     const int turns = moving.accessor<float>({0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 1}, "VEC4");
@@ -344,8 +344,8 @@ TEST_F(WorldBrokenTest, AnimationsAreNamedByTheirPlace)
         const std::string line = complaint(doc);
         EXPECT_TRUE(line.starts_with(damage.complaint)) << line << "\n" << damage.complaint;
     }
-    // A tower of nodes that spin, deeper than any world.
-    Doc deep = sound();
+    // A chain of spinning nodes, deeper than allowed.
+    Doc deep = valid();
     for (int i = 0; i < 70; ++i) {
         Json node = {{"children", Json::array({deep.json["scenes"][0]["nodes"][0]})}};
         node["extras"]["starbow"]["spin"] = {{"axis", {0, 1, 0}}, {"turns_per_s", 0.001}};
@@ -353,8 +353,8 @@ TEST_F(WorldBrokenTest, AnimationsAreNamedByTheirPlace)
     }
     std::string line = complaint(deep);
     EXPECT_NE(line.find("moves below more than 64 nodes that move"), std::string::npos) << line;
-    // Scales that grow beyond what a number can tell, one below the other.
-    deep = sound();
+    // Two animated scales, one below the other, whose product exceeds the limit.
+    deep = valid();
     const int zero = deep.accessor<float>({0}, "SCALAR"), huge = deep.accessor<float>({1e20f, 1e20f, 1e20f}, "VEC3");
     const int child = deep.put("nodes", {{"children", Json::array({deep.json["scenes"][0]["nodes"][0]})}});
     const int parent = deep.put("nodes", {{"children", {child}}});
@@ -367,9 +367,9 @@ TEST_F(WorldBrokenTest, AnimationsAreNamedByTheirPlace)
     EXPECT_NE(line.find("may lead beyond 1e30"), std::string::npos) << line;
 }
 
-TEST_F(WorldBrokenTest, SmallFilesCannotAskForMuch)
+TEST_F(WorldBrokenTest, SmallFilesCannotAllocateMuch)
 {
-    // A thousand accessors that each unfold a million sparse elements.
+    // A hundred meshes with a million sparse elements each.
     Doc doc = triangle_doc();
     int indices = doc.view({0}), values = doc.view(Bytes(16, 0));
     Json accessor = {{"componentType", 5126}, {"type", "VEC3"}, {"count", 999'999},
@@ -381,7 +381,7 @@ TEST_F(WorldBrokenTest, SmallFilesCannotAskForMuch)
         doc.show({{"attributes", {{"POSITION", doc.put("accessors", accessor)}}}, {"indices", last}});
     EXPECT_NE(complaint(doc).find("sparse accessors unfold to more bytes than are allowed"), std::string::npos);
 
-    // Long runs of triangles that cover nothing.
+    // Long lists of degenerate triangles.
     doc = triangle_doc();
     int same = doc.accessor(Bytes(999'999, 0), "SCALAR");
     for (int i = 0; i < 100; ++i)
@@ -392,7 +392,7 @@ TEST_F(WorldBrokenTest, SmallFilesCannotAskForMuch)
     doc.json["materials"] = std::vector<Json>(70'000, Json::object());
     EXPECT_TRUE(complaint(doc).starts_with("/materials: has 70000 entries; at most 65536"));
 
-    // One long list of triangles, shown by ever more meshes.
+    // One long list of triangles that a hundred meshes show.
     doc = triangle_doc();
     int zeros = doc.put("accessors", {{"componentType", 5126}, {"type", "VEC3"}, {"count", 999'999}});
     for (int i = 0; i < 100; ++i)

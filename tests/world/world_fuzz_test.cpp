@@ -6,7 +6,7 @@
 #include <sys/resource.h>
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr bool sanitized = true; // the sanitizer's shadow takes terabytes of address space
+constexpr bool sanitized = true; // the sanitizer's shadow memory takes terabytes of address space
 #else
 constexpr bool sanitized = false;
 #endif
@@ -16,7 +16,7 @@ namespace {
 
 using WorldFuzzTest = GltfTest;
 
-/// Uses everything that the loader reads.
+/// A document with everything that the loader reads.
 Doc rich()
 {
     Doc doc = triangle_doc();
@@ -58,7 +58,7 @@ Doc rich()
             {{"emissiveFactor", {1, 0, 0}}, {"emissiveTexture", {{"index", 1}}},
                 {"extras", {{"starbow", "{\"emission\": {\"table\": [[400, 1], [500, 2]]}}"}}},
                 {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 9}}}}}}};
-    // What moves: tracks of each kind on two nodes, one below the other, a spin and a light that blinks.
+    // Animated parts: tracks of each kind on two nodes, one below the other, a spin, and a blinking light.
     const int times = doc.accessor<float>({0, 1, 3}, "SCALAR"),
               places = doc.accessor<float>({0, 0, 0, 1, 0, 0, 0, 2, 0}, "VEC3");
     const int turns = doc.accessor<std::int16_t>({0, 0, 0, 32767, 0, 0, 23170, 23170, 0, 0, 0, 32767}, "VEC4", true);
@@ -135,7 +135,7 @@ void damage_bytes(Bytes& bytes, std::mt19937& rng)
     }
 }
 
-/// The n-th damaged world: JSON values swapped, or bytes damaged, in one of three dresses.
+/// The n-th damaged world: swapped JSON values, or damaged bytes, in a .gltf or a .glb.
 Bytes mutated(std::uint32_t n)
 {
     static const std::vector<Doc> seeds = {rich(), triangle_doc()};
@@ -144,9 +144,9 @@ Bytes mutated(std::uint32_t n)
     bool swapped = rng() % 3 != 0;
     for (std::size_t swaps = swapped ? 1 + (rng() % 3 == 0) : 0; swaps > 0; --swaps)
         swap_json(doc.json, rng);
-    bool is_glb = rng() % 2, sound_json = swapped || rng() % 2;
-    if (is_glb && sound_json && !swapped && !doc.bin.empty())
-        damage_bytes(doc.bin, rng); // the chunks' headers stay right
+    bool is_glb = rng() % 2, valid_json = swapped || rng() % 2;
+    if (is_glb && valid_json && !swapped && !doc.bin.empty())
+        damage_bytes(doc.bin, rng); // the chunks' headers stay valid
     Bytes bytes;
     if (is_glb)
         bytes = glb_bytes(doc.json.dump(), doc.bin);
@@ -154,7 +154,7 @@ Bytes mutated(std::uint32_t n)
         std::string text = doc.json.is_object() ? doc.text() : doc.json.dump();
         bytes.assign(text.begin(), text.end());
     }
-    if (!swapped && !(is_glb && sound_json))
+    if (!swapped && !(is_glb && valid_json))
         damage_bytes(bytes, rng);
     return bytes;
 }
@@ -171,7 +171,7 @@ struct MemoryLimit {
     ~MemoryLimit() { ::setrlimit(RLIMIT_AS, &before); }
 };
 
-void expect_sound(const World& world)
+void expect_valid(const World& world)
 {
     ASSERT_FALSE(world.instances.empty());
     ASSERT_FALSE(world.materials.empty());
@@ -205,11 +205,11 @@ void expect_sound(const World& world)
         ASSERT_EQ(t.rgba.size(), std::size_t(t.size.x) * std::size_t(t.size.y) * 4);
 }
 
-/// STARBOW_FUZZ_COUNT asks for a longer run; the first mutations stay the same.
+/// STARBOW_FUZZ_COUNT sets the number of mutations; the first ones are always the same.
 TEST_F(WorldFuzzTest, DamagedFilesLoadOrAreRefused)
 {
-    const char* wanted = std::getenv("STARBOW_FUZZ_COUNT");
-    const auto count = std::uint32_t(wanted ? std::atol(wanted) : 3000);
+    const char* count_text = std::getenv("STARBOW_FUZZ_COUNT");
+    const auto count = std::uint32_t(count_text ? std::atol(count_text) : 3000);
     MemoryLimit limit(rlim_t(2) << 30);
     std::uint32_t loaded = 0, fast = 0;
     std::string file = (folder / "world.gltf").string();
@@ -218,7 +218,7 @@ TEST_F(WorldFuzzTest, DamagedFilesLoadOrAreRefused)
         write("world.gltf", mutated(n));
         try {
             World world = load_world(file);
-            expect_sound(world);
+            expect_valid(world);
             try {
                 check_speeds(world, {});
             } catch (const InputError&) {
@@ -233,7 +233,7 @@ TEST_F(WorldFuzzTest, DamagedFilesLoadOrAreRefused)
             FAIL() << "neither loaded nor refused: " << error.what();
         }
     }
-    // Otherwise the damage would be so coarse that it tests the first check only.
+    // Otherwise nearly all damage would fail at the loader's first check.
     EXPECT_GT(loaded, count / 20);
     std::cout << loaded << " of " << count << " damaged files loaded (" << fast << " too fast), the others were refused\n";
 }

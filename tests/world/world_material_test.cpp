@@ -6,7 +6,7 @@ namespace {
 
 using WorldMaterialTest = GltfTest;
 
-/// A triangle with texture coordinates 00, 10, 01 in set 0 and 55, 65, 56 in set 1, and one material.
+/// A triangle with one material. Its texture coordinates are 00, 10, 01 in set 0, and 55, 65, 56 in set 1.
 Doc painted(const Json& material)
 {
     Doc doc = triangle_doc();
@@ -22,7 +22,7 @@ Doc painted(const Json& material)
 
 const Json textured = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}};
 
-TEST_F(WorldMaterialTest, BaseColourAndTexture)
+TEST_F(WorldMaterialTest, BaseColourAndTextureAreRead)
 {
     Doc doc = painted(textured);
     doc.json["materials"][0]["name"] = "paint";
@@ -44,7 +44,7 @@ TEST_F(WorldMaterialTest, BaseColourAndTexture)
     EXPECT_EQ(world.vertices[1].uv, glm::vec2(1, 0));
 }
 
-TEST_F(WorldMaterialTest, ImagesInBufferViewsAndFilesAndJpeg)
+TEST_F(WorldMaterialTest, ImagesComeFromBufferViewsAndFiles)
 {
     Doc doc = painted(textured);
     doc.json["images"][0] = {{"bufferView", doc.view(small_png())}, {"mimeType", "image/png"}};
@@ -56,7 +56,7 @@ TEST_F(WorldMaterialTest, ImagesInBufferViewsAndFilesAndJpeg)
     EXPECT_NEAR(world.textures.at(0).rgba.at(64), 100, 2);
 }
 
-TEST_F(WorldMaterialTest, TextureCoordinatesOfAnySetAndType)
+TEST_F(WorldMaterialTest, TextureCoordinatesMayHaveAnySetAndType)
 {
     Doc doc = painted(textured);
     Json& info = doc.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
@@ -76,7 +76,7 @@ TEST_F(WorldMaterialTest, TextureCoordinatesOfAnySetAndType)
 
 TEST_F(WorldMaterialTest, TextureTransformsAreBaked)
 {
-    // The extension's own example: the lower left quarter of the image, turned clockwise by 90 degrees.
+    // The example of the extension's specification: the lower left quarter of the image, rotated clockwise by 90 degrees.
     Doc doc = painted(textured);
     Json& info = doc.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
     info["extensions"]["KHR_texture_transform"] = {{"offset", {0, 1}}, {"rotation", pi / 2}, {"scale", {0.5, 0.5}}};
@@ -90,14 +90,14 @@ TEST_F(WorldMaterialTest, TextureTransformsAreBaked)
     EXPECT_EQ(load(doc).vertices[1].uv, glm::vec2(12, -15));
 }
 
-TEST_F(WorldMaterialTest, EmissiveFactorTextureAndStrength)
+TEST_F(WorldMaterialTest, EmissiveStrengthMultipliesTheFactor)
 {
     Doc doc = painted({{"emissiveFactor", {1, 0.5, 0.25}}, {"emissiveTexture", {{"index", 0}, {"texCoord", 1}}},
         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 60}}}}}});
     World world = load(doc);
     EXPECT_EQ(world.materials[0].emissive, glm::vec3(60, 30, 15));
     EXPECT_EQ(world.materials[0].emissive_texture, 0);
-    EXPECT_EQ(world.vertices[1].uv, glm::vec2(6, 5)) << "the only texture says which coordinates are meant";
+    EXPECT_EQ(world.vertices[1].uv, glm::vec2(6, 5)) << "the only texture decides which coordinates are used";
     doc.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
     world = load(doc);
     EXPECT_EQ(world.vertices[1].uv, glm::vec2(1, 0));
@@ -105,7 +105,7 @@ TEST_F(WorldMaterialTest, EmissiveFactorTextureAndStrength)
     ASSERT_EQ(world.notes.size(), 1u);
 }
 
-TEST_F(WorldMaterialTest, UnlitHasNoGlowBeside)
+TEST_F(WorldMaterialTest, AnUnlitMaterialEmitsNothingMore)
 {
     World world = load(painted({{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}}},
         {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}}},
@@ -115,7 +115,7 @@ TEST_F(WorldMaterialTest, UnlitHasNoGlowBeside)
     EXPECT_EQ(world.materials[0].emissive_texture, -1);
 }
 
-TEST_F(WorldMaterialTest, AlphaModesAndSides)
+TEST_F(WorldMaterialTest, AlphaModesAndSidesAreRead)
 {
     Doc doc = painted({{"alphaMode", "MASK"}, {"doubleSided", true}});
     EXPECT_EQ(load(doc).materials[0].alpha_cutoff, 0.5f);
@@ -127,7 +127,7 @@ TEST_F(WorldMaterialTest, AlphaModesAndSides)
     EXPECT_EQ(load(doc).notes, (std::vector<std::string>{"blended transparency: such surfaces are drawn opaque"}));
 }
 
-TEST_F(WorldMaterialTest, SamplersAndSharedTextures)
+TEST_F(WorldMaterialTest, EqualSamplersShareATexture)
 {
     Doc doc = painted(textured);
     doc.json["samplers"] = {{{"magFilter", 9728}, {"minFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33648}},
@@ -141,7 +141,7 @@ TEST_F(WorldMaterialTest, SamplersAndSharedTextures)
         material["pbrMetallicRoughness"]["baseColorTexture"]["index"] = i;
         doc.put("materials", material);
     }
-    // The default sampler means the same as the last one; the two share a texture.
+    // The default sampler equals the last one, so that the two share a texture.
     doc.put("textures", {{"source", 0}});
     doc.put("materials", {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 6}}}});
     World world = load(doc);
@@ -155,7 +155,7 @@ TEST_F(WorldMaterialTest, SamplersAndSharedTextures)
     EXPECT_EQ(world.materials[6].emissive_texture, 5);
 }
 
-TEST_F(WorldMaterialTest, WhatASurfaceCannotShowIsNoted)
+TEST_F(WorldMaterialTest, UnsupportedTexturesGiveAWarning)
 {
     Doc doc = painted({{"normalTexture", {{"index", 0}}}, {"occlusionTexture", {{"index", 0}}},
         {"pbrMetallicRoughness",
@@ -180,13 +180,13 @@ TEST_F(WorldMaterialTest, PrimitivesWithoutMaterialGetTheDefault)
     EXPECT_EQ(world.primitives[1].material, 1);
 }
 
-/// The material of a world whose extras hold this under the name "starbow"; it emits.
+/// A material that emits, with these values as "starbow" in its extras.
 Doc with_surface(const Json& surface)
 {
     return painted({{"emissiveFactor", {0, 0.5, 0}}, {"extras", {{"starbow", surface}}}});
 }
 
-TEST_F(WorldMaterialTest, SurfacesWithoutExtrasAndWithOthersAreAsBefore)
+TEST_F(WorldMaterialTest, OtherExtrasChangeNoSurface)
 {
     for (const Json& extras : {Json("mine"), Json::array({1, 2}), Json{{"exporter", {{"temperature_K", -1}}}}, Json()}) {
         const Material material = load(painted({{"name", "paint"}, {"extras", extras}})).materials.at(0);
@@ -198,11 +198,11 @@ TEST_F(WorldMaterialTest, SurfacesWithoutExtrasAndWithOthersAreAsBefore)
     }
 }
 
-TEST_F(WorldMaterialTest, SurfacesTellWhatColoursDont)
+TEST_F(WorldMaterialTest, StarbowExtrasDescribeTheSpectrum)
 {
     const Json surface = {{"ultraviolet", 0.1}, {"infrared", 0.6}, {"reflectance", {{300, 0}, {550.5, 1}, {1000, 0.25}}},
         {"temperature_K", 288}, {"emissivity", 0.5}, {"emission", {{"line_nm", 450}}}};
-    for (const Json& form : {surface, Json(surface.dump())}) { // an object, and the same as a text
+    for (const Json& form : {surface, Json(surface.dump())}) { // an object, or the same as a text
         Doc doc = with_surface(form);
         doc.json["materials"][0]["name"] = "paint";
         doc.json["materials"].push_back({{"name", "plain"}});
@@ -227,7 +227,7 @@ TEST_F(WorldMaterialTest, SurfacesTellWhatColoursDont)
     EXPECT_FALSE(load(with_surface(Json::object())).materials[0].emission);
 }
 
-TEST_F(WorldMaterialTest, WrongSurfacesAreNamedByTheirPlace)
+TEST_F(WorldMaterialTest, FaultySurfacesAreNamedByTheirPointer)
 {
     const std::string at = "/materials/0/extras/starbow";
     const std::vector<std::pair<const char*, std::string>> cases = {{"3", ": is 3; should be an object"},
@@ -296,7 +296,7 @@ TEST_F(WorldMaterialTest, AnEmissionThatWouldEmitNothingIsRefused)
                     .starts_with(at + "stands beside KHR_materials_unlit"));
 }
 
-TEST_F(WorldMaterialTest, Blinking)
+TEST_F(WorldMaterialTest, BlinkingHasDefaultsAndNeedsEmission)
 {
     Json material = {{"emissiveFactor", {1, 1, 1}}, {"extras", {{"starbow", {{"blink", {{"period_s", 3}}}}}}}};
     EXPECT_EQ(load(painted(material)).materials[0].blink, (Blink{3, 0.5, 0}));
@@ -307,7 +307,7 @@ TEST_F(WorldMaterialTest, Blinking)
     EXPECT_FALSE(load(painted(Json::object())).materials[0].blink);
 }
 
-TEST_F(WorldMaterialTest, Clocks)
+TEST_F(WorldMaterialTest, ClocksStartAtTheirZero)
 {
     EXPECT_EQ(load(with_surface({{"clock", {{"zero_s", -12.5}}}})).materials[0].clock, WorldClock{-12.5});
     EXPECT_EQ(load(with_surface({{"clock", Json::object()}})).materials[0].clock, WorldClock{0});
@@ -315,7 +315,7 @@ TEST_F(WorldMaterialTest, Clocks)
     EXPECT_FALSE(load(with_surface(Json::object())).materials[0].clock);
 }
 
-TEST_F(WorldMaterialTest, AClocksDialWantsTextureCoordinates)
+TEST_F(WorldMaterialTest, AClocksDialNeedsTextureCoordinates)
 {
     Doc doc = with_surface({{"clock", Json::object()}});
     doc.json["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");

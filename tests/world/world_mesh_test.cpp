@@ -23,7 +23,7 @@ std::vector<glm::vec3> corners(const World& world)
     return out;
 }
 
-TEST_F(WorldMeshTest, TriangleWithNothingButPositions)
+TEST_F(WorldMeshTest, ATriangleNeedsOnlyPositions)
 {
     World world = load(triangle_doc());
     ASSERT_EQ(world.vertices.size(), 3u);
@@ -47,14 +47,14 @@ TEST_F(WorldMeshTest, TriangleWithNothingButPositions)
     EXPECT_TRUE(world.notes.empty());
 }
 
-TEST_F(WorldMeshTest, GlbHoldsTheSame)
+TEST_F(WorldMeshTest, GlbAndGltfGiveTheSameWorld)
 {
     Doc doc = triangle_doc();
     World world = load_world(write("world.glb", glb_bytes(doc.json.dump(), doc.bin)));
     EXPECT_EQ(corners(world), corners(load(doc)));
 }
 
-TEST_F(WorldMeshTest, ListsStripsAndFans)
+TEST_F(WorldMeshTest, ListsStripsAndFansBecomeTriangles)
 {
     const glm::vec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0), d(1, 1, 0), e(0, 2, 0);
     const std::vector<float> strip = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
@@ -72,7 +72,7 @@ TEST_F(WorldMeshTest, ListsStripsAndFans)
     EXPECT_EQ(build(6, {}), (Corners{b, c, a, c, d, a, d, e, a}));
     EXPECT_EQ(build(6, {0, 1, 3, 2}), (Corners{b, d, a, d, c, a}));
     EXPECT_EQ(build(4, {0, 1, 2, 1, 3, 2}), (Corners{a, b, c, b, d, c}));
-    // A strip's turn, by a corner named twice, covers nothing.
+    // A corner named twice reverses a strip; the degenerate triangles are left out.
     EXPECT_EQ(build(5, {0, 1, 2, 2, 4}), (Corners{a, b, c}));
 }
 
@@ -83,7 +83,7 @@ template <typename T> World indexed(const GltfTest&, const std::function<World(c
     return load(doc);
 }
 
-TEST_F(WorldMeshTest, IndicesOfEveryType)
+TEST_F(WorldMeshTest, IndicesMayHaveAnyType)
 {
     auto load_doc = [&](const Doc& doc) { return load(doc); };
     const std::vector<glm::vec3> turned = {{0, 1, 0}, {0, 0, 0}, {2, 0, 0}};
@@ -92,7 +92,7 @@ TEST_F(WorldMeshTest, IndicesOfEveryType)
     EXPECT_EQ(corners(indexed<std::uint32_t>(*this, load_doc, {2, 0, 1})), turned);
 }
 
-TEST_F(WorldMeshTest, PointsAndLinesAreNotedOnce)
+TEST_F(WorldMeshTest, PointsAndLinesGiveOneWarning)
 {
     Doc doc = triangle_doc();
     for (int mode : {0, 1, 2, 3})
@@ -102,7 +102,7 @@ TEST_F(WorldMeshTest, PointsAndLinesAreNotedOnce)
     EXPECT_EQ(world.notes, (std::vector<std::string>{"points and lines are not surfaces and are not drawn"}));
 }
 
-TEST_F(WorldMeshTest, OnlyTheVerticesInUseAreTaken)
+TEST_F(WorldMeshTest, OnlyUsedVerticesAreKept)
 {
     Doc doc = triangle_doc();
     std::vector<float> positions(300, 7);
@@ -120,10 +120,10 @@ TEST_F(WorldMeshTest, OnlyTheVerticesInUseAreTaken)
     EXPECT_EQ(world.vertices[0].normal, glm::vec3(0, 1, 0));
 }
 
-TEST_F(WorldMeshTest, FlatNormalsPartSharedCorners)
+TEST_F(WorldMeshTest, FlatNormalsSplitSharedCorners)
 {
     Doc doc;
-    // Two faces of a roof that share their ridge.
+    // Two faces of a roof share their ridge.
     doc.show({{"attributes", {{"POSITION", doc.accessor<float>({0, 0, 0, 0, 0, 1, 1, 1, 0, 2, 0, 0}, "VEC3")}}},
         {"indices", doc.accessor<std::uint8_t>({0, 1, 2, 1, 3, 2}, "SCALAR")}});
     World world = load(doc);
@@ -133,7 +133,7 @@ TEST_F(WorldMeshTest, FlatNormalsPartSharedCorners)
     EXPECT_GT(glm::distance(world.vertices[3].normal, left), 0.5);
 }
 
-/// Positions as small integers of type T with normalized or plain meaning.
+/// Loads positions as small integers of type T, normalized or not.
 template <typename T>
 glm::vec3 quantized_corner(const std::function<World(const Doc&)>& load, std::vector<T> corner, bool normalized)
 {
@@ -155,7 +155,7 @@ glm::vec3 quantized_corner(const std::function<World(const Doc&)>& load, std::ve
     return world.vertices.at(0).position;
 }
 
-TEST_F(WorldMeshTest, QuantizedPositions)
+TEST_F(WorldMeshTest, QuantizedPositionsAreScaled)
 {
     auto load_doc = [&](const Doc& doc) { return load(doc); };
     EXPECT_EQ(quantized_corner<std::int8_t>(load_doc, {-128, 127, 5}, false), glm::vec3(-128, 127, 5));
@@ -168,7 +168,7 @@ TEST_F(WorldMeshTest, QuantizedPositions)
     EXPECT_EQ(quantized_corner<std::uint16_t>(load_doc, {65535, 0, 13107}, false), glm::vec3(65535, 0, 13107));
 }
 
-TEST_F(WorldMeshTest, InterleavedAttributes)
+TEST_F(WorldMeshTest, InterleavedAttributesAreRead)
 {
     Doc doc;
     std::vector<float> rows;
@@ -187,7 +187,7 @@ TEST_F(WorldMeshTest, InterleavedAttributes)
     EXPECT_EQ(world.vertices[2].uv, glm::vec2(2, 0.5f));
 }
 
-TEST_F(WorldMeshTest, SparseAccessors)
+TEST_F(WorldMeshTest, SparseAccessorsReplaceElements)
 {
     Doc doc = triangle_doc();
     int indices = doc.view({1});
@@ -196,13 +196,13 @@ TEST_F(WorldMeshTest, SparseAccessors)
         {"count", 1}, {"indices", {{"bufferView", indices}, {"componentType", 5121}}}, {"values", {{"bufferView", values}}}};
     EXPECT_EQ(load(doc).vertices[1].position, glm::vec3(5, 6, 7));
     EXPECT_EQ(load(doc).vertices[2].position, glm::vec3(0, 1, 0));
-    // Without a buffer view the rest is zeros.
+    // Without a buffer view all other elements are zero.
     doc.json["accessors"][0].erase("bufferView");
     EXPECT_EQ(load(doc).vertices[1].position, glm::vec3(5, 6, 7));
     EXPECT_EQ(load(doc).vertices[2].position, glm::vec3(0));
 }
 
-TEST_F(WorldMeshTest, VertexColoursOfEveryType)
+TEST_F(WorldMeshTest, VertexColoursMayHaveAnyType)
 {
     auto colours = [&](auto values, const char* type) {
         Doc doc = triangle_doc();
@@ -217,7 +217,7 @@ TEST_F(WorldMeshTest, VertexColoursOfEveryType)
     EXPECT_EQ(colours(std::vector<std::uint16_t>{0, 0, 0, 0, 65535, 0, 257, 514, 0, 0, 0, 0}, "VEC4"), 0x020100ffu);
 }
 
-TEST_F(WorldMeshTest, NodesMultiplyInDouble)
+TEST_F(WorldMeshTest, NodeTransformsMultiplyInDouble)
 {
     Doc doc = triangle_doc();
     double s = std::sqrt(0.5);
@@ -227,9 +227,9 @@ TEST_F(WorldMeshTest, NodesMultiplyInDouble)
     doc.json["scenes"][0]["nodes"] = {0};
     World world = load(doc);
     ASSERT_EQ(world.instances.size(), 2u);
-    EXPECT_EQ(world.primitives.size(), 1u) << "both show the same mesh";
+    EXPECT_EQ(world.primitives.size(), 1u) << "both nodes show the same mesh";
     glm::dvec4 point = world.instances[0].frame_from_local * glm::dvec4(1, 1, 1, 1);
-    EXPECT_DOUBLE_EQ(point.x, 1e9 + 0.25 - 3); // exact to 1e-7: a float would be off by 30
+    EXPECT_DOUBLE_EQ(point.x, 1e9 + 0.25 - 3); // exact to 1e-7; a float would be off by 30
     EXPECT_NEAR(point.y, 0.125 + 2, 1e-15);
     EXPECT_NEAR(point.z, 4, 1e-15);
     EXPECT_EQ(
@@ -244,7 +244,7 @@ TEST_F(WorldMeshTest, MirroredNodesKeepTheirFacing)
     doc.json["scenes"][0]["nodes"] = {0, 1, 2, 3};
     World world = load(doc);
     ASSERT_EQ(world.instances.size(), 4u);
-    EXPECT_EQ(world.primitives.size(), 2u) << "one and its turned double, shared by both mirrors";
+    EXPECT_EQ(world.primitives.size(), 2u) << "the original, and one reversed copy for both mirrors";
     EXPECT_EQ(world.vertices.size(), 3u);
     for (const Instance& instance : world.instances) {
         glm::dvec3 at[3];
@@ -274,7 +274,7 @@ TEST_F(WorldMeshTest, ScenesChooseWhatIsShown)
     EXPECT_EQ(load(doc).instances.size(), 2u);
 }
 
-TEST_F(WorldMeshTest, WhatIsNotSupportedIsNotedOnce)
+TEST_F(WorldMeshTest, UnsupportedFeaturesGiveOneWarningEach)
 {
     Doc doc = triangle_doc();
     doc.json["extensionsUsed"]
@@ -296,7 +296,7 @@ TEST_F(WorldMeshTest, WhatIsNotSupportedIsNotedOnce)
             "skins: meshes are drawn as they are stored", "cameras are not used"}));
 }
 
-TEST_F(WorldMeshTest, BuffersInFilesBesideIt)
+TEST_F(WorldMeshTest, BuffersMayBeFilesInsideTheFolder)
 {
     Doc doc = triangle_doc();
     std::filesystem::create_directories(folder / "a b");
@@ -304,10 +304,10 @@ TEST_F(WorldMeshTest, BuffersInFilesBesideIt)
     doc.json["buffers"][0]["uri"] = "a%20b/d%C3%A4ta.bin";
     EXPECT_EQ(load(doc).vertices.size(), 3u);
     doc.json["buffers"][0]["uri"] = "a b/../a b/./d\xc3\xa4ta.bin";
-    EXPECT_EQ(load(doc).vertices.size(), 3u) << "a path may wander inside the folder";
+    EXPECT_EQ(load(doc).vertices.size(), 3u) << "a path may use .. inside the folder";
     std::filesystem::create_symlink("a b/d\xc3\xa4ta.bin", folder / "link.bin");
     doc.json["buffers"][0]["uri"] = "link.bin";
-    EXPECT_EQ(load(doc).vertices.size(), 3u) << "so may a link";
+    EXPECT_EQ(load(doc).vertices.size(), 3u) << "a link may point inside the folder";
 }
 
 } // namespace

@@ -2,11 +2,11 @@
 #include "config/json/error.h"
 #include "config/model/scene_file.h"
 #include "config/model/shipped.h"
+#include "runtime/commands/interrupt.h"
 #include "runtime/exhibit/exhibit.h"
 #include "runtime/exhibit/outputs.h"
 #include "runtime/operation/latency.h"
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <unistd.h>
 
@@ -15,18 +15,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// So long a device may be silent at the start: time to find it, and to take it into the hand.
+/// The time that a device may be silent at the start: somebody finds it and takes it into the hand.
 constexpr double grace_s = 4;
-/// And so many frames: where shaders are still being compiled seconds pass between two of them.
+/// The frames that must have passed as well: while shaders are compiled, seconds lie between two of them.
 constexpr int grace_frames = 60;
 
-volatile std::sig_atomic_t interrupted = 0;
-
-/// Counts from the first report on, and tells on standard error how far it is.
+/// Counts from the first report on, and shows on standard error how far it is.
 struct Measurement {
     double seconds;
     Latency latency{};
-    Clock::time_point told = Clock::now();
+    Clock::time_point shown = Clock::now();
     int frames = 0;
     std::optional<Clock::time_point> drawn{}, began{}; ///< the first frame, and the first with a report
 
@@ -48,12 +46,12 @@ struct Measurement {
     bool over()
     {
         const bool terminal = isatty(STDERR_FILENO);
-        if (began && since(told) > (terminal ? 1 : 10)) {
-            told = Clock::now();
+        if (began && since(shown) > (terminal ? 1 : 10)) {
+            shown = Clock::now();
             std::fprintf(stderr, "%s%.0f of %.0f s, %zu reports shown, %.0f s left%s", terminal ? "\r" : "", since(*began),
                 seconds, latency.reports(), std::max(0.0, seconds - since(*began)), terminal ? "   " : "\n");
         }
-        return interrupted || (began ? since(*began) > seconds : frames > grace_frames && since(*drawn) > grace_s);
+        return interrupted() || (began ? since(*began) > seconds : frames > grace_frames && since(*drawn) > grace_s);
     }
 };
 
@@ -73,10 +71,7 @@ int bench_input(const std::string& layout, double seconds)
     Measurement measurement{seconds};
     exhibit_options.timed = [&](const FrameTimes& times) { measurement.add(times); };
     exhibit_options.over = [&] { return measurement.over(); };
-    struct sigaction act { };
-    act.sa_handler = [](int) { interrupted = 1; };
-    act.sa_flags = int(SA_RESETHAND); // twice: at once
-    sigaction(SIGINT, &act, nullptr);
+    catch_interrupts();
     WindowSystem window_system;
     std::fprintf(stderr, "Move a stick, a throttle or a pad: it is timed from its first report on\n");
     const int status = fly_exhibit(exhibit_options);

@@ -178,12 +178,12 @@ void PartList::add_sampling(const CubeMapPlan& plan)
     add("glow around what shines", made.bloom > 0, "", "the exhibit or --bloom asks for it", [](Made& m) { m.bloom = 0.1; });
 }
 
-/// A way a frame may be made, on the device.
-struct Stage {
+/// One way to make a frame, on the device.
+struct MadeFrame {
     GpuWorld world;
     OffscreenRenderer renderer;
     Shot shot;
-    Stage(Device& device, Pipelines& pipelines, const Made& made)
+    MadeFrame(Device& device, Pipelines& pipelines, const Made& made)
         : world(upload(device, pipelines, made.world, made.scene, made.stars, made.quality.spectra))
         , renderer(device, pipelines, world, made.layout, within(device, made.quality), false)
         , shot(made.shot)
@@ -209,11 +209,11 @@ ViewCounts count_views(const Trial& trial)
 }
 
 /// The time of a frame over that of a frame without the part: medians of rounds in turn.
-double cost_of(const Part& part, const Made& made, RenderContext& context, Stage& all, int rounds)
+double cost_of(const Part& part, const Made& made, RenderContext& context, MadeFrame& all, int rounds)
 {
     Made without = made;
     part.turn(without);
-    Stage other(context.device, context.pipelines, without);
+    MadeFrame other(context.device, context.pipelines, without);
     std::vector<double> with_ms, without_ms;
     for (int round = -2; round < rounds; ++round) {
         const double a = all.ms(context.device), b = other.ms(context.device);
@@ -233,7 +233,7 @@ void explain(const Trial& trial, const Device::Options& options)
     if (made.scene.stars)
         made.stars = load_stars(made.scene.stars->catalogue);
     RenderContext context(trial.scene, options, trial.standard.spectra);
-    Stage all(context.device, context.pipelines, made);
+    MadeFrame all(context.device, context.pipelines, made);
     all.ms(context.device);
 
     const std::vector<CubeMapPlan>& plans = all.renderer.frame().plans();

@@ -107,7 +107,7 @@ void fly_far(Table& table)
 }
 
 /// A world that may be changed, and how it is seen.
-struct Case {
+struct ExtremeCase {
     std::string what;
     SceneFile scene;
     World world;
@@ -116,11 +116,11 @@ struct Case {
     double least_dB = 20; ///< against the reference of four rays a pixel
 };
 
-struct Stage {
+struct ExtremesBench {
     Device device{device_options(false)};
     Pipelines pipelines{device};
 
-    void show(Table& table, const Case& c)
+    void show(Table& table, const ExtremeCase& c)
     {
         World placed = c.world;
         place_bodies(placed, c.scene);
@@ -201,7 +201,7 @@ void refuse(Table& table)
 
 void see_far(Table& table)
 {
-    Stage stage;
+    ExtremesBench stage;
     SceneFile scene = load_scene_file(shipped_file("scenes", "avenue"));
     const World world = load_world(scene.gltf);
     Shot start = scene.start;
@@ -236,7 +236,7 @@ void see_far(Table& table)
         plain(text("picture: exposed by %+g EV", ev), one_view(Planar{60}, small), exposed);
     }
     for (double strength : {1e-40, 1e30}) {
-        Case c{text("picture: light of %g", strength), scene, world, one_view(Planar{60}, small), start};
+        ExtremeCase c{text("picture: light of %g", strength), scene, world, one_view(Planar{60}, small), start};
         c.scene.sky.zenith = c.scene.sky.horizon = c.scene.sky.nadir = glm::dvec3(strength);
         for (Material& material : c.world.materials)
             material.emissive = glm::vec3(float(strength));
@@ -245,7 +245,7 @@ void see_far(Table& table)
     {
         // Everything a thousandth as large, so that columns stand a thousandth of a light-second away, and 1e9 from the
         // origin.
-        Case c{"picture: 1e9 light-seconds out, columns at 1e-3", scene, world, one_view(Planar{60}, small), start};
+        ExtremeCase c{"picture: 1e9 light-seconds out, columns at 1e-3", scene, world, one_view(Planar{60}, small), start};
         const glm::dvec3 out(1e9, 0, 0);
         for (Instance& instance : c.world.instances) {
             glm::dmat4& m = instance.frame_from_local;
@@ -261,13 +261,14 @@ void see_far(Table& table)
         stage.show(table, c);
     }
     {
-        Case c{"picture: light of 1 m/s, at gamma 100", scene, world, one_view(Planar{60}, small), flying(start, 100, 20)};
+        ExtremeCase c{
+            "picture: light of 1 m/s, at gamma 100", scene, world, one_view(Planar{60}, small), flying(start, 100, 20)};
         c.scene.unit_m = c.scene.light_speed_m_s = 1;
         stage.show(table, c);
     }
     {
         const SceneFile clocks = load_scene_file(shipped_file("scenes", "clocks"));
-        Case c{"picture: clocks after 30 days", clocks, load_world(clocks.gltf), one_view(Planar{60}, {320, 240}),
+        ExtremeCase c{"picture: clocks after 30 days", clocks, load_world(clocks.gltf), one_view(Planar{60}, {320, 240}),
             load_shot(shipped_file("shots", "clocks-passing"))};
         c.shot.time += 30.0 * 86400 / clocks.seconds_per_time_unit();
         stage.show(table, c);

@@ -2,7 +2,7 @@
 #include "config/json/reader.h"
 #include "config/json/whole_file.h"
 #include "runtime/commands/median.h"
-#include "runtime/commands/rows.h"
+#include "runtime/operation/progress.h"
 #include "runtime/reference/number_errors.h"
 #include "runtime/render/offscreen.h"
 #include "runtime/render/pass_timer.h"
@@ -25,26 +25,6 @@ struct Truth {
 };
 using Truths = std::vector<std::vector<Truth>>; // of each shot, of each output
 
-/// A line that replaces itself where a person watches.
-void say(const std::string& line)
-{
-    if (isatty(STDERR_FILENO))
-        std::fprintf(stderr, "\r%-78s", line.c_str());
-}
-
-std::string left_told(double seconds)
-{
-    char text[64];
-    if (seconds < 90)
-        std::snprintf(text, sizeof text, "about %.0f s left", seconds);
-    else
-        std::snprintf(text, sizeof text, "about %.0f min left", seconds / 60);
-    return text;
-}
-
-using Clock = std::chrono::steady_clock;
-double since(Clock::time_point began) { return std::chrono::duration<double>(Clock::now() - began).count(); }
-
 Truths truths_of(const Trial& trial)
 {
     const ReferenceWorld world = open_reference_world(trial.scene);
@@ -53,11 +33,15 @@ Truths truths_of(const Trial& trial)
         std::vector<Truth>& of_shot = truths.emplace_back();
         for (std::size_t output = 0; output < trial.layout.outputs.size(); ++output) {
             const Output& own = trial.layout.outputs[output];
-            Rows rows("reference of " + name + ", " + own.name);
+            Progress progress;
             ReferenceOptions options;
             options.samples = trial.samples;
             options.kept = trial.folder / ("reference-" + name + "-" + own.name + ".rows");
-            options.progress = [&](int done, int all) { rows.show(done, all); };
+            options.progress = [&](int done, int all) {
+                progress.show("reference of " + name + ", " + own.name + ": " + std::to_string(done) + " of "
+                        + std::to_string(all) + " rows",
+                    double(done) / all);
+            };
             Reference truth = reference(world.input(), trial.layout, shot, output, options);
             std::vector<std::uint8_t> picture = shown(truth);
             of_shot.push_back({std::move(picture), std::move(truth)});
@@ -254,31 +238,27 @@ std::vector<MeasuredSetting> measure_settings(
     Kept kept(trial.folder / "measured.json", key_of(trial, machine));
     std::vector<MeasuredSetting> all;
     std::vector<double> standard_ms;
-    int measured = 0;
-    const auto began = Clock::now();
+    Progress progress;
     for (const Setting& setting : settings) {
         MeasuredSetting one{setting};
         if (!kept.find(one)) {
-            say("setting " + std::to_string(all.size() + 1) + " of " + std::to_string(settings.size()) + ": " + setting.name
-                + (measured > 0 ? ", " + left_told(since(began) / measured * double(settings.size() - all.size())) : ""));
+            progress.show(
+                "setting " + std::to_string(all.size() + 1) + " of " + std::to_string(settings.size()) + ": " + setting.name,
+                double(all.size()) / double(settings.size()));
             RenderContext& context = theatres.with(setting.quality.spectra);
             double beside = 0;
             time(trial, context, standards, one, beside);
             find_errors(trial, context, truths, one);
             kept.keep(one);
-            ++measured;
         }
         standard_ms.push_back(one.ms / one.ratio);
         all.push_back(one);
     }
-    // The machine's speed drifts, ratios hardly: all times are told for the speed that it mostly had.
+    // The machine's speed drifts, ratios hardly: all times are stated for its usual speed.
     if (!standard_ms.empty())
         for (MeasuredSetting& one : all)
             one.ms = one.ratio * quantile(standard_ms, 0.5);
     kept.forget();
-    say("");
-    if (isatty(STDERR_FILENO))
-        std::fprintf(stderr, "\r");
     return all;
 }
 

@@ -2,12 +2,13 @@
 #include "config/json/error.h"
 #include "config/model/shipped.h"
 #include "runtime/commands/options/size.h"
-#include "runtime/commands/rows.h"
 #include "runtime/images/capture.h"
+#include "runtime/operation/progress.h"
 #include "runtime/reference/reference.h"
 #include <cstdio>
 
 namespace starbow {
+
 int render_reference(const ReferenceCommand& command)
 {
     const std::filesystem::path shot_file = shipped_file("shots", command.shot);
@@ -42,11 +43,15 @@ int render_reference(const ReferenceCommand& command)
     for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
         const Output& output = layout.outputs[i];
         const std::filesystem::path kept = folder / (output.name + ".rows");
-        Rows rows(output.name);
+        Progress progress;
         const Reference drawn = reference(world.input(), layout, shot, i,
             {.samples = int(command.samples),
                 .numbers = command.exr,
-                .progress = [&](int done, int all) { rows.show(done, all); },
+                .progress =
+                    [&](int done, int all) {
+                        progress.show(output.name + ": " + std::to_string(done) + " of " + std::to_string(all) + " rows",
+                            double(done) / all);
+                    },
                 .kept = kept});
         write_png(folder / (output.name + ".png"), drawn.size, shown(drawn));
         if (command.exr)

@@ -8,17 +8,14 @@
 #include "runtime/flight/record_files.h"
 #include "runtime/flight/replay.h"
 #include "runtime/operation/log.h"
+#include "runtime/operation/progress.h"
 #include "runtime/render/render_context.h"
 #include <charconv>
-#include <chrono>
 #include <cstdio>
 #include <optional>
-#include <unistd.h>
 
 namespace starbow {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// The first and the last frame of "A:B".
 std::pair<long, long> parse_frames(const std::string& text)
@@ -37,28 +34,6 @@ std::pair<long, long> parse_frames(const std::string& text)
         + " is no range; the first and the last frame, counted from 0, such as 600:659, are "
           "right");
 }
-
-/// Shows the progress on a terminal, once a second.
-struct Progress {
-    Clock::time_point began = Clock::now(), shown = began;
-    void show(const Replay& replay, long drawn)
-    {
-        const Clock::time_point now = Clock::now();
-        if (!isatty(STDERR_FILENO) || now - shown < std::chrono::seconds(1))
-            return;
-        shown = now;
-        const double passed = std::chrono::duration<double>(now - began).count(), part = replay.part_read();
-        std::fprintf(stderr, "\rframe %lld, %ld drawn", static_cast<long long>(replay.frames()), drawn);
-        if (part > 0)
-            std::fprintf(stderr, ", about %.0f s left   ", passed / part * (1 - part));
-        std::fflush(stderr);
-    }
-    ~Progress()
-    {
-        if (shown != began)
-            std::fprintf(stderr, "\r%60s\r", "");
-    }
-};
 
 } // namespace
 
@@ -98,7 +73,7 @@ int render_replay(const ReplayOptions& options)
         if (!entry->shown)
             continue;
         const long number = frame++;
-        progress.show(replay, drawn);
+        progress.show("frame " + std::to_string(number) + ", " + std::to_string(drawn) + " drawn", replay.part_read());
         if (number < first || number > last || (number - first) % options.every != 0)
             continue;
         std::optional<Panel> panel;

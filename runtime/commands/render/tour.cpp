@@ -2,16 +2,16 @@
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "config/model/shipped.h"
+#include "runtime/commands/interrupt.h"
 #include "runtime/commands/options/size.h"
 #include "runtime/flight/record_files.h"
 #include "runtime/flight/tour.h"
 #include "runtime/hud/caption.h"
 #include "runtime/images/movie.h"
+#include "runtime/operation/progress.h"
 #include "runtime/render/offscreen.h"
 #include "runtime/render/render_context.h"
-#include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -20,61 +20,6 @@ namespace starbow {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-volatile std::sig_atomic_t interrupted = 0;
-void interrupt(int) { interrupted = 1; }
-
-/// A progress bar on a terminal, with an estimate of the rest.
-class Progress {
-public:
-    explicit Progress(long frames)
-        : frames_(frames)
-    {
-    }
-    ~Progress()
-    {
-        if (shown_)
-            std::fprintf(stderr, "\r%78s\r", "");
-    }
-    /// drawn: number of frames drawn in this run.
-    void show(long frame, long drawn)
-    {
-        if (!isatty(STDERR_FILENO))
-            return;
-        const double passed = std::chrono::duration<double>(Clock::now() - began_).count();
-        constexpr int cells = 30;
-        const int full = int(double(cells) * double(frame) / double(std::max(1L, frames_)));
-        std::fprintf(stderr, "\r[%s%s] frame %ld of %ld", std::string(std::size_t(full), '#').c_str(),
-            std::string(std::size_t(cells - full), ' ').c_str(), frame, frames_);
-        if (drawn > 0) {
-            const double left = passed / double(drawn) * double(frames_ - frame);
-            std::fprintf(
-                stderr, left < 90 ? ", about %.0f s left   " : ", about %.0f min left   ", left < 90 ? left : left / 60);
-        }
-        std::fflush(stderr);
-        shown_ = true;
-    }
-
-private:
-    long frames_;
-    bool shown_ = false;
-    Clock::time_point began_ = Clock::now();
-};
-
-/// Shows on a terminal the name of a step that takes long.
-struct Busy {
-    explicit Busy(const char* what)
-    {
-        if (isatty(STDERR_FILENO))
-            std::fprintf(stderr, "%s ...", what);
-    }
-    ~Busy()
-    {
-        if (isatty(STDERR_FILENO))
-            std::fprintf(stderr, "\r%78s\r", "");
-    }
-};
 
 /// Reports an interruption and returns its exit status.
 int report_interruption(const std::string& movie, long drawn, long frames)
@@ -185,8 +130,7 @@ int render_tour(const TourOptions& options)
     const std::string device = context.device.name();
     const MovieFrames kept(movie, made_from(options, show, words, scene, layout, device, frames), log_line);
 
-    std::signal(SIGINT, interrupt);
-    std::signal(SIGTERM, interrupt);
+    catch_interrupts();
     OffscreenRenderer renderer(
         context.device, context.pipelines, context.world, layout, default_quality(context.device, true), false);
     renderer.frame().bloom(options.bloom);
@@ -194,7 +138,7 @@ int render_tour(const TourOptions& options)
     Player player(show, options.frames_per_s);
     long drawn = 0, found = 0;
     {
-        Progress progress(frames);
+        Progress progress;
         for (long i = 0; i < frames; ++i) {
             bool there = true;
             for (const Output& output : layout.outputs)
@@ -203,8 +147,8 @@ int render_tour(const TourOptions& options)
                 ++found;
                 continue;
             }
-            progress.show(i, drawn);
-            if (interrupted)
+            progress.show("frame " + std::to_string(i) + " of " + std::to_string(frames), double(i) / double(frames));
+            if (interrupted())
                 return report_interruption(options.movie, i, frames);
             const Touring& touring = player.at(i);
             Readings shown = readings(touring.flight.ship, context.world.scene, touring.flight.effects);
@@ -222,11 +166,12 @@ int render_tour(const TourOptions& options)
         std::printf("%ld frames were there already, %ld more drawn\n", found, drawn);
     for (const Output& output : layout.outputs) {
         const fs::path file = movie_of(movie, layout, output.name);
-        const Busy busy("ffmpeg makes the movie");
+        Progress progress;
+        progress.show("ffmpeg makes the movie ...", 0);
         try {
             make_movie(file, kept, output.name, int(options.frames_per_s));
         } catch (const InputError&) {
-            if (!interrupted) // the interruption stops ffmpeg too
+            if (!interrupted()) // the interruption stops ffmpeg too
                 throw;
             return report_interruption(options.movie, frames, frames);
         }

@@ -1,0 +1,22 @@
+#include "interrupt.h"
+#include <csignal>
+
+namespace starbow {
+namespace {
+
+volatile std::sig_atomic_t arrived = 0;
+
+} // namespace
+
+void catch_interrupts()
+{
+    struct sigaction act { };
+    act.sa_handler = [](int) { arrived = 1; };
+    act.sa_flags = int(SA_RESETHAND) | SA_RESTART;
+    sigaction(SIGINT, &act, nullptr);
+    sigaction(SIGTERM, &act, nullptr);
+}
+
+bool interrupted() { return arrived; }
+
+} // namespace starbow

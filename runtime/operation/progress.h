@@ -1,0 +1,30 @@
+#pragma once
+#include <chrono>
+#include <string>
+
+namespace starbow {
+
+/// One line on standard error that shows a person at a terminal how far long work is, and about how long the rest may take.
+/// It replaces itself, and is cleared with the object. Nothing is printed where standard error is no terminal.
+class Progress {
+public:
+    Progress();
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// part: the part of all the work that is done, 0 to 1. The first call's part is taken as done earlier, by a run that
+    /// was interrupted. A call is left out that comes within a fifth of a second and less than a hundredth further.
+    void show(const std::string& text, double part);
+
+private:
+    using Clock = std::chrono::steady_clock;
+    bool terminal_, shown_ = false;
+    double first_part_ = -1, last_part_ = 0;
+    Clock::time_point began_{}, last_{};
+};
+
+/// "about 40 s left", in minutes from 90 seconds on.
+std::string time_left(double seconds);
+
+} // namespace starbow
