@@ -70,13 +70,13 @@ struct Dot {
     double share;
 };
 
-/// The mesh's place on the canvas.
-struct Place {
+/// The part of the canvas that the viewport covers.
+struct Inset {
     glm::ivec2 margin, size;
 };
 
 /// Draws the colours of the samples. Returns the dots of the chart's lines.
-std::vector<Dot> draw_samples(Canvas& canvas, const WarpMesh& mesh, const Place& inner)
+std::vector<Dot> draw_samples(Canvas& canvas, const WarpMesh& mesh, const Inset& inner)
 {
     const WarpRaster raster(mesh, inner.size);
     const std::size_t width = std::size_t(inner.size.x);
@@ -113,7 +113,7 @@ std::vector<Dot> draw_samples(Canvas& canvas, const WarpMesh& mesh, const Place&
 }
 
 /// Draws the lines of a grid, or the edges of the triangles. A dense mesh shows some of them.
-void draw_mesh(Canvas& canvas, const WarpMesh& mesh, const Place& inner)
+void draw_mesh(Canvas& canvas, const WarpMesh& mesh, const Inset& inner)
 {
     const Rgb ink(8, 10, 14);
     const auto line = [&](std::uint32_t from, std::uint32_t to, double share) {
@@ -145,7 +145,7 @@ void draw_mesh(Canvas& canvas, const WarpMesh& mesh, const Place& inner)
 }
 
 /// Draws the viewport's edge.
-void draw_edge(Canvas& canvas, const Place& inner)
+void draw_edge(Canvas& canvas, const Inset& inner)
 {
     const glm::dvec2 low(inner.margin), high(inner.margin + inner.size);
     for (int i = 0; i < fine; ++i) {
@@ -182,7 +182,7 @@ std::vector<std::uint8_t> portrait(const WarpMesh& mesh, glm::ivec2 size)
     Canvas canvas{size * fine, {}};
     canvas.pixels.assign(std::size_t(canvas.size.x) * std::size_t(canvas.size.y), glm::vec3(34, 35, 40));
     const glm::ivec2 margin = canvas.size / 16;
-    const Place inner{margin, canvas.size - 2 * margin};
+    const Inset inner{margin, canvas.size - 2 * margin};
     const std::vector<Dot> chart = draw_samples(canvas, mesh, inner);
     draw_mesh(canvas, mesh, inner);
     for (const Dot& dot : chart)
