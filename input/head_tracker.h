@@ -8,9 +8,9 @@
 
 namespace starbow {
 
-/// Parses one packet of opentrack's "UDP over network" output, which many trackers speak: six little-endian doubles, x, y
-/// and z in centimetres, then yaw to the left, pitch up and roll to the left in degrees. nullopt for any other length, for
-/// values that are not finite, and for a head more than 10 m away.
+/// Parses one packet of opentrack's "UDP over network" output, which many trackers speak. It has six little-endian doubles:
+/// x, y and z in centimetres, then yaw to the left, pitch up and roll to the left in degrees. nullopt for any other length,
+/// for values that are not finite, and for a head more than 10 m away.
 std::optional<Head> parse_head(std::span<const std::byte> packet);
 
 /// The head of a tracker that has been silent for silent_s seconds. It is held for one second and returns to the layout's

@@ -27,8 +27,8 @@ bool is_axis(const Field& field);
 /// True for a role that runs from 0 to full, instead of to two sides of a middle.
 bool one_sided(AxisRole role);
 
-/// The profile of an unknown device, from its HID usages alone: sticks turn the ship, sliders are throttles, triggers
-/// increase and reduce the speed, a hat and a second stick look around.
+/// The profile of an unknown device, from its HID usages alone. Sticks turn the ship, sliders are throttles, and triggers
+/// increase and reduce the speed. A hat and a second stick look around.
 Profile usual_profile(const Descriptor& descriptor);
 
 /// The controls of one device. Presses count from one reading to the next.

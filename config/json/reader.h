@@ -40,8 +40,8 @@ struct Range {
     bool low_open = false;
 };
 
-/// Reads JSON with // and /* */ comments. Throws InputError for a file that can't be read, is larger than 16 MiB, is not
-/// JSON (with line and column), nests deeper than 64, repeats a member, or holds a number beyond a double.
+/// Reads JSON with // and /* */ comments. Throws InputError for a file that can't be read, is larger than 16 MiB or is not
+/// JSON (with line and column). It throws also for nesting deeper than 64, a repeated member, or a number beyond a double.
 Document read_document(const std::filesystem::path& file);
 /// The same from a text; `file`: its name in messages; `first_line`: the line of the file where the text begins.
 Document parse_document(const std::string& file, std::string text, int first_line = 1);

@@ -18,8 +18,8 @@ struct Adjustable {
     double step = 0.1; ///< of one key press: degrees, or the power's own unit
 };
 
-/// All adjustable numbers of a layout: the tilt and the rotation of all domes that agree on them, the turn of each
-/// viewport's dome or picture, the blend's power and the head-up display's height.
+/// All adjustable numbers of a layout. They are the tilt and the rotation of all domes that agree on them, and the turn of
+/// each viewport's dome or picture. The blend's power and the head-up display's height follow.
 std::vector<Adjustable> adjustables(const Layout& layout);
 
 double value_of(const Layout& layout, const Adjustable& adjustable);

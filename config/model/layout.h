@@ -12,14 +12,14 @@ namespace starbow {
 
 // Directions and places are in the cockpit's frame, metres: the visitor looks along -z, +x is right, +y is up.
 
-/// A turn away from straight ahead, in this order: yaw to the right, then pitch up, then roll, which leans the picture's
+/// A turn away from straight ahead, in this order: yaw to the right, then pitch up, then roll. A roll leans the picture's
 /// upper edge to the right as the viewer sees it.
 struct Turn {
     double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
 };
 
-/// The edges of a picture as angles from its axis: to the right and up are positive, so that left and down are negative in
-/// a picture that holds its axis.
+/// The edges of a picture as angles from its axis. To the right and up are positive, so left and down are negative in a
+/// picture that holds its axis.
 struct Sides {
     double left_deg, right_deg, down_deg, up_deg;
 };
@@ -39,7 +39,7 @@ struct Wall {
 enum class FisheyeMapping { equidistant, equisolid, stereographic, orthographic };
 
 /// A domemaster: a circle whose centre is the zenith. The zenith is the cockpit's up tilted forward: tilt_deg 0 looks
-/// straight up, 90 straight ahead; the bottom of the picture is towards the visitor's front.
+/// straight up, 90 straight ahead. The bottom of the picture is towards the visitor's front.
 struct Fisheye {
     double aperture_deg = 180; ///< across the circle
     double tilt_deg = 0;
@@ -61,9 +61,10 @@ struct Equirectangular {
     Turn turn;
 };
 
-/// The six faces of a cube in one picture. row: 6 x 1: +x -x +y -y +z -z as cube map files have them, seen from inside;
-/// their axes are left-handed, +z is straight ahead: right, left, up, down, front, back (displays/cube_faces.h has the
-/// edges). cross: 4 x 3, up above and down below the front, the middle row left, front, right, back.
+/// The six faces of a cube in one picture. row: 6 x 1: +x -x +y -y +z -z as cube map files have them, seen from inside.
+/// Their axes are left-handed, and +z is straight ahead: right, left, up, down, front, back.
+/// displays/projections/cube_faces.h has the edges. cross: 4 x 3, up above and down below the front, the middle row left,
+/// front, right, back.
 struct CubeFaces {
     enum class Arrangement { row, cross } arrangement = Arrangement::row;
     Turn turn;
@@ -81,8 +82,8 @@ struct SphericalMirror {
     double dome_aperture_deg = 180; ///< light that lands beyond it is not shown
 };
 
-/// A headset's lens: each colour of each pixel has a direction of its own. With p the place in the picture from `centre`,
-/// in halves of its height, y up, and r = |p|, the lens shows the point p f(r) of a flat picture of fov_y_deg.
+/// A headset's lens: each colour of each pixel has a direction of its own. Let p be the place in the picture from `centre`,
+/// in halves of its height, y up, and r = |p|. The lens shows the point p f(r) of a flat picture of fov_y_deg.
 struct Lens {
     enum class Form {
         panotools, ///< f = k0 r^3 + k1 r^2 + k2 r + k3
@@ -221,8 +222,8 @@ glm::ivec4 pixel_rect(const Viewport& viewport, glm::ivec2 size);
 /// start at the layout's folder.
 Layout load_layout(const std::filesystem::path& file);
 
-/// The place for messages about a layout in use: "FILE:LINE: POINTER" of its present file; without the line where the file
-/// no longer has the pointer.
+/// The place for messages about a layout in use: "FILE:LINE: POINTER" of its present file. The line is left out where the
+/// file no longer has the pointer.
 std::string place_in(const Layout& layout, const std::string& pointer);
 std::string viewport_pointer(std::size_t output, std::size_t viewport);
 

@@ -31,8 +31,8 @@ struct PointLight {
 
 using Light = std::variant<DirectionalLight, PointLight>;
 
-/// The sky behind everything: a colour at the zenith (+y), at the horizon and at the nadir, blended smoothly between, and a
-/// black body's glow, everywhere the same.
+/// The sky behind everything: a colour at the zenith (+y), at the horizon and at the nadir, blended smoothly between. A
+/// black body's glow is everywhere the same.
 struct Sky {
     glm::dvec3 zenith{0}, horizon{0}, nadir{0}; ///< Rec. 709 linear
     double temperature_K = 0; ///< 0: no glow. 2.725 is the microwave background's

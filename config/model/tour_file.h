@@ -109,7 +109,7 @@ struct Step {
     std::optional<Question> question;
 };
 
-/// A timeline: the tour shows, explains, lets the visitor try, and asks.
+/// A timeline: the tour shows, explains, lets the visitor try, and puts questions.
 struct Tour {
     std::filesystem::path file;
     std::string scene; ///< name or path of a scene file

@@ -18,8 +18,8 @@ struct Coverage {
     ViewportObserver observer{};
     glm::ivec2 size{0}; ///< of the eye's picture
 
-    /// Closed outlines that enclose the shown part by the even-odd rule: azimuth to the right and elevation, degrees, from
-    /// -180 to 180 and from -90 to 90. At the map's edge they run along that edge.
+    /// Closed outlines that enclose the shown part by the even-odd rule. A point is an azimuth to the right, -180 to 180
+    /// degrees, and an elevation, -90 to 90. At the map's edge they run along that edge.
     std::vector<std::vector<glm::dvec2>> outlines;
 
     double share = 0; ///< of the whole sphere
@@ -38,8 +38,8 @@ constexpr int lattice_columns = 360 * lattice, lattice_rows = 180 * lattice;
 glm::dvec2 lattice_point(int column, int row);
 
 /// The coverages in the layout's order; with two eyes first all of the left eye, then of the right. They are exact to the
-/// lattice: shares to about a hundredth of themselves for a view of 10 degrees, outlines to 0.01 degrees, corners rounded
-/// by a cell.
+/// lattice: shares to about a hundredth of themselves for a view of 10 degrees, outlines to 0.01 degrees. Corners are
+/// rounded by a cell.
 std::vector<Coverage> coverages(const Layout& layout, const ViewRegion& sight = {});
 
 /// The part of the first coverage that the second shows too; 0 where the first shows nothing.

@@ -44,8 +44,8 @@ private:
 /// are treated as linear between pixels: accurate to a hundredth of a pixel for any smooth picture.
 std::optional<glm::dvec2> find_pixel(const DirectionMap& map, const ConeHierarchy& cones, const glm::dvec3& direction);
 
-/// A box around all pixels that may look into a pyramid from the eye, from low to before high (both 0 where none do), and
-/// the finest pixel angle among them. sides: unit normals of its planes, pointing inwards.
+/// A box around all pixels that may look into a pyramid from the eye, and the finest pixel angle among them. The box goes
+/// from low to before high; both are 0 where no pixel does. sides: unit normals of its planes, pointing inwards.
 struct PixelBox {
     glm::ivec2 low{0}, high{0};
     double finest = 1;

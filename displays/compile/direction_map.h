@@ -6,8 +6,8 @@
 
 namespace starbow {
 
-/// A view as a map of directions for the device. Rows from the top; xyz: unit direction of the pixel's centre in the
-/// cockpit's frame, w: pixel angle in radians; all 0 where nothing is shown.
+/// A view as a map of directions for the device, rows from the top. xyz: unit direction of the pixel's centre in the
+/// cockpit's frame; w: pixel angle in radians. All are 0 where nothing is shown.
 struct DirectionMap {
     glm::ivec2 size{0};
     int channels = 1; ///< 3 where red, green and blue have directions of their own: one whole picture after the other
@@ -39,8 +39,8 @@ Picture warped_picture(const View& view, const WarpMesh& mesh, bool projection_g
 std::optional<glm::dvec3> warped_direction(const WarpMesh& mesh, const Picture& source, const PictureRays& rays,
     const glm::dmat3& turn, const WarpSample& sample, int channel);
 
-/// M for unwarped views whose direction is linear in the pixel: direction is along M (x, y, 1), x and y in pixels from the
-/// view's corner. nullopt for other views.
+/// M for unwarped views whose direction is linear in the pixel; nullopt for other views. The direction is along M (x, y, 1),
+/// x and y in pixels from the view's corner.
 std::optional<glm::dmat3> view_matrix(const View& view);
 
 } // namespace starbow

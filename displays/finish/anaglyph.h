@@ -12,8 +12,8 @@ struct Anaglyph {
 inline std::optional<Anaglyph> anaglyph(Packing packing)
 {
     // Written row by row. Red-cyan keeps every channel as it is. The other two are Eric Dubois's least-squares matrices for
-    // sRGB primaries and typical glasses (A projection method to generate anaglyph stereo images, 2001, and its tables),
-    // made for linear light.
+    // sRGB primaries and typical glasses, made for linear light (A projection method to generate anaglyph stereo images,
+    // 2001, and its tables).
     auto rows = [](const glm::dmat3& left, const glm::dmat3& right) {
         return Anaglyph{glm::transpose(left), glm::transpose(right)};
     };

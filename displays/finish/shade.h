@@ -11,8 +11,8 @@ struct Shade {
     bool empty() const { return weight.empty() && black.empty(); }
 };
 
-/// Combines the masks, the black levels and the calibrations' intensities of one output with the blend ramps: ramps[i]
-/// belongs to views[i] (blend.h), empty where there is none. Throws InputError for a picture that can't be read.
+/// Combines the masks, the black levels and the calibrations' intensities of one output with the blend ramps. ramps[i]
+/// belongs to views[i] (blend.h); it is empty where there is none. Throws InputError for a picture that can't be read.
 Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::span<const CompiledView> views,
     std::span<const std::vector<float>> ramps);
 

@@ -30,8 +30,8 @@ Polynomial product(const Polynomial& a, const Polynomial& b)
     return c;
 }
 
-/// The places where the polynomial changes its sign between 0 and `end`, in order: its derivative's sign changes divide the
-/// range into pieces with at most one each.
+/// The places where the polynomial changes its sign between 0 and `end`, in order. The sign changes of its derivative divide
+/// the range into pieces with at most one each.
 std::vector<double> sign_changes(const Polynomial& p, double end)
 {
     if (p.size() < 2)
@@ -60,8 +60,8 @@ double first_sign_change(const Polynomial& p, double end)
     return changes.empty() ? end : changes.front();
 }
 
-/// The greatest r up to which g grows. For vive, with s = r² and D = 1 + k0 s + k1 s² + k2 s³, g = r / D + k3 r, so that g'
-/// = ((1 - k0 s - 3 k1 s² - 5 k2 s³) + k3 D²) / D² up to the first pole of D.
+/// The greatest r up to which g grows. For vive let s = r² and D = 1 + k0 s + k1 s² + k2 s³. Then g = r / D + k3 r, so that
+/// g' = ((1 - k0 s - 3 k1 s² - 5 k2 s³) + k3 D²) / D² up to the first pole of D.
 double reach(Lens::Form form, const std::array<double, 4>& k)
 {
     if (form == Lens::Form::panotools)

@@ -4,11 +4,11 @@
 
 namespace starbow {
 
-/// A flat picture as an eye sees it, scaled to one unit before the eye: the point (x, y) shows the direction along ahead +
+/// A flat picture as an eye sees it, scaled to one unit before the eye. The point (x, y) shows the direction along ahead +
 /// right (x - axis.x) + down (y - axis.y). picture.h has the contract of each function.
 class Plane {
 public:
-    /// `ahead` is a unit vector perpendicular to the plane; `right` and `down` are one pixel's steps in it, not parallel;
+    /// `ahead` is a unit vector perpendicular to the plane. `right` and `down` are one pixel's steps in it, not parallel.
     /// `axis` is the point that shows `ahead`.
     Plane(const glm::dvec3& ahead, const glm::dvec3& right, const glm::dvec3& down, glm::dvec2 axis);
 

@@ -5,9 +5,9 @@
 namespace starbow {
 
 /// The sphere reflects light from the projector's lens, which lands on the inside of the dome; an eye sees the place where
-/// it lands (Bourke 2005, Using a spherical mirror for projection into immersive environments). picture.h has the contract
-/// of each function. They return nullopt where the light misses the mirror or lands beyond the dome's aperture, and
-/// everywhere for a lens inside the mirror. The dome's aperture is measured at its centre.
+/// it lands. The method is Bourke's (2005, Using a spherical mirror for projection into immersive environments). picture.h
+/// has the contract of each function. They return nullopt where the light misses the mirror or lands beyond the dome's
+/// aperture, and everywhere for a lens inside the mirror. The dome's aperture is measured at its centre.
 class SphericalMirrorRays {
 public:
     SphericalMirrorRays(const SphericalMirror& mirror, glm::ivec2 size, const glm::dvec3& eye_m);

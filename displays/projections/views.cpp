@@ -51,7 +51,7 @@ View make_view(const Layout& layout, std::size_t output, std::size_t viewport, E
     return view;
 }
 
-/// Adds a preview of an output: the same pictures on fewer pixels. Where eyes share pixels, it shows the left one's.
+/// Adds a preview of an output: the same pictures on fewer pixels. It shows the left eye's picture where eyes share pixels.
 void add_small(std::vector<View>& all, const Layout& layout, std::size_t output, const glm::ivec4& cell)
 {
     const glm::ivec2 whole = layout.outputs[output].size;

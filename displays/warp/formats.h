@@ -54,8 +54,8 @@ WarpMesh gridded(const WarpMesh& mesh, glm::ivec2 vertices);
 /// The part of the viewport that only one of two meshes covers, over the first mesh's part.
 double differs(const WarpMesh& mesh, const WarpMesh& other);
 
-/// A picture of a mesh for people, RGBA8 in sRGB, rows from the top: colours stand for its samples, lines are the mesh's,
-/// holes are black, the viewport has a frame.
+/// A picture of a mesh for people, RGBA8 in sRGB, rows from the top. Colours stand for its samples, lines are the mesh's,
+/// holes are black, and the viewport has a frame.
 std::vector<std::uint8_t> portrait(const WarpMesh& mesh, glm::ivec2 size);
 
 } // namespace starbow

@@ -29,8 +29,8 @@ bool whole(std::string_view png)
     return false;
 }
 
-/// True if a whole picture's data become no more than `most` bytes and come to their end, counted without keeping them: the
-/// decoder keeps them all, however many there are.
+/// True if a whole picture's data become no more than `most` bytes and come to their end. They are counted and not kept: the
+/// decoder would keep all of them.
 bool inflates_to(std::string_view png, std::size_t most)
 {
     z_stream stream{};

@@ -86,7 +86,7 @@ struct Region {
     std::string buffer_id, id;
 };
 
-/// The wanted region: by its name, or by its buffer's and its own.
+/// The region that the layout names: by its name, or by its buffer's and its own.
 Region chosen(const Element& root, const std::string& wanted)
 {
     std::vector<Region> regions, fitting;
@@ -125,8 +125,8 @@ double metres_of(const std::string& unit, const Element& element)
     element.refuse(in_quotes(unit) + " is no unit; mm, cm, dm, m, in, ft or yd is right");
 }
 
-/// From the file's axes to the cockpit's. The frame names the directions of the yaw axis, which points down, of the pitch
-/// axis, which points to the right, and of the roll axis, which points ahead (VESA MPCDI 2.0, section 2.2.2).
+/// From the file's axes to the cockpit's. The frame has the directions of three axes: yaw points down, pitch to the right,
+/// and roll ahead (VESA MPCDI 2.0, section 2.2.2).
 glm::dmat3 cockpit_from_file(const Element& region)
 {
     const std::optional<Element> frame = region.find("coordinateFrame");
@@ -147,8 +147,113 @@ glm::dmat3 cockpit_from_file(const Element& region)
     return glm::transpose(glm::dmat3(right, -down, -ahead));
 }
 
-std::optional<WarpMesh::Mask> mask_of(const Element& files, const char* name,
-    const std::function<std::string(const std::string&, std::size_t)>& contents, WarpMesh& mesh)
+struct Profile {
+    std::string version, name;
+    bool flat = false; ///< the map holds places in a planar picture; else points of the screen
+};
+
+Profile read_profile(const Element& root)
+{
+    if (!same(root.node.name(), "MPCDI"))
+        root.refuse("is not MPCDI's; <MPCDI> around everything is right");
+    const std::string version = root.attribute("version"), profile = root.attribute("profile");
+    if (version != "1.0" && version != "2.0")
+        root.refuse(in_quotes(version) + " is a version that is not known; 1.0 or 2.0 is right");
+    const bool flat = same(profile, "2d") || same(profile, "3d"), points = same(profile, "a3") || same(profile, "sl");
+    if (!flat && !points)
+        root.refuse(in_quotes(profile) + " is a profile that is not known; 2d, 3d, a3 or sl is right");
+    return {version, profile, flat};
+}
+
+/// Notes the region's place in its buffer, and its pixels.
+void read_place(const Region& region, WarpMesh& mesh)
+{
+    const Element& element = region.element;
+    const glm::dvec2 corner(element.attribute("x", {-1e6, 1e6}), element.attribute("y", {-1e6, 1e6})),
+        size(element.attribute("xsize", {1e-6, 1e6}), element.attribute("ysize", {1e-6, 1e6}));
+    const glm::ivec2 pixels(
+        int(element.attribute("xresolution", {1, 65536})), int(element.attribute("yresolution", {1, 65536})));
+    if (corner != glm::dvec2(0) || size != glm::dvec2(1))
+        mesh.notes.push_back("the region is x " + shown(corner.x) + " y " + shown(corner.y) + " width " + shown(size.x)
+            + " height " + shown(size.y) + " of its buffer " + in_quotes(region.buffer_id));
+    mesh.notes.push_back("made for " + std::to_string(pixels.x) + " x " + std::to_string(pixels.y) + " pixels");
+}
+
+void read_frustum(const Element& region, const Profile& profile, WarpMesh& mesh)
+{
+    if (const auto frustum = region.find("frustum"); frustum && profile.flat) {
+        const Range angle{-180, 180}, turn{-360, 360};
+        Planar planar;
+        planar.turn
+            = {frustum->want("yaw").number(turn), frustum->want("pitch").number(turn), frustum->want("roll").number(turn)};
+        planar.sides = checked_sides(*region.file, frustum->path,
+            {frustum->want("leftAngle").number(angle), frustum->want("rightAngle").number(angle),
+                frustum->want("downAngle").number(angle), frustum->want("upAngle").number(angle)});
+        mesh.frustum = planar;
+    } else if (same(profile.name, "3d"))
+        region.refuse("lacks <frustum>; the profile 3d with one is right");
+}
+
+/// The files of a region.
+Element fileset_of(const Element& root, const std::string& region)
+{
+    std::optional<Element> files;
+    for (const Element& set : root.want("files").all("fileset"))
+        if (set.attribute("region") == region) {
+            if (files)
+                set.refuse("is the second for the region " + in_quotes(region) + "; one is right");
+            files = set;
+        }
+    if (!files)
+        root.want("files").refuse("has no fileset for the region " + in_quotes(region) + "; one is right");
+    return *files;
+}
+
+/// The mesh of a map of points. warp: <geometryWarpFile>. region: its <region>, with the axes. The notes of `mesh` stay.
+WarpMesh point_mesh(const FloatMap& map, const WarpFile& map_file, const Element& warp, const Element& region, WarpMesh mesh)
+{
+    double unit = 1;
+    if (const auto given = warp.find("geometricUnit"))
+        unit = metres_of(given->text(), *given);
+    else
+        mesh.notes.push_back("geometricUnit is not given: metres");
+    const glm::dmat3 axes = cockpit_from_file(region);
+    std::vector<WarpVertex> values;
+    std::vector<char> holes;
+    values.reserve(map.values.size());
+    holes.reserve(map.values.size());
+    for (std::size_t i = 0; i < map.values.size(); ++i) {
+        const glm::dvec3 point = axes * (glm::dvec3(map.values[i]) * unit);
+        const bool hole = !std::isfinite(point.x + point.y + point.z) || point == glm::dvec3(0);
+        if (!hole && glm::length(point) > metre_range.high)
+            refuse(map_file, "value " + std::to_string(i),
+                "is a point " + shown(glm::length(point)) + " m away; up to " + shown(metre_range.high) + " m is right");
+        holes.push_back(hole);
+        values.push_back({{}, hole ? 0.0 : 1.0, {hole ? glm::dvec3(0) : point}});
+    }
+    const std::vector<std::string> notes = std::move(mesh.notes);
+    mesh = centred_mesh(map.size, values, holes);
+    mesh.kind = WarpMesh::Kind::points;
+    mesh.notes = notes;
+    if (const auto origin = warp.find("originOf3DData")) {
+        mesh.notes.push_back("the points' origin: " + one_line(origin->text(), 40));
+        if (same(origin->text(), "idealEyePoint"))
+            mesh.eye_m = glm::dvec3(0);
+    }
+    return mesh;
+}
+
+/// The mesh of a map of places in a planar picture. The frustum and the notes of `mesh` stay.
+WarpMesh flat_mesh(const FloatMap& map, const WarpFile& map_file, WarpMesh mesh)
+{
+    WarpMesh placed = place_mesh(map, map_file);
+    placed.frustum = mesh.frustum;
+    placed.notes.insert(placed.notes.begin(), mesh.notes.begin(), mesh.notes.end());
+    return placed;
+}
+
+std::optional<WarpMesh::Mask> mask_of(
+    const Element& files, const char* name, const ArchiveContents& contents, WarpMesh& mesh)
 {
     const std::optional<Element> element = files.find(name);
     if (!element)
@@ -172,8 +277,7 @@ std::optional<WarpMesh::Mask> mask_of(const Element& files, const char* name,
 } // namespace
 
 WarpMesh mesh_of_mpcdi(const WarpFile& file, const std::string& xml_name, const std::string& xml,
-    const std::function<std::string(const std::string& path, std::size_t most_bytes)>& contents, const std::string& wanted,
-    bool first_row_on_top)
+    const ArchiveContents& contents, const std::string& wanted, bool first_row_on_top)
 {
     // pugixml reads no entity but the five that XML has, and opens no other file.
     pugi::xml_document document;
@@ -181,95 +285,26 @@ WarpMesh mesh_of_mpcdi(const WarpFile& file, const std::string& xml_name, const 
     if (!result)
         refuse(
             file, xml_name + ", byte " + std::to_string(result.offset), std::string("is not XML: ") + result.description());
-    pugi::xml_node top = document.document_element();
+    const pugi::xml_node top = document.document_element();
     const Element root{&file, top, xml_name + ": " + top.name()};
-    if (!same(top.name(), "MPCDI"))
-        root.refuse("is not MPCDI's; <MPCDI> around everything is right");
-    const std::string version = root.attribute("version"), profile = root.attribute("profile");
-    if (version != "1.0" && version != "2.0")
-        root.refuse(in_quotes(version) + " is a version that is not known; 1.0 or 2.0 is right");
-    const bool flat = same(profile, "2d") || same(profile, "3d"), points = same(profile, "a3") || same(profile, "sl");
-    if (!flat && !points)
-        root.refuse(in_quotes(profile) + " is a profile that is not known; 2d, 3d, a3 or sl is right");
-
+    const Profile profile = read_profile(root);
     const Region region = chosen(root, wanted);
-    const Element& element = region.element;
     WarpMesh mesh;
-    const glm::dvec2 corner(element.attribute("x", {-1e6, 1e6}), element.attribute("y", {-1e6, 1e6})),
-        size(element.attribute("xsize", {1e-6, 1e6}), element.attribute("ysize", {1e-6, 1e6}));
-    const glm::ivec2 pixels(
-        int(element.attribute("xresolution", {1, 65536})), int(element.attribute("yresolution", {1, 65536})));
-    if (corner != glm::dvec2(0) || size != glm::dvec2(1))
-        mesh.notes.push_back("the region is x " + shown(corner.x) + " y " + shown(corner.y) + " width " + shown(size.x)
-            + " height " + shown(size.y) + " of its buffer " + in_quotes(region.buffer_id));
-    mesh.notes.push_back("made for " + std::to_string(pixels.x) + " x " + std::to_string(pixels.y) + " pixels");
-    if (const auto frustum = element.find("frustum"); frustum && flat) {
-        const Range angle{-180, 180}, turn{-360, 360};
-        Planar planar;
-        planar.turn
-            = {frustum->want("yaw").number(turn), frustum->want("pitch").number(turn), frustum->want("roll").number(turn)};
-        planar.sides = checked_sides(file, frustum->path,
-            {frustum->want("leftAngle").number(angle), frustum->want("rightAngle").number(angle),
-                frustum->want("downAngle").number(angle), frustum->want("upAngle").number(angle)});
-        mesh.frustum = planar;
-    } else if (same(profile, "3d"))
-        element.refuse("lacks <frustum>; the profile 3d with one is right");
+    read_place(region, mesh);
+    read_frustum(region.element, profile, mesh);
 
-    std::optional<Element> files;
-    for (const Element& set : root.want("files").all("fileset"))
-        if (set.attribute("region") == region.id) {
-            if (files)
-                set.refuse("is the second for the region " + in_quotes(region.id) + "; one is right");
-            files = set;
-        }
-    if (!files)
-        root.want("files").refuse("has no fileset for the region " + in_quotes(region.id) + "; one is right");
-    const Element warp = files->want("geometryWarpFile");
+    const Element files = fileset_of(root, region.id), warp = files.want("geometryWarpFile");
     const std::string path = warp.want("path").text();
     const std::string bytes = contents(path, most_inflated(file.content.size()));
     const WarpFile map_file{file.name + ": " + one_line(path, 100), bytes};
     const FloatMap map = read_float_map(map_file, first_row_on_top);
-    if (flat) {
-        std::vector<std::string> notes = std::move(mesh.notes);
-        const std::optional<Planar> frustum = mesh.frustum;
-        mesh = place_mesh(map, map_file);
-        mesh.frustum = frustum;
-        mesh.notes.insert(mesh.notes.begin(), notes.begin(), notes.end());
-    } else {
-        double unit = 1;
-        if (const auto given = warp.find("geometricUnit"))
-            unit = metres_of(given->text(), *given);
-        else
-            mesh.notes.push_back("geometricUnit is not given: metres");
-        const glm::dmat3 axes = cockpit_from_file(element);
-        std::vector<WarpVertex> values;
-        std::vector<char> holes;
-        values.reserve(map.values.size());
-        holes.reserve(map.values.size());
-        for (std::size_t i = 0; i < map.values.size(); ++i) {
-            const glm::dvec3 point = axes * (glm::dvec3(map.values[i]) * unit);
-            const bool hole = !std::isfinite(point.x + point.y + point.z) || point == glm::dvec3(0);
-            if (!hole && glm::length(point) > metre_range.high)
-                refuse(map_file, "value " + std::to_string(i),
-                    "is a point " + shown(glm::length(point)) + " m away; up to " + shown(metre_range.high) + " m is right");
-            holes.push_back(hole);
-            values.push_back({{}, hole ? 0.0 : 1.0, {hole ? glm::dvec3(0) : point}});
-        }
-        const std::vector<std::string> notes = std::move(mesh.notes);
-        mesh = centred_mesh(map.size, values, holes);
-        mesh.kind = WarpMesh::Kind::points;
-        mesh.notes = notes;
-        if (const auto origin = warp.find("originOf3DData")) {
-            mesh.notes.push_back("the points' origin: " + one_line(origin->text(), 40));
-            if (same(origin->text(), "idealEyePoint"))
-                mesh.eye_m = glm::dvec3(0);
-        }
-    }
-    if (files->find("distortionMap"))
+    mesh = profile.flat ? flat_mesh(map, map_file, std::move(mesh))
+                        : point_mesh(map, map_file, warp, region.element, std::move(mesh));
+    if (files.find("distortionMap"))
         mesh.notes.push_back("distortionMap is not used: the points' places say all that a screen at rest needs");
-    mesh.alpha = mask_of(*files, "alphaMap", contents, mesh);
-    mesh.beta = mask_of(*files, "betaMap", contents, mesh);
-    mesh.format = "MPCDI " + version + ", profile " + profile + ", region " + one_line(region.id, 60);
+    mesh.alpha = mask_of(files, "alphaMap", contents, mesh);
+    mesh.beta = mask_of(files, "betaMap", contents, mesh);
+    mesh.format = "MPCDI " + profile.version + ", profile " + profile.name + ", region " + one_line(region.id, 60);
     check_mesh(mesh, file);
     return mesh;
 }

@@ -104,10 +104,12 @@ private:
 std::size_t most_memory(std::size_t archive_bytes);
 std::size_t most_inflated(std::size_t archive_bytes);
 
-/// Parses MPCDI's XML with the files that `contents` gives by their paths: everything but the unpacking.
+/// Gives a file of an archive by its path, of at most most_bytes.
+using ArchiveContents = std::function<std::string(const std::string& path, std::size_t most_bytes)>;
+
+/// Parses MPCDI's XML with the files that it names: everything but the unpacking.
 WarpMesh mesh_of_mpcdi(const WarpFile& file, const std::string& xml_name, const std::string& xml,
-    const std::function<std::string(const std::string& path, std::size_t most_bytes)>& contents, const std::string& region,
-    bool first_row_on_top);
+    const ArchiveContents& contents, const std::string& region, bool first_row_on_top);
 
 /// A map of places in a picture as a mesh; README.md describes the map that holds offsets instead.
 WarpMesh place_mesh(const FloatMap& map, const WarpFile& file);

@@ -64,25 +64,27 @@ struct Canvas {
     }
 };
 
-} // namespace
+/// A part of a white line. It is drawn late, so that the mesh's lines do not dim it where both run.
+struct Dot {
+    glm::ivec2 at;
+    double share;
+};
 
-std::vector<std::uint8_t> portrait(const WarpMesh& mesh, glm::ivec2 size)
+/// The part of the canvas that the viewport covers.
+struct Inset {
+    glm::ivec2 margin, size;
+};
+
+/// Draws the colours of the samples. Returns the dots of the chart's lines.
+std::vector<Dot> draw_samples(Canvas& canvas, const WarpMesh& mesh, const Inset& inner)
 {
-    Canvas canvas{size * fine, {}};
-    canvas.pixels.assign(std::size_t(canvas.size.x) * std::size_t(canvas.size.y), glm::vec3(34, 35, 40));
-    const glm::ivec2 margin = canvas.size / 16, inner = canvas.size - 2 * margin;
-    const WarpRaster raster(mesh, inner);
-
-    // This row and the one above: their difference tells how wide a line must be.
-    const std::size_t width = std::size_t(inner.x);
+    const WarpRaster raster(mesh, inner.size);
+    const std::size_t width = std::size_t(inner.size.x);
     std::vector<WarpSample> samples(width);
+    // This row and the one above: their difference is the measure of a line's width.
     std::vector<std::optional<Seen>> above(width), here(width);
-    struct Dot {
-        glm::ivec2 at;
-        double share;
-    };
-    std::vector<Dot> chart; // of the white lines, which the mesh's must not dim where both run
-    for (int y = 0; y < inner.y; ++y) {
+    std::vector<Dot> chart;
+    for (int y = 0; y < inner.size.y; ++y) {
         raster.row(y, samples);
         std::swap(above, here);
         for (std::size_t x = 0; x < width; ++x) {
@@ -91,7 +93,7 @@ std::vector<std::uint8_t> portrait(const WarpMesh& mesh, glm::ivec2 size)
                 here[x] = seen(mesh, samples[x].sees);
         }
         for (std::size_t x = 0; x < width; ++x) {
-            const glm::ivec2 at = margin + glm::ivec2(int(x), y);
+            const glm::ivec2 at = inner.margin + glm::ivec2(int(x), y);
             canvas.mix(at, Rgb(0), 1);
             if (!here[x])
                 continue;
@@ -107,34 +109,45 @@ std::vector<std::uint8_t> portrait(const WarpMesh& mesh, glm::ivec2 size)
             }
         }
     }
+    return chart;
+}
 
-    const auto on_canvas = [&](std::uint32_t i) { return glm::dvec2(margin) + mesh.vertices[i].at * glm::dvec2(inner); };
+/// Draws the lines of a grid, or the edges of the triangles. A dense mesh shows some of them.
+void draw_mesh(Canvas& canvas, const WarpMesh& mesh, const Inset& inner)
+{
     const Rgb ink(8, 10, 14);
-    const std::size_t step = mesh.triangles.size() / 20000 + 1; // of a dense mesh not every line
-    if (mesh.grid.x > 1) {
-        std::vector<char> used(mesh.vertices.size());
-        for (const auto& t : mesh.triangles)
-            for (std::uint32_t i : t)
-                used[i] = 1;
-        const auto columns = std::uint32_t(mesh.grid.x), rows = std::uint32_t(mesh.grid.y);
-        const std::uint32_t every = std::max(1u, std::max(columns, rows) / 48);
-        for (std::uint32_t row = 0; row < rows; ++row)
-            for (std::uint32_t column = 0; column < columns; ++column) {
-                const std::uint32_t i = row * columns + column;
-                if (column + 1 < columns && row % every == 0 && used[i] && used[i + 1])
-                    canvas.line(on_canvas(i), on_canvas(i + 1), ink, 0.4);
-                if (row + 1 < rows && column % every == 0 && used[i] && used[i + columns])
-                    canvas.line(on_canvas(i), on_canvas(i + columns), ink, 0.4);
-            }
-    } else
+    const auto line = [&](std::uint32_t from, std::uint32_t to, double share) {
+        const auto on_canvas
+            = [&](std::uint32_t i) { return glm::dvec2(inner.margin) + mesh.vertices[i].at * glm::dvec2(inner.size); };
+        canvas.line(on_canvas(from), on_canvas(to), ink, share);
+    };
+    if (mesh.grid.x <= 1) {
+        const std::size_t step = mesh.triangles.size() / 20000 + 1;
         for (std::size_t i = 0; i < mesh.triangles.size(); i += step)
             for (std::size_t k = 0; k < 3; ++k)
-                canvas.line(on_canvas(mesh.triangles[i][k]), on_canvas(mesh.triangles[i][(k + 1) % 3]), ink, 0.2);
+                line(mesh.triangles[i][k], mesh.triangles[i][(k + 1) % 3], 0.2);
+        return;
+    }
+    std::vector<char> used(mesh.vertices.size());
+    for (const auto& t : mesh.triangles)
+        for (std::uint32_t i : t)
+            used[i] = 1;
+    const auto columns = std::uint32_t(mesh.grid.x), rows = std::uint32_t(mesh.grid.y);
+    const std::uint32_t every = std::max(1u, std::max(columns, rows) / 48);
+    for (std::uint32_t row = 0; row < rows; ++row)
+        for (std::uint32_t column = 0; column < columns; ++column) {
+            const std::uint32_t i = row * columns + column;
+            if (column + 1 < columns && row % every == 0 && used[i] && used[i + 1])
+                line(i, i + 1, 0.4);
+            if (row + 1 < rows && column % every == 0 && used[i] && used[i + columns])
+                line(i, i + columns, 0.4);
+        }
+}
 
-    for (const Dot& dot : chart)
-        canvas.mix(dot.at, Rgb(255), dot.share);
-
-    const glm::dvec2 low(margin), high(margin + inner);
+/// Draws the viewport's edge.
+void draw_edge(Canvas& canvas, const Inset& inner)
+{
+    const glm::dvec2 low(inner.margin), high(inner.margin + inner.size);
     for (int i = 0; i < fine; ++i) {
         const double d = i + 0.5;
         canvas.line({low.x - d, low.y - d}, {high.x + d, low.y - d}, Rgb(220), 1);
@@ -142,7 +155,11 @@ std::vector<std::uint8_t> portrait(const WarpMesh& mesh, glm::ivec2 size)
         canvas.line({low.x - d, low.y - d}, {low.x - d, high.y + d}, Rgb(220), 1);
         canvas.line({high.x + d, low.y - d}, {high.x + d, high.y + d}, Rgb(220), 1);
     }
+}
 
+/// The canvas as RGBA of `size` pixels, each the mean of fine * fine.
+std::vector<std::uint8_t> averaged(const Canvas& canvas, glm::ivec2 size)
+{
     std::vector<std::uint8_t> rgba;
     rgba.reserve(std::size_t(size.x) * std::size_t(size.y) * 4);
     for (int y = 0; y < size.y; ++y)
@@ -156,6 +173,22 @@ std::vector<std::uint8_t> portrait(const WarpMesh& mesh, glm::ivec2 size)
             rgba.push_back(255);
         }
     return rgba;
+}
+
+} // namespace
+
+std::vector<std::uint8_t> portrait(const WarpMesh& mesh, glm::ivec2 size)
+{
+    Canvas canvas{size * fine, {}};
+    canvas.pixels.assign(std::size_t(canvas.size.x) * std::size_t(canvas.size.y), glm::vec3(34, 35, 40));
+    const glm::ivec2 margin = canvas.size / 16;
+    const Inset inner{margin, canvas.size - 2 * margin};
+    const std::vector<Dot> chart = draw_samples(canvas, mesh, inner);
+    draw_mesh(canvas, mesh, inner);
+    for (const Dot& dot : chart)
+        canvas.mix(dot.at, Rgb(255), dot.share);
+    draw_edge(canvas, inner);
+    return averaged(canvas, size);
 }
 
 } // namespace starbow

@@ -10,8 +10,8 @@ namespace {
 constexpr int band = 8;
 
 /// Twice the signed area that an edge spans with points of one row, as a function of x. The two triangles at an edge must
-/// get the very same numbers with opposite signs, else a pixel's centre on it could lie in neither: the ends are therefore
-/// taken in an order that depends on their places alone.
+/// get the very same numbers with opposite signs, else a pixel's centre on it could lie in neither. So the ends are taken in
+/// an order that depends on their places alone.
 struct Edge {
     double x, constant, slope, sign;
     Edge(glm::dvec2 a, glm::dvec2 b, double y)

@@ -63,11 +63,15 @@ bool fills_grid(const WarpMesh& mesh, std::size_t columns)
     return std::size_t(std::count(filled.begin(), filled.end(), 1)) == cells;
 }
 
-} // namespace
+/// The first bytes of the file.
+struct Head {
+    int version = 0; ///< 1: a grid; 2: a list of triangles or a strip
+    bool cube = false; ///< the vertices look into a cube map; else into a planar picture
+};
 
-WarpMesh read_sciss(const WarpFile& file)
+Head read_head(Reader& in)
 {
-    Reader in{file};
+    const WarpFile& file = in.file;
     if (!file.content.starts_with("SGC") || file.content.size() < 4)
         refuse(file, "byte 0", "is no SCISS mesh; one that begins with SGC is right");
     in.at = 3;
@@ -77,44 +81,56 @@ WarpMesh read_sciss(const WarpFile& file)
     const std::uint32_t type = in.word("the type");
     if (type > 1)
         refuse(file, "byte 4", std::to_string(type) + " is a type that is not known; 0, planar, or 1, cube, is right");
+    return {version, type == 1};
+}
 
-    WarpMesh mesh;
-    mesh.format = "SCISS mesh, version " + std::to_string(version) + (type == 0 ? "" : ", cube");
-    const Range unit{-1.01, 1.01};
+/// Reads the projector: its turn, which is returned, the eye's place and the frustum, which go into the mesh.
+glm::dquat read_projector(Reader& in, const Head& head, WarpMesh& mesh)
+{
+    const Range unit{-1.01, 1.01}, angle{-180, 180};
     const double qx = in.number("the quaternion's x", unit), qy = in.number("the quaternion's y", unit),
                  qz = in.number("the quaternion's z", unit), qw = in.number("the quaternion's w", unit);
     glm::dquat turn(qw, qx, qy, qz);
     if (std::abs(glm::length(turn) - 1) > 0.01)
-        refuse(file, "byte 8", "a quaternion of length " + shown(glm::length(turn)) + " is no turn; length 1 is right");
+        refuse(in.file, "byte 8", "a quaternion of length " + shown(glm::length(turn)) + " is no turn; length 1 is right");
     turn = glm::normalize(turn);
     const double x = in.number("the position's x", metre_range), y = in.number("the position's y", metre_range),
                  z = in.number("the position's z", metre_range);
     mesh.eye_m = glm::dvec3(x, y, z);
-    const Range angle{-180, 180};
     const double up = in.number("the angle up", angle), down = in.number("the angle down", angle),
                  left = in.number("the angle to the left", angle), right = in.number("the angle to the right", angle);
-    if (type == 0)
-        mesh.frustum
-            = Planar{60, checked_sides(file, "byte 36", {left, right, down, up}), turn_of(turn.x, turn.y, turn.z, turn.w)};
+    if (!head.cube)
+        mesh.frustum = Planar{
+            60, checked_sides(in.file, "byte 36", {left, right, down, up}), turn_of(turn.x, turn.y, turn.z, turn.w)};
+    return turn;
+}
 
-    bool strip = true;
-    std::size_t count = 0;
+/// The arrangement of the vertices.
+struct Arrangement {
+    std::size_t count = 0; ///< of vertices
+    bool strip = true; ///< the indices are a strip's; else three for each triangle
+    glm::ivec2 grid{0}; ///< as WarpMesh::grid
+};
+
+Arrangement read_arrangement(Reader& in, int version)
+{
     const std::uint32_t first = in.word(version == 1 ? "the number of columns" : "the primitive");
     const std::uint32_t second = in.word(version == 1 ? "the number of rows" : "the number of vertices");
     if (version == 1) {
         if (first < 2 || second < 2 || first > std::uint32_t(most_grid) || second > std::uint32_t(most_grid))
-            refuse(file, "byte 52",
+            refuse(in.file, "byte 52",
                 std::to_string(first) + " columns and " + std::to_string(second) + " rows are no grid; 2 to "
                     + std::to_string(most_grid) + " of each is right");
-        mesh.grid = {int(first), int(second)};
-        count = std::size_t(first) * second;
-    } else {
-        if (first != 4 && first != 5)
-            refuse(file, "byte 52",
-                std::to_string(first) + " is a primitive that is not known; 4, triangles, or 5, a strip, is right");
-        strip = first == 5;
-        count = second;
+        return {std::size_t(first) * second, true, {int(first), int(second)}};
     }
+    if (first != 4 && first != 5)
+        refuse(in.file, "byte 52",
+            std::to_string(first) + " is a primitive that is not known; 4, triangles, or 5, a strip, is right");
+    return {second, first == 5, {}};
+}
+
+void read_vertices(Reader& in, const Head& head, const glm::dquat& turn, std::size_t count, WarpMesh& mesh)
+{
     in.room(count, 24, "vertices");
     mesh.vertices.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -125,44 +141,74 @@ WarpMesh read_sciss(const WarpFile& file)
         const std::string place = in.place();
         const double u = in.number("a vertex's u", picture_range), v = in.number("a vertex's v", picture_range);
         const double w = in.number("a vertex's w", {-1e30, 1e30});
-        if (type == 0)
+        if (!head.cube)
             vertex.sees[0] = {u, 1 - v, 0};
         else {
             const glm::dvec3 way = turn * glm::dvec3(u, v, w);
             if (!(glm::length(way) > 1e-6) || glm::length(way) > 1e6)
-                refuse(file, place, "a vertex looks nowhere; a direction in a cube map is right");
+                refuse(in.file, place, "a vertex looks nowhere; a direction in a cube map is right");
             vertex.sees.fill(glm::normalize(way));
             mesh.kind = WarpMesh::Kind::colours;
         }
         mesh.vertices.push_back(vertex);
     }
+}
+
+/// Reads the triangles into the mesh. Returns the second index: in a grid's strip the vertex below the first.
+std::uint32_t read_triangles(Reader& in, const Arrangement& arrangement, WarpMesh& mesh)
+{
+    const std::size_t count = arrangement.count;
     const std::uint32_t indices = in.word("the number of indices");
     in.room(indices, 4, "indices");
     const std::size_t corners = indices > 0 ? indices : count; // none: the vertices as they stand
-    std::uint32_t second_index = 0; // of a grid's strip: the one below the first
+    std::uint32_t second_index = 0;
     std::array<std::uint32_t, 3> t{};
     for (std::size_t i = 0; i < corners; ++i) {
         const std::string place = in.place();
         const std::uint32_t index = indices > 0 ? in.word("an index") : std::uint32_t(i);
         if (index >= count)
-            refuse(file, place,
+            refuse(in.file, place,
                 std::to_string(index) + " is the number of no vertex; one below " + std::to_string(count) + " is right");
         if (i == 1)
             second_index = index;
         t = {t[1], t[2], index};
-        if ((strip ? i >= 2 : i % 3 == 2) && t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
-            mesh.triangles.push_back(strip && i % 2 ? std::array{t[1], t[0], t[2]} : t);
+        const bool complete = arrangement.strip ? i >= 2 : i % 3 == 2;
+        if (complete && t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
+            mesh.triangles.push_back(arrangement.strip && i % 2 ? std::array{t[1], t[0], t[2]} : t);
     }
+    return second_index;
+}
+
+/// Makes a whole grid of a strip that fills one, with so many columns.
+void make_grid(WarpMesh& mesh, std::size_t columns)
+{
+    if (!fills_grid(mesh, columns))
+        return;
+    const std::size_t count = mesh.vertices.size();
+    mesh.grid = {int(columns), int(count / columns)};
+    mesh.triangles.clear();
+    join_grid(mesh, std::vector<char>(count));
+}
+
+} // namespace
+
+WarpMesh read_sciss(const WarpFile& file)
+{
+    Reader in{file};
+    const Head head = read_head(in);
+    WarpMesh mesh;
+    mesh.format = "SCISS mesh, version " + std::to_string(head.version) + (head.cube ? ", cube" : "");
+    const glm::dquat turn = read_projector(in, head, mesh);
+    const Arrangement arrangement = read_arrangement(in, head.version);
+    mesh.grid = arrangement.grid;
+    read_vertices(in, head, turn, arrangement.count, mesh);
+    const std::uint32_t second_index = read_triangles(in, arrangement, mesh);
     if (in.left() > 0)
         mesh.notes.push_back(std::to_string(in.left()) + " bytes after the end are not used");
-    if (const std::size_t columns = version == 1 ? std::size_t(mesh.grid.x)
-            : strip && count > 1                 ? second_index
-                                                 : 0;
-        fills_grid(mesh, columns)) {
-        mesh.grid = {int(columns), int(count / columns)};
-        mesh.triangles.clear();
-        join_grid(mesh, std::vector<char>(count));
-    }
+    if (mesh.grid.x > 0)
+        make_grid(mesh, std::size_t(mesh.grid.x));
+    else if (arrangement.strip && arrangement.count > 1)
+        make_grid(mesh, second_index);
     rows_from_top(mesh);
     check_mesh(mesh, file);
     return mesh;

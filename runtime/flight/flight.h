@@ -41,7 +41,7 @@ constexpr double exposure_ev_per_s = 2;
 Flight flight_at(const Shot& start, const Flying& rules = {});
 
 /// The flight dt_ns nanoseconds later under the visitor's controls. seconds_per_time_unit: of the scene. The result depends
-/// only on the controls and on the whole ticks that have passed: any division of the same time into steps gives the same
+/// only on the controls and on the whole ticks that have passed. So any division of the same time into steps gives the same
 /// flight to the bit.
 Flight step(Flight flight, const Controls& controls, std::int64_t dt_ns, const Flying& rules, double seconds_per_time_unit,
     const Shot& start);

@@ -5,8 +5,8 @@
 namespace starbow {
 namespace {
 
-/// Greatest rapidity of a straight way of `distance` in the proper time `tau`, half of it speeding up, half slowing down:
-/// distance = tau (cosh w - 1) / w. The right side grows with w.
+/// Greatest rapidity w of a straight way of `distance` in the proper time `tau`, half of it speeding up, half slowing down.
+/// From distance = tau (cosh w - 1) / w; the right side grows with w.
 double greatest_rapidity(double distance, double tau)
 {
     double low = 0, high = 700;

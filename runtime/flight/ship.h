@@ -39,19 +39,19 @@ Shot shot_of(const Ship& ship);
 /// The rapidity of the ship's velocity in the world.
 double rapidity_of(const Ship& ship);
 
-/// One step of proper time dtau (>= 0) under a proper acceleration that is constant in the cockpit (cockpit axes, rapidity
-/// per unit of proper time) while the cockpit turns by `turn` (rotation vector, radians, cockpit axes). The boost carries
-/// the cockpit along (Thomas-Wigner).
+/// One step of proper time dtau (>= 0) under a proper acceleration that is constant in the cockpit: cockpit axes, rapidity
+/// per unit of proper time. Meanwhile the cockpit turns by `turn`: a rotation vector, radians, cockpit axes. The boost
+/// carries the cockpit along (Thomas-Wigner).
 ///
 /// Without a turn the step is the closed form of hyperbolic motion, and thrust segments of one constant acceleration join
-/// exactly: any division into steps gives the same u, position, time and orientation, to rounding. A turn alone is exact as
+/// exactly. Any division into steps gives the same u, position, time and orientation, to rounding. A turn alone is exact as
 /// well. Both together are half the turn, the thrust segment, half the turn; this differs from the smooth flight by the
 /// order of dtau^2. `distance` adds the straight way of each step. It is exact on a straight flight that does not reverse
-/// within a step; on a curved one it is short by the order of dtau^2.
+/// within a step. On a curved one it is short by the order of dtau^2.
 ///
-/// u keeps 15 digits at any gamma; u, position and time hold to 1e-12 of the closed form up to gamma 1e9. A flight from
-/// rest to gamma and back along one line returns u and the axes to 1e-16 gamma at worst, and to 1e-12 from gamma 1e6 if a
-/// step's rapidity is below 0.01. A sideways error at the top, such as the rounding of a turn, comes back times gamma.
+/// u keeps 15 digits at any gamma; u, position and time hold to 1e-12 of the closed form up to gamma 1e9. A flight from rest
+/// to gamma and back along one line returns u and the axes to 1e-16 gamma at worst. From gamma 1e6 it returns them to 1e-12
+/// if a step's rapidity is below 0.01. A sideways error at the top, such as the rounding of a turn, comes back times gamma.
 Ship fly(Ship ship, const glm::dvec3& acceleration, const glm::dvec3& turn, double dtau);
 
 /// Returns the ship at rest in the world at the same event; the cockpit's axes in the ship frame stay.

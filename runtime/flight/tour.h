@@ -43,10 +43,10 @@ struct Touring {
 
 Touring touring_at(const Show& show);
 
-/// The tour dt_ns nanoseconds of the visitor's time later. A step's picture is a function of the step's beginning and of
-/// the time since: any division of the time gives the same, to rounding where nobody flies and to the tick where the
-/// visitor does. The visitor goes on to the next step with `home`, back with `undo`, from the beginning with `reset`.
-/// `stop` pauses and resumes where it does not answer a question. Looking around and the exposure always work.
+/// The tour dt_ns nanoseconds of the visitor's time later. A step's picture is a function of the step's beginning and of the
+/// time since. Any division of the time gives the same, to rounding where nobody flies and to the tick where the visitor
+/// does. The visitor goes on to the next step with `home`, back with `undo`, from the beginning with `reset`. `stop` pauses
+/// and resumes where it does not answer a question. Looking around and the exposure always work.
 Touring advance(Touring touring, const Show& show, const Controls& controls, std::int64_t dt_ns);
 
 /// True while the visitor flies.

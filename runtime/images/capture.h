@@ -8,8 +8,8 @@
 
 namespace starbow {
 
-/// Throws InputError if a file of this name could not be written: its folder (or the nearest existing one) is no folder or
-/// may not be written to, or something other than a file has the name. Writes nothing; call it before long work.
+/// Throws InputError if a file of this name could not be written. Its folder, or the nearest existing one, may be no folder
+/// or not writable, or something other than a file may have the name. Writes nothing; call it before long work.
 void check_writable(const std::filesystem::path& file);
 
 /// Throws InputError if writing the file would replace one that is read, by whatever name.

@@ -6,7 +6,7 @@
 namespace starbow {
 namespace {
 
-/// The observer at every nanometre: a natural cubic spline through the table, which CIE 015 allows in place of Sprague's
+/// The observer at every nanometre: a natural cubic spline through the table. CIE 015 allows it in place of Sprague's
 /// interpolation; the two differ by less than 2e-4.
 const std::vector<glm::dvec3>& observer()
 {

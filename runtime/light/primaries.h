@@ -3,11 +3,11 @@
 
 namespace starbow {
 
-/// The parts of a surface's red, green and blue in its reflectance, at wavelengths evenly spaced in their logarithm from
-/// primaries_from_nm to primaries_to_nm; beyond them the end values hold. They are the smoothest three curves (least sum
-/// of squared second differences) that lie between 0 and 1 and add up to 1 everywhere. Lit by a black body of 5772 K,
-/// they look to an eye adapted to it (Bradford) as Rec. 709's primaries do, each with the ends that base_reflectance
-/// blends into. scenes/make_primaries.py writes them.
+/// The parts of a surface's red, green and blue in its reflectance. The wavelengths are evenly spaced in their logarithm
+/// from primaries_from_nm to primaries_to_nm; beyond them the end values hold. They are the smoothest three curves (least
+/// sum of squared second differences) that lie between 0 and 1 and add up to 1 everywhere. Lit by a black body of 5772 K,
+/// they look to an eye adapted to it (Bradford) as Rec. 709's primaries do, each with the ends that base_reflectance blends
+/// into. scenes/make_primaries.py writes them.
 constexpr double primaries_from_nm = 345, primaries_to_nm = 850;
 constexpr std::array<std::array<float, 3>, 57> primaries{{
     {{0.26146f, 0.00000f, 0.73854f}},

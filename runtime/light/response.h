@@ -3,11 +3,11 @@
 
 namespace starbow {
 
-/// A response table as the device reads it, RESPONSE_ROWS rows of words in texels of four. For each basis coefficient and
-/// each shown colour (red, green, blue; Rec. 709 linear) a row holds a pair of halves: the coefficient's part of the
+/// A response table as the device reads it, RESPONSE_ROWS rows of words in texels of four. A row holds a pair of halves for
+/// each basis coefficient and each shown colour (red, green, blue; Rec. 709 linear). They are the coefficient's part of the
 /// colour over the row's scale, and its increase up to the next row. Then follow, as floats, the binary logarithm of that
-/// scale and its increase. The scene's own emission spectra stand apart in RESPONSE_OWN_ROWS rows of MAX_OWN, so that
-/// they may be brighter or darker by any factor: a colour over its scale, and the scale's logarithm.
+/// scale and its increase. The scene's own emission spectra stand apart in RESPONSE_OWN_ROWS rows of MAX_OWN, so that they
+/// may be brighter or darker by any factor. Each entry is a colour over its scale, and the scale's logarithm.
 struct Response {
     int reflected = 0, own = 0;
     double first_log2_D = 0, per_octave = 1; ///< row i: log2 D = first + i / per_octave

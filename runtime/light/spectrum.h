@@ -12,8 +12,8 @@ constexpr double sun_K = 5772; ///< IAU 2015 nominal effective temperature
 /// Spectral radiance per frequency at a wavelength in nm, in a scene's own unit.
 using Spectrum = std::function<double(double nm)>;
 
-/// A black body's spectral radiance per frequency, in the unit in which a sunlit white surface at the Earth's distance
-/// from the Sun has the luminance 1; so 5772 K itself is about 46,000. Arguments in K and nm.
+/// A black body's spectral radiance per frequency; arguments in K and nm. In its unit a sunlit white surface at the Earth's
+/// distance from the Sun has the luminance 1, so 5772 K itself is about 46,000.
 Spectrum black_body(double kelvin);
 
 /// The light of a white, matt surface that faces the Sun at the Earth's distance: luminance 1.
@@ -26,9 +26,9 @@ struct Reflectance {
     double operator()(double nm) const;
 };
 
-/// The smooth reflectance of a base colour (Rec. 709 linear, 0 to 1) in the visible, with its own values in the
-/// ultraviolet (below about 360 nm) and in the near infrared (beyond about 820 nm). A base colour whose ultraviolet and
-/// infrared are its mean looks exactly as given when lit by the Sun; other values change it by less than 1 %.
+/// The smooth reflectance of a base colour (Rec. 709 linear, 0 to 1). It has its own values in the ultraviolet (below about
+/// 360 nm) and in the near infrared (beyond about 820 nm). Under the Sun a base colour whose ultraviolet and infrared are
+/// its mean looks exactly as given; other values change it by less than 1 %.
 double base_reflectance(const glm::dvec3& rgb, double ultraviolet, double infrared, double nm);
 /// The infrared value's part in base_reflectance at a wavelength, 0 to 1.
 double infrared_part(double nm);
@@ -47,8 +47,8 @@ struct StandardObserver {
 /// The CIE 1931 observer, adapted to sunlight; its sensors measure XYZ. Luminance (Y) 1 is that of sunlit_white.
 const StandardObserver& eye();
 
-/// An observer that sees beyond the visible: red is the infrared (830 nm to 12 um), green the visible (360 to 830 nm),
-/// blue the ultraviolet (40 to 360 nm), each all energy. sunlit_white is white.
+/// An observer that sees beyond the visible; sunlit_white is white. Red is the infrared (830 nm to 12 um), green the visible
+/// (360 to 830 nm), blue the ultraviolet (40 to 360 nm), each all energy.
 const StandardObserver& false_colours();
 
 /// An observer's colour of light that is shifted by D (above 1 is blue), spectral radiance per frequency kept. The caller

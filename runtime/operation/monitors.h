@@ -35,8 +35,8 @@ struct WindowPlace {
     glm::ivec2 corner, size;
     bool operator==(const WindowPlace&) const = default;
 };
-/// The place of an output's window on its monitor. A window without a place in the layout is shrunk to fit its monitor,
-/// lest it reach into the next; one with a place may reach across several.
+/// The place of an output's window on its monitor. A window without a place in the layout is shrunk to fit its monitor, lest
+/// it reach into the next. A window with a place may reach across several.
 WindowPlace place_on(const Monitor& monitor, const Output& output);
 
 /// The layout's line that names this monitor: "monitor": { ... }. by_edid: by model and serial instead of the connector.

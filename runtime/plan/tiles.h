@@ -57,8 +57,8 @@ Rect sub_tiles_rect(int tile, const SubTiles& sub_tiles);
 /// The sub-tiles that a part of the face's plane touches.
 SubTiles sub_tiles_in(int tile, const Rect& part);
 
-/// The constants of each sub-tile: its part of the face's plane; whether it lies in the clip-map hole; the least and the
-/// greatest cos^2 of half the angle from straight ahead, with which D grows.
+/// The constants of each sub-tile: its part of the face's plane, and a mark if it lies in the clip-map hole. Further the
+/// least and the greatest cos^2 of half the angle from straight ahead, with which D grows.
 struct SubTileTable {
     std::array<Rect, SUB_TILE_COUNT> rects;
     std::array<bool, SUB_TILE_COUNT> in_clip_hole;

@@ -9,9 +9,9 @@
 
 namespace starbow {
 
-/// The colour of some light as a function of its shift D, Rec. 709 linear: summed over wavelengths at its first use, and
-/// kept. There are 1024 steps an octave with linear interpolation: accurate to 1e-5, and to 2e-4 where a black body is so
-/// cold that its light is gone. Several threads may call it.
+/// The colour of some light as a function of its shift D, Rec. 709 linear. It is summed over wavelengths at its first use,
+/// and kept. There are 1024 steps an octave with linear interpolation. It is accurate to 1e-5, and to 2e-4 where a black
+/// body is so cold that its light is gone. Several threads may call it.
 class ByShift {
 public:
     using Sum = std::function<void(double D, glm::dvec3* seen)>;

@@ -226,6 +226,160 @@ std::uint64_t sum_of(const ReferenceInput& input, const Layout& layout)
     return sum.value();
 }
 
+/// The key of a file of finished rows: everything that rows depend on.
+std::string key_of(const ReferenceInput& input, const Layout& layout, const Shot& shot, std::size_t output, int samples)
+{
+    const glm::ivec2 size = layout.outputs[output].size;
+    return "starbow rows " + std::to_string(sum_of(input, layout)) + ' ' + std::to_string(output) + ' '
+        + std::to_string(size.x) + 'x' + std::to_string(size.y) + ' ' + std::to_string(samples) + ' ' + describe(shot);
+}
+
+/// The compiled views of a layout.
+struct Views {
+    std::vector<CompiledView> lit; ///< of all outputs that light screens; where they overlap they share their light
+    std::vector<CompiledView> own; ///< of the output that is drawn
+};
+
+Views compile_views(MapStore& store, const Layout& layout, std::size_t output)
+{
+    Views out;
+    for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
+        std::vector<CompiledView> views = compile_output(store, layout, i, layout.outputs[i].size);
+        if (!layout.outputs[i].preview)
+            out.lit.insert(out.lit.end(), views.begin(), views.end());
+        if (i == output)
+            out.own = std::move(views);
+    }
+    reject_empty(layout, out.lit);
+    return out;
+}
+
+/// The shade of each output; that of a preview is empty.
+std::vector<Shade> shades_of(const Layout& layout, const std::vector<CompiledView>& lit)
+{
+    std::vector<std::vector<float>> ramps;
+    if (layout.blend.ramps)
+        ramps = blend_ramps(layout, lit, layout.blend.power);
+    std::vector<Shade> shades(layout.outputs.size());
+    for (std::size_t i = 0; i < layout.outputs.size(); ++i)
+        if (!layout.outputs[i].preview)
+            shades[i] = shade_of(layout, i, layout.outputs[i].size, lit, ramps);
+    return shades;
+}
+
+/// A picture without light.
+Reference dark(const Output& output, std::vector<Shade> shades, std::size_t index, bool numbers)
+{
+    Reference out;
+    out.size = output.size;
+    out.packing = output.preview ? Packing::mono : output.packing;
+    out.colour = output.colour;
+    out.headroom = output.preview ? 1 : headroom(shades);
+    out.shade = std::move(shades[index]);
+    const std::size_t pixels = std::size_t(out.size.x) * std::size_t(out.size.y);
+    out.light.assign(std::size_t(canvas_count(out.packing)), std::vector<glm::dvec3>(pixels, glm::dvec3(0)));
+    if (numbers)
+        out.numbers.resize(pixels);
+    return out;
+}
+
+/// Bytes of one row in a file of finished rows.
+std::size_t row_bytes(const Reference& out)
+{
+    return std::size_t(out.size.x)
+        * (out.light.size() * sizeof(glm::dvec3) + (out.numbers.empty() ? 0 : sizeof(Reference::Numbers)));
+}
+
+/// Draws the rows of a picture in several threads, and takes those that are finished from their file.
+class RowDrawing {
+public:
+    RowDrawing(const Picture_& picture, Reference& out, const ReferenceOptions& options, KeptRows* kept)
+        : picture_(picture)
+        , out_(out)
+        , options_(options)
+        , kept_(kept)
+        , done_(kept ? kept->count() : 0)
+    {
+    }
+
+    /// Returns when all rows are drawn; rethrows the last problem of a row.
+    void draw_all()
+    {
+        {
+            std::vector<std::jthread> threads;
+            for (unsigned i = 1; i < std::max(std::thread::hardware_concurrency(), 1u); ++i)
+                threads.emplace_back([this] { draw_some(); });
+            draw_some();
+        }
+        if (problem_)
+            std::rethrow_exception(problem_);
+    }
+
+private:
+    /// One row's memory in the picture.
+    struct Row {
+        std::vector<glm::dvec3*> light; ///< by canvas
+        Reference::Numbers* numbers; ///< null where none are wanted
+    };
+
+    Row row(int y) const
+    {
+        const std::size_t first = std::size_t(y) * std::size_t(out_.size.x);
+        Row row{{}, out_.numbers.empty() ? nullptr : &out_.numbers[first]};
+        for (std::vector<glm::dvec3>& canvas : out_.light)
+            row.light.push_back(&canvas[first]);
+        return row;
+    }
+
+    /// Calls copy(memory, bytes) for each part of a row, in their order in the file of finished rows.
+    template <typename Copy> void each_part(const Row& row, Copy copy) const
+    {
+        const std::size_t width = std::size_t(out_.size.x);
+        for (glm::dvec3* light : row.light)
+            copy(light, width * sizeof(glm::dvec3));
+        if (row.numbers)
+            copy(row.numbers, width * sizeof(Reference::Numbers));
+    }
+
+    /// One thread's work: the next row, until none is left.
+    void draw_some()
+    {
+        std::vector<std::byte> bytes(row_bytes(out_));
+        for (int y = next_++; y < out_.size.y; y = next_++) {
+            const Row to = row(y);
+            if (const std::byte* from = kept_ ? kept_->row(y) : nullptr) {
+                each_part(to, [&](void* part, std::size_t count) { std::memcpy(part, from, count), from += count; });
+                continue;
+            }
+            try {
+                picture_.row(y, to.light, to.numbers);
+                if (kept_) {
+                    std::byte* at = bytes.data();
+                    each_part(to, [&](const void* part, std::size_t count) { std::memcpy(at, part, count), at += count; });
+                    kept_->put(y, bytes.data());
+                }
+                const std::scoped_lock lock(mutex_);
+                ++done_;
+                if (options_.progress)
+                    options_.progress(done_, out_.size.y);
+            } catch (...) {
+                const std::scoped_lock lock(mutex_);
+                problem_ = std::current_exception();
+                next_ = out_.size.y;
+            }
+        }
+    }
+
+    const Picture_& picture_;
+    Reference& out_;
+    const ReferenceOptions& options_;
+    KeptRows* kept_;
+    std::atomic<int> next_ = 0;
+    std::mutex mutex_;
+    int done_;
+    std::exception_ptr problem_;
+};
+
 double tabled(const std::vector<glm::dvec3>& table, double light, int channel)
 {
     const double at = light * double(table.size() - 1);
@@ -249,97 +403,15 @@ ReferenceWorld open_reference_world(const std::filesystem::path& file)
 Reference reference(
     const ReferenceInput& input, const Layout& layout, const Shot& shot, std::size_t output, const ReferenceOptions& options)
 {
-    // All views of all outputs: where they overlap their light is shared.
     MapStore store{std::filesystem::path()};
-    std::vector<CompiledView> lit, own;
-    for (std::size_t i = 0; i < layout.outputs.size(); ++i) {
-        std::vector<CompiledView> views = compile_output(store, layout, i, layout.outputs[i].size);
-        if (!layout.outputs[i].preview)
-            lit.insert(lit.end(), views.begin(), views.end());
-        if (i == output)
-            own = std::move(views);
-    }
-    reject_empty(layout, lit);
-    std::vector<std::vector<float>> ramps;
-    if (layout.blend.ramps)
-        ramps = blend_ramps(layout, lit, layout.blend.power);
-    std::vector<Shade> shades(layout.outputs.size());
-    for (std::size_t i = 0; i < layout.outputs.size(); ++i)
-        if (!layout.outputs[i].preview)
-            shades[i] = shade_of(layout, i, layout.outputs[i].size, lit, ramps);
-
-    const Output& of = layout.outputs[output];
-    Reference out;
-    out.size = of.size;
+    const Views views = compile_views(store, layout, output);
+    Reference out = dark(layout.outputs[output], shades_of(layout, views.lit), output, options.numbers);
     out.exposure = std::exp2(shot.exposure_ev);
-    out.packing = of.preview ? Packing::mono : of.packing;
-    out.colour = of.colour;
-    out.headroom = of.preview ? 1 : headroom(shades);
-    out.shade = std::move(shades[output]);
-    const std::size_t width = std::size_t(of.size.x), rows = std::size_t(of.size.y);
-    out.light.assign(std::size_t(canvas_count(out.packing)), std::vector<glm::dvec3>(width * rows, glm::dvec3(0)));
-    if (options.numbers)
-        out.numbers.resize(width * rows);
-
-    const Picture_ picture(input, layout, shot, own, options.samples);
-    const std::size_t light_bytes = width * sizeof(glm::dvec3),
-                      numbers_bytes = options.numbers ? width * sizeof(Reference::Numbers) : 0;
-    const std::size_t row_bytes = out.light.size() * light_bytes + numbers_bytes;
+    const Picture_ picture(input, layout, shot, views.own, options.samples);
     std::optional<KeptRows> kept;
     if (!options.kept.empty())
-        kept.emplace(options.kept,
-            "starbow rows " + std::to_string(sum_of(input, layout)) + ' ' + std::to_string(output) + ' '
-                + std::to_string(width) + 'x' + std::to_string(rows) + ' ' + std::to_string(options.samples) + ' '
-                + describe(shot),
-            row_bytes, int(rows));
-    std::atomic<int> next = 0;
-    int done = kept ? kept->count() : 0;
-    std::mutex mutex;
-    std::exception_ptr problem;
-    auto work = [&] {
-        std::vector<std::byte> bytes(row_bytes);
-        std::vector<glm::dvec3*> light(out.light.size());
-        for (int y = next++; y < int(rows); y = next++) {
-            const std::size_t first = std::size_t(y) * width;
-            for (std::size_t i = 0; i < light.size(); ++i)
-                light[i] = &out.light[i][first];
-            Reference::Numbers* numbers = options.numbers ? &out.numbers[first] : nullptr;
-            if (const std::byte* from = kept ? kept->row(y) : nullptr) {
-                for (glm::dvec3* one : light)
-                    std::memcpy(one, from, light_bytes), from += light_bytes;
-                if (numbers)
-                    std::memcpy(numbers, from, numbers_bytes);
-                continue;
-            }
-            try {
-                picture.row(y, light, numbers);
-                if (kept) {
-                    std::byte* to = bytes.data();
-                    for (const glm::dvec3* one : light)
-                        std::memcpy(to, one, light_bytes), to += light_bytes;
-                    if (numbers)
-                        std::memcpy(to, numbers, numbers_bytes);
-                    kept->put(y, bytes.data());
-                }
-                const std::scoped_lock lock(mutex);
-                ++done;
-                if (options.progress)
-                    options.progress(done, int(rows));
-            } catch (...) {
-                const std::scoped_lock lock(mutex);
-                problem = std::current_exception();
-                next = int(rows);
-            }
-        }
-    };
-    {
-        std::vector<std::jthread> threads;
-        for (unsigned i = 1; i < std::max(std::thread::hardware_concurrency(), 1u); ++i)
-            threads.emplace_back(work);
-        work();
-    }
-    if (problem)
-        std::rethrow_exception(problem);
+        kept.emplace(options.kept, key_of(input, layout, shot, output, options.samples), row_bytes(out), out.size.y);
+    RowDrawing(picture, out, options, kept ? &*kept : nullptr).draw_all();
     return out;
 }
 

@@ -9,8 +9,8 @@
 
 namespace starbow {
 
-/// The reference picture for the live one: for every pixel, rays along the exactly transformed direction, in double, with
-/// whole spectra; no cube map, no device. It shares with the live picture the scene's loading and the formulas of
+/// The reference picture for the live one, without cube map and device. Each pixel has rays along the exactly transformed
+/// direction, in double, with whole spectra. It shares with the live picture the scene's loading and the formulas of
 /// shaders/physics.
 struct ReferenceInput {
     const World& world; ///< after place_bodies

@@ -25,8 +25,8 @@ struct Crossing {
     bool front, inside;
 };
 
-/// Corners are from the line's beginning. The volumes of the line with the edges: two triangles at an edge get the same
-/// number with opposite signs, so no line passes between them. `inside` false: the plane is met beyond the edges.
+/// Corners are from the line's beginning. Two triangles at an edge get the same volume of the line with the edge, with
+/// opposite signs, so no line passes between them. `inside` false: the plane is met beyond the edges.
 std::optional<Crossing> crossing(const glm::dvec3 (&p)[3], const glm::dvec3& way)
 {
     const glm::dvec3 volumes(

@@ -4,7 +4,7 @@
 
 namespace starbow {
 
-/// The places of `count` samples in each pixel, fractions of it from its top left: Hammersley's points, one in each of
+/// The places of `count` samples in each pixel, in fractions from its top left. They are Hammersley's points, one in each of
 /// `count` rows, the same in every pixel and every run.
 std::vector<glm::dvec2> sample_places(int count);
 

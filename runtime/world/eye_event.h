@@ -3,8 +3,8 @@
 
 namespace starbow {
 
-/// The turn from world axes to motion axes: z along u, y as near as possible to the cockpit's up; at rest z is the
-/// cockpit's straight ahead. The same turn leads from the ship's axes to the motion axes in the ship's frame.
+/// The turn from world axes to motion axes: z along u, y as near as possible to the cockpit's up. At rest z is the cockpit's
+/// straight ahead. The same turn leads from the ship's axes to the motion axes in the ship's frame.
 glm::dmat3 motion_from_world(const glm::dvec3& u, const glm::dquat& ship_from_cockpit);
 
 /// An eye's event in one rest frame.
@@ -20,8 +20,8 @@ struct EyeEvent {
 /// An observer's eye event: its place in the cockpit, scene units. frame: the index of the rest-frame view.
 EyeEvent eye_event_of(const RestFrameView& layer, int frame, const glm::dvec3& place);
 
-/// The retarded time, in the eye event's own frame, of a place given from the eye in motion axes; with `now`, the place's
-/// time at the ship's present. The difference of two places' retarded times is at most their distance.
+/// The retarded time, in the eye event's own frame, of a place given from the eye in motion axes. With `now` it is the
+/// place's time at the ship's present. The difference of two places' retarded times is at most their distance.
 inline double retarded_time(const EyeEvent& eye_event, const glm::dvec3& from_eye)
 {
     return eye_event.time + (eye_event.now ? eye_event.beta * from_eye.z : -glm::length(from_eye));

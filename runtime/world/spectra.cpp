@@ -135,6 +135,113 @@ std::vector<glm::vec4> by_table(const SpectralBasis& basis, int groups, const Ki
     return columns;
 }
 
+/// One light's kinds in one rest frame: the light at rest, and the shifts of a light that moves there. New ones are added.
+Spectra::Lamp lamp_kinds(
+    const std::optional<Emission>& light, const std::optional<Shift>& shift, double per_octave, std::vector<Kind>& kinds)
+{
+    Spectra::Lamp lamp;
+    const auto at = std::find(kinds.begin(), kinds.end(), Kind{light});
+    lamp.kind = int(at - kinds.begin());
+    if (at == kinds.end())
+        kinds.push_back({light});
+    if (!shift)
+        return lamp;
+    lamp.per_octave = per_octave;
+    const bool even = shift->lowest == shift->highest;
+    const int least = even ? 0 : int(std::floor(std::log2(shift->lowest) * per_octave));
+    lamp.first_log2_D = even ? std::log2(shift->lowest) : least / per_octave;
+    lamp.shifts = 1 - 2 * least;
+    lamp.first_shift = int(kinds.size());
+    for (int k = 0; k < lamp.shifts; ++k)
+        kinds.push_back({light, even ? shift->lowest : std::exp2((least + k) / per_octave)});
+    return lamp;
+}
+
+/// Fills the lamps of all lights in all rest frames. Returns their kinds: the finest shifts with at most so many kinds, or
+/// else the coarsest.
+std::vector<Kind> add_lamps(Spectra& spectra, const World& world, const SceneFile& scene, int most)
+{
+    std::vector<Kind> kinds;
+    // Between two shifts of a sixteenth of an octave light that falls as a black body's tail is straight within 0.5 %.
+    for (double per_octave : {16.0, 8.0, 4.0, 2.0}) {
+        kinds = {Kind{}};
+        spectra.lamps.clear();
+        for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+            spectra.lamps.emplace_back();
+            for (std::size_t frame = 0; frame < world.frames.size(); ++frame)
+                spectra.lamps[i].push_back(
+                    lamp_kinds(spectrum_of(scene.lights[i]), shift_of(world, scene, i, frame), per_octave, kinds));
+        }
+        if (int(kinds.size()) <= most)
+            break;
+    }
+    return kinds;
+}
+
+/// Fills the columns: the set of the base colours, then one for each material with a reflectance of its own.
+void add_columns(Spectra& spectra, const World& world, const std::vector<Kind>& kinds)
+{
+    auto add_set = [&](auto&& columns_under) {
+        for (const Kind& light : kinds) {
+            const std::vector<glm::vec4> columns = columns_under(light);
+            spectra.columns.insert(spectra.columns.end(), columns.begin(), columns.end());
+        }
+    };
+    add_set([&](const Kind& light) { return by_colour(spectra.basis, spectra.groups, light); });
+    for (const Material& material : world.materials)
+        if (!material.reflectance.empty())
+            add_set(
+                [&](const Kind& light) { return by_table(spectra.basis, spectra.groups, light, {material.reflectance}); });
+}
+
+void add_surfaces(Spectra& spectra, const World& world, const SceneFile& scene)
+{
+    int set = 1; // of the columns; 0 is the base colours'
+    for (const Material& material : world.materials) {
+        Spectra::Surface surface;
+        surface.beyond = glm::vec4(material.ultraviolet.value_or(-1), material.infrared.value_or(-1), 0, -1);
+        if (!material.reflectance.empty()) {
+            surface.beyond.z = float(set++);
+            if (material.emissive != glm::vec3(0) && !material.emission)
+                throw InputError(scene.gltf.string(), "material " + quoted(material.name),
+                    "has a reflectance of its own and an emissive colour without a spectrum; an \"emission\" is right");
+        }
+        if (material.emission) {
+            surface.beyond.w = float(index_of(spectra.basis, *material.emission));
+            surface.emission = sunlit_part(*material.emission);
+            spectra.most = std::max(
+                spectra.most, surface.emission * std::max({material.emissive.x, material.emissive.y, material.emissive.z}));
+        }
+        if (material.temperature_K > 0) {
+            surface.own[int(index_of(spectra.basis, BlackBody{material.temperature_K}))] += material.emissivity;
+            spectra.most = std::max(spectra.most, material.emissivity);
+        }
+        spectra.surfaces.push_back(surface);
+    }
+}
+
+void add_sky(Spectra& spectra, const Sky& sky)
+{
+    const glm::dvec3* colours[] = {&sky.zenith, &sky.horizon, &sky.nadir};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3& rgb = *colours[i];
+        const double mean = (rgb.r + rgb.g + rgb.b) / 3;
+        for (int group = 0; group < MAX_GROUPS; ++group)
+            spectra.sky[i][std::size_t(group)] = glm::dvec4(0);
+        for (std::size_t group = 0; group < std::size_t(spectra.groups); ++group) {
+            const glm::vec4* columns = &spectra.columns[group * 5];
+            for (int c = 0; c < 5; ++c)
+                spectra.sky[i][group] += glm::dvec4(columns[c]) * (c < 3 ? rgb[c] : mean);
+        }
+        if (sky.temperature_K > 0) {
+            const std::size_t k
+                = std::size_t(spectra.basis.reflected) + index_of(spectra.basis, BlackBody{sky.temperature_K});
+            spectra.sky[i][k / 4][int(k % 4)] += 1;
+            spectra.most = std::max(spectra.most, 1.0);
+        }
+    }
+}
+
 } // namespace
 
 NeededLevel needed_level(const World& world, const SceneFile& scene)
@@ -170,104 +277,22 @@ Spectra spectra_of(const World& world, const SceneFile& scene, SpectralLevel lev
 {
     Spectra spectra;
     spectra.level = level;
-    const SpectralBasis& basis = spectra.basis
-        = spectral_basis(reflected_numbers[std::size_t(level)], own_spectra(world, scene));
-    spectra.groups = (basis.size() + 3) / 4;
-
-    std::vector<Kind> kinds = {Kind{}};
-    auto kind_of = [&](const Kind& kind) {
-        auto at = std::find(kinds.begin(), kinds.end(), kind);
-        return int((at == kinds.end() ? kinds.insert(at, kind) : at) - kinds.begin());
-    };
-    int sets = 1;
-    for (const Material& material : world.materials)
-        sets += !material.reflectance.empty();
-    // Between two shifts of a sixteenth of an octave light that falls as a black body's tail is straight within 0.5 %.
-    const int fitting = MAX_MATRICES / (sets * spectra.groups * 5);
-    for (double per_octave : {16.0, 8.0, 4.0, 2.0}) {
-        kinds.resize(1);
-        spectra.lamps.clear();
-        for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-            spectra.lamps.emplace_back(world.frames.size());
-            for (std::size_t frame = 0; frame < world.frames.size(); ++frame) {
-                Spectra::Lamp& lamp = spectra.lamps[i][frame];
-                const auto& light = spectrum_of(scene.lights[i]);
-                lamp.kind = kind_of({light});
-                const auto shift = shift_of(world, scene, i, frame);
-                if (!shift)
-                    continue;
-                lamp.per_octave = per_octave;
-                const bool even = shift->lowest == shift->highest;
-                const int least = even ? 0 : int(std::floor(std::log2(shift->lowest) * per_octave));
-                lamp.first_log2_D = even ? std::log2(shift->lowest) : least / per_octave;
-                lamp.shifts = 1 - 2 * least;
-                lamp.first_shift = int(kinds.size());
-                for (int k = 0; k < lamp.shifts; ++k)
-                    kinds.push_back({light, even ? shift->lowest : std::exp2((least + k) / per_octave)});
-            }
-        }
-        if (int(kinds.size()) <= fitting)
-            break;
-    }
+    spectra.basis = spectral_basis(reflected_numbers[std::size_t(level)], own_spectra(world, scene));
+    spectra.groups = (spectra.basis.size() + 3) / 4;
+    const int own_sets = int(std::count_if(
+        world.materials.begin(), world.materials.end(), [](const Material& m) { return !m.reflectance.empty(); }));
+    const int sets = 1 + own_sets; // the first is the base colours'
+    const std::vector<Kind> kinds = add_lamps(spectra, world, scene, MAX_MATRICES / (sets * spectra.groups * 5));
     spectra.kinds = int(kinds.size());
-    auto add_set = [&](auto&& columns_under) {
-        for (const auto& light : kinds) {
-            const std::vector<glm::vec4> columns = columns_under(light);
-            spectra.columns.insert(spectra.columns.end(), columns.begin(), columns.end());
-        }
-    };
-    add_set([&](const auto& light) { return by_colour(basis, spectra.groups, light); });
-    spectra.matrices = basis.reflected > 5 || kinds.size() > 1;
-
-    int set = 1;
-    for (const Material& material : world.materials) {
-        Spectra::Surface surface;
-        surface.beyond = glm::vec4(material.ultraviolet.value_or(-1), material.infrared.value_or(-1), 0, -1);
-        if (!material.reflectance.empty()) {
-            const Reflectance reflectance{material.reflectance};
-            add_set([&](const auto& light) { return by_table(basis, spectra.groups, light, reflectance); });
-            surface.beyond.z = float(set++);
-            spectra.matrices = true;
-            if (material.emissive != glm::vec3(0) && !material.emission)
-                throw InputError(scene.gltf.string(), "material " + quoted(material.name),
-                    "has a reflectance of its own and an emissive colour without a spectrum; an \"emission\" is right");
-        }
-        if (material.emission) {
-            const std::size_t own = index_of(basis, *material.emission);
-            surface.beyond.w = float(own);
-            surface.emission = sunlit_part(*material.emission);
-            spectra.most = std::max(
-                spectra.most, surface.emission * std::max({material.emissive.x, material.emissive.y, material.emissive.z}));
-        }
-        if (material.temperature_K > 0) {
-            surface.own[int(index_of(basis, BlackBody{material.temperature_K}))] += material.emissivity;
-            spectra.most = std::max(spectra.most, material.emissivity);
-        }
-        spectra.surfaces.push_back(surface);
-    }
+    spectra.matrices = spectra.basis.reflected > 5 || kinds.size() > 1 || own_sets > 0;
+    add_columns(spectra, world, kinds);
+    add_surfaces(spectra, world, scene);
     if (spectra.columns.size() > MAX_MATRICES)
         throw InputError(scene.gltf.string(), "",
-            "has " + std::to_string(sets - 1) + " materials with a reflectance of their own; at most "
+            "has " + std::to_string(own_sets) + " materials with a reflectance of their own; at most "
                 + std::to_string(MAX_MATRICES / int(spectra.columns.size() / std::size_t(sets)) - 1)
                 + " is right here, the others need a base colour");
-
-    const glm::dvec3* colours[] = {&scene.sky.zenith, &scene.sky.horizon, &scene.sky.nadir};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const glm::dvec3& rgb = *colours[i];
-        const double mean = (rgb.r + rgb.g + rgb.b) / 3;
-        for (int group = 0; group < MAX_GROUPS; ++group)
-            spectra.sky[i][std::size_t(group)] = glm::dvec4(0);
-        for (std::size_t group = 0; group < std::size_t(spectra.groups); ++group) {
-            const glm::vec4* columns = &spectra.columns[group * 5];
-            for (int c = 0; c < 5; ++c)
-                spectra.sky[i][group] += glm::dvec4(columns[c]) * (c < 3 ? rgb[c] : mean);
-        }
-        if (scene.sky.temperature_K > 0) {
-            const std::size_t k = std::size_t(basis.reflected) + index_of(basis, BlackBody{scene.sky.temperature_K});
-            spectra.sky[i][k / 4][int(k % 4)] += 1;
-            spectra.most = std::max(spectra.most, 1.0);
-        }
-    }
+    add_sky(spectra, scene.sky);
     return spectra;
 }
 

@@ -47,8 +47,8 @@ struct Spectra {
     double most = 0; ///< the greatest coefficient of the world's own emission spectra
 };
 
-/// Computes a world's spectral data. world: after place_bodies. Throws InputError where a world has more emission spectra
-/// of its own than MAX_OWN, or where a spectral line illuminates a surface that moves relative to it.
+/// Computes a world's spectral data. world: after place_bodies. Throws InputError where a world has more emission spectra of
+/// its own than MAX_OWN. It throws too where a spectral line illuminates a surface that moves relative to it.
 Spectra spectra_of(const World& world, const SceneFile& scene, SpectralLevel level);
 
 } // namespace starbow

@@ -18,8 +18,8 @@ Event in_frame(const RestFrame& frame, const Event& world);
 /// The quaternion of a formula's (x, y, z; w last).
 inline glm::dquat quaternion(const glm::dvec4& q) { return {q.w, q.x, q.y, q.z}; }
 
-/// A world's instant in a rest frame's coordinates: place and time from its origin, the proper velocity there, and the
-/// cockpit among the axes that the pure boost from there carries. The two boosts in turn have turned them
+/// A world's instant in a rest frame's coordinates: place and time from its origin, and the proper velocity there. Further
+/// the cockpit among the axes that the pure boost from there carries. The two boosts in turn have turned them
 /// (Thomas-Wigner).
 Shot in_frame(const RestFrame& frame, const Shot& shot);
 

@@ -8,7 +8,7 @@ namespace {
 constexpr std::array supported_extensions
     = {"KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_texture_transform", "KHR_mesh_quantization"};
 
-void guard_asset(const Spot& root, GuardedGltf& out)
+void guard_asset(const Spot& root)
 {
     Spot asset = root["asset"];
     Spot version = object(asset)["version"];
@@ -16,7 +16,6 @@ void guard_asset(const Spot& root, GuardedGltf& out)
         version.fail("is " + in_quotes(text(version)) + "; should be \"2.0\"");
     if (asset.has("minVersion") && text(asset["minVersion"]) != "2.0")
         asset["minVersion"].fail("is " + in_quotes(text(asset["minVersion"])) + "; 2.0 is supported");
-    out.json["asset"] = {{"version", "2.0"}};
 }
 
 void guard_extensions(const Spot& root, GuardedGltf& out)
@@ -60,35 +59,35 @@ std::size_t count_of(const Spot& root, const char* key) { return root.has(key) ?
 void guard_buffers(GltfFile& file, const Spot& root, GuardedGltf& out)
 {
     constexpr auto most = std::int64_t(GltfLimits::file_bytes);
-    guard_list(root, "buffers", out.json, [&](const Spot& buffer, Json& written) {
+    auto& buffers = out.model.buffers;
+    guard_list(root, "buffers", buffers, [&](const Spot& buffer, tinygltf::Buffer& written) {
         auto length = std::size_t(integer(buffer["byteLength"], 1, most));
-        Bytes bytes;
+        Bytes& bytes = written.data;
         if (buffer.has("uri"))
             bytes = read_uri(file, buffer["uri"]);
-        else if (file.has_bin && out.buffers.empty())
+        else if (file.has_bin && buffers.empty())
             bytes = std::move(file.bin);
         else
             buffer.fail("has no uri; only the first buffer of a GLB with a BIN chunk can do without");
         if (bytes.size() < length)
             buffer["byteLength"].fail("is " + std::to_string(length) + "; the buffer has " + std::to_string(bytes.size()));
         bytes.resize(length);
-        out.buffers.push_back(std::move(bytes));
-        // tinygltf requires some content; the real content replaces it after the model is read.
-        written = {{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}};
     });
-    guard_list(root, "bufferViews", out.json, [&](const Spot& view, Json& written) {
-        auto buffer = index_into(view["buffer"], "buffer", out.buffers.size());
+    guard_list(root, "bufferViews", out.model.bufferViews, [&](const Spot& view, tinygltf::BufferView& written) {
+        auto buffer = index_into(view["buffer"], "buffer", buffers.size());
         auto offset = integer_or(view, "byteOffset", 0, 0, most);
         auto length = integer(view["byteLength"], 1, most);
-        auto held = std::int64_t(out.buffers[std::size_t(buffer)].size());
+        auto held = std::int64_t(buffers[std::size_t(buffer)].data.size());
         if (offset + length > held)
             view.fail("ends at byte " + std::to_string(offset + length) + "; its buffer has " + std::to_string(held));
-        written = {{"buffer", buffer}, {"byteOffset", offset}, {"byteLength", length}};
+        written.buffer = int(buffer);
+        written.byteOffset = std::size_t(offset);
+        written.byteLength = std::size_t(length);
         if (view.has("byteStride")) {
             auto stride = integer(view["byteStride"], 4, 252);
             if (stride % 4 != 0)
                 view["byteStride"].fail("is " + std::to_string(stride) + "; should be a multiple of 4");
-            written["byteStride"] = stride;
+            written.byteStride = std::size_t(stride);
         }
     });
 }
@@ -98,10 +97,9 @@ GuardedGltf guard_gltf(const std::filesystem::path& path)
     GltfFile file = read_gltf_file(path);
     GuardedGltf out;
     out.name = file.name;
-    out.json = Json::object();
     Spot root{file.json, "", out.name};
     object(root);
-    guard_asset(root, out);
+    guard_asset(root);
     guard_extensions(root, out);
     guard_buffers(file, root, out);
     guard_accessors(root, out);

@@ -7,45 +7,44 @@ namespace {
 
 struct Use {
     const Spot& root;
-    const Json& accessors;
     GuardedGltf& out;
     std::size_t& keys_left;
 
-    const Json& accessor(const Spot& spot) const
+    const tinygltf::Accessor& accessor(const Spot& spot) const
     {
+        const auto& accessors = out.model.accessors;
         return accessors[std::size_t(index_into(spot, "accessor", accessors.size()))];
     }
 };
 
 void guard_input(const Spot& spot, const Use& use)
 {
-    const Json& input = use.accessor(spot);
-    if (input["type"] != "SCALAR" || input["componentType"] != float_type)
-        spot.fail("names accessor " + spot.json.dump() + " of type " + input["type"].get<std::string>()
-            + " and component type " + input["componentType"].dump() + "; times should be SCALAR and 5126");
-    const auto count = input["count"].get<std::size_t>();
-    if (count > use.keys_left)
+    const tinygltf::Accessor& input = use.accessor(spot);
+    if (input.type != TINYGLTF_TYPE_SCALAR || input.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+        spot.fail("names accessor " + spot.json.dump() + " of type " + type_name(input) + " and component type "
+            + std::to_string(input.componentType) + "; times should be SCALAR and 5126");
+    if (input.count > use.keys_left)
         spot.fail("brings the animations above " + std::to_string(GltfLimits::keys) + " keys; use fewer");
-    use.keys_left -= count;
+    use.keys_left -= input.count;
 }
 
 /// Checks a sampler's output by the specification's table: the type of a property's values and their number.
 void guard_output(const Spot& sampler, const std::string& path, const Use& use)
 {
     const Spot spot = sampler["output"];
-    const Json& output = use.accessor(spot);
-    const auto component = output["componentType"].get<int>();
-    const bool integer
-        = component == byte_type || component == ubyte_type || component == short_type || component == ushort_type;
+    const tinygltf::Accessor& output = use.accessor(spot);
+    const int component = output.componentType;
+    const bool integer = component == TINYGLTF_COMPONENT_TYPE_BYTE || component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE
+        || component == TINYGLTF_COMPONENT_TYPE_SHORT || component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
     const bool rotation = path == "rotation";
-    if (output["type"] != (rotation ? "VEC4" : "VEC3")
-        || !(component == float_type || (rotation && integer && output.value("normalized", false))))
-        spot.fail("names accessor " + spot.json.dump() + " of type " + output["type"].get<std::string>()
-            + " and component type " + std::to_string(component) + "; a " + path + " should be "
+    if (output.type != (rotation ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3)
+        || !(component == TINYGLTF_COMPONENT_TYPE_FLOAT || (rotation && integer && output.normalized)))
+        spot.fail("names accessor " + spot.json.dump() + " of type " + type_name(output) + " and component type "
+            + std::to_string(component) + "; a " + path + " should be "
             + (rotation ? "VEC4 of 5126 or of normalized integers" : "VEC3 and 5126"));
     const bool cubic = sampler.has("interpolation") && sampler.json["interpolation"] == "CUBICSPLINE";
-    const auto times = use.accessor(sampler["input"])["count"].get<std::size_t>();
-    const auto values = output["count"].get<std::size_t>(), right = cubic ? 3 * times : times;
+    const std::size_t times = use.accessor(sampler["input"]).count;
+    const std::size_t values = output.count, right = cubic ? 3 * times : times;
     if (values != right)
         spot.fail("has " + std::to_string(values) + " values for " + std::to_string(times) + " times; "
             + std::to_string(right) + " is right");
@@ -53,21 +52,22 @@ void guard_output(const Spot& sampler, const std::string& path, const Use& use)
         spot.fail("has one key; a cubic spline should have two or more");
 }
 
-void guard_sampler(const Spot& sampler, Json& written, const Use& use)
+void guard_sampler(const Spot& sampler, tinygltf::AnimationSampler& written, const Use& use)
 {
     guard_input(object(sampler)["input"], use);
     use.accessor(sampler["output"]);
-    written = {{"input", sampler.json["input"].get<std::size_t>()}, {"output", sampler.json["output"].get<std::size_t>()}};
+    written.input = sampler.json["input"].get<int>();
+    written.output = sampler.json["output"].get<int>();
     if (!sampler.has("interpolation"))
         return;
     const std::string name = text(sampler["interpolation"]);
     if (name != "STEP" && name != "LINEAR" && name != "CUBICSPLINE")
         sampler["interpolation"].fail("is " + in_quotes(name) + "; should be \"STEP\", \"LINEAR\" or \"CUBICSPLINE\"");
-    written["interpolation"] = name;
+    written.interpolation = name;
 }
 
 /// Returns false for a channel that Starbow does not read.
-bool guard_channel(const Spot& channel, const Spot& samplers, Json& written, const Use& use)
+bool guard_channel(const Spot& channel, const Spot& samplers, tinygltf::AnimationChannel& written, const Use& use)
 {
     const auto sampler = std::size_t(index_into(object(channel)["sampler"], "sampler", samplers.size()));
     const Spot target = channel["target"];
@@ -84,10 +84,12 @@ bool guard_channel(const Spot& channel, const Spot& samplers, Json& written, con
     if (!target.has("node"))
         return false; // required by the specification
     const auto node = std::size_t(index_into(target["node"], "node", count_of(use.root, "nodes")));
-    if (use.out.json["nodes"][node].contains("matrix"))
+    if (!use.out.model.nodes[node].matrix.empty())
         target["node"].fail("names node " + std::to_string(node)
             + ", which has a matrix; what is animated should have translation, rotation and scale");
-    written = {{"sampler", sampler}, {"target", {{"node", node}, {"path", path}}}};
+    written.sampler = int(sampler);
+    written.target_node = int(node);
+    written.target_path = path;
     return true;
 }
 
@@ -97,34 +99,29 @@ void guard_animations(const Spot& root, GuardedGltf& out)
 {
     if (count_of(root, "animations") == 0)
         return;
-    const Json none = Json::array();
     std::size_t keys_left = GltfLimits::keys;
-    const Use use{root, out.json.contains("accessors") ? out.json["accessors"] : none, out, keys_left};
-    Json written = Json::array();
+    const Use use{root, out, keys_left};
     const Spot all = root["animations"];
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Spot animation = all[i];
         const Spot samplers = object(animation)["samplers"], channels = animation["channels"];
-        Json one = {{"samplers", Json::array()}, {"channels", Json::array()}};
+        tinygltf::Animation written;
         list(samplers), list(channels);
         for (std::size_t k = 0; k < samplers.size(); ++k)
-            guard_sampler(samplers[k], one["samplers"].emplace_back(), use);
-        std::set<std::pair<std::size_t, std::string>> targets;
+            guard_sampler(samplers[k], written.samplers.emplace_back(), use);
+        std::set<std::pair<int, std::string>> targets;
         for (std::size_t k = 0; k < channels.size(); ++k) {
-            Json channel;
+            tinygltf::AnimationChannel channel;
             if (!guard_channel(channels[k], samplers, channel, use))
                 continue;
-            const Json& target = channel["target"];
-            if (!targets.emplace(target["node"].get<std::size_t>(), target["path"].get<std::string>()).second)
-                channels[k]["target"].fail("names the " + target["path"].get<std::string>() + " of node "
-                    + target["node"].dump() + " again; each should be named once in an animation");
-            one["channels"].push_back(std::move(channel));
+            if (!targets.emplace(channel.target_node, channel.target_path).second)
+                channels[k]["target"].fail("names the " + channel.target_path + " of node "
+                    + std::to_string(channel.target_node) + " again; each should be named once in an animation");
+            written.channels.push_back(std::move(channel));
         }
-        if (!one["channels"].empty())
-            written.push_back(std::move(one));
+        if (!written.channels.empty())
+            out.model.animations.push_back(std::move(written));
     }
-    if (!written.empty())
-        out.json["animations"] = std::move(written);
 }
 
 } // namespace starbow

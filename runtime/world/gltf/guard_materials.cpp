@@ -4,61 +4,66 @@
 namespace starbow {
 namespace {
 
+using tinygltf::Value;
+
 void guard_samplers(const Spot& root, GuardedGltf& out)
 {
-    guard_list(root, "samplers", out.json, [&](const Spot& sampler, Json& written) {
-        auto one_of = [&](const char* key, std::vector<std::int64_t> legal) {
+    guard_list(root, "samplers", out.model.samplers, [&](const Spot& sampler, tinygltf::Sampler& written) {
+        auto one_of = [&](const char* key, std::vector<std::int64_t> legal, int& to) {
             if (!sampler.has(key))
                 return;
             auto value = integer(sampler[key], 0, 65535);
             if (std::ranges::find(legal, value) == legal.end())
                 sampler[key].fail("is " + std::to_string(value) + "; should be one of " + Json(legal).dump());
-            written[key] = value;
+            to = int(value);
         };
-        one_of("magFilter", {9728, 9729});
-        one_of("minFilter", {9728, 9729, 9984, 9985, 9986, 9987});
-        one_of("wrapS", {33071, 33648, 10497});
-        one_of("wrapT", {33071, 33648, 10497});
+        one_of("magFilter", {9728, 9729}, written.magFilter);
+        one_of("minFilter", {9728, 9729, 9984, 9985, 9986, 9987}, written.minFilter);
+        one_of("wrapS", {33071, 33648, 10497}, written.wrapS);
+        one_of("wrapT", {33071, 33648, 10497}, written.wrapT);
     });
 }
 
 void guard_textures(const Spot& root, GuardedGltf& out)
 {
-    guard_list(root, "textures", out.json, [&](const Spot& texture, Json& written) {
+    guard_list(root, "textures", out.model.textures, [&](const Spot& texture, tinygltf::Texture& written) {
         if (texture.has("source"))
-            written["source"] = index_into(texture["source"], "image", count_of(root, "images"));
+            written.source = int(index_into(texture["source"], "image", count_of(root, "images")));
         if (texture.has("sampler"))
-            written["sampler"] = index_into(texture["sampler"], "sampler", count_of(root, "samplers"));
+            written.sampler = int(index_into(texture["sampler"], "sampler", count_of(root, "samplers")));
     });
 }
 
 /// The texture's index, its set of coordinates and KHR_texture_transform.
-Json guard_texture_info(const Spot& info, const Spot& root)
+tinygltf::TextureInfo guard_texture_info(const Spot& info, const Spot& root)
 {
-    Json written = {{"index", index_into(object(info)["index"], "texture", count_of(root, "textures"))},
-        {"texCoord", integer_or(info, "texCoord", 0, 0, 255)}};
+    tinygltf::TextureInfo written;
+    written.index = int(index_into(object(info)["index"], "texture", count_of(root, "textures")));
+    written.texCoord = int(integer_or(info, "texCoord", 0, 0, 255));
     if (!info.has("extensions") || !object(info["extensions"]).has("KHR_texture_transform"))
         return written;
     Spot transform = info["extensions"]["KHR_texture_transform"];
     object(transform);
-    Json kept = Json::object();
+    Value::Object kept;
     for (const char* key : {"offset", "scale"})
-        if (transform.has(key))
-            kept[key] = numbers(transform[key], 2, -1e6, 1e6);
+        if (transform.has(key)) {
+            const auto pair = numbers(transform[key], 2, -1e6, 1e6);
+            kept[key] = Value(Value::Array{Value(pair[0]), Value(pair[1])});
+        }
     if (transform.has("rotation"))
-        kept["rotation"] = number(transform["rotation"], -1e6, 1e6);
+        kept["rotation"] = Value(number(transform["rotation"], -1e6, 1e6));
     if (transform.has("texCoord"))
-        written["texCoord"] = integer(transform["texCoord"], 0, 255);
-    written["extensions"] = {{"KHR_texture_transform", kept}};
+        written.texCoord = int(integer(transform["texCoord"], 0, 255));
+    written.extensions["KHR_texture_transform"] = Value(std::move(kept));
     return written;
 }
 
-void guard_pbr(const Spot& pbr, Json& written, const Spot& root, GuardedGltf& out)
+void guard_pbr(const Spot& pbr, tinygltf::PbrMetallicRoughness& written, const Spot& root, GuardedGltf& out)
 {
     if (pbr.has("baseColorFactor"))
-        written["baseColorFactor"] = numbers(pbr["baseColorFactor"], 4, 0, 1);
+        written.baseColorFactor = numbers(pbr["baseColorFactor"], 4, 0, 1);
     if (pbr.has("baseColorTexture"))
-        written["baseColorTexture"] = guard_texture_info(pbr["baseColorTexture"], root);
+        written.baseColorTexture = guard_texture_info(pbr["baseColorTexture"], root);
     if (pbr.has("metallicRoughnessTexture")) {
         guard_texture_info(pbr["metallicRoughnessTexture"], root);
         note_once(out.notes, "metallic-roughness textures: surfaces are matt");
@@ -69,25 +74,25 @@ void guard_pbr(const Spot& pbr, Json& written, const Spot& root, GuardedGltf& ou
         note_once(out.notes, "metallic surfaces are drawn matt");
 }
 
-void guard_alpha(const Spot& material, Json& written, GuardedGltf& out)
+void guard_alpha(const Spot& material, tinygltf::Material& written, GuardedGltf& out)
 {
     std::string mode = material.has("alphaMode") ? text(material["alphaMode"]) : "OPAQUE";
     if (mode == "BLEND")
         note_once(out.notes, "blended transparency: such surfaces are drawn opaque");
     else if (mode == "MASK")
-        written["alphaMode"] = mode;
+        written.alphaMode = mode;
     else if (mode != "OPAQUE")
         material["alphaMode"].fail("is " + in_quotes(mode) + "; should be \"OPAQUE\", \"MASK\" or \"BLEND\"");
     if (material.has("alphaCutoff"))
-        written["alphaCutoff"] = number(material["alphaCutoff"], 0, 1e6);
+        written.alphaCutoff = number(material["alphaCutoff"], 0, 1e6);
 }
 
-void guard_material(const Spot& material, Json& written, const Spot& root, GuardedGltf& out)
+void guard_material(const Spot& material, tinygltf::Material& written, const Spot& root, GuardedGltf& out)
 {
     if (material.has("name"))
-        written["name"] = text(material["name"]);
+        written.name = text(material["name"]);
     if (material.has("pbrMetallicRoughness"))
-        guard_pbr(object(material["pbrMetallicRoughness"]), written["pbrMetallicRoughness"] = Json::object(), root, out);
+        guard_pbr(object(material["pbrMetallicRoughness"]), written.pbrMetallicRoughness, root, out);
     for (auto [key, note] :
         {std::pair{"normalTexture", "normal maps are not used"}, {"occlusionTexture", "occlusion maps are not used"}})
         if (material.has(key)) {
@@ -95,23 +100,22 @@ void guard_material(const Spot& material, Json& written, const Spot& root, Guard
             note_once(out.notes, note);
         }
     if (material.has("emissiveTexture"))
-        written["emissiveTexture"] = guard_texture_info(material["emissiveTexture"], root);
+        written.emissiveTexture = guard_texture_info(material["emissiveTexture"], root);
     if (material.has("emissiveFactor"))
-        written["emissiveFactor"] = numbers(material["emissiveFactor"], 3, 0, 1);
+        written.emissiveFactor = numbers(material["emissiveFactor"], 3, 0, 1);
     guard_alpha(material, written, out);
     if (material.has("doubleSided"))
-        written["doubleSided"] = boolean(material["doubleSided"]);
+        written.doubleSided = boolean(material["doubleSided"]);
     if (!material.has("extensions"))
         return;
     Spot extensions = material["extensions"];
     object(extensions);
-    written["extensions"] = Json::object();
     if (extensions.has("KHR_materials_unlit"))
-        written["extensions"]["KHR_materials_unlit"] = Json::object();
+        written.extensions["KHR_materials_unlit"] = Value(Value::Object());
     if (extensions.has("KHR_materials_emissive_strength")) {
         Spot emissive = extensions["KHR_materials_emissive_strength"];
         double strength = object(emissive).has("emissiveStrength") ? number(emissive["emissiveStrength"], 0, 1e12) : 1;
-        written["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", strength}};
+        written.extensions["KHR_materials_emissive_strength"] = Value(Value::Object{{"emissiveStrength", Value(strength)}});
     }
 }
 
@@ -119,19 +123,17 @@ void guard_material(const Spot& material, Json& written, const Spot& root, Guard
 std::vector<bool> coloured_images(const GuardedGltf& out, std::size_t count)
 {
     std::vector<bool> used(count, false);
-    auto use = [&](const Json& material, const char* key) {
-        if (!material.contains(key))
+    auto use = [&](const tinygltf::TextureInfo& info) {
+        if (info.index < 0)
             return;
-        const Json& texture = out.json["textures"][material[key]["index"].get<std::size_t>()];
-        if (texture.contains("source"))
-            used[texture["source"].get<std::size_t>()] = true;
+        const int source = out.model.textures[std::size_t(info.index)].source;
+        if (source >= 0)
+            used[std::size_t(source)] = true;
     };
-    if (out.json.contains("materials"))
-        for (const Json& material : out.json["materials"]) {
-            use(material, "emissiveTexture");
-            if (material.contains("pbrMetallicRoughness"))
-                use(material["pbrMetallicRoughness"], "baseColorTexture");
-        }
+    for (const tinygltf::Material& material : out.model.materials) {
+        use(material.emissiveTexture);
+        use(material.pbrMetallicRoughness.baseColorTexture);
+    }
     return used;
 }
 
@@ -146,9 +148,9 @@ void guard_images(GltfFile& file, const Spot& root, GuardedGltf& out)
             image.fail("should have either a uri or a bufferView");
         if (image.has("bufferView")) {
             auto view_index = index_into(image["bufferView"], "buffer view", count_of(root, "bufferViews"));
-            const Json& view = out.json["bufferViews"][std::size_t(view_index)];
-            out.images[i] = std::span(out.buffers[view["buffer"].get<std::size_t>()])
-                                .subspan(view["byteOffset"].get<std::size_t>(), view["byteLength"].get<std::size_t>());
+            const tinygltf::BufferView& view = out.model.bufferViews[std::size_t(view_index)];
+            out.images[i]
+                = std::span(out.model.buffers[std::size_t(view.buffer)].data).subspan(view.byteOffset, view.byteLength);
         } else if (used[i]) {
             out.image_files.push_back(read_uri(file, image["uri"]));
             out.images[i] = out.image_files.back();
@@ -166,7 +168,7 @@ void guard_materials(GltfFile& file, const Spot& root, GuardedGltf& out)
                 + std::to_string(GltfLimits::looks) + " are allowed");
     guard_samplers(root, out);
     guard_textures(root, out);
-    guard_list(root, "materials", out.json, [&](const Spot& material, Json& written) {
+    guard_list(root, "materials", out.model.materials, [&](const Spot& material, tinygltf::Material& written) {
         guard_material(material, written, root, out);
         out.surfaces.push_back(guard_surface(material, written));
     });

@@ -3,7 +3,7 @@
 namespace starbow {
 namespace {
 
-void guard_transform(const Spot& node, Json& written)
+void guard_transform(const Spot& node, tinygltf::Node& written)
 {
     bool parts = node.has("translation") || node.has("rotation") || node.has("scale");
     if (node.has("matrix")) {
@@ -12,13 +12,13 @@ void guard_transform(const Spot& node, Json& written)
         auto matrix = numbers(node["matrix"], 16, -too_far, too_far);
         if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1)
             node["matrix"].fail("has another last row than 0 0 0 1; glTF requires that one");
-        written["matrix"] = matrix;
+        written.matrix = matrix;
         return;
     }
     if (node.has("translation"))
-        written["translation"] = numbers(node["translation"], 3, -too_far, too_far);
+        written.translation = numbers(node["translation"], 3, -too_far, too_far);
     if (node.has("scale"))
-        written["scale"] = numbers(node["scale"], 3, -too_far, too_far);
+        written.scale = numbers(node["scale"], 3, -too_far, too_far);
     if (node.has("rotation")) {
         auto q = numbers(node["rotation"], 4, -1.01, 1.01);
         double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
@@ -26,7 +26,7 @@ void guard_transform(const Spot& node, Json& written)
             node["rotation"].fail("has the length " + Json(length).dump() + "; should be a unit quaternion");
         for (double& part : q)
             part /= length;
-        written["rotation"] = q;
+        written.rotation = q;
     }
 }
 
@@ -78,14 +78,14 @@ void guard_nodes(const Spot& root, GuardedGltf& out)
 {
     std::size_t count = count_of(root, "nodes");
     std::vector<std::int64_t> parent(count, -1);
-    std::int64_t current = 0;
-    guard_list(root, "nodes", out.json, [&](const Spot& node, Json& written) {
+    auto& written_nodes = out.model.nodes;
+    guard_list(root, "nodes", written_nodes, [&](const Spot& node, tinygltf::Node& written) {
         guard_transform(node, written);
         out.spins.push_back(guard_spin(node));
         if (node.has("name"))
-            written["name"] = text(node["name"]);
+            written.name = text(node["name"]);
         if (node.has("mesh"))
-            written["mesh"] = index_into(node["mesh"], "mesh", count_of(root, "meshes"));
+            written.mesh = int(index_into(node["mesh"], "mesh", count_of(root, "meshes")));
         if (node.has("camera"))
             index_into(node["camera"], "camera", count_of(root, "cameras"));
         if (node.has("skin"))
@@ -93,39 +93,36 @@ void guard_nodes(const Spot& root, GuardedGltf& out)
         if (node.has("children")) {
             Spot children = node["children"];
             list(children);
-            written["children"] = Json::array();
             for (std::size_t i = 0; i < children.size(); ++i) {
                 auto child = index_into(children[i], "node", count);
                 if (parent[std::size_t(child)] >= 0)
                     children[i].fail("names node " + std::to_string(child) + ", which is already a child of node "
                         + std::to_string(parent[std::size_t(child)]) + "; each has one parent");
-                parent[std::size_t(child)] = current;
-                written["children"].push_back(child);
+                parent[std::size_t(child)] = std::int64_t(written_nodes.size());
+                written.children.push_back(int(child));
             }
         }
-        ++current;
     });
     if (count > 0)
         check_trees(root["nodes"], parent);
 
-    guard_list(root, "scenes", out.json, [&](const Spot& scene, Json& written) {
+    guard_list(root, "scenes", out.model.scenes, [&](const Spot& scene, tinygltf::Scene& written) {
         if (!scene.has("nodes"))
             return;
         Spot nodes = scene["nodes"];
         list(nodes);
         std::vector<bool> named(count, false);
-        written["nodes"] = Json::array();
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             auto node = std::size_t(index_into(nodes[i], "node", count));
             if (parent[node] >= 0 || named[node])
                 nodes[i].fail("names node " + std::to_string(node) + (named[node] ? " twice" : ", which has a parent")
                     + "; a scene names roots, each once");
             named[node] = true;
-            written["nodes"].push_back(node);
+            written.nodes.push_back(int(node));
         }
     });
     if (root.has("scene"))
-        out.json["scene"] = index_into(root["scene"], "scene", count_of(root, "scenes"));
+        out.model.defaultScene = int(index_into(root["scene"], "scene", count_of(root, "scenes")));
 }
 
 } // namespace starbow

@@ -46,18 +46,16 @@ Emission emission(const Spot& spot)
 }
 
 /// Throws if the material can't emit. material: the accepted members of the surface's material.
-void check_emits(const Spot& spot, const Json& material)
+void check_emits(const Spot& spot, const tinygltf::Material& material)
 {
-    const Json none = Json::object();
-    const Json& extensions = material.contains("extensions") ? material["extensions"] : none;
-    if (extensions.contains("KHR_materials_unlit"))
+    if (material.extensions.contains("KHR_materials_unlit"))
         spot.fail("stands beside KHR_materials_unlit, which leaves emission out; should stand without it");
     double most = 0;
-    if (material.contains("emissiveFactor"))
-        for (const Json& part : material["emissiveFactor"])
-            most = std::max(most, part.get<double>());
-    if (extensions.contains("KHR_materials_emissive_strength"))
-        most *= extensions["KHR_materials_emissive_strength"]["emissiveStrength"].get<double>();
+    for (double part : material.emissiveFactor)
+        most = std::max(most, part);
+    const auto strength = material.extensions.find("KHR_materials_emissive_strength");
+    if (strength != material.extensions.end())
+        most *= strength->second.Get("emissiveStrength").GetNumberAsDouble();
     if (!(most > 0))
         spot.fail("would emit nothing, for the material's emissiveFactor is black; should stand beside one above 0");
 }
@@ -82,7 +80,7 @@ Blink blink(const Spot& spot)
     return out;
 }
 
-void read_surface(const Spot& spot, const Json& material, Material& out)
+void read_surface(const Spot& spot, const tinygltf::Material& material, Material& out)
 {
     reject_unknown_members(
         spot, {"ultraviolet", "infrared", "reflectance", "temperature_K", "emissivity", "emission", "clock", "blink"});
@@ -132,7 +130,7 @@ void read_extras(const Spot& owner, const std::function<void(const Spot&)>& read
     read({parsed, spot.at, spot.file});
 }
 
-Material guard_surface(const Spot& material, const Json& written)
+Material guard_surface(const Spot& material, const tinygltf::Material& written)
 {
     Material out;
     read_extras(material, [&](const Spot& spot) { read_surface(spot, written, out); });

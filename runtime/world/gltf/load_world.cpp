@@ -6,25 +6,6 @@
 namespace starbow {
 namespace {
 
-tinygltf::Model read_model(GuardedGltf& file)
-{
-    std::string json = file.json.dump();
-    tinygltf::Model model;
-    tinygltf::TinyGLTF reader;
-    // The checked JSON names no file; even if it did, the reader would find none.
-    reader.SetFsCallbacks(
-        {[](const std::string&, void*) { return false; }, [](const std::string& path, void*) { return path; },
-            [](std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; },
-            [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }, nullptr});
-    reader.RemoveImageLoader();
-    std::string error, warning;
-    if (!reader.LoadASCIIFromString(&model, &error, &warning, json.data(), unsigned(json.size()), ""))
-        throw InputError(file.name, "", "is not understood by tinygltf: " + in_quotes(error));
-    for (std::size_t i = 0; i < model.buffers.size(); ++i)
-        model.buffers[i].data.swap(file.buffers[i]);
-    return model;
-}
-
 /// The root nodes of the scene; of a file without scenes, all roots.
 std::vector<int> roots(const tinygltf::Model& model)
 {
@@ -158,10 +139,9 @@ glm::dmat4 local_transform(const tinygltf::Node& node)
 World load_world(const std::filesystem::path& path)
 {
     GuardedGltf file = guard_gltf(path);
-    tinygltf::Model model = read_model(file);
     World world;
     world.notes = std::move(file.notes);
-    WorldBuild build{file, model, world};
+    WorldBuild build{file, file.model, world};
     add_materials(build);
     add_tracks(build);
     add_instances(build);

@@ -123,6 +123,91 @@ void make_room(WorldBuild& build, const std::string& place, std::size_t vertices
     grow(build.world.indices, indices, GltfLimits::indices);
 }
 
+/// A glTF primitive under construction.
+struct Source {
+    const tinygltf::Primitive& primitive;
+    const std::string& place; ///< for messages
+    const UvSource& uv;
+    Attributes attributes;
+    Elements indices; ///< unset for a primitive without indices
+    std::size_t triangles = 0;
+    std::uint32_t vertex_offset = 0; ///< of its first vertex in the world
+    std::vector<std::uint32_t> touched; ///< the vertices with an entry in build.placed
+};
+
+/// Opens a primitive's attributes and indices, and makes room for its triangles.
+Source open_source(WorldBuild& build, const std::string& place, const tinygltf::Primitive& from, int material)
+{
+    const Material& look = build.world.materials[std::size_t(material)];
+    const UvSource& uv = build.uv[std::size_t(material)];
+    Source source{from, place, uv, open_attributes(build, from, uv, look.base_texture >= 0 || look.emissive_texture >= 0)};
+    const Attributes& attributes = source.attributes;
+    if (look.clock && !attributes.has_uv)
+        build.fail(place + "/attributes",
+            "has no TEXCOORD_" + std::to_string(uv.set)
+                + " for a clock's dial; should have one that goes from 0 to 1 across it");
+    if (from.indices >= 0)
+        source.indices = open(build, from.indices);
+    const std::size_t run = from.indices >= 0 ? source.indices.count : attributes.position.count;
+    source.triangles = from.mode == TINYGLTF_MODE_TRIANGLES ? run / 3 : run - 2;
+    const std::size_t corners = 3 * source.triangles;
+    if (corners > build.corners_left)
+        build.fail(place, "brings the world above " + std::to_string(GltfLimits::indices / 3) + " triangles; use fewer");
+    build.corners_left -= corners;
+    // Flat triangles never share corners.
+    make_room(build, place, attributes.has_normal ? 0 : corners, corners);
+    // In exported files many primitives may share one long list of vertices; only those that this primitive uses are
+    // copied.
+    if (build.placed.size() < attributes.position.count)
+        build.placed.resize(attributes.position.count, none);
+    source.vertex_offset = std::uint32_t(build.world.vertices.size());
+    return source;
+}
+
+/// The vertices of triangle `t`. Throws for an index beyond the vertices.
+std::array<std::uint32_t, 3> read_triangle(const WorldBuild& build, const Source& source, std::size_t t)
+{
+    std::array<std::uint32_t, 3> corner;
+    const auto which = corners(source.primitive.mode, t);
+    const std::size_t vertices = source.attributes.position.count;
+    for (int i = 0; i < 3; ++i) {
+        corner[i] = source.primitive.indices >= 0 ? source.indices.index(which[i]) : std::uint32_t(which[i]);
+        if (corner[i] >= vertices)
+            build.fail(source.place + "/indices",
+                "index " + std::to_string(which[i]) + " is " + std::to_string(corner[i]) + "; the vertices are 0 to "
+                    + std::to_string(vertices - 1));
+    }
+    return corner;
+}
+
+/// Adds a triangle with the file's normals. It shares its vertices with the triangles before it.
+void add_smooth(WorldBuild& build, Source& source, const std::array<std::uint32_t, 3>& corner)
+{
+    World& world = build.world;
+    for (std::uint32_t vertex : corner) {
+        std::uint32_t& placed = build.placed[vertex];
+        if (placed == none) {
+            make_room(build, source.place, 1, 0);
+            placed = std::uint32_t(world.vertices.size()) - source.vertex_offset;
+            source.touched.push_back(vertex);
+            world.vertices.push_back(read_vertex(build, source.attributes, vertex, source.uv, source.place));
+        }
+        world.indices.push_back(placed);
+    }
+}
+
+/// Adds a triangle with vertices and a normal of its own.
+void add_flat(WorldBuild& build, const Source& source, const std::array<std::uint32_t, 3>& corner)
+{
+    World& world = build.world;
+    for (std::uint32_t vertex : corner) {
+        world.indices.push_back(std::uint32_t(world.vertices.size()) - source.vertex_offset);
+        world.vertices.push_back(read_vertex(build, source.attributes, vertex, source.uv, source.place));
+    }
+    const auto end = world.vertices.end();
+    end[-3].normal = end[-2].normal = end[-1].normal = flat_normal(end[-3], end[-2], end[-1]);
+}
+
 } // namespace
 
 Elements open(WorldBuild& build, int accessor)
@@ -145,68 +230,23 @@ bool add_primitive(WorldBuild& build, const std::string& place, const tinygltf::
         note_once(world.notes, "meshes without positions are not drawn");
         return false;
     }
-    int material = material_of(build, from.material);
-    const Material& look = world.materials[std::size_t(material)];
-    const UvSource& uv = build.uv[std::size_t(material)];
-    Attributes attributes = open_attributes(build, from, uv, look.base_texture >= 0 || look.emissive_texture >= 0);
-    if (look.clock && !attributes.has_uv)
-        build.fail(place + "/attributes",
-            "has no TEXCOORD_" + std::to_string(uv.set)
-                + " for a clock's dial; should have one that goes from 0 to 1 across it");
-    Elements indices;
-    if (from.indices >= 0)
-        indices = open(build, from.indices);
-
-    std::size_t run = from.indices >= 0 ? indices.count : attributes.position.count;
-    std::size_t triangles = from.mode == TINYGLTF_MODE_TRIANGLES ? run / 3 : run - 2;
-    if (3 * triangles > build.corners_left)
-        build.fail(place, "brings the world above " + std::to_string(GltfLimits::indices / 3) + " triangles; use fewer");
-    build.corners_left -= 3 * triangles;
-    // Flat triangles never share corners.
-    make_room(build, place, attributes.has_normal ? 0 : 3 * triangles, 3 * triangles);
-
+    const int material = material_of(build, from.material);
+    Source source = open_source(build, place, from, material);
     Primitive made{};
     made.first_index = std::uint32_t(world.indices.size());
-    made.vertex_offset = std::int32_t(world.vertices.size());
+    made.vertex_offset = std::int32_t(source.vertex_offset);
     made.material = material;
-    // In exported files many primitives may share one long list of vertices; only those that this primitive uses are
-    // copied.
-    auto& placed = build.placed;
-    if (placed.size() < attributes.position.count)
-        placed.resize(attributes.position.count, none);
-    std::vector<std::uint32_t> touched;
-    for (std::size_t t = 0; t < triangles; ++t) {
-        std::array<std::uint32_t, 3> corner;
-        auto which = corners(from.mode, t);
-        for (int i = 0; i < 3; ++i) {
-            corner[i] = from.indices >= 0 ? indices.index(which[i]) : std::uint32_t(which[i]);
-            if (corner[i] >= attributes.position.count)
-                build.fail(place + "/indices",
-                    "index " + std::to_string(which[i]) + " is " + std::to_string(corner[i]) + "; the vertices are 0 to "
-                        + std::to_string(attributes.position.count - 1));
-        }
+    for (std::size_t t = 0; t < source.triangles; ++t) {
+        const std::array<std::uint32_t, 3> corner = read_triangle(build, source, t);
         if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0])
             continue; // strips use such triangles to turn; they cover no area
-        for (std::uint32_t vertex : corner) {
-            if (!attributes.has_normal || placed[vertex] == none) {
-                if (attributes.has_normal) {
-                    make_room(build, place, 1, 0);
-                    placed[vertex] = std::uint32_t(world.vertices.size()) - std::uint32_t(made.vertex_offset);
-                    touched.push_back(vertex);
-                }
-                world.indices.push_back(std::uint32_t(world.vertices.size()) - std::uint32_t(made.vertex_offset));
-                world.vertices.push_back(read_vertex(build, attributes, vertex, uv, place));
-            } else
-                world.indices.push_back(placed[vertex]);
-        }
-        if (!attributes.has_normal) {
-            auto end = world.vertices.end();
-            glm::vec3 normal = flat_normal(end[-3], end[-2], end[-1]);
-            end[-3].normal = end[-2].normal = end[-1].normal = normal;
-        }
+        if (source.attributes.has_normal)
+            add_smooth(build, source, corner);
+        else
+            add_flat(build, source, corner);
     }
-    for (std::uint32_t vertex : touched)
-        placed[vertex] = none;
+    for (std::uint32_t vertex : source.touched)
+        build.placed[vertex] = none;
     made.index_count = std::uint32_t(world.indices.size()) - made.first_index;
     if (made.index_count == 0)
         return false;
