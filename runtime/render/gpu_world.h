@@ -6,6 +6,7 @@
 #include "runtime/world/spectra.h"
 #include "runtime/world/stars.h"
 #include "runtime/world/world.h"
+#include <map>
 
 namespace starbow {
 
@@ -25,8 +26,9 @@ struct GpuWorld {
     double brightest = 1; ///< the greatest radiance of any surface, before any lamp comes closer than its distance
 
     Buffer vertices, indices;
-    std::vector<Image> textures;
-    std::vector<vk::raii::Sampler> samplers;
+    MemoryArena texture_memory;
+    std::vector<Image> textures; ///< in texture_memory
+    std::map<Sampler, vk::raii::Sampler> samplers; ///< one for all textures that are sampled alike
     Image white; ///< for materials without a texture
     vk::raii::DescriptorPool pool = nullptr;
     std::vector<vk::raii::DescriptorSet> materials;

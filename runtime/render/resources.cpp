@@ -26,14 +26,21 @@ std::uint32_t memory_type(const Device& device, std::uint32_t allowed, vk::Memor
         "The GPU offers no memory of the kind " + vk::to_string(wanted) + ": use another GPU or a newer driver");
 }
 
-/// Gives a buffer or an image its memory. Software devices report a lack of memory only at the binding.
+/// Gives a buffer or an image its memory, in an arena or by itself. Software devices report a lack of memory only at the
+/// binding.
 template <class Resource>
-vk::raii::DeviceMemory bind(const Device& device, const Resource& resource, vk::MemoryPropertyFlags wanted)
+vk::raii::DeviceMemory bind(
+    const Device& device, const Resource& resource, vk::MemoryPropertyFlags wanted, MemoryArena* arena = nullptr)
 {
-    vk::MemoryRequirements needs = resource.getMemoryRequirements();
+    const vk::MemoryRequirements needs = resource.getMemoryRequirements();
+    const std::uint32_t type = memory_type(device, needs.memoryTypeBits, wanted);
     try {
-        vk::raii::DeviceMemory memory
-            = device.device.allocateMemory({needs.size, memory_type(device, needs.memoryTypeBits, wanted)});
+        if (arena) {
+            const MemoryArena::Place place = arena->place(device, needs, type);
+            resource.bindMemory(place.memory, place.offset);
+            return nullptr;
+        }
+        vk::raii::DeviceMemory memory = device.device.allocateMemory({needs.size, type});
         resource.bindMemory(*memory, 0);
         return memory;
     } catch (const vk::SystemError&) {
@@ -104,7 +111,7 @@ Image make_image(const Device& device, const ImageSpec& spec)
         vk::ImageTiling::eOptimal, spec.usage);
     image.image = device.device.createImage(info);
     image.bytes = image.image.getMemoryRequirements().size;
-    image.memory = bind(device, image.image, vk::MemoryPropertyFlagBits::eDeviceLocal);
+    image.memory = bind(device, image.image, vk::MemoryPropertyFlagBits::eDeviceLocal, spec.arena);
     image.view = device.device.createImageView({{}, *image.image,
         spec.cube        ? vk::ImageViewType::eCube
             : spec.array ? vk::ImageViewType::e2DArray
@@ -125,13 +132,17 @@ void transition(vk::CommandBuffer commands, const Image& image, vk::ImageLayout 
     commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
 }
 
-Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::span<const std::byte> pixels, bool mips)
+Image make_texture(
+    Device& device, vk::Format format, glm::ivec2 size, std::span<const std::byte> pixels, bool mips, MemoryArena* arena)
 {
     std::uint32_t levels = mips ? std::bit_width(std::uint32_t(std::max(size.x, size.y))) : 1;
     Image image = make_image(device,
-        {format, {std::uint32_t(size.x), std::uint32_t(size.y)},
-            vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst,
-            levels});
+        {.format = format,
+            .extent = {std::uint32_t(size.x), std::uint32_t(size.y)},
+            .usage
+            = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst,
+            .levels = levels,
+            .arena = arena});
     Buffer staging = make_mapped_buffer(device, pixels.size(), vk::BufferUsageFlagBits::eTransferSrc);
     std::memcpy(staging.mapped, pixels.data(), pixels.size());
 

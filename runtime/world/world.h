@@ -2,6 +2,7 @@
 #include "animation.h"
 #include "config/model/body.h"
 #include "config/model/emission.h"
+#include <compare>
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -25,7 +26,7 @@ enum class Wrap { repeat, mirror, clamp };
 struct Sampler {
     Wrap u = Wrap::repeat, v = Wrap::repeat;
     bool magnify_linear = true, minify_linear = true, mipmaps = true, mip_linear = true;
-    bool operator==(const Sampler&) const = default;
+    auto operator<=>(const Sampler&) const = default;
 };
 
 /// sRGB-encoded colours with linear alpha, rows from the top.
