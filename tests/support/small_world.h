@@ -1,8 +1,8 @@
 #pragma once
 // Worlds made for one test: flat shapes in plain colours.
 #include "gltf_fixture.h"
+#include "gpu_environment.h"
 #include "runtime/world/detail.h"
-#include "stage.h"
 
 namespace starbow::gpu_test {
 
