@@ -83,9 +83,9 @@ TEST(Blinking, SweepsOverAWallAsItsLightArrives)
                     if (!right && wrong < 4)
                         ADD_FAILURE() << "pixel " << at.x << ", " << at.y << ": " << light.r << " at phase " << here;
                 }
-                EXPECT_EQ(wrong, 0) << time << " on_body " << on_body;
-                EXPECT_GT(lit, 150) << time << " on_body " << on_body;
-                EXPECT_GT(dark, 500) << time << " on_body " << on_body;
+                EXPECT_EQ(wrong, 0) << time << " on the body: " << on_body;
+                EXPECT_GT(lit, 150) << time << " on the body: " << on_body;
+                EXPECT_GT(dark, 500) << time << " on the body: " << on_body;
             }
         }
     }
