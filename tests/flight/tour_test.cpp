@@ -184,7 +184,7 @@ TEST(Tours, TheTwinsMeetAtTwentyAndTwelve)
                 const int index = world.primitives[instance.primitive].material;
                 if (world.materials[std::size_t(index)].name == material && instance.frame_from_local[2].z * way > 0
                     && entries[i].there.x <= 0 && entries[i].there.y > 0)
-                    figures.insert(said(entries[i]));
+                    figures.insert(dial_text(entries[i]));
             }
         }
         return figures.size() == 1 ? *figures.begin() : std::to_string(figures.size()) + " readings";

@@ -37,7 +37,7 @@ TEST(Picture, StillsAreTheSameBytesEachTime)
         OffscreenRenderer afresh(again.device, again.pipelines, again.world, layout, test_quality(), false);
         EXPECT_EQ(afresh.picture(shot, &panel), first);
     }
-    Stage::expect_no_complaints(again.device);
+    GpuEnvironment::expect_no_complaints(again.device);
 }
 
 TEST(Picture, AtRestEveryEffectIsTheIdentity)

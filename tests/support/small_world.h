@@ -1,7 +1,7 @@
 #pragma once
 // Worlds made for one test: flat shapes in plain colours.
 #include "gltf_fixture.h"
-#include "stage.h"
+#include "gpu_environment.h"
 
 namespace starbow::gpu_test {
 

@@ -1,4 +1,4 @@
-#include "stage.h"
+#include "gpu_environment.h"
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -6,11 +6,11 @@
 namespace starbow::gpu_test {
 namespace {
 
-::testing::Environment* const stage = ::testing::AddGlobalTestEnvironment(new Stage);
+::testing::Environment* const gpu_environment = ::testing::AddGlobalTestEnvironment(new GpuEnvironment);
 
 } // namespace
 
-void Stage::SetUp()
+void GpuEnvironment::SetUp()
 {
 #ifdef __GLIBC__
     // A software device allocates with malloc. Memory filled with 0x7e is NaN in fp16 and 8e37 in float, so that a read
@@ -22,7 +22,7 @@ void Stage::SetUp()
         Device::Options{.validation = true, .name = device_options(false).name});
 }
 
-void Stage::TearDown()
+void GpuEnvironment::TearDown()
 {
     if (!context)
         return;
@@ -31,7 +31,7 @@ void Stage::TearDown()
     context.reset();
 }
 
-void Stage::expect_no_complaints(const Device& device)
+void GpuEnvironment::expect_no_complaints(const Device& device)
 {
     for (const std::string& complaint : device.complaints)
         ADD_FAILURE() << "validation: " << complaint;

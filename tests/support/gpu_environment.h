@@ -18,7 +18,7 @@ using glm::dvec3;
 using glm::ivec2;
 
 /// The avenue on a device with validation layers; it opens before the first test. Any message of the layers fails the run.
-class Stage : public ::testing::Environment {
+class GpuEnvironment : public ::testing::Environment {
 public:
     void SetUp() override;
     void TearDown() override;
@@ -27,9 +27,9 @@ public:
     static inline std::unique_ptr<RenderContext> context;
 };
 
-inline RenderContext& avenue() { return *Stage::context; }
-inline Device& device() { return Stage::context->device; }
-inline Pipelines& pipelines() { return Stage::context->pipelines; }
+inline RenderContext& avenue() { return *GpuEnvironment::context; }
+inline Device& device() { return GpuEnvironment::context->device; }
+inline Pipelines& pipelines() { return GpuEnvironment::context->pipelines; }
 
 /// The avenue under an empty sky, as long as this object lives.
 struct WithoutStars {
