@@ -16,7 +16,7 @@ struct Key {
 
 constexpr Range angle_range{-360, 360}, any_range{-1e9, 1e9}, pixel_range{1, 65536}, count_range{0, double(most_vertices)};
 
-/// The keys that are read, in the order in which messages name a missing one.
+/// The keys that are read, and the ranges of their numbers.
 struct Keys {
     std::array<Key, 19> all{{{"VERTICES", count_range}, {"FACES", count_range}, {"NATIVEXRES", pixel_range},
         {"NATIVEYRES", pixel_range}, {"ORTHO_LEFT", any_range}, {"ORTHO_RIGHT", any_range}, {"ORTHO_BOTTOM", any_range},
@@ -138,7 +138,7 @@ void check_counts(const WarpFile& file, const Content& content)
 void place_vertices(const WarpFile& file, const Keys& keys, WarpMesh& mesh)
 {
     const glm::dvec2 panel(*keys["NATIVEXRES"].value, *keys["NATIVEYRES"].value);
-    // ORTHO has fractions of the panel, or pixels of the panel's corners; pixels where a number is far from any fraction.
+    // ORTHO holds fractions of the panel. A number far from any fraction means pixels of the panel's corners.
     glm::dvec2 low(keys["ORTHO_LEFT"].or_else(0), keys["ORTHO_BOTTOM"].or_else(0)),
         high(keys["ORTHO_RIGHT"].or_else(1), keys["ORTHO_TOP"].or_else(1));
     if (std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y)}) > 16) {

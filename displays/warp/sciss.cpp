@@ -84,7 +84,7 @@ Head read_head(Reader& in)
     return {version, type == 1};
 }
 
-/// Reads the projector: its turn, which is returned, the eye's place and the frustum, which go into the mesh.
+/// Reads the projector. Returns its turn; the eye's place and the frustum go into the mesh.
 glm::dquat read_projector(Reader& in, const Head& head, WarpMesh& mesh)
 {
     const Range unit{-1.01, 1.01}, angle{-180, 180};
@@ -179,7 +179,7 @@ std::uint32_t read_triangles(Reader& in, const Arrangement& arrangement, WarpMes
     return second_index;
 }
 
-/// Makes a whole grid of a strip that fills one, with so many columns.
+/// Replaces a strip that fills a grid of so many columns by the whole grid.
 void make_grid(WarpMesh& mesh, std::size_t columns)
 {
     if (!fills_grid(mesh, columns))

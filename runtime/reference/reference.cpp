@@ -86,7 +86,7 @@ public:
             }
     }
 
-    /// Draws one row of the output into each layer's picture, and the numbers of the first.
+    /// Draws one row of the output into each canvas, and the numbers of the first.
     void row(int y, std::span<glm::dvec3* const> light, Reference::Numbers* numbers) const
     {
         for (const ViewAt& view : views_) {
