@@ -41,7 +41,7 @@ BloomPass::BloomPass(Device& device, Pipelines& pipelines, glm::ivec2 size)
     vk::DescriptorPoolSize sizes(vk::DescriptorType::eCombinedImageSampler, 2 * count);
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, sizes});
     name_object(device, pool_, "bloom pass: descriptor pool");
-    std::vector<vk::DescriptorSetLayout> layouts(count, *pipelines.picture_set);
+    std::vector<vk::DescriptorSetLayout> layouts(count, *pipelines.layouts.picture_set);
     sets_ = device.device.allocateDescriptorSets({*pool_, layouts});
     for (const vk::raii::DescriptorSet& set : sets_)
         name_object(device, set, "bloom pass: descriptor set");
@@ -91,8 +91,8 @@ void BloomPass::step(vk::CommandBuffer commands, std::size_t from, std::size_t t
     commands.beginRendering({{}, {{0, 0}, target}, 1, 0, colour});
     set_area(commands, {0, 0}, {int(target.width), int(target.height)});
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.bloom(up));
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, *sets_[from], {});
-    commands.pushConstants<shared::BloomPush>(*pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, push);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0, *sets_[from], {});
+    commands.pushConstants<shared::BloomPush>(*pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, push);
     commands.draw(3, 1, 0, 0);
     commands.endRendering();
 }
@@ -104,8 +104,8 @@ void BloomPass::show(vk::CommandBuffer commands, glm::ivec2 corner, double part,
     push.part = glm::vec4(part, 0, corner);
     set_area(commands, corner, size_);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.bloomed(target));
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, *sets_.front(), {});
-    commands.pushConstants<shared::BloomPush>(*pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, push);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0, *sets_.front(), {});
+    commands.pushConstants<shared::BloomPush>(*pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, push);
     commands.draw(3, 1, 0, 0);
 }
 

@@ -85,7 +85,7 @@ FinishPass::FinishPass(Device& device, Pipelines& pipelines, const Output& outpu
     vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 5);
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size});
     name_object(device, pool_, "finish pass: descriptor pool");
-    set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.finish_set}).front());
+    set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.layouts.finish_set}).front());
     name_object(device, set_, "finish pass: descriptor set");
     std::vector<vk::DescriptorImageInfo> images;
     for (const Image* image : {&canvases_.front(), &canvases_.back(), &weight_, &black_, &table_})
@@ -124,8 +124,8 @@ void FinishPass::record(vk::CommandBuffer commands, const Target& target, bool p
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
     set_area(commands, {0, 0}, {int(target.extent.width), int(target.extent.height)});
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.finish(variant, target.format));
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.finish_layout, 0, *set_, {});
-    commands.pushConstants<shared::FinishPush>(*pipelines_.finish_layout, vk::ShaderStageFlagBits::eFragment, 0, push_);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.finish_layout, 0, *set_, {});
+    commands.pushConstants<shared::FinishPush>(*pipelines_.layouts.finish_layout, vk::ShaderStageFlagBits::eFragment, 0, push_);
     commands.draw(3, 1, 0, 0);
     commands.endRendering();
 }

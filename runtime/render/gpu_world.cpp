@@ -151,7 +151,7 @@ GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const S
     vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 2 * count);
     gpu.pool = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, size});
     name_object(device, gpu.pool, "world: descriptor pool");
-    std::vector<vk::DescriptorSetLayout> layouts(count, *pipelines.material_set);
+    std::vector<vk::DescriptorSetLayout> layouts(count, *pipelines.layouts.material_set);
     gpu.materials = device.device.allocateDescriptorSets({*gpu.pool, layouts});
     for (const vk::raii::DescriptorSet& set : gpu.materials)
         name_object(device, set, "world: material");

@@ -24,30 +24,56 @@
 #include <cstddef>
 
 namespace starbow {
-namespace {
 
 using Spirv = std::span<const std::uint32_t>;
 
-struct Pass {
-    const char* name; ///< for debuggers
+/// One pass's pipeline. What is not its name, its constants or its target is the same in every pipeline of that name.
+struct Pipelines::Pass {
+    const char* name; ///< also for debuggers
     Spirv vertex, fragment;
     vk::PipelineLayout layout;
-    std::vector<vk::Format> targets;
-    std::vector<std::uint32_t> constants; ///< constant_id is the index, in both stages
+    TargetKind target;
+    SpecializationConstants constants; ///< the same in both stages
     bool depth = false, vertices = false, blend = false;
     bool points = false, added = false;
-    vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
 };
 
-vk::raii::Pipeline make_pipeline(const Device& device, const Pass& pass)
+namespace {
+
+SpecializationConstants constants(const WarpVariant& v)
 {
-    auto module = [&](Spirv words) { return device.device.createShaderModule({{}, words.size_bytes(), words.data()}); };
+    constexpr std::uint32_t of_the_pass = 0; // constant_id 10 has a meaning of its own in each pass
+    return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear,
+        of_the_pass, std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), v.by_table, v.layered, v.galilean,
+        v.single, std::uint32_t(v.rays), v.cut};
+}
+
+} // namespace
+
+Pipelines::Pipelines(Device& device)
+    : layouts(device)
+    , device_(device)
+{
+}
+
+vk::Pipeline Pipelines::find_or_make(const Pass& pass)
+{
+    const Key key(pass.name, pass.constants, pass.target);
+    auto at = made_.find(key);
+    if (at == made_.end())
+        at = made_.emplace(key, make(pass)).first;
+    return *at->second;
+}
+
+vk::raii::Pipeline Pipelines::make(const Pass& pass) const
+{
+    auto module = [&](Spirv words) { return device_.device.createShaderModule({{}, words.size_bytes(), words.data()}); };
     vk::raii::ShaderModule vertex = module(pass.vertex), fragment = module(pass.fragment);
     std::vector<vk::SpecializationMapEntry> entries;
-    for (std::uint32_t i = 0; i < pass.constants.size(); ++i)
+    for (std::uint32_t i = 0; i < pass.constants.count; ++i)
         entries.push_back({i, i * 4, 4});
     vk::SpecializationInfo constants(
-        std::uint32_t(entries.size()), entries.data(), pass.constants.size() * 4, pass.constants.data());
+        std::uint32_t(entries.size()), entries.data(), pass.constants.count * 4, pass.constants.list.data());
     vk::PipelineShaderStageCreateInfo stages[] = {{{}, vk::ShaderStageFlagBits::eVertex, *vertex, "main", &constants},
         {{}, vk::ShaderStageFlagBits::eFragment, *fragment, "main", &constants}};
 
@@ -65,7 +91,7 @@ vk::raii::Pipeline make_pipeline(const Device& device, const Pass& pass)
     vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
     vk::PipelineRasterizationStateCreateInfo raster;
     raster.lineWidth = 1;
-    vk::PipelineMultisampleStateCreateInfo samples({}, pass.samples);
+    vk::PipelineMultisampleStateCreateInfo samples({}, pass.target.samples);
     vk::PipelineDepthStencilStateCreateInfo depth;
     depth.depthTestEnable = pass.depth;
     depth.depthWriteEnable = pass.depth && pass.vertices;
@@ -78,319 +104,190 @@ vk::raii::Pipeline make_pipeline(const Device& device, const Pass& pass)
         blend.dstColorBlendFactor = blend.dstAlphaBlendFactor
             = pass.added ? vk::BlendFactor::eOne : vk::BlendFactor::eOneMinusSrcAlpha;
     }
-    std::vector<vk::PipelineColorBlendAttachmentState> blends(pass.targets.size(), blend);
+    std::vector<vk::PipelineColorBlendAttachmentState> blends(pass.target.colours.size(), blend);
     vk::PipelineColorBlendStateCreateInfo blending({}, false, {}, blends);
     std::vector<vk::DynamicState> dynamic = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
     if (pass.vertices)
         dynamic.insert(dynamic.end(), {vk::DynamicState::eCullMode, vk::DynamicState::eFrontFace});
     vk::PipelineDynamicStateCreateInfo dynamics({}, dynamic);
+    const std::vector<vk::Format> formats(pass.target.colours.begin(), pass.target.colours.end());
     vk::PipelineRenderingCreateInfo rendering(
-        0, pass.targets, pass.depth ? depth_format : vk::Format::eUndefined, vk::Format::eUndefined);
+        0, formats, pass.depth ? depth_format : vk::Format::eUndefined, vk::Format::eUndefined);
     vk::GraphicsPipelineCreateInfo info(
         {}, stages, &vertices, &assembly, nullptr, &viewport, &raster, &samples, &depth, &blending, &dynamics, pass.layout);
     info.pNext = &rendering;
-    vk::raii::Pipeline pipeline = device.device.createGraphicsPipeline(device.cache, info);
-    name_object(device, vertex, pass.name);
-    name_object(device, fragment, pass.name);
-    name_object(device, pipeline, pass.name);
+    vk::raii::Pipeline pipeline = device_.device.createGraphicsPipeline(device_.cache, info);
+    name_object(device_, vertex, pass.name);
+    name_object(device_, fragment, pass.name);
+    name_object(device_, pipeline, pass.name);
     return pipeline;
-}
-
-vk::raii::DescriptorSetLayout make_set_layout(
-    const Device& device, vk::ShaderStageFlags stages, std::initializer_list<vk::DescriptorType> types)
-{
-    std::vector<vk::DescriptorSetLayoutBinding> bindings;
-    for (vk::DescriptorType type : types)
-        bindings.push_back({std::uint32_t(bindings.size()), type, 1, stages});
-    return device.device.createDescriptorSetLayout({{}, bindings});
-}
-
-vk::raii::PipelineLayout make_layout(const Device& device, std::initializer_list<vk::DescriptorSetLayout> sets,
-    vk::ShaderStageFlags stages, std::uint32_t push_bytes)
-{
-    vk::PushConstantRange push(stages, 0, push_bytes);
-    return device.device.createPipelineLayout({{}, sets, push});
-}
-
-std::vector<std::uint32_t> constants(const WarpVariant& v)
-{
-    constexpr std::uint32_t of_the_pass = 0; // constant_id 10 has a meaning of its own in each pass
-    return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear,
-        of_the_pass, std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), v.by_table, v.layered, v.galilean,
-        v.single, std::uint32_t(v.rays), v.cut};
-}
-
-/// The pipeline of a key; a new one comes from `make`.
-template <class Key, class Make>
-vk::Pipeline find_or_make(std::map<Key, vk::raii::Pipeline>& made, const Key& key, Make&& make)
-{
-    auto at = made.find(key);
-    if (at == made.end())
-        at = made.emplace(key, make()).first;
-    return *at->second;
-}
-
-} // namespace
-
-Pipelines::Pipelines(Device& device)
-    : device_(device)
-{
-    using Type = vk::DescriptorType;
-    constexpr auto fragment = vk::ShaderStageFlagBits::eFragment;
-    constexpr auto both = fragment | vk::ShaderStageFlagBits::eVertex;
-    constexpr Type picture = Type::eCombinedImageSampler;
-    constexpr Type constants = Type::eUniformBuffer;
-    eye_set = make_set_layout(device, both,
-        {Type::eUniformBufferDynamic, Type::eStorageBuffer, Type::eStorageBuffer, constants, Type::eStorageBuffer});
-    material_set = make_set_layout(device, fragment, {picture, picture});
-    warp_set = make_set_layout(device, both,
-        {picture, picture, Type::eUniformTexelBuffer, Type::eUniformTexelBuffer, picture, picture, picture, picture, picture,
-            picture, constants, picture, constants});
-    star_set = make_set_layout(
-        device, vk::ShaderStageFlagBits::eVertex, {Type::eUniformBufferDynamic, Type::eStorageBuffer, constants});
-    picture_set = make_set_layout(device, fragment, {picture, picture});
-    overlay_set = make_set_layout(device, fragment, {constants});
-    finish_set = make_set_layout(device, fragment, {picture, picture, picture, picture, picture});
-    surface_layout = make_layout(device, {*eye_set, *material_set}, both, sizeof(shared::CubePush));
-    warp_layout = make_layout(device, {*warp_set}, fragment, sizeof(shared::ViewPush));
-    star_layout = make_layout(device, {*warp_set, *star_set}, both, sizeof(shared::ViewPush));
-    overlay_layout = make_layout(device, {*warp_set, *overlay_set}, fragment, sizeof(shared::ViewPush));
-    picture_layout = make_layout(device, {*picture_set}, fragment, sizeof(shared::ViewPush));
-    finish_layout = make_layout(device, {*finish_set}, fragment, sizeof(shared::FinishPush));
-    name_object(device, eye_set, "eye descriptor set layout");
-    name_object(device, material_set, "material descriptor set layout");
-    name_object(device, warp_set, "warp descriptor set layout");
-    name_object(device, star_set, "star descriptor set layout");
-    name_object(device, picture_set, "picture descriptor set layout");
-    name_object(device, overlay_set, "overlay descriptor set layout");
-    name_object(device, finish_set, "finish descriptor set layout");
-    name_object(device, surface_layout, "surface pipeline layout");
-    name_object(device, warp_layout, "warp pipeline layout");
-    name_object(device, star_layout, "star pipeline layout");
-    name_object(device, overlay_layout, "overlay pipeline layout");
-    name_object(device, picture_layout, "picture pipeline layout");
-    name_object(device, finish_layout, "finish pipeline layout");
-}
-
-std::size_t Pipelines::count() const
-{
-    return surfaces_.size() + skies_.size() + warps_.size() + stars_.size() + measures_.size() + probes_.size()
-        + meters_.size() + star_meters_.size() + overlays_.size() + huds_.size() + blooms_.size() + lookups_.size()
-        + bloomed_.size() + finishes_.size() + patterns_.size();
 }
 
 vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& target)
 {
-    return find_or_make(surfaces_, std::pair(v, target), [&] {
-        return make_pipeline(device_,
-            {.name = "surface pipeline",
-                .vertex = cube_vert,
-                .fragment = cube_frag,
-                .layout = *surface_layout,
-                .targets = {target.colours.begin(), target.colours.end()},
-                .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights),
-                    std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), std::uint32_t(v.kinds), v.matrices,
-                    v.clock, v.finite_existence, v.layered, v.lamps_move, v.blink, v.moves},
-                .depth = true,
-                .vertices = true,
-                .samples = target.samples});
-    });
+    return find_or_make({.name = "surface pipeline",
+        .vertex = cube_vert,
+        .fragment = cube_frag,
+        .layout = *layouts.surface_layout,
+        .target = target,
+        .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights),
+            std::uint32_t(v.numbers.reflected), std::uint32_t(v.numbers.own), std::uint32_t(v.kinds), v.matrices, v.clock,
+            v.finite_existence, v.layered, v.lamps_move, v.blink, v.moves},
+        .depth = true,
+        .vertices = true});
 }
 
 vk::Pipeline Pipelines::sky(const TargetKind& target)
 {
-    return find_or_make(skies_, target, [&] {
-        return make_pipeline(device_,
-            {.name = "sky pipeline",
-                .vertex = sky_vert,
-                .fragment = sky_frag,
-                .layout = *surface_layout,
-                .targets = {target.colours.begin(), target.colours.end()},
-                .constants = {std::uint32_t(target.colours.size())},
-                .depth = true,
-                .samples = target.samples});
-    });
+    return find_or_make({.name = "sky pipeline",
+        .vertex = sky_vert,
+        .fragment = sky_frag,
+        .layout = *layouts.surface_layout,
+        .target = target,
+        .constants = {std::uint32_t(target.colours.size())},
+        .depth = true});
 }
 
 vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
 {
-    return find_or_make(warps_, std::pair(v, target), [&] {
-        std::vector<std::uint32_t> all = constants(v);
-        all[10] = target != light_format; // 8 bits need dither
-        return make_pipeline(device_,
-            {.name = "warp pipeline",
-                .vertex = screen_vert,
-                .fragment = warp_frag,
-                .layout = *warp_layout,
-                .targets = {target},
-                .constants = all});
-    });
+    SpecializationConstants all = constants(v);
+    all[10] = target != light_format; // 8 bits need dither
+    return find_or_make({.name = "warp pipeline",
+        .vertex = screen_vert,
+        .fragment = warp_frag,
+        .layout = *layouts.warp_layout,
+        .target = {{target}},
+        .constants = all});
 }
 
 vk::Pipeline Pipelines::stars(const WarpVariant& v, vk::Format target)
 {
-    return find_or_make(stars_, std::pair(v, target), [&] {
-        return make_pipeline(device_,
-            {.name = "stars pipeline",
-                .vertex = star_vert,
-                .fragment = star_frag,
-                .layout = *star_layout,
-                .targets = {target},
-                .constants = constants(v),
-                .points = true,
-                .added = true});
-    });
+    return find_or_make({.name = "stars pipeline",
+        .vertex = star_vert,
+        .fragment = star_frag,
+        .layout = *layouts.star_layout,
+        .target = {{target}},
+        .constants = constants(v),
+        .points = true,
+        .added = true});
 }
 
 vk::Pipeline Pipelines::measure(const WarpVariant& v)
 {
-    return find_or_make(measures_, v, [&] {
-        return make_pipeline(device_,
-            {.name = "measure pipeline",
-                .vertex = screen_vert,
-                .fragment = measure_frag,
-                .layout = *warp_layout,
-                .targets = {exact_format, exact_format, exact_format},
-                .constants = constants(v)});
-    });
+    return find_or_make({.name = "measure pipeline",
+        .vertex = screen_vert,
+        .fragment = measure_frag,
+        .layout = *layouts.warp_layout,
+        .target = {{exact_format, exact_format, exact_format}},
+        .constants = constants(v)});
 }
 
 vk::Pipeline Pipelines::probe(const WarpVariant& v)
 {
-    return find_or_make(probes_, v, [&] {
-        return make_pipeline(device_,
-            {.name = "probe pipeline",
-                .vertex = screen_vert,
-                .fragment = probe_frag,
-                .layout = *warp_layout,
-                .targets = {exact_format, exact_format, exact_format},
-                .constants = constants(v)});
-    });
+    return find_or_make({.name = "probe pipeline",
+        .vertex = screen_vert,
+        .fragment = probe_frag,
+        .layout = *layouts.warp_layout,
+        .target = {{exact_format, exact_format, exact_format}},
+        .constants = constants(v)});
 }
 
 vk::Pipeline Pipelines::overlay(const WarpVariant& v, int overlay, vk::Format target)
 {
-    return find_or_make(overlays_, std::tuple(v, overlay, target), [&] {
-        std::vector<std::uint32_t> all = constants(v);
-        all[10] = std::uint32_t(overlay);
-        return make_pipeline(device_,
-            {.name = "overlay pipeline",
-                .vertex = screen_vert,
-                .fragment = overlay_frag,
-                .layout = *overlay_layout,
-                .targets = {target},
-                .constants = all,
-                .blend = true});
-    });
+    SpecializationConstants all = constants(v);
+    all[10] = std::uint32_t(overlay);
+    return find_or_make({.name = "overlay pipeline",
+        .vertex = screen_vert,
+        .fragment = overlay_frag,
+        .layout = *layouts.overlay_layout,
+        .target = {{target}},
+        .constants = all,
+        .blend = true});
 }
 
 vk::Pipeline Pipelines::meter(const WarpVariant& v)
 {
-    return find_or_make(meters_, v, [&] {
-        return make_pipeline(device_,
-            {.name = "meter pipeline",
-                .vertex = screen_vert,
-                .fragment = meter_frag,
-                .layout = *warp_layout,
-                .targets = {meter_format},
-                .constants = constants(v)});
-    });
+    return find_or_make({.name = "meter pipeline",
+        .vertex = screen_vert,
+        .fragment = meter_frag,
+        .layout = *layouts.warp_layout,
+        .target = {{meter_format}},
+        .constants = constants(v)});
 }
 
 vk::Pipeline Pipelines::star_meter(const WarpVariant& v)
 {
-    return find_or_make(star_meters_, v, [&] {
-        std::vector<std::uint32_t> all = constants(v);
-        all[10] = true; // the meter reads one ray for each sample
-        return make_pipeline(device_,
-            {.name = "star meter pipeline",
-                .vertex = star_vert,
-                .fragment = star_meter_frag,
-                .layout = *star_layout,
-                .targets = {meter_format},
-                .constants = all,
-                .points = true});
-    });
+    SpecializationConstants all = constants(v);
+    all[10] = true; // the meter reads one ray for each sample
+    return find_or_make({.name = "star meter pipeline",
+        .vertex = star_vert,
+        .fragment = star_meter_frag,
+        .layout = *layouts.star_layout,
+        .target = {{meter_format}},
+        .constants = all,
+        .points = true});
 }
 
 vk::Pipeline Pipelines::bloom(bool up)
 {
-    return find_or_make(blooms_, up, [&] {
-        return make_pipeline(device_,
-            {.name = "bloom pipeline",
-                .vertex = screen_vert,
-                .fragment = bloom_frag,
-                .layout = *picture_layout,
-                .targets = {light_format},
-                .constants = {up},
-                .blend = up});
-    });
+    return find_or_make({.name = "bloom pipeline",
+        .vertex = screen_vert,
+        .fragment = bloom_frag,
+        .layout = *layouts.picture_layout,
+        .target = {{light_format}},
+        .constants = {up},
+        .blend = up});
 }
 
 vk::Pipeline Pipelines::bloomed(vk::Format target)
 {
-    return find_or_make(bloomed_, target, [&] {
-        return make_pipeline(device_,
-            {.name = "bloomed pipeline",
-                .vertex = screen_vert,
-                .fragment = bloomed_frag,
-                .layout = *picture_layout,
-                .targets = {target},
-                .constants = {target != light_format}});
-    });
+    return find_or_make({.name = "bloomed pipeline",
+        .vertex = screen_vert,
+        .fragment = bloomed_frag,
+        .layout = *layouts.picture_layout,
+        .target = {{target}},
+        .constants = {target != light_format}});
 }
 
 vk::Pipeline Pipelines::hud(bool map, vk::Format target, bool scale)
 {
-    return find_or_make(huds_, std::tuple(map, target, scale), [&] {
-        return make_pipeline(device_,
-            {.name = "hud pipeline",
-                .vertex = screen_vert,
-                .fragment = hud_frag,
-                .layout = *picture_layout,
-                .targets = {target},
-                .constants = {map, scale},
-                .blend = true});
-    });
+    return find_or_make({.name = "hud pipeline",
+        .vertex = screen_vert,
+        .fragment = hud_frag,
+        .layout = *layouts.picture_layout,
+        .target = {{target}},
+        .constants = {map, scale},
+        .blend = true});
 }
 
 vk::Pipeline Pipelines::lookup(vk::Format target)
 {
-    return find_or_make(lookups_, target, [&] {
-        return make_pipeline(device_,
-            {.name = "lookup pipeline",
-                .vertex = screen_vert,
-                .fragment = lookup_frag,
-                .layout = *picture_layout,
-                .targets = {target},
-                .constants = {false}});
-    });
+    return find_or_make({.name = "lookup pipeline",
+        .vertex = screen_vert,
+        .fragment = lookup_frag,
+        .layout = *layouts.picture_layout,
+        .target = {{target}},
+        .constants = {false}});
 }
 
 vk::Pipeline Pipelines::finish(const FinishVariant& v, vk::Format target)
 {
-    return find_or_make(finishes_, std::pair(v, target), [&] {
-        return make_pipeline(device_,
-            {.name = "finish pipeline",
-                .vertex = screen_vert,
-                .fragment = finish_frag,
-                .layout = *finish_layout,
-                .targets = {target},
-                .constants = {std::uint32_t(v.combine), v.masked, std::uint32_t(v.curve), v.dithered}});
-    });
+    return find_or_make({.name = "finish pipeline",
+        .vertex = screen_vert,
+        .fragment = finish_frag,
+        .layout = *layouts.finish_layout,
+        .target = {{target}},
+        .constants = {std::uint32_t(v.combine), v.masked, std::uint32_t(v.curve), v.dithered}});
 }
 
 vk::Pipeline Pipelines::pattern(bool map, int pattern, vk::Format target)
 {
-    return find_or_make(patterns_, std::tuple(map, pattern, target), [&] {
-        return make_pipeline(device_,
-            {.name = "pattern pipeline",
-                .vertex = screen_vert,
-                .fragment = pattern_frag,
-                .layout = *picture_layout,
-                .targets = {target},
-                .constants = {map, std::uint32_t(pattern)}});
-    });
+    return find_or_make({.name = "pattern pipeline",
+        .vertex = screen_vert,
+        .fragment = pattern_frag,
+        .layout = *layouts.picture_layout,
+        .target = {{target}},
+        .constants = {map, std::uint32_t(pattern)}});
 }
 
 } // namespace starbow

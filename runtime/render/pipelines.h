@@ -1,8 +1,10 @@
 #pragma once
+#include "pipeline_layouts.h"
 #include "resources.h"
 #include "shaders/shared_structs.h"
 #include <array>
 #include <map>
+#include <string_view>
 #include <tuple>
 
 namespace starbow {
@@ -29,6 +31,7 @@ struct Formats {
             push_back(format);
     }
     void push_back(vk::Format format) { list[count++] = format; }
+    void pop_back() { list[--count] = {}; }
     std::size_t size() const { return count; }
     auto begin() const { return list.begin(); }
     auto end() const { return list.begin() + std::ptrdiff_t(count); }
@@ -103,6 +106,22 @@ struct TargetKind {
     auto operator<=>(const TargetKind&) const = default;
 };
 
+/// The specialization constants of a pass; constant_id is the index. On the stack, as Formats.
+struct SpecializationConstants {
+    std::array<std::uint32_t, 20> list{};
+    std::size_t count = 0;
+
+    SpecializationConstants() = default;
+    template <class... Values>
+    requires(std::is_convertible_v<Values, std::uint32_t>&&...) SpecializationConstants(Values... values)
+        : list{std::uint32_t(values)...}
+        , count(sizeof...(values))
+    {
+    }
+    std::uint32_t& operator[](std::size_t i) { return list[i]; }
+    auto operator<=>(const SpecializationConstants&) const = default;
+};
+
 /// Every pipeline of the program, each made at its first use.
 class Pipelines {
 public:
@@ -127,36 +146,19 @@ public:
     vk::Pipeline pattern(bool map, int pattern, vk::Format target);
 
     /// The number of pipelines made so far. It grows when a recorded pass needs a new one.
-    std::size_t count() const;
+    std::size_t count() const { return made_.size(); }
 
-    vk::raii::DescriptorSetLayout eye_set
-        = nullptr; ///< 0 constants, 1 instances, 2 visible, 3 columns of the spectra, 4 times
-    vk::raii::DescriptorSetLayout material_set = nullptr; ///< 0 base, 1 emissive texture
-    vk::raii::DescriptorSetLayout warp_set
-        = nullptr; ///< 0 direction map, 1 atlas, 2 tiles, 3 rows of the response, 4 depth atlas, 5 picture of the stars, 6
-                   ///< inverse of the direction map, 7 to 9 further atlases, 10 rows for emission basis spectra, 11
-                   ///< coverage, 12 rest frames
-    vk::raii::DescriptorSetLayout star_set = nullptr; ///< 0 constants, 1 stars, 2 black bodies
-    vk::raii::DescriptorSetLayout picture_set = nullptr; ///< 0 direction map, 1 panel, label or cube
-    vk::raii::DescriptorSetLayout finish_set = nullptr; ///< 0 left, 1 right picture, 2 weights, 3 black level, 4 table
-    vk::raii::DescriptorSetLayout overlay_set = nullptr; ///< 0 constants
-    vk::raii::PipelineLayout surface_layout = nullptr, warp_layout = nullptr, picture_layout = nullptr,
-                             finish_layout = nullptr, star_layout = nullptr, ///< star_layout: warp_set, star_set
-        overlay_layout = nullptr; ///< warp_set, overlay_set
+    const PipelineLayouts layouts;
 
 private:
+    struct Pass;
+    vk::Pipeline find_or_make(const Pass& pass);
+    vk::raii::Pipeline make(const Pass& pass) const;
+
+    /// A pipeline's shaders by their name, its specialization constants and its targets tell it from all others.
+    using Key = std::tuple<std::string_view, SpecializationConstants, TargetKind>;
     Device& device_;
-    std::map<std::pair<SurfaceVariant, TargetKind>, vk::raii::Pipeline> surfaces_;
-    std::map<TargetKind, vk::raii::Pipeline> skies_;
-    std::map<std::pair<WarpVariant, vk::Format>, vk::raii::Pipeline> warps_;
-    std::map<WarpVariant, vk::raii::Pipeline> measures_, probes_, meters_, star_meters_;
-    std::map<std::tuple<WarpVariant, int, vk::Format>, vk::raii::Pipeline> overlays_;
-    std::map<std::pair<WarpVariant, vk::Format>, vk::raii::Pipeline> stars_;
-    std::map<std::tuple<bool, vk::Format, bool>, vk::raii::Pipeline> huds_;
-    std::map<bool, vk::raii::Pipeline> blooms_;
-    std::map<vk::Format, vk::raii::Pipeline> lookups_, bloomed_;
-    std::map<std::pair<FinishVariant, vk::Format>, vk::raii::Pipeline> finishes_;
-    std::map<std::tuple<bool, int, vk::Format>, vk::raii::Pipeline> patterns_;
+    std::map<Key, vk::raii::Pipeline> made_;
 };
 
 } // namespace starbow

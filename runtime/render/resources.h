@@ -33,6 +33,14 @@ Buffer make_static_buffer(Device& device, std::span<const std::byte> data, vk::B
 /// Replaces a mapped buffer that is too small by one of 1.5 times the size.
 void grow(const Device& device, Buffer& buffer, vk::DeviceSize size, vk::BufferUsageFlags usage);
 
+/// A picture that a pass draws into, a swapchain's image or one of our own. It is in eColorAttachmentOptimal meanwhile.
+struct Target {
+    vk::Image image;
+    vk::ImageView view;
+    vk::Extent2D extent;
+    vk::Format format;
+};
+
 struct ImageSpec {
     vk::Format format;
     vk::Extent2D extent;

@@ -35,7 +35,7 @@ StarPass::StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& w
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2, sizes});
     name_object(device, pool_, "star pass: descriptor pool");
     for (vk::raii::DescriptorSet& set : sets_) {
-        set = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.star_set}).front());
+        set = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.layouts.star_set}).front());
         name_object(device, set, "star pass: descriptor set");
     }
 }
@@ -56,7 +56,7 @@ void StarPass::write_sets()
 
 void StarPass::bind(vk::CommandBuffer commands, std::size_t observer) const
 {
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 1, *sets_[false_colours_],
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.star_layout, 1, *sets_[false_colours_],
         std::uint32_t(observer * stride_));
 }
 

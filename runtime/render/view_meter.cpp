@@ -45,9 +45,9 @@ void ViewMeter::meter_stars(vk::CommandBuffer commands, const ViewState& view, c
     WarpVariant own = constants_.variant(view);
     own.mips = false;
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.star_meter(own));
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 0, *view.warp_set, {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.star_layout, 0, *view.warp_set, {});
     commands.pushConstants<shared::ViewPush>(
-        *pipelines_.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
+        *pipelines_.layouts.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
     stars_.sample(commands, eyes_.all[view.eye].observer, cell.corner, cell.size, meter_->every(), own.channels);
 }
 

@@ -67,8 +67,8 @@ void ViewPasses::draw_warp(vk::CommandBuffer commands, const ViewState& view, vk
 {
     set_area(commands, corner, size);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.warp_layout, 0, *view.warp_set, {});
-    commands.pushConstants<shared::ViewPush>(*pipelines_.warp_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.warp_layout, 0, *view.warp_set, {});
+    commands.pushConstants<shared::ViewPush>(*pipelines_.layouts.warp_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
     commands.draw(3, 1, 0, 0);
 }
 
@@ -84,9 +84,9 @@ void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, int 
         WarpVariant own = constants_.variant(view);
         own.mips = false;
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.stars(own, stars_.format()));
-        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.star_layout, 0, *view.warp_set, {});
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.star_layout, 0, *view.warp_set, {});
         commands.pushConstants<shared::ViewPush>(
-            *pipelines_.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
+            *pipelines_.layouts.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
         const int places = view.map && views_.maps[*view.map].closes ? 2 : 1;
         stars_.draw(commands, eyes_.all[view.eye].observer, view.geometry().corner, view.geometry().size,
             places * (own.channels ? 3 : 1), eyes_.all[view.eye].stars);
@@ -126,9 +126,9 @@ void ViewPasses::pattern_view(vk::CommandBuffer commands, const ViewState& view,
     set_area(commands, own.corner, own.size);
     commands.bindPipeline(
         vk::PipelineBindPoint::eGraphics, pipelines_.pattern(view.compiled.map != nullptr, int(state_.pattern), format));
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, *view.label_set, {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0, *view.label_set, {});
     commands.pushConstants<shared::PatternPush>(
-        *pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
+        *pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
     commands.draw(3, 1, 0, 0);
 }
 
@@ -250,8 +250,8 @@ void ViewPasses::look_up(vk::CommandBuffer commands, const Target& target, vk::P
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
     set_area(commands, view.geometry().corner, view.geometry().size);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.picture_layout, 0, set, {});
-    commands.pushConstants<shared::ViewPush>(*pipelines_.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0, set, {});
+    commands.pushConstants<shared::ViewPush>(*pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
     commands.draw(3, 1, 0, 0);
     commands.endRendering();
 }

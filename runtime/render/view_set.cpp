@@ -133,8 +133,8 @@ void ViewSet::apply_layout(Parts parts)
         return set;
     };
     for (ViewState& view : all) {
-        view.warp_set = make_set(pipelines_.warp_set);
-        view.label_set = make_set(pipelines_.picture_set);
+        view.warp_set = make_set(pipelines_.layouts.warp_set);
+        view.label_set = make_set(pipelines_.layouts.picture_set);
     }
 }
 

@@ -47,7 +47,7 @@ BareLookup::BareLookup(Device& device, Pipelines& pipelines)
     });
     vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 2);
     pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size});
-    set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.picture_set}).front());
+    set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.layouts.picture_set}).front());
     sampler_ = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear});
     const float zeros[4] = {};
     no_map_ = make_texture(device, exact_format, {1, 1}, std::as_bytes(std::span(zeros)), false);

@@ -1,0 +1,214 @@
+#include "cube_target.h"
+#include "debug.h"
+#include <algorithm>
+
+namespace starbow {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+
+/// The star pass reads the atlases in its vertex shader: where things move, they may cover a star.
+constexpr auto readers = Stage::eVertexShader | Stage::eFragmentShader;
+constexpr auto depth_tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
+
+vk::SampleCountFlagBits sample_bits(int samples)
+{
+    return samples >= 8 ? vk::SampleCountFlagBits::e8
+        : samples >= 4  ? vk::SampleCountFlagBits::e4
+        : samples >= 2  ? vk::SampleCountFlagBits::e2
+                        : vk::SampleCountFlagBits::e1;
+}
+
+constexpr auto depth_access = Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite;
+
+} // namespace
+
+CubeTarget::CubeTarget(Device& device, const GpuWorld& world, const Quality& quality, bool keeps_depth)
+    : device_(device)
+    , formats_(world.numbers().formats(quality.half_floats))
+    , samples_(quality.cube_samples)
+    , layered_world_(world.layered())
+    , keeps_depth_(keeps_depth)
+{
+    formats_.push_back(vk::Format::eR32G32Sfloat); // the coverage; near / distance is small
+    atlases_.resize(kind(layered_world_).colours.size());
+}
+
+TargetKind CubeTarget::kind(bool layered) const
+{
+    TargetKind kind{formats_, sample_bits(samples_)};
+    if (!layered)
+        kind.colours.pop_back();
+    return kind;
+}
+
+void CubeTarget::fit(glm::ivec2 size, int levels)
+{
+    const Image& first = atlases_[0];
+    // A plan is empty where no view shows anything; the texture exists all the same.
+    const auto grown = [&](int needed, std::uint32_t had) {
+        const std::uint32_t whole = (std::uint32_t(std::max(needed, 1)) + 255) / 256 * 256;
+        return repeatable_ ? whole : std::max(whole, had);
+    };
+    const vk::Extent2D extent(grown(size.x, first.extent.width), grown(size.y, first.extent.height));
+    if (*first.view && first.extent == extent && int(first.levels) >= levels)
+        return;
+    auto most = std::max(std::uint32_t(levels), first.levels);
+    using Usage = vk::ImageUsageFlagBits;
+    for (Image& atlas : atlases_)
+        atlas = {};
+    depth_ = {}, atlas_samples_.clear(), depth_samples_ = {};
+    auto copied = most > 1 ? Usage::eTransferSrc | Usage::eTransferDst : vk::ImageUsageFlags();
+    const Formats formats = kind(layered_world_).colours;
+    for (std::size_t i = 0; i < atlases_.size(); ++i) {
+        atlases_[i] = make_image(device_, {formats[i], extent, Usage::eColorAttachment | Usage::eSampled | copied, most});
+        name_object(device_, atlases_[i], "cube pass: atlas");
+    }
+    depth_ = make_image(device_, {depth_format, extent, Usage::eDepthStencilAttachment | Usage::eSampled});
+    name_object(device_, depth_, "cube pass: depth");
+    if (samples_ > 1) {
+        vk::SampleCountFlagBits samples = sample_bits(samples_);
+        for (vk::Format format : formats)
+            name_object(device_,
+                atlas_samples_.emplace_back(make_image(device_, {format, extent, Usage::eColorAttachment, 1, 1, samples})),
+                "cube pass: atlas samples");
+        depth_samples_ = make_image(device_, {depth_format, extent, Usage::eDepthStencilAttachment, 1, 1, samples});
+        name_object(device_, depth_samples_, "cube pass: depth samples");
+    }
+}
+
+void CubeTarget::fit_depth(glm::ivec2 size)
+{
+    if (int(depth_.extent.width) >= size.x && int(depth_.extent.height) >= size.y)
+        return;
+    depth_ = make_image(device_,
+        {depth_format, {std::uint32_t(size.x), std::uint32_t(size.y)}, vk::ImageUsageFlagBits::eDepthStencilAttachment});
+    name_object(device_, depth_, "cube pass: depth");
+}
+
+void CubeTarget::begin(vk::CommandBuffer commands, glm::ivec2 area, std::span<const glm::vec4> clear)
+{
+    const bool sampled = samples_ > 1;
+    const std::span used(atlases_.data(), clear.size());
+    const Image& depth = sampled ? depth_samples_ : depth_;
+    for (const Image& atlas : used)
+        transition(commands, atlas, vk::ImageLayout::eUndefined, readers, {}, vk::ImageLayout::eColorAttachmentOptimal,
+            Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
+    transition(commands, depth_, vk::ImageLayout::eUndefined,
+        depth_tests | Stage::eVertexShader | Stage::eFragmentShader | Stage::eColorAttachmentOutput, depth_access,
+        vk::ImageLayout::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
+        depth_access | Access::eColorAttachmentWrite);
+    if (sampled) {
+        for (const Image& colour : std::span(atlas_samples_.data(), used.size()))
+            transition(commands, colour, vk::ImageLayout::eUndefined, Stage::eColorAttachmentOutput,
+                Access::eColorAttachmentWrite, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+                Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
+        transition(commands, depth, vk::ImageLayout::eUndefined, depth_tests, depth_access,
+            vk::ImageLayout::eDepthAttachmentOptimal, depth_tests, depth_access);
+    }
+    std::array<vk::RenderingAttachmentInfo, MAX_GROUPS + 1> colours;
+    for (std::size_t group = 0; group < used.size(); ++group) {
+        const glm::vec4& c = clear[group];
+        const vk::ClearColorValue clear_value(std::array<float, 4>{c.x, c.y, c.z, c.w});
+        vk::RenderingAttachmentInfo& colour = colours[group];
+        colour = {*(sampled ? atlas_samples_ : atlases_)[group].view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
+            vk::AttachmentLoadOp::eClear, sampled ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore,
+            clear_value};
+        if (sampled) {
+            colour.resolveMode = vk::ResolveModeFlagBits::eAverage;
+            colour.resolveImageView = *atlases_[group].view;
+            colour.resolveImageLayout = vk::ImageLayout::eColorAttachmentOptimal;
+        }
+    }
+    vk::RenderingAttachmentInfo depth_info(*depth.view, vk::ImageLayout::eDepthAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear,
+        keeps_depth_ && !sampled ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare,
+        vk::ClearDepthStencilValue(0, 0));
+    if (sampled && keeps_depth_) {
+        depth_info.resolveMode = vk::ResolveModeFlagBits::eSampleZero;
+        depth_info.resolveImageView = *depth_.view;
+        depth_info.resolveImageLayout = vk::ImageLayout::eDepthAttachmentOptimal;
+    }
+    commands.beginRendering({{}, rect_of({0, 0}, area), 1, 0, std::uint32_t(used.size()), colours.data(), &depth_info});
+}
+
+void CubeTarget::begin_plain(vk::CommandBuffer commands, const Target& target, const glm::vec4& clear)
+{
+    transition(commands, depth_, vk::ImageLayout::eUndefined, depth_tests, Access::eDepthStencilAttachmentWrite,
+        vk::ImageLayout::eDepthAttachmentOptimal, depth_tests,
+        Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
+    vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
+        vk::ClearColorValue(std::array<float, 4>{clear.r, clear.g, clear.b, clear.a}));
+    vk::RenderingAttachmentInfo depth(*depth_.view, vk::ImageLayout::eDepthAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eDontCare, vk::ClearDepthStencilValue(0, 0));
+    commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour, &depth});
+}
+
+void CubeTarget::end(vk::CommandBuffer commands, std::span<const PlannedImage> images, int levels, bool layered)
+{
+    commands.endRendering();
+    const std::span used(atlases_.data(), kind(layered).colours.size());
+    for (const Image& atlas : used)
+        if (levels > 1)
+            make_mips(commands, atlas, images, levels);
+        else
+            transition(commands, atlas, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+                Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal, readers, Access::eShaderSampledRead);
+    if (keeps_depth_)
+        transition(commands, depth_, vk::ImageLayout::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
+            depth_access | Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal,
+            Stage::eVertexShader | Stage::eFragmentShader, Access::eShaderSampledRead);
+}
+
+void CubeTarget::make_mips(
+    vk::CommandBuffer commands, const Image& atlas, std::span<const PlannedImage> images, int plan_levels)
+{
+    auto level_barrier = [&](std::uint32_t first, std::uint32_t count, vk::ImageLayout from,
+                             vk::PipelineStageFlags2 from_stage, vk::AccessFlags2 from_access, vk::ImageLayout to,
+                             vk::PipelineStageFlags2 to_stage, vk::AccessFlags2 to_access) {
+        vk::ImageMemoryBarrier2 barrier(from_stage, from_access, to_stage, to_access, from, to, VK_QUEUE_FAMILY_IGNORED,
+            VK_QUEUE_FAMILY_IGNORED, *atlas.image, {vk::ImageAspectFlagBits::eColor, first, count, 0, 1});
+        commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
+    };
+    // One level more than the plan needs. At its coarsest level an image is sampled together with the next level at
+    // weight 0, and 0 times unwritten memory may be NaN.
+    std::uint32_t levels = std::min(std::uint32_t(plan_levels) + 1, atlas.levels);
+    level_barrier(0, 1, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+        Access::eColorAttachmentWrite, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+    level_barrier(1, atlas.levels - 1, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, {},
+        vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite);
+    for (std::uint32_t level = 1; level < levels; ++level) {
+        blits_.clear();
+        for (const PlannedImage& image : images)
+            if (image.levels >= int(level)) {
+                auto box = [&](std::uint32_t l) {
+                    glm::ivec2 low = image.atlas >> glm::ivec2(l), high = (image.atlas + image.size) >> glm::ivec2(l);
+                    return std::array<vk::Offset3D, 2>{vk::Offset3D(low.x, low.y, 0), vk::Offset3D(high.x, high.y, 1)};
+                };
+                blits_.push_back({{vk::ImageAspectFlagBits::eColor, level - 1, 0, 1}, box(level - 1),
+                    {vk::ImageAspectFlagBits::eColor, level, 0, 1}, box(level)});
+            }
+        commands.blitImage(*atlas.image, vk::ImageLayout::eTransferSrcOptimal, *atlas.image,
+            vk::ImageLayout::eTransferDstOptimal, blits_, vk::Filter::eLinear);
+        level_barrier(level, 1, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
+            vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+    }
+    level_barrier(0, levels, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, {},
+        vk::ImageLayout::eShaderReadOnlyOptimal, readers, Access::eShaderSampledRead);
+    if (atlas.levels > levels)
+        level_barrier(levels, atlas.levels - levels, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, {},
+            vk::ImageLayout::eShaderReadOnlyOptimal, readers, Access::eShaderSampledRead);
+}
+
+vk::DeviceSize CubeTarget::memory() const
+{
+    vk::DeviceSize bytes = depth_.bytes + depth_samples_.bytes;
+    for (const auto* images : {&atlases_, &atlas_samples_})
+        for (const Image& image : *images)
+            bytes += image.bytes;
+    return bytes;
+}
+
+} // namespace starbow

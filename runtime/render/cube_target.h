@@ -1,0 +1,48 @@
+#pragma once
+#include "gpu_world.h"
+#include "runtime/plan/cube_map_plan.h"
+
+namespace starbow {
+
+/// The images that one eye's cube map is drawn into: an atlas for each four spectral coefficients, with their samples, and
+/// the depth. Where something moves, one more atlas holds the covered share of each texel.
+class CubeTarget {
+public:
+    /// The quality's samples and formats stay for the object's life. keeps_depth: shaders read the depth afterwards.
+    CubeTarget(Device& device, const GpuWorld& world, const Quality& quality, bool keeps_depth);
+
+    /// on: an atlas gets exactly the plan's size in every frame. Coordinates in it are then rounded alike, and equal
+    /// shots have equal bytes. off: the atlas only grows, which takes less time.
+    void repeatable(bool on) { repeatable_ = on; }
+    /// Makes room. Contents are lost where there was too little.
+    void fit(glm::ivec2 size, int levels);
+    /// Makes room in the depth alone, for a picture without an atlas.
+    void fit_depth(glm::ivec2 size);
+
+    /// The images' formats and samples; layered: something that moves is in view.
+    TargetKind kind(bool layered) const;
+    /// Begins rendering into an area from the corner on. clear: the colour of each atlas; as many atlases are drawn.
+    void begin(vk::CommandBuffer commands, glm::ivec2 area, std::span<const glm::vec4> clear);
+    /// Begins rendering into a target of its own, with this object's depth.
+    void begin_plain(vk::CommandBuffer commands, const Target& target, const glm::vec4& clear);
+    /// Ends the rendering of begin(), and makes the mips of the images. Afterwards fragment shaders may read the atlases,
+    /// and the depth if it is kept.
+    void end(vk::CommandBuffer commands, std::span<const PlannedImage> images, int levels, bool layered);
+
+    const std::vector<Image>& atlases() const { return atlases_; }
+    const Image& depth() const { return depth_; }
+    vk::DeviceSize memory() const;
+
+private:
+    void make_mips(vk::CommandBuffer commands, const Image& atlas, std::span<const PlannedImage> images, int levels);
+
+    Device& device_;
+    Formats formats_; ///< of a world in which something moves; without the last one of others
+    int samples_;
+    bool layered_world_, keeps_depth_, repeatable_ = false;
+    std::vector<Image> atlases_, atlas_samples_;
+    Image depth_, depth_samples_;
+    std::vector<vk::ImageBlit> blits_; ///< a member so that its memory is reused
+};
+
+} // namespace starbow

@@ -1,0 +1,110 @@
+#include "cube_uploads.h"
+#include "debug.h"
+#include "lamp.h"
+#include "runtime/world/clock.h"
+#include <cstring>
+
+namespace starbow {
+
+CubeUploads::CubeUploads(Device& device, const Pipelines& pipelines, const GpuWorld& world)
+    : device_(device)
+    , pipelines_(pipelines)
+    , world_(world)
+{
+    const vk::DeviceSize step = device.properties.limits.minUniformBufferOffsetAlignment;
+    stride_ = (sizeof(shared::CubeConstants) + step - 1) / step * step;
+    const std::size_t layers = world.world.frames.size();
+    constants_ = make_mapped_buffer(device, layers * stride_, vk::BufferUsageFlagBits::eUniformBuffer);
+    name_object(device, constants_, "cube pass: constants");
+    tiles_ = make_mapped_buffer(device, sizeof(shared::TileTable), vk::BufferUsageFlagBits::eUniformTexelBuffer);
+    name_object(device, tiles_, "cube pass: tiles");
+    tiles_view_ = device.device.createBufferView({{}, *tiles_.buffer, exact_format, 0, VK_WHOLE_SIZE});
+    name_object(device, tiles_view_, "cube pass: tiles view");
+    std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBufferDynamic, 1},
+        {vk::DescriptorType::eUniformBuffer, 1}, {vk::DescriptorType::eStorageBuffer, 3}};
+    pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
+    name_object(device, pool_, "cube pass: descriptor pool");
+    set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.layouts.eye_set}).front());
+    name_object(device, set_, "cube pass: descriptor set");
+}
+
+void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> layers, double pre_exposure, bool plain)
+{
+    auto put = [&](Buffer& buffer, const auto& data) {
+        grow(device_, buffer, data.size() * sizeof(data[0]), vk::BufferUsageFlagBits::eStorageBuffer);
+        if (!data.empty())
+            std::memcpy(buffer.mapped, data.data(), data.size() * sizeof(data[0]));
+    };
+    put(instances_, list.instances);
+    put(visible_, list.visible);
+    std::vector<shared::TimeEntry>& times = time_writes_;
+    times.clear();
+    for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+        shared::CubeConstants constants = constants_of(layers[layer], pre_exposure, plain);
+        constants.first = glm::vec4(list.first[layer], times.size(), list.first_pose[layer], 0);
+        std::memcpy(static_cast<std::byte*>(constants_.mapped) + layer * stride_, &constants, sizeof constants);
+        const auto own = time_entries(world_.world, layers[layer], world_.scene.seconds_per_time_unit());
+        times.insert(times.end(), own.begin(), own.end());
+    }
+    if (!times.empty())
+        put(times_, times);
+
+    write_set();
+}
+
+void CubeUploads::write_tile_table(const CubeMapPlan& plan)
+{
+    write_tiles(plan, *static_cast<shared::TileTable*>(tiles_.mapped));
+}
+
+void CubeUploads::bind(vk::CommandBuffer commands, int layer) const
+{
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.surface_layout, 0, *set_,
+        std::uint32_t(std::size_t(layer) * stride_));
+}
+
+void CubeUploads::write_set()
+{
+    const Buffer& times = *times_.buffer ? times_ : instances_; // without finite existences the shader reads no times
+    const Buffer* held[] = {&constants_, &instances_, &visible_, &world_.columns, &times};
+    std::array<std::uint64_t, 5> serials;
+    std::array<vk::DescriptorBufferInfo, 5> infos;
+    std::array<vk::WriteDescriptorSet, 5> writes;
+    constexpr vk::DescriptorType types[] = {vk::DescriptorType::eUniformBufferDynamic, vk::DescriptorType::eStorageBuffer,
+        vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer};
+    for (std::uint32_t i = 0; i < 5; ++i) {
+        serials[i] = held[i]->serial;
+        infos[i] = vk::DescriptorBufferInfo(*held[i]->buffer, 0, i == 0 ? sizeof(shared::CubeConstants) : VK_WHOLE_SIZE);
+        writes[i] = vk::WriteDescriptorSet(*set_, i, 0, 1, types[i], nullptr, &infos[i]);
+    }
+    if (serials == written_)
+        return;
+    device_.device.updateDescriptorSets(writes, {});
+    written_ = serials;
+}
+
+shared::CubeConstants CubeUploads::constants_of(const EyeEvent& eye_event, double pre_exposure, bool plain) const
+{
+    const SceneFile& scene = world_.scene;
+    const double scale = pre_exposure;
+    shared::CubeConstants constants{};
+    constants.ambient = glm::vec4(scene.ambient * scale, scale);
+    const auto& numbers = world_.spectra.sky;
+    for (std::size_t group = 0; group < std::size_t(world_.spectra.groups); ++group) {
+        constants.sky_zenith[group] = glm::vec4(numbers[0][group] * scale);
+        constants.sky_horizon[group] = glm::vec4(numbers[1][group] * scale);
+        constants.sky_nadir[group] = glm::vec4(numbers[2][group] * scale);
+    }
+    if (plain) {
+        constants.sky_zenith[0] = glm::vec4(scene.sky.zenith * scale, 0);
+        constants.sky_horizon[0] = glm::vec4(scene.sky.horizon * scale, 0);
+        constants.sky_nadir[0] = glm::vec4(scene.sky.nadir * scale, 0);
+    }
+    constants.world_up = glm::vec4(eye_event.motion_from_frame * glm::dvec3(0, 1, 0), 0);
+    constants.now = glm::vec4(0, 0, eye_event.beta, eye_event.now);
+    for (std::size_t i = 0; i < world_.world.lamps.size(); ++i)
+        constants.lights[i] = light_entry(world_, world_.world.lamps[i], eye_event, scale);
+    return constants;
+}
+
+} // namespace starbow

@@ -1,0 +1,40 @@
+#pragma once
+#include "gpu_world.h"
+#include "runtime/plan/cube_map_plan.h"
+#include "runtime/plan/cull.h"
+
+namespace starbow {
+
+/// The data that the cube pass reads on the device in one frame, and the descriptor set that holds it.
+class CubeUploads {
+public:
+    CubeUploads(Device& device, const Pipelines& pipelines, const GpuWorld& world);
+
+    /// Writes the frame's data. Every stored radiance is multiplied by pre_exposure. layers: the eye events of the rest
+    /// frames. plain: light is a colour, whatever its spectra. The device must have finished the frame before.
+    void write(const DrawList& list, std::span<const EyeEvent> layers, double pre_exposure, bool plain);
+    void write_tile_table(const CubeMapPlan& plan);
+
+    /// Binds the set with the constants of one rest frame.
+    void bind(vk::CommandBuffer commands, int layer) const;
+
+    vk::BufferView tiles() const { return *tiles_view_; } ///< TileTable, as texels
+    std::uint64_t tiles_serial() const { return tiles_.serial; }
+
+private:
+    shared::CubeConstants constants_of(const EyeEvent& eye_event, double pre_exposure, bool plain) const;
+    void write_set();
+
+    Device& device_;
+    const Pipelines& pipelines_;
+    const GpuWorld& world_;
+    vk::raii::DescriptorPool pool_ = nullptr;
+    vk::raii::DescriptorSet set_ = nullptr;
+    Buffer constants_, instances_, visible_, tiles_, times_; ///< times_: null without any
+    vk::raii::BufferView tiles_view_ = nullptr;
+    vk::DeviceSize stride_; ///< bytes from one rest frame's constants to the next
+    std::vector<shared::TimeEntry> time_writes_; ///< a member so that its memory is reused
+    std::array<std::uint64_t, 5> written_{}; ///< serials of the buffers that set_ holds
+};
+
+} // namespace starbow
