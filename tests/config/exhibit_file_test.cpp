@@ -135,7 +135,7 @@ TEST(ExhibitFileTest, WrongExhibitsAreRefusedByReaderAndSchema)
 
 TEST(ExhibitFileTest, ATourIsANameOrAPath)
 {
-    const std::string text = R"({ "tour": "from_reader/tour.json", "language": "from_reader/fr.json" })";
+    const std::string text = R"({ "tour": "own/tour.json", "language": "own/fr.json" })";
     EXPECT_TRUE(schema_accepts(json::parse(text)));
     const auto file = write_text("exhibit.json", text);
     const auto folder = std::filesystem::absolute(file).parent_path();
