@@ -10,9 +10,9 @@ using Rest = AxisMeasure::Rest;
 constexpr double least_way = 0.2; // of the declared range
 constexpr double still = 0.1; // of the declared range
 constexpr double near_end = 0.15; // of the way between the ends
-// A spring brings a stick back to within a hundredth or two of its way, and worn ones a little less well.
+// A spring returns a stick to within a hundredth or two of its range, a worn one less accurately.
 constexpr double least_dead_zone = 0.03, least_idle_zone = 0.02;
-constexpr double most_dead_zone = 0.4; // noisier axes are broken, and with 0.5 nothing of a throttle's way would be left
+constexpr double most_dead_zone = 0.4; // noisier axes are broken; at 0.5 a throttle would have no way left
 constexpr double beyond_noise = 1.5;
 // The range of a profile's raw values.
 constexpr double least_raw = -2147483648.0, most_raw = 4294967295.0;
@@ -39,7 +39,7 @@ double furthest(const std::vector<std::int64_t>& values, double from)
     return most;
 }
 
-/// HID Usage Tables 1.4: a slider, a dial and a throttle stay where they are put.
+/// True for axes that stay in their place (HID Usage Tables 1.4): slider, dial, throttle.
 bool slides(const SeenAxis& axis)
 {
     return (axis.page == 1 && (axis.usage == 0x36 || axis.usage == 0x37)) || (axis.page == 2 && axis.usage == 0xbb);
@@ -47,7 +47,7 @@ bool slides(const SeenAxis& axis)
 
 double dead_zone_of(double noise, double way, double least)
 {
-    // Thousandths, upwards: for people, and never less than the noise.
+    // Rounded up to thousandths, so that it is readable and never less than the noise.
     return std::clamp(std::ceil(1000 * beyond_noise * noise / way) / 1000, least, most_dead_zone);
 }
 
@@ -75,7 +75,7 @@ AxisUse tuned(AxisUse use, const AxisMeasure& axis)
             middle = axis.middle;
             way = std::min(middle - low, high - middle);
         } else if (axis.rests != Rest::anywhere) {
-            // It works to one side alone: nothing reaches its other end.
+            // The axis works to one side alone and never reaches its other end.
             middle = axis.middle;
             way = axis.rests == Rest::low_end ? high - middle : middle - low;
             (axis.rests == Rest::low_end ? low : high) = axis.rests == Rest::low_end ? middle - way : middle + way;
@@ -140,7 +140,7 @@ bool kept_still(const std::vector<std::int64_t>& values, const Field& field)
     if (values.empty())
         return true;
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    // A step of one is noise, however coarse the axis.
+    // A step of one counts as noise, however coarse the axis.
     return double(*high) - double(*low) <= std::max(1.0, still * (double(field.logical_max) - double(field.logical_min)));
 }
 
@@ -189,7 +189,7 @@ std::vector<Push> pushed(
         const double low = is.moved ? is.low : double(field.logical_min),
                      high = is.moved ? is.high : double(field.logical_max), went = double(*end) - double(*start),
                      left = went > 0 ? high - double(*start) : double(*start) - low;
-        // An axis that stands at its end already has nearly no way left, and that way is noise.
+        // An axis already at its end has nearly no way left, and that way is noise.
         const double way = std::abs(went) / std::max(left, (high - low) / 4);
         if (high > low && way >= 0.5)
             all.push_back({i, went > 0, way});
@@ -218,7 +218,7 @@ Profile calibrated(Profile present, const Descriptor& descriptor, const std::vec
             for (const AxisUse& old : present.axes)
                 if (old.role == role && axis_of(old, axes) == push->axis) {
                     use.curve = old.curve;
-                    if (old.inverted == use.inverted) // else they would be elsewhere
+                    if (old.inverted == use.inverted) // otherwise detents would be at other places
                         use.detents = old.detents;
                 }
             if (one_sided(role))

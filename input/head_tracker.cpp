@@ -17,16 +17,16 @@ constexpr double farthest_m = 10, hold_s = 1, return_s = 2;
 
 std::optional<Head> parse_head(std::span<const std::byte> packet)
 {
-    std::array<double, 6> told;
-    if (packet.size() != sizeof told)
+    std::array<double, 6> values;
+    if (packet.size() != sizeof values)
         return {};
-    std::memcpy(told.data(), packet.data(), sizeof told); // Debian's machines are little-endian, all that have a GPU
+    std::memcpy(values.data(), packet.data(), sizeof values); // supported machines are little-endian
     Head head;
-    head.moved_m = 0.01 * glm::dvec3(told[0], told[1], told[2]);
-    const bool finite = std::all_of(told.begin(), told.end(), [](double v) { return std::isfinite(v); });
+    head.moved_m = 0.01 * glm::dvec3(values[0], values[1], values[2]);
+    const bool finite = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
     if (!finite || !(glm::length(head.moved_m) <= farthest_m))
         return {};
-    const glm::dvec3 angles = glm::radians(glm::dvec3(told[3], told[4], told[5]));
+    const glm::dvec3 angles = glm::radians(glm::dvec3(values[3], values[4], values[5]));
     head.turned = glm::angleAxis(angles.x, glm::dvec3(0, 1, 0)) * glm::angleAxis(angles.y, glm::dvec3(1, 0, 0))
         * glm::angleAxis(angles.z, glm::dvec3(0, 0, 1));
     return head;
@@ -60,7 +60,7 @@ HeadTracker::~HeadTracker() { close(socket_); }
 Head HeadTracker::read(std::chrono::steady_clock::time_point now)
 {
     std::array<std::byte, 64> packet;
-    // The limit of packets in a frame: a sender gone wild must not hold the frame.
+    // Limits the packets of a frame, so that a faulty sender can't hold it up.
     for (int i = 0; i < 1000; ++i) {
         const ssize_t size = recv(socket_, packet.data(), packet.size(), 0);
         if (size < 0)

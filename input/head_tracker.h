@@ -14,13 +14,13 @@ namespace starbow {
 std::optional<Head> parse_head(std::span<const std::byte> packet);
 
 /// The head of a tracker that has been silent for silent_s seconds. It is held for one second and returns to the layout's
-/// place within two more, so that a visitor who leaves the tracker's sight does not leave the walls askew.
+/// place within two more, so that a visitor who leaves the tracker's sight does not leave distorted walls.
 Head held(const Head& last, double silent_s);
 
 /// Receives a head's packets. Never waits.
 class HeadTracker {
 public:
-    /// Throws InputError where the address or the port can't be had.
+    /// Throws InputError if the address or the port is not available.
     explicit HeadTracker(const HeadTracking& tracking);
     HeadTracker(const HeadTracker&) = delete;
     ~HeadTracker();

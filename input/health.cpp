@@ -5,9 +5,9 @@ namespace starbow {
 namespace {
 
 constexpr double smallest_move = 0.01;
-/// A turn back counts from this part of the range on; good sensors' last digits flicker by less than a thousandth.
+/// A reversal counts from this part of the range on; good sensors' last digits flicker by less than a thousandth.
 constexpr double smallest_turn = 0.03;
-/// Two dozen turns in a second are twelve swings; a hand that shakes as fast as it can makes six or seven.
+/// 24 reversals in a second are twelve swings; a hand that shakes as fast as it can makes six or seven.
 constexpr std::int64_t second_ns = 1'000'000'000, forgiven_after_ns = 3 * second_ns;
 
 } // namespace

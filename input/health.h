@@ -10,11 +10,11 @@ public:
     /// place: the axis' value as a part of its whole range, 0 to 1. now_ns: steady clock, at the report's arrival.
     void take(double place, std::int64_t now_ns);
 
-    /// The time when it last went a hundredth of its range; 0: not since its first report.
+    /// The last time when it moved by a hundredth of its range; 0: not since its first report.
     std::int64_t moved_ns() const { return moved_ns_; }
     /// The time of its last motion or of its first report.
     std::int64_t still_since_ns() const { return moved_ns_ > 0 ? moved_ns_ : first_ns_; }
-    /// True if it goes to and fro faster than any hand, or did within the last seconds.
+    /// True if it moves to and fro faster than any hand, now or within the last seconds.
     bool noisy(std::int64_t now_ns) const { return now_ns < noisy_until_ns_; }
 
 private:

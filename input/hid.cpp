@@ -26,12 +26,12 @@ std::string plain(const wchar_t* text)
 {
     std::string out;
     for (; text && *text; ++text)
-        if (*text >= 32 && *text < 127) // names are for people and for files: plain letters do
+        if (*text >= 32 && *text < 127) // names go into messages and file names, so plain ASCII
             out += char(*text);
     return out;
 }
 
-/// hidapi 0.13 does not give it; sysfs does, to every user.
+/// Reads the descriptor from sysfs, which every user may read; hidapi 0.13 does not provide it.
 std::vector<std::uint8_t> descriptor_bytes(const std::string& path)
 {
     const std::string node = path.substr(path.rfind('/') + 1);
@@ -44,7 +44,7 @@ std::pair<DeviceInfo, Profile> identify(
 {
     DeviceInfo info{found.path, plain(found.product_string), plain(found.serial_number), found.vendor_id, found.product_id};
     Profile profile = profile_for(profiles, info, descriptor);
-    if (info.name.empty()) // not every device tells it
+    if (info.name.empty()) // not every device has a name
         info.name = profile.file.empty() ? "device" : profile.name;
     return {std::move(info), std::move(profile)};
 }
@@ -56,7 +56,7 @@ struct Hid::Device {
     DeviceInfo info;
     Descriptor descriptor;
     Profile profile;
-    int opening = 0; ///< counts all openings: the same path may be another device
+    int opening = 0; ///< number of the opening: the same path may become another device
     std::atomic<bool> gone = false;
     mutable std::mutex mutex;
     DeviceState state;
@@ -80,7 +80,8 @@ struct Hid::Shared {
     void open(const hid_device_info& found);
 };
 
-/// Reads until the device or the program goes. The queue is emptied each time: the last report counts.
+/// Reads until the device is unplugged or the program ends. The queue is emptied each time, because only the last report
+/// counts.
 void Hid::Shared::read(const std::shared_ptr<Device>& device, hid_device* handle)
 {
     std::array<unsigned char, 4096> report;
@@ -154,7 +155,7 @@ void Hid::Shared::look()
     for (const auto& device : ended)
         device->reader.join();
     hid_device_info* all = hid_enumerate(0, 0);
-    std::vector<std::string> paths; // a device of several collections is listed once for each
+    std::vector<std::string> paths; // a device with several collections is listed once for each
     for (const hid_device_info* found = all; found; found = found->next) {
         const std::string path = found->path;
         if (std::find(paths.begin(), paths.end(), path) != paths.end())
@@ -303,11 +304,11 @@ void Hid::add(double dt_s, Controls& controls)
     mappings_ = std::move(kept);
     if (const auto place = lever_.place(levers, now))
         controls.lever = place;
-    tell(std::move(troubles));
+    report_troubles(std::move(troubles));
     controls.turn = glm::clamp(controls.turn, -1.0, 1.0);
 }
 
-void Hid::tell(std::vector<std::string> troubles)
+void Hid::report_troubles(std::vector<std::string> troubles)
 {
     const auto holds
         = [](const auto& all, const std::string& one) { return std::find(all.begin(), all.end(), one) != all.end(); };
@@ -337,7 +338,7 @@ InputCapabilities Hid::capabilities() const
     for (const auto& [key, mapping] : mappings_) {
         const InputCapabilities own = mapping->capabilities();
         all.stick |= own.stick, all.lever |= own.lever, all.trigger |= own.trigger;
-        if (own.stick && own.stop_button > 0) // on what is in the hand
+        if (own.stick && own.stop_button > 0) // the button of the stick in the hand
             all.stop_button = own.stop_button;
     }
     return all;

@@ -21,7 +21,7 @@ std::string describe(const DeviceInfo& info);
 /// A controller as the system lists it, read or not.
 struct ControllerListing {
     DeviceInfo info;
-    std::string profile; ///< the name of the one that would fly it
+    std::string profile; ///< name of the profile that would apply
     int error = 0; ///< errno of opening its node; 0: it can be opened
 };
 /// All controllers that are plugged in, opened for a moment each. Call it while no Hid lives.
@@ -30,8 +30,7 @@ std::vector<ControllerListing> list_controllers(const std::vector<Profile>& prof
 /// True for the descriptor of a joystick, gamepad, space mouse or simulator's control; false for a mouse or a keyboard.
 bool is_controller(const Descriptor& descriptor);
 
-/// Sticks, throttles and pads: all that are plugged in, at any time, each read on a thread of its own. No function here
-/// waits.
+/// Reads all plugged-in sticks, throttles and pads, each on a thread of its own. No function here waits.
 class Hid {
 public:
     /// say: is called with a line for the log, from any thread.
@@ -42,8 +41,8 @@ public:
     /// Adds the controls of all devices. An unplugged device adds none: its axes are neutral from then on.
     void add(double dt_s, Controls& controls);
 
-    /// A line for the visitors' display while a device is missing, or one of its axes is left out because it is stuck or
-    /// noisy; else empty.
+    /// A line for the visitors' display while a device is missing, or while a stuck or noisy axis is ignored; otherwise
+    /// empty.
     std::string trouble() const;
     bool has_gamepad() const;
     /// The kinds of control of all devices together, as of the last add().
@@ -64,10 +63,11 @@ private:
     std::map<std::string, std::unique_ptr<Mapping>> mappings_; ///< by path and number of openings
     LeverChoice lever_;
     std::vector<std::string> troubles_; ///< of axes, as last logged
-    void tell(std::vector<std::string> troubles);
+    void report_troubles(std::vector<std::string> troubles);
 };
 
-/// A device's profile: by its serial number first, then by its kind, the last of several; else from its usages.
+/// A device's profile: by its serial number first, then by its kind; of several, the last. Otherwise it is made from the
+/// descriptor's usages.
 Profile profile_for(const std::vector<Profile>& profiles, const DeviceInfo& info, const Descriptor& descriptor);
 
 } // namespace starbow

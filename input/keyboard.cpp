@@ -10,7 +10,7 @@ namespace {
 constexpr double look_rad_per_pixel = 0.003;
 constexpr double pad_look_rad_per_read = 0.03;
 
-/// Sticks never rest at 0 exactly; beyond the dead zone the way grows from 0.
+/// A stick's value outside the dead zone, starting from 0 there: sticks never rest exactly at 0.
 double stick(float value)
 {
     constexpr double dead = 0.15;
@@ -83,7 +83,7 @@ void Keyboard::finish(Controls& controls, bool pads)
         controls.throttle_rate *= 4;
     controls.turn = {axis(GLFW_KEY_DOWN, GLFW_KEY_UP), axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT) + axis(GLFW_KEY_D, GLFW_KEY_A),
         axis(GLFW_KEY_E, GLFW_KEY_Q)};
-    controls.look_rad = look_rad_per_pixel * drag_; // the pointer holds the world: dragging it right looks left
+    controls.look_rad = look_rad_per_pixel * drag_; // the pointer drags the world: dragging right looks left
     controls.exposure = std::max(double(down(GLFW_KEY_EQUAL)), double(down(GLFW_KEY_KP_ADD)))
         - std::max(double(down(GLFW_KEY_MINUS)), double(down(GLFW_KEY_KP_SUBTRACT)));
     controls.look_ahead = pressed(GLFW_KEY_C);

@@ -6,7 +6,7 @@ struct GLFWwindow;
 
 namespace starbow {
 
-/// Keyboard, mouse and any gamepad that GLFW knows, over all windows of the exhibit. Its state is the keys of the last
+/// Keyboard, mouse and any gamepad that GLFW reports, over all windows of the exhibit. Its state is the keys of the last
 /// reading.
 class Keyboard {
 public:

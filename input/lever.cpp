@@ -16,7 +16,7 @@ std::optional<double> LeverChoice::place(std::span<const Lever> levers, std::int
     const auto held = std::find_if(
         levers.begin(), levers.end(), [&](const Lever& lever) { return lever.device == device_ && lever.axis == axis_; });
     const bool there = held != levers.end();
-    if (there != there_) // unplugged, or plugged in anew, unmoved since and yet the one that was
+    if (there != there_) // the chosen lever was unplugged, or is back and unmoved
         claim_ns_ = now_ns;
     there_ = there;
     const Lever* chosen = there ? &*held : nullptr;

@@ -8,17 +8,17 @@ namespace starbow {
 
 /// The present state of a throttle's lever.
 struct Lever {
-    std::string device; ///< the same again after it is plugged in anew
+    std::string device; ///< the same after it is plugged in again
     int axis = 0;
     double place = 0; ///< 0 to 1
     std::int64_t moved_ns = 0; ///< as AxisHealth::moved_ns
 };
 
-/// Chooses among several levers: many sticks have a small one of their own beside the throttle that a visitor holds.
+/// Chooses among several levers: many sticks have a small one of their own beside the visitor's throttle.
 class LeverChoice {
 public:
-    /// The place of the lever that was moved last; of several unmoved ones, the lowest. When its device is unplugged, none
-    /// counts until another is moved or the device is back: a forgotten lever must not seize the ship.
+    /// The place of the lever moved last; among unmoved ones, the lowest. After its device is unplugged there is none
+    /// until another is moved or the device is back, so that a forgotten lever can't seize the ship.
     std::optional<double> place(std::span<const Lever> levers, std::int64_t now_ns);
 
 private:

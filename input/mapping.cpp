@@ -18,7 +18,7 @@ void add_role(AxisRole role, double value, double dt_s, Controls& controls)
 {
     switch (role) {
     case AxisRole::none:
-    case AxisRole::throttle: // one of several counts, see LeverChoice
+    case AxisRole::throttle: // LeverChoice selects one of several
         return;
     case AxisRole::faster:
         controls.throttle_rate += value;
@@ -53,7 +53,7 @@ void add_role(AxisRole role, double value, double dt_s, Controls& controls)
     }
 }
 
-/// The switch of a press, in the frame in which it comes.
+/// The switches of buttons, set in the frame of the press.
 constexpr std::pair<ButtonRole, bool Controls::*> switches[] = {{ButtonRole::stop, &Controls::stop},
     {ButtonRole::home, &Controls::home}, {ButtonRole::undo, &Controls::undo}, {ButtonRole::next_mode, &Controls::next_mode},
     {ButtonRole::look_ahead, &Controls::look_ahead}, {ButtonRole::aberration, &Controls::aberration},
@@ -61,7 +61,7 @@ constexpr std::pair<ButtonRole, bool Controls::*> switches[] = {{ButtonRole::sto
     {ButtonRole::false_colours, &Controls::false_colours}, {ButtonRole::comparison, &Controls::comparison},
     {ButtonRole::hud, &Controls::hud}, {ButtonRole::overlay, &Controls::overlay}, {ButtonRole::mark, &Controls::mark},
     {ButtonRole::log, &Controls::log}, {ButtonRole::why, &Controls::why}};
-/// The rate of a button for as long as it is held.
+/// The rate of a button while it is held.
 struct Held {
     ButtonRole role;
     double Controls::*value;
@@ -116,7 +116,7 @@ bool take_report(const Descriptor& descriptor, std::span<const std::uint8_t> rep
     for (std::size_t i = 0; i < descriptor.fields.size(); ++i) {
         const Field& field = descriptor.fields[i];
         if (field.report_id != id || std::size_t(field.bit_offset + field.bits + 7) / 8 > report.size())
-            continue; // fields beyond a report that is cut short stay as they were
+            continue; // fields beyond a short report keep their values
         const std::int64_t raw = raw_value(field, report);
         state.raw[i] = raw;
         state.tapped[i] = state.tapped[i] || raw > 0;
@@ -192,7 +192,7 @@ Profile usual_profile(const Descriptor& descriptor)
         profile.buttons = {{1, ButtonRole::stop}, {2, ButtonRole::home}};
         return profile;
     }
-    // HID counts an axis' values from the left, and from the far end: forward is less.
+    // HID counts an axis' values from the left and from the far end, so forward is less.
     use(desktop, axis_x, AxisRole::nose_right);
     use(desktop, axis_y, AxisRole::nose_up); // pulled back, the nose goes up
     if (pad) {
@@ -218,7 +218,7 @@ Profile usual_profile(const Descriptor& descriptor)
     use(simulation, 0xb8, AxisRole::nose_up); // elevator
     use(simulation, 0xbb, AxisRole::throttle);
     use(simulation, 0xc4, AxisRole::throttle); // accelerator
-    // One throttle: the slider, else the axis that is left, else the dial.
+    // One throttle: the slider, else the remaining axis, else the dial.
     if (has(descriptor, desktop, slider))
         use(desktop, slider, AxisRole::throttle, true);
     else if (has(descriptor, desktop, axis_z))

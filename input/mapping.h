@@ -11,19 +11,20 @@ namespace starbow {
 /// A device's present state: the raw value of each field of its descriptor, nullopt for those without a report yet.
 struct DeviceState {
     std::vector<std::optional<std::int64_t>> raw;
-    std::vector<bool> tapped; ///< fields above 0 in any report since the last reading: no tap is too short
+    std::vector<bool> tapped; ///< fields above 0 in any report since the last reading, so that short taps count
     std::vector<AxisHealth> health;
     std::int64_t report_ns = 0; ///< arrival of the last report
 };
 
-/// Takes in a report as read, its number first where the device numbers them. False for a report that fits no field.
+/// Applies a report as read, with its number first if the device numbers reports. Returns false if the report fits no
+/// field.
 bool take_report(
     const Descriptor& descriptor, std::span<const std::uint8_t> report, std::int64_t now_ns, DeviceState& state);
 
-/// True for a field that a profile's axes may name: more than a bit, with a usage that moves.
+/// True for a field that can be a profile's axis: more than one bit, with a usage of an axis.
 bool is_axis(const Field& field);
 
-/// True for a role that runs from nothing to full, instead of to two sides of a middle.
+/// True for a role that runs from 0 to full, instead of to two sides of a middle.
 bool one_sided(AxisRole role);
 
 /// The profile of an unknown device, from its HID usages alone. Sticks turn the ship, sliders are throttles, and triggers
@@ -40,7 +41,7 @@ public:
     void add(const DeviceState& state, std::int64_t now_ns, double dt_s, Controls& controls);
 
     // State as of the last reading:
-    const std::vector<Lever>& levers() const { return levers_; } ///< their devices are not named here
+    const std::vector<Lever>& levers() const { return levers_; } ///< without their devices' names
     const std::vector<std::string>& troubles() const { return troubles_; } ///< "axis Rz is stuck", for people
 
     /// The kinds of control on this device.
@@ -68,7 +69,7 @@ private:
 /// "X", "Rz", "slider", "rudder": an axis' usual name.
 std::string name_of(const Usage& usage);
 
-/// The axis' value after calibration, dead zone and curve: -1 to 1, of a throttle 0 to 1.
+/// The axis' value after calibration, dead zone and curve: -1 to 1, or 0 to 1 for a throttle.
 double shaped(const AxisUse& use, const Field& field, std::int64_t raw);
 
 } // namespace starbow

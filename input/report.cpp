@@ -6,9 +6,9 @@ namespace starbow {
 namespace {
 
 constexpr std::size_t most_fields = 4096, most_depth = 64, most_usages = 1024;
-constexpr std::int64_t most_bits = 8 * 16384; // Linux takes no longer report either
+constexpr std::int64_t most_bits = 8 * 16384; // Linux's limit too
 
-/// A short item's data, with its size: some are signed, some not, which a later item decides.
+/// A short item's data with its size. A later item decides if it is signed.
 struct Data {
     std::uint32_t bits = 0;
     int size = 0;
@@ -29,14 +29,14 @@ struct Globals {
     std::uint8_t report_id = 0;
 };
 
-/// Usages as one main item's local items declare them.
+/// Usages declared by the local items of one main item.
 struct Locals {
     struct Entry {
         UsageRange range;
         bool own_page = false; ///< declared with the usage itself, in four bytes
     };
     std::vector<Entry> usages;
-    std::optional<Entry> from; ///< a minimum that waits for its maximum, or the other way round
+    std::optional<Entry> from; ///< a minimum without its maximum yet, or the other way round
     std::optional<Entry> to;
     bool in_alternatives = false, alternative_taken = false;
     bool page_after = false; ///< a usage page item has come after the last usage
@@ -69,7 +69,7 @@ public:
     {
         for (std::size_t at = 0; at < bytes.size() && found_.stopped.empty();) {
             const std::uint8_t prefix = bytes[at];
-            if (prefix == 0xfe) { // a long item: its size is its first byte; none has a meaning
+            if (prefix == 0xfe) { // a long item, with its size in the first byte; none is defined
                 if (at + 2 >= bytes.size())
                     return stop("a long item is cut off");
                 at += 3 + std::size_t(bytes[at + 1]);
@@ -164,9 +164,9 @@ private:
         case feature:
             break;
         default:
-            return; // physical ranges, units, strings: nothing that a control needs
+            return; // physical ranges, units and strings are not needed
         }
-        locals_ = {}; // a main item uses them up
+        locals_ = {}; // local items apply to one main item
     }
 
     Locals::Entry entry(Data data)
@@ -177,7 +177,7 @@ private:
                               : Locals::Entry{{globals_.page, id, id}, false};
     }
 
-    /// The first usage between delimiters is the preferred one, and the one that is taken.
+    /// Adds a usage. Between delimiters only the first, preferred one is taken.
     void declare(const Locals::Entry& entry)
     {
         if (locals_.in_alternatives && std::exchange(locals_.alternative_taken, true))

@@ -38,14 +38,13 @@ struct Descriptor {
     std::vector<Field> fields; ///< in the descriptor's order, without constant bits and values without a usage
     std::map<int, int> report_bits; ///< by report number, the number itself not counted
     bool uses_report_ids = false;
-    std::string stopped; ///< for people, the reason why the rest was not read; empty: all of it was
+    std::string stopped; ///< the reason, for people, why the rest was not read; empty: all was read
 };
 
-/// Parses any bytes: from damaged ones it returns the part before the damage. Pure; bounded by 4096 fields and reports of
-/// 16 KiB.
+/// Parses any bytes; of damaged ones it returns the part before the damage. Limited to 4096 fields and reports of 16 KiB.
 Descriptor parse_descriptor(std::span<const std::uint8_t> bytes);
 
-/// The field's number as it stands in a report's payload (after the report's number); bits beyond a short report are 0.
+/// The field's number in a report's payload (after the report's number); bits beyond a short report are 0.
 std::int64_t raw_value(const Field& field, std::span<const std::uint8_t> payload);
 
 /// The value's place in the logical range, -1 to 1, clamped; 0 for a range without width.

@@ -1,4 +1,4 @@
-// Blinking light, each point of it at its own retarded time.
+// Blinking light, evaluated for each point at its own retarded time.
 
 /// The part of a pixel in which the light is on. blink: of TimeEntry; later_: this point's light-travel offset; step_: its
 /// steps to the right and down.

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
-// One step of the glow: to half the size, or back to twice the size and mixed with the present picture. Every step's
-// weights add up to 1, so that no light is created (Bjorge, "Bandwidth-efficient rendering", 2015: his filters).
+// One step of the glow: to half the size, or back to twice the size and mixed with the present picture. Each step's
+// weights add up to 1, so that no light is created (filters of Bjorge, "Bandwidth-efficient rendering", 2015).
 
 layout(constant_id = 0) const bool UP = false;
 

@@ -1,17 +1,18 @@
-// A clock's dial, each point of it at its own retarded time. The dial's radius is 1 here, x to the right and y up.
+// A clock's dial, evaluated for each point at its own retarded time. The dial's radius is 1 here, x to the right and y
+// up.
 
 const float TURN = 6.283185307179586;
 const float MAIN_S = 60.0, FAST_S = 10.0, SLOW_S = 3600.0; // seconds per turn of the three hands
-// The small dials lie beside the middle, away from the long hand on the minute and from the digits.
+// The small dials are beside the middle, away from the long hand on the minute and from the digits.
 const vec2 FAST_AT = vec2(-0.38, 0.06), SLOW_AT = vec2(0.38, 0.06);
 const float SMALL = 0.25;
 const float DIGITS_Y = -0.43, DIGITS_WIDE = 0.84;
 const float CELL = 0.17, POINT = 0.4; // a figure with its gap to the next; in figures: the point before the last one
 
-// Segments of the figures 0 to 9, then of the minus and of the blank: 1 top, then clockwise, 64 the middle.
+// Segments of the figures 0 to 9, of the minus and of the blank: 1 is the top, then clockwise, 64 is the middle.
 const int SEGMENTS[12] = int[12](63, 6, 91, 79, 102, 109, 125, 7, 127, 111, 64, 0);
 
-/// The part of a pixel `w` wide around x that lies within h of 0.
+/// The part of a pixel of width `w` around x that lies within h of 0.
 float overlap(float x, float h, float w)
 {
     return clamp((h - abs(x)) / w + 0.5, 0.0, 1.0) - clamp((-h - abs(x)) / w + 0.5, 0.0, 1.0);
@@ -28,7 +29,7 @@ float ticks(vec2 at, mat2 pixel, float count, float low, float high, float half_
     float turn = atan(at.x, at.y) * (count / TURN), apart = r * TURN / count;
     float w = extent(pixel, vec2(out_.y, -out_.x));
     float line = overlap((turn - round(turn)) * apart, half_width, w);
-    // The mean, where the lines are finer than pixels.
+    // The mean replaces lines that are finer than pixels.
     line = mix(line, 2.0 * half_width / apart, clamp(2.0 * w / apart - 1.0, 0.0, 1.0));
     return line * overlap(r - 0.5 * (low + high), 0.5 * (high - low), extent(pixel, out_));
 }
@@ -62,7 +63,7 @@ float plate(vec2 at, mat2 pixel, vec4 digits, float margin)
     return box(at - vec2(0.0, DIGITS_Y), half_size, vec2(extent(pixel, vec2(1.0, 0.0)), extent(pixel, vec2(0.0, 1.0))));
 }
 
-/// Seven segments each, digits.z figures.
+/// Draws digits.z figures of seven segments each.
 float figures(vec2 at, mat2 pixel, vec4 digits)
 {
     float count = digits.z, cell = cell_of(digits);
@@ -106,7 +107,7 @@ float marks(vec2 at, mat2 pixel, float later_s, vec2 step_s, TimeEntry clock)
         ink = max(ink, ring(small, pixel, 0.0, 0.032));
     }
     ink = max(ink * (1.0 - main_hand.y), main_hand.x);
-    // The hand passes behind the plate, so that the figures can always be read.
+    // The hand passes behind the plate, so that the figures stay readable.
     float inner = plate(at, pixel, clock.digits, 0.2), outer = plate(at, pixel, clock.digits, 0.26);
     ink = max(ink * (1.0 - outer), 0.6 * (outer - inner));
     ink = max(ink, figures(at, pixel, clock.digits));

@@ -3,8 +3,8 @@
 #include "shared.h"
 #include "physics/real.glsl"
 #include "physics/worldline.glsl"
-// A surface's scene-linear, pre-exposed light as basis coefficients: of reflected sunlight first, then of the world's own
-// emission spectra. Constants compile out the parts that a world does not have.
+// A surface's scene-linear, pre-exposed light as basis coefficients: of reflected sunlight first, then of the scene's
+// emission basis spectra. Constants compile out the parts that a world does not need.
 
 layout(constant_id = 0) const bool BASE_TEXTURE = true;
 layout(constant_id = 1) const bool EMISSIVE_TEXTURE = true;
@@ -13,12 +13,12 @@ layout(constant_id = 3) const bool UNLIT = false;
 layout(constant_id = 4) const int LIGHTS = MAX_LIGHTS;
 layout(constant_id = 5) const int REFLECTED = 3;
 layout(constant_id = 6) const int OWN = 0;
-layout(constant_id = 7) const int KINDS = 1; // of spectra that illuminate surfaces
-layout(constant_id = 8) const bool MATRICES = false; // otherwise the coefficients are the colour itself, and its parts
-                                                     // beyond the visible
+layout(constant_id = 7) const int KINDS = 1; // number of kinds of spectra that illuminate surfaces
+layout(constant_id = 8) const bool MATRICES = false; // otherwise the coefficients are the colour with ultraviolet and
+                                                     // infrared
 layout(constant_id = 9) const bool CLOCK = false;
-layout(constant_id = 10) const bool FINITE_EXISTENCE = false; // finite existence
-layout(constant_id = 11) const bool LAYERED = false; // one of several rest frames: writes its coverage too, after the
+layout(constant_id = 10) const bool FINITE_EXISTENCE = false; // tests existence intervals
+layout(constant_id = 11) const bool LAYERED = false; // one of several rest frames: also writes its coverage, after the
                                                      // coefficients
 layout(constant_id = 12) const bool LAMPS_MOVE = false;
 layout(constant_id = 13) const bool BLINK = false;
@@ -58,7 +58,7 @@ vec2 beyond_visible(vec3 lit, vec3 light)
         push.beyond.y < 0.0 ? mean(lit) : push.beyond.y * mean(light));
 }
 
-// Adds a surface's coefficients under a light of one kind, and those of a sunlit colour that it emits.
+// Adds a surface's coefficients under a light of one kind, and those of the sunlit colour that it emits.
 void add_lit(inout vec4 numbers[MAX_GROUPS + 1], int kind, vec3 base, vec3 light, vec3 emitted)
 {
     vec3 lit = base * light;
@@ -72,9 +72,9 @@ void add_lit(inout vec4 numbers[MAX_GROUPS + 1], int kind, vec3 base, vec3 light
     }
 }
 
-// The retarded position of a lamp that may move, as a surface sees it. Its distance is the light's travel distance in the
-// lamp's frame, its direction is in the surface's. Also D; 0: no light. towards: from the surface, at the eye's time. The
-// surface's light left `delay` earlier, and the lamp's light that it reflects left before that.
+// The retarded position of a lamp that may move, as seen from a surface. Its distance is the light's travel distance in
+// the lamp's frame, its direction is in the surface's. It also yields D; 0: no light. towards: from the surface, at the
+// eye's time. The surface's light left `delay` earlier, and the lamp's light that it reflects left before that.
 vec3 lamp_seen(LightEntry lamp, vec3 towards, float delay, out float D)
 {
     D = lamp.kind.w;
@@ -92,29 +92,31 @@ vec3 lamp_seen(LightEntry lamp, vec3 towards, float delay, out float D)
     return own < lamp.kind.y || own > lamp.kind.z ? vec3(0.0) : towards;
 }
 
-void main()
+// The surface's clock, blinking and existence at its retarded time. ink: the clock's marks; lit_part: the part of the time
+// in which it is lit.
+void apply_time(inout vec4 base, out float ink, out float lit_part)
 {
-    vec4 base = colour;
-    if (BASE_TEXTURE)
-        base *= texture(base_texture, uv);
-    float ink = 0.0, lit_part = 1.0;
-    if (CLOCK || FINITE_EXISTENCE || BLINK) {
-        TimeEntry time = times[instance - int(cube.first.x) + int(cube.first.y)];
-        float offset_s = travel_offset_from(place, time.middle);
-        float late = light_travel_offset(place);
-        vec2 step_ = vec2(dFdx(late), dFdy(late));
-        if (CLOCK) {
-            vec2 at = vec2(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y);
-            ink = marks(at, mat2(dFdx(at), dFdy(at)), offset_s * time.turns.w, step_ * time.turns.w, time);
-            base.rgb *= 1.0 - ink;
-        }
-        if (BLINK)
-            lit_part = blinking(time.blink, offset_s, step_);
-        if (FINITE_EXISTENCE && (offset_s < time.there.x || offset_s >= time.there.y))
-            discard;
+    ink = 0.0;
+    lit_part = 1.0;
+    if (!CLOCK && !FINITE_EXISTENCE && !BLINK)
+        return;
+    TimeEntry time = times[instance - int(cube.first.x) + int(cube.first.y)];
+    float offset_s = travel_offset_from(place, time.middle);
+    float late = light_travel_offset(place);
+    vec2 step_ = vec2(dFdx(late), dFdy(late));
+    if (CLOCK) {
+        vec2 at = vec2(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y);
+        ink = marks(at, mat2(dFdx(at), dFdy(at)), offset_s * time.turns.w, step_ * time.turns.w, time);
+        base.rgb *= 1.0 - ink;
     }
-    if (MASKED && base.a < push.emissive.w)
+    if (BLINK)
+        lit_part = blinking(time.blink, offset_s, step_);
+    if (FINITE_EXISTENCE && (offset_s < time.there.x || offset_s >= time.there.y))
         discard;
+}
+
+vec3 emitted_light(float ink, float lit_part)
+{
     vec3 emitted = push.emissive.rgb;
     if (EMISSIVE_TEXTURE)
         emitted *= texture(emissive_texture, uv).rgb;
@@ -122,64 +124,59 @@ void main()
         emitted *= ink;
     if (BLINK)
         emitted *= lit_part;
-    vec4 numbers[MAX_GROUPS + 1];
-    for (int group = 0; group < GROUPS; ++group)
-        numbers[group] = vec4(0.0);
-    vec3 light[KEPT];
-    for (int kind = 0; kind < KEPT; ++kind)
-        light[kind] = vec3(0.0);
-    light[0] = vec3(cube.ambient.w);
-    if (!UNLIT) {
-        light[0] = cube.ambient.rgb;
-        vec3 n = normalize(gl_FrontFacing ? normal : -normal);
-        for (int i = 0; i < LIGHTS; ++i) {
-            LightEntry lamp = cube.lights[i];
-            vec3 towards = lamp.place.xyz - lamp.place.w * place;
-            float D = 1.0;
-            if (LAMPS_MOVE)
-                towards = lamp_seen(lamp, towards, -light_travel_offset(place), D);
-            if (LAMPS_MOVE && towards == vec3(0.0))
-                continue;
-            float square = lamp.place.w == 0.0 ? 1.0 : dot(towards, towards);
-            float fall = lamp.place.w == 0.0 ? 1.0 : lamp.radiance.w / (square * sqrt(square));
-            vec3 add = lamp.radiance.rgb * (max(dot(n, towards), 0.0) * fall);
-            int first = int(lamp.kind.x);
-            if (LAMPS_MOVE) {
-                // Beside the shift of its spectrum, a point light's flux per frequency grows as D.
-                float at = clamp((log2(D) - lamp.shifts.x) * lamp.shifts.y, 0.0, max(lamp.shifts.z - 1.001, 0.0));
-                add_lit(numbers, first + int(at), base.rgb, add * (D * (1.0 - fract(at))), vec3(0.0));
-                if (fract(at) > 0.0)
-                    add_lit(numbers, first + int(at) + 1, base.rgb, add * (D * fract(at)), vec3(0.0));
-            } else {
-                for (int kind = 0; kind < KEPT; ++kind)
-                    light[kind] += KEPT == 1 || first == kind ? add : vec3(0.0);
-            }
-        }
-    }
+    return emitted;
+}
 
-    bool own_emission = OWN > 0 && push.beyond.w >= 0.0;
-    vec3 coloured = own_emission ? vec3(0.0) : emitted;
+// Adds a lamp's light on a surface with the unit normal n: to `light` by its kind, or to the coefficients at once where
+// each lamp has a shift of its own.
+void add_lamp(inout vec4 numbers[MAX_GROUPS + 1], inout vec3 light[KEPT], LightEntry lamp, vec3 n, vec3 base)
+{
+    vec3 towards = lamp.place.xyz - lamp.place.w * place;
+    float D = 1.0;
+    if (LAMPS_MOVE)
+        towards = lamp_seen(lamp, towards, -light_travel_offset(place), D);
+    if (LAMPS_MOVE && towards == vec3(0.0))
+        return;
+    float square = lamp.place.w == 0.0 ? 1.0 : dot(towards, towards);
+    float fall = lamp.place.w == 0.0 ? 1.0 : lamp.radiance.w / (square * sqrt(square));
+    vec3 add = lamp.radiance.rgb * (max(dot(n, towards), 0.0) * fall);
+    int first = int(lamp.kind.x);
+    if (LAMPS_MOVE) {
+        // In addition to the shift of its spectrum, a point light's flux per frequency grows as D.
+        float at = clamp((log2(D) - lamp.shifts.x) * lamp.shifts.y, 0.0, max(lamp.shifts.z - 1.001, 0.0));
+        add_lit(numbers, first + int(at), base, add * (D * (1.0 - fract(at))), vec3(0.0));
+        if (fract(at) > 0.0)
+            add_lit(numbers, first + int(at) + 1, base, add * (D * fract(at)), vec3(0.0));
+    } else {
+        for (int kind = 0; kind < KEPT; ++kind)
+            light[kind] += KEPT == 1 || first == kind ? add : vec3(0.0);
+    }
+}
+
+// Adds the coefficients of reflected sunlight and of the sunlit colour that the surface emits.
+void add_reflected(inout vec4 numbers[MAX_GROUPS + 1], vec3 light[KEPT], vec3 base, vec3 emitted)
+{
     if (MATRICES) {
         for (int kind = 0; kind < KEPT; ++kind)
-            add_lit(numbers, kind, base.rgb, light[kind], kind == 0 ? coloured : vec3(0.0));
-    } else {
-        vec3 lit = base.rgb * light[0];
-        numbers[0].rgb = lit + coloured;
-        if (REFLECTED == 5) {
-            vec2 beyond = beyond_visible(lit, light[0]) + mean(coloured);
-            numbers[0].a = beyond.x;
-            numbers[1].r = beyond.y;
-        }
+            add_lit(numbers, kind, base, light[kind], kind == 0 ? emitted : vec3(0.0));
+        return;
     }
-    for (int i = 0; i < OWN; ++i)
-        numbers[(REFLECTED + i) / 4][(REFLECTED + i) % 4]
-            += push.own[i] + (int(push.beyond.w) == i ? dot(luminance, emitted) : 0.0);
-    // 60000 is below fp16's greatest number: a light at arm's length must not become infinite.
+    vec3 lit = base * light[0];
+    numbers[0].rgb = lit + emitted;
+    if (REFLECTED == 5) {
+        vec2 beyond = beyond_visible(lit, light[0]) + mean(emitted);
+        numbers[0].a = beyond.x;
+        numbers[1].r = beyond.y;
+    }
+}
+
+void write(vec4 numbers[MAX_GROUPS + 1])
+{
+    // 60000 is below fp16's greatest number: a light very close to a surface must not become infinite.
     for (int group = 0; group < GROUPS; ++group)
         numbers[group] = clamp(numbers[group], vec4(-60000.0), vec4(60000.0));
-    if (LAYERED)
-        numbers[GROUPS] = vec4(1.0, gl_FragCoord.z, 0.0, 0.0); // a texel's samples are averaged: its coverage, and the sum
-                                                               // of its depths
+    if (LAYERED) // a texel's samples are averaged: its coverage, and the sum of its depths
+        numbers[GROUPS] = vec4(1.0, gl_FragCoord.z, 0.0, 0.0);
     const int outputs = LAYERED ? GROUPS + 1 : GROUPS;
     numbers0 = numbers[0];
     if (outputs > 1)
@@ -190,4 +187,37 @@ void main()
         numbers3 = numbers[3];
     if (outputs > 4)
         numbers4 = numbers[4];
+}
+
+void main()
+{
+    vec4 base = colour;
+    if (BASE_TEXTURE)
+        base *= texture(base_texture, uv);
+    float ink, lit_part;
+    apply_time(base, ink, lit_part);
+    if (MASKED && base.a < push.emissive.w)
+        discard;
+    vec3 emitted = emitted_light(ink, lit_part);
+
+    vec4 numbers[MAX_GROUPS + 1];
+    for (int group = 0; group < GROUPS; ++group)
+        numbers[group] = vec4(0.0);
+    vec3 light[KEPT];
+    for (int kind = 0; kind < KEPT; ++kind)
+        light[kind] = vec3(0.0);
+    light[0] = vec3(cube.ambient.w);
+    if (!UNLIT) {
+        light[0] = cube.ambient.rgb;
+        vec3 n = normalize(gl_FrontFacing ? normal : -normal);
+        for (int i = 0; i < LIGHTS; ++i)
+            add_lamp(numbers, light, cube.lights[i], n, base.rgb);
+    }
+
+    bool own_emission = OWN > 0 && push.beyond.w >= 0.0;
+    add_reflected(numbers, light, base.rgb, own_emission ? vec3(0.0) : emitted);
+    for (int i = 0; i < OWN; ++i)
+        numbers[(REFLECTED + i) / 4][(REFLECTED + i) % 4]
+            += push.own[i] + (int(push.beyond.w) == i ? dot(luminance, emitted) : 0.0);
+    write(numbers);
 }

@@ -33,7 +33,7 @@ vec4 placed(InstanceEntry at)
     return vec4(dot(at.row0, local), dot(at.row1, local), dot(at.row2, local), 1.0);
 }
 
-// Finds the instance's pose at this point's retarded time: a fixed point, each round a fifth as far off as the one before.
+// Finds the instance's pose at this point's retarded time: a fixed point whose error shrinks fivefold in each round.
 InstanceEntry as_seen(InstanceEntry at, TimeEntry time)
 {
     int first = int(cube.first.z) + int(time.poses.x);
@@ -59,7 +59,7 @@ void main()
     vec3 y = vec3(instance.row0.y, instance.row1.y, instance.row2.y);
     vec3 z = vec3(instance.row0.z, instance.row1.z, instance.row2.z);
     vec4 place = placed(instance);
-    // Cofactors carry normals under any scale; their sign is the determinant's.
+    // Cofactors transform normals under any scale; their sign is the determinant's.
     vec3 yz = cross(y, z);
     out_normal = (yz * normal.x + cross(z, x) * normal.y + cross(x, y) * normal.z) * sign(dot(x, yz));
     out_place = place.xyz;

@@ -1,8 +1,8 @@
-// Distances between the texels of the cube map's depth: near / depth is linear across a plane's picture, so that
-// interpolation is exact. Needs received_light.glsl.
+// Distances interpolated in the cube map's depth: near / depth is linear across a plane's picture, so interpolation is
+// exact. Needs received_light.glsl.
 
-// The same as distance_at, but smooth on surfaces. Where the four texels around belong to different surfaces, the nearest
-// alone counts.
+// The same as distance_at, but smooth on surfaces. Where the four texels around belong to different surfaces, only the
+// nearest texel is used.
 float smooth_distance_at(Place place)
 {
     vec2 at = place.texel - 0.5;

@@ -1,12 +1,12 @@
-// Noise of half a step of 8 bits either way: the bytes' local mean is the wanted value, however slowly it rises. The noise
-// is evenly distributed, so that black stays black, and the same in every frame. Its values are those of the plane's most
-// even sequence (Roberts 2018): whole numbers, the same on every device. Each colour gets a different third of it, so that
-// a grey's brightness wavers less.
+// Noise of up to half a step of 8 bits either way: the bytes' local mean is the wanted value, however slowly it rises.
+// The noise is uniform, so that black stays black, and the same in every frame. It is the plane's most even additive
+// recurrence (Roberts 2018) in whole numbers, the same on every device. Each colour gets a different third of the
+// sequence, so that a grey's brightness wavers less.
 vec3 dither(ivec2 pixel)
 {
     uint n = uint(pixel.x) * 3242174889u + uint(pixel.y) * 2447445414u; // 2^32 / 1.32472, 2^32 / 1.32472^2
     uvec3 of_channel = uvec3(n, n + 0x55555555u, n + 0xaaaaaaaau) >> 8u;
-    // A hair less than half, because a device's own rounding may be off by as much.
+    // Slightly less than half, because a device's own rounding may be off by as much.
     return (vec3(of_channel) * (1.0 / 16777216.0) - 0.5) * (0.96 / 255.0);
 }
 

@@ -2,18 +2,18 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
 #include "dither.glsl"
-// Turns an output's pictures, in linear light, into its screen's or projector's input: it combines both eyes, matches the
-// projectors' colours, blends with the neighbours, adds the darkest one's black, and applies the input's curve.
+// Turns an output's canvases, in linear light, into its screen's or projector's input: it combines both eyes, matches the
+// projectors' colours, applies blend ramps and black level, and applies the input's curve.
 
-layout(constant_id = 0) const int COMBINE = 0; // 0: one picture; 1 rows, 2 columns, 3 checkerboard of two; 4: both added
+layout(constant_id = 0) const int COMBINE = 0; // 0: one canvas; two by 1 rows, 2 columns, 3 checkerboard; 4: both added
 layout(constant_id = 1) const bool MASKED = false;
 layout(constant_id = 2) const int CURVE = 0; // 0: sRGB; 1: gamma; 2: table
 layout(constant_id = 3) const bool DITHERED = true;
 
 layout(set = 0, binding = 0) uniform sampler2D left_picture;
 layout(set = 0, binding = 1) uniform sampler2D right_picture;
-layout(set = 0, binding = 2) uniform sampler2D weights;     // multiplies the light
-layout(set = 0, binding = 3) uniform sampler2D black_level; // is added to it
+layout(set = 0, binding = 2) uniform sampler2D weights;     // factors of the light
+layout(set = 0, binding = 3) uniform sampler2D black_level; // addends of the light
 layout(set = 0, binding = 4) uniform sampler2D table;       // input for evenly spaced light
 
 layout(push_constant) uniform Push { FinishPush push; };
@@ -33,10 +33,10 @@ vec3 tabled(vec3 light)
         vec3(texelFetch(table, ivec2(i.r + 1, 0), 0).r, texelFetch(table, ivec2(i.g + 1, 0), 0).g, texelFetch(table, ivec2(i.b + 1, 0), 0).b), f);
 }
 
-// A picture of one texel holds for all pixels.
+// An image of one texel applies to all pixels.
 vec3 spread(sampler2D picture, ivec2 p) { return texelFetch(picture, min(p, textureSize(picture, 0) - 1), 0).rgb; }
 
-// The target encodes by sRGB's curve, so this is the light that encodes to the wanted value.
+// The target encodes by sRGB's curve; this is the light that encodes to the wanted value.
 vec3 undo_srgb(vec3 value)
 {
     return mix(value / 12.92, pow((value + 0.055) / 1.055, vec3(2.4)), greaterThan(value, vec3(0.04045)));

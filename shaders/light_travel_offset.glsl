@@ -1,5 +1,5 @@
-// The retarded times of a surface's points for light that reaches the eye at one moment. With `now`, the points' times at
-// the ship's present, which is later ahead. Places are from the eye.
+// The retarded times of a surface's points for light that reaches the eye at one moment. With `now` it is the points'
+// times at the ship's present, which is later ahead. Places are relative to the eye.
 
 /// A place's light-travel offset, in scene time, up to a constant, for steps from one pixel to the next. A device that
 /// computes steps separately does not read buffers there, so they must not depend on `reference`.

@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
 #include "view.glsl"
-// The least possible cost of a cube map display, one look-up per pixel: it measures the warp pass and has no other use.
+// The least possible work of a cube map display: one look-up for each pixel. It is a baseline for measurements of the
+// warp pass and has no other use.
 
 layout(set = 0, binding = 1) uniform samplerCube cube_texture;
 layout(push_constant) uniform Push { ViewPush view; };

@@ -6,8 +6,8 @@
 #include "physics/galilean.glsl"
 #include "view.glsl"
 #include "received_light.glsl"
-// The relativistic transform of one output pixel as numbers: warp.frag's light before exposure. Where colours have
-// directions of their own, these are green's.
+// The relativistic transform of one output pixel as channels: warp.frag's light before exposure. Where colours have
+// directions of their own, green's are written.
 
 layout(location = 0) out vec4 light_and_depth; // Rec. 709 linear; distance in the world from the cube map's event
 layout(location = 1) out vec4 camera;          // unit direction in the ship, motion axes; Doppler factor, of the nearest

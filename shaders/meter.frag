@@ -6,8 +6,8 @@
 #include "physics/galilean.glsl"
 #include "view.glsl"
 #include "received_light.glsl"
-// Samples the view's luminance for the exposure: one pixel stands for zenith.z x zenith.w pixels of the viewport. Where
-// colours have directions of their own, it takes green's.
+// Samples the view's luminance for the exposure: one pixel represents zenith.z x zenith.w pixels of the viewport. Where
+// colours have directions of their own, green's is used.
 
 layout(location = 0) out vec2 metered; // luminance of the scene-linear light at EV 0; solid angle, 0: nothing is shown
 

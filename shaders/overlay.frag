@@ -8,8 +8,8 @@
 #include "received_light.glsl"
 #include "distance.glsl"
 #include "scale.glsl"
-// The overlays of a viewport for measuring: the world's directions, the ring where nothing is shifted, distances and
-// retarded times in false colours, the crosshair and the marks. Line widths are in the viewport's own pixels.
+// The measuring overlays of a viewport: the world's directions, the ring where D is 1, distances and retarded times in
+// false colours, the crosshair and the marks. Line widths are in the viewport's own pixels.
 
 layout(constant_id = 10) const int OVERLAY = OVERLAY_NONE;
 
@@ -34,7 +34,7 @@ vec4 grid(vec3 n, float footprint)
 {
     const float apart = radians(15.0);
     float latitude = asin(clamp(n.y, -1.0, 1.0)), longitude = atan(n.x, -n.z), across = length(n.xz);
-    // Lines that would stand closer than some pixels fade, lest they fill the picture.
+    // Lines only a few pixels apart fade, so that they don't fill the picture.
     float room = clamp(apart / footprint / 8.0 - 0.5, 0.0, 1.0);
     vec4 sum = vec4(0.0);
     if (abs(latitude) < radians(82.0)) {
@@ -56,7 +56,7 @@ vec4 ring(vec3 n, float pixel_angle)
 {
     float away = length(n.xy) * overlay.ring.x - n.z * overlay.ring.y; // sine of the angle beyond it
     float off = (dot(n.xy, n.xy) > 0.0 || n.z > 0.0 ? away : 1.0) / pixel_angle;
-    // Each side is tinted close to the ring: blue within, red without.
+    // Both sides are tinted close to the ring: blue inside, red outside.
     float side = exp(-abs(off) / 14.0) * 0.55;
     vec4 tint = vec4((off < 0.0 ? vec3(0.05, 0.15, 0.9) : vec3(0.9, 0.06, 0.03)) * side, side);
     return over(line(vec3(1.0), off, 0.9, 1.0), tint) * overlay.ring.z;
@@ -76,7 +76,7 @@ vec4 false_colour(float distance)
         wide_off = from_multiple(time, 5.0 * step) / footprint;
         room = clamp(step / footprint / 6.0 - 0.5, 0.0, 1.0);
     } else {
-        // Contours stand at 1, 2 and 5 times each power of ten, with ten finer ones between.
+        // Contours are at 1, 2 and 5 times each power of ten, with ten finer ones between.
         float within = fract(logarithm), nearest = 1.0;
         float leading = exp2(within * 3.3219281), apart = leading < 2.0 ? 0.1 : leading < 5.0 ? 0.2 : 0.5;
         fine_off = from_multiple(leading, apart) / (leading * 2.3025851 * per_pixel);
@@ -122,7 +122,7 @@ vec4 signs(vec3 n, float pixel_angle)
         if (overlay.marks[i].w <= 0.0 || dot(to, to) > 9.0 * size * size)
             continue;
         vec2 at = vec2(dot(to, overlay.right.xyz), dot(to, overlay.up.xyz));
-        // At the edge of the view the axes of the look lie askew; the length is always right.
+        // At the edge of the view the look's axes are oblique; the length is always right.
         at *= length(to) / max(length(at), 1e-9);
         float off = i == 0 ? length(at) - size : 0.7071 * (abs(at.x) + abs(at.y) - 1.2 * size);
         sum = over(line(i == 0 ? vec3(1.0, 0.62, 0.2) : vec3(0.35, 0.9, 1.0), off / pixel_angle, 0.5 * width / pixel_angle, 1.0), sum);

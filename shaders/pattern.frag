@@ -101,7 +101,7 @@ vec3 names(vec2 p, vec2 size)
     return mix(light, vec3(1.0), labels(p, size, true));
 }
 
-// The light that leaves the output as this input, 0 to 1.
+// The light that the output's curve encodes as this input, 0 to 1.
 float light_of_input(float value)
 {
     if (pattern.label.w > 0.0)
@@ -110,7 +110,7 @@ float light_of_input(float value)
 }
 
 // From the top: seventeen even steps of input; for each channel, lines of black and white beside the grey that a right
-// curve makes of them; the darkest inputs, of which each should just be seen.
+// curve makes of them; the darkest inputs, each of which should be just visible.
 vec3 wedges(vec2 p, vec2 size)
 {
     vec2 at = (p / size - 0.5) / pattern.label.z + 0.5;

@@ -7,7 +7,7 @@
 #include "view.glsl"
 #include "received_light.glsl"
 #include "distance.glsl"
-// The picture's numbers in one direction: measure.frag's, for a pixel of its own and without stars.
+// The picture's channels in one direction, as in measure.frag, for a pixel of its own and without stars.
 
 layout(location = 0) out vec4 light_and_depth; // Rec. 709 linear; distance in the world from the cube map's event
 layout(location = 1) out vec4 camera;          // unit direction in the ship, motion axes; Doppler factor

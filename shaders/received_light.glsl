@@ -1,4 +1,4 @@
-// The light from a direction of the ship: aberration, the cube map's look-up, Doppler and headlight.
+// The light seen in a direction of the ship: aberration, the cube map's look-up, Doppler effect and headlight effect.
 
 layout(constant_id = 1) const bool ABERRATION = true;
 layout(constant_id = 2) const bool DOPPLER = true;
@@ -6,15 +6,15 @@ layout(constant_id = 3) const bool HEADLIGHT = true;
 layout(constant_id = 4) const bool MIPS = false;
 layout(constant_id = 5) const bool CHANNELS = false; // red, green and blue have directions of their own
 layout(constant_id = 6) const bool REPROJECT = false; // the eye is not where the cube map was drawn
-layout(constant_id = 7) const bool TURNING = false; // and its side depends on the azimuth
+layout(constant_id = 7) const bool TURNING = false; // the eye's side depends on the azimuth
 layout(constant_id = 8) const bool STARS = false;
-// 9 is warp.frag's, 10 differs from pass to pass
+// constant_id 9 is warp.frag's; 10 has a meaning of its own in each pass
 layout(constant_id = 11) const int REFLECTED = 3; // coefficients of reflected sunlight: 3 are a colour
-layout(constant_id = 12) const int OWN = 0; // coefficients of the world's own emission spectra
-layout(constant_id = 13) const bool BY_TABLE = true; // otherwise the coefficients are the colour itself, without a shift
-layout(constant_id = 15) const bool GALILEAN = false; // velocities simply add: a comparison
-layout(constant_id = 16) const bool SINGLE = false; // one image of the plan, ahead, covers all: view.eye is its TileEntry's
-                                                    // first
+layout(constant_id = 12) const int OWN = 0; // coefficients of emission basis spectra
+layout(constant_id = 13) const bool BY_TABLE = true; // otherwise the coefficients are the unshifted colour
+layout(constant_id = 15) const bool GALILEAN = false; // Galilean aberration, for comparison
+layout(constant_id = 16) const bool SINGLE = false; // one image of the plan, ahead, covers all: view.eye is its
+                                                    // TileEntry::texel_from_face
 layout(constant_id = 17) const int RAYS = 1; // along each side of a pixel
 layout(constant_id = 18) const bool CUT = false; // some tile of the plan has more than one image
 layout(constant_id = 14) const bool LAYERED = false; // several rest frames, each with its own part of the cube map
@@ -63,7 +63,7 @@ struct Place {
     int entry; // of the image in `tiles`
 };
 
-// Finds the image of the plan that holds the direction n: tiles.cpp's tile_of, in float.
+// Finds the plan's image of the direction n: tiles.cpp's tile_of, in float.
 Place place_of(vec3 n, RestFrameView layer)
 {
     vec3 m = abs(n);
@@ -107,9 +107,9 @@ float level_of(Place place, float world_angle)
         return 0.0;
     float distance_square = 1.0 + dot(place.face, place.face);
     float at_middle = min(world_angle * place.texels_per_unit, 1e9), square = at_middle * at_middle; // of texels
-    // A texel is the mean of its square, and the interpolation between texels is linear: light is spread with a variance of
-    // 1/4 of a texel's square. A square pixel has 1/12 of its own: the texels should be finer by the root of 3, 0.79
-    // levels.
+    // A texel is the mean over its square, and interpolation between texels is linear: together they spread light with a
+    // variance of 1/4 of a texel's square. A square pixel has a variance of 1/12 of its own square. The texels should
+    // therefore be finer by the root of 3, 0.79 levels.
     return clamp(0.25 * log2(square * square * (distance_square * distance_square * distance_square)) - 0.79, 0.0, place.last_level);
 }
 void cube_map(Place place, float world_angle, out vec4 numbers[MAX_GROUPS])
@@ -132,7 +132,7 @@ float halves(uint word, float part)
     return pair.x + part * pair.y;
 }
 
-// The colour of light that is shifted by D: response.cpp's seen.
+// The colour of light that is shifted by D; the same as response.cpp's seen.
 vec3 shifted(vec4 numbers[MAX_GROUPS], float D)
 {
     float per_octave = view.corner.w;
@@ -141,7 +141,7 @@ vec3 shifted(vec4 numbers[MAX_GROUPS], float D)
     float part = fract(at);
     int row = int(at) * RESPONSE_TEXELS(REFLECTED);
     vec3 light = vec3(0.0);
-    // Four coefficients' parts of three colours are three texels.
+    // The parts of four coefficients in three colours take three texels.
     for (int group = 0; group < (REFLECTED + 3) / 4; ++group) {
         vec4 own = numbers[group];
         uvec4 first = texelFetch(response, row + 3 * group), second = texelFetch(response, row + 3 * group + 1);
@@ -198,11 +198,11 @@ vec3 eye_offset(vec3 n, RestFrameView layer)
     return offset;
 }
 
-// Finds the place of the cube map that an eye beside its own sees along n (world). Seen from the cube map's place, the
-// eye's line of sight is an arc from the nearest possible surface to n at infinity. The eye sees the first place on it
-// where the cube map's surface is no farther than the line. The search goes in steps of about five texels (even in 1 /
-// distance, as parallax is). Where a surface ends between two steps, it also looks before the surface's end. It then
-// approaches P = d(m) m with P - offset along n. The cube map cannot show surfaces that its place does not see: there the
+// Finds the place of the cube map that an eye beside the cube map's own sees along n (world). Seen from the cube map's
+// place, the eye's line of sight is an arc from the nearest possible surface to n at infinity. The eye sees the first
+// place on it where the cube map's surface is no farther than the line. The search goes in steps of about five texels
+// (even in 1 / distance, as parallax is). If a surface ends between two steps, it also tests the surface's end. It then
+// approximates P = d(m) m with P - offset along n. The cube map has no surfaces that are hidden from its place: there the
 // surface behind the edge is stretched.
 vec3 reprojected(vec3 n, vec3 offset, float texel, RestFrameView layer)
 {
@@ -212,8 +212,7 @@ vec3 reprojected(vec3 n, vec3 offset, float texel, RestFrameView layer)
         return n;
     float steps = clamp(ceil(0.2 * arc / texel), 1.0, float(REPROJECT_STEPS));
     float nearness = arc / across, shrink = nearness / steps; // in 1 / distance
-    float far = 0.0, before = 0.0; // distance of the surface at this step, and of the last surface in front of which the
-                                   // line passed
+    float far = 0.0, before = 0.0; // distance of the surface at this step, and of the last surface behind the line
     vec3 m = n, last = n;
     bool met = false;
     for (float i = 0.0; i <= steps && !met; i += 1.0) {
@@ -223,7 +222,7 @@ vec3 reprojected(vec3 n, vec3 offset, float texel, RestFrameView layer)
         far = distance_at(place_of(m, layer));
         met = finite ? far <= length(line) : !isinf(far);
         if (i > 0.0 && far > 1.1 * before) {
-            // That surface ended between the steps: the line may have met it just before its end.
+            // That surface ended between the steps; the line may have met it just before its end.
             vec3 edge = normalize(offset + dot(before * last - offset, n) * n);
             float there = distance_at(place_of(edge, layer));
             vec3 from_eye = there * edge - offset;
@@ -251,7 +250,7 @@ vec3 reprojected(vec3 n, vec3 offset, float texel, RestFrameView layer)
         m = normalize(offset + along * n);
         far = distance_at(place_of(m, layer));
         if (isinf(far)) {
-            // The line passes behind its apparent hit, on to the sky: along n, or beside the edge that hides it there.
+            // The line passes behind its apparent hit to the sky: along n, or beside the edge that hides the sky there.
             if (off > 0.15 * texel)
                 best = isinf(distance_at(place_of(n, layer))) ? n : m;
             break;
@@ -277,7 +276,7 @@ AberratedRay sight_of(vec3 n, float pixel_angle)
     return sight;
 }
 
-// Scene-linear light, pre-exposed by the cube map's factor; colours outside Rec. 709 have channels below 0.
+// Scene-linear light, pre-exposed by the cube map's factor; colours outside Rec. 709 have negative channels.
 vec3 light_of(vec4 numbers[MAX_GROUPS], float D)
 {
     vec3 light = numbers[0].rgb;
@@ -320,7 +319,7 @@ Shown shown_along(vec3 n, float pixel_angle)
     return shown;
 }
 
-// The result of a pixel, or of one that is so many times as wide.
+// The result of a pixel, or of a pixel that is several times as wide.
 Shown shown_at(vec2 pixel, int channel, float coarser, out float pixel_angle)
 {
     vec3 n = look(view.row0, view.row1, view.row2, pixel, channel, pixel_angle);
@@ -329,7 +328,7 @@ Shown shown_at(vec2 pixel, int channel, float coarser, out float pixel_angle)
     return Shown(n, AberratedRay(n, 1.0), 0.0, 0.0, vec3(0.0)); // nothing
 }
 
-// The light of a pixel: the mean along RAYS x RAYS directions that share it evenly. Returns a Shown, empty where the angle
+// The light of a pixel: the mean along RAYS x RAYS evenly distributed directions. Returns a Shown, empty where the angle
 // is 0.
 vec3 light_at(vec2 pixel, int channel, out float pixel_angle)
 {

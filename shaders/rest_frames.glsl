@@ -1,12 +1,12 @@
 // Several rest frames: each has a cube map of its own, boosted directly to the camera. Along a line of sight, the light's
-// travel distance in the ship is D times that in any frame. The frames' surfaces are sorted by it, in front of the sky.
+// travel distance in the ship is D times that in any frame; the frames' surfaces are ordered by it, in front of the sky.
 
 RestFrameView rest_frame_of(RestFrameEntry entry)
 {
     return RestFrameView(entry.boost.xy, entry.eye, entry.nearest.y, int(entry.boost.z), int(entry.row1.w));
 }
 
-// A part of the sky, at the world's direction n: sky.frag's.
+// The sky's coefficients at the world's direction n, as in sky.frag.
 void sky_at(vec3 n, out vec4 numbers[MAX_GROUPS])
 {
     float height = dot(n, layered.world_up.xyz), part = smoothstep(0.0, 1.0, abs(height));
@@ -14,8 +14,8 @@ void sky_at(vec3 n, out vec4 numbers[MAX_GROUPS])
         numbers[group] = mix(layered.sky_horizon[group], height > 0.0 ? layered.sky_zenith[group] : layered.sky_nadir[group], part);
 }
 
-// A rest frame's surfaces in up to four parts that lie side by side: each one's distance in the ship, and the part of the
-// pixel that it covers. One part where the four texels around are of one surface; several otherwise.
+// A rest frame's surfaces in up to four parts side by side: each one's distance in the ship, and its coverage of the
+// pixel. One part if the four texels around belong to one surface; several otherwise.
 struct Part {
     Place place;
     float D, world_angle, level;
@@ -41,7 +41,7 @@ Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
     part.covers = vec4(0.0);
     vec4 image = texelFetch(tiles, part.place.entry + 1);
     vec2 texel = part.place.texel;
-    // Moving things do not fill their images, and pixels look past them: nothing beyond their edges is filtered in.
+    // Moving things do not fill their images, and pixels see past them: nothing beyond their edges enters the filter.
     float margin = i == 0 ? 0.5 : 2.0 * exp2(part.place.last_level);
     if (!(image.z > 0.0 && all(greaterThanEqual(texel, image.xy + margin)) && all(lessThanEqual(texel, image.zw + 1.0 - margin))))
         return part;
@@ -74,7 +74,7 @@ Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
 // The part of a pixel that a rest frame covers nearer than `way`.
 float before(Part part, float way) { return dot(part.covers, vec4(lessThan(part.ways, vec4(way)))); }
 
-// The basis coefficients of a rest frame's k-th part, as if alone in the pixel: premultiplied.
+// The basis coefficients of a rest frame's k-th part without other parts in front: premultiplied.
 void numbers_of_part(Part part, int k, out vec4 numbers[MAX_GROUPS])
 {
     if (part.covers.y + part.covers.z + part.covers.w == 0.0) {
@@ -92,13 +92,14 @@ void numbers_of_part(Part part, int k, out vec4 numbers[MAX_GROUPS])
         numbers[3] = texelFetch(atlas3, texel, 0) * weight;
 }
 
-// The result of the ship's direction n0 (the world's motion axes): the light of all rest frames, each part behind the other
-// frames' nearer coverage, and of the sky behind them all. No order is needed: a frame's own parts lie side by side. sight:
-// the world's; its D, the distance and the frame become those of the source that fills most of the pixel.
+// The light in the ship's direction n0 (the world's motion axes): of all rest frames, each part behind the other frames'
+// nearer coverage, and of the sky behind them all. The order of frames does not matter, because a frame's own parts are
+// side by side. sight: the world's; its D, the distance and the frame become those of the source that fills most of the
+// pixel.
 vec3 light_of_layers(vec3 n0, float pixel_angle, inout AberratedRay sight, out float distance_, out float frame)
 {
-    // Without aberration, directions are the world's, and moving things are seen as from the world; D includes the ship's
-    // own.
+    // Without aberration, directions are the world's, and moving things are seen from the world's rest frame; D includes
+    // the ship's own.
     float D_beside = ABERRATION ? 1.0 : sight.D, sky_D = sight.D;
     int count = int(layered.count.x);
     Part parts[MAX_REST_FRAMES];
@@ -112,7 +113,7 @@ vec3 light_of_layers(vec3 n0, float pixel_angle, inout AberratedRay sight, out f
         part.level = layered.layers[i].boost.w; // from here on: the index of its rest frame
         parts[shown++] = part;
     }
-    // The world's rest frame has the sky's D: one table look-up serves both, and one each moving frame.
+    // The world's rest frame has the sky's D, so both share one table look-up; each moving frame needs one more.
     vec4 world[MAX_GROUPS];
     sky_at(sight.n, world);
     for (int group = 0; group < GROUPS; ++group)

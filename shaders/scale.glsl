@@ -1,5 +1,5 @@
 // The colours of a scale from near (0) to far (1): bright yellow over green to deep violet, even in lightness, so that it
-// reads the same to most who see colours otherwise. After viridis (Smith and van der Walt 2015), linear light.
+// reads the same to most people with another colour vision. After viridis (Smith and van der Walt 2015), linear light.
 vec3 scale_colour(float t)
 {
     const vec3 steps[7] = vec3[7](vec3(0.983, 0.799, 0.018), vec3(0.411, 0.638, 0.093), vec3(0.060, 0.462, 0.184),

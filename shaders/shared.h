@@ -1,8 +1,8 @@
-// Data that the processor writes and the shaders read: one text for both. C++ sees it through shaders/shared_structs.h,
-// which asserts the sizes. It has only 16-byte aligned members, so that std140, std430 and C++ agree.
+// Data that the processor writes and the shaders read, one text for both. C++ includes it through
+// shaders/shared_structs.h, which asserts the sizes. All members are 16-byte aligned, so that std140, std430 and C++
+// agree.
 
-// Images of one plan, at most. Tiles are the parts of the fixed division (see tiles.h); every tile has an entry, drawn or
-// not.
+// The fixed division's tiles (see tiles.h); every tile has an entry, drawn or not.
 #define TILE_FRONT 0
 #define TILE_SIDES 1
 #define SIDE_BANDS 3
@@ -13,34 +13,32 @@
 
 #define REPROJECT_STEPS 12
 #define REPROJECT_ROUNDS 4
-#define MOST_PARALLAX 0.35 // radians between two eyes' views of a point: nearer surfaces are not distinguished
+#define MOST_PARALLAX 0.35 // radians between two eyes' directions of a point, at most: nearer surfaces all have this value
 #define MAX_LIGHTS 8
 #define POSES 17 // odd; poses of an animated instance, around the retarded time of its middle
 #define MAX_REST_FRAMES 16 // velocities of moving bodies, and rest
 #define MOST_REFLECTED 12 // basis coefficients of reflected sunlight
-#define MAX_OWN 4 // a scene's own emission spectra, each with a coefficient of its own
-#define MAX_GROUPS 4 // of four coefficients: an image of the cube map each
-#define MAX_MATRICES 4096 // columns of a group: 64 KiB, the least that devices of today let a shader read as constants
+#define MAX_OWN 4 // emission basis spectra of a scene, each with one coefficient
+#define MAX_GROUPS 4 // groups of four coefficients: one image of the cube map for each
+#define MAX_MATRICES 4096 // columns of a group: 64 KiB, a uniform buffer's size on present devices
 #define RESPONSE_ROWS 2048 // over log2 D; see response.h
 #define RESPONSE_TEXELS(reflected) ((3 * (reflected) + 5) / 4) // of a row
 #define RESPONSE_OWN_STEP(own)                                                                                              \
-    ((own) > 2 ? 2 : 1) // rows of the world's own emission spectra: all or each second, as they
-                        // fit
+    ((own) > 2 ? 2 : 1) // step between the stored rows of emission basis spectra: all rows or every second one
 #define MOST_OWN_ROWS 4096 // of all together
-#define STAR_COLDEST 512.0 // K: colder black bodies give no light to speak of (1e-9 of the Sun's surface at 550 K)
+#define STAR_COLDEST 512.0 // K: colder black bodies are practically dark (1e-9 of the Sun's surface at 550 K)
 #define STAR_STEPS_PER_OCTAVE 64
-#define STAR_STEPS 769 // 12 octaves: to 2 million K, from where a black body's visible light only grows as its temperature
-#define STAR_RADIUS 2.0 // of the spot that a star is shown as, pixels
+#define STAR_STEPS 769 // 12 octaves: to 2 million K; beyond, a black body's visible light grows linearly with its temperature
+#define STAR_RADIUS 2.0 // radius of a star's spot, pixels
 #define STAR_SPOT                                                                                                           \
-    (3.14159265 * STAR_RADIUS * STAR_RADIUS / 5.0) // pixels of a spot as bright everywhere as in its middle: the
-// integral of (1 - r^2 / R^2)^4
+    (3.14159265 * STAR_RADIUS * STAR_RADIUS / 5.0) // the integral of (1 - r^2 / R^2)^4, pixels
 
-// One image of the plan, as the warp pass reads it: texel of the atlas = face coordinate * scale + offset. Each tile has
+// One image of the plan, in the warp pass's form: texel of the atlas = face coordinate * scale + offset. Each tile has
 // one entry for each of its sub-tiles, rows along the second coordinate, in a texel buffer after the rest frames'
 // sub_tiles_from_face.
 struct TileEntry {
     vec4 texel_from_face; // x: texels per unit of face coordinate; y, z: offset; w: coarsest mip level
-    vec4 texels; // of the atlas: the image's first x, y and last x, y; 0 of a tile that is not drawn
+    vec4 texels; // of the atlas: the image's first x, y and last x, y; 0 for a tile that is not drawn
 };
 
 #define TILE_ENTRY(tile, cell) (MAX_REST_FRAMES * TILE_COUNT + 2 * (TILE_SUB_TILES * TILE_SUB_TILES * (tile) + (cell)))
@@ -48,10 +46,10 @@ struct TileEntry {
 struct LightEntry {
     vec4 place; // w = 0: unit direction towards the light; w = 1: its place from the eye, at the eye's time. Motion axes.
     vec4 radiance; // Rec. 709 linear, pre-exposed; w: square of the distance at which it holds, 0 for a direction
-    vec4 kind; // x: index of its spectrum, 0 for sunlight; for a moving lamp the first of `shifts`. y, z: its own times,
-               // from that at `place` on, before and after which it sends nothing. w: for a moving directional light, D
+    vec4 kind; // x: index of its spectrum, 0 for sunlight; for a moving lamp the first of `shifts`. y, z: begin and end of
+               // its existence in its proper time, counted from that at `place`. w: D of a moving directional light
     vec4 way; // of a moving lamp: unit direction of its motion; w: its gamma beta, 0: it rests
-    vec4 shifts; // of a moving lamp: x: log2 D of the first, y: how many an octave, z: their number; w: gamma
+    vec4 shifts; // of a moving lamp: x: log2 D of the first, y: number per octave, z: their number; w: gamma
 };
 
 // The cube pass, one entry per eye, rest frame and picture.
@@ -61,17 +59,17 @@ struct CubeConstants {
     vec4 sky_horizon[MAX_GROUPS];
     vec4 sky_nadir[MAX_GROUPS];
     vec4 world_up; // motion axes
-    vec4 first; // x: this rest frame's first instance, y: the first of its instances' times, z: of their poses
+    vec4 first; // indices of this rest frame's first x: instance, y: TimeEntry, z: pose
     vec4 now; // w: 1 where everything is shown at the ship's present; xyz: the ship's velocity here
     LightEntry lights[MAX_LIGHTS];
 };
 
-// One instance in front of one eye: rows of motion_from_local.
+// One instance relative to one eye: rows of motion_from_local.
 struct InstanceEntry {
     vec4 row0, row1, row2;
 };
 
-// The times of an instance before one eye: of clocks, of blinking and animated instances, and of those with finite
+// The times of an instance relative to one eye: of clocks, of blinking and animated instances, and of those with finite
 // existence.
 struct TimeEntry {
     vec4 middle; // from the eye, motion axes; w: its distance. The other members hold at its retarded time
@@ -90,39 +88,38 @@ struct CubePush {
     vec4 base_colour;
     vec4 emissive; // pre-exposed; w: alpha cut-off
     vec4 beyond; // reflectance in the ultraviolet and the infrared, below 0: the colour's mean; z: index of the matrices;
-                 // w: the emissive light's own spectrum, -1: a sunlit colour
-    vec4 own; // its glow in each of the world's own spectra, pre-exposed
+                 // w: the emissive light's basis spectrum, -1: a sunlit colour
+    vec4 own; // its glow in each emission basis spectrum, pre-exposed
 };
 
 // Push constants of the passes that run once per output pixel.
 struct ViewPush {
-    vec4 row0, row1, row2; // planar: rows of direction_from_pixel; map: of the turn from the map's axes. w of row0: planar:
-                           // a pixel's step on the plane at distance 1; of row1: the finest image behind; of row2: log2 D
-                           // of the response's first row. The stars' pass has the inverse: rows of pixel_from_direction; of
-                           // the turn to the map's axes
-    vec4 boost; // E, 1/E, exposure gain / pre-exposure (the stars: pre-exposure), near plane
+    vec4 row0, row1, row2; // planar: rows of direction_from_pixel; map: rows of the rotation from the map's axes. The star
+                           // pass has the inverse of both. row0.w: planar: a pixel's step on the plane at distance 1;
+                           // row1.w: finest clip level; row2.w: log2 D of the response's first row
+    vec4 boost; // E, 1/E, exposure gain / pre-exposure (star pass: pre-exposure), near plane
     vec4 origin; // viewport's top left corner in the target, pixels; z, w: 1 / the atlas's size in texels
     vec4 eye; // REPROJECT: the eye's place from the cube map's, world, motion axes. TURNING: xyz: the cockpit's
-              // up in motion axes; w: the eye's distance from the middle, to the right. SINGLE: a TileEntry's first
+              // up in motion axes; w: the eye's distance from the middle, to the right. SINGLE: TileEntry::texel_from_face
     vec4 zenith; // x: TURNING: sine of the angle from the zenith at which the separation is full; y: REPROJECT: distance of
-                 // the nearest possible surface, scene units; z, w: the viewport's size, pixels; the meter: pixels of the
-                 // viewport for one of its samples
-    vec4 corner; // xy: the viewport's top left corner in the output, pixels, also where it is drawn elsewhere; for the
-                 // stars' luminance samples: pixels across and down, and z: the number of stars that each stands for. w:
-                 // rows of the response per octave of D
+                 // the nearest possible surface, scene units; z, w: the viewport's size, pixels; in the meter: pixels of the
+                 // viewport for each sample
+    vec4 corner; // xy: the viewport's top left corner in the output, pixels, also where it is drawn elsewhere; for stars'
+                 // luminance samples: pixels across and down, and z: the number of stars for each sample. w: rows of the
+                 // response per octave of D
 };
 
-// The warp pass's data of one rest frame, as one view's eye sees it: like ViewPush, which has the world's.
+// The warp pass's data of one rest frame for one view's eye, like ViewPush, which has the world's.
 struct RestFrameEntry {
-    vec4 row0, row1, row2; // rows of the turn from the world's motion axes, both in the ship; w of row1: as ViewPush's
-    vec4 boost; // E, 1/E; z: its first tile's index, w: its index of the world's frames
+    vec4 row0, row1, row2; // rows of the rotation from the world's motion axes, both in the ship; row1.w: as ViewPush's
+    vec4 boost; // E, 1/E; z: index of its first tile, w: its index among the world's frames
     vec4 eye;
     vec4 nearest; // y: as ViewPush's zenith
 };
 
 // The rest frames of one view, and the sky behind them.
 struct RestFrameConstants {
-    vec4 count; // x: of the rest frames
+    vec4 count; // x: number of rest frames
     vec4 world_up; // world's motion axes
     vec4 sky_zenith[MAX_GROUPS]; // coefficients of the light, pre-exposed
     vec4 sky_horizon[MAX_GROUPS];
@@ -135,7 +132,6 @@ struct StarEntry {
     vec4 direction; // unit, towards it; w: temperature, K
     vec4 light; // illuminance at rest, in the scene's white times steradians: x: over the luminance of its temperature
                 // (black_body_xyz), y: the illuminance itself
-                // temperature (black_body_xyz), y: as it is
 };
 
 // The stars' pass, one per frame.
@@ -143,16 +139,15 @@ struct StarConstants {
     vec4 row0, row1, row2; // rows of motion_from_world
 };
 
-// The overlays of a viewport, for measuring.
+// The measuring overlays of a viewport.
 struct OverlayConstants {
     vec4 world0, world1, world2; // rows of world_from_motion
     vec4 ring; // x: cosine, y: sine of the angle from the motion where D = 1; z: 1 where there is one
-    vec4 scale; // of the colours: x: lowest log10 of a distance in seconds of light, y: 1 over their range; z:
-                // log10 of seconds of light per scene unit
-    vec4 steps; // retarded time: x: seconds between contours, y: the eye's time beyond a heavier one, seconds; z: seconds
-                // of light per scene unit
+    vec4 scale; // of the colours: x: lowest log10 of a distance in seconds of light, y: 1 over the range; z: log10 of
                 // seconds of light per scene unit
-    vec4 aim, right, up; // of the look, motion axes; aim.w: 1 where the crosshair is drawn
+    vec4 steps; // retarded time: x: seconds between contours, y: the eye's time since a heavier one, seconds; z: seconds
+                // of light per scene unit
+    vec4 aim, right, up; // the look's axes, in motion axes; aim.w: 1: the crosshair is drawn
     vec4 marks[2]; // directions in the ship, motion axes; w: 1 where there is one
 };
 
@@ -162,18 +157,18 @@ struct OverlayConstants {
 #define OVERLAY_DISTANCE 3
 #define OVERLAY_EMISSION 4
 
-// Push constants of the finish pass: from light to the screen's input. Rows of matrices.
+// Push constants of the finish pass: from light to the screen's input. The vectors are rows of matrices.
 struct FinishPush {
-    vec4 left0, left1, left2; // of the first picture, or the only one
-    vec4 right0, right1, right2; // of the second, where both are added
+    vec4 left0, left1, left2; // of the first canvas, or the only one
+    vec4 right0, right1, right2; // of the second canvas, where both are added
     vec4 curve; // x: 1 / gamma or the table's last index; y: headroom under the black level
 };
 
 // Push constants of the glow.
 struct BloomPush {
-    vec4 step; // xy: 1 / size of what is drawn, pixels
-    vec4 texel; // xy: 1 / size of what is read, texels
-    vec4 part; // x: of the light, the part that glows; zw: the viewport's top left corner in the target, pixels
+    vec4 step; // xy: 1 / size of the drawn picture, pixels
+    vec4 texel; // xy: 1 / size of the read picture, texels
+    vec4 part; // x: the share of the light that glows; zw: the viewport's top left corner in the target, pixels
 };
 
 // Push constants of the test patterns.
@@ -182,7 +177,7 @@ struct PatternPush {
     vec4 origin; // xy: as ViewPush's; zw: pixels of the view
     vec4 tint; // rgb: this output's, or this eye's
     vec4 label; // xy: size of the label in pixels; z: part of the view around its middle that is
-                // shown; w: gamma of the output, 0: sRGB's curve
+                // shown; w: the output's gamma, 0: sRGB's curve
 };
 
 // Test patterns, by number.

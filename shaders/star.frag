@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
-// A star's spot: round, the same at any speed, and wide enough that the sum over its pixels is the same wherever between
-// pixels its centre lies, within 0.5 %: no star twinkles as it drifts.
+// A star's spot: round, and the same at any speed. It is so wide that the sum over its pixels does not depend on its
+// centre's place between pixels, within 0.5 %: no star twinkles as it drifts.
 
 layout(location = 0) flat in vec2 centre;
 layout(location = 1) flat in vec3 light;

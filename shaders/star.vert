@@ -6,13 +6,12 @@
 #include "physics/galilean.glsl"
 #include "view.glsl"
 #include "received_light.glsl"
-// One star of the sky in one viewport: its direction in the ship, its pixel, and its light. Stars are points: they go
-// through the forward transform one by one and have no size that could be magnified. A star has one instance, or three
-// where colours have directions of their own: each then has a place for each. It has as many again where a display shows a
-// direction at more than one place.
+// One star of the sky in one viewport: its direction in the ship, its pixel, and its light. Stars are points: each goes
+// through the forward transform and has no size that could be magnified. A star has one instance, or three where colours
+// have directions of their own, one for each colour. It has as many again where a display shows a direction at more than
+// one place.
 
-layout(constant_id = 10) const bool GLIMPSE = false; // luminance samples for the exposure: each star is a pixel of its own,
-                                                     // side by side
+layout(constant_id = 10) const bool GLIMPSE = false; // luminance samples for the exposure: one pixel for each star
 
 layout(set = 0, binding = 6) uniform usampler2DArray inverse_map;
 layout(set = 1, binding = 0) uniform Constants { StarConstants turn; };
@@ -34,9 +33,9 @@ vec3 black_body(float kelvin)
     return entry.rgb * exp(entry.w) * exp2((at - inside) / STAR_STEPS_PER_OCTAVE);
 }
 
-// The effect of D on a point's light. A surface's radiance per frequency grows as D^3. A point is a surface so small that
-// only its solid angle counts, which shrinks as D^-2: a black body becomes one at D T with D^-2 of its radiance. Its flux
-// per frequency then grows as D, and that D is the headlight effect of a point: without it the shift alone is left.
+// The effect of D on a point's light. A surface's radiance per frequency grows as D^3. A point is a surface whose solid
+// angle alone counts, and that shrinks as D^-2: a black body becomes one at D T with D^-2 of its radiance. Its flux per
+// frequency then grows as D. That D is the headlight effect of a point: without it only the shift is left.
 vec3 starlight(StarEntry star, float D)
 {
     if (!DOPPLER)
@@ -66,7 +65,7 @@ vec3 change_to(vec4 here, ivec2 pixel, ivec2 way, ivec2 size, int channel)
     return there.w > 0.0 ? there.xyz - here.xyz : vec3(0.0);
 }
 
-// The change of direction about a pixel: the mean of both sides, or one side where the picture ends or has a seam.
+// The change of direction at a pixel: the mean of both sides, or one side where the picture ends or has a seam.
 vec3 change_about(vec4 here, ivec2 pixel, ivec2 way, ivec2 size, int channel)
 {
     vec3 on = change_to(here, pixel, way, size, channel), back = -change_to(here, pixel, -way, size, channel);
@@ -76,8 +75,8 @@ vec3 change_about(vec4 here, ivec2 pixel, ivec2 way, ivec2 size, int channel)
     return back_square == 0.0 || (on_square > 0.0 && on_square < back_square) ? on : back;
 }
 
-// Searches from one pixel in strides that are halved again and again, and returns the visited pixel whose direction is
-// closest to n.
+// Searches from one pixel in strides that are halved repeatedly, and returns the visited pixel whose direction is closest
+// to n.
 ivec2 closest_to(vec3 n, ivec2 pixel, ivec2 size, int channel)
 {
     vec3 off = n - texel_at(pixel, channel).xyz;
@@ -97,9 +96,9 @@ ivec2 closest_to(vec3 n, ivec2 pixel, ivec2 size, int channel)
 }
 
 // The point of the map (pixels from its corner) that shows n (the map's axes), by Newton's method from a pixel near it; a
-// spot beyond the picture's edge is extrapolated. About a panorama's poles, a few pixels cover all azimuths: there the
-// method may lead astray, and goes on from the closest pixel. nearly: true accepts that
-// pixel's own point. False where there is no such point.
+// spot beyond the picture's edge is extrapolated. Around a panorama's poles, a few pixels cover all azimuths: there the
+// method may diverge and restarts from the closest pixel. nearly: true accepts that pixel's own point. Returns false if
+// there is no such point.
 bool found_from(ivec2 pixel, vec3 n, int channel, bool nearly, out vec2 point, out float pixel_angle)
 {
     ivec2 size = textureSize(direction_map, 0).xy;
@@ -138,8 +137,8 @@ bool found_from(ivec2 pixel, vec3 n, int channel, bool nearly, out vec2 point, o
     return false;
 }
 
-// The same for any viewport. n: motion axes. second: of two places. Where a panorama's ends meet, and beyond its poles, a
-// spot that the picture's edge cuts goes on elsewhere.
+// The same for any viewport. n: motion axes. second: the second of two places. Where a panorama's ends meet, and beyond
+// its poles, a spot that the picture's edge cuts continues elsewhere.
 bool find(vec3 n, int channel, bool second, out vec2 point, out float pixel_angle)
 {
     vec3 way = vec3(dot(view.row0.xyz, n), dot(view.row1.xyz, n), dot(view.row2.xyz, n));
@@ -159,7 +158,7 @@ bool find(vec3 n, int channel, bool second, out vec2 point, out float pixel_angl
                 return true;
             ivec2 size = textureSize(direction_map, 0).xy, pixel = clamp(ivec2(point), ivec2(0), size - 1);
             vec2 first = point;
-            // Beyond a pole the other half of the picture goes on; beyond the rim of a whole sphere in a circle, the
+            // Beyond a pole the other half of the picture continues; beyond the rim of a whole sphere in a circle, the
             // opposite point.
             for (int k = -2; k < 4; ++k) {
                 if (k >= 0 && (k <= i || begin[k] == 0xffffffffu))
@@ -176,8 +175,7 @@ bool find(vec3 n, int channel, bool second, out vec2 point, out float pixel_angl
     return false;
 }
 
-// True if something stands before the sky. A star outside the viewport, whose spot reaches in, may lie beyond the image's
-// edge.
+// True if something hides the sky. A star outside the viewport, whose spot reaches in, may lie beyond the image's edge.
 bool hidden(Place place)
 {
     vec4 image = texelFetch(tiles, place.entry + 1);
@@ -212,7 +210,7 @@ void main()
         from_place = reprojected(n, eye_offset(sight.n, world_layer()), world_angle(sight, sight.n, pixel_angle), world_layer());
     if (hidden(place_of(from_place, world_layer())))
         return;
-    // A moving body hides it where the body is drawn.
+    // A moving body hides the star where the body is drawn.
     for (int i = 1; LAYERED && i < int(layered.count.x); ++i)
         if (dot(part_of(i, sight.n, pixel_angle, 1.0).covers, vec4(1.0)) > 0.5)
             return;

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
-// A star's luminance sample for the exposure: as bright as its spot's middle, and so large that its light is the star's.
+// A star's luminance sample for the exposure: it has its spot's middle luminance, and a solid angle with which its light
+// is the star's.
 
 layout(location = 0) flat in vec2 pixel; // x: its angle, radians
 layout(location = 1) flat in vec3 light; // of the whole star, spread over the solid angle of a pixel

@@ -1,19 +1,19 @@
 // The tone curve: from exposed scene-linear light to a screen's range, 0 to 1, still linear Rec. 709.
 // tests/light/exposure_test.cpp compiles it as C++ too.
 
-// Its brightest channel goes straight up to the knee, then along a shoulder, of no break in its slope, that reaches 1 only at
-// infinity. On the shoulder the colour goes to white on the line of its hue in Oklab (Ottosson 2020), where hues stay what
-// they look like; mixed with white in linear light a blue turns by 22 degrees there. With the cube roots c of Oklab's cone
-// responses that line is c + (1 - c) w; its cube is multiplied out here, so that without w the light stays as it is and the
+// The brightest channel is linear up to the knee, then follows a shoulder, without a break in its slope, that reaches 1
+// only at infinity. On the shoulder the colour approaches white along its hue's line in Oklab (Ottosson 2020), where hues
+// look constant; mixed with white in linear light a blue would turn by 22 degrees. With the cube roots c of Oklab's cone
+// responses that line is c + (1 - c) w. Its cube is multiplied out here, so that without w the light is unchanged and the
 // roots need not be exact.
 FN rvec3 tone_map(rvec3 light)
 {
     const real knee = real(0.76);
-    const real half_white = real(4.0); // above the knee half of the way to white
+    const real half_white = real(4.0); // half of the way to white above the knee
     real peak = max(light.x, max(light.y, light.z));
-    real above = min(max(peak - knee, real(0.0)), real(1e15)); // its square stays a number
+    real above = min(max(peak - knee, real(0.0)), real(1e15)); // its square stays finite
     real from_shoulder = above + real(1.0) - knee, from_white = above + half_white;
-    real part = above / (from_shoulder * from_white); // a division is dear without a GPU
+    real part = above / (from_shoulder * from_white); // divisions are slow without a GPU
     real shown = min(peak, knee) + (real(1.0) - knee) * part * from_white;
     real w = part * from_shoulder;
     real v = real(1.0) - w;
@@ -30,7 +30,7 @@ FN rvec3 tone_map(rvec3 light)
                dot(rvec3(-0.0041960863, -0.7034186147, 1.7076147010), mixed))
               + w * w)
             * w;
-    // The line may leave the gamut by a tenth on its way.
+    // The line may leave the gamut by up to a tenth.
     real most = max(colour.x, max(colour.y, colour.z));
     return max(colour, rvec3(0.0)) * (shown / max(most, real(1e-30)));
 }

@@ -1,4 +1,4 @@
-// The direction of an output pixel. Planar views are linear in the pixel; every other display is a map of directions.
+// The direction of an output pixel. Planar views are linear in the pixel; every other display has a direction map.
 
 layout(constant_id = 0) const bool MAP = false;
 layout(set = 0, binding = 0) uniform usampler2DArray direction_map; // all 0: shows nothing
@@ -28,7 +28,7 @@ vec3 look(vec4 row0, vec4 row1, vec4 row2, vec2 pixel, int channel, out float pi
     }
     vec3 n = vec3(dot(row0.xyz, from), dot(row1.xyz, from), dot(row2.xyz, from));
     if (!MAP) {
-        // The plane stands at distance 1: a pixel's solid angle falls as the cube of the distance to it.
+        // The plane is at distance 1: a pixel's solid angle falls as the cube of the distance to it.
         float inverse = 1.0 / sqrt(dot(n, n));
         n *= inverse;
         pixel_angle = row0.w * inverse * sqrt(inverse);

@@ -8,7 +8,7 @@
 #include "received_light.glsl"
 #include "tone.glsl"
 #include "dither.glsl"
-// The relativistic transform of one output pixel, shown.
+// The relativistic transform of one output pixel, as shown.
 
 layout(constant_id = 9) const bool LINEAR = false;  // light for the glow, before the tone curve; alpha 0: shows nothing
 layout(constant_id = 10) const bool DITHERED = true; // the target has 8 bits
@@ -27,7 +27,7 @@ vec3 light_along(int channel)
 void main()
 {
     vec3 light = CHANNELS ? vec3(light_along(0).r, light_along(1).g, light_along(2).b) : light_along(0);
-    // Both infinities of D^3 stay numbers: the greatest light is already white.
+    // Infinite D^3 is clamped to a number: the greatest light is already white.
     light = clamp(light * view.boost.z, vec3(0.0), vec3(1e30));
     if (LINEAR) {
         float pixel_angle;

@@ -24,7 +24,7 @@ struct User {
     double separation = 0;
 };
 
-/// True for a projection that is one picture on a plane, for which SGCT draws no cube map first.
+/// True for a flat projection, which SGCT draws without a cube map.
 bool is_flat(const std::string& projection)
 {
     return projection == "PlanarProjection" || projection == "TextureMappedProjection" || projection == "ProjectionPlane";
@@ -50,7 +50,7 @@ private:
     {
         out_.lines.push_back(place.pointer + "  not mapped: " + std::string(reason));
     }
-    /// Reports a member that the layout has no use for.
+    /// Reports a member that has no place in a layout.
     void leftover(const Place& place, const std::string& name, const Reasons& reasons)
     {
         const auto found = reasons.find(name);
@@ -108,7 +108,7 @@ Import Importer::run()
     if (node_ < 0 || node_ >= int(all.size()))
         throw InputError(document_.file, "/nodes",
             "has no node " + std::to_string(node_) + "; one from 0 to " + std::to_string(int(all.size()) - 1) + " is right");
-    // Users are wanted before the viewports, wherever they stand.
+    // Users are read before the viewports, whatever their order in the file.
     std::vector<std::string> before;
     if (const auto users = find_member(top, "users"))
         for (const Place& place : items(*users, 0, 64, "users"))
@@ -258,7 +258,7 @@ std::optional<Json> Importer::window(const Place& place, std::size_t index, bool
     const bool fullscreen = fullscreen_at && boolean(*fullscreen_at);
     if (fullscreen) {
         output["whole_monitor"] = true;
-        // SGCT counts monitors, a layout names them: several windows need at least names of their own.
+        // SGCT numbers monitors, a layout names them. Several windows need at least different names.
         if (!alone)
             output["monitor"]
                 = {{"connector", "SGCT-monitor-" + std::to_string(monitor_at ? integer(*monitor_at, -1, 1024) : 0)}};
@@ -342,7 +342,7 @@ std::optional<MeshView> Importer::mesh_view(const Place& viewport)
     if (!view.frustum)
         return {};
     if (kind == ".ol")
-        view.eye_m.reset(); // SGCT leaves the user where it is
+        view.eye_m.reset(); // SGCT does not move the user
     return view;
 }
 
@@ -591,7 +591,7 @@ Json Importer::cylinder(const Place& place)
                 return false;
             return true;
         });
-    // SGCT's rows look at the heights 0 to 1 above heightoffset on a cylinder of radius 1; its columns begin ahead.
+    // SGCT's rows show the heights 0 to 1 above heightoffset on a cylinder of radius 1; its columns begin ahead.
     return {{"type", "cylinder"},
         {"sides_deg",
             {{"left", -180}, {"right", 180}, {"down", glm::degrees(std::atan(height))},

@@ -10,23 +10,22 @@ struct Import {
     nlohmann::ordered_json layout;
     /// A line for each member: "/POINTER -> its new place" or "/POINTER not mapped: reason".
     std::vector<std::string> lines;
-    /// The values that only the builder knows, a line each: "/POINTER in the layout: its present value; what would be
-    /// right".
+    /// Values that only the builder knows, one line each: "/POINTER in the layout: its present value; the right kind of
+    /// value".
     std::vector<std::string> to_mend;
 };
 
 /// A mesh file's own view, from which it is warped.
 struct MeshView {
-    bool frustum = true; ///< false: the file has none
+    bool frustum = true; ///< false: the file has no frustum
     std::optional<glm::dvec3> eye_m; ///< the eye, where the file has one
 };
 /// Reads a mesh's file, whose name is as in the configuration.
 using LookInto = std::function<MeshView(const std::filesystem::path& mesh)>;
 
-/// Makes a layout of one node of an SGCT configuration (its JSON format, version 1). `folder` leads from the layout's
+/// Makes a layout from one node of an SGCT configuration (its JSON format, version 1). `folder` leads from the layout's
 /// folder to the configuration's, for the names of meshes and masks. look_into reads meshes of the kinds that may have a
-/// frustum. Throws InputError for a value that SGCT would not read, for a missing node, and for a node without anything to
-/// show.
+/// frustum. Throws InputError for a value that SGCT would reject, for a missing node, and for a node without viewports.
 Import import_sgct(
     const Document& document, int node, const std::filesystem::path& folder,
     const LookInto& look_into = [](const std::filesystem::path&) { return MeshView{}; });

@@ -43,7 +43,7 @@ std::string contents(const std::filesystem::path& path, const std::string& file)
     return text;
 }
 
-/// Feeds the text to the parser and counts, in `read`, the bytes that the parser has taken.
+/// Feeds the text to the parser. `read` counts the bytes that the parser has taken.
 struct CountedByte {
     using iterator_category = std::input_iterator_tag;
     using value_type = char;
@@ -88,8 +88,8 @@ std::string column_of(const std::string& text, std::size_t at)
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// The first byte of the string whose closing quote is at `end - 1`. Going back, each quote inside follows an odd number of
-/// backslashes, and what stands before the opening one is never a backslash.
+/// The first byte of the string whose closing quote is at `end - 1`. Going back, each quote inside the string follows an
+/// odd number of backslashes; no backslash is before the opening quote.
 std::size_t string_begin(const std::string& text, std::size_t end)
 {
     for (std::size_t quote = end - 1; quote > 0;) {
@@ -117,8 +117,8 @@ struct Fault {
     std::string problem;
 };
 
-/// The fault in the words of the file's author. at: the byte where the parser gave up; what: its message, "[...] parse
-/// error at line L, column C: syntax error while parsing object - unexpected ...; expected ...".
+/// The fault in terms of the file's author. at: the byte where the parser gave up; what: its message, "[...] parse error
+/// at line L, column C: syntax error while parsing object - unexpected ...; expected ...".
 Fault fault_of(const std::string& text, std::size_t at, const std::string& what)
 {
     const auto has = [&](const char* part) { return what.find(part) != what.npos; };
@@ -131,7 +131,7 @@ Fault fault_of(const std::string& text, std::size_t at, const std::string& what)
         return {stopped, "a comment has no end; */ is right"};
     if (has("invalid string"))
         return {stopped, "this text can't be read; \\\\ for a backslash, \\\" for a quote and letters in UTF-8 are right"};
-    if (at > 0 && (at >= text.size() || (has("number literal") && !is_digit(text[at])))) // it has looked at what follows
+    if (at > 0 && (at >= text.size() || (has("number literal") && !is_digit(text[at])))) // the parser has read the next byte
         --at;
     const auto of_word = [&](char c) { return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("+-._", c); };
     std::size_t begin = at, end = at + 1;
@@ -167,9 +167,9 @@ Fault fault_of(const std::string& text, std::size_t at, const std::string& what)
     return {at, one_line(what.substr(start == what.npos ? 0 : start + 2)) + "; JSON is right"};
 }
 
-/// Builds the document during the parse, because only then are a repeated member, the depth, the place of a number that
-/// overflows and the bytes of a value still known. The parser does not recurse, so depth costs no stack. It reports each
-/// value when it has taken the value's last byte, or for a number, where the text goes on, the byte after it.
+/// Builds the document during the parse. Only then are a repeated member, the depth, the place of an overflowing number
+/// and the bytes of a value known. The parser does not recurse, so depth needs no stack. It reports each value after the
+/// value's last byte; a number that is not the end of the text, one byte later.
 struct Builder : json::json_sax_t {
     const std::string& file;
     const std::string& content;
@@ -179,7 +179,7 @@ struct Builder : json::json_sax_t {
     std::vector<json*> open; // containers from the root inwards; an outer one does not grow while an inner is open
     std::vector<std::string> keys; // beside each open container: the member being read, where it is an object
 
-    const std::string* wanted = nullptr; // a pointer whose value's bytes are wanted
+    const std::string* wanted = nullptr; // pointer of the value whose span is needed
     std::size_t wanted_depth = 0;
     std::optional<Span> found;
 
@@ -195,7 +195,7 @@ struct Builder : json::json_sax_t {
             json::input_format_t::json, true, true);
     }
 
-    std::string pointer() const // of the value that comes next
+    std::string pointer() const // pointer of the next value
     {
         std::string path;
         for (std::size_t i = 0; i < open.size(); ++i) {

@@ -64,9 +64,9 @@ std::vector<std::string> steps(const std::string& file, const std::string& point
     return names;
 }
 
-/// The new value inside a chain of objects, and the existing ones among these.
+/// The place of a change: its innermost existing value and the missing objects on the way.
 struct Target {
-    std::string pointer; ///< of the existing value: the whole way, or as far as it goes
+    std::string pointer; ///< of the innermost existing value
     std::vector<std::string> missing; ///< the steps beyond it
 };
 
@@ -112,7 +112,7 @@ Target set(const std::string& file, json& root, const Change& change)
     return target;
 }
 
-/// The text with a member put behind the opening brace: on a line of its own where the first one has one.
+/// The text with a member after the opening brace, on a line of its own if the first member has one.
 std::string with_member(const std::string& text, const Span& object, const std::string& member)
 {
     if (!object.first_key) {
@@ -204,7 +204,7 @@ void patch_file(const std::filesystem::path& path, const std::vector<Change>& ch
         text = patched(document.file, text, change);
     if (text == document.text)
         return;
-    // A link stays one: the file that it leads to is changed.
+    // A link stays a link; its target is changed.
     std::error_code error;
     const std::filesystem::path file = std::filesystem::canonical(path, error);
     struct stat old;

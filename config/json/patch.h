@@ -13,11 +13,11 @@ struct Change {
     nlohmann::json value;
 };
 
-/// The text of a JSON file with one value set; every other byte stays, comments too. A missing member, and missing objects
+/// Sets one value in the text of a JSON file; every other byte stays, comments too. A missing member, and missing objects
 /// on the way to it, are added after the opening brace of the innermost existing object. A list's numbers are changed one
-/// by one where their count stays. `file`: its name in messages. Throws InputError where the text is not JSON, or where the
-/// pointer leads through a value that is no object or list or beyond a list's end. It also throws where an object would be
-/// lost, and where the result would not read back as the same document with the one value set.
+/// by one if their count stays. `file`: its name in messages. Throws InputError if the text is not JSON; if the pointer
+/// leads through a value that is no object or list, or beyond a list's end; if an object would be lost; and if the result
+/// would not read back as the same document with the one value set.
 std::string patched(const std::string& file, const std::string& text, const Change& change);
 
 /// Sets values in a file: all or none. The new text replaces the file in one step and with its permissions, so that a

@@ -12,7 +12,7 @@ namespace {
 
 std::string value_text(const json& value)
 {
-    // The end of a path is shown; of a list its beginning is enough to know it.
+    // A message shows a path's end; a list's beginning is enough.
     return one_line(value.dump(-1, ' ', false, json::error_handler_t::replace), value.is_string() ? 160 : 60);
 }
 
@@ -30,7 +30,7 @@ std::string choice(const std::vector<std::string_view>& names)
     return out;
 }
 
-/// The number of letters to add, drop or change between two words.
+/// The edit distance of two words: the number of letters to add, drop or change.
 std::size_t distance(std::string_view a, std::string_view b)
 {
     std::vector<std::size_t> row(b.size() + 1);
@@ -139,8 +139,9 @@ glm::dvec4 vec4(const Place& place, Range range)
     return {number(at[0], range), number(at[1], range), number(at[2], range), number(at[3], range)};
 }
 
-/// Names of members that older files have, and their names now.
+/// Names of members in older files, with their present names.
 const std::map<std::string_view, std::string_view> renamed{
+    {"against", "relative_to"},
     {"greatest_ev", "max_ev"},
     {"greatest_gamma", "max_gamma"},
     {"hold_ms", "frame_budget_ms"},
@@ -152,6 +153,7 @@ const std::map<std::string_view, std::string_view> renamed{
     {"stray_texels", "lod_error_texels"},
     {"told", "explanation"},
     {"told_s", "explanation_s"},
+    {"what", "quantity"},
 };
 
 void reject_unknown_members(const Place& place, const std::vector<std::string_view>& known)
@@ -236,7 +238,7 @@ std::string one_line(std::string text, std::size_t most)
             c = '?';
     if (text.size() > most) {
         std::size_t cut = most;
-        while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xc0) == 0x80) // never inside a UTF-8 letter
+        while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xc0) == 0x80) // not inside a UTF-8 character
             --cut;
         text.resize(cut);
         text += "...";

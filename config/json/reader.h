@@ -47,11 +47,12 @@ Document read_document(const std::filesystem::path& file);
 Document parse_document(const std::string& file, std::string text, int first_line = 1);
 Place root(const Document& document);
 
-/// The span of the value at a JSON pointer, or nullopt. It parses the text once more, because only the few values that a
-/// message or a change concerns need a span.
+/// The span of the value at a JSON pointer, or nullopt. It parses the text again, because only the few values of messages
+/// and changes need a span.
 std::optional<Span> find_span(const Document& document, const std::string& pointer);
 
-/// Throws "FILE:LINE: POINTER: VALUE problem". By custom the problem reads "is wrong in this way; what would be right".
+/// Throws InputError "FILE:LINE: POINTER: VALUE problem". By convention the problem names the fault and, after a
+/// semicolon, the right value.
 [[noreturn]] void complain(const Place& place, const std::string& problem);
 
 /// Each of these returns the value at a place, or throws an InputError about it.

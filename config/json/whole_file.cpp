@@ -17,7 +17,7 @@ void refuse_writing(const std::filesystem::path& file, int why)
 
 void write_whole(const std::filesystem::path& file, std::span<const unsigned char> bytes, Lasting lasting)
 {
-    // Renaming would put a plain file in the place of a device such as /dev/null, or of a link to the true place.
+    // Renaming would replace a device such as /dev/null, or a link, by a plain file.
     std::error_code problem;
     std::filesystem::path target = std::filesystem::canonical(file, problem);
     if (problem)
@@ -34,7 +34,7 @@ void write_whole(const std::filesystem::path& file, std::span<const unsigned cha
     if (good && lasting == Lasting::power_cut)
         good = std::fflush(stream.get()) == 0 && fsync(fileno(stream.get())) == 0;
     int why = errno;
-    if (std::fclose(stream.release()) != 0 && good) // a full disk may show only here
+    if (std::fclose(stream.release()) != 0 && good) // a full disk may be reported only here
         good = false, why = errno;
     if (good && std::rename(part.c_str(), target.c_str()) != 0)
         good = false, why = errno;

@@ -5,14 +5,14 @@
 
 namespace starbow {
 
-/// The choice whether a file must survive a power cut as soon as it exists.
+/// Durability of a written file: as the system's cache allows, or safe from a power cut on return.
 enum class Lasting { as_the_system_likes, power_cut };
 
 /// Throws the InputError for a file that can't be written; why: an errno.
 [[noreturn]] void refuse_writing(const std::filesystem::path& file, int why);
 
-/// Writes the whole file or nothing: a reader of the folder never meets half a file, and the old one stays until then. A
-/// link stays a link. Throws InputError.
+/// Writes the whole file or nothing: no reader of the folder sees a part of it, and the old file stays until then. A link
+/// stays a link. Throws InputError.
 void write_whole(
     const std::filesystem::path& file, std::span<const unsigned char> bytes, Lasting lasting = Lasting::as_the_system_likes);
 

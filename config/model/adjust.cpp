@@ -5,7 +5,7 @@
 namespace starbow {
 namespace {
 
-using What = Adjustable::What;
+using Kind = Adjustable::Kind;
 
 /// The turn of a viewport's projection, if it has one of its own.
 Turn* turn_of(Projection& projection)
@@ -25,17 +25,17 @@ Turn* turn_of(Projection& projection)
 
 double* place_of(Layout& layout, const Adjustable& a, const Adjustable::Spot& spot)
 {
-    if (a.what == What::blend_power)
+    if (a.kind == Kind::blend_power)
         return &layout.blend.power;
-    if (a.what == What::hud_elevation)
+    if (a.kind == Kind::hud_elevation)
         return &layout.hud.elevation_deg;
     Projection& projection = layout.outputs[spot.output].viewports[spot.viewport].projection;
     if (auto* dome = std::get_if<Fisheye>(&projection))
-        return a.what == What::tilt ? &dome->tilt_deg : &dome->rotation_deg;
+        return a.kind == Kind::tilt ? &dome->tilt_deg : &dome->rotation_deg;
     if (auto* mirror = std::get_if<SphericalMirror>(&projection))
         return &mirror->dome_tilt_deg;
     Turn& turn = *turn_of(projection);
-    return a.what == What::yaw ? &turn.yaw_deg : a.what == What::pitch ? &turn.pitch_deg : &turn.roll_deg;
+    return a.kind == Kind::yaw ? &turn.yaw_deg : a.kind == Kind::pitch ? &turn.pitch_deg : &turn.roll_deg;
 }
 
 /// The numbers of one viewport.
@@ -47,43 +47,43 @@ void add_own(std::vector<Adjustable>& all, const Layout& layout, std::size_t out
     std::string name = layout.outputs[output].name;
     if (layout.outputs[output].viewports.size() > 1)
         name.append(" ").append(std::to_string(viewport));
-    auto add = [&](const char* what, const char* member, What which) {
+    auto add = [&](const char* what, const char* member, Kind kind) {
         all.push_back({name + ", " + what,
-            {{viewport_pointer(output, viewport) + "/projection/" + member, output, viewport}}, which, 0.1});
+            {{viewport_pointer(output, viewport) + "/projection/" + member, output, viewport}}, kind, 0.1});
     };
     Projection projection = own.projection;
     if (std::holds_alternative<Fisheye>(projection)) {
-        add("tilt", "tilt_deg", What::tilt);
-        add("rotation", "rotation_deg", What::rotation);
+        add("tilt", "tilt_deg", Kind::tilt);
+        add("rotation", "rotation_deg", Kind::rotation);
     } else if (std::holds_alternative<SphericalMirror>(projection)) {
-        add("tilt", "dome_tilt_deg", What::tilt);
+        add("tilt", "dome_tilt_deg", Kind::tilt);
     } else if (turn_of(projection)) {
-        add("yaw", "turn_deg/yaw", What::yaw);
-        add("pitch", "turn_deg/pitch", What::pitch);
-        add("roll", "turn_deg/roll", What::roll);
+        add("yaw", "turn_deg/yaw", Kind::yaw);
+        add("pitch", "turn_deg/pitch", Kind::pitch);
+        add("roll", "turn_deg/roll", Kind::roll);
     }
 }
 
-/// Numbers that several projectors on one dome share: turned one by one, their pictures would part.
+/// Numbers that several projectors on one dome share. Changed one by one, their pictures would separate.
 std::vector<Adjustable> of_whole_domes(const Layout& layout, const std::vector<Adjustable>& each)
 {
     std::vector<Adjustable> all;
-    for (const What what : {What::tilt, What::rotation}) {
-        Adjustable whole{what == What::tilt ? "the whole dome, tilt" : "the whole dome, rotation", {}, what, 0.1};
+    for (const Kind kind : {Kind::tilt, Kind::rotation}) {
+        Adjustable whole{kind == Kind::tilt ? "the whole dome, tilt" : "the whole dome, rotation", {}, kind, 0.1};
         for (const Adjustable& one : each)
-            if (one.what == what)
+            if (one.kind == kind)
                 whole.spots.push_back(one.spots[0]);
         if (whole.spots.size() < 2)
             continue;
         const bool agree = std::all_of(each.begin(), each.end(),
-            [&](const Adjustable& one) { return one.what != what || value_of(layout, one) == value_of(layout, whole); });
+            [&](const Adjustable& one) { return one.kind != kind || value_of(layout, one) == value_of(layout, whole); });
         if (agree)
             all.push_back(std::move(whole));
     }
     return all;
 }
 
-/// The number at a pointer, if a builder may turn it.
+/// The number at a pointer, if it is adjustable.
 std::optional<double> value_at(const Layout& layout, const std::string& pointer)
 {
     for (const Adjustable& one : adjustables(layout))
@@ -103,8 +103,8 @@ std::vector<Adjustable> adjustables(const Layout& layout)
     std::vector<Adjustable> all = of_whole_domes(layout, each);
     all.insert(all.end(), each.begin(), each.end());
     if (layout.blend.ramps)
-        all.push_back({"blend, power", {{"/blend/power"}}, What::blend_power, 0.05});
-    all.push_back({"head-up display, height", {{"/hud/elevation_deg"}}, What::hud_elevation, 0.5});
+        all.push_back({"blend, power", {{"/blend/power"}}, Kind::blend_power, 0.05});
+    all.push_back({"head-up display, height", {{"/hud/elevation_deg"}}, Kind::hud_elevation, 0.5});
     return all;
 }
 
@@ -118,9 +118,9 @@ Layout adjusted(Layout layout, const Adjustable& adjustable, double steps)
 {
     double value = value_of(layout, adjustable);
     // Rounded to whole steps, so that the file reads 30.1 and not 30.099999.
-    const bool dome = adjustable.what == What::tilt, display = adjustable.what == What::hud_elevation;
-    const double high = adjustable.what == What::blend_power ? 10 : display ? 90 : dome ? 180 : 360;
-    const double low = adjustable.what == What::blend_power ? 0.1 : -high;
+    const bool dome = adjustable.kind == Kind::tilt, display = adjustable.kind == Kind::hud_elevation;
+    const double high = adjustable.kind == Kind::blend_power ? 10 : display ? 90 : dome ? 180 : 360;
+    const double low = adjustable.kind == Kind::blend_power ? 0.1 : -high;
     value = std::clamp(std::round((value / adjustable.step + steps) * 1e6) * 1e-6 * adjustable.step, low, high);
     for (const Adjustable::Spot& spot : adjustable.spots)
         *place_of(layout, adjustable, spot) = std::round(value * 1e6) / 1e6;

@@ -4,17 +4,17 @@
 
 namespace starbow {
 
-/// A number of a layout that a builder may turn on site, in view of the picture.
+/// A number of a layout that a builder may change on site, in view of the picture.
 struct Adjustable {
     std::string name; ///< for people: "dome, tilt"
-    /// Its JSON pointers in the layout's file: several where projectors share a dome and the number; they are turned
+    /// Its JSON pointers in the layout's file. Several where projectors share a dome and the number; they change
     /// together.
     struct Spot {
         std::string pointer;
         std::size_t output = 0, viewport = 0;
     };
     std::vector<Spot> spots;
-    enum class What { tilt, rotation, yaw, pitch, roll, blend_power, hud_elevation } what = What::tilt;
+    enum class Kind { tilt, rotation, yaw, pitch, roll, blend_power, hud_elevation } kind = Kind::tilt;
     double step = 0.1; ///< of one key press: degrees, or the power's own unit
 };
 
@@ -24,14 +24,14 @@ std::vector<Adjustable> adjustables(const Layout& layout);
 
 double value_of(const Layout& layout, const Adjustable& adjustable);
 
-/// The layout with one number turned by `steps`, kept in the file format's range.
+/// The layout with one number changed by `steps`, clamped to the file format's range.
 Layout adjusted(Layout layout, const Adjustable& adjustable, double steps);
 
 /// The differences of two layouts as changes of the first one's file. Members that the first lacks are left out.
 std::vector<Change> changes(const Layout& saved, const Layout& now);
 
-/// A newly read layout together with the builder's turns since the last reading (from `kept` to `turned`), except for
-/// numbers that the file itself has changed.
+/// A newly read layout with the builder's changes since the last reading (from `kept` to `turned`). Numbers that the file
+/// itself has changed keep the file's value.
 Layout turned_again(Layout fresh, const Layout& kept, const Layout& turned);
 
 } // namespace starbow

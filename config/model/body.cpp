@@ -46,7 +46,7 @@ Body read_body(const Place& place)
     if (auto worldline = find_member(place, "worldline")) {
         for (const char* other : {"at", "velocity"})
             if (auto p = find_member(place, other))
-                complain(*p, "stands beside a \"worldline\", which tells it already; one of the two is right");
+                complain(*p, "stands beside a \"worldline\", which has it already; one of the two is right");
         body.worldline = read_worldline(*worldline);
         return body;
     }

@@ -12,15 +12,15 @@ struct Event {
     bool operator==(const Event&) const = default;
 };
 
-/// Nodes of the glTF file, with all that hangs below them, that move as one. In their own rest frame, whose axes are the
-/// world's carried by the pure boost, they stand as in the file, around the body's own origin.
+/// Nodes of the glTF file, with all nodes below them, that move as one. In their own rest frame they are placed as in the
+/// file, around the body's own origin. That frame's axes are the world's, carried by the pure boost.
 struct Body {
     std::string name;
     std::vector<std::string> nodes;
-    glm::dvec3 u{0}; ///< proper velocity, where `worldline` is empty: its origin passes `at`, and it moves for ever
+    glm::dvec3 u{0}; ///< proper velocity if `worldline` is empty: the origin passes `at`, and the body moves for ever
     Event at;
-    std::vector<Event> worldline; ///< else the events that its origin joins in straight segments, each within the light
-                                  ///< cone of the one before; before the first and after the last it does not exist
+    std::vector<Event> worldline; ///< otherwise the events that the origin joins by straight segments, each within the light
+                                  ///< cone of the one before; before the first and after the last the body does not exist
 };
 
 struct Place;

@@ -6,7 +6,7 @@
 
 namespace starbow {
 
-/// A spectrum other than sunlight; its strength stands elsewhere.
+/// A spectrum other than sunlight, without its strength.
 struct BlackBody {
     double kelvin;
     bool operator==(const BlackBody&) const = default;

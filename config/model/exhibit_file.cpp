@@ -21,7 +21,7 @@ Flying read_flying(const Place& place)
     return flying;
 }
 
-/// A path is relative to the file, as in every other file; a name is a shipped one's.
+/// A path is relative to the file, as in all files; a name means a shipped file.
 std::string name_or_path(const Place& place, const std::filesystem::path& folder)
 {
     const std::string name = text(place);

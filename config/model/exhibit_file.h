@@ -15,8 +15,8 @@ struct Exhibit {
     std::string tour; ///< the shown tour, in its own scene; empty: none
     std::string language = "en"; ///< of the visitors' texts: a path, or the name of a shipped one
     bool tutorial = true; ///< three prompts for the first minute
-    std::string quality; ///< a path, or the name of a shipped one; empty: the finest that the device affords
-    double frame_budget_ms = 0; ///< of a whole frame: the ladder holds it; 0: the quality stays
+    std::string quality; ///< a path, or the name of a shipped one; empty: the device's default
+    double frame_budget_ms = 0; ///< time of a whole frame, held by the ladder; 0: the quality stays
     std::string ladder = "ladder"; ///< a path, or the name of a shipped one
     Flying flying;
     Exposing exposure;

@@ -4,12 +4,12 @@ namespace starbow {
 
 /// An exhibit's rules of exposure. EV: powers of two of the light.
 struct Exposing {
-    bool automatic = true; ///< it follows the view, as eyes do; the visitor's change is added
+    bool automatic = true; ///< the exposure follows the view, as eyes do; the visitor's change is added
     /// The range of the automatic exposure. The greatest EV shows as mid-grey (0.18) the least light that an eye in the
     /// dark for long just sees, 1e-6 cd/m^2. Luminance 1 is a sunlit white surface's: 1361 W/m^2 of a black body of 5772 K,
     /// times 92.0 lm/W over pi, are 39,900 cd/m^2; log2(0.18 * 39,900 / 1e-6) = 32.7.
     double min_ev = -60, max_ev = 33;
-    double bloom = 0; ///< the part of the light that glows around bright things, as in an eye or a lens
+    double bloom = 0; ///< the share of the light that glows around bright things, as in an eye or a lens
 };
 
 } // namespace starbow

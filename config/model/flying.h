@@ -5,9 +5,9 @@
 
 namespace starbow {
 
-/// guided: the throttle's place is the speed, and the velocity follows the nose. free: the throttle's place is the speed,
-/// and the nose turns by itself. newtonian: the throttle is the engine's thrust along the nose, and nothing else slows the
-/// ship down.
+/// guided: the throttle's place sets the speed, and the velocity follows the nose. free: the throttle's place sets the
+/// speed, and the nose turns by itself. newtonian: the throttle sets the thrust along the nose, and the ship is not
+/// slowed down otherwise.
 enum class FlightMode { guided, free, newtonian };
 inline const std::vector<std::pair<std::string_view, FlightMode>> flight_modes{
     {"guided", FlightMode::guided}, {"free", FlightMode::free}, {"newtonian", FlightMode::newtonian}};
@@ -16,7 +16,7 @@ inline std::string_view name_of(FlightMode mode) { return flight_modes[std::size
 /// The rules of flight of an exhibit. Times are the visitor's seconds, which are the ship's.
 struct Flying {
     FlightMode mode = FlightMode::guided;
-    double max_gamma = 1e6; ///< of a full throttle; the speeds below it are even in rapidity
+    double max_gamma = 1e6; ///< at full throttle; lower places are evenly spaced in rapidity
     // Limits that spare the visitors' stomachs.
     double turn_deg_per_s = 40; ///< nose up, down, left, right
     double roll_deg_per_s = 40;

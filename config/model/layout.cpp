@@ -10,7 +10,7 @@ namespace {
 constexpr int most_pixels_across = 16384;
 static_assert(most_pixels_across <= (1 << 28) / most_pixels_across, "an output's pixels are counted in an int");
 
-/// Fractions such as 0.3333 and 0.6667 meet well enough: this is 1/60 of the widest output's pixel.
+/// Fractions such as 0.3333 and 0.6667 must count as neighbours: this is 1/60 of the widest output's pixel.
 constexpr double slack = 1e-6;
 
 /// Windows may begin left of and above the main monitor.
@@ -160,7 +160,7 @@ void read_window(const Place& place, Output& output)
     }
 }
 
-/// Throws where a packing that halves the picture would halve a pixel.
+/// Throws if a packing would halve a pixel.
 void check_halves(const Place& place, const Output& output)
 {
     const glm::ivec2 eye = eye_size(output);
@@ -262,7 +262,7 @@ bool same(const MonitorName& a, const MonitorName& b)
     return a.connector == b.connector && a.model == b.model && a.serial == b.serial && a.position == b.position;
 }
 
-/// Throws where an output can't stand beside an earlier one.
+/// Throws if an output conflicts with an earlier one.
 void check_beside(const Place& place, const Output& output, const Output& earlier, std::size_t index)
 {
     const std::string which = "output " + std::to_string(index);
@@ -325,7 +325,7 @@ std::string place_in(const Layout& layout, const std::string& pointer)
     try {
         if (const auto span = find_span(read_document(layout.file), pointer))
             line = std::string(":").append(std::to_string(span->line));
-    } catch (const InputError&) { // someone is changing it
+    } catch (const InputError&) { // the file is being changed
     }
     return layout.file.string() + line + ": " + pointer;
 }

@@ -79,7 +79,7 @@ struct SphericalMirror {
     glm::dvec3 dome_m{0}; ///< the dome's centre
     double dome_radius_m = 3;
     double dome_tilt_deg = 0; ///< as a fisheye's
-    double dome_aperture_deg = 180; ///< light that lands on the sphere beyond it is not shown
+    double dome_aperture_deg = 180; ///< light that lands beyond it is not shown
 };
 
 /// A headset's lens: each colour of each pixel has a direction of its own. Let p be the place in the picture from `centre`,
@@ -120,7 +120,7 @@ enum class Eye { middle, left, right };
 struct Viewport {
     glm::dvec4 rect{0, 0, 1, 1}; ///< x, y, width, height as fractions of the output, from its top left
     Projection projection;
-    bool projection_given = true; ///< false: the warp file's own, where it has one
+    bool projection_given = true; ///< false: the projection is the warp file's own, if it has one
     std::optional<Warp> warp;
     std::filesystem::path alpha_mask; ///< picture over the viewport that multiplies its light, or empty
     std::filesystem::path black_level; ///< picture over the viewport that is added to its light, or empty
@@ -227,7 +227,7 @@ Layout load_layout(const std::filesystem::path& file);
 std::string place_in(const Layout& layout, const std::string& pointer);
 std::string viewport_pointer(std::size_t output, std::size_t viewport);
 
-/// The result of work(); an InputError of it gets the layout's place in front.
+/// Returns work(); puts the layout's place in front of its InputError.
 template <class Work> auto on_behalf_of(const Layout& layout, const std::string& pointer, Work&& work)
 {
     try {

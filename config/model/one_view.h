@@ -3,7 +3,7 @@
 
 namespace starbow {
 
-/// A layout of one output, called "view", that one viewport fills.
+/// A layout of one output, named "view", with one viewport that fills it.
 inline Layout one_view(const Projection& projection, glm::ivec2 size)
 {
     Layout layout;

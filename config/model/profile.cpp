@@ -194,7 +194,7 @@ void save_profile(const Profile& profile, const std::filesystem::path& file)
     std::error_code problem; // write_whole reports it
     if (file.has_parent_path())
         std::filesystem::create_directories(file.parent_path(), problem);
-    // Exhibits are switched off at the wall.
+    // Exhibits are switched off by their mains switch.
     write_whole(file, text, Lasting::power_cut);
 }
 

@@ -50,13 +50,13 @@ enum class ButtonRole {
 /// An axis of a device by its HID usage, and the treatment of its values.
 struct AxisUse {
     int page = 1, usage = 0;
-    int nth = 0; ///< of several axes with this usage, in the descriptor's order, from 0
+    int nth = 0; ///< index among several axes with this usage, in the descriptor's order
     AxisRole role = AxisRole::none;
     bool inverted = false;
-    double dead_zone = 0.06; ///< around the middle, as a part of the way to an end; of a throttle at idle
+    double dead_zone = 0.06; ///< around the middle, as a part of the way to an end; at idle for a throttle
     double curve = 1.6; ///< exponent: above 1 the middle is finer; throttles are straight
     std::optional<std::array<double, 3>> range; ///< raw values at one end, in the middle and at the other, as calibrated
-    std::vector<double> detents; ///< of a throttle: resting places from 0 to 1
+    std::vector<double> detents; ///< resting places of a throttle, from 0 to 1
     bool operator==(const AxisUse&) const = default;
 };
 
@@ -83,7 +83,7 @@ Profile load_profile(const std::filesystem::path& file);
 /// The profile as a file's text, an axis and a button a line, without members that have their default.
 std::string profile_text(const Profile& profile);
 
-/// Writes the whole file or nothing: a reader meanwhile gets the old one. Makes its folder. Throws InputError.
+/// Writes the whole file or nothing, so that a reader never sees a part; makes its folder. Throws InputError.
 void save_profile(const Profile& profile, const std::filesystem::path& file);
 
 /// Four hexadecimal digits, as a profile names a vendor or a product.

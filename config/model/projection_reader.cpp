@@ -4,11 +4,11 @@
 namespace starbow {
 namespace {
 
-/// Angles of a flat picture stay where the tangent is below 600.
+/// Limits of a flat picture's angles: the tangent stays below 600.
 constexpr Range fov{0.1, 179};
 constexpr Range whole_turn{-360, 360};
 
-/// The lens whose factor f is nowhere 0 or infinite out to here, in halves of the picture's height from its centre.
+/// The factor f of a lens must be neither 0 nor infinite out to here, in halves of the picture's height from its centre.
 constexpr double lens_reach = 1;
 
 Turn read_turn(const Place& place)
@@ -75,7 +75,7 @@ Wall read_wall(const Place& place)
     for (const auto& [at, length] : {std::pair(lower_right, width), std::pair(upper_left, height)})
         if (length < 1e-3)
             complain(at, "is less than a millimetre from \"lower_left_m\"; two corners of the wall is right");
-    // The cosine of the angle at the corner: how far the upper edge has slipped sideways, per metre of height.
+    // The cosine of the angle at the corner: the sideways displacement of the upper edge per metre of height.
     const double slip = std::abs(glm::dot(right, up)) / (width * height);
     if (slip > 1e-3)
         complain(upper_left,
@@ -94,7 +94,8 @@ Fisheye read_fisheye(const Place& place)
         fisheye.mapping = chosen<FisheyeMapping>(*p,
             {{"equidistant", FisheyeMapping::equidistant}, {"equisolid", FisheyeMapping::equisolid},
                 {"stereographic", FisheyeMapping::stereographic}, {"orthographic", FisheyeMapping::orthographic}});
-    // An orthographic picture folds back beyond a half sphere; a stereographic one goes on for ever towards a whole one.
+    // An orthographic picture folds back beyond a half sphere; a stereographic one grows without limit towards a whole
+    // sphere.
     const auto aperture = find_member(place, "aperture_deg");
     if (fisheye.mapping == FisheyeMapping::orthographic && fisheye.aperture_deg > 180)
         complain(*aperture, "is more than an orthographic picture can hold; a number from 1 to 180 is right");
@@ -159,7 +160,7 @@ Lens read_lens(const Place& place)
         lens.form = chosen<Lens::Form>(*p, {{"panotools", Lens::Form::panotools}, {"vive", Lens::Form::vive}});
     take(place, "fov_y_deg", lens.fov_y_deg, fov);
     take_turn(place, lens.turn);
-    // A lens that treats all colours alike is given once, as green.
+    // A lens without dispersion is given once, as green.
     lens.colours.fill(read_lens_colour(member(place, "green"), lens.form));
     if (auto p = find_member(place, "red"))
         lens.colours[0] = read_lens_colour(*p, lens.form);

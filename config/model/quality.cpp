@@ -118,9 +118,9 @@ Layout with_stereo(Layout layout, const Quality& quality)
 std::string differences(const Quality& quality, const Quality& other)
 {
     std::string all;
-    auto differs = [&](const auto& mine, const auto& its, const std::string& told) {
+    auto differs = [&](const auto& mine, const auto& its, const std::string& text) {
         if (mine != its)
-            all += (all.empty() ? "" : ", ") + told;
+            all += (all.empty() ? "" : ", ") + text;
     };
     auto count = [](int n, const std::string& one, const std::string& many) {
         return std::to_string(n) + " " + (n == 1 ? one : many);

@@ -16,16 +16,16 @@ constexpr std::array<const char*, 3> spectral_level_names = {"colours", "middle"
 /// The trade of speed for accuracy. It never changes the physics.
 struct Quality {
     double texels_per_pixel = 1; ///< linear density of the cube map in the views
-    double max_texels_per_pixel = 3; ///< area: where the whole plan would hold more, all of it is drawn coarser
-    int cube_samples = 1; ///< of each texel, for edges: 1, 2, 4 or 8
+    double max_texels_per_pixel = 3; ///< area: a whole plan with more is drawn coarser
+    int cube_samples = 1; ///< samples of each texel, for edges: 1, 2, 4 or 8
     double lod_error_texels = 1; ///< greatest error of surfaces in fewer triangles; 0: all triangles, always
     double lod_shading_texels = 16; ///< the same for their shading: a column keeps its flutes at 64 where they are some
                                     ///< texels wide, and loses them at 128
     double image_cost_texels = 4096; ///< the cost of one more image of the cube map, beside its texels: it decides the
                                      ///< number of images
-    int pixel_rays = 1; ///< along each side of an output pixel: its square look up the cube map
-    int clip_levels = 42; ///< nested images behind, at most; 0: one image holds all behind
-    bool mips = true; ///< where several texels fall into one pixel
+    int pixel_rays = 1; ///< along each side of an output pixel; the square of it reads the cube map
+    int clip_levels = 42; ///< nested images behind, at most; 0: one image covers everything behind
+    bool mips = true; ///< for pixels that cover several texels
     bool half_floats = true; ///< light in 16 bits a number, else in 32
     bool matrices = true; ///< flat views by a matrix, else by a map as all other views
     int frames_per_cube = 1; ///< frames that share one cube map, while the direction of motion stays
@@ -44,8 +44,8 @@ Quality load_quality(const std::filesystem::path& file);
 /// The text of a file that load_quality reads as this quality.
 std::string quality_text(const Quality& quality);
 
-/// A level of the ladder that holds a frame budget: its time, and its pictures' errors against the reference, as `starbow
-/// measure` found them.
+/// A level of the ladder: a quality with its time and its pictures' errors against the reference, as `starbow measure`
+/// found them.
 struct PresetLevel {
     Quality quality;
     double ms; ///< only the ratios between levels count

@@ -6,8 +6,7 @@
 namespace starbow {
 namespace {
 
-/// The range reaches from far below a nucleus to far beyond the universe's horizon; ratios of two such numbers are still
-/// doubles.
+/// From far below a nucleus to far beyond the universe's horizon; ratios of two such numbers fit a double.
 constexpr Range measure{1e-30, 1e30};
 
 glm::dvec3 read_colour(const Place& place) { return vec3(place, {0, 1e6}); }

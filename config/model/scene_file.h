@@ -11,7 +11,7 @@
 
 namespace starbow {
 
-/// A directional light, everywhere the same. `towards` points from the world to the light, unit length.
+/// A directional light, the same everywhere. `towards`: unit direction from the world to the light.
 struct DirectionalLight {
     glm::dvec3 towards;
     glm::dvec3 radiance; ///< Rec. 709 linear; the colour of a white surface that faces it
@@ -25,8 +25,8 @@ struct PointLight {
     double distance;
     glm::dvec3 radiance;
     std::optional<Emission> spectrum; ///< as above
-    std::string body{}; ///< it moves with this body, around its origin, while the body exists; empty: it stands in the
-                        ///< world
+    std::string
+        body{}; ///< the light moves with this body, around its origin, while the body exists; empty: it rests in the world
 };
 
 using Light = std::variant<DirectionalLight, PointLight>;
@@ -41,8 +41,8 @@ struct Sky {
 /// The stars of a catalogue, behind everything.
 struct StarSky {
     std::filesystem::path catalogue;
-    double brightness_arcmin2 = 200; ///< the light of a star of magnitude 0: that of so many square minutes of arc of the
-                                     ///< scene's white
+    double brightness_arcmin2
+        = 200; ///< a star of magnitude 0 gives as much light as so many square arc minutes of the scene's white
     glm::dvec2 ahead_deg{0}; ///< right ascension and declination (J2000) of straight ahead (-z), with north up
 };
 

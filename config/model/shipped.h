@@ -15,8 +15,8 @@ std::filesystem::path home();
 /// The folder of this person's own profiles: $XDG_CONFIG_HOME/starbow/profiles, or ~/.config/starbow/profiles.
 std::filesystem::path own_profiles();
 
-/// The shipped profiles, then the person's own, then those in the exhibit's folder if it names one; of two for the same
-/// device the later counts. Throws InputError for a wrong one, and for a missing folder of the exhibit's.
+/// The shipped profiles, then the person's own, then those in the exhibit's folder if it names one. Of two for the same
+/// device the later has precedence. Throws InputError for a wrong profile, and for a missing folder of the exhibit's.
 std::vector<Profile> known_profiles(const std::filesystem::path& exhibits = {});
 
 /// A config file by path, or by the name of a shipped one: find("layouts", "dome") is config/layouts/dome.json.

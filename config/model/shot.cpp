@@ -7,7 +7,7 @@ namespace {
 
 constexpr double most_gamma = 1e9;
 
-/// Unit length, also where the squares of the components overflow or vanish. Zero stays zero.
+/// Normalises a vector, also where the squares of the components overflow or underflow. Zero stays zero.
 glm::dvec3 unit(const glm::dvec3& v)
 {
     const glm::dvec3 size = glm::abs(v);
@@ -23,7 +23,7 @@ glm::dvec3 read_direction(const Place& place)
     return direction;
 }
 
-/// gamma beta, from whichever of the three the file gives; each form without cancellation.
+/// gamma beta from the one of the three that the file has; each form is free of cancellation.
 double read_proper_speed(const Place& place)
 {
     const auto gamma = find_member(place, "gamma"), beta = find_member(place, "beta"),

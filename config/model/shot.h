@@ -11,8 +11,8 @@ namespace starbow {
 enum class Comparison { none, galilean, no_light_delay };
 constexpr std::array<const char*, 3> comparison_names = {"none", "galilean", "no-light-delay"};
 
-/// The paper's switches. Without aberration directions are the world's, without Doppler colours are as at rest, without
-/// headlight there is no D^3.
+/// The effects' switches, as in the paper "Real Time Relativity". Without aberration directions are the world's, without
+/// Doppler colours are as at rest, without headlight there is no D^3.
 struct Effects {
     bool aberration = true;
     bool doppler = true;

@@ -15,7 +15,7 @@ struct Reader {
     const FindShot& find_shot;
     const Tour& tour;
 
-    /// A key of the words, or the text itself in some languages.
+    /// Reads a key of the words, or the text itself in some languages.
     std::string read_text(const Place& place) const
     {
         if (place.json->is_string()) {
@@ -40,20 +40,20 @@ struct Reader {
 
     Measure read_measure(const Place& place) const
     {
-        reject_unknown_members(place, {"what", "at", "against"});
+        reject_unknown_members(place, {"quantity", "at", "relative_to"});
         Measure measure;
-        measure.what = chosen(member(place, "what"), measures);
-        const auto at = find_member(place, "at"), against = find_member(place, "against");
-        if (has_place(measure.what))
+        measure.quantity = chosen(member(place, "quantity"), measures);
+        const auto at = find_member(place, "at"), relative_to = find_member(place, "relative_to");
+        if (has_place(measure.quantity))
             measure.at = vec3(member(place, "at"), any_place);
-        else if (at || against)
-            complain(at ? *at : *against, "is a place too many: this is measured on the ship alone; none is right");
-        if (against)
-            measure.against = vec3(*against, any_place);
+        else if (at || relative_to)
+            complain(at ? *at : *relative_to, "is a place too many: this is measured on the ship alone; none is right");
+        if (relative_to)
+            measure.relative_to = vec3(*relative_to, any_place);
         return measure;
     }
 
-    /// The caption's {measured} and its measure belong together.
+    /// Throws if a caption has {measured} without a measure, or another placeholder.
     void check_measured(const Place& place, const std::string& text, bool is_measured) const
     {
         for (const std::string& name : placeholders(text))

@@ -12,9 +12,9 @@
 
 namespace starbow {
 
-/// A number that follows from the ship's state. `at`: a place at rest in the world, scene units.
+/// A number that follows from the ship's state.
 struct Measure {
-    enum class What {
+    enum class Quantity {
         gamma,
         beta,
         rapidity,
@@ -29,20 +29,22 @@ struct Measure {
         now_s, ///< that clock's reading at the ship's present, in the ship's frame, seconds
         own_colour_deg, ///< angle from the motion at which D is 1
     };
-    What what = What::gamma;
-    glm::dvec3 at{0};
-    std::optional<glm::dvec3> against; ///< subtracts the same at this place
+    Quantity quantity = Quantity::gamma;
+    glm::dvec3 at{0}; ///< a place at rest in the world, scene units
+    std::optional<glm::dvec3> relative_to; ///< the quantity at this place is subtracted
 };
-inline const std::vector<std::pair<std::string_view, Measure::What>> measures{{"gamma", Measure::What::gamma},
-    {"beta", Measure::What::beta}, {"rapidity", Measure::What::rapidity}, {"ship_s", Measure::What::ship_s},
-    {"world_s", Measure::What::world_s}, {"distance", Measure::What::distance}, {"angle_deg", Measure::What::angle_deg},
-    {"doppler", Measure::What::doppler}, {"doppler_ahead", Measure::What::doppler_ahead}, {"size", Measure::What::size},
-    {"reading_s", Measure::What::reading_s}, {"now_s", Measure::What::now_s},
-    {"own_colour_deg", Measure::What::own_colour_deg}};
-constexpr bool has_place(Measure::What what)
+inline const std::vector<std::pair<std::string_view, Measure::Quantity>> measures{{"gamma", Measure::Quantity::gamma},
+    {"beta", Measure::Quantity::beta}, {"rapidity", Measure::Quantity::rapidity}, {"ship_s", Measure::Quantity::ship_s},
+    {"world_s", Measure::Quantity::world_s}, {"distance", Measure::Quantity::distance},
+    {"angle_deg", Measure::Quantity::angle_deg}, {"doppler", Measure::Quantity::doppler},
+    {"doppler_ahead", Measure::Quantity::doppler_ahead}, {"size", Measure::Quantity::size},
+    {"reading_s", Measure::Quantity::reading_s}, {"now_s", Measure::Quantity::now_s},
+    {"own_colour_deg", Measure::Quantity::own_colour_deg}};
+constexpr bool has_place(Measure::Quantity quantity)
 {
-    using enum Measure::What;
-    return what == distance || what == angle_deg || what == doppler || what == size || what == reading_s || what == now_s;
+    using enum Measure::Quantity;
+    return quantity == distance || quantity == angle_deg || quantity == doppler || quantity == size || quantity == reading_s
+        || quantity == now_s;
 }
 
 /// A choice is right where the measured number is at least `from` and below `below`.
@@ -59,7 +61,7 @@ struct PlaceToReach {
     double from, to;
 };
 struct Question {
-    std::string ask, explanation; ///< explanation: of the answer, shown after any answer; {measured} stands for the number
+    std::string ask, explanation; ///< explanation: shown after any answer; {measured} stands for the number
     Measure measure;
     std::variant<std::vector<Choice>, NumberToSet, PlaceToReach> answer;
     double explanation_s = 8; ///< the time for which the explanation is shown
@@ -70,15 +72,15 @@ struct Cut {
     Shot shot;
 };
 /// A camera's path, not a ship's. It leads from the last step's end to a place, a velocity and a view, without a jerk at
-/// either end. The velocity goes along the straight line between the two in velocity space. Members that are not given
-/// stay. The world's time goes on by gamma for each second of the ship's, or to `time`.
+/// either end. The velocity moves along the geodesic of velocity space. Missing members stay. The world's time advances
+/// by gamma for each second of the ship's, or to `time`.
 struct Glide {
     std::optional<glm::dvec3> position, u;
     std::optional<glm::dquat> ship_from_cockpit;
     std::optional<double> time;
 };
-/// Constant proper acceleration, rapidity per second of the ship's, along the nose as it stands or along a direction among
-/// the ship's axes.
+/// Constant proper acceleration, rapidity per second of the ship's, along the nose or along a direction among the ship's
+/// axes.
 struct Thrust {
     double rapidity_per_s;
     std::optional<glm::dvec3> towards;
@@ -96,8 +98,9 @@ struct Try {
 
 struct Step {
     double seconds; ///< of the visitor's time
-    double ship_s_per_s = 1; ///< seconds of the ship's in each of them: slow and fast motion; 0: time stands still
-    glm::dvec2 ease_s{0}; ///< durations in which the ship's time gets going at the step's beginning, and stops at its end
+    double ship_s_per_s
+        = 1; ///< seconds of the ship's per second of the visitor's: slow and fast motion; 0: time stands still
+    glm::dvec2 ease_s{0}; ///< durations in which the ship's time starts at the step's beginning and stops at its end
     std::variant<Coast, Cut, Glide, Thrust, Turning, Try> motion;
     std::string caption; ///< or empty
     std::optional<Measure> measure; ///< the value of {measured} in the caption

@@ -8,7 +8,7 @@ namespace starbow {
 Turn turn_of(const glm::dmat3& axes)
 {
     const glm::dvec3 ahead = -axes[2];
-    // The picture's upper edge gives the azimuth where the view goes straight up or down.
+    // If the view is straight up or down, the picture's upper edge gives the azimuth.
     const bool level = std::hypot(ahead.x, ahead.z) > 1e-9;
     const double yaw = level ? std::atan2(ahead.x, -ahead.z) : std::atan2(-ahead.y * axes[1].x, ahead.y * axes[1].z);
     const glm::dvec3 right(std::cos(yaw), 0, std::sin(yaw));
@@ -27,7 +27,8 @@ glm::dmat3 cockpit_from_picture(const Turn& turn)
     const auto cosine = [](double deg) { return std::cos(glm::radians(deg)); };
     const double cy = cosine(turn.yaw_deg), sy = sine(turn.yaw_deg), cp = cosine(turn.pitch_deg), sp = sine(turn.pitch_deg);
     const double cr = cosine(turn.roll_deg), sr = sine(turn.roll_deg);
-    // Columns: where x, y and z go. Turns count from -z to the right, from -z up, from up to the right.
+    // The columns are the images of x, y and z. Positive turns go from -z to the right, from -z up, and from up to the
+    // right.
     const glm::dmat3 yaw{{cy, 0, sy}, {0, 1, 0}, {-sy, 0, cy}};
     const glm::dmat3 pitch{{1, 0, 0}, {0, cp, sp}, {0, -sp, cp}};
     const glm::dmat3 roll{{cr, -sr, 0}, {sr, cr, 0}, {0, 0, 1}};

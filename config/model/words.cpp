@@ -7,7 +7,7 @@
 namespace starbow {
 namespace {
 
-/// The beginning of the tours' keys, which the tours define.
+/// The prefix of the tours' keys, which the tours define.
 constexpr std::string_view of_tours = "tour.";
 
 struct Known {
@@ -15,7 +15,7 @@ struct Known {
     std::vector<std::string_view> placeholders{};
 };
 
-/// Every text of the program. A new one goes into each file in config/words too.
+/// Every text of the program. A new one belongs in each file of config/words too.
 const std::vector<Known> known{
     {"decimal_sign"},
     {"hud.speed"},

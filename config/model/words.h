@@ -11,8 +11,8 @@ namespace starbow {
 /// All visitors' texts in one language, by key. Log lines, errors and --help are English.
 class Words {
 public:
-    /// The text of a known key with its placeholders filled: words("hud.ev", {{"ev", "+1.0"}}) is "+1.0 EV". An unknown key
-    /// is a fault of the program, and ends it.
+    /// The text of a known key with its placeholders filled: words("hud.ev", {{"ev", "+1.0"}}) is "+1.0 EV". An unknown
+    /// key is a programming error and ends the program.
     std::string operator()(
         std::string_view key, const std::vector<std::pair<std::string_view, std::string>>& with = {}) const;
 

@@ -18,7 +18,7 @@ Shows shows(const Picture& picture)
     };
 }
 
-/// The directions of a view, from its points on a mesh over the picture: triangles, by the cell of the sphere.
+/// The directions of a view at the points of a mesh over the picture: triangles, sorted by the cell of the sphere.
 class Patch {
 public:
     Patch(const std::function<std::optional<glm::dvec3>(glm::dvec2)>& sight, glm::ivec2 size)
@@ -26,7 +26,7 @@ public:
         const glm::ivec2 steps = glm::min(size, glm::ivec2(256));
         std::vector<std::optional<glm::dvec3>> points;
         for (int y = 0; y <= steps.y; ++y)
-            for (int x = 0; x <= steps.x; ++x) // a hair inside, where the picture is still sure of itself
+            for (int x = 0; x <= steps.x; ++x) // slightly inside the edge, where the projection is defined
                 points.push_back(sight(glm::clamp(
                     glm::dvec2(x, y) / glm::dvec2(steps) * glm::dvec2(size), glm::dvec2(1e-6), glm::dvec2(size) - 1e-6)));
         const auto at = [&](int x, int y) { return points[y * (steps.x + 1) + x]; };
@@ -64,7 +64,7 @@ private:
         const double side = std::max({glm::distance(*a, *b), glm::distance(*b, *c), glm::distance(*c, *a)});
         if (!(side < widest))
             return;
-        // Every bin within the bounding cone about the first corner that holds the others.
+        // All bins within the cone about the first corner that encloses the others.
         const glm::dvec2 at = azimuth_elevation_deg(*a);
         const double reach = 2 * glm::degrees(std::asin(side / 2)) + 1e-9, top = std::abs(at.y) + reach;
         const double aside = top < 90
@@ -82,8 +82,8 @@ private:
     std::vector<std::vector<int>> bins_ = std::vector<std::vector<int>>(std::size_t(columns) * rows);
 };
 
-/// The outlines of the shown cells, by marching squares: every edge between a shown cell and one beside it that is not
-/// shown is halved until the crossing is known.
+/// The outlines of the shown cells, by marching squares. Each edge between a shown and an unshown cell is bisected to
+/// find the crossing.
 class Tracer {
 public:
     Tracer(const std::vector<bool>& cells, const Shows& shows)
@@ -94,14 +94,14 @@ public:
 
     std::vector<std::vector<glm::dvec2>> outlines()
     {
-        // Corners of a square in turn, and the ways between them. Around the map lies a ring of cells that show nothing.
+        // The corners of a square in turn, and the paths between them. A ring of unshown cells surrounds the map.
         for (int y = -1; y < lattice_rows; ++y)
             for (int x = -1; x < lattice_columns; ++x) {
                 const glm::ivec2 corners[]{{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}};
                 for (int i = 0; i < 4; ++i) {
                     if (!in(corners[i]) || in(corners[(i + 1) % 4]))
                         continue;
-                    int j = (i + 1) % 4; // where the walk around the square comes in again
+                    int j = (i + 1) % 4; // where the path enters the square again
                     while (in(corners[j]) || !in(corners[(j + 1) % 4]))
                         j = (j + 1) % 4;
                     next_[crossing(corners[i], corners[(i + 1) % 4])] = crossing(corners[j], corners[(j + 1) % 4]);
@@ -128,7 +128,7 @@ private:
             && cells_[std::size_t(cell.y) * lattice_columns + cell.x];
     }
 
-    /// The index of the edge between two neighbours, and on the first call the point where the shown part ends.
+    /// The index of the edge between two neighbours. The first call computes the point where the shown part ends.
     int crossing(glm::ivec2 a, glm::ivec2 b)
     {
         const glm::ivec2 low = glm::min(a, b) + 1;
@@ -148,7 +148,7 @@ private:
         return name;
     }
 
-    /// Without the points that lie on the line between their neighbours, to 0.005 degrees.
+    /// Removes points that lie on the line between their neighbours, to 0.005 degrees.
     static std::vector<glm::dvec2> plain(const std::vector<glm::dvec2>& loop)
     {
         std::vector<glm::dvec2> kept;
@@ -172,7 +172,7 @@ private:
     std::unordered_map<int, glm::dvec2> points_;
 };
 
-/// The smallest arc that holds every column with something in it; its ends from the outlines.
+/// The smallest arc that contains every column with a shown cell; the outlines give its ends.
 std::optional<glm::dvec2> azimuths(const Coverage& coverage)
 {
     std::vector<double> all;
@@ -230,7 +230,7 @@ void measure_pixels(Coverage& coverage, const std::function<double(glm::dvec2)>&
         }
 }
 
-/// The picture that an eye sees of an output, before it is squeezed.
+/// The size of an eye's picture of an output, before the packing squeezes it.
 glm::ivec2 eye_picture(const Output& output)
 {
     if (output.packing == Packing::side_by_side)

@@ -7,8 +7,8 @@
 
 namespace starbow {
 
-/// The unit direction that a point of a viewport with a warp file shows, the viewport's top left being (0, 0); nullopt
-/// where nothing is shown. The projection alone lacks the warp.
+/// The unit direction that a point of a warped viewport shows, counted from the viewport's top left; nullopt where
+/// nothing is shown. The projection alone lacks the warp.
 using ViewRegion = std::function<std::optional<glm::dvec3>(const Output&, const Viewport&, glm::dvec2 pixel)>;
 
 /// The part of the sky that one viewport shows to one eye.

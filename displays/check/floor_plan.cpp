@@ -10,7 +10,7 @@
 namespace starbow {
 namespace {
 
-/// Distinct for people with any colour vision (Okabe and Ito 2008), then repeated.
+/// Colours that are distinct for people with any colour vision (Okabe and Ito 2008), then repeated.
 constexpr std::array colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#a07800", "#3a9bd9", "#7a4fa3", "#555555"};
 const char* colour_of(int output) { return colours[std::size_t(output) % colours.size()]; }
 
@@ -48,7 +48,7 @@ std::size_t letters(const std::string& text)
     return std::size_t(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; })); // of UTF-8
 }
 
-/// A text's width, a little more than fonts without serifs take.
+/// An upper estimate of a text's width in fonts without serifs.
 double width_of(const std::string& text, double size) { return double(letters(text)) * size * 0.56; }
 double bold_width(const std::string& text, double size) { return double(letters(text)) * size * 0.69; }
 
@@ -57,7 +57,7 @@ std::string shortened(const std::string& text, std::size_t most)
     return text.size() <= most ? text : text.substr(0, most - 1) + "…"; // names are ASCII
 }
 
-/// Lines of at most `width`, broken between words, and within them where one is too long.
+/// Breaks a text into lines of at most `width`, between words, and within words that are too long.
 std::vector<std::string> wrapped(const std::string& text, double width, double size)
 {
     const auto fits = [&](const std::string& line) { return width_of(line, size) <= width; };
@@ -117,7 +117,7 @@ struct Svg {
 
     void heading(glm::dvec2 at, const std::string& words) { write(at, words, 17, "font-weight=\"bold\""); }
 
-    /// Words in the middle of `at` on a light ground, kept clear of what is below.
+    /// Writes a label centred at `at`, on a light ground that hides what is below.
     void label(glm::dvec2 at, const std::string& words, double size, const char* colour)
     {
         const glm::dvec2 half(bold_width(words, size) / 2 + 3, size * 0.72);
@@ -134,7 +134,7 @@ Box around(glm::dvec2 at, const std::string& words, double size)
     return {at - half, at + half};
 }
 
-/// A map of the sky: straight ahead in the middle, a degree as long across as up.
+/// A map of the sky: straight ahead is in the middle, and degrees have the same length across and up.
 class Map {
 public:
     Map(Svg& svg, const Layout& layout, const std::vector<Coverage>& all, Eye eye, double top, int number)
@@ -198,7 +198,7 @@ private:
             svg_.add("Z");
         }
         svg_.add("\"/>\n");
-        // Along the map's edge what is shown goes on behind it: no line there.
+        // Along the map's edge the shown part continues at the other side: no line there.
         svg_.add("<path fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\" stroke-linejoin=\"round\" d=\"", colour);
         for (const auto& outline : coverage.outlines)
             for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -230,8 +230,7 @@ private:
             && coverage.cells[std::size_t(cell.y) * lattice_columns + cell.x];
     }
 
-    /// Puts the name where it fits best into the shown part: beside the other names, where few other views are shown, and
-    /// not far from the middle.
+    /// Places the name in the shown part: apart from other names, where few other views are shown, and near the middle.
     void name(const Coverage& coverage)
     {
         const std::string words = shortened(viewport_name(layout_, coverage.output, coverage.viewport), 20);
@@ -245,7 +244,7 @@ private:
                     candidates.push_back(deg);
                     sum += direction_of(deg) * std::cos(glm::radians(deg.y));
                 }
-        if (candidates.empty() && coverage.looks) { // too small for the lattice
+        if (candidates.empty() && coverage.looks) { // the part is too small for the lattice
             const glm::dvec2 spot = at(azimuth_elevation_deg(*coverage.looks));
             svg_.circle(spot, 4, (std::string("fill=\"none\" stroke-width=\"1.8\" stroke=\"") + colour + "\"").c_str());
             svg_.label(spot + glm::dvec2(0, spot.y > top_ + 40 ? -18 : 18), words, size, colour);
@@ -287,7 +286,7 @@ private:
     std::vector<Box> taken_;
 };
 
-/// The parts of an output that show eyes' pictures, as fractions of it, with their eyes.
+/// A part of an output that shows an eye's picture, as fractions of the output.
 struct Part {
     Box box;
     Eye eye;
@@ -309,7 +308,7 @@ std::vector<Part> parts(Packing packing)
 
 const char* eye_letter(Eye eye) { return eye == Eye::left ? "L" : eye == Eye::right ? "R" : ""; }
 
-/// One output as a rectangle with its viewports in `box`; returns where it ends.
+/// Draws one output as a rectangle with its viewports into `box`; returns its lower end.
 double draw_output(Svg& svg, const Layout& layout, int number, const Box& box)
 {
     const Output& output = layout.outputs[number];
@@ -381,7 +380,7 @@ double draw_outputs(Svg& svg, const Layout& layout, double top)
     return y;
 }
 
-/// The room from above: ahead is up.
+/// Draws the room from above; ahead is up.
 class Room {
 public:
     Room(const Layout& layout, Svg& svg)
@@ -512,7 +511,7 @@ private:
         return text;
     }
 
-    /// A label at the place, or the nearest one up and down from it that is free.
+    /// Puts a label at the place, or at the nearest free one above or below it.
     void name(glm::dvec2 place, const std::string& words, const char* colour)
     {
         const double half = bold_width(words, 12) / 2 + 6;

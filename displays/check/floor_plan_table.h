@@ -3,7 +3,7 @@
 
 namespace starbow {
 
-/// A coverage in words, for people who build exhibits.
+/// A coverage as a row of text, for exhibit builders.
 struct FloorPlanRow {
     int output; ///< in the layout
     std::string name; ///< "wall", or "wall/1" where the output has several viewports; with two eyes it names the eye
@@ -17,8 +17,8 @@ struct FloorPlanRow {
 /// A row for each coverage of the layout; a viewport that shows both eyes alike has one row for both.
 std::vector<FloorPlanRow> floor_plan_rows(const Layout& layout, const std::vector<Coverage>& coverages);
 
-/// A line for each two coverages of one eye that share more than a thousandth of either, most first; one line for both eyes
-/// where both read the same.
+/// A line for each pair of coverages of one eye that share more than a thousandth of either, largest first. Equal lines
+/// of both eyes are merged.
 std::vector<std::string> overlap_lines(const Layout& layout, const std::vector<Coverage>& coverages);
 
 std::string viewport_name(const Layout& layout, int output, int viewport);

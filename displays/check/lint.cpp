@@ -6,9 +6,9 @@
 namespace starbow {
 namespace {
 
-/// Larger than any screen, and than any exhibit's room.
+/// Longer than any screen and any exhibit's room.
 constexpr double huge_m = 100;
-/// Narrower than any display, in degrees; a half turn in radians is about as much.
+/// Narrower than any display, in degrees. Half a turn in radians is about as much.
 constexpr double narrow_deg = 3.5;
 
 std::string rounded(double number) { return short_number(number); }
@@ -50,7 +50,7 @@ bool lit(const std::vector<Coverage>& coverages, const Layout& layout, double az
     });
 }
 
-/// The part of the panel that some viewport shows, of 1. Roughly: as if it lay on a sphere.
+/// The approximate share of the panel that some viewport shows, as if the panel lay on a sphere.
 double panel_seen(const Layout& layout, const std::vector<Coverage>& coverages)
 {
     constexpr int across = 12, high = 4;
@@ -80,7 +80,7 @@ std::vector<std::string> lint(const Layout& layout, const std::vector<Coverage>&
 {
     std::vector<std::string> all;
     auto doubt = [&](std::string line) {
-        if (std::find(all.begin(), all.end(), line) == all.end()) // each eye has its coverage
+        if (std::find(all.begin(), all.end(), line) == all.end()) // each eye has a coverage of its own
             all.push_back(std::move(line));
     };
     for (const Coverage& c : coverages) {
@@ -89,7 +89,7 @@ std::vector<std::string> lint(const Layout& layout, const std::vector<Coverage>&
         if (const std::string odd = odd_size(viewport); !odd.empty())
             doubt(name + ": " + odd);
         if (auto* wall = std::get_if<Wall>(&viewport.projection); wall && !viewport.warp) {
-            // In a squeezed packing, the eye's picture has the output's shape all the same.
+            // In a squeezed packing too, the eye's picture has the output's shape.
             const glm::ivec2 size = layout.outputs[c.output].size;
             const glm::dvec2 pixels = glm::dvec2(size) * glm::dvec2(viewport.rect.z, viewport.rect.w);
             const Packing packing = layout.outputs[c.output].packing;

@@ -3,8 +3,8 @@
 
 namespace starbow {
 
-/// Warnings of possible and hardly intended values, a line each: millimetres for metres, radians for degrees, pixels that
-/// are not square, light twice on one place, a head-up display that no one sees.
+/// Warnings of legal but probably unintended values, one line each: millimetres for metres, radians for degrees, pixels
+/// that are not square, light twice on one place, a head-up display that is not seen.
 std::vector<std::string> lint(const Layout& layout, const std::vector<Coverage>& coverages);
 
 } // namespace starbow

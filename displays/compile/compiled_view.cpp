@@ -11,10 +11,10 @@
 namespace starbow {
 namespace {
 
-/// A new number for every change of compiled maps.
+/// The version of compiled maps; every change of their content needs a new one.
 constexpr std::uint64_t version = 1;
 
-/// FNV-1a, 64 bits: names files of our own making, guards against nothing.
+/// FNV-1a, 64 bits: it names our own files and offers no protection.
 struct Hash {
     std::uint64_t value = 14695981039346656037u;
     void add(const void* data, std::size_t size)
@@ -113,10 +113,10 @@ std::string contents(const std::filesystem::path& file)
 struct Header {
     char magic[8] = {'S', 't', 'a', 'r', 'b', 'o', 'w', 'M'};
     std::int32_t width = 0, height = 0, channels = 0, intensities = 0;
-    std::uint64_t hash = 0; ///< of the following bytes: a damaged file is not used
+    std::uint64_t hash = 0; ///< of the following bytes; a damaged file is rejected
 };
 
-/// A hash of every word, so that no single fault passes; in four chains side by side, which is as fast as memory.
+/// Hashes every word, so that every single fault is detected. Four parallel chains are as fast as memory.
 std::uint64_t content_hash(const DirectionMap& map)
 {
     std::array<Hash, 4> lanes;
@@ -156,7 +156,8 @@ std::shared_ptr<DirectionMap> read_map(const std::filesystem::path& file, const 
     if (!stream || content_hash(*map) != header.hash)
         return {};
     std::error_code ignored;
-    std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), ignored); // read just now
+    std::filesystem::last_write_time(
+        file, std::filesystem::file_time_type::clock::now(), ignored); // marks the file as just read
     return map;
 }
 
@@ -179,7 +180,8 @@ void make_room(const std::filesystem::path& folder)
         }
 }
 
-/// Writes beside and renames, so that several exhibits may share the folder. A full disk only costs time.
+/// Writes a temporary file and renames it, so that several exhibits may share the folder. A full disk only makes starts
+/// slower.
 void write_map(const std::filesystem::path& file, const DirectionMap& map)
 {
     std::error_code error;
@@ -241,7 +243,7 @@ std::shared_ptr<const WarpMesh> MapStore::mesh(const Warp& warp, std::string& co
 {
     content = warp.region + '\n' + (warp.first_row_on_top ? "top" : "bottom") + '\n' + warp.file.filename().string() + '\n'
         + contents(warp.file);
-    // domeprojection's second file may be named or found beside the first; its content counts either way.
+    // domeprojection's second file is named or found beside the first; its content is a part of the key in both cases.
     std::filesystem::path beside = warp.frustum;
     if (beside.empty()) {
         std::string name = warp.file.string();
@@ -261,7 +263,7 @@ std::shared_ptr<const DirectionMap> MapStore::map(const View& view, const WarpMe
     std::weak_ptr<const DirectionMap>& kept = kept_->maps[key];
     if (auto map = kept.lock())
         return map;
-    // A small map is made faster than found.
+    // A small map is compiled faster than it is read.
     const bool on_disk = !folder_.empty() && std::size_t(view.size.x) * view.size.y > (1u << 18);
     const std::filesystem::path file = folder_ / (key + ".map");
     std::shared_ptr<DirectionMap> map = on_disk ? read_map(file, view) : nullptr;

@@ -4,7 +4,7 @@
 
 namespace starbow {
 
-/// A view in the form that the device reads: a matrix where its directions are linear in the pixel, else a map.
+/// A view in the device's form: a matrix if its directions are linear in the pixel, otherwise a map.
 struct CompiledView {
     View view;
     std::optional<glm::dmat3> matrix; ///< direction = M (x, y, 1), pixels from the view's corner
@@ -15,19 +15,19 @@ struct CompiledView {
     int channels() const { return map ? map->channels : 1; }
 };
 
-/// The folder that keeps compiled maps across starts: STARBOW_CACHE, else starbow in XDG_CACHE_HOME or ~/.cache. Empty where none
-/// of these is set: then they are kept in memory only.
+/// The folder of compiled maps: STARBOW_CACHE, else starbow in XDG_CACHE_HOME or ~/.cache. Empty where none of these is
+/// set; maps are then kept in memory only.
 std::filesystem::path map_cache_folder();
 
-/// Compiled maps by content: the view's projection, its size, the bytes of its warp file. They are kept in memory while
-/// someone holds them, and in a folder across starts (map_cache_folder); an
-/// unusable folder only costs time. The folder is kept under 4 GiB; the maps that were read longest ago go first.
+/// Compiled maps by content: the view's projection, its size, the bytes of its warp file. They stay in memory while they
+/// are in use, and in map_cache_folder across starts. An unusable folder only makes starts slower. The folder is kept
+/// under 4 GiB; the maps that were read longest ago are deleted first.
 class MapStore {
 public:
     MapStore();
     explicit MapStore(std::filesystem::path folder); ///< empty: memory only
 
-    /// False: new maps don't go to the folder, as while a builder turns a dome's tilt.
+    /// False: new maps are not written to the folder, for example while a builder changes a dome's tilt.
     void keep(bool on_disk) { keep_ = on_disk; }
     /// True: views whose directions are linear in the pixel get a matrix; false: they get a map too.
     void matrices(bool on) { matrices_ = on; }

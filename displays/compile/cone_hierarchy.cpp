@@ -5,7 +5,7 @@
 namespace starbow {
 namespace {
 
-/// Accurate for small angles and for opposite directions, where an arc cosine in float is not.
+/// The angle between unit vectors, accurate for small angles and for opposite directions, unlike an arc cosine in float.
 float angle(const glm::vec3& a, const glm::vec3& b)
 {
     if (glm::dot(a, b) < 0)
@@ -13,7 +13,7 @@ float angle(const glm::vec3& a, const glm::vec3& b)
     return 2 * std::asin(std::min(1.0f, 0.5f * glm::distance(a, b)));
 }
 
-/// Rounding in float, with room.
+/// An upper bound of float rounding.
 constexpr float slack = 1e-6f;
 
 BoundingCone around(const BoundingCone* const* parts, int count)
@@ -21,7 +21,7 @@ BoundingCone around(const BoundingCone* const* parts, int count)
     glm::vec3 sum(0);
     for (int i = 0; i < count; ++i)
         sum += parts[i]->centre;
-    // Opposite directions may cancel: any centre will do for a cone that is nearly the sphere.
+    // Opposite directions may cancel. Any centre serves for a cone that is nearly the sphere.
     BoundingCone cap = *parts[0];
     cap.centre = glm::length(sum) > 1e-3f ? glm::normalize(sum) : parts[0]->centre;
     cap.radius = 0;
@@ -113,7 +113,7 @@ BoundingCone ConeHierarchy::flat_cone(glm::ivec2 low, glm::ivec2 high) const
     auto at = [&](const glm::dvec2& p) { return *flat_ * glm::dvec3(p, 1); };
     const glm::dvec3 corners[4] = {at(first), at({last.x, first.y}), at({first.x, last.y}), at(last)};
     BoundingCone cap;
-    // Less than half a sphere is convex: the rectangle lies within any cone that holds its corners.
+    // A cone of less than half a sphere is convex: if it contains the corners, it contains the rectangle.
     cap.centre = glm::normalize(at(0.5 * (first + last)));
     double farthest = 0, chord_square = 0;
     const glm::dvec3 centre(cap.centre);
@@ -140,7 +140,7 @@ BoundingCone ConeHierarchy::cone(int level, glm::ivec2 block) const
 
 namespace {
 
-/// Looks through a block for the pixel that comes nearest to a direction.
+/// Searches a block for the pixel nearest to a direction.
 struct Search {
     const DirectionMap& map;
     const ConeHierarchy& cones;
@@ -177,7 +177,7 @@ std::optional<glm::dvec2> find_pixel(const DirectionMap& map, const ConeHierarch
     search.block(0, {0, 0});
     if (search.best.x < 0)
         return {};
-    // The search goes on from there along the picture's own steps, one-sided where a neighbour shows nothing.
+    // The search continues from there along the picture's own steps, one-sided where a neighbour shows nothing.
     const glm::ivec2 p = search.best;
     const glm::dvec3 here = map.at(p.x, p.y);
     auto step = [&](glm::ivec2 way) {

@@ -12,11 +12,11 @@ struct BoundingCone {
     bool empty() const { return radius < 0; }
 };
 
-/// The bounding cones of a view's pixels in square blocks, as a quadtree: the demand of a view is found without a look at
-/// each pixel. Level 0 is one block; each level halves the side.
+/// The bounding cones of square blocks of a view's pixels, as a quadtree. The demand of a view then follows without a
+/// visit to each pixel. Level 0 is one block; each level halves the side.
 class ConeHierarchy {
 public:
-    /// From a map: the leaves have 8 x 8 pixels and bound all of them.
+    /// From a map: the leaves have 8 x 8 pixels and enclose all of them.
     explicit ConeHierarchy(const DirectionMap& map);
     /// From a flat picture, direction = M (x, y, 1): cones are computed on request, down to single pixels. M's first two
     /// columns are perpendicular.
@@ -40,8 +40,8 @@ private:
     double unit_ = 0; ///< square root of M's determinant
 };
 
-/// The point, in pixels, at which a map (its first channel) shows a direction; nullopt where it does not. Directions are
-/// taken as linear between pixels: accurate to a hundredth of a pixel for any smooth picture.
+/// The point, in pixels, at which a map (its first channel) shows a direction; nullopt if it does not show it. Directions
+/// are treated as linear between pixels: accurate to a hundredth of a pixel for any smooth picture.
 std::optional<glm::dvec2> find_pixel(const DirectionMap& map, const ConeHierarchy& cones, const glm::dvec3& direction);
 
 /// A box around all pixels that may look into a pyramid from the eye, and the finest pixel angle among them. The box goes

@@ -48,7 +48,7 @@ struct Warped {
     }
 };
 
-/// A step of the picture at a pixel along x or y, from its neighbours that show something; 0 where none does.
+/// The picture's step at a pixel along x or y, from its neighbours that show something; 0 without any.
 glm::vec3 step(const DirectionMap& map, int x, int y, int channel, glm::ivec2 way)
 {
     const glm::vec4& here = map.at(x, y, channel);
@@ -64,7 +64,7 @@ glm::vec3 step(const DirectionMap& map, int x, int y, int channel, glm::ivec2 wa
     return count > 0 ? sum / float(count) : sum;
 }
 
-/// warped: the angle is not known yet; else it is only compared, against slivers.
+/// Computes pixel angles. warped: the angle is not known yet; otherwise it is only compared, because of slivers.
 void angle_rows(DirectionMap& map, std::vector<float>& angles, bool warped, int channel, int first, int end)
 {
     for (int y = first; y < end; ++y)
@@ -74,13 +74,13 @@ void angle_rows(DirectionMap& map, std::vector<float>& angles, bool warped, int 
                 continue;
             const glm::vec3 across = step(map, x, y, channel, {1, 0}), down = step(map, x, y, channel, {0, 1});
             const float longest = std::max(glm::length(across), glm::length(down));
-            // A warped pixel alone in a hole: as large as the sky, so that it demands nothing.
+            // An isolated warped pixel gets an angle as large as the sky, so that it demands nothing.
             const float own = !warped ? known : longest > 0 ? std::sqrt(glm::length(glm::cross(across, down))) : 1;
             angles[std::size_t(y) * map.size.x + x] = std::max(own, 0.5f * longest);
         }
 }
 
-/// The turn of a measured headset's directions.
+/// The rotation of a measured headset's directions.
 glm::dmat3 turn_of(const Projection& projection)
 {
     if (auto* planar = std::get_if<Planar>(&projection))
@@ -97,7 +97,7 @@ glm::uvec2 packed(const glm::vec4& texel)
     if (n.z < 0)
         at = {std::copysign(1 - std::abs(at.y), at.x), std::copysign(1 - std::abs(at.x), at.y)};
     const glm::uvec2 net(at * double(0x7fffff) + (0x800000 + 0.5));
-    // Rounded to the upper 16 bits; an angle is never so small that they are 0.
+    // The angle is rounded to its upper 16 bits, which are never 0.
     const std::uint32_t angle = (std::bit_cast<std::uint32_t>(texel.w) + 0x8000u) >> 16;
     return {net.x << 8 | (angle & 0xff), net.y << 8 | angle >> 8};
 }
@@ -143,16 +143,13 @@ std::optional<glm::dmat3> view_matrix(const View& view)
     return m;
 }
 
-std::vector<glm::uvec2> packed(const DirectionMap& map)
+void pack_rows(const DirectionMap& map, int channel, int first_row, int rows, std::span<glm::uvec2> to)
 {
-    std::vector<glm::uvec2> all(map.texels.size());
-    const int rows = map.size.y * map.channels;
+    const glm::vec4* from = &map.at(0, first_row, channel);
     by_rows(rows, [&](int first, int end) {
         for (std::size_t i = std::size_t(first) * map.size.x; i < std::size_t(end) * map.size.x; ++i)
-            if (map.texels[i].w > 0)
-                all[i] = packed(map.texels[i]);
+            to[i] = from[i].w > 0 ? packed(from[i]) : glm::uvec2(0);
     });
-    return all;
 }
 
 DirectionMap compile_direction_map(const View& view, const WarpMesh* mesh)

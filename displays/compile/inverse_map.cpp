@@ -6,12 +6,12 @@
 namespace starbow {
 namespace {
 
-constexpr double pixels_per_cell = 16; // few enough that the way to the pixel is nearly straight
+constexpr double pixels_per_cell = 16; // few enough that the path to the pixel is nearly straight
 constexpr int least_side = 8, most_side = 256;
 constexpr int spread = 2; // cells: a star's spot may reach in from beyond the picture's edge
 constexpr int far = 64; // pixels between places that show the same direction
 
-/// The cell of a direction: star.vert's cell_of.
+/// The cell of a direction; the same as star.vert's cell_of.
 glm::ivec2 cell_of(const glm::vec3& n, int side)
 {
     glm::vec2 at = glm::vec2(n) / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
@@ -20,7 +20,7 @@ glm::ivec2 cell_of(const glm::vec3& n, int side)
     return glm::clamp(glm::ivec2((at * 0.5f + 0.5f) * float(side)), glm::ivec2(0), glm::ivec2(side - 1));
 }
 
-/// The cell at a place of the net, whose edges are folded together, each half onto its other.
+/// The cell at a place of the octahedron's net, whose edges are folded together.
 glm::ivec2 folded(glm::ivec2 cell, int side)
 {
     if (cell.x < 0 || cell.x >= side)
@@ -52,7 +52,7 @@ InverseMap inverse(const DirectionMap& map)
     for (std::size_t i = 0; i < map.texels.size(); i += 7)
         if (map.texels[i].w > 0)
             angles.push_back(map.texels[i].w);
-    double pixel = 1; // the middle one: at a seam of the picture they are too large
+    double pixel = 1; // the median, because angles at the picture's seams are too large
     if (!angles.empty()) {
         std::nth_element(angles.begin(), angles.begin() + angles.size() / 2, angles.end());
         pixel = angles[angles.size() / 2];

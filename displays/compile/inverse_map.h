@@ -3,9 +3,9 @@
 
 namespace starbow {
 
-/// Start points of the search in a map for the pixel that shows a direction. The directions' octahedron (as
-/// direction_map.cpp's packed) is divided into cells of a few pixels. Each cell has up to four pixels, far from one
-/// another, that look into it or close by: a panorama's opposite edges show the same direction, and three faces of a cube
+/// Start points of the search for the pixel that shows a direction in a map. The directions' octahedron (as
+/// direction_map.cpp's packed) is divided into cells of a few pixels. Each cell lists up to four pixels, far from one
+/// another, that look into it or close by. A panorama's opposite edges show the same direction, and three faces of a cube
 /// meet in a corner.
 struct InverseMap {
     int side = 0; ///< cells

@@ -36,13 +36,13 @@ void transform(std::vector<double>& f, std::vector<int>& vertex, std::vector<dou
     f = std::move(out);
 }
 
-/// The distance of a view's pixels from where its light must have faded: the part of its edge beyond which another's goes
-/// on. Towards an edge beyond which nothing is lit, a wall's or a dome's rim, no view fades.
+/// The distance of a view's pixels from where its light must have faded: the part of its edge beyond which another view's
+/// light continues. A view does not fade towards an edge beyond which nothing is lit, as a wall's or a dome's rim.
 struct Field {
     const CompiledView* view;
     std::shared_ptr<const DirectionMap> map;
     std::shared_ptr<const ConeHierarchy> cones;
-    std::vector<float> to_fade; ///< from each pixel's centre, radians of an average pixel; with one row of nothing all round
+    std::vector<float> to_fade; ///< from each pixel's centre, radians of an average pixel; with a border of one row of zeros
     float pixel = 0; ///< average pixel angle
 
     bool shows(glm::ivec2 p) const
@@ -51,7 +51,7 @@ struct Field {
     }
     std::size_t index(int x, int y) const { return std::size_t(y + 1) * (map->size.x + 2) + x + 1; }
     float at(int x, int y) const { return to_fade[index(x, y)]; }
-    /// Interpolated between pixels; 0 where the direction is not shown.
+    /// The distance along a direction, interpolated between pixels; 0 if the direction is not shown.
     float along(const glm::dvec3& direction) const
     {
         const auto p = find_pixel(*map, *cones, direction);
@@ -79,11 +79,11 @@ Field field_of(const CompiledView& view)
     return field;
 }
 
-/// Edges that lie on each other count as one, though a calibration has them some pixels apart.
+/// Coinciding edges count as one, although a calibration has them some pixels apart.
 constexpr double beyond_px = 4;
 
-/// The direction, in pixels of length 1, in which the light of the shown pixel p ends beside a pixel `out` from it that
-/// shows nothing: square to the picture's own edge, and to any other as the pixels around draw it.
+/// The unit direction, in pixels, in which the light of the shown pixel p ends towards the unshown neighbour at p + out.
+/// It is perpendicular to the picture's own edge; at other edges the surrounding pixels give it.
 glm::dvec2 outwards(const Field& field, glm::ivec2 p, glm::ivec2 out)
 {
     const glm::ivec2 beside = p + out;
@@ -114,7 +114,7 @@ glm::dvec3 going_on(const Field& field, glm::ivec2 p, const glm::dvec2& way)
     return glm::normalize(to);
 }
 
-/// The places beside a field's pixels where it shows nothing: true where another view lights the directions beyond them.
+/// Marks the unshown places beside a field's pixels beyond which another view's light continues.
 std::vector<char> fades(const Field& own, const std::vector<const Field*>& others)
 {
     std::vector<char> ends(std::size_t(own.map->size.x + 2) * (own.map->size.y + 2), 0);
@@ -141,7 +141,7 @@ void measure(Field& field, const std::vector<const Field*>& others)
 {
     const int width = field.map->size.x + 2, height = field.map->size.y + 2;
     const std::vector<char> ends = fades(field, others);
-    // A picture that covers everything its neighbours light has no such edge: then all of its edge counts.
+    // A picture that covers everything its neighbours light has no such edge; then all its edges count.
     const bool any = std::find(ends.begin(), ends.end(), 1) != ends.end();
     constexpr double far = 1e12;
     std::vector<double> square(ends.size());
@@ -164,17 +164,18 @@ void measure(Field& field, const std::vector<const Field*>& others)
         std::copy(line.begin(), line.end(), square.begin() + std::ptrdiff_t(y) * width);
     }
     field.to_fade.resize(square.size());
-    // The edge lies half way to the first pixel that shows nothing.
+    // The edge is half way to the first unshown pixel.
     std::transform(square.begin(), square.end(), field.to_fade.begin(),
         [&](double away) { return float(std::max(std::sqrt(away) - 0.5, 0.0)) * field.pixel; });
 }
 
-/// The others' fields are looked up at points this many pixels apart, and interpolated between them.
+/// Spacing, in pixels, of the points at which the other views' fields are evaluated; between them values are
+/// interpolated.
 constexpr int stride = 4;
-/// Nearer to an edge than this, each pixel is looked up: there a small error is a large part.
+/// Nearer to an edge than this each pixel is evaluated, because small errors matter there.
 constexpr float sharp = 16;
-/// The same where the field bends by more than this part of itself from node to node: half way between two edges it has a
-/// ridge.
+/// Each pixel is also evaluated where the field bends by more than this part of itself between nodes: half way between
+/// two edges it has a ridge.
 constexpr float bend = 0.01f;
 
 /// True if the field is linear enough around the cell with the node (x, y) at its top left.
@@ -213,7 +214,7 @@ std::vector<float> ramp(const Field& own, const std::vector<const Field*>& other
             continue;
         any = true;
         const float near_own = sharp * own.pixel, near_other = sharp * other->pixel;
-        std::vector<char> exact(count, 0); // cells whose pixels are all looked up
+        std::vector<char> exact(count, 0); // cells whose pixels are all evaluated
         by_rows(nodes.y - 1, [&](int first, int end) {
             for (int y = first; y < end; ++y)
                 for (int x = 0; x + 1 < nodes.x; ++x) {
@@ -234,7 +235,7 @@ std::vector<float> ramp(const Field& own, const std::vector<const Field*>& other
                     const float a = corner[0], b = corner[1], c = corner[nodes.x], d = corner[nodes.x + 1];
                     float value;
                     if (std::max({a, b, c, d}) == 0)
-                        value = 0; // -1, a corner that this view does not show, is not 0
+                        value = 0; // -1 marks a corner that this view does not show
                     else if (exact[std::size_t(j) * nodes.x + i] || own.at(x, y) < near_own)
                         value = std::max(0.0f, look(*other, x, y));
                     else {
@@ -264,7 +265,7 @@ bool has_mask(const Layout& layout, const CompiledView& view)
         || (view.mesh && view.mesh->alpha);
 }
 
-/// True if two views are drawn on the same pixels: then one covers the other. Views side by side may belong to two
+/// True if two views are drawn on the same pixels, so that one covers the other. Views side by side may belong to two
 /// projectors on one desktop.
 bool share_pixels(const View& a, const View& b)
 {

@@ -31,7 +31,7 @@ WarpMesh::Mask read_mask(const std::filesystem::path& file, double gamma)
     return mask;
 }
 
-/// Linear light of a mask at a place in fractions from its top left, values interpolated between the pixels' centres.
+/// The linear light of a mask at a place, fractions from its top left; interpolated between the pixels' centres.
 glm::vec3 light_at(const WarpMesh::Mask& mask, const glm::dvec2& place)
 {
     const glm::dvec2 from = glm::clamp(place * glm::dvec2(mask.size) - 0.5, glm::dvec2(0), glm::dvec2(mask.size - 1));
@@ -62,7 +62,7 @@ Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::s
     };
     for (std::size_t i = 0; i < views.size(); ++i) {
         const View& view = views[i].view;
-        // The first of two pictures on the same pixels stands for both; a preview shows pictures without shading.
+        // Where two canvases share pixels, the first represents both; a preview shows pictures without shading.
         if (view.output != output || view.canvas > 0)
             continue;
         const Viewport& viewport = layout.outputs[output].viewports[view.viewport];

@@ -3,8 +3,8 @@
 
 namespace starbow {
 
-/// The factor and the addend of the light of an output's pixels. Linear light, rows from the top; both empty where nothing
-/// is to be done.
+/// A factor and an addend for the light of an output's pixels. Linear light, rows from the top; both empty where neither
+/// is needed.
 struct Shade {
     glm::ivec2 size{0};
     std::vector<glm::vec3> weight, black;
@@ -16,7 +16,7 @@ struct Shade {
 Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::span<const CompiledView> views,
     std::span<const std::vector<float>> ramps);
 
-/// The factor of the light of all outputs that leaves room above the highest black level of any.
+/// The factor for the light of all outputs that leaves room for the highest black level of any.
 double headroom(std::span<const Shade> shades);
 
 } // namespace starbow

@@ -56,7 +56,7 @@ const Plane* CubeFaceRays::face(glm::dvec2 pixel) const
     const glm::dvec2 at = pixel / cell_;
     const glm::ivec2 after(glm::floor(at)), before = glm::ivec2(glm::ceil(at)) - 1;
     int found = face_in(after);
-    // The right and lower edge of a face beside an empty cell are still the face's.
+    // The right and lower edges of a face beside an empty cell belong to the face.
     if (found < 0)
         found = face_in({before.x, after.y});
     if (found < 0)

@@ -34,7 +34,7 @@ std::optional<glm::dvec2> CylinderRays::pixel(const glm::dvec3& direction) const
 
 double CylinderRays::pixel_angle(glm::dvec2 pixel) const
 {
-    // The wall's area, seen at a slant of cosine 1 / distance, over the distance squared.
+    // The wall's area times the cosine of the incidence, 1 / distance, over the distance squared.
     const double height = top_ - pixel.y * step_.y, distance2 = 1 + height * height;
     return std::sqrt(step_.x * step_.y / (distance2 * std::sqrt(distance2)));
 }

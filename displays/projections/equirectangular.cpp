@@ -7,7 +7,7 @@
 namespace starbow {
 namespace {
 
-/// A little beyond the poles, for rows whose elevation was rounded.
+/// Slack beyond the poles, for rows whose elevation was rounded.
 constexpr double pole_slack = 1e-12;
 
 } // namespace

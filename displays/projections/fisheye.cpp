@@ -7,7 +7,7 @@
 namespace starbow {
 namespace {
 
-/// A little beyond the rim, so that a direction computed for a point on the rim is still found on it.
+/// Slack beyond the rim, so that a direction computed for a point on the rim is found again.
 constexpr double rim_slack = 1e-12;
 
 double g(FisheyeMapping mapping, double angle)
@@ -96,8 +96,8 @@ double FisheyeRays::pixel_angle(glm::dvec2 pixel) const
     // Solid angle / area in units of g = sin(a) / (g g').
     switch (mapping_) {
     case FisheyeMapping::equidistant: {
-        // Where a whole sphere closes, the sine vanishes at the rim though its pixels still show something: there its mean
-        // over the last half pixel replaces it.
+        // In a whole sphere the sine vanishes at the rim, though its pixels still show something. There its mean over the
+        // last half pixel replaces it.
         const double angle = std::min(r * scale_, pi - scale_ / 4);
         const double shrink = angle > 1e-4 ? std::sin(angle) / angle : 1 - angle * angle / 6;
         return scale_ * std::sqrt(std::max(shrink, 0.0));

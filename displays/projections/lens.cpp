@@ -8,7 +8,7 @@
 namespace starbow {
 namespace {
 
-/// No picture reaches farther from its lens's centre, in halves of its height.
+/// No picture extends farther from its lens's centre, in halves of its height.
 constexpr double farthest = 1e5;
 
 using Polynomial = std::vector<double>; ///< coefficients from the constant one on
@@ -133,7 +133,7 @@ std::optional<glm::dvec2> LensRays::pixel(const glm::dvec3& direction) const
             break;
         (beyond < 0 ? low : high) = r;
         const double next = r - beyond / at.slope;
-        const bool close = beyond < wanted; // towards a pole Newton's steps are small though the root is far
+        const bool close = beyond < wanted; // towards a pole Newton's steps are small although the root is far
         if (close && std::abs(next - r) <= 4e-16 * r)
             break;
         r = close && next > low && next < high ? next : low + (high - low) / 2;
@@ -147,7 +147,8 @@ double LensRays::pixel_angle(glm::dvec2 pixel) const
     const double r = glm::length(p);
     if (!(r < reach_))
         return 0;
-    // A pixel grows by f across and by g' along the radius; the flat picture is seen at a slant from 1 / cosine away.
+    // A pixel is magnified by f across the radius and by g' along it. The flat picture is at distance 1 / cosine and seen
+    // obliquely.
     const Growth at = growth(r);
     const glm::dvec3 seen = flat_.point(p * at.f);
     const double far2 = glm::dot(seen, seen), side = glm::length(flat_.right()) / half_height_;

@@ -5,8 +5,8 @@
 
 namespace starbow {
 
-/// One colour of a headset's lens. The lens shows g(r) = r f(r) of the distance r from the centre as long as g grows from
-/// there on. Beyond, where the polynomial would fold the picture back or through a pole, it shows nothing. picture.h has
+/// One colour of a headset's lens. At the distance r from the centre it shows g(r) = r f(r), as long as g grows from the
+/// centre on. Beyond that it shows nothing, because the polynomial folds the picture back or has a pole. picture.h has
 /// the contract of each function.
 class LensRays {
 public:

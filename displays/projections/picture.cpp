@@ -7,7 +7,7 @@ namespace {
 
 bool operator==(const Lens::Colour& a, const Lens::Colour& b) { return a.centre == b.centre && a.k == b.k; }
 
-/// Every projection but the lens is the same for all channels.
+/// All projections but the lens are the same for all channels.
 template <typename Rays> const Rays& of(const Rays& rays, Channel) { return rays; }
 const LensRays& of(const std::array<LensRays, 3>& lenses, Channel channel) { return lenses[std::size_t(channel)]; }
 

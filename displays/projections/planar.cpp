@@ -8,7 +8,7 @@ Plane planar_plane(const Planar& planar, glm::ivec2 size)
 {
     const auto tangent = [](double deg) { return std::tan(glm::radians(deg)); };
     const glm::dmat3 turned = cockpit_from_picture(planar.turn);
-    glm::dvec2 step, axis; // pixels are square, but for sides that say otherwise
+    glm::dvec2 step, axis; // pixels are square unless the sides determine otherwise
     if (const auto& sides = planar.sides) {
         const double left = tangent(sides->left_deg), up = tangent(sides->up_deg);
         step = glm::dvec2(tangent(sides->right_deg) - left, up - tangent(sides->down_deg)) / glm::dvec2(size);

@@ -4,8 +4,8 @@
 namespace starbow {
 namespace {
 
-/// Solid angle of a triangle with twice the area `area2` in a plane at distance 1 (van Oosterom and Strackee 1983). There
-/// their triple product is just this area, so nothing cancels, however small the pixel.
+/// The solid angle of a triangle with twice the area `area2` in a plane at distance 1 (van Oosterom and Strackee 1983).
+/// Their triple product is just this area, so nothing cancels, however small the pixel.
 double triangle_solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double area2)
 {
     const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);

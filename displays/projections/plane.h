@@ -26,7 +26,8 @@ public:
 private:
     glm::dvec3 ahead_, right_, down_;
     glm::dvec2 axis_;
-    glm::dvec3 along_right_, along_down_; ///< in the plane: a point's product with each is its place in pixels from the axis
+    glm::dvec3 along_right_,
+        along_down_; ///< dual basis in the plane: a point's product with each is its place in pixels from the axis
 };
 
 } // namespace starbow

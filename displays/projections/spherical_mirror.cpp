@@ -8,7 +8,7 @@
 namespace starbow {
 namespace {
 
-/// The meeting of a ray and a sphere: its distance to the middle of the chord, and half the chord.
+/// The intersection of a ray and a sphere: the distance to the chord's middle, and half the chord.
 struct Chord {
     double middle, half;
 };
@@ -17,18 +17,19 @@ std::optional<Chord> chord(const glm::dvec3& from, const glm::dvec3& way, const 
 {
     const glm::dvec3 to_centre = centre - from;
     const double middle = glm::dot(to_centre, way);
-    const glm::dvec3 beside = to_centre - middle * way; // the ray's distance; no difference of large squares
+    const glm::dvec3 beside = to_centre - middle * way; // the ray's distance, without cancellation
     const double left = radius * radius - glm::dot(beside, beside);
     if (!(left > 0))
         return {};
     return Chord{middle, std::sqrt(left)};
 }
 
-/// Angle at the mirror's centre from the lens at distance p to the point that reflects it to a place at distance q, seen
-/// from the centre at the angle `apart` from the lens; all in mirror radii. Equal angles to the normal mean
-///     p sin a (q cos(apart - a) - 1) = q sin(apart - a) (p cos a - 1),
-/// whose sides differ by one sign where either grazes the mirror and by the other where the other one does, so that the root
-/// is between; the brackets being positive there, it is the only one.
+/// The angle at the mirror's centre from the lens, at distance p, to the point that reflects it to a place at distance q.
+/// The place is at the angle `apart` from the lens, seen from the centre; all lengths are in mirror radii. Equal angles
+/// to the normal mean
+///     p sin a (q cos(apart - a) - 1) = q sin(apart - a) (p cos a - 1).
+/// The difference of the sides changes its sign between the angles at which the two rays graze the mirror, so the root is
+/// between them. The brackets are positive there, so it is the only one.
 std::optional<double> alhazen(double p, double q, double apart)
 {
     double low = std::max(0.0, apart - std::acos(1 / q)), high = std::min(apart, std::acos(1 / p));
@@ -59,12 +60,12 @@ SphericalMirrorRays::SphericalMirrorRays(const SphericalMirror& mirror, glm::ive
     , projector_(planar_plane(mirror.projector, size))
     , eye_m_(eye_m)
     , zenith_(dome_zenith(mirror.dome_tilt_deg))
-    // A little beyond the rim, so that light computed for a point on the rim still lands on it.
+    // Slack beyond the rim, so that light computed for a point on the rim still lands on it.
     , least_height_m_(mirror.dome_radius_m * (std::cos(glm::radians(mirror.dome_aperture_deg) / 2) - 1e-12))
 {
 }
 
-/// The last point of the inside of the dome that a ray meets, within the aperture.
+/// The last point of the dome's inside that a ray meets, within the aperture.
 std::optional<glm::dvec3> SphericalMirrorRays::dome_hit(const glm::dvec3& from, const glm::dvec3& way) const
 {
     const auto through = chord(from, way, mirror_.dome_m, mirror_.dome_radius_m);
@@ -122,7 +123,7 @@ std::optional<glm::dvec2> SphericalMirrorRays::pixel(const glm::dvec3& direction
     if (!angle)
         return {};
     const glm::dvec3 normal = to_lens * std::cos(*angle) + aside * std::sin(*angle);
-    // From a mirror outside the dome's sphere light may meet the place from without.
+    // From a mirror outside the dome's sphere, light may reach the place from outside.
     if (!(glm::dot(spot - normal, *place - mirror_.dome_m) > 0))
         return {};
     return projector_.pixel(normal - lens);
@@ -137,7 +138,7 @@ double SphericalMirrorRays::pixel_angle(glm::dvec2 pixel) const
     const glm::dvec3 dome_normal = (path->dome_point - mirror_.dome_m) / mirror_.dome_radius_m;
     const glm::dvec3 look = path->dome_point - eye_m_;
     const double far = glm::length(look), unit = glm::length(projector_.point(pixel));
-    // The derivative of each thing along the path, for a step of one pixel in the projector's plane.
+    // The derivative of each point and direction along the path, for a step of one pixel in the projector's plane.
     const auto moved = [&](const glm::dvec3& step) {
         const glm::dvec3 d_out = (step - out * glm::dot(out, step)) / unit;
         glm::dvec3 d_point = path->depth * d_out;

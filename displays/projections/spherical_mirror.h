@@ -13,8 +13,9 @@ public:
     SphericalMirrorRays(const SphericalMirror& mirror, glm::ivec2 size, const glm::dvec3& eye_m);
     std::optional<glm::dvec3> direction(glm::dvec2 pixel) const;
 
-    /// The point of the mirror that lights a place of the dome is Alhazen's problem. It is solved in the plane of lens,
-    /// place and the mirror's centre, to a few roundings of the angle at that centre.
+    /// The pixel whose light reaches the dome where `direction` meets it. The reflecting point of the mirror is Alhazen's
+    /// problem. It is solved in the plane of lens, place and the mirror's centre, to a few roundings of the angle at that
+    /// centre.
     std::optional<glm::dvec2> pixel(const glm::dvec3& direction) const;
 
     /// Computed at the point, from ray differentials (Igehy 1999). At the mirror's limb it grows without bound and is cut

@@ -5,7 +5,7 @@
 namespace starbow {
 namespace {
 
-/// An eye's part of the output: scale and offset of its fractions; and its picture's squeeze.
+/// An eye's part of the output: scale and offset of viewports' fractions, and the squeeze of the eye's picture.
 struct Share {
     glm::dvec2 scale{1}, offset{0}, squeeze{1};
     int canvas = 0;
@@ -76,7 +76,7 @@ int canvas_count(Packing packing) { return packing >= Packing::rows ? 2 : 1; }
 std::vector<glm::ivec4> preview_cells(const Layout& layout, std::size_t preview, glm::ivec2 size)
 {
     const int shown = std::max(1, int(layout.outputs.size()) - 1);
-    // The number of columns that makes the cells, whose pictures keep their shapes, largest.
+    // Finds the number of columns with the largest cells; pictures keep their shapes.
     std::vector<glm::ivec4> best;
     double most = -1;
     for (int columns = 1; columns <= shown; ++columns) {

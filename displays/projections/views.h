@@ -5,12 +5,12 @@
 
 namespace starbow {
 
-/// A view: one eye's part of an output, which the packing makes from a viewport. The renderer has no other description of a
+/// A view: one eye's part of an output, made from a viewport by the packing. The renderer has no other description of a
 /// display.
 struct View {
     std::size_t output, viewport; ///< of the layout; in a preview those of the shown output
     int canvas = 0; ///< index of the packing's canvas: 1 is the right eye's where each eye has a whole picture
-    glm::ivec2 corner{0}, size{1}; ///< pixels of that picture
+    glm::ivec2 corner{0}, size{1}; ///< pixels of the canvas
     Picture picture;
     bool projection_given = true; ///< as the viewport's
     glm::dvec2 picture_from_pixel{1}; ///< the view's point p, in pixels from its corner, is the picture's p * this

@@ -4,9 +4,8 @@
 
 namespace starbow {
 
-/// The wall as an eye at `eye_m` sees it (Kooima, Generalized Perspective Projection, 2008). nullopt where the eye is
-/// behind the wall or in its plane, nearer than a billionth of its size. Corners that are no rectangle make a
-/// parallelogram.
+/// The wall as seen by an eye at `eye_m` (Kooima, Generalized Perspective Projection, 2008). nullopt if the eye is behind
+/// the wall, or nearer to its plane than a billionth of its size. Corners that are no rectangle make a parallelogram.
 std::optional<Plane> wall_plane(const Wall& wall, glm::ivec2 size, const glm::dvec3& eye_m);
 
 } // namespace starbow

@@ -51,7 +51,7 @@ template <class Quantity> std::string range(const WarpMesh& mesh, Quantity quant
     return shown(low) + " to " + shown(high);
 }
 
-void tell(const WarpMesh& mesh)
+void print(const WarpMesh& mesh)
 {
     line("format", mesh.format);
     const glm::ivec2 grid = mesh.cells.x > 0 ? mesh.cells : mesh.grid;
@@ -106,7 +106,7 @@ int inspect(const WarpOptions& options)
         check_ending(options.out, ".png");
         check_writable(options.out);
     }
-    tell(mesh);
+    print(mesh);
     if (!options.out.empty()) {
         write_png(options.out, size, portrait(mesh, size));
         std::printf("%s\n", options.out.c_str());

@@ -165,7 +165,7 @@ struct Desktop::Connection {
                 XCB_RANDR_NOTIFY_MASK_SCREEN_CHANGE | XCB_RANDR_NOTIFY_MASK_CRTC_CHANGE | XCB_RANDR_NOTIFY_MASK_OUTPUT_CHANGE
                     | XCB_RANDR_NOTIFY_MASK_OUTPUT_PROPERTY);
     }
-    bool told_of_changes()
+    bool has_changes()
     {
         bool any = false;
         while (auto event = reply(xcb_poll_for_event(x.link)))
@@ -187,7 +187,7 @@ Desktop::~Desktop() = default;
 bool Desktop::look()
 {
     const auto now = std::chrono::steady_clock::now();
-    if (!connection_->told_of_changes() && now - looked_ < std::chrono::seconds(1))
+    if (!connection_->has_changes() && now - looked_ < std::chrono::seconds(1))
         return false;
     looked_ = now;
     std::vector<Monitor> seen = connection_->read();

@@ -37,7 +37,7 @@ private:
     Why why_ = Why::none;
     std::array<std::optional<Spot>, 2> marks_;
     bool mark_wanted_ = false; ///< pressed before the first probe was read
-    Ship ship_; ///< of the frame requested last
+    Ship ship_; ///< the ship of the frame requested last
     Effects effects_;
     std::optional<Measured> measured_; ///< the last readings
     OverlayScale scale_;

@@ -32,8 +32,8 @@ public:
     /// this frame's, or an earlier frame's once the driver has reported when its images were on the screens.
     void present(Skew& skew);
 
-    const std::vector<GLFWwindow*>& handles() const { return handles_; } ///< of the windows that are open
-    bool closed() const; ///< by the visitor
+    const std::vector<GLFWwindow*>& handles() const { return handles_; } ///< the open windows
+    bool closed() const; ///< true if the visitor has closed a window
     void switch_full_screen();
     /// The refresh rate of the fastest monitor in use.
     double refresh_hz() const;
@@ -59,7 +59,7 @@ private:
     std::vector<GLFWwindow*> handles_;
     std::vector<Target> targets_;
     std::vector<Window*> acquired_; ///< windows with a picture of this frame
-    vk::Fence done_; ///< of the frame's commands
+    vk::Fence done_; ///< signalled after the frame's commands
     std::uint64_t frame_ = 0; ///< the driver's present id
     std::vector<PresentClock*> clocks_; ///< clocks of one frame's images
     Clock::time_point looked_{};

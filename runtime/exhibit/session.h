@@ -26,8 +26,8 @@ struct Session {
     explicit Session(const ExhibitOptions& options);
 
     const ExhibitOptions& options;
-    Layout layout; ///< as it is shown
-    Layout kept; ///< as its file has it, without a builder's unsaved changes
+    Layout layout; ///< the shown layout
+    Layout kept; ///< the file's layout, without a builder's unsaved changes
     FileWatch watch;
     std::string refused; ///< the reason why a changed layout was not applied, for the head-up display
     std::optional<Guide> guide;

@@ -15,7 +15,7 @@ namespace {
     throw InputError("--measure " + one_line(part) + " " + problem);
 }
 
-/// Takes a number from the beginning of `text`; second: "deg" followed it.
+/// Removes a number from the beginning of `text` and returns it; the second result is true if "deg" followed.
 std::pair<double, bool> take_number(const std::string& part, std::string_view& text)
 {
     double value = 0;

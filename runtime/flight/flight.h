@@ -18,7 +18,7 @@ struct Flight {
     glm::dvec3 thrust{0}; ///< rapidity per second, cockpit axes; newtonian
     glm::dvec3 turn_rad_s{0}, turn_lead_rad_s{0}; ///< the turn now, and the smoothed turn it approaches
     std::optional<Homing> homing; ///< the flight back to the start, while it lasts
-    glm::dvec2 look_rad{0}; ///< of the head, to the left and up from the nose
+    glm::dvec2 look_rad{0}; ///< the head's turn to the left and up from the nose
     Effects effects;
     double exposure_ev = 0;
     bool hud = true;

@@ -8,7 +8,7 @@ namespace starbow {
 struct Homing {
     double braking = 0; ///< rapidity per second
     double elapsed_s = -1; ///< since the way began; below 0 while it brakes
-    Ship from; ///< at rest, where the way begins
+    Ship from; ///< the ship at rest, at the way's beginning
     double rapidity_per_s = 0; ///< on the way
     bool arrived = false;
 };

@@ -7,7 +7,7 @@ namespace starbow {
 namespace {
 
 struct RetardedPosition {
-    double distance; ///< in the world
+    double distance; ///< distance in the world
     double angle_rad; ///< from the motion, as seen
     double D;
 };
@@ -24,21 +24,22 @@ RetardedPosition seen(const Ship& ship, const glm::dvec3& at)
     return {distance, std::atan2(sight.n.x, sight.n.z), sight.D};
 }
 
-double at_place(Measure::What what, const glm::dvec3& at, const Ship& ship, const Ship& since, double seconds_per_time_unit)
+double at_place(
+    Measure::Quantity quantity, const glm::dvec3& at, const Ship& ship, const Ship& since, double seconds_per_time_unit)
 {
     const RetardedPosition now = seen(ship, at);
-    switch (what) {
-    case Measure::What::distance:
+    switch (quantity) {
+    case Measure::Quantity::distance:
         return now.distance;
-    case Measure::What::angle_deg:
+    case Measure::Quantity::angle_deg:
         return glm::degrees(now.angle_rad);
-    case Measure::What::doppler:
+    case Measure::Quantity::doppler:
         return now.D;
-    case Measure::What::size: { // aberration shrinks small things by 1 / D
+    case Measure::Quantity::size: { // aberration shrinks small things by 1 / D
         const RetardedPosition then = seen(since, at);
         return then.distance * then.D / (now.distance * now.D);
     }
-    case Measure::What::now_s: // Lorentz transformation: at one time of the ship, world time is later by v.dx
+    case Measure::Quantity::now_s: // Lorentz transformation: at one time of the ship, world time is later by v.dx
         return (ship.time.total() + glm::dot(ship.u.total(), at - ship.position.total()) / physics::gamma_of(ship.u.total()))
             * seconds_per_time_unit;
     default: // the retarded time: the place's distance ago
@@ -51,26 +52,27 @@ double at_place(Measure::What what, const glm::dvec3& at, const Ship& ship, cons
 double measured(const Measure& measure, const Ship& ship, const Ship& since, double seconds_per_time_unit)
 {
     const double speed = glm::length(ship.u.total()), E = physics::exp_rapidity(speed);
-    switch (measure.what) {
-    case Measure::What::gamma:
+    switch (measure.quantity) {
+    case Measure::Quantity::gamma:
         return physics::gamma_of(ship.u.total());
-    case Measure::What::beta:
+    case Measure::Quantity::beta:
         return speed / physics::gamma_of(ship.u.total());
-    case Measure::What::rapidity:
+    case Measure::Quantity::rapidity:
         return std::asinh(speed);
-    case Measure::What::ship_s:
+    case Measure::Quantity::ship_s:
         return ship.proper_time.total() * seconds_per_time_unit;
-    case Measure::What::world_s:
+    case Measure::Quantity::world_s:
         return ship.time.total() * seconds_per_time_unit;
-    case Measure::What::doppler_ahead:
+    case Measure::Quantity::doppler_ahead:
         return E;
-    case Measure::What::own_colour_deg:
+    case Measure::Quantity::own_colour_deg:
         return glm::degrees(std::acos(physics::unshifted_cosine(E)));
     default:
         break;
     }
-    const double value = at_place(measure.what, measure.at, ship, since, seconds_per_time_unit);
-    return measure.against ? value - at_place(measure.what, *measure.against, ship, since, seconds_per_time_unit) : value;
+    const double value = at_place(measure.quantity, measure.at, ship, since, seconds_per_time_unit);
+    return measure.relative_to ? value - at_place(measure.quantity, *measure.relative_to, ship, since, seconds_per_time_unit)
+                               : value;
 }
 
 } // namespace starbow

@@ -18,7 +18,7 @@ constexpr int record_version = 1;
 /// The header: all that a replay needs beside the entries.
 struct RecordHeader {
     std::string scene, layout; ///< names of shipped ones, or paths
-    std::uint64_t scene_digest = 0, layout_digest = 0; ///< of their files
+    std::uint64_t scene_digest = 0, layout_digest = 0; ///< digests of their files
     std::string pattern = "none"; ///< the first test pattern of the outputs
     double seconds_per_time_unit = 1;
     Shot start;

@@ -31,7 +31,7 @@ private:
     std::unique_ptr<Recorder> recorder_;
     std::unique_ptr<Replay> replay_;
     bool played_ = false; ///< the replay has reached its end
-    Clock::time_point due_{}; ///< of the last frame
+    Clock::time_point due_{}; ///< due time of the last frame
 };
 
 } // namespace starbow

@@ -39,7 +39,7 @@ private:
     std::int64_t checked_ticks_ = 0;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::string waiting_; ///< to be written
+    std::string waiting_; ///< text not written yet
     bool ended_ = false, failed_ = false;
     std::thread writer_;
 };

@@ -40,7 +40,7 @@ private:
 
     std::string file_;
     std::ifstream stream_;
-    std::uintmax_t bytes_ = 0, read_ = 0; ///< of the file; bytes_ is 0 for a pipe
+    std::uintmax_t bytes_ = 0, read_ = 0; ///< size of the file and bytes read; bytes_ is 0 for a pipe
     int line_ = 0; ///< the last line that was read
     RecordHeader header_;
     std::optional<std::variant<RecordEntry, RecordCheck>> ahead_;

@@ -166,7 +166,7 @@ void nudge(Touring& now, const Show& show, int by)
         now.number = std::clamp(now.number + by * set->step, set->from, set->to);
 }
 
-void ask(Touring& now, const Show& show, const Controls& controls, double dt_s)
+void run_question(Touring& now, const Show& show, const Controls& controls, double dt_s)
 {
     const Question& question = *step_of(now, show).question;
     const double aside = -controls.turn.y;
@@ -302,7 +302,7 @@ Touring advance(Touring now, const Show& show, const Controls& controls, std::in
     if (now.paused)
         return now;
     if (step_of(now, show).question && !now.measured_answer && !tries(step_of(now, show)))
-        ask(now, show, controls, dt_s);
+        run_question(now, show, controls, dt_s);
     for (std::int64_t left = dt_ns; left > 0 && !now.over;) {
         const Step& step = step_of(now, show);
         // The time runs to the end of the step, or of the time to answer if that is earlier.

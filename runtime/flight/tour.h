@@ -10,8 +10,8 @@ namespace starbow {
 /// A tour with its rules and its units.
 struct Show {
     const Tour& tour;
-    Flying rules; ///< of the visitor's flight in it
-    double seconds_per_time_unit; ///< of the scene
+    Flying rules; ///< rules of the visitor's flight
+    double seconds_per_time_unit; ///< the scene's
     bool visitors = true; ///< false: nobody flies, and the steps in which the visitor flies are left out
 };
 
@@ -22,7 +22,7 @@ struct Touring {
         Flight flight;
         Ship since; ///< the ship at the tour's last cut: the reference of size measures
     };
-    std::vector<Start> starts; ///< of each step up to the present one
+    std::vector<Start> starts; ///< starts of all steps up to the present one
     std::int64_t into_ns = 0; ///< time since the present step began
     Flight flight; ///< now
     double brighter_ev = 0; ///< the visitor's change of the exposure

@@ -9,11 +9,11 @@ namespace starbow {
 /// A visitor's first minute: go, turn, stop. Each prompt disappears when its task is done. After a while without any
 /// control the tutorial begins anew for the next visitor.
 struct Tutorial {
-    int lesson = 0; ///< of lessons; beyond the last there is no prompt
+    int lesson = 0; ///< index of the lesson; beyond the last there is no prompt
     double begun_at = 0; ///< rapidity when the lesson began
-    double turned_rad = 0; ///< by the nose, since the lesson began
+    double turned_rad = 0; ///< angle that the nose has turned since the lesson began
     double idle_s = 0; ///< since the last control
-    double lever = 0; ///< at the last step
+    double lever = 0; ///< the lever at the last step
 };
 
 constexpr int lessons = 3;

@@ -15,7 +15,7 @@ class Typesetter;
 /// A tour's text on the head-up display.
 struct Caption {
     std::string text;
-    std::vector<std::string> choices{}; ///< of a question
+    std::vector<std::string> choices{}; ///< a question's choices
     int chosen = -1; ///< index of a choice; -1: none
     std::string aside{}; ///< the keys for an answer, and the seconds left
     bool flying = false; ///< the visitor flies: the lever counts

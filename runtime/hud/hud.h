@@ -45,7 +45,7 @@ struct Readings {
     bool exposure_locked = false; ///< the visitor has locked it
     std::optional<double> lever{}; ///< the throttle's place, 0 to 1
     std::string prompt{}; ///< the tutorial's prompt, or empty
-    std::optional<Caption> caption{}; ///< of a tour: replaces all but the speed
+    std::optional<Caption> caption{}; ///< a tour's caption; it replaces all but the speed
     std::string notice{}; ///< one line for the exhibit's operator, or empty
 };
 Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effects);

@@ -30,15 +30,16 @@ Ray aim_of(const MeasuringObserver& observer);
 /// The picture's values in one direction, with float accuracy; the distance has a texel's accuracy.
 struct Probed {
     Ray ray;
-    double distance = 0; ///< of the surface in the world, from the observer's place, scene units; infinite for the sky
-    int frame = 0; ///< of World::frames: its rest frame; the ray's D is of light from there
+    double distance
+        = 0; ///< the surface's distance in the world, from the observer's place, scene units; infinite for the sky
+    int frame = 0; ///< index into World::frames: its rest frame; the ray's D is of light from there
     double light = 0; ///< luminance as seen, before exposure, without stars; the scene's white is 1
 };
 
 /// A marked thing, which can be found again from anywhere on the flight.
 struct Spot {
     glm::dvec3 at{0}; ///< its place in its rest frame, scene units; of the sky the unit direction in the world
-    int frame = 0; ///< of World::frames
+    int frame = 0; ///< index into World::frames
     bool sky = false;
     std::optional<std::size_t> clock; ///< the instance, if it is a clock
 };

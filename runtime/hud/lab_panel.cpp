@@ -6,7 +6,7 @@
 namespace starbow {
 namespace {
 
-constexpr double margin = 0.035; ///< of the width
+constexpr double margin = 0.035; ///< part of the width
 
 bool has_scale(Overlay overlay) { return overlay == Overlay::distance || overlay == Overlay::emission; }
 

@@ -17,7 +17,7 @@ constexpr std::array<const char*, 7> why_names
 struct Measured {
     MeasuringObserver observer;
     double ship_s = 0, world_s = 0; ///< the clock on board since the start, and the world's
-    double light_speed_m_s = 299792458, seconds_per_time_unit = 1; ///< of the scene
+    double light_speed_m_s = 299792458, seconds_per_time_unit = 1; ///< the scene's
     Effects effects;
     SpotReading aim;
     std::array<std::optional<SpotReading>, 2> marks;

@@ -17,8 +17,8 @@ struct Setting {
 struct MeasuredSetting {
     Setting setting;
     double ms = 0; ///< a frame's time: the mean of the shots' medians
-    double ratio = 1; ///< to the default setting's time, measured in turn with it
-    double megabytes = 0; ///< of images on the device
+    double ratio = 1; ///< time over the default setting's, measured in turn with it
+    double megabytes = 0; ///< memory of images on the device
     double texels_per_pixel = 0; ///< drawn
     int images = 0; ///< the most of any shot
     PictureErrors errors{}; ///< means; for the noise its energy's mean; for the edges the worst

@@ -16,8 +16,8 @@ struct Bin {
 /// Statistics of a view, in log2 luminance.
 struct Levels {
     double average; ///< between metered_from and metered_to
-    double bright; ///< at bright_from
-    double count; ///< of lit parts
+    double bright; ///< level at bright_from
+    double count; ///< number of lit samples
 };
 
 std::optional<Levels> levels(std::span<const LuminanceSample> view)

@@ -10,8 +10,8 @@ namespace starbow {
 /// A monitor's own identity.
 struct Edid {
     std::string model; ///< the name that it shows, such as "DELL U2415"; without one, maker and product: "DEL-A0BC"
-    std::string serial; ///< as printed on it, or else its number in decimal; empty where it has neither
-    glm::ivec2 size_mm{0}; ///< of the picture; 0 for projectors
+    std::string serial; ///< the printed serial number, or else its number in decimal; empty where it has neither
+    glm::ivec2 size_mm{0}; ///< the picture's size; 0 for projectors
 };
 
 /// Parses the first 128 bytes of an EDID (VESA E-EDID 1.4, section 3). nullopt for bytes that are too short, no EDID, or

@@ -3,6 +3,9 @@
 
 namespace starbow {
 
+/// Holds the frame time by moving along a ladder of qualities. Pure: it receives each frame's time and chooses the next
+/// frame's level.
+///
 /// A frame's time is its level's time on the ladder times an unknown load: the scene, the flight, other programs. One
 /// late frame may be chance. After a second one the governor trusts the load and chooses the finest level with room to
 /// spare, however far away. It moves down at once, and up only after a calm while. After a vain move up it waits twice as

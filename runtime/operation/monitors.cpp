@@ -70,8 +70,8 @@ MonitorChoice choose_monitor(const MonitorName& name, const std::vector<Monitor>
     const bool all_the_same = std::all_of(fitting.begin(), fitting.end(),
         [&](const Monitor& m) { return m.position == fitting[0].position && m.size == fitting[0].size; });
     if (!name.empty() && !all_the_same)
-        return {
-            {}, describe(name) + " is plugged in more than once: " + list_of(fitting) + "; the connector too would tell"};
+        return {{},
+            describe(name) + " is plugged in more than once: " + list_of(fitting) + "; a connector as well makes it unique"};
     return {first, {}};
 }
 

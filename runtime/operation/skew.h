@@ -10,8 +10,8 @@ public:
     bool on_screen = false; ///< timed when the driver shows the pictures; otherwise when the window system gets them
     void add(double s);
     std::size_t frames() const { return frames_; }
-    double median_s() const; ///< of the last 4096 frames; 0 before the first
-    double worst_s() const { return worst_; } ///< of all frames
+    double median_s() const; ///< median of the last 4096 frames; 0 before the first
+    double worst_s() const { return worst_; } ///< worst of all frames
 
 private:
     std::array<float, 4096> last_{};

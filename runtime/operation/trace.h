@@ -61,7 +61,7 @@ public:
 
 private:
     // mutex_ is held where these are called.
-    int thread_number(std::string_view name = {}); ///< of the calling thread; names its track if a name is given
+    int thread_number(std::string_view name = {}); ///< number of the calling thread; names its track if a name is given
     void add_metadata(const char* what, int process, int thread, std::string_view name);
     void add_span(std::string_view name, int process, int thread, std::int64_t begin_ns, std::int64_t duration_ns);
     void add(const std::string& event); ///< one JSON object

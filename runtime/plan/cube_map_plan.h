@@ -8,12 +8,12 @@ namespace starbow {
 
 /// An image to draw: a rectangle of one face of the cube around the eye, at one resolution, and its place in the atlas.
 struct PlannedImage {
-    int tile; ///< of its rest frame
+    int tile; ///< tile of the rest frame's cube map
     int face;
     glm::dvec2 low, high; ///< face coordinates of the image's edges, gutter included
     glm::ivec2 size; ///< texels
     glm::ivec2 atlas; ///< top left texel
-    double texels_per_unit; ///< of face coordinate
+    double texels_per_unit; ///< texels per unit of face coordinate
     int levels; ///< mip levels the warp pass reads
     double clip_hole = 0; ///< half the side of the clip-map hole; 0: none. No pixel reads the image there
     int layer = 0;
@@ -35,9 +35,9 @@ struct CubeMapPlan {
     glm::ivec2 atlas_size{0};
     std::vector<int> finest_clip_level; ///< by rest frame: the finest nested image behind that differs from the one
     ///< before
-    int levels = 1; ///< of the atlas: the most that any image needs
+    int levels = 1; ///< mip levels of the atlas: the most that any image needs
     double texels = 0; ///< drawn, all images
-    double pixels = 0; ///< of the views that read it
+    double pixels = 0; ///< pixels of the views that read it
     bool cut = false; ///< some tile has more than one image
 };
 
@@ -48,6 +48,9 @@ struct PlanScratch {
     std::vector<std::size_t> by_height;
 };
 
+/// Chooses the faces to draw, each with its rectangle and its resolution. Pure. Every texel that a pixel of the views
+/// reads, including the neighbours of its filter, lies inside an image.
+///
 /// Tiles without any direction of a view and tiles without content are left out. Any other tile is divided into the
 /// images, each with its own resolution, that cost least: Quality::image_cost_texels for each image, plus its texels.
 /// before: a plan whose memory is reused.

@@ -103,7 +103,7 @@ bool may_show(const World& world, const Instance& instance, const EyeEvent& eye_
 
 struct Standing {
     glm::dmat3 turn; ///< motion axes from local
-    glm::dvec3 place; ///< of the local origin, from the eye
+    glm::dvec3 place; ///< place of the local origin relative to the eye
 };
 Standing standing(const glm::dmat4& frame_from_local, const EyeEvent& eye_event)
 {

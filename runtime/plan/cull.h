@@ -24,7 +24,8 @@ struct DrawList {
 
     /// Memory of cull, kept from frame to frame.
     struct OrientedBox {
-        glm::dvec3 centre, half[3]; ///< of an instance's box around the eye, motion axes: to the middle of each side
+        glm::dvec3 centre, half[3]; ///< an instance's box relative to the eye, motion axes; half: from the centre to the
+                                    ///< middle of each side
         double scale; ///< world units per local unit, at most
         double distance; ///< from the eye, at least
         bool shows; ///< its light may arrive

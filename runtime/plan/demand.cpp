@@ -78,7 +78,7 @@ template <class Each> void each_tile(const glm::dvec3& centre, double radius, in
 struct Held {
     std::array<Rect, TILE_COUNT> rects;
     glm::dvec3 axis{0, 0, 1};
-    double radius = pi; ///< of the circle around `axis` that encloses them; below 0 without surfaces
+    double radius = pi; ///< radius of the circle around `axis` that encloses them; below 0 without surfaces
 
     /// The whole sphere.
     Held()
@@ -116,7 +116,7 @@ struct Held {
     }
 };
 
-void ask(Demands& demands, const Held& held, const Disc& disc, double E, int finest_clip_level)
+void add_disc(Demands& demands, const Held& held, const Disc& disc, double E, int finest_clip_level)
 {
     if (!held.touches(disc.centre, disc.radius))
         return;
@@ -239,7 +239,7 @@ struct Walk {
     void ask_for(Disc disc) const
     {
         disc.radius = std::min(pi, disc.radius + view.parallax_rad);
-        ask(demands, held, disc, E, finest_clip_level);
+        add_disc(demands, held, disc, E, finest_clip_level);
     }
 
     /// Divides the disc of a smallest block like the square around it, repeatedly where D varies over the parts. It ends

@@ -15,8 +15,8 @@ struct SightLine {
 
 /// The hit of a line of sight on a surface.
 struct Met {
-    std::uint32_t instance; ///< of World::instances
-    std::uint32_t corners[3]; ///< of World::vertices
+    std::uint32_t instance; ///< index into World::instances
+    std::uint32_t corners[3]; ///< index into World::vertices
     glm::dvec3 weights; ///< of these corners
     glm::dvec3 place; ///< from the eye event's
     double distance; ///< from the eye

@@ -75,7 +75,7 @@ private:
     std::vector<PlannedImage> images_;
     std::vector<shared::TimeEntry> time_writes_; ///< a member, as is blits_, so that its memory is reused
     std::vector<vk::ImageBlit> blits_;
-    std::vector<double> contractions_; ///< of each rest frame
+    std::vector<double> contractions_; ///< one for each rest frame
     glm::ivec2 area_{0};
     double pre_exposure_ = 1;
     int levels_ = 1;

@@ -67,9 +67,9 @@ struct GpuListing {
     bool software = false; ///< runs on the processor
     std::string driver_name, driver_version, api_version; ///< as the driver reports them; "1.3.230"
     std::uint32_t largest_image_px = 0; ///< side of a 2D image
-    std::uint32_t most_samplers = 0, most_allocations = 0; ///< at one time
+    std::uint32_t most_samplers = 0, most_allocations = 0; ///< limits of objects at one time
     double timestamp_ns = 0; ///< one tick of the queue's clock; 0: the queue has no clock
-    std::uint64_t memory_bytes = 0; ///< of the device's own heaps
+    std::uint64_t memory_bytes = 0; ///< size of the device's own heaps
 };
 /// Every GPU that Vulkan reports; empty where Vulkan is missing.
 std::vector<GpuListing> list_gpus(const Device::Options& options);

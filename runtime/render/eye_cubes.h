@@ -18,8 +18,8 @@ struct EyeCube {
     std::vector<RestFrameRequest> requests{};
     std::vector<EyeEvent> eye_events{}; ///< the cube map would be drawn at these events now
     CubeMapPlan wanted{}; ///< the plan of that cube map
-    std::vector<double>
-        nearest{}; ///< of each rest frame: a lower bound of its surfaces' distance, scene units; 1 where no distance counts
+    std::vector<double> nearest{}; ///< one for each rest frame: a lower bound of its surfaces' distance, scene units; 1
+                                   ///< where no distance counts
 };
 
 /// The eyes of all views: observers, cube-map plans, and the cube maps themselves.
@@ -50,7 +50,7 @@ public:
     vk::DeviceSize memory() const;
 
     std::vector<EyeCube> all;
-    std::vector<CubeMapPlan> plans; ///< of each eye
+    std::vector<CubeMapPlan> plans; ///< one for each eye
     std::vector<Observer> observers;
 
 private:

@@ -12,6 +12,8 @@ public:
     /// keeps_depth: record_measured can then report distances. Throws InputError for a wrong layout.
     FrameRenderer(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality,
         bool keeps_depth = false);
+    FrameRenderer(const FrameRenderer&) = delete; // its parts know each other by reference
+    FrameRenderer& operator=(const FrameRenderer&) = delete;
 
     /// The whole frame: observers, plan, culling and upload; cube maps; meter and probes; then each output's views,
     /// instruments, head-up display and finish. hud: the panel, or null. targets: one for each output. An output without
@@ -58,7 +60,7 @@ public:
     const ViewSet& views() const { return views_; }
     const std::vector<CubeMapPlan>& plans() const { return eyes_.plans; }
     std::size_t triangles() const { return eyes_.triangles(); }
-    vk::DeviceSize memory() const; ///< of the images this object holds, bytes
+    vk::DeviceSize memory() const; ///< bytes of this object's images
 
 private:
     void apply_layout(ViewSet::Parts parts);

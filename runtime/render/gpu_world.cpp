@@ -35,11 +35,12 @@ vk::raii::Sampler make_sampler(const Device& device, const Sampler& s)
 }
 
 /// Decoding sRGB in software takes more time than linear fp16 takes memory bandwidth. GPUs decode sRGB at no cost.
-Image make_colour_texture(Device& device, const Texture& texture)
+Image make_colour_texture(Device& device, const Texture& texture, MemoryArena& arena)
 {
     bool mips = texture.sampler.mipmaps;
     if (!device.on_processor())
-        return make_texture(device, vk::Format::eR8G8B8A8Srgb, texture.size, std::as_bytes(std::span(texture.rgba)), mips);
+        return make_texture(
+            device, vk::Format::eR8G8B8A8Srgb, texture.size, std::as_bytes(std::span(texture.rgba)), mips, &arena);
     std::array<std::uint16_t, 256> linear, alpha;
     for (int i = 0; i < 256; ++i) {
         double x = i / 255.0;
@@ -49,7 +50,8 @@ Image make_colour_texture(Device& device, const Texture& texture)
     std::vector<std::uint16_t> texels(texture.rgba.size());
     for (std::size_t i = 0; i < texels.size(); ++i)
         texels[i] = (i % 4 == 3 ? alpha : linear)[texture.rgba[i]];
-    return make_texture(device, vk::Format::eR16G16B16A16Sfloat, texture.size, std::as_bytes(std::span(texels)), mips);
+    return make_texture(
+        device, vk::Format::eR16G16B16A16Sfloat, texture.size, std::as_bytes(std::span(texels)), mips, &arena);
 }
 
 /// The greatest radiance that a surface of this world can send, before any lamp comes closer than its distance.
@@ -136,11 +138,15 @@ GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const S
     const std::uint32_t white = 0xffffffff;
     gpu.white = make_texture(device, vk::Format::eR8G8B8A8Unorm, {1, 1}, std::as_bytes(std::span(&white, 1)), false);
     name_object(device, gpu.white, "world: white");
-    gpu.samplers.push_back(make_sampler(device, {}));
-    for (const Texture& texture : world.textures) {
-        gpu.textures.push_back(make_colour_texture(device, texture));
-        gpu.samplers.push_back(make_sampler(device, texture.sampler));
-    }
+    for (const Texture& texture : world.textures)
+        gpu.textures.push_back(make_colour_texture(device, texture, gpu.texture_memory));
+    const auto sampler_of = [&](int texture) {
+        const Sampler kind = texture < 0 ? Sampler{} : world.textures[std::size_t(texture)].sampler;
+        auto found = gpu.samplers.find(kind);
+        if (found == gpu.samplers.end())
+            found = gpu.samplers.emplace(kind, make_sampler(device, kind)).first;
+        return *found->second;
+    };
     auto count = std::uint32_t(world.materials.size());
     vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 2 * count);
     gpu.pool = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, count, size});
@@ -151,8 +157,8 @@ GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const S
         name_object(device, set, "world: material");
     for (std::uint32_t i = 0; i < count; ++i) {
         auto picture = [&](int texture) {
-            return vk::DescriptorImageInfo(*gpu.samplers[texture + 1],
-                *(texture < 0 ? gpu.white : gpu.textures[texture]).view, vk::ImageLayout::eShaderReadOnlyOptimal);
+            return vk::DescriptorImageInfo(sampler_of(texture), *(texture < 0 ? gpu.white : gpu.textures[texture]).view,
+                vk::ImageLayout::eShaderReadOnlyOptimal);
         };
         vk::DescriptorImageInfo base = picture(world.materials[i].base_texture),
                                 emissive = picture(world.materials[i].emissive_texture);

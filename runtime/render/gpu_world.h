@@ -6,13 +6,14 @@
 #include "runtime/world/spectra.h"
 #include "runtime/world/stars.h"
 #include "runtime/world/world.h"
+#include <map>
 
 namespace starbow {
 
 /// Response tables of one standard observer on the device, for basis coefficients and for stars.
 struct ResponseBuffers {
     Buffer rows;
-    vk::raii::BufferView texels = nullptr; ///< of rows
+    vk::raii::BufferView texels = nullptr; ///< rows as texels
     float first_log2_D = 0, per_octave = 1;
     Buffer own_rows;
     Buffer black_bodies; ///< made by black_body_table
@@ -25,8 +26,9 @@ struct GpuWorld {
     double brightest = 1; ///< the greatest radiance of any surface, before any lamp comes closer than its distance
 
     Buffer vertices, indices;
-    std::vector<Image> textures;
-    std::vector<vk::raii::Sampler> samplers;
+    MemoryArena texture_memory;
+    std::vector<Image> textures; ///< in texture_memory
+    std::map<Sampler, vk::raii::Sampler> samplers; ///< one for all textures that are sampled alike
     Image white; ///< for materials without a texture
     vk::raii::DescriptorPool pool = nullptr;
     std::vector<vk::raii::DescriptorSet> materials;

@@ -32,12 +32,12 @@ OverlayPass::OverlayPass(const Device& device, Pipelines& pipelines, std::size_t
     }
 }
 
-void OverlayPass::prepare(std::size_t view, const What& what, const MeasuringObserver& observer, const GpuWorld& world)
+void OverlayPass::prepare(std::size_t view, const Content& content, const MeasuringObserver& observer, const GpuWorld& world)
 {
     const glm::dmat3 to_motion = motion_from_world(observer.u, observer.ship_from_cockpit);
     const glm::dmat3 to_world = glm::transpose(to_motion);
     const glm::dmat3 from_cockpit = to_motion * glm::dmat3(glm::mat3_cast(observer.ship_from_cockpit));
-    const OverlayScale& scale = what.scale;
+    const OverlayScale& scale = content.scale;
     const double seconds_per_time_unit = world.scene.seconds_per_time_unit();
     shared::OverlayConstants c{};
     c.world0 = shared::row(to_world, 0), c.world1 = shared::row(to_world, 1), c.world2 = shared::row(to_world, 2);
@@ -52,7 +52,7 @@ void OverlayPass::prepare(std::size_t view, const What& what, const MeasuringObs
     c.aim = glm::vec4(-from_cockpit[2], 1);
     c.right = glm::vec4(from_cockpit[0], 0), c.up = glm::vec4(from_cockpit[1], 0);
     for (int i = 0; i < 2; ++i)
-        if (const auto& mark = what.marks[std::size_t(i)])
+        if (const auto& mark = content.marks[std::size_t(i)])
             c.marks[i] = glm::vec4(to_motion * ray_to(observer, *mark, world.world).ship, 1);
     std::memcpy(static_cast<std::byte*>(constants_.mapped) + view * stride, &c, sizeof c);
 }

@@ -12,13 +12,13 @@ class OverlayPass {
 public:
     OverlayPass(const Device& device, Pipelines& pipelines, std::size_t views);
 
-    struct What {
+    struct Content {
         Overlay overlay = Overlay::off;
         std::array<std::optional<Spot>, 2> marks;
         OverlayScale scale;
     };
     /// observer: the view's eye. The device must have finished the frame before.
-    void prepare(std::size_t view, const What& what, const MeasuringObserver& observer, const GpuWorld& world);
+    void prepare(std::size_t view, const Content& content, const MeasuringObserver& observer, const GpuWorld& world);
 
     /// Draws into the rendering under way. warp_set, constants: the same as for the view's warp.
     void draw(vk::CommandBuffer commands, std::size_t view, const WarpVariant& variant, Overlay overlay,

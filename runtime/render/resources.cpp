@@ -26,14 +26,21 @@ std::uint32_t memory_type(const Device& device, std::uint32_t allowed, vk::Memor
         "The GPU offers no memory of the kind " + vk::to_string(wanted) + ": use another GPU or a newer driver");
 }
 
-/// Gives a buffer or an image its memory. Software devices report a lack of memory only at the binding.
+/// Gives a buffer or an image its memory, in an arena or by itself. Software devices report a lack of memory only at the
+/// binding.
 template <class Resource>
-vk::raii::DeviceMemory bind(const Device& device, const Resource& resource, vk::MemoryPropertyFlags wanted)
+vk::raii::DeviceMemory bind(
+    const Device& device, const Resource& resource, vk::MemoryPropertyFlags wanted, MemoryArena* arena = nullptr)
 {
-    vk::MemoryRequirements needs = resource.getMemoryRequirements();
+    const vk::MemoryRequirements needs = resource.getMemoryRequirements();
+    const std::uint32_t type = memory_type(device, needs.memoryTypeBits, wanted);
     try {
-        vk::raii::DeviceMemory memory
-            = device.device.allocateMemory({needs.size, memory_type(device, needs.memoryTypeBits, wanted)});
+        if (arena) {
+            const MemoryArena::Place place = arena->place(device, needs, type);
+            resource.bindMemory(place.memory, place.offset);
+            return nullptr;
+        }
+        vk::raii::DeviceMemory memory = device.device.allocateMemory({needs.size, type});
         resource.bindMemory(*memory, 0);
         return memory;
     } catch (const vk::SystemError&) {
@@ -104,7 +111,7 @@ Image make_image(const Device& device, const ImageSpec& spec)
         vk::ImageTiling::eOptimal, spec.usage);
     image.image = device.device.createImage(info);
     image.bytes = image.image.getMemoryRequirements().size;
-    image.memory = bind(device, image.image, vk::MemoryPropertyFlagBits::eDeviceLocal);
+    image.memory = bind(device, image.image, vk::MemoryPropertyFlagBits::eDeviceLocal, spec.arena);
     image.view = device.device.createImageView({{}, *image.image,
         spec.cube        ? vk::ImageViewType::eCube
             : spec.array ? vk::ImageViewType::e2DArray
@@ -125,13 +132,17 @@ void transition(vk::CommandBuffer commands, const Image& image, vk::ImageLayout 
     commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
 }
 
-Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::span<const std::byte> pixels, bool mips)
+Image make_texture(
+    Device& device, vk::Format format, glm::ivec2 size, std::span<const std::byte> pixels, bool mips, MemoryArena* arena)
 {
     std::uint32_t levels = mips ? std::bit_width(std::uint32_t(std::max(size.x, size.y))) : 1;
     Image image = make_image(device,
-        {format, {std::uint32_t(size.x), std::uint32_t(size.y)},
-            vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst,
-            levels});
+        {.format = format,
+            .extent = {std::uint32_t(size.x), std::uint32_t(size.y)},
+            .usage
+            = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst,
+            .levels = levels,
+            .arena = arena});
     Buffer staging = make_mapped_buffer(device, pixels.size(), vk::BufferUsageFlagBits::eTransferSrc);
     std::memcpy(staging.mapped, pixels.data(), pixels.size());
 
@@ -172,7 +183,7 @@ Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::span
 }
 
 Image make_texture_array(
-    Device& device, vk::Format format, glm::ivec2 size, std::uint32_t layers, std::span<const std::byte> pixels)
+    Device& device, vk::Format format, glm::ivec2 size, std::uint32_t layers, std::size_t texel_bytes, const FillRows& fill)
 {
     Image image = make_image(device,
         {.format = format,
@@ -180,21 +191,42 @@ Image make_texture_array(
             .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst,
             .layers = layers,
             .array = true});
-    Buffer staging = make_mapped_buffer(device, pixels.size(), vk::BufferUsageFlagBits::eTransferSrc);
-    std::memcpy(staging.mapped, pixels.data(), pixels.size());
+    constexpr std::size_t strip_bytes = 8 << 20;
+    const std::size_t row_bytes = texel_bytes * std::size_t(size.x);
+    const int strip = int(std::clamp<std::size_t>(strip_bytes / row_bytes, 1, std::size_t(size.y)));
+    Buffer staging = make_mapped_buffer(device, row_bytes * std::size_t(strip), vk::BufferUsageFlagBits::eTransferSrc);
     using Stage = vk::PipelineStageFlagBits2;
     using Access = vk::AccessFlagBits2;
-    device.now([&](vk::CommandBuffer commands) {
-        transition(commands, image, vk::ImageLayout::eUndefined, Stage::eNone, {}, vk::ImageLayout::eTransferDstOptimal,
-            Stage::eTransfer, Access::eTransferWrite);
-        commands.copyBufferToImage(*staging.buffer, *image.image, vk::ImageLayout::eTransferDstOptimal,
-            vk::BufferImageCopy(
-                0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, layers}, {}, {image.extent.width, image.extent.height, 1}));
-        transition(commands, image, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
-            vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eVertexShader | Stage::eFragmentShader,
-            Access::eShaderSampledRead);
-    });
+    for (std::uint32_t layer = 0; layer < layers; ++layer)
+        for (int first = 0; first < size.y; first += strip) {
+            const int rows = std::min(strip, size.y - first);
+            fill(layer, first, rows, {static_cast<std::byte*>(staging.mapped), row_bytes * std::size_t(rows)});
+            const bool begins = layer == 0 && first == 0, ends = layer + 1 == layers && first + rows == size.y;
+            device.now([&](vk::CommandBuffer commands) {
+                if (begins)
+                    transition(commands, image, vk::ImageLayout::eUndefined, Stage::eNone, {},
+                        vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite);
+                commands.copyBufferToImage(*staging.buffer, *image.image, vk::ImageLayout::eTransferDstOptimal,
+                    vk::BufferImageCopy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, layer, 1}, {0, first, 0},
+                        {image.extent.width, std::uint32_t(rows), 1}));
+                if (ends)
+                    transition(commands, image, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer,
+                        Access::eTransferWrite, vk::ImageLayout::eShaderReadOnlyOptimal,
+                        Stage::eVertexShader | Stage::eFragmentShader, Access::eShaderSampledRead);
+            });
+        }
     return image;
+}
+
+Image make_texture_array(
+    Device& device, vk::Format format, glm::ivec2 size, std::uint32_t layers, std::span<const std::byte> pixels)
+{
+    const std::size_t texel_bytes = pixels.size() / (std::size_t(size.x) * size.y * layers);
+    return make_texture_array(
+        device, format, size, layers, texel_bytes, [&](std::uint32_t layer, int first, int, std::span<std::byte> to) {
+            const std::size_t row = std::size_t(layer) * size.y + first;
+            std::memcpy(to.data(), pixels.data() + row * size.x * texel_bytes, to.size());
+        });
 }
 
 vk::Rect2D rect_of(glm::ivec2 corner, glm::ivec2 size)

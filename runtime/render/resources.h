@@ -1,5 +1,6 @@
 #pragma once
-#include "device.h"
+#include "memory_arena.h"
+#include <functional>
 #include <glm/glm.hpp>
 #include <span>
 
@@ -14,13 +15,13 @@ struct Buffer {
 };
 
 struct Image {
-    vk::raii::DeviceMemory memory = nullptr;
+    vk::raii::DeviceMemory memory = nullptr; ///< null where an arena holds it
     vk::raii::Image image = nullptr;
     vk::raii::ImageView view = nullptr; ///< all levels and layers
     vk::Format format = vk::Format::eUndefined;
     vk::Extent2D extent;
     std::uint32_t levels = 1, layers = 1;
-    vk::DeviceSize bytes = 0; ///< of device memory
+    vk::DeviceSize bytes = 0; ///< bytes of device memory
     std::uint64_t serial = 0; ///< unique, as Buffer's
 };
 
@@ -41,15 +42,23 @@ struct ImageSpec {
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     bool cube = false;
     bool array = false; ///< its view is an array, even with one layer
+    MemoryArena* arena = nullptr; ///< where its memory comes from; null: an allocation of its own
 };
 /// Throws InputError if the device can't hold it.
 Image make_image(const Device& device, const ImageSpec& spec);
 
 vk::ImageAspectFlags aspect_of(vk::Format format);
 
-/// A texture; mips are made by halving.
-Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::span<const std::byte> pixels, bool mips);
-/// A texture array without mips; pixels: one picture after the other.
+/// A texture; mips are made by halving. arena: as ImageSpec's.
+Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::span<const std::byte> pixels, bool mips,
+    MemoryArena* arena = nullptr);
+/// Writes rows of one layer, from first_row on.
+using FillRows = std::function<void(std::uint32_t layer, int first_row, int rows, std::span<std::byte> to)>;
+/// An array of pictures for sampling, without mips. It is filled a few MiB at a time, so that a large one needs no second
+/// copy of its own size on the way.
+Image make_texture_array(
+    Device& device, vk::Format format, glm::ivec2 size, std::uint32_t layers, std::size_t texel_bytes, const FillRows& fill);
+/// The same from pixels in memory, one picture after the other.
 Image make_texture_array(
     Device& device, vk::Format format, glm::ivec2 size, std::uint32_t layers, std::span<const std::byte> pixels);
 

@@ -7,7 +7,7 @@ namespace starbow {
 /// The instruments' part of a frame: overlay, panel and probes.
 struct Measuring {
     std::vector<glm::dvec3> probes; ///< unit directions in the cockpit whose light is read
-    OverlayPass::What over;
+    OverlayPass::Content over;
     const Panel* panel = nullptr; ///< readings, or null; the next frame reads it
     glm::vec4 scale{0}; ///< place of the false colours on the panel, see PanelPass::draw
 };
@@ -65,7 +65,7 @@ private:
     std::unique_ptr<Probe> probe_;
     std::unique_ptr<OverlayPass> overlay_;
     std::unique_ptr<PanelPass> panel_;
-    std::vector<vk::Rect2D> boxes_; ///< of the panel in each view
+    std::vector<vk::Rect2D> boxes_; ///< the panel's box in each view
 };
 
 } // namespace starbow

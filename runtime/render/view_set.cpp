@@ -150,12 +150,15 @@ std::optional<std::size_t> ViewSet::map_for(const CompiledView& view, std::vecto
             maps.push_back(std::move(old));
             return maps.size() - 1;
         }
-    const std::vector<glm::uvec2> texels = packed(*view.map);
+    const DirectionMap& map = *view.map;
     maps.push_back({view.map,
-        make_texture_array(
-            device_, map_format, view.map->size, std::uint32_t(view.map->channels), std::as_bytes(std::span(texels)))});
+        make_texture_array(device_, map_format, map.size, std::uint32_t(map.channels), sizeof(glm::uvec2),
+            [&](std::uint32_t channel, int first, int rows, std::span<std::byte> to) {
+                pack_rows(map, int(channel), first, rows,
+                    {reinterpret_cast<glm::uvec2*>(to.data()), to.size() / sizeof(glm::uvec2)});
+            })});
     if (has_stars_) {
-        const InverseMap inverse = starbow::inverse(*view.map);
+        const InverseMap inverse = starbow::inverse(map);
         maps.back().closes = inverse.closes;
         maps.back().inverse = make_texture_array(device_, inverse_format, glm::ivec2(inverse.side),
             std::uint32_t(inverse.channels), std::as_bytes(std::span(inverse.cells)));

@@ -16,7 +16,7 @@ struct ViewState {
     std::size_t eye = 0; ///< index of its eye's cube map in EyeCubes::all
     CompiledView compiled;
     std::optional<std::size_t> map; ///< index into ViewSet::maps
-    Image label; ///< of test patterns, made at their first use
+    Image label; ///< label of the test patterns, made at their first use
     float shown_part = 1; ///< see pattern_label.h; for test patterns
     vk::raii::DescriptorSet warp_set = nullptr, label_set = nullptr;
     std::vector<std::uint64_t> written; ///< serials of the two sets' resources
@@ -51,7 +51,7 @@ public:
 
     /// Everything that is computed from the layout before any state changes.
     struct Parts {
-        std::vector<std::vector<CompiledView>> views; ///< of each output
+        std::vector<std::vector<CompiledView>> views; ///< one list for each output
         std::vector<Shade> shades;
     };
     /// Computes the parts of FrameState's layout. Throws InputError for a wrong file and, if `rejects_empty`, for a view

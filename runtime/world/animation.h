@@ -41,18 +41,18 @@ struct Spin {
 
 /// An animated node: it moves against its parent.
 struct Joint {
-    int node; ///< of World::nodes
+    int node; ///< index into World::nodes
     int above = -1; ///< the next joint above it, of World::joints, with a smaller index
     glm::dmat4 above_from_parent{1}; ///< through the nodes between, which stand still
-    glm::dvec3 translation{0}, scale{1}; ///< where no track sets them
+    glm::dvec3 translation{0}, scale{1}; ///< values of properties without a track
     glm::dquat rotation{1, 0, 0, 0};
-    int translations = -1, rotations = -1, scales = -1; ///< of World::tracks
+    int translations = -1, rotations = -1, scales = -1; ///< index into World::tracks
     std::optional<Spin> spin; ///< rigid in the frame, whatever the scales above it
 };
 
 /// An instance's place in an animation: its joint, and the place of the joints' own frame.
 struct Motion {
-    int joint; ///< of World::joints
+    int joint; ///< index into World::joints
     glm::dmat4 joint_from_local{1};
     glm::dvec3 place{0}; ///< in the instance's frame, from a body's origin
 };

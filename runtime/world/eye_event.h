@@ -9,7 +9,7 @@ glm::dmat3 motion_from_world(const glm::dvec3& u, const glm::dquat& ship_from_co
 
 /// An eye's event in one rest frame.
 struct EyeEvent {
-    int frame = 0; ///< of World::frames
+    int frame = 0; ///< index into World::frames
     glm::dvec3 place{0}; ///< the eye's place and time in that frame
     double time = 0;
     glm::dmat3 motion_from_frame{1}; ///< turn

@@ -25,8 +25,8 @@ NeededLevel needed_level(const World& world, const SceneFile& scene); ///< world
 struct Spectra {
     SpectralLevel level = SpectralLevel::colours;
     SpectralBasis basis;
-    int groups = 1; ///< of four coefficients
-    int kinds = 1; ///< of spectra that illuminate surfaces; the first is sunlight
+    int groups = 1; ///< number of groups of four coefficients
+    int kinds = 1; ///< number of kinds of spectra that illuminate surfaces; the first is sunlight
     /// The kinds of a light in one rest frame. A light at rest there has one kind. A light that moves there has several
     /// kinds of shifted light, evenly spaced in log2 D; the shader blends between two of them.
     struct Lamp {
@@ -42,7 +42,7 @@ struct Spectra {
         double emission = 1; ///< the emissive colour's part in its coefficient
         glm::dvec4 own{0}; ///< glow: coefficients of the world's own emission spectra
     };
-    std::vector<Surface> surfaces; ///< of each material
+    std::vector<Surface> surfaces; ///< one for each material
     std::array<std::array<glm::dvec4, MAX_GROUPS>, 3> sky; ///< zenith, horizon, nadir: coefficients
     double most = 0; ///< the greatest coefficient of the world's own emission spectra
 };

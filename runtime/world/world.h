@@ -2,6 +2,7 @@
 #include "animation.h"
 #include "config/model/body.h"
 #include "config/model/emission.h"
+#include <compare>
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -25,7 +26,7 @@ enum class Wrap { repeat, mirror, clamp };
 struct Sampler {
     Wrap u = Wrap::repeat, v = Wrap::repeat;
     bool magnify_linear = true, minify_linear = true, mipmaps = true, mip_linear = true;
-    bool operator==(const Sampler&) const = default;
+    auto operator<=>(const Sampler&) const = default;
 };
 
 /// sRGB-encoded colours with linear alpha, rows from the top.
@@ -65,7 +66,7 @@ struct Material {
     double temperature_K = 0, emissivity = 0; ///< glows as a black body times the emissivity
     std::optional<WorldClock> clock; ///< a dial is drawn on the surface, across texture coordinates 0 to 1; only its
                                      ///< marks emit `emissive`
-    std::optional<Blink> blink; ///< of its emitted light
+    std::optional<Blink> blink; ///< blinking of its emitted light
     std::optional<Emission> emission; ///< the spectrum of `emissive`, whose luminance 1 is then the energy of a sunlit
                                       ///< white surface. nullopt: a sunlit colour
 };
@@ -105,12 +106,12 @@ struct ExistenceInterval {
 /// Triangles are counter-clockwise from outside in the world, also where `frame_from_local` mirrors: the primitive is
 /// turned beforehand. Normals transform by the inverse transpose; the transform has an inverse.
 struct Instance {
-    glm::dmat4 frame_from_local; ///< of an animated one: at its own time 0
+    glm::dmat4 frame_from_local; ///< at its own time 0 for an animated instance
     std::uint32_t primitive;
-    int node = -1; ///< of World::nodes
-    int frame = 0; ///< of World::frames
-    int existence = -1; ///< of World::existence_intervals; -1: it always exists, and its time is the frame's
-    int motion = -1; ///< of World::motions; -1: it stands still
+    int node = -1; ///< index into World::nodes
+    int frame = 0; ///< index into World::frames
+    int existence = -1; ///< index into World::existence_intervals; -1: it always exists, and its time is the frame's
+    int motion = -1; ///< index into World::motions; -1: it stands still
 };
 
 /// A node of the file; scene files name the parts below it by it.
@@ -121,9 +122,9 @@ struct WorldNode {
 
 /// A light of the scene in one rest frame's coordinates.
 struct Lamp {
-    std::size_t light; ///< of SceneFile::lights
+    std::size_t light; ///< index into SceneFile::lights
     int frame = 0; ///< its rest frame
-    glm::dvec3 position{0}; ///< of a point light, in that frame
+    glm::dvec3 position{0}; ///< a point light's place in that frame
     int existence = -1;
 };
 

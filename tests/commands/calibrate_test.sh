@@ -23,8 +23,8 @@ check() { # WHAT TEXT: $said must contain TEXT
     fi
 }
 
-# stick X Y TWIST SLIDER [BUTTONS]: prints one report of the T.16000M, 64 bytes: buttons and a released hat, X and Y with 14 bits,
-# twist and slider with 8, then zeros.
+# stick X Y TWIST SLIDER [BUTTONS]: prints one report of the T.16000M. Its 64 bytes are buttons, a released hat, X and Y with 14
+# bits, twist and slider with 8, then zeros.
 stick() {
     printf 'report thrustmaster-t16000m %02x000f%02x%02x%02x%02x%02x%02x%0110d\n' "${5:-0}" $(($1 & 255)) $(($1 >> 8)) \
         $(($2 & 255)) $(($2 >> 8)) "$3" "$4" 0

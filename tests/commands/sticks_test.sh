@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A simulated stick and throttle with an unmodified program: found by their profiles, flown to a given speed, and one unplugged in
-# flight and plugged in at another port. Usage: sticks_test.sh PROGRAM RIG_FOLDER
+# A simulated stick and throttle with an unmodified program. They are found by their profiles and flown to a given speed; one
+# is unplugged in flight and plugged in at another port. Usage: sticks_test.sh PROGRAM RIG_FOLDER
 set -u
 program=$1 tools=$2 here=$(cd "$(dirname "$0")/.." && pwd)
 . "$here/rig/monitors.sh"

@@ -42,7 +42,7 @@ std::string with(const std::string& step)
 }
 
 const std::string question
-    = R"("ask": { "en": "?" }, "explanation": { "en": "{measured}" }, "measure": { "what": "gamma" }, "number": { "from": 1, "to": 9, "step": 0.5, "tolerance": 0.2 })";
+    = R"("ask": { "en": "?" }, "explanation": { "en": "{measured}" }, "measure": { "quantity": "gamma" }, "number": { "from": 1, "to": 9, "step": 0.5, "tolerance": 0.2 })";
 
 } // namespace
 
@@ -106,13 +106,13 @@ TEST(TourFile, EveryMemberIsRead)
         { "seconds": 1.5, "cut": { "time": 7, "position": [1, 2, 3], "velocity": { "direction": [0, 0, 2], "gamma": 4 } },
           "caption": { "de": "deutsch", "en": "english" }, "exposure_ev": -2 },
         { "seconds": 2, "ship_s_per_s": 3, "glide": { "position": [4, 5, 6], "time": 9 },
-          "caption": "tour.first-minute.back", "measure": { "what": "reading_s", "at": [1, 0, 0], "against": [0, 1, 0] } },
+          "caption": "tour.first-minute.back", "measure": { "quantity": "reading_s", "at": [1, 0, 0], "relative_to": [0, 1, 0] } },
         { "seconds": 3, "ease_s": [0.5, 1], "thrust": { "rapidity_per_s": 0.25, "towards": [0, 3, 0] }, "effects": { "doppler": false } },
         { "seconds": 4, "turn": { "look": [1, 0, 0] } },
-        { "seconds": 5, "question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "explanation_s": 4, "measure": { "what": "beta" },
+        { "seconds": 5, "question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "explanation_s": 4, "measure": { "quantity": "beta" },
           "choices": [{ "text": { "en": "a" }, "below": 0.5 }, { "text": { "en": "b" }, "from": 0.5 }] } },
         { "seconds": 6, "try": { "mode": "newtonian", "max_gamma": 7 },
-          "question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "what": "gamma" }, "reach": { "from": 2, "to": 3 } } },
+          "question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "quantity": "gamma" }, "reach": { "from": 2, "to": 3 } } },
         { "seconds": 7 } ] })";
     EXPECT_TRUE(schema_accepts(json::parse(text)));
     const Tour tour = tour_of(text), german = tour_of(text, "de");
@@ -134,9 +134,9 @@ TEST(TourFile, EveryMemberIsRead)
     EXPECT_EQ(glide.time, 9);
     EXPECT_FALSE(glide.u || glide.ship_from_cockpit) << "members that are not given stay";
     EXPECT_EQ(tour.steps[1].ship_s_per_s, 3);
-    EXPECT_EQ(tour.steps[1].measure->what, Measure::What::reading_s);
+    EXPECT_EQ(tour.steps[1].measure->quantity, Measure::Quantity::reading_s);
     EXPECT_EQ(tour.steps[1].measure->at, glm::dvec3(1, 0, 0));
-    EXPECT_EQ(tour.steps[1].measure->against, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(tour.steps[1].measure->relative_to, glm::dvec3(0, 1, 0));
     const Thrust& thrust = std::get<Thrust>(tour.steps[2].motion);
     EXPECT_EQ(thrust.rapidity_per_s, 0.25);
     EXPECT_EQ(thrust.towards, glm::dvec3(0, 1, 0));
@@ -170,7 +170,7 @@ TEST(TourFile, TheSchemasDefaultsAreTheReaders)
     std::set<std::string> known, described;
     for (const auto& [name, what] : measures)
         known.emplace(name);
-    for (const json& name : schema["definitions"]["measure"]["properties"]["what"]["enum"])
+    for (const json& name : schema["definitions"]["measure"]["properties"]["quantity"]["enum"])
         described.insert(name.get<std::string>());
     EXPECT_EQ(known, described);
 }
@@ -185,9 +185,11 @@ TEST(TourFile, WrongToursAreRefusedByReaderAndSchema)
             {with(R"("seconds_": 3)"), "/steps/1/seconds_"},
             {with(R"("caption": "hello")"), "/steps/1/caption: \"hello\" is no text in en.json"},
             {with(R"("caption": {})"), "/steps/1/caption: {} is no text"},
-            {with(R"("measure": { "what": "weight" })"), "/steps/1/measure/what: \"weight\" is not known here"},
-            {with(R"("measure": { "what": "size" })"), "/steps/1/measure: {\"what\":\"size\"} lacks \"at\""},
-            {with(R"("measure": { "what": "gamma", "at": [0, 0, 0] })"), "/steps/1/measure/at: [0,0,0] is a place too many"},
+            {with(R"("measure": { "quantity": "weight" })"), "/steps/1/measure/quantity: \"weight\" is not known here"},
+            {with(R"("measure": { "what": "gamma" })"), "/steps/1/measure/what: \"gamma\" stands under a name of older files"},
+            {with(R"("measure": { "quantity": "gamma", "against": [0, 0, 0] })"), "\"relative_to\" is its name now"},
+            {with(R"("measure": { "quantity": "size" })"), "/steps/1/measure: {\"quantity\":\"size\"} lacks \"at\""},
+            {with(R"("measure": { "quantity": "gamma", "at": [0, 0, 0] })"), "/steps/1/measure/at: [0,0,0] is a place too many"},
             {with(R"("cut": "start", "thrust": { "rapidity_per_s": 1 })"), "/steps/1/thrust: "},
             {with(R"("thrust": { "rapidity_per_s": 0 })"), "/steps/1/thrust/rapidity_per_s: 0 is too small"},
             {with(R"("turn": {})"), "/steps/1/turn: {} lacks \"look\""},
@@ -195,9 +197,9 @@ TEST(TourFile, WrongToursAreRefusedByReaderAndSchema)
             {with(R"("glide": { "effects": {} })"), "/steps/1/glide/effects"},
             {with(R"("ease_s": 1)"), "/steps/1/ease_s: 1 is not a list"},
             {with(R"("exposure_ev": 61)"), "/steps/1/exposure_ev: 61 is too large"},
-            {with(R"("question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "what": "gamma" } })"),
+            {with(R"("question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "quantity": "gamma" } })"),
                 "needs one way to answer"},
-            {with(R"("question": { "explanation": { "en": "!" }, "measure": { "what": "gamma" } })"), "lacks \"ask\""}}) {
+            {with(R"("question": { "explanation": { "en": "!" }, "measure": { "quantity": "gamma" } })"), "lacks \"ask\""}}) {
         EXPECT_NE(message_for(text).find(problem), std::string::npos) << message_for(text);
         EXPECT_FALSE(schema_accepts(json::parse(text))) << text;
     }
@@ -214,10 +216,10 @@ TEST(TourFile, WrongToursAreRefusedByReaderAndSchema)
             {with(R"("thrust": { "rapidity_per_s": 1, "towards": [0, 0, 0] })"), "points nowhere"},
             {with(R"("try": {}, "question": { )" + question + " }"), "/steps/1/question: "},
             {with(
-                 R"("question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "what": "gamma" }, "reach": { "from": 1, "to": 2 } })"),
+                 R"("question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "quantity": "gamma" }, "reach": { "from": 1, "to": 2 } })"),
                 "wants a place to be reached"},
             {with(
-                 R"("question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "what": "gamma" }, "choices": [{ "text": { "en": "a" }, "from": 2, "below": 2 }, { "text": { "en": "b" } }] })"),
+                 R"("question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "quantity": "gamma" }, "choices": [{ "text": { "en": "a" }, "from": 2, "below": 2 }, { "text": { "en": "b" } }] })"),
                 "/choices/0: "}})
         EXPECT_NE(message_for(text).find(problem), std::string::npos) << message_for(text);
 }

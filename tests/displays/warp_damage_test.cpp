@@ -187,8 +187,8 @@ TEST(WarpDamageTest, FaultsInHeadsetMeshesAreNamed)
 
 TEST(WarpDamageTest, FaultsInPfmAreNamed)
 {
-    const std::string good = pfm(4, 3, straight(4, 3));
-    std::vector<float> far = straight(4, 3), outside(36, 0.f), holes(36, std::numeric_limits<float>::quiet_NaN());
+    const std::string good = pfm(4, 3, identity_map(4, 3));
+    std::vector<float> far = identity_map(4, 3), outside(36, 0.f), holes(36, std::numeric_limits<float>::quiet_NaN());
     far[3] = 1e9f;
     for (std::size_t i = 0; i < 36; ++i)
         outside[i] = 3 + 0.1f * float(i % 3);
@@ -209,7 +209,7 @@ TEST(WarpDamageTest, FaultsInPfmAreNamed)
 TEST(WarpDamageTest, FaultsInMpcdiAreNamed)
 {
     const std::string region = region_xml("r", frustum_xml), buffer = "<buffer id=\"b\">" + region + "</buffer>";
-    const std::string map = pfm(4, 3, straight(4, 3));
+    const std::string map = pfm(4, 3, identity_map(4, 3));
     const auto archive = [&](const std::string& xml, const std::string& more = "") {
         return zipped({{"mpcdi.xml", xml}, {"r.pfm", map}, {"mask.png", more}});
     };

@@ -230,7 +230,7 @@ TEST(WarpFormatsTest, HeadsetMeshesHaveThreeDirections)
 
 TEST(WarpFormatsTest, PfmMayHaveEitherByteAndRowOrder)
 {
-    std::vector<float> values = straight(4, 3);
+    std::vector<float> values = identity_map(4, 3);
     values[0] = 0.2f; // the lower left pixel
     for (bool little : {true, false}) {
         const WarpMesh mesh = read("a.pfm", pfm(4, 3, values, little));
@@ -246,7 +246,7 @@ TEST(WarpFormatsTest, PfmMayHaveEitherByteAndRowOrder)
 
 TEST(WarpFormatsTest, PfmReachesTheEdgesAndLeavesHoles)
 {
-    std::vector<float> values = straight(4, 3);
+    std::vector<float> values = identity_map(4, 3);
     const WarpMesh whole = read("a.pfm", pfm(4, 3, values));
     for (const WarpVertex& vertex : whole.vertices) // floats
         expect_near(vertex.sees[0], glm::dvec3(vertex.at, 0), 1e-6);
@@ -286,7 +286,7 @@ TEST(WarpFormatsTest, MpcdiMasksAreRead)
 
 TEST(WarpFormatsTest, MpcdiRegionsAreChosenByName)
 {
-    std::vector<float> half = straight(2, 2);
+    std::vector<float> half = identity_map(2, 2);
     half[0] = 0.3f;
     const std::string archive
         = zipped({{"Calibration.XML",
@@ -295,7 +295,7 @@ TEST(WarpFormatsTest, MpcdiRegionsAreChosenByName)
                               "<buffer id=\"one\">" + region_xml("l", "") + region_xml("r", "")
                                   + "</buffer><buffer id=\"two\">" + region_xml("m", "") + "</buffer>",
                               fileset_xml("l", "L.pfm") + fileset_xml("r", "r.pfm") + fileset_xml("m", "r.pfm"), "1.0")},
-            {"folder/other.xml", "<other/>"}, {"l.pfm", pfm(2, 2, straight(2, 2))}, {"r.pfm", pfm(2, 2, half)}});
+            {"folder/other.xml", "<other/>"}, {"l.pfm", pfm(2, 2, identity_map(2, 2))}, {"r.pfm", pfm(2, 2, half)}});
     EXPECT_EQ(complaint([&] { read("a.mpcdi", archive); }),
         "a.mpcdi: 3 regions are in it and none is chosen; the region \"l\", \"r\" or \"m\" is right");
     EXPECT_EQ(complaint([&] { read("a.mpcdi", archive, "x"); }),
@@ -337,7 +337,7 @@ TEST(WarpFormatsTest, TheContentDecidesTheFormat)
 {
     for (const auto& [content, format] : {std::pair(bourke, "Bourke"), {csv, "domeprojection"}, {simcad, "SimCAD"},
              {scalable, "Scalable"}, {skyskan, "SkySkan"}, {obj, "OBJ"}, {headset, "headset"}, {mpcdi_3d(), "MPCDI"},
-             {pfm(2, 2, straight(2, 2)), "PFM"}, {sample("channel1_warp_u2.sgc"), "SCISS"}})
+             {pfm(2, 2, identity_map(2, 2)), "PFM"}, {sample("channel1_warp_u2.sgc"), "SCISS"}})
         EXPECT_EQ(read("calibration", content).format.substr(0, std::string(format).size()), format);
 }
 

@@ -48,8 +48,8 @@ std::vector<Seed> seeds()
              {"a.txt", skyskan}, {"a.obj", obj}, {"a.mesh", headset}})
         all.push_back({name, {{name, text}}});
     all.push_back({"frustum", {{"frustum", "x;y;z;heading;pitch;bank;left;right;bottom;top\n0;0;0;45;10;0;58;59;-7;70\n"}}});
-    all.push_back({"a.pfm", {{"a.pfm", pfm(4, 3, straight(4, 3))}}});
-    all.push_back({"b.pfm", {{"b.pfm", pfm(4, 3, straight(4, 3), false)}}});
+    all.push_back({"a.pfm", {{"a.pfm", pfm(4, 3, identity_map(4, 3))}}});
+    all.push_back({"b.pfm", {{"b.pfm", pfm(4, 3, identity_map(4, 3), false)}}});
     for (std::uint32_t version : {1u, 2u}) {
         std::string bytes = "SGC" + std::string(1, char(version));
         const auto word = [&](std::uint32_t value) {
@@ -76,7 +76,7 @@ std::vector<Seed> seeds()
     std::vector<unsigned char> picture(5 * 4 * 3);
     for (std::size_t i = 0; i < picture.size(); ++i)
         picture[i] = static_cast<unsigned char>(i * 37);
-    const Parts parts{{"mpcdi.xml", flat}, {"r.pfm", pfm(4, 3, straight(4, 3))}, {"a.png", png(5, 4, 3, picture)}};
+    const Parts parts{{"mpcdi.xml", flat}, {"r.pfm", pfm(4, 3, identity_map(4, 3))}, {"a.png", png(5, 4, 3, picture)}};
     all.push_back({"a.mpcdi", parts}); // each file inside is damaged
     all.push_back({"b.mpcdi", {{"b.mpcdi", zipped(parts)}}}); // the archive itself is damaged
     const std::string frame = "<coordinateFrame><yawx>0</yawx><yawy>-1</yawy><yawz>0</yawz><pitchx>1</pitchx><pitchy>0</"
@@ -86,7 +86,7 @@ std::vector<Seed> seeds()
     files.insert(files.find("<interpolation>"), "<geometricUnit>m</geometricUnit>");
     all.push_back({"c.mpcdi",
         {{"mpcdi.xml", mpcdi_xml("a3", "<buffer id=\"b\">" + region_xml("r", frame) + "</buffer>", files)},
-            {"r.pfm", pfm(4, 3, straight(4, 3))}}});
+            {"r.pfm", pfm(4, 3, identity_map(4, 3))}}});
     return all;
 }
 

@@ -88,7 +88,7 @@ double reading(const Touring& touring, const glm::dvec3& clock)
     return 0.5 * (low + high);
 }
 
-constexpr const char* measured_size = R"({ "what": "size", "at": [0, 0, -46] })";
+constexpr const char* measured_size = R"({ "quantity": "size", "at": [0, 0, -46] })";
 
 } // namespace
 
@@ -117,7 +117,7 @@ TEST(Tours, TheFirstMinutesColumnFirstShrinks)
             EXPECT_NEAR(place_of(touring).z, -34 - x, 1e-12 * 46);
             EXPECT_NEAR(size, L / (L - x) / E, 1e-9) << "a ball of 1e-6 equals a point up to its square, 1e-12";
         }
-        const Measure measure{Measure::What::size, column, {}};
+        const Measure measure{Measure::Quantity::size, column, {}};
         EXPECT_NEAR(measured(measure, touring.flight.ship, touring.starts.back().since, 1), size, 1e-9);
         if (size < smallest)
             smallest = size, e_smallest = E, of = touring.step();
@@ -144,7 +144,7 @@ TEST(Tours, SimultaneityShowsThePapersReadings)
         for (int i = 0; i < 5; ++i) {
             const glm::dvec3 clock(5 * (i - 2), 0, 0);
             EXPECT_NEAR(reading(touring, clock), expected[i], 1e-5) << i; // as many digits as are known
-            const Measure measure{Measure::What::reading_s, clock, {}};
+            const Measure measure{Measure::Quantity::reading_s, clock, {}};
             EXPECT_NEAR(measured(measure, touring.flight.ship, touring.flight.ship, 1), reading(touring, clock), 1e-9);
         }
     };
@@ -184,7 +184,7 @@ TEST(Tours, TheTwinsMeetAtTwentyAndTwelve)
                 const int index = world.primitives[instance.primitive].material;
                 if (world.materials[std::size_t(index)].name == material && instance.frame_from_local[2].z * way > 0
                     && entries[i].there.x <= 0 && entries[i].there.y > 0)
-                    figures.insert(said(entries[i]));
+                    figures.insert(dial_text(entries[i]));
             }
         }
         return figures.size() == 1 ? *figures.begin() : std::to_string(figures.size()) + " readings";
@@ -282,7 +282,7 @@ TEST(Tours, TheRainbowShowsDOneAt74Degrees)
     EXPECT_LT(u.x, 0) << "the motion is to the left";
     const double degrees = 74.45773;
     EXPECT_NEAR(1 / (gamma * (1 - beta * std::cos(glm::radians(degrees)))), 1, 1e-7) << "D by its definition";
-    const Measure measure{Measure::What::own_colour_deg, {}, {}};
+    const Measure measure{Measure::Quantity::own_colour_deg, {}, {}};
     EXPECT_NEAR(measured(measure, touring.flight.ship, touring.flight.ship, 1), degrees, 1e-5);
     // On screen it lies 29.5 degrees to the left of the view's middle, which looks 14 degrees behind the beam.
     const glm::dvec3 ahead = glm::normalize(u), look = touring.flight.ship.ship_from_cockpit * glm::dvec3(0, 0, -1);
@@ -298,8 +298,8 @@ TEST(Tours, MeasuresEqualTheTextbooks)
     ship.position = Sum3({1, 2, 3});
     ship.time.value = 50, ship.proper_time.value = 30;
     const glm::dvec3 at(4, 6, 3); // 5 away; the cosine of the angle from the motion is 0.8
-    const auto value = [&](Measure::What what) { return measured({what, at, {}}, ship, since, 2); };
-    using enum Measure::What;
+    const auto value = [&](Measure::Quantity quantity) { return measured({quantity, at, {}}, ship, since, 2); };
+    using enum Measure::Quantity;
     EXPECT_NEAR(value(gamma), g, 1e-12);
     EXPECT_NEAR(value(beta), 0.8, 1e-12);
     EXPECT_NEAR(value(rapidity), std::atanh(0.8), 1e-12);
@@ -402,10 +402,10 @@ TEST(Tours, AQuestionIsAnsweredFromTheState)
 {
     const Tour tour = tour_of(R"({ "seconds": 1, "cut": { "velocity": { "direction": [0, 0, -1], "gamma": 4 } } },
         { "seconds": 5, "question": { "ask": { "en": "gamma?" }, "explanation": { "en": "it is {measured}" }, "explanation_s": 3,
-          "measure": { "what": "gamma" }, "choices": [ { "text": { "en": "two" }, "from": 1.5, "below": 3 },
+          "measure": { "quantity": "gamma" }, "choices": [ { "text": { "en": "two" }, "from": 1.5, "below": 3 },
           { "text": { "en": "four" }, "from": 3, "below": 5 }, { "text": { "en": "six" }, "from": 5, "below": 7 } ] } },
         { "seconds": 5, "question": { "ask": { "en": "D?" }, "explanation": { "en": "{measured}" }, "explanation_s": 3,
-          "measure": { "what": "doppler_ahead" }, "number": { "from": 1, "to": 10, "step": 0.5, "tolerance": 0.2 } } },
+          "measure": { "quantity": "doppler_ahead" }, "number": { "from": 1, "to": 10, "step": 0.5, "tolerance": 0.2 } } },
         { "seconds": 1 })");
     const Show show{tour, {}, 1, true};
     const Controls right{.turn = {0, -1, 0}}, left{.turn = {0, 1, 0}};
@@ -450,7 +450,7 @@ TEST(Tours, AVisitorFliesATryUntilItIsReached)
 {
     const Tour tour = tour_of(R"({ "seconds": 1, "cut": "start" },
         { "seconds": 10, "try": { "max_gamma": 3 }, "question": { "ask": { "en": "go" }, "explanation": { "en": "{measured}" },
-          "explanation_s": 2, "measure": { "what": "gamma" }, "reach": { "from": 2, "to": 2.9 } } },
+          "explanation_s": 2, "measure": { "quantity": "gamma" }, "reach": { "from": 2, "to": 2.9 } } },
         { "seconds": 4, "try": {} }, { "seconds": 2 })");
     Show show{tour, {}, 1, true};
     const Touring given = later(touring_at(show), show, 1.1);

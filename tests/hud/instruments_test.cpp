@@ -1,5 +1,5 @@
-// Readings of the instruments without a device: the paper's clocks by hand, directions and lengths by the tests' own boosts
-// in 33 digits, the log as a spreadsheet reads it, and the texts of the pages.
+// Readings of the instruments without a device. The paper's clocks are calculated by hand, directions and lengths by the
+// tests' own boosts in 33 digits. Further tests read the log as a spreadsheet does, and the texts of the pages.
 #include "config/json/error.h"
 #include "config/model/angles.h"
 #include "config/model/scene_file.h"

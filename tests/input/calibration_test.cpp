@@ -143,7 +143,7 @@ TEST(CalibrationTest, AnAxisThatRestsAtAnEndIsAPedal)
     const Descriptor descriptor = stick();
     const auto axes = moved_stick(descriptor);
     const Field& pedal = descriptor.fields[4];
-    // As a trigger it gives 0 when released, whichever way it was pulled or described.
+    // A trigger gives 0 when released, in whichever direction it was pulled or described.
     for (const bool to_high : {true, false}) {
         const Profile profile = calibrated({}, descriptor, axes, {{{AxisRole::faster, Push{4, to_high, 1}}}, {}});
         EXPECT_EQ(shaped(with(profile, AxisRole::faster), pedal, 0), 0);

@@ -74,12 +74,12 @@ TEST(Log, LevelsBelowTheLowestAreLeftOut)
 {
     LogFile file("log-levels");
     file.open();
-    log_debug("exhibit", "nobody asked");
+    log_debug("exhibit", "left out");
     EXPECT_EQ(file.lines().size(), 0u);
     file.open(LogLevel::debug);
-    log_debug("exhibit", "somebody asked");
+    log_debug("exhibit", "included");
     ASSERT_EQ(file.lines().size(), 1u);
-    EXPECT_NE(file.lines()[0].find("debug exhibit: somebody asked"), std::string::npos);
+    EXPECT_NE(file.lines()[0].find("debug exhibit: included"), std::string::npos);
     file.open(LogLevel::error);
     log_warning("exhibit", "no");
     EXPECT_EQ(file.lines().size(), 1u);

@@ -1,8 +1,8 @@
-// The live picture compared with the reference, which uses neither the cube map nor the warp pass: in every shipped layout,
-// in worlds with clocks, bodies, lines and glows, and with finer and finer cube maps.
+// The live picture compared with the reference, which uses neither the cube map nor the warp pass. The tests cover every
+// shipped layout, worlds with clocks, bodies, lines and glows, and finer and finer cube maps.
 #include "runtime/images/picture_errors.h"
 #include "runtime/reference/reference.h"
-#include "tests/support/stage.h"
+#include "tests/support/gpu_environment.h"
 
 using namespace starbow;
 using namespace starbow::gpu_test;

@@ -47,8 +47,8 @@ TEST(Blinking, SweepsOverAWallAsItsLightArrives)
                 shot.time = time;
                 Quality quality = test_quality();
                 quality.max_texels_per_pixel = 1000; // not limited below the finest texel that the pixels need
-                OffscreenRenderer stage(device(), pipelines(), world, one_view(Planar{100}, {320, 240}), quality, true);
-                const Numbers numbers(stage, shot);
+                OffscreenRenderer offscreen(device(), pipelines(), world, one_view(Planar{100}, {320, 240}), quality, true);
+                const Numbers numbers(offscreen, shot);
                 long lit = 0, dark = 0, wrong = 0;
                 for (int i = 0; i < numbers.count(); i += 7) {
                     if (!numbers.shown(i))
@@ -83,9 +83,9 @@ TEST(Blinking, SweepsOverAWallAsItsLightArrives)
                     if (!right && wrong < 4)
                         ADD_FAILURE() << "pixel " << at.x << ", " << at.y << ": " << light.r << " at phase " << here;
                 }
-                EXPECT_EQ(wrong, 0) << time << " on_body " << on_body;
-                EXPECT_GT(lit, 150) << time << " on_body " << on_body;
-                EXPECT_GT(dark, 500) << time << " on_body " << on_body;
+                EXPECT_EQ(wrong, 0) << time << " on the body: " << on_body;
+                EXPECT_GT(lit, 150) << time << " on the body: " << on_body;
+                EXPECT_GT(dark, 500) << time << " on the body: " << on_body;
             }
         }
     }
@@ -97,12 +97,12 @@ TEST(Blinking, RingsMoveOutwards)
     Doc doc;
     quad(doc, {0, 0, -3}, {20, 0, 0}, {0, 20, 0}, blinking(doc, {1, 1, 1}, {{"period_s", 1000}, {"on", 0.0005}}));
     const GpuWorld world = open_world("flash", doc, slow());
-    OffscreenRenderer stage = renderer(world, one_view(Planar{90}, {401, 401}));
+    OffscreenRenderer offscreen = renderer(world, one_view(Planar{90}, {401, 401}));
     double before = 0;
     for (double t : {3.6, 3.8, 4.0, 4.2}) {
         Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
         shot.time = t;
-        const Numbers numbers(stage, shot);
+        const Numbers numbers(offscreen, shot);
         double outer = 0; // from the outermost lit pixel to the right
         for (int x = 200; x < 401; ++x)
             if (numbers.light(200 * 401 + x).g > 0.5)
@@ -197,21 +197,21 @@ TEST(Spinning, TipsAreSeenWhereTheirLightLeft)
             Shot shot = shot_at(eye, {0, 0, 0}, look, std::abs(look.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(0, 0, 1));
             shot.time = time;
             constexpr int across = 900;
-            OffscreenRenderer stage = renderer(world, one_view(Planar{75}, {across, across}));
-            const Numbers numbers(stage, shot);
+            OffscreenRenderer offscreen = renderer(world, one_view(Planar{75}, {across, across}));
+            const Numbers numbers(offscreen, shot);
             const double pixel = 2 * std::tan(37.5 * degree) / across;
             for (double sign : {1.0, -1.0, 0.0}) {
-                const dvec3 want = seen_from(u, time, eye, tip(sign));
-                const dvec3 got = direction_of(numbers, sign > 0 ? 0 : sign < 0 ? 1 : 2);
-                EXPECT_LT(between(want, got), 0.5 * pixel)
-                    << "beta " << beta << " time " << time << " tip " << sign << ", pixels " << between(want, got) / pixel;
-                worst = std::max(worst, between(want, got) / pixel);
+                const dvec3 expected = seen_from(u, time, eye, tip(sign));
+                const dvec3 found = direction_of(numbers, sign > 0 ? 0 : sign < 0 ? 1 : 2);
+                EXPECT_LT(between(expected, found), 0.5 * pixel) << "beta " << beta << " time " << time << " tip " << sign
+                                                                 << ", pixels " << between(expected, found) / pixel;
+                worst = std::max(worst, between(expected, found) / pixel);
                 // The direction in which the tip would be seen with the retarded time of the bar's middle.
                 const dvec3 without_offset = seen_from(u, time, eye, [&](quad::Q) {
                     const quad::V4 e = into(u, {time, quad::of(eye)});
                     return tip(sign)(e.t - quad::length(quad::of(middle) - e.x));
                 });
-                largest_offset = std::max(largest_offset, between(without_offset, want) / pixel);
+                largest_offset = std::max(largest_offset, between(without_offset, expected) / pixel);
             }
         }
     }
@@ -252,15 +252,16 @@ TEST(Animated, AShuttleIsSeenWhereItsLightLeft)
             Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, look);
             shot.time = time;
             constexpr int across = 1400;
-            OffscreenRenderer stage = renderer(world, one_view(Planar{110}, {across, across}));
-            const Numbers numbers(stage, shot);
+            OffscreenRenderer offscreen = renderer(world, one_view(Planar{110}, {across, across}));
+            const Numbers numbers(offscreen, shot);
             const double pixel = 2 * std::tan(55 * degree) / across;
             int colour = 0;
             for (const dvec3& rest : {dvec3(0, 0, 2), dvec3(0, 0, -2), dvec3(1, 1, 0)}) {
-                const dvec3 want = seen_from(u, time, {0, 0, 0}, point(rest)), got = direction_of(numbers, colour++);
-                EXPECT_LT(between(want, got), 0.5 * pixel) << "beta " << beta << " time " << time << " point " << colour
-                                                           << ", pixels " << between(want, got) / pixel;
-                worst = std::max(worst, between(want, got) / pixel);
+                const dvec3 expected = seen_from(u, time, {0, 0, 0}, point(rest)), found = direction_of(numbers, colour++);
+                EXPECT_LT(between(expected, found), 0.5 * pixel)
+                    << "beta " << beta << " time " << time << " point " << colour << ", pixels "
+                    << between(expected, found) / pixel;
+                worst = std::max(worst, between(expected, found) / pixel);
             }
         }
     }

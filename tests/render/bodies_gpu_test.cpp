@@ -215,7 +215,7 @@ const Json lamp = {{"type", "point"}, {"position", {0, 0, -3}}, {"distance", 5},
 
 } // namespace
 
-TEST(BodiesGpuTest, WhoMovesDoesNotMatter)
+TEST(BodiesGpuTest, OnlyTheRelativeMotionMatters)
 {
     // The objects rest before a moving ship, or the objects and their lamp move past a resting ship.
     for (auto [beta, way] : {std::pair(0.5, dvec3(0, 0, -1)), {0.9, dvec3(1, 0, -1)}, {0.8, dvec3(0, 1, 1)}}) {
@@ -368,7 +368,7 @@ TEST(BodiesGpuTest, ABodySeenAbeamSeemsTurned)
     }
 }
 
-TEST(BodiesGpuTest, TwoWatchersAtOneEvent)
+TEST(BodiesGpuTest, TwoObserversAtOneEventSeeTheirOwnPictures)
 {
     // Three viewports side by side: the ship's own, an observer at rest, and one who passes the ship. Each must equal its
     // observer's own picture.

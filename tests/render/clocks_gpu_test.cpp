@@ -2,6 +2,7 @@
 // pixels alone. A textbook's pinhole and boost give a pixel's direction; plane geometry gives its place on a dial.
 #include "config/model/angles.h"
 #include "tests/support/quad.h"
+#include "runtime/world/detail.h"
 #include "tests/support/small_world.h"
 #include <algorithm>
 #include <complex>

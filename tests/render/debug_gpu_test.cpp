@@ -5,12 +5,12 @@
 #include "runtime/render/render_context.h"
 #include "runtime/world/stars.h"
 #include "tests/support/files.h"
-#include "tests/support/stage.h"
+#include "tests/support/gpu_environment.h"
 #include <map>
 #include <set>
 
 using namespace starbow;
-using starbow::gpu_test::Stage;
+using starbow::gpu_test::GpuEnvironment;
 
 namespace {
 
@@ -143,5 +143,5 @@ TEST(Debug, EveryObjectHasANameAndEveryPassALabel)
     EXPECT_EQ(notes.labels,
         (std::vector<std::string>{
             "cube pass", "meter", "probes", "warp", " stars", " bloom", " stars", " bloom", "overlay", "HUD", "finish"}));
-    Stage::expect_no_complaints(device);
+    GpuEnvironment::expect_no_complaints(device);
 }

@@ -1,6 +1,6 @@
 // A head that moves during the exhibit sees the same as in a layout with the eye there from the start.
 #include "displays/projections/wall.h"
-#include "tests/support/stage.h"
+#include "tests/support/gpu_environment.h"
 
 using namespace starbow;
 using namespace starbow::gpu_test;

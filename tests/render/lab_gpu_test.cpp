@@ -3,8 +3,8 @@
 #include "config/model/angles.h"
 #include "runtime/exhibit/still_measurement.h"
 #include "runtime/flight/flight.h"
+#include "tests/support/gpu_environment.h"
 #include "tests/support/quad.h"
-#include "tests/support/stage.h"
 #include <fstream>
 #include <functional>
 #include <map>
@@ -156,7 +156,7 @@ TEST(Lab, EveryMeasurementGivesTheTheorysValue)
     EXPECT_EQ(measured, int(expected.size()) - 3);
     for (const auto& [name, context] : contexts)
         if (context)
-            Stage::expect_no_complaints(context->device);
+            GpuEnvironment::expect_no_complaints(context->device);
     renderers.clear();
 }
 
@@ -202,7 +202,7 @@ TEST(Lab, UnderThrustTheClocksFirstSeemToMoveBackwards)
             EXPECT_NEAR(documented, expected.at(row.no()), 0.1 * error + 5e-4 * documented) << row.no();
             EXPECT_NEAR(measured.at(row.no()), documented, error) << row.no();
         }
-    Stage::expect_no_complaints(context.device);
+    GpuEnvironment::expect_no_complaints(context.device);
 }
 
 } // namespace

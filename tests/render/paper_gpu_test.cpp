@@ -1,11 +1,11 @@
-// The paper's figures through the whole path: the numbers of `starbow render --exr` for the shipped shots and others are
-// compared with relativity by 4-vectors (quad.h) and geometry by hand.
+// The paper's figures through the whole path. The numbers of `starbow render --exr`, for the shipped shots and others, are
+// compared with relativity by 4-vectors (quad.h) and with geometry by hand.
 #include "config/model/angles.h"
 #include "config/model/shipped.h"
 #include "displays/compile/direction_map.h"
 #include "runtime/light/spectrum.h"
+#include "tests/support/gpu_environment.h"
 #include "tests/support/quad.h"
-#include "tests/support/stage.h"
 #include <algorithm>
 #include <map>
 

@@ -37,7 +37,7 @@ TEST(Picture, StillsAreTheSameBytesEachTime)
         OffscreenRenderer afresh(again.device, again.pipelines, again.world, layout, test_quality(), false);
         EXPECT_EQ(afresh.picture(shot, &panel), first);
     }
-    Stage::expect_no_complaints(again.device);
+    GpuEnvironment::expect_no_complaints(again.device);
 }
 
 TEST(Picture, AtRestEveryEffectIsTheIdentity)
@@ -410,6 +410,47 @@ TEST(Picture, TexturesBeginAtTheTopLeft)
         EXPECT_TRUE(near_colour(numbers.light((50 - off) * 100 + 50 + off), {0, 1, 0}, 0.001)) << "top right";
         EXPECT_TRUE(near_colour(numbers.light((50 + off) * 100 + 50 - off), {0, 0, 1}, 0.001)) << "bottom left";
         EXPECT_TRUE(near_colour(numbers.light((50 + off) * 100 + 50 + off), {1, 1, 1}, 0.001)) << "bottom right";
+    }
+}
+
+/// A device guarantees 4,096 allocations and 4,000 samplers; a world may have more textures than that.
+TEST(Picture, ManyTexturesShareFewAllocationsAndSamplers)
+{
+    constexpr int side = 24; // textures along each side of a square of them
+    const auto colour_of = [](int i) { return glm::ivec3(i % 7 * 40, i / 7 % 7 * 40, i / 49 * 20); };
+    Doc doc;
+    const int samplers[2] = {doc.put("samplers", {{"magFilter", 9728}, {"minFilter", 9728}}),
+        doc.put("samplers", {{"magFilter", 9729}, {"minFilter", 9987}})};
+    for (int i = 0; i < side * side; ++i) {
+        // Sizes of their own keep textures from having the places of their neighbours by chance.
+        const int width = 1 + i % 5 * 16, height = 1 + i % 3 * 20;
+        const glm::ivec3 colour = colour_of(i);
+        std::vector<std::uint8_t> rgba;
+        for (int texel = 0; texel < width * height; ++texel)
+            rgba.insert(
+                rgba.end(), {std::uint8_t(colour.r), std::uint8_t(colour.g), std::uint8_t(colour.b), std::uint8_t(255)});
+        const std::string uri = "data:image/png;base64," + gltf_test::base64(gltf_test::png(width, height, rgba));
+        const int texture
+            = doc.put("textures", {{"source", doc.put("images", {{"uri", uri}})}, {"sampler", samplers[i % 2]}});
+        const int material = unlit(doc, {1, 1, 1});
+        doc.json["materials"][material]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", texture}};
+        quad(doc, {i % side - 11.5, 11.5 - i / side, -12}, {0.5, 0, 0}, {0, 0.5, 0}, material);
+    }
+    const GpuWorld world = open_world("textures", doc);
+    EXPECT_EQ(world.textures.size(), std::size_t(side * side));
+    EXPECT_LE(world.samplers.size(), 3u) << "the two above, and the one of materials without a texture";
+    EXPECT_LE(world.texture_memory.blocks(), 10u);
+    OffscreenRenderer offscreen = renderer(world, one_view(Planar{90}, {480, 480})); // 20 pixels a texture
+    const Numbers numbers(offscreen, shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
+    for (int i = 0; i < side * side; ++i) {
+        const glm::ivec3 colour = colour_of(i);
+        dvec3 light;
+        for (int c = 0; c < 3; ++c) {
+            const double srgb = colour[c] / 255.0; // IEC 61966-2-1
+            light[c] = srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+        }
+        const int at = (i / side * 20 + 10) * 480 + i % side * 20 + 10;
+        EXPECT_TRUE(near_colour(numbers.light(at), light, 0.002)) << i; // fp16 and eight bits
     }
 }
 

@@ -4,7 +4,7 @@
 #include "runtime/flight/record_files.h"
 #include "runtime/flight/recorder.h"
 #include "runtime/flight/replay.h"
-#include "tests/support/stage.h"
+#include "tests/support/gpu_environment.h"
 
 using namespace starbow;
 using namespace starbow::gpu_test;

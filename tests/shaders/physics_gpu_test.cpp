@@ -3,8 +3,8 @@
 #include "config/model/angles.h"
 #include "shaders/physics/physics.h"
 #include "spirv/physics_probe_comp.h"
+#include "tests/support/gpu_environment.h"
 #include "tests/support/quad.h"
-#include "tests/support/stage.h"
 #include <cstring>
 #include <random>
 

@@ -5,7 +5,7 @@
 namespace starbow::testing {
 
 /// Decodes a dial's figures from the bits of its entry.
-inline std::string said(const shared::TimeEntry& entry)
+inline std::string dial_text(const shared::TimeEntry& entry)
 {
     std::string out;
     const int count = int(entry.digits.z);

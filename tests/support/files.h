@@ -1,190 +1,55 @@
 #pragma once
 #include "config/json/error.h"
 #include "config/model/words.h"
-#include <algorithm>
-#include <cctype>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
-#include <iterator>
-#include <map>
 #include <random>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 namespace starbow::testing {
 
 /// The repository's root, for the shipped files.
-inline std::filesystem::path source_dir()
-{
-    return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
-}
+std::filesystem::path source_dir();
 
 /// Returns the path of `name` in this process's own folder, which is removed when the process ends.
-inline std::filesystem::path scratch(const std::string& name)
-{
-    struct Folder {
-        std::filesystem::path path
-            = std::filesystem::path(::testing::TempDir()) / ("starbow-test-" + std::to_string(getpid()));
-        Folder() { std::filesystem::create_directories(path); }
-        ~Folder()
-        {
-            std::error_code ignored;
-            std::filesystem::remove_all(path, ignored);
-        }
-    };
-    static const Folder folder;
-    return folder.path / name;
-}
+std::filesystem::path scratch(const std::string& name);
 
-inline std::filesystem::path write_text(const std::string& name, const std::string& text)
-{
-    const std::filesystem::path file = scratch(name);
-    std::ofstream(file, std::ios::binary) << text;
-    return file;
-}
+/// Writes a file into that folder.
+std::filesystem::path write_text(const std::string& name, const std::string& text);
 
-inline std::string read_text(const std::filesystem::path& file)
-{
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
+std::string read_text(const std::filesystem::path& file);
 
-inline std::vector<std::filesystem::path> shipped(const std::string& folder)
-{
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(source_dir() / folder))
-        if (entry.path().extension() == ".json")
-            files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    return files;
-}
+/// The JSON files of a folder of the repository, in order of their names.
+std::vector<std::filesystem::path> shipped(const std::string& folder);
 
 /// The shipped words of a language.
-inline const Words& words(const std::string& language = "en")
-{
-    static std::map<std::string, Words> read;
-    if (!read.contains(language))
-        read[language] = load_words(source_dir() / "config/words" / (language + ".json"));
-    return read[language];
-}
+const Words& words(const std::string& language = "en");
 
 /// Returns the message of the InputError that `act` throws. Anything else fails the test and returns "".
-template <class Act> std::string complaint(Act act)
-{
-    try {
-        act();
-    } catch (const InputError& error) {
-        EXPECT_EQ(std::string(error.what()).find_first_of("\n\r"), std::string::npos) << error.what();
-        return error.what();
-    } catch (const std::exception& error) {
-        ADD_FAILURE() << "not an InputError: " << error.what();
-        return "";
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return "";
-}
+std::string complaint(const std::function<void()>& act);
 
 /// Splits "FILE:LINE: rest" into its line and the rest. The line is 0 if the message names the file alone.
-inline std::pair<int, std::string> line_and_rest(const std::string& message, const std::filesystem::path& file)
-{
-    const std::string name = file.string();
-    EXPECT_EQ(message.substr(0, name.size() + 1), name + ":");
-    std::size_t at = std::min(name.size() + 1, message.size());
-    int line = 0;
-    for (; at < message.size() && std::isdigit(static_cast<unsigned char>(message[at])); ++at)
-        line = line * 10 + (message[at] - '0');
-    at += line > 0 && message.substr(at, 1) == ":";
-    return {line, message.substr(std::min(at + 1, message.size()))};
-}
+std::pair<int, std::string> line_and_rest(const std::string& message, const std::filesystem::path& file);
 
 /// A faulty file: its text, where the message points ("" for the whole file), the value it shows and a part of the reason.
 struct Wrong {
     std::string text, pointer, value, says;
 };
 
-template <class Load> void expect_wrong(Load load, const std::vector<Wrong>& cases)
-{
-    for (const Wrong& wrong : cases) {
-        SCOPED_TRACE(wrong.text.substr(0, 300));
-        const std::filesystem::path file = write_text("wrong.json", wrong.text);
-        const std::string message = complaint([&] { load(file); });
-        const auto [line, rest] = line_and_rest(message, file);
-        const bool begun = wrong.value.starts_with("{")
-            && !wrong.value.ends_with("}"); // the message shows only the beginning of a long object
-        const std::string start = (wrong.pointer.empty() ? "" : wrong.pointer + ": ") + wrong.value + (begun ? "" : " ");
-        EXPECT_EQ(rest.substr(0, start.size()), start);
-        EXPECT_GE(line, 1);
-        EXPECT_LE(line, 1 + std::count(wrong.text.begin(), wrong.text.end(), '\n'));
-        EXPECT_NE(message.find(wrong.says), std::string::npos) << message;
-        EXPECT_TRUE(message.ends_with(" is right")) << message;
-    }
-}
+/// Each file is refused with its line, the value and the right one.
+void expect_wrong(const std::function<void(const std::filesystem::path&)>& load, const std::vector<Wrong>& cases);
 
 /// Returns the text with a few random faults, as typing mistakes and bad disks make them.
-inline std::string mutated(std::string text, std::mt19937& random)
-{
-    static const std::vector<std::string> pieces{"1e999", "-1", "0", "1e308", "1e-320", "null", "true", "\"\"", "[]", "{}",
-        "[", "]", "{", "}", ",", ":", "\"", "NaN", "\\u0000", "\xff", "//", "/*", "99999999999999999999", "0.5",
-        "\"gamma\":2,"};
-    for (unsigned faults = 1 + random() % 4; faults > 0; --faults) {
-        const std::size_t at = random() % (text.size() + 1);
-        const std::size_t length = std::min<std::size_t>(random() % 12, text.size() - at);
-        switch (random() % 6) {
-        case 0:
-            text.erase(at, length);
-            break;
-        case 1:
-            text.insert(at, text.substr(at, length));
-            break;
-        case 2:
-            text.insert(at, pieces[random() % pieces.size()]);
-            break;
-        case 3:
-            text.replace(at, length, pieces[random() % pieces.size()]);
-            break;
-        case 4:
-            if (at < text.size())
-                text[at] = char(random());
-            break;
-        default: { // a number replaces a number, so that the text mostly stays JSON
-            const std::size_t digit = text.find_first_of("0123456789", at);
-            if (digit != std::string::npos)
-                text.replace(digit, 1, pieces[random() % 5]);
-        }
-        }
-    }
-    return text;
-}
+std::string mutated(std::string text, std::mt19937& random);
 
-inline int fuzz_count()
-{
-    const char* count = std::getenv("STARBOW_FUZZ_COUNT");
-    return count ? std::atoi(count) : 3000;
-}
+/// STARBOW_FUZZ_COUNT, or a few thousand.
+int fuzz_count();
 
 /// Every mutated file either loads or is refused in one line. Any other exception fails the test.
-template <class Load> void expect_survives(Load load, const std::vector<std::string>& seeds, int count = fuzz_count())
-{
-    std::mt19937 random(20070704);
-    int loaded = 0, refused = 0;
-    for (int i = 0; i < count; ++i) {
-        const std::string text = mutated(seeds[random() % seeds.size()], random);
-        const std::filesystem::path file = write_text("mutated", text);
-        try {
-            load(file);
-            ++loaded;
-        } catch (const InputError& error) {
-            ++refused;
-            ASSERT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-        } catch (const std::exception& error) {
-            FAIL() << error.what() << " thrown for:\n" << text;
-        }
-    }
-    EXPECT_GT(loaded, 0); // otherwise no mutation gets past the parser
-    EXPECT_GT(refused, 0);
-}
+void expect_survives(const std::function<void(const std::filesystem::path&)>& load, const std::vector<std::string>& seeds,
+    int count = fuzz_count());
 
 } // namespace starbow::testing

@@ -1,8 +1,7 @@
 #pragma once
 // Worlds made for one test: flat shapes in plain colours.
 #include "gltf_fixture.h"
-#include "runtime/world/detail.h"
-#include "stage.h"
+#include "gpu_environment.h"
 
 namespace starbow::gpu_test {
 
@@ -10,58 +9,20 @@ using gltf_test::Doc;
 using gltf_test::Json;
 
 /// Adds a material whose colour needs no lamp, and returns its index.
-inline int unlit(Doc& doc, const dvec3& colour)
-{
-    doc.json["extensionsUsed"] = {"KHR_materials_unlit"};
-    return doc.put("materials",
-        {{"pbrMetallicRoughness", {{"baseColorFactor", {colour.r, colour.g, colour.b, 1}}}},
-            {"extensions", {{"KHR_materials_unlit", Json::object()}}}});
-}
+int unlit(Doc& doc, const dvec3& colour);
 
 /// Adds a rectangle. Seen from its front, `right` points to the right and `up` upwards; texture coordinates 0, 0 are at its
 /// top left.
 /// `node` has the node's further members; the corners are in its frame.
-inline void quad(
-    Doc& doc, const dvec3& centre, const dvec3& right, const dvec3& up, int material, Json node = Json::object())
-{
-    std::vector<float> positions;
-    for (const dvec3& corner : {centre - right - up, centre + right - up, centre + right + up, centre - right + up})
-        positions.insert(positions.end(), {float(corner.x), float(corner.y), float(corner.z)});
-    const std::vector<float> uv = {0, 1, 1, 1, 1, 0, 0, 0};
-    const std::vector<std::uint16_t> indices = {0, 1, 2, 0, 2, 3};
-    Json primitive
-        = {{"attributes", {{"POSITION", doc.accessor(positions, "VEC3")}, {"TEXCOORD_0", doc.accessor(uv, "VEC2")}}},
-            {"indices", doc.accessor(indices, "SCALAR")}, {"material", material}};
-    node["mesh"] = doc.put("meshes", {{"primitives", {primitive}}});
-    doc.json["scenes"][0]["nodes"].push_back(doc.put("nodes", node));
-}
+void quad(Doc& doc, const dvec3& centre, const dvec3& right, const dvec3& up, int material, Json node = Json::object());
 
 /// Opens a scene file and its glTF as `starbow` does. One unit is a metre.
-inline GpuWorld open_world(const std::string& name, const Doc& doc, Json scene = Json::object())
-{
-    testing::write_text(name + ".gltf", doc.text());
-    scene["gltf"] = name + ".gltf";
-    scene["unit_m"] = 1;
-    const SceneFile file = load_scene_file(testing::write_text(name + ".json", scene.dump()));
-    World world = load_world(file.gltf);
-    add_detail_levels(world);
-    return upload(
-        device(), pipelines(), std::move(world), file, file.stars ? load_stars(file.stars->catalogue) : std::vector<Star>());
-}
+GpuWorld open_world(const std::string& name, const Doc& doc, Json scene = Json::object());
 
-inline const Json smooth_sky
-    = {{"zenith", {0.25, 0.45, 0.80}}, {"horizon", {0.70, 0.60, 0.40}}, {"nadir", {0.30, 0.20, 0.55}}};
+extern const Json smooth_sky;
 
 /// Returns the sky's colour in the direction n.
-inline dvec3 sky_colour(const dvec3& n, const Json& sky = smooth_sky)
-{
-    auto colour = [&](const char* at) {
-        const Json& c = sky.at(at);
-        return dvec3(c.at(0), c.at(1), c.at(2));
-    };
-    const double h = std::min(std::abs(n.y), 1.0), blend = h * h * (3 - 2 * h);
-    return glm::mix(colour("horizon"), colour(n.y > 0 ? "zenith" : "nadir"), blend);
-}
+dvec3 sky_colour(const dvec3& n, const Json& sky = smooth_sky);
 
 inline bool near_colour(const dvec3& a, const dvec3& b, double by) { return glm::length(a - b) < by; }
 

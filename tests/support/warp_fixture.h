@@ -65,7 +65,7 @@ inline std::string pfm(int width, int height, const std::vector<float>& values, 
 }
 
 /// The PFM of a map that warps nothing: the bottom row first, u to the right, v down.
-inline std::vector<float> straight(int width, int height)
+inline std::vector<float> identity_map(int width, int height)
 {
     std::vector<float> values;
     for (int y = height - 1; y >= 0; --y)
@@ -101,7 +101,7 @@ inline std::string mpcdi_3d()
                            fileset_xml("left", "left.pfm",
                                "<alphaMap><path>a.png</path><componentDepth>1</componentDepth><bitDepth>8</bitDepth>"
                                "<gammaEmbedded>2.2</gammaEmbedded></alphaMap><betaMap><path>b.png</path></betaMap>"))},
-        {"left.pfm", pfm(4, 3, straight(4, 3))}, {"a.png", png(2, 1, 3, {0, 0, 0, 255, 255, 255})},
+        {"left.pfm", pfm(4, 3, identity_map(4, 3))}, {"a.png", png(2, 1, 3, {0, 0, 0, 255, 255, 255})},
         {"b.png", png(1, 2, 3, {51, 0, 0, 0, 0, 102})}});
 }
 

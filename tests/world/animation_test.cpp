@@ -158,14 +158,15 @@ TEST(Animation, FollowsTheSpecification)
         for (int i = 0; i < 40; ++i) {
             const double t = part(random) * track.length_s;
             const double clamped = std::clamp(t, track.times_s.front(), track.times_s.back());
-            dvec4 want = by_specification(track, clamped);
+            dvec4 expected = by_specification(track, clamped);
             if (t >= track.times_s.back()) // a step's last value begins with its key
-                want = track.values[values == 3 ? track.values.size() - 2 : track.values.size() - 1];
+                expected = track.values[values == 3 ? track.values.size() - 2 : track.values.size() - 1];
             for (int rounds : {0, 1, -1, 7}) {
-                dvec4 got = value_at(track, t + rounds * track.length_s);
-                if (track.rotation && glm::dot(got, want) < 0)
-                    got = -got;
-                EXPECT_LT(glm::length(got - want), 1e-12) << round << " at " << t; // the rounding of a time of some units
+                dvec4 found = value_at(track, t + rounds * track.length_s);
+                if (track.rotation && glm::dot(found, expected) < 0)
+                    found = -found;
+                EXPECT_LT(glm::length(found - expected), 1e-12)
+                    << round << " at " << t; // the rounding of a time of some units
             }
         }
     }
@@ -174,9 +175,9 @@ TEST(Animation, FollowsTheSpecification)
 TEST(Animation, UnbrokenSpansEndAtJumps)
 {
     Track steps{Interpolation::step, false, 10, {1, 4, 6}, {dvec4(0), dvec4(1), dvec4(0)}};
-    auto expect = [](const Unbroken& got, double begin, double end) {
-        EXPECT_NEAR(got.begin_s, begin, 1e-12);
-        EXPECT_NEAR(got.end_s, end, 1e-12);
+    auto expect = [](const Unbroken& found, double begin, double end) {
+        EXPECT_NEAR(found.begin_s, begin, 1e-12);
+        EXPECT_NEAR(found.end_s, end, 1e-12);
     };
     expect(unbroken(steps, 4.5), 4, 6);
     expect(unbroken(steps, 8), 6, 14); // the track repeats here without a jump
@@ -242,10 +243,10 @@ TEST(Animation, AShuttleIsSeenAtItsRetardedPosition)
                 const quad::V3 from = shuttle_place(a, b, middle - zero) + quad::of(place) - quad::of(eye_event.place);
                 (middle + quad::length(from) > eye_event.time ? high : low) = middle;
             }
-            const quad::V3 want = shuttle_place(a, b, low - zero) + quad::of(place);
+            const quad::V3 expected = shuttle_place(a, b, low - zero) + quad::of(place);
             // 1e-12 of the distance, plus a double's rounding of the time.
             const double room = 1e-11 + 8 * 0x1p-52 * std::abs(eye_event.time);
-            EXPECT_LT(double(quad::length(quad::of(dvec3(seen.frame_from_local[3])) - want)), room) << t;
+            EXPECT_LT(double(quad::length(quad::of(dvec3(seen.frame_from_local[3])) - expected)), room) << t;
             EXPECT_NEAR(seen.sent, double(low), room) << t;
         }
     }

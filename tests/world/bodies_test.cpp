@@ -217,13 +217,13 @@ TEST(Bodies, WrongFilesAreRefusedWithTheReason)
         {R"({"name": "a", "nodes": ["x"], "worldline": [{"time": 0}, {"time": 1}]}, {"name": "a", "nodes": ["x"], "worldline": [{"time": 0}, {"time": 1}]})",
             "is the name of another body"},
     };
-    for (const auto& [body, want] : wrong) {
+    for (const auto& [body, problem] : wrong) {
         const auto file = write_text("wrong-body.json", before + body + after);
         try {
             load_scene_file(file);
             ADD_FAILURE() << body;
         } catch (const InputError& error) {
-            EXPECT_NE(std::string(error.what()).find(want), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find(problem), std::string::npos) << error.what();
         }
     }
 }

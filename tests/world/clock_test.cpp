@@ -70,8 +70,8 @@ TEST(ClockTest, ReadingsAreExactAfterMonths)
     for (int i = 0; i < 10000; ++i) {
         const double time = 1e7 * (1 + 0.1 * part(random)), zero_s = 1e7 * part(random);
         const glm::dvec3 place = 1e3 * glm::dvec3(part(random), part(random), part(random));
-        const double got = reading_s({zero_s}, time, glm::length(place), 1);
-        worst = std::max(worst, std::abs(double(got - exact_reading(zero_s, time, place, 1))));
+        const double measured = reading_s({zero_s}, time, glm::length(place), 1);
+        worst = std::max(worst, std::abs(double(measured - exact_reading(zero_s, time, place, 1))));
     }
     // Two roundings of numbers below 2^24 and one below 2^25: at most 2^-29 each.
     EXPECT_LT(worst, 3 * std::ldexp(1, -29));
@@ -98,17 +98,18 @@ TEST(ClockTest, EntriesAreRelativeToTheEyeAndComeFirst)
     const auto entries = time_entries(world, {0, eye, time, turn}, spt);
     ASSERT_EQ(entries.size(), 3u);
     // The middle of each mesh is at 1, 0, 0.
-    const std::vector<std::pair<double, glm::dvec3>> want = {{0, {1, 5, -10}}, {0, {-3, 0, 2}}, {7, {5, 0, -10}}};
+    const std::vector<std::pair<double, glm::dvec3>> expected = {{0, {1, 5, -10}}, {0, {-3, 0, 2}}, {7, {5, 0, -10}}};
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto& [zero_s, middle] = want[i];
+        const auto& [zero_s, middle] = expected[i];
         EXPECT_LT(glm::length(glm::dvec3(entries[i].middle) - turn * (middle - eye)), 1e-5);
         EXPECT_NEAR(entries[i].middle.w, glm::length(middle - eye), 1e-5);
         const __float128 reading = exact_reading(zero_s, time, middle - eye, spt);
-        for (auto [got, turn_s] : {std::pair(entries[i].turns.x, 60), {entries[i].turns.y, 10}, {entries[i].turns.z, 3600}})
+        for (auto [measured, turn_s] :
+            {std::pair(entries[i].turns.x, 60), {entries[i].turns.y, 10}, {entries[i].turns.z, 3600}})
             // A double's rounding at 2e7 s, then a float's over one turn.
-            EXPECT_NEAR(got * turn_s, double(fmodq(reading, turn_s)), 1e-8 + 6e-8 * turn_s);
+            EXPECT_NEAR(measured * turn_s, double(fmodq(reading, turn_s)), 1e-8 + 6e-8 * turn_s);
         EXPECT_EQ(entries[i].turns.w, 2);
-        EXPECT_NEAR(std::stod(said(entries[i])), double(reading), 0.05 + 1e-8);
+        EXPECT_NEAR(std::stod(dial_text(entries[i])), double(reading), 0.05 + 1e-8);
     }
 }
 
@@ -120,7 +121,7 @@ TEST(ClockTest, HandsGoBackwardsBeforeZero)
     EXPECT_NEAR(entries[0].turns.x, 1 - 5.9 / 60, 1e-7);
     EXPECT_NEAR(entries[0].turns.y, 1 - 5.9 / 10, 1e-7);
     EXPECT_NEAR(entries[0].turns.z, 1 - 5.9 / 3600, 1e-7);
-    EXPECT_EQ(said(entries[0]), "-5.9");
+    EXPECT_EQ(dial_text(entries[0]), "-5.9");
 }
 
 TEST(ClockTest, AWorldWithoutClocksHasNoEntries)

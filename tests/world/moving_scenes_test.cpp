@@ -57,7 +57,7 @@ std::vector<TimedObject> seen(const Shot& shot, const std::string& material, con
             if (world.materials[std::size_t(index)].name == material
                 && (way == dvec3(0) || glm::dot(facing, way) > 0.9 * glm::length(facing)))
                 out.push_back(
-                    {dvec3(entries[i].middle), entries[i].there.x <= 0 && entries[i].there.y > 0, said(entries[i])});
+                    {dvec3(entries[i].middle), entries[i].there.x <= 0 && entries[i].there.y > 0, dial_text(entries[i])});
         }
     }
     std::sort(out.begin(), out.end(), [](const TimedObject& a, const TimedObject& b) { return a.place.x < b.place.x; });

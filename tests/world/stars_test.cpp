@@ -138,9 +138,9 @@ TEST(StarsTest, TheSunIsBrightestAtD2_9)
 TEST(StarsTest, TheTableIsTheIntegral)
 {
     for (double kelvin = 530; kelvin < 2e6; kelvin *= 1.0173) {
-        const glm::dvec3 want = rec709_from_sunlit_xyz() * black_body_xyz(kelvin), got = from_table(kelvin);
+        const glm::dvec3 expected = rec709_from_sunlit_xyz() * black_body_xyz(kelvin), tabulated = from_table(kelvin);
         // The header's bound on the luminance. The primaries are interpolated linearly between steps of 1.1 %.
-        EXPECT_NEAR(glm::length(got - want) / glm::length(want), 0, kelvin < 2000 ? 1.5e-3 : 2e-4) << kelvin;
+        EXPECT_NEAR(glm::length(tabulated - expected) / glm::length(expected), 0, kelvin < 2000 ? 1.5e-3 : 2e-4) << kelvin;
     }
 }
 

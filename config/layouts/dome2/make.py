@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes left.data and right.data, the meshes of the layout dome2: python3 make.py [FOLDER].
 
-What to measure: the dome's radius; where each projector's lens is, in the dome's own frame (+x right, +y the zenith, -z the
+To be measured: the dome's radius; where each projector's lens is, in the dome's own frame (+x right, +y the zenith, -z the
 front of the rim; the dome's lean needs no number here, the layout has it as tilt_deg); and each lens's picture: half its width
 and its lower and upper edge one metre before the lens, where the lens looks level across the dome.
 

@@ -157,20 +157,19 @@ void bench_stereo(RenderContext& context, const Shot& shot, int rounds)
     // Errors at the quality of stills, where the depth map is as fine as the picture.
     const Quality quality = default_quality(context.device, true);
     auto measured = [&](const Layout& layout) {
-        return OffscreenRenderer(context.device, context.pipelines, context.world, layout, quality, true);
+        return std::make_unique<OffscreenRenderer>(context.device, context.pipelines, context.world, layout, quality, true);
     };
     std::printf("\nTwo eyes of 800x600 (domes 600x600), %.4g scene units apart:\n",
         stereo.stereo.separation_m * stereo.stereo.hyper_stereo / context.world.scene.unit_m);
     std::printf("  %-22s %10s %8s %9s   %s\n", "", "frame, ms", "of exact", "warp, ms",
         "disparity error, pixels: median, 99 %, most; hidden wrongly");
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        OffscreenRenderer tested = measured(layouts[i]);
+        const std::unique_ptr<OffscreenRenderer> tested = measured(layouts[i]);
         const bool turns = layouts[i].stereo.turning;
         Layout exact_layout = layouts[i];
         exact_layout.stereo.method = StereoMethod::exact;
-        std::unique_ptr<OffscreenRenderer> exact
-            = turns ? nullptr : std::make_unique<OffscreenRenderer>(measured(exact_layout));
-        const Disparity off = disparity(tested, exact.get(), shot, 0, context.world.scene.unit_m);
+        const std::unique_ptr<OffscreenRenderer> exact = turns ? nullptr : measured(exact_layout);
+        const Disparity off = disparity(*tested, exact.get(), shot, 0, context.world.scene.unit_m);
         const std::size_t base = i < 3 ? 0 : 3;
         std::printf("  %-22s %10.2f %8.2f %9.2f   %8.3f %8.3f %8.2f  %6.2f %%\n", cases[i].name.c_str(),
             cases[i].ms(LayoutStage::whole_frame),

@@ -5,6 +5,7 @@
 #include "runtime/world/detail.h"
 #include "runtime/world/spectral_errors.h"
 #include <cstdio>
+#include <deque>
 
 namespace starbow {
 
@@ -14,7 +15,7 @@ std::array<std::array<double, 2>, 3> bench_spectra(RenderContext& context, const
     const Shot shot = along_avenue(context.world.scene.start, 4);
 
     std::vector<GpuWorld> worlds;
-    std::vector<OffscreenRenderer> renderers;
+    std::deque<OffscreenRenderer> renderers; // which never moves them
     worlds.reserve(reflected_numbers.size());
     for (std::size_t level = 0; level < reflected_numbers.size(); ++level) {
         World world = load_world(context.world.scene.gltf);

@@ -8,6 +8,7 @@
 #include "runtime/world/detail.h"
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <random>
 
 namespace starbow {
@@ -61,7 +62,7 @@ void bench_stars(int rounds)
         Shot shot = load_shot(shipped_file("shots", "orion"));
         shot.u = shot.ship_from_cockpit * glm::dvec3(0, 0, -std::sqrt((gamma - 1) * (gamma + 1)));
         shot.exposure_ev = gamma > 1 ? -3 : 0;
-        std::vector<OffscreenRenderer> renderers;
+        std::deque<OffscreenRenderer> renderers; // which never moves them
         for (StarsCase& c : cases) {
             c.ms.clear();
             renderers.emplace_back(device, pipelines, c.world, layout, default_quality(device, false), false);

@@ -8,7 +8,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 /// Limits far above any world that can be drawn, and far below an amount that would hurt the machine.
 struct GltfLimits {
-    static constexpr std::size_t file_bytes = std::size_t(1) << 30; ///< of the file and everything it names, together
+    static constexpr std::size_t file_bytes = std::size_t(1) << 30; ///< total of the file and all files that it names
     static constexpr std::size_t json_bytes = std::size_t(256) << 20;
     static constexpr std::size_t json_values = 2'000'000;
     static constexpr std::size_t json_depth = 100;
@@ -17,18 +17,18 @@ struct GltfLimits {
     static constexpr std::size_t indices = 48'000'000;
     static constexpr std::size_t instances = 1'000'000;
     static constexpr std::size_t motions = 10'000; ///< animated instances
-    static constexpr std::size_t keys = 4'000'000; ///< of animations
+    static constexpr std::size_t keys = 4'000'000; ///< keys of all animations
     static constexpr int joints_deep = 64; ///< animated nodes, one below another
     static constexpr std::size_t zeros = 1'000'000; ///< elements of an accessor without data in the file
     static constexpr std::size_t sparse_bytes = std::size_t(256) << 20;
     static constexpr int texture_side = 16384;
-    static constexpr std::size_t texture_pixels = std::size_t(128) << 20; ///< of one image
-    static constexpr std::size_t texture_bytes = std::size_t(1) << 30; ///< of all, as RGBA
+    static constexpr std::size_t texture_pixels = std::size_t(128) << 20; ///< pixels of one image
+    static constexpr std::size_t texture_bytes = std::size_t(1) << 30; ///< bytes of all textures, as RGBA
 };
 
 /// A .gltf or .glb file in parts. Its JSON is known to be well formed; no content is checked yet.
 struct GltfFile {
-    std::string name; ///< as the user wrote it, for messages
+    std::string name; ///< the user's name of the file, for messages
     std::filesystem::path folder; ///< the file's own, symbolic links resolved
     Json json;
     bool is_glb = false, has_bin = false;
