@@ -192,7 +192,7 @@ TEST(House, ARoomIncludesOnlyRoomsAboveItInTheTable)
 
 TEST(House, NoFilesIncludeEachOtherInACycle) { EXPECT_EQ(lines(cycle(includes())), ""); }
 
-TEST(House, NoCodeIncludesVulkanOutsideRenderExhibitAndTheirBenches)
+TEST(House, NoCodeIncludesVulkanOutsideRenderAndExhibit)
 {
     const std::regex vulkan("#[ \t]*include[ \t]*<(vulkan|GLFW)/");
     for (const char* top : {"config", "displays", "input", "runtime"})
@@ -204,6 +204,50 @@ TEST(House, NoCodeIncludesVulkanOutsideRenderExhibitAndTheirBenches)
                     within(file, "runtime/render") || within(file, "runtime/exhibit") || file == "input/keyboard.cpp")
                     << file;
         }
+}
+
+/// Headers of `render` bring Vulkan along; rooms above must not use it all the same.
+TEST(House, NoCodeNamesVulkanOutsideRenderAndExhibit)
+{
+    const std::regex vulkan(R"(\bvk::|\bVK_[A-Z]|\bvk[A-Z]\w+\()");
+    int files = 0;
+    for (const char* top : {"config", "displays", "input", "runtime"})
+        for (const auto& entry : fs::recursive_directory_iterator(source_dir() / top)) {
+            const std::string file = fs::relative(entry.path(), source_dir()).generic_string();
+            if (!entry.is_regular_file() || !(file.ends_with(".h") || file.ends_with(".cpp"))
+                || within(file, "runtime/render") || within(file, "runtime/exhibit"))
+                continue;
+            ++files;
+            std::istringstream text(read_text(entry.path()));
+            int number = 0;
+            for (std::string line; std::getline(text, line);) {
+                ++number;
+                EXPECT_FALSE(std::regex_search(line.substr(0, line.find("//")), vulkan))
+                    << file << ":" << number << ": " << line;
+            }
+        }
+    EXPECT_GT(files, 200);
+}
+
+/// Pages name tests as `Suite.Name` beside the figures that they measure.
+TEST(House, EveryTestThatAPageNamesExists)
+{
+    std::string tests;
+    for (const auto& entry : fs::recursive_directory_iterator(source_dir() / "tests"))
+        if (entry.path().extension() == ".cpp")
+            tests += read_text(entry.path());
+    const std::regex name("`([A-Z][A-Za-z0-9]+)\\.([A-Z][A-Za-z0-9]+)`");
+    int named = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(source_dir() / "docs"))
+        if (entry.path().extension() == ".md") {
+            const std::string page = read_text(entry.path());
+            for (std::sregex_iterator at(page.begin(), page.end(), name), end; at != end; ++at, ++named)
+                EXPECT_TRUE((*at)[0] == "`Suite.Name`"
+                    || std::regex_search(
+                        tests, std::regex("TEST(_F|_P)?\\(" + (*at)[1].str() + ",\\s*" + (*at)[2].str() + "\\)")))
+                    << entry.path().filename() << ": " << (*at)[0];
+        }
+    EXPECT_GT(named, 30);
 }
 
 /// starbow_room(NAME FOLDER LIBRARY...) in CMakeLists.txt may link only rooms that may be included.

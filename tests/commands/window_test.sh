@@ -1,11 +1,15 @@
 #!/usr/bin/env bash
 # The exhibit in a real window under Xvfb with validation layers: flown by the keyboard, resized, ended.
+# It bears any load under which a frame takes at most a second: it waits for pictures and lines, and its keys keep the
+# exhibit's own pace.
 # Usage: window_test.sh PROGRAM
 set -u
 program=$1 rig=$(dirname "$0")/../rig
 . "$rig/monitors.sh"
 serve Xvfb -noreset -screen 0 1280x800x24
 export STARBOW_VALIDATION=1
+
+drawn() { [ "$(import -window "$window" -format '%[fx:mean>0]' info:)" = 1 ]; }
 
 fly() { # LAYOUT [MORE...]
     timeout 60 "$program" run --layout "$@" >"$folder/log" 2>&1 &
@@ -20,7 +24,7 @@ fly() { # LAYOUT [MORE...]
     done
     [ -n "$window" ] || fail "$1: no window"
     xdotool windowfocus "$window"
-    sleep 2
+    until_true 60 drawn || fail "$1: no picture"
 }
 
 # Speeds up, turns, resizes, switches an effect off, and ends. The last line of the log has the ship's state.
@@ -50,11 +54,15 @@ ok
 
 # The instruments: marks, log, explanation and overlays. Each K writes a line to the log.
 fly desk --scene clocks --log "$folder/lab.csv"
-xdotool key o
-sleep 0.5
-for key in x k x k F1 o o k o o F1 o; do
+lines() { [ "$(wc -l <"$folder/lab.csv")" -ge "$1" ]; }
+xdotool key o x
+began=${EPOCHREALTIME/./}
+xdotool key k
+until_true 30 lines 2 || fail "instruments: no line in the log"
+pace=$(awk -v us=$((${EPOCHREALTIME/./} - began)) 'BEGIN { print 0.1 + 2e-6 * us }') # a frame lies between two keys
+for key in x k F1 o o k o o F1 o; do
     xdotool key $key
-    sleep 0.3
+    sleep "$pace"
 done
 xdotool key Escape
 wait $exhibit || fail "instruments: exit $? (an error of the validation layers, or a crash)"

@@ -197,7 +197,7 @@ TEST(SchemaTest, ReaderAndSchemaKnowTheSameMembers)
 {
     std::set<std::string> words;
     for (const char* file : {"layout", "projection_reader", "colour_reader"}) {
-        const std::string source = read_text(source_dir() / "config" / (std::string(file) + ".cpp"));
+        const std::string source = read_text(source_dir() / "config/model" / (std::string(file) + ".cpp"));
         for (const std::string& word : quoted_in(source, 0))
             if (std::regex_match(word, std::regex("[$a-z_]+")))
                 words.insert(word);

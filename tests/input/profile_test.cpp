@@ -88,7 +88,7 @@ TEST(ProfileTest, ShippedProfilesAreValidAndFitTheirDevices)
         mapping.add(at_rest(descriptor), 0, 0.01, controls);
         EXPECT_EQ(controls.turn, glm::dvec3(0));
         EXPECT_EQ(controls.look_rad, glm::dvec2(0));
-        EXPECT_EQ(controls.throttle_rate, controls.throttle_rate);
+        EXPECT_EQ(controls.throttle_rate, 0);
         EXPECT_FALSE(controls.stop || controls.home || controls.undo);
         for (const Lever& lever : mapping.levers())
             EXPECT_NEAR(lever.place, 0.5, 0.01);

@@ -38,6 +38,7 @@ std::filesystem::path write_text(const std::string& name, const std::string& tex
 std::string read_text(const std::filesystem::path& file)
 {
     std::ifstream in(file, std::ios::binary);
+    EXPECT_TRUE(in) << file << " can't be read";
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
