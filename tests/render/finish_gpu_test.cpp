@@ -2,6 +2,7 @@
 // light that the same pixel has in the numbers.
 #include "tests/support/small_world.h"
 #include <functional>
+#include <stb/stb_image_write.h>
 
 namespace starbow::gpu_test {
 namespace {
