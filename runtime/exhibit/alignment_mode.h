@@ -17,7 +17,7 @@ public:
 
     /// Applies the keys to `layout`; returns true if it has changed. The save key writes into layout.file; says() reports
     /// failures.
-    bool apply(const Controls& controls, Layout& layout);
+    bool apply(const AlignmentKeys& keys, Layout& layout);
 
     Pattern pattern() const { return pattern_; }
     /// A line for the head-up display for some seconds after a key; otherwise empty.

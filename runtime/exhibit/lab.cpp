@@ -29,16 +29,16 @@ Lab::Lab(const std::filesystem::path& log, double every_s, const Words& words)
 {
 }
 
-void Lab::read(const FrameRenderer& frame, const Controls& controls, const GpuWorld& world, double dt_s,
+void Lab::read(const FrameRenderer& frame, const LabSwitches& pressed, const GpuWorld& world, double dt_s,
     const std::function<void(std::string)>& say)
 {
-    if (controls.overlay)
+    if (pressed.overlay)
         overlay_ = Overlay((int(overlay_) + 1) % int(overlay_names.size()));
-    if (controls.why)
+    if (pressed.why)
         why_ = Why((int(why_) + 1) % int(why_names.size()));
-    if ((controls.mark || controls.log || every_s_ > 0) && overlay_ == Overlay::off)
+    if ((pressed.mark || pressed.log || every_s_ > 0) && overlay_ == Overlay::off)
         overlay_ = Overlay::aim; // marking and logging show the crosshair
-    mark_wanted_ |= controls.mark;
+    mark_wanted_ |= pressed.mark;
     if (!on() || effects_.comparison != Comparison::none) { // the instruments measure the physical picture only
         measured_.reset();
         return;
@@ -58,7 +58,7 @@ void Lab::read(const FrameRenderer& frame, const Controls& controls, const GpuWo
     }
     measured_ = measured_of(frame.head(), ship_, world.scene, world.world, effects_, aimed, probed[0].light, marks_);
     waited_s_ += dt_s;
-    if (controls.log || (every_s_ > 0 && waited_s_ >= every_s_)) {
+    if (pressed.log || (every_s_ > 0 && waited_s_ >= every_s_)) {
         waited_s_ = 0;
         keep(say);
     }

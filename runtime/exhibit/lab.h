@@ -20,7 +20,7 @@ public:
 
     /// Reads the last frame's probe, which the device must have finished, then applies the keys. say: receives messages
     /// for the display.
-    void read(const FrameRenderer& frame, const Controls& controls, const GpuWorld& world, double dt_s,
+    void read(const FrameRenderer& frame, const LabSwitches& pressed, const GpuWorld& world, double dt_s,
         const std::function<void(std::string)>& say);
     /// Requests the next frame's overlay, panel and probes.
     void request(

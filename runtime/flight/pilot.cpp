@@ -74,7 +74,7 @@ Push by_lever(Flight& flight, const Flying& rules)
 }
 
 /// Newtonian: the throttle sets the thrust.
-Push by_thrust(Flight& flight, const Controls& controls, const Flying& rules)
+Push by_thrust(Flight& flight, const Steering& controls, const Flying& rules)
 {
     const double engine = controls.lever ? *controls.lever * rules.rapidity_per_s : 0;
     glm::dvec3 wanted = (nose * controls.throttle_rate + controls.push) * key_rapidity_per_s + nose * engine;
@@ -93,11 +93,11 @@ Push by_thrust(Flight& flight, const Controls& controls, const Flying& rules)
 
 } // namespace
 
-Push pilot(Flight& flight, const Controls& input, const Flying& rules)
+Push pilot(Flight& flight, const Steering& input, const Flying& rules)
 {
-    Controls controls = input;
-    if (flight.mode != FlightMode::newtonian) // lets visitors with thrusters alone, as on a space mouse, set the speed too
-                                              // same
+    Steering controls = input;
+    // Visitors with thrusters alone, as on a space mouse, set the speed too.
+    if (flight.mode != FlightMode::newtonian)
         controls.throttle_rate -= input.push.z;
     const glm::dvec3 rates = degree * glm::dvec3(rules.turn_deg_per_s, rules.turn_deg_per_s, rules.roll_deg_per_s);
     for (int i = 0; i < 3; ++i)

@@ -11,6 +11,6 @@ struct Push {
 
 /// Advances the flight's smoothed controls (turn_rad_s, throttle_rate, thrust, lever) by a tick; it does not move the
 /// ship.
-Push pilot(Flight& flight, const Controls& controls, const Flying& rules);
+Push pilot(Flight& flight, const Steering& controls, const Flying& rules);
 
 } // namespace starbow

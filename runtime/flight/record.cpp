@@ -10,14 +10,28 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// True if Controls has exactly so many parts and no member of its own.
+template <class... Parts> constexpr bool controls_have(Parts...)
+{
+    return requires { Controls{Parts{}...}; }
+    &&!requires { Controls{Parts{}..., {}}; };
+}
+static_assert(controls_have(
+    ControlTimes{}, Steering{}, Looking{}, EffectSwitches{}, LabSwitches{}, WindowSwitches{}, AlignmentKeys{}));
+
 /// Compiles only while these structs have exactly the members named here, whatever their sizes. A new member belongs in
 /// the record, or in the digest, as well.
 [[maybe_unused]] void name_every_member(const Controls& c, const Flying& f, const Exposing& e, const Flight& s)
 {
-    [[maybe_unused]] const auto& [time_ns, report_ns, lever, throttle_rate, push, turn, look_rad, head, exposure, look_ahead,
-        stop, home, undo, reset, next_mode, aberration, doppler, headlight, false_colours, comparison, lock_exposure,
-        overlay, mark, log, why, hud, full_screen, quit, pattern, save, choose, turn_by]
-        = c;
+    [[maybe_unused]] const auto& [time_ns, report_ns] = static_cast<const ControlTimes&>(c);
+    [[maybe_unused]] const auto& [lever, throttle_rate, push, turn, stop, home, undo, reset, next_mode]
+        = static_cast<const Steering&>(c);
+    [[maybe_unused]] const auto& [look_rad, look_ahead, head, exposure, lock_exposure] = static_cast<const Looking&>(c);
+    [[maybe_unused]] const auto& [aberration, doppler, headlight, false_colours, comparison]
+        = static_cast<const EffectSwitches&>(c);
+    [[maybe_unused]] const auto& [overlay, mark, log, why] = static_cast<const LabSwitches&>(c);
+    [[maybe_unused]] const auto& [hud, full_screen, quit] = static_cast<const WindowSwitches&>(c);
+    [[maybe_unused]] const auto& [pattern, save, choose, turn_by] = static_cast<const AlignmentKeys&>(c);
     [[maybe_unused]] const auto& [mode, max_gamma, turn_deg_per_s, roll_deg_per_s, turn_jerk_deg_per_s3, rapidity_per_s,
         rapidity_jerk_per_s2]
         = f;

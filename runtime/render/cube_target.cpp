@@ -60,7 +60,7 @@ void CubeTarget::fit(glm::ivec2 size, int levels)
         atlas = {};
     depth_ = {}, atlas_samples_.clear(), depth_samples_ = {};
     auto copied = most > 1 ? Usage::eTransferSrc | Usage::eTransferDst : vk::ImageUsageFlags();
-    const Formats formats = kind(layered_world_).colours;
+    Formats formats = kind(layered_world_).colours;
     for (std::size_t i = 0; i < atlases_.size(); ++i) {
         atlases_[i] = make_image(device_, {formats[i], extent, Usage::eColorAttachment | Usage::eSampled | copied, most});
         name_object(device_, atlases_[i], "cube pass: atlas");

@@ -47,11 +47,12 @@ double drift(const Flight& flight)
 Controls some_controls(std::mt19937& random)
 {
     std::uniform_real_distribution<double> part(-1, 1);
-    Controls controls{.throttle_rate = 4 * part(random),
-        .push = {part(random), part(random), part(random)},
-        .turn = {part(random), part(random), part(random)},
-        .look_rad = {part(random), part(random)},
-        .exposure = part(random)};
+    Controls controls;
+    controls.throttle_rate = 4 * part(random);
+    controls.push = {part(random), part(random), part(random)};
+    controls.turn = {part(random), part(random), part(random)};
+    controls.look_rad = {part(random), part(random)};
+    controls.exposure = part(random);
     if (random() % 2)
         controls.lever = 0.5 + 0.5 * part(random);
     return controls;
@@ -235,7 +236,8 @@ TEST_P(Modes, LettingGoIsSafe)
 {
     const Flying rules = with(GetParam());
     Flight flight = hold(flight_at(start(), rules), {.lever = 0.5, .turn = {1, -1, 1}}, 5, rules);
-    const Controls none{.lever = GetParam() == FlightMode::newtonian ? 0.0 : 0.5};
+    Controls none;
+    none.lever = GetParam() == FlightMode::newtonian ? 0.0 : 0.5;
     flight = hold(flight, none, 12, rules);
     const dvec3 u = flight.ship.u.total();
     const glm::dquat axes = flight.ship.ship_from_cockpit;

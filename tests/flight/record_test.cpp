@@ -58,10 +58,11 @@ RecordEntry some_entry(std::mt19937_64& random)
     if (random() % 3 == 0)
         c.head.turned = glm::angleAxis(some_double(random, -3, 3), glm::normalize(glm::dvec3(1, 2, 3)));
     maybe(c.exposure, -1, 1);
-    for (bool Controls::*flag : {&Controls::look_ahead, &Controls::stop, &Controls::home, &Controls::undo, &Controls::reset,
-             &Controls::next_mode, &Controls::aberration, &Controls::doppler, &Controls::headlight, &Controls::hud,
-             &Controls::false_colours, &Controls::comparison, &Controls::full_screen, &Controls::quit, &Controls::pattern,
-             &Controls::save, &Controls::lock_exposure, &Controls::overlay, &Controls::mark, &Controls::log, &Controls::why})
+    for (bool Controls::*flag : std::initializer_list<bool Controls::*>{&Controls::look_ahead, &Controls::stop,
+             &Controls::home, &Controls::undo, &Controls::reset, &Controls::next_mode, &Controls::aberration,
+             &Controls::doppler, &Controls::headlight, &Controls::hud, &Controls::false_colours, &Controls::comparison,
+             &Controls::full_screen, &Controls::quit, &Controls::pattern, &Controls::save, &Controls::lock_exposure,
+             &Controls::overlay, &Controls::mark, &Controls::log, &Controls::why})
         c.*flag = random() % 200 == 0;
     c.choose = random() % 20 == 0 ? int(random() % 3) - 1 : 0;
     c.turn_by = random() % 20 == 0 ? int(random() % 21) - 10 : 0;

@@ -408,7 +408,8 @@ TEST(Tours, AQuestionIsAnsweredFromTheState)
           "measure": { "quantity": "doppler_ahead" }, "number": { "from": 1, "to": 10, "step": 0.5, "tolerance": 0.2 } } },
         { "seconds": 1 })");
     const Show show{tour, {}, 1, true};
-    const Controls right{.turn = {0, -1, 0}}, left{.turn = {0, 1, 0}};
+    Controls right, left;
+    right.turn = {0, -1, 0}, left.turn = {0, 1, 0};
     const Touring at_question = later(touring_at(show), show, 1.5);
     EXPECT_EQ(caption_of(at_question, show, words(), {}).text, "gamma?");
     EXPECT_EQ(caption_of(at_question, show, words(), {}).choices.size(), 3u);
@@ -497,7 +498,8 @@ TEST(Tours, GuidesCanPauseSkipAndGoBack)
     EXPECT_EQ(back.step(), 0u);
     EXPECT_EQ(later(on, show, 0.02, {.reset = true}).step(), 0u);
     // Flight controls do nothing to a tour that flies by itself; looking around works.
-    Controls hands{.lever = 1.0, .throttle_rate = 1, .turn = {1, 1, 1}};
+    Controls hands;
+    hands.lever = 1.0, hands.throttle_rate = 1, hands.turn = {1, 1, 1};
     const Touring touched = advance(flying, show, hands, 100'000'000), untouched = advance(flying, show, {}, 100'000'000);
     EXPECT_EQ(u_of(touched), u_of(untouched));
     EXPECT_EQ(touched.flight.ship.ship_from_cockpit, untouched.flight.ship.ship_from_cockpit);
