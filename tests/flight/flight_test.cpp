@@ -2,6 +2,7 @@
 #include "runtime/flight/flight.h"
 #include "runtime/flight/history.h"
 #include "shaders/physics/physics.h"
+#include "tests/support/controls.h"
 #include <gtest/gtest.h>
 #include <random>
 
@@ -75,7 +76,7 @@ TEST_P(Modes, FlyTheSameAtAnyFrameRate)
             controls.home = tenth == 300;
             controls.stop = tenth == 400;
             if (tenth == 401) // after a stop the thrust is inhibited until the lever is at 0
-                controls = {.lever = 0.0};
+                controls = controls_with(Steering{.lever = 0.0});
             for (std::int64_t left = 100 * ms; left > 0; left -= dt) {
                 flight = step(flight, controls, std::min(dt, left), rules, 1, start());
                 controls.look_rad = {0, 0}, controls.home = controls.stop = false; // these controls count once
@@ -108,19 +109,19 @@ TEST(Flight, TheLeversPlaceSetsTheSpeed)
             Flight flight = flight_at(start(), rules);
             double before = 0;
             for (int i = 0; i < 1500; ++i) {
-                flight = step(flight, {.lever = lever}, 10 * ms, rules, 1, start());
+                flight = step(flight, controls_with(Steering{.lever = lever}), 10 * ms, rules, 1, start());
                 EXPECT_GE(rapidity(flight), before - 1e-9); // never slower
                 EXPECT_LE(rapidity(flight) - before, rules.rapidity_per_s * 0.01 + 1e-9);
                 before = rapidity(flight);
             }
             EXPECT_NEAR(before, lever * most, 1e-5); // settle_s: e^-18 remains after the rest of 15 s
-            flight = hold(flight, {.lever = 0.5 * lever}, 15, rules);
+            flight = hold(flight, controls_with(Steering{.lever = 0.5 * lever}), 15, rules);
             EXPECT_NEAR(rapidity(flight), 0.5 * lever * most, 1e-5);
-            flight = hold(flight, {.lever = 0.0}, 15, rules);
+            flight = hold(flight, controls_with(Steering{.lever = 0.0}), 15, rules);
             EXPECT_EQ(flight.ship.u.total(), dvec3(0)); // exactly rest
         }
         // The ship moves straight ahead.
-        const Flight flight = hold(flight_at(start(), rules), {.lever = 1.0}, 10, rules);
+        const Flight flight = hold(flight_at(start(), rules), controls_with(Steering{.lever = 1.0}), 10, rules);
         EXPECT_LT(drift(flight), 1e-9);
     }
 }
@@ -128,11 +129,11 @@ TEST(Flight, TheLeversPlaceSetsTheSpeed)
 TEST(Flight, KeysMoveTheThrottle)
 {
     const Flying rules = with(FlightMode::guided);
-    Flight flight = hold(flight_at(start(), rules), {.throttle_rate = 1}, 2, rules);
+    Flight flight = hold(flight_at(start(), rules), controls_with(Steering{.throttle_rate = 1}), 2, rules);
     EXPECT_NEAR(flight.lever, 2 * lever_per_s, 1e-9);
     flight = hold(flight, {}, 10, rules);
     EXPECT_NEAR(rapidity(flight), 2 * lever_per_s * std::acosh(100.0), 1e-5);
-    flight = hold(flight, {.throttle_rate = -4}, 3, rules);
+    flight = hold(flight, controls_with(Steering{.throttle_rate = -4}), 3, rules);
     EXPECT_EQ(flight.lever, 0);
     EXPECT_EQ(hold(flight, {}, 10, rules).ship.u.total(), dvec3(0));
 }
@@ -143,11 +144,11 @@ TEST(Flight, GuidedVelocityFollowsTheNose)
     for (double gamma : {1.0005, 1.2, 4.0, 100.0, 1e6}) {
         SCOPED_TRACE(gamma);
         const Flying rules = with(FlightMode::guided, gamma);
-        Flight flight = hold(flight_at(start(), rules), {.lever = 1.0}, 20, rules);
+        Flight flight = hold(flight_at(start(), rules), controls_with(Steering{.lever = 1.0}), 20, rules);
         const dvec3 before = glm::normalize(flight.ship.u.total());
-        flight = hold(flight, {.lever = 1.0, .turn = {0.3, 1, 0}}, 2, rules);
+        flight = hold(flight, controls_with(Steering{.lever = 1.0, .turn = {0.3, 1, 0}}), 2, rules);
         EXPECT_GT(drift(flight), 0.1); // still turning
-        flight = hold(flight, {.lever = 1.0}, 6, rules);
+        flight = hold(flight, controls_with(Steering{.lever = 1.0}), 6, rules);
         EXPECT_LT(drift(flight), 1e-4); // e^-12 of a radian, plus the rest of the turn
         EXPECT_NEAR(rapidity(flight), std::acosh(gamma), 1e-4);
         // In the world a fast ship turns less, because aberration contracts directions ahead.
@@ -157,18 +158,18 @@ TEST(Flight, GuidedVelocityFollowsTheNose)
     }
     // This holds for a nose that is turned right round, too.
     const Flying rules = with(FlightMode::guided);
-    Flight flight = hold(flight_at(start(), rules), {.lever = 0.3}, 10, rules);
+    Flight flight = hold(flight_at(start(), rules), controls_with(Steering{.lever = 0.3}), 10, rules);
     flight.ship.ship_from_cockpit *= glm::angleAxis(M_PI, dvec3(0, 1, 0));
-    EXPECT_LT(drift(hold(flight, {.lever = 0.3}, 10, rules)), 1e-4);
+    EXPECT_LT(drift(hold(flight, controls_with(Steering{.lever = 0.3}), 10, rules)), 1e-4);
 }
 
 TEST(Flight, InFreeModeTheNoseTurnsWithoutTheVelocity)
 {
     const Flying rules = with(FlightMode::free);
-    Flight flight = hold(flight_at(start(), rules), {.lever = 0.4}, 10, rules);
+    Flight flight = hold(flight_at(start(), rules), controls_with(Steering{.lever = 0.4}), 10, rules);
     const dvec3 way = glm::normalize(flight.ship.u.total());
-    flight = hold(flight, {.lever = 0.4, .turn = {0, 1, 0}}, 3, rules);
-    flight = hold(flight, {.lever = 0.8}, 8, rules);
+    flight = hold(flight, controls_with(Steering{.lever = 0.4, .turn = {0, 1, 0}}), 3, rules);
+    flight = hold(flight, controls_with(Steering{.lever = 0.8}), 8, rules);
     EXPECT_LT(glm::distance(glm::normalize(flight.ship.u.total()), way), 1e-9);
     EXPECT_GT(drift(flight), 1);
     EXPECT_NEAR(rapidity(flight), 0.8 * std::acosh(100.0), 1e-4);
@@ -179,23 +180,23 @@ TEST(Flight, NewtonianThrustIsProperAcceleration)
 {
     Flying rules = with(FlightMode::newtonian, 1e6);
     rules.rapidity_jerk_per_s2 = 1e12; // full thrust at once, as in the closed form
-    Flight flight = hold(flight_at(start(), rules), {.lever = 1.0}, 4, rules);
+    Flight flight = hold(flight_at(start(), rules), controls_with(Steering{.lever = 1.0}), 4, rules);
     const double a = rules.rapidity_per_s, tau = 4;
     EXPECT_NEAR(rapidity(flight), a * tau, 1e-11);
     EXPECT_NEAR(flight.ship.time.total(), std::sinh(a * tau) / a, 1e-9 * std::sinh(a * tau));
     EXPECT_NEAR(glm::distance(flight.ship.position.total(), start().position), (std::cosh(a * tau) - 1) / a,
         1e-9 * std::cosh(a * tau));
     const double kept = rapidity(flight);
-    flight = hold(flight, {.lever = 0.0, .turn = {1, 1, 1}}, 5, rules);
+    flight = hold(flight, controls_with(Steering{.lever = 0.0, .turn = {1, 1, 1}}), 5, rules);
     EXPECT_NEAR(rapidity(flight), kept, 1e-12);
     // Thrusters to the side act along the cockpit's axes.
-    flight = hold(flight_at(start(), rules), {.push = {1, 0, 0}}, 1, rules);
+    flight = hold(flight_at(start(), rules), controls_with(Steering{.push = {1, 0, 0}}), 1, rules);
     EXPECT_NEAR(glm::dot(glm::normalize(flight.ship.u.total()), start().ship_from_cockpit * dvec3(1, 0, 0)), 1, 1e-12);
     // A closed square of small boosts rotates the cockpit by its area: Thomas-Wigner, w^2 to first order.
     flight = flight_at(start(), rules);
     const double w = key_rapidity_per_s * 0.2;
     for (const dvec3& push : {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(-1, 0, 0), dvec3(0, -1, 0)})
-        flight = hold(flight, {.push = push}, 0.2, rules);
+        flight = hold(flight, controls_with(Steering{.push = push}), 0.2, rules);
     const double turned
         = 2 * std::acos(std::min(1.0, std::abs(glm::dot(flight.ship.ship_from_cockpit, start().ship_from_cockpit))));
     EXPECT_NEAR(turned, w * w, 0.02 * w * w);
@@ -204,29 +205,31 @@ TEST(Flight, NewtonianThrustIsProperAcceleration)
 TEST_P(Modes, StopIsImmediateAndLasts)
 {
     const Flying rules = with(GetParam());
-    Flight flight = hold(flight_at(start(), rules), {.lever = 0.7, .turn = {0, 1, 0}}, 4, rules);
+    Flight flight = hold(flight_at(start(), rules), controls_with(Steering{.lever = 0.7, .turn = {0, 1, 0}}), 4, rules);
     ASSERT_GT(rapidity(flight), 1);
     const dvec3 place = flight.ship.position.total();
     const glm::dquat axes = flight.ship.ship_from_cockpit;
-    Flight stopped = step(flight, {.lever = 0.7, .stop = true}, 0, rules, 1, start());
+    Flight stopped = step(flight, controls_with(Steering{.lever = 0.7, .stop = true}), 0, rules, 1, start());
     EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
     EXPECT_EQ(stopped.ship.position.total(), place);
     EXPECT_EQ(stopped.ship.ship_from_cockpit, axes);
     // The thrust is inhibited until the throttle has been at 0.
-    stopped = hold(stopped, {.lever = 0.7}, 2, rules);
+    stopped = hold(stopped, controls_with(Steering{.lever = 0.7}), 2, rules);
     EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
-    stopped = hold(hold(stopped, {.lever = 0.0}, 0.1, rules), {.lever = 0.7}, 2, rules);
+    stopped = hold(
+        hold(stopped, controls_with(Steering{.lever = 0.0}), 0.1, rules), controls_with(Steering{.lever = 0.7}), 2, rules);
     EXPECT_GT(rapidity(stopped), 0.5);
     // The same holds for a key.
-    flight = hold(flight_at(start(), rules), {.throttle_rate = 4}, 3, rules);
-    stopped = hold(step(flight, {.throttle_rate = 4, .stop = true}, 0, rules, 1, start()), {.throttle_rate = 4}, 1, rules);
+    flight = hold(flight_at(start(), rules), controls_with(Steering{.throttle_rate = 4}), 3, rules);
+    stopped = hold(step(flight, controls_with(Steering{.throttle_rate = 4, .stop = true}), 0, rules, 1, start()),
+        controls_with(Steering{.throttle_rate = 4}), 1, rules);
     EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
-    EXPECT_GT(rapidity(hold(hold(stopped, {}, 0.1, rules), {.throttle_rate = 4}, 2, rules)), 0.1);
+    EXPECT_GT(rapidity(hold(hold(stopped, {}, 0.1, rules), controls_with(Steering{.throttle_rate = 4}), 2, rules)), 0.1);
     // A key that was released before the stop, or before homing, must not speed the ship up again.
-    flight = hold(hold(flight_at(start(), rules), {.throttle_rate = 4}, 3, rules), {}, 0.2, rules);
-    stopped = hold(step(flight, {.stop = true}, 0, rules, 1, start()), {}, 2, rules);
+    flight = hold(hold(flight_at(start(), rules), controls_with(Steering{.throttle_rate = 4}), 3, rules), {}, 0.2, rules);
+    stopped = hold(step(flight, controls_with(Steering{.stop = true}), 0, rules, 1, start()), {}, 2, rules);
     EXPECT_EQ(stopped.ship.u.total(), dvec3(0));
-    flight = hold(step(flight, {.home = true}, 0, rules, 1, start()), {}, 60, rules);
+    flight = hold(step(flight, controls_with(Steering{.home = true}), 0, rules, 1, start()), {}, 60, rules);
     EXPECT_FALSE(flight.homing);
     EXPECT_EQ(flight.ship.u.total(), dvec3(0));
 }
@@ -235,7 +238,7 @@ TEST_P(Modes, StopIsImmediateAndLasts)
 TEST_P(Modes, LettingGoIsSafe)
 {
     const Flying rules = with(GetParam());
-    Flight flight = hold(flight_at(start(), rules), {.lever = 0.5, .turn = {1, -1, 1}}, 5, rules);
+    Flight flight = hold(flight_at(start(), rules), controls_with(Steering{.lever = 0.5, .turn = {1, -1, 1}}), 5, rules);
     Controls none;
     none.lever = GetParam() == FlightMode::newtonian ? 0.0 : 0.5;
     flight = hold(flight, none, 12, rules);
@@ -252,11 +255,12 @@ TEST_P(Modes, HomingFliesBackToTheStart)
     const Flying rules = with(GetParam());
     for (double seconds : {0.0, 0.5, 20.0}) {
         SCOPED_TRACE(seconds);
-        Flight flight = hold(flight_at(start(), rules), {.lever = 0.6, .turn = {0.2, 0.5, -0.1}}, seconds, rules);
-        flight = step(flight, {.lever = 0.6, .home = true}, 0, rules, 1, start());
+        Flight flight = hold(
+            flight_at(start(), rules), controls_with(Steering{.lever = 0.6, .turn = {0.2, 0.5, -0.1}}), seconds, rules);
+        flight = step(flight, controls_with(Steering{.lever = 0.6, .home = true}), 0, rules, 1, start());
         for (int i = 0; i < 6000 && flight.homing; ++i) {
             const Ship before = flight.ship;
-            flight = step(flight, {.lever = 0.6}, ms, rules, 1, start());
+            flight = step(flight, controls_with(Steering{.lever = 0.6}), ms, rules, 1, start());
             // The ship must not jump: it moves at most as far as its greater speed allows, plus the correction at the end.
             const double most = std::max(glm::length(before.u.total()), glm::length(flight.ship.u.total()));
             ASSERT_LE(glm::distance(before.position.total(), flight.ship.position.total()),
@@ -268,7 +272,7 @@ TEST_P(Modes, HomingFliesBackToTheStart)
         EXPECT_EQ(flight.ship.u.total(), dvec3(0));
         EXPECT_EQ(flight.ship.ship_from_cockpit, start().ship_from_cockpit);
         // It stays there, though the throttle is not at 0.
-        flight = hold(flight, {.lever = 0.6}, 3, rules);
+        flight = hold(flight, controls_with(Steering{.lever = 0.6}), 3, rules);
         EXPECT_EQ(flight.ship.u.total(), dvec3(0));
     }
 }
@@ -281,7 +285,7 @@ TEST(Flight, UndoGoesBackTenSecondsEachTime)
     std::vector<Flight> all;
     for (int i = 0; i < 600; ++i) { // a minute
         all.push_back(flight);
-        flight = step(flight, {.lever = 0.3, .turn = {0, 0.2, 0}}, 100 * ms, rules, 1, start());
+        flight = step(flight, controls_with(Steering{.lever = 0.3, .turn = {0, 0.2, 0}}), 100 * ms, rules, 1, start());
         history.keep(flight);
     }
     flight = history.back(flight);
@@ -299,17 +303,20 @@ TEST(Flight, UndoGoesBackTenSecondsEachTime)
 TEST(Flight, SwitchesToggleAndResetRestores)
 {
     const Flying rules = with(FlightMode::guided);
-    Flight flight = step(flight_at(start(), rules), {.doppler = true}, 10 * ms, rules, 1, start());
+    Flight flight
+        = step(flight_at(start(), rules), controls_with(EffectSwitches{.doppler = true}), 10 * ms, rules, 1, start());
     EXPECT_TRUE(flight.effects.aberration && !flight.effects.doppler && flight.effects.headlight);
-    flight = step(flight, {.aberration = true, .doppler = true, .headlight = true, .false_colours = true, .hud = true},
+    flight = step(flight,
+        controls_with(
+            EffectSwitches{.aberration = true, .doppler = true, .headlight = true, .false_colours = true, .hud = true}),
         10 * ms, rules, 1, start());
     EXPECT_TRUE(!flight.effects.aberration && flight.effects.doppler && !flight.effects.headlight
         && flight.effects.false_colours && !flight.hud);
-    flight = hold(flight, {.lever = 1.0, .turn = {1, 0, 0}, .exposure = 1}, 2, rules);
+    flight = hold(flight, controls_with(Steering{.lever = 1.0, .turn = {1, 0, 0}, .exposure = 1}), 2, rules);
     EXPECT_NEAR(flight.exposure_ev, 2 * exposure_ev_per_s, 1e-9);
-    flight = step(flight, {.next_mode = true}, 0, rules, 1, start());
+    flight = step(flight, controls_with(Steering{.next_mode = true}), 0, rules, 1, start());
     EXPECT_EQ(flight.mode, FlightMode::free);
-    flight = step(flight, {.reset = true}, 10 * ms, rules, 1, start());
+    flight = step(flight, controls_with(Steering{.reset = true}), 10 * ms, rules, 1, start());
     EXPECT_EQ(flight.ship.position.total(), start().position);
     EXPECT_EQ(flight.ship.u.total(), dvec3(0));
     EXPECT_TRUE(flight.effects.aberration && flight.effects.headlight);
@@ -320,12 +327,12 @@ TEST(Flight, LookingAroundTurnsOnlyThePicture)
 {
     const Flying rules;
     Shot level;
-    Flight flight = step(flight_at(level), {.look_rad = {0.5, 0.2}}, 10 * ms, rules, 1, level);
+    Flight flight = step(flight_at(level), controls_with(Looking{.look_rad = {0.5, 0.2}}), 10 * ms, rules, 1, level);
     EXPECT_EQ(flight.ship.ship_from_cockpit, level.ship_from_cockpit);
     dvec3 seen = shot_of(flight, "").ship_from_cockpit * dvec3(0, 0, -1);
     EXPECT_NEAR(seen.x, -std::sin(0.5) * std::cos(0.2), 1e-12);
     EXPECT_NEAR(seen.y, std::sin(0.2), 1e-12);
-    flight = step(flight, {.look_ahead = true}, 10 * ms, rules, 1, level);
+    flight = step(flight, controls_with(Looking{.look_ahead = true}), 10 * ms, rules, 1, level);
     EXPECT_EQ(flight.look_rad, glm::dvec2(0));
 }
 
@@ -377,11 +384,12 @@ TEST(Flight, LongFlightsAtTheLimitStayFinite)
 {
     for (FlightMode mode : {FlightMode::guided, FlightMode::free, FlightMode::newtonian}) {
         const Flying rules = with(mode, 1e6);
-        Flight flight = hold(flight_at(start(), rules), {.lever = 1.0, .turn = {0.1, 0.1, 1}}, 600, rules, 100 * ms);
+        Flight flight = hold(
+            flight_at(start(), rules), controls_with(Steering{.lever = 1.0, .turn = {0.1, 0.1, 1}}), 600, rules, 100 * ms);
         expect_finite_and_bounded(flight, 1e6, "after ten minutes");
         EXPECT_NEAR(physics::gamma_of(flight.ship.u.total()), 1e6, 2e3);
         flight.ship.ship_from_cockpit *= glm::angleAxis(M_PI, dvec3(0, 1, 0));
-        flight = hold(flight, {.lever = 1.0}, 40, rules, 100 * ms);
+        flight = hold(flight, controls_with(Steering{.lever = 1.0}), 40, rules, 100 * ms);
         expect_finite_and_bounded(flight, 1e6, "turned round");
         if (mode == FlightMode::guided) {
             EXPECT_LT(drift(flight), 1e-3);

@@ -5,6 +5,7 @@
 #include "runtime/flight/record_replay.h"
 #include "runtime/flight/recorder.h"
 #include "runtime/flight/replay.h"
+#include "tests/support/controls.h"
 #include "tests/support/files.h"
 #include <bit>
 #include <gtest/gtest.h>
@@ -258,7 +259,7 @@ TEST(Record, ADifferentFlightIsReported)
     Flight flight = flight_at(header.start, header.rules);
     History history;
     for (int i = 0; i < 3000; ++i) {
-        RecordEntry entry{.dt_ns = 10'000'000, .controls = {.turn = {0.1, 0.2, 0.3}}};
+        RecordEntry entry{.dt_ns = 10'000'000, .controls = controls_with(Steering{.turn = {0.1, 0.2, 0.3}})};
         flight
             = flown(flight, history, entry.controls, entry.dt_ns, header.rules, header.seconds_per_time_unit, header.start);
         if (i == 1500)
@@ -428,7 +429,8 @@ TEST(Record, IsReplayedAtItsOwnPace)
 {
     std::string text = first_line();
     for (int i = 0; i < 3; ++i)
-        text += text_of(RecordEntry{.dt_ns = 30'000'000, .skipped_ns = 3'600'000'000'000, .controls = {.save = true}});
+        text += text_of(RecordEntry{
+            .dt_ns = 30'000'000, .skipped_ns = 3'600'000'000'000, .controls = controls_with(AlignmentKeys{.save = true})});
     RecordReplay record_replay(nullptr, std::make_unique<Replay>(write_text("pace.jsonl", text)));
     EXPECT_TRUE(record_replay.replays());
     RecordEntry entry;

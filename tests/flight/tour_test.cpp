@@ -7,6 +7,7 @@
 #include "runtime/world/eye_event.h"
 #include "runtime/world/instances.h"
 #include "runtime/world/worldline.h"
+#include "tests/support/controls.h"
 #include "tests/support/dial.h"
 #include "tests/support/files.h"
 #include <algorithm>
@@ -49,7 +50,8 @@ Touring later(Touring touring, const Show& show, double seconds, Controls contro
 {
     for (int frame = 0; frame < std::lround(60 * seconds); ++frame) {
         touring = advance(touring, show, controls, 16'666'667);
-        controls = {.lever = controls.lever, .throttle_rate = controls.throttle_rate, .turn = controls.turn};
+        controls = controls_with(
+            Steering{.lever = controls.lever, .throttle_rate = controls.throttle_rate, .turn = controls.turn});
     }
     return touring;
 }
@@ -419,16 +421,19 @@ TEST(Tours, AQuestionIsAnsweredFromTheState)
     EXPECT_EQ(touring.chosen, 0);
     touring = later(later(touring, show, 0.1), show, 0.3, right);
     EXPECT_EQ(touring.chosen, 1);
-    const Touring answered = later(touring, show, 0.05, {.stop = true});
+    const Touring answered = later(touring, show, 0.05, controls_with(Steering{.stop = true}));
     EXPECT_EQ(answered.right, true);
     EXPECT_EQ(caption_of(answered, show, words(), {}).text, "Right! it is 4.00");
     EXPECT_NEAR(u_of(answered).z, -std::sqrt(15.0), 1e-12) << "the button answers and does not stop the ship";
     touring = later(later(touring, show, 0.1), show, 0.3, left);
-    EXPECT_EQ(caption_of(later(touring, show, 0.05, {.stop = true}), show, words(), {}).text, "Not quite. it is 4.00");
-    EXPECT_EQ(later(at_question, show, 0.05, {.headlight = true}).right, false) << "3 is the third choice";
-    EXPECT_TRUE(later(at_question, show, 0.05, {.headlight = true}).flight.effects.headlight)
+    EXPECT_EQ(caption_of(later(touring, show, 0.05, controls_with(Steering{.stop = true})), show, words(), {}).text,
+        "Not quite. it is 4.00");
+    EXPECT_EQ(later(at_question, show, 0.05, controls_with(EffectSwitches{.headlight = true})).right, false)
+        << "3 is the third choice";
+    EXPECT_TRUE(later(at_question, show, 0.05, controls_with(EffectSwitches{.headlight = true})).flight.effects.headlight)
         << "the key must not switch the effect";
-    EXPECT_FALSE(later(at_question, show, 0.05, {.stop = true}).measured_answer) << "nothing chosen is no answer";
+    EXPECT_FALSE(later(at_question, show, 0.05, controls_with(Steering{.stop = true})).measured_answer)
+        << "nothing chosen is no answer";
     // The explanation stays for three seconds, whenever the answer came.
     EXPECT_EQ(later(answered, show, 2.8).step(), 1u);
     EXPECT_EQ(later(answered, show, 3.1).step(), 2u);
@@ -442,9 +447,9 @@ TEST(Tours, AQuestionIsAnsweredFromTheState)
     EXPECT_NEAR(number.number, 1 + 0.5 * 13, 0.51);
     while (number.number < 8)
         number = later(later(number, show, 0.04), show, 0.04, right);
-    EXPECT_EQ(later(number, show, 0.05, {.stop = true}).right, true) << "7.87 within 0.2 of 8";
+    EXPECT_EQ(later(number, show, 0.05, controls_with(Steering{.stop = true})).right, true) << "7.87 within 0.2 of 8";
     number = later(later(number, show, 0.04), show, 0.04, left);
-    EXPECT_EQ(later(number, show, 0.05, {.stop = true}).right, false);
+    EXPECT_EQ(later(number, show, 0.05, controls_with(Steering{.stop = true})).right, false);
 }
 
 TEST(Tours, AVisitorFliesATryUntilItIsReached)
@@ -457,9 +462,9 @@ TEST(Tours, AVisitorFliesATryUntilItIsReached)
     const Touring given = later(touring_at(show), show, 1.1);
     EXPECT_TRUE(flies(given, show));
     // If the throttle is open when the visitor takes over a resting ship, it is inhibited until it has been closed.
-    EXPECT_EQ(glm::length(u_of(later(touring_at(show), show, 4, {.lever = 0.9}))), 0);
-    Touring touring = later(given, show, 0.1, {.lever = 0.0});
-    touring = later(touring, show, 2.5, {.lever = 0.9});
+    EXPECT_EQ(glm::length(u_of(later(touring_at(show), show, 4, controls_with(Steering{.lever = 0.9})))), 0);
+    Touring touring = later(given, show, 0.1, controls_with(Steering{.lever = 0.0}));
+    touring = later(touring, show, 2.5, controls_with(Steering{.lever = 0.9}));
     EXPECT_TRUE(touring.measured_answer) << "the place is reached";
     EXPECT_EQ(touring.right, true);
     EXPECT_GT(*touring.measured_answer, 2);
@@ -468,7 +473,7 @@ TEST(Tours, AVisitorFliesATryUntilItIsReached)
     EXPECT_TRUE(idle.measured_answer) << "the time is over";
     EXPECT_FALSE(idle.right);
     // Home leads to the next step. Without visitors the step is left out.
-    EXPECT_EQ(later(given, show, 0.05, {.home = true}).step(), 2u);
+    EXPECT_EQ(later(given, show, 0.05, controls_with(Steering{.home = true})).step(), 2u);
     show.visitors = false;
     EXPECT_EQ(played(show, 1.5, 60).step(), 3u);
     EXPECT_NEAR(length_s(tour), 3, 1e-12);
@@ -481,29 +486,30 @@ TEST(Tours, GuidesCanPauseSkipAndGoBack)
     const Show show{tour, {}, 1, true};
     const Touring flying = later(touring_at(show), show, 5.5);
     EXPECT_EQ(flying.step(), 1u);
-    const Touring still = later(flying, show, 2, {.stop = true});
+    const Touring still = later(flying, show, 2, controls_with(Steering{.stop = true}));
     EXPECT_TRUE(still.paused);
     EXPECT_EQ(u_of(still), u_of(flying)) << "a paused tour stands still to the bit";
     EXPECT_EQ(caption_of(still, show, words(), {}).aside, "paused");
-    EXPECT_EQ(later(still, show, 1, {.stop = true}).step(), 2u) << "stop again continues the tour";
+    EXPECT_EQ(later(still, show, 1, controls_with(Steering{.stop = true})).step(), 2u) << "stop again continues the tour";
     // Home skips to the state at the step's end.
-    const Touring on = later(flying, show, 0.01 + 1e-9, {.home = true});
+    const Touring on = later(flying, show, 0.01 + 1e-9, controls_with(Steering{.home = true}));
     EXPECT_EQ(on.step(), 2u);
     EXPECT_NEAR(std::asinh(glm::length(u_of(on))), 3, 1e-6);
     // Undo leads to the step's beginning, and soon after that to the step before.
-    Touring back = later(flying, show, 0.02, {.undo = true});
+    Touring back = later(flying, show, 0.02, controls_with(Steering{.undo = true}));
     EXPECT_EQ(back.step(), 1u);
     EXPECT_LT(glm::length(u_of(back)), 0.1);
-    back = later(back, show, 0.02, {.undo = true});
+    back = later(back, show, 0.02, controls_with(Steering{.undo = true}));
     EXPECT_EQ(back.step(), 0u);
-    EXPECT_EQ(later(on, show, 0.02, {.reset = true}).step(), 0u);
+    EXPECT_EQ(later(on, show, 0.02, controls_with(Steering{.reset = true})).step(), 0u);
     // Flight controls do nothing to a tour that flies by itself; looking around works.
     Controls hands;
     hands.lever = 1.0, hands.throttle_rate = 1, hands.turn = {1, 1, 1};
     const Touring touched = advance(flying, show, hands, 100'000'000), untouched = advance(flying, show, {}, 100'000'000);
     EXPECT_EQ(u_of(touched), u_of(untouched));
     EXPECT_EQ(touched.flight.ship.ship_from_cockpit, untouched.flight.ship.ship_from_cockpit);
-    EXPECT_EQ(advance(flying, show, {.look_rad = {0.3, 0.1}}, 1).flight.look_rad, glm::dvec2(0.3, 0.1));
+    EXPECT_EQ(
+        advance(flying, show, controls_with(Looking{.look_rad = {0.3, 0.1}}), 1).flight.look_rad, glm::dvec2(0.3, 0.1));
 }
 
 TEST(Tours, AtTheEndTheVisitorFliesUntilItBeginsAnew)
@@ -514,7 +520,7 @@ TEST(Tours, AtTheEndTheVisitorFliesUntilItBeginsAnew)
     EXPECT_TRUE(touring.over);
     EXPECT_TRUE(caption_of(touring, show, words(), {}).text.empty());
     EXPECT_NEAR(std::asinh(glm::length(u_of(touring))), 0.5, 0.05) << "the ship flies on with its last velocity";
-    touring = later(touring, show, 10, {.throttle_rate = 1});
+    touring = later(touring, show, 10, controls_with(Steering{.throttle_rate = 1}));
     EXPECT_GT(std::asinh(glm::length(u_of(touring))), 5);
     EXPECT_TRUE(later(touring, show, 19).over);
     touring = later(touring, show, 20.5);
@@ -533,7 +539,7 @@ TEST(Tours, ExposureChangesSmoothlyAndKeepsTheVisitorsCorrection)
     EXPECT_NEAR(played(show, 5, 10).flight.exposure_ev, 4, 1e-9);
     EXPECT_EQ(played(show, 7, 10).flight.exposure_ev, 1);
     EXPECT_FALSE(played(show, 7, 10).flight.effects.doppler);
-    EXPECT_NEAR(played(show, 1, 10, {.exposure = 1}).brighter_ev, exposure_ev_per_s, 1e-6);
+    EXPECT_NEAR(played(show, 1, 10, controls_with(Looking{.exposure = 1})).brighter_ev, exposure_ev_per_s, 1e-6);
 }
 
 TEST(Tours, CaptionsShowTheirMeasuredNumber)

@@ -1,6 +1,7 @@
 // The tutorial for visitors: prompts come in order, go once their control is used, and come again for the next visitor.
 #include "config/model/shot.h"
 #include "runtime/flight/tutorial.h"
+#include "tests/support/controls.h"
 #include "tests/support/files.h"
 #include <gtest/gtest.h>
 
@@ -30,15 +31,15 @@ TEST(TutorialTest, EachPromptGoesOnceItsControlIsUsed)
     Visitor visitor;
     visitor.hold({}, 20);
     EXPECT_EQ(visitor.tutorial.lesson, 0);
-    visitor.hold({.turn = {0, 1, 0}}, 5); // a visitor who turns first still has to learn to fly
+    visitor.hold(controls_with(Steering{.turn = {0, 1, 0}}), 5); // a visitor who turns first still has to learn to fly
     EXPECT_EQ(visitor.tutorial.lesson, 0);
-    visitor.hold({.lever = 0.3}, 3);
+    visitor.hold(controls_with(Steering{.lever = 0.3}), 3);
     EXPECT_EQ(visitor.tutorial.lesson, 1);
-    visitor.hold({.lever = 0.3, .turn = {0, 0, 1}}, 3); // a roll does not turn the nose
+    visitor.hold(controls_with(Steering{.lever = 0.3, .turn = {0, 0, 1}}), 3); // a roll does not turn the nose
     EXPECT_EQ(visitor.tutorial.lesson, 1);
-    visitor.hold({.lever = 0.3, .turn = {0.5, 0, 0}}, 3);
+    visitor.hold(controls_with(Steering{.lever = 0.3, .turn = {0.5, 0, 0}}), 3);
     EXPECT_EQ(visitor.tutorial.lesson, 2);
-    visitor.hold({.lever = 0.3, .stop = true}, 1);
+    visitor.hold(controls_with(Steering{.lever = 0.3, .stop = true}), 1);
     EXPECT_EQ(visitor.tutorial.lesson, lessons);
     EXPECT_EQ(prompt(visitor.tutorial, {}, starbow::testing::words()), "");
 }
@@ -46,15 +47,15 @@ TEST(TutorialTest, EachPromptGoesOnceItsControlIsUsed)
 TEST(TutorialTest, TheNextVisitorBeginsAnew)
 {
     Visitor visitor;
-    visitor.hold({.lever = 0.4}, 3);
-    visitor.hold({.lever = 0.4}, 80); // a lever that does not move is no visitor
+    visitor.hold(controls_with(Steering{.lever = 0.4}), 3);
+    visitor.hold(controls_with(Steering{.lever = 0.4}), 80); // a lever that does not move is no visitor
     EXPECT_EQ(visitor.tutorial.lesson, 1);
-    visitor.hold({.lever = 0.4}, 15);
+    visitor.hold(controls_with(Steering{.lever = 0.4}), 15);
     EXPECT_EQ(visitor.tutorial.lesson, 0);
     // In full flight the visitor has to learn to change the speed.
-    visitor.hold({.lever = 0.4}, 5);
+    visitor.hold(controls_with(Steering{.lever = 0.4}), 5);
     EXPECT_EQ(visitor.tutorial.lesson, 0);
-    visitor.hold({.lever = 0.2}, 3);
+    visitor.hold(controls_with(Steering{.lever = 0.2}), 3);
     EXPECT_EQ(visitor.tutorial.lesson, 1);
 }
 

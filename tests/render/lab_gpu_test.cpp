@@ -181,8 +181,10 @@ TEST(Lab, UnderThrustTheClocksFirstSeemToMoveBackwards)
     const double at_first = first.points[0].pair->angle_rad;
     double smallest = 1, smallest_at = 0, nearest_to_4 = 1, angle_at_4 = 0;
     Spot middle{.at = {0, 0, 0}}, right{.at = {5, 0, 0}};
+    Controls faster;
+    faster.throttle_rate = 1;
     for (int i = 0; i < 80; ++i) {
-        flight = step(flight, {.throttle_rate = 1}, 100'000'000, rules, scene.seconds_per_time_unit(), start);
+        flight = step(flight, faster, 100'000'000, rules, scene.seconds_per_time_unit(), start);
         const MeasuringObserver observer = measuring_observer_of(shot_of(flight, "clocks"));
         if (observer.place.z < 0.5)
             break;
