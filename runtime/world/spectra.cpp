@@ -89,7 +89,7 @@ std::vector<EmissionSpectrum> own_spectra(const World& world, const SceneFile& s
         throw InputError(scene.gltf.string(), "",
             "has, with its lights and its sky, " + std::to_string(own.size())
                 + " different spectra beside sunlight (of lamps, glows, lines and tables; a lamp counts twice where a "
-                  "material's ultraviolet, infrared or reflectance is told); at most "
+                  "material's ultraviolet, infrared or reflectance is given); at most "
                 + std::to_string(MAX_OWN) + " is right");
     return own;
 }
@@ -267,10 +267,10 @@ NeededLevel needed_level(const World& world, const SceneFile& scene)
 std::string describe(const NeededLevel& needed)
 {
     const std::size_t level = std::size_t(needed.level);
-    return "light as " + std::to_string(reflected_numbers[level]) + " numbers (" + spectral_level_names[level] + "): "
-        + (needed.why.empty()                         ? "here they tell all of it"
+    return "light in " + std::to_string(reflected_numbers[level]) + " coefficients (" + spectral_level_names[level] + "): "
+        + (needed.why.empty()                         ? "no surface here needs more"
                 : needed.level == SpectralLevel::fine ? needed.why
-                                                      : needed.why + "; more would tell no more");
+                                                      : needed.why + "; more would change nothing");
 }
 
 Spectra spectra_of(const World& world, const SceneFile& scene, SpectralLevel level)

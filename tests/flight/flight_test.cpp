@@ -7,6 +7,7 @@
 #include <random>
 
 using namespace starbow;
+using starbow::testing::controls_with;
 using glm::dvec3;
 
 namespace {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 using namespace starbow;
+using starbow::testing::controls_with;
 
 namespace {
 
