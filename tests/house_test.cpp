@@ -199,10 +199,11 @@ TEST(House, NoCodeIncludesVulkanOutsideRenderAndExhibit)
         for (const auto& entry : fs::recursive_directory_iterator(source_dir() / top)) {
             const std::string file = fs::relative(entry.path(), source_dir()).generic_string();
             if (entry.is_regular_file() && (file.ends_with(".h") || file.ends_with(".cpp"))
-                && std::regex_search(read_text(entry.path()), vulkan))
+                && std::regex_search(read_text(entry.path()), vulkan)) {
                 EXPECT_TRUE(
                     within(file, "runtime/render") || within(file, "runtime/exhibit") || file == "input/keyboard.cpp")
                     << file;
+            }
         }
 }
 
@@ -269,10 +270,11 @@ TEST(House, ARoomsLibraryLinksOnlyWhatTheTableAllows)
                 continue; // not a room
             const std::string to = folder_of.at(library);
             for (const Room& room : rooms())
-                if (room.folder == folder)
+                if (room.folder == folder) {
                     EXPECT_TRUE(std::any_of(room.may.begin(), room.may.end(),
                         [&](const std::string& may) { return to == may || within(to, may); }))
                         << folder << " links " << library << ", whose room it may not include";
+                }
         }
     }
 }

@@ -31,6 +31,7 @@ static_assert(controls_have(
         = static_cast<const EffectSwitches&>(c);
     [[maybe_unused]] const auto& [overlay, mark, log, why] = static_cast<const LabSwitches&>(c);
     [[maybe_unused]] const auto& [hud, full_screen, quit] = static_cast<const WindowSwitches&>(c);
+    [[maybe_unused]] const auto& [aberration_on, doppler_on, headlight_on, comparison_shown, false_colours_on] = s.effects;
     [[maybe_unused]] const auto& [pattern, save, choose, turn_by] = static_cast<const AlignmentKeys&>(c);
     [[maybe_unused]] const auto& [mode, max_gamma, turn_deg_per_s, roll_deg_per_s, turn_jerk_deg_per_s3, rapidity_per_s,
         rapidity_jerk_per_s2]

@@ -73,7 +73,7 @@ struct SurfaceVariant {
     bool moves = false; ///< animated
     auto operator<=>(const SurfaceVariant&) const = default;
 };
-/// A viewport's variant of the warp pass: constant_ids of view.glsl and seen.glsl.
+/// A viewport's variant of the warp pass: constant_ids of view.glsl and received_light.glsl.
 struct WarpVariant {
     bool map, aberration, doppler, headlight, mips;
     bool channels = false; ///< red, green and blue look different ways
