@@ -7,8 +7,8 @@
 #include <random>
 
 using namespace starbow;
-using starbow::testing::controls_with;
 using glm::dvec3;
+using starbow::testing::controls_with;
 
 namespace {
 
@@ -308,12 +308,12 @@ TEST(Flight, SwitchesToggleAndResetRestores)
         = step(flight_at(start(), rules), controls_with(EffectSwitches{.doppler = true}), 10 * ms, rules, 1, start());
     EXPECT_TRUE(flight.effects.aberration && !flight.effects.doppler && flight.effects.headlight);
     flight = step(flight,
-        controls_with(
-            EffectSwitches{.aberration = true, .doppler = true, .headlight = true, .false_colours = true, .hud = true}),
+        controls_with(EffectSwitches{.aberration = true, .doppler = true, .headlight = true, .false_colours = true},
+            WindowSwitches{.hud = true}),
         10 * ms, rules, 1, start());
     EXPECT_TRUE(!flight.effects.aberration && flight.effects.doppler && !flight.effects.headlight
         && flight.effects.false_colours && !flight.hud);
-    flight = hold(flight, controls_with(Steering{.lever = 1.0, .turn = {1, 0, 0}, .exposure = 1}), 2, rules);
+    flight = hold(flight, controls_with(Steering{.lever = 1.0, .turn = {1, 0, 0}}, Looking{.exposure = 1}), 2, rules);
     EXPECT_NEAR(flight.exposure_ev, 2 * exposure_ev_per_s, 1e-9);
     flight = step(flight, controls_with(Steering{.next_mode = true}), 0, rules, 1, start());
     EXPECT_EQ(flight.mode, FlightMode::free);

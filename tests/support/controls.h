@@ -3,11 +3,11 @@
 
 namespace starbow::testing {
 
-/// Controls of which one part is used: controls_with(Steering{.lever = 1}).
-template <class Part> Controls controls_with(const Part& part)
+/// Controls with these parts, the rest at rest: controls_with(Steering{.lever = 1}).
+template <class... Parts> Controls controls_with(const Parts&... parts)
 {
     Controls controls;
-    static_cast<Part&>(controls) = part;
+    ((static_cast<Parts&>(controls) = parts), ...);
     return controls;
 }
 
