@@ -38,9 +38,11 @@ void Lab::read(const FrameRenderer& frame, const LabSwitches& pressed, const Gpu
         why_ = Why((int(why_) + 1) % int(why_names.size()));
     if ((pressed.mark || pressed.log || every_s_ > 0) && overlay_ == Overlay::off)
         overlay_ = Overlay::aim; // marking and logging show the crosshair
-    mark_wanted_ |= pressed.mark;
+    mark_due_ |= pressed.mark;
+    line_due_ |= pressed.log;
     if (!on() || effects_.comparison != Comparison::none) { // the instruments measure the physical picture only
         measured_.reset();
+        mark_due_ = line_due_ = false;
         return;
     }
     const std::vector<Probed> probed = frame.probed();
@@ -50,16 +52,17 @@ void Lab::read(const FrameRenderer& frame, const LabSwitches& pressed, const Gpu
     Probed seen = probed[0];
     seen.ray = aim_of(observer); // exact, unlike the picture's pixel
     const Spot aimed = spot_at(observer, seen, world.world);
-    if (mark_wanted_) {
+    if (mark_due_) {
         if (marks_[0] && marks_[1])
             marks_ = {};
         marks_[marks_[0] ? 1 : 0] = snapped(aimed, world.world);
-        mark_wanted_ = false;
+        mark_due_ = false;
     }
     measured_ = measured_of(frame.head(), ship_, world.scene, world.world, effects_, aimed, probed[0].light, marks_);
     waited_s_ += dt_s;
-    if (pressed.log || (every_s_ > 0 && waited_s_ >= every_s_)) {
+    if (line_due_ || (every_s_ > 0 && waited_s_ >= every_s_)) {
         waited_s_ = 0;
+        line_due_ = false;
         keep(say);
     }
 }

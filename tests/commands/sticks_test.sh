@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # A simulated stick and throttle with an unmodified program. They are found by their profiles and flown to a given speed; one
-# is unplugged in flight and plugged in at another port. Usage: sticks_test.sh PROGRAM RIG_FOLDER
+# is unplugged in flight and plugged in at another port. It bears any load under which a frame takes at most a second.
+# Usage: sticks_test.sh PROGRAM RIG_FOLDER
 set -u
 program=$1 tools=$2 here=$(cd "$(dirname "$0")/.." && pwd)
 . "$here/rig/monitors.sh"
@@ -48,7 +49,7 @@ report thrustmaster-twcs-throttle $(throttle ffff)
 wait 0.5
 report thrustmaster-twcs-throttle $(throttle 0080)
 report thrustmaster-t16000m $(stick 0000 ff3f)
-wait 6
+run $here/rig/wait_flown.py $folder/record 6
 say unplugs the throttle
 unplug thrustmaster-twcs-throttle
 wait 1

@@ -4,7 +4,7 @@
 # exhibit's own pace.
 # Usage: window_test.sh PROGRAM
 set -u
-program=$1 rig=$(dirname "$0")/../rig
+program=$(realpath "$1") rig=$(dirname "$0")/../rig
 . "$rig/monitors.sh"
 serve Xvfb -noreset -screen 0 1280x800x24
 export STARBOW_VALIDATION=1
@@ -28,15 +28,15 @@ fly() { # LAYOUT [MORE...]
 }
 
 # Speeds up, turns, resizes, switches an effect off, and ends. The last line of the log has the ship's state.
-fly desk
+fly desk --record "$folder/desk.jsonl"
 xdotool keydown w
-sleep 3
+"$rig/wait_flown.py" "$folder/desk.jsonl" 3 || fail "desk: the flight stands still"
 xdotool keyup w
 xdotool key 2 l 4
-xdotool windowsize "$window" 500 300
-sleep 1
-xdotool windowsize "$window" 900 700
-sleep 1
+for size in '500 300' '900 700'; do
+    xdotool windowsize "$window" $size
+    "$rig/wait_flown.py" "$folder/desk.jsonl" 0.5 || fail "desk: the flight stands still at $size"
+done
 xdotool key Escape
 wait $exhibit || fail "desk: exit $? (an error of the validation layers, or a crash)"
 ok
@@ -99,12 +99,13 @@ ok
 
 # Space stops the ship at once. A replay of the recorded flight ends in the same state.
 fly stereo --record "$folder/flight.jsonl"
+flown() { "$rig/wait_flown.py" "$folder/flight.jsonl" "$1" || fail "stereo: the flight stands still"; }
 xdotool keydown w
-sleep 2
+flown 2
 xdotool keyup w
-sleep 0.3 # a frame without either key
+flown 0.2 # a frame without either key
 xdotool key space
-sleep 1
+flown 0.5
 xdotool key Escape
 wait $exhibit || fail "stereo: exit $?"
 ok
@@ -139,13 +140,12 @@ view() { import -window "$window" -crop 400x200+0+0 rgb:"$folder/$1"; }
 echo '{ "exposure": { "automatic": false } }' >"$folder/even.json" # automatic exposure would take seconds to return
 fly "$folder/tracked.json" --exhibit "$folder/even.json"
 xdotool key h # hides the figures, which change by themselves
-sleep 0.5
-view rest
-send_head 60
-sleep 0.5
-view right
-sleep 4
-view back
+still() { view rest; sleep "$pace"; view again; cmp -s "$folder/rest" "$folder/again"; }
+until_true 20 still || fail "tracked: the picture does not come to rest"
+moved() { send_head 60; view right; ! cmp -s "$folder/rest" "$folder/right"; }
+until_true 20 moved
+returned() { view back; cmp -s "$folder/rest" "$folder/back"; }
+until_true 20 returned
 xdotool key Escape
 wait $exhibit || fail "tracked: exit $?"
 ok
@@ -166,8 +166,11 @@ done
 ok
 
 # Without a display the program says so and renders stills; the first shot is enough here.
-(unset DISPLAY; cd "$folder" && timeout 5 "$program" run >"$folder/log" 2>&1)
-grep -q 'no display server' "$folder/log" || fail "the missing display is not reported"
+: >"$folder/log"
+(unset DISPLAY; cd "$folder" && exec "$program" run >"$folder/log" 2>&1) &
+started+=($!)
+until_true 60 grep -q 'no display server' "$folder/log" || fail "the missing display is not reported"
+kill $!
 ok
 # A layout can't run without a display: the program says so and draws nothing.
 said=$(unset DISPLAY; cd "$folder" && "$program" run --layout desk 2>&1)
