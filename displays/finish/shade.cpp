@@ -62,7 +62,7 @@ Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::s
     };
     for (std::size_t i = 0; i < views.size(); ++i) {
         const View& view = views[i].view;
-        // Where two canvases share pixels, the first represents both; a preview shows pictures without shading.
+        // The first of two canvases that share pixels represents both; a preview shows pictures without shading.
         if (view.output != output || view.canvas > 0)
             continue;
         const Viewport& viewport = layout.outputs[output].viewports[view.viewport];

@@ -42,7 +42,7 @@ void Lab::read(const FrameRenderer& frame, const LabSwitches& pressed, const Gpu
     line_due_ |= pressed.log;
     if (!on() || effects_.comparison != Comparison::none) { // the instruments measure the physical picture only
         measured_.reset();
-        mark_due_ = line_due_ = false;
+        line_due_ = false;
         return;
     }
     const std::vector<Probed> probed = frame.probed();

@@ -10,7 +10,7 @@ namespace {
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 
-/// Where a million stars crowd into a few pixels, an fp16 sum would stop growing. A device that can't blend fp32 uses
+/// An fp16 sum would stop growing if a million stars crowd into a few pixels. A device that can't blend fp32 uses
 /// fp16 all the same.
 vk::Format summing_format(const Device& device)
 {

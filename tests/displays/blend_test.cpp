@@ -193,7 +193,7 @@ struct Sum {
     int all = 0, by[6] = {}, of_alone = 0, over = 0; ///< numbers of directions; over: those above 1 %
 };
 
-/// Where two edges cross, both ramps go from 1 to 0 around one point, which pixels can't resolve. At r pixels from it the
+/// Both ramps go from 1 to 0 around the point in which two edges cross, and pixels can't resolve it. At r pixels from it the
 /// ramps are r pixels long, and linear interpolation cuts a kink by up to 1 / (4 r).
 constexpr int crossing_reach = 32;
 

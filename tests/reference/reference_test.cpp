@@ -10,6 +10,7 @@
 #include "shaders/physics/physics.h"
 #include "tests/support/files.h"
 #include "tests/support/quad.h"
+#include "tests/support/shots.h"
 #include "tests/support/speeds.h"
 #include <gtest/gtest.h>
 
@@ -19,7 +20,7 @@ using glm::dvec3;
 
 namespace {
 
-using starbow::testing::u_of_beta, starbow::testing::u_of_gamma;
+using starbow::testing::shot_at, starbow::testing::u_of_beta, starbow::testing::u_of_gamma;
 
 /// A world of rectangles with one material each.
 struct Plates {
@@ -68,17 +69,6 @@ struct Plates {
 private:
     bool placed_ = false;
 };
-
-/// A shot without colour effects.
-Shot shot_at(const dvec3& position, const dvec3& u, const dvec3& look = {0, 0, -1}, const dvec3& up = {0, 1, 0})
-{
-    Shot shot;
-    shot.position = position;
-    shot.u = u;
-    shot.ship_from_cockpit = orientation(look, up);
-    shot.effects = {true, false, false};
-    return shot;
-}
 
 /// The light's mean place in pixels, and its sum.
 dvec3 middle(const Reference& picture)

@@ -722,7 +722,7 @@ TEST(Boost, WignerTurnIsTheRotationInTwoBoosts)
             }
         }
     std::printf("  wigner_turn, worst error of an axis %.2e rad\n", worst);
-    // Where the boosts nearly cancel, scalar and axis lose a factor of gamma_u gamma_w / (gamma_u + gamma_w), here up to
+    // Scalar and axis of two boosts that nearly cancel lose a factor of gamma_u gamma_w / (gamma_u + gamma_w), here up to
     // 150.
     EXPECT_LE(worst, 150 * 8 * round_double);
 }

@@ -51,16 +51,6 @@ OffscreenRenderer renderer(const GpuWorld& world, const Layout& layout, bool mea
     return OffscreenRenderer(device(), pipelines(), world, layout, test_quality(), measured);
 }
 
-Shot shot_at(const dvec3& position, const dvec3& u, const dvec3& look, const dvec3& up)
-{
-    Shot shot;
-    shot.position = position;
-    shot.u = u;
-    shot.ship_from_cockpit = orientation(look, up);
-    shot.effects = {true, false, false};
-    return shot;
-}
-
 const std::vector<float>& Numbers::channel(const std::string& name) const
 {
     for (const auto& [own, values] : channels)

@@ -5,6 +5,7 @@
 #include "files.h"
 #include "runtime/render/offscreen.h"
 #include "runtime/render/render_context.h"
+#include "shots.h"
 #include "speeds.h"
 #include <cmath>
 #include <glm/glm.hpp>
@@ -43,10 +44,7 @@ Quality test_quality();
 
 OffscreenRenderer renderer(const GpuWorld& world, const Layout& layout, bool measured = true);
 
-using starbow::testing::u_of_beta, starbow::testing::u_of_gamma;
-
-/// A shot without colour effects, for tests of shapes alone.
-Shot shot_at(const dvec3& position, const dvec3& u, const dvec3& look, const dvec3& up = {0, 1, 0});
+using starbow::testing::shot_at, starbow::testing::u_of_beta, starbow::testing::u_of_gamma;
 
 /// One output's EXR channels by name.
 struct Numbers {

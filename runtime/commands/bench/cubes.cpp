@@ -38,25 +38,19 @@ struct CubesCase {
     CubePass faces_pass;
     PlainPicture plain;
 
-    CubesCase(Avenue& avenue, const Layout& dome_layout, const Layout& window_layout, const Quality& quality)
-        : CubesCase(avenue.context.device, avenue.context.pipelines, avenue, dome_layout, window_layout, quality)
-    {
-    }
-
-private:
-    CubesCase(Device& device, Pipelines& pipelines, Avenue& avenue, const Layout& dome_layout, const Layout& window_layout,
+    CubesCase(RenderContext& c, const GpuWorld& starless, const Layout& dome_layout, const Layout& window_layout,
         const Quality& quality)
-        : dome(device, pipelines, avenue.starless, dome_layout, quality, false)
-        , starry_dome(device, pipelines, avenue.context.world, dome_layout, quality, false)
-        , window(device, pipelines, avenue.starless, window_layout, quality, false)
-        , desk(device, pipelines, avenue.starless, window_of({800, 600}), default_quality(device, false), false)
-        , faces_pass(device, pipelines, avenue.starless, default_quality(device, false), false)
-        , plain(device, pipelines, avenue.starless, default_quality(device, false), window)
+        : dome(c.device, c.pipelines, starless, dome_layout, quality, false)
+        , starry_dome(c.device, c.pipelines, c.world, dome_layout, quality, false)
+        , window(c.device, c.pipelines, starless, window_layout, quality, false)
+        , desk(c.device, c.pipelines, starless, window_of({800, 600}), default_quality(c.device, false), false)
+        , faces_pass(c.device, c.pipelines, starless, default_quality(c.device, false), false)
+        , plain(c.device, c.pipelines, starless, default_quality(c.device, false), window)
     {
     }
 };
 
-/// What is timed of one speed.
+/// The timed stages of one speed: indices of its times.
 struct CubesStage {
     enum { dome, starry_dome, plain, plan, faces, count };
 };
@@ -123,7 +117,7 @@ void bench_cubes(int rounds)
         "milliseconds\n%-10s%8s%8s%8s%26s%8s%8s%8s%26s\n",
         "", "dome", "plain", "ratio", "(with stars", "plan", "faces", "ratio", "(Mtexel");
     for (double gamma : {1.0, 4.0, 100.0}) {
-        CubesCase one(avenue, dome_layout, window_layout, quality);
+        CubesCase one(avenue.context, avenue.starless, dome_layout, window_layout, quality);
         time_speed(avenue, one, along_avenue(avenue.context.world.scene.start, gamma), gamma, rounds);
     }
 }

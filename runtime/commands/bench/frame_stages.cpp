@@ -14,7 +14,7 @@
 namespace starbow {
 namespace {
 
-/// What is timed of a frame: indices of frame_stage_names.
+/// The timed stages of a frame: indices of frame_stage_names.
 struct FrameStage {
     enum Index {
         plan_and_cull,

@@ -24,7 +24,7 @@ double pixels_of(const Layout& layout)
     return sum;
 }
 
-/// What is timed of a layout: indices of layout_stage_names.
+/// The timed stages of a layout: indices of layout_stage_names.
 struct LayoutStage {
     enum { plan_and_cull, cubes, warps, finishes, whole_frame, metering, count };
 };
