@@ -128,7 +128,7 @@ private:
     std::chrono::steady_clock::time_point next_;
 };
 
-std::string shown(const Hid::Connected& device)
+std::string description_of(const Hid::Connected& device)
 {
     return describe(device.info) + (device.info.serial.empty() ? "" : ", serial number " + device.info.serial) + ", "
         + device.info.path;
@@ -153,7 +153,7 @@ Watched choose(Person& person, const Hid& hid, const std::string& wanted)
     }
     const auto list = [](const std::vector<Hid::Connected>& devices) {
         for (std::size_t i = 0; i < devices.size(); ++i)
-            std::printf("  %zu  %s\n", i + 1, shown(devices[i]).c_str());
+            std::printf("  %zu  %s\n", i + 1, description_of(devices[i]).c_str());
     };
     if (fitting.empty()) {
         list(all);

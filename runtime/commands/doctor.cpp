@@ -12,6 +12,7 @@
 #include "runtime/exhibit/outputs.h"
 #include "runtime/hud/hud.h"
 #include "runtime/render/render_context.h"
+#include "version.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
@@ -381,9 +382,9 @@ void examine_files(Report& report)
 int doctor(bool as_json)
 {
     Report report;
-    report.facts["version"] = STARBOW_VERSION;
-    report.facts["build"] = STARBOW_BUILD_TYPE;
-    report.lines.push_back("Starbow " STARBOW_VERSION ", build type " STARBOW_BUILD_TYPE);
+    report.facts["version"] = program_version;
+    report.facts["build"] = build_type;
+    report.lines.push_back(std::string("Starbow ") + program_version + ", build type " + build_type);
     // A failing part must not hide the others.
     const auto examine = [&](const char* part, auto&& look) {
         try {

@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "config/json/error.h"
+#include "version.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
@@ -65,7 +66,7 @@ int main(int count, char** arguments)
 {
     CLI::App app("Starbow: fly near the speed of light and see what physics says you would see.");
     app.require_subcommand(1);
-    app.set_version_flag("--version", "starbow " STARBOW_VERSION);
+    app.set_version_flag("--version", std::string("starbow ") + starbow::program_version);
     app.footer("Examples:\n  starbow run --layout dome\n  starbow render --layout dome --shot avenue-gamma4 --out out/dome\n"
                "  starbow check my/wall.json --svg out/wall.svg\n  starbow COMMAND --help");
     std::function<int()> chosen;

@@ -103,7 +103,7 @@ std::string made_from(const TourOptions& options, const Show& show, const Words&
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-void log_line(const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); }
+void print_line(const std::string& line) { std::fprintf(stderr, "starbow: %s\n", line.c_str()); }
 
 } // namespace
 
@@ -128,7 +128,7 @@ int render_tour(const TourOptions& options)
     const long frames = std::lround(std::ceil(length_s(tour) * double(options.frames_per_s) - 1e-6));
     RenderContext context(scene, device_options(false));
     const std::string device = context.device.name();
-    const MovieFrames kept(movie, made_from(options, show, words, scene, layout, device, frames), log_line);
+    const MovieFrames kept(movie, made_from(options, show, words, scene, layout, device, frames), print_line);
 
     catch_interrupts();
     OffscreenRenderer renderer(
