@@ -18,7 +18,7 @@ layout(constant_id = 8) const bool MATRICES = false; // otherwise the coefficien
                                                      // infrared
 layout(constant_id = 9) const bool CLOCK = false;
 layout(constant_id = 10) const bool FINITE_EXISTENCE = false; // tests existence intervals
-layout(constant_id = 11) const bool LAYERED = false; // one of several rest frames: also writes its coverage, after the
+layout(constant_id = 11) const bool SEVERAL_REST_FRAMES = false; // one of several rest frames: also writes its coverage, after the
                                                      // coefficients
 layout(constant_id = 12) const bool LAMPS_MOVE = false;
 layout(constant_id = 13) const bool BLINK = false;
@@ -35,11 +35,11 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 colour;
 layout(location = 4) flat in uint instance; // for CLOCK, FINITE_EXISTENCE, BLINK
-layout(location = 0) out vec4 numbers0;
-layout(location = 1) out vec4 numbers1;
-layout(location = 2) out vec4 numbers2;
-layout(location = 3) out vec4 numbers3;
-layout(location = 4) out vec4 numbers4;
+layout(location = 0) out vec4 coefficients0;
+layout(location = 1) out vec4 coefficients1;
+layout(location = 2) out vec4 coefficients2;
+layout(location = 3) out vec4 coefficients3;
+layout(location = 4) out vec4 coefficients4;
 
 const int GROUPS = (REFLECTED + OWN + 3) / 4;
 const int KEPT = LAMPS_MOVE ? 1 : KINDS; // kinds of light that are summed before they illuminate
@@ -59,7 +59,7 @@ vec2 beyond_visible(vec3 lit, vec3 light)
 }
 
 // Adds a surface's coefficients under a light of one kind, and those of the sunlit colour that it emits.
-void add_lit(inout vec4 numbers[MAX_GROUPS + 1], int kind, vec3 base, vec3 light, vec3 emitted)
+void add_lit(inout vec4 coefficients[MAX_GROUPS + 1], int kind, vec3 base, vec3 light, vec3 emitted)
 {
     vec3 lit = base * light;
     vec2 beyond = beyond_visible(lit, light) + mean(emitted);
@@ -67,7 +67,7 @@ void add_lit(inout vec4 numbers[MAX_GROUPS + 1], int kind, vec3 base, vec3 light
     int at = (int(push.beyond.z) * KINDS + kind) * (GROUPS * 5);
     for (int group = 0; group < GROUPS; ++group) {
         int column = at + group * 5;
-        numbers[group] += columns[column] * lit.r + columns[column + 1] * lit.g + columns[column + 2] * lit.b
+        coefficients[group] += columns[column] * lit.r + columns[column + 1] * lit.g + columns[column + 2] * lit.b
             + columns[column + 3] * beyond.x + columns[column + 4] * beyond.y;
     }
 }
@@ -129,7 +129,7 @@ vec3 emitted_light(float ink, float lit_part)
 
 // Adds a lamp's light on a surface with the unit normal n: to `light` by its kind, or to the coefficients at once where
 // each lamp has a shift of its own.
-void add_lamp(inout vec4 numbers[MAX_GROUPS + 1], inout vec3 light[KEPT], LightEntry lamp, vec3 n, vec3 base)
+void add_lamp(inout vec4 coefficients[MAX_GROUPS + 1], inout vec3 light[KEPT], LightEntry lamp, vec3 n, vec3 base)
 {
     vec3 towards = lamp.place.xyz - lamp.place.w * place;
     float D = 1.0;
@@ -144,9 +144,9 @@ void add_lamp(inout vec4 numbers[MAX_GROUPS + 1], inout vec3 light[KEPT], LightE
     if (LAMPS_MOVE) {
         // In addition to the shift of its spectrum, a point light's flux per frequency grows as D.
         float at = clamp((log2(D) - lamp.shifts.x) * lamp.shifts.y, 0.0, max(lamp.shifts.z - 1.001, 0.0));
-        add_lit(numbers, first + int(at), base, add * (D * (1.0 - fract(at))), vec3(0.0));
+        add_lit(coefficients, first + int(at), base, add * (D * (1.0 - fract(at))), vec3(0.0));
         if (fract(at) > 0.0)
-            add_lit(numbers, first + int(at) + 1, base, add * (D * fract(at)), vec3(0.0));
+            add_lit(coefficients, first + int(at) + 1, base, add * (D * fract(at)), vec3(0.0));
     } else {
         for (int kind = 0; kind < KEPT; ++kind)
             light[kind] += KEPT == 1 || first == kind ? add : vec3(0.0);
@@ -154,39 +154,39 @@ void add_lamp(inout vec4 numbers[MAX_GROUPS + 1], inout vec3 light[KEPT], LightE
 }
 
 // Adds the coefficients of reflected sunlight and of the sunlit colour that the surface emits.
-void add_reflected(inout vec4 numbers[MAX_GROUPS + 1], vec3 light[KEPT], vec3 base, vec3 emitted)
+void add_reflected(inout vec4 coefficients[MAX_GROUPS + 1], vec3 light[KEPT], vec3 base, vec3 emitted)
 {
     if (MATRICES) {
         for (int kind = 0; kind < KEPT; ++kind)
-            add_lit(numbers, kind, base, light[kind], kind == 0 ? emitted : vec3(0.0));
+            add_lit(coefficients, kind, base, light[kind], kind == 0 ? emitted : vec3(0.0));
         return;
     }
     vec3 lit = base * light[0];
-    numbers[0].rgb = lit + emitted;
+    coefficients[0].rgb = lit + emitted;
     if (REFLECTED == 5) {
         vec2 beyond = beyond_visible(lit, light[0]) + mean(emitted);
-        numbers[0].a = beyond.x;
-        numbers[1].r = beyond.y;
+        coefficients[0].a = beyond.x;
+        coefficients[1].r = beyond.y;
     }
 }
 
-void write(vec4 numbers[MAX_GROUPS + 1])
+void write(vec4 coefficients[MAX_GROUPS + 1])
 {
     // 60000 is below fp16's greatest number: a light very close to a surface must not become infinite.
     for (int group = 0; group < GROUPS; ++group)
-        numbers[group] = clamp(numbers[group], vec4(-60000.0), vec4(60000.0));
-    if (LAYERED) // a texel's samples are averaged: its coverage, and the sum of its depths
-        numbers[GROUPS] = vec4(1.0, gl_FragCoord.z, 0.0, 0.0);
-    const int outputs = LAYERED ? GROUPS + 1 : GROUPS;
-    numbers0 = numbers[0];
+        coefficients[group] = clamp(coefficients[group], vec4(-60000.0), vec4(60000.0));
+    if (SEVERAL_REST_FRAMES) // a texel's samples are averaged: its coverage, and the sum of its depths
+        coefficients[GROUPS] = vec4(1.0, gl_FragCoord.z, 0.0, 0.0);
+    const int outputs = SEVERAL_REST_FRAMES ? GROUPS + 1 : GROUPS;
+    coefficients0 = coefficients[0];
     if (outputs > 1)
-        numbers1 = numbers[1];
+        coefficients1 = coefficients[1];
     if (outputs > 2)
-        numbers2 = numbers[2];
+        coefficients2 = coefficients[2];
     if (outputs > 3)
-        numbers3 = numbers[3];
+        coefficients3 = coefficients[3];
     if (outputs > 4)
-        numbers4 = numbers[4];
+        coefficients4 = coefficients[4];
 }
 
 void main()
@@ -200,9 +200,9 @@ void main()
         discard;
     vec3 emitted = emitted_light(ink, lit_part);
 
-    vec4 numbers[MAX_GROUPS + 1];
+    vec4 coefficients[MAX_GROUPS + 1];
     for (int group = 0; group < GROUPS; ++group)
-        numbers[group] = vec4(0.0);
+        coefficients[group] = vec4(0.0);
     vec3 light[KEPT];
     for (int kind = 0; kind < KEPT; ++kind)
         light[kind] = vec3(0.0);
@@ -211,13 +211,13 @@ void main()
         light[0] = cube.ambient.rgb;
         vec3 n = normalize(gl_FrontFacing ? normal : -normal);
         for (int i = 0; i < LIGHTS; ++i)
-            add_lamp(numbers, light, cube.lights[i], n, base.rgb);
+            add_lamp(coefficients, light, cube.lights[i], n, base.rgb);
     }
 
     bool own_emission = OWN > 0 && push.beyond.w >= 0.0;
-    add_reflected(numbers, light, base.rgb, own_emission ? vec3(0.0) : emitted);
+    add_reflected(coefficients, light, base.rgb, own_emission ? vec3(0.0) : emitted);
     for (int i = 0; i < OWN; ++i)
-        numbers[(REFLECTED + i) / 4][(REFLECTED + i) % 4]
+        coefficients[(REFLECTED + i) / 4][(REFLECTED + i) % 4]
             += push.own[i] + (int(push.beyond.w) == i ? dot(luminance, emitted) : 0.0);
-    write(numbers);
+    write(coefficients);
 }

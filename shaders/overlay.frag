@@ -156,6 +156,6 @@ void main()
     if (OVERLAY == OVERLAY_RING)
         sum = ring(n, pixel_angle);
     if (OVERLAY == OVERLAY_DISTANCE || OVERLAY == OVERLAY_EMISSION)
-        sum = false_colour(LAYERED ? shown_along(n, pixel_angle).distance : smooth_distance_at(place_of(sight_of(n, pixel_angle).n, world_layer())));
+        sum = false_colour(SEVERAL_REST_FRAMES ? shown_along(n, pixel_angle).distance : smooth_distance_at(place_of(sight_of(n, pixel_angle).n, world_rest_frame())));
     shown = over(signs(n, pixel_angle), sum);
 }

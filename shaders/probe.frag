@@ -20,7 +20,7 @@ void main()
     vec3 n = look(view.row0, view.row1, view.row2, gl_FragCoord.xy - view.origin.xy, 0, pixel_angle);
     Shown shown = shown_along(n, pixel_angle);
     vec3 light = shown.light * view.boost.z;
-    float distance = LAYERED ? shown.distance : smooth_distance_at(place_of(shown.sight.n, world_layer()));
+    float distance = SEVERAL_REST_FRAMES ? shown.distance : smooth_distance_at(place_of(shown.sight.n, world_rest_frame()));
     light_and_depth = vec4(clamp(light, vec3(-3e38), vec3(3e38)), distance);
     camera = vec4(n, shown.sight.D);
     world = vec4(shown.sight.n, shown.frame);

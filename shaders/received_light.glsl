@@ -17,7 +17,7 @@ layout(constant_id = 16) const bool SINGLE = false; // one image of the plan, ah
                                                     // TileEntry::texel_from_face
 layout(constant_id = 17) const int RAYS = 1; // along each side of a pixel
 layout(constant_id = 18) const bool CUT = false; // some tile of the plan has more than one image
-layout(constant_id = 14) const bool LAYERED = false; // several rest frames, each with its own part of the cube map
+layout(constant_id = 14) const bool SEVERAL_REST_FRAMES = false; // several rest frames, each with its own part of the cube map
 
 const int GROUPS = (REFLECTED + OWN + 3) / 4;
 
@@ -34,7 +34,7 @@ layout(set = 0, binding = 9) uniform sampler2D atlas3;
 layout(set = 0, binding = 10) uniform Own { vec4 own_rows[MOST_OWN_ROWS]; };
 
 layout(set = 0, binding = 11) uniform sampler2D covered_atlas; // the covered part of a texel; the same times its depth
-layout(set = 0, binding = 12) uniform Layers { RestFrameConstants layered; };
+layout(set = 0, binding = 12) uniform RestFrames { RestFrameConstants rest_frames; };
 
 // A rest frame's part of the cube map and the eye event there, motion axes.
 struct RestFrameView {
@@ -44,7 +44,7 @@ struct RestFrameView {
     int tiles, finest_clip_level;
 };
 // The world's own rest frame.
-RestFrameView world_layer() { return RestFrameView(view.boost.xy, view.eye, view.zenith.y, 0, int(view.row1.w)); }
+RestFrameView world_rest_frame() { return RestFrameView(view.boost.xy, view.eye, view.zenith.y, 0, int(view.row1.w)); }
 
 // The world's direction and D of the camera's direction n, and the magnification of angles from there to the world.
 AberratedRay from_camera(vec3 n, vec2 E) { return GALILEAN ? galilean_world_from_camera(n, E.x, E.y) : world_from_camera(n, E.x, E.y); }
@@ -64,7 +64,7 @@ struct Place {
 };
 
 // Finds the plan's image of the direction n: tiles.cpp's tile_of, in float.
-Place place_of(vec3 n, RestFrameView layer)
+Place place_of(vec3 n, RestFrameView rest_frame)
 {
     vec3 m = abs(n);
     bool x_greater = m.x >= m.y;
@@ -79,13 +79,13 @@ Place place_of(vec3 n, RestFrameView layer)
         float larger = across / m.z;
         // floor(-log2(larger^2)) from the exponent's bits; 126: an exact power of two goes to the coarser image.
         int level = 126 - (floatBitsToInt(larger * larger) >> 23);
-        tile = n.z >= 0.0 ? TILE_FRONT : TILE_REAR + clamp(level, 0, layer.finest_clip_level);
+        tile = n.z >= 0.0 ? TILE_FRONT : TILE_REAR + clamp(level, 0, rest_frame.finest_clip_level);
     } else {
         place.face = vec2(x_greater ? n.y : n.x, n.z) / across;
         int side = x_greater ? (n.x >= 0.0 ? 0 : 1) : (n.y >= 0.0 ? 2 : 3);
         tile = TILE_SIDES + side * SIDE_BANDS + int(place.face.y > -0.5) + int(place.face.y > 0.0);
     }
-    tile += layer.tiles;
+    tile += rest_frame.tiles;
     ivec2 cell = ivec2(0);
     if (CUT) {
         vec4 sub_tiles_from_face = texelFetch(tiles, tile);
@@ -112,17 +112,17 @@ float level_of(Place place, float world_angle)
     // therefore be finer by the root of 3, 0.79 levels.
     return clamp(0.25 * log2(square * square * (distance_square * distance_square * distance_square)) - 0.79, 0.0, place.last_level);
 }
-void cube_map(Place place, float world_angle, out vec4 numbers[MAX_GROUPS])
+void cube_map(Place place, float world_angle, out vec4 coefficients[MAX_GROUPS])
 {
     float level = level_of(place, world_angle);
     vec2 at = place.texel * view.origin.zw;
-    numbers[0] = textureLod(atlas, at, level);
+    coefficients[0] = textureLod(atlas, at, level);
     if (GROUPS > 1)
-        numbers[1] = textureLod(atlas1, at, level);
+        coefficients[1] = textureLod(atlas1, at, level);
     if (GROUPS > 2)
-        numbers[2] = textureLod(atlas2, at, level);
+        coefficients[2] = textureLod(atlas2, at, level);
     if (GROUPS > 3)
-        numbers[3] = textureLod(atlas3, at, level);
+        coefficients[3] = textureLod(atlas3, at, level);
 }
 
 // A pair of halves: a value and its increase up to the next row.
@@ -133,17 +133,17 @@ float halves(uint word, float part)
 }
 
 // The colour of light that is shifted by D; the same as response.cpp's seen.
-vec3 shifted(vec4 numbers[MAX_GROUPS], float D)
+vec3 shifted(vec4 coefficients[MAX_GROUPS], float D)
 {
     float per_octave = view.corner.w;
-    float asked = (log2(D) - view.row2.w) * per_octave;
-    float at = clamp(asked, 0.0, float(RESPONSE_ROWS) - 1.001);
+    float unclamped = (log2(D) - view.row2.w) * per_octave;
+    float at = clamp(unclamped, 0.0, float(RESPONSE_ROWS) - 1.001);
     float part = fract(at);
     int row = int(at) * RESPONSE_TEXELS(REFLECTED);
     vec3 light = vec3(0.0);
     // The parts of four coefficients in three colours take three texels.
     for (int group = 0; group < (REFLECTED + 3) / 4; ++group) {
-        vec4 own = numbers[group];
+        vec4 own = coefficients[group];
         uvec4 first = texelFetch(response, row + 3 * group), second = texelFetch(response, row + 3 * group + 1);
         uvec4 third = texelFetch(response, row + 3 * group + 2);
         light += own.x * vec3(halves(first.x, part), halves(first.y, part), halves(first.z, part));
@@ -163,18 +163,18 @@ vec3 shifted(vec4 numbers[MAX_GROUPS], float D)
         int j = int(own_at) * OWN;
         for (int k = 0; k < OWN; ++k) {
             vec4 own = mix(own_rows[j + k], own_rows[j + OWN + k], fract(own_at));
-            light += own.rgb * (exp2(own.w) * numbers[(REFLECTED + k) / 4][(REFLECTED + k) % 4]);
+            light += own.rgb * (exp2(own.w) * coefficients[(REFLECTED + k) / 4][(REFLECTED + k) % 4]);
         }
     }
     // Beyond the table every tail falls as 1 / D^2.
-    float beyond = exp2(min(0.0, (at - asked) / per_octave));
+    float beyond = exp2(min(0.0, (at - unclamped) / per_octave));
     return light * (beyond * beyond);
 }
 
 // near / distance along the face's normal at a texel of the cube map, 0 for the sky.
 float depth_of(ivec2 texel)
 {
-    if (!LAYERED)
+    if (!SEVERAL_REST_FRAMES)
         return texelFetch(depth_atlas, texel, 0).r;
     vec2 covered = texelFetch(covered_atlas, texel, 0).rg;
     return covered.x > 0.0 ? covered.y / covered.x : 0.0;
@@ -188,13 +188,13 @@ float distance_at(Place place)
 }
 
 // The eye's place from the cube map's, in the world at rest. n: the ship's direction.
-vec3 eye_offset(vec3 n, RestFrameView layer)
+vec3 eye_offset(vec3 n, RestFrameView rest_frame)
 {
     if (!TURNING)
-        return layer.eye.xyz;
-    vec3 right = cross(n, layer.eye.xyz); // as long as the sine of the angle from the zenith
-    vec3 offset = right * (layer.eye.w / max(length(right), view.zenith.x));
-    offset.z *= 0.5 * (layer.E.x + layer.E.y); // simultaneous in the ship: stretched by gamma in the world
+        return rest_frame.eye.xyz;
+    vec3 right = cross(n, rest_frame.eye.xyz); // as long as the sine of the angle from the zenith
+    vec3 offset = right * (rest_frame.eye.w / max(length(right), view.zenith.x));
+    offset.z *= 0.5 * (rest_frame.E.x + rest_frame.E.y); // simultaneous in the ship: stretched by gamma in the world
     return offset;
 }
 
@@ -204,10 +204,10 @@ vec3 eye_offset(vec3 n, RestFrameView layer)
 // (even in 1 / distance, as parallax is). If a surface ends between two steps, it also tests the surface's end. It then
 // approximates P = d(m) m with P - offset along n. The cube map has no surfaces that are hidden from its place: there the
 // surface behind the edge is stretched.
-vec3 reprojected(vec3 n, vec3 offset, float texel, RestFrameView layer)
+vec3 reprojected(vec3 n, vec3 offset, float texel, RestFrameView rest_frame)
 {
     float across = length(offset - dot(offset, n) * n);
-    float arc = min(across / layer.nearest, MOST_PARALLAX);
+    float arc = min(across / rest_frame.nearest, MOST_PARALLAX);
     if (arc < 0.1 * texel)
         return n;
     float steps = clamp(ceil(0.2 * arc / texel), 1.0, float(REPROJECT_STEPS));
@@ -219,12 +219,12 @@ vec3 reprojected(vec3 n, vec3 offset, float texel, RestFrameView layer)
         bool finite = i < steps; // the last step is n itself, at infinity
         vec3 line = finite ? offset + n / (nearness - i * shrink) : n;
         m = normalize(line);
-        far = distance_at(place_of(m, layer));
+        far = distance_at(place_of(m, rest_frame));
         met = finite ? far <= length(line) : !isinf(far);
         if (i > 0.0 && far > 1.1 * before) {
             // That surface ended between the steps; the line may have met it just before its end.
             vec3 edge = normalize(offset + dot(before * last - offset, n) * n);
-            float there = distance_at(place_of(edge, layer));
+            float there = distance_at(place_of(edge, rest_frame));
             vec3 from_eye = there * edge - offset;
             if (!isinf(there) && length(from_eye - dot(from_eye, n) * n) < 0.3 * texel * there) {
                 m = edge;
@@ -248,11 +248,11 @@ vec3 reprojected(vec3 n, vec3 offset, float texel, RestFrameView layer)
         if (along <= 0.0 || miss < 0.05 * texel)
             break;
         m = normalize(offset + along * n);
-        far = distance_at(place_of(m, layer));
+        far = distance_at(place_of(m, rest_frame));
         if (isinf(far)) {
             // The line passes behind its apparent hit to the sky: along n, or beside the edge that hides the sky there.
             if (off > 0.15 * texel)
-                best = isinf(distance_at(place_of(n, layer))) ? n : m;
+                best = isinf(distance_at(place_of(n, rest_frame))) ? n : m;
             break;
         }
     }
@@ -272,25 +272,25 @@ AberratedRay sight_of(vec3 n, float pixel_angle)
     if (!ABERRATION)
         sight.n = n;
     if (REPROJECT)
-        sight.n = reprojected(sight.n, eye_offset(n, world_layer()), world_angle(sight, n, pixel_angle), world_layer());
+        sight.n = reprojected(sight.n, eye_offset(n, world_rest_frame()), world_angle(sight, n, pixel_angle), world_rest_frame());
     return sight;
 }
 
 // Scene-linear light, pre-exposed by the cube map's factor; colours outside Rec. 709 have negative channels.
-vec3 light_of(vec4 numbers[MAX_GROUPS], float D)
+vec3 light_of(vec4 coefficients[MAX_GROUPS], float D)
 {
-    vec3 light = numbers[0].rgb;
+    vec3 light = coefficients[0].rgb;
     if (BY_TABLE)
-        light = shifted(numbers, DOPPLER ? D : 1.0);
+        light = shifted(coefficients, DOPPLER ? D : 1.0);
     if (HEADLIGHT)
         light *= headlight(D);
     return light;
 }
 vec3 light_seen(Place place, float D, float angle)
 {
-    vec4 numbers[MAX_GROUPS];
-    cube_map(place, angle, numbers);
-    return light_of(numbers, D);
+    vec4 coefficients[MAX_GROUPS];
+    cube_map(place, angle, coefficients);
+    return light_of(coefficients, D);
 }
 
 #include "rest_frames.glsl"
@@ -308,11 +308,11 @@ Shown shown_along(vec3 n, float pixel_angle)
     Shown shown;
     shown.n = n;
     shown.sight = sight_of(n, pixel_angle);
-    if (LAYERED) {
-        shown.light = light_of_layers(n, pixel_angle, shown.sight, shown.distance, shown.frame);
+    if (SEVERAL_REST_FRAMES) {
+        shown.light = light_of_rest_frames(n, pixel_angle, shown.sight, shown.distance, shown.frame);
         return shown;
     }
-    Place place = place_of(shown.sight.n, world_layer());
+    Place place = place_of(shown.sight.n, world_rest_frame());
     shown.light = light_seen(place, shown.sight.D, world_angle(shown.sight, n, pixel_angle));
     shown.distance = distance_at(place);
     shown.frame = 0.0;

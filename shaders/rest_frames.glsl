@@ -7,11 +7,11 @@ RestFrameView rest_frame_of(RestFrameEntry entry)
 }
 
 // The sky's coefficients at the world's direction n, as in sky.frag.
-void sky_at(vec3 n, out vec4 numbers[MAX_GROUPS])
+void sky_at(vec3 n, out vec4 coefficients[MAX_GROUPS])
 {
-    float height = dot(n, layered.world_up.xyz), part = smoothstep(0.0, 1.0, abs(height));
+    float height = dot(n, rest_frames.world_up.xyz), part = smoothstep(0.0, 1.0, abs(height));
     for (int group = 0; group < GROUPS; ++group)
-        numbers[group] = mix(layered.sky_horizon[group], height > 0.0 ? layered.sky_zenith[group] : layered.sky_nadir[group], part);
+        coefficients[group] = mix(rest_frames.sky_horizon[group], height > 0.0 ? rest_frames.sky_zenith[group] : rest_frames.sky_nadir[group], part);
 }
 
 // A rest frame's surfaces in up to four parts side by side: each one's distance in the ship, and its coverage of the
@@ -27,15 +27,15 @@ ivec2 texel_of(Place place, int k) { return ivec2(floor(place.texel - 0.5)) + iv
 
 Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
 {
-    RestFrameEntry entry = layered.layers[i];
-    RestFrameView layer = rest_frame_of(entry);
+    RestFrameEntry entry = rest_frames.entries[i];
+    RestFrameView rest_frame = rest_frame_of(entry);
     vec3 n = i == 0 ? n0 : vec3(dot(entry.row0.xyz, n0), dot(entry.row1.xyz, n0), dot(entry.row2.xyz, n0));
-    AberratedRay sight = from_camera(n, layer.E);
+    AberratedRay sight = from_camera(n, rest_frame.E);
     Part part;
-    part.world_angle = growth(sight, n, layer.E) * pixel_angle;
+    part.world_angle = growth(sight, n, rest_frame.E) * pixel_angle;
     if (REPROJECT)
-        sight.n = reprojected(sight.n, eye_offset(n, layer), part.world_angle, layer);
-    part.place = place_of(sight.n, layer);
+        sight.n = reprojected(sight.n, eye_offset(n, rest_frame), part.world_angle, rest_frame);
+    part.place = place_of(sight.n, rest_frame);
     part.D = sight.D * D_beside;
     part.ways = vec4(infinite);
     part.covers = vec4(0.0);
@@ -75,33 +75,33 @@ Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
 float before(Part part, float way) { return dot(part.covers, vec4(lessThan(part.ways, vec4(way)))); }
 
 // The basis coefficients of a rest frame's k-th part without other parts in front: premultiplied.
-void numbers_of_part(Part part, int k, out vec4 numbers[MAX_GROUPS])
+void coefficients_of_part(Part part, int k, out vec4 coefficients[MAX_GROUPS])
 {
     if (part.covers.y + part.covers.z + part.covers.w == 0.0) {
-        cube_map(part.place, part.world_angle, numbers);
+        cube_map(part.place, part.world_angle, coefficients);
         return;
     }
     ivec2 texel = texel_of(part.place, k);
     float whole = texelFetch(covered_atlas, texel, 0).r, weight = whole > 0.0 ? part.covers[k] / whole : 0.0;
-    numbers[0] = texelFetch(atlas, texel, 0) * weight;
+    coefficients[0] = texelFetch(atlas, texel, 0) * weight;
     if (GROUPS > 1)
-        numbers[1] = texelFetch(atlas1, texel, 0) * weight;
+        coefficients[1] = texelFetch(atlas1, texel, 0) * weight;
     if (GROUPS > 2)
-        numbers[2] = texelFetch(atlas2, texel, 0) * weight;
+        coefficients[2] = texelFetch(atlas2, texel, 0) * weight;
     if (GROUPS > 3)
-        numbers[3] = texelFetch(atlas3, texel, 0) * weight;
+        coefficients[3] = texelFetch(atlas3, texel, 0) * weight;
 }
 
 // The light in the ship's direction n0 (the world's motion axes): of all rest frames, each part behind the other frames'
 // nearer coverage, and of the sky behind them all. The order of frames does not matter, because a frame's own parts are
 // side by side. sight: the world's; its D, the distance and the frame become those of the source that fills most of the
 // pixel.
-vec3 light_of_layers(vec3 n0, float pixel_angle, inout AberratedRay sight, out float distance_, out float frame)
+vec3 light_of_rest_frames(vec3 n0, float pixel_angle, inout AberratedRay sight, out float distance_, out float frame)
 {
     // Without aberration, directions are the world's, and moving things are seen from the world's rest frame; D includes
     // the ship's own.
     float D_beside = ABERRATION ? 1.0 : sight.D, sky_D = sight.D;
-    int count = int(layered.count.x);
+    int count = int(rest_frames.count.x);
     Part parts[MAX_REST_FRAMES];
     float left = 1.0; // for the sky
     int shown = 0;
@@ -110,7 +110,7 @@ vec3 light_of_layers(vec3 n0, float pixel_angle, inout AberratedRay sight, out f
         if (isinf(part.ways.x) && part.covers == vec4(0.0))
             continue;
         left *= 1.0 - min(dot(part.covers, vec4(1.0)), 1.0);
-        part.level = layered.layers[i].boost.w; // from here on: the index of its rest frame
+        part.level = rest_frames.entries[i].boost.w; // from here on: the index of its rest frame
         parts[shown++] = part;
     }
     // The world's rest frame has the sky's D, so both share one table look-up; each moving frame needs one more.
@@ -137,11 +137,11 @@ vec3 light_of_layers(vec3 n0, float pixel_angle, inout AberratedRay sight, out f
                     seen *= 1.0 - min(before(parts[j], way), 1.0);
             if (seen < 0.002)
                 continue;
-            vec4 numbers[MAX_GROUPS];
-            numbers_of_part(parts[i], k, numbers);
+            vec4 coefficients[MAX_GROUPS];
+            coefficients_of_part(parts[i], k, coefficients);
             any_seen = true;
             for (int group = 0; group < GROUPS; ++group)
-                moving[group] += seen * numbers[group];
+                moving[group] += seen * coefficients[group];
             if (seen * part > most) {
                 most = seen * part;
                 distance_ = way / (ABERRATION ? sky_D : 1.0);

@@ -124,7 +124,7 @@ struct RestFrameConstants {
     vec4 sky_zenith[MAX_GROUPS]; // coefficients of the light, pre-exposed
     vec4 sky_horizon[MAX_GROUPS];
     vec4 sky_nadir[MAX_GROUPS];
-    RestFrameEntry layers[MAX_REST_FRAMES]; // the world's first
+    RestFrameEntry entries[MAX_REST_FRAMES]; // the world's first
 };
 
 // A star, in the scene's world at rest.

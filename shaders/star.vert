@@ -11,14 +11,14 @@
 // have directions of their own, one for each colour. It has as many again where a display shows a direction at more than
 // one place.
 
-layout(constant_id = 10) const bool GLIMPSE = false; // luminance samples for the exposure: one pixel for each star
+layout(constant_id = 10) const bool METERING_SAMPLES = false; // luminance samples for the exposure: one pixel for each star
 
 layout(set = 0, binding = 6) uniform usampler2DArray inverse_map;
 layout(set = 1, binding = 0) uniform Constants { StarConstants turn; };
 layout(set = 1, binding = 1) readonly buffer Stars { StarEntry stars[]; };
 layout(set = 1, binding = 2) uniform BlackBodies { vec4 black_bodies[STAR_STEPS]; };
 
-layout(location = 0) flat out vec2 centre; // pixels of the target; GLIMPSE: x: the angle of a pixel, radians
+layout(location = 0) flat out vec2 centre; // pixels of the target; METERING_SAMPLES: x: the angle of a pixel, radians
 layout(location = 1) flat out vec3 light;  // of the whole star, spread over the solid angle of a pixel
 
 // Rec. 709 linear light of a black body, relative to a luminance of 1 at 5772 K.
@@ -185,7 +185,7 @@ bool hidden(Place place)
 
 void main()
 {
-    StarEntry star = stars[GLIMPSE ? gl_VertexIndex * int(view.corner.z) : gl_VertexIndex];
+    StarEntry star = stars[METERING_SAMPLES ? gl_VertexIndex * int(view.corner.z) : gl_VertexIndex];
     int channel = CHANNELS ? gl_InstanceIndex % 3 : 0;
     bool second = gl_InstanceIndex >= (CHANNELS ? 3 : 1);
     vec3 n = vec3(dot(turn.row0.xyz, star.direction.xyz), dot(turn.row1.xyz, star.direction.xyz),
@@ -207,15 +207,15 @@ void main()
         return;
     vec3 from_place = n; // of the cube map
     if (REPROJECT)
-        from_place = reprojected(n, eye_offset(sight.n, world_layer()), world_angle(sight, sight.n, pixel_angle), world_layer());
-    if (hidden(place_of(from_place, world_layer())))
+        from_place = reprojected(n, eye_offset(sight.n, world_rest_frame()), world_angle(sight, sight.n, pixel_angle), world_rest_frame());
+    if (hidden(place_of(from_place, world_rest_frame())))
         return;
     // A moving body hides the star where the body is drawn.
-    for (int i = 1; LAYERED && i < int(layered.count.x); ++i)
+    for (int i = 1; SEVERAL_REST_FRAMES && i < int(rest_frames.count.x); ++i)
         if (dot(part_of(i, sight.n, pixel_angle, 1.0).covers, vec4(1.0)) > 0.5)
             return;
     light = starlight(star, sight.D) * (view.boost.z / (pixel_angle * pixel_angle));
-    if (GLIMPSE) {
+    if (METERING_SAMPLES) {
         vec2 place = vec2(mod(float(gl_VertexIndex), view.corner.x), floor(float(gl_VertexIndex) / view.corner.x)) + 0.5;
         gl_Position = vec4(place / view.corner.xy * 2.0 - 1.0, 0.0, 1.0);
         gl_PointSize = 1.0;

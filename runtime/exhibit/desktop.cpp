@@ -16,11 +16,14 @@ namespace {
 template <class Answer> using Reply = std::unique_ptr<Answer, decltype(&std::free)>;
 template <class Answer> Reply<Answer> reply(Answer* answer) { return {answer, &std::free}; }
 
-struct Server {
+} // namespace
+
+/// A connection to the X server of DISPLAY.
+struct XServer {
     xcb_connection_t* link;
     xcb_window_t root = 0;
 
-    Server()
+    XServer()
     {
         int number = 0;
         link = xcb_connect(nullptr, &number);
@@ -31,8 +34,8 @@ struct Server {
             xcb_screen_next(&screen);
         root = screen.data->root;
     }
-    ~Server() { xcb_disconnect(link); }
-    Server(const Server&) = delete;
+    ~XServer() { xcb_disconnect(link); }
+    XServer(const XServer&) = delete;
     bool answers() const { return !xcb_connection_has_error(link); }
 
     xcb_atom_t atom(const char* name) const
@@ -42,6 +45,8 @@ struct Server {
         return known ? known->atom : xcb_atom_t(XCB_ATOM_NONE);
     }
 };
+
+namespace {
 
 double refresh_hz(const xcb_randr_mode_info_t& mode)
 {
@@ -53,7 +58,7 @@ double refresh_hz(const xcb_randr_mode_info_t& mode)
     return mode.htotal > 0 && lines > 0 ? mode.dot_clock / (mode.htotal * lines) : 60;
 }
 
-std::optional<Edid> read_edid(const Server& x, xcb_randr_output_t output)
+std::optional<Edid> read_edid(const XServer& x, xcb_randr_output_t output)
 {
     const xcb_atom_t name = x.atom("EDID");
     if (name == XCB_ATOM_NONE)
@@ -67,7 +72,7 @@ std::optional<Edid> read_edid(const Server& x, xcb_randr_output_t output)
 }
 
 std::optional<Monitor> read_monitor(
-    const Server& x, xcb_randr_output_t output, const xcb_randr_get_screen_resources_current_reply_t* resources)
+    const XServer& x, xcb_randr_output_t output, const xcb_randr_get_screen_resources_current_reply_t* resources)
 {
     auto info = reply(xcb_randr_get_output_info_reply(
         x.link, xcb_randr_get_output_info(x.link, output, resources->config_timestamp), nullptr));
@@ -104,7 +109,7 @@ void sort(std::vector<Monitor>& monitors)
     });
 }
 
-std::vector<Monitor> read_monitors(const Server& x)
+std::vector<Monitor> read_monitors(const XServer& x)
 {
     std::vector<Monitor> monitors;
     auto resources = reply(xcb_randr_get_screen_resources_current_reply(
@@ -148,7 +153,7 @@ std::vector<Monitor> glfw_monitors()
 } // namespace
 
 struct Desktop::Connection {
-    Server x;
+    XServer x;
     bool randr = false;
 
     Connection()
@@ -198,7 +203,7 @@ bool Desktop::look()
 
 std::shared_ptr<void> forget_dead_window_manager()
 {
-    const auto x = std::make_shared<Server>();
+    const auto x = std::make_shared<XServer>();
     if (!x->answers())
         return x;
     const xcb_atom_t check = x->atom("_NET_SUPPORTING_WM_CHECK");

@@ -53,7 +53,7 @@ Response response_of(const SpectralBasis& basis, const StandardObserver& observe
     response.own_rows.assign(MOST_OWN_ROWS, glm::vec4(0, 0, 0, float(least_log2)));
     std::vector<ScaledRow> rows;
     for (int row = 0; row < RESPONSE_ROWS; ++row)
-        rows.push_back(row_of(&table.seen[std::size_t(row * table.numbers)], basis.reflected, observer));
+        rows.push_back(row_of(&table.seen[std::size_t(row * table.coefficients)], basis.reflected, observer));
     for (int row = 0; row < RESPONSE_ROWS; ++row) {
         const ScaledRow &here = rows[std::size_t(row)], &next = rows[std::size_t(std::min(row + 1, RESPONSE_ROWS - 1))];
         for (int k = 0; k < 3 * basis.reflected; ++k) {
@@ -66,7 +66,7 @@ Response response_of(const SpectralBasis& basis, const StandardObserver& observe
     const int own_step = RESPONSE_OWN_STEP(response.own);
     for (int row = 0; row < RESPONSE_ROWS; row += own_step)
         for (int i = 0; i < response.own; ++i) {
-            const glm::dvec3 own = table.seen[std::size_t(row * table.numbers + basis.reflected + i)];
+            const glm::dvec3 own = table.seen[std::size_t(row * table.coefficients + basis.reflected + i)];
             const Scaled scale = scale_of(peak(own));
             response.own_rows[std::size_t(row / own_step * response.own + i)]
                 = glm::vec4(observer.rec709 * scale.over(own), scale.log2);
@@ -74,7 +74,7 @@ Response response_of(const SpectralBasis& basis, const StandardObserver& observe
     return response;
 }
 
-glm::dvec3 seen(const Response& response, std::span<const double> numbers, double D)
+glm::dvec3 seen(const Response& response, std::span<const double> coefficients, double D)
 {
     const double unclamped = (std::log2(D) - response.first_log2_D) * response.per_octave;
     const double at = std::clamp(unclamped, 0.0, RESPONSE_ROWS - 1.001);
@@ -83,7 +83,7 @@ glm::dvec3 seen(const Response& response, std::span<const double> numbers, doubl
     glm::dvec3 light(0);
     for (int k = 0; k < 3 * response.reflected; ++k) {
         const glm::dvec2 pair = glm::unpackHalf2x16(word(response, i, k));
-        light[k % 3] += (pair.x + part * pair.y) * numbers[std::size_t(k / 3)];
+        light[k % 3] += (pair.x + part * pair.y) * coefficients[std::size_t(k / 3)];
     }
     auto real = [&](int k) { return double(std::bit_cast<float>(word(response, i, k))); };
     light *= std::exp2(real(3 * response.reflected) + part * real(3 * response.reflected + 1));
@@ -93,7 +93,7 @@ glm::dvec3 seen(const Response& response, std::span<const double> numbers, doubl
     for (int k = 0; k < response.own; ++k) {
         const glm::dvec4 row = glm::mix(glm::dvec4(response.own_rows[j * own + std::size_t(k)]),
             glm::dvec4(response.own_rows[(j + 1) * own + std::size_t(k)]), own_at - double(j));
-        light += glm::dvec3(row) * (std::exp2(row.w) * numbers[std::size_t(response.reflected + k)]);
+        light += glm::dvec3(row) * (std::exp2(row.w) * coefficients[std::size_t(response.reflected + k)]);
     }
     // Beyond the table every tail falls as 1 / D^2.
     const double beyond = std::exp2(std::min(0.0, (at - unclamped) / response.per_octave));

@@ -20,6 +20,6 @@ Response response_of(const SpectralBasis& basis, const StandardObserver& observe
 /// The colour of basis coefficients at D, as the device computes it. Between rows the scales are interpolated
 /// geometrically, because colours have steep ends that are nearly geometric; the values over the scales are interpolated
 /// linearly.
-glm::dvec3 seen(const Response& response, std::span<const double> numbers, double D);
+glm::dvec3 seen(const Response& response, std::span<const double> coefficients, double D);
 
 } // namespace starbow

@@ -170,14 +170,14 @@ Row colours_of_grid(int reflected)
     for (std::size_t i = 0; i < std::size_t(grid_points); ++i)
         colours.push_back(eye().rec709 * glm::dvec3(seen[0][i], seen[1][i], seen[2][i]));
     Row rows(std::size_t(reflected * grid_points), 0.0);
-    auto number = [&](int k, int i) -> double& { return rows[std::size_t(k * grid_points + i)]; };
+    auto analysis = [&](int k, int i) -> double& { return rows[std::size_t(k * grid_points + i)]; };
     for (int k = 3; k < reflected; ++k) {
         auto inside = [&](int i) { return k == 3 ? grid_nm(i) < 340 : grid_nm(i) > 900; };
         int count = 0;
         for (int i = 0; i < grid_points; ++i)
             count += inside(i);
         for (int i = 0; i < grid_points; ++i)
-            number(k, i) = inside(i) ? 1.0 / count : 0;
+            analysis(k, i) = inside(i) ? 1.0 / count : 0;
     }
     std::vector<glm::dvec3> of_each;
     for (const Row& shape : shapes(reflected)) {
@@ -189,9 +189,9 @@ Row colours_of_grid(int reflected)
     for (int i = 0; i < grid_points; ++i) {
         glm::dvec3 rest = colours[std::size_t(i)];
         for (int k = 3; k < reflected; ++k)
-            rest -= of_each[std::size_t(k)] * number(k, i);
+            rest -= of_each[std::size_t(k)] * analysis(k, i);
         for (int k = 0; k < 3; ++k)
-            number(k, i) = (back * rest)[k];
+            analysis(k, i) = (back * rest)[k];
     }
     return rows;
 }
@@ -235,9 +235,9 @@ Row learned_coefficients(int n)
 }
 
 /// A correction of the basis functions' seen light, [coefficient * 3 + sensor], that minimises the error of pigments.
-/// numbers: the pigments' coefficients; seen: the basis functions' light. A grey has equal coefficients, and the
+/// coefficients: the pigments' coefficients; seen: the basis functions' light. A grey has equal coefficients, and the
 /// correction leaves it unchanged.
-Row correction(const std::vector<Row>& numbers, const ResponseWindow& sight, const std::array<Row, 3>& seen)
+Row correction(const std::vector<Row>& coefficients, const ResponseWindow& sight, const std::array<Row, 3>& seen)
 {
     const int n = int(seen[0].size());
     std::vector<double> square(std::size_t(n * n), 0.0), miss(std::size_t(n * 3), 0.0);
@@ -247,14 +247,14 @@ Row correction(const std::vector<Row>& numbers, const ResponseWindow& sight, con
             truth[c] = sight.of(c, learned()[s]);
         const double weight = 1 / std::max(truth[1] * truth[1], 1e-30);
         double mean = 0;
-        for (double value : numbers[s])
+        for (double value : coefficients[s])
             mean += value / n;
         for (int k = 0; k < n; ++k) {
-            const double from = numbers[s][std::size_t(k)] - mean;
+            const double from = coefficients[s][std::size_t(k)] - mean;
             for (int j = 0; j < n; ++j)
-                square[std::size_t(k * n + j)] += weight * from * (numbers[s][std::size_t(j)] - mean);
+                square[std::size_t(k * n + j)] += weight * from * (coefficients[s][std::size_t(j)] - mean);
             for (std::size_t c = 0; c < 3; ++c)
-                miss[std::size_t(k) * 3 + c] += weight * from * (truth[c] - dot(seen[c], numbers[s]));
+                miss[std::size_t(k) * 3 + c] += weight * from * (truth[c] - dot(seen[c], coefficients[s]));
         }
     }
     double trace = 0;
@@ -275,13 +275,13 @@ Row correction(const std::vector<Row>& numbers, const ResponseWindow& sight, con
 
 Row coefficients_of(const SpectralBasis& basis, const std::function<double(double nm)>& reflectance)
 {
-    Row numbers(std::size_t(basis.size()), 0.0);
+    Row coefficients(std::size_t(basis.size()), 0.0);
     for (int i = 0; i < grid_points; ++i) {
         const double sample = reflectance(grid_nm(i));
         for (int k = 0; k < basis.reflected; ++k)
-            numbers[std::size_t(k)] += basis.analysis[std::size_t(k * grid_points + i)] * sample;
+            coefficients[std::size_t(k)] += basis.analysis[std::size_t(k * grid_points + i)] * sample;
     }
-    return numbers;
+    return coefficients;
 }
 
 } // namespace
@@ -300,27 +300,27 @@ std::vector<double> lit(
 {
     if (!light)
         return coefficients_of(basis, reflectance);
-    auto number = [&](const EmissionSpectrum& own) {
+    auto index_of = [&](const EmissionSpectrum& own) {
         return std::size_t(basis.reflected + (std::find(basis.own.begin(), basis.own.end(), own) - basis.own.begin()));
     };
-    Row numbers(std::size_t(basis.size()), 0.0);
+    Row coefficients(std::size_t(basis.size()), 0.0);
     const double part = sunlit_part(*light);
     if (const auto* line = std::get_if<SpectralLine>(&*light)) {
-        numbers[number({*light})] = part * reflectance(line->nm);
-        return numbers;
+        coefficients[index_of({*light})] = part * reflectance(line->nm);
+        return coefficients;
     }
     // The basis functions are weighted by sunlight, and a lamp's light over the Sun's grows or falls without limit beyond
     // the visible: there they must not contribute.
     const double even = reflectance(shortest_nm);
-    const std::size_t infrared = number({*light, true});
-    const double more = infrared < numbers.size() ? reflectance(longest_nm) - even : 0;
+    const std::size_t infrared = index_of({*light, true});
+    const double more = infrared < coefficients.size() ? reflectance(longest_nm) - even : 0;
     const Spectrum spectrum = spectrum_of(*light), sun = sunlit_white();
-    numbers = coefficients_of(basis,
+    coefficients = coefficients_of(basis,
         [&](double nm) { return (reflectance(nm) - even - more * infrared_part(nm)) * part * spectrum(nm) / sun(nm); });
-    numbers[number({*light})] += part * even;
+    coefficients[index_of({*light})] += part * even;
     if (more != 0)
-        numbers[infrared] += part * more;
-    return numbers;
+        coefficients[infrared] += part * more;
+    return coefficients;
 }
 
 Emission shifted(const std::optional<Emission>& light, double D)
@@ -345,10 +345,10 @@ std::vector<double> lit_shifted(const SpectralBasis& basis, const std::optional<
     // grows as D.
     const double strength = D;
     if (std::find(basis.own.begin(), basis.own.end(), EmissionSpectrum{there}) != basis.own.end()) {
-        std::vector<double> numbers = lit(basis, there, reflectance);
-        for (double& number : numbers)
-            number *= strength;
-        return numbers;
+        std::vector<double> coefficients = lit(basis, there, reflectance);
+        for (double& coefficient : coefficients)
+            coefficient *= strength;
+        return coefficients;
     }
     if (std::holds_alternative<SpectralLine>(there))
         throw std::logic_error("a line's light is not among the basis' own");
@@ -370,7 +370,7 @@ ResponseTable response_table(const SpectralBasis& basis, const StandardObserver&
     ResponseTable table{basis.size(), first, std::floor((rows - 1) / (std::ceil(last) - first)), {}};
     const int n = basis.reflected;
     const std::vector<Row> reflectances = shapes(n);
-    std::vector<Row> numbers;
+    std::vector<Row> coefficients;
     if (n > 5)
         for (const Row& sample : learned()) {
             Row row;
@@ -380,7 +380,7 @@ ResponseTable response_table(const SpectralBasis& basis, const StandardObserver&
                     sum += basis.analysis[std::size_t(k * grid_points + i)] * sample[std::size_t(i)];
                 row.push_back(sum);
             }
-            numbers.push_back(std::move(row));
+            coefficients.push_back(std::move(row));
         }
     for (int row = 0; row < rows; ++row) {
         const double D = std::exp2(first + row / table.per_octave);
@@ -390,7 +390,7 @@ ResponseTable response_table(const SpectralBasis& basis, const StandardObserver&
             for (const Row& one : reflectances)
                 of_each[c].push_back(sight.of(c, one));
         if (n > 5) {
-            const Row add = correction(numbers, sight, of_each);
+            const Row add = correction(coefficients, sight, of_each);
             for (int k = 0; k < n; ++k)
                 for (std::size_t c = 0; c < 3; ++c)
                     of_each[c][std::size_t(k)] += add[std::size_t(k) * 3 + c];

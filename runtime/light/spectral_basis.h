@@ -22,7 +22,7 @@ struct EmissionSpectrum {
 struct SpectralBasis {
     int reflected = 0; ///< 3, 5; more: basis functions
     std::vector<EmissionSpectrum> own;
-    std::vector<double> analysis; ///< [number * grid points + point]: from a sunlit reflectance's samples
+    std::vector<double> analysis; ///< [coefficient * grid points + point]: from a sunlit reflectance's samples
     int size() const { return reflected + int(own.size()); }
 };
 
@@ -47,10 +47,10 @@ Emission shifted(const std::optional<Emission>& light, double D);
 
 /// An observer's colour of each basis coefficient, by D.
 struct ResponseTable {
-    int numbers = 0;
+    int coefficients = 0;
     double first_log2_D = 0, per_octave = 0; ///< row i: log2 D = first + i / per_octave
-    std::vector<glm::dvec3> seen; ///< [row * numbers + number], the observer's sensors
-    int rows() const { return int(seen.size()) / numbers; }
+    std::vector<glm::dvec3> seen; ///< [row * coefficients + coefficient], the observer's sensors
+    int rows() const { return int(seen.size()) / coefficients; }
 };
 
 /// Covers all D at which any coefficient is visible. Beyond them all light falls as 1 / D^2, as every black body's tail

@@ -16,7 +16,7 @@ constexpr int least_side = 16, most_side = 8192; // texels across one image, wit
 struct Draft {
     const Quality& quality;
     double density;
-    int layer;
+    int rest_frame;
     bool spreads; ///< the filter of a pixel may reach beyond the image
     int finest_clip_level;
 
@@ -30,7 +30,7 @@ struct Draft {
         image.tile = tile;
         image.sub_tiles = sub_tiles;
         image.face = tile_face(tile);
-        image.layer = layer;
+        image.rest_frame = rest_frame;
         image.texels_per_unit = 1 / unit;
         // Bilinear filtering holds up to a twofold reduction; beyond it the image needs mips.
         const int most_levels = quality.mips ? 5 : 1;
@@ -203,49 +203,49 @@ CubeMapPlan plan_cube_map(const std::vector<ViewRequest>& views, double E, const
     return plan_cube_map({RestFrameRequest{views, E}}, quality);
 }
 
-CubeMapPlan plan_cube_map(const std::vector<RestFrameRequest>& layers, const Quality& quality)
+CubeMapPlan plan_cube_map(const std::vector<RestFrameRequest>& requests, const Quality& quality)
 {
     PlanScratch room;
-    return plan_cube_map(layers, quality, room);
+    return plan_cube_map(requests, quality, room);
 }
 
 CubeMapPlan plan_cube_map(
-    const std::vector<RestFrameRequest>& layers, const Quality& quality, PlanScratch& room, CubeMapPlan before)
+    const std::vector<RestFrameRequest>& requests, const Quality& quality, PlanScratch& room, CubeMapPlan before)
 {
     CubeMapPlan plan;
     std::swap(plan.images, before.images);
     std::swap(plan.finest_clip_level, before.finest_clip_level), plan.finest_clip_level.clear();
     std::size_t used = 0; // of room.by_tile, whose elements of 54 kB are filled in place
-    if (room.demands.size() < layers.size())
-        room.demands.resize(layers.size());
-    for (std::size_t layer = 0; layer < layers.size(); ++layer) {
-        const double E = layers[layer].E;
+    if (room.demands.size() < requests.size())
+        room.demands.resize(requests.size());
+    for (std::size_t rest_frame = 0; rest_frame < requests.size(); ++rest_frame) {
+        const double E = requests[rest_frame].E;
         // Behind, D is constant within 1/gamma of the axis: finer images would repeat the last one.
         const int finest_clip_level = std::clamp(
             int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0, std::min(quality.clip_levels, REAR_LEVELS - 1));
         plan.finest_clip_level.push_back(finest_clip_level);
-        room.demands[layer].clear();
-        add_demands(room.demands[layer], layers[layer], finest_clip_level, quality.pixel_rays);
+        room.demands[rest_frame].clear();
+        add_demands(room.demands[rest_frame], requests[rest_frame], finest_clip_level, quality.pixel_rays);
         for (int tile = 0; tile < TILE_COUNT; ++tile)
-            if (const Demands::Tile& demand = room.demands[layer].tiles[std::size_t(tile)]; demand.any) {
+            if (const Demands::Tile& demand = room.demands[rest_frame].tiles[std::size_t(tile)]; demand.any) {
                 if (used == room.by_tile.size())
                     room.by_tile.emplace_back();
                 TileDemands& all = room.by_tile[used++];
-                all.layer = int(layer), all.tile = tile;
+                all.rest_frame = int(rest_frame), all.tile = tile;
                 merge(all, demand);
             }
     }
     reserve_headroom(room.by_tile);
     const std::span<const TileDemands> by_tile = std::span(room.by_tile).first(used);
-    for (const ViewRequest& view : layers[0].views)
+    for (const ViewRequest& view : requests[0].views)
         plan.pixels += double(view.cones->size().x) * view.cones->size().y;
 
     auto lay_out = [&](double density) {
         plan.images.clear();
         for (const TileDemands& demands : by_tile) {
-            const std::size_t layer = std::size_t(demands.layer);
-            const Draft draft{
-                quality, density, demands.layer, layers[layer].bounds.has_value(), plan.finest_clip_level[layer]};
+            const std::size_t rest_frame = std::size_t(demands.rest_frame);
+            const Draft draft{quality, density, demands.rest_frame, requests[rest_frame].bounds.has_value(),
+                plan.finest_clip_level[rest_frame]};
             Cutting(draft, demands).add_images(plan.images);
         }
         plan.texels = 0;
@@ -262,7 +262,7 @@ CubeMapPlan plan_cube_map(
     // Moving bodies may fill the view, and so may the world behind them: the limit counts for each rest frame.
     int seen = 0;
     for (std::size_t i = 0; i < plan.images.size(); ++i)
-        seen += i == 0 || plan.images[i].layer != plan.images[i - 1].layer;
+        seen += i == 0 || plan.images[i].rest_frame != plan.images[i - 1].rest_frame;
     double most_texels = std::min(quality.max_texels_per_pixel * plan.pixels * std::max(seen, 1), quality.max_texels);
     for (int i = 0; i < 4 && plan.texels > 1.02 * most_texels; ++i) {
         density *= std::sqrt(most_texels / plan.texels);
@@ -284,7 +284,7 @@ bool can_reuse(const CubeMapPlan& drawn, const CubeMapPlan& wanted)
     return drawn.finest_clip_level == wanted.finest_clip_level
         && std::all_of(wanted.images.begin(), wanted.images.end(), [&](const PlannedImage& image) {
                const auto same = std::find_if(drawn.images.begin(), drawn.images.end(), [&](const PlannedImage& own) {
-                   return own.layer == image.layer && own.tile == image.tile && own.sub_tiles == image.sub_tiles;
+                   return own.rest_frame == image.rest_frame && own.tile == image.tile && own.sub_tiles == image.sub_tiles;
                });
                return same != drawn.images.end() && glm::all(glm::lessThanEqual(same->low, image.low))
                    && glm::all(glm::greaterThanEqual(same->high, image.high)) && same->clip_hole <= image.clip_hole
@@ -331,8 +331,9 @@ const PlannedImage& nearest_image(std::span<const PlannedImage> images, const gl
 
 std::span<const PlannedImage> of_first_tile(std::span<const PlannedImage> images)
 {
-    const auto other
-        = [&](const PlannedImage& image) { return image.layer != images[0].layer || image.tile != images[0].tile; };
+    const auto other = [&](const PlannedImage& image) {
+        return image.rest_frame != images[0].rest_frame || image.tile != images[0].tile;
+    };
     return images.first(std::size_t(std::find_if(images.begin(), images.end(), other) - images.begin()));
 }
 
@@ -345,7 +346,7 @@ void write_tiles(const CubeMapPlan& plan, shared::TileTable& table)
     for (std::span<const PlannedImage> left = plan.images; !left.empty();) {
         const std::span<const PlannedImage> images = of_first_tile(left);
         left = left.subspan(images.size());
-        const std::size_t tile = std::size_t(images[0].layer * TILE_COUNT + images[0].tile);
+        const std::size_t tile = std::size_t(images[0].rest_frame * TILE_COUNT + images[0].tile);
         shared::TileEntry* entries = table.entries + tile * SUB_TILE_COUNT;
         if (images[0].sub_tiles.all()) {
             *entries = tile_entry(images[0]);

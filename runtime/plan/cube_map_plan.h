@@ -16,7 +16,7 @@ struct PlannedImage {
     double texels_per_unit; ///< texels per unit of face coordinate
     int levels; ///< mip levels the warp pass reads
     double clip_hole = 0; ///< half the side of the clip-map hole; 0: none. No pixel reads the image there
-    int layer = 0;
+    int rest_frame = 0;
     SubTiles sub_tiles{}; ///< the sub-tiles of its tile that it covers
 };
 
@@ -24,7 +24,7 @@ struct PlannedImage {
 /// the whole, 2 n + 1 and 2 n + 2 are the halves of n.
 struct TileDemands {
     static constexpr int intervals = 2 * TILE_SUB_TILES - 1;
-    int layer, tile;
+    int rest_frame, tile;
     Demand demands[intervals][intervals]; ///< [along b][along a]
     double wanted[intervals][intervals]; ///< texels at a density of 1, if each sub-tile had exactly its own density
 };
@@ -55,8 +55,8 @@ struct PlanScratch {
 /// images, each with its own resolution, that cost least: Quality::image_cost_texels for each image, plus its texels.
 /// before: a plan whose memory is reused.
 CubeMapPlan plan_cube_map(
-    const std::vector<RestFrameRequest>& layers, const Quality& quality, PlanScratch& room, CubeMapPlan before = {});
-CubeMapPlan plan_cube_map(const std::vector<RestFrameRequest>& layers, const Quality& quality);
+    const std::vector<RestFrameRequest>& requests, const Quality& quality, PlanScratch& room, CubeMapPlan before = {});
+CubeMapPlan plan_cube_map(const std::vector<RestFrameRequest>& requests, const Quality& quality);
 /// The same for a world in which nothing moves. E: e^rapidity of the ship in the world.
 CubeMapPlan plan_cube_map(const std::vector<ViewRequest>& views, double E, const Quality& quality);
 

@@ -168,9 +168,9 @@ std::vector<BoundingSphere> bounding_spheres(const World& world, const EyeEvent&
 namespace {
 
 /// Adds the poses of animated instances around their retarded times.
-void add_poses(const World& world, std::span<const EyeEvent> layers, DrawList& list)
+void add_poses(const World& world, std::span<const EyeEvent> eye_events, DrawList& list)
 {
-    for (const EyeEvent& eye_event : layers) {
+    for (const EyeEvent& eye_event : eye_events) {
         list.first_pose.push_back(std::uint32_t(list.instances.size()));
         const InstanceRange range = instances_of(world, eye_event.frame);
         for (std::size_t i = range.first; i < range.last && !world.motions.empty(); ++i) {
@@ -185,13 +185,13 @@ void add_poses(const World& world, std::span<const EyeEvent> layers, DrawList& l
 
 } // namespace
 
-DrawList cull(const World& world, std::span<const EyeEvent> layers, const std::vector<PlannedImage>& images,
+DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const std::vector<PlannedImage>& images,
     const Quality& quality, DrawList before)
 {
     DrawList list = std::move(before);
     list.instances.clear(), list.first_pose.clear(), list.first.clear(), list.visible.clear(), list.draws.clear();
     list.boxes.clear();
-    for (const EyeEvent& eye_event : layers) {
+    for (const EyeEvent& eye_event : eye_events) {
         list.first.push_back(std::uint32_t(list.instances.size()));
         const InstanceRange range = instances_of(world, eye_event.frame);
         list.instances.reserve(list.instances.size() + range.last - range.first);
@@ -203,14 +203,14 @@ DrawList cull(const World& world, std::span<const EyeEvent> layers, const std::v
             list.boxes.back().shows = may_show(world, instance, eye_event, own.box);
         }
     }
-    add_poses(world, layers, list);
+    add_poses(world, eye_events, list);
     const std::vector<Box>& boxes = list.boxes;
     std::vector<std::vector<std::uint32_t>>& by_level = list.by_level;
     for (std::uint32_t i = 0; i < images.size(); ++i) {
         const PlannedImage& image = images[i];
         const Frustum frustum(image);
-        const std::uint32_t first = list.first[std::size_t(image.layer)];
-        const InstanceRange range = instances_of(world, layers[std::size_t(image.layer)].frame);
+        const std::uint32_t first = list.first[std::size_t(image.rest_frame)];
+        const InstanceRange range = instances_of(world, eye_events[std::size_t(image.rest_frame)].frame);
         for (std::size_t at = range.first; at < range.last;) {
             const std::uint32_t index = world.instances[at].primitive;
             const auto kind = kind_of(world, world.instances[at]);

@@ -37,7 +37,7 @@ struct DrawList {
 /// Transforms each rest frame's instances relative to its eye event, in double precision, rounded to float only at the
 /// end. Selects those in view of each image, each at the coarsest level of detail within the quality's lod_error_texels.
 /// The world's instances must be in sort_instances' order. before: a list whose memory is reused.
-DrawList cull(const World& world, std::span<const EyeEvent> layers, const std::vector<PlannedImage>& images,
+DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const std::vector<PlannedImage>& images,
     const Quality& quality = {}, DrawList before = {});
 
 /// Bounding spheres of a rest frame's instances that existed at their retarded times. Centre from the eye, motion axes,

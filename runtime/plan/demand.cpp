@@ -278,21 +278,21 @@ struct Walk {
 
 } // namespace
 
-void add_demands(Demands& demands, const RestFrameRequest& layer, int finest_clip_level, int pixel_rays)
+void add_demands(Demands& demands, const RestFrameRequest& request, int finest_clip_level, int pixel_rays)
 {
-    const Held held = layer.bounds ? Held(*layer.bounds, finest_clip_level) : Held();
+    const Held held = request.bounds ? Held(*request.bounds, finest_clip_level) : Held();
     if (held.radius < 0)
         return;
     // The corners of a pixel's square, and the errors of float arithmetic.
     const double spread = 0.71 * (1 - 1.0 / pixel_rays) + 0.02;
-    for (const ViewRequest& view : layer.views) {
+    for (const ViewRequest& view : request.views) {
         const ConeHierarchy& cones = *view.cones;
         // At least 20 blocks across: coarser blocks draw too much in vain.
         const double wanted = std::max(cones.size().x, cones.size().y) / 20.0;
         int level = 0;
         while (level + 1 < cones.levels() && cones.side(level) > wanted)
             ++level;
-        Walk{view, layer.E, layer.galilean, finest_clip_level, held, demands, spread, level}.block(0, {0, 0});
+        Walk{view, request.E, request.galilean, finest_clip_level, held, demands, spread, level}.block(0, {0, 0});
     }
 }
 

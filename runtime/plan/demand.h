@@ -58,6 +58,6 @@ struct Demands {
 
 /// Adds the demand of a rest frame's views. finest_clip_level: of the nested tiles behind. pixel_rays: along each side of
 /// a pixel.
-void add_demands(Demands& demands, const RestFrameRequest& layer, int finest_clip_level, int pixel_rays);
+void add_demands(Demands& demands, const RestFrameRequest& request, int finest_clip_level, int pixel_rays);
 
 } // namespace starbow

@@ -11,13 +11,13 @@ TracingEye::TracingEye(const World& world, const SceneFile& scene, const Picture
     , observer_(observer)
     , place_(place)
 {
-    for (std::size_t i = 0; i < observer_.layers.size(); ++i) {
-        const RestFrameView& layer = observer_.layers[i];
-        const EyeEvent eye_event = eye_event_of(layer, int(i), place);
+    for (std::size_t i = 0; i < observer_.rest_frames.size(); ++i) {
+        const RestFrameView& rest_frame = observer_.rest_frames[i];
+        const EyeEvent eye_event = eye_event_of(rest_frame, int(i), place);
         // A distance beside the eye in the ship is longer in the frame.
-        const double reach = beside * physics::gamma_of(layer.shot.u);
+        const double reach = beside * physics::gamma_of(rest_frame.shot.u);
         views_.push_back(
-            {&layer, Tracer(world, pictures, eye_event, reach), Lighting(world, scene, pictures, colours, eye_event)});
+            {&rest_frame, Tracer(world, pictures, eye_event, reach), Lighting(world, scene, pictures, colours, eye_event)});
     }
 }
 
@@ -46,21 +46,21 @@ TracingEye::Nearest TracingEye::nearest(
     for (const EyeInRestFrame& view : views_) {
         if (view.tracer.triangles() == 0)
             continue;
-        const RestFrameView& layer = *view.layer;
-        const glm::dvec3 n = glm::normalize(layer.motion_from_cockpit * way);
-        physics::AberratedRay own = sight(n, layer.E);
+        const RestFrameView& rest_frame = *view.rest_frame;
+        const glm::dvec3 n = glm::normalize(rest_frame.motion_from_cockpit * way);
+        physics::AberratedRay own = sight(n, rest_frame.E);
         const bool worlds = view.tracer.eye_event().frame == 0;
         if (worlds)
             own = world;
         glm::dvec3 stretched = own.n;
-        stretched.z /= layer.contraction;
+        stretched.z /= rest_frame.contraction;
         const double stretch = glm::length(stretched);
-        const glm::dvec3 apart = layer.shot.ship_from_cockpit * beside;
-        SightLine line{
-            glm::dvec3(0), glm::transpose(layer.motion_from_frame) * (stretched / stretch), view.tracer.eye_event().time};
+        const glm::dvec3 apart = rest_frame.shot.ship_from_cockpit * beside;
+        SightLine line{glm::dvec3(0), glm::transpose(rest_frame.motion_from_frame) * (stretched / stretch),
+            view.tracer.eye_event().time};
         if (beside != glm::dvec3(0)) {
-            line.from = physics::eye_place(layer.shot.u, apart);
-            line.time += physics::eye_time(layer.shot.u, apart);
+            line.from = physics::eye_place(rest_frame.shot.u, apart);
+            line.time += physics::eye_time(rest_frame.shot.u, apart);
         }
         const auto met = view.tracer.nearest(line);
         if (!met)
@@ -76,13 +76,13 @@ TracingEye::Nearest TracingEye::nearest(
 LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside) const
 {
     const Effects& effects = observer_.shot.effects;
-    const RestFrameView& layer = observer_.layers.front();
-    const glm::dvec3 n = glm::normalize(layer.motion_from_cockpit * way);
+    const RestFrameView& rest_frame = observer_.rest_frames.front();
+    const glm::dvec3 n = glm::normalize(rest_frame.motion_from_cockpit * way);
     physics::AberratedRay world = sight(n, observer_.E);
     if (!effects.aberration)
         world.n = n;
     LookedAt out;
-    out.world = glm::transpose(layer.motion_from_frame) * world.n;
+    out.world = glm::transpose(rest_frame.motion_from_frame) * world.n;
     out.D = world.D;
     out.distance = INFINITY;
     const Nearest found = nearest(way, beside, world);
@@ -105,7 +105,7 @@ LookedAt TracingEye::look(const glm::dvec3& way, const glm::dvec3& beside) const
 
 bool TracingEye::covered(const glm::dvec3& way, const glm::dvec3& beside) const
 {
-    const glm::dvec3 n = glm::normalize(observer_.layers.front().motion_from_cockpit * way);
+    const glm::dvec3 n = glm::normalize(observer_.rest_frames.front().motion_from_cockpit * way);
     physics::AberratedRay world = sight(n, observer_.E);
     if (!observer_.shot.effects.aberration)
         world.n = n;
@@ -115,8 +115,8 @@ bool TracingEye::covered(const glm::dvec3& way, const glm::dvec3& beside) const
 physics::AberratedRay TracingEye::from_world(const glm::dvec3& towards) const
 {
     const Effects& effects = observer_.shot.effects;
-    const RestFrameView& layer = observer_.layers.front();
-    const glm::dvec3 n = layer.motion_from_frame * towards;
+    const RestFrameView& rest_frame = observer_.rest_frames.front();
+    const glm::dvec3 n = rest_frame.motion_from_frame * towards;
     const double E = observer_.E;
     physics::AberratedRay seen{n, 1};
     if (!effects.aberration)
@@ -125,7 +125,7 @@ physics::AberratedRay TracingEye::from_world(const glm::dvec3& towards) const
         seen = physics::galilean_camera_from_world(n, E, 1 / E);
     else
         seen = physics::camera_from_world(n, E, 1 / E);
-    seen.n = glm::transpose(layer.motion_from_cockpit) * seen.n;
+    seen.n = glm::transpose(rest_frame.motion_from_cockpit) * seen.n;
     return seen;
 }
 

@@ -35,7 +35,7 @@ public:
 
 private:
     struct EyeInRestFrame {
-        const RestFrameView* layer;
+        const RestFrameView* rest_frame;
         Tracer tracer;
         Lighting lighting;
     };

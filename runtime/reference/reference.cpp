@@ -149,8 +149,8 @@ private:
             return {};
         const TracingEye& eye = eyes_[view.eye];
         const LookedAt seen = eye.look(*way, beside(view, *way));
-        const RestFrameView& layer = eye.observer_of().layers.front();
-        const glm::dvec3 camera = glm::transpose(layer.motion_from_frame) * (layer.motion_from_cockpit * *way);
+        const RestFrameView& rest_frame = eye.observer_of().rest_frames.front();
+        const glm::dvec3 camera = glm::transpose(rest_frame.motion_from_frame) * (rest_frame.motion_from_cockpit * *way);
         return {glm::normalize(camera), seen.world, seen.D, seen.distance, true};
     }
 
@@ -422,8 +422,8 @@ std::vector<std::uint8_t> shown(const Reference& r)
     const std::optional<Anaglyph> mixed = anaglyph(r.packing);
     const bool masked = !r.shade.empty() || r.headroom != 1;
     for (std::size_t i = 0; i < count; ++i) {
-        auto screen = [&](std::size_t layer) {
-            return tone::tone_map(glm::clamp(r.light[layer][i], glm::dvec3(0), glm::dvec3(1e30)));
+        auto screen = [&](std::size_t picture) {
+            return tone::tone_map(glm::clamp(r.light[picture][i], glm::dvec3(0), glm::dvec3(1e30)));
         };
         const int x = int(i % std::size_t(r.size.x)), y = int(i / std::size_t(r.size.x));
         glm::dvec3 light;

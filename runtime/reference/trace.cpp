@@ -12,12 +12,6 @@ namespace {
 
 constexpr double tiny = std::numeric_limits<double>::epsilon();
 
-struct Triangle {
-    std::uint32_t instance;
-    std::uint32_t corners[3]; ///< of World::vertices
-    glm::dvec3 places[3]; ///< from the eye event's; of an animated instance, at each corner's retarded time
-};
-
 /// The crossing of a line and a triangle: the corners' weights, none below 0, which sum up to 1, and the distance.
 struct Crossing {
     glm::dvec3 weights;
@@ -47,6 +41,12 @@ float above(double x) { return std::nextafter(float(std::clamp(x, -1e37, 1e37)),
 } // namespace
 
 struct Tracer::Scene {
+    struct Triangle {
+        std::uint32_t instance;
+        std::uint32_t corners[3]; ///< of World::vertices
+        glm::dvec3 places[3]; ///< from the eye event's; of an animated instance, at each corner's retarded time
+    };
+
     const World& world;
     const Pictures& pictures;
     EyeEvent eye_event;
@@ -63,7 +63,7 @@ struct Tracer::Scene {
             rtcReleaseDevice(device);
     }
 
-    struct Asked {
+    struct Query {
         RTCIntersectContext embree; // first: Embree hands it on
         const Scene* scene;
         const SightLine* line;
@@ -207,19 +207,19 @@ struct Tracer::Scene {
         return material.alpha_cutoff <= 0 || base_of(world, pictures, met).a >= double(material.alpha_cutoff);
     }
 
-    void meet(std::uint32_t index, Asked& asked, float& farthest) const
+    void meet(std::uint32_t index, Query& query, float& farthest) const
     {
         const Triangle& triangle = triangles[index];
-        const SightLine& line = *asked.line;
+        const SightLine& line = *query.line;
         double time = 0;
         const auto at = crossing_of(triangle, line, time);
-        if (!at || !at->inside || !(at->distance > 0) || (asked.met && asked.met->distance <= at->distance))
+        if (!at || !at->inside || !(at->distance > 0) || (query.met && query.met->distance <= at->distance))
             return;
         const Met met{triangle.instance, {triangle.corners[0], triangle.corners[1], triangle.corners[2]}, at->weights,
             line.from + line.way * at->distance, at->distance, time, at->front};
         if (!there(met))
             return;
-        asked.met = met;
+        query.met = met;
         farthest = above(met.distance * (1 + 1e-6));
     }
 };
@@ -260,16 +260,16 @@ Tracer::Tracer(const World& world, const Pictures& pictures, const EyeEvent& eye
     rtcSetGeometryUserData(all, scene_.get());
     rtcSetGeometryBoundsFunction(
         all,
-        [](const RTCBoundsFunctionArguments* asked) {
-            static_cast<const Scene*>(asked->geometryUserPtr)->bounds(asked->primID, *asked->bounds_o);
+        [](const RTCBoundsFunctionArguments* arguments) {
+            static_cast<const Scene*>(arguments->geometryUserPtr)->bounds(arguments->primID, *arguments->bounds_o);
         },
         nullptr);
-    rtcSetGeometryIntersectFunction(all, [](const RTCIntersectFunctionNArguments* asked) {
-        if (asked->N != 1 || !asked->valid[0])
+    rtcSetGeometryIntersectFunction(all, [](const RTCIntersectFunctionNArguments* arguments) {
+        if (arguments->N != 1 || !arguments->valid[0])
             return;
-        auto& own = *reinterpret_cast<Scene::Asked*>(asked->context);
-        auto& hit = *reinterpret_cast<RTCRayHit*>(asked->rayhit);
-        own.scene->meet(asked->primID, own, hit.ray.tfar);
+        auto& own = *reinterpret_cast<Scene::Query*>(arguments->context);
+        auto& hit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
+        own.scene->meet(arguments->primID, own, hit.ray.tfar);
     });
     rtcCommitGeometry(all);
     rtcAttachGeometry(scene_->scene, all);
@@ -286,16 +286,16 @@ std::optional<Met> Tracer::nearest(const SightLine& line) const
 {
     if (scene_->triangles.empty())
         return {};
-    Scene::Asked asked{{}, scene_.get(), &line, {}};
-    rtcInitIntersectContext(&asked.embree);
+    Scene::Query query{{}, scene_.get(), &line, {}};
+    rtcInitIntersectContext(&query.embree);
     RTCRayHit hit{};
     hit.ray.org_x = float(line.from.x), hit.ray.org_y = float(line.from.y), hit.ray.org_z = float(line.from.z);
     hit.ray.dir_x = float(line.way.x), hit.ray.dir_y = float(line.way.y), hit.ray.dir_z = float(line.way.z);
     hit.ray.tfar = std::numeric_limits<float>::infinity();
     hit.ray.mask = ~0u;
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_->scene, &asked.embree, &hit);
-    return asked.met;
+    rtcIntersect1(scene_->scene, &query.embree, &hit);
+    return query.met;
 }
 
 const EyeEvent& Tracer::eye_event() const { return scene_->eye_event; }

@@ -17,30 +17,30 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
     sky_ = sky.zenith != sky.horizon || sky.nadir != sky.horizon;
 }
 
-void CubePass::prepare(const CubeMapPlan& plan, std::span<const EyeEvent> layers, double pre_exposure)
+void CubePass::prepare(const CubeMapPlan& plan, std::span<const EyeEvent> eye_events, double pre_exposure)
 {
     pre_exposure_ = pre_exposure;
     images_ = plan.images;
-    layered_ = !images_.empty() && images_.back().layer > 0;
+    several_rest_frames_ = !images_.empty() && images_.back().rest_frame > 0;
     area_ = plan.atlas_size;
     levels_ = plan.levels;
     {
         const Trace::Span span(device_.trace, "cull");
-        list_ = cull(world_.world, layers, images_, quality_, std::move(list_));
+        list_ = cull(world_.world, eye_events, images_, quality_, std::move(list_));
     }
     const Trace::Span span(device_.trace, "upload");
     contractions_.clear();
-    for (const EyeEvent& layer : layers)
-        contractions_.push_back(layer.contraction);
+    for (const EyeEvent& eye_event : eye_events)
+        contractions_.push_back(eye_event.contraction);
     target_.fit(plan.atlas_size, plan.levels);
-    uploads_.write(list_, layers, pre_exposure_, false);
+    uploads_.write(list_, eye_events, pre_exposure_, false);
     uploads_.write_tile_table(plan);
 }
 
 void CubePass::prepare_plain(const PlannedImage& image, const EyeEvent& eye_event)
 {
     images_ = {image};
-    layered_ = false;
+    several_rest_frames_ = false;
     list_ = cull(world_.world, {&eye_event, 1}, images_, quality_, std::move(list_));
     contractions_ = {1};
     uploads_.write(list_, {&eye_event, 1}, pre_exposure_, true);
@@ -57,13 +57,13 @@ std::size_t CubePass::triangles() const
 
 void CubePass::record(vk::CommandBuffer commands)
 {
-    const TargetKind kind = target_.kind(layered_);
+    const TargetKind kind = target_.kind(several_rest_frames_);
     std::array<glm::vec4, MAX_GROUPS + 1> clear{};
-    for (std::size_t group = 0; group < kind.colours.size() && !layered_; ++group)
+    for (std::size_t group = 0; group < kind.colours.size() && !several_rest_frames_; ++group)
         clear[group] = glm::vec4(world_.spectra.sky[1][group] * pre_exposure_);
     target_.begin(commands, area_, std::span(clear).first(kind.colours.size()));
     draw_images(commands, kind, false);
-    target_.end(commands, images_, levels_, layered_);
+    target_.end(commands, images_, levels_, several_rest_frames_);
 }
 
 void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, bool plain)
@@ -77,10 +77,10 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
     for (std::uint32_t i = 0; i < images_.size(); ++i) {
         const PlannedImage& image = images_[i];
         set_area(commands, image.atlas, image.size);
-        if (i == 0 || image.layer != images_[i - 1].layer)
-            uploads_.bind(commands, image.layer);
+        if (i == 0 || image.rest_frame != images_[i - 1].rest_frame)
+            uploads_.bind(commands, image.rest_frame);
         glm::dmat4 clip = clip_from_motion(image, near_distance);
-        clip[2] *= contractions_[std::size_t(image.layer)];
+        clip[2] *= contractions_[std::size_t(image.rest_frame)];
         shared::CubePush push{
             shared::row(clip, 0), shared::row(clip, 1), shared::row(clip, 2), shared::row(clip, 3), {}, {}, {}, {}};
         // A mirrored pair of face axes turns a surface's front round.
@@ -105,7 +105,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
             const Primitive& primitive = world.primitives[draw->primitive];
             SurfaceVariant variant = world_.variant(primitive.material, plain);
             variant.finite_existence = draw->finite_existence && !plain;
-            variant.layered = layered_;
+            variant.several_rest_frames = several_rest_frames_;
             variant.moves = draw->moves && !plain;
             if (vk::Pipeline pipeline = pipelines_.surface(variant, kind); pipeline != bound)
                 commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipeline);
@@ -124,7 +124,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
             }
             commands.drawIndexed(draw->index_count, draw->count, draw->first_index, primitive.vertex_offset, draw->first);
         }
-        if (sky_ && !layered_) {
+        if (sky_ && !several_rest_frames_) {
             commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipelines_.sky(kind));
             glm::dvec3 origin = face_direction(image.face, image.low);
             push.clip_row0 = glm::vec4(origin, 0);

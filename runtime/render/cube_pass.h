@@ -19,8 +19,8 @@ public:
     void adopt(const Quality& quality) { quality_ = quality; }
 
     /// The processor's part: culls, makes room and uploads. The device must have finished the frame before. Every stored
-    /// radiance is multiplied by pre_exposure. layers: the eye events of the plan's rest frames.
-    void prepare(const CubeMapPlan& plan, std::span<const EyeEvent> layers, double pre_exposure);
+    /// radiance is multiplied by pre_exposure. eye_events: the eye events of the plan's rest frames.
+    void prepare(const CubeMapPlan& plan, std::span<const EyeEvent> eye_events, double pre_exposure);
     /// The device's part: one pass over all images, then their mips. Afterwards fragment shaders may read the atlas, and
     /// the depth if it is kept.
     void record(vk::CommandBuffer commands);
@@ -33,7 +33,7 @@ public:
     /// texel.
     const std::vector<Image>& atlases() const { return target_.atlases(); }
     const Image& depth() const { return target_.depth(); }
-    bool layered() const { return layered_; } ///< something that moves is in view
+    bool several_rest_frames() const { return several_rest_frames_; } ///< something that moves is in view
     vk::BufferView tiles() const { return uploads_.tiles(); } ///< TileTable, as texels
     std::uint64_t tiles_serial() const { return uploads_.tiles_serial(); }
     std::size_t triangles() const; ///< sent to the device, all images
@@ -49,7 +49,7 @@ private:
     CubeTarget target_;
     CubeUploads uploads_;
     bool sky_; ///< it has a gradient, so that clearing does not draw it
-    bool layered_ = false; ///< something that moves is in view; the warp pass then draws the sky
+    bool several_rest_frames_ = false; ///< something that moves is in view; the warp pass then draws the sky
     std::vector<PlannedImage> images_;
     std::vector<double> contractions_; ///< one for each rest frame
     glm::ivec2 area_{0};

@@ -26,19 +26,19 @@ constexpr auto depth_access = Access::eDepthStencilAttachmentRead | Access::eDep
 
 CubeTarget::CubeTarget(Device& device, const GpuWorld& world, const Quality& quality, bool keeps_depth)
     : device_(device)
-    , formats_(world.numbers().formats(quality.half_floats))
+    , formats_(world.coefficients().formats(quality.half_floats))
     , samples_(quality.cube_samples)
-    , layered_world_(world.layered())
+    , in_several_rest_frames_(world.several_rest_frames())
     , keeps_depth_(keeps_depth)
 {
     formats_.push_back(vk::Format::eR32G32Sfloat); // the coverage; near / distance is small
-    atlases_.resize(kind(layered_world_).colours.size());
+    atlases_.resize(kind(in_several_rest_frames_).colours.size());
 }
 
-TargetKind CubeTarget::kind(bool layered) const
+TargetKind CubeTarget::kind(bool several_rest_frames) const
 {
     TargetKind kind{formats_, sample_bits(samples_)};
-    if (!layered)
+    if (!several_rest_frames)
         kind.colours.pop_back();
     return kind;
 }
@@ -60,7 +60,7 @@ void CubeTarget::fit(glm::ivec2 size, int levels)
         atlas = {};
     depth_ = {}, atlas_samples_.clear(), depth_samples_ = {};
     auto copied = most > 1 ? Usage::eTransferSrc | Usage::eTransferDst : vk::ImageUsageFlags();
-    Formats formats = kind(layered_world_).colours;
+    Formats formats = kind(in_several_rest_frames_).colours;
     for (std::size_t i = 0; i < atlases_.size(); ++i) {
         atlases_[i] = make_image(device_, {formats[i], extent, Usage::eColorAttachment | Usage::eSampled | copied, most});
         name_object(device_, atlases_[i], "cube pass: atlas");
@@ -146,10 +146,10 @@ void CubeTarget::begin_plain(vk::CommandBuffer commands, const Target& target, c
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour, &depth});
 }
 
-void CubeTarget::end(vk::CommandBuffer commands, std::span<const PlannedImage> images, int levels, bool layered)
+void CubeTarget::end(vk::CommandBuffer commands, std::span<const PlannedImage> images, int levels, bool several_rest_frames)
 {
     commands.endRendering();
-    const std::span used(atlases_.data(), kind(layered).colours.size());
+    const std::span used(atlases_.data(), kind(several_rest_frames).colours.size());
     for (const Image& atlas : used)
         if (levels > 1)
             make_mips(commands, atlas, images, levels);

@@ -19,15 +19,15 @@ public:
     /// Makes room in the depth alone, for a picture without an atlas.
     void fit_depth(glm::ivec2 size);
 
-    /// The images' formats and samples; layered: something that moves is in view.
-    TargetKind kind(bool layered) const;
+    /// The images' formats and samples; several_rest_frames: something that moves is in view.
+    TargetKind kind(bool several_rest_frames) const;
     /// Begins rendering into an area from the corner on. clear: the colour of each atlas; as many atlases are drawn.
     void begin(vk::CommandBuffer commands, glm::ivec2 area, std::span<const glm::vec4> clear);
     /// Begins rendering into a target of its own, with this object's depth.
     void begin_plain(vk::CommandBuffer commands, const Target& target, const glm::vec4& clear);
     /// Ends the rendering of begin(), and makes the mips of the images. Afterwards fragment shaders may read the atlases,
     /// and the depth if it is kept.
-    void end(vk::CommandBuffer commands, std::span<const PlannedImage> images, int levels, bool layered);
+    void end(vk::CommandBuffer commands, std::span<const PlannedImage> images, int levels, bool several_rest_frames);
 
     const std::vector<Image>& atlases() const { return atlases_; }
     const Image& depth() const { return depth_; }
@@ -39,7 +39,7 @@ private:
     Device& device_;
     Formats formats_; ///< of a world in which something moves; without the last one of others
     int samples_;
-    bool layered_world_, keeps_depth_, repeatable_ = false;
+    bool in_several_rest_frames_, keeps_depth_, repeatable_ = false;
     std::vector<Image> atlases_, atlas_samples_;
     Image depth_, depth_samples_;
     std::vector<vk::ImageBlit> blits_; ///< a member so that its memory is reused

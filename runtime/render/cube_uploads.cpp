@@ -13,8 +13,8 @@ CubeUploads::CubeUploads(Device& device, const Pipelines& pipelines, const GpuWo
 {
     const vk::DeviceSize step = device.properties.limits.minUniformBufferOffsetAlignment;
     stride_ = (sizeof(shared::CubeConstants) + step - 1) / step * step;
-    const std::size_t layers = world.world.frames.size();
-    constants_ = make_mapped_buffer(device, layers * stride_, vk::BufferUsageFlagBits::eUniformBuffer);
+    const std::size_t rest_frames = world.world.frames.size();
+    constants_ = make_mapped_buffer(device, rest_frames * stride_, vk::BufferUsageFlagBits::eUniformBuffer);
     name_object(device, constants_, "cube pass: constants");
     tiles_ = make_mapped_buffer(device, sizeof(shared::TileTable), vk::BufferUsageFlagBits::eUniformTexelBuffer);
     name_object(device, tiles_, "cube pass: tiles");
@@ -28,7 +28,7 @@ CubeUploads::CubeUploads(Device& device, const Pipelines& pipelines, const GpuWo
     name_object(device, set_, "cube pass: descriptor set");
 }
 
-void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> layers, double pre_exposure, bool plain)
+void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> eye_events, double pre_exposure, bool plain)
 {
     auto put = [&](Buffer& buffer, const auto& data) {
         grow(device_, buffer, data.size() * sizeof(data[0]), vk::BufferUsageFlagBits::eStorageBuffer);
@@ -39,11 +39,11 @@ void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> layers, 
     put(visible_, list.visible);
     std::vector<shared::TimeEntry>& times = time_writes_;
     times.clear();
-    for (std::size_t layer = 0; layer < layers.size(); ++layer) {
-        shared::CubeConstants constants = constants_of(layers[layer], pre_exposure, plain);
-        constants.first = glm::vec4(list.first[layer], times.size(), list.first_pose[layer], 0);
-        std::memcpy(static_cast<std::byte*>(constants_.mapped) + layer * stride_, &constants, sizeof constants);
-        const auto own = time_entries(world_.world, layers[layer], world_.scene.seconds_per_time_unit());
+    for (std::size_t rest_frame = 0; rest_frame < eye_events.size(); ++rest_frame) {
+        shared::CubeConstants constants = constants_of(eye_events[rest_frame], pre_exposure, plain);
+        constants.first = glm::vec4(list.first[rest_frame], times.size(), list.first_pose[rest_frame], 0);
+        std::memcpy(static_cast<std::byte*>(constants_.mapped) + rest_frame * stride_, &constants, sizeof constants);
+        const auto own = time_entries(world_.world, eye_events[rest_frame], world_.scene.seconds_per_time_unit());
         times.insert(times.end(), own.begin(), own.end());
     }
     if (!times.empty())
@@ -57,10 +57,10 @@ void CubeUploads::write_tile_table(const CubeMapPlan& plan)
     write_tiles(plan, *static_cast<shared::TileTable*>(tiles_.mapped));
 }
 
-void CubeUploads::bind(vk::CommandBuffer commands, int layer) const
+void CubeUploads::bind(vk::CommandBuffer commands, int rest_frame) const
 {
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.surface_layout, 0, *set_,
-        std::uint32_t(std::size_t(layer) * stride_));
+        std::uint32_t(std::size_t(rest_frame) * stride_));
 }
 
 void CubeUploads::write_set()
@@ -89,11 +89,11 @@ shared::CubeConstants CubeUploads::constants_of(const EyeEvent& eye_event, doubl
     const double scale = pre_exposure;
     shared::CubeConstants constants{};
     constants.ambient = glm::vec4(scene.ambient * scale, scale);
-    const auto& numbers = world_.spectra.sky;
+    const auto& coefficients = world_.spectra.sky;
     for (std::size_t group = 0; group < std::size_t(world_.spectra.groups); ++group) {
-        constants.sky_zenith[group] = glm::vec4(numbers[0][group] * scale);
-        constants.sky_horizon[group] = glm::vec4(numbers[1][group] * scale);
-        constants.sky_nadir[group] = glm::vec4(numbers[2][group] * scale);
+        constants.sky_zenith[group] = glm::vec4(coefficients[0][group] * scale);
+        constants.sky_horizon[group] = glm::vec4(coefficients[1][group] * scale);
+        constants.sky_nadir[group] = glm::vec4(coefficients[2][group] * scale);
     }
     if (plain) {
         constants.sky_zenith[0] = glm::vec4(scene.sky.zenith * scale, 0);

@@ -10,13 +10,13 @@ class CubeUploads {
 public:
     CubeUploads(Device& device, const Pipelines& pipelines, const GpuWorld& world);
 
-    /// Writes the frame's data. Every stored radiance is multiplied by pre_exposure. layers: the eye events of the rest
+    /// Writes the frame's data. Every stored radiance is multiplied by pre_exposure. eye_events: the eye events of the rest
     /// frames. plain: light is a colour, whatever its spectra. The device must have finished the frame before.
-    void write(const DrawList& list, std::span<const EyeEvent> layers, double pre_exposure, bool plain);
+    void write(const DrawList& list, std::span<const EyeEvent> eye_events, double pre_exposure, bool plain);
     void write_tile_table(const CubeMapPlan& plan);
 
     /// Binds the set with the constants of one rest frame.
-    void bind(vk::CommandBuffer commands, int layer) const;
+    void bind(vk::CommandBuffer commands, int rest_frame) const;
 
     vk::BufferView tiles() const { return *tiles_view_; } ///< TileTable, as texels
     std::uint64_t tiles_serial() const { return tiles_.serial; }

@@ -48,7 +48,7 @@ double EyeCubes::observe()
 {
     double most_E = 1;
     for (Observer& one : observers) {
-        one = starbow::observer_of(world_.world, state_.shot, one.observer, std::move(one.layers));
+        one = starbow::observer_of(world_.world, state_.shot, one.observer, std::move(one.rest_frames));
         most_E = std::max(most_E, one.most_E());
     }
     return most_E;
@@ -78,26 +78,26 @@ std::size_t EyeCubes::eye_for(const ViewState& state)
 void EyeCubes::request_views(std::size_t i, const Probe* probe)
 {
     EyeCube& eye = all[i];
-    const std::vector<RestFrameView>& layers = observers[eye.observer].layers;
-    eye.requests.resize(layers.size());
+    const std::vector<RestFrameView>& rest_frames = observers[eye.observer].rest_frames;
+    eye.requests.resize(rest_frames.size());
     eye.eye_events.clear();
     eye.nearest.clear();
-    for (std::size_t at = 0; at < layers.size(); ++at) {
-        const RestFrameView& layer = layers[at];
-        const EyeEvent eye_event = eye_event_of(layer, int(at), views_.scene_units(eye.now_m));
+    for (std::size_t at = 0; at < rest_frames.size(); ++at) {
+        const RestFrameView& rest_frame = rest_frames[at];
+        const EyeEvent eye_event = eye_event_of(rest_frame, int(at), views_.scene_units(eye.now_m));
         eye.nearest.push_back(state_.reprojects() ? std::max(nearest_box(world_.world, eye_event), 1e-30) : 1);
         RestFrameRequest& request = eye.requests[at];
         request.views.clear();
-        request.E = layer.E;
+        request.E = rest_frame.E;
         request.galilean = state_.shot.effects.comparison == Comparison::galilean;
         for (const ViewState& view : views_.all)
             if (view.eye == i)
-                request.views.push_back({view.compiled.cones.get(), layer.motion_from_cockpit,
+                request.views.push_back({view.compiled.cones.get(), rest_frame.motion_from_cockpit,
                     state_.reprojects()
-                        ? std::min(MOST_PARALLAX, glm::length(views_.eye_offset(view, layer)) / eye.nearest[at])
+                        ? std::min(MOST_PARALLAX, glm::length(views_.eye_offset(view, rest_frame)) / eye.nearest[at])
                         : 0});
         for (std::size_t ray = 0; probe && i == views_.probed_view().eye && ray < probe->count(); ++ray)
-            request.views.push_back({&probe->view(ray), layer.motion_from_cockpit});
+            request.views.push_back({&probe->view(ray), rest_frame.motion_from_cockpit});
         if (at > 0)
             request.bounds = bounding_spheres(world_.world, eye_event);
         eye.eye_events.push_back(eye_event);
@@ -146,9 +146,9 @@ void EyeCubes::plan(double pre_exposure, const Probe* probe)
             continue;
         const auto& images = plans[i].images;
         const auto own
-            = std::find_if(images.begin(), images.end(), [](const PlannedImage& image) { return image.layer > 0; });
-        eye.stars = stars_in({images.begin(), own}, world_.star_patches, observers[eye.observer].layers[0].motion_from_frame,
-            std::move(eye.stars));
+            = std::find_if(images.begin(), images.end(), [](const PlannedImage& image) { return image.rest_frame > 0; });
+        eye.stars = stars_in({images.begin(), own}, world_.star_patches,
+            observers[eye.observer].rest_frames[0].motion_from_frame, std::move(eye.stars));
     }
 }
 

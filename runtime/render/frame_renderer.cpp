@@ -68,7 +68,7 @@ FrameRenderer::FrameRenderer(Device& device, Pipelines& pipelines, const GpuWorl
     , meter_(device, pipelines, state_, views_, eyes_, stars_, constants_, passes_, world.star_count)
     , measurement_(device, pipelines, world, state_, views_, eyes_, constants_, descriptors_, passes_)
 {
-    state_.keeps_depth = keeps_depth || state_.reprojects() || world.star_count > 0 || world.layered();
+    state_.keeps_depth = keeps_depth || state_.reprojects() || world.star_count > 0 || world.several_rest_frames();
     apply_layout(views_.parts(true));
 }
 

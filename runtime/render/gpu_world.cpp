@@ -77,12 +77,12 @@ SurfaceVariant GpuWorld::variant(int material, bool plain) const
         m.base_texture >= 0, m.emissive_texture >= 0, m.alpha_cutoff > 0, m.unlit, m.unlit ? 0 : int(world.lamps.size())};
     variant.clock = m.clock.has_value();
     variant.blink = m.blink.has_value();
-    variant.layered = layered() && !plain;
+    variant.several_rest_frames = several_rest_frames() && !plain;
     const auto changes = [](const Lamp& lamp) { return lamp.frame > 0 || lamp.existence >= 0; };
-    variant.lamps_move
-        = !plain && variant.lights > 0 && (layered() || std::any_of(world.lamps.begin(), world.lamps.end(), changes));
+    variant.lamps_move = !plain && variant.lights > 0
+        && (several_rest_frames() || std::any_of(world.lamps.begin(), world.lamps.end(), changes));
     if (!plain)
-        variant.numbers = numbers(), variant.kinds = spectra.kinds, variant.matrices = spectra.matrices;
+        variant.coefficients = coefficients(), variant.kinds = spectra.kinds, variant.matrices = spectra.matrices;
     return variant;
 }
 

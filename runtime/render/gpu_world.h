@@ -42,8 +42,8 @@ struct GpuWorld {
     ResponseBuffers eye, false_colours;
 
     const ResponseBuffers& response(const Effects& on) const { return on.false_colours ? false_colours : eye; }
-    bool layered() const { return world.frames.size() > 1; } ///< something may move
-    CoefficientCounts numbers() const { return {spectra.basis.reflected, int(spectra.basis.own.size())}; }
+    bool several_rest_frames() const { return world.frames.size() > 1; } ///< something may move
+    CoefficientCounts coefficients() const { return {spectra.basis.reflected, int(spectra.basis.own.size())}; }
     /// plain: the material is drawn as a colour alone, whatever its spectra.
     SurfaceVariant variant(int material, bool plain = false) const;
 };

@@ -24,7 +24,8 @@ OverlayPass::OverlayPass(const Device& device, Pipelines& pipelines, std::size_t
     name_object(device, pool_, "overlay pass: descriptor pool");
     for (std::size_t i = 0; i < views; ++i) {
         name_object(device,
-            sets_.emplace_back(std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.layouts.overlay_set}).front())),
+            sets_.emplace_back(
+                std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.layouts.overlay_set}).front())),
             "overlay pass: descriptor set");
         const vk::DescriptorBufferInfo part(*constants_.buffer, i * stride, sizeof(shared::OverlayConstants));
         device.device.updateDescriptorSets(
@@ -62,13 +63,14 @@ void OverlayPass::draw(vk::CommandBuffer commands, std::size_t view, const WarpV
 {
     constexpr int kinds[] = {OVERLAY_NONE, OVERLAY_NONE, OVERLAY_GRID, OVERLAY_RING, OVERLAY_DISTANCE, OVERLAY_EMISSION};
     WarpVariant own{variant.map, variant.aberration, false, false, false};
-    own.layered = variant.layered, own.galilean = variant.galilean, own.channels = variant.channels,
+    own.several_rest_frames = variant.several_rest_frames, own.galilean = variant.galilean, own.channels = variant.channels,
     own.reproject = variant.reproject, own.turning = variant.turning;
     set_area(commands, corner, size);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.overlay(own, kinds[std::size_t(overlay)], target));
     commands.bindDescriptorSets(
         vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.overlay_layout, 0, {warp_set, *sets_[view]}, {});
-    commands.pushConstants<shared::ViewPush>(*pipelines_.layouts.overlay_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
+    commands.pushConstants<shared::ViewPush>(
+        *pipelines_.layouts.overlay_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
     commands.draw(3, 1, 0, 0);
 }
 

@@ -62,12 +62,12 @@ struct CoefficientCounts {
 struct SurfaceVariant {
     bool base_texture, emissive_texture, masked, unlit;
     int lights;
-    CoefficientCounts numbers{};
+    CoefficientCounts coefficients{};
     int kinds = 1; ///< number of kinds of spectra that shine
     bool matrices = false; ///< otherwise the coefficients are the colour with ultraviolet and infrared
     bool clock = false;
     bool finite_existence = false; ///< tests existence intervals
-    bool layered = false; ///< the world has several rest frames
+    bool several_rest_frames = false; ///< the world has several rest frames
     bool lamps_move = false;
     bool blink = false;
     bool moves = false; ///< animated
@@ -80,9 +80,9 @@ struct WarpVariant {
     bool reproject = false, turning = false; ///< stereo from one cube map; by the azimuth
     bool stars = false; ///< added to the cube map's light
     bool linear = false; ///< exposed linear light, for the glow
-    CoefficientCounts numbers{};
+    CoefficientCounts coefficients{};
     bool by_table = true; ///< otherwise the coefficients are the colour
-    bool layered = false; ///< something moves in the world
+    bool several_rest_frames = false; ///< something moves in the world
     bool galilean = false; ///< Galilean aberration
     int rays = 1; ///< along each side of a pixel
     bool single = false; ///< one image of the plan, ahead, shows all

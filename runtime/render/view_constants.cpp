@@ -15,25 +15,25 @@ const PlannedImage* ViewConstants::single_image(const ViewState& view) const
 {
     const std::vector<PlannedImage>& images = eyes_.plans[view.eye].images;
     const bool beside = state_.reprojects() && view.beside_m != glm::dvec3(0);
-    return images.size() == 1 && images[0].layer == 0 && images[0].tile == TILE_FRONT && !beside ? &images[0] : nullptr;
+    return images.size() == 1 && images[0].rest_frame == 0 && images[0].tile == TILE_FRONT && !beside ? &images[0] : nullptr;
 }
 
 WarpVariant ViewConstants::variant(const ViewState& view) const
 {
-    const bool moves
-        = eyes_.observer_of(view).E != 1 || eyes_.all[view.eye].cube.layered(); // without motion D is 1 everywhere
+    const bool moves = eyes_.observer_of(view).E != 1
+        || eyes_.all[view.eye].cube.several_rest_frames(); // without motion D is 1 everywhere
     const bool beside = state_.reprojects() && view.beside_m != glm::dvec3(0);
     const Effects& on = state_.shot.effects;
     WarpVariant variant{view.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
         eyes_.plans[view.eye].levels > 1, view.compiled.channels() == 3, beside, beside && state_.layout.stereo.turning,
         world_.star_count > 0};
-    variant.numbers = world_.numbers();
-    variant.layered = eyes_.all[view.eye].cube.layered();
+    variant.coefficients = world_.coefficients();
+    variant.several_rest_frames = eyes_.all[view.eye].cube.several_rest_frames();
     variant.single = single_image(view);
     variant.cut = eyes_.plans[view.eye].cut;
     variant.galilean = on.comparison == Comparison::galilean;
     variant.by_table = variant.doppler || on.false_colours
-        || variant.numbers != CoefficientCounts{}; // at rest three coefficients are the shown colour
+        || variant.coefficients != CoefficientCounts{}; // at rest three coefficients are the shown colour
     return variant;
 }
 
@@ -56,8 +56,8 @@ shared::ViewPush ViewConstants::push(const ViewState& view, const glm::dmat3& ax
     push.corner = glm::vec4(view.geometry().corner, 0, world_.response(state_.shot.effects).per_octave);
     if (state_.pattern == Pattern::none) {
         const PlannedImage* single = single_image(view);
-        push.eye
-            = single ? tile_entry(*single).texel_from_face : views_.eye_constants(view, eyes_.observer_of(view).layers[0]);
+        push.eye = single ? tile_entry(*single).texel_from_face
+                          : views_.eye_constants(view, eyes_.observer_of(view).rest_frames[0]);
         push.zenith.y = float(eyes_.all[view.eye].nearest[0]);
     }
     push.zenith.x = float(std::sin(state_.layout.stereo.full_from_zenith_deg * degree));
@@ -75,9 +75,10 @@ glm::vec4 ViewConstants::boost(const ViewState& view, double exposure) const
 shared::ViewPush ViewConstants::star_push(const ViewState& view) const
 {
     const Observer& own = eyes_.observer_of(view);
-    shared::ViewPush constants = push(view, own.layers[0].motion_from_cockpit);
+    shared::ViewPush constants = push(view, own.rest_frames[0].motion_from_cockpit);
     constants.boost = glm::vec4(own.E, 1 / own.E, state_.pre_exposure, near_distance);
-    const glm::dmat3 back = glm::inverse(own.layers[0].motion_from_cockpit * view.compiled.matrix.value_or(glm::dmat3(1)));
+    const glm::dmat3 back
+        = glm::inverse(own.rest_frames[0].motion_from_cockpit * view.compiled.matrix.value_or(glm::dmat3(1)));
     constants.row0 = shared::row(back, 0, constants.row0.w);
     constants.row1 = shared::row(back, 1, constants.row1.w);
     constants.row2 = shared::row(back, 2);
@@ -86,7 +87,7 @@ shared::ViewPush ViewConstants::star_push(const ViewState& view) const
 
 shared::ViewPush ViewConstants::exposed_push(const ViewState& view, double exposure) const
 {
-    shared::ViewPush constants = push(view, eyes_.observer_of(view).layers[0].motion_from_cockpit);
+    shared::ViewPush constants = push(view, eyes_.observer_of(view).rest_frames[0].motion_from_cockpit);
     constants.boost = boost(view, exposure);
     return constants;
 }

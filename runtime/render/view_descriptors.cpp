@@ -36,7 +36,7 @@ void ViewDescriptors::write()
         writes_.clear(), serials_.clear(), images_used_ = buffers_used_ = 0;
         collect_label_set(view);
         if (state_.pattern == Pattern::none) {
-            if (eyes_.all[view.eye].cube.layered())
+            if (eyes_.all[view.eye].cube.several_rest_frames())
                 write_rest_frames(view);
             collect_warp_set(view);
         }
@@ -89,8 +89,8 @@ void ViewDescriptors::collect_warp_set(const ViewState& view)
     image(set, 5, stars_.on() ? stars_.picture() : nothing_, nearest_);
     image(set, 6, views_.inverse_of(view), nearest_);
     buffer(set, 10, response.own_rows);
-    image(set, 11, cube.layered() ? atlases.back() : nothing_, filter);
-    buffer(set, 12, cube.layered() ? view.rest_frames : no_rest_frames_);
+    image(set, 11, cube.several_rest_frames() ? atlases.back() : nothing_, filter);
+    buffer(set, 12, cube.several_rest_frames() ? view.rest_frames : no_rest_frames_);
 }
 
 void ViewDescriptors::write_rest_frames(ViewState& view)
@@ -100,26 +100,26 @@ void ViewDescriptors::write_rest_frames(ViewState& view)
             = make_mapped_buffer(device_, sizeof(shared::RestFrameConstants), vk::BufferUsageFlagBits::eUniformBuffer);
     const EyeCube& eye = eyes_.all[view.eye];
     const CubeMapPlan& plan = eyes_.plans[view.eye];
-    const std::vector<RestFrameView>& layers = eyes_.observer_of(view).layers;
+    const std::vector<RestFrameView>& rest_frames = eyes_.observer_of(view).rest_frames;
     shared::RestFrameConstants all{};
     std::size_t count = 0;
-    for (std::size_t at = 0; at < layers.size(); ++at) {
+    for (std::size_t at = 0; at < rest_frames.size(); ++at) {
         const bool seen = std::any_of(plan.images.begin(), plan.images.end(),
-            [&](const PlannedImage& image) { return std::size_t(image.layer) == at; });
+            [&](const PlannedImage& image) { return std::size_t(image.rest_frame) == at; });
         if (at > 0 && !seen)
             continue;
-        const RestFrameView& layer = layers[at];
-        const glm::dmat3 turn = layer.motion_from_cockpit * glm::transpose(layers[0].motion_from_cockpit);
-        shared::RestFrameEntry& entry = all.layers[count++];
+        const RestFrameView& rest_frame = rest_frames[at];
+        const glm::dmat3 turn = rest_frame.motion_from_cockpit * glm::transpose(rest_frames[0].motion_from_cockpit);
+        shared::RestFrameEntry& entry = all.entries[count++];
         entry.row0 = shared::row(turn, 0);
         entry.row1 = shared::row(turn, 1, plan.finest_clip_level[at]);
         entry.row2 = shared::row(turn, 2);
-        entry.boost = glm::vec4(layer.E, 1 / layer.E, at * TILE_COUNT, at);
-        entry.eye = views_.eye_constants(view, layer);
+        entry.boost = glm::vec4(rest_frame.E, 1 / rest_frame.E, at * TILE_COUNT, at);
+        entry.eye = views_.eye_constants(view, rest_frame);
         entry.nearest.y = float(eye.nearest[at]);
     }
     all.count.x = float(count);
-    all.world_up = glm::vec4(layers[0].motion_from_frame * glm::dvec3(0, 1, 0), 0);
+    all.world_up = glm::vec4(rest_frames[0].motion_from_frame * glm::dvec3(0, 1, 0), 0);
     for (std::size_t group = 0; group < MAX_GROUPS; ++group) {
         all.sky_zenith[group] = glm::vec4(world_.spectra.sky[0][group] * state_.pre_exposure);
         all.sky_horizon[group] = glm::vec4(world_.spectra.sky[1][group] * state_.pre_exposure);

@@ -42,7 +42,7 @@ void ViewMeasurement::prepare()
     observer_ = measuring_observer_at(eye_m);
     const bool of_one_eye = state_.layout.stereo.method == StereoMethod::exact;
     head_ = measuring_observer_at(of_one_eye ? eye_m - (probed.geometry().picture.eye_m - probed.geometry().head_m) : eye_m);
-    world_from_motion_ = glm::transpose(eyes_.observer_of(probed).layers[0].motion_from_frame);
+    world_from_motion_ = glm::transpose(eyes_.observer_of(probed).rest_frames[0].motion_from_frame);
     if (what_.over.overlay != Overlay::off) {
         if (!overlay_)
             overlay_ = std::make_unique<OverlayPass>(device_, pipelines_, views_.all.size());
@@ -76,8 +76,8 @@ void ViewMeasurement::draw_probes(vk::CommandBuffer commands)
         = false; // a probe is a flat view from the cube map's own place
     const vk::Pipeline pipeline = pipelines_.probe(own);
     probe_->record(commands, [&](std::size_t i, const glm::dmat3& cockpit_from_pixel) {
-        shared::ViewPush constants = constants_.push(view, eyes_.observer_of(view).layers[0].motion_from_cockpit);
-        const glm::dmat3 m = eyes_.observer_of(view).layers[0].motion_from_cockpit * cockpit_from_pixel;
+        shared::ViewPush constants = constants_.push(view, eyes_.observer_of(view).rest_frames[0].motion_from_cockpit);
+        const glm::dmat3 m = eyes_.observer_of(view).rest_frames[0].motion_from_cockpit * cockpit_from_pixel;
         constants.row0 = shared::row(m, 0, float(std::sqrt(std::abs(glm::determinant(m)))));
         constants.row1 = shared::row(m, 1, constants.row1.w);
         constants.row2 = shared::row(m, 2, constants.row2.w);

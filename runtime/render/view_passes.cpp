@@ -58,7 +58,7 @@ void ViewPasses::prepare_stars()
     stars_.fit({std::uint32_t(size.x), std::uint32_t(size.y)});
     star_turns_.clear();
     for (const Observer& one : eyes_.observers)
-        star_turns_.push_back(one.layers[0].motion_from_frame);
+        star_turns_.push_back(one.rest_frames[0].motion_from_frame);
     stars_.prepare(star_turns_, state_.shot.effects.false_colours);
 }
 
@@ -68,7 +68,8 @@ void ViewPasses::draw_warp(vk::CommandBuffer commands, const ViewState& view, vk
     set_area(commands, corner, size);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.warp_layout, 0, *view.warp_set, {});
-    commands.pushConstants<shared::ViewPush>(*pipelines_.layouts.warp_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
+    commands.pushConstants<shared::ViewPush>(
+        *pipelines_.layouts.warp_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
     commands.draw(3, 1, 0, 0);
 }
 
@@ -84,9 +85,10 @@ void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, int 
         WarpVariant own = constants_.variant(view);
         own.mips = false;
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.stars(own, stars_.format()));
-        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.star_layout, 0, *view.warp_set, {});
-        commands.pushConstants<shared::ViewPush>(
-            *pipelines_.layouts.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
+        commands.bindDescriptorSets(
+            vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.star_layout, 0, *view.warp_set, {});
+        commands.pushConstants<shared::ViewPush>(*pipelines_.layouts.star_layout,
+            vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
         const int places = view.map && views_.maps[*view.map].closes ? 2 : 1;
         stars_.draw(commands, eyes_.all[view.eye].observer, view.geometry().corner, view.geometry().size,
             places * (own.channels ? 3 : 1), eyes_.all[view.eye].stars);
@@ -126,7 +128,8 @@ void ViewPasses::pattern_view(vk::CommandBuffer commands, const ViewState& view,
     set_area(commands, own.corner, own.size);
     commands.bindPipeline(
         vk::PipelineBindPoint::eGraphics, pipelines_.pattern(view.compiled.map != nullptr, int(state_.pattern), format));
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0, *view.label_set, {});
+    commands.bindDescriptorSets(
+        vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0, *view.label_set, {});
     commands.pushConstants<shared::PatternPush>(
         *pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
     commands.draw(3, 1, 0, 0);
@@ -237,21 +240,22 @@ std::vector<ViewPasses::Axes> ViewPasses::measured_axes(std::size_t output) cons
     for (const ViewState& view : views_.all)
         if (view.output == output && view.geometry().canvas == 0)
             axes.push_back({view.geometry().corner, view.geometry().size,
-                glm::transpose(eyes_.observer_of(view).layers[0].motion_from_frame)});
+                glm::transpose(eyes_.observer_of(view).rest_frames[0].motion_from_frame)});
     return axes;
 }
 
 void ViewPasses::look_up(vk::CommandBuffer commands, const Target& target, vk::Pipeline pipeline, vk::DescriptorSet set)
 {
     const ViewState& view = views_.all.front();
-    shared::ViewPush constants = constants_.push(view, eyes_.observer_of(view).layers[0].motion_from_cockpit);
+    shared::ViewPush constants = constants_.push(view, eyes_.observer_of(view).rest_frames[0].motion_from_cockpit);
     vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore);
     commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
     set_area(commands, view.geometry().corner, view.geometry().size);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0, set, {});
-    commands.pushConstants<shared::ViewPush>(*pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
+    commands.pushConstants<shared::ViewPush>(
+        *pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
     commands.draw(3, 1, 0, 0);
     commands.endRendering();
 }

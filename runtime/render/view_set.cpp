@@ -39,22 +39,22 @@ glm::dvec3 ViewSet::scene_units(const glm::dvec3& place_m) const
     return place_m * (state_.layout.stereo.hyper_stereo / unit_m_);
 }
 
-glm::dvec3 ViewSet::eye_offset(const ViewState& view, const RestFrameView& layer) const
+glm::dvec3 ViewSet::eye_offset(const ViewState& view, const RestFrameView& rest_frame) const
 {
-    const glm::dvec3 offset = layer.shot.ship_from_cockpit * scene_units(view.beside_m);
+    const glm::dvec3 offset = rest_frame.shot.ship_from_cockpit * scene_units(view.beside_m);
     if (state_.layout.stereo.turning)
-        return glm::dvec3(1, 1, physics::gamma_of(layer.shot.u)) * glm::length(offset);
-    glm::dvec3 apart = layer.motion_from_frame * physics::eye_place(layer.shot.u, offset);
-    apart.z *= layer.contraction;
+        return glm::dvec3(1, 1, physics::gamma_of(rest_frame.shot.u)) * glm::length(offset);
+    glm::dvec3 apart = rest_frame.motion_from_frame * physics::eye_place(rest_frame.shot.u, offset);
+    apart.z *= rest_frame.contraction;
     return apart;
 }
 
-glm::vec4 ViewSet::eye_constants(const ViewState& view, const RestFrameView& layer) const
+glm::vec4 ViewSet::eye_constants(const ViewState& view, const RestFrameView& rest_frame) const
 {
     if (!state_.layout.stereo.turning)
-        return glm::vec4(eye_offset(view, layer), 0);
+        return glm::vec4(eye_offset(view, rest_frame), 0);
     const double side = view.beside_m.x < 0 ? -1 : 1;
-    return glm::vec4(layer.motion_from_cockpit * glm::dvec3(0, 1, 0), side * glm::length(scene_units(view.beside_m)));
+    return glm::vec4(rest_frame.motion_from_cockpit * glm::dvec3(0, 1, 0), side * glm::length(scene_units(view.beside_m)));
 }
 
 /// Place from which the view's cube map is drawn, cockpit frame, metres.

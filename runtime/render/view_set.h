@@ -73,9 +73,9 @@ public:
     glm::dvec3 scene_units(const glm::dvec3& place_m) const;
     /// The eye's place relative to its cube map's, in a rest frame's motion axes, scene units. For a turning baseline, an
     /// upper bound of each component.
-    glm::dvec3 eye_offset(const ViewState& view, const RestFrameView& layer) const;
+    glm::dvec3 eye_offset(const ViewState& view, const RestFrameView& rest_frame) const;
     /// The member `eye` of ViewPush and RestFrameEntry.
-    glm::vec4 eye_constants(const ViewState& view, const RestFrameView& layer) const;
+    glm::vec4 eye_constants(const ViewState& view, const RestFrameView& rest_frame) const;
     /// The unit direction in the cockpit that a point of an output shows in its left eye. pixel: from the output's top
     /// left.
     std::optional<glm::dvec3> direction(std::size_t output, const glm::dvec2& pixel) const;

@@ -16,12 +16,12 @@ glm::dmat3 motion_from_world(const glm::dvec3& u, const glm::dquat& ship_from_co
     return glm::transpose(glm::dmat3(x, y, z));
 }
 
-EyeEvent eye_event_of(const RestFrameView& layer, int frame, const glm::dvec3& place)
+EyeEvent eye_event_of(const RestFrameView& rest_frame, int frame, const glm::dvec3& place)
 {
-    const glm::dvec3 offset = layer.shot.ship_from_cockpit * place;
-    return {frame, layer.shot.position + physics::eye_place(layer.shot.u, offset),
-        layer.shot.time + physics::eye_time(layer.shot.u, offset), layer.motion_from_frame, layer.now, layer.contraction,
-        layer.beta};
+    const glm::dvec3 offset = rest_frame.shot.ship_from_cockpit * place;
+    return {frame, rest_frame.shot.position + physics::eye_place(rest_frame.shot.u, offset),
+        rest_frame.shot.time + physics::eye_time(rest_frame.shot.u, offset), rest_frame.motion_from_frame, rest_frame.now,
+        rest_frame.contraction, rest_frame.beta};
 }
 
 } // namespace starbow

@@ -18,7 +18,7 @@ struct EyeEvent {
 };
 
 /// An observer's eye event: its place in the cockpit, scene units. frame: the index of the rest-frame view.
-EyeEvent eye_event_of(const RestFrameView& layer, int frame, const glm::dvec3& place);
+EyeEvent eye_event_of(const RestFrameView& rest_frame, int frame, const glm::dvec3& place);
 
 /// The retarded time, in the eye event's own frame, of a place given from the eye in motion axes. With `now` it is the
 /// place's time at the ship's present. The difference of two places' retarded times is at most their distance.

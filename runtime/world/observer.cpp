@@ -9,8 +9,8 @@ namespace starbow {
 double Observer::most_E() const
 {
     double most = 1;
-    for (const RestFrameView& layer : layers)
-        most = std::max(most, physics::exp_rapidity(glm::length(layer.shot.u)));
+    for (const RestFrameView& rest_frame : rest_frames)
+        most = std::max(most, physics::exp_rapidity(glm::length(rest_frame.shot.u)));
     return most;
 }
 
@@ -25,17 +25,18 @@ Observer observer_of(
     Shot still = out.shot;
     still.u = glm::dvec3(0);
     for (const RestFrame& frame : world.frames) {
-        const bool own = out.layers.empty(); // the world comes first: its axes are the motion axes in any case
+        const bool own = out.rest_frames.empty(); // the world comes first: its axes are the motion axes in any case
         const Shot looks = in_frame(frame, aberration || own ? out.shot : still);
         const glm::dmat3 turn = motion_from_world(looks.u, looks.ship_from_cockpit);
-        out.layers.push_back(
+        out.rest_frames.push_back(
             {in_frame(frame, out.shot), aberration || !own ? physics::exp_rapidity(glm::length(looks.u)) : 1, turn,
                 turn * glm::dmat3(glm::mat3_cast(looks.ship_from_cockpit))});
         if (!now)
             continue;
-        RestFrameView& layer = out.layers.back();
-        const double gamma = physics::gamma_of(layer.shot.u);
-        layer.now = true, layer.E = 1, layer.contraction = 1 / gamma, layer.beta = glm::length(layer.shot.u) / gamma;
+        RestFrameView& rest_frame = out.rest_frames.back();
+        const double gamma = physics::gamma_of(rest_frame.shot.u);
+        rest_frame.now = true, rest_frame.E = 1, rest_frame.contraction = 1 / gamma,
+        rest_frame.beta = glm::length(rest_frame.shot.u) / gamma;
     }
     if (now)
         out.E = 1;

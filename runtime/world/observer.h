@@ -19,7 +19,7 @@ struct Observer {
     ViewportObserver observer;
     Shot shot; ///< the observer's instant in the world
     double E = 1; ///< e^rapidity in the world
-    std::vector<RestFrameView> layers; ///< by the world's rest frames, the world first
+    std::vector<RestFrameView> rest_frames; ///< by the world's rest frames, the world first
     double most_E() const; ///< the greatest E of all rest frames
 };
 

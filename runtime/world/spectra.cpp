@@ -112,13 +112,13 @@ std::vector<glm::vec4> by_colour(const SpectralBasis& basis, int groups, const K
         glm::dvec3 rgb(0);
         if (column < 3)
             rgb[column] = 1;
-        std::vector<double> numbers(std::size_t(basis.size()), 0.0);
+        std::vector<double> coefficients(std::size_t(basis.size()), 0.0);
         if (light != Kind{} || basis.reflected > 5)
-            numbers = lit_as(basis, light, [&](double nm) { return base_reflectance(rgb, column == 3, column == 4, nm); });
+            coefficients = lit_as(basis, light, [&](double nm) { return base_reflectance(rgb, column == 3, column == 4, nm); });
         else if (column < basis.reflected) // these are its coefficients
-            numbers[std::size_t(column)] = 1;
-        for (std::size_t k = 0; k < numbers.size(); ++k)
-            columns[k / 4 * 5 + std::size_t(column)][int(k % 4)] = float(numbers[k]);
+            coefficients[std::size_t(column)] = 1;
+        for (std::size_t k = 0; k < coefficients.size(); ++k)
+            columns[k / 4 * 5 + std::size_t(column)][int(k % 4)] = float(coefficients[k]);
     }
     return columns;
 }
@@ -128,10 +128,10 @@ std::vector<glm::vec4> by_table(const SpectralBasis& basis, int groups, const Ki
 {
     constexpr double luminance[3] = {0.2126, 0.7152, 0.0722}; // Rec. 709
     std::vector<glm::vec4> columns(std::size_t(groups * 5), glm::vec4(0));
-    const std::vector<double> numbers = lit_as(basis, light, reflectance);
+    const std::vector<double> coefficients = lit_as(basis, light, reflectance);
     for (std::size_t column = 0; column < 3; ++column)
-        for (std::size_t k = 0; k < numbers.size(); ++k)
-            columns[k / 4 * 5 + column][int(k % 4)] = float(luminance[column] * numbers[k]);
+        for (std::size_t k = 0; k < coefficients.size(); ++k)
+            columns[k / 4 * 5 + column][int(k % 4)] = float(luminance[column] * coefficients[k]);
     return columns;
 }
 
@@ -267,7 +267,7 @@ NeededLevel needed_level(const World& world, const SceneFile& scene)
 std::string describe(const NeededLevel& needed)
 {
     const std::size_t level = std::size_t(needed.level);
-    return "light in " + std::to_string(reflected_numbers[level]) + " coefficients (" + spectral_level_names[level] + "): "
+    return "light in " + std::to_string(reflected_counts[level]) + " coefficients (" + spectral_level_names[level] + "): "
         + (needed.why.empty()                         ? "no surface here needs more"
                 : needed.level == SpectralLevel::fine ? needed.why
                                                       : needed.why + "; more would change nothing");
@@ -277,7 +277,7 @@ Spectra spectra_of(const World& world, const SceneFile& scene, SpectralLevel lev
 {
     Spectra spectra;
     spectra.level = level;
-    spectra.basis = spectral_basis(reflected_numbers[std::size_t(level)], own_spectra(world, scene));
+    spectra.basis = spectral_basis(reflected_counts[std::size_t(level)], own_spectra(world, scene));
     spectra.groups = (spectra.basis.size() + 3) / 4;
     const int own_sets = int(std::count_if(
         world.materials.begin(), world.materials.end(), [](const Material& m) { return !m.reflectance.empty(); }));

@@ -10,7 +10,7 @@
 namespace starbow {
 
 /// By SpectralLevel: coefficients of reflected sunlight.
-constexpr std::array<int, 3> reflected_numbers = {3, 5, 12};
+constexpr std::array<int, 3> reflected_counts = {3, 5, 12};
 
 /// The coarsest level that is exact for a world, or else the finest.
 struct NeededLevel {

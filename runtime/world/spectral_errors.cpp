@@ -68,7 +68,7 @@ const std::vector<Field>& chart()
 
 SpectralErrors chart_errors(SpectralLevel level, ChartFields fields)
 {
-    const SpectralBasis basis = spectral_basis(reflected_numbers[std::size_t(level)], {});
+    const SpectralBasis basis = spectral_basis(reflected_counts[std::size_t(level)], {});
     const Response response = response_of(basis, eye());
     const glm::dmat3 xyz_from_shown = glm::inverse(eye().rec709);
     const Spectrum sun = sunlit_white();
@@ -76,11 +76,11 @@ SpectralErrors chart_errors(SpectralLevel level, ChartFields fields)
     std::vector<double> all;
     for (const Field& field : chart())
         if (field.features.empty() == (fields == ChartFields::greys)) {
-            const std::vector<double> numbers = lit(basis, {}, field);
+            const std::vector<double> coefficients = lit(basis, {}, field);
             for (int step = -24; step <= 24; ++step) {
                 const double D = std::exp2(step / 8.0 + (step < 0 ? 1 : -1) / 256.0); // between two rows of the table
                 const glm::dvec3 truth = seen_xyz([&](double nm) { return sun(nm) * field(nm); }, D),
-                                 approximated = xyz_from_shown * seen(response, numbers, D);
+                                 approximated = xyz_from_shown * seen(response, coefficients, D);
                 all.push_back(approximated.y > 0 ? difference(truth, approximated) : 100);
                 errors.luminance = std::max(errors.luminance, std::abs(approximated.y / truth.y - 1));
             }

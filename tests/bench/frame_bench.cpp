@@ -25,11 +25,11 @@ const Quality quality{.texels_per_pixel = 0.8, .max_texels_per_pixel = 1, .image
 void plan(benchmark::State& state, const Projection& projection, glm::ivec2 size)
 {
     const CompiledView view = testing::view_of(projection, size);
-    const std::vector<RestFrameRequest> layers{looking(view, double(state.range(0)))};
+    const std::vector<RestFrameRequest> requests{looking(view, double(state.range(0)))};
     PlanScratch room;
     CubeMapPlan plan;
     for (auto _ : state)
-        plan = plan_cube_map(layers, quality, room, std::move(plan));
+        plan = plan_cube_map(requests, quality, room, std::move(plan));
     state.counters["images"] = double(plan.images.size());
     state.counters["texels a pixel"] = plan.texels / plan.pixels;
 }

@@ -15,9 +15,9 @@ namespace {
 glm::dvec2 chromaticity(const glm::dvec3& xyz) { return glm::dvec2(xyz) / (xyz.x + xyz.y + xyz.z); }
 
 /// Converts the displayed colour back to XYZ.
-glm::dvec3 xyz_of_coefficients(const Response& response, std::span<const double> numbers, double D)
+glm::dvec3 xyz_of_coefficients(const Response& response, std::span<const double> coefficients, double D)
 {
-    return glm::inverse(eye().rec709) * seen(response, numbers, D);
+    return glm::inverse(eye().rec709) * seen(response, coefficients, D);
 }
 
 } // namespace
@@ -81,14 +81,14 @@ TEST(SpectrumTest, CoefficientsRepresentBlackBodiesAndGreys)
     for (std::size_t i = 0; i < kelvins.size(); ++i)
         for (int step = -34; step <= 34; ++step) { // D from 1/20 to 20
             const double D = std::exp2(step * std::log2(20.0) / 34);
-            std::vector<double> numbers(std::size_t(basis.size()), 0.0);
-            numbers[std::size_t(basis.reflected) + i] = 1;
-            const glm::dvec3 shown = xyz_of_coefficients(response, numbers, D), truth = seen_xyz(black_body(kelvins[i]), D);
+            std::vector<double> coefficients(std::size_t(basis.size()), 0.0);
+            coefficients[std::size_t(basis.reflected) + i] = 1;
+            const glm::dvec3 shown = xyz_of_coefficients(response, coefficients, D), truth = seen_xyz(black_body(kelvins[i]), D);
             EXPECT_LT(glm::distance(chromaticity(shown), chromaticity(truth)), 0.002) << kelvins[i] << " K at " << D;
         }
     for (SpectralLevel level : {SpectralLevel::colours, SpectralLevel::middle, SpectralLevel::fine}) {
         const SpectralErrors greys = chart_errors(level, ChartFields::greys);
-        std::printf("  greys, %2d numbers: CIEDE2000 worst %.4f, luminance %.4f %%\n", reflected_numbers[std::size_t(level)],
+        std::printf("  greys, %2d coefficients: CIEDE2000 worst %.4f, luminance %.4f %%\n", reflected_counts[std::size_t(level)],
             greys.worst, 100 * greys.luminance);
         EXPECT_LT(greys.worst, 0.05); // fp16 has eleven bits
         EXPECT_LT(greys.luminance, 1e-3);
@@ -99,8 +99,8 @@ TEST(SpectrumTest, CoefficientsRepresentAColourChart)
 {
     for (SpectralLevel level : {SpectralLevel::colours, SpectralLevel::middle, SpectralLevel::fine}) {
         const SpectralErrors errors = chart_errors(level, ChartFields::colours);
-        std::printf("  chart, %2d numbers: CIEDE2000 median %.2f, worst %.2f, luminance %.2f %%\n",
-            reflected_numbers[std::size_t(level)], errors.median, errors.worst, 100 * errors.luminance);
+        std::printf("  chart, %2d coefficients: CIEDE2000 median %.2f, worst %.2f, luminance %.2f %%\n",
+            reflected_counts[std::size_t(level)], errors.median, errors.worst, 100 * errors.luminance);
         if (level == SpectralLevel::fine) {
             EXPECT_LT(errors.median, 1);
             EXPECT_LT(errors.worst, 3);
@@ -179,8 +179,8 @@ TEST(SpectrumTest, FalseColoursShowTheInfraredAndTheUltraviolet)
     // heat.
     const StandardObserver& all = false_colours();
     EXPECT_LT(glm::distance(seen(all, sunlit_white(), 1), glm::dvec3(1)), 1e-9);
-    for (int numbers : {3, 12}) {
-        const SpectralBasis basis = spectral_basis(numbers, std::array{EmissionSpectrum{BlackBody{288}}});
+    for (int count : {3, 12}) {
+        const SpectralBasis basis = spectral_basis(count, std::array{EmissionSpectrum{BlackBody{288}}});
         const Response response = response_of(basis, all);
         EXPECT_LT(glm::distance(seen(response, lit(basis, {}, [](double) { return 1; }), 1), glm::dvec3(1)), 2e-3);
         std::vector<double> room(std::size_t(basis.size()), 0.0);

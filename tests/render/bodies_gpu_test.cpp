@@ -70,7 +70,7 @@ TEST(BodiesGpuTest, EveryRayMeetsWhatIsNearest)
                 const Plate& p = plates.back();
                 const int material = unlit(doc, colour);
                 doc.json["materials"][std::size_t(material)]["doubleSided"] = true;
-                quad(doc, p.centre, p.right, p.up, material, {{"name", "b" + std::to_string(body)}});
+                quad(doc, p.centre, p.right, p.up, material, {{"name", std::string(1, 'b') + std::to_string(body)}});
             }
         const GpuWorld world = open_world("rays", doc, {{"bodies", bodies}});
         Shot shot = shot_at(random_way(random) * 0.5, random_way(random) * (round == 0 ? 0.0 : 3 * part(random)),

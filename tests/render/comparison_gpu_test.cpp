@@ -114,11 +114,12 @@ TEST(ComparisonTest, WithoutLightDelayClocksShowTheShipsPresent)
     Shot shot = compared({u_of_beta(0.5), 0, 0}, Comparison::no_light_delay);
     shot.time = 100, shot.position = {1, 0, 31};
     const Observer who = observer_of(world, shot, {});
-    const RestFrameView& layer = who.layers[0];
+    const RestFrameView& rest_frame = who.rest_frames[0];
     EXPECT_EQ(who.E, 1);
-    EXPECT_NEAR(layer.contraction, std::sqrt(0.75), 1e-15);
-    const auto entries = time_entries(
-        world, {0, shot.position, shot.time, layer.motion_from_frame, layer.now, layer.contraction, layer.beta}, 1);
+    EXPECT_NEAR(rest_frame.contraction, std::sqrt(0.75), 1e-15);
+    const auto entries = time_entries(world,
+        {0, shot.position, shot.time, rest_frame.motion_from_frame, rest_frame.now, rest_frame.contraction, rest_frame.beta},
+        1);
     ASSERT_EQ(entries.size(), 5u);
     // The times are simultaneous on board: each clock is five light-seconds further ahead, and so 2.5 s later in the world.
     for (int i = 0; i < 5; ++i)

@@ -1,4 +1,4 @@
-// Light as numbers through the cube map and the warp pass, compared with sums over every nanometre: black bodies, pigments,
+// Light as coefficients through the cube map and the warp pass, compared with sums over every nanometre: black bodies, pigments,
 // lines, infrared and ultraviolet.
 #include "runtime/light/colour_difference.h"
 #include "runtime/light/spectrum.h"

@@ -16,8 +16,8 @@ std::array<std::array<double, 2>, 3> bench_spectra(RenderContext& context, const
 
     std::vector<GpuWorld> worlds;
     std::deque<OffscreenRenderer> renderers; // which never moves them
-    worlds.reserve(reflected_numbers.size());
-    for (std::size_t level = 0; level < reflected_numbers.size(); ++level) {
+    worlds.reserve(reflected_counts.size());
+    for (std::size_t level = 0; level < reflected_counts.size(); ++level) {
         World world = load_world(context.world.scene.gltf);
         add_detail_levels(world);
         worlds.push_back(upload(device, context.pipelines, std::move(world), context.world.scene, {}, SpectralLevel(level)));
@@ -48,7 +48,7 @@ std::array<std::array<double, 2>, 3> bench_spectra(RenderContext& context, const
         }
         const SpectralErrors errors = chart_errors(SpectralLevel(level), ChartFields::colours);
         std::printf("%-9s%3d   %11.2f%10.2f%10.2f%10.2f%14.2f%8.2f%10.1f %%\n", spectral_level_names[level],
-            reflected_numbers[level], ms[0], ratios[level][0], ms[1], ratios[level][1], errors.median, errors.worst,
+            reflected_counts[level], ms[0], ratios[level][0], ms[1], ratios[level][1], errors.median, errors.worst,
             100 * errors.luminance);
     }
     std::printf("%s\n", describe(needed_level(context.world.world, context.world.scene)).c_str());

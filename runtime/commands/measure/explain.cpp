@@ -83,12 +83,12 @@ void PartList::add_light()
 {
     const SceneFile& scene = made.scene;
     const NeededLevel needed = needed_level(context.world.world, scene);
-    const int numbers = reflected_numbers[std::size_t(context.world.spectra.level)];
-    add("light in more than 3 numbers", numbers > 3, std::to_string(numbers) + ": " + describe(needed), describe(needed),
+    const int coefficients = reflected_counts[std::size_t(context.world.spectra.level)];
+    add("light in more than 3 coefficients", coefficients > 3, std::to_string(coefficients) + ": " + describe(needed), describe(needed),
         [](Made& m) { m.quality.spectra = m.quality.spectra ? std::nullopt : std::optional(SpectralLevel::colours); });
     add("emissions of the scene's own", !context.world.spectra.basis.own.empty(),
         count(context.world.spectra.basis.own.size(), "lamp, glow or line", "lamps, glows or lines")
-            + " each a number by itself",
+            + " each a coefficient of its own",
         "the scene has no lamp, glow or line but sunlit colours", {});
     add("stars", context.world.star_count > 0, count(context.world.star_count, "star", "stars") + " in the scene's sky",
         "the scene names no catalogue", [](Made& m) { m.stars.clear(), m.scene.stars.reset(); });
