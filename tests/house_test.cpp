@@ -8,6 +8,8 @@
 #include <regex>
 #include <set>
 
+namespace house_test {
+
 using namespace starbow::testing;
 namespace fs = std::filesystem;
 
@@ -300,3 +302,5 @@ TEST(House, PlantedFaultsAreFound)
         both.push_back(one);
     EXPECT_EQ(lines(cycle(both)), "low/a.h\nlow/b.h\nlow/a.h\n");
 }
+
+} // namespace house_test

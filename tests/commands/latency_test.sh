@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures the time from a device's report to the present call that shows it, in a real window under Xvfb, with a simulated
-# device.
+# device. It bears any load under which a frame takes at most half a second: its bounds are this machine's own frame times.
 # Usage: latency_test.sh PROGRAM RIG_FOLDER
 set -u
 program=$1 built=$2 rig=$(dirname "$0")/../rig hid=$(dirname "$0")/../hid

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# starbow measure as a builder uses it: a chart and a table, a budget, the cost of a scene's parts, and the extremes.
+# starbow measure as a builder uses it: a chart and a table, a budget, the cost of a scene's parts, and the extremes. It bears
+# any load that is even over some seconds: settings take turns, and the program allows a margin for noise.
 # measure_test.sh STARBOW
 set -u
 starbow=$1

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # The exhibit on four monitors without hardware. Each output shows its picture on the monitor that it names, even when monitors
 # are unplugged or moved, windows minimised, or the layout edited. Needs root, as Xorg does.
+# It bears any load under which a frame takes at most a second: it waits for
+# pictures and lines of the log. Only an edited layout must be applied within 3 s.
 # Usage: screens_test.sh PROGRAM FOLDER-OF-THE-RIG
 set -u
 program=$1 tools=$2 rig=$(dirname "$0")/../rig

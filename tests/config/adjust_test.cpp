@@ -6,6 +6,8 @@
 #include <set>
 #include <unistd.h>
 
+namespace adjust_test {
+
 using namespace starbow;
 
 namespace {
@@ -108,3 +110,5 @@ TEST(Adjust, AdjustmentsOutlastAReload)
     EXPECT_NO_THROW(turned_again(other, kept, turned));
     EXPECT_NO_THROW(changes(other, turned));
 }
+
+} // namespace adjust_test

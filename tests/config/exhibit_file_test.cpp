@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+namespace exhibit_file_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 using nlohmann::json;
@@ -143,3 +145,5 @@ TEST(ExhibitFileTest, ATourIsANameOrAPath)
     EXPECT_EQ(load_exhibit(file).language, (folder / "own/fr.json").string());
     EXPECT_EQ(load_exhibit(write_text("exhibit.json", R"({ "tour": "rainbow" })")).tour, "rainbow");
 }
+
+} // namespace exhibit_file_test

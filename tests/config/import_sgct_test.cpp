@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
+namespace import_sgct_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 using Json = nlohmann::ordered_json;
@@ -299,3 +301,5 @@ TEST(ImportSgctTest, MutatedConfigurationsAreReadOrRefused)
     expect_survives(
         [](const std::filesystem::path& file) { import_sgct(read_document(file), 0, "from"); }, seeds, fuzz_count() / 10);
 }
+
+} // namespace import_sgct_test

@@ -2,6 +2,8 @@
 #include "config/model/layout.h"
 #include "tests/support/files.h"
 
+namespace layout_members_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -626,3 +628,5 @@ TEST(LayoutMembersTest, MutatedTablesLoadOrAreRefused)
     }
     EXPECT_GT(loaded, 0);
 }
+
+} // namespace layout_members_test

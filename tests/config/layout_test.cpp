@@ -1,6 +1,8 @@
 #include "config/model/layout.h"
 #include "tests/support/files.h"
 
+namespace layout_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -210,3 +212,5 @@ TEST(LayoutTest, MutatedLayoutsLoadOrAreRefused)
         seeds.push_back(read_text(file));
     expect_survives(load_layout, seeds);
 }
+
+} // namespace layout_test

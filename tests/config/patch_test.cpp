@@ -2,6 +2,8 @@
 #include "tests/support/files.h"
 #include <sys/stat.h>
 
+namespace patch_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 using nlohmann::json;
@@ -185,3 +187,5 @@ TEST(PatchTest, FilesAreReplacedInOneStep)
     for (const auto& entry : std::filesystem::directory_iterator(file.parent_path()))
         EXPECT_EQ(entry.path().filename().string().find("patch.json."), std::string::npos) << entry.path();
 }
+
+} // namespace patch_test

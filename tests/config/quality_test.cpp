@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+namespace quality_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 using nlohmann::json;
@@ -138,3 +140,5 @@ TEST(QualityTest, AQualityReplacesTheStereoMethodUnlessTheBaselineTurns)
     layout.stereo.turning = true;
     EXPECT_EQ(with_stereo(layout, {.stereo = StereoMethod::shared}).stereo.method, StereoMethod::reprojected);
 }
+
+} // namespace quality_test

@@ -1,6 +1,8 @@
 #include "config/json/reader.h"
 #include "tests/support/files.h"
 
+namespace reader_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -215,3 +217,5 @@ TEST(ReaderTest, MutatedFilesAreReadOrRefused)
     expect_survives([](const auto& file) { read_document(file); },
         {"{ \"a\": [1, 2.5, -3e5], \"b\": { \"c\": \"text\", \"d\": null }, // comment\n \"e\": true }", "[[[[]]]]"});
 }
+
+} // namespace reader_test

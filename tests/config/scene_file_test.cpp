@@ -1,6 +1,8 @@
 #include "config/model/scene_file.h"
 #include "tests/support/files.h"
 
+namespace scene_file_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -175,3 +177,5 @@ TEST(SceneFileTest, WrongScenesAreRefused)
 }
 
 TEST(SceneFileTest, MutatedScenesLoadOrAreRefused) { expect_survives(load_scene_file, {whole}); }
+
+} // namespace scene_file_test

@@ -7,6 +7,8 @@
 #include <regex>
 #include <set>
 
+namespace schema_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 using nlohmann::json;
@@ -339,3 +341,5 @@ TEST(SchemaTest, BothRefuseInvalidLayouts)
         EXPECT_FALSE(schema_accepts(parsed(text)));
     }
 }
+
+} // namespace schema_test

@@ -2,6 +2,8 @@
 #include "tests/support/files.h"
 #include <cmath>
 
+namespace shot_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -168,3 +170,5 @@ TEST(ShotTest, MutatedShotsLoadOrAreRefused)
     };
     expect_survives(load, seeds);
 }
+
+} // namespace shot_test

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+namespace tour_file_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 using nlohmann::json;
@@ -186,10 +188,12 @@ TEST(TourFile, WrongToursAreRefusedByReaderAndSchema)
             {with(R"("caption": "hello")"), "/steps/1/caption: \"hello\" is no text in en.json"},
             {with(R"("caption": {})"), "/steps/1/caption: {} is no text"},
             {with(R"("measure": { "quantity": "weight" })"), "/steps/1/measure/quantity: \"weight\" is not known here"},
-            {with(R"("measure": { "what": "gamma" })"), "/steps/1/measure/what: \"gamma\" stands under a name of older files"},
+            {with(R"("measure": { "what": "gamma" })"),
+                "/steps/1/measure/what: \"gamma\" stands under a name of older files"},
             {with(R"("measure": { "quantity": "gamma", "against": [0, 0, 0] })"), "\"relative_to\" is its name now"},
             {with(R"("measure": { "quantity": "size" })"), "/steps/1/measure: {\"quantity\":\"size\"} lacks \"at\""},
-            {with(R"("measure": { "quantity": "gamma", "at": [0, 0, 0] })"), "/steps/1/measure/at: [0,0,0] is a place too many"},
+            {with(R"("measure": { "quantity": "gamma", "at": [0, 0, 0] })"),
+                "/steps/1/measure/at: [0,0,0] is a place too many"},
             {with(R"("cut": "start", "thrust": { "rapidity_per_s": 1 })"), "/steps/1/thrust: "},
             {with(R"("thrust": { "rapidity_per_s": 0 })"), "/steps/1/thrust/rapidity_per_s: 0 is too small"},
             {with(R"("turn": {})"), "/steps/1/turn: {} lacks \"look\""},
@@ -197,9 +201,11 @@ TEST(TourFile, WrongToursAreRefusedByReaderAndSchema)
             {with(R"("glide": { "effects": {} })"), "/steps/1/glide/effects"},
             {with(R"("ease_s": 1)"), "/steps/1/ease_s: 1 is not a list"},
             {with(R"("exposure_ev": 61)"), "/steps/1/exposure_ev: 61 is too large"},
-            {with(R"("question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "quantity": "gamma" } })"),
+            {with(
+                 R"("question": { "ask": { "en": "?" }, "explanation": { "en": "!" }, "measure": { "quantity": "gamma" } })"),
                 "needs one way to answer"},
-            {with(R"("question": { "explanation": { "en": "!" }, "measure": { "quantity": "gamma" } })"), "lacks \"ask\""}}) {
+            {with(R"("question": { "explanation": { "en": "!" }, "measure": { "quantity": "gamma" } })"),
+                "lacks \"ask\""}}) {
         EXPECT_NE(message_for(text).find(problem), std::string::npos) << message_for(text);
         EXPECT_FALSE(schema_accepts(json::parse(text))) << text;
     }
@@ -223,3 +229,5 @@ TEST(TourFile, WrongToursAreRefusedByReaderAndSchema)
                 "/choices/0: "}})
         EXPECT_NE(message_for(text).find(problem), std::string::npos) << message_for(text);
 }
+
+} // namespace tour_file_test

@@ -7,6 +7,8 @@
 #include <regex>
 #include <set>
 
+namespace words_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 using nlohmann::json;
@@ -104,3 +106,5 @@ TEST(Words, PlaceholdersAreFilled)
     EXPECT_EQ(words("de").number("-3.25"), "-3,25");
     EXPECT_EQ(words()("tutorial.stop_button", {{"button", "7"}}), "Press button 7: full stop");
 }
+
+} // namespace words_test

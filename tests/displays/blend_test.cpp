@@ -7,6 +7,8 @@
 #include <functional>
 #include <optional>
 
+namespace blend_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -197,7 +199,7 @@ struct Sum {
 /// ramps are r pixels long, and linear interpolation cuts a kink by up to 1 / (4 r).
 constexpr int crossing_reach = 32;
 
-Sum light_of(const Rig& rig, int count = 200000)
+Sum light_of(const Rig& rig, int count = all_cases() ? 200000 : 60000)
 {
     const Weights weights(rig.layout);
     std::mt19937 random(1977);
@@ -390,3 +392,5 @@ TEST(BlendTest, EyesAndMasksAreNotBlended)
     for (const auto& ramp : blend_ramps(layout, views, 1))
         EXPECT_TRUE(ramp.empty());
 }
+
+} // namespace blend_test

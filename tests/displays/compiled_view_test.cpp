@@ -3,6 +3,8 @@
 #include "tests/support/files.h"
 #include <chrono>
 
+namespace compiled_view_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -240,3 +242,5 @@ TEST(CompiledTest, ADomeOf4096PixelsIsCompiledInSeconds)
     EXPECT_LT(seconds(began, done), 10);
 #endif
 }
+
+} // namespace compiled_view_test

@@ -6,6 +6,8 @@
 #include <functional>
 #include <random>
 
+namespace cone_hierarchy_test {
+
 using namespace starbow;
 
 namespace {
@@ -210,3 +212,5 @@ TEST(ConeHierarchyTest, BoxesEncloseThePixelsOfAPyramid)
             }
     }
 }
+
+} // namespace cone_hierarchy_test

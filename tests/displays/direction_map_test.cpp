@@ -2,6 +2,8 @@
 #include <bit>
 #include <gtest/gtest.h>
 
+namespace direction_map_test {
+
 using namespace starbow;
 
 namespace {
@@ -88,3 +90,5 @@ TEST(DirectionMapTest, PackedTexelsKeepTheirDirectionAndAngle)
     EXPECT_LE(worst, std::sqrt(18.0) / 2 / 8388607);
     EXPECT_EQ(all.back(), glm::uvec2(0));
 }
+
+} // namespace direction_map_test

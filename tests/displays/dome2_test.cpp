@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+namespace dome2_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -166,3 +168,5 @@ TEST(Dome2Test, TheLayoutDescribesTheMeshesDomemaster)
         EXPECT_EQ(fisheye.mapping, FisheyeMapping::equidistant);
     }
 }
+
+} // namespace dome2_test

@@ -1,6 +1,8 @@
 #include "displays/projections/picture.h"
 #include "tests/support/sphere.h"
 
+namespace fisheye_test {
+
 using namespace starbow;
 using namespace sphere;
 
@@ -175,3 +177,5 @@ TEST(FisheyeTest, TheWholeSpheresRimPixelsHaveAnAngle)
     for (double x : {0.0, 0.25, 0.5, 1.0})
         EXPECT_GT(pixel_angle(sphere, {x, 256}), 1e-5);
 }
+
+} // namespace fisheye_test

@@ -1,6 +1,8 @@
 #include "displays/projections/picture.h"
 #include "tests/support/sphere.h"
 
+namespace flat_picture_test {
+
 using namespace starbow;
 using namespace sphere;
 
@@ -106,3 +108,5 @@ TEST(FlatPictureTest, AWallShowsNothingFromBehind)
     EXPECT_NEAR(sum, 2 * pi - 4 * std::sqrt(2.) / 1000, 1e-5);
     EXPECT_FALSE(direction(Picture{Wall{{0, 0, -1}, {1, 0, -1}, {2, 0, -1}}, {100, 100}}, {1, 1})); // a line is no wall
 }
+
+} // namespace flat_picture_test

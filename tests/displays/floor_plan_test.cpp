@@ -5,6 +5,8 @@
 #include <cstring>
 #include <pugixml.hpp>
 
+namespace floor_plan_test {
+
 using namespace starbow;
 using namespace sphere;
 
@@ -351,3 +353,5 @@ TEST(PlanDrawingTest, NamesAreEscaped)
     const Layout empty;
     EXPECT_TRUE(parsed(empty).child("svg")); // a layout without outputs gives a page too
 }
+
+} // namespace floor_plan_test

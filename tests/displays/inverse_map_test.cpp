@@ -4,6 +4,8 @@
 #include "tests/support/view.h"
 #include <cmath>
 
+namespace inverse_map_test {
+
 using namespace starbow;
 
 namespace {
@@ -66,3 +68,5 @@ TEST(InverseMapTest, CellsOutsideThePictureAreEmpty)
     EXPECT_GT(empty, int(0.35 * double(inverse.cells.size())));
     EXPECT_LT(empty, int(0.5 * double(inverse.cells.size())));
 }
+
+} // namespace inverse_map_test

@@ -1,6 +1,8 @@
 #include "displays/projections/picture.h"
 #include "tests/support/sphere.h"
 
+namespace lens_test {
+
 using namespace starbow;
 using namespace sphere;
 
@@ -109,3 +111,5 @@ TEST(LensTest, NothingIsShownBeyondAFold)
     EXPECT_FALSE(direction(lens(Lens::Form::vive, {0, 0, 0, -1.5}), {600, 500}));
     EXPECT_FALSE(pixel(lens(Lens::Form::vive, {0, 0, 0, -1.5}), {0, 0, -1}));
 }
+
+} // namespace lens_test

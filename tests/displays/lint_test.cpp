@@ -3,6 +3,8 @@
 #include "tests/support/files.h"
 #include <gtest/gtest.h>
 
+namespace lint_test {
+
 using namespace starbow;
 
 namespace {
@@ -64,3 +66,5 @@ TEST(LintTest, WrongUnitsPixelsAndOverlapsGiveWarnings)
     high.hud.elevation_deg = 60;
     EXPECT_EQ(warnings(high), "");
 }
+
+} // namespace lint_test

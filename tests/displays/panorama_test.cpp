@@ -1,6 +1,8 @@
 #include "displays/projections/picture.h"
 #include "tests/support/sphere.h"
 
+namespace panorama_test {
+
 using namespace starbow;
 using namespace sphere;
 
@@ -108,3 +110,5 @@ TEST(PanoramaTest, ACrossIsContinuousAcrossSharedEdges)
         {glm::dvec2(150, -0.01), glm::dvec2(150, 300.01), glm::dvec2(-0.01, 150), glm::dvec2(400.01, 150)})
         EXPECT_FALSE(cross.direction(p)) << p.x << " " << p.y;
 }
+
+} // namespace panorama_test

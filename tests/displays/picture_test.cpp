@@ -2,6 +2,8 @@
 #include "tests/support/sphere.h"
 #include <functional>
 
+namespace picture_test {
+
 using namespace starbow;
 using namespace sphere;
 
@@ -314,3 +316,5 @@ TEST(PictureTest, WholeSpheresAddUpToTheSky)
         EXPECT_NEAR(sum / (4 * pi), 1, tolerance);
     }
 }
+
+} // namespace picture_test

@@ -2,6 +2,8 @@
 #include "displays/finish/shade.h"
 #include "tests/support/warp_fixture.h"
 
+namespace shade_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -151,3 +153,5 @@ TEST(ShadeTest, WrongPicturesAreNamed)
     layout.outputs[0].viewports[0].alpha_mask = write_text("torn.png", torn.substr(0, 60));
     EXPECT_NE(complaint([&] { shade(layout); }).find("torn.png"), std::string::npos);
 }
+
+} // namespace shade_test

@@ -1,6 +1,8 @@
 #include "displays/projections/picture.h"
 #include "tests/support/sphere.h"
 
+namespace spherical_mirror_test {
+
 using namespace starbow;
 using namespace sphere;
 
@@ -157,3 +159,5 @@ TEST(SphericalMirrorTest, NothingIsShownBeyondTheDome)
     EXPECT_FALSE(rim(360, 0).direction({500, 500}));
     EXPECT_FALSE(rim(360, 0).pixel({0, 0, 1}));
 }
+
+} // namespace spherical_mirror_test

@@ -1,7 +1,7 @@
 #include "tests/support/warp_fixture.h"
 #include <limits>
 
-namespace starbow::warp_test {
+namespace starbow::warp_test::warp_damage_test {
 namespace {
 
 std::string with(std::string text, const std::string& old, const std::string& replacement)
@@ -300,4 +300,4 @@ TEST(WarpDamageTest, UnreadableFilesAreNamed)
 }
 
 } // namespace
-} // namespace starbow::warp_test
+} // namespace starbow::warp_test::warp_damage_test

@@ -2,7 +2,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 
-namespace starbow::warp_test {
+namespace starbow::warp_test::warp_formats_test {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -342,4 +342,4 @@ TEST(WarpFormatsTest, TheContentDecidesTheFormat)
 }
 
 } // namespace
-} // namespace starbow::warp_test
+} // namespace starbow::warp_test::warp_formats_test

@@ -10,7 +10,7 @@ extern "C" int __sanitizer_install_malloc_and_free_hooks(
     void (*)(const volatile void*, std::size_t), void (*)(const volatile void*));
 #endif
 
-namespace starbow::warp_test {
+namespace starbow::warp_test::warp_fuzz_test {
 namespace {
 
 constexpr std::size_t mib = std::size_t(1) << 20;
@@ -273,4 +273,4 @@ TEST(WarpFuzzTest, AnnouncedSizesAllocateLittle)
 }
 
 } // namespace
-} // namespace starbow::warp_test
+} // namespace starbow::warp_test::warp_fuzz_test

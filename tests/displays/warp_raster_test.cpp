@@ -2,7 +2,7 @@
 #include <chrono>
 #include <random>
 
-namespace starbow::warp_test {
+namespace starbow::warp_test::warp_raster_test {
 namespace {
 
 using Wide = long double;
@@ -195,4 +195,4 @@ TEST(WarpRasterTest, ALargePictureIsFast)
 }
 
 } // namespace
-} // namespace starbow::warp_test
+} // namespace starbow::warp_test::warp_raster_test

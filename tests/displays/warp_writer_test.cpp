@@ -1,7 +1,7 @@
 #include "tests/support/warp_fixture.h"
 #include <limits>
 
-namespace starbow::warp_test {
+namespace starbow::warp_test::warp_writer_test {
 namespace {
 
 /// Compares two meshes in their used vertices. A hole's numbers have no meaning.
@@ -178,4 +178,4 @@ TEST(WarpWriterTest, PortraitShowsHolesBlack)
 }
 
 } // namespace
-} // namespace starbow::warp_test
+} // namespace starbow::warp_test::warp_writer_test

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
+namespace flight_test {
+
 using namespace starbow;
 using glm::dvec3;
 using starbow::testing::controls_with;
@@ -60,10 +62,10 @@ Controls some_controls(std::mt19937& random)
     return controls;
 }
 
+} // namespace
+
 class Modes : public ::testing::TestWithParam<FlightMode> { };
 INSTANTIATE_TEST_SUITE_P(Flight, Modes, ::testing::Values(FlightMode::guided, FlightMode::free, FlightMode::newtonian));
-
-} // namespace
 
 // For a minute the hand moves ten times a second, at 10, 60 and 1000 frames a second.
 TEST_P(Modes, FlyTheSameAtAnyFrameRate)
@@ -397,3 +399,5 @@ TEST(Flight, LongFlightsAtTheLimitStayFinite)
         }
     }
 }
+
+} // namespace flight_test

@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
+namespace record_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -448,3 +450,5 @@ TEST(Record, IsReplayedAtItsOwnPace)
     EXPECT_LT(took, 5);
     EXPECT_EQ(entry.controls.time_ns, 3 * 3'600'030'000'000);
 }
+
+} // namespace record_test

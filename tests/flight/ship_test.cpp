@@ -12,6 +12,8 @@
 #include <random>
 #include <vector>
 
+namespace ship_test {
+
 namespace {
 
 using glm::dquat;
@@ -466,3 +468,5 @@ TEST(Fly, TheQuaternionStaysNormalized)
 }
 
 } // namespace
+
+} // namespace ship_test

@@ -15,6 +15,8 @@
 #include <gtest/gtest.h>
 #include <set>
 
+namespace tour_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -560,3 +562,5 @@ TEST(Captions, WrapAtSpaces)
     EXPECT_EQ(wrapped("incomprehensible it is", 6, letters), (std::vector<std::string>{"incomprehensible", "it is"}));
     EXPECT_EQ(wrapped("", 6, letters), (std::vector<std::string>{""}));
 }
+
+} // namespace tour_test

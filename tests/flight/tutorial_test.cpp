@@ -5,6 +5,8 @@
 #include "tests/support/files.h"
 #include <gtest/gtest.h>
 
+namespace tutorial_test {
+
 using namespace starbow;
 using starbow::testing::controls_with;
 
@@ -74,3 +76,5 @@ TEST(TutorialTest, PromptsNameTheDevicesControls)
     EXPECT_EQ(prompt(tutorial, {.stick = true, .stop_button = 3}, starbow::testing::words()), "Press button 3: full stop");
     EXPECT_EQ(prompt(tutorial, {}, starbow::testing::words()), "Space: full stop");
 }
+
+} // namespace tutorial_test

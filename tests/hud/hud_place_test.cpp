@@ -3,6 +3,8 @@
 #include "runtime/hud/hud_place.h"
 #include <gtest/gtest.h>
 
+namespace hud_place_test {
+
 using namespace starbow;
 using glm::dvec3;
 
@@ -81,3 +83,5 @@ TEST(HudPlaceTest, ElsewhereItFacesTheVisitor)
         EXPECT_GT(panel_point(panel, towards(azimuth, elevation + 5)).y, 0);
     }
 }
+
+} // namespace hud_place_test

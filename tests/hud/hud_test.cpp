@@ -3,6 +3,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+namespace hud_test {
+
 using namespace starbow;
 
 namespace {
@@ -103,3 +105,5 @@ TEST(Hud, EachCombinationOfLightEffectsHasAName)
     all.effects = {.doppler = false, .false_colours = true};
     EXPECT_EQ(field(all, "light"), "false colours: infrared red, visible green, ultraviolet blue, unshifted");
 }
+
+} // namespace hud_test

@@ -17,6 +17,8 @@
 #include <regex>
 #include <sstream>
 
+namespace instruments_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 using glm::dvec3;
@@ -438,3 +440,5 @@ TEST(Instruments, ThePanelDoesNotCoverTheDisplay)
                 EXPECT_EQ(place.width_deg, width);
             }
 }
+
+} // namespace instruments_test

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <set>
 
+namespace accuracy_test {
+
 using namespace starbow;
 
 namespace {
@@ -101,3 +103,5 @@ TEST(AccuracyTest, PageAndTableHoldEverySetting)
     const auto columns = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
     EXPECT_EQ(columns(csv.substr(0, csv.find('\n'))), columns(csv.substr(csv.rfind("\"other light\""))));
 }
+
+} // namespace accuracy_test

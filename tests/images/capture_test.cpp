@@ -7,6 +7,8 @@
 #include <stb/stb_image.h>
 #include <sys/resource.h>
 
+namespace capture_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -203,3 +205,5 @@ TEST(CaptureTest, MutatedExrFilesAreReadOrRefused)
     EXPECT_GT(loaded, 0);
     EXPECT_GT(refused, 0);
 }
+
+} // namespace capture_test

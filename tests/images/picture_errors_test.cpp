@@ -3,6 +3,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+namespace picture_errors_test {
+
 using namespace starbow;
 
 namespace {
@@ -145,3 +147,5 @@ TEST(PictureErrorsTest, QuantilesInterpolateBetweenNeighbours)
     EXPECT_EQ(quantile({3, 1, 2}, 1), 3);
     EXPECT_EQ(quantile({}, 0.5), 0);
 }
+
+} // namespace picture_errors_test

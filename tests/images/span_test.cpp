@@ -2,6 +2,8 @@
 #include "tests/support/files.h"
 #include <functional>
 
+namespace span_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -41,10 +43,10 @@ void expect_slices_parse_back(const std::string& text)
 {
     SCOPED_TRACE(text.substr(0, 300));
     const Document d = parse_document("a.json", text);
-    // Each search takes time in proportion to the file, so only some values of a long one are checked, except with
-    // STARBOW_FUZZ_COUNT.
+    // Each search takes time in proportion to the file, so only some values of a long one are checked, unless all
+    // cases are wanted.
     std::size_t index = 0;
-    const std::size_t step = std::getenv("STARBOW_FUZZ_COUNT") ? 1 : 1 + text.size() / 4096;
+    const std::size_t step = all_cases() ? 1 : 1 + text.size() / 4096;
     each(root(d), [&](const Place& place) {
         if (index++ % step != 0)
             return;
@@ -179,3 +181,5 @@ TEST(SpanTest, SpansOfShippedAndMutatedFilesParseBack)
     }
     EXPECT_GT(parsed, 20);
 }
+
+} // namespace span_test

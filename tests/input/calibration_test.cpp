@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+namespace calibration_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 using Rest = AxisMeasure::Rest;
@@ -300,3 +302,5 @@ TEST(CalibrationTest, AnySamplesMakeAProfileThatLoads)
         EXPECT_EQ(load_profile(file).axes, profile.axes);
     }
 }
+
+} // namespace calibration_test

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
+namespace devices_test {
+
 using namespace starbow;
 
 namespace {
@@ -159,3 +161,5 @@ TEST(LeverTest, AnUnpluggedLeverIsNotReplacedByOneThatHasNotMoved)
     EXPECT_EQ(choice.place(std::array{moved, throttle}, 72), 1.0);
     EXPECT_FALSE(LeverChoice().place({}, 1));
 }
+
+} // namespace devices_test

@@ -10,6 +10,8 @@
 #include <thread>
 #include <unistd.h>
 
+namespace head_tracker_test {
+
 using namespace starbow;
 using namespace std::chrono_literals;
 using glm::dvec3;
@@ -136,3 +138,5 @@ TEST(HeadTrackerTest, APortInUseIsReported)
         EXPECT_NE(std::string(error.what()).find(std::to_string(tracker->tracking().port)), std::string::npos);
     }
 }
+
+} // namespace head_tracker_test

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+namespace profile_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 using nlohmann::json;
@@ -284,3 +286,5 @@ TEST(ProfileTest, AProfileThatCantBeWrittenLeavesTheOldOne)
     EXPECT_TRUE(std::filesystem::is_symlink(link));
     EXPECT_EQ(load_profile(file).name, "new");
 }
+
+} // namespace profile_test

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+namespace report_test {
+
 using namespace starbow;
 using nlohmann::json;
 using Bytes = std::vector<std::uint8_t>;
@@ -226,3 +228,5 @@ TEST(ReportFuzzTest, DamagedDescriptorsAndReportsDoNoHarm)
     std::printf("  %ld descriptors: %ld fields, %ld stopped early\n", count, fields, stopped);
     EXPECT_GT(stopped, count / 20);
 }
+
+} // namespace report_test

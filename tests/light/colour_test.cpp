@@ -6,6 +6,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+namespace colour_test {
+
 using namespace starbow;
 
 namespace {
@@ -98,3 +100,5 @@ TEST(Colour, BaseColoursShiftAsTheirReflectancesDo)
     EXPECT_GT(centre.g, centre.r);
     EXPECT_GT(centre.g / centre.b, 0.5);
 }
+
+} // namespace colour_test

@@ -20,6 +20,8 @@ using rvec3 = glm::vec3;
 } // namespace shader
 #undef FN
 
+namespace exposure_test {
+
 using namespace starbow;
 
 namespace {
@@ -307,3 +309,5 @@ TEST(ToneCurve, AnyLightStaysInRange)
     }
     EXPECT_NEAR(glm::length(shader::tone_map(glm::vec3(1e30f)) - glm::vec3(1)), 0, 1e-6);
 }
+
+} // namespace exposure_test

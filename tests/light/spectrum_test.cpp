@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <gtest/gtest.h>
 
+namespace spectrum_test {
+
 using namespace starbow;
 
 namespace {
@@ -83,13 +85,14 @@ TEST(SpectrumTest, CoefficientsRepresentBlackBodiesAndGreys)
             const double D = std::exp2(step * std::log2(20.0) / 34);
             std::vector<double> coefficients(std::size_t(basis.size()), 0.0);
             coefficients[std::size_t(basis.reflected) + i] = 1;
-            const glm::dvec3 shown = xyz_of_coefficients(response, coefficients, D), truth = seen_xyz(black_body(kelvins[i]), D);
+            const glm::dvec3 shown = xyz_of_coefficients(response, coefficients, D),
+                             truth = seen_xyz(black_body(kelvins[i]), D);
             EXPECT_LT(glm::distance(chromaticity(shown), chromaticity(truth)), 0.002) << kelvins[i] << " K at " << D;
         }
     for (SpectralLevel level : {SpectralLevel::colours, SpectralLevel::middle, SpectralLevel::fine}) {
         const SpectralErrors greys = chart_errors(level, ChartFields::greys);
-        std::printf("  greys, %2d coefficients: CIEDE2000 worst %.4f, luminance %.4f %%\n", reflected_counts[std::size_t(level)],
-            greys.worst, 100 * greys.luminance);
+        std::printf("  greys, %2d coefficients: CIEDE2000 worst %.4f, luminance %.4f %%\n",
+            reflected_counts[std::size_t(level)], greys.worst, 100 * greys.luminance);
         EXPECT_LT(greys.worst, 0.05); // fp16 has eleven bits
         EXPECT_LT(greys.luminance, 1e-3);
     }
@@ -201,3 +204,5 @@ TEST(SpectrumTest, FalseColoursShowTheInfraredAndTheUltraviolet)
     EXPECT_NEAR(leaf.b, 0.02, 0.01);
     EXPECT_LT(leaf.g, 0.2);
 }
+
+} // namespace spectrum_test

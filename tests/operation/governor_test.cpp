@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
+namespace governor_test {
+
 using namespace starbow;
 
 namespace {
@@ -109,3 +111,5 @@ TEST(GovernorTest, ALadderOfOneLevelNeverMoves)
     Governor governor(ladder_of_times({10}), 1000.0 / 60);
     EXPECT_EQ(fly(governor, 10, [](double now) { return now > 5 ? 9.0 : 0.1; }).moves, 0);
 }
+
+} // namespace governor_test

@@ -2,6 +2,8 @@
 #include "runtime/operation/latency.h"
 #include <gtest/gtest.h>
 
+namespace latency_stats_test {
+
 using namespace starbow;
 
 // The textbooks' example of nearest rank: 15, 20, 35, 40, 50.
@@ -45,3 +47,5 @@ TEST(Latency, AReportCountsInTheFrameThatFirstShowsIt)
     latency.add({.report_ns = 147 * ms + 1, .read_ns = 164 * ms, .handed_ns = 165 * ms, .shown_ns = 166 * ms});
     EXPECT_NEAR(latency.bound_ms().back(), 19, 1e-5);
 }
+
+} // namespace latency_stats_test

@@ -5,6 +5,8 @@
 #include <sys/stat.h>
 #include <thread>
 
+namespace log_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -136,3 +138,5 @@ TEST(Log, ThreadsDoNotMixTheirLines)
         EXPECT_TRUE(line.ends_with("info thread" + std::to_string(t) + ": " + std::string(80, line.back()))) << line;
     }
 }
+
+} // namespace log_test

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
+namespace monitors_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -237,3 +239,5 @@ TEST(FileWatch, ReportsASettledChangeOnce)
         EXPECT_FALSE(look());
     }
 }
+
+} // namespace monitors_test

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
+namespace trace_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 using nlohmann::json;
@@ -241,3 +243,5 @@ TEST(Trace, EndsAtItsLimitOfBytes)
     EXPECT_NE(messages.find("the trace ends here, the flight goes on"), std::string::npos);
     EXPECT_EQ(std::count(messages.begin(), messages.end(), '\n'), 1);
 }
+
+} // namespace trace_test

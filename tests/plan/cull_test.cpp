@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
+namespace cull_test {
+
 using namespace starbow;
 using starbow::testing::boxes;
 
@@ -184,3 +186,5 @@ TEST(Detail, KeepsManySmallTrianglesAsTheyAre)
     add_detail_levels(world);
     EXPECT_TRUE(world.primitives[0].coarser.empty());
 }
+
+} // namespace cull_test

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
+namespace star_cull_test {
+
 using namespace starbow;
 
 namespace {
@@ -87,3 +89,5 @@ TEST(StarCull, KeepsTheStarsInViewAndFewOthers)
             EXPECT_LT(runs.size(), 300u);
         }
 }
+
+} // namespace star_cull_test

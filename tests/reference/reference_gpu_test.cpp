@@ -4,6 +4,8 @@
 #include "runtime/reference/reference.h"
 #include "tests/support/gpu_environment.h"
 
+namespace reference_gpu_test {
+
 using namespace starbow;
 using namespace starbow::gpu_test;
 
@@ -151,3 +153,5 @@ TEST(LivePicture, ComesCloserToTheReferenceWithHigherQuality)
         EXPECT_GT(before, 37) << name;
     }
 }
+
+} // namespace reference_gpu_test

@@ -14,6 +14,8 @@
 #include "tests/support/speeds.h"
 #include <gtest/gtest.h>
 
+namespace reference_test {
+
 using namespace starbow;
 using glm::dvec2;
 using glm::dvec3;
@@ -383,3 +385,5 @@ TEST(Reference, ContinuesAnInterruptedPicture)
     plates.seen(other, layout, {.progress = [&](int, int) { ++rows; }, .kept = kept});
     EXPECT_EQ(rows, 32);
 }
+
+} // namespace reference_test

@@ -22,7 +22,7 @@ thread_local long* counted = nullptr; // not null while this thread's allocation
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
-namespace starbow::gpu_test {
+namespace starbow::gpu_test::allocation_gpu_test {
 namespace {
 
 template <class Work> long allocations(Work&& work)
@@ -77,4 +77,4 @@ TEST(Allocations, AFrameTakesNothingFromTheHeap)
 }
 
 } // namespace
-} // namespace starbow::gpu_test
+} // namespace starbow::gpu_test::allocation_gpu_test

@@ -4,7 +4,7 @@
 #include "tests/support/quad.h"
 #include "tests/support/small_world.h"
 
-namespace starbow::gpu_test {
+namespace starbow::gpu_test::animation_gpu_test {
 namespace {
 
 Json numbers_of(const dvec3& v) { return {v.x, v.y, v.z}; }
@@ -283,4 +283,4 @@ TEST(Animated, AWorldWithoutAnyHasNoneOfItsCode)
         EXPECT_FALSE(draw.moves);
 }
 
-} // namespace starbow::gpu_test
+} // namespace starbow::gpu_test::animation_gpu_test

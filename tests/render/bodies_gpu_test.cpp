@@ -6,7 +6,7 @@
 #include "tests/support/small_world.h"
 #include <random>
 
-namespace starbow::gpu_test {
+namespace starbow::gpu_test::bodies_gpu_test {
 namespace {
 
 dvec3 random_way(std::mt19937& random)
@@ -419,4 +419,4 @@ TEST(BodiesGpuTest, TwoObserversAtOneEventSeeTheirOwnPictures)
     }
 }
 
-} // namespace starbow::gpu_test
+} // namespace starbow::gpu_test::bodies_gpu_test

@@ -1,15 +1,15 @@
 // Clocks in the picture, read as a visitor reads them: from the hands' directions and the lit segments of the figures, by
 // pixels alone. A textbook's pinhole and boost give a pixel's direction; plane geometry gives its place on a dial.
 #include "config/model/angles.h"
-#include "tests/support/quad.h"
 #include "runtime/world/detail.h"
+#include "tests/support/quad.h"
 #include "tests/support/small_world.h"
 #include <algorithm>
 #include <complex>
 #include <cstdio>
 #include <map>
 
-namespace starbow::gpu_test {
+namespace starbow::gpu_test::clocks_gpu_test {
 namespace {
 
 /// A flat dial in the world.
@@ -387,4 +387,4 @@ TEST(Clocks, AWorldWithoutClocksUsesNoClockShaders)
 }
 
 } // namespace
-} // namespace starbow::gpu_test
+} // namespace starbow::gpu_test::clocks_gpu_test

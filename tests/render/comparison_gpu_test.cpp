@@ -7,7 +7,7 @@
 #include "tests/support/quad.h"
 #include "tests/support/small_world.h"
 
-namespace starbow::gpu_test {
+namespace starbow::gpu_test::comparison_gpu_test {
 namespace {
 
 /// The mean direction of one colour's light.
@@ -126,4 +126,4 @@ TEST(ComparisonTest, WithoutLightDelayClocksShowTheShipsPresent)
         EXPECT_NEAR(entries[std::size_t(i)].turns.y * 10, std::fmod(100 + 0.5 * (5 * i - 10 - 1), 10), 1e-5) << i;
 }
 
-} // namespace starbow::gpu_test
+} // namespace starbow::gpu_test::comparison_gpu_test

@@ -9,6 +9,8 @@
 #include <map>
 #include <set>
 
+namespace debug_gpu_test {
+
 using namespace starbow;
 using starbow::gpu_test::GpuEnvironment;
 
@@ -145,3 +147,5 @@ TEST(Debug, EveryObjectHasANameAndEveryPassALabel)
             "cube pass", "meter", "probes", "warp", " stars", " bloom", " stars", " bloom", "overlay", "HUD", "finish"}));
     GpuEnvironment::expect_no_complaints(device);
 }
+
+} // namespace debug_gpu_test

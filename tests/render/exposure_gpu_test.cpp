@@ -4,7 +4,7 @@
 #include "runtime/light/exposure.h"
 #include "tests/support/small_world.h"
 
-namespace starbow::gpu_test {
+namespace starbow::gpu_test::exposure_gpu_test {
 namespace {
 
 Json even_sky(double r, double g, double b)
@@ -511,4 +511,4 @@ TEST(Bloom, EndsAtTheViewportsEdge)
 }
 
 } // namespace
-} // namespace starbow::gpu_test
+} // namespace starbow::gpu_test::exposure_gpu_test

@@ -4,7 +4,7 @@
 #include <functional>
 #include <stb/stb_image_write.h>
 
-namespace starbow::gpu_test {
+namespace starbow::gpu_test::finish_gpu_test {
 namespace {
 
 /// From nearly black to nearly the tone curve's knee in every channel, so that no two hues are alike.
@@ -360,4 +360,4 @@ TEST_F(Finish, ThePreviewShowsEveryOutputSmallAndUnshaded)
 }
 
 } // namespace
-} // namespace starbow::gpu_test
+} // namespace starbow::gpu_test::finish_gpu_test

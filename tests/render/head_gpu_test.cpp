@@ -2,6 +2,8 @@
 #include "displays/projections/wall.h"
 #include "tests/support/gpu_environment.h"
 
+namespace head_gpu_test {
+
 using namespace starbow;
 using namespace starbow::gpu_test;
 
@@ -90,3 +92,5 @@ TEST(HeadTest, BehindAWallTheViewStaysAsItWas)
     EXPECT_EQ(still.size(), behind.size());
     EXPECT_EQ(differing(still, behind), 0) << "the world is light-seconds large: 1.5 m change nothing in it";
 }
+
+} // namespace head_gpu_test

@@ -10,7 +10,7 @@
 #include <map>
 #include <sstream>
 
-namespace starbow::gpu_test {
+namespace starbow::gpu_test::lab_gpu_test {
 namespace {
 
 struct Row {
@@ -208,4 +208,4 @@ TEST(Lab, UnderThrustTheClocksFirstSeemToMoveBackwards)
 }
 
 } // namespace
-} // namespace starbow::gpu_test
+} // namespace starbow::gpu_test::lab_gpu_test

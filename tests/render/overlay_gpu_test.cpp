@@ -6,7 +6,7 @@
 #include "tests/support/quad.h"
 #include "tests/support/small_world.h"
 
-namespace starbow::gpu_test {
+namespace starbow::gpu_test::overlay_gpu_test {
 namespace {
 
 /// A grey sky, and a wall 8 units in front of the origin.
@@ -223,4 +223,4 @@ TEST(Overlay, AnOverlayThatIsOffDrawsNothing)
 }
 
 } // namespace
-} // namespace starbow::gpu_test
+} // namespace starbow::gpu_test::overlay_gpu_test

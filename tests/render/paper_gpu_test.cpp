@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <map>
 
-namespace starbow::gpu_test {
+namespace starbow::gpu_test::paper_gpu_test {
 namespace {
 
 // ---------------------------------------------------------------- the avenue as scenes/avenue/make.py describes it
@@ -610,4 +610,4 @@ TEST(Paper, TheStippledCylinderHasTheColoursOfItsReflectance)
 }
 
 } // namespace
-} // namespace starbow::gpu_test
+} // namespace starbow::gpu_test::paper_gpu_test

@@ -4,7 +4,7 @@
 #include "tests/support/small_world.h"
 #include <functional>
 
-namespace starbow::gpu_test {
+namespace starbow::gpu_test::pattern_gpu_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -306,4 +306,4 @@ TEST(Pattern, OverlapMixesTheOutputsColours)
 }
 
 } // namespace
-} // namespace starbow::gpu_test
+} // namespace starbow::gpu_test::pattern_gpu_test

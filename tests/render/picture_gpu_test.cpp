@@ -7,7 +7,7 @@
 #include "tests/support/small_world.h"
 #include <functional>
 
-namespace starbow::gpu_test {
+namespace starbow::gpu_test::picture_gpu_test {
 namespace {
 
 Shot shipped_shot(const std::string& name) { return load_shot(testing::source_dir() / "config/shots" / (name + ".json")); }
@@ -538,4 +538,4 @@ TEST(WrongDevice, AnOutputAboveTheDevicesLimitIsRefusedInOneLine)
 }
 
 } // namespace
-} // namespace starbow::gpu_test
+} // namespace starbow::gpu_test::picture_gpu_test

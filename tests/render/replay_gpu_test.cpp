@@ -6,6 +6,8 @@
 #include "runtime/flight/replay.h"
 #include "tests/support/gpu_environment.h"
 
+namespace replay_gpu_test {
+
 using namespace starbow;
 using namespace starbow::gpu_test;
 
@@ -76,3 +78,5 @@ TEST(ReplayFrames, AreTheSameToTheByte)
     EXPECT_GT(changed, 55); // otherwise all pictures could be one
     EXPECT_EQ(replay.verdict(), "the same to the bit at 1 check");
 }
+
+} // namespace replay_gpu_test

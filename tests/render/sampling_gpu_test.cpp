@@ -7,6 +7,8 @@
 #include "shaders/physics/physics.h"
 #include "tests/support/small_world.h"
 
+namespace sampling_gpu_test {
+
 using namespace starbow;
 using namespace starbow::gpu_test;
 
@@ -127,3 +129,5 @@ TEST(Sampling, NoSeamOnASmoothSky)
         }
     }
 }
+
+} // namespace sampling_gpu_test

@@ -1,11 +1,11 @@
-// Light as coefficients through the cube map and the warp pass, compared with sums over every nanometre: black bodies, pigments,
-// lines, infrared and ultraviolet.
+// Light as coefficients through the cube map and the warp pass, compared with sums over every nanometre: black bodies,
+// pigments, lines, infrared and ultraviolet.
 #include "runtime/light/colour_difference.h"
 #include "runtime/light/spectrum.h"
 #include "tests/support/small_world.h"
 #include <cstdio>
 
-namespace starbow::gpu_test {
+namespace starbow::gpu_test::spectra_gpu_test {
 namespace {
 
 /// A world needs at least one object; this one is never seen.
@@ -312,4 +312,4 @@ TEST(Spectra, FalseColoursShowTheInfraredRedAndTheUltravioletBlue)
     }
 }
 
-} // namespace starbow::gpu_test
+} // namespace starbow::gpu_test::spectra_gpu_test

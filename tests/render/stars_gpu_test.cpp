@@ -9,7 +9,7 @@
 #include <map>
 #include <random>
 
-namespace starbow::gpu_test {
+namespace starbow::gpu_test::stars_gpu_test {
 namespace {
 
 constexpr double arcmin2_sr = degree * degree / 3600;
@@ -639,4 +639,4 @@ TEST(Stars, ASpotIsWholeAcrossTheSeamOfTwoViewports)
 }
 
 } // namespace
-} // namespace starbow::gpu_test
+} // namespace starbow::gpu_test::stars_gpu_test

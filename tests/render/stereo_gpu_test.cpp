@@ -5,7 +5,7 @@
 #include "tests/support/small_world.h"
 #include <functional>
 
-namespace starbow::gpu_test {
+namespace starbow::gpu_test::stereo_gpu_test {
 namespace {
 
 // ---------------------------------------------------------------- packings
@@ -677,4 +677,4 @@ TEST(Stereo, EyesBesideADirectionFollowTheFormula)
 }
 
 } // namespace
-} // namespace starbow::gpu_test
+} // namespace starbow::gpu_test::stereo_gpu_test

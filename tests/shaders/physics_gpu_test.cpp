@@ -8,7 +8,7 @@
 #include <cstring>
 #include <random>
 
-namespace starbow::gpu_test {
+namespace starbow::gpu_test::physics_gpu_test {
 namespace {
 
 using glm::dvec4;
@@ -191,4 +191,4 @@ TEST(PhysicsOnTheDevice, BoostsAndMotionAgreeWithDouble)
 }
 
 } // namespace
-} // namespace starbow::gpu_test
+} // namespace starbow::gpu_test::physics_gpu_test

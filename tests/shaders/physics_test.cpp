@@ -13,6 +13,8 @@
 #include <random>
 #include <vector>
 
+namespace physics_test {
+
 namespace {
 
 using starbow::pi, starbow::degree;
@@ -917,3 +919,5 @@ TEST(Motion, FloatAgreesWithDouble)
 }
 
 } // namespace
+
+} // namespace physics_test

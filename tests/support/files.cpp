@@ -107,6 +107,8 @@ std::string mutated(std::string text, std::mt19937& random)
     return text;
 }
 
+bool all_cases() { return std::getenv("STARBOW_ALL_CASES") != nullptr; }
+
 int fuzz_count()
 {
     const char* count = std::getenv("STARBOW_FUZZ_COUNT");

@@ -45,6 +45,9 @@ void expect_wrong(const std::function<void(const std::filesystem::path&)>& load,
 /// Returns the text with a few random faults, as typing mistakes and bad disks make them.
 std::string mutated(std::string text, std::mt19937& random);
 
+/// With STARBOW_ALL_CASES set, tests of many cases take all of them; otherwise a sample.
+bool all_cases();
+
 /// STARBOW_FUZZ_COUNT, or a few thousand.
 int fuzz_count();
 

@@ -70,10 +70,10 @@ Bytes small_png();
 std::string png_uri();
 
 /// Each test has a folder of its own, which is removed at the test's end.
-class GltfTest : public testing::Test {
+class GltfTest : public ::testing::Test {
 protected:
     std::filesystem::path folder
-        = std::filesystem::path(testing::TempDir()) / ("starbow_world_" + std::to_string(::getpid()));
+        = std::filesystem::path(::testing::TempDir()) / ("starbow_world_" + std::to_string(::getpid()));
 
     void SetUp() override { std::filesystem::create_directories(folder); }
     void TearDown() override { std::filesystem::remove_all(folder); }

@@ -14,6 +14,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
+namespace animation_test {
+
 using namespace starbow;
 using glm::dvec3;
 
@@ -442,3 +444,5 @@ TEST_F(AnimationFile, AWorldWithoutAnimationAllocatesNothingForIt)
     EXPECT_TRUE(timed(world, world.instances[0]));
     EXPECT_EQ(cull(world, {{EyeEvent{0, {0, 0, 1}}}}, images).instances.size(), 1u + POSES);
 }
+
+} // namespace animation_test

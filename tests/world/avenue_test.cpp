@@ -11,7 +11,7 @@
 #include <set>
 #include <unistd.h>
 
-namespace starbow {
+namespace starbow::avenue_test {
 namespace {
 
 const std::filesystem::path avenue = starbow::testing::source_dir() / "scenes/avenue";
@@ -237,4 +237,4 @@ TEST(AvenueTest, ClosedShapesFaceOutwards)
 }
 
 } // namespace
-} // namespace starbow
+} // namespace starbow::avenue_test

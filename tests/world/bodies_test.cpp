@@ -12,6 +12,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
+namespace bodies_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 using glm::dvec3;
@@ -317,3 +319,5 @@ TEST(CubeMapPlan, AFrameOutsideTheViewGetsNoImages)
     EXPECT_GT(seen.images.size(), none.images.size());
     EXPECT_LT(seen.texels, 1.3 * none.texels); // a ball 6 degrees wide in a view of 53 degrees
 }
+
+} // namespace bodies_test

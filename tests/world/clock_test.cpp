@@ -13,6 +13,8 @@ extern "C" {
 #include <quadmath.h>
 }
 
+namespace clock_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -155,3 +157,5 @@ TEST(ClockTest, TheShippedSceneIsThePapersRow)
     EXPECT_EQ(stopped.u, glm::dvec3(0));
     EXPECT_NEAR(glm::length(passing.u), 1 / std::sqrt(3), 1e-15);
 }
+
+} // namespace clock_test

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <map>
 
+namespace moving_scenes_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 using glm::dvec3;
@@ -276,3 +278,5 @@ TEST(MovingScenesTest, ATramAndACyclistPassEachOtherInTheGamowStreet)
         last = std::max(last, body.worldline.back().time);
     EXPECT_GT(last, 9000);
 }
+
+} // namespace moving_scenes_test

@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+namespace spectral_scenes_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -185,3 +187,5 @@ TEST(SpectralScenesTest, TheChartsFieldsHaveReflectancesFrom300To1000Nm)
     for (const auto& [name, kelvin] : {std::pair{"2000 K", 2000.0}, {"2856 K", 2856.0}, {"10000 K", 10000.0}})
         EXPECT_EQ(std::get<BlackBody>(material(world, name).emission.value()).kelvin, kelvin);
 }
+
+} // namespace spectral_scenes_test

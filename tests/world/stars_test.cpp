@@ -5,6 +5,8 @@
 #include "tests/support/files.h"
 #include <cmath>
 
+namespace stars_test {
+
 using namespace starbow;
 using namespace starbow::testing;
 
@@ -180,3 +182,5 @@ TEST(StarsTest, FiveMagnitudesAreAFactorOf100)
     for (std::size_t i = 0; i < 2; ++i) // a star's light at rest does not depend on its temperature
         EXPECT_NEAR(entries[i].light.x * black_body_xyz(stars[i].temperature_K).y / entries[i].light.y, 1, 1e-6);
 }
+
+} // namespace stars_test

@@ -1,7 +1,7 @@
 #include "tests/support/gltf_fixture.h"
 #include <sys/stat.h>
 
-namespace starbow::gltf_test {
+namespace starbow::gltf_test::world_broken_test {
 namespace {
 
 using WorldBrokenTest = GltfTest;
@@ -401,4 +401,4 @@ TEST_F(WorldBrokenTest, SmallFilesCannotAllocateMuch)
 }
 
 } // namespace
-} // namespace starbow::gltf_test
+} // namespace starbow::gltf_test::world_broken_test

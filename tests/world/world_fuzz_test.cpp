@@ -11,7 +11,7 @@ constexpr bool sanitized = true; // the sanitizer's shadow memory takes terabyte
 constexpr bool sanitized = false;
 #endif
 
-namespace starbow::gltf_test {
+namespace starbow::gltf_test::world_fuzz_test {
 namespace {
 
 using WorldFuzzTest = GltfTest;
@@ -239,4 +239,4 @@ TEST_F(WorldFuzzTest, DamagedFilesLoadOrAreRefused)
 }
 
 } // namespace
-} // namespace starbow::gltf_test
+} // namespace starbow::gltf_test::world_fuzz_test

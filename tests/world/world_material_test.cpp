@@ -1,7 +1,7 @@
 #include "config/model/angles.h"
 #include "tests/support/gltf_fixture.h"
 
-namespace starbow::gltf_test {
+namespace starbow::gltf_test::world_material_test {
 namespace {
 
 using WorldMaterialTest = GltfTest;
@@ -326,4 +326,4 @@ TEST_F(WorldMaterialTest, AClocksDialNeedsTextureCoordinates)
 }
 
 } // namespace
-} // namespace starbow::gltf_test
+} // namespace starbow::gltf_test::world_material_test

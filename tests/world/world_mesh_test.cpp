@@ -1,6 +1,6 @@
 #include "tests/support/gltf_fixture.h"
 
-namespace starbow::gltf_test {
+namespace starbow::gltf_test::world_mesh_test {
 namespace {
 
 using WorldMeshTest = GltfTest;
@@ -311,4 +311,4 @@ TEST_F(WorldMeshTest, BuffersMayBeFilesInsideTheFolder)
 }
 
 } // namespace
-} // namespace starbow::gltf_test
+} // namespace starbow::gltf_test::world_mesh_test
