@@ -12,7 +12,7 @@ export STARBOW_VALIDATION=1
 drawn() { [ "$(import -window "$window" -format '%[fx:mean>0]' info:)" = 1 ]; }
 
 fly() { # LAYOUT [MORE...]
-    timeout 60 "$program" run --layout "$@" >"$folder/log" 2>&1 &
+    timeout 300 "$program" run --layout "$@" >"$folder/log" 2>&1 &
     exhibit=$!
     started+=($exhibit)
     window=
@@ -84,12 +84,13 @@ said=$(timeout 20 "$program" run --log "$folder/other.csv" 2>&1 >/dev/null)
 [ $? = 2 ] && [[ $said == *"other.csv: 1: begins otherwise"* ]] || fail "a file that is no log: $said"
 ok
 
-# A tour flies by itself. Two keys skip to its third step, which speeds up.
+# A tour flies by itself. Two keys skip to its third step, which speeds up for 14 s and keeps its speed for 15 more. A frame
+# counts as at most a tenth of a second, so that slow frames need longer.
 fly desk --tour first-minute
 xdotool key r
-sleep 0.5
+sleep "$pace"
 xdotool key r
-sleep 4
+sleep "$(awk -v pace="$pace" 'BEGIN { s = 4 + 20 * (pace - 0.1); print s < 40 ? s : 40 }')"
 xdotool key Escape
 wait $exhibit || fail "a tour: exit $?"
 ok

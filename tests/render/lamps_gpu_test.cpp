@@ -1,0 +1,119 @@
+// Every kind of light on a surface, alone and together, in worlds where nothing moves and where a body does, at every
+// spectral level, compared with rays, which know neither the shader nor its coefficients.
+#include "runtime/light/spectrum.h"
+#include "runtime/reference/reference.h"
+#include "tests/support/small_world.h"
+#include <cstdio>
+
+namespace starbow::gpu_test::lamps_gpu_test {
+namespace {
+
+struct Case {
+    std::string name;
+    Json lights;
+};
+
+Json point(const Json& spectrum, double radiance = 1)
+{
+    Json light
+        = {{"type", "point"}, {"position", {0.3, 0.5, 0}}, {"distance", 2.5}, {"radiance", {radiance, radiance, radiance}}};
+    light.update(spectrum);
+    return light;
+}
+Json directional(const Json& spectrum)
+{
+    Json light = {{"type", "directional"}, {"towards", {-0.36, 0.48, 0.8}}, {"radiance", {0.8, 0.8, 0.8}}};
+    light.update(spectrum);
+    return light;
+}
+
+const Json warm = {{"temperature_K", 2856}}, sun_like = {{"temperature_K", 5772}}, line = {{"line_nm", 589}},
+           // It is given over all wavelengths that the shots below shift into the visible.
+    table = {{"spectrum", {{250, 0.1}, {380, 0.3}, {450, 1}, {550, 0.4}, {650, 1.2}, {1000, 0.8}, {3000, 0.1}}}},
+           sunlight = Json::object();
+
+std::vector<Case> all_lights()
+{
+    std::vector<Case> cases = {{"no light", Json::array()}};
+    for (const auto& [name, spectrum] :
+        {std::pair{"sunlight", sunlight}, {"2856 K", warm}, {"5772 K", sun_like}, {"line", line}, {"table", table}}) {
+        cases.push_back({std::string("point, ") + name, Json::array({point(spectrum)})});
+        cases.push_back({std::string("directional, ") + name, Json::array({directional(spectrum)})});
+    }
+    cases.push_back({"two lamps of two kinds", Json::array({point(warm), directional(table)})});
+    cases.push_back({"a lamp and sunlight", Json::array({directional(sunlight), point(warm)})});
+    cases.push_back(
+        {"all", Json::array({point(warm), directional(sunlight), point(table), directional(line), point(sunlight)})});
+    return cases;
+}
+
+/// Three plates in three greys and colours, ahead of the eye; a body, if any, moves far behind it.
+Doc plates(bool body)
+{
+    Doc doc;
+    const dvec3 colours[] = {{0.5, 0.5, 0.5}, {0.6, 0.25, 0.1}, {0.1, 0.3, 0.55}};
+    for (int i = 0; i < 3; ++i)
+        quad(doc, {1.1 * (i - 1), 0, -3}, {0.5, 0, 0}, {0, 0.5, 0},
+            doc.put("materials",
+                {{"pbrMetallicRoughness", {{"baseColorFactor", {colours[i].r, colours[i].g, colours[i].b, 1}}}}}));
+    if (body)
+        quad(doc, {0, 0, 100}, {1, 0, 0}, {0, 1, 0}, unlit(doc, {1, 1, 1}), {{"name", "body"}});
+    return doc;
+}
+
+} // namespace
+
+TEST(Lamps, EveryKindOfLightEqualsRays)
+{
+    constexpr double dark = 1e-6; // a thousandth of the faintest light here
+    const Layout layout = one_view(Planar{.fov_y_deg = 40}, {96, 32});
+    const std::vector<SpectralLevel> levels = {SpectralLevel::colours, SpectralLevel::middle, SpectralLevel::fine};
+    double worst = 0;
+    int compared = 0;
+    for (bool body : {false, true})
+        for (const auto& [gamma, ambient] : {std::pair{1.0, 0.0}, {1.5, 0.02}})
+            for (const Case& one : all_lights()) {
+                if (body && one.name == "point, line")
+                    continue; // refused: it passes a body at wavelengths that change
+                Json scene = {{"ambient", {ambient, ambient, ambient}}, {"lights", one.lights}};
+                if (body)
+                    scene["bodies"] = {
+                        {{"name", "body"}, {"nodes", {"body"}}, {"velocity", {{"direction", {1, 0, 0}}, {"gamma", 1.5}}}}};
+                GpuWorld world = open_world("lamps", plates(body), scene);
+                const ReferenceWorld rays = open_reference_world(starbow::testing::scratch("lamps.json"));
+                const SpectralLevel needed = world.spectra.level;
+                Shot shot = shot_at({0, 0, 0}, {0, 0, -u_of_gamma(gamma)});
+                shot.effects = {true, true, false};
+                const Reference truth = reference(rays.input(), layout, shot, 0, {.samples = 4});
+                // Every level at rest; elsewhere the one that the scene chooses.
+                for (SpectralLevel level : gamma == 1 && !body ? levels : std::vector{needed}) {
+                    put_spectra(device(), world, level);
+                    OffscreenRenderer live = renderer(world, layout);
+                    const Numbers numbers(live, shot);
+                    for (int plate = 0; plate < 3; ++plate) {
+                        // Coloured plates need the level that the scene chooses; a grey has equal coefficients in all.
+                        if (plate > 0 && level < needed)
+                            continue;
+                        dvec3 shown(0), true_light(0);
+                        for (int i = 0; i < numbers.count(); ++i) {
+                            const Reference::Numbers& at = truth.numbers[std::size_t(i)];
+                            const dvec3 place = at.world * at.distance;
+                            if (!std::isfinite(at.distance) || std::abs(place.x - 1.1 * (plate - 1)) > 0.4
+                                || std::abs(place.y) > 0.4)
+                                continue;
+                            shown += numbers.light(i), true_light += truth.light[0][std::size_t(i)] / truth.exposure;
+                            ++compared;
+                        }
+                        const double off = glm::length(shown - true_light) / std::max(glm::length(true_light), dark);
+                        worst = std::max(worst, off);
+                        EXPECT_LT(off, 0.02) << one.name << (body ? ", with a body" : "") << ", ambient " << ambient
+                                             << ", gamma " << gamma << ", level " << int(level) << ", plate " << plate
+                                             << ": live " << glm::length(shown) << ", rays " << glm::length(true_light);
+                    }
+                }
+            }
+    std::printf("  %d pixels, at most %.2f %% off\n", compared, 100 * worst);
+    EXPECT_GT(compared, 10000);
+}
+
+} // namespace starbow::gpu_test::lamps_gpu_test
