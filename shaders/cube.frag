@@ -18,8 +18,8 @@ layout(constant_id = 8) const bool MATRICES = false; // otherwise the coefficien
                                                      // infrared
 layout(constant_id = 9) const bool CLOCK = false;
 layout(constant_id = 10) const bool FINITE_EXISTENCE = false; // tests existence intervals
-layout(constant_id = 11) const bool SEVERAL_REST_FRAMES = false; // one of several rest frames: also writes its coverage, after the
-                                                     // coefficients
+layout(constant_id = 11) const bool SEVERAL_REST_FRAMES = false; // one of several rest frames: also writes its coverage,
+                                                                 // after the coefficients
 layout(constant_id = 12) const bool LAMPS_MOVE = false;
 layout(constant_id = 13) const bool BLINK = false;
 

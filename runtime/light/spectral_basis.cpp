@@ -235,7 +235,7 @@ Row learned_coefficients(int n)
 }
 
 /// A correction of the basis functions' seen light, [coefficient * 3 + sensor], that minimises the error of pigments.
-/// coefficients: the pigments' coefficients; seen: the basis functions' light. A grey has equal coefficients, and the
+/// coefficients: those of each pigment; seen: the basis functions' light. A grey has equal coefficients, and the
 /// correction leaves it unchanged.
 Row correction(const std::vector<Row>& coefficients, const ResponseWindow& sight, const std::array<Row, 3>& seen)
 {

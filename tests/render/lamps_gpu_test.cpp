@@ -1,6 +1,5 @@
 // Every kind of light on a surface, alone and together, in worlds where nothing moves and where a body does, at every
 // spectral level, compared with rays, which know neither the shader nor its coefficients.
-#include "runtime/light/spectrum.h"
 #include "runtime/reference/reference.h"
 #include "tests/support/small_world.h"
 #include <cstdio>
@@ -13,10 +12,9 @@ struct Case {
     Json lights;
 };
 
-Json point(const Json& spectrum, double radiance = 1)
+Json point(const Json& spectrum)
 {
-    Json light
-        = {{"type", "point"}, {"position", {0.3, 0.5, 0}}, {"distance", 2.5}, {"radiance", {radiance, radiance, radiance}}};
+    Json light = {{"type", "point"}, {"position", {0.3, 0.5, 0}}, {"distance", 2.5}, {"radiance", {1, 1, 1}}};
     light.update(spectrum);
     return light;
 }
@@ -27,10 +25,10 @@ Json directional(const Json& spectrum)
     return light;
 }
 
-const Json warm = {{"temperature_K", 2856}}, sun_like = {{"temperature_K", 5772}}, line = {{"line_nm", 589}},
-           // It is given over all wavelengths that the shots below shift into the visible.
-    table = {{"spectrum", {{250, 0.1}, {380, 0.3}, {450, 1}, {550, 0.4}, {650, 1.2}, {1000, 0.8}, {3000, 0.1}}}},
-           sunlight = Json::object();
+const Json sunlight = Json::object(), warm = {{"temperature_K", 2856}}, sun_like = {{"temperature_K", 5772}},
+           line = {{"line_nm", 589}};
+/// It is given over all wavelengths that the shots below shift into the visible.
+const Json table = {{"spectrum", {{250, 0.1}, {380, 0.3}, {450, 1}, {550, 0.4}, {650, 1.2}, {1000, 0.8}, {3000, 0.1}}}};
 
 std::vector<Case> all_lights()
 {
@@ -65,7 +63,7 @@ Doc plates(bool body)
 
 TEST(Lamps, EveryKindOfLightEqualsRays)
 {
-    constexpr double dark = 1e-6; // a thousandth of the faintest light here
+    constexpr double dark = 1e-6; // rays may find no light at all
     const Layout layout = one_view(Planar{.fov_y_deg = 40}, {96, 32});
     const std::vector<SpectralLevel> levels = {SpectralLevel::fine, SpectralLevel::middle, SpectralLevel::colours};
     double worst = 0;
