@@ -29,6 +29,7 @@ struct Steering {
     bool undo = false; ///< ten seconds back
     bool reset = false; ///< to the start at once
     bool next_mode = false;
+    bool freeze = false; ///< the world stands still to look around in, or goes on
 };
 
 struct Looking {

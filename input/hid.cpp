@@ -1,4 +1,5 @@
 #include "hid.h"
+#include "rates.h"
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -291,7 +292,9 @@ void Hid::add(double dt_s, Controls& controls)
             state = device->state;
             device->state.tapped.assign(device->state.tapped.size(), false);
         }
+        const Rates others = take_rates(controls);
         mapping->add(state, now, dt_s, controls);
+        add_rates(controls, others, dt_s);
         for (Lever lever : mapping->levers()) {
             lever.device = describe(device->info) + device->info.serial;
             levers.push_back(std::move(lever));
@@ -305,7 +308,6 @@ void Hid::add(double dt_s, Controls& controls)
     if (const auto place = lever_.place(levers, now))
         controls.lever = place;
     report_troubles(std::move(troubles));
-    controls.turn = glm::clamp(controls.turn, -1.0, 1.0);
 }
 
 void Hid::report_troubles(std::vector<std::string> troubles)
@@ -338,19 +340,22 @@ InputCapabilities Hid::capabilities() const
     for (const auto& [key, mapping] : mappings_) {
         const InputCapabilities own = mapping->capabilities();
         all.stick |= own.stick, all.lever |= own.lever, all.trigger |= own.trigger;
-        if (own.stick && own.stop_button > 0) // the button of the stick in the hand
+        if (own.stick && own.stop_button > 0) { // the buttons of the stick in the hand
             all.stop_button = own.stop_button;
+            all.home_button = own.home_button, all.undo_button = own.undo_button;
+        }
     }
     return all;
 }
 
-bool Hid::has_gamepad() const
+std::vector<UsbId> Hid::kinds() const
 {
     const std::lock_guard lock(shared_->mutex);
-    return std::any_of(shared_->devices.begin(), shared_->devices.end(), [](const auto& device) {
-        const auto& all = device->descriptor.applications;
-        return std::find(all.begin(), all.end(), Usage{1, 5}) != all.end();
-    });
+    std::vector<UsbId> kinds;
+    for (const auto& device : shared_->devices)
+        if (!device->gone)
+            kinds.push_back({device->info.vendor, device->info.product});
+    return kinds;
 }
 
 std::vector<Hid::Connected> Hid::devices() const

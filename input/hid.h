@@ -1,5 +1,6 @@
 #pragma once
 #include "mapping.h"
+#include "pad.h"
 #include <functional>
 #include <map>
 #include <memory>
@@ -44,7 +45,8 @@ public:
     /// A line for the visitors' display while a device is missing, or while a stuck or noisy axis is ignored; otherwise
     /// empty.
     std::string trouble() const;
-    bool has_gamepad() const;
+    /// The kinds of all devices that are read.
+    std::vector<UsbId> kinds() const;
     /// The kinds of control of all devices together, as of the last add().
     InputCapabilities capabilities() const;
 

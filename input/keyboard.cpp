@@ -1,4 +1,5 @@
 #include "keyboard.h"
+#include "rates.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <algorithm>
@@ -8,15 +9,6 @@ namespace starbow {
 namespace {
 
 constexpr double look_rad_per_pixel = 0.003;
-constexpr double pad_look_rad_per_read = 0.03;
-
-/// A stick's value outside the dead zone, starting from 0 there: sticks never rest exactly at 0.
-double stick(float value)
-{
-    constexpr double dead = 0.15;
-    double size = std::abs(value);
-    return size < dead ? 0 : std::copysign(std::min(1.0, (size - dead) / (1 - dead)), double(value));
-}
 
 } // namespace
 
@@ -27,6 +19,7 @@ const char* keyboard_help()
            "mouse drag      look around; C looks ahead again\n"
            "Space           stop at once, relative to the world\n"
            "R               fly back to the start; Backspace ten seconds back\n"
+           "P               the world stands still, to look around in; P again: it goes on\n"
            "M               the next mode of flight: guided, free, newtonian\n"
            "1, 2, 3         aberration, Doppler effect, headlight effect on and off\n"
            "4               for guides: infrared and ultraviolet in false colours, on and off\n"
@@ -57,8 +50,10 @@ void Keyboard::collect(GLFWwindow* window)
     // States alone would take two taps in two frames for one long press: presses are counted as they come.
     glfwSetWindowUserPointer(window, this);
     glfwSetKeyCallback(window, [](GLFWwindow* of, int key, int, int action, int) {
-        if (action == GLFW_PRESS && key >= 0 && key < keys)
-            static_cast<Keyboard*>(glfwGetWindowUserPointer(of))->pressed_[std::size_t(key)] = true;
+        if (action != GLFW_PRESS || key < 0 || key >= keys)
+            return;
+        std::uint8_t& presses = static_cast<Keyboard*>(glfwGetWindowUserPointer(of))->presses_[std::size_t(key)];
+        presses = std::uint8_t(std::min(presses + 1, 255));
     });
     for (int key = GLFW_KEY_SPACE; key < keys && key <= GLFW_KEY_LAST; ++key)
         now_[key] = now_[key] || glfwGetKey(window, key) == GLFW_PRESS;
@@ -73,7 +68,7 @@ void Keyboard::collect(GLFWwindow* window)
     }
 }
 
-void Keyboard::finish(Controls& controls, bool pads)
+void Keyboard::finish(Controls& controls)
 {
     if (!held_)
         dragging_ = nullptr;
@@ -91,6 +86,7 @@ void Keyboard::finish(Controls& controls, bool pads)
     controls.home = pressed(GLFW_KEY_R);
     controls.undo = pressed(GLFW_KEY_BACKSPACE);
     controls.next_mode = pressed(GLFW_KEY_M);
+    controls.freeze = pressed(GLFW_KEY_P);
     controls.aberration = pressed(GLFW_KEY_1);
     controls.doppler = pressed(GLFW_KEY_2);
     controls.headlight = pressed(GLFW_KEY_3);
@@ -109,21 +105,26 @@ void Keyboard::finish(Controls& controls, bool pads)
     controls.choose = pressed(GLFW_KEY_F3) ? (shift ? -1 : 1) : 0;
     controls.turn_by = (shift ? 10 : 1) * (pressed(GLFW_KEY_PAGE_UP) - pressed(GLFW_KEY_PAGE_DOWN));
     controls.save = pressed(GLFW_KEY_F5);
-    pressed_.fill(false);
+    for (std::uint8_t& presses : presses_)
+        presses -= presses > 0;
+    controls.turn = glm::clamp(controls.turn, -1.0, 1.0);
+}
 
+void Keyboard::read_pads(Controls& controls, double dt_s, const std::vector<UsbId>& read_elsewhere)
+{
     pad_before_ = pad_;
     pad_.fill(false);
-    for (int joystick = GLFW_JOYSTICK_1; pads && joystick <= GLFW_JOYSTICK_LAST; ++joystick) {
+    for (int joystick = GLFW_JOYSTICK_1; joystick <= GLFW_JOYSTICK_LAST; ++joystick) {
         GLFWgamepadstate state;
         if (!glfwJoystickIsGamepad(joystick) || !glfwGetGamepadState(joystick, &state))
             continue;
-        // Triggers rest at -1.
-        controls.throttle_rate
-            += 0.5 * (state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] - state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER]);
-        controls.turn.y -= stick(state.axes[GLFW_GAMEPAD_AXIS_LEFT_X]);
-        controls.turn.x -= stick(state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y]);
-        controls.look_rad.x -= pad_look_rad_per_read * stick(state.axes[GLFW_GAMEPAD_AXIS_RIGHT_X]);
-        controls.look_rad.y -= pad_look_rad_per_read * stick(state.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y]);
+        const char* guid = glfwGetJoystickGUID(joystick);
+        const std::optional<UsbId> kind = usb_id(guid ? guid : "");
+        if (kind && std::find(read_elsewhere.begin(), read_elsewhere.end(), *kind) != read_elsewhere.end())
+            continue;
+        const Rates others = take_rates(controls);
+        add_pad(state, dt_s, controls);
+        add_rates(controls, others, dt_s);
         for (int button = 0; button <= GLFW_GAMEPAD_BUTTON_LAST; ++button)
             pad_[button] = pad_[button] || state.buttons[button] == GLFW_PRESS;
     }
@@ -138,8 +139,6 @@ void Keyboard::finish(Controls& controls, bool pads)
     controls.mark |= tapped(GLFW_GAMEPAD_BUTTON_RIGHT_THUMB);
     controls.overlay |= tapped(GLFW_GAMEPAD_BUTTON_START);
     controls.hud |= tapped(GLFW_GAMEPAD_BUTTON_BACK);
-    controls.exposure += double(pad_[GLFW_GAMEPAD_BUTTON_DPAD_UP]) - double(pad_[GLFW_GAMEPAD_BUTTON_DPAD_DOWN]);
-    controls.turn = glm::clamp(controls.turn, -1.0, 1.0);
 }
 
 } // namespace starbow

@@ -1,6 +1,8 @@
 #pragma once
-#include "controls.h"
+#include "pad.h"
 #include <array>
+#include <cstdint>
+#include <vector>
 
 struct GLFWwindow;
 
@@ -10,16 +12,18 @@ namespace starbow {
 /// reading.
 class Keyboard {
 public:
-    /// Reads the present keys (after glfwPollEvents). windows: those whose keys and pointer count. pads: true to read
-    /// GLFW's gamepads, which may be the ones that Hid reads.
-    template <class Windows> Controls read(const Windows& windows, std::int64_t time_ns, bool pads)
+    /// Reads the present keys (after glfwPollEvents). windows: those whose keys and pointer count. dt_s: since the last
+    /// reading, for looking around. read_elsewhere: the kinds of devices that Hid reads, which are left out here.
+    template <class Windows>
+    Controls read(const Windows& windows, std::int64_t time_ns, double dt_s, const std::vector<UsbId>& read_elsewhere)
     {
         Controls controls;
         controls.time_ns = time_ns;
         begin();
         for (GLFWwindow* window : windows)
             collect(window);
-        finish(controls, pads);
+        finish(controls);
+        read_pads(controls, dt_s, read_elsewhere);
         return controls;
     }
 
@@ -27,12 +31,15 @@ private:
     static constexpr int keys = 512, buttons = 32;
     void begin();
     void collect(GLFWwindow* window);
-    void finish(Controls& controls, bool pads);
+    void finish(Controls& controls);
+    void read_pads(Controls& controls, double dt_s, const std::vector<UsbId>& read_elsewhere);
     bool down(int key) const { return now_[key]; }
-    bool pressed(int key) const { return pressed_[key]; }
+    bool pressed(int key) const { return presses_[key] > 0; }
 
     std::array<bool, keys> now_{}; ///< down at the reading, or for a time since the one before
-    std::array<bool, keys> pressed_{}; ///< went down since the reading before
+    /// Presses of each key that no reading has reported yet. Each reading reports one, so that quick taps in one slow frame
+    /// all count, one frame after another.
+    std::array<std::uint8_t, keys> presses_{};
     std::array<bool, buttons> pad_{}, pad_before_{};
     glm::dvec2 pointer_{0}, drag_{0};
     GLFWwindow* dragging_ = nullptr;

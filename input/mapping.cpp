@@ -1,5 +1,6 @@
 #include "mapping.h"
 #include "config/model/angles.h"
+#include "rates.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +12,6 @@ namespace {
 constexpr std::uint16_t desktop = 1, simulation = 2, button_page = 9;
 constexpr std::uint16_t axis_x = 0x30, axis_y = 0x31, axis_z = 0x32, axis_rx = 0x33, axis_ry = 0x34, axis_rz = 0x35,
                         slider = 0x36, dial = 0x37, hat_switch = 0x39;
-constexpr double look_rad_per_s = 1.5;
 constexpr double detent_reach = 0.03;
 
 void add_role(AxisRole role, double value, double dt_s, Controls& controls)
@@ -54,13 +54,14 @@ void add_role(AxisRole role, double value, double dt_s, Controls& controls)
 }
 
 /// The switches of buttons, set in the frame of the press.
-constexpr std::pair<ButtonRole, bool Controls::*> switches[] = {{ButtonRole::stop, &Controls::stop},
-    {ButtonRole::home, &Controls::home}, {ButtonRole::undo, &Controls::undo}, {ButtonRole::next_mode, &Controls::next_mode},
-    {ButtonRole::look_ahead, &Controls::look_ahead}, {ButtonRole::aberration, &Controls::aberration},
-    {ButtonRole::doppler, &Controls::doppler}, {ButtonRole::headlight, &Controls::headlight},
-    {ButtonRole::false_colours, &Controls::false_colours}, {ButtonRole::comparison, &Controls::comparison},
-    {ButtonRole::hud, &Controls::hud}, {ButtonRole::overlay, &Controls::overlay}, {ButtonRole::mark, &Controls::mark},
-    {ButtonRole::log, &Controls::log}, {ButtonRole::why, &Controls::why}};
+constexpr std::pair<ButtonRole, bool Controls::*> switches[]
+    = {{ButtonRole::stop, &Controls::stop}, {ButtonRole::home, &Controls::home}, {ButtonRole::undo, &Controls::undo},
+        {ButtonRole::next_mode, &Controls::next_mode}, {ButtonRole::freeze, &Controls::freeze},
+        {ButtonRole::look_ahead, &Controls::look_ahead}, {ButtonRole::aberration, &Controls::aberration},
+        {ButtonRole::doppler, &Controls::doppler}, {ButtonRole::headlight, &Controls::headlight},
+        {ButtonRole::false_colours, &Controls::false_colours}, {ButtonRole::comparison, &Controls::comparison},
+        {ButtonRole::hud, &Controls::hud}, {ButtonRole::overlay, &Controls::overlay}, {ButtonRole::mark, &Controls::mark},
+        {ButtonRole::log, &Controls::log}, {ButtonRole::why, &Controls::why}};
 /// The rate of a button while it is held.
 struct Held {
     ButtonRole role;
@@ -263,8 +264,10 @@ InputCapabilities Mapping::capabilities() const
         capabilities.trigger |= axis.use.role == AxisRole::faster;
     }
     for (const Button& button : buttons_)
-        if (button.role == ButtonRole::stop && capabilities.stop_button == 0)
-            capabilities.stop_button = descriptor_.fields[button.field].usage.id;
+        for (const auto& [role, number] : {std::pair(ButtonRole::stop, &capabilities.stop_button),
+                 {ButtonRole::home, &capabilities.home_button}, {ButtonRole::undo, &capabilities.undo_button}})
+            if (button.role == role && *number == 0)
+                *number = descriptor_.fields[button.field].usage.id;
     return capabilities;
 }
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
-// Draws a rest frame around its eye event, in motion axes, into one image of the plan, or directly into a plain picture.
+// Draws a rest frame around its eye event, in the cube map's axes, into one image of the plan, or directly into a plain picture.
 
 layout(constant_id = 9) const bool CLOCK = false;
 layout(constant_id = 10) const bool FINITE_EXISTENCE = false;

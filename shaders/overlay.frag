@@ -65,7 +65,7 @@ vec4 ring(vec3 n, float pixel_angle)
 // A distance (scene units) as a colour with contours; the picture behind stays visible.
 vec4 false_colour(float distance)
 {
-    bool sky = isinf(distance) || distance > 1e30;
+    bool sky = is_sky(distance);
     float logarithm = log2(sky ? 1e30 : max(distance, 1e-30)) * 0.30103 + overlay.scale.z; // of seconds of light
     float per_pixel = max(fwidth(logarithm), 1e-7);
     float off, wide_off, room, fine_off = 1e9, fine_room = 0.0;
@@ -156,6 +156,6 @@ void main()
     if (OVERLAY == OVERLAY_RING)
         sum = ring(n, pixel_angle);
     if (OVERLAY == OVERLAY_DISTANCE || OVERLAY == OVERLAY_EMISSION)
-        sum = false_colour(SEVERAL_REST_FRAMES ? shown_along(n, pixel_angle).distance : smooth_distance_at(place_of(sight_of(n, pixel_angle).n, world_rest_frame())));
+        sum = false_colour(exact_distance(shown_along(n, pixel_angle), pixel_angle));
     shown = over(signs(n, pixel_angle), sum);
 }

@@ -11,7 +11,7 @@
 
 layout(location = 0) out vec4 light_and_depth; // Rec. 709 linear; distance in the world from the cube map's event
 layout(location = 1) out vec4 camera;          // unit direction in the ship, motion axes; Doppler factor
-layout(location = 2) out vec4 world;           // unit direction in the world, motion axes; the source's rest frame, of the
+layout(location = 2) out vec4 world;           // unit direction in the world, the cube map's axes; the source's rest frame, of the
                                                // world's frames
 
 void main()
@@ -20,8 +20,7 @@ void main()
     vec3 n = look(view.row0, view.row1, view.row2, gl_FragCoord.xy - view.origin.xy, 0, pixel_angle);
     Shown shown = shown_along(n, pixel_angle);
     vec3 light = shown.light * view.boost.z;
-    float distance = SEVERAL_REST_FRAMES ? shown.distance : smooth_distance_at(place_of(shown.sight.n, world_rest_frame()));
-    light_and_depth = vec4(clamp(light, vec3(-3e38), vec3(3e38)), distance);
+    light_and_depth = vec4(clamp(light, vec3(-3e38), vec3(3e38)), exact_distance(shown, pixel_angle));
     camera = vec4(n, shown.sight.D);
     world = vec4(shown.sight.n, shown.frame);
 }

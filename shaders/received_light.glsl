@@ -18,6 +18,8 @@ layout(constant_id = 16) const bool SINGLE = false; // one image of the plan, ah
 layout(constant_id = 17) const int RAYS = 1; // along each side of a pixel
 layout(constant_id = 18) const bool CUT = false; // some tile of the plan has more than one image
 layout(constant_id = 14) const bool SEVERAL_REST_FRAMES = false; // several rest frames, each with its own part of the cube map
+layout(constant_id = 19) const int CUBE_SAMPLES = 1; // of each texel
+layout(constant_id = 20) const bool UNALIGNED = false; // some cube map has other axes than the motion's
 
 const int GROUPS = (REFLECTED + OWN + 3) / 4;
 
@@ -36,15 +38,25 @@ layout(set = 0, binding = 10) uniform Own { vec4 own_rows[MOST_OWN_ROWS]; };
 layout(set = 0, binding = 11) uniform sampler2D covered_atlas; // the covered part of a texel; the same times its depth
 layout(set = 0, binding = 12) uniform RestFrames { RestFrameConstants rest_frames; };
 
-// A rest frame's part of the cube map and the eye event there, motion axes.
+// A rest frame's part of the cube map and the eye event there, in the cube map's axes.
 struct RestFrameView {
+    int entry; // of rest_frames
     vec2 E; // and its inverse
     vec4 eye;
     float nearest;
     int tiles, finest_clip_level;
 };
 // The world's own rest frame.
-RestFrameView world_rest_frame() { return RestFrameView(view.boost.xy, view.eye, view.zenith.y, 0, int(view.row1.w)); }
+RestFrameView world_rest_frame() { return RestFrameView(0, view.boost.xy, view.eye, view.zenith.y, 0, int(view.row1.w)); }
+
+// A direction of the frame, given in motion axes, in the cube map's axes.
+vec3 in_cube_axes(vec3 n, RestFrameView rest_frame)
+{
+    if (!UNALIGNED)
+        return n;
+    RestFrameEntry entry = rest_frames.entries[rest_frame.entry];
+    return vec3(dot(entry.cube0.xyz, n), dot(entry.cube1.xyz, n), dot(entry.cube2.xyz, n));
+}
 
 // The world's direction and D of the camera's direction n, and the magnification of angles from there to the world.
 AberratedRay from_camera(vec3 n, vec2 E) { return GALILEAN ? galilean_world_from_camera(n, E.x, E.y) : world_from_camera(n, E.x, E.y); }
@@ -180,14 +192,16 @@ float depth_of(ivec2 texel)
     return covered.x > 0.0 ? covered.y / covered.x : 0.0;
 }
 
-// The distance at a place of the cube map, from its eye event, scene units; infinite for the sky.
+bool is_sky(float distance) { return distance > 0.1 * SKY_DISTANCE; }
+
+// The distance at a place of the cube map, from its eye event, scene units; SKY_DISTANCE for the sky.
 float distance_at(Place place)
 {
     float depth = depth_of(ivec2(place.texel));
-    return depth > 0.0 ? view.boost.w * sqrt(1.0 + dot(place.face, place.face)) / depth : intBitsToFloat(0x7f800000);
+    return depth > 0.0 ? view.boost.w * sqrt(1.0 + dot(place.face, place.face)) / depth : SKY_DISTANCE;
 }
 
-// The eye's place from the cube map's, in the world at rest. n: the ship's direction.
+// The eye's place from the cube map's, in the frame at rest, in the cube map's axes. n: the ship's direction, motion axes.
 vec3 eye_offset(vec3 n, RestFrameView rest_frame)
 {
     if (!TURNING)
@@ -195,7 +209,7 @@ vec3 eye_offset(vec3 n, RestFrameView rest_frame)
     vec3 right = cross(n, rest_frame.eye.xyz); // as long as the sine of the angle from the zenith
     vec3 offset = right * (rest_frame.eye.w / max(length(right), view.zenith.x));
     offset.z *= 0.5 * (rest_frame.E.x + rest_frame.E.y); // simultaneous in the ship: stretched by gamma in the world
-    return offset;
+    return in_cube_axes(offset, rest_frame);
 }
 
 // Finds the place of the cube map that an eye beside the cube map's own sees along n (world). Seen from the cube map's
@@ -220,13 +234,13 @@ vec3 reprojected(vec3 n, vec3 offset, float texel, RestFrameView rest_frame)
         vec3 line = finite ? offset + n / (nearness - i * shrink) : n;
         m = normalize(line);
         far = distance_at(place_of(m, rest_frame));
-        met = finite ? far <= length(line) : !isinf(far);
+        met = finite ? far <= length(line) : !is_sky(far);
         if (i > 0.0 && far > 1.1 * before) {
             // That surface ended between the steps; the line may have met it just before its end.
             vec3 edge = normalize(offset + dot(before * last - offset, n) * n);
             float there = distance_at(place_of(edge, rest_frame));
             vec3 from_eye = there * edge - offset;
-            if (!isinf(there) && length(from_eye - dot(from_eye, n) * n) < 0.3 * texel * there) {
+            if (!is_sky(there) && length(from_eye - dot(from_eye, n) * n) < 0.3 * texel * there) {
                 m = edge;
                 far = there;
                 met = true;
@@ -249,10 +263,10 @@ vec3 reprojected(vec3 n, vec3 offset, float texel, RestFrameView rest_frame)
             break;
         m = normalize(offset + along * n);
         far = distance_at(place_of(m, rest_frame));
-        if (isinf(far)) {
+        if (is_sky(far)) {
             // The line passes behind its apparent hit to the sky: along n, or beside the edge that hides the sky there.
             if (off > 0.15 * texel)
-                best = isinf(distance_at(place_of(n, rest_frame))) ? n : m;
+                best = is_sky(distance_at(place_of(n, rest_frame))) ? n : m;
             break;
         }
     }
@@ -265,12 +279,13 @@ float world_angle(AberratedRay sight, vec3 n, float pixel_angle)
     return ABERRATION ? growth(sight, n, view.boost.xy) * pixel_angle : pixel_angle;
 }
 
-// The cube map's direction for the ship's direction n: in the world, with D.
+// The cube map's direction for the ship's direction n (motion axes): in the world, the cube map's axes, with D.
 AberratedRay sight_of(vec3 n, float pixel_angle)
 {
     AberratedRay sight = from_camera(n, view.boost.xy);
     if (!ABERRATION)
         sight.n = n;
+    sight.n = in_cube_axes(sight.n, world_rest_frame());
     if (REPROJECT)
         sight.n = reprojected(sight.n, eye_offset(n, world_rest_frame()), world_angle(sight, n, pixel_angle), world_rest_frame());
     return sight;
@@ -298,8 +313,8 @@ vec3 light_seen(Place place, float D, float angle)
 // The result of a direction.
 struct Shown {
     vec3 n;         // unit direction in the ship, motion axes
-    AberratedRay sight;    // in the world; its D is the source's
-    float distance; // in the world, the light's travel distance there; infinite for the sky
+    AberratedRay sight;    // in the world, the cube map's axes; its D is the source's
+    float distance; // in the world, the light's travel distance there; SKY_DISTANCE for the sky
     float frame;    // the source's rest frame, of the world's frames
     vec3 light;     // from light_seen
 };

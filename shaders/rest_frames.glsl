@@ -1,12 +1,13 @@
 // Several rest frames: each has a cube map of its own, boosted directly to the camera. Along a line of sight, the light's
 // travel distance in the ship is D times that in any frame; the frames' surfaces are ordered by it, in front of the sky.
 
-RestFrameView rest_frame_of(RestFrameEntry entry)
+RestFrameView rest_frame_of(int i)
 {
-    return RestFrameView(entry.boost.xy, entry.eye, entry.nearest.y, int(entry.boost.z), int(entry.row1.w));
+    RestFrameEntry entry = rest_frames.entries[i];
+    return RestFrameView(i, entry.boost.xy, entry.eye, entry.nearest.y, int(entry.boost.z), int(entry.row1.w));
 }
 
-// The sky's coefficients at the world's direction n, as in sky.frag.
+// The sky's coefficients at the world's direction n (axes of its cube map), as in sky.frag.
 void sky_at(vec3 n, out vec4 coefficients[MAX_GROUPS])
 {
     float height = dot(n, rest_frames.world_up.xyz), part = smoothstep(0.0, 1.0, abs(height));
@@ -21,23 +22,31 @@ struct Part {
     float D, world_angle, level;
     vec4 ways, covers;
 };
-const float infinite = 1.0 / 0.0;
 
 ivec2 texel_of(Place place, int k) { return ivec2(floor(place.texel - 0.5)) + ivec2(k & 1, k >> 1); }
 
-Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
+// The place that the ship's direction n0 looks at in a rest frame's part of the cube map; the ray there, and the pixel's
+// angle.
+Place place_in(int i, vec3 n0, float pixel_angle, out AberratedRay sight, out float world_angle)
 {
     RestFrameEntry entry = rest_frames.entries[i];
-    RestFrameView rest_frame = rest_frame_of(entry);
+    RestFrameView rest_frame = rest_frame_of(i);
     vec3 n = i == 0 ? n0 : vec3(dot(entry.row0.xyz, n0), dot(entry.row1.xyz, n0), dot(entry.row2.xyz, n0));
-    AberratedRay sight = from_camera(n, rest_frame.E);
-    Part part;
-    part.world_angle = growth(sight, n, rest_frame.E) * pixel_angle;
+    sight = from_camera(n, rest_frame.E);
+    world_angle = growth(sight, n, rest_frame.E) * pixel_angle;
+    sight.n = in_cube_axes(sight.n, rest_frame);
     if (REPROJECT)
-        sight.n = reprojected(sight.n, eye_offset(n, rest_frame), part.world_angle, rest_frame);
-    part.place = place_of(sight.n, rest_frame);
+        sight.n = reprojected(sight.n, eye_offset(n, rest_frame), world_angle, rest_frame);
+    return place_of(sight.n, rest_frame);
+}
+
+Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
+{
+    AberratedRay sight;
+    Part part;
+    part.place = place_in(i, n0, pixel_angle, sight, part.world_angle);
     part.D = sight.D * D_beside;
-    part.ways = vec4(infinite);
+    part.ways = vec4(SKY_DISTANCE);
     part.covers = vec4(0.0);
     vec4 image = texelFetch(tiles, part.place.entry + 1);
     vec2 texel = part.place.texel;
@@ -55,7 +64,7 @@ Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
     if (part.level >= 0.5)
         return part;
     vec4 depths, parts;
-    float least = infinite, most = 0.0;
+    float least = SKY_DISTANCE, most = 0.0;
     for (int k = 0; k < 4; ++k) {
         vec2 one = texelFetch(covered_atlas, texel_of(part.place, k), 0).rg;
         parts[k] = one.x;
@@ -107,7 +116,7 @@ vec3 light_of_rest_frames(vec3 n0, float pixel_angle, inout AberratedRay sight, 
     int shown = 0;
     for (int i = 0; i < count; ++i) {
         Part part = part_of(i, n0, pixel_angle, D_beside);
-        if (isinf(part.ways.x) && part.covers == vec4(0.0))
+        if (is_sky(part.ways.x) && part.covers == vec4(0.0))
             continue;
         left *= 1.0 - min(dot(part.covers, vec4(1.0)), 1.0);
         part.level = rest_frames.entries[i].boost.w; // from here on: the index of its rest frame
@@ -120,7 +129,7 @@ vec3 light_of_rest_frames(vec3 n0, float pixel_angle, inout AberratedRay sight, 
         world[group] *= left;
     vec3 light = vec3(0.0);
     float most = 0.0;
-    distance_ = infinite;
+    distance_ = SKY_DISTANCE;
     frame = 0.0;
     for (int i = 0; i < shown; ++i) {
         bool rests = parts[i].level == 0.0, any_seen = false;
@@ -154,6 +163,11 @@ vec3 light_of_rest_frames(vec3 n0, float pixel_angle, inout AberratedRay sight, 
                 world[group] += moving[group];
         else if (any_seen)
             light += light_of(moving, parts[i].D);
+    }
+    if (left > 0.5) { // the sky fills most of the pixel
+        distance_ = SKY_DISTANCE;
+        sight.D = sky_D;
+        frame = 0.0;
     }
     return light + light_of(world, sky_D);
 }

@@ -13,6 +13,9 @@
 
 #define REPROJECT_STEPS 12
 #define REPROJECT_ROUNDS 4
+// The sky's distance in shaders, farther than any thing's: a driver may leave out infinities, and then isinf() is never
+// true. The processor reads it as infinite.
+#define SKY_DISTANCE 3e38
 #define MOST_PARALLAX 0.35 // radians between two eyes' directions of a point, at most: nearer surfaces all have this value
 #define MAX_LIGHTS 8
 #define POSES 17 // odd; poses of an animated instance, around the retarded time of its middle
@@ -44,7 +47,8 @@ struct TileEntry {
 #define TILE_ENTRY(tile, cell) (MAX_REST_FRAMES * TILE_COUNT + 2 * (TILE_SUB_TILES * TILE_SUB_TILES * (tile) + (cell)))
 
 struct LightEntry {
-    vec4 place; // w = 0: unit direction towards the light; w = 1: its place from the eye, at the eye's time. Motion axes.
+    vec4 place; // w = 0: unit direction towards the light; w = 1: its place from the eye, at the eye's time. The cube
+                // map's axes.
     vec4 radiance; // Rec. 709 linear, pre-exposed; w: square of the distance at which it holds, 0 for a direction
     vec4 kind; // x: index of its spectrum, 0 for sunlight; for a moving lamp the first of `shifts`. y, z: begin and end of
                // its existence in its proper time, counted from that at `place`. w: D of a moving directional light
@@ -58,13 +62,13 @@ struct CubeConstants {
     vec4 sky_zenith[MAX_GROUPS]; // coefficients of the light, pre-exposed
     vec4 sky_horizon[MAX_GROUPS];
     vec4 sky_nadir[MAX_GROUPS];
-    vec4 world_up; // motion axes
+    vec4 world_up; // the cube map's axes
     vec4 first; // indices of this rest frame's first x: instance, y: TimeEntry, z: pose
     vec4 now; // w: 1 where everything is shown at the ship's present; xyz: the ship's velocity here
     LightEntry lights[MAX_LIGHTS];
 };
 
-// One instance relative to one eye: rows of motion_from_local.
+// One instance relative to one eye: rows of cube_from_local.
 struct InstanceEntry {
     vec4 row0, row1, row2;
 };
@@ -72,7 +76,7 @@ struct InstanceEntry {
 // The times of an instance relative to one eye: of clocks, of blinking and animated instances, and of those with finite
 // existence.
 struct TimeEntry {
-    vec4 middle; // from the eye, motion axes; w: its distance. The other members hold at its retarded time
+    vec4 middle; // from the eye, the cube map's axes; w: its distance. The other members hold at its retarded time
     vec4 turns; // 0 to 1 of a clock's hands: one turn in a minute, in ten seconds, in an hour; w: seconds per scene unit of
                 // light's travel
     vec4 digits; // x, y: six figures each, of four bits, the first lowest; 10: a minus, 11: blank. z: their number
@@ -84,7 +88,7 @@ struct TimeEntry {
 
 // Push constants of the cube pass.
 struct CubePush {
-    vec4 clip_row0, clip_row1, clip_row2, clip_row3; // rows of clip_from_motion
+    vec4 clip_row0, clip_row1, clip_row2, clip_row3; // rows of clip_from_cube
     vec4 base_colour;
     vec4 emissive; // pre-exposed; w: alpha cut-off
     vec4 beyond; // reflectance in the ultraviolet and the infrared, below 0: the colour's mean; z: index of the matrices;
@@ -99,7 +103,7 @@ struct ViewPush {
                            // row1.w: finest clip level; row2.w: log2 D of the response's first row
     vec4 boost; // E, 1/E, exposure gain / pre-exposure (star pass: pre-exposure), near plane
     vec4 origin; // viewport's top left corner in the target, pixels; z, w: 1 / the atlas's size in texels
-    vec4 eye; // REPROJECT: the eye's place from the cube map's, world, motion axes. TURNING: xyz: the cockpit's
+    vec4 eye; // REPROJECT: the eye's place from the cube map's, world, the cube map's axes. TURNING: xyz: the cockpit's
               // up in motion axes; w: the eye's distance from the middle, to the right. SINGLE: TileEntry::texel_from_face
     vec4 zenith; // x: TURNING: sine of the angle from the zenith at which the separation is full; y: REPROJECT: distance of
                  // the nearest possible surface, scene units; z, w: the viewport's size, pixels; in the meter: pixels of the
@@ -112,6 +116,7 @@ struct ViewPush {
 // The warp pass's data of one rest frame for one view's eye, like ViewPush, which has the world's.
 struct RestFrameEntry {
     vec4 row0, row1, row2; // rows of the rotation from the world's motion axes, both in the ship; row1.w: as ViewPush's
+    vec4 cube0, cube1, cube2; // UNALIGNED: rows of cube_from_motion
     vec4 boost; // E, 1/E; z: index of its first tile, w: its index among the world's frames
     vec4 eye;
     vec4 nearest; // y: as ViewPush's zenith
@@ -120,7 +125,7 @@ struct RestFrameEntry {
 // The rest frames of one view, and the sky behind them.
 struct RestFrameConstants {
     vec4 count; // x: number of rest frames
-    vec4 world_up; // world's motion axes
+    vec4 world_up; // axes of the world's cube map
     vec4 sky_zenith[MAX_GROUPS]; // coefficients of the light, pre-exposed
     vec4 sky_horizon[MAX_GROUPS];
     vec4 sky_nadir[MAX_GROUPS];

@@ -33,15 +33,18 @@ vec3 black_body(float kelvin)
     return entry.rgb * exp(entry.w) * exp2((at - inside) / STAR_STEPS_PER_OCTAVE);
 }
 
-// The effect of D on a point's light. A surface's radiance per frequency grows as D^3. A point is a surface whose solid
-// angle alone counts, and that shrinks as D^-2: a black body becomes one at D T with D^-2 of its radiance. Its flux per
-// frequency then grows as D. That D is the headlight effect of a point: without it only the shift is left.
-vec3 starlight(StarEntry star, float D)
+// The light of a star: a surface too small to have a visible extent. Its radiance changes as any surface's does: a black
+// body becomes one at D T, which includes the headlight effect's D^3; and its solid angle shrinks with the sky around it,
+// by the square of the growth of angles from the ship to the world.
+vec3 starlight(StarEntry star, AberratedRay sight)
 {
-    if (!DOPPLER)
-        return black_body(star.direction.w) * star.light.x * (HEADLIGHT ? D : 1.0);
-    vec3 shifted = black_body(D * star.direction.w) * (star.light.x / (D * D));
-    return HEADLIGHT ? shifted : shifted / D;
+    float D = sight.D, growth_of_angles = ABERRATION ? growth(sight, sight.n, view.boost.xy) : 1.0;
+    vec3 radiance = black_body(DOPPLER ? D * star.direction.w : star.direction.w);
+    if (DOPPLER && !HEADLIGHT)
+        radiance /= headlight(D);
+    if (!DOPPLER && HEADLIGHT)
+        radiance *= headlight(D);
+    return radiance * (star.light.x / (growth_of_angles * growth_of_angles));
 }
 
 // inverse_map.cpp's cell_of.
@@ -205,16 +208,16 @@ void main()
     if (!find(sight.n, channel, second, point, pixel_angle) || any(lessThan(point, vec2(-STAR_RADIUS)))
         || any(greaterThan(point, size + STAR_RADIUS)))
         return;
-    vec3 from_place = n; // of the cube map
+    vec3 from_place = in_cube_axes(n, world_rest_frame()); // of the cube map
     if (REPROJECT)
-        from_place = reprojected(n, eye_offset(sight.n, world_rest_frame()), world_angle(sight, sight.n, pixel_angle), world_rest_frame());
+        from_place = reprojected(from_place, eye_offset(sight.n, world_rest_frame()), world_angle(sight, sight.n, pixel_angle), world_rest_frame());
     if (hidden(place_of(from_place, world_rest_frame())))
         return;
     // A moving body hides the star where the body is drawn.
     for (int i = 1; SEVERAL_REST_FRAMES && i < int(rest_frames.count.x); ++i)
         if (dot(part_of(i, sight.n, pixel_angle, 1.0).covers, vec4(1.0)) > 0.5)
             return;
-    light = starlight(star, sight.D) * (view.boost.z / (pixel_angle * pixel_angle));
+    light = starlight(star, sight) * (view.boost.z / (pixel_angle * pixel_angle));
     if (METERING_SAMPLES) {
         vec2 place = vec2(mod(float(gl_VertexIndex), view.corner.x), floor(float(gl_VertexIndex) / view.corner.x)) + 0.5;
         gl_Position = vec4(place / view.corner.xy * 2.0 - 1.0, 0.0, 1.0);

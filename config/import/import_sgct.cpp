@@ -1,21 +1,30 @@
 #include "import_sgct.h"
-#include "config/model/turn.h"
+#include "sgct_projection.h"
 #include <algorithm>
 #include <cctype>
-#include <cmath>
+#include <fstream>
 #include <map>
-#include <numbers>
 
 namespace starbow {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Reasons = std::map<std::string_view, std::string_view>;
+using Reasons = SgctReport::Reasons;
 
-constexpr Range any{-1e9, 1e9}, metres{-1000, 1000}, turn_range{-360, 360};
+constexpr Range any_fraction{-1e9, 1e9};
 
 constexpr std::string_view elsewhere = "a layout says what is shown where; this is not part of it";
-constexpr std::string_view chosen_here = "the program chooses it";
+constexpr std::string_view other_tracker
+    = "SGCT's trackers speak VRPN; \"head_tracker\" beside a layout's outputs reads opentrack's UDP";
+
+/// The gamma of an ordinary screen or projector.
+constexpr double display_gamma = 2.2;
+
+/// The factor of the shipped stereo layouts, for worlds whose unit is a light-second.
+constexpr double light_seconds_hyper_stereo = 1.5e8;
+
+/// The head-up display of a dome, as in config/layouts/dome.json.
+constexpr double hud_above_rim_deg = 9, hud_width_deg = 60;
 
 /// An SGCT user: the eyes' place.
 struct User {
@@ -23,14 +32,6 @@ struct User {
     glm::dvec3 pos{0};
     double separation = 0;
 };
-
-/// True for a flat projection, which SGCT draws without a cube map.
-bool is_flat(const std::string& projection)
-{
-    return projection == "PlanarProjection" || projection == "TextureMappedProjection" || projection == "ProjectionPlane";
-}
-
-Json list(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 class Importer {
 public:
@@ -45,50 +46,31 @@ public:
     Import run();
 
 private:
-    void became(const Place& place, const std::string& what) { out_.lines.push_back(place.pointer + "  -> " + what); }
-    void not_mapped(const Place& place, std::string_view reason)
-    {
-        out_.lines.push_back(place.pointer + "  not mapped: " + std::string(reason));
-    }
-    /// Reports a member that has no place in a layout.
-    void leftover(const Place& place, const std::string& name, const Reasons& reasons)
-    {
-        const auto found = reasons.find(name);
-        not_mapped(place, found != reasons.end() ? found->second : "SGCT's configurations have no such name here");
-    }
-    /// Calls take(name, place) for every member of an object; members that it does not take are reported.
+    void became(const Place& place, const std::string& what) { report_.became(place, what); }
+    void not_mapped(const Place& place, std::string_view reason) { report_.not_mapped(place, reason); }
     template <class Take> void members(const Place& place, const Reasons& reasons, Take take)
     {
-        if (!place.json->is_object())
-            complain(place, "is not an object; an object in { } is right");
-        for (const auto& [name, value] : place.json->items()) {
-            const Place at{place.document, &value, place.pointer + "/" + escaped(name)};
-            if (!take(name, at))
-                leftover(at, name, reasons);
-        }
+        report_.members(place, reasons, take);
     }
 
     glm::dvec2 xy(const Place& place, Range range)
     {
         return {number(member(place, "x"), range), number(member(place, "y"), range)};
     }
-    glm::dvec3 xyz(const Place& place)
-    {
-        return {number(member(place, "x"), metres), number(member(place, "y"), metres), number(member(place, "z"), metres)};
-    }
     std::string file(const Place& place) { return (folder_ / text(place)).lexically_normal().generic_string(); }
 
     std::vector<Place> nodes(const Place& top);
     void user(const Place& place);
+    void node(const Place& place);
+    glm::ivec2 window_size(const Place& window);
+    void monitor(const Place& window, bool alone, Json& output);
     std::optional<Json> window(const Place& place, std::size_t index, bool alone);
-    std::optional<Json> viewport(const Place& place, glm::ivec2 window_size);
-    std::optional<Json> projection(const Place& place, glm::dvec2 pixels);
+    bool window_member(const std::string& name, const Place& at, glm::ivec2 size, Json& output);
+    std::vector<Json> viewport(const Place& place, glm::ivec2 window_size, bool packed);
     std::optional<MeshView> mesh_view(const Place& viewport);
-    Json planar(const Place& place);
-    Json wall(const Place& place);
-    Json fisheye(const Place& place, glm::dvec2 pixels);
-    Json cylinder(const Place& place);
-    Json turn(const Place& place);
+    void mesh(const Place& at, const Place& viewport, Json& out);
+    void mesh_with_view(
+        const Place& at, const MeshView& own, const SgctView& view, bool own_eye, Json& out, SgctPicture& picture);
     std::string packing(const Place& place);
     std::string output_name(const std::string& wanted);
 
@@ -96,7 +78,11 @@ private:
     int node_;
     std::filesystem::path folder_;
     LookInto look_into_;
-    Import out_;
+    SgctReport report_;
+    Json outputs_ = Json::array();
+    std::vector<std::string> to_mend_;
+    bool two_eyes_ = false; ///< some viewport shows the picture of one of two eyes
+    std::optional<double> front_elevation_deg_; ///< of the first dome
     std::vector<User> users_;
     std::vector<std::string> names_; ///< of outputs so far
 };
@@ -113,63 +99,74 @@ Import Importer::run()
     if (const auto users = find_member(top, "users"))
         for (const Place& place : items(*users, 0, 64, "users"))
             user(place);
-    std::swap(before, out_.lines);
+    std::swap(before, report_.lines);
 
-    Json outputs = Json::array();
     members(top,
         {{"masteraddress", "one machine shows a layout"}, {"debuglog", elsewhere}, {"threadaffinity", elsewhere},
             {"firmsync", "one machine shows a layout"}, {"scene", "a shot says where in the world the visitor is"},
-            {"capture", "starbow render takes its own options"}, {"trackers", "no head tracker is read"},
-            {"settings", elsewhere}, {"generator", elsewhere}, {"meta", "a layout is named by its file"},
-            {"$schema", elsewhere}},
+            {"capture", "starbow render takes its own options"}, {"trackers", other_tracker}, {"settings", elsewhere},
+            {"generator", elsewhere}, {"meta", "a layout is named by its file"}, {"$schema", elsewhere}},
         [&](const std::string& name, const Place& place) {
             if (name == "version")
                 became(place, "read as SGCT's JSON format, version " + std::to_string(integer(place, 1, 1)));
             else if (name == "users")
-                out_.lines.insert(out_.lines.end(), before.begin(), before.end());
+                report_.lines.insert(report_.lines.end(), before.begin(), before.end());
             else if (name == "nodes") {
                 for (std::size_t i = 0; i < all.size(); ++i)
-                    if (int(i) != node_)
+                    if (int(i) == node_)
+                        node(all[i]);
+                    else
                         not_mapped(all[i],
                             "node " + std::to_string(node_) + " is taken; --node " + std::to_string(i) + " takes this one");
-                    else
-                        members(all[i],
-                            {{"address", "one machine shows a layout"}, {"port", "one machine shows a layout"},
-                                {"datatransferport", "one machine shows a layout"},
-                                {"swaplock", "one machine shows a layout"}},
-                            [&](const std::string& part, const Place& windows) {
-                                if (part != "windows")
-                                    return false;
-                                std::size_t index = 0;
-                                const std::vector<Place> each = items(windows, 1, 64, "windows");
-                                for (const Place& at : each)
-                                    if (auto output = window(at, index++, each.size() == 1)) {
-                                        if (output->contains("monitor"))
-                                            out_.to_mend.push_back("/outputs/" + std::to_string(outputs.size())
-                                                + "/monitor/connector: "
-                                                + (*output)["monitor"]["connector"].get<std::string>()
-                                                + " stands in for the monitor's name; one that 'starbow displays' lists is "
-                                                  "right");
-                                        outputs.push_back(*output);
-                                    }
-                                return true;
-                            });
             } else
                 return false;
             return true;
         });
-    if (outputs.empty())
+    if (outputs_.empty()) {
+        std::string reasons;
+        for (const std::string& line : report_.left_out)
+            reasons += (reasons.empty() ? ": " : ", and ") + line;
         throw InputError(document_.file, "/nodes/" + std::to_string(node_),
-            "has no window of which something could be made; "
-            "one with a PlanarProjection, ProjectionPlane, FisheyeProjection, CylindricalProjection or "
-            "EquirectangularProjection is right");
+            "has no window of which something could be made" + one_line(reasons, 600)
+                + "; one with a PlanarProjection, TextureMappedProjection, ProjectionPlane, FisheyeProjection, "
+                  "CylindricalProjection, EquirectangularProjection or CubemapProjection is right");
+    }
     Json layout;
     for (const User& each : users_)
         if (each.name.empty() && each.separation > 0)
             layout["stereo"] = {{"separation_m", each.separation}};
-    layout["outputs"] = std::move(outputs);
-    out_.layout = std::move(layout);
-    return std::move(out_);
+    if (two_eyes_) {
+        layout["stereo"]["hyper_stereo"] = light_seconds_hyper_stereo;
+        report_.lines.push_back("/nodes/" + std::to_string(node_) + "  -> /stereo/hyper_stereo "
+            + shown(light_seconds_hyper_stereo)
+            + ", for the shipped worlds, whose unit is a light-second; 1 for worlds in "
+              "metres");
+    }
+    if (front_elevation_deg_) {
+        const double elevation = std::clamp(*front_elevation_deg_ + hud_above_rim_deg, -90.0, 90.0);
+        layout["hud"] = {{"azimuth_deg", 0}, {"elevation_deg", elevation}, {"width_deg", hud_width_deg}};
+        report_.lines.push_back("/nodes/" + std::to_string(node_) + "  -> /hud/elevation_deg " + shown(elevation)
+            + ", just above the dome's rim in front");
+    }
+    layout["outputs"] = std::move(outputs_);
+    return {std::move(layout), std::move(report_.lines), std::move(to_mend_)};
+}
+
+void Importer::node(const Place& place)
+{
+    members(place,
+        {{"address", "one machine shows a layout"}, {"port", "one machine shows a layout"},
+            {"datatransferport", "one machine shows a layout"}, {"swaplock", "one machine shows a layout"}},
+        [&](const std::string& part, const Place& windows) {
+            if (part != "windows")
+                return false;
+            std::size_t index = 0;
+            const std::vector<Place> each = items(windows, 1, 64, "windows");
+            for (const Place& at : each)
+                if (auto output = window(at, index++, each.size() == 1))
+                    outputs_.push_back(*output);
+            return true;
+        });
 }
 
 std::vector<Place> Importer::nodes(const Place& top)
@@ -190,7 +187,7 @@ void Importer::user(const Place& place)
         = user.name.empty() ? "of every viewport without a user of its own" : "of the viewports of user " + user.name;
     members(place,
         {{"orientation", "the visitor's look belongs to a shot"}, {"matrix", "the visitor's look belongs to a shot"},
-            {"tracking", "no head tracker is read"}},
+            {"tracking", other_tracker}},
         [&](const std::string& name, const Place& at) {
             if (name == "name")
                 became(at, "used to find the eyes of its viewports");
@@ -201,7 +198,7 @@ void Importer::user(const Place& place)
                 else
                     not_mapped(at, "all viewports of a layout share one separation, that of the user without a name");
             } else if (name == "pos") {
-                user.pos = xyz(at);
+                user.pos = sgct_xyz(at);
                 became(at, "eye_m " + whose);
             } else
                 return false;
@@ -223,13 +220,14 @@ std::string Importer::output_name(const std::string& wanted)
     return free;
 }
 
+/// SGCT draws each eye's picture in the window's own shape into half of it: the packings' half forms.
 std::string Importer::packing(const Place& place)
 {
     const std::string mode = text(place);
     const std::map<std::string_view, std::string_view> packings{{"none", "mono"}, {"no_stereo", "mono"},
         {"checkerboard", "checkerboard"}, {"anaglyph_red_cyan", "anaglyph-red-cyan"},
         {"anaglyph_amber_blue", "anaglyph-amber-blue"}, {"anaglyph_wimmer", "anaglyph-dubois"},
-        {"vertical_interlaced", "rows"}, {"side_by_side", "side-by-side"}, {"top_bottom", "top-and-bottom"}};
+        {"vertical_interlaced", "rows"}, {"side_by_side", "side-by-side-half"}, {"top_bottom", "top-and-bottom-half"}};
     if (const auto found = packings.find(mode); found != packings.end()) {
         const std::string note = mode == "anaglyph_wimmer" ? ", made for the same glasses" : "";
         became(place, "packing " + std::string(found->second) + note);
@@ -246,82 +244,125 @@ std::string Importer::packing(const Place& place)
     return "mono";
 }
 
+/// Without a size SGCT takes two thirds of the main monitor's, which is not known here.
+glm::ivec2 Importer::window_size(const Place& window)
+{
+    const auto pixels
+        = [](const Place& at) { return glm::ivec2(integer(member(at, "x"), 1, 16384), integer(member(at, "y"), 1, 16384)); };
+    if (const auto at = find_member(window, "size"))
+        return pixels(*at);
+    glm::dvec2 size(1280, 720);
+    if (const auto at = find_member(window, "res")) {
+        const glm::dvec2 shape = pixels(*at);
+        size = shape * std::min(size.x / shape.x, size.y / shape.y);
+    }
+    return glm::max(glm::ivec2(glm::round(size)), 1);
+}
+
+/// Reads the window's monitor. SGCT numbers monitors, and a layout names them. Several windows need at least different
+/// names.
+void Importer::monitor(const Place& window, bool alone, Json& output)
+{
+    const auto fullscreen = find_member(window, "fullscreen"), index = find_member(window, "monitor");
+    if (!fullscreen || !boolean(*fullscreen))
+        return;
+    output["whole_monitor"] = true;
+    if (!alone)
+        output["monitor"] = {{"connector", "SGCT-monitor-" + std::to_string(index ? integer(*index, -1, 1024) : 0)}};
+}
+
 std::optional<Json> Importer::window(const Place& place, std::size_t index, bool alone)
 {
+    if (const auto draws = find_member(place, "draw3d"); draws && !boolean(*draws)) {
+        report_.leave_out(place, "draws no 3D scene (\"draw3d\": false), only SGCT's controls; the window is left out");
+        return {};
+    }
     Json output;
-    const Place size_at = member(place, "size");
-    const glm::ivec2 size(integer(member(size_at, "x"), 1, 16384), integer(member(size_at, "y"), 1, 16384));
+    const glm::ivec2 size = window_size(place);
     const auto name_at = find_member(place, "name");
     output["name"] = output_name(name_at ? text(*name_at) : "window" + std::to_string(index));
     output["size"] = Json::array({size.x, size.y});
-    const auto fullscreen_at = find_member(place, "fullscreen"), monitor_at = find_member(place, "monitor");
-    const bool fullscreen = fullscreen_at && boolean(*fullscreen_at);
-    if (fullscreen) {
-        output["whole_monitor"] = true;
-        // SGCT numbers monitors, a layout names them. Several windows need at least different names.
-        if (!alone)
-            output["monitor"]
-                = {{"connector", "SGCT-monitor-" + std::to_string(monitor_at ? integer(*monitor_at, -1, 1024) : 0)}};
-    }
+    monitor(place, alone, output);
+    if (const auto stereo = find_member(place, "stereo"))
+        output["packing"] = packing(*stereo);
+    const bool packed = output.value("packing", "mono") != "mono";
     Json viewports = Json::array();
     members(place,
-        {{"id", elsewhere}, {"tags", elsewhere}, {"bufferbitdepth", chosen_here}, {"autoiconify", elsewhere},
+        {{"id", elsewhere}, {"tags", elsewhere}, {"bufferbitdepth", sgct_choice_of_program}, {"autoiconify", elsewhere},
             {"hidemousecursor", "the pointer rests by itself"}, {"floating", elsewhere}, {"alwaysrender", elsewhere},
             {"hidden", "every output is shown; starbow render draws without a window"}, {"takescreenshot", elsewhere},
-            {"alpha", "an output is opaque"}, {"msaa", chosen_here}, {"fxaa", chosen_here},
+            {"alpha", "an output is opaque"}, {"msaa", sgct_choice_of_program}, {"fxaa", sgct_choice_of_program},
             {"border", "a window has a frame unless it has monitor, whole_monitor or place"}, {"draw2d", elsewhere},
-            {"draw3d", "every output shows the world"}, {"noerror", elsewhere},
-            {"blitwindowid", "an output is not copied; one with preview shows all others small"},
+            {"noerror", elsewhere}, {"blitwindowid", "an output is not copied; one with preview shows all others small"},
             {"monitor", "a layout names a monitor by its connector, model, serial number or position, not by a number"},
             {"spout", "pictures are not shared with other programs"}, {"ndi", "pictures are not sent over the network"},
             {"scalablemesh", "name the mesh as the viewport's"},
-            {"mpcdi", "give each region a viewport with the file as its warp"}, {"doublebuffered", chosen_here},
-            {"swapinterval", chosen_here}},
+            {"mpcdi",
+                "give each region a viewport whose warp names the file, its \"region\", \"first_row\": \"top\" and "
+                "\"values\": \"offsets\", as SGCT reads it"},
+            {"doublebuffered", sgct_choice_of_program}, {"swapinterval", sgct_choice_of_program}},
         [&](const std::string& name, const Place& at) {
-            if (name == "size")
-                became(at, "size");
-            else if (name == "name")
-                became(at, "name " + output["name"].get<std::string>());
-            else if (name == "pos" && fullscreen)
-                not_mapped(at, "the window covers its monitor");
-            else if (name == "monitor" && output.contains("monitor"))
-                became(at, "monitor, a connector that stands in for its name");
-            else if (name == "pos") {
-                output["place"]
-                    = Json::array({integer(member(at, "x"), -65536, 65536), integer(member(at, "y"), -65536, 65536)});
-                became(at, "place, counted from the monitor's corner, where SGCT counts from the desktop's");
-            } else if (name == "res") {
-                if (xy(at, {1, 65536}) == glm::dvec2(size))
-                    became(at, "size, which it equals");
-                else
-                    not_mapped(at, "an output is drawn at its own size");
-            } else if (name == "fullscreen") {
-                became(at, fullscreen ? "whole_monitor" : "a window");
-            } else if (name == "resizable") {
-                output["resizable"] = boolean(at);
-                became(at, "resizable");
-            } else if (name == "stereo") {
-                output["packing"] = packing(at);
-            } else if (name == "mirrorx" || name == "mirrory") {
-                if (boolean(at))
-                    not_mapped(at, "no output is mirrored; turn the projector's picture about");
-                else
-                    became(at, "nothing is mirrored");
-            } else if (name == "viewports") {
+            if (name == "viewports") {
                 for (const Place& each : items(at, 0, 64, "viewports"))
-                    if (auto made = viewport(each, size))
-                        viewports.push_back(*made);
-            } else
-                return false;
-            return true;
+                    for (Json& made : viewport(each, size, packed))
+                        viewports.push_back(std::move(made));
+                return true;
+            }
+            return window_member(name, at, size, output);
         });
     if (viewports.empty()) {
         not_mapped(place, "no viewport is left; the window is left out");
         names_.pop_back();
         return {};
     }
+    const std::string pointer = "/outputs/" + std::to_string(outputs_.size());
+    if (output.contains("monitor"))
+        to_mend_.push_back(pointer + "/monitor/connector: " + output["monitor"]["connector"].get<std::string>()
+            + " stands in for the monitor's name; one that 'starbow displays' lists is right");
+    if (!find_member(place, "size"))
+        to_mend_.push_back(pointer + "/size: " + output["size"].dump()
+            + " stands in for two thirds of the main monitor, which SGCT takes without a \"size\"; the window's own pixels "
+              "are right");
     output["viewports"] = std::move(viewports);
     return output;
+}
+
+/// Reports a window's member that window() has read, and takes the simple ones. False for those that have no place in a
+/// layout.
+bool Importer::window_member(const std::string& name, const Place& at, glm::ivec2 size, Json& output)
+{
+    const bool fullscreen = output.contains("whole_monitor");
+    if (name == "size")
+        became(at, "size");
+    else if (name == "name")
+        became(at, "name " + output["name"].get<std::string>());
+    else if (name == "draw3d")
+        became(at, "the output shows the world");
+    else if (name == "pos" && fullscreen)
+        not_mapped(at, "the window covers its monitor");
+    else if (name == "monitor" && output.contains("monitor"))
+        became(at, "monitor, a connector that stands in for its name");
+    else if (name == "pos") {
+        output["place"] = Json::array({integer(member(at, "x"), -65536, 65536), integer(member(at, "y"), -65536, 65536)});
+        became(at, "place, counted from the monitor's corner, where SGCT counts from the desktop's");
+    } else if (name == "res") {
+        if (xy(at, {1, 65536}) == glm::dvec2(size))
+            became(at, "size, which it equals");
+        else
+            not_mapped(at, "an output is drawn at its own size");
+    } else if (name == "fullscreen") {
+        became(at, fullscreen ? "whole_monitor" : "a window");
+    } else if (name == "resizable") {
+        output["resizable"] = boolean(at);
+        became(at, "resizable");
+    } else if (name == "mirrorx" || name == "mirrory") {
+        if (boolean(at))
+            not_mapped(at, "no output is mirrored; turn the projector's picture about");
+        else
+            became(at, "nothing is mirrored");
+    } else
+        return name == "stereo"; // packing() has reported it
+    return true;
 }
 
 /// The view that replaces a viewport's flat one because of its mesh. SGCT takes it from SCISS, Scalable and SkySkan files,
@@ -332,7 +373,7 @@ std::optional<MeshView> Importer::mesh_view(const Place& viewport)
     const auto mesh = find_member(viewport, "mesh"), shown = find_member(viewport, "projection");
     if (!mesh)
         return {};
-    if (shown && !is_flat(text(member(*shown, "type"))))
+    if (shown && !is_flat_in_sgct(text(member(*shown, "type"))))
         return {};
     const std::filesystem::path file = text(*mesh);
     const std::string kind = file.extension().string();
@@ -346,34 +387,94 @@ std::optional<MeshView> Importer::mesh_view(const Place& viewport)
     return view;
 }
 
-std::optional<Json> Importer::viewport(const Place& place, glm::ivec2 window_size)
+/// Reads a viewport's mesh into `out`. SGCT's reader of PFM files (correction/pfm.cpp) is of a kind of its own: the first
+/// row on top, the outer samples on the edges, v upwards; and only with a TextureMappedProjection are the values places.
+void Importer::mesh(const Place& at, const Place& viewport, Json& out)
+{
+    const std::string name = file(at);
+    Json warp{{"file", name}};
+    std::string how;
+    if (std::filesystem::path(name).extension() == ".pfm") {
+        const auto shown = find_member(viewport, "projection");
+        if (!shown || text(member(*shown, "type")) != "TextureMappedProjection") {
+            not_mapped(at,
+                "beside this projection SGCT reads a PFM as positions for two eyes beside each other; only a "
+                "TextureMappedProjection's is read");
+            return;
+        }
+        if (out.contains("rect")) {
+            not_mapped(at, "SGCT's places are fractions of the whole window, and this viewport is a part of it");
+            return;
+        }
+        warp["first_row"] = "top";
+        warp["v"] = "up";
+        warp["samples"] = "edges";
+        how = ", with the first row on top, v upwards and the samples from edge to edge";
+    }
+    out["warp"] = std::move(warp);
+    became(at, "warp, file " + name + how);
+}
+
+/// Reads a mesh that brings its own view into a viewport and its picture.
+void Importer::mesh_with_view(
+    const Place& at, const MeshView& own, const SgctView& view, bool own_eye, Json& out, SgctPicture& picture)
+{
+    out["warp"] = {{"file", file(at)}};
+    const bool wall = own.planar && looks_askew(view);
+    if (wall)
+        picture.parts = {{.projection = sgct_wall(*own.planar)}};
+    became(at,
+        "warp, file " + file(at) + ", which brings its own view" + (own_eye ? " and eye" : "")
+            + (wall ? "; a wall 10 m from the origin, where SGCT puts its plane" : ""));
+}
+
+/// The layout's viewports of a picture in the rectangle `within`: one, or one for each part.
+std::vector<Json> placed(const Json& viewport, SgctPicture& picture, const glm::dvec4& within)
+{
+    if (picture.parts.empty())
+        return {viewport}; // the warp file brings the projection
+    std::vector<Json> all;
+    for (SgctPart& part : picture.parts) {
+        Json one = viewport;
+        one["projection"] = std::move(part.projection);
+        if (picture.parts.size() > 1)
+            one["rect"] = Json::array({within.x + part.rect.x * within.z, within.y + part.rect.y * within.w,
+                part.rect.z * within.z, part.rect.w * within.w});
+        all.push_back(std::move(one));
+    }
+    return all;
+}
+
+std::vector<Json> Importer::viewport(const Place& place, glm::ivec2 window_size, bool packed)
 {
     Json out;
     glm::dvec2 corner(0), size(1);
     if (const auto at = find_member(place, "pos"))
-        corner = xy(*at, any);
+        corner = xy(*at, any_fraction);
     if (const auto at = find_member(place, "size"))
-        size = xy(*at, any);
+        size = xy(*at, any_fraction);
     // The corner is converted from SGCT's lower left to the upper left.
     const glm::dvec2 low = glm::clamp(corner, 0.0, 1.0), high = glm::clamp(corner + size, 0.0, 1.0);
     const bool cut = glm::length(low - corner) > 1e-9 || glm::length(high - corner - size) > 1e-9;
     if (!(high.x > low.x && high.y > low.y)) {
-        not_mapped(place, "lies outside its window; the viewport is left out");
+        report_.leave_out(place, "lies outside its window; the viewport is left out");
         return {};
     }
     if (low != glm::dvec2(0) || high != glm::dvec2(1))
         out["rect"] = Json::array({low.x, 1 - high.y, high.x - low.x, high.y - low.y});
-    bool usable = true;
-    const auto user_at = find_member(place, "user");
+    const auto user_at = find_member(place, "user"), eye_at = find_member(place, "eye");
     const std::string wanted = user_at ? text(*user_at) : "";
     const auto whose = std::find_if(users_.begin(), users_.end(), [&](const User& user) { return user.name == wanted; });
     const std::optional<MeshView> own = mesh_view(place);
     const glm::dvec3 given = whose != users_.end() ? whose->pos : glm::dvec3(0),
                      eye = own ? own->eye_m.value_or(given) : given;
     if (eye != glm::dvec3(0))
-        out["eye_m"] = list(eye);
+        out["eye_m"] = json_of(eye);
+    const bool one_of_two = eye_at && one_of(*eye_at, {"center", "left", "right"}) != "center";
+    const SgctView view{(high - low) * glm::dvec2(window_size), eye, packed || one_of_two};
+    SgctPicture picture;
     members(place,
-        {{"overlay", "nothing is drawn over the world but the head-up display"}, {"tracked", "no head tracker is read"},
+        {{"overlay", "nothing is drawn over the world but the head-up display"}, {"tracked", other_tracker},
             {"blacklevelmask", "SGCT multiplies by it; black_level is added, and needs a picture of that kind"},
             {"type", "the projection's own type counts"}},
         [&](const std::string& name, const Place& at) {
@@ -387,219 +488,51 @@ std::optional<Json> Importer::viewport(const Place& place, glm::ivec2 window_siz
                 else
                     not_mapped(at, "there is no user of this name");
             } else if (name == "eye") {
-                const std::string eye = one_of(at, {"center", "left", "right"});
-                if (eye != "center")
-                    out["eye"] = eye;
-                became(at, eye == "center" ? "eye middle" : "eye " + eye);
+                const std::string side = text(at);
+                if (one_of_two)
+                    out["eye"] = side;
+                became(at, one_of_two ? "eye " + side : "eye middle");
+            } else if (name == "mesh" && own) {
+                mesh_with_view(at, *own, view, eye != given, out, picture);
             } else if (name == "mesh") {
-                out["warp"] = {{"file", file(at)}};
-                became(at,
-                    "warp, file " + file(at) + (own ? ", which brings its own view" : "")
-                        + (eye != given ? " and eye" : ""));
+                mesh(at, place, out);
             } else if (name == "blendmask") {
                 out["alpha_mask"] = file(at);
-                became(at, "alpha_mask " + file(at));
+                out["mask_gamma"] = display_gamma;
+                became(at,
+                    "alpha_mask " + file(at) + ", with mask_gamma " + shown(display_gamma)
+                        + " because SGCT multiplies what it sends to the screen, not the light");
             } else if (name == "projection" && own) {
                 not_mapped(at, "replaced by the mesh's own");
             } else if (name == "projection") {
-                auto made = projection(at, (high - low) * glm::dvec2(window_size));
-                usable = made.has_value();
-                if (made)
-                    out["projection"] = std::move(*made);
+                picture = sgct_projection(report_, at, view);
             } else
                 return false;
             return true;
         });
-    if (!out.contains("projection") && !out.contains("warp"))
-        usable = false;
-    if (!usable) {
-        not_mapped(place, "has no projection of a kind that a layout has; the viewport is left out");
+    if (picture.parts.empty() && !out.contains("warp")) {
+        report_.not_mapped(place, "has no projection of a kind that a layout has; the viewport is left out");
         return {};
     }
-    return out;
-}
-
-std::optional<Json> Importer::projection(const Place& place, glm::dvec2 pixels)
-{
-    const Place type_at = member(place, "type");
-    const std::string type = text(type_at);
-    if (type == "PlanarProjection" || type == "TextureMappedProjection")
-        return planar(place);
-    if (type == "ProjectionPlane")
-        return wall(place);
-    if (type == "FisheyeProjection")
-        return fisheye(place, pixels);
-    if (type == "CylindricalProjection")
-        return cylinder(place);
-    if (type == "EquirectangularProjection") {
-        members(place, {{"quality", chosen_here}}, [&](const std::string& name, const Place& at) {
-            if (name == "type")
-                became(at, "projection equirectangular, the whole sphere");
-            return name == "type";
-        });
-        return Json{{"type", "equirectangular"}};
-    }
-    const Reasons reasons{{"type",
-        type == "SphericalMirrorProjection"
-            ? "its four meshes bend four pictures; give each a viewport with its OBJ as warp, or use a mirror"
-            : type == "CubemapProjection" ? "its faces go to other programs; a cube shows them in one picture"
-                                          : "it is no projection that is known here"}};
-    for (const auto& [name, value] : place.json->items())
-        not_mapped({place.document, &value, place.pointer + "/" + escaped(name)},
-            name == "type" ? reasons.begin()->second : "its projection is not mapped");
-    return {};
-}
-
-Json Importer::turn(const Place& place)
-{
-    Turn turn;
-    if (find_member(place, "w")) {
-        const double x = number(member(place, "x"), {-1.01, 1.01}), y = number(member(place, "y"), {-1.01, 1.01}),
-                     z = number(member(place, "z"), {-1.01, 1.01}), w = number(member(place, "w"), {-1.01, 1.01});
-        const double length = std::sqrt(x * x + y * y + z * z + w * w);
-        if (std::abs(length - 1) > 0.01)
-            complain(place, "is a quaternion of length " + shown(length) + "; length 1 is right");
-        turn = turn_of(x / length, y / length, z / length, w / length);
-    } else
-        turn = {number(member(place, "yaw"), turn_range), number(member(place, "pitch"), turn_range),
-            number(member(place, "roll"), turn_range)};
-    became(
-        place, "turn_deg, yaw " + shown(turn.yaw_deg) + " pitch " + shown(turn.pitch_deg) + " roll " + shown(turn.roll_deg));
-    return {{"yaw", turn.yaw_deg}, {"pitch", turn.pitch_deg}, {"roll", turn.roll_deg}};
-}
-
-Json Importer::planar(const Place& place)
-{
-    Json out{{"type", "planar"}};
-    const auto zero = [&](const Place& at) { return xyz(at) == glm::dvec3(0); };
-    members(place, {{"distance", "the windows of two eyes are parallel, at no distance"}},
-        [&](const std::string& name, const Place& at) {
-            if (name == "type")
-                became(at, "projection planar");
-            else if (name == "fov") {
-                const Range angle{-89.9, 89.9}, whole{0.1, 179};
-                Sides s{};
-                if (find_member(at, "hfov")) {
-                    const double h = number(member(at, "hfov"), whole) / 2, v = number(member(at, "vfov"), whole) / 2;
-                    s = {-h, h, -v, v};
-                } else
-                    s = {-number(member(at, "left"), angle), number(member(at, "right"), angle),
-                        -number(member(at, "down"), angle), number(member(at, "up"), angle)};
-                if (!(s.left_deg < s.right_deg && s.down_deg < s.up_deg))
-                    complain(at, "spans nothing; angles to each side that count from the axis outwards are right");
-                out["sides_deg"] = {{"left", s.left_deg}, {"right", s.right_deg}, {"down", s.down_deg}, {"up", s.up_deg}};
-                became(at, "sides_deg");
-            } else if (name == "orientation")
-                out["turn_deg"] = turn(at);
-            else if (name == "offset") {
-                if (zero(at))
-                    became(at, "nothing, it is 0");
-                else
-                    not_mapped(at, "a flat window has no place; a ProjectionPlane would have one");
-            } else
-                return false;
-            return true;
-        });
-    if (!out.contains("sides_deg"))
-        complain(place, "lacks \"fov\"; an object with this member is right");
-    return out;
-}
-
-Json Importer::wall(const Place& place)
-{
-    const glm::dvec3 ll = xyz(member(place, "lowerleft")), ul = xyz(member(place, "upperleft")),
-                     ur = xyz(member(place, "upperright"));
-    members(place, {}, [&](const std::string& name, const Place& at) {
-        if (name == "type")
-            became(at, "projection wall");
-        else if (name == "lowerleft")
-            became(at, "lower_left_m");
-        else if (name == "upperleft")
-            became(at, "upper_left_m");
-        else if (name == "upperright")
-            became(at, "lower_right_m, below it");
-        else
-            return false;
-        return true;
-    });
-    return {{"type", "wall"}, {"lower_left_m", list(ll)}, {"lower_right_m", list(ll + ur - ul)}, {"upper_left_m", list(ul)}};
-}
-
-Json Importer::fisheye(const Place& place, glm::dvec2 pixels)
-{
-    Json out{{"type", "fisheye"}, {"aperture_deg", 180}};
-    members(place,
-        {{"quality", chosen_here}, {"interpolation", chosen_here},
-            {"diameter", "SGCT uses it for two eyes; stereo, baseline and full_from_zenith_deg do that here"},
-            {"background", "outside the circle is black"}},
-        [&](const std::string& name, const Place& at) {
-            if (name == "type")
-                became(at, "projection fisheye, equidistant");
-            else if (name == "fov") {
-                out["aperture_deg"] = number(at, {1, 360});
-                became(at, "aperture_deg " + shown(number(at, {1, 360})));
-            } else if (name == "tilt") {
-                out["tilt_deg"] = number(at, {-180, 180});
-                became(at, "tilt_deg " + shown(number(at, {-180, 180})));
-            } else if (name == "keepaspectratio") {
-                if (boolean(at))
-                    became(at, "a circle");
-                else
-                    not_mapped(at, "a circle stays a circle, whatever the window's shape");
-            } else if (name == "crop") {
-                const Range part{0, 1};
-                const double left = number(member(at, "left"), part), right = number(member(at, "right"), part),
-                             bottom = number(member(at, "bottom"), part), top = number(member(at, "top"), part);
-                const double wide = 1 - left - right, high = 1 - bottom - top;
-                if (!(wide > 0 && high > 0))
-                    complain(at, "leaves nothing; less than 1 from opposite sides is right");
-                // The rest of the square fills the viewport's width or height and stands in its middle.
-                const double side = std::min(pixels.x / wide, pixels.y / high);
-                const glm::dvec2 centre(
-                    0.5 + side / pixels.x * (0.5 - left - wide / 2), 0.5 + side / pixels.y * (0.5 - top - high / 2));
-                out["centre"] = Json::array({centre.x, centre.y});
-                out["diameter"] = side / std::min(pixels.x, pixels.y);
-                became(at, "centre and diameter; the circle goes on where SGCT's cut leaves a margin");
-            } else if (name == "offset") {
-                if (xyz(at) == glm::dvec3(0))
-                    became(at, "nothing, it is 0");
-                else
-                    not_mapped(at, "a dome's picture is made for its centre");
-            } else
-                return false;
-            return true;
-        });
-    return out;
-}
-
-Json Importer::cylinder(const Place& place)
-{
-    double rotation = 0, height = 0;
-    members(place, {{"quality", chosen_here}, {"radius", "SGCT uses it for two eyes only"}},
-        [&](const std::string& name, const Place& at) {
-            if (name == "type")
-                became(at,
-                    "projection cylinder, once around, ahead at the left edge, from the horizon to 45 degrees unless "
-                    "heightoffset says otherwise");
-            else if (name == "rotation") {
-                rotation = number(at, turn_range);
-                became(at, "turn_deg/yaw");
-            } else if (name == "heightoffset") {
-                height = number(at, {-50, 50});
-                became(at, "sides_deg, down and up");
-            } else
-                return false;
-            return true;
-        });
-    // SGCT's rows show the heights 0 to 1 above heightoffset on a cylinder of radius 1; its columns begin ahead.
-    return {{"type", "cylinder"},
-        {"sides_deg",
-            {{"left", -180}, {"right", 180}, {"down", glm::degrees(std::atan(height))},
-                {"up", glm::degrees(std::atan(height + 1))}}},
-        {"turn_deg", {{"yaw", std::remainder(180 - rotation, 360.0)}, {"pitch", 0}, {"roll", 0}}}};
+    two_eyes_ |= view.two_eyes;
+    if (!front_elevation_deg_)
+        front_elevation_deg_ = picture.front_elevation_deg;
+    return placed(out, picture, {low.x, 1 - high.y, high.x - low.x, high.y - low.y});
 }
 
 } // namespace
+
+Document read_sgct(const std::filesystem::path& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    char first = 0;
+    // A byte order mark may stand before the first bracket.
+    while (stream.get(first) && (std::isspace(static_cast<unsigned char>(first)) || (first & 0x80))) { }
+    if (stream && first == '<')
+        throw InputError(one_line(file.string()), "",
+            "is XML, which SGCT read until its version 2; the JSON that SGCT reads since version 3 is right");
+    return read_document(file);
+}
 
 Import import_sgct(const Document& document, int node, const std::filesystem::path& folder, const LookInto& look_into)
 {

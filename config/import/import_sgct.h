@@ -1,5 +1,6 @@
 #pragma once
 #include "config/json/reader.h"
+#include "config/model/layout.h"
 #include <filesystem>
 #include <functional>
 
@@ -19,9 +20,13 @@ struct Import {
 struct MeshView {
     bool frustum = true; ///< false: the file has no frustum
     std::optional<glm::dvec3> eye_m; ///< the eye, where the file has one
+    std::optional<Planar> planar; ///< the frustum of a flat picture, with its sides
 };
 /// Reads a mesh's file, whose name is as in the configuration.
 using LookInto = std::function<MeshView(const std::filesystem::path& mesh)>;
+
+/// Reads an SGCT configuration. Throws InputError as read_document does, and for the XML of SGCT's older versions.
+Document read_sgct(const std::filesystem::path& file);
 
 /// Makes a layout from one node of an SGCT configuration (its JSON format, version 1). `folder` leads from the layout's
 /// folder to the configuration's, for the names of meshes and masks. look_into reads meshes of the kinds that may have a

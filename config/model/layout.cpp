@@ -47,7 +47,7 @@ glm::dvec4 read_rect(const Place& place, glm::ivec2 size)
 
 Warp read_warp(const Place& place, const std::filesystem::path& folder)
 {
-    reject_unknown_members(place, {"file", "frustum", "region", "first_row"});
+    reject_unknown_members(place, {"file", "frustum", "region", "first_row", "v", "samples", "values"});
     Warp warp;
     warp.file = existing_file(member(place, "file"), folder);
     if (auto p = find_member(place, "frustum"))
@@ -55,7 +55,20 @@ Warp read_warp(const Place& place, const std::filesystem::path& folder)
     if (auto p = find_member(place, "region"))
         warp.region = text(*p);
     if (auto p = find_member(place, "first_row"))
-        warp.first_row_on_top = one_of(*p, {"top", "bottom"}) == "top";
+        warp.map.first_row_on_top = one_of(*p, {"top", "bottom"}) == "top";
+    if (auto p = find_member(place, "v"))
+        warp.map.v_up = one_of(*p, {"down", "up"}) == "up";
+    if (auto p = find_member(place, "samples"))
+        warp.map.edge_to_edge = one_of(*p, {"centres", "edges"}) == "edges";
+    if (auto p = find_member(place, "values")) {
+        warp.map.offsets = one_of(*p, {"places", "offsets"}) == "offsets";
+        for (const char* name : {"v", "samples"})
+            if (auto other = find_member(place, name); other && warp.map.offsets)
+                complain(*other,
+                    "stands beside \"values\": \"offsets\", which are upwards and from edge to edge; \"values\": "
+                    "\"places\", or no \""
+                        + std::string(name) + "\", is right");
+    }
     return warp;
 }
 

@@ -101,12 +101,21 @@ struct Lens {
 
 using Projection = std::variant<Planar, Wall, Fisheye, Cylinder, Equirectangular, CubeFaces, SphericalMirror, Lens>;
 
+/// The form of a PFM's values, which no PFM declares. The defaults are those of the format's standard and of MPCDI's.
+struct FloatMapForm {
+    bool first_row_on_top = false;
+    bool v_up = false; ///< places count from the picture's lower edge
+    bool edge_to_edge = false; ///< the outer samples lie on the viewport's edges, not half a cell inside
+    bool offsets = false; ///< not places: a regular grid's points move by these, right and up, in fractions of the viewport
+    bool operator==(const FloatMapForm&) const = default;
+};
+
 /// A calibration's file that warps the viewport's projection, or has a projection of its own.
 struct Warp {
     std::filesystem::path file;
     std::filesystem::path frustum; ///< domeprojection's second file; empty: NAME_frustum.csv beside NAME_mesh.csv if there
     std::string region; ///< of an MPCDI file with several
-    bool first_row_on_top = false; ///< of a PFM: against its standard
+    FloatMapForm map; ///< of a PFM, also in an MPCDI file
 };
 
 /// The observer whose sky a viewport shows. All observers are at the ship's event.

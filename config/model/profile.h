@@ -30,6 +30,7 @@ enum class ButtonRole {
     home,
     undo,
     next_mode,
+    freeze,
     look_ahead,
     aberration,
     doppler,

@@ -28,7 +28,7 @@ struct Quality {
     bool mips = true; ///< for pixels that cover several texels
     bool half_floats = true; ///< light in 16 bits a number, else in 32
     bool matrices = true; ///< flat views by a matrix, else by a map as all other views
-    int frames_per_cube = 1; ///< frames that share one cube map, while the direction of motion stays
+    int frames_per_cube = 1; ///< frames that share one cube map, while the axes of the cube map stay
     std::optional<SpectralLevel> spectra{}; ///< nullopt: as the scene needs
     std::optional<StereoMethod> stereo{}; ///< nullopt: as the layout has it
 

@@ -8,6 +8,8 @@ namespace {
 
 /// Longer than any screen and any exhibit's room.
 constexpr double huge_m = 100;
+/// Farther from the cockpit's middle than any visitor, and eyes farther apart than any head has them.
+constexpr double far_eye_m = 20, far_apart_m = 0.2;
 /// Narrower than any display, in degrees. Half a turn in radians is about as much.
 constexpr double narrow_deg = 3.5;
 
@@ -32,6 +34,20 @@ std::string odd_size(const Viewport& viewport)
             return "its dome is " + rounded(dome->aperture_deg) + "° across; angles are in degrees";
     }
     return "";
+}
+
+/// Says which way a wall's picture lies if its corners seem exchanged. A floor's upper edge is in front, a ceiling's behind.
+std::string odd_corners(const Wall& wall)
+{
+    const glm::dvec3 right = glm::normalize(wall.lower_right_m - wall.lower_left_m),
+                     up = glm::normalize(wall.upper_left_m - wall.lower_left_m), to_room = glm::cross(right, up);
+    const bool floor = to_room.y > 0.75, ceiling = to_room.y < -0.75;
+    const double upright = floor ? -up.z : ceiling ? up.z : up.y;
+    constexpr double sideways = 0.5; // as far as a wall leans or turns
+    if (upright > sideways || ((floor || ceiling) && upright > -sideways))
+        return "";
+    return std::string("its picture ") + (upright < -sideways ? "stands on its head" : "lies on its side")
+        + "; corners may be exchanged: lower left, lower right and upper left are those that the visitor sees";
 }
 
 /// The ratio of a wall's pixels' width to their height.
@@ -74,6 +90,29 @@ bool masked(const Layout& layout, const Coverage& c)
     return !viewport.alpha_mask.empty() || viewport.warp; // a calibration may bring its own
 }
 
+/// Notes on the layout's eyes: their distance, the depth that they show, and the tracker that moves them.
+std::vector<std::string> eye_warnings(const Layout& layout, const std::vector<Coverage>& coverages)
+{
+    std::vector<std::string> all;
+    const bool two_eyes
+        = std::any_of(coverages.begin(), coverages.end(), [](const Coverage& c) { return c.eye != Eye::middle; });
+    if (two_eyes && layout.stereo.separation_m > far_apart_m)
+        all.push_back("the eyes are " + rounded(layout.stereo.separation_m) + " m apart; lengths are in metres");
+    if (two_eyes && layout.stereo.hyper_stereo == 1 && layout.stereo.method != StereoMethod::shared)
+        all.push_back("two eyes show no depth in worlds whose unit is a light-second, as the shipped ones have it: there "
+                      "\"stereo\" needs a \"hyper_stereo\", such as 1.5e8");
+    if (layout.head_tracker) {
+        const bool wall = std::any_of(coverages.begin(), coverages.end(), [&](const Coverage& c) {
+            return std::holds_alternative<Wall>(
+                layout.outputs[std::size_t(c.output)].viewports[std::size_t(c.viewport)].projection);
+        });
+        all.push_back("a head tracker is expected at UDP port " + std::to_string(layout.head_tracker->port) + " of "
+            + layout.head_tracker->address + ", in opentrack's format"
+            + (wall ? "" : "; no viewport is a wall, so it moves the eyes and no frame"));
+    }
+    return all;
+}
+
 } // namespace
 
 std::vector<std::string> lint(const Layout& layout, const std::vector<Coverage>& coverages)
@@ -88,6 +127,12 @@ std::vector<std::string> lint(const Layout& layout, const std::vector<Coverage>&
         const std::string name = viewport_name(layout, c.output, c.viewport);
         if (const std::string odd = odd_size(viewport); !odd.empty())
             doubt(name + ": " + odd);
+        if (glm::length(viewport.eye_m) > far_eye_m)
+            doubt(name + ": its eye is " + rounded(glm::length(viewport.eye_m))
+                + " m from the cockpit's middle; lengths are in metres");
+        if (auto* wall = std::get_if<Wall>(&viewport.projection))
+            if (const std::string odd = odd_corners(*wall); !odd.empty())
+                doubt(name + ": " + odd);
         if (auto* wall = std::get_if<Wall>(&viewport.projection); wall && !viewport.warp) {
             // In a squeezed packing too, the eye's picture has the output's shape.
             const glm::ivec2 size = layout.outputs[c.output].size;
@@ -115,6 +160,8 @@ std::vector<std::string> lint(const Layout& layout, const std::vector<Coverage>&
         doubt("the head-up display, at azimuth " + rounded(layout.hud.azimuth_deg) + "° and elevation "
             + rounded(layout.hud.elevation_deg) + "°, is "
             + (seen == 0 ? "seen nowhere" : "seen in part (" + rounded(100 * seen) + " %)") + "; \"hud\" puts it elsewhere");
+    for (const std::string& line : eye_warnings(layout, coverages))
+        doubt(line);
     for (const Output& output : layout.outputs)
         if (!output.monitor.connector.empty() || !output.monitor.serial.empty() || !output.monitor.model.empty()) {
             doubt("monitors are not looked for here; starbow displays lists those that are there");

@@ -1,18 +1,17 @@
 #include "compiled_view.h"
 #include "config/json/error.h"
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <map_sources.h> // MAP_SOURCES, a digest of all sources that maps depend on: CMakeLists.txt
 #include <sstream>
 #include <unistd.h>
 
 namespace starbow {
 namespace {
-
-/// The version of compiled maps; every change of their content needs a new one.
-constexpr std::uint64_t version = 1;
 
 /// FNV-1a, 64 bits: it names our own files and offers no protection.
 struct Hash {
@@ -92,7 +91,7 @@ struct Key {
 std::string key_of(const View& view, const std::string& warp)
 {
     Key key;
-    key.text << version << ' ' << view.size.x << ' ' << view.size.y << ' ' << view.picture.size.x << ' '
+    key.text << MAP_SOURCES << ' ' << view.size.x << ' ' << view.size.y << ' ' << view.picture.size.x << ' '
              << view.picture.size.y << ' ' << view.projection_given << ' ';
     key(view.picture_from_pixel), key(view.picture.eye_m);
     std::visit(key, view.picture.projection);
@@ -161,28 +160,42 @@ std::shared_ptr<DirectionMap> read_map(const std::filesystem::path& file, const 
     return map;
 }
 
-void make_room(const std::filesystem::path& folder)
+/// Removes the maps that were read longest ago, and the unfinished files of processes that ended while they wrote.
+void make_room(const std::filesystem::path& folder, std::uintmax_t most_bytes)
 {
-    constexpr std::uintmax_t most = std::uintmax_t(4) << 30;
+    namespace fs = std::filesystem;
+    struct Kept {
+        fs::file_time_type read;
+        fs::path file;
+        std::uintmax_t bytes;
+    };
+    const auto hour_ago = fs::file_time_type::clock::now() - std::chrono::hours(1); // no map takes so long to write
     std::error_code error;
-    std::map<std::filesystem::file_time_type, std::pair<std::filesystem::path, std::uintmax_t>> by_age;
+    std::vector<Kept> all;
     std::uintmax_t sum = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        // Another exhibit may remove the file meanwhile.
+        const fs::file_time_type read = entry.last_write_time(error);
+        const std::uintmax_t bytes = error ? 0 : entry.file_size(error);
+        if (error)
+            continue;
         if (entry.path().extension() == ".map") {
-            const std::uintmax_t size = entry.file_size(error);
-            by_age[entry.last_write_time(error)] = {entry.path(), size};
-            sum += size;
+            all.push_back({read, entry.path(), bytes});
+            sum += bytes;
+        } else if (entry.path().stem().extension() == ".map" && read < hour_ago) {
+            fs::remove(entry.path(), error);
         }
-    for (const auto& [age, entry] : by_age)
-        if (sum > most) {
-            std::filesystem::remove(entry.first, error);
-            sum -= entry.second;
-        }
+    }
+    std::sort(all.begin(), all.end(), [](const Kept& a, const Kept& b) { return a.read < b.read; });
+    for (std::size_t i = 0; i < all.size() && sum > most_bytes; ++i) {
+        fs::remove(all[i].file, error);
+        sum -= all[i].bytes;
+    }
 }
 
 /// Writes a temporary file and renames it, so that several exhibits may share the folder. A full disk only makes starts
 /// slower.
-void write_map(const std::filesystem::path& file, const DirectionMap& map)
+void write_map(const std::filesystem::path& file, const DirectionMap& map, std::uintmax_t most_bytes)
 {
     std::error_code error;
     std::filesystem::create_directories(file.parent_path(), error);
@@ -205,7 +218,9 @@ void write_map(const std::filesystem::path& file, const DirectionMap& map)
         }
     }
     std::filesystem::rename(beside, file, error);
-    make_room(file.parent_path());
+    if (error)
+        std::filesystem::remove(beside, error);
+    make_room(file.parent_path(), most_bytes);
 }
 
 } // namespace
@@ -233,16 +248,19 @@ MapStore::MapStore()
 {
 }
 
-MapStore::MapStore(std::filesystem::path folder)
+MapStore::MapStore(std::filesystem::path folder, std::uintmax_t most_bytes)
     : folder_(std::move(folder))
+    , most_bytes_(most_bytes)
     , kept_(std::make_shared<Kept>())
 {
 }
 
 std::shared_ptr<const WarpMesh> MapStore::mesh(const Warp& warp, std::string& content)
 {
-    content = warp.region + '\n' + (warp.first_row_on_top ? "top" : "bottom") + '\n' + warp.file.filename().string() + '\n'
-        + contents(warp.file);
+    const FloatMapForm& form = warp.map;
+    content = warp.region + '\n' + (form.first_row_on_top ? "top" : "bottom") + (form.v_up ? " up" : "")
+        + (form.edge_to_edge ? " edges" : "") + (form.offsets ? " offsets" : "") + '\n' + warp.file.filename().string()
+        + '\n' + contents(warp.file);
     // domeprojection's second file is named or found beside the first; its content is a part of the key in both cases.
     std::filesystem::path beside = warp.frustum;
     if (beside.empty()) {
@@ -270,7 +288,7 @@ std::shared_ptr<const DirectionMap> MapStore::map(const View& view, const WarpMe
     if (!map) {
         map = std::make_shared<DirectionMap>(starbow::compile_direction_map(view, mesh));
         if (on_disk && keep_)
-            write_map(file, *map);
+            write_map(file, *map, most_bytes_);
     }
     kept = map;
     return map;

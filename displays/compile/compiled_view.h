@@ -25,7 +25,8 @@ std::filesystem::path map_cache_folder();
 class MapStore {
 public:
     MapStore();
-    explicit MapStore(std::filesystem::path folder); ///< empty: memory only
+    /// folder: empty for memory only. most_bytes: of the maps in the folder.
+    explicit MapStore(std::filesystem::path folder, std::uintmax_t most_bytes = std::uintmax_t(4) << 30);
 
     /// False: new maps are not written to the folder, for example while a builder changes a dome's tilt.
     void keep(bool on_disk) { keep_ = on_disk; }
@@ -40,6 +41,7 @@ private:
     std::shared_ptr<const DirectionMap> map(const View& view, const WarpMesh* mesh, const std::string& key);
 
     std::filesystem::path folder_;
+    std::uintmax_t most_bytes_;
     bool keep_ = true, matrices_ = true;
     struct Kept;
     std::shared_ptr<Kept> kept_;

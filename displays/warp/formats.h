@@ -18,12 +18,12 @@ WarpMesh read_sciss(const WarpFile& file);
 WarpMesh read_scalable(const WarpFile& file);
 WarpMesh read_skyskan(const WarpFile& file);
 WarpMesh read_obj(const WarpFile& file);
-WarpMesh read_pfm(const WarpFile& file, bool first_row_on_top);
-WarpMesh read_mpcdi(const WarpFile& file, const std::string& region, bool first_row_on_top);
+WarpMesh read_pfm(const WarpFile& file, const FloatMapForm& form);
+WarpMesh read_mpcdi(const WarpFile& file, const std::string& region, const FloatMapForm& form);
 WarpMesh read_headset(const WarpFile& file);
 
 /// Reads any of the formats, recognised by its first bytes, then by its name.
-WarpMesh read_warp(const WarpFile& file, const std::string& region, bool first_row_on_top);
+WarpMesh read_warp(const WarpFile& file, const std::string& region, const FloatMapForm& form);
 
 /// domeprojection's second file.
 struct WarpFrustum {

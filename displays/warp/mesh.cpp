@@ -84,6 +84,31 @@ Sides checked_sides(const WarpFile& file, const std::string& place, const Sides&
     return s;
 }
 
+namespace {
+
+/// True if all of a mesh shows one direction, to a thousandth of a picture or of a radian: a pixel or two of any projector.
+bool shows_one_direction(const WarpMesh& mesh)
+{
+    glm::dvec3 low(1e30), high(-1e30);
+    for (const auto& t : mesh.triangles)
+        for (std::uint32_t i : t) {
+            const auto& sees = mesh.vertices[i].sees;
+            glm::dvec3 look = sees[0];
+            if (mesh.kind == WarpMesh::Kind::points) {
+                look -= mesh.eye_m.value_or(glm::dvec3(0));
+                look /= std::max(glm::length(look), 1e-12);
+            } else if (mesh.kind == WarpMesh::Kind::colours) {
+                look = sees[1];
+            }
+            low = glm::min(low, look);
+            high = glm::max(high, look);
+        }
+    const glm::dvec3 extent = high - low;
+    return std::max({extent.x, extent.y, extent.z}) < 1e-3;
+}
+
+} // namespace
+
 void check_mesh(WarpMesh& mesh, const WarpFile& file)
 {
     if (mesh.vertices.size() > most_vertices)
@@ -133,6 +158,8 @@ void check_mesh(WarpMesh& mesh, const WarpFile& file)
     if (mesh.kind == WarpMesh::Kind::picture
         && (seen_low.x < -1e-9 || seen_low.y < -1e-9 || seen_high.x > 1 + 1e-9 || seen_high.y > 1 + 1e-9))
         mesh.notes.push_back("looks beyond the picture: " + span(seen_low, seen_high));
+    if (shows_one_direction(mesh))
+        mesh.warnings.push_back("every pixel shows one and the same direction");
 }
 
 namespace {
@@ -205,16 +232,23 @@ Format format_of(const WarpFile& file)
 
 } // namespace
 
-WarpMesh read_warp(const WarpFile& file, const std::string& region, bool first_row_on_top)
+WarpMesh read_warp(const WarpFile& file, const std::string& region, const FloatMapForm& form)
 {
     if (file.content.empty())
         refuse(file, "", "is empty; a warp file is right");
     const Format format = format_of(file);
     if (!region.empty() && format != Format::mpcdi)
         refuse(file, "", "has no regions, and " + in_quotes(region) + " is wanted; an MPCDI file, or no region, is right");
-    if (first_row_on_top && format != Format::mpcdi && format != Format::pfm)
+    if (form != FloatMapForm() && format != Format::mpcdi && format != Format::pfm)
         refuse(file, "",
-            "has no first row that may be on top or at the bottom; an MPCDI or PFM file, or nothing said of it, is right");
+            std::string(form.first_row_on_top ? "has no first row that may be on top or at the bottom"
+                    : form.offsets            ? "holds no offsets"
+                    : form.v_up               ? "says itself whether v counts up or down"
+                                              : "says itself where its samples lie")
+                + "; an MPCDI or PFM file, or nothing said of it, is right");
+    if (form.offsets && (form.v_up || form.edge_to_edge))
+        refuse(file, "",
+            "holds offsets, which are upwards and from edge to edge; places, or nothing said of v and samples, is right");
     switch (format) {
     case Format::bourke:
         return read_bourke(file);
@@ -231,9 +265,9 @@ WarpMesh read_warp(const WarpFile& file, const std::string& region, bool first_r
     case Format::obj:
         return read_obj(file);
     case Format::pfm:
-        return read_pfm(file, first_row_on_top);
+        return read_pfm(file, form);
     case Format::mpcdi:
-        return read_mpcdi(file, region, first_row_on_top);
+        return read_mpcdi(file, region, form);
     case Format::headset:
         return read_headset(file);
     case Format::none:
@@ -256,7 +290,7 @@ WarpMesh load_warp(const Warp& warp)
 {
     const std::string bytes = contents(warp.file);
     const WarpFile file{one_line(warp.file.string()), bytes};
-    WarpMesh mesh = read_warp(file, warp.region, warp.first_row_on_top);
+    WarpMesh mesh = read_warp(file, warp.region, warp.map);
     std::filesystem::path frustum = warp.frustum;
     if (frustum.empty() && mesh.format == "domeprojection mesh") {
         std::error_code ignored;

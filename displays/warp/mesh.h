@@ -34,6 +34,7 @@ struct WarpMesh {
     std::optional<glm::dvec3> eye_m; ///< the eye, where the file has one
     std::string format; ///< for people: "Bourke mesh", "MPCDI 2.0, profile 3d, region left" ...
     std::vector<std::string> notes; ///< for people: accepted oddities
+    std::vector<std::string> warnings; ///< for people: signs that the file is read otherwise than it was written
     // Members of an MPCDI file; empty elsewhere. Rows from the top, values 0 to 1 as the file has them.
     struct Mask {
         glm::ivec2 size{0};

@@ -277,7 +277,7 @@ std::optional<WarpMesh::Mask> mask_of(
 } // namespace
 
 WarpMesh mesh_of_mpcdi(const WarpFile& file, const std::string& xml_name, const std::string& xml,
-    const ArchiveContents& contents, const std::string& wanted, bool first_row_on_top)
+    const ArchiveContents& contents, const std::string& wanted, const FloatMapForm& form)
 {
     // pugixml reads no entity but the five that XML has, and opens no other file.
     pugi::xml_document document;
@@ -297,7 +297,10 @@ WarpMesh mesh_of_mpcdi(const WarpFile& file, const std::string& xml_name, const 
     const std::string path = warp.want("path").text();
     const std::string bytes = contents(path, most_inflated(file.content.size()));
     const WarpFile map_file{file.name + ": " + one_line(path, 100), bytes};
-    const FloatMap map = read_float_map(map_file, first_row_on_top);
+    const FloatMap map = read_float_map(map_file, form);
+    if (!profile.flat && (form.offsets || form.v_up || form.edge_to_edge))
+        root.refuse("has the profile " + in_quotes(profile.name)
+            + ", whose maps hold points in the room; neither offsets nor v up nor samples from edge to edge is right");
     mesh = profile.flat ? flat_mesh(map, map_file, std::move(mesh))
                         : point_mesh(map, map_file, warp, region.element, std::move(mesh));
     if (files.find("distortionMap"))
@@ -309,7 +312,7 @@ WarpMesh mesh_of_mpcdi(const WarpFile& file, const std::string& xml_name, const 
     return mesh;
 }
 
-WarpMesh read_mpcdi(const WarpFile& file, const std::string& region, bool first_row_on_top)
+WarpMesh read_mpcdi(const WarpFile& file, const std::string& region, const FloatMapForm& form)
 {
     const Archive archive(file);
     std::vector<std::string> candidates;
@@ -328,7 +331,7 @@ WarpMesh read_mpcdi(const WarpFile& file, const std::string& region, bool first_
         return archive.contents(name, most);
     };
     const std::string xml = archive.contents(candidates[0], std::size_t(1) << 20);
-    return mesh_of_mpcdi(file, one_line(candidates[0], 100), xml, contents, region, first_row_on_top);
+    return mesh_of_mpcdi(file, one_line(candidates[0], 100), xml, contents, region, form);
 }
 
 } // namespace starbow

@@ -66,8 +66,8 @@ void rows_from_top(WarpMesh& mesh);
 /// `cells` values, rows from the top; only sees and intensity are used.
 WarpMesh centred_mesh(glm::ivec2 cells, const std::vector<WarpVertex>& values, const std::vector<char>& holes);
 
-/// The last step of every reader. Throws where the mesh shows nothing in the viewport; notes its holes, its folds and how
-/// far it reaches beyond the viewport or the picture.
+/// The last step of every reader. Throws where the mesh shows nothing in the viewport. Notes its holes, its folds and how
+/// far it reaches beyond the viewport or the picture; warns where all of it shows one direction.
 void check_mesh(WarpMesh& mesh, const WarpFile& file);
 
 /// Throws unless left < right, down < up and all lie within 89.9 degrees of the axis.
@@ -80,10 +80,10 @@ WarpMesh::Mask read_mask(const WarpFile& file, const std::string& place, std::si
 /// The values of a PFM, rows from the top.
 struct FloatMap {
     glm::ivec2 size{0};
-    bool first_row_on_top = false; ///< in the file
+    FloatMapForm form;
     std::vector<glm::vec3> values;
 };
-FloatMap read_float_map(const WarpFile& file, bool first_row_on_top);
+FloatMap read_float_map(const WarpFile& file, const FloatMapForm& form);
 
 /// The files in an MPCDI archive; unexpected files are refused.
 class Archive {
@@ -109,9 +109,9 @@ using ArchiveContents = std::function<std::string(const std::string& path, std::
 
 /// Parses MPCDI's XML with the files that it names: everything but the unpacking.
 WarpMesh mesh_of_mpcdi(const WarpFile& file, const std::string& xml_name, const std::string& xml,
-    const ArchiveContents& contents, const std::string& region, bool first_row_on_top);
+    const ArchiveContents& contents, const std::string& region, const FloatMapForm& form);
 
-/// A map of places in a picture as a mesh; README.md describes the map that holds offsets instead.
+/// A map of places in a picture, or of offsets, as a mesh.
 WarpMesh place_mesh(const FloatMap& map, const WarpFile& file);
 
 } // namespace starbow

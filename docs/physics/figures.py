@@ -174,8 +174,8 @@ def luminous(nm):
 
 
 def spectrum():
-    """A sunlit green surface, shifted along the logarithm of the wavelength; and the basis functions."""
-    figure = Figure(880, 600, "A spectrum that the Doppler shift moves past the eye's response, and twelve basis functions")
+    """A sunlit green surface, shifted along the logarithm of the wavelength."""
+    figure = Figure(880, 350, "A spectrum that the Doppler shift moves past the eye's response")
     left, right = 70, 850
     first, last = 160.0, 2200.0
 
@@ -215,26 +215,6 @@ def spectrum():
         figure.line(x(nm), bottom, x(nm), bottom + 5, INK, 1.5)
         figure.text(x(nm), bottom + 21, str(nm), size=13)
     figure.text((left + right) / 2, bottom + 42, "wavelength λ′ as seen, nm (logarithmic); each curve is L<tspan font-size=\"10\" dy=\"3\">ν</tspan><tspan dy=\"-3\">(Dλ′) of a sunlit green surface, without D³</tspan>", size=13)
-
-    top, bottom, count, low, high = 376, 530, 12, 340.0, 830.0
-    first, last = 290.0, 1000.0
-    step = log(high / low) / (count - 1)
-
-    def hat(k, nm):
-        at = min(max(log(nm / low) / step, 0), count - 1)
-        return max(0.0, 1 - abs(at - k))
-
-    colours = (BLUE, ORANGE, GREEN, PINK)
-    for k in range(count):
-        knots = [first] + [low * exp(step * j) for j in range(count)] + [last]
-        figure.path([(x(nm), bottom - (bottom - top) * hat(k, nm)) for nm in knots if hat(k, nm) > 0 or
-                     any(hat(k, m) > 0 for m in (nm * 0.99 * exp(-step * 0.9), nm * exp(step * 0.9)))], colours[k % 4], 2)
-        figure.text(x(low * exp(step * k)), top - 8, f"b<tspan font-size=\"10\" dy=\"3\">{k}</tspan>", fill=colours[k % 4], size=13)
-    figure.line(left, bottom, right, bottom, INK, 1.5)
-    for nm in (300, 340, 400, 500, 600, 700, 830, 1000):
-        figure.line(x(nm), bottom, x(nm), bottom + 5, INK, 1.5)
-        figure.text(x(nm), bottom + 21, str(nm), size=13)
-    figure.text((left + right) / 2, bottom + 44, "wavelength λ where the light was emitted, nm (logarithmic): the twelve linear B-splines of level “fine”", size=13)
     figure.write("spectrum.svg")
 
 

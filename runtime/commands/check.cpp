@@ -7,6 +7,8 @@
 #include "displays/compile/compiled_view.h"
 #include "displays/finish/shade.h"
 #include "runtime/images/capture.h"
+#include "runtime/world/spectral_errors.h"
+#include "runtime/world/worldline.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
@@ -16,13 +18,16 @@
 namespace starbow {
 namespace {
 
+/// Errors of colours that a visitor could notice beside the right ones.
+constexpr double most_difference = 3, most_luminance = 0.03;
+
 struct CheckOptions {
-    std::string layout, svg;
+    std::string layout, svg, scene;
 };
 
-/// The directions of warped viewports' pixels, from their compiled maps. Throws InputError for a layout that can be read
-/// but not drawn.
-ViewRegion compiled_region(const Layout& layout)
+/// The directions of warped viewports' pixels, from their compiled maps; adds the warnings about their meshes. Throws
+/// InputError for a layout that can be read but not drawn.
+ViewRegion compiled_region(const Layout& layout, std::vector<std::string>& mesh_warnings)
 {
     MapStore store;
     auto maps = std::make_shared<std::map<const Viewport*, CompiledView>>();
@@ -31,8 +36,14 @@ ViewRegion compiled_region(const Layout& layout)
             const std::vector<CompiledView> views = compile_output(store, layout, output, layout.outputs[output].size);
             reject_empty(layout, views);
             (void)shade_of(layout, output, layout.outputs[output].size, views, {});
-            for (const CompiledView& view : views)
+            for (const CompiledView& view : views) {
                 (*maps)[&layout.outputs[output].viewports[view.view.viewport]] = view;
+                if (view.mesh && view.view.eye != Eye::right) // the left eye has the same mesh
+                    for (const std::string& warning : view.mesh->warnings)
+                        mesh_warnings.push_back(viewport_name(layout, int(output), int(view.view.viewport)) + ", "
+                            + one_line(layout.outputs[output].viewports[view.view.viewport].warp->file.filename().string())
+                            + ": " + warning);
+            }
         }
     return [maps](const Output&, const Viewport& viewport, glm::dvec2 pixel) -> std::optional<glm::dvec3> {
         const DirectionMap& map = *maps->at(&viewport).map;
@@ -50,15 +61,17 @@ int check(const CheckOptions& options)
     check_not_read(file, {layout_file});
     check_ending(file, ".svg");
     check_writable(file);
-    const std::vector<Coverage> shown = coverages(layout, compiled_region(layout));
+    std::vector<std::string> mesh_warnings;
+    const std::vector<Coverage> shown = coverages(layout, compiled_region(layout, mesh_warnings));
     for (const FloorPlanRow& row : floor_plan_rows(layout, shown))
         std::printf("%s: %s; %s, %s of the sky; %s pixels, %s per degree\n", row.name.c_str(), row.projection.c_str(),
             row.spans.c_str(), row.sky.c_str(), row.pixels.c_str(),
             row.per_degree.empty() ? "none" : row.per_degree.c_str());
     for (const std::string& line : overlap_lines(layout, shown))
         std::printf("%s\n", line.c_str());
-    for (const std::string& line : lint(layout, shown))
-        std::printf("note: %s\n", line.c_str());
+    for (const auto& lines : {mesh_warnings, lint(layout, shown)})
+        for (const std::string& line : lines)
+            std::printf("note: %s\n", line.c_str());
     if (file.has_parent_path())
         std::filesystem::create_directories(file.parent_path());
     std::ofstream stream(file, std::ios::binary);
@@ -70,17 +83,48 @@ int check(const CheckOptions& options)
     return 0;
 }
 
+/// How the live picture represents the scene's light, and how far its colours are off at worst.
+int check_scene(const std::string& name)
+{
+    const SceneFile scene = load_scene_file(shipped_file("scenes", name));
+    World world = load_world(scene.gltf);
+    place_bodies(world, scene);
+    for (const std::string& note : world.notes)
+        std::printf("note: %s\n", note.c_str());
+    const NeededLevel needed = needed_level(world, scene);
+    std::printf("%s\n", describe(needed).c_str());
+    const SceneErrors scene_errors = starbow::scene_errors(world, scene, needed.level);
+    const SpectralErrors& off = scene_errors.errors;
+    std::printf("colours at D from 1/8 to 8: CIEDE2000 median %.2f, worst %.2f; luminance %.1f %% at worst\n", off.median,
+        off.worst, 100 * off.luminance);
+    if (off.worst > most_difference || off.luminance > most_luminance)
+        std::printf("note: the scene has more different spectra than coefficients; the worst are those of %s, with "
+                    "CIEDE2000 %.1f. Fewer materials with reflectances of their own, or fewer lamps that pass, make it "
+                    "exact\n",
+            scene_errors.worst.c_str(), off.worst);
+    return 0;
+}
+
 } // namespace
 
 void add_check(CLI::App& app, std::function<int()>& chosen)
 {
     auto options = std::make_shared<CheckOptions>();
-    CLI::App* command
-        = app.add_subcommand("check", "Read a layout, print what each viewport shows, and draw the floor plan.");
-    command->add_option("FILE", options->layout, "A layout file, or the name of one in config/layouts")->required();
+    CLI::App* command = app.add_subcommand("check",
+        "Read a layout, print what each viewport shows, and draw the floor plan; or a scene, and say how exact its light "
+        "is.");
+    CLI::Option* layout
+        = command->add_option("FILE", options->layout, "A layout file, or the name of one in config/layouts");
+    CLI::Option* scene = command->add_option("--scene", options->scene,
+        "A scene file, or the name of one in config/scenes: how its light is represented, and the worst error of a colour");
+    scene->excludes(layout);
     command->add_option("--svg", options->svg, "The drawing; without it LAYOUT-plan.svg in the current folder");
-    command->footer("Example:\n  starbow check dome --svg out/dome.svg");
-    command->callback([options, &chosen] { chosen = [options] { return check(*options); }; });
+    command->footer("Example:\n  starbow check dome --svg out/dome.svg\n  starbow check --scene chart");
+    command->callback([options, layout, scene, &chosen] {
+        if (layout->empty() && scene->empty())
+            throw CLI::RequiredError("FILE or --scene");
+        chosen = [options] { return options->scene.empty() ? check(*options) : check_scene(options->scene); };
+    });
 }
 
 } // namespace starbow

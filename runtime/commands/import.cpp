@@ -23,7 +23,7 @@ MeshView view_of(const std::filesystem::path& mesh)
 {
     try {
         const WarpMesh read = load_warp({mesh});
-        return {read.frustum || read.kind == WarpMesh::Kind::colours, read.eye_m};
+        return {read.frustum || read.kind == WarpMesh::Kind::colours, read.eye_m, read.frustum};
     } catch (const InputError&) {
         return {}; // the format's default; faults() reports errors in the file
     }
@@ -66,7 +66,7 @@ std::vector<std::string> faults(const std::filesystem::path& file)
 
 int import(const ImportOptions& options)
 {
-    const Document document = read_document(options.file);
+    const Document document = read_sgct(options.file);
     check_not_read(options.out, {options.file});
     check_free(options.out, options.force);
     check_writable(options.out);

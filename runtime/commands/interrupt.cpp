@@ -15,6 +15,10 @@ void catch_interrupts()
     act.sa_flags = int(SA_RESETHAND) | SA_RESTART;
     sigaction(SIGINT, &act, nullptr);
     sigaction(SIGTERM, &act, nullptr);
+    // The terminal closes; nohup has its way.
+    struct sigaction before { };
+    if (sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
+        sigaction(SIGHUP, &act, nullptr);
 }
 
 bool interrupted() { return arrived; }

@@ -3,19 +3,24 @@
 #include "version.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace {
 
+/// The exit status after wrong input, and after a failure of the machine: its memory, its disk, its graphics driver.
+constexpr int wrong_input = 2, machine_failed = 3;
+
 /// Prints one line on standard error. Control characters in names or arguments must not reach the terminal.
-int complain(std::string text)
+int complain(std::string text, int status = wrong_input)
 {
     for (char& c : text)
         if ((unsigned char)(c) < 0x20 || c == 0x7f)
             c = '?';
     std::fprintf(stderr, "starbow: %s\n", text.c_str());
-    return 2;
+    return status;
 }
 
 /// Names joined for a sentence: "a, b and c are".
@@ -57,6 +62,17 @@ int guarded(const std::function<int()>& run)
         return run();
     } catch (const starbow::InputError& error) {
         return complain(error.what());
+    } catch (const std::bad_alloc&) {
+        return complain("The memory is used up; smaller outputs, a smaller world or more memory is right", machine_failed);
+    } catch (const std::system_error& error) {
+        // The graphics driver's errors have a category of their own.
+        const std::error_category& category = error.code().category();
+        const bool driver = category != std::generic_category() && category != std::system_category();
+        return complain(std::string(driver ? "The graphics driver has failed: " : "The system has failed: ") + error.what()
+                + (driver ? "; 'starbow doctor' says what may mend it" : ""),
+            machine_failed);
+    } catch (const std::exception& error) {
+        return complain(std::string("The program has failed: ") + error.what(), machine_failed);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "config/model/shipped.h"
 #include "contact_sheet.h"
 #include "input/keyboard.h"
+#include "interrupt.h"
 #include "runtime/commands/options/language.h"
 #include "runtime/commands/options/number.h"
 #include "runtime/commands/options/pattern.h"
@@ -123,6 +124,8 @@ int run(const RunOptions& options)
     std::optional<Trace> trace;
     if (!options.trace.empty())
         exhibit_options.trace = &trace.emplace(options.trace);
+    catch_interrupts(); // they end the flight as Esc does
+    exhibit_options.over = interrupted;
     WindowSystem window_system;
     return fly_exhibit(exhibit_options);
 }

@@ -17,8 +17,9 @@ namespace {
 
 struct WarpOptions {
     std::string file, out, size, region, frustum, aspect;
-    bool first_row_on_top = false, force = false;
-    Warp warp() const { return {file, frustum, region, first_row_on_top}; }
+    FloatMapForm map;
+    bool force = false;
+    Warp warp() const { return {file, frustum, region, map}; }
 };
 
 std::optional<glm::ivec2> parse_size(const std::string& text, int most)
@@ -95,6 +96,8 @@ void print(const WarpMesh& mesh)
                     + shown((*mask)->gamma));
     for (const std::string& note : mesh.notes)
         line("note", note);
+    for (const std::string& warning : mesh.warnings)
+        line("warning", warning);
 }
 
 int inspect(const WarpOptions& options)
@@ -209,7 +212,12 @@ void add_input(CLI::App& command, WarpOptions& options)
     command.add_option("--region", options.region, "The region, if an MPCDI file has several");
     command.add_option("--frustum", options.frustum, "domeprojection's NAME_frustum.csv, if it is elsewhere");
     command.add_flag(
-        "--first-row-on-top", options.first_row_on_top, "Take a PFM's first row as its top one, against the standard");
+        "--first-row-on-top", options.map.first_row_on_top, "Take a PFM's first row as its top one, against the standard");
+    command.add_flag("--v-up", options.map.v_up, "Count a PFM's places from the picture's lower edge, not its upper one");
+    command.add_flag("--edge-to-edge", options.map.edge_to_edge,
+        "Take a PFM's outer samples to lie on the viewport's edges, not half a cell inside");
+    command.add_flag("--offsets", options.map.offsets,
+        "Take a PFM's values as offsets of a regular grid's points, to the right and up, not as places in the picture");
 }
 
 } // namespace

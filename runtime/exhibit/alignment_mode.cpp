@@ -29,8 +29,11 @@ void AlignmentMode::save(const Layout& layout)
     }
 }
 
-bool AlignmentMode::apply(const AlignmentKeys& keys, Layout& layout)
+bool AlignmentMode::apply(const Controls& controls, Layout& layout)
 {
+    const AlignmentKeys& keys = controls;
+    if (controls.home || controls.reset)
+        pattern_ = first_;
     if (keys.pattern) {
         pattern_ = Pattern((int(pattern_) + 1) % int(pattern_names.size()));
         log_info("exhibit", std::string("test pattern: ") + pattern_names[std::size_t(pattern_)]);

@@ -11,13 +11,14 @@ class AlignmentMode {
 public:
     using Clock = std::chrono::steady_clock;
     explicit AlignmentMode(Pattern pattern = Pattern::none)
-        : pattern_(pattern)
+        : first_(pattern)
+        , pattern_(pattern)
     {
     }
 
-    /// Applies the keys to `layout`; returns true if it has changed. The save key writes into layout.file; says() reports
-    /// failures.
-    bool apply(const AlignmentKeys& keys, Layout& layout);
+    /// Applies the builder's keys to `layout`; returns true if it has changed. The save key writes into layout.file; says()
+    /// reports failures. The way back to the start shows the first pattern again: a visitor's F2 must not outlast the visit.
+    bool apply(const Controls& controls, Layout& layout);
 
     Pattern pattern() const { return pattern_; }
     /// A line for the head-up display for some seconds after a key; otherwise empty.
@@ -28,7 +29,7 @@ public:
 private:
     void save(const Layout& layout);
 
-    Pattern pattern_;
+    Pattern first_, pattern_;
     std::size_t chosen_ = 0;
     bool choosing_ = false;
     std::string says_, silent_;

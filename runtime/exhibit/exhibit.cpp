@@ -12,8 +12,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A lost GPU, as after a hang of its driver, is opened anew and the flight goes on. After so many losses, each within a
-/// minute of the one before, the program gives up.
+/// A lost GPU, as after a hang of its driver, or one that has run out of memory, is opened anew and the flight goes on.
+/// After so many losses, each within a minute of the one before, the program gives up.
 constexpr int most_losses = 5;
 
 /// Prints the closing lines: the flight's last readings and the skew of the screens.
@@ -39,6 +39,7 @@ int fly_exhibit(const ExhibitOptions& options)
         const Clock::time_point opened = Clock::now();
         std::unique_ptr<RenderContext> context;
         std::string lost;
+        const char* how = "is lost";
         try {
             context = std::make_unique<RenderContext>(options.scene, device_options(true),
                 options.frame_budget_ms > 0 ? options.ladder[0].quality.spectra
@@ -59,20 +60,24 @@ int fly_exhibit(const ExhibitOptions& options)
             return !same || session.complaints || !context->device.complaints.empty() ? 1 : 0;
         } catch (const vk::DeviceLostError& error) {
             lost = error.what();
+        } catch (const vk::SystemError& error) {
+            if (losses == 0 && session.shown == 0)
+                throw; // it has never worked
+            lost = error.what(), how = "has failed";
         } catch (const InputError& error) {
-            if (losses == 0)
+            if (losses == 0 && session.shown == 0)
                 throw;
-            lost = error.what(); // the driver may not be back yet
+            lost = error.what(); // no memory for what is to be drawn, or the driver is not back yet
         }
         session.complaints |= context && !context->device.complaints.empty();
         context.reset();
         if (seconds(Clock::now() - opened) > 60)
             losses = 0;
         if (++losses > most_losses) {
-            log_error("exhibit", "the GPU is lost again and again (" + lost + ")");
+            log_error("exhibit", std::string("the GPU ") + how + " again and again (" + lost + ")");
             return 1;
         }
-        log_warning("exhibit", "the GPU is lost (" + lost + "); it is opened anew");
+        log_warning("exhibit", std::string("the GPU ") + how + " (" + lost + "); it is opened anew");
         std::this_thread::sleep_for(std::chrono::seconds(losses - 1));
     }
 }

@@ -43,7 +43,8 @@ struct ExhibitOptions {
 };
 
 /// Flies until the visitor leaves. Follows changes of the layout's files and of the monitors, and recovers from the loss
-/// of the GPU. Returns the exit status. Throws InputError for errors at the start.
+/// of the GPU. Returns the exit status. Throws InputError or vk::SystemError for errors before
+/// the first picture.
 int fly_exhibit(const ExhibitOptions& options);
 
 } // namespace starbow

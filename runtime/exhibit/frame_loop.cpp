@@ -54,11 +54,11 @@ FrameLoop::FrameLoop(Session& session, RenderContext& context)
     , screens_(device_, session.layout)
     , cold_(session.options.warms_up.value_or(!device_.on_processor()))
     , done_(device_.device.createFence({vk::FenceCreateFlagBits::eSignaled}))
-    , commands_(
-          std::move(device_.device.allocateCommandBuffers({*device_.pool, vk::CommandBufferLevel::ePrimary, 1}).front()))
+    , commands_(device_.device, {*device_.pool, vk::CommandBufferLevel::ePrimary, 2})
 {
     name_object(device_, done_, "frame done");
-    name_object(device_, commands_, "frame");
+    name_object(device_, commands_[0], "frame: world");
+    name_object(device_, commands_[1], "frame: outputs");
     if (session.options.trace) {
         device_.trace = session.options.trace;
         session.options.trace->name_thread("flight");
@@ -118,7 +118,7 @@ bool FrameLoop::fly_frame()
     const Panel* panel = hud_.update(session_, context_.world.scene, shot.exposure_ev, frame_->views().hud_width());
     const std::size_t pipelines = context_.pipelines.count();
     begin_commands();
-    frame_->draw(*commands_, shot, panel, screens_.targets());
+    frame_->draw(*commands_[0], *commands_[1], shot, panel, screens_.targets());
     end_commands();
     if (const std::size_t made = context_.pipelines.count() - pipelines; made > 0)
         log_debug("pipelines", std::to_string(made) + " made in flight");
@@ -128,7 +128,8 @@ bool FrameLoop::fly_frame()
     const Trace::Span presenting(device_.trace, "present");
     submitted_ns_ = Trace::now_ns();
     device_.device.resetFences(*done_);
-    screens_.submit(*commands_, *done_);
+    screens_.submit(*commands_[0], *commands_[1], *done_);
+    submitted_ = true;
     const Clock::time_point handed = Clock::now();
     screens_.present(session_.skew);
     if (session_.options.timed)
@@ -142,6 +143,9 @@ std::optional<double> FrameLoop::await_device()
     const Trace::Span span(device_.trace, "wait");
     pace_.wait(screens_.refresh_hz());
     (void)device_.device.waitForFences(*done_, true, UINT64_MAX);
+    // While all windows are minimised nothing is submitted, and the last frame's times are old.
+    if (!std::exchange(submitted_, false))
+        return {};
     trace_passes();
     if (const auto ms = timer_.ms(); ms && session_.governor)
         if (session_.governor->drawn(seconds(Clock::now() - session_.began), prepared_ms_ + *ms))
@@ -204,23 +208,28 @@ Shot FrameLoop::set_up_frame(const Controls& controls)
 
 void FrameLoop::begin_commands()
 {
-    commands_.reset();
-    commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    timer_.begin(*commands_);
+    for (vk::raii::CommandBuffer& commands : commands_) {
+        commands.reset();
+        commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    }
+    timer_.begin(*commands_[0]);
+    timer_.resume(*commands_[1]);
     device_.timer = device_.trace ? &timer_ : nullptr; // passes are timed between begin and end only
     for (const Target& target : screens_.targets())
         if (target.view)
-            present_barrier(*commands_, target, true);
+            present_barrier(*commands_[1], target, true);
 }
 
 void FrameLoop::end_commands()
 {
     for (const Target& target : screens_.targets())
         if (target.view)
-            present_barrier(*commands_, target, false);
+            present_barrier(*commands_[1], target, false);
     device_.timer = nullptr;
-    timer_.end(*commands_);
-    commands_.end();
+    timer_.pause(*commands_[0]);
+    timer_.end(*commands_[1]);
+    for (const vk::raii::CommandBuffer& commands : commands_)
+        commands.end();
 }
 
 void FrameLoop::apply_file_changes()

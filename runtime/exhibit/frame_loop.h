@@ -37,7 +37,8 @@ private:
     void apply_alignment(const Controls& controls);
     /// Sets the frame renderer up for the session's present state and returns the shot.
     Shot set_up_frame(const Controls& controls);
-    /// These two enclose FrameRenderer::draw with the timer and the layout transitions of the windows' images.
+    /// These two enclose FrameRenderer::draw with the timer and the layout transitions of the windows' images. The commands
+    /// are in two buffers, of which only the second waits for the screens.
     void begin_commands();
     void end_commands();
     /// Adds the device's passes of the frame before to the trace.
@@ -53,7 +54,8 @@ private:
     HudUpdater hud_;
     Pace pace_;
     vk::raii::Fence done_;
-    vk::raii::CommandBuffer commands_;
+    vk::raii::CommandBuffers commands_; ///< the world's, the outputs'
+    bool submitted_ = false; ///< a frame since the last wait for the device
     double prepared_ms_ = 0; ///< the processor's part of the frame before
     std::int64_t submitted_ns_ = 0; ///< steady clock; of the frame before
 };

@@ -25,7 +25,7 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
     const InputCapabilities capabilities = session.hid.capabilities();
     Readings shown = readings(session.flight.ship, scene, session.flight.effects);
     shown.frames_per_s = rate_;
-    shown.mode = session.flight.mode, shown.lever = session.flight.lever;
+    shown.mode = session.flight.mode, shown.frozen = session.flight.frozen, shown.lever = session.flight.lever;
     if (session.guide) {
         shown.prompt = session.guide->prompt(words);
         shown.caption = session.guide->caption(words, capabilities);

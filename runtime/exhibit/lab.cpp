@@ -1,4 +1,5 @@
 #include "lab.h"
+#include <algorithm>
 
 namespace starbow {
 
@@ -38,11 +39,11 @@ void Lab::read(const FrameRenderer& frame, const LabSwitches& pressed, const Gpu
         why_ = Why((int(why_) + 1) % int(why_names.size()));
     if ((pressed.mark || pressed.log || every_s_ > 0) && overlay_ == Overlay::off)
         overlay_ = Overlay::aim; // marking and logging show the crosshair
-    mark_due_ |= pressed.mark;
-    line_due_ |= pressed.log;
+    marks_due_ += pressed.mark;
+    lines_due_ += pressed.log;
     if (!on() || effects_.comparison != Comparison::none) { // the instruments measure the physical picture only
         measured_.reset();
-        line_due_ = false;
+        marks_due_ = lines_due_ = 0;
         return;
     }
     const std::vector<Probed> probed = frame.probed();
@@ -52,17 +53,17 @@ void Lab::read(const FrameRenderer& frame, const LabSwitches& pressed, const Gpu
     Probed seen = probed[0];
     seen.ray = aim_of(observer); // exact, unlike the picture's pixel
     const Spot aimed = spot_at(observer, seen, world.world);
-    if (mark_due_) {
+    for (; marks_due_ > 0; --marks_due_) {
         if (marks_[0] && marks_[1])
             marks_ = {};
         marks_[marks_[0] ? 1 : 0] = snapped(aimed, world.world);
-        mark_due_ = false;
     }
     measured_ = measured_of(frame.head(), ship_, world.scene, world.world, effects_, aimed, probed[0].light, marks_);
     waited_s_ += dt_s;
-    if (line_due_ || (every_s_ > 0 && waited_s_ >= every_s_)) {
+    if (every_s_ > 0 && waited_s_ >= every_s_)
+        lines_due_ = std::max(lines_due_, 1); // a press in the same frame writes this line
+    for (; lines_due_ > 0; --lines_due_) {
         waited_s_ = 0;
-        line_due_ = false;
         keep(say);
     }
 }
@@ -88,7 +89,8 @@ void Lab::request(
     const bool again = now - drawn_ > std::chrono::milliseconds(100);
     if (again)
         scale_ = overlay_scale(world.world, shot.position, world.scene.seconds_per_time_unit()), drawn_ = now;
-    Measuring what{.probes = {{0, 0, -1}}, .over = {overlay_ == Overlay::off ? Overlay::aim : overlay_, marks_, scale_}};
+    Measuring what{
+        .probes = {{glm::dvec3(0, 0, -1)}}, .over = {overlay_ == Overlay::off ? Overlay::aim : overlay_, marks_, scale_}};
     if (measured_ && flight.hud) {
         const double aspect = lab_aspect(overlay_, why_);
         const int width = frame.views().lab_panel_width(aspect);

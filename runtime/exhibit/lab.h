@@ -36,7 +36,7 @@ private:
     Overlay overlay_ = Overlay::off;
     Why why_ = Why::none;
     std::array<std::optional<Spot>, 2> marks_;
-    bool mark_due_ = false, line_due_ = false; ///< pressed, and waiting for the first probe
+    int marks_due_ = 0, lines_due_ = 0; ///< presses that wait for the first probe
     Ship ship_; ///< the ship of the frame requested last
     Effects effects_;
     std::optional<Measured> measured_; ///< the last readings

@@ -28,6 +28,24 @@ glm::ivec2 fit_to_screen(glm::ivec2 size)
     return shrink > 0 ? glm::max(glm::ivec2(glm::dvec2(size) * shrink), 1) : size;
 }
 
+/// The monitor that shows the largest part of a window; the primary one if none shows any. Null without monitors.
+GLFWmonitor* monitor_of(GLFWwindow* window)
+{
+    WindowPlace own;
+    glfwGetWindowPos(window, &own.corner.x, &own.corner.y);
+    glfwGetWindowSize(window, &own.size.x, &own.size.y);
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    std::vector<WindowPlace> places(std::size_t(std::max(count, 0)));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        glfwGetMonitorPos(monitors[i], &places[i].corner.x, &places[i].corner.y);
+        const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+        places[i].size = mode ? glm::ivec2(mode->width, mode->height) : glm::ivec2(0);
+    }
+    const auto own_monitor = largest_share(own, places);
+    return own_monitor ? monitors[*own_monitor] : glfwGetPrimaryMonitor();
+}
+
 } // namespace
 
 WindowSystem::WindowSystem()
@@ -164,11 +182,11 @@ void Window::switch_full_screen()
     if (glfwGetWindowMonitor(window_)) {
         glfwSetWindowMonitor(
             window_, nullptr, windowed_place_.x, windowed_place_.y, windowed_size_.x, windowed_size_.y, GLFW_DONT_CARE);
-    } else if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) {
+    } else if (GLFWmonitor* monitor = monitor_of(window_)) {
         glfwGetWindowPos(window_, &windowed_place_.x, &windowed_place_.y);
         glfwGetWindowSize(window_, &windowed_size_.x, &windowed_size_.y);
-        const GLFWvidmode* mode = glfwGetVideoMode(monitor);
-        glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+        if (const GLFWvidmode* mode = glfwGetVideoMode(monitor)) // null where it is just being unplugged
+            glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
     }
     stale_ = true;
 }

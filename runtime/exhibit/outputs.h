@@ -31,7 +31,7 @@ public:
 
     GLFWwindow* handle() const { return window_; }
     bool closed() const;
-    /// For a window without a place.
+    /// To the monitor that shows most of the window, and back. For a window without a place.
     void switch_full_screen();
     /// Moves a bare window to its place, also after a window manager has moved it.
     void put(const WindowPlace& place);

@@ -19,7 +19,7 @@ void ReplayRenderer::take(const RecordEntry& entry)
 {
     Controls controls = entry.controls;
     exposure_.locked ^= controls.lock_exposure;
-    exposure_.ev = entry.exposure_ev;
+    exposure_ = adapted_to(exposure_, entry.exposure_ev, exposing_, start_ev_);
     controls.save = false;
     Layout layout = layout_;
     if (alignment_.apply(controls, layout)) {

@@ -1,6 +1,7 @@
 #include "screens.h"
 #include "config/json/error.h"
 #include "runtime/operation/log.h"
+#include "runtime/render/frame_timer.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <algorithm>
@@ -141,15 +142,14 @@ vk::Format Screens::format() const
     return vk::Format::eUndefined;
 }
 
-void Screens::submit(vk::CommandBuffer commands, vk::Fence done)
+void Screens::submit(vk::CommandBuffer world, vk::CommandBuffer outputs, vk::Fence done)
 {
     std::vector<vk::SemaphoreSubmitInfo> wait, signal;
     for (const Window* window : acquired_) {
-        wait.push_back({window->acquired(), 0, Stage::eColorAttachmentOutput});
+        wait.push_back({window->acquired(), 0, Stage::eAllCommands});
         signal.push_back({window->drawn(), 0, Stage::eAllCommands});
     }
-    vk::CommandBufferSubmitInfo buffer(commands);
-    device_.queue.submit2(vk::SubmitInfo2({}, wait, buffer, signal), done);
+    submit_frame(device_, world, outputs, wait, signal, done);
     done_ = done;
 }
 

@@ -26,8 +26,9 @@ public:
     /// The format of the windows' images; undefined where no window has one yet.
     vk::Format format() const;
 
-    /// Submits the commands that draw the acquired images; `done` is signalled after them. Throws vk::DeviceLostError.
-    void submit(vk::CommandBuffer commands, vk::Fence done);
+    /// Submits a frame: `world` at once, and `outputs`, which draws the acquired images, when the screens are ready for
+    /// them. `done` is signalled after both. Throws vk::DeviceLostError.
+    void submit(vk::CommandBuffer world, vk::CommandBuffer outputs, vk::Fence done);
     /// Presents all acquired images together. Throws vk::DeviceLostError. With several outputs it adds a skew to `skew`:
     /// this frame's, or an earlier frame's once the driver has reported when its images were on the screens.
     void present(Skew& skew);

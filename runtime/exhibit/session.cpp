@@ -106,15 +106,16 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
 {
     const Session::Clock::time_point now = Session::Clock::now();
     Controls& controls = entry.controls;
-    controls
-        = session.keyboard.read(windows, std::chrono::nanoseconds(now - session.began).count(), !session.hid.has_gamepad());
-    session.hid.add(seconds(now - session.last), controls);
-    if (session.tracker)
-        controls.head = session.tracker->read(now);
-    // A stall of the machine must not make the ship leap.
+    // A stall of the machine must make neither the ship nor the look leap.
     const std::chrono::nanoseconds passed = now - session.last;
     entry.dt_ns = std::min<std::int64_t>(passed.count(), 100'000'000);
     entry.skipped_ns = passed.count() - entry.dt_ns;
+    const double dt_s = 1e-9 * double(entry.dt_ns);
+    controls
+        = session.keyboard.read(windows, std::chrono::nanoseconds(now - session.began).count(), dt_s, session.hid.kinds());
+    session.hid.add(dt_s, controls);
+    if (session.tracker)
+        controls.head = session.tracker->read(now);
     session.last = now;
     return !controls.quit;
 }
@@ -131,9 +132,9 @@ bool step(Session& session, RecordEntry& entry, const std::optional<double>& met
         : flown(session.flight, session.history, controls, entry.dt_ns, options.rules, seconds_per_time_unit, options.start);
     session.exposure.locked ^= controls.lock_exposure;
     if (session.record_replay.replays())
-        session.exposure.ev = entry.exposure_ev;
+        session.exposure = adapted_to(session.exposure, entry.exposure_ev, options.exposure, options.start.exposure_ev);
     else
-        session.exposure = adapted(session.exposure, metered, dt_s, options.exposure);
+        session.exposure = adapted(session.exposure, metered, dt_s, options.exposure, options.start.exposure_ev);
     entry.exposure_ev = session.exposure.ev;
     session.record_replay.keep(entry, session.flight);
     session.tutorial = advance(session.tutorial, controls, session.flight, dt_s);

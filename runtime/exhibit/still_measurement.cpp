@@ -95,23 +95,24 @@ StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& worl
     if (points.empty() && over == Overlay::off && page == Why::none)
         return measurement;
     FrameRenderer& frame = renderer.frame();
-    Measuring what{.probes = {{0, 0, -1}}};
+    Measuring what{.probes = {{glm::dvec3(0, 0, -1)}}};
     for (const Point& point : points)
         if (const auto* pixel = std::get_if<glm::dvec2>(&point)) {
             const auto direction = frame.views().direction(0, *pixel);
             if (!direction)
                 throw InputError("--measure " + shown(pixel->x) + "," + shown(pixel->y)
                     + " is a place where the picture shows nothing; one that shows the world is right");
-            what.probes.push_back(*direction);
+            what.probes.push_back({*direction, frame.views().view_at(0, *pixel)});
         } else {
-            what.probes.push_back(std::get<glm::dvec3>(point));
+            what.probes.push_back({std::get<glm::dvec3>(point)});
         }
     frame.measure(what);
     const std::vector<Probed> probed = renderer.probed(shot);
-    const MeasuringObserver& observer = frame.observer();
     const auto spot_of = [&](std::size_t i) {
+        const MeasuringObserver& observer = frame.observer(i);
         Probed one = probed[i];
-        one.ray = ray_from_ship(observer, shot.ship_from_cockpit * what.probes[i]); // exact, unlike the picture's pixel
+        // Exact, unlike the picture's pixel.
+        one.ray = ray_from_ship(observer, observer.ship_from_cockpit * what.probes[i].direction);
         return spot_at(observer, one, world.world);
     };
     std::array<std::optional<Spot>, 2> marks;
@@ -121,20 +122,22 @@ StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& worl
     const Words english = words_in("en");
     for (std::size_t i = 0; i < probed.size(); ++i) {
         const Measured measured
-            = measured_of(frame.head(), ship, world.scene, world.world, shot.effects, spot_of(i), probed[i].light, marks);
+            = measured_of(frame.head(i), ship, world.scene, world.world, shot.effects, spot_of(i), probed[i].light, marks);
         measurement.lines.push_back(
             (i == 0 ? "ahead: " : "point " + std::to_string(i) + ": ") + describe(measured.aim, measured, english));
         measurement.points.push_back(measured);
     }
     if (measurement.points[0].pair) {
-        const auto fields = reading_fields(measurement.points[0], english);
+        // The pair's numbers are those of the observer who sees both, the visitor's where two observers see one each.
+        const bool one_view = what.probes[1].view == what.probes[2].view;
+        const auto fields = reading_fields(measurement.points[one_view ? 1 : 0], english);
         std::string line;
         for (std::size_t i = 6; i < 9; ++i)
             if (!fields[i].first.empty())
                 line.append(line.empty() ? "" : ", ").append(fields[i].first).append(" ").append(fields[i].second);
         measurement.lines.push_back(line);
     }
-    const OverlayScale scale = overlay_scale(world.world, observer.place, world.scene.seconds_per_time_unit());
+    const OverlayScale scale = overlay_scale(world.world, frame.observer().place, world.scene.seconds_per_time_unit());
     what.over = {over == Overlay::off && page != Why::none ? Overlay::aim : over, marks, scale};
     if (over != Overlay::off || page != Why::none) {
         measurement.panel = std::make_shared<Panel>(draw_lab_panel(Typesetter(), words, measurement.points[0], over, scale,

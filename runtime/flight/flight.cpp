@@ -27,14 +27,19 @@ void press(Flight& flight, const Controls& controls, const Flying& rules, const 
     flight.hud ^= controls.hud;
     flight.look_rad = controls.look_ahead ? glm::dvec2(0) : flight.look_rad + controls.look_rad;
     flight.look_rad.y = std::clamp(flight.look_rad.y, -half_pi, half_pi);
+    flight.frozen ^= controls.freeze;
     if (controls.next_mode)
         flight.mode = FlightMode((int(flight.mode) + 1) % 3);
     if (controls.stop) {
         flight.ship = stopped(flight.ship);
         flight.homing.reset();
     }
-    if (controls.home)
-        flight.homing = homing_from(flight.ship);
+    if (controls.home) {
+        flight.homing = homing_from(flight.ship, start, rules);
+        flight.frozen = false;
+    }
+    if (controls.stop || controls.home)
+        flight.coasting = flight.lever_waits = false;
     if (controls.stop || controls.home || controls.next_mode) {
         flight.throttle_rate = 0;
         flight.thrust = glm::dvec3(0);
@@ -44,15 +49,34 @@ void press(Flight& flight, const Controls& controls, const Flying& rules, const 
     }
 }
 
+/// Keeps a flight's velocity until a hand touches the controls.
+void begin_coasting(Flight& flight, const Flying& rules)
+{
+    flight.lever = std::min(1.0, rapidity_of(flight.ship) / std::acosh(rules.max_gamma));
+    flight.coasting = flight.lever_waits = rapidity_of(flight.ship) > 0;
+    flight.lever_rest.reset();
+}
+
 void tick(Flight& flight, const Controls& controls, const Flying& rules, double seconds_per_time_unit, const Shot& start)
 {
-    ++flight.ticks;
     flight.exposure_ev = std::clamp(flight.exposure_ev + controls.exposure * exposure_ev_per_s * tick_s, -60.0, 60.0);
+    if (flight.frozen) {
+        steer(flight, controls, rules);
+        flight.look_rad += tick_s * glm::dvec2(flight.turn_rad_s.y, flight.turn_rad_s.x);
+        flight.look_rad.y = std::clamp(flight.look_rad.y, -half_pi, half_pi);
+        return;
+    }
+    ++flight.ticks;
     if (flight.homing) {
-        fly_home(flight.ship, *flight.homing, start, tick_s, seconds_per_time_unit);
+        fly_home(flight.ship, *flight.homing, start, rules, tick_s, seconds_per_time_unit);
         flight.turn_rad_s = flight.turn_lead_rad_s = glm::dvec3(0);
-        if (flight.homing->arrived)
+        if (flight.homing->arrived) {
             flight.homing.reset();
+            if (rapidity_of(flight.ship) > 0) {
+                begin_coasting(flight, rules);
+                flight.thrust_inhibited = false;
+            }
+        }
         return;
     }
     const Push push = pilot(flight, controls, rules);
@@ -69,8 +93,7 @@ Flight flight_at(const Shot& start, const Flying& rules)
     Flight flight;
     flight.ship = ship_at(start);
     flight.mode = rules.mode;
-    // A start in flight keeps its speed until the throttle is touched.
-    flight.lever = std::min(1.0, rapidity_of(flight.ship) / std::acosh(rules.max_gamma));
+    begin_coasting(flight, rules);
     flight.effects = start.effects;
     flight.exposure_ev = start.exposure_ev;
     return flight;

@@ -13,6 +13,10 @@ struct Flight {
     Ship ship;
     FlightMode mode = FlightMode::guided;
     double lever = 0; ///< the throttle's place, from 0 to 1
+    bool coasting = false; ///< after a start in flight: straight on at its velocity, until a hand touches the controls
+    bool lever_waits = false; ///< after a start in flight: the throttle has no effect until it is moved
+    std::optional<double> lever_rest; ///< its place meanwhile, once a throttle has reported
+    bool frozen = false; ///< the world stands still, and the stick turns the head
     bool thrust_inhibited = false; ///< after a stop the engine gives no thrust until the throttle has been at 0
     double throttle_rate = 0; ///< rapidity per second now, along the way; guided and free
     glm::dvec3 thrust{0}; ///< rapidity per second, cockpit axes; newtonian
@@ -22,7 +26,7 @@ struct Flight {
     Effects effects;
     double exposure_ev = 0;
     bool hud = true;
-    std::int64_t ticks = 0; ///< flown since the visit began
+    std::int64_t ticks = 0; ///< flown since the visit began; none while frozen
     std::int64_t left_ns = 0; ///< the visitor's time not flown yet, less than a tick
 };
 
@@ -36,8 +40,11 @@ constexpr double follow_s = 0.5, settle_s = 0.8;
 constexpr double lever_per_s = 0.1;
 /// The thrust of a pressed key.
 constexpr double key_rapidity_per_s = 0.5;
+/// A throttle that has moved by so much has been touched: less may be its sensor's noise.
+constexpr double lever_touched = 0.02;
 constexpr double exposure_ev_per_s = 2;
 
+/// A start in flight goes on at its velocity until a hand touches the controls.
 Flight flight_at(const Shot& start, const Flying& rules = {});
 
 /// The flight dt_ns nanoseconds later under the visitor's controls. seconds_per_time_unit: of the scene. The result depends

@@ -4,7 +4,7 @@ namespace starbow {
 
 void History::keep(const Flight& flight)
 {
-    if (flight.homing) // an undo must not lead back into homing
+    if (flight.homing || flight.frozen) // an undo must not lead back into homing, nor count the time that stood still
         return;
     if (!kept_.empty() && flight.ticks - kept_.back().ticks < history_every_ticks)
         return;
@@ -28,6 +28,7 @@ Flight History::back(const Flight& now)
     then.effects = now.effects;
     then.exposure_ev = now.exposure_ev;
     then.hud = now.hud;
+    then.frozen = now.frozen;
     then.ticks = now.ticks, then.left_ns = now.left_ns;
     then.homing.reset();
     return then;

@@ -78,6 +78,7 @@ Push by_thrust(Flight& flight, const Steering& controls, const Flying& rules)
 {
     const double engine = controls.lever ? *controls.lever * rules.rapidity_per_s : 0;
     glm::dvec3 wanted = (nose * controls.throttle_rate + controls.push) * key_rapidity_per_s + nose * engine;
+    wanted *= std::min(1.0, rules.rapidity_per_s / std::max(glm::length(wanted), 1e-30)); // a limit that spares stomachs
     if (flight.thrust_inhibited)
         wanted = glm::dvec3(0);
     flight.thrust += gain_share(rules) * (wanted - flight.thrust);
@@ -91,18 +92,41 @@ Push by_thrust(Flight& flight, const Steering& controls, const Flying& rules)
     return push;
 }
 
+/// Ends the flight's coasting when a hand touches the controls, and leaves out a throttle that no hand has moved.
+void watch_hands(Flight& flight, Steering& controls)
+{
+    if (flight.lever_waits && controls.lever) {
+        if (!flight.lever_rest)
+            flight.lever_rest = controls.lever;
+        flight.lever_waits = std::abs(*controls.lever - *flight.lever_rest) <= lever_touched;
+        if (flight.lever_waits)
+            controls.lever.reset();
+    }
+    const glm::dvec3 none(0);
+    if (controls.lever || controls.throttle_rate != 0 || controls.push != none || controls.turn != none)
+        flight.coasting = false;
+}
+
 } // namespace
 
-Push pilot(Flight& flight, const Steering& input, const Flying& rules)
+void steer(Flight& flight, const Steering& controls, const Flying& rules)
 {
-    Steering controls = input;
-    // Visitors with thrusters alone, as on a space mouse, set the speed too.
-    if (flight.mode != FlightMode::newtonian)
-        controls.throttle_rate -= input.push.z;
     const glm::dvec3 rates = degree * glm::dvec3(rules.turn_deg_per_s, rules.turn_deg_per_s, rules.roll_deg_per_s);
     for (int i = 0; i < 3; ++i)
         turn(flight.turn_rad_s[i], flight.turn_lead_rad_s[i], std::clamp(controls.turn[i], -1.0, 1.0) * rates[i], rates[i],
             degree * rules.turn_jerk_deg_per_s3);
+}
+
+Push pilot(Flight& flight, const Steering& input, const Flying& rules)
+{
+    Steering controls = input;
+    watch_hands(flight, controls);
+    steer(flight, controls, rules);
+    if (flight.coasting)
+        return {};
+    // Visitors with thrusters alone, as on a space mouse, set the speed too.
+    if (flight.mode != FlightMode::newtonian)
+        controls.throttle_rate -= input.push.z;
     if (controls.lever)
         flight.lever = std::clamp(*controls.lever, 0.0, 1.0);
     else if (flight.mode != FlightMode::newtonian)

@@ -9,6 +9,9 @@ struct Push {
     bool stop = false; ///< the ship is at rest at once: the end of slowing down
 };
 
+/// Advances the flight's smoothed turn by a tick.
+void steer(Flight& flight, const Steering& controls, const Flying& rules);
+
 /// Advances the flight's smoothed controls (turn_rad_s, throttle_rate, thrust, lever) by a tick; it does not move the
 /// ship.
 Push pilot(Flight& flight, const Steering& controls, const Flying& rules);

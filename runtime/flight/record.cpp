@@ -24,7 +24,7 @@ static_assert(controls_have(
 [[maybe_unused]] void name_every_member(const Controls& c, const Flying& f, const Exposing& e, const Flight& s)
 {
     [[maybe_unused]] const auto& [time_ns, report_ns] = static_cast<const ControlTimes&>(c);
-    [[maybe_unused]] const auto& [lever, throttle_rate, push, turn, stop, home, undo, reset, next_mode]
+    [[maybe_unused]] const auto& [lever, throttle_rate, push, turn, stop, home, undo, reset, next_mode, freeze]
         = static_cast<const Steering&>(c);
     [[maybe_unused]] const auto& [look_rad, look_ahead, head, exposure, lock_exposure] = static_cast<const Looking&>(c);
     [[maybe_unused]] const auto& [aberration, doppler, headlight, false_colours, comparison]
@@ -37,8 +37,9 @@ static_assert(controls_have(
         rapidity_jerk_per_s2]
         = f;
     [[maybe_unused]] const auto& [automatic, min_ev, max_ev, bloom] = e;
-    [[maybe_unused]] const auto& [ship, flight_mode, flight_lever, thrust_inhibited, rate, thrust, turn_rad_s,
-        turn_lead_rad_s, homing, flight_look_rad, effects, exposure_ev, flight_hud, ticks, left_ns]
+    [[maybe_unused]] const auto& [ship, flight_mode, flight_lever, coasting, lever_waits, lever_rest, frozen,
+        thrust_inhibited, rate, thrust, turn_rad_s, turn_lead_rad_s, homing, flight_look_rad, effects, exposure_ev,
+        flight_hud, ticks, left_ns]
         = s;
 }
 
@@ -49,11 +50,12 @@ constexpr double most_ns = 9e15; ///< a hundred days; whole numbers below it are
 
 constexpr std::pair<const char*, bool Controls::*> switches[] = {{"look_ahead", &Controls::look_ahead},
     {"stop", &Controls::stop}, {"home", &Controls::home}, {"undo", &Controls::undo}, {"reset", &Controls::reset},
-    {"next_mode", &Controls::next_mode}, {"aberration", &Controls::aberration}, {"doppler", &Controls::doppler},
-    {"headlight", &Controls::headlight}, {"false_colours", &Controls::false_colours}, {"comparison", &Controls::comparison},
-    {"lock_exposure", &Controls::lock_exposure}, {"overlay", &Controls::overlay}, {"mark", &Controls::mark},
-    {"log", &Controls::log}, {"why", &Controls::why}, {"hud", &Controls::hud}, {"full_screen", &Controls::full_screen},
-    {"quit", &Controls::quit}, {"pattern", &Controls::pattern}, {"save", &Controls::save}};
+    {"next_mode", &Controls::next_mode}, {"freeze", &Controls::freeze}, {"aberration", &Controls::aberration},
+    {"doppler", &Controls::doppler}, {"headlight", &Controls::headlight}, {"false_colours", &Controls::false_colours},
+    {"comparison", &Controls::comparison}, {"lock_exposure", &Controls::lock_exposure}, {"overlay", &Controls::overlay},
+    {"mark", &Controls::mark}, {"log", &Controls::log}, {"why", &Controls::why}, {"hud", &Controls::hud},
+    {"full_screen", &Controls::full_screen}, {"quit", &Controls::quit}, {"pattern", &Controls::pattern},
+    {"save", &Controls::save}};
 
 /// == would accept 0 for -0, which must come back as -0.
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
@@ -318,12 +320,15 @@ std::uint64_t digest(const Flight& flight)
     Digester all;
     all.add(flight.ship);
     all.add(std::int64_t(flight.mode));
+    all.add(flight.coasting), all.add(flight.lever_waits), all.add(flight.lever_rest.has_value());
+    all.add(flight.lever_rest.value_or(0)), all.add(flight.frozen);
     all.add(flight.lever), all.add(flight.thrust_inhibited), all.add(flight.throttle_rate), all.add(flight.thrust);
     all.add(flight.turn_rad_s), all.add(flight.turn_lead_rad_s);
     all.add(flight.homing.has_value());
     if (flight.homing) {
         all.add(flight.homing->braking), all.add(flight.homing->elapsed_s), all.add(flight.homing->from);
-        all.add(flight.homing->rapidity_per_s), all.add(flight.homing->arrived);
+        all.add(flight.homing->rapidity_per_s), all.add(flight.homing->way_s), all.add(flight.homing->launch_s);
+        all.add(flight.homing->arrived);
     }
     all.add(flight.look_rad);
     all.add(flight.effects.aberration), all.add(flight.effects.doppler), all.add(flight.effects.headlight);

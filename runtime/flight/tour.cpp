@@ -55,6 +55,8 @@ void hand_over(Touring& now, const Flying& rules)
     Shot here = shot_of(now.flight.ship);
     const Flight fresh = flight_at(here, rules);
     now.flight.mode = fresh.mode, now.flight.lever = fresh.lever;
+    now.flight.coasting = fresh.coasting, now.flight.lever_waits = fresh.lever_waits;
+    now.flight.lever_rest.reset(), now.flight.frozen = false;
     now.flight.thrust_inhibited = rapidity_of(now.flight.ship) == 0; // an open throttle then has no effect yet
     now.flight.throttle_rate = 0;
     now.flight.thrust = now.flight.turn_rad_s = now.flight.turn_lead_rad_s = glm::dvec3(0);
@@ -88,7 +90,7 @@ void begin(Touring& now, const Show& show)
     const glm::dvec2 look = std::holds_alternative<Cut>(step.motion) ? glm::dvec2(0) : now.flight.look_rad;
     const bool hud = now.flight.hud;
     now.flight = start.flight;
-    now.flight.look_rad = look, now.flight.hud = hud;
+    now.flight.look_rad = look, now.flight.hud = hud, now.flight.frozen = false;
     if (tries(step))
         hand_over(now, rules_in(step, show.rules));
 }
@@ -193,7 +195,7 @@ bool touched(const Controls& controls, double lever, double lever_before)
 {
     return controls.throttle_rate != 0 || controls.push != glm::dvec3(0) || controls.turn != glm::dvec3(0)
         || controls.look_rad != glm::dvec2(0) || std::abs(lever - lever_before) > 0.005 || controls.stop || controls.home
-        || controls.undo || controls.reset || controls.next_mode;
+        || controls.undo || controls.reset || controls.next_mode || controls.freeze;
 }
 
 /// The visitor flies; the tour's own controls do not reach the ship.
@@ -238,7 +240,7 @@ bool press(Touring& now, const Show& show, const Controls& controls)
         next(now, show);
         return true;
     }
-    if (controls.stop && !by_hand && !(step_of(now, show).question && !now.measured_answer))
+    if ((controls.stop || controls.freeze) && !by_hand && !(step_of(now, show).question && !now.measured_answer))
         now.paused = !now.paused;
     return false;
 }

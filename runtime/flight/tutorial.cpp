@@ -10,7 +10,7 @@ Tutorial advance(Tutorial tutorial, const Controls& controls, const Flight& flig
 {
     const bool touched = controls.throttle_rate != 0 || controls.push != glm::dvec3(0) || controls.turn != glm::dvec3(0)
         || controls.look_rad != glm::dvec2(0) || std::abs(flight.lever - tutorial.lever) > 0.005 || controls.stop
-        || controls.home || controls.undo || controls.reset || controls.next_mode;
+        || controls.home || controls.undo || controls.reset || controls.next_mode || controls.freeze;
     tutorial.idle_s = touched ? 0 : tutorial.idle_s + dt_s;
     if (touched)
         tutorial.lever = flight.lever;

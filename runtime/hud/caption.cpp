@@ -41,6 +41,13 @@ Caption caption_of(const Touring& now, const Show& show, const Words& words, con
     if (step.question && now.measured_answer) {
         caption.text = words(now.right ? *now.right ? "touring.right" : "touring.wrong" : "touring.answer") + " "
             + filled(step.question->explanation, {{"measured", figures(*now.measured_answer, words)}});
+        if (const auto* choices = std::get_if<std::vector<Choice>>(&step.question->answer))
+            for (const Choice& choice : *choices) {
+                if (*now.measured_answer >= choice.from && *now.measured_answer < choice.below)
+                    caption.right = int(caption.choices.size());
+                caption.choices.push_back(choice.text);
+            }
+        caption.chosen = now.right ? now.chosen : -1;
     } else if (step.question) {
         caption.text = step.question->ask;
         if (const auto* choices = std::get_if<std::vector<Choice>>(&step.question->answer)) {
@@ -56,9 +63,25 @@ Caption caption_of(const Touring& now, const Show& show, const Words& words, con
                 ? words("touring.choose_stick", {{"button", std::to_string(capabilities.stop_button)}, {"left", left}})
                 : words("touring.choose_keys", {{"left", left}});
     }
+    const bool by_buttons
+        = capabilities.stick && capabilities.stop_button > 0 && capabilities.home_button > 0 && capabilities.undo_button > 0;
+    const std::vector<std::pair<std::string_view, std::string>> buttons{{"stop", std::to_string(capabilities.stop_button)},
+        {"on", std::to_string(capabilities.home_button)}, {"back", std::to_string(capabilities.undo_button)}};
     if (now.paused)
-        caption.aside = words("touring.paused");
+        caption.aside = by_buttons ? words("touring.paused_stick", buttons) : words("touring.paused_keys");
+    else if (caption.aside.empty() && show.visitors)
+        caption.aside = by_buttons ? words("touring.guide_stick", buttons) : words("touring.guide_keys");
     return caption;
+}
+
+std::string verdict_of(const Caption& caption)
+{
+    if (caption.right < 0)
+        return {};
+    std::string verdict = "✓ " + caption.choices[std::size_t(caption.right)];
+    if (caption.chosen >= 0 && caption.chosen != caption.right)
+        verdict += "   ✗ " + caption.choices[std::size_t(caption.chosen)];
+    return verdict;
 }
 
 void write_caption(Panel& panel, const Typesetter& typesetter, const Caption& caption,
@@ -87,7 +110,7 @@ void write_caption(Panel& panel, const Typesetter& typesetter, const Caption& ca
     const double top = 0.23 * height, room = 0.72 * height, pitch = 1.18;
     int size = int(0.21 * height);
     std::vector<std::string> lines;
-    const int rows = caption.choices.empty() ? 0 : 1;
+    const int rows = caption.choices.empty() || caption.right >= 0 ? 0 : 1;
     for (;; --size) {
         lines
             = wrapped(caption.text, right - left, [&](const std::string& text) { return typesetter.width_of(text, size); });

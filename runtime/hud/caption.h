@@ -16,13 +16,17 @@ class Typesetter;
 struct Caption {
     std::string text;
     std::vector<std::string> choices{}; ///< a question's choices
-    int chosen = -1; ///< index of a choice; -1: none
-    std::string aside{}; ///< the keys for an answer, and the seconds left
+    int chosen = -1; ///< index of the visitor's choice; -1: none
+    int right = -1; ///< index of the right choice, once it is shown; -1: not yet
+    std::string aside{}; ///< what the keys do now, and the seconds left
     bool flying = false; ///< the visitor flies: the lever counts
 };
 
 /// The caption of a tour's present state, in words for the controls at hand; empty where the visitor flies freely.
 Caption caption_of(const Touring& touring, const Show& show, const Words& words, const InputCapabilities& capabilities);
+
+/// The right choice, ticked, and another one that the visitor has chosen, crossed; empty before the answer.
+std::string verdict_of(const Caption& caption);
 
 /// Writes a caption on a panel's plate, as large as it fits; the first of the fields are small above it.
 void write_caption(Panel& panel, const Typesetter& typesetter, const Caption& caption,

@@ -138,7 +138,7 @@ std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r, c
         {words("hud.doppler"), on(r.effects.doppler)},
         {words("hud.headlight"), on(r.effects.headlight)},
     };
-    fields.push_back({words("hud.flight"), words("flight." + std::string(name_of(r.mode)))});
+    fields.push_back({words("hud.flight"), words("flight." + std::string(r.frozen ? "frozen" : name_of(r.mode)))});
     const double ev = std::round(10 * r.exposure_ev) / 10;
     const std::string sign = ev < 0 ? "−" : ev > 0 ? "+" : "";
     fields.push_back({words("hud.exposure"),
@@ -247,9 +247,15 @@ Panel Typesetter::draw(const Readings& readings, const Words& words, int width) 
             panel.texels[2 * (std::size_t(y) * panel.size.x + x)] = y >= filled ? 255 : 64;
 
     if (readings.caption) {
-        write_caption(panel, *this, *readings.caption,
-            readings.notice.empty() ? hud_fields(readings, words)
-                                    : std::vector<std::pair<std::string, std::string>>{{readings.notice, ""}});
+        // The guide's text has the number that the step is about; the ship's would only stand beside it.
+        std::vector<std::pair<std::string, std::string>> fields;
+        if (!readings.notice.empty())
+            fields = {{readings.notice, ""}};
+        else if (const std::string verdict = verdict_of(*readings.caption); !verdict.empty())
+            fields = {{verdict, ""}};
+        else if (readings.caption->flying)
+            fields = hud_fields(readings, words);
+        write_caption(panel, *this, *readings.caption, fields);
         return panel;
     }
 

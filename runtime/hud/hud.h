@@ -41,11 +41,12 @@ struct Readings {
     double frames_per_s;
     Effects effects;
     FlightMode mode = FlightMode::guided;
+    bool frozen = false; ///< the world stands still
     double exposure_ev = 0;
     bool exposure_locked = false; ///< the visitor has locked it
     std::optional<double> lever{}; ///< the throttle's place, 0 to 1
     std::string prompt{}; ///< the tutorial's prompt, or empty
-    std::optional<Caption> caption{}; ///< a tour's caption; it replaces all but the speed
+    std::optional<Caption> caption{}; ///< a tour's caption; it replaces the figures, but for the first of them where the visitor flies
     std::string notice{}; ///< one line for the exhibit's operator, or empty
 };
 Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effects);

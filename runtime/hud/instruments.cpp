@@ -2,6 +2,7 @@
 #include "runtime/world/clock.h"
 #include "runtime/world/eye_event.h"
 #include "runtime/world/instances.h"
+#include "runtime/world/moving.h"
 #include "runtime/world/worldline.h"
 #include "shaders/physics/physics.h"
 #include <algorithm>
@@ -12,17 +13,43 @@ namespace {
 
 double exp_rapidity_of(const MeasuringObserver& observer) { return physics::exp_rapidity(glm::length(observer.u)); }
 
-glm::dvec3 middle_of(const World& world, std::size_t instance)
-{
-    const Instance& one = world.instances[instance];
-    const Primitive& primitive = world.primitives[one.primitive];
-    return glm::dvec3(one.frame_from_local * glm::dvec4(0.5 * (primitive.low + primitive.high), 1));
-}
-
 const WorldClock* clock_of(const World& world, std::size_t instance)
 {
     const auto& clock = world.materials[std::size_t(world.primitives[world.instances[instance].primitive].material)].clock;
     return clock ? &*clock : nullptr;
+}
+
+bool exists(const World& world, const Instance& instance, double time)
+{
+    if (instance.existence < 0)
+        return true;
+    const ExistenceInterval& existence = world.existence_intervals[std::size_t(instance.existence)];
+    return time >= existence.begin && time < existence.end;
+}
+
+/// The clock of a rest frame on whose dial, or beside it by a quarter of its radius, a place lies at a time of the frame.
+/// A body has a clock for each part of its worldline, and in one frame several may lie at one place at different times.
+std::optional<std::size_t> clock_near(const World& world, int frame, const glm::dvec3& at, double time)
+{
+    std::optional<std::size_t> found;
+    double nearest = 0.25;
+    const InstanceRange range = instances_of(world, frame);
+    for (std::size_t i = range.first; i < range.last && timed(world, world.instances[i]); ++i) {
+        const Instance& instance = world.instances[i];
+        if (!clock_of(world, i) || !exists(world, instance, time))
+            continue;
+        const Primitive& primitive = world.primitives[instance.primitive];
+        const glm::dmat4 frame_from_local = instance.motion < 0 ? instance.frame_from_local : pose_at(world, instance, time);
+        const glm::dvec3 local(glm::inverse(frame_from_local) * glm::dvec4(at, 1));
+        const glm::dvec3 beside = local - glm::clamp(local, primitive.low, primitive.high);
+        // Both lengths in the frame, where the dial may be stretched.
+        const glm::dmat3 turn(frame_from_local);
+        const double radius
+            = primitive.radius * std::max({glm::length(turn[0]), glm::length(turn[1]), glm::length(turn[2])});
+        if (const double off = glm::length(turn * beside) / radius; off <= nearest)
+            found = i, nearest = off;
+    }
+    return found;
 }
 
 /// The observer in a rest frame's coordinates, and the rotation from the axes carried by the world's boost to the axes
@@ -41,6 +68,19 @@ There in_frame_of(const MeasuringObserver& observer, const World& world, int fra
     const Shot there = in_frame(rest, shot); // its cockpit then holds the rotation
     const glm::dquat& turn = there.ship_from_cockpit;
     return {{there.position, there.time, there.u, turn * observer.ship_from_cockpit, observer.aberration}, turn};
+}
+
+/// The seen reading of the clock at a spot: of the one that is there when its light leaves. time: the eye's, in the spot's
+/// rest frame; distance: from there to the spot. nullopt: no clock is there then, or not yet, or no longer.
+std::optional<double> clock_reading(
+    const World& world, const Spot& spot, double time, double distance, double seconds_per_time_unit)
+{
+    const auto instance = clock_near(world, spot.frame, spot.at, time - distance);
+    if (!instance)
+        return {};
+    const int existence = world.instances[*instance].existence;
+    const double zero = existence < 0 ? 0 : world.existence_intervals[std::size_t(existence)].zero;
+    return reading_s(*clock_of(world, *instance), time - zero, distance, seconds_per_time_unit);
 }
 
 /// A spot's retarded position in the ship's frame, from the observer. The 4-vector (-r, r n) of the light's way is
@@ -83,32 +123,26 @@ Spot spot_at(const MeasuringObserver& observer, const Probed& probed, const Worl
     if (!std::isfinite(probed.distance))
         return {.at = probed.ray.world, .sky = true};
     Spot spot{.at = observer.place + probed.distance * probed.ray.world, .frame = probed.frame};
+    double left = observer.time - probed.distance;
     if (probed.frame > 0) {
         const There there = in_frame_of(observer, world, probed.frame);
         const Ray ray = ray_from_ship(there.observer, there.turn * probed.ray.ship);
         // The light's travel distance transforms like its frequency: in the ship it is D times that in any other frame.
         const double way = probed.distance * ray_from_ship(observer, probed.ray.ship).D;
         spot.at = there.observer.place + way / ray.D * ray.world;
+        left = there.observer.time - way / ray.D;
     }
-    const InstanceRange range = instances_of(world, spot.frame);
-    for (std::size_t i = range.first; i < range.last && timed(world, world.instances[i]); ++i) {
-        if (!clock_of(world, i))
-            continue;
-        const glm::dmat3 turn(world.instances[i].frame_from_local);
-        const double radius = world.primitives[world.instances[i].primitive].radius
-            * std::max({glm::length(turn[0]), glm::length(turn[1]), glm::length(turn[2])});
-        if (glm::distance(spot.at, middle_of(world, i)) <= radius) {
-            spot.clock = i;
-            break;
-        }
-    }
+    spot.clock = clock_near(world, spot.frame, spot.at, left);
     return spot;
 }
 
 Spot snapped(Spot spot, const World& world)
 {
-    if (spot.clock)
-        spot.at = middle_of(world, *spot.clock);
+    if (!spot.clock || world.instances[*spot.clock].motion >= 0)
+        return spot;
+    const Instance& instance = world.instances[*spot.clock];
+    const Primitive& primitive = world.primitives[instance.primitive];
+    spot.at = glm::dvec3(instance.frame_from_local * glm::dvec4(0.5 * (primitive.low + primitive.high), 1));
     return spot;
 }
 
@@ -140,11 +174,8 @@ SpotReading read_spot(const MeasuringObserver& observer, const Spot& spot, const
     const double world_D = spot.frame > 0 ? ray_from_ship(observer, reading.ray.ship).D : reading.ray.D;
     reading.distance_s = *reading.ship_distance_s / world_D;
     reading.emitted_s = observer.time * seconds_per_time_unit - *reading.distance_s;
-    if (spot.clock) {
-        const int existence = world.instances[*spot.clock].existence;
-        const double zero = existence < 0 ? 0 : world.existence_intervals[std::size_t(existence)].zero;
-        reading.clock_s = reading_s(*clock_of(world, *spot.clock), there.time - zero, there_distance, seconds_per_time_unit);
-    }
+    if (spot.clock)
+        reading.clock_s = clock_reading(world, spot, there.time, there_distance, seconds_per_time_unit);
     return reading;
 }
 

@@ -27,7 +27,7 @@ Ray ray_from_world(const MeasuringObserver& observer, const glm::dvec3& world);
 /// The ray at the crosshair: straight ahead of the visitor's look.
 Ray aim_of(const MeasuringObserver& observer);
 
-/// The picture's values in one direction, with float accuracy; the distance has a texel's accuracy.
+/// The picture's values in one direction, with float accuracy; on planes that holds for the distance too.
 struct Probed {
     Ray ray;
     double distance
@@ -43,9 +43,9 @@ struct Spot {
     bool sky = false;
     std::optional<std::size_t> clock; ///< the instance, if it is a clock
 };
-/// The spot of a probe's values; clocks are recognised.
+/// The spot of a probe's values. A clock is recognised if it exists at the spot's retarded time.
 Spot spot_at(const MeasuringObserver& observer, const Probed& probed, const World& world);
-/// Moves a spot on a clock to the clock's middle, so that aiming need not be exact.
+/// Moves a spot on a clock to the clock's middle, so that aiming need not be exact; not on an animated clock.
 Spot snapped(Spot spot, const World& world);
 /// The ray from a spot. Its world direction is the world's; its D is from the spot's rest frame.
 Ray ray_to(const MeasuringObserver& observer, const Spot& spot, const World& world);
@@ -62,7 +62,8 @@ struct SpotReading {
     std::optional<double> distance_s; ///< in the world, to the retarded position; nullopt for the sky
     std::optional<double> emitted_s; ///< the retarded time, in the world
     std::optional<double> ship_distance_s; ///< in the ship's frame: the light's travel time there, D times the above
-    std::optional<double> clock_s; ///< the clock's seen reading, at its middle or at another part of its dial
+    std::optional<double> clock_s; ///< the seen reading of the clock that is at the spot at its retarded time, at its
+                                   ///< middle or at another part of its dial
     std::optional<double> light; ///< as in Probed
 };
 SpotReading read_spot(const MeasuringObserver& observer, const Spot& spot, const World& world, double seconds_per_time_unit);

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -24,6 +25,11 @@ void check_ending(const std::filesystem::path& file, const std::string& ending);
 /// Writes RGBA8 rows from the top as PNG, alpha dropped. Written beside and renamed: a failure leaves no half file.
 /// Throws InputError where the place can't be written.
 void write_png(const std::filesystem::path& file, glm::ivec2 size, const std::vector<std::uint8_t>& rgba);
+
+/// The names of the channels that describe a picture's numbers (docs/files.md), in the order of their values.
+constexpr std::array<const char*, 14> number_channels
+    = {"R", "G", "B", "cameraDirection.X", "cameraDirection.Y", "cameraDirection.Z", "worldDirection.X", "worldDirection.Y",
+        "worldDirection.Z", "doppler", "depth", "worldAcross.X", "worldAcross.Y", "worldAcross.Z"};
 
 /// Named planes of 32-bit floats, rows from the top; any order.
 using Channels = std::vector<std::pair<std::string, std::vector<float>>>;

@@ -68,15 +68,21 @@ std::optional<double> metered_ev(std::span<const LuminanceSample> view, std::spa
     return ev;
 }
 
-Exposure adapted(Exposure exposure, std::optional<double> metered, double dt_s, const Exposing& rules)
+Exposure adapted_to(Exposure exposure, std::optional<double> ev, const Exposing& rules, double start_ev)
+{
+    if (ev && !exposure.ev && *ev > rules.min_ev && *ev < rules.max_ev)
+        exposure.offset_ev = start_ev - *ev;
+    exposure.ev = ev;
+    return exposure;
+}
+
+Exposure adapted(Exposure exposure, std::optional<double> metered, double dt_s, const Exposing& rules, double start_ev)
 {
     if (!metered || exposure.locked)
         return exposure;
     const double wanted = std::clamp(*metered, rules.min_ev, rules.max_ev);
-    if (!exposure.ev) {
-        exposure.ev = wanted;
-        return exposure;
-    }
+    if (!exposure.ev)
+        return adapted_to(exposure, wanted, rules, start_ev);
     const double time_s = wanted < *exposure.ev ? to_bright_s : to_dark_s; // a brighter view needs a lower EV
     *exposure.ev = wanted + (*exposure.ev - wanted) * std::exp(-std::max(dt_s, 0.0) / time_s);
     return exposure;
@@ -86,7 +92,7 @@ double shown_ev(const Exposure& exposure, const Exposing& rules, double visitors
 {
     if (!rules.automatic || !exposure.ev)
         return visitors_ev;
-    return std::clamp(*exposure.ev + visitors_ev - start_ev, -60.0, 60.0);
+    return std::clamp(*exposure.ev + exposure.offset_ev + visitors_ev - start_ev, -60.0, 60.0);
 }
 
 double pre_exposure(double brightest, double exposure_ev, double most_gain)

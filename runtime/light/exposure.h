@@ -35,17 +35,25 @@ std::optional<double> metered_ev(std::span<const LuminanceSample> view, std::spa
 /// Time constants of the adaptation to a brighter and to a darker view.
 constexpr double to_bright_s = 0.5, to_dark_s = 3;
 
-/// One exposure holds for all outputs and eyes.
+/// One exposure holds for all outputs and eyes. The start's EV belongs to the first view, so that a shot has one brightness,
+/// live and as a still, and light that its author made dark or coloured stays so. From there the exposure follows the
+/// changes of the metered light.
 struct Exposure {
     std::optional<double> ev; ///< adapted; nullopt before anything was seen
+    double offset_ev = 0; ///< of the start's EV from the first view's
     bool locked = false;
 };
 
+/// The exposure after a view to which it has adapted as `ev`. The first view sets the offset, unless the rules limit it: an
+/// eye has not adapted to a view that is too dark.
+Exposure adapted_to(Exposure exposure, std::optional<double> ev, const Exposing& rules, double start_ev);
+
 /// The exposure dt_s seconds later. The first view is taken at once; a view without light, and a lock, change nothing.
 /// For a constant view, any division of the time into steps leads to the same result, to rounding.
-Exposure adapted(Exposure exposure, std::optional<double> metered, double dt_s, const Exposing& rules);
+Exposure adapted(Exposure exposure, std::optional<double> metered, double dt_s, const Exposing& rules, double start_ev);
 
-/// The EV of a frame: the adapted EV (the start's before the first view) plus the visitor's own change since the start.
+/// The EV of a frame: the adapted EV with its offset (the start's before the first view) plus the visitor's own change since
+/// the start.
 double shown_ev(const Exposure& exposure, const Exposing& rules, double visitors_ev, double start_ev);
 
 /// The factor of the cube map's stored radiance: a power of two that puts the brightest relevant light two stops below

@@ -25,10 +25,11 @@ struct ScaledRow {
 };
 ScaledRow row_of(const glm::dvec3* seen, int reflected, const StandardObserver& observer)
 {
-    glm::dvec3 grey(0);
+    double most = 0;
     for (int k = 0; k < reflected; ++k)
-        grey += seen[k];
-    const Scaled scale = scale_of(peak(grey));
+        most = std::max({most, std::abs(seen[k].x), std::abs(seen[k].y), std::abs(seen[k].z)});
+    // Halves keep eleven bits down to 2^-14: with the greatest value at 2^12, of 26 octaves of light.
+    const Scaled scale = scale_of(most * std::exp2(-12));
     ScaledRow row;
     row.log2 = float(scale.log2);
     for (int k = 0; k < reflected; ++k)
@@ -47,13 +48,13 @@ template <class AnyResponse> auto& word(AnyResponse& response, int row, int k)
 
 Response response_of(const SpectralBasis& basis, const StandardObserver& observer)
 {
-    const ResponseTable table = response_table(basis, observer, RESPONSE_ROWS);
-    Response response{basis.reflected, int(basis.own.size()), table.first_log2_D, table.per_octave, {}, {}};
+    const ColourTable table = response_table(basis, observer, RESPONSE_ROWS);
+    Response response{basis.reflected, int(basis.own.size()), table.first_log2_D, double(table.per_octave), {}, {}};
     response.rows.assign(std::size_t(RESPONSE_ROWS * RESPONSE_TEXELS(basis.reflected)), glm::uvec4(0));
     response.own_rows.assign(MOST_OWN_ROWS, glm::vec4(0, 0, 0, float(least_log2)));
     std::vector<ScaledRow> rows;
     for (int row = 0; row < RESPONSE_ROWS; ++row)
-        rows.push_back(row_of(&table.seen[std::size_t(row * table.coefficients)], basis.reflected, observer));
+        rows.push_back(row_of(table.row(row), basis.reflected, observer));
     for (int row = 0; row < RESPONSE_ROWS; ++row) {
         const ScaledRow &here = rows[std::size_t(row)], &next = rows[std::size_t(std::min(row + 1, RESPONSE_ROWS - 1))];
         for (int k = 0; k < 3 * basis.reflected; ++k) {
@@ -66,7 +67,7 @@ Response response_of(const SpectralBasis& basis, const StandardObserver& observe
     const int own_step = RESPONSE_OWN_STEP(response.own);
     for (int row = 0; row < RESPONSE_ROWS; row += own_step)
         for (int i = 0; i < response.own; ++i) {
-            const glm::dvec3 own = table.seen[std::size_t(row * table.coefficients + basis.reflected + i)];
+            const glm::dvec3 own = table.row(row)[basis.reflected + i];
             const Scaled scale = scale_of(peak(own));
             response.own_rows[std::size_t(row / own_step * response.own + i)]
                 = glm::vec4(observer.rec709 * scale.over(own), scale.log2);

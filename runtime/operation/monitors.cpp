@@ -88,6 +88,20 @@ WindowPlace place_on(const Monitor& monitor, const Output& output)
     return {monitor.position, glm::max(glm::ivec2(glm::dvec2(output.size) * shrink), 1)};
 }
 
+std::optional<std::size_t> largest_share(const WindowPlace& window, const std::vector<WindowPlace>& places)
+{
+    std::optional<std::size_t> found;
+    std::int64_t most = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const glm::ivec2 low = glm::max(window.corner, places[i].corner),
+                         high = glm::min(window.corner + window.size, places[i].corner + places[i].size);
+        const std::int64_t area = low.x < high.x && low.y < high.y ? std::int64_t(high.x - low.x) * (high.y - low.y) : 0;
+        if (area > most)
+            found = i, most = area;
+    }
+    return found;
+}
+
 std::string layout_line(const Monitor& monitor, bool by_edid)
 {
     nlohmann::ordered_json name;

@@ -39,6 +39,9 @@ struct WindowPlace {
 /// it reach into the next. A window with a place may reach across several.
 WindowPlace place_on(const Monitor& monitor, const Output& output);
 
+/// The index of the place that shares the largest area with the window; nothing if none shares any.
+std::optional<std::size_t> largest_share(const WindowPlace& window, const std::vector<WindowPlace>& places);
+
 /// The layout's line that names this monitor: "monitor": { ... }. by_edid: by model and serial instead of the connector.
 std::string layout_line(const Monitor& monitor, bool by_edid);
 

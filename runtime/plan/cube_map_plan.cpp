@@ -20,28 +20,38 @@ struct Draft {
     bool spreads; ///< the filter of a pixel may reach beyond the image
     int finest_clip_level;
 
-    PlannedImage image(int tile, const SubTiles& sub_tiles, const Demand& demand) const
+    /// The texel grid of an image.
+    struct Grid {
+        double unit; ///< face units per texel
+        int levels, gutter, step; ///< mip levels; texels around the demand, and of which its edges are multiples
+    };
+    Grid grid(const Demand& demand) const
     {
         const glm::dvec2 extent = demand.rect.high - demand.rect.low;
         const double longest = std::max(extent.x, extent.y);
         double unit = std::min(demand.finest / density, std::max(longest, 1e-300) / least_side);
         unit = std::max(unit, longest / most_side);
+        // Bilinear filtering holds up to a twofold reduction; beyond it the image needs mips.
+        const int most_levels = quality.mips ? 5 : 1;
+        const int levels = std::clamp(1 + int(std::floor(std::log2(demand.coarsest / unit) - 0.2)), 1, most_levels);
+        // Twice as wide where pixels' filters reach beyond the image, so that the image holds all their texels.
+        return {unit, levels, (spreads ? 4 : 2) << (levels - 1), 1 << levels};
+    }
+
+    PlannedImage image(int tile, const SubTiles& sub_tiles, const Demand& demand) const
+    {
+        const auto [unit, levels, gutter, step] = grid(demand);
         PlannedImage image;
         image.tile = tile;
         image.sub_tiles = sub_tiles;
         image.face = tile_face(tile);
         image.rest_frame = rest_frame;
         image.texels_per_unit = 1 / unit;
-        // Bilinear filtering holds up to a twofold reduction; beyond it the image needs mips.
-        const int most_levels = quality.mips ? 5 : 1;
-        image.levels = std::clamp(1 + int(std::floor(std::log2(demand.coarsest / unit) - 0.2)), 1, most_levels);
-        // Twice as wide where pixels' filters reach beyond the image, so that the image holds all their texels.
-        const int gutter = (spreads ? 4 : 2) << (image.levels - 1);
-        const int grid = 1 << image.levels;
+        image.levels = levels;
         for (int i = 0; i < 2; ++i) {
             // Edges lie on the face's texel grid, so that a growing rectangle does not shift its texels.
-            const double first = std::floor(demand.rect.low[i] / (grid * unit)) * grid - gutter;
-            const double last = std::ceil(demand.rect.high[i] / (grid * unit)) * grid + gutter;
+            const double first = std::floor(demand.rect.low[i] / (step * unit)) * step - gutter;
+            const double last = std::ceil(demand.rect.high[i] / (step * unit)) * step + gutter;
             image.low[i] = first * unit;
             image.high[i] = last * unit;
             image.size[i] = int(last - first);
@@ -49,6 +59,14 @@ struct Draft {
         if (const double hole = clip_hole(tile, finest_clip_level); hole > 0)
             image.clip_hole = std::max(0.0, hole - (gutter + 1) * unit);
         return image;
+    }
+
+    /// An image's texels in the mean over all places of its edges on the grid: unlike its own, they change smoothly.
+    double mean_texels(const Demand& demand) const
+    {
+        const auto [unit, levels, gutter, step] = grid(demand);
+        const glm::dvec2 side = (demand.rect.high - demand.rect.low) / unit + double(step + 2 * gutter);
+        return side.x * side.y;
     }
 
     /// The cost of an image, in texels.
@@ -94,10 +112,10 @@ public:
             std::fill(std::begin(row), std::end(row), Way::unknown);
     }
 
-    void add_images(std::vector<PlannedImage>& images)
+    void add_images(std::vector<PlannedImage>& images, std::vector<Demand>& held)
     {
         if (!demands_.demands[0][0].rect.empty())
-            add(0, 0, images);
+            add(0, 0, images, held);
     }
 
 private:
@@ -143,20 +161,21 @@ private:
         return cost;
     }
 
-    void add(int a, int b, std::vector<PlannedImage>& images)
+    void add(int a, int b, std::vector<PlannedImage>& images, std::vector<Demand>& held)
     {
         if (demands_.demands[b][a].rect.empty())
             return;
         cost(a, b);
         switch (ways_[b][a]) {
         case Way::along_a:
-            add(2 * a + 1, b, images), add(2 * a + 2, b, images);
+            add(2 * a + 1, b, images, held), add(2 * a + 2, b, images, held);
             return;
         case Way::along_b:
-            add(a, 2 * b + 1, images), add(a, 2 * b + 2, images);
+            add(a, 2 * b + 1, images, held), add(a, 2 * b + 2, images, held);
             return;
         default:
             images.push_back(draft_.image(demands_.tile, sub_tiles(a, b), demands_.demands[b][a]));
+            held.push_back(demands_.demands[b][a]);
         }
     }
 
@@ -164,6 +183,68 @@ private:
     const TileDemands& demands_;
     double costs_[TileDemands::intervals][TileDemands::intervals];
     Way ways_[TileDemands::intervals][TileDemands::intervals];
+};
+
+/// The images of all tiles, at one density.
+struct Allocation {
+    const std::vector<RestFrameRequest>& requests;
+    const Quality& quality;
+    std::span<const TileDemands> by_tile;
+    CubeMapPlan& plan;
+    std::vector<Demand>& held; ///< of each image
+
+    Draft draft(int rest_frame, double density) const
+    {
+        const std::size_t at = std::size_t(rest_frame);
+        return {quality, density, rest_frame, requests[at].bounds.has_value(), plan.finest_clip_level[at]};
+    }
+    /// Divides all tiles.
+    void divide(double density)
+    {
+        plan.images.clear(), held.clear();
+        for (const TileDemands& demands : by_tile) {
+            const Draft own = draft(demands.rest_frame, density);
+            Cutting(own, demands).add_images(plan.images, held);
+        }
+    }
+    /// Gives the images another density.
+    void scale(double density)
+    {
+        for (std::size_t i = 0; i < held.size(); ++i) {
+            PlannedImage& image = plan.images[i];
+            image = draft(image.rest_frame, density).image(image.tile, image.sub_tiles, held[i]);
+        }
+    }
+    double mean_texels(double density) const
+    {
+        double sum = 0;
+        for (std::size_t i = 0; i < held.size(); ++i)
+            sum += draft(plan.images[i].rest_frame, density).mean_texels(held[i]);
+        return sum;
+    }
+    /// The density at which the images have so many texels. It changes smoothly with the demand. If it followed the
+    /// images' own texels, it would jump whenever an image grew by a row, and all texels of the picture with it.
+    double fitting(double density, double texels) const
+    {
+        for (int i = 0; i < 8; ++i) {
+            const double ratio = texels / mean_texels(density);
+            density *= std::sqrt(ratio);
+            if (std::abs(ratio - 1) < 1e-7)
+                break;
+        }
+        return density;
+    }
+    void sum_up()
+    {
+        plan.texels = 0;
+        plan.levels = 1;
+        plan.cut = false;
+        for (const PlannedImage& image : plan.images) {
+            plan.levels = std::max(plan.levels, image.levels);
+            plan.texels += double(image.size.x) * image.size.y;
+            plan.cut = plan.cut || !image.sub_tiles.all();
+        }
+    }
 };
 
 /// Packs images on shelves, tallest first, into an atlas that is about square. Corners are multiples of `align`, so that
@@ -220,9 +301,12 @@ CubeMapPlan plan_cube_map(
         room.demands.resize(requests.size());
     for (std::size_t rest_frame = 0; rest_frame < requests.size(); ++rest_frame) {
         const double E = requests[rest_frame].E;
-        // Behind, D is constant within 1/gamma of the axis: finer images would repeat the last one.
-        const int finest_clip_level = std::clamp(
-            int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0, std::min(quality.clip_levels, REAR_LEVELS - 1));
+        // Behind, D is constant within 1/gamma of the axis: finer images would repeat the last one. Nested images would
+        // not be around that axis where the cube map has other axes; there D varies little.
+        const bool aligned = requests[rest_frame].cube_from_motion == glm::dmat3(1);
+        const int finest_clip_level = aligned
+            ? std::clamp(int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0, std::min(quality.clip_levels, REAR_LEVELS - 1))
+            : 0;
         plan.finest_clip_level.push_back(finest_clip_level);
         room.demands[rest_frame].clear();
         add_demands(room.demands[rest_frame], requests[rest_frame], finest_clip_level, quality.pixel_rays);
@@ -240,39 +324,31 @@ CubeMapPlan plan_cube_map(
     for (const ViewRequest& view : requests[0].views)
         plan.pixels += double(view.cones->size().x) * view.cones->size().y;
 
-    auto lay_out = [&](double density) {
-        plan.images.clear();
-        for (const TileDemands& demands : by_tile) {
-            const std::size_t rest_frame = std::size_t(demands.rest_frame);
-            const Draft draft{quality, density, demands.rest_frame, requests[rest_frame].bounds.has_value(),
-                plan.finest_clip_level[rest_frame]};
-            Cutting(draft, demands).add_images(plan.images);
-        }
-        plan.texels = 0;
-        plan.levels = 1;
-        plan.cut = false;
-        for (const PlannedImage& image : plan.images) {
-            plan.levels = std::max(plan.levels, image.levels);
-            plan.texels += double(image.size.x) * image.size.y;
-            plan.cut = plan.cut || !image.sub_tiles.all();
-        }
-    };
+    Allocation allocation{requests, quality, by_tile, plan, room.held};
     double density = quality.texels_per_pixel;
-    lay_out(density);
+    allocation.divide(density);
     // Moving bodies may fill the view, and so may the world behind them: the limit counts for each rest frame.
     int seen = 0;
     for (std::size_t i = 0; i < plan.images.size(); ++i)
         seen += i == 0 || plan.images[i].rest_frame != plan.images[i - 1].rest_frame;
-    double most_texels = std::min(quality.max_texels_per_pixel * plan.pixels * std::max(seen, 1), quality.max_texels);
-    for (int i = 0; i < 4 && plan.texels > 1.02 * most_texels; ++i) {
-        density *= std::sqrt(most_texels / plan.texels);
-        lay_out(density);
+    const double most_texels = std::min(quality.max_texels_per_pixel * plan.pixels * std::max(seen, 1), quality.max_texels);
+    // Other divisions suit a coarser plan, and they have other texels.
+    for (int i = 0; i < 3 && allocation.mean_texels(density) > (1 + 1e-6) * most_texels; ++i) {
+        density = allocation.fitting(density, most_texels);
+        allocation.divide(density);
     }
+    if (allocation.mean_texels(density) > (1 + 1e-6) * most_texels) {
+        density = allocation.fitting(density, most_texels);
+        allocation.scale(density);
+    }
+    allocation.sum_up();
+    reserve_headroom(room.held);
     reserve_headroom(plan.images);
     pack(plan, room.by_height, 1 << plan.levels);
     for (int i = 0; i < 8 && std::max(plan.atlas_size.x, plan.atlas_size.y) > quality.max_atlas_side; ++i) {
         density *= 0.9 * quality.max_atlas_side / std::max(plan.atlas_size.x, plan.atlas_size.y);
-        lay_out(density);
+        allocation.divide(density);
+        allocation.sum_up();
         pack(plan, room.by_height, 1 << plan.levels);
     }
     return plan;
@@ -292,7 +368,7 @@ bool can_reuse(const CubeMapPlan& drawn, const CubeMapPlan& wanted)
            });
 }
 
-glm::dmat4 clip_from_motion(const PlannedImage& image, double near_distance)
+glm::dmat4 clip_from_cube(const PlannedImage& image, double near_distance)
 {
     // x_clip / w runs from -1 to 1 over the picture, depth is near / distance.
     glm::dvec2 scale = 2.0 / (image.high - image.low), offset = -(image.high + image.low) / (image.high - image.low);

@@ -45,6 +45,7 @@ struct CubeMapPlan {
 struct PlanScratch {
     std::vector<Demands> demands; ///< by rest frame
     std::vector<TileDemands> by_tile;
+    std::vector<Demand> held; ///< by image
     std::vector<std::size_t> by_height;
 };
 
@@ -64,9 +65,9 @@ CubeMapPlan plan_cube_map(const std::vector<ViewRequest>& views, double E, const
 /// again.
 bool can_reuse(const CubeMapPlan& drawn, const CubeMapPlan& wanted);
 
-/// clip_from_motion of an image: reversed z, infinite far plane; the near plane is `near_distance` (scene units) along
+/// clip_from_cube of an image: reversed z, infinite far plane; the near plane is `near_distance` (scene units) along
 /// the face's normal.
-glm::dmat4 clip_from_motion(const PlannedImage& image, double near_distance);
+glm::dmat4 clip_from_cube(const PlannedImage& image, double near_distance);
 
 /// The first images of `images` that share the first one's rest frame and tile. images: not empty, the rest of a plan's
 /// list.

@@ -102,13 +102,13 @@ bool may_show(const World& world, const Instance& instance, const EyeEvent& eye_
 }
 
 struct Standing {
-    glm::dmat3 turn; ///< motion axes from local
+    glm::dmat3 turn; ///< the cube map's axes from local
     glm::dvec3 place; ///< place of the local origin relative to the eye
 };
 Standing standing(const glm::dmat4& frame_from_local, const EyeEvent& eye_event)
 {
     const glm::dmat4& m = frame_from_local;
-    return {eye_event.motion_from_frame * glm::dmat3(m), eye_event.motion_from_frame * (glm::dvec3(m[3]) - eye_event.place)};
+    return {eye_event.cube_from_frame * glm::dmat3(m), eye_event.cube_from_frame * (glm::dvec3(m[3]) - eye_event.place)};
 }
 
 shared::InstanceEntry entry_of(const Standing& at)

@@ -24,8 +24,8 @@ struct DrawList {
 
     /// Memory of cull, kept from frame to frame.
     struct OrientedBox {
-        glm::dvec3 centre, half[3]; ///< an instance's box relative to the eye, motion axes; half: from the centre to the
-                                    ///< middle of each side
+        glm::dvec3 centre, half[3]; ///< an instance's box relative to the eye, the cube map's axes; half: from the centre to
+                                    ///< the middle of each side
         double scale; ///< world units per local unit, at most
         double distance; ///< from the eye, at least
         bool shows; ///< its light may arrive
@@ -40,8 +40,8 @@ struct DrawList {
 DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const std::vector<PlannedImage>& images,
     const Quality& quality = {}, DrawList before = {});
 
-/// Bounding spheres of a rest frame's instances that existed at their retarded times. Centre from the eye, motion axes,
-/// scene units.
+/// Bounding spheres of a rest frame's instances that existed at their retarded times. Centre from the eye, the cube map's
+/// axes, scene units.
 std::vector<BoundingSphere> bounding_spheres(const World& world, const EyeEvent& eye_event);
 
 /// The distance to the nearest bounding box of the rest frame's instances, scene units: a lower bound of all seen

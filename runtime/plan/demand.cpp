@@ -158,8 +158,10 @@ void add_disc(Demands& demands, const Held& held, const Disc& disc, double E, in
 /// Walks a view's cone hierarchy, finer where the boost spreads a cone over much of the sky.
 struct Walk {
     const ViewRequest& view;
+    const RestFrameRequest& request;
     double E;
     bool galilean;
+    bool aligned; ///< the cube map has the motion axes, so that D is known in each sub-tile
     int finest_clip_level;
     const Held& held;
     Demands& demands;
@@ -225,14 +227,14 @@ struct Walk {
             disc.times = near / far;
             disc.finest = far * cap.finest;
             disc.coarsest = near * cap.coarsest;
-            if (view.parallax_rad == 0) {
+            if (view.parallax_rad == 0 && aligned) {
                 disc.finest_pixel = cap.finest, disc.coarsest_pixel = cap.coarsest;
                 if (past > 0)
                     disc.least_cos_half_square = past * past / high_square;
             }
         }
         const glm::dvec2 meridian = across > 0 ? glm::dvec2(centre) / across : glm::dvec2(1, 0);
-        disc.centre = glm::dvec3(meridian * middle_in_world.y, middle_in_world.x);
+        disc.centre = request.cube_from_motion * glm::dvec3(meridian * middle_in_world.y, middle_in_world.x);
         return disc;
     }
 
@@ -292,7 +294,9 @@ void add_demands(Demands& demands, const RestFrameRequest& request, int finest_c
         int level = 0;
         while (level + 1 < cones.levels() && cones.side(level) > wanted)
             ++level;
-        Walk{view, request.E, request.galilean, finest_clip_level, held, demands, spread, level}.block(0, {0, 0});
+        Walk{view, request, request.E, request.galilean, request.cube_from_motion == glm::dmat3(1), finest_clip_level, held,
+            demands, spread, level}
+            .block(0, {0, 0});
     }
 }
 

@@ -13,7 +13,7 @@ struct ViewRequest {
     double parallax_rad = 0; ///< greatest angle, in the world, between a pixel's direction and the texel it reads
 };
 
-/// A bounding sphere of something drawn: centre from the eye, motion axes; scene units.
+/// A bounding sphere of something drawn: centre from the eye, the cube map's axes; scene units.
 struct BoundingSphere {
     glm::dvec3 centre;
     double radius;
@@ -27,6 +27,7 @@ struct RestFrameRequest {
     bool galilean = false; ///< Galilean aberration: circles do not stay circles
     std::optional<std::vector<BoundingSphere>>
         bounds{}; ///< all drawn things lie inside these; nullopt: things may be anywhere
+    glm::dmat3 cube_from_motion{1}; ///< turn into the axes of the cube map; the identity where they are the motion axes
 };
 
 /// The pixels' demand on a part of a face.

@@ -55,7 +55,7 @@ std::vector<StarPatch> star_patches(std::span<const shared::StarEntry> stars)
 }
 
 std::vector<StarRun> stars_in(std::span<const PlannedImage> images, std::span<const StarPatch> patches,
-    const glm::dmat3& motion_from_world, std::vector<StarRun> before)
+    const glm::dmat3& cube_from_world, std::vector<StarRun> before)
 {
     std::array<Pyramid, TILE_COUNT> all; // around each tile's images
     std::size_t count = 0;
@@ -74,7 +74,7 @@ std::vector<StarRun> stars_in(std::span<const PlannedImage> images, std::span<co
     std::vector<StarRun> runs = std::move(before);
     runs.clear();
     for (const StarPatch& patch : patches) {
-        const glm::dvec3 axis = motion_from_world * patch.axis;
+        const glm::dvec3 axis = cube_from_world * patch.axis;
         const bool seen = std::any_of(pyramids.begin(), pyramids.end(), [&](const Pyramid& pyramid) {
             const double reach = patch.radius_rad + pyramid.margin_rad;
             return reach > 1.5

@@ -22,6 +22,6 @@ struct StarRun {
 /// The stars that views of these images may show, including spots that reach in across an edge. The runs are in order,
 /// few and long. before: a list whose memory is reused.
 std::vector<StarRun> stars_in(std::span<const PlannedImage> images, std::span<const StarPatch> patches,
-    const glm::dmat3& motion_from_world, std::vector<StarRun> before = {});
+    const glm::dmat3& cube_from_world, std::vector<StarRun> before = {});
 
 } // namespace starbow

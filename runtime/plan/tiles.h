@@ -12,8 +12,9 @@ namespace starbow {
 /// the rear band. Behind lie nested squares that shrink by sqrt 2, because D varies as the square of the angle there: a
 /// clip map.
 ///
-/// Faces are numbered +z (ahead), -z (behind), +x, -x, +y, -y of the motion axes. A face's coordinates (a, b) are the two
-/// other components (x before y before z) over the distance along its normal.
+/// Faces are numbered +z (ahead), -z (behind), +x, -x, +y, -y of the cube map's axes (see RestFrameView), which are the
+/// motion axes wherever D varies much. A face's coordinates (a, b) are the two other components (x before y before z) over
+/// the distance along its normal.
 
 struct Rect {
     glm::dvec2 low{1e300}, high{-1e300};
@@ -37,7 +38,8 @@ const Rect& tile_rect(int tile);
 /// Half the side of the clip-map hole, the square in a nested tile's middle that belongs to the next tile; 0 without one.
 double clip_hole(int tile, int finest_clip_level);
 
-/// The tile of the unit direction n (motion axes), and n's face coordinates there; the warp shader computes the same.
+/// The tile of the unit direction n (the cube map's axes), and n's face coordinates there; the warp shader computes the
+/// same.
 struct TilePlace {
     int tile, face;
     glm::dvec2 at;

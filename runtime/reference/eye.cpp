@@ -129,4 +129,23 @@ physics::AberratedRay TracingEye::from_world(const glm::dvec3& towards) const
     return seen;
 }
 
+double TracingEye::solid_angle(const physics::AberratedRay& seen) const
+{
+    const Effects& effects = observer_.shot.effects;
+    if (!effects.aberration)
+        return 1;
+    if (effects.comparison != Comparison::galilean)
+        return 1 / (seen.D * seen.D);
+    // The area of a small square of directions in the world, by differences.
+    constexpr double step = 1e-5;
+    const glm::dvec3 n = observer_.rest_frames.front().motion_from_cockpit * seen.n;
+    const glm::dvec3 right = glm::normalize(glm::cross(n, std::abs(n.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+    const auto change = [&](const glm::dvec3& side) {
+        return (sight(glm::normalize(n + step * side), observer_.E).n
+                   - sight(glm::normalize(n - step * side), observer_.E).n)
+            / (2 * step);
+    };
+    return 1 / glm::length(glm::cross(change(right), change(glm::cross(n, right))));
+}
+
 } // namespace starbow

@@ -29,6 +29,8 @@ public:
 
     /// The cockpit's direction towards a unit direction of the world, and D.
     physics::AberratedRay from_world(const glm::dvec3& towards) const;
+    /// The solid angle of a small patch of the sky there over that in the world. seen: from_world's.
+    double solid_angle(const physics::AberratedRay& seen) const;
 
     const Observer& observer_of() const { return observer_; }
     std::size_t triangles() const;

@@ -25,7 +25,7 @@ double middle_sent(const World& world, const Instance& instance, const EyeEvent&
     const Primitive& primitive = world.primitives[instance.primitive];
     const glm::dvec4 middle(0.5 * (primitive.low + primitive.high), 1);
     return retarded_time(
-        eye_event, eye_event.motion_from_frame * (glm::dvec3(instance.frame_from_local * middle) - eye_event.place));
+        eye_event, eye_event.cube_from_frame * (glm::dvec3(instance.frame_from_local * middle) - eye_event.place));
 }
 
 } // namespace

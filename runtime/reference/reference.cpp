@@ -151,7 +151,11 @@ private:
         const LookedAt seen = eye.look(*way, beside(view, *way));
         const RestFrameView& rest_frame = eye.observer_of().rest_frames.front();
         const glm::dvec3 camera = glm::transpose(rest_frame.motion_from_frame) * (rest_frame.motion_from_cockpit * *way);
-        return {glm::normalize(camera), seen.world, seen.D, seen.distance, true};
+        const glm::dvec3& u = eye.observer_of().shot.u;
+        const double speed = glm::length(u);
+        const glm::dvec3 ahead = speed > 0 ? u / speed : glm::dvec3(0);
+        const glm::dvec3 across = seen.world - ahead * glm::dot(ahead, seen.world);
+        return {glm::normalize(camera), seen.world, across, seen.D, seen.distance, true};
     }
 
     const Layout& layout_;
@@ -457,20 +461,18 @@ std::vector<std::uint8_t> shown(const Reference& r)
 
 Channels channels(const Reference& r)
 {
-    const char* names[] = {"R", "G", "B", "cameraDirection.X", "cameraDirection.Y", "cameraDirection.Z", "worldDirection.X",
-        "worldDirection.Y", "worldDirection.Z", "doppler", "depth"};
     const std::size_t count = r.numbers.size();
     Channels channels;
-    for (const char* name : names)
+    for (const char* name : number_channels)
         channels.emplace_back(name, std::vector<float>(count, std::nanf("")));
     for (std::size_t i = 0; i < count; ++i) {
         const Reference::Numbers& n = r.numbers[i];
         if (!n.shown)
             continue;
         const glm::dvec3 light = glm::clamp(r.light[0][i] / r.exposure, glm::dvec3(-3e38), glm::dvec3(3e38));
-        const double values[] = {
-            light.r, light.g, light.b, n.camera.x, n.camera.y, n.camera.z, n.world.x, n.world.y, n.world.z, n.D, n.distance};
-        for (std::size_t k = 0; k < 11; ++k)
+        const double values[] = {light.r, light.g, light.b, n.camera.x, n.camera.y, n.camera.z, n.world.x, n.world.y,
+            n.world.z, n.D, n.distance, n.across.x, n.across.y, n.across.z};
+        for (std::size_t k = 0; k < number_channels.size(); ++k)
             channels[k].second[i] = float(values[k]);
     }
     return channels;

@@ -33,6 +33,7 @@ struct Reference {
     /// The numbers at a pixel's centre, in the left eye's picture: an EXR's channels (docs/files.md).
     struct Numbers {
         glm::dvec3 camera, world; ///< unit directions, axes of the observer and of the world
+        glm::dvec3 across; ///< the part of `world` at right angles to the observer's motion; at rest, all of it
         double D, distance;
         bool shown; ///< false: the other members are unset
     };

@@ -34,7 +34,8 @@ StarSpots::StarSpots(const std::vector<Star>& stars, const StarSky& sky, const T
             glm::dvec3 light = colours.star(star.temperature_K, effects.doppler ? seen.D : 1)
                 * (magnitude_0 * std::pow(10, -0.4 * star.magnitude));
             if (effects.headlight)
-                light *= seen.D; // a point's
+                light *= seen.D * seen.D * seen.D;
+            light *= eye.solid_angle(seen); // a star is a surface too small to have a visible extent
             all[std::size_t(i)] = {seen.n, light};
         }
     });

@@ -19,20 +19,46 @@ struct Crossing {
     bool front, inside;
 };
 
-/// Corners are from the line's beginning. Two triangles at an edge get the same volume of the line with the edge, with
-/// opposite signs, so no line passes between them. `inside` false: the plane is met beyond the edges.
-std::optional<Crossing> crossing(const glm::dvec3 (&p)[3], const glm::dvec3& way)
+/// A line's own axes: z is its unit direction, from which x and y are at right angles to rounding.
+struct LineAxes {
+    glm::dvec3 x, y, z;
+    explicit LineAxes(const glm::dvec3& way)
+        : z(way)
+    {
+        const glm::dvec3 size = glm::abs(way);
+        const glm::dvec3 other = size.x <= size.y && size.x <= size.z ? glm::dvec3(1, 0, 0)
+            : size.y <= size.z                                        ? glm::dvec3(0, 1, 0)
+                                                                      : glm::dvec3(0, 0, 1);
+        x = glm::normalize(glm::cross(other, way));
+        y = glm::cross(way, x);
+    }
+};
+
+/// Twice the area of the origin with a and b. Exchanging them exchanges the sign and nothing else.
+double area(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - b.x * a.y; }
+
+/// Corners are from the line's beginning. Each corner is seen from the line first, at its small distances beside it. A
+/// volume of the line with two distant corners would be the difference of products of their full distances: of a triangle
+/// that is a millionth as wide as it is far, no digit would be left. Two triangles at an edge get the same area of the line
+/// with the edge, with opposite signs, so no line passes between them. `inside` false: the plane is met beyond the edges.
+std::optional<Crossing> crossing(const glm::dvec3 (&p)[3], const LineAxes& line)
 {
-    const glm::dvec3 volumes(
-        glm::dot(way, glm::cross(p[1], p[2])), glm::dot(way, glm::cross(p[2], p[0])), glm::dot(way, glm::cross(p[0], p[1])));
-    const double sum = volumes.x + volumes.y + volumes.z;
+    glm::dvec2 beside[3];
+    for (int k = 0; k < 3; ++k)
+        beside[k] = {glm::dot(line.x, p[k]), glm::dot(line.y, p[k])};
+    const glm::dvec3 areas(area(beside[1], beside[2]), area(beside[2], beside[0]), area(beside[0], beside[1]));
+    const bool none_above = areas.x <= 0 && areas.y <= 0 && areas.z <= 0;
+    const bool none_below = areas.x >= 0 && areas.y >= 0 && areas.z >= 0;
+    const bool inside = none_above || none_below;
+    // Outside, the areas have different signs, and their sum would cancel where the line passes far from a small triangle.
+    // The triangle's edges yield the sum there.
+    const double sum = inside ? areas.x + areas.y + areas.z : area(beside[1] - beside[0], beside[2] - beside[0]);
     if (sum == 0 || !std::isfinite(sum))
         return {};
-    const bool none_above = volumes.x <= 0 && volumes.y <= 0 && volumes.z <= 0;
-    const bool none_below = volumes.x >= 0 && volumes.y >= 0 && volumes.z >= 0;
-    const glm::dvec3 weights = volumes / sum;
-    const double distance = glm::dot(way, p[0] * weights.x + p[1] * weights.y + p[2] * weights.z);
-    return Crossing{weights, distance, sum < 0, none_above || none_below};
+    const glm::dvec3 weights = areas / sum;
+    const double distance
+        = glm::dot(line.z, p[0]) + weights.y * glm::dot(line.z, p[1] - p[0]) + weights.z * glm::dot(line.z, p[2] - p[0]);
+    return Crossing{weights, distance, sum < 0, inside};
 }
 
 float below(double x) { return std::nextafter(float(std::clamp(x, -1e37, 1e37)), -1e38f); }
@@ -74,7 +100,7 @@ struct Tracer::Scene {
     {
         const glm::dvec3 from_eye = place - line.from;
         return line.time
-            + (eye_event.now ? eye_event.beta * (eye_event.motion_from_frame * from_eye).z : -glm::length(from_eye));
+            + (eye_event.now ? eye_event.beta * (eye_event.cube_from_frame * from_eye).z : -glm::length(from_eye));
     }
 
     /// The retarded position of an animated instance's corner, from the eye event's place.
@@ -132,7 +158,7 @@ struct Tracer::Scene {
         const glm::dmat3 m(instance.frame_from_local);
         const double stretch = std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
         const double around = primitive.radius * stretch + 2 * farthest_eye;
-        const double time = retarded_time(eye_event, eye_event.motion_from_frame * middle);
+        const double time = retarded_time(eye_event, eye_event.cube_from_frame * middle);
         return time + around >= existence.begin && time - around < existence.end;
     }
 
@@ -159,7 +185,8 @@ struct Tracer::Scene {
     std::optional<Crossing> crossing_of(const Triangle& triangle, const SightLine& line, double& time) const
     {
         glm::dvec3 p[3] = {triangle.places[0] - line.from, triangle.places[1] - line.from, triangle.places[2] - line.from};
-        std::optional<Crossing> at = crossing(p, line.way);
+        const LineAxes axes(line.way);
+        std::optional<Crossing> at = crossing(p, axes);
         if (!at)
             return {};
         const Instance& instance = world.instances[triangle.instance];
@@ -173,7 +200,7 @@ struct Tracer::Scene {
             for (int k = 0; k < 3; ++k)
                 p[k] = glm::dvec3(pose * glm::dvec4(glm::dvec3(world.vertices[triangle.corners[k]].position), 1))
                     - eye_event.place - line.from;
-            return crossing(p, line.way);
+            return crossing(p, axes);
         };
         double before = 0, off_before = 0;
         for (int round = 0; round < 60; ++round) {

@@ -2,8 +2,29 @@
 #include "runtime/operation/trace.h"
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace starbow {
+namespace {
+
+/// Width of the viewport over the image's. Behind at high speed one triangle may be a thousand million texels wide. Where a
+/// device cuts it at the viewport's sides, the rounding of its far corners moves the cut by many texels; the image's edge
+/// would stay empty if it were there. Every device takes viewports of 16384 pixels if it takes such images.
+double guard_of(const PlannedImage& image)
+{
+    return std::clamp(std::floor(16384.0 / std::max(image.size.x, image.size.y)), 1.0, 8.0);
+}
+
+/// Sets a viewport that much wider than the image around the same middle; only the image is drawn into.
+void set_guarded_area(vk::CommandBuffer commands, const PlannedImage& image)
+{
+    const glm::dvec2 inner(image.size), size = guard_of(image) * inner;
+    const glm::dvec2 corner = glm::dvec2(image.atlas) - 0.5 * (size - inner);
+    commands.setViewport(0, vk::Viewport(float(corner.x), float(corner.y), float(size.x), float(size.y), 0, 1));
+    commands.setScissor(0, rect_of(image.atlas, image.size));
+}
+
+} // namespace
 
 CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, const Quality& quality, bool keeps_depth)
     : device_(device)
@@ -76,11 +97,12 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
     vk::Pipeline bound;
     for (std::uint32_t i = 0; i < images_.size(); ++i) {
         const PlannedImage& image = images_[i];
-        set_area(commands, image.atlas, image.size);
+        set_guarded_area(commands, image);
         if (i == 0 || image.rest_frame != images_[i - 1].rest_frame)
             uploads_.bind(commands, image.rest_frame);
-        glm::dmat4 clip = clip_from_motion(image, near_distance);
+        glm::dmat4 clip = clip_from_cube(image, near_distance);
         clip[2] *= contractions_[std::size_t(image.rest_frame)];
+        clip = glm::scale(glm::dmat4(1), glm::dvec3(1 / guard_of(image), 1 / guard_of(image), 1)) * clip;
         shared::CubePush push{
             shared::row(clip, 0), shared::row(clip, 1), shared::row(clip, 2), shared::row(clip, 3), {}, {}, {}, {}};
         // A mirrored pair of face axes turns a surface's front round.
@@ -125,6 +147,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
             commands.drawIndexed(draw->index_count, draw->count, draw->first_index, primitive.vertex_offset, draw->first);
         }
         if (sky_ && !several_rest_frames_) {
+            set_area(commands, image.atlas, image.size);
             commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipelines_.sky(kind));
             glm::dvec3 origin = face_direction(image.face, image.low);
             push.clip_row0 = glm::vec4(origin, 0);

@@ -48,6 +48,8 @@ double EyeCubes::observe()
 {
     double most_E = 1;
     for (Observer& one : observers) {
+        if (state_.repeatable)
+            one.rest_frames.clear();
         one = starbow::observer_of(world_.world, state_.shot, one.observer, std::move(one.rest_frames));
         most_E = std::max(most_E, one.most_E());
     }
@@ -89,6 +91,7 @@ void EyeCubes::request_views(std::size_t i, const Probe* probe)
         RestFrameRequest& request = eye.requests[at];
         request.views.clear();
         request.E = rest_frame.E;
+        request.cube_from_motion = rest_frame.cube_from_motion;
         request.galilean = state_.shot.effects.comparison == Comparison::galilean;
         for (const ViewState& view : views_.all)
             if (view.eye == i)
@@ -96,8 +99,9 @@ void EyeCubes::request_views(std::size_t i, const Probe* probe)
                     state_.reprojects()
                         ? std::min(MOST_PARALLAX, glm::length(views_.eye_offset(view, rest_frame)) / eye.nearest[at])
                         : 0});
-        for (std::size_t ray = 0; probe && i == views_.probed_view().eye && ray < probe->count(); ++ray)
-            request.views.push_back({&probe->view(ray), rest_frame.motion_from_cockpit});
+        for (std::size_t ray = 0; probe && ray < probe->count(); ++ray)
+            if (views_.probed_view(probe->ray(ray).view).eye == i)
+                request.views.push_back({&probe->view(ray), rest_frame.motion_from_cockpit});
         if (at > 0)
             request.bounds = bounding_spheres(world_.world, eye_event);
         eye.eye_events.push_back(eye_event);
@@ -111,7 +115,7 @@ bool EyeCubes::can_reuse(std::size_t i) const
     const EyeCube& eye = all[i];
     for (std::size_t at = 0; at < eye.drawn.size(); ++at) {
         const EyeEvent &drawn = eye.drawn[at], &now = eye.eye_events[at];
-        const glm::dmat3 turned = drawn.motion_from_frame - now.motion_from_frame;
+        const glm::dmat3 turned = drawn.cube_from_frame - now.cube_from_frame;
         double most = 0;
         for (int axis = 0; axis < 3; ++axis)
             most = std::max(most, glm::length(turned[axis]));
@@ -148,8 +152,14 @@ void EyeCubes::plan(double pre_exposure, const Probe* probe)
         const auto own
             = std::find_if(images.begin(), images.end(), [](const PlannedImage& image) { return image.rest_frame > 0; });
         eye.stars = stars_in({images.begin(), own}, world_.star_patches,
-            observers[eye.observer].rest_frames[0].motion_from_frame, std::move(eye.stars));
+            observers[eye.observer].rest_frames[0].cube_from_frame, std::move(eye.stars));
     }
+}
+
+bool EyeCubes::unaligned(const ViewState& view) const
+{
+    const std::vector<RestFrameView>& rest_frames = observer_of(view).rest_frames;
+    return std::any_of(rest_frames.begin(), rest_frames.end(), [](const RestFrameView& one) { return !one.aligned(); });
 }
 
 void EyeCubes::record(vk::CommandBuffer commands)

@@ -46,6 +46,8 @@ public:
     void redraw() { drawn_ = false; } ///< the next frame draws all cube maps anew
 
     const Observer& observer_of(const ViewState& view) const { return observers[all[view.eye].observer]; }
+    /// True if a cube map that the view reads has other axes than the motion's.
+    bool unaligned(const ViewState& view) const;
     std::size_t triangles() const; ///< sent to the device for the last frame
     vk::DeviceSize memory() const;
 

@@ -7,7 +7,8 @@
 
 namespace starbow {
 
-void FrameRenderer::draw(vk::CommandBuffer commands, const Shot& shot, const Panel* hud, std::span<const Target> targets)
+void FrameRenderer::draw(
+    vk::CommandBuffer world, vk::CommandBuffer outputs, const Shot& shot, const Panel* hud, std::span<const Target> targets)
 {
     // The processor's part.
     update(shot, hud);
@@ -15,17 +16,17 @@ void FrameRenderer::draw(vk::CommandBuffer commands, const Shot& shot, const Pan
     // The device's part.
     const Trace::Span span(device_.trace, "record");
     if (state_.pattern == Pattern::none) {
-        draw_cubes(commands);
-        meter_.record(commands);
-        measurement_.draw_probes(commands);
+        draw_cubes(world);
+        meter_.record(world);
+        measurement_.draw_probes(world);
     }
     for (std::size_t output = 0; output < targets.size(); ++output) {
         if (!targets[output].view)
             continue; // minimised, or its monitor is away
-        passes_.warp_output(commands, output, targets[output]); // stars and bloom included
-        measurement_.draw(commands, output, targets[output]); // the overlay
-        passes_.draw_hud(commands, output, targets[output]);
-        passes_.finish_output(commands, output, targets[output]);
+        passes_.warp_output(outputs, output, targets[output]); // stars and bloom included
+        measurement_.draw(outputs, output, targets[output]); // the overlay
+        passes_.draw_hud(outputs, output, targets[output]);
+        passes_.finish_output(outputs, output, targets[output]);
     }
 }
 
@@ -80,6 +81,30 @@ void FrameRenderer::apply_layout(ViewSet::Parts parts)
     measurement_.reset();
 }
 
+/// Applies the state's layout. If the device has no room for it, some views have lost their objects: `undo` restores the
+/// state, and all views are made again as they were. Where not even that succeeds, the device must be opened anew.
+template <class Undo> void FrameRenderer::apply_layout_or(bool rejects_empty, const Undo& undo)
+{
+    std::optional<ViewSet::Parts> parts;
+    try {
+        parts = views_.parts(rejects_empty);
+    } catch (...) {
+        undo();
+        throw;
+    }
+    try {
+        apply_layout(std::move(*parts));
+    } catch (...) {
+        undo();
+        try {
+            apply_layout(views_.parts(false));
+        } catch (const InputError& error) {
+            throw vk::OutOfDeviceMemoryError(error.what());
+        }
+        throw;
+    }
+}
+
 /// The factor that keeps every radiance of this instant in the range of the stored coefficients.
 double FrameRenderer::pre_exposure(double most_E) const
 {
@@ -98,21 +123,20 @@ void FrameRenderer::resize(std::size_t output, glm::ivec2 size)
 {
     if (views_.outputs[output].size == size)
         return;
-    views_.outputs[output].size = size;
-    apply_layout(views_.parts(false)); // a visitor may drag a window so small that a viewport shows nothing
+    const glm::ivec2 before = std::exchange(views_.outputs[output].size, size);
+    // A visitor may drag a window so small that a viewport shows nothing.
+    apply_layout_or(false, [&] { views_.outputs[output].size = before; });
 }
 
 void FrameRenderer::adopt(const Layout& layout)
 {
     views_.store.keep(false);
     Layout before = std::exchange(state_.layout, with_stereo(layout, state_.quality));
-    try {
-        apply_layout(views_.parts(true));
-    } catch (const InputError&) {
+    const auto undo = [&] {
         state_.layout = std::move(before);
         views_.store.keep(true);
-        throw;
-    }
+    };
+    apply_layout_or(true, undo);
     views_.store.keep(true);
 }
 
@@ -123,7 +147,11 @@ void FrameRenderer::adopt(const Quality& quality)
     if (quality.cube_samples == before.cube_samples && quality.half_floats == before.half_floats)
         return;
     eyes_.clear();
-    apply_layout(views_.parts(false));
+    const auto undo = [&] {
+        state_.quality = before;
+        eyes_.clear();
+    };
+    apply_layout_or(false, undo);
 }
 
 void FrameRenderer::move_head(const Head& head)

@@ -18,7 +18,13 @@ public:
     /// The whole frame: observers, plan, culling and upload; cube maps; meter and probes; then each output's views,
     /// instruments, head-up display and finish. hud: the panel, or null. targets: one for each output. An output without
     /// a view is left out: it is minimised, or its monitor is away.
-    void draw(vk::CommandBuffer commands, const Shot& shot, const Panel* hud, std::span<const Target> targets);
+    void draw(vk::CommandBuffer commands, const Shot& shot, const Panel* hud, std::span<const Target> targets)
+    {
+        draw(commands, commands, shot, hud, targets);
+    }
+    /// The same in two parts: `world` touches no target, so that it need not wait for one; `outputs` comes after it.
+    void draw(vk::CommandBuffer world, vk::CommandBuffer outputs, const Shot& shot, const Panel* hud,
+        std::span<const Target> targets);
 
     /// The same steps one by one, for measurements and for parts of a frame. update() comes first and is the processor's
     /// part; then any of the passes may follow.
@@ -30,14 +36,16 @@ public:
     void record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target);
     ViewPasses& passes() { return passes_; }
 
-    /// Sets the size of an output in pixels, if it differs from the layout's.
+    /// Sets the size of an output in pixels, if it differs from the layout's. Throws InputError where the device can't hold
+    /// so large a one; then nothing has changed.
     void resize(std::size_t output, glm::ivec2 size);
     /// Shows another layout with the same outputs, for a layout that is being edited. Its maps are not stored on disk.
-    /// Throws InputError where a viewport would show nothing; then nothing has changed.
+    /// Throws InputError where a viewport would show nothing, or the device has no room; then nothing has changed.
     void adopt(const Layout& layout);
     /// Sets another quality from the next frame on, with the same light, stereo method and maps. A change of samples or
     /// formats takes as long as a change of the layout; other changes cost nothing.
     void adopt(const Quality& quality);
+    const Quality& quality() const { return state_.quality; }
     /// Moves every head from the layout's place and turns its eyes. Walls follow, unless they would be seen from behind.
     /// Maps of mirrors and of measured points stay as they are.
     void move_head(const Head& head);
@@ -55,8 +63,8 @@ public:
     /// frame.
     std::optional<double> metered() const { return meter_.metered(); }
     std::vector<Probed> probed() const { return measurement_.probed(); }
-    const MeasuringObserver& head() const { return measurement_.head(); }
-    const MeasuringObserver& observer() const { return measurement_.observer(); }
+    const MeasuringObserver& head(std::size_t probe = 0) const { return measurement_.head(probe); }
+    const MeasuringObserver& observer(std::size_t probe = 0) const { return measurement_.observer(probe); }
     const ViewSet& views() const { return views_; }
     const std::vector<CubeMapPlan>& plans() const { return eyes_.plans; }
     std::size_t triangles() const { return eyes_.triangles(); }
@@ -64,6 +72,7 @@ public:
 
 private:
     void apply_layout(ViewSet::Parts parts);
+    template <class Undo> void apply_layout_or(bool rejects_empty, const Undo& undo);
     double pre_exposure(double most_E) const;
 
     Device& device_;

@@ -47,11 +47,16 @@ Image make_colour_texture(Device& device, const Texture& texture, MemoryArena& a
         linear[i] = glm::packHalf1x16(float(light_of_srgb(x)));
         alpha[i] = glm::packHalf1x16(float(x));
     }
-    std::vector<std::uint16_t> texels(texture.rgba.size());
-    for (std::size_t i = 0; i < texels.size(); ++i)
-        texels[i] = (i % 4 == 3 ? alpha : linear)[texture.rgba[i]];
+    const std::size_t row = 4 * std::size_t(texture.size.x);
     return make_texture(
-        device, vk::Format::eR16G16B16A16Sfloat, texture.size, std::as_bytes(std::span(texels)), mips, &arena);
+        device, vk::Format::eR16G16B16A16Sfloat, texture.size, 4 * sizeof(std::uint16_t),
+        [&](std::uint32_t, int first, int rows, std::span<std::byte> to) {
+            auto* texels = reinterpret_cast<std::uint16_t*>(to.data());
+            const std::uint8_t* from = texture.rgba.data() + row * std::size_t(first);
+            for (std::size_t i = 0; i < row * std::size_t(rows); ++i)
+                texels[i] = (i % 4 == 3 ? alpha : linear)[from[i]];
+        },
+        mips, &arena);
 }
 
 /// The greatest radiance that a surface of this world can send, before any lamp comes closer than its distance.
@@ -138,8 +143,10 @@ GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const S
     const std::uint32_t white = 0xffffffff;
     gpu.white = make_texture(device, vk::Format::eR8G8B8A8Unorm, {1, 1}, std::as_bytes(std::span(&white, 1)), false);
     name_object(device, gpu.white, "world: white");
-    for (const Texture& texture : world.textures)
+    for (Texture& texture : world.textures) {
         gpu.textures.push_back(make_colour_texture(device, texture, gpu.texture_memory));
+        texture.rgba = {};
+    }
     const auto sampler_of = [&](int texture) {
         const Sampler kind = texture < 0 ? Sampler{} : world.textures[std::size_t(texture)].sampler;
         auto found = gpu.samplers.find(kind);
@@ -169,8 +176,6 @@ GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const S
     }
     put_stars(device, gpu, stars);
     world.vertices = {}, world.indices = {};
-    for (Texture& texture : world.textures)
-        texture.rgba = {};
     gpu.world = std::move(world);
     put_spectra(device, gpu, level.value_or(needed_level(gpu.world, scene).level));
     return gpu;

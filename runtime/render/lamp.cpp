@@ -11,7 +11,7 @@ shared::LightEntry light_entry(const GpuWorld& world, const Lamp& lamp, const Ey
     const RestFrame& here = world.world.frames[std::size_t(eye_event.frame)];
     const RestFrame& there = world.world.frames[std::size_t(lamp.frame)];
     const Light& light = world.scene.lights[lamp.light];
-    const Spectra::Lamp& spectra = world.spectra.lamps[lamp.light][std::size_t(eye_event.frame)];
+    const LampKinds& spectra = world.spectra.lamps[lamp.light][std::size_t(eye_event.frame)];
     const bool moves = lamp.frame != eye_event.frame;
     constexpr float never = 1e30f;
     shared::LightEntry entry{};
@@ -21,7 +21,7 @@ shared::LightEntry light_entry(const GpuWorld& world, const Lamp& lamp, const Ey
     if (const auto* far = std::get_if<DirectionalLight>(&light)) {
         double D = 1;
         const glm::dvec3 towards = moves ? aberrated(here.u, far->towards, D) : far->towards;
-        entry.place = glm::vec4(eye_event.motion_from_frame * towards, 0);
+        entry.place = glm::vec4(eye_event.cube_from_frame * towards, 0);
         entry.radiance = glm::vec4(far->radiance * scale, 0);
         entry.kind.w = float(D);
         return entry;
@@ -43,10 +43,10 @@ shared::LightEntry light_entry(const GpuWorld& world, const Lamp& lamp, const Ey
         const glm::dvec3 v = relative.u / gamma;
         place = at.position + v * (eye_event.time - at.time);
         own = (eye_event.time - at.time) / gamma;
-        entry.way = glm::vec4(eye_event.motion_from_frame * (relative.u / u), u);
+        entry.way = glm::vec4(eye_event.cube_from_frame * (relative.u / u), u);
         entry.shifts.w = float(gamma);
     }
-    entry.place = glm::vec4(eye_event.motion_from_frame * (place - eye_event.place), 1);
+    entry.place = glm::vec4(eye_event.cube_from_frame * (place - eye_event.place), 1);
     if (lamp.existence >= 0) {
         const ExistenceInterval& existence = world.world.existence_intervals[std::size_t(lamp.existence)];
         entry.kind.y = float(std::clamp(existence.begin - own, -1e30, 1e30));

@@ -2,6 +2,7 @@
 #include "config/json/error.h"
 #include "debug.h"
 #include "runtime/operation/progress.h"
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -26,7 +27,7 @@ OffscreenRenderer::OffscreenRenderer(
 {
     frame_.repeatable(true);
     for (const Output& output : layout.outputs) {
-        constexpr double most_measured = 1 << 26; // pixels: 11 channels of them are 3 GiB
+        constexpr double most_measured = 1 << 26; // pixels: 14 channels of them are 3.5 GiB
         if (measured && double(output.size.x) * output.size.y > most_measured)
             throw InputError("The numbers of " + std::to_string(output.size.x) + "x" + std::to_string(output.size.y)
                 + " pixels are too many for one EXR file: at most 8192x8192, or as many in another shape");
@@ -112,10 +113,8 @@ Channels OffscreenRenderer::numbers(const Shot& shot, std::size_t output)
     };
     std::vector<glm::vec4> light = texels(target.light_and_depth), camera = texels(target.camera),
                            world = texels(target.world);
-    const char* names[] = {"R", "G", "B", "cameraDirection.X", "cameraDirection.Y", "cameraDirection.Z", "worldDirection.X",
-        "worldDirection.Y", "worldDirection.Z", "doppler", "depth"};
     Channels channels;
-    for (const char* name : names)
+    for (const char* name : number_channels)
         channels.emplace_back(name, std::vector<float>(count));
     const float nothing = std::nanf("");
     for (auto& [name, values] : channels)
@@ -125,14 +124,23 @@ Channels OffscreenRenderer::numbers(const Shot& shot, std::size_t output)
         for (int y = axes.corner.y; y < axes.corner.y + axes.size.y; ++y)
             for (int x = axes.corner.x; x < axes.corner.x + axes.size.x; ++x) {
                 const std::size_t i = std::size_t(y * width + x);
-                const glm::vec3 c = axes.world_from_motion * glm::dvec3(camera[i]),
-                                w = axes.world_from_motion * glm::dvec3(world[i]);
-                const float values[]
-                    = {light[i].r, light[i].g, light[i].b, c.x, c.y, c.z, w.x, w.y, w.z, camera[i].w, light[i].w};
-                for (std::size_t k = 0; k < 11; ++k)
+                const float depth = distance_of(light[i].w);
+                const glm::dvec3 towards = axes.world_from_cube * glm::dvec3(world[i]);
+                const glm::vec3 c = axes.world_from_motion * glm::dvec3(camera[i]), w = towards,
+                                across = towards - axes.ahead * glm::dot(axes.ahead, towards);
+                const float values[] = {light[i].r, light[i].g, light[i].b, c.x, c.y, c.z, w.x, w.y, w.z, camera[i].w, depth,
+                    across.x, across.y, across.z};
+                for (std::size_t k = 0; k < number_channels.size(); ++k)
                     channels[k].second[i] = values[k];
             }
     return channels;
+}
+
+Quality measured_quality(Quality quality)
+{
+    quality.texels_per_pixel = std::max(quality.texels_per_pixel, 4.0);
+    quality.max_texels_per_pixel = std::max(quality.max_texels_per_pixel, 64.0);
+    return quality;
 }
 
 std::vector<std::vector<std::uint8_t>> render_still(
@@ -149,10 +157,14 @@ std::vector<std::vector<std::uint8_t>> render_still(
     next("drawing");
     auto pictures = renderer.picture(shot, hud);
     std::vector<Channels> numbers;
+    const Quality quality = renderer.frame().quality();
+    if (exr)
+        renderer.frame().adopt(measured_quality(quality));
     for (std::size_t i = 0; exr && i < outputs.size(); ++i) {
         next("measuring " + outputs[i].name);
         numbers.push_back(renderer.numbers(shot, i));
     }
+    renderer.frame().adopt(quality);
     std::error_code error;
     std::filesystem::create_directories(directory, error);
     if (error)

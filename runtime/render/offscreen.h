@@ -36,6 +36,10 @@ private:
     std::vector<Image> images_;
 };
 
+/// The quality in which a still's numbers are drawn: with a finer cube map, so that the outlines of bodies lie within half
+/// a pixel and hardly a pixel's distance is that of the surface beside it.
+Quality measured_quality(Quality quality);
+
 /// Draws all outputs for `starbow render`, then writes DIR/<output>.png (and .exr). Writes nothing if any step fails
 /// before all pictures are complete in memory. Returns the pictures.
 std::vector<std::vector<std::uint8_t>> render_still(const std::filesystem::path& directory, OffscreenRenderer& renderer,

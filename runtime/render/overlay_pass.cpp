@@ -62,9 +62,11 @@ void OverlayPass::draw(vk::CommandBuffer commands, std::size_t view, const WarpV
     vk::DescriptorSet warp_set, const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size, vk::Format target)
 {
     constexpr int kinds[] = {OVERLAY_NONE, OVERLAY_NONE, OVERLAY_GRID, OVERLAY_RING, OVERLAY_DISTANCE, OVERLAY_EMISSION};
-    WarpVariant own{variant.map, variant.aberration, false, false, false};
-    own.several_rest_frames = variant.several_rest_frames, own.galilean = variant.galilean, own.channels = variant.channels,
-    own.reproject = variant.reproject, own.turning = variant.turning;
+    // Everything that finds the surface of a pixel is the warp's. Only the light is left out, so that the switches of the
+    // light need no pipelines of their own.
+    WarpVariant own = variant;
+    own.doppler = own.headlight = own.stars = own.by_table = false;
+    own.coefficients = {};
     set_area(commands, corner, size);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.overlay(own, kinds[std::size_t(overlay)], target));
     commands.bindDescriptorSets(

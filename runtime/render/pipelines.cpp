@@ -44,8 +44,9 @@ SpecializationConstants constants(const WarpVariant& v)
 {
     constexpr std::uint32_t of_the_pass = 0; // constant_id 10 has a meaning of its own in each pass
     return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear,
-        of_the_pass, std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), v.by_table, v.several_rest_frames,
-        v.galilean, v.single, std::uint32_t(v.rays), v.cut};
+        of_the_pass, std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), v.by_table,
+        v.several_rest_frames, v.galilean, v.single, std::uint32_t(v.rays), v.cut, std::uint32_t(v.cube_samples),
+        v.unaligned};
 }
 
 } // namespace
@@ -131,8 +132,8 @@ vk::Pipeline Pipelines::surface(const SurfaceVariant& v, const TargetKind& targe
         .layout = *layouts.surface_layout,
         .target = target,
         .constants = {v.base_texture, v.emissive_texture, v.masked, v.unlit, std::uint32_t(v.lights),
-            std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), std::uint32_t(v.kinds), v.matrices, v.clock,
-            v.finite_existence, v.several_rest_frames, v.lamps_move, v.blink, v.moves},
+            std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), std::uint32_t(v.kinds), v.matrices,
+            v.clock, v.finite_existence, v.several_rest_frames, v.lamps_move, v.blink, v.moves},
         .depth = true,
         .vertices = true});
 }

@@ -87,6 +87,8 @@ struct WarpVariant {
     int rays = 1; ///< along each side of a pixel
     bool single = false; ///< one image of the plan, ahead, shows all
     bool cut = false; ///< tiles may have several images
+    int cube_samples = 1; ///< of each texel
+    bool unaligned = false; ///< some cube map has other axes than the motion's
     auto operator<=>(const WarpVariant&) const = default;
 };
 
@@ -108,7 +110,7 @@ struct TargetKind {
 
 /// The specialization constants of a pass; constant_id is the index. On the stack, as Formats.
 struct SpecializationConstants {
-    std::array<std::uint32_t, 20> list{};
+    std::array<std::uint32_t, 21> list{};
     std::size_t count = 0;
 
     SpecializationConstants() = default;

@@ -22,29 +22,29 @@ glm::dmat3 pixel_along(const glm::dvec3& n, double angle)
 
 } // namespace
 
-Probe::Probe(const Device& device, const std::vector<glm::dvec3>& directions, double pixel_angle)
+Probe::Probe(const Device& device, const std::vector<ProbeRay>& rays, double pixel_angle)
     : pixel_angle_(pixel_angle)
 {
-    for (const glm::dvec3& n : directions) {
-        const glm::dmat3 matrix = pixel_along(n, pixel_angle);
-        pixels_.push_back({n, matrix, std::make_shared<ConeHierarchy>(matrix, glm::ivec2(1))});
+    for (const ProbeRay& ray : rays) {
+        const glm::dmat3 matrix = pixel_along(ray.direction, pixel_angle);
+        pixels_.push_back({ray, matrix, std::make_shared<ConeHierarchy>(matrix, glm::ivec2(1))});
     }
     for (Image& image : images_) {
         image = make_image(device,
-            {exact_format, {std::uint32_t(directions.size()), 1},
+            {exact_format, {std::uint32_t(rays.size()), 1},
                 vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc});
         name_object(device, image, "probe: image");
     }
     back_ = make_mapped_buffer(
-        device, images_.size() * directions.size() * sizeof(glm::vec4), vk::BufferUsageFlagBits::eTransferDst);
+        device, images_.size() * rays.size() * sizeof(glm::vec4), vk::BufferUsageFlagBits::eTransferDst);
     name_object(device, back_, "probe: back");
 }
 
-bool Probe::looks(const std::vector<glm::dvec3>& directions, double pixel_angle) const
+bool Probe::looks(const std::vector<ProbeRay>& rays, double pixel_angle) const
 {
-    bool same = directions.size() == pixels_.size() && pixel_angle == pixel_angle_;
-    for (std::size_t i = 0; same && i < directions.size(); ++i)
-        same = directions[i] == pixels_[i].direction;
+    bool same = rays.size() == pixels_.size() && pixel_angle == pixel_angle_;
+    for (std::size_t i = 0; same && i < rays.size(); ++i)
+        same = rays[i] == pixels_[i].ray;
     return same;
 }
 
@@ -80,7 +80,8 @@ std::vector<Probed> Probe::read() const
     const auto* texels = static_cast<const glm::vec4*>(back_.mapped);
     for (std::size_t i = 0; drawn_ && i < pixels_.size(); ++i) {
         const glm::dvec4 light = texels[i], ship = texels[pixels_.size() + i], world = texels[2 * pixels_.size() + i];
-        all.push_back({{glm::dvec3(ship), glm::dvec3(world), ship.w}, light.w, int(world.w), luminance(glm::dvec3(light))});
+        all.push_back({{glm::dvec3(ship), glm::dvec3(world), ship.w}, distance_of(light.w), int(world.w),
+            luminance(glm::dvec3(light))});
     }
     return all;
 }

@@ -39,7 +39,7 @@ std::string describe_light(const RenderContext& context)
 {
     const NeededLevel needed = needed_level(context.world.world, context.world.scene);
     const SpectralLevel level = context.world.spectra.level;
-    return describe(level == needed.level ? needed : NeededLevel{level, "as requested"});
+    return describe(level == needed.level ? needed : NeededLevel{level, needed.spectra, "as requested"});
 }
 
 Device::Options device_options(bool windows)

@@ -132,8 +132,32 @@ void transition(vk::CommandBuffer commands, const Image& image, vk::ImageLayout 
     commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
 }
 
+namespace {
+
+/// The bytes of a staging buffer, and so many rows of a texture at a time.
+constexpr std::size_t strip_bytes = 8 << 20;
+
+int strip_rows(std::size_t row_bytes, glm::ivec2 size)
+{
+    return int(std::clamp<std::size_t>(strip_bytes / row_bytes, 1, std::size_t(size.y)));
+}
+
+} // namespace
+
 Image make_texture(
     Device& device, vk::Format format, glm::ivec2 size, std::span<const std::byte> pixels, bool mips, MemoryArena* arena)
+{
+    const std::size_t row_bytes = pixels.size() / std::size_t(size.y);
+    return make_texture(
+        device, format, size, row_bytes / std::size_t(size.x),
+        [&](std::uint32_t, int first, int, std::span<std::byte> to) {
+            std::memcpy(to.data(), pixels.data() + row_bytes * std::size_t(first), to.size());
+        },
+        mips, arena);
+}
+
+Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::size_t texel_bytes, const FillRows& fill,
+    bool mips, MemoryArena* arena)
 {
     std::uint32_t levels = mips ? std::bit_width(std::uint32_t(std::max(size.x, size.y))) : 1;
     Image image = make_image(device,
@@ -143,13 +167,14 @@ Image make_texture(
             = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst,
             .levels = levels,
             .arena = arena});
-    Buffer staging = make_mapped_buffer(device, pixels.size(), vk::BufferUsageFlagBits::eTransferSrc);
-    std::memcpy(staging.mapped, pixels.data(), pixels.size());
+    const std::size_t row_bytes = texel_bytes * std::size_t(size.x);
+    const int strip = strip_rows(row_bytes, size);
+    Buffer staging = make_mapped_buffer(device, row_bytes * std::size_t(strip), vk::BufferUsageFlagBits::eTransferSrc);
 
     using Stage = vk::PipelineStageFlagBits2;
     using Access = vk::AccessFlagBits2;
     using Layout = vk::ImageLayout;
-    device.now([&](vk::CommandBuffer commands) {
+    const auto put_strip = [&](vk::CommandBuffer commands, int first, int rows) {
         auto level_barrier = [&](std::uint32_t level, std::uint32_t count, Layout from, Access from_access, Layout to,
                                  Access to_access, vk::PipelineStageFlags2 to_stage) {
             vk::ImageMemoryBarrier2 barrier(Stage::eTransfer, from_access, to_stage, to_access, from, to,
@@ -157,11 +182,14 @@ Image make_texture(
                 {vk::ImageAspectFlagBits::eColor, level, count, 0, 1});
             commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
         };
-        level_barrier(
-            0, levels, Layout::eUndefined, {}, Layout::eTransferDstOptimal, Access::eTransferWrite, Stage::eTransfer);
+        if (first == 0)
+            level_barrier(
+                0, levels, Layout::eUndefined, {}, Layout::eTransferDstOptimal, Access::eTransferWrite, Stage::eTransfer);
         commands.copyBufferToImage(*staging.buffer, *image.image, Layout::eTransferDstOptimal,
-            vk::BufferImageCopy(
-                0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {image.extent.width, image.extent.height, 1}));
+            vk::BufferImageCopy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {0, first, 0},
+                {image.extent.width, std::uint32_t(rows), 1}));
+        if (first + rows < size.y)
+            return;
         glm::ivec2 from = size;
         for (std::uint32_t level = 1; level < levels; ++level) {
             level_barrier(level - 1, 1, Layout::eTransferDstOptimal, Access::eTransferWrite, Layout::eTransferSrcOptimal,
@@ -178,7 +206,12 @@ Image make_texture(
                 Access::eShaderSampledRead, Stage::eFragmentShader);
         level_barrier(levels - 1, 1, Layout::eTransferDstOptimal, Access::eTransferWrite, Layout::eShaderReadOnlyOptimal,
             Access::eShaderSampledRead, Stage::eFragmentShader);
-    });
+    };
+    for (int first = 0; first < size.y; first += strip) {
+        const int rows = std::min(strip, size.y - first);
+        fill(0, first, rows, {static_cast<std::byte*>(staging.mapped), row_bytes * std::size_t(rows)});
+        device.now([&](vk::CommandBuffer commands) { put_strip(commands, first, rows); });
+    }
     return image;
 }
 
@@ -191,9 +224,8 @@ Image make_texture_array(
             .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst,
             .layers = layers,
             .array = true});
-    constexpr std::size_t strip_bytes = 8 << 20;
     const std::size_t row_bytes = texel_bytes * std::size_t(size.x);
-    const int strip = int(std::clamp<std::size_t>(strip_bytes / row_bytes, 1, std::size_t(size.y)));
+    const int strip = strip_rows(row_bytes, size);
     Buffer staging = make_mapped_buffer(device, row_bytes * std::size_t(strip), vk::BufferUsageFlagBits::eTransferSrc);
     using Stage = vk::PipelineStageFlagBits2;
     using Access = vk::AccessFlagBits2;

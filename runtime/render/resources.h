@@ -62,8 +62,10 @@ Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::span
     MemoryArena* arena = nullptr);
 /// Writes rows of one layer, from first_row on.
 using FillRows = std::function<void(std::uint32_t layer, int first_row, int rows, std::span<std::byte> to)>;
-/// An array of pictures for sampling, without mips. It is filled a few MiB at a time, so that a large one needs no second
-/// copy of its own size on the way.
+/// The same, filled a few MiB at a time, so that a large one needs no second copy of its own size on the way.
+Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::size_t texel_bytes, const FillRows& fill,
+    bool mips, MemoryArena* arena = nullptr);
+/// An array of pictures for sampling, without mips, filled in the same way.
 Image make_texture_array(
     Device& device, vk::Format format, glm::ivec2 size, std::uint32_t layers, std::size_t texel_bytes, const FillRows& fill);
 /// The same from pixels in memory, one picture after the other.

@@ -31,9 +31,11 @@ WarpVariant ViewConstants::variant(const ViewState& view) const
     variant.several_rest_frames = eyes_.all[view.eye].cube.several_rest_frames();
     variant.single = single_image(view);
     variant.cut = eyes_.plans[view.eye].cut;
+    variant.cube_samples = state_.quality.cube_samples;
+    variant.unaligned = eyes_.unaligned(view);
     variant.galilean = on.comparison == Comparison::galilean;
-    variant.by_table = variant.doppler || on.false_colours
-        || variant.coefficients != CoefficientCounts{}; // at rest three coefficients are the shown colour
+    variant.by_table = variant.doppler || on.false_colours || variant.coefficients != CoefficientCounts{}
+        || world_.spectra.matrices; // a base colour at rest is the shown one
     return variant;
 }
 

@@ -30,13 +30,18 @@ ViewDescriptors::ViewDescriptors(Device& device, const GpuWorld& world, const Fr
         = make_mapped_buffer(device, sizeof(shared::RestFrameConstants), vk::BufferUsageFlagBits::eUniformBuffer);
 }
 
+bool ViewDescriptors::reads_rest_frames(const ViewState& view) const
+{
+    return eyes_.all[view.eye].cube.several_rest_frames() || eyes_.unaligned(view);
+}
+
 void ViewDescriptors::write()
 {
     for (ViewState& view : views_.all) {
         writes_.clear(), serials_.clear(), images_used_ = buffers_used_ = 0;
         collect_label_set(view);
         if (state_.pattern == Pattern::none) {
-            if (eyes_.all[view.eye].cube.several_rest_frames())
+            if (reads_rest_frames(view))
                 write_rest_frames(view);
             collect_warp_set(view);
         }
@@ -90,7 +95,7 @@ void ViewDescriptors::collect_warp_set(const ViewState& view)
     image(set, 6, views_.inverse_of(view), nearest_);
     buffer(set, 10, response.own_rows);
     image(set, 11, cube.several_rest_frames() ? atlases.back() : nothing_, filter);
-    buffer(set, 12, cube.several_rest_frames() ? view.rest_frames : no_rest_frames_);
+    buffer(set, 12, reads_rest_frames(view) ? view.rest_frames : no_rest_frames_);
 }
 
 void ViewDescriptors::write_rest_frames(ViewState& view)
@@ -114,12 +119,15 @@ void ViewDescriptors::write_rest_frames(ViewState& view)
         entry.row0 = shared::row(turn, 0);
         entry.row1 = shared::row(turn, 1, plan.finest_clip_level[at]);
         entry.row2 = shared::row(turn, 2);
+        entry.cube0 = shared::row(rest_frame.cube_from_motion, 0);
+        entry.cube1 = shared::row(rest_frame.cube_from_motion, 1);
+        entry.cube2 = shared::row(rest_frame.cube_from_motion, 2);
         entry.boost = glm::vec4(rest_frame.E, 1 / rest_frame.E, at * TILE_COUNT, at);
         entry.eye = views_.eye_constants(view, rest_frame);
         entry.nearest.y = float(eye.nearest[at]);
     }
     all.count.x = float(count);
-    all.world_up = glm::vec4(rest_frames[0].motion_from_frame * glm::dvec3(0, 1, 0), 0);
+    all.world_up = glm::vec4(rest_frames[0].cube_from_frame * glm::dvec3(0, 1, 0), 0);
     for (std::size_t group = 0; group < MAX_GROUPS; ++group) {
         all.sky_zenith[group] = glm::vec4(world_.spectra.sky[0][group] * state_.pre_exposure);
         all.sky_horizon[group] = glm::vec4(world_.spectra.sky[1][group] * state_.pre_exposure);

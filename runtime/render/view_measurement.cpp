@@ -15,9 +15,11 @@ void ViewMeasurement::set(const std::optional<Measuring>& what)
         reset();
 }
 
-MeasuringObserver ViewMeasurement::measuring_observer_at(const glm::dvec3& eye_m) const
+/// A view's own observer, whose velocity may differ from the ship's, with an eye at a place of the cockpit.
+MeasuringObserver ViewMeasurement::measuring_observer_at(const ViewState& view, const glm::dvec3& eye_m) const
 {
-    return measuring_observer_of(state_.shot, state_.shot.ship_from_cockpit * views_.scene_units(eye_m));
+    const Shot& shot = eyes_.observer_of(view).shot;
+    return measuring_observer_of(shot, shot.ship_from_cockpit * views_.scene_units(eye_m));
 }
 
 const Probe* ViewMeasurement::probe()
@@ -37,18 +39,22 @@ void ViewMeasurement::prepare()
 {
     if (!on_ || state_.pattern != Pattern::none)
         return;
-    const ViewState& probed = views_.probed_view();
-    const glm::dvec3 eye_m = eyes_.all[probed.eye].now_m;
-    observer_ = measuring_observer_at(eye_m);
     const bool of_one_eye = state_.layout.stereo.method == StereoMethod::exact;
-    head_ = measuring_observer_at(of_one_eye ? eye_m - (probed.geometry().picture.eye_m - probed.geometry().head_m) : eye_m);
-    world_from_motion_ = glm::transpose(eyes_.observer_of(probed).rest_frames[0].motion_from_frame);
+    observers_.clear();
+    for (std::size_t i = 0; i < std::max<std::size_t>(what_.probes.size(), 1); ++i) {
+        const ViewState& probed = views_.probed_view(what_.probes.empty() ? std::nullopt : what_.probes[i].view);
+        const glm::dvec3 eye_m = eyes_.all[probed.eye].now_m, head_m = probed.geometry().head_m;
+        const RestFrameView& rest_frame = eyes_.observer_of(probed).rest_frames[0];
+        observers_.push_back({measuring_observer_at(probed, eye_m),
+            measuring_observer_at(probed, of_one_eye ? eye_m - (probed.geometry().picture.eye_m - head_m) : eye_m),
+            glm::transpose(rest_frame.motion_from_frame), glm::transpose(rest_frame.cube_from_frame)});
+    }
     if (what_.over.overlay != Overlay::off) {
         if (!overlay_)
             overlay_ = std::make_unique<OverlayPass>(device_, pipelines_, views_.all.size());
         for (std::size_t i = 0; i < views_.all.size(); ++i)
-            overlay_->prepare(
-                i, what_.over, measuring_observer_at(eyes_.all[views_.all[i].eye].now_m + views_.all[i].beside_m), world_);
+            overlay_->prepare(i, what_.over,
+                measuring_observer_at(views_.all[i], eyes_.all[views_.all[i].eye].now_m + views_.all[i].beside_m), world_);
     }
     const Panel* panel = what_.panel;
     if (!panel)
@@ -70,12 +76,11 @@ void ViewMeasurement::draw_probes(vk::CommandBuffer commands)
     if (!probe_)
         return;
     const Label label(device_, commands, "probes");
-    const ViewState& view = views_.probed_view();
-    WarpVariant own = constants_.variant(view);
-    own.map = own.channels = own.reproject = own.turning = own.stars
-        = false; // a probe is a flat view from the cube map's own place
-    const vk::Pipeline pipeline = pipelines_.probe(own);
     probe_->record(commands, [&](std::size_t i, const glm::dmat3& cockpit_from_pixel) {
+        const ViewState& view = views_.probed_view(probe_->ray(i).view);
+        WarpVariant own = constants_.variant(view);
+        own.map = own.channels = own.reproject = own.turning = own.stars
+            = false; // a probe is a flat view from the cube map's own place
         shared::ViewPush constants = constants_.push(view, eyes_.observer_of(view).rest_frames[0].motion_from_cockpit);
         const glm::dmat3 m = eyes_.observer_of(view).rest_frames[0].motion_from_cockpit * cockpit_from_pixel;
         constants.row0 = shared::row(m, 0, float(std::sqrt(std::abs(glm::determinant(m)))));
@@ -83,15 +88,17 @@ void ViewMeasurement::draw_probes(vk::CommandBuffer commands)
         constants.row2 = shared::row(m, 2, constants.row2.w);
         constants.boost = constants_.exposed_push(view, 1).boost;
         constants.origin.x = float(i), constants.origin.y = 0;
-        passes_.draw_warp(commands, view, pipeline, constants, {int(i), 0}, {1, 1});
+        passes_.draw_warp(commands, view, pipelines_.probe(own), constants, {int(i), 0}, {1, 1});
     });
 }
 
 std::vector<Probed> ViewMeasurement::probed() const
 {
     std::vector<Probed> all = probe_ ? probe_->read() : std::vector<Probed>();
-    for (Probed& one : all)
-        one.ray = {world_from_motion_ * one.ray.ship, world_from_motion_ * one.ray.world, one.ray.D};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const ProbeObserver& from = observers_[i];
+        all[i].ray = {from.world_from_motion * all[i].ray.ship, from.world_from_cube * all[i].ray.world, all[i].ray.D};
+    }
     return all;
 }
 

@@ -6,7 +6,7 @@ namespace starbow {
 
 /// The instruments' part of a frame: overlay, panel and probes.
 struct Measuring {
-    std::vector<glm::dvec3> probes; ///< unit directions in the cockpit whose light is read
+    std::vector<ProbeRay> probes; ///< their light is read
     OverlayPass::Content over;
     const Panel* panel = nullptr; ///< readings, or null; the next frame reads it
     glm::vec4 scale{0}; ///< place of the false colours on the panel, see PanelPass::draw
@@ -42,12 +42,13 @@ public:
     /// The last frame's light along Measuring::probes, directions in the world's axes. The device must have finished that
     /// frame.
     std::vector<Probed> probed() const;
-    const MeasuringObserver& head() const { return head_; } ///< between the eyes
-    const MeasuringObserver& observer() const { return observer_; } ///< the eye that the probes look from
+    /// The observer whose eye the i-th probe looks from, and the same between the eyes.
+    const MeasuringObserver& observer(std::size_t i) const { return observers_[i].eye; }
+    const MeasuringObserver& head(std::size_t i) const { return observers_[i].head; }
     vk::DeviceSize memory() const { return panel_ ? panel_->memory() : 0; }
 
 private:
-    MeasuringObserver measuring_observer_at(const glm::dvec3& eye_m) const;
+    MeasuringObserver measuring_observer_at(const ViewState& view, const glm::dvec3& eye_m) const;
 
     Device& device_;
     Pipelines& pipelines_;
@@ -60,8 +61,12 @@ private:
     const ViewPasses& passes_;
     bool on_ = false;
     Measuring what_;
-    MeasuringObserver observer_, head_;
-    glm::dmat3 world_from_motion_{1};
+    /// A probe's observer, in the eye and between the eyes, and the turns of its rays.
+    struct ProbeObserver {
+        MeasuringObserver eye, head;
+        glm::dmat3 world_from_motion{1}, world_from_cube{1};
+    };
+    std::vector<ProbeObserver> observers_{1}; ///< by probe; one without probes
     std::unique_ptr<Probe> probe_;
     std::unique_ptr<OverlayPass> overlay_;
     std::unique_ptr<PanelPass> panel_;

@@ -29,10 +29,12 @@ public:
     /// The stars alone, the first part of warp_output.
     void draw_stars(vk::CommandBuffer commands, std::size_t output, int canvas);
 
-    /// The rotation from a measured view's motion axes to the world's, with the view's corner and size.
+    /// The rotations from a measured view's motion axes and its cube map's axes to the world's, with the view's corner and
+    /// size.
     struct Axes {
         glm::ivec2 corner, size;
-        glm::dmat3 world_from_motion;
+        glm::dmat3 world_from_motion, world_from_cube;
+        glm::dvec3 ahead; ///< the observer's direction of motion, unit; 0 at rest
     };
     std::vector<Axes> measured_axes(std::size_t output) const;
 

@@ -44,7 +44,7 @@ glm::dvec3 ViewSet::eye_offset(const ViewState& view, const RestFrameView& rest_
     const glm::dvec3 offset = rest_frame.shot.ship_from_cockpit * scene_units(view.beside_m);
     if (state_.layout.stereo.turning)
         return glm::dvec3(1, 1, physics::gamma_of(rest_frame.shot.u)) * glm::length(offset);
-    glm::dvec3 apart = rest_frame.motion_from_frame * physics::eye_place(rest_frame.shot.u, offset);
+    glm::dvec3 apart = rest_frame.cube_from_frame * physics::eye_place(rest_frame.shot.u, offset);
     apart.z *= rest_frame.contraction;
     return apart;
 }
@@ -63,11 +63,13 @@ glm::dvec3 ViewSet::cube_place(const View& view) const
     return state_.layout.stereo.method == StereoMethod::exact ? view.picture.eye_m : view.head_m;
 }
 
-const ViewState& ViewSet::probed_view() const
+const ViewState& ViewSet::probed_view(std::optional<std::size_t> view) const
 {
-    for (const ViewState& view : all)
-        if (!state_.layout.outputs[view.output].preview && view.geometry().observer == ViewportObserver{})
-            return view;
+    if (view)
+        return all[*view];
+    for (const ViewState& one : all)
+        if (!state_.layout.outputs[one.output].preview && one.geometry().observer == ViewportObserver{})
+            return one;
     return all.front();
 }
 
@@ -192,18 +194,31 @@ int ViewSet::hud_width() const
     return std::clamp(int(2 * hud_place.half.x / finest), 160, 4096);
 }
 
+/// The direction that one view shows there, if it shows any.
+std::optional<glm::dvec3> ViewSet::direction(const ViewState& view, std::size_t output, const glm::dvec2& pixel) const
+{
+    const glm::dvec2 at = pixel - glm::dvec2(view.geometry().corner), size(view.geometry().size);
+    if (view.output != output || view.geometry().canvas != 0 || at.x < 0 || at.y < 0 || at.x >= size.x || at.y >= size.y)
+        return {};
+    if (view.compiled.matrix)
+        return glm::normalize(*view.compiled.matrix * glm::dvec3(at, 1));
+    const glm::vec4 texel = view.compiled.map->at(int(at.x), int(at.y), view.compiled.channels() == 3 ? 1 : 0);
+    if (texel.w > 0)
+        return glm::normalize(glm::dvec3(texel));
+    return {};
+}
+
 std::optional<glm::dvec3> ViewSet::direction(std::size_t output, const glm::dvec2& pixel) const
 {
-    for (const ViewState& view : all) {
-        const glm::dvec2 at = pixel - glm::dvec2(view.geometry().corner), size(view.geometry().size);
-        if (view.output != output || view.geometry().canvas != 0 || at.x < 0 || at.y < 0 || at.x >= size.x || at.y >= size.y)
-            continue;
-        if (view.compiled.matrix)
-            return glm::normalize(*view.compiled.matrix * glm::dvec3(at, 1));
-        const glm::vec4 texel = view.compiled.map->at(int(at.x), int(at.y));
-        if (texel.w > 0)
-            return glm::normalize(glm::dvec3(texel));
-    }
+    const auto view = view_at(output, pixel);
+    return view ? direction(all[*view], output, pixel) : std::nullopt;
+}
+
+std::optional<std::size_t> ViewSet::view_at(std::size_t output, const glm::dvec2& pixel) const
+{
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (direction(all[i], output, pixel))
+            return i;
     return {};
 }
 

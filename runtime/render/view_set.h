@@ -24,7 +24,7 @@ struct ViewState {
     std::unique_ptr<BloomPass> bloom; ///< null without glow
     glm::dvec3 cube_m{0}; ///< place from which its cube map is drawn, cockpit frame, metres
     glm::dvec3 beside_m{0}; ///< the eye's place relative to cube_m
-    Buffer rest_frames; ///< RestFrameConstants; null where nothing moves
+    Buffer rest_frames; ///< RestFrameConstants; null where no shader reads them
     const View& geometry() const { return compiled.view; }
 };
 
@@ -65,20 +65,23 @@ public:
     const Image& map_of(const ViewState& view) const;
     /// The inverse of that map, or the same image without content.
     const Image& inverse_of(const ViewState& view) const;
-    /// The view whose light is probed: the first view of the visitor that is no preview, or else the first view.
-    const ViewState& probed_view() const;
+    /// The view whose light is probed, given by its index; without one, the first view of the visitor that is no preview,
+    /// or else the first view.
+    const ViewState& probed_view(std::optional<std::size_t> view = {}) const;
     /// The size in pixels of the view, or for a preview of the view that it shows.
     glm::ivec2 sent_pixels(const ViewState& view) const;
     /// Converts metres in the cockpit to scene units, including the layout's hyper-stereo.
     glm::dvec3 scene_units(const glm::dvec3& place_m) const;
-    /// The eye's place relative to its cube map's, in a rest frame's motion axes, scene units. For a turning baseline, an
-    /// upper bound of each component.
+    /// The eye's place relative to its cube map's, in the axes of a rest frame's cube map, scene units. For a turning
+    /// baseline, an upper bound of each component.
     glm::dvec3 eye_offset(const ViewState& view, const RestFrameView& rest_frame) const;
     /// The member `eye` of ViewPush and RestFrameEntry.
     glm::vec4 eye_constants(const ViewState& view, const RestFrameView& rest_frame) const;
-    /// The unit direction in the cockpit that a point of an output shows in its left eye. pixel: from the output's top
-    /// left.
+    /// The unit direction in the cockpit that a point of an output shows in its left eye; where colours have directions of
+    /// their own, green's. pixel: from the output's top left.
     std::optional<glm::dvec3> direction(std::size_t output, const glm::dvec2& pixel) const;
+    /// The index of the view that shows it there.
+    std::optional<std::size_t> view_at(std::size_t output, const glm::dvec2& pixel) const;
     /// The target of one of an output's canvases: the finish pass's, or `last` where the output needs no finish.
     Target canvas_target(std::size_t output, int canvas, const Target& last) const;
 
@@ -96,6 +99,7 @@ public:
     MapStore store;
 
 private:
+    std::optional<glm::dvec3> direction(const ViewState& view, std::size_t output, const glm::dvec2& pixel) const;
     glm::dvec3 cube_place(const View& view) const;
     std::optional<std::size_t> map_for(const CompiledView& view, std::vector<MapImage>& before);
     PixelBox panel_in(const ConeHierarchy& cones) const;

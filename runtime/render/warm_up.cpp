@@ -6,7 +6,7 @@ namespace {
 
 /// One state of the switches.
 struct State {
-    double speed_u;
+    glm::dvec3 u; ///< proper velocity, cockpit's axes
     Effects effects;
     Overlay overlay = Overlay::off;
     Pattern pattern = Pattern::none;
@@ -16,8 +16,10 @@ struct State {
 std::vector<State> states(bool combined)
 {
     std::vector<State> all;
-    // Proper velocities at which plans differ in kind: one image, several, tiles with several images.
-    for (double u : {0.0, 0.1, 4.0, 100.0, 1e5}) {
+    // Plans differ in kind with the speed: one image, several, tiles with several images. In slow flight aside the cube map
+    // has other axes than the motion's.
+    for (const glm::dvec3& u : {glm::dvec3(0), glm::dvec3(0, 0, -0.1), glm::dvec3(0.06, 0, -0.08), glm::dvec3(0, 0, -4),
+             glm::dvec3(0, 0, -100), glm::dvec3(0, 0, -1e5)}) {
         for (int off = 0; off < 8; ++off) // the three effects, alone and together
             all.push_back({u, {.aberration = !(off & 1), .doppler = !(off & 2), .headlight = !(off & 4)}});
         for (Comparison comparison : {Comparison::galilean, Comparison::no_light_delay})
@@ -31,7 +33,7 @@ std::vector<State> states(bool combined)
             all.push_back({u, {}, overlay});
     }
     for (std::size_t pattern = 1; pattern < pattern_names.size(); ++pattern)
-        all.push_back({0, {}, Overlay::off, Pattern(pattern)});
+        all.push_back({glm::dvec3(0), {}, Overlay::off, Pattern(pattern)});
     return all;
 }
 
@@ -61,10 +63,10 @@ std::size_t warm_up(Device& device, Pipelines& pipelines, FrameRenderer& frame, 
             progress(step++, qualities.size() * all.size());
             Shot at = shot;
             at.effects = state.effects;
-            at.u = at.ship_from_cockpit * glm::dvec3(0, 0, -state.speed_u);
+            at.u = at.ship_from_cockpit * state.u;
             frame.show(state.pattern);
             if (state.overlay != Overlay::off)
-                frame.measure(Measuring{.probes = {{0, 0, -1}},
+                frame.measure(Measuring{.probes = {{glm::dvec3(0, 0, -1)}},
                     .over = {.overlay = state.overlay},
                     .panel = hud,
                     .scale = {0.1, 0.1, 0.9, 0.2}});

@@ -66,11 +66,11 @@ std::vector<shared::TimeEntry> time_entries(const World& world, const EyeEvent& 
         }
         const glm::dvec3 middle
             = glm::dvec3(frame_from_local * glm::dvec4(0.5 * (primitive.low + primitive.high), 1)) - eye_event.place;
-        const double sent = retarded_time(eye_event, eye_event.motion_from_frame * middle);
+        const double sent = retarded_time(eye_event, eye_event.cube_from_frame * middle);
         const ExistenceInterval existence = instance.existence < 0
             ? ExistenceInterval{-for_ever, for_ever}
             : world.existence_intervals[std::size_t(instance.existence)];
-        entry.middle = glm::vec4(eye_event.motion_from_frame * middle, glm::length(middle));
+        entry.middle = glm::vec4(eye_event.cube_from_frame * middle, glm::length(middle));
         const Material& material = world.materials[std::size_t(primitive.material)];
         if (material.clock) {
             const double reading = reading_s(*material.clock, sent - existence.zero, 0, seconds_per_time_unit);

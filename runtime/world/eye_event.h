@@ -12,16 +12,16 @@ struct EyeEvent {
     int frame = 0; ///< index into World::frames
     glm::dvec3 place{0}; ///< the eye's place and time in that frame
     double time = 0;
-    glm::dmat3 motion_from_frame{1}; ///< turn
-    bool now = false; ///< everything is shown at the ship's present, and contracted along z
+    glm::dmat3 cube_from_frame{1}; ///< turn into the axes of the cube map: see RestFrameView
+    bool now = false; ///< everything is shown at the ship's present, and contracted along z, the direction of motion
     double contraction = 1, beta = 0; ///< then: 1 / gamma, and the ship's speed along z
 };
 
 /// An observer's eye event: its place in the cockpit, scene units. frame: the index of the rest-frame view.
 EyeEvent eye_event_of(const RestFrameView& rest_frame, int frame, const glm::dvec3& place);
 
-/// The retarded time, in the eye event's own frame, of a place given from the eye in motion axes. With `now` it is the
-/// place's time at the ship's present. The difference of two places' retarded times is at most their distance.
+/// The retarded time, in the eye event's own frame, of a place given from the eye in the cube map's axes. With `now` it is
+/// the place's time at the ship's present. The difference of two places' retarded times is at most their distance.
 inline double retarded_time(const EyeEvent& eye_event, const glm::dvec3& from_eye)
 {
     return eye_event.time + (eye_event.now ? eye_event.beta * from_eye.z : -glm::length(from_eye));

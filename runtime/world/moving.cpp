@@ -98,8 +98,8 @@ SeenPose seen_pose(const World& world, const Instance& instance, const EyeEvent&
     // The middle's retarded time is a fixed point of a map that contracts by 0.2. Secants find it, and bisection where a
     // jump leaves no such time or two.
     auto sent = [&](double time) {
-        return retarded_time(eye_event,
-            eye_event.motion_from_frame * (glm::dvec3(pose_at(world, instance, time) * middle) - eye_event.place));
+        return retarded_time(
+            eye_event, eye_event.cube_from_frame * (glm::dvec3(pose_at(world, instance, time) * middle) - eye_event.place));
     };
     double low = -1e300, high = 1e300; // too early, too late
     double time = sent(eye_event.time), before = eye_event.time, off_before = time - eye_event.time;
@@ -272,12 +272,13 @@ void check_speeds(const World& world, const SceneFile& scene)
                 const double way = glm::length(glm::dvec3((after - before) * glm::dvec4(point, 1)));
                 const double speed = way / (stretch.end_s - stretch.begin_s) * unit_s;
                 if (speed > most_own_speed * (1 + 1e-6)) {
-                    char text[300];
+                    char text[500];
                     const int node = world.joints[std::size_t(joint)].node;
                     std::snprintf(text, sizeof text,
                         "(\"%.60s\") moves at %.3g of the scene's speed of light where it is fastest, %.3g s after its own "
                         "time 0;"
-                        " at most %.3g is right",
+                        " at most %.3g is right, by a slower animation, or by a smaller \"unit_m\" or a larger "
+                        "\"light_speed_m_s\" in the scene",
                         world.nodes[std::size_t(node)].name.c_str(), speed, stretch.begin_s, most_own_speed);
                     throw InputError(scene.gltf.string(), "/nodes/" + std::to_string(node), text);
                 }

@@ -1,6 +1,7 @@
 #pragma once
 #include "config/model/quality.h"
 #include "config/model/scene_file.h"
+#include "light_kinds.h"
 #include "runtime/light/spectral_basis.h"
 #include "shaders/shared_structs.h"
 #include "world.h"
@@ -9,13 +10,15 @@
 
 namespace starbow {
 
-/// By SpectralLevel: coefficients of reflected sunlight.
+/// By SpectralLevel: the greatest number of coefficients for the spectra that surfaces reflect.
 constexpr std::array<int, 3> reflected_counts = {3, 5, 12};
 
-/// The coarsest level that is exact for a world, or else the finest.
+/// The coarsest level that is exact for a world, because it has a coefficient for each spectrum that surfaces reflect; or
+/// else the finest.
 struct NeededLevel {
     SpectralLevel level = SpectralLevel::colours;
-    std::string why; ///< a sentence's subject and verb: the first reason against the level before
+    int spectra = 3; ///< number of different spectra that surfaces reflect
+    std::string why; ///< a sentence's subject and verb: a reason against the level before
 };
 /// A line for people.
 std::string describe(const NeededLevel& needed);
@@ -27,13 +30,7 @@ struct Spectra {
     SpectralBasis basis;
     int groups = 1; ///< number of groups of four coefficients
     int kinds = 1; ///< number of kinds of spectra that illuminate surfaces; the first is sunlight
-    /// The kinds of a light in one rest frame. A light at rest there has one kind. A light that moves there has several
-    /// kinds of shifted light, evenly spaced in log2 D; the shader blends between two of them.
-    struct Lamp {
-        int kind = 0, first_shift = 0, shifts = 0;
-        double first_log2_D = 0, per_octave = 0;
-    };
-    std::vector<std::vector<Lamp>> lamps; ///< [the scene's light][World::frames]
+    std::vector<std::vector<LampKinds>> lamps; ///< [the scene's light][World::frames]
     bool matrices = false; ///< otherwise the coefficients are the colour itself, and its parts beyond the visible
     std::vector<glm::vec4> columns; ///< [set][kind][group][r, g, b, ultraviolet, infrared]
 

@@ -1,4 +1,5 @@
 #include "spectral_errors.h"
+#include "illumination.h"
 #include "runtime/light/colour_difference.h"
 #include "runtime/light/response.h"
 #include <algorithm>
@@ -14,7 +15,7 @@ double difference(const glm::dvec3& one, const glm::dvec3& two)
     return ciede2000(cielab(one * (0.5 / one.y), white), cielab(two * (0.5 / two.y), white));
 }
 
-/// Twenty-four smooth reflectances, modelled on the fields of a colour chart: a level, steps (s) and bumps (g). Beyond
+/// Eighteen smooth reflectances, modelled on the coloured fields of a colour chart: a level, steps (s) and bumps (g). Beyond
 /// the visible each has values of its own, as paints do.
 struct Field {
     double level;
@@ -35,8 +36,6 @@ struct Field {
     }
     double operator()(double nm) const
     {
-        if (features.empty())
-            return level;
         double mean = 0;
         for (double at = 400; at <= 700; at += 10)
             mean += visible(at) / 31;
@@ -59,36 +58,75 @@ const std::vector<Field>& chart()
             {0.05, {{'g', 0.29, 445, 30}, {'s', 0.15, 720, 20}}}, {0.055, {{'g', 0.3, 530, 35}, {'s', 0.15, 715, 25}}},
             {0.045, {{'s', 0.68, 617, 13}}}, {0.055, {{'s', 0.7, 515, 17}}},
             {0.1, {{'s', 0.7, 610, 18}, {'g', 0.3, 430, 45}, {'g', -0.03, 540, 25}}},
-            {0.07, {{'g', 0.33, 480, 48}, {'s', 0.1, 720, 20}}}, {0.9, {}}, {0.59, {}}, {0.36, {}}, {0.19, {}}, {0.09, {}},
-            {0.03, {}}};
+            {0.07, {{'g', 0.33, 480, 48}, {'s', 0.1, 720, 20}}}};
     return fields;
+}
+
+constexpr double least_part = 1e-3; // of the brightest spectrum's luminance at the same D
+constexpr int steps_per_octave = 8, octaves = 3;
+
+/// Luminance and colour of each spectrum at each D by sums over every nanometre: [step * spectra + spectrum].
+std::vector<glm::dvec3> truths(const std::vector<Spectrum>& spectra, std::span<const double> Ds)
+{
+    std::vector<glm::dvec3> all;
+    for (double D : Ds)
+        for (const Spectrum& spectrum : spectra)
+            all.push_back(seen_xyz(spectrum, D));
+    return all;
 }
 
 } // namespace
 
-SpectralErrors chart_errors(SpectralLevel level, ChartFields fields)
+SpectralErrors spectral_errors(const std::vector<Spectrum>& spectra, int most, std::vector<double> importance)
 {
-    const SpectralBasis basis = spectral_basis(reflected_counts[std::size_t(level)], {});
+    const SpectralBasis basis = spectral_basis(spectra, most, {}, std::move(importance));
     const Response response = response_of(basis, eye());
     const glm::dmat3 xyz_from_shown = glm::inverse(eye().rec709);
-    const Spectrum sun = sunlit_white();
+    std::vector<double> Ds;
+    for (int step = -octaves * steps_per_octave; step <= octaves * steps_per_octave; ++step) // between rows of the table
+        Ds.push_back(std::exp2(double(step) / steps_per_octave + (step < 0 ? 1 : -1) / 256.0));
+    const std::vector<glm::dvec3> true_colours = truths(spectra, Ds);
     SpectralErrors errors;
     std::vector<double> all;
-    for (const Field& field : chart())
-        if (field.features.empty() == (fields == ChartFields::greys)) {
-            const std::vector<double> coefficients = lit(basis, {}, field);
-            for (int step = -24; step <= 24; ++step) {
-                const double D = std::exp2(step / 8.0 + (step < 0 ? 1 : -1) / 256.0); // between two rows of the table
-                const glm::dvec3 truth = seen_xyz([&](double nm) { return sun(nm) * field(nm); }, D),
-                                 approximated = xyz_from_shown * seen(response, coefficients, D);
-                all.push_back(approximated.y > 0 ? difference(truth, approximated) : 100);
-                errors.luminance = std::max(errors.luminance, std::abs(approximated.y / truth.y - 1));
-            }
+    const std::size_t n = spectra.size(), count = std::size_t(basis.reflected);
+    for (std::size_t step = 0; step < Ds.size(); ++step) {
+        double brightest = 0;
+        for (std::size_t j = 0; j < n; ++j)
+            brightest = std::max(brightest, true_colours[step * n + j].y);
+        for (std::size_t j = 0; j < n; ++j) {
+            const glm::dvec3& truth = true_colours[step * n + j];
+            if (!(truth.y > least_part * brightest))
+                continue;
+            const glm::dvec3 shown
+                = xyz_from_shown * seen(response, std::span(basis.columns).subspan(j * count, count), Ds[step]);
+            const double off = shown.y > 0 ? difference(truth, shown) : 100;
+            if (off > errors.worst)
+                errors.worst = off, errors.worst_spectrum = int(j);
+            errors.luminance = std::max(errors.luminance, std::abs(shown.y / truth.y - 1));
+            all.push_back(off);
         }
-    errors.worst = *std::max_element(all.begin(), all.end());
+    }
+    if (all.empty())
+        return errors;
     std::nth_element(all.begin(), all.begin() + std::ptrdiff_t(all.size() / 2), all.end());
     errors.median = all[all.size() / 2];
     return errors;
+}
+
+SpectralErrors chart_errors(SpectralLevel level)
+{
+    std::vector<Spectrum> fields;
+    for (const Field& field : chart())
+        fields.push_back([field, sun = sunlit_white()](double nm) { return sun(nm) * field(nm); });
+    return spectral_errors(fields, reflected_counts[std::size_t(level)]);
+}
+
+SceneErrors scene_errors(const World& world, const SceneFile& scene, SpectralLevel level)
+{
+    const Illumination light = illumination_of(world, scene);
+    const SpectralErrors errors
+        = spectral_errors(spectra_of(light), reflected_counts[std::size_t(level)], importance_of(light));
+    return {errors, name_of(light, light.reflected[std::size_t(errors.worst_spectrum)])};
 }
 
 } // namespace starbow

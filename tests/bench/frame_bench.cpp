@@ -59,7 +59,7 @@ void culling(benchmark::State& state)
     const CompiledView view = testing::view_of(Planar{60}, {800, 600});
     const CubeMapPlan plan = plan_cube_map({looking(view, 4)}, quality);
     EyeEvent eye_event;
-    eye_event.motion_from_frame = motion_from_world({0, 0, -testing::u_of_gamma(4)}, glm::dquat(1, 0, 0, 0));
+    eye_event.cube_from_frame = motion_from_world({0, 0, -testing::u_of_gamma(4)}, glm::dquat(1, 0, 0, 0));
     DrawList list;
     for (auto _ : state)
         list = cull(world, {&eye_event, 1}, plan.images, quality, std::move(list));

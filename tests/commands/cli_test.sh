@@ -142,9 +142,15 @@ loses 'frustum ' "$warps/channel1_warp_mesh.csv" lost.data
 printf '2\n2 2\n-1 -1 0 0 1\n1 -1 1 0 0.5\n-1 1 0 1 1\n1 1 1 1 1\n' > "$folder/dim.data"
 loses 'brightness ' "$folder/dim.data" lost.csv
 
-# For a map with its rows in the other order, the program names a remedy that works.
-said=$("$program" warp inspect "$warps/correction_mesh.mpcdi" 2>&1)
-if [[ $said == *"rows in the other order"*" --first-row-on-top"*'"first_row": "top"'* ]] && ! "$program" warp inspect "$warps/correction_mesh.mpcdi" --first-row-on-top | grep -q 'other order'; then passed=$((passed + 1)); else fail "inspect of rows in the other order: $said"; fi
+# For a map of offsets, and for one with its rows in the other order, the program names a remedy that works.
+refused '--offsets' warp inspect "$warps/correction_mesh.mpcdi"
+said=$("$program" warp inspect "$warps/correction_mesh.mpcdi" --offsets 2>&1)
+if [[ $said == *"rows in the other order"*" --first-row-on-top"*'"first_row": "top"'* ]] && ! "$program" warp inspect "$warps/correction_mesh.mpcdi" --offsets --first-row-on-top | grep -q 'other order'; then passed=$((passed + 1)); else fail "inspect of rows in the other order: $said"; fi
+
+# A mesh that shows one direction is doubted, by inspect and by check.
+{ printf 'PF\n2 2\n-1.0\n'; head -c 48 /dev/zero; } > "$folder/zero.pfm"
+printf '{ "outputs": [{ "name": "a", "size": [64, 48], "viewports": [{ "projection": { "type": "planar" }, "warp": { "file": "zero.pfm" } }] }] }' > "$folder/zero.json"
+if "$program" warp inspect "$folder/zero.pfm" | grep -q '^warning *every pixel shows one' && "$program" check "$folder/zero.json" --svg "$folder/zero.svg" | grep -q '^note: a, zero.pfm: every pixel shows one'; then passed=$((passed + 1)); else fail "a mesh of one direction is not doubted"; fi
 
 # Input files are never overwritten, and others only with --force: exit 2, one line, and the file unchanged.
 kept() { # FILE TEXT ARGUMENTS...
@@ -200,6 +206,40 @@ mkdir "$folder/mirror"
 sed 's|mesh/||' "$warps/sgct-configs/spherical_mirror.json" > "$folder/mirror/sgct.json"
 cp "$warps/standard_16x9.data" "$folder/mirror/"
 if "$program" import sgct "$folder/mirror/sgct.json" --out "$folder/mirror/layout.json" > "$folder/said" && ! grep -q 'to mend' "$folder/said" && "$program" check "$folder/mirror/layout.json" --svg "$folder/mirror/plan.svg" >/dev/null; then passed=$((passed + 1)); else fail "import with its mesh: $(cat "$folder/said")"; fi
+
+# SGCT's older XML has a sentence of its own.
+echo '<?xml version="1.0" ?><Cluster masterAddress="localhost"/>' > "$folder/old.xml"
+refused 'is XML, which SGCT read until its version 2' import sgct "$folder/old.xml"
+
+# Two small files of large images, 16384 x 8192 each, take less than 1 GiB of memory, and the log tells their new sizes.
+mkdir "$folder/large"
+python3 - "$folder/large" << 'END'
+import base64, json, struct, sys, zlib
+folder, width, height = sys.argv[1], 16384, 8192
+def chunk(kind, data):
+    return struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data))
+pack = zlib.compressobj(1)
+rows = b''.join(pack.compress((b'\0' + b'\xc8' * width) * 64) for _ in range(height // 64)) + pack.flush()
+for name in 'a.png', 'b.png':
+    with open(folder + '/' + name, 'wb') as file:
+        file.write(b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', width, height, 8, 0, 0, 0, 0)) + chunk(b'IDAT', rows) + chunk(b'IEND', b''))
+data = struct.pack('<20f', -1, -1, -3, 1, -1, -3, 1, 1, -3, -1, 1, -3, 0, 1, 1, 1, 1, 0, 0, 0) + struct.pack('<6H', 0, 1, 2, 0, 2, 3)
+json.dump({'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [0, 1]}], 'nodes': [{'mesh': 0}, {'mesh': 1, 'translation': [2, 0, 0]}],
+    'meshes': [{'primitives': [{'attributes': {'POSITION': 0, 'TEXCOORD_0': 1}, 'indices': 2, 'material': i}]} for i in (0, 1)],
+    'materials': [{'pbrMetallicRoughness': {'baseColorTexture': {'index': i}}} for i in (0, 1)],
+    'textures': [{'source': 0}, {'source': 1}], 'images': [{'uri': 'a.png'}, {'uri': 'b.png'}],
+    'buffers': [{'byteLength': len(data), 'uri': 'data:application/octet-stream;base64,' + base64.b64encode(data).decode()}],
+    'bufferViews': [{'buffer': 0, 'byteOffset': a, 'byteLength': b} for a, b in ((0, 48), (48, 32), (80, 12))],
+    'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 4, 'type': 'VEC3', 'min': [-1, -1, -3], 'max': [1, 1, -3]},
+        {'bufferView': 1, 'componentType': 5126, 'count': 4, 'type': 'VEC2'}, {'bufferView': 2, 'componentType': 5123, 'count': 6, 'type': 'SCALAR'}]},
+    open(folder + '/world.gltf', 'w'))
+json.dump({'gltf': 'world.gltf', 'ambient': [1, 1, 1]}, open(folder + '/scene.json', 'w'))
+json.dump({'scene': 'scene.json'}, open(folder + '/shot.json', 'w'))
+END
+said=$(python3 -c 'import resource, subprocess, sys
+done = subprocess.run(sys.argv[1:], capture_output=True, text=True)
+print(done.returncode, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss < 1 << 20, done.stdout + done.stderr)' "$program" render --layout desk --shot "$folder/large/shot.json" --size 32x24 --out "$folder/large/out")
+if [[ $said == "0 True "*"image 0 of 16384 x 8192 pixels is drawn with "*"image 1 of 16384 x 8192 pixels is drawn with "* ]]; then passed=$((passed + 1)); else fail "large images: $said"; fi
 
 # Unknown and missing options are refused in one line, also with exit 2.
 for arguments in '' 'fly' 'render' 'render --shot' 'bench --rounds 0' 'run --frames -1' 'check' 'render --shot start --out x --colour' 'render --shot start --out x --spectra 7' 'warp' 'warp inspect' 'import sgct x'; do

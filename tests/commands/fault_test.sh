@@ -56,6 +56,15 @@ for call in acquire present submit; do
     ok
 done
 
+# A device without memory is opened anew, too. Before the first picture the program ends with one line and exit 3.
+survives submit:30:OUT_OF_MEMORY 60
+[ "$(grep -c 'OutOfDeviceMemory.*it is opened anew' "$folder/log")" = 1 ] || fail "no memory in flight: no line says so"
+ok
+fly submit:1:OUT_OF_MEMORY
+[ $status = 3 ] || fail "no memory at the start: exit $status"
+[ "$(grep -c '^starbow: The graphics driver has failed: .*OutOfDeviceMemory' "$folder/log")" = 1 ] || fail "no memory at the start: no line says so"
+ok
+
 # If the device is lost again and again, the exhibit ends with a message and exit 1.
 fly submit:20:DEVICE_LOST,submit:21:DEVICE_LOST,submit:22:DEVICE_LOST,submit:23:DEVICE_LOST,submit:24:DEVICE_LOST,submit:25:DEVICE_LOST
 [ $status = 1 ] || fail "lost again and again: exit $status"

@@ -58,6 +58,10 @@ cp "$work/said" "$work/explained"
 check "explain lists the number of dials" has "clocks, with light delay .* 1 dial" "$work/explained"
 check "explain lists unused features" has "what blinks .* nothing blinks" "$work/explained"
 
+if [ -n "${STARBOW_ALL_CASES:-}" ]; then # most of its 40 s are pipelines
+    check "slow motions shimmer within their bounds" measure --shimmer --shot starbow --size 160x120 --samples 9 --out "$work/f"
+    check "the table of shimmer is written" has "1e-6 c" "$work/f/shimmer.md"
+fi
 check "a shot of another scene is refused" refused "is in the scene clocks; one in avenue is right" measure --shot clocks-rest --out "$work/d"
 check "a missing --out is refused" refused "--out is required here" measure
 check "an unknown quality is refused" refused "draft" measure --default none --out "$work/d"

@@ -179,8 +179,26 @@ for window in a b c d; do xdotool search --name "^Starbow $window" windowmap; do
 expect_all "no longer minimised"
 leave
 
+# F11 fills the monitor that shows the window, and gives the window back.
+geometry() { # X,Y WIDTHxHEIGHT
+    xdotool getwindowgeometry "$window" | tr '\n' ' ' | grep -q "Position: $1 .*Geometry: $2"
+}
+f11() { # WHAT
+    placed() { geometry '\(64[0-9]\|6[5-9][0-9]\|7[0-9][0-9]\),[0-9]*' "$size"; }
+    local size
+    size=$(xdotool getwindowgeometry "$window" | sed -n 's/.*Geometry: //p')
+    xdotool windowmove "$window" 650 20
+    until_true 15 placed || fail "$1: the window does not move: $(xdotool getwindowgeometry "$window")"
+    xdotool key F11
+    until_true 15 geometry 640,0 320x240 || fail "$1: F11 leads elsewhere: $(xdotool getwindowgeometry "$window")"
+    ok
+    xdotool key F11
+    until_true 15 placed || fail "$1: F11 does not lead back: $(xdotool getwindowgeometry "$window")"
+    ok
+}
+
 # A window with a frame changes its size faster than pictures are drawn.
-timeout 120 "$program" run --layout desk >"$folder/log" 2>&1 &
+timeout 120 "$program" run --layout desk --trace "$folder/trace.json" >"$folder/log" 2>&1 &
 exhibit=$!
 started+=($exhibit)
 until_true 30 xdotool search --name '^Starbow desk' || fail "no window"
@@ -189,9 +207,19 @@ for i in $(seq 60); do xdotool windowsize "$window" $((100 + i * 37 % 500)) $((6
 xdotool windowsize "$window" 1 1 windowsize "$window" 300 200
 until_true 15 sh -c "xdotool getwindowgeometry $window | grep -q 300x200" || fail "resized: $(xdotool getwindowgeometry "$window")"
 xdotool windowfocus "$window"
+f11 "with openbox"
+xdotool windowminimize "$window"
+sleep 2
+xdotool windowmap "$window"
+sleep 1
+xdotool windowfocus "$window"
 xdotool key Escape
 wait $exhibit || fail "resized: exit $?"
 grep -q validation "$folder/log" && fail "resized: the validation layers report an error"
+ok
+# While the window is minimised nothing is drawn, and no frame's times count again.
+drawn=$(grep -o '"cube pass"' "$folder/trace.json" | wc -l) presented=$(grep -o '"present"' "$folder/trace.json" | wc -l)
+[ "$drawn" -gt 10 ] && [ "$drawn" -le "$presented" ] || fail "the device's times of $drawn frames, and $presented were presented"
 ok
 
 # Where the driver does not wait for the screen, the exhibit paces its frames: 150 at 50 Hz take 3 s. Its period is a hundredth
@@ -211,6 +239,21 @@ kill -9 $manager
 wait $manager 2>/dev/null
 xprop -root _NET_SUPPORTING_WM_CHECK | grep -q 0x || fail "the killed window manager left no property behind, so that nothing is tested"
 timeout 60 "$program" run --layout "$folder/wall.json" --frames 3 >"$folder/log" 2>&1 || fail "after a killed window manager: exit $?"
+ok
+
+# Without a window manager the program alone decides where a window goes.
+xrandr --output DUMMY0 --mode 320x240
+timeout 60 "$program" run --layout desk >"$folder/log" 2>&1 &
+exhibit=$!
+started+=($exhibit)
+until_true 30 xdotool search --name '^Starbow desk' || fail "no window"
+window=$(xdotool search --name '^Starbow desk')
+xdotool windowsize "$window" 300 200
+until_true 15 sh -c "xdotool getwindowgeometry $window | grep -q 300x200" || fail "F11: $(xdotool getwindowgeometry "$window")"
+xdotool windowfocus "$window"
+f11 "without a window manager"
+xdotool key Escape
+wait $exhibit || fail "F11: exit $?"
 ok
 
 # For an X server without RandR, the monitor that GLFW reports is enough.

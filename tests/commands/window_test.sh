@@ -33,6 +33,11 @@ xdotool keydown w
 "$rig/wait_flown.py" "$folder/desk.jsonl" 3 || fail "desk: the flight stands still"
 xdotool keyup w
 xdotool key 2 l 4
+# Keys that are tapped several times within one frame: the program sleeps meanwhile. The record has every press.
+pkill -STOP -P $exhibit
+xdotool key --delay 20 h h h h h F1 F1 F1
+pkill -CONT -P $exhibit
+"$rig/wait_flown.py" "$folder/desk.jsonl" 2 || fail "desk: the flight stands still after taps"
 for size in '500 300' '900 700'; do
     xdotool windowsize "$window" $size
     "$rig/wait_flown.py" "$folder/desk.jsonl" 0.5 || fail "desk: the flight stands still at $size"
@@ -44,6 +49,11 @@ grep -q 'validation' "$folder/log" && fail "desk: the validation layers report a
 ok
 gamma=$(sed -n 's/.*γ \([0-9.]*\).*/\1/p' "$folder/log")
 awk "BEGIN { exit !($gamma > 1.05) }" || fail "desk: W did not speed up: gamma $gamma"
+ok
+for tap in hud:5 why:3; do
+    counted=$(grep -o "\"${tap%:*}\": *true" "$folder/desk.jsonl" | wc -l)
+    [ "$counted" = "${tap#*:}" ] || fail "desk: of ${tap#*:} taps of ${tap%:*} in one frame, $counted count"
+done
 ok
 grep -q 'Doppler off' "$folder/log" || fail "desk: 2 did not switch the Doppler effect off"
 ok
@@ -118,6 +128,22 @@ grep -q '^the same to the bit at 1 check$' "$folder/replay-log" || fail "replay:
 ok
 [ "$(grep γ "$folder/log")" = "$(grep γ "$folder/replay-log")" ] || fail "replay: it ended elsewhere"
 ok
+
+# SIGTERM, SIGINT and SIGHUP end the flight as Esc does: the record and the log have their last lines.
+for signal in TERM INT HUP; do
+    rm -f "$folder/ended.jsonl" "$folder/ended.csv"
+    fly desk --scene clocks --record "$folder/ended.jsonl" --log "$folder/ended.csv" --log-every 0.1
+    xdotool key o
+    "$rig/wait_flown.py" "$folder/ended.jsonl" 0.5 || fail "$signal: the flight stands still"
+    kill -$signal "$(pgrep -P $exhibit -x starbow)"
+    wait $exhibit
+    status=$?
+    [ $status = 0 ] || fail "$signal: exit $status"
+    tail -n 1 "$folder/ended.jsonl" | grep -q '"last":true' || fail "$signal: the record has no last line"
+    tail -c 1 "$folder/ended.csv" | od -c | grep -q '\\n' || fail "$signal: the log's last line is cut off"
+    grep -q 'γ 1.000' "$folder/log" || fail "$signal: no closing line"
+    ok
+done
 
 # A head tracker's packets move the window's view through a wall. When it falls silent, the picture goes back after a while.
 cat >"$folder/tracked.json" <<'LAYOUT'

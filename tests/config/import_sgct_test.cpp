@@ -90,12 +90,13 @@ TEST(ImportSgctTest, SamplesBecomeTheirLayouts)
         "upper_left_m": [-1.778, 1.0, 0.0] })"));
     EXPECT_EQ(walls["outputs"][4]["place"], Json::parse("[1000, 30]"));
 
+    // The user stands 4 m before the origin, and the plane 10 m behind it.
     const Json flat = sample("single").layout["outputs"][0];
     EXPECT_EQ(flat["size"], Json::parse("[1280, 720]"));
-    EXPECT_EQ(flat["viewports"][0]["projection"]["sides_deg"]["left"], -40.0);
-    EXPECT_EQ(flat["viewports"][0]["projection"]["sides_deg"]["up"], 50.534015846724 / 2);
-    EXPECT_EQ(sample("single_sbs_stereo").layout["outputs"][0]["packing"], "side-by-side");
-    EXPECT_EQ(sample("single_two_win").layout["outputs"][1]["viewports"][0]["projection"]["turn_deg"]["yaw"], 20.0);
+    EXPECT_EQ(flat["viewports"][0]["projection"]["type"], "wall");
+    EXPECT_EQ(flat["viewports"][0]["projection"]["lower_left_m"][2], -10.0);
+    EXPECT_EQ(sample("single_sbs_stereo").layout["outputs"][0]["packing"], "side-by-side-half");
+    EXPECT_EQ(sample("single_two_win").layout["outputs"][1]["viewports"][0]["projection"]["type"], "wall");
     const Json mirror = sample("spherical_mirror").layout["outputs"][0];
     EXPECT_EQ(mirror["name"], "Spherical-Projection");
     EXPECT_EQ(mirror["viewports"][0]["warp"]["file"], "from/mesh/standard_16x9.data");
@@ -168,13 +169,28 @@ TEST(ImportSgctTest, FisheyeCropsMoveTheCircle)
     EXPECT_NEAR(low["diameter"].get<double>(), 2, 1e-12);
 }
 
-TEST(ImportSgctTest, ACylinderBeginsStraightAhead)
+TEST(ImportSgctTest, EveryMemberOfAFieldOfViewHasItsLine)
+{
+    const std::string flat
+        = R"({ "type": "PlanarProjection", "fov": { "hfov": 80, "vfov": 50, "distance": 2, "depth": 1 } })",
+        at = "/nodes/0/windows/0/viewports/0/projection/fov/";
+    const Import near = imported(config(with(flat)));
+    EXPECT_TRUE(has(near, at + "hfov  -> the picture's edges"));
+    EXPECT_TRUE(has(near, at + "distance  -> nothing: one eye at the origin sees the same at any distance"));
+    EXPECT_TRUE(has(near, at + "depth  not mapped: SGCT's configurations have no such name here"));
+    const Import two = imported(config(with(flat), R"("stereo": "side_by_side",)"));
+    EXPECT_TRUE(has(two, at + "distance  -> the distance of the wall from the origin, m"));
+    EXPECT_EQ(two.layout["outputs"][0]["viewports"][0]["projection"]["lower_left_m"][2], -2.0);
+}
+
+TEST(ImportSgctTest, PanoramasAreTurnedAsTheCubeMapIs)
 {
     const Json p
         = viewport(with(R"({ "type": "CylindricalProjection", "rotation": 30, "heightoffset": -0.5 })"))["projection"];
-    EXPECT_NEAR(p["turn_deg"]["yaw"].get<double>(), 150, 1e-12);
+    EXPECT_NEAR(p["turn_deg"]["yaw"].get<double>(), -75, 1e-12);
     EXPECT_NEAR(p["sides_deg"]["down"].get<double>(), -26.565051177, 1e-9); // atan 1/2
     EXPECT_NEAR(p["sides_deg"]["up"].get<double>(), 26.565051177, 1e-9);
+    EXPECT_EQ(viewport(with(sphere))["projection"]["turn_deg"]["yaw"], 45.0);
 }
 
 TEST(ImportSgctTest, UsersMasksEyesAndNodesAreImported)
@@ -192,6 +208,7 @@ TEST(ImportSgctTest, UsersMasksEyesAndNodesAreImported)
     EXPECT_EQ(output["viewports"][0]["eye"], "left");
     EXPECT_EQ(output["viewports"][0]["eye_m"], Json::parse("[2.0, 0.0, 0.0]"));
     EXPECT_EQ(output["viewports"][0]["alpha_mask"], "from/a.png");
+    EXPECT_EQ(output["viewports"][0]["mask_gamma"], 2.2);
     EXPECT_FALSE(output["viewports"][0].contains("black_level"));
     EXPECT_TRUE(has(import, "/nodes/0/windows/0/shine  not mapped: SGCT's configurations have no such name here"));
     EXPECT_TRUE(has(import, "/nodes/0/windows/0/fullscreen  -> whole_monitor"));
@@ -234,8 +251,8 @@ TEST(ImportSgctTest, AMeshsOwnViewReplacesTheProjection)
     const auto viewport = [](const Import& import) { return import.layout["outputs"][0]["viewports"][0]; };
     EXPECT_FALSE(viewport(made("a.sgc", planar, {true, glm::dvec3(0)})).contains("eye_m"));
     // Files without a view, formats from which SGCT takes none, and projections that are not flat.
-    EXPECT_EQ(viewport(made("a.ol", planar, {false, {}}))["projection"]["type"], "planar");
-    EXPECT_EQ(viewport(made("a.csv", planar, {true, {}}))["projection"]["type"], "planar");
+    EXPECT_EQ(viewport(made("a.ol", planar, {false, {}}))["projection"]["type"], "wall");
+    EXPECT_EQ(viewport(made("a.csv", planar, {true, {}}))["projection"]["type"], "wall");
     EXPECT_EQ(viewport(made("a.sgc", sphere, {true, {}}))["projection"]["type"], "equirectangular");
 }
 
@@ -268,6 +285,92 @@ TEST(ImportSgctTest, FullscreenWindowsGetMonitorsOfTheirOwn)
     EXPECT_EQ(mixed.layout["outputs"][1]["monitor"]["connector"], "SGCT-monitor-0");
 }
 
+TEST(ImportSgctTest, AWindowWithoutSizeGetsOne)
+{
+    const auto of = [](const std::string& members) {
+        return imported(R"({ "version": 1, "nodes": [{ "windows": [{ )" + members + R"( "viewports": [)"
+            + with(R"({ "type": "PlanarProjection", "fov": { "hfov": 80, "vfov": 50 } })") + "] }] }] }");
+    };
+    const Import wide = of(R"("res": { "x": 3840, "y": 2160 },)");
+    EXPECT_EQ(wide.layout["outputs"][0]["size"], Json::parse("[1280, 720]"));
+    ASSERT_EQ(wide.to_mend.size(), 1u);
+    EXPECT_TRUE(wide.to_mend[0].starts_with("/outputs/0/size: [1280,720] stands in for two thirds of the main monitor"));
+    EXPECT_EQ(of(R"("res": { "x": 4096, "y": 4096 },)").layout["outputs"][0]["size"], Json::parse("[720, 720]"));
+    EXPECT_EQ(of("").layout["outputs"][0]["size"], Json::parse("[1280, 720]"));
+    EXPECT_TRUE(of(R"("size": { "x": 10, "y": 20 },)").to_mend.empty());
+}
+
+TEST(ImportSgctTest, AWindowOfControlsIsLeftOut)
+{
+    const auto window = [](const std::string& members) {
+        return R"({ "size": { "x": 80, "y": 40 }, )" + members + R"( "viewports": [)" + with(sphere) + "] }";
+    };
+    const Import import
+        = imported(R"({ "version": 1, "nodes": [{ "windows": [)" + window(R"("name": "controls", "draw3d": false,)") + ", "
+            + window(R"("name": "world", "draw3d": true,)") + "] }] }");
+    ASSERT_EQ(import.layout["outputs"].size(), 1u);
+    EXPECT_EQ(import.layout["outputs"][0]["name"], "world");
+    EXPECT_TRUE(has(import,
+        "/nodes/0/windows/0  not mapped: draws no 3D scene (\"draw3d\": false), only SGCT's controls; the window is left "
+        "out"));
+    EXPECT_TRUE(has(import, "/nodes/0/windows/1/draw3d  -> the output shows the world"));
+}
+
+TEST(ImportSgctTest, DomesGetAHeadUpDisplayAboveTheirRim)
+{
+    const auto elevation = [](const std::string& projection, const std::string& members = "") {
+        return imported(config(with(projection), members)).layout["hud"]["elevation_deg"].get<double>();
+    };
+    // config() has a window of 800 x 400. The dome's front rim stands at the tilt below the horizon.
+    EXPECT_NEAR(elevation(R"({ "type": "FisheyeProjection" })"), 9, 1e-12);
+    EXPECT_NEAR(elevation(R"({ "type": "FisheyeProjection", "fov": 200, "tilt": 27 })"), -28, 1e-12);
+    // A quarter of the square is cut off at the bottom: the lower edge is half way from the zenith to the rim.
+    EXPECT_NEAR(
+        elevation(R"({ "type": "FisheyeProjection", "crop": { "left": 0, "right": 0, "bottom": 0.25, "top": 0.25 } })"), 54,
+        1e-12);
+    EXPECT_FALSE(imported(config(with(sphere))).layout.contains("hud"));
+}
+
+TEST(ImportSgctTest, TwoEyesGetTheFactorOfTheShippedWorlds)
+{
+    const std::string users = R"([{ "eyeseparation": 0.07 }])";
+    const auto stereo = [&](const std::string& viewport, const std::string& members) {
+        return imported(config(viewport, members, users)).layout["stereo"];
+    };
+    EXPECT_EQ(stereo(with(sphere), R"("stereo": "none",)"), Json::parse(R"({ "separation_m": 0.07 })"));
+    const Json two = Json::parse(R"({ "separation_m": 0.07, "hyper_stereo": 1.5e8 })");
+    EXPECT_EQ(stereo(with(sphere), R"("stereo": "top_bottom",)"), two);
+    EXPECT_EQ(stereo(with(sphere, R"(, "eye": "left")"), ""), two);
+    EXPECT_TRUE(has(imported(config(with(sphere), R"("stereo": "top_bottom",)", users)),
+        "/nodes/0  -> /stereo/hyper_stereo 150000000, for the shipped worlds, whose unit is a light-second; 1 for worlds "
+        "in "
+        "metres"));
+}
+
+TEST(ImportSgctTest, AnotherPfmThanATextureMappedOneIsNotRead)
+{
+    const std::string flat = R"({ "type": "PlanarProjection", "fov": { "hfov": 80, "vfov": 50 } })",
+                      mapped = R"({ "type": "TextureMappedProjection", "fov": { "hfov": 80, "vfov": 50 } })",
+                      mesh = R"(, "mesh": "m.pfm")";
+    EXPECT_FALSE(viewport(with(flat, mesh)).contains("warp"));
+    EXPECT_EQ(viewport(with(mapped, mesh))["warp"],
+        Json::parse(R"({ "file": "from/m.pfm", "first_row": "top", "v": "up", "samples": "edges" })"));
+    EXPECT_FALSE(viewport(with(mapped, mesh + R"(, "size": { "x": 0.5, "y": 1 })")).contains("warp"));
+    EXPECT_EQ(viewport(with(flat, R"(, "mesh": "m.obj")"))["warp"], Json::parse(R"({ "file": "from/m.obj" })"));
+}
+
+TEST(ImportSgctTest, OldXmlIsNamed)
+{
+    for (const char* text :
+        {"<?xml version=\"1.0\" ?>\n<Cluster masterAddress=\"localhost\"/>", "\xef\xbb\xbf \n<Cluster/>"})
+        EXPECT_NE(complaint([&] {
+            read_sgct(write_text("old.xml", text));
+        }).find("old.xml: is XML, which SGCT read until its version 2; the JSON that SGCT reads since version 3"),
+            std::string::npos);
+    EXPECT_EQ(read_sgct(write_text("new.json", "{}")).root.size(), 0u);
+    EXPECT_NE(complaint([] { read_sgct(scratch("none.json")); }).find("none.json"), std::string::npos);
+}
+
 TEST(ImportSgctTest, UnsupportedMembersAreNamed)
 {
     const std::string mirror
@@ -277,9 +380,11 @@ TEST(ImportSgctTest, UnsupportedMembersAreNamed)
     EXPECT_TRUE(has(import,
         "/nodes/0/windows/0/viewports/0  not mapped: has no projection of a kind that a layout has; the viewport is left "
         "out"));
-    EXPECT_NE(
-        complaint([&] { imported(config(with(mirror))); }).find("/nodes/0: has no window of which something could be made"),
-        std::string::npos);
+    const std::string nothing = complaint([&] { imported(config(with(mirror))); });
+    EXPECT_NE(nothing.find("/nodes/0: has no window of which something could be made: "
+                           "/nodes/0/windows/0/viewports/0/projection/type is four meshes over each other"),
+        std::string::npos)
+        << nothing;
     EXPECT_NE(complaint([&] { imported(R"({ "version": 2, "nodes": [{}] })"); }).find("/version: 2 is too large"),
         std::string::npos);
     EXPECT_NE(complaint([&] { imported("{}"); }).find("lacks \"nodes\""), std::string::npos);

@@ -330,14 +330,23 @@ TEST(LayoutMembersTest, ViewportsEyesWarpsAndMasksAreRead)
     EXPECT_EQ(v.warp->file, warp);
     EXPECT_EQ(v.warp->frustum, frustum);
     EXPECT_EQ(v.warp->region, "left");
-    EXPECT_TRUE(v.warp->first_row_on_top);
+    EXPECT_TRUE(v.warp->map.first_row_on_top);
     EXPECT_EQ(v.alpha_mask, mask);
     EXPECT_EQ(v.black_level, mask);
     EXPECT_EQ(v.mask_gamma, 2.2);
     EXPECT_EQ(first(viewport(R"("eye": "left")")).viewports[0].eye, Eye::left);
     EXPECT_EQ(first(viewport(R"("warp": { "file": ")" + warp.string() + "\" }")).viewports[0].warp->file, warp);
-    EXPECT_FALSE(
-        first(viewport(R"("warp": { "file": "left.data", "first_row": "bottom" })")).viewports[0].warp->first_row_on_top);
+    EXPECT_FALSE(first(viewport(R"("warp": { "file": "left.data", "first_row": "bottom" })"))
+                     .viewports[0]
+                     .warp->map.first_row_on_top);
+
+    const FloatMapForm places
+        = first(viewport(R"("warp": { "file": "left.data", "v": "up", "samples": "edges", "values": "places" })"))
+              .viewports[0]
+              .warp->map;
+    EXPECT_EQ(places, (FloatMapForm{.v_up = true, .edge_to_edge = true}));
+    EXPECT_EQ(first(viewport(R"("warp": { "file": "left.data", "values": "offsets" })")).viewports[0].warp->map,
+        (FloatMapForm{.offsets = true}));
 
     const std::string alone = R"({ "outputs": [{ "name": "a", "viewports": [{ "warp": { "file": "left.data" } }] }] })";
     EXPECT_FALSE(first(alone).viewports.at(0).projection_given);
@@ -355,10 +364,19 @@ TEST(LayoutMembersTest, ViewportsEyesWarpsAndMasksAreRead)
             {viewport(R"("warp": { "file": "left.data", "region": 1 })"), vp + "/warp/region", "1", "is not a text"},
             {viewport(R"("warp": { "file": "left.data", "first_row": "up" })"), vp + "/warp/first_row", "\"up\"",
                 "\"top\" or \"bottom\""},
+            {viewport(R"("warp": { "file": "left.data", "v": "top" })"), vp + "/warp/v", "\"top\"", "is right"},
+            {viewport(R"("warp": { "file": "left.data", "samples": "corners" })"), vp + "/warp/samples", "\"corners\"",
+                "is right"},
+            {viewport(R"("warp": { "file": "left.data", "values": "shifts" })"), vp + "/warp/values", "\"shifts\"",
+                "is right"},
+            {viewport(R"("warp": { "file": "left.data", "values": "offsets", "v": "up" })"), vp + "/warp/v", "\"up\"",
+                "stands beside \"values\": \"offsets\""},
+            {viewport(R"("warp": { "file": "left.data", "values": "offsets", "samples": "edges" })"), vp + "/warp/samples",
+                "\"edges\"", "stands beside"},
             {viewport(R"("warp": { "file": "left.data", "mesh": 1 })"), vp + "/warp/mesh", "1", "unknown name"},
             {viewport(R"("alpha_mask": "folder.png")"), vp + "/alpha_mask", "\"folder.png\"", "is a folder"},
             {viewport(R"("alpha_mask": true)"), vp + "/alpha_mask", "true", "is not a text"},
-            {viewport(R"("black_level": "none.png")"), vp + "/black_level", "\"none.png\"", "names no file in"},
+            {viewport(R"("black_level": "no-such.png")"), vp + "/black_level", "\"no-such.png\"", "names no file in"},
             {viewport(R"("mask_gamma": 0)"), vp + "/mask_gamma", "0", "is too small"},
             {viewport(R"("mask_gamma": 11)"), vp + "/mask_gamma", "11", "is too large"},
         });

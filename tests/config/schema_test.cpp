@@ -319,7 +319,10 @@ TEST(SchemaTest, BothRefuseInvalidLayouts)
         output(R"("colour": { "lut": [0, [1, 1]] })"), output(R"("colour": { "lut": true })"),
         output(R"("colour": { "matrix": [[1, 0, 0]] })"), viewport(R"("rect": [0, 0, 2, 1])"), viewport(R"("eye": "both")"),
         viewport(R"("eye_m": [0, 0])"), viewport(R"("warp": {})"), viewport(R"("warp": "left.data")"),
-        viewport(R"("warp": { "file": "left.data", "first_row": "up" })"), viewport(R"("alpha_mask": "")"),
+        viewport(R"("warp": { "file": "left.data", "first_row": "up" })"),
+        viewport(R"("warp": { "file": "left.data", "v": 1 })"),
+        viewport(R"("warp": { "file": "left.data", "samples": "cells" })"),
+        viewport(R"("warp": { "file": "left.data", "values": "points" })"), viewport(R"("alpha_mask": "")"),
         viewport(R"("mask_gamma": 0)")};
     for (const char* projection : {"60", "{}", R"({ "type": "dome" })", R"({ "type": "planar", "fov_x_deg": 60 })",
              R"({ "type": "planar", "fov_y_deg": 180 })", R"({ "type": "planar", "aperture_deg": 60 })",

@@ -164,6 +164,44 @@ TEST(CompiledTest, TheFolderKeepsMapsAcrossStarts)
     EXPECT_EQ(map_of(exchanged, b)->texels, of_a->texels);
 }
 
+// Many maps may have been read in the same tick of the file system's clock. All of them count, and all may be deleted.
+TEST(CompiledTest, TheFoldersLimitCountsMapsOfEqualTimes)
+{
+    const auto folder = fresh_folder("full");
+    const auto then = std::filesystem::file_time_type::clock::now() - std::chrono::hours(24);
+    for (int i = 0; i < 10; ++i) {
+        const auto file = folder / (std::to_string(i) + ".map");
+        std::filesystem::create_directories(folder);
+        std::ofstream(file) << std::string(1 << 20, 'x');
+        std::filesystem::last_write_time(file, then);
+    }
+    // The new map takes 600 x 600 x 16 bytes, 5.5 MiB, and two of the others fit beside it.
+    MapStore store(folder, std::uintmax_t(8) << 20);
+    map_of(store, one(Fisheye{180, 20}, {600, 600}));
+    std::uintmax_t bytes = 0;
+    for (const auto& file : files_in(folder))
+        bytes += std::filesystem::file_size(file);
+    EXPECT_LE(bytes, std::uintmax_t(8) << 20);
+    EXPECT_EQ(files_in(folder).size(), 3u);
+}
+
+// Files that killed processes left go. Files that another exhibit may be writing, and foreign ones, stay.
+TEST(CompiledTest, UnfinishedFilesOfDeadProcessesAreRemoved)
+{
+    const auto folder = fresh_folder("orphans");
+    std::filesystem::create_directories(folder);
+    const auto old = std::filesystem::file_time_type::clock::now() - std::chrono::hours(3);
+    for (const char* name : {"0123456789abcdef.map.4711", "fresh.map.4712", "notes.txt"})
+        std::ofstream(folder / name) << "content";
+    for (const char* name : {"0123456789abcdef.map.4711", "notes.txt"})
+        std::filesystem::last_write_time(folder / name, old);
+    MapStore store(folder);
+    map_of(store, one(Fisheye{180, 20}, large));
+    EXPECT_FALSE(std::filesystem::exists(folder / "0123456789abcdef.map.4711"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "fresh.map.4712"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "notes.txt"));
+}
+
 TEST(CompiledTest, SmallMapsAndThoseOfAlignmentAreNotWritten)
 {
     const auto folder = fresh_folder("unwritten");

@@ -67,4 +67,45 @@ TEST(LintTest, WrongUnitsPixelsAndOverlapsGiveWarnings)
     EXPECT_EQ(warnings(high), "");
 }
 
+TEST(LintTest, ExchangedCornersGiveWarnings)
+{
+    const std::string head = "stands on its head", side = "lies on its side";
+    const auto said = [&](const Wall& wall) { return warnings(of({{wall, {400, 200}}})); };
+    const auto square = [&](const Wall& wall) {
+        const std::string all = warnings(of({{wall, {200, 200}}}));
+        return has(all, "corners may be exchanged");
+    };
+    EXPECT_FALSE(has(said({{-2, -1, -3}, {2, -1, -3}, {-2, 1, -3}}), "corners"));
+    EXPECT_TRUE(has(said({{2, 1, -3}, {-2, 1, -3}, {2, -1, -3}}), head)); // right above for left below: the front is kept
+    EXPECT_TRUE(has(said({{2, -1, -3}, {2, 1, -3}, {-2, -1, -3}}), side)); // each corner one place on
+    EXPECT_TRUE(has(said({{-2, 1, -3}, {-2, -1, -3}, {2, 1, -3}}), side));
+    EXPECT_FALSE(square({{-1, -1, 1}, {-1, -1, -1}, {-1, 1, 1}})); // the left wall of a CAVE
+    EXPECT_FALSE(square({{-1, -1, 1}, {1, -1, 1}, {-1, -1, -1}})); // its floor
+    EXPECT_TRUE(square({{1, -1, -1}, {-1, -1, -1}, {1, -1, 1}})); // its floor, turned about
+    EXPECT_FALSE(square({{-1, 1, -1}, {1, 1, -1}, {-1, 1, 1}})); // its ceiling
+    EXPECT_TRUE(square({{1, 1, 1}, {-1, 1, 1}, {1, 1, -1}}));
+}
+
+TEST(LintTest, EyesAndTheirTrackerGiveWarnings)
+{
+    const Wall wall{{-2, -1, -3}, {2, -1, -3}, {-2, 1, -3}};
+    Layout layout = of({{wall, {400, 200}}});
+    layout.head_tracker = HeadTracking{4243, "0.0.0.0"};
+    EXPECT_EQ(warnings(layout), "a head tracker is expected at UDP port 4243 of 0.0.0.0, in opentrack's format\n");
+    layout.outputs[0].viewports[0].projection = Planar{60};
+    EXPECT_TRUE(has(warnings(layout), "no viewport is a wall"));
+
+    Layout two = of({{wall, {400, 200}}});
+    two.outputs[0].packing = Packing::anaglyph_dubois;
+    EXPECT_TRUE(has(warnings(two), "two eyes show no depth in worlds whose unit is a light-second"));
+    two.stereo.hyper_stereo = 1.5e8;
+    EXPECT_EQ(warnings(two), "");
+    two.stereo.separation_m = 6.5;
+    EXPECT_TRUE(has(warnings(two), "the eyes are 6.5 m apart; lengths are in metres"));
+
+    Layout far = of({{wall, {400, 200}}});
+    far.outputs[0].viewports[0].eye_m = {0, 0, 65};
+    EXPECT_TRUE(has(warnings(far), "a: its eye is 65 m from the cockpit's middle; lengths are in metres"));
+}
+
 } // namespace lint_test

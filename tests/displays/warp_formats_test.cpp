@@ -30,7 +30,7 @@ TEST(WarpFormatsTest, FourEncodingsOfEachChannelAgree)
         const std::string stem = "channel" + std::to_string(channel) + "_warp";
         std::vector<WarpMesh> meshes;
         for (const char* end : {"_mesh.csv", ".simcad", "_u2.sgc", "_u3.sgc"})
-            meshes.push_back(load_warp({sample_path(stem + end), {}, {}, false}));
+            meshes.push_back(load_warp({sample_path(stem + end), {}, {}, {}}));
         for (const WarpMesh& mesh : meshes) {
             SCOPED_TRACE(mesh.format);
             EXPECT_EQ(mesh.grid, glm::ivec2(33));
@@ -63,7 +63,7 @@ TEST(WarpFormatsTest, FourEncodingsOfEachChannelAgree)
 
 TEST(WarpFormatsTest, BourkesSampleHasItsGridAndPlaces)
 {
-    const WarpMesh mesh = load_warp({sample_path("standard_16x9.data"), {}, {}, false});
+    const WarpMesh mesh = load_warp({sample_path("standard_16x9.data"), {}, {}, {}});
     EXPECT_EQ(mesh.grid, glm::ivec2(100, 60));
     EXPECT_EQ(mesh.triangles.size(), 2u * 99 * 59);
     // The file's first row is the picture's lowest. Its first line is "-1.77778 -1 0.160825 0.86737 0.530521".
@@ -232,14 +232,14 @@ TEST(WarpFormatsTest, PfmMayHaveEitherByteAndRowOrder)
 {
     std::vector<float> values = identity_map(4, 3);
     values[0] = 0.2f; // the lower left pixel
-    for (bool little : {true, false}) {
+    for (bool little : {true, {}}) {
         const WarpMesh mesh = read("a.pfm", pfm(4, 3, values, little));
         EXPECT_EQ(mesh.grid, glm::ivec2(6, 5));
         const WarpVertex& lower_left = mesh.vertices[3 * 6 + 1];
         EXPECT_NEAR(lower_left.at.x, 0.125, 1e-15);
         EXPECT_NEAR(lower_left.at.y, 2.5 / 3, 1e-15);
         EXPECT_EQ(lower_left.sees[0], glm::dvec3(0.2f, 2.5f / 3, 0));
-        const WarpMesh top = read("a.pfm", pfm(4, 3, values, little), "", true);
+        const WarpMesh top = read("a.pfm", pfm(4, 3, values, little), "", {true});
         EXPECT_EQ(top.vertices[1 * 6 + 1].sees[0], glm::dvec3(0.2f, 2.5f / 3, 0));
     }
 }
@@ -258,7 +258,8 @@ TEST(WarpFormatsTest, PfmReachesTheEdgesAndLeavesHoles)
 
 TEST(WarpFormatsTest, TheMpcdiSampleHasItsFrustumAndOffsets)
 {
-    const WarpMesh mesh = load_warp({sample_path("correction_mesh.mpcdi"), {}, {}, true});
+    const WarpMesh mesh
+        = load_warp({sample_path("correction_mesh.mpcdi"), {}, {}, {.first_row_on_top = true, .offsets = true}});
     EXPECT_EQ(mesh.format, "MPCDI 2.0, profile 3d, region surface1_region");
     EXPECT_EQ(mesh.grid, glm::ivec2(32));
     expect_turn(mesh.frustum.value().turn, 326.675157, 27.327616, -14.611227, 0);
@@ -268,6 +269,104 @@ TEST(WarpFormatsTest, TheMpcdiSampleHasItsFrustumAndOffsets)
     EXPECT_NEAR(mesh.vertices[0].at.y, -0.126087, 1e-6);
     EXPECT_EQ(mesh.vertices[31].sees[0], glm::dvec3(1, 0, 0));
     EXPECT_FALSE(mesh.alpha.has_value());
+}
+
+TEST(WarpFormatsTest, OnlyTheFormDecidesBetweenPlacesAndOffsets)
+{
+    // Offsets of one sign, of both, and none at all: each is a map of places too, of one corner of the picture.
+    const auto constant = [](float x, float y) {
+        std::vector<float> values;
+        for (int i = 0; i < 12; ++i)
+            values.insert(values.end(), {x, y, 0});
+        return pfm(4, 3, values);
+    };
+    const std::string xml
+        = mpcdi_xml("3d", "<buffer id=\"b\">" + region_xml("r", frustum_xml) + "</buffer>", fileset_xml("r", "r.pfm"));
+    for (const glm::vec2 offset : {glm::vec2(0), glm::vec2(0.02f, 0.03f), glm::vec2(-0.02f, 0.03f)})
+        for (const bool archive : {false, true}) {
+            SCOPED_TRACE(std::to_string(offset.x) + (archive ? " in MPCDI" : ""));
+            const std::string map = constant(offset.x, offset.y), name = archive ? "a.mpcdi" : "a.pfm",
+                              bytes = archive ? zipped({{"mpcdi.xml", xml}, {"r.pfm", map}}) : map;
+            const WarpMesh moved = read(name, bytes, "", {.offsets = true});
+            ASSERT_EQ(moved.grid, glm::ivec2(4, 3));
+            for (std::size_t i = 0; i < moved.vertices.size(); ++i) {
+                const glm::dvec2 grid(double(i % 4) / 3, double(i / 4) / 2);
+                expect_near(moved.vertices[i].sees[0], glm::dvec3(grid, 0), 1e-12);
+                expect_near(glm::dvec3(moved.vertices[i].at, 0), glm::dvec3(grid.x + offset.x, grid.y - offset.y, 0), 1e-7);
+            }
+            EXPECT_TRUE(moved.warnings.empty());
+            if (offset.x < 0) { // half a picture beside the picture can't be meant
+                EXPECT_NE(
+                    complaint([&] { read(name, bytes); })
+                        .find("12 of 12 places outside the picture; places from 0 to 1 are right, or for offsets from a "
+                              "regular grid --offsets, and in a layout \"values\": \"offsets\""),
+                    std::string::npos);
+                continue;
+            }
+            const WarpMesh placed = read(name, bytes);
+            EXPECT_EQ(placed.vertices[0].sees[0].x, offset.x);
+            ASSERT_EQ(placed.warnings.size(), 2u);
+            EXPECT_NE(placed.warnings[0].find("lie near 0"), std::string::npos);
+            EXPECT_NE(placed.warnings[1].find("one and the same direction"), std::string::npos);
+        }
+    EXPECT_TRUE(read("a.pfm", pfm(4, 3, identity_map(4, 3))).warnings.empty());
+    // Without the row order the sample's mesh would fold; the reader says how to try the other one.
+    const WarpMesh turned = load_warp({sample_path("correction_mesh.mpcdi"), {}, {}, {.offsets = true}});
+    ASSERT_EQ(turned.warnings.size(), 1u);
+    EXPECT_NE(turned.warnings[0].find("--first-row-on-top"), std::string::npos);
+}
+
+TEST(WarpFormatsTest, PlacesMayCountUpwardsAndReachFromEdgeToEdge)
+{
+    std::vector<float> values;
+    for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 4; ++x)
+            values.insert(values.end(), {0.1f + 0.2f * x, 0.2f + 0.3f * y, 0});
+    const WarpMesh up = read("a.pfm", pfm(4, 3, values), "", {.v_up = true});
+    EXPECT_EQ(up.cells, glm::ivec2(4, 3));
+    EXPECT_NEAR(up.vertices[3 * 6 + 1].sees[0].y, 1 - double(0.2f), 1e-12); // the file's first value, in the lowest row
+    const WarpMesh edges = read("a.pfm", pfm(4, 3, values), "", {.edge_to_edge = true});
+    EXPECT_EQ(edges.grid, glm::ivec2(4, 3));
+    EXPECT_EQ(edges.vertices[8].at, glm::dvec2(0, 1));
+    EXPECT_EQ(edges.vertices[8].sees[0], glm::dvec3(0.1f, 0.2f, 0));
+    values[3 * 5] = nan;
+    EXPECT_FALSE(used(read("a.pfm", pfm(4, 3, values), "", {.edge_to_edge = true}))[5]);
+    EXPECT_NE(complaint([&] {
+        read("a.pfm", pfm(1, 3, {0, 0, 0, 0, 1, 0, 1, 1, 0}), "", {.edge_to_edge = true});
+    }).find("1 x 3 samples reach from no edge to the other"),
+        std::string::npos);
+    EXPECT_NE(complaint([&] {
+        read("a.pfm", pfm(4, 3, values), "", {.v_up = true, .offsets = true});
+    }).find("holds offsets, which are upwards"),
+        std::string::npos);
+    EXPECT_NE(complaint([&] { read("a.data", bourke, "", {.v_up = true}); }).find("says itself whether v counts up or down"),
+        std::string::npos);
+}
+
+TEST(WarpFormatsTest, AMeshThatShowsOneDirectionIsDoubted)
+{
+    std::string point = bourke;
+    for (const char* from : {" 0 0 1\n", " 0.5 0 1", " 1 0 0.5", " 0 1 1\n", " 0.5 1 -1", " 1 1 1\n"})
+        point.replace(point.find(from), std::string(from).size(),
+            std::string(" 0.25 0.25 1") + (std::string(from).ends_with('\n') ? "\n" : ""));
+    ASSERT_EQ(read("a.data", point).warnings, std::vector<std::string>{"every pixel shows one and the same direction"});
+    EXPECT_TRUE(read("a.data", bourke).warnings.empty());
+    EXPECT_TRUE(read("a.mesh", headset).warnings.empty());
+    std::string straight = headset;
+    for (const char* from :
+        {"-1 1 -1.1 1.1 -1.2 1.2", "1 1 1.1 1.1 1.2 1.2", "-1 -1 -1.1 -1.1 -1.2 -1.2", "1 -1 1.1 -1.1 1.2 -1.2"})
+        straight.replace(straight.find(from), std::string(from).size(), "0 0 0 0 0 0");
+    EXPECT_EQ(read("a.mesh", straight).warnings.size(), 1u);
+    // Points of a room along one line of sight.
+    std::string files = fileset_xml("r", "p.pfm");
+    files.insert(
+        files.find("<interpolation>"), "<geometricUnit>m</geometricUnit><originOf3DData>idealEyePoint</originOf3DData>");
+    const std::string archive
+        = zipped({{"mpcdi.xml", mpcdi_xml("a3", "<buffer id=\"b\">" + region_xml("r", "") + "</buffer>", files)},
+            {"p.pfm", pfm(2, 2, {1, 2, -3, 1.25f, 2.5f, -3.75f, 1.5f, 3, -4.5f, 1.75f, 3.5f, -5.25f})}});
+    EXPECT_EQ(read("a.mpcdi", archive).warnings.size(), 1u);
+    EXPECT_NE(complaint([&] { read("a.mpcdi", archive, "", {.offsets = true}); }).find("whose maps hold points in the room"),
+        std::string::npos);
 }
 
 TEST(WarpFormatsTest, MpcdiMasksAreRead)

@@ -50,6 +50,10 @@ std::vector<Seed> seeds()
     all.push_back({"frustum", {{"frustum", "x;y;z;heading;pitch;bank;left;right;bottom;top\n0;0;0;45;10;0;58;59;-7;70\n"}}});
     all.push_back({"a.pfm", {{"a.pfm", pfm(4, 3, identity_map(4, 3))}}});
     all.push_back({"b.pfm", {{"b.pfm", pfm(4, 3, identity_map(4, 3), false)}}});
+    std::vector<float> offsets(36);
+    for (std::size_t i = 0; i < offsets.size(); ++i)
+        offsets[i] = 0.01f * float(i % 5) - 0.02f;
+    all.push_back({"offsets.pfm", {{"offsets.pfm", pfm(4, 3, offsets)}}});
     for (std::uint32_t version : {1u, 2u}) {
         std::string bytes = "SGC" + std::string(1, char(version));
         const auto word = [&](std::uint32_t value) {
@@ -131,7 +135,7 @@ void damage(std::string& bytes, std::mt19937& random)
     }
 }
 
-WarpMesh read_seed(const Seed& seed, const Parts& parts, bool top)
+WarpMesh read_seed(const Seed& seed, const Parts& parts, const FloatMapForm& form)
 {
     if (seed.name == "frustum") {
         WarpMesh mesh = read("a.csv", csv);
@@ -139,7 +143,7 @@ WarpMesh read_seed(const Seed& seed, const Parts& parts, bool top)
         return mesh;
     }
     if (parts.size() == 1)
-        return read_warp({seed.name, parts[0].second}, "", top);
+        return read_warp({seed.name, parts[0].second}, "", form);
     // Reads the files of an archive without the time that packing takes.
     std::size_t size = 0;
     for (const auto& [name, bytes] : parts)
@@ -154,7 +158,7 @@ WarpMesh read_seed(const Seed& seed, const Parts& parts, bool top)
                     return bytes;
             refuse(file, path, "is not in the archive; a file that is there is right");
         },
-        "", top);
+        "", form);
 }
 
 void expect_valid(const WarpMesh& mesh, bool sampled = false)
@@ -193,7 +197,7 @@ void expect_valid(const WarpMesh& mesh, bool sampled = false)
 TEST(WarpFuzzTest, DamagedFilesLoadOrAreRefused)
 {
     const char* seed_text = std::getenv("STARBOW_FUZZ_SEED");
-    std::mt19937 random(seed_text ? unsigned(std::atol(seed_text)) : 20081103u);
+    std::mt19937 random(seed_text ? unsigned(std::atol(seed_text)) : 20081111u);
     const std::vector<Seed> all = seeds();
     std::map<std::string, std::array<int, 2>> outcomes; // refused, loaded
     watch_memory();
@@ -204,9 +208,14 @@ TEST(WarpFuzzTest, DamagedFilesLoadOrAreRefused)
         Parts parts = seed.parts;
         damage(parts[random() % parts.size()].second, random);
         SCOPED_TRACE(seed.name + ", mutation " + std::to_string(n));
-        const bool map = seed.name.ends_with(".pfm") || seed.name.ends_with(".mpcdi"), top = random() % 2 && map;
+        const bool map = seed.name.ends_with(".pfm") || seed.name.ends_with(".mpcdi"), offsets = seed.name == "offsets.pfm";
+        const auto sometimes = [&](bool at_all) { return random() % 2 && at_all; };
+        const FloatMapForm form{.first_row_on_top = sometimes(map),
+            .v_up = sometimes(seed.name.ends_with(".pfm") && !offsets),
+            .edge_to_edge = sometimes(seed.name.ends_with(".pfm") && !offsets),
+            .offsets = offsets};
         try {
-            const WarpMesh mesh = read_seed(seed, parts, top);
+            const WarpMesh mesh = read_seed(seed, parts, form);
             expect_valid(mesh);
             ++outcomes[seed.name][1];
         } catch (const InputError& error) {

@@ -26,7 +26,8 @@ TEST(WarpWriterTest, BourkeReadsBack)
     // x is multiplied and divided by the aspect: a few units in the last place.
     for (const std::string name : {"standard_16x9.data", "channel2_warp_mesh.csv", "correction_mesh.mpcdi"})
         for (double aspect : {16.0 / 9, 1.0, 0.3}) {
-            const WarpMesh mesh = read(name, sample(name), "", name.ends_with(".mpcdi"));
+            const WarpMesh mesh = read(
+                name, sample(name), "", {.first_row_on_top = name.ends_with(".mpcdi"), .offsets = name.ends_with(".mpcdi")});
             expect_same(mesh, read("b.data", write_bourke(mesh, name, aspect)), 1e-14);
         }
     const WarpMesh holes = read("a.data", bourke);
@@ -37,7 +38,7 @@ TEST(WarpWriterTest, DomeprojectionReadsBackToTheBit)
 {
     for (const std::string name :
         {"channel1_warp_mesh.csv", "channel1_warp.simcad", "channel3_warp_u2.sgc", "correction_mesh.mpcdi"}) {
-        const WarpMesh mesh = read(name, sample(name));
+        const WarpMesh mesh = read(name, sample(name), "", {.offsets = name.ends_with(".mpcdi")});
         expect_same(mesh, read("b.csv", write_domeprojection(mesh, name)), 0);
         if (mesh.frustum) {
             const WarpFrustum back = read_frustum({"f", write_frustum({*mesh.frustum, {1, 2, 3}})});

@@ -1,4 +1,6 @@
 // The visitor's controls move the ship smoothly, within bounds and safely, and equally at any frame rate.
+#include "config/model/scene_file.h"
+#include "config/model/shipped.h"
 #include "runtime/flight/flight.h"
 #include "runtime/flight/history.h"
 #include "shaders/physics/physics.h"
@@ -261,7 +263,7 @@ TEST_P(Modes, HomingFliesBackToTheStart)
         Flight flight = hold(
             flight_at(start(), rules), controls_with(Steering{.lever = 0.6, .turn = {0.2, 0.5, -0.1}}), seconds, rules);
         flight = step(flight, controls_with(Steering{.lever = 0.6, .home = true}), 0, rules, 1, start());
-        for (int i = 0; i < 6000 && flight.homing; ++i) {
+        for (int i = 0; i < 20'000 && flight.homing; ++i) {
             const Ship before = flight.ship;
             flight = step(flight, controls_with(Steering{.lever = 0.6}), ms, rules, 1, start());
             // The ship must not jump: it moves at most as far as its greater speed allows, plus the correction at the end.
@@ -301,6 +303,210 @@ TEST(Flight, UndoGoesBackTenSecondsEachTime)
     flight = history.back(history.back(flight));
     EXPECT_TRUE(std::isfinite(flight.ship.position.total().x));
     EXPECT_EQ(History().back(flight).ship.position.total(), flight.ship.position.total());
+}
+
+namespace {
+
+/// A start past things at half the speed of light, looking across the motion.
+Shot start_in_flight()
+{
+    Shot shot = start();
+    shot.time = 35.8;
+    shot.u = {1 / std::sqrt(3.0), 0, 0}; // beta 1/2
+    shot.ship_from_cockpit = orientation({0, 0, -1}, {0, 1, 0});
+    return shot;
+}
+
+Flight hold_from(const Shot& from, Flight flight, const Controls& controls, double seconds, const Flying& rules)
+{
+    for (std::int64_t left = std::llround(seconds * 1e9); left > 0; left -= 16 * ms)
+        flight = step(flight, controls, std::min<std::int64_t>(16 * ms, left), rules, 1, from);
+    return flight;
+}
+
+} // namespace
+
+// Every shipped shot in flight goes on as it says: u is the same to the bit, and the place is that of straight flight. A
+// throttle that lies anywhere and a look around change nothing.
+TEST(Flight, AStartInFlightGoesOnUntilAHandTouchesTheControls)
+{
+    int moving = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(home() / "config/shots")) {
+        const Shot shot = load_shot(entry.path());
+        if (shot.u == dvec3(0))
+            continue;
+        ++moving;
+        SCOPED_TRACE(entry.path().filename());
+        const double seconds_per_time_unit = load_scene_file(shipped_file("scenes", shot.scene)).seconds_per_time_unit();
+        for (const FlightMode mode : {FlightMode::guided, FlightMode::free, FlightMode::newtonian})
+            for (const std::optional<double> lever : {std::optional<double>(), std::optional(0.0), std::optional(0.4)}) {
+                const Flying rules = with(mode, 1e6);
+                Flight flight = flight_at(shot, rules);
+                for (int i = 0; i < 300; ++i)
+                    flight = step(flight, controls_with(Steering{.lever = lever}, Looking{.look_rad = {0.01, 0}}), 10 * ms,
+                        rules, seconds_per_time_unit, shot);
+                EXPECT_EQ(flight.ship.u.total(), shot.u);
+                const double tau = 3 / seconds_per_time_unit, gamma = std::sqrt(1 + glm::dot(shot.u, shot.u));
+                EXPECT_NEAR(flight.ship.time.total(), shot.time + gamma * tau, 1e-9 * gamma * tau); // rounding of 3000 sums
+                EXPECT_LT(glm::distance(flight.ship.position.total(), shot.position + shot.u * tau), 1e-9 * gamma * tau);
+                EXPECT_EQ(flight.ship.ship_from_cockpit, shot.ship_from_cockpit);
+            }
+    }
+    EXPECT_GE(moving, 10);
+}
+
+TEST(Flight, AHandOnTheControlsTakesTheFlightOver)
+{
+    const Flying rules = with(FlightMode::guided);
+    const Shot shot = start_in_flight();
+    const double speed = std::atanh(0.5);
+    const Controls none;
+    // The stick: the velocity follows the nose, and the speed stays, wherever the throttle lies.
+    for (const std::optional<double> lever : {std::optional<double>(), std::optional(0.0), std::optional(0.9)}) {
+        Flight flight = hold_from(shot, flight_at(shot, rules), controls_with(Steering{.lever = lever}), 2, rules);
+        EXPECT_NEAR(drift(flight), M_PI / 2, 1e-12);
+        flight = hold_from(shot, flight, controls_with(Steering{.lever = lever, .turn = {0, 0.1, 0}}), 0.1, rules);
+        flight = hold_from(shot, flight, controls_with(Steering{.lever = lever}), 8, rules);
+        EXPECT_LT(drift(flight), 1e-4);
+        EXPECT_NEAR(rapidity(flight), speed, 1e-4);
+        // The throttle, once it is moved: its place sets the speed.
+        flight = hold_from(shot, flight, controls_with(Steering{.lever = 0.28}), 0.1, rules);
+        flight = hold_from(shot, flight, controls_with(Steering{.lever = 0.25}), 20, rules);
+        EXPECT_NEAR(rapidity(flight), 0.25 * std::acosh(100.0), 1e-4);
+    }
+    // A throttle's noise is no hand.
+    Flight flight = flight_at(shot, rules);
+    for (int i = 0; i < 200; ++i)
+        flight = step(flight, controls_with(Steering{.lever = 0.3 + (i % 2) * 0.015}), 10 * ms, rules, 1, shot);
+    EXPECT_EQ(flight.ship.u.total(), shot.u);
+    // A key.
+    flight = hold_from(shot, flight_at(shot, rules), controls_with(Steering{.throttle_rate = 4}), 2, rules);
+    EXPECT_GT(rapidity(flight), speed + 1);
+    // After a stop the throttle waits for its zero as it always does.
+    flight = step(flight_at(shot, rules), controls_with(Steering{.lever = 0.5, .stop = true}), 0, rules, 1, shot);
+    flight = hold_from(shot, flight, controls_with(Steering{.lever = 0.6}), 2, rules);
+    EXPECT_EQ(flight.ship.u.total(), dvec3(0));
+}
+
+// Frozen, no number of the ship changes, whatever the hand does; the stick turns the head as fast as it would turn the ship.
+// Afterwards the flight goes on as if nothing had been.
+TEST(Flight, AFrozenWorldStandsStillAndCanBeLookedAt)
+{
+    for (const FlightMode mode : {FlightMode::guided, FlightMode::free, FlightMode::newtonian}) {
+        const Flying rules = with(mode);
+        const Shot shot = start_in_flight();
+        History history;
+        Flight flight = hold_from(shot, flight_at(shot, rules), {}, 1, rules);
+        history.keep(flight);
+        const Flight before = flight;
+        flight = step(flight, controls_with(Steering{.freeze = true}), 16 * ms, rules, 1, shot);
+        flight = hold_from(shot, flight,
+            controls_with(Steering{.lever = 0.8, .throttle_rate = 1, .push = {1, 1, 1}, .turn = {0, 1, 0}}), 2, rules);
+        EXPECT_EQ(shot_of(flight.ship).position, shot_of(before.ship).position);
+        EXPECT_EQ(flight.ship.u.total(), shot.u);
+        EXPECT_EQ(flight.ship.time.total(), before.ship.time.total());
+        EXPECT_EQ(flight.ship.proper_time.total(), before.ship.proper_time.total());
+        EXPECT_EQ(flight.ship.ship_from_cockpit, shot.ship_from_cockpit);
+        EXPECT_NEAR(flight.look_rad.x, 2 * 40 * M_PI / 180, 0.15); // 40 degrees a second, less the smooth beginning
+        EXPECT_EQ(flight.look_rad.y, 0);
+        EXPECT_EQ(flight.ticks, before.ticks);
+        flight = hold_from(shot, flight, {}, 2, rules); // the head comes to rest
+        flight = step(flight, controls_with(Steering{.freeze = true}, Looking{.look_ahead = true}), 0, rules, 1, shot);
+        flight = hold_from(shot, flight, {}, 1, rules);
+        const Flight straight = hold_from(shot, before, {}, 1, rules);
+        EXPECT_EQ(flight.ship.position.total(), straight.ship.position.total());
+        EXPECT_EQ(flight.ship.time.total(), straight.ship.time.total());
+        EXPECT_EQ(flight.ship.u.total(), straight.ship.u.total());
+        // The way home, a stop and an undo work in a frozen world, too.
+        const Flight frozen = step(straight, controls_with(Steering{.freeze = true}), 0, rules, 1, shot);
+        EXPECT_EQ(step(frozen, controls_with(Steering{.stop = true}), 0, rules, 1, shot).ship.u.total(), dvec3(0));
+        EXPECT_FALSE(step(frozen, controls_with(Steering{.home = true}), 0, rules, 1, shot).frozen);
+        EXPECT_EQ(history.back(frozen).ship.time.total(), before.ship.time.total());
+    }
+}
+
+// Back at the start the visit begins anew: the world's clock, the clock on board, the distance and the shot's own flight.
+TEST(Flight, HomeIsTheStartsInstant)
+{
+    for (const Shot& shot : {start(), start_in_flight()}) {
+        const Flying rules = with(FlightMode::guided);
+        Flight flight = hold_from(
+            shot, flight_at(shot, rules), controls_with(Steering{.throttle_rate = 1, .turn = {0.2, 0.5, -0.1}}), 5, rules);
+        flight = step(flight, controls_with(Steering{.home = true}), 0, rules, 1, shot);
+        double fastest = 0;
+        int ticks = 0;
+        for (Flight before = flight; flight.homing; ++ticks, before = flight) {
+            flight = step(flight, {}, ms, rules, 1, shot);
+            // The world stands still while the ship gains its speed.
+            if (before.ship.time.total() == shot.time && flight.ship.time.total() == shot.time)
+                fastest = std::max(fastest, std::abs(rapidity(flight) - rapidity(before)));
+        }
+        EXPECT_EQ(shot_of(flight.ship).time, shot.time);
+        EXPECT_EQ(shot_of(flight.ship).position, shot.position);
+        EXPECT_EQ(flight.ship.u.total(), shot.u);
+        EXPECT_EQ(flight.ship.ship_from_cockpit, shot.ship_from_cockpit);
+        EXPECT_EQ(flight.ship.proper_time.total(), 0);
+        EXPECT_EQ(flight.ship.distance.total(), 0);
+        EXPECT_LE(fastest, 1.5 * std::atanh(0.5) / 1500 + 1e-6); // smoothstep is steepest in its middle: 3/2
+        flight = hold_from(shot, flight, {}, 2, rules);
+        EXPECT_EQ(flight.ship.u.total(), shot.u);
+        EXPECT_NEAR(flight.ship.proper_time.total(), 2, 1e-9);
+    }
+}
+
+// The limits that spare stomachs hold for every combination of keys, thrusters and throttle.
+TEST(Flight, NewtonianThrustKeepsTheLimitOfComfort)
+{
+    for (const double limit : {0.6, 1.5}) {
+        Flying rules = with(FlightMode::newtonian);
+        rules.rapidity_per_s = limit;
+        for (const Steering& hand : {Steering{.throttle_rate = 4}, Steering{.lever = 1, .throttle_rate = 4},
+                 Steering{.lever = 1, .throttle_rate = 1, .push = {1, 1, -1}}, Steering{.push = {-1, 1, 1}}}) {
+            Flight flight = flight_at(start(), rules);
+            double most = 0;
+            for (int i = 0; i < 2000; ++i) {
+                const dvec3 before = flight.ship.u.total();
+                flight = step(flight, controls_with(hand), ms, rules, 1, start());
+                // The rapidity between the two velocities, from the invariant product of the four-velocities.
+                const dvec3 u = flight.ship.u.total();
+                const double g = std::sqrt(1 + glm::dot(u, u)), g0 = std::sqrt(1 + glm::dot(before, before));
+                const double square = glm::dot(u - before, u - before) - (g - g0) * (g - g0);
+                most = std::max(most, std::sqrt(std::max(0.0, square)) / 1e-3); // 2 sinh(w/2) = w to 1e-7
+            }
+            EXPECT_LE(most, limit * 1.001);
+            EXPECT_GT(most, 0.5 * limit);
+        }
+    }
+}
+
+// The way home, too: a headset's limits hold from gamma 1000, far away and turned round.
+TEST(Flight, TheWayHomeKeepsTheLimitsOfComfort)
+{
+    Flying rules = with(FlightMode::guided, 1000);
+    rules.rapidity_per_s = 0.6, rules.turn_deg_per_s = 12;
+    const Shot shot = start_in_flight();
+    Flight flight = hold_from(shot, flight_at(shot, rules), controls_with(Steering{.throttle_rate = 4}), 15, rules);
+    flight = hold_from(shot, flight, controls_with(Steering{.turn = {0, 1, 0}}), 10, rules);
+    ASSERT_GT(rapidity(flight), 5);
+    flight = hold_from(shot, flight, {}, 1, rules);
+    flight = step(flight, controls_with(Steering{.home = true}), 0, rules, 1, shot);
+    double most = 0, most_turn = 0;
+    for (int i = 0; i < 200'000 && flight.homing; ++i) {
+        const Ship before = flight.ship;
+        flight = step(flight, {}, ms, rules, 1, shot);
+        const dvec3 u = flight.ship.u.total(), u0 = before.u.total(), apart = u - u0;
+        const double g = std::sqrt(1 + glm::dot(u, u)), g0 = std::sqrt(1 + glm::dot(u0, u0)),
+                     gain = glm::dot(u + u0, apart) / (g + g0), square = glm::dot(apart, apart) - gain * gain;
+        most = std::max(most, 1000 * std::sqrt(std::max(0.0, square)));
+        const double same = std::abs(glm::dot(before.ship_from_cockpit, flight.ship.ship_from_cockpit));
+        most_turn = std::max(most_turn, 1000 * 2 * std::acos(std::min(1.0, same)) * 180 / M_PI);
+    }
+    EXPECT_FALSE(flight.homing);
+    EXPECT_EQ(flight.ship.u.total(), shot.u);
+    // 2 % for the digits that are left of a difference of squares at gamma 1000, and of the cosine of a thousandth of a
+    // degree.
+    EXPECT_LE(most, 0.6 * 1.02);
+    EXPECT_LE(most_turn, 12 * 1.02);
 }
 
 TEST(Flight, SwitchesToggleAndResetRestores)

@@ -62,10 +62,10 @@ RecordEntry some_entry(std::mt19937_64& random)
         c.head.turned = glm::angleAxis(some_double(random, -3, 3), glm::normalize(glm::dvec3(1, 2, 3)));
     maybe(c.exposure, -1, 1);
     for (bool Controls::*flag : std::initializer_list<bool Controls::*>{&Controls::look_ahead, &Controls::stop,
-             &Controls::home, &Controls::undo, &Controls::reset, &Controls::next_mode, &Controls::aberration,
-             &Controls::doppler, &Controls::headlight, &Controls::hud, &Controls::false_colours, &Controls::comparison,
-             &Controls::full_screen, &Controls::quit, &Controls::pattern, &Controls::save, &Controls::lock_exposure,
-             &Controls::overlay, &Controls::mark, &Controls::log, &Controls::why})
+             &Controls::home, &Controls::undo, &Controls::reset, &Controls::next_mode, &Controls::freeze,
+             &Controls::aberration, &Controls::doppler, &Controls::headlight, &Controls::hud, &Controls::false_colours,
+             &Controls::comparison, &Controls::full_screen, &Controls::quit, &Controls::pattern, &Controls::save,
+             &Controls::lock_exposure, &Controls::overlay, &Controls::mark, &Controls::log, &Controls::why})
         c.*flag = random() % 200 == 0;
     c.choose = random() % 20 == 0 ? int(random() % 3) - 1 : 0;
     c.turn_by = random() % 20 == 0 ? int(random() % 21) - 10 : 0;
@@ -81,9 +81,9 @@ std::vector<std::uint64_t> bits(const RecordEntry& e)
              c.look_rad.x, c.look_rad.y, c.head.moved_m.x, c.head.moved_m.y, c.head.moved_m.z, c.head.turned.w,
              c.head.turned.x, c.head.turned.y, c.head.turned.z, c.exposure, e.exposure_ev.value_or(0)})
         all.push_back(std::bit_cast<std::uint64_t>(v));
-    for (bool flag :
-        {c.look_ahead, c.stop, c.home, c.undo, c.reset, c.next_mode, c.aberration, c.doppler, c.headlight, c.false_colours,
-            c.comparison, c.hud, c.full_screen, c.quit, c.pattern, c.save, c.lock_exposure, c.overlay, c.mark, c.log, c.why})
+    for (bool flag : {c.look_ahead, c.stop, c.home, c.undo, c.reset, c.next_mode, c.freeze, c.aberration, c.doppler,
+             c.headlight, c.false_colours, c.comparison, c.hud, c.full_screen, c.quit, c.pattern, c.save, c.lock_exposure,
+             c.overlay, c.mark, c.log, c.why})
         all.push_back(flag);
     all.push_back(std::uint64_t(c.choose));
     all.push_back(std::uint64_t(c.turn_by));
@@ -183,9 +183,11 @@ TEST(Record, TheDigestDependsOnEveryBit)
 {
     Flight flight = flight_at(some_header().start);
     flight.homing = Homing{};
+    flight.lever_rest = 0.0;
     const std::uint64_t before = digest(flight);
-    std::vector<double*> numbers{&flight.lever, &flight.throttle_rate, &flight.exposure_ev, &flight.look_rad.x,
-        &flight.look_rad.y, &flight.homing->braking, &flight.homing->elapsed_s, &flight.homing->rapidity_per_s};
+    std::vector<double*> numbers{&flight.lever, &*flight.lever_rest, &flight.throttle_rate, &flight.exposure_ev,
+        &flight.look_rad.x, &flight.look_rad.y, &flight.homing->braking, &flight.homing->elapsed_s,
+        &flight.homing->rapidity_per_s, &flight.homing->way_s, &flight.homing->launch_s};
     for (glm::dvec3* v : {&flight.thrust, &flight.turn_rad_s, &flight.turn_lead_rad_s})
         numbers.insert(numbers.end(), {&v->x, &v->y, &v->z});
     for (Ship* ship : {&flight.ship, &flight.homing->from}) {
@@ -197,15 +199,16 @@ TEST(Record, TheDigestDependsOnEveryBit)
         glm::dquat& q = ship->ship_from_cockpit;
         numbers.insert(numbers.end(), {&q.w, &q.x, &q.y, &q.z});
     }
-    EXPECT_EQ(numbers.size(), 8u + 9 + 2 * (12 + 6 + 4));
+    EXPECT_EQ(numbers.size(), 11u + 9 + 2 * (12 + 6 + 4));
     for (double* number : numbers) {
         const double kept = *number;
         *number = std::bit_cast<double>(std::bit_cast<std::uint64_t>(kept) ^ 1);
         EXPECT_NE(digest(flight), before) << number - numbers[0];
         *number = kept;
     }
-    for (bool* flag : {&flight.thrust_inhibited, &flight.hud, &flight.effects.aberration, &flight.effects.doppler,
-             &flight.effects.headlight, &flight.effects.false_colours, &flight.homing->arrived}) {
+    for (bool* flag : {&flight.thrust_inhibited, &flight.coasting, &flight.lever_waits, &flight.frozen, &flight.hud,
+             &flight.effects.aberration, &flight.effects.doppler, &flight.effects.headlight, &flight.effects.false_colours,
+             &flight.homing->arrived}) {
         *flag = !*flag;
         EXPECT_NE(digest(flight), before);
         *flag = !*flag;
@@ -233,6 +236,7 @@ TEST(Record, AReplayIsTheSameToTheBit)
             RecordEntry entry = some_entry(random);
             entry.dt_ns /= 10; // 200 s
             entry.controls.reset = random() % 20'000 == 0;
+            entry.controls.freeze = flight.frozen || random() % 200 == 0; // for one frame
             flight = flown(
                 flight, history, entry.controls, entry.dt_ns, header.rules, header.seconds_per_time_unit, header.start);
             recorder.keep(entry, flight);

@@ -293,6 +293,39 @@ TEST(Tours, TheRainbowShowsDOneAt74Degrees)
     EXPECT_NEAR(glm::degrees(std::acos(glm::dot(ahead, look))), 104, 0.05);
 }
 
+/// The captions that name colours are shown only while these are in view, also on the narrowest screen: 4 to 3 with 60
+/// degrees from top to bottom.
+TEST(Tours, TheRainbowsCaptionsNameWhatIsInView)
+{
+    const Tour tour = shipped_tour("rainbow");
+    const Show show{tour, {}, 1, false};
+    const double half = std::atan(std::tan(glm::radians(30.0)) * 4 / 3);
+    int checked = 0;
+    for (Touring touring = touring_at(show); !touring.over; touring = advance(touring, show, {}, 50'000'000)) {
+        const std::string& caption = tour.steps[touring.step()].caption;
+        const bool back = caption == words()("tour.rainbow.back"), front = caption == words()("tour.rainbow.front");
+        if (!back && !front)
+            continue;
+        ++checked;
+        // The lamp shines at 450 nm and lies beside the ship from far ahead to far behind.
+        const glm::dvec3 u = u_of(touring), look = touring.flight.ship.ship_from_cockpit * glm::dvec3(0, 0, -1);
+        const double gamma = std::sqrt(1 + glm::dot(u, u)), beta = glm::length(u) / gamma,
+                     middle = std::acos(glm::dot(u, look) / glm::length(u));
+        const auto wavelength = [&](double angle) { return 450 * gamma * (1 - beta * std::cos(angle)); };
+        const double shortest = wavelength(middle - half), longest = wavelength(middle + half);
+        if (back) {
+            EXPECT_LT(shortest, 570) << "yellow is in view";
+            EXPECT_GT(shortest, 500) << "and no blue";
+            EXPECT_GT(longest, 750) << "and the dark";
+        } else {
+            EXPECT_GT(longest, 430) << "violet is in view";
+            EXPECT_LT(longest, 490) << "and no green";
+            EXPECT_LT(shortest, 360) << "and the dark";
+        }
+    }
+    EXPECT_GT(checked, 200); // 14 seconds of them
+}
+
 /// Each measure is compared with a textbook formula with cosines, at values where these are accurate.
 TEST(Tours, MeasuresEqualTheTextbooks)
 {
@@ -426,6 +459,18 @@ TEST(Tours, AQuestionIsAnsweredFromTheState)
     const Touring answered = later(touring, show, 0.05, controls_with(Steering{.stop = true}));
     EXPECT_EQ(answered.right, true);
     EXPECT_EQ(caption_of(answered, show, words(), {}).text, "Right! it is 4.00");
+    EXPECT_EQ(caption_of(at_question, show, words(), {}).right, -1) << "not before the answer";
+    const Caption solved = caption_of(answered, show, words(), {});
+    EXPECT_EQ(solved.choices, (std::vector<std::string>{"two", "four", "six"}));
+    EXPECT_EQ(solved.right, 1);
+    EXPECT_EQ(solved.chosen, 1);
+    EXPECT_EQ(verdict_of(solved), "✓ four");
+    EXPECT_EQ(verdict_of(caption_of(at_question, show, words(), {})), "");
+    const Caption missed
+        = caption_of(later(at_question, show, 0.05, controls_with(EffectSwitches{.headlight = true})), show, words(), {});
+    EXPECT_EQ(missed.right, 1);
+    EXPECT_EQ(missed.chosen, 2);
+    EXPECT_EQ(verdict_of(missed), "✓ four   ✗ six");
     EXPECT_NEAR(u_of(answered).z, -std::sqrt(15.0), 1e-12) << "the button answers and does not stop the ship";
     touring = later(later(touring, show, 0.1), show, 0.3, left);
     EXPECT_EQ(caption_of(later(touring, show, 0.05, controls_with(Steering{.stop = true})), show, words(), {}).text,
@@ -441,6 +486,8 @@ TEST(Tours, AQuestionIsAnsweredFromTheState)
     EXPECT_EQ(later(answered, show, 3.1).step(), 2u);
     const Touring silent = later(at_question, show, 4.8);
     EXPECT_EQ(caption_of(silent, show, words(), {}).text, "The answer: it is 4.00");
+    EXPECT_EQ(caption_of(silent, show, words(), {}).right, 1);
+    EXPECT_EQ(caption_of(silent, show, words(), {}).chosen, -1);
     EXPECT_FALSE(silent.right);
     // A held stick keeps changing the number.
     Touring number = later(answered, show, 3.2);
@@ -490,8 +537,15 @@ TEST(Tours, GuidesCanPauseSkipAndGoBack)
     EXPECT_EQ(flying.step(), 1u);
     const Touring still = later(flying, show, 2, controls_with(Steering{.stop = true}));
     EXPECT_TRUE(still.paused);
+    EXPECT_TRUE(later(flying, show, 2, controls_with(Steering{.freeze = true})).paused);
+    // The display says what the keys or the stick's buttons do; a movie has neither.
+    EXPECT_EQ(caption_of(flying, show, words(), {}).aside, "Space: stand still · R: on · Backspace: back");
+    const InputCapabilities stick{.stick = true, .stop_button = 1, .home_button = 2, .undo_button = 3};
+    EXPECT_EQ(caption_of(flying, show, words(), stick).aside, "button 1: stand still · 2: on · 3: back");
+    EXPECT_EQ(caption_of(still, show, words(), stick).aside, "paused · button 1: go on");
+    EXPECT_EQ(caption_of(flying, {tour, {}, 1, false}, words(), {}).aside, "");
     EXPECT_EQ(u_of(still), u_of(flying)) << "a paused tour stands still to the bit";
-    EXPECT_EQ(caption_of(still, show, words(), {}).aside, "paused");
+    EXPECT_EQ(caption_of(still, show, words(), {}).aside, "paused · Space: go on");
     EXPECT_EQ(later(still, show, 1, controls_with(Steering{.stop = true})).step(), 2u) << "stop again continues the tour";
     // Home skips to the state at the step's end.
     const Touring on = later(flying, show, 0.01 + 1e-9, controls_with(Steering{.home = true}));

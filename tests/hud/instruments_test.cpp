@@ -256,6 +256,56 @@ TEST(Instruments, AClockOnAMovingBodyHasItsRetardedReading)
     EXPECT_TRUE(pair.apparent_s);
 }
 
+// The traveller's clock lies at one place before it leaves and after it is back. The journey takes 20 s at home and 12 on
+// board, so that the same spot reads 8 seconds less afterwards, and nothing while the traveller is away.
+TEST(Instruments, AClockIsReadOnlyWhileItIsThere)
+{
+    SceneFile scene = load_scene_file(source_dir() / "config/scenes/twins.json");
+    World world = load_world(scene.gltf);
+    place_bodies(world, scene);
+    sort_instances(world);
+    const InstanceRange range = instances_of(world, 0);
+    std::vector<dvec3> dials; // of things at rest, each ship's that faces astern, where the eye is
+    for (std::size_t i = range.first; i < range.last; ++i) {
+        const Primitive& primitive = world.primitives[world.instances[i].primitive];
+        const dvec3 middle(world.instances[i].frame_from_local * glm::dvec4(0.5 * (primitive.low + primitive.high), 1));
+        if (!world.materials[std::size_t(primitive.material)].clock)
+            continue;
+        const auto same
+            = std::find_if(dials.begin(), dials.end(), [&](const dvec3& d) { return std::abs(d.x - middle.x) < 1e-6; });
+        if (same == dials.end())
+            dials.push_back(middle);
+        else if (same->z < middle.z)
+            *same = middle;
+    }
+    std::sort(dials.begin(), dials.end(), [](const dvec3& one, const dvec3& other) { return one.x < other.x; });
+    ASSERT_EQ(dials.size(), 2u); // at home and the traveller's
+    const auto spot_on = [&](const MeasuringObserver& eye, std::size_t k, const dvec3& beside = dvec3(0)) {
+        const dvec3 to = dials[k] + beside - eye.place;
+        return spot_at(eye, {{glm::normalize(to), glm::normalize(to)}, glm::length(to)}, world);
+    };
+    MeasuringObserver eye{.place = {0, 0.1, 2.9}};
+    for (const auto& [time, seconds_behind] : {std::pair(-3.0, 0.0), {30.0, 8.0}, {1000.0, 8.0}}) {
+        eye.time = time;
+        const Spot home = spot_on(eye, 0), traveller = spot_on(eye, 1);
+        const PairReading pair = read_pair(eye, snapped(home, world), snapped(traveller, world), world, 1);
+        ASSERT_TRUE(pair.clocks_s) << time;
+        // Both are as far away, but for the dials' places in the file, which are floats.
+        EXPECT_NEAR(*pair.clocks_s, -seconds_behind, 1e-6) << time;
+        EXPECT_NEAR(*read_spot(eye, home, world, 1).clock_s, time - glm::distance(dials[0], eye.place), 1e-6);
+        // A thing as far before the dial as half its radius is not the clock.
+        EXPECT_FALSE(spot_on(eye, 1, {0, 0, 0.4}).clock);
+    }
+    // A mark that was put there before the start.
+    eye.time = -3;
+    const Spot mark = snapped(spot_on(eye, 1), world);
+    eye.time = 14;
+    EXPECT_FALSE(spot_on(eye, 1).clock);
+    EXPECT_FALSE(read_spot(eye, mark, world, 1).clock_s);
+    eye.time = 30;
+    EXPECT_NEAR(*read_spot(eye, mark, world, 1).clock_s, 30 - 8 - glm::distance(dials[1], eye.place), 1e-6);
+}
+
 TEST(Instruments, EveryLineOfALogHasTheSameColumns)
 {
     const std::vector<std::string> names = cells(log_header());

@@ -12,10 +12,14 @@ using namespace starbow;
 
 namespace {
 
-/// A colour at the lowest spectral level with default ultraviolet and infrared, as the device's table gives it.
+/// A base colour under the Sun with default ultraviolet and infrared, as the device's table gives it.
 glm::dvec3 shifted(const glm::dvec3& rgb, double D)
 {
-    static const Response response = response_of(spectral_basis(3, {}), eye());
+    auto sunlit = [sun = sunlit_white()](const glm::dvec3& primary) -> Spectrum {
+        return [=](double nm) { return sun(nm) * base_reflectance(primary, 1.0 / 3, 1.0 / 3, nm); };
+    };
+    static const Response response
+        = response_of(spectral_basis({sunlit({1, 0, 0}), sunlit({0, 1, 0}), sunlit({0, 0, 1})}, 3, {}), eye());
     return glm::max(seen(response, std::array{rgb.r, rgb.g, rgb.b}, D), 0.0);
 }
 

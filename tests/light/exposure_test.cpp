@@ -125,10 +125,10 @@ TEST(Adaptation, TakesHalfASecondUpAndThreeDown)
     const Exposing rules;
     const double part = 1 - std::exp(-1.0); // the fraction after one time constant
     Exposure exposure{0.0};
-    EXPECT_NEAR(*adapted(exposure, -10.0, 0.5, rules).ev, -10 * part, 1e-12); // ten stops brighter: half a second
-    EXPECT_NEAR(*adapted(exposure, 10.0, 3, rules).ev, 10 * part, 1e-12); // ten stops darker: three seconds
-    EXPECT_EQ(*adapted(exposure, 10.0, 0, rules).ev, 0);
-    EXPECT_EQ(*adapted(exposure, 10.0, -1, rules).ev, 0);
+    EXPECT_NEAR(*adapted(exposure, -10.0, 0.5, rules, 0).ev, -10 * part, 1e-12); // ten stops brighter: half a second
+    EXPECT_NEAR(*adapted(exposure, 10.0, 3, rules, 0).ev, 10 * part, 1e-12); // ten stops darker: three seconds
+    EXPECT_EQ(*adapted(exposure, 10.0, 0, rules, 0).ev, 0);
+    EXPECT_EQ(*adapted(exposure, 10.0, -1, rules, 0).ev, 0);
 }
 
 TEST(Adaptation, IsTheSameAtAnyFrameRate)
@@ -138,7 +138,7 @@ TEST(Adaptation, IsTheSameAtAnyFrameRate)
         for (const int rate : {5, 24, 60, 144, 1000}) {
             Exposure exposure{2.0};
             for (int i = 0; i < rate; ++i)
-                exposure = adapted(exposure, target, 1.0 / rate, rules);
+                exposure = adapted(exposure, target, 1.0 / rate, rules, 0);
             const double time_s = target < 2 ? 0.5 : 3;
             // A thousand roundings of numbers up to 12.
             EXPECT_NEAR(*exposure.ev, target + (2 - target) * std::exp(-1 / time_s), 1e-11) << rate;
@@ -151,7 +151,7 @@ TEST(Adaptation, NeverOvershootsItsTarget)
     Exposure exposure{0.0};
     for (int i = 0; i < 200; ++i) {
         const double before = *exposure.ev;
-        exposure = adapted(exposure, -5.0, 0.1 * i, rules);
+        exposure = adapted(exposure, -5.0, 0.1 * i, rules, 0);
         EXPECT_LE(*exposure.ev, before);
         EXPECT_GE(*exposure.ev, -5);
     }
@@ -162,11 +162,11 @@ TEST(Adaptation, TheFirstViewAppliesAtOnceAndDarknessChangesNothing)
 {
     const Exposing rules;
     Exposure exposure;
-    exposure = adapted(exposure, {}, 0.1, rules);
+    exposure = adapted(exposure, {}, 0.1, rules, 0);
     EXPECT_FALSE(exposure.ev);
-    exposure = adapted(exposure, -4.0, 0.001, rules);
+    exposure = adapted(exposure, -4.0, 0.001, rules, 0);
     EXPECT_EQ(exposure.ev, -4.0);
-    EXPECT_EQ(adapted(exposure, {}, 100, rules).ev, -4.0);
+    EXPECT_EQ(adapted(exposure, {}, 100, rules, 0).ev, -4.0);
 }
 
 // The greatest exposure, as config/exposing.h derives it, from SI's constants.
@@ -187,10 +187,10 @@ TEST(Adaptation, KeepsToTheLimitsAndToTheLock)
 {
     Exposing rules;
     rules.min_ev = -3, rules.max_ev = 5;
-    EXPECT_EQ(adapted({}, -20.0, 1, rules).ev, -3.0);
-    EXPECT_EQ(adapted({}, 20.0, 1, rules).ev, 5.0);
-    EXPECT_NEAR(*adapted({0.0}, 20.0, 1000, rules).ev, 5, 1e-9);
-    EXPECT_EQ(adapted({1.0, true}, 20.0, 1000, rules).ev, 1.0);
+    EXPECT_EQ(adapted({}, -20.0, 1, rules, 0).ev, -3.0);
+    EXPECT_EQ(adapted({}, 20.0, 1, rules, 0).ev, 5.0);
+    EXPECT_NEAR(*adapted({0.0}, 20.0, 1000, rules, 0).ev, 5, 1e-9);
+    EXPECT_EQ(adapted({1.0, 0, true}, 20.0, 1000, rules, 0).ev, 1.0);
 }
 
 TEST(Adaptation, TheVisitorsCorrectionIsAdded)
@@ -203,6 +203,32 @@ TEST(Adaptation, TheVisitorsCorrectionIsAdded)
     EXPECT_EQ(shown_ev({55.0}, rules, 30, 0), 60);
     rules.automatic = false;
     EXPECT_EQ(shown_ev({-1.5}, rules, -2, -3), -2);
+}
+
+TEST(Adaptation, AShotHasOneBrightnessLiveAndAsAStill)
+{
+    const Exposing rules;
+    for (double start_ev : {-3.0, 0.0, 2.5})
+        for (double metered : {-7.0, 0.0, 1.8, 20.0}) {
+            Exposure exposure;
+            EXPECT_EQ(shown_ev(exposure, rules, start_ev, start_ev), start_ev);
+            for (int frame = 0; frame < 100; ++frame) {
+                exposure = adapted(exposure, metered, 0.1, rules, start_ev);
+                EXPECT_NEAR(shown_ev(exposure, rules, start_ev, start_ev), start_ev, 1e-12);
+            }
+            // Light that becomes two stops brighter is shown two stops darker, wherever the start's EV was.
+            for (int frame = 0; frame < 100; ++frame)
+                exposure = adapted(exposure, metered - 2, 0.1, rules, start_ev);
+            EXPECT_NEAR(shown_ev(exposure, rules, start_ev, start_ev), start_ev - 2, 1e-6);
+            // A replay knows the adapted EV of each frame alone.
+            Exposure again = adapted_to(
+                adapted_to(adapted_to({}, {}, rules, start_ev), metered, rules, start_ev), exposure.ev, rules, start_ev);
+            EXPECT_NEAR(shown_ev(again, rules, start_ev, start_ev), start_ev - 2, 1e-6);
+        }
+    // In the dark nothing is anchored: the first light is shown as it is metered.
+    Exposure dark = adapted({}, 85.0, 0.1, rules, 0);
+    dark = adapted(dark, 20.0, 1000, rules, 0);
+    EXPECT_NEAR(shown_ev(dark, rules, 0, 0), 20, 1e-6);
 }
 
 TEST(Adaptation, IsDisplayedInEv)

@@ -240,4 +240,18 @@ TEST(FileWatch, ReportsASettledChangeOnce)
     }
 }
 
+// A window is on the monitor that shows most of it, wherever the primary one is.
+TEST(Monitors, AWindowIsOnTheMonitorThatShowsMostOfIt)
+{
+    const std::vector<WindowPlace> wall{{{0, 0}, {1920, 1080}}, {{1920, 0}, {1920, 1080}}, {{0, 1080}, {1280, 1024}}};
+    EXPECT_EQ(largest_share({{100, 100}, {800, 600}}, wall), 0u);
+    EXPECT_EQ(largest_share({{2500, 300}, {800, 600}}, wall), 1u);
+    EXPECT_EQ(largest_share({{1500, 300}, {800, 600}}, wall), 0u); // 420 columns of 800
+    EXPECT_EQ(largest_share({{1540, 300}, {800, 600}}, wall), 1u); // 380
+    EXPECT_EQ(largest_share({{300, 900}, {800, 600}}, wall), 2u); // 180 rows of 600 above
+    EXPECT_EQ(largest_share({{-790, -590}, {800, 600}}, wall), 0u); // a corner
+    EXPECT_EQ(largest_share({{-800, 0}, {800, 600}}, wall), std::nullopt);
+    EXPECT_EQ(largest_share({{0, 0}, {800, 600}}, {}), std::nullopt);
+}
+
 } // namespace monitors_test

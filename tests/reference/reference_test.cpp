@@ -164,6 +164,88 @@ TEST(Reference, StraightBehindAtGamma1000ALineIsSharpToAThousandthOfAPixel)
     EXPECT_NEAR(first, left, 1e-3);
 }
 
+/// Every second ring of radii that double, seen from the distance `far`: regular polygons of so many corners, across the
+/// unit direction `axis`.
+struct Rings {
+    static constexpr int corners = 24;
+    dvec3 axis, right, up;
+    double least, far;
+    int count;
+    double radius(int ring) const { return least * std::exp2(ring); }
+
+    void add_to(World& world) const
+    {
+        const auto first = std::uint32_t(world.vertices.size()), index = std::uint32_t(world.indices.size());
+        for (int ring = 0; ring < count; ring += 2)
+            for (int k = 0; k < corners; ++k) {
+                const auto at = std::uint32_t(world.vertices.size() - first);
+                for (const auto& [r, a] :
+                    {std::pair(radius(ring), k), {radius(ring + 1), k}, {radius(ring + 1), k + 1}, {radius(ring), k + 1}})
+                    world.vertices.push_back(
+                        {glm::vec3(r * std::cos(2 * pi * a / corners), r * std::sin(2 * pi * a / corners), 0),
+                            glm::vec3(0, 0, 1), glm::vec2(0), 0xffffffff});
+                world.indices.insert(world.indices.end(), {at, at + 1, at + 2, at, at + 2, at + 3});
+            }
+        const double widest = radius(count);
+        world.primitives.push_back({index, std::uint32_t(world.indices.size()) - index, std::int32_t(first), 0,
+            dvec3(-widest, -widest, 0), dvec3(widest, widest, 0), dvec3(0), widest, {}});
+        world.materials.emplace_back();
+        world.materials.back().unlit = world.materials.back().double_sided = true;
+        world.nodes.push_back({"rings", -1});
+        glm::dmat4 place(1);
+        place[0] = glm::dvec4(right, 0), place[1] = glm::dvec4(up, 0), place[2] = glm::dvec4(axis, 0);
+        place[3] = glm::dvec4(far * axis, 1);
+        world.instances.push_back({place, 0, 0});
+    }
+
+    /// Whether a ring lies along n, and how far in radii the nearest edge is.
+    std::pair<bool, double> along(const quad::V3& n) const
+    {
+        const quad::Q deep = quad::dot(n, quad::of(axis));
+        const quad::Q x = quad::dot(n, quad::of(right)) / deep * far, y = quad::dot(n, quad::of(up)) / deep * far;
+        const double r = double(sqrtq(x * x + y * y)), sector = 2 * pi / corners;
+        const double from_middle = std::remainder(double(atan2q(y, x)) - 0.5 * sector, sector);
+        // A polygon's side is at its corners' radius times the cosine of half a sector.
+        const double rings = std::log2(r * std::cos(from_middle) / std::cos(0.5 * sector) / least);
+        const int ring = int(std::floor(rings));
+        const double edge = std::abs(rings - std::round(rings)) * std::log(2);
+        return {deep > 0 && ring >= 0 && ring < count && ring % 2 == 0, edge};
+    }
+};
+
+// Straight behind, a pixel is a billionth of a radian of the world, and so are triangles there. Directions in 33 digits tell
+// which pixels show a ring; only those whose centre is on an edge, but for the rounding of vertices and directions, may
+// differ.
+TEST(Reference, StraightBehindTrianglesMuchSmallerThanTheirDistanceAreMet)
+{
+    const dvec3 ahead = glm::normalize(dvec3(0.3, -0.55, 0.78));
+    const dvec3 right = glm::normalize(glm::cross(dvec3(0.1, 1, 0.2), ahead));
+    for (double gamma : {1e4, 1e5, 1e6}) {
+        World world;
+        world.materials.clear();
+        // The picture is 60 degrees wide, and angles behind are smaller by 2 gamma.
+        const Rings rings{-ahead, right, glm::cross(-ahead, right), 7 * 0.01 / (2 * gamma), 7, 7};
+        rings.add_to(world);
+        SceneFile scene;
+        place_bodies(world, scene);
+        const std::vector<Star> no_stars;
+        const Shot shot = shot_at(dvec3(0), u_of_gamma(gamma) * ahead, -ahead, right);
+        const Layout layout = one_view(Planar{.fov_y_deg = 60}, {60, 45});
+        const Reference picture = reference({world, scene, no_stars}, layout, shot, 0, {.samples = 1});
+        int shown = 0, wrong = 0;
+        for (std::size_t i = 0; i < picture.numbers.size(); ++i) {
+            const quad::Light light
+                = quad::world_from_camera(quad::of(glm::normalize(picture.numbers[i].camera)), quad::of(shot.u));
+            const auto [ring, edge] = rings.along(light.n);
+            shown += ring;
+            if (std::isfinite(picture.numbers[i].distance) != ring && edge > 1e-4)
+                ++wrong;
+        }
+        EXPECT_GT(shown, 600) << gamma;
+        EXPECT_EQ(wrong, 0) << "gamma " << gamma;
+    }
+}
+
 TEST(Reference, ShiftedBlackBodiesHaveTheColoursOfTheirNewTemperature)
 {
     // Published CIE 1931 chromaticities of the temperature that D makes of another one.

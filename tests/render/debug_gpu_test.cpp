@@ -127,7 +127,7 @@ TEST(Debug, EveryObjectHasANameAndEveryPassALabel)
         const Panel hud = Typesetter().draw({}, starbow::testing::words(), 320);
         renderer.frame().meter(true);
         renderer.frame().bloom(0.1);
-        renderer.frame().measure(Measuring{.probes = {{0, 0, -1}}, .over = {.overlay = Overlay::grid}});
+        renderer.frame().measure(Measuring{.probes = {{glm::dvec3(0, 0, -1)}}, .over = {.overlay = Overlay::grid}});
         notes.labels.clear();
         (void)renderer.picture(shot, &hud);
     }

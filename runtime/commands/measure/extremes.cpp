@@ -199,9 +199,51 @@ void refuse(Table& table)
         refusal(R"({ "exposure": { "max_ev": 61 } })", [](const auto& file) { load_exhibit(file); }));
 }
 
-void see_far(Table& table)
+/// Every second ring around a point: their radii double, from the smallest on, and each is regular polygons of 24 corners.
+/// axis: at right angles to them.
+World rings(const glm::dvec3& place, const glm::dvec3& axis, double smallest, int count)
 {
-    ExtremesBench stage;
+    World world;
+    constexpr std::uint32_t corners = 24;
+    for (int ring = 0; ring < count; ring += 2)
+        for (std::uint32_t k = 0; k < corners; ++k) {
+            const auto first = std::uint32_t(world.vertices.size());
+            for (const auto& [grown, corner] : {std::pair(ring, k), {ring + 1, k}, {ring + 1, k + 1}, {ring, k + 1}}) {
+                const double r = std::ldexp(smallest, grown), a = 2 * pi * corner / corners;
+                world.vertices.push_back(
+                    {glm::vec3(r * std::cos(a), r * std::sin(a), 0), glm::vec3(0, 0, 1), glm::vec2(0), 0xffffffff});
+            }
+            world.indices.insert(world.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
+        }
+    const glm::dvec3 corner(std::ldexp(smallest, count), std::ldexp(smallest, count), 0);
+    world.primitives.push_back(
+        {0, std::uint32_t(world.indices.size()), 0, 0, -corner, corner, glm::dvec3(0), glm::length(corner), {}});
+    world.materials.push_back({.double_sided = true, .unlit = true});
+    world.nodes.push_back({"rings", -1});
+    const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), axis));
+    world.instances.push_back(
+        {glm::dmat4(glm::dvec4(x, 0), glm::dvec4(glm::cross(axis, x), 0), glm::dvec4(axis, 0), glm::dvec4(place, 1)), 0, 0});
+    return world;
+}
+
+/// Straight behind, in flight oblique to the world's axes, triangles are a millionth as wide as they are far.
+void see_small(Table& table, ExtremesBench& stage)
+{
+    const glm::dvec3 way = glm::normalize(glm::dvec3(1, 2, -3));
+    for (double gamma : {1e4, 3e4, 1e5, 3e5, 1e6}) {
+        constexpr double far = 7;
+        Shot shot;
+        shot.u = std::sqrt((gamma - 1) * (gamma + 1)) * way;
+        shot.ship_from_cockpit = orientation(-way, {0, 1, 0});
+        shot.effects = {true, false, false};
+        stage.show(table,
+            {text("picture: rings straight behind, oblique, gamma %g", gamma), SceneFile{},
+                rings(-far * way, way, 0.02 * far / (2 * gamma), 6), one_view(Planar{60}, {160, 120}), shot, 25});
+    }
+}
+
+void see_far(Table& table, ExtremesBench& stage)
+{
     SceneFile scene = load_scene_file(shipped_file("scenes", "avenue"));
     const World world = load_world(scene.gltf);
     Shot start = scene.start;
@@ -285,7 +327,9 @@ int measure_extremes(const std::string& folder)
     Table table;
     fly_far(table);
     refuse(table);
-    see_far(table);
+    ExtremesBench stage;
+    see_far(table, stage);
+    see_small(table, stage);
     if (!folder.empty()) {
         std::filesystem::create_directories(folder);
         write_whole(file, table.markdown());

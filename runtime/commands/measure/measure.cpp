@@ -9,6 +9,7 @@
 #include "runtime/images/capture.h"
 #include "runtime/reference/reference.h"
 #include "settings.h"
+#include "shimmer.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -23,7 +24,7 @@ struct MeasureOptions {
     std::vector<std::string> shots, qualities;
     long rounds = 9, samples = 64;
     double budget_ms = 0;
-    bool extremes = false, explain = false;
+    bool extremes = false, explain = false, shimmer = false;
 };
 
 constexpr std::array shipped_qualities = {"draft", "balanced", "fine"};
@@ -69,14 +70,21 @@ Trial trial_of(const MeasureOptions& options)
     return trial;
 }
 
-/// The settings that the options choose; first the shipped ones and the visitor's own.
-std::vector<Setting> settings_of(const MeasureOptions& options, const Trial& trial)
+/// The shipped settings, and behind them the visitor's own.
+std::vector<Setting> shipped_settings(const MeasureOptions& options)
 {
     std::vector<Setting> shipped;
     for (const char* name : shipped_qualities)
         shipped.push_back({name, load_quality(shipped_file("qualities", name)), true});
     for (const std::string& name : options.qualities)
         shipped.push_back({name, load_quality(shipped_file("qualities", name)), true});
+    return shipped;
+}
+
+/// The settings that the options choose; first the shipped ones and the visitor's own.
+std::vector<Setting> settings_of(const MeasureOptions& options, const Trial& trial)
+{
+    const std::vector<Setting> shipped = shipped_settings(options);
     if (options.which == "shipped")
         return shipped;
     bool two_eyes = false;
@@ -142,15 +150,18 @@ int measure(const MeasureOptions& options)
 {
     if (options.extremes)
         return measure_extremes(options.out);
-    if (options.out.empty() && !options.explain)
+    if (options.out.empty() && !options.explain && !options.shimmer)
         throw InputError("--out is required here; the folder for the results, such as out/accuracy, is right");
     const Trial trial = trial_of(options);
     if (options.explain) {
         explain(trial, device_options(false));
         return 0;
     }
+    if (!trial.folder.empty())
+        make_folder(trial.folder);
+    if (options.shimmer)
+        return measure_shimmer(trial, shipped_settings(options), device_options(false));
     const std::vector<Setting> settings = settings_of(options, trial);
-    make_folder(trial.folder);
     MeasuredOn on{options.scene + ", " + options.layout, "", trial.rounds, trial.samples};
     for (const auto& [name, shot] : trial.shots)
         on.what += ", " + name;
@@ -180,7 +191,8 @@ void add_measure(CLI::App& app, std::function<int()>& chosen)
         "given [all shipped ones of the scene]");
     command->add_option("--size", options->size, "Pixels of every output, WIDTHxHEIGHT, instead of the layout's");
     command->add_option("--out", options->out,
-        "The folder for accuracy.html, .csv and .svg, ladder.json; or for extremes.md; made if it is not there");
+        "The folder for accuracy.html, .csv and .svg, ladder.json; or for extremes.md or shimmer.md; made if it is not "
+        "there");
     command->add_option("--quality", options->qualities, "A quality file of your own to try too; more than one may be given")
         ->type_name("FILE");
     command
@@ -208,6 +220,9 @@ void add_measure(CLI::App& app, std::function<int()>& chosen)
         "Instead: every part of a frame that the scene, the layout and the first shot switch on, why, and its cost; and "
         "what "
         "is off");
+    command->add_flag("--shimmer", options->shimmer,
+        "Instead: how much the live picture flickers in slow turns and slow acceleration from the first shot, beyond the "
+        "change of the picture by rays");
     command->footer("Examples:\n  starbow measure --scene avenue --layout desk --out out/accuracy\n"
                     "  starbow measure --layout dome --size 1024x1024 --shot starbow --out out/dome --budget-ms 16\n"
                     "  starbow run --quality out/dome/quality.json\n  starbow measure --scene clocks --shot clocks-passing "

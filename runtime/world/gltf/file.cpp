@@ -129,9 +129,13 @@ Json parse_json(const GltfFile& file, const std::string& json)
         std::size_t at = std::min(error.byte ? error.byte - 1 : 0, json.size());
         auto end = json.begin() + std::ptrdiff_t(at);
         auto line = 1 + std::count(json.begin(), end, '\n');
+        const std::size_t begins = json.find_first_not_of(" \t\r\n");
+        const bool looks_like_json = begins != json.npos && (json[begins] == '{' || json[begins] == '[');
         auto start = std::find(std::make_reverse_iterator(end), json.rend(), '\n').base();
         throw InputError(file.name, "line " + std::to_string(line) + ", column " + std::to_string(end - start + 1),
-            "is neither glTF's JSON nor GLB; should be a .gltf or .glb file");
+            file.is_glb           ? "is broken JSON, counted in the GLB's first chunk; glTF's JSON is right there"
+                : looks_like_json ? "is broken JSON; glTF's JSON is right"
+                                  : "is neither glTF's JSON nor GLB; should be a .gltf or .glb file");
     } catch (const Json::exception&) {
         // Such an error is a number that no double can hold.
         throw InputError(file.name, "/", "holds a number out of range");

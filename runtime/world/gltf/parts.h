@@ -51,9 +51,9 @@ struct WorldBuild {
 /// An accessor's elements; throws where open_accessor fails.
 Elements open(WorldBuild& build, int accessor);
 
-/// Decodes a PNG or JPEG, after a check that the size it claims fits `bytes_left` as RGBA.
+/// Decodes a PNG or JPEG and halves its sides so many times. Its whole size is in memory while it is decoded.
 Texture decode_image(
-    const std::string& file, const std::string& place, std::span<const std::uint8_t> bytes, std::size_t bytes_left);
+    const std::string& file, const std::string& place, std::span<const std::uint8_t> bytes, int halvings = 0);
 
 /// Adds the materials, in the file's order, and the textures that they use.
 void add_materials(WorldBuild& build);

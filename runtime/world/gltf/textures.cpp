@@ -1,5 +1,7 @@
 #include "parts.h"
+#include "runtime/light/srgb.h"
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <memory>
 #include <stb/stb_image.h>
@@ -21,8 +23,18 @@ std::string suspicion(std::span<const std::uint8_t> bytes, int& width, int& heig
     int channels = 0;
     if (!starts(png) && !starts(jpeg))
         return "is neither PNG nor JPEG; glTF allows those two";
-    if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels))
-        return "has a broken header; should be a PNG or JPEG";
+    if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels)) {
+        // The library also fails at sizes beyond its own limits; a PNG's header says what they are.
+        const auto word = [&](std::size_t at) {
+            return std::int64_t(bytes[at]) << 24 | bytes[at + 1] << 16 | bytes[at + 2] << 8 | bytes[at + 3];
+        };
+        if (starts(png) && bytes.size() >= 24 && std::memcmp(bytes.data() + 12, "IHDR", 4) == 0
+            && std::max(word(16), word(20)) > GltfLimits::texture_side)
+            return "is " + std::to_string(word(16)) + " x " + std::to_string(word(20)) + " pixels; at most "
+                + std::to_string(GltfLimits::texture_side) + " a side and " + std::to_string(GltfLimits::texture_pixels)
+                + " in all are allowed";
+        return "has a broken header (" + std::string(stbi_failure_reason()) + "); should be a PNG or JPEG";
+    }
     std::string size = "is " + std::to_string(width) + " x " + std::to_string(height) + " pixels; ";
     if (width < 1 || height < 1 || width > GltfLimits::texture_side || height > GltfLimits::texture_side
         || std::size_t(width) * std::size_t(height) > GltfLimits::texture_pixels)
@@ -76,12 +88,77 @@ Sampler sampler_of(const tinygltf::Model& model, int index)
     return out;
 }
 
+/// The size of an image, or 0 for one that can't be decoded.
+glm::ivec2 image_size(std::span<const std::uint8_t> bytes)
+{
+    glm::ivec2 size(0);
+    int channels = 0;
+    return stbi_info_from_memory(bytes.data(), int(bytes.size()), &size.x, &size.y, &channels) ? size : glm::ivec2(0);
+}
+
+/// True if a surface emits light from a texture.
+bool glows_by_texture(const tinygltf::Material& material)
+{
+    const auto& factor = material.emissiveFactor;
+    return material.emissiveTexture.index >= 0 && !material.extensions.contains("KHR_materials_unlit")
+        && std::any_of(factor.begin(), factor.end(), [](double part) { return part != 0; });
+}
+
+/// The glTF textures that the materials use, by image, each sampler once.
+std::map<int, std::vector<Sampler>> used_images(const tinygltf::Model& model)
+{
+    std::map<int, std::vector<Sampler>> used;
+    const auto use = [&](int index) {
+        if (index < 0 || model.textures[std::size_t(index)].source < 0)
+            return;
+        const auto& texture = model.textures[std::size_t(index)];
+        std::vector<Sampler>& samplers = used[texture.source];
+        const Sampler sampler = sampler_of(model, texture.sampler);
+        if (std::find(samplers.begin(), samplers.end(), sampler) == samplers.end())
+            samplers.push_back(sampler);
+    };
+    for (const auto& material : model.materials) {
+        use(material.pbrMetallicRoughness.baseColorTexture.index);
+        if (glows_by_texture(material))
+            use(material.emissiveTexture.index);
+    }
+    return used;
+}
+
+/// How often each image's sides are halved, so that all textures together stay within their limit: those above some number
+/// of pixels are halved until they have at most so many.
+std::map<int, int> halvings(const WorldBuild& build)
+{
+    struct Size {
+        int image;
+        std::size_t pixels, textures;
+    };
+    std::vector<Size> sizes;
+    for (const auto& [image, samplers] : used_images(build.model)) {
+        const glm::ivec2 size = image_size(build.file.images[std::size_t(image)]);
+        sizes.push_back({image, std::size_t(size.x) * std::size_t(size.y), samplers.size()});
+    }
+    std::map<int, int> result;
+    for (std::size_t most = GltfLimits::texture_pixels; most > 0; most /= 2) {
+        std::size_t sum = 0;
+        for (Size size : sizes) {
+            int& times = result[size.image] = 0;
+            for (; size.pixels > most; size.pixels /= 4)
+                ++times;
+            sum += size.pixels * size.textures;
+        }
+        if (sum <= GltfLimits::all_texture_pixels)
+            break;
+    }
+    return result;
+}
+
 /// Textures by image and sampler. Equal pairs share a texture.
 struct TextureShelf {
     WorldBuild& build;
+    std::map<int, int> halved = halvings(build);
     std::map<int, int> of_gltf;
     std::map<int, std::vector<int>> of_image;
-    std::size_t bytes_left = GltfLimits::texture_bytes;
 
     int place(int gltf_texture)
     {
@@ -104,14 +181,26 @@ struct TextureShelf {
         for (int sibling : siblings)
             if (textures[std::size_t(sibling)].sampler == sampler)
                 return sibling;
-        std::string at = "/images/" + std::to_string(texture.source);
-        // One image behind two samplers is rare enough to be decoded twice.
-        Texture made = decode_image(build.file.name, at, build.file.images[std::size_t(texture.source)], bytes_left);
-        bytes_left -= made.rgba.size();
+        Texture made = siblings.empty() ? decode(texture.source) : textures[std::size_t(siblings[0])];
         made.sampler = sampler;
         textures.push_back(std::move(made));
         siblings.push_back(int(textures.size()) - 1);
         return siblings.back();
+    }
+
+    Texture decode(int image)
+    {
+        const int times = halved.at(image);
+        const auto& bytes = build.file.images[std::size_t(image)];
+        Texture made = decode_image(build.file.name, "/images/" + std::to_string(image), bytes, times);
+        if (times > 0) {
+            const auto text = [](glm::ivec2 size) { return std::to_string(size.x) + " x " + std::to_string(size.y); };
+            note_once(build.world.notes,
+                "image " + std::to_string(image) + " of " + text(image_size(bytes)) + " pixels is drawn with "
+                    + text(made.size) + ": all images together have at most "
+                    + std::to_string(GltfLimits::all_texture_pixels >> 20) + " Mi pixels");
+        }
+        return made;
     }
 };
 
@@ -140,26 +229,81 @@ template <typename TextureInfo> UvSource uv_source(const TextureInfo& info)
     return out;
 }
 
+/// A decoded image: 1 to 4 channels, of which an even number ends with the cover.
+struct Pixels {
+    const std::uint8_t* values = nullptr;
+    glm::ivec2 size{0};
+    int channels = 4;
+
+    const std::uint8_t* at(int x, int y) const
+    {
+        return values + (std::size_t(y) * std::size_t(size.x) + std::size_t(x)) * std::size_t(channels);
+    }
+    bool grey() const { return channels < 3; }
+    bool covers() const { return channels % 2 == 1; } ///< everything: there is no channel of cover
+};
+
+Bytes rgba_of(const Pixels& from)
+{
+    const std::size_t count = std::size_t(from.size.x) * std::size_t(from.size.y);
+    Bytes rgba(4 * count);
+    std::uint8_t* to = rgba.data();
+    const std::uint8_t* at = from.values;
+    for (std::size_t i = 0; i < count; ++i, to += 4, at += from.channels) {
+        for (int c = 0; c < 3; ++c)
+            to[c] = at[from.grey() ? 0 : c];
+        to[3] = from.covers() ? 255 : at[from.channels - 1];
+    }
+    return rgba;
+}
+
+/// The means over the pixels of each new one: of light, and of the cover.
+Bytes shrunk(const Pixels& from, glm::ivec2 size)
+{
+    std::array<double, 256> light;
+    for (std::size_t i = 0; i < light.size(); ++i)
+        light[i] = light_of_srgb(double(i) / 255);
+    Bytes rgba;
+    rgba.reserve(4 * std::size_t(size.x) * std::size_t(size.y));
+    const int colours = from.grey() ? 1 : 3;
+    const auto byte = [](double value) { return std::uint8_t(std::lround(std::clamp(value, 0.0, 255.0))); };
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const glm::ivec2 low = glm::ivec2(x, y) * from.size / size, high = glm::ivec2(x + 1, y + 1) * from.size / size;
+            std::array<double, 3> sum{};
+            double cover = 0;
+            for (int j = low.y; j < high.y; ++j)
+                for (int i = low.x; i < high.x; ++i) {
+                    const std::uint8_t* at = from.at(i, j);
+                    for (int c = 0; c < colours; ++c)
+                        sum[std::size_t(c)] += light[at[c]];
+                    cover += from.covers() ? 255 : at[from.channels - 1];
+                }
+            const double count = double(high.x - low.x) * (high.y - low.y);
+            for (std::size_t c = 0; c < 3; ++c)
+                rgba.push_back(byte(255 * srgb_of_light(sum[from.grey() ? 0 : c] / count)));
+            rgba.push_back(byte(cover / count));
+        }
+    return rgba;
+}
+
 } // namespace
 
-Texture decode_image(
-    const std::string& file, const std::string& place, std::span<const std::uint8_t> bytes, std::size_t bytes_left)
+Texture decode_image(const std::string& file, const std::string& place, std::span<const std::uint8_t> bytes, int halvings)
 {
-    int width = 0, height = 0, channels = 0;
-    if (std::string problem = suspicion(bytes, width, height); !problem.empty())
+    Pixels from;
+    if (std::string problem = suspicion(bytes, from.size.x, from.size.y); !problem.empty())
         throw InputError(file, place, problem);
-    std::size_t size = std::size_t(width) * std::size_t(height) * 4;
-    if (size > bytes_left)
-        throw InputError(file, place,
-            "brings the textures above the " + std::to_string(GltfLimits::texture_bytes >> 20)
-                + " MiB that are allowed, uncompressed; use fewer or smaller images");
-    std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
-        stbi_load_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels, 4), &stbi_image_free);
-    if (!pixels)
+    // The image's own channels: a grey one takes a quarter of the memory until it is small.
+    std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> decoded(
+        stbi_load_from_memory(bytes.data(), int(bytes.size()), &from.size.x, &from.size.y, &from.channels, 0),
+        &stbi_image_free);
+    if (!decoded)
         throw InputError(file, place, "cannot be decoded: " + std::string(stbi_failure_reason()));
+    from.values = decoded.get();
     Texture out;
-    out.size = {width, height};
-    out.rgba.assign(pixels.get(), pixels.get() + size);
+    out.size = glm::max(from.size >> halvings, 1);
+    out.rgba = halvings == 0 ? rgba_of(from) : shrunk(from, out.size);
     return out;
 }
 

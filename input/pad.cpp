@@ -1,0 +1,58 @@
+#include "pad.h"
+#include "rates.h"
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+/// A value outside its dead zone, starting from 0 there: neither sticks nor triggers rest exactly at 0.
+double outside(double value, double dead)
+{
+    const double size = std::abs(value);
+    return size < dead ? 0 : std::copysign(std::min(1.0, (size - dead) / (1 - dead)), value);
+}
+
+double stick(float value) { return outside(value, 0.15); }
+double trigger(float value) { return outside(0.5 * (value + 1), 0.05); } // rests at -1
+
+/// A word of a GUID: two bytes, the low one first.
+std::optional<int> word(std::string_view guid, std::size_t byte)
+{
+    int low = 0, high = 0;
+    const char *at = guid.data() + 2 * byte, *middle = at + 2, *end = at + 4;
+    if (std::from_chars(at, middle, low, 16).ptr != middle || std::from_chars(middle, end, high, 16).ptr != end)
+        return {};
+    return low | high << 8;
+}
+
+} // namespace
+
+// Words: bus, a check sum of the name in newer versions, vendor, 0, product, 0, version, the driver's own (SDL's
+// SDL_joystick.c). Where the device has no numbers its name begins in the third word.
+std::optional<UsbId> usb_id(std::string_view guid)
+{
+    if (guid.size() != 32)
+        return {};
+    const auto vendor = word(guid, 4), product = word(guid, 8);
+    if (!vendor || !product || *vendor == 0 || word(guid, 6) != 0 || word(guid, 10) != 0)
+        return {};
+    return UsbId{*vendor, *product};
+}
+
+void add_pad(const GLFWgamepadstate& state, double dt_s, Controls& controls)
+{
+    controls.throttle_rate
+        += trigger(state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER]) - trigger(state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER]);
+    controls.turn.y -= stick(state.axes[GLFW_GAMEPAD_AXIS_LEFT_X]);
+    controls.turn.x -= stick(state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y]);
+    controls.look_rad.x -= look_rad_per_s * dt_s * stick(state.axes[GLFW_GAMEPAD_AXIS_RIGHT_X]);
+    controls.look_rad.y -= look_rad_per_s * dt_s * stick(state.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y]);
+    controls.exposure
+        += double(state.buttons[GLFW_GAMEPAD_BUTTON_DPAD_UP]) - double(state.buttons[GLFW_GAMEPAD_BUTTON_DPAD_DOWN]);
+}
+
+} // namespace starbow

@@ -1,0 +1,128 @@
+// Gamepads that GLFW reads, and rates of several hands together.
+#include "input/mapping.h"
+#include "input/pad.h"
+#include "input/rates.h"
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace pad_test {
+
+using namespace starbow;
+
+namespace {
+
+/// A pad whose triggers rest.
+GLFWgamepadstate at_rest()
+{
+    GLFWgamepadstate state{};
+    state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER] = state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] = -1;
+    return state;
+}
+
+/// The look after a second in which a pad is read `hertz` times.
+glm::dvec2 looked(const GLFWgamepadstate& pad, int hertz)
+{
+    glm::dvec2 look{0};
+    for (int i = 0; i < hertz; ++i) {
+        Controls controls;
+        add_pad(pad, 1.0 / hertz, controls);
+        look += controls.look_rad;
+    }
+    return look;
+}
+
+} // namespace
+
+TEST(PadTest, TheLookIsAsFastAtAnyFrameRate)
+{
+    GLFWgamepadstate pad = at_rest();
+    pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_X] = 1;
+    pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y] = -0.5f;
+    const glm::dvec2 slow = looked(pad, 60);
+    for (const int hertz : {10, 30, 90, 144, 1000}) {
+        EXPECT_NEAR(looked(pad, hertz).x, slow.x, 1e-12) << hertz; // rounding of 1000 sums
+        EXPECT_NEAR(looked(pad, hertz).y, slow.y, 1e-12) << hertz;
+    }
+    EXPECT_NEAR(slow.x, -1.5, 1e-12); // to the right
+    EXPECT_GT(slow.y, 0.3); // up
+}
+
+// The same full stick looks around as fast as a device that Hid reads.
+TEST(PadTest, APadLooksAsFastAsAStick)
+{
+    const Descriptor stick{.fields = {{.usage = {1, 0x33}, .bits = 8, .logical_max = 255}}, .report_bits = {{0, 8}}};
+    Mapping mapping(
+        stick, {.name = "", .axes = {{.usage = 0x33, .role = AxisRole::look_right, .dead_zone = 0, .curve = 1}}});
+    DeviceState state;
+    const std::array<std::uint8_t, 1> right{255};
+    ASSERT_TRUE(take_report(stick, right, 1, state));
+    Controls by_hid;
+    mapping.add(state, 2, 0.25, by_hid);
+    GLFWgamepadstate pad = at_rest();
+    pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_X] = 1;
+    Controls by_glfw;
+    add_pad(pad, 0.25, by_glfw);
+    EXPECT_NEAR(by_glfw.look_rad.x, by_hid.look_rad.x, 1e-12);
+}
+
+TEST(PadTest, APadAtRestDoesNothing)
+{
+    GLFWgamepadstate pad = at_rest();
+    // Worn pads rest a little off.
+    pad.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER] = -0.96f, pad.axes[GLFW_GAMEPAD_AXIS_LEFT_X] = 0.1f;
+    Controls controls;
+    add_pad(pad, 0.1, controls);
+    EXPECT_EQ(controls.throttle_rate, 0);
+    EXPECT_EQ(controls.turn, glm::dvec3(0));
+    EXPECT_EQ(controls.look_rad, glm::dvec2(0));
+    EXPECT_EQ(controls.exposure, 0);
+}
+
+// Two hands at full rate are as fast as one; against each other they cancel. Only the keyboard's Shift is faster.
+TEST(RatesTest, HandsDoNotAddUpBeyondAFullRate)
+{
+    const double dt_s = 0.1;
+    const auto together = [&](const Controls& first, Controls second) {
+        Controls others = first;
+        add_rates(second, take_rates(others), dt_s);
+        EXPECT_EQ(others.turn, glm::dvec3(0));
+        return second;
+    };
+    Controls full;
+    full.throttle_rate = 1, full.exposure = -1, full.push = {1, -1, 1}, full.turn = {-1, 1, 1};
+    full.look_rad = {look_rad_per_s * dt_s, -look_rad_per_s * dt_s};
+    const Controls both = together(full, full);
+    EXPECT_EQ(both.throttle_rate, 1);
+    EXPECT_EQ(both.exposure, -1);
+    EXPECT_EQ(both.push, full.push);
+    EXPECT_EQ(both.turn, full.turn);
+    EXPECT_EQ(both.look_rad, full.look_rad);
+    Controls half;
+    half.throttle_rate = -0.5, half.turn.x = 0.25;
+    EXPECT_EQ(together(full, half).throttle_rate, 0.5);
+    EXPECT_EQ(together(full, half).turn.x, -0.75);
+    Controls shift;
+    shift.throttle_rate = 4, shift.look_rad.x = 0.8; // and a drag of the mouse
+    EXPECT_EQ(together(shift, full).throttle_rate, 4);
+    EXPECT_EQ(together(shift, full).look_rad.x, 0.8);
+    // One device whose hat and whose axis say the same.
+    Controls twice;
+    twice.throttle_rate = 2;
+    EXPECT_EQ(together({}, twice).throttle_rate, 1);
+}
+
+// Lines of SDL's public list of gamepads (gamecontrollerdb.txt, Linux), with the numbers that the USB ID list gives.
+TEST(PadTest, GuidsNameTheDevice)
+{
+    EXPECT_EQ(usb_id("030000005e040000ea02000001030000"), (UsbId{0x045e, 0x02ea})); // Xbox One S
+    EXPECT_EQ(usb_id("050000004c050000c405000000810000"), (UsbId{0x054c, 0x05c4})); // DualShock 4 over Bluetooth
+    EXPECT_EQ(usb_id("030000006d0400001fc2000005030000"), (UsbId{0x046d, 0xc21f})); // Logitech F710
+    EXPECT_EQ(usb_id("05000000476f6f676c65204368726f6d"), std::nullopt); // "Google Chrom...": a name
+    EXPECT_EQ(usb_id("030000005e040000ea0200000103000"), std::nullopt);
+    EXPECT_EQ(usb_id("03000000zz040000ea02000001030000"), std::nullopt);
+    EXPECT_EQ(usb_id(""), std::nullopt);
+}
+
+} // namespace pad_test
