@@ -25,7 +25,8 @@ void to_draw(vk::CommandBuffer commands, const Image& picture, bool keeps)
 } // namespace
 
 BloomPass::BloomPass(Device& device, Pipelines& pipelines, glm::ivec2 size)
-    : pipelines_(pipelines)
+    : device_(device)
+    , pipelines_(pipelines)
     , size_(size)
 {
     // Down to four texels across: the widest step reaches over a good part of the viewport.
@@ -88,13 +89,14 @@ void BloomPass::step(vk::CommandBuffer commands, std::size_t from, std::size_t t
     push.step = glm::vec4(1.0f / target.width, 1.0f / target.height, 0, 0);
     push.texel = glm::vec4(1.0f / source.width, 1.0f / source.height, 0, 0);
     push.part = glm::vec4(part, 0, 0, 0);
-    commands.beginRendering({{}, {{0, 0}, target}, 1, 0, colour});
+    device_.begin_rendering(commands, {{}, {{0, 0}, target}, 1, 0, colour});
     set_area(commands, {0, 0}, {int(target.width), int(target.height)});
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.bloom(up));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0, *sets_[from], {});
-    commands.pushConstants<shared::BloomPush>(*pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, push);
+    commands.pushConstants<shared::BloomPush>(
+        *pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, push);
     commands.draw(3, 1, 0, 0);
-    commands.endRendering();
+    device_.end_rendering(commands);
 }
 
 void BloomPass::show(vk::CommandBuffer commands, glm::ivec2 corner, double part, vk::Format target) const
@@ -105,7 +107,8 @@ void BloomPass::show(vk::CommandBuffer commands, glm::ivec2 corner, double part,
     set_area(commands, corner, size_);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.bloomed(target));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0, *sets_.front(), {});
-    commands.pushConstants<shared::BloomPush>(*pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, push);
+    commands.pushConstants<shared::BloomPush>(
+        *pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, push);
     commands.draw(3, 1, 0, 0);
 }
 

@@ -25,6 +25,7 @@ public:
 private:
     void step(vk::CommandBuffer commands, std::size_t from, std::size_t to, double part) const;
 
+    Device& device_;
     Pipelines& pipelines_;
     glm::ivec2 size_;
     std::vector<Image> pictures_; ///< the light, and each half as large as the one before

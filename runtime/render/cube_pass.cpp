@@ -31,7 +31,7 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
     , pipelines_(pipelines)
     , world_(world)
     , quality_(quality)
-    , target_(device, world, quality, keeps_depth)
+    , target_(device, pipelines, world, quality, keeps_depth)
     , uploads_(device, pipelines, world)
 {
     const Sky& sky = world.scene.sky;
@@ -156,6 +156,8 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
             commands.pushConstants<shared::CubePush>(*pipelines_.layouts.surface_layout, stages, 0, push);
             commands.draw(3, 1, 0, 0);
         }
+        if (device_.keeper)
+            device_.keeper->hold(commands); // a scene ends whenever its memory is full
     }
 }
 
@@ -163,7 +165,7 @@ void CubePass::record_plain(vk::CommandBuffer commands, const Target& target)
 {
     target_.begin_plain(commands, target, glm::vec4(world_.scene.sky.horizon * pre_exposure_, 1));
     draw_images(commands, {{target.format}}, true);
-    commands.endRendering();
+    device_.end_rendering(commands);
 }
 
 } // namespace starbow

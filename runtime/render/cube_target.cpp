@@ -24,8 +24,9 @@ constexpr auto depth_access = Access::eDepthStencilAttachmentRead | Access::eDep
 
 } // namespace
 
-CubeTarget::CubeTarget(Device& device, const GpuWorld& world, const Quality& quality, bool keeps_depth)
+CubeTarget::CubeTarget(Device& device, Pipelines& pipelines, const GpuWorld& world, const Quality& quality, bool keeps_depth)
     : device_(device)
+    , pipelines_(pipelines)
     , formats_(world.coefficients().formats(quality.half_floats))
     , samples_(quality.cube_samples)
     , in_several_rest_frames_(world.several_rest_frames())
@@ -56,15 +57,17 @@ void CubeTarget::fit(glm::ivec2 size, int levels)
         return;
     auto most = std::max(std::uint32_t(levels), first.levels);
     using Usage = vk::ImageUsageFlagBits;
+    chains_.clear();
     for (Image& atlas : atlases_)
         atlas = {};
     depth_ = {}, atlas_samples_.clear(), depth_samples_ = {};
-    auto copied = most > 1 ? Usage::eTransferSrc | Usage::eTransferDst : vk::ImageUsageFlags();
     Formats formats = kind(in_several_rest_frames_).colours;
     for (std::size_t i = 0; i < atlases_.size(); ++i) {
-        atlases_[i] = make_image(device_, {formats[i], extent, Usage::eColorAttachment | Usage::eSampled | copied, most});
+        atlases_[i] = make_image(device_, {formats[i], extent, Usage::eColorAttachment | Usage::eSampled, most});
         name_object(device_, atlases_[i], "cube pass: atlas");
     }
+    for (std::size_t i = 0; most > 1 && i < atlases_.size(); ++i)
+        chains_.push_back(std::make_unique<MipChain>(device_, pipelines_, atlases_[i]));
     depth_ = make_image(device_, {depth_format, extent, Usage::eDepthStencilAttachment | Usage::eSampled});
     name_object(device_, depth_, "cube pass: depth");
     if (samples_ > 1) {
@@ -130,7 +133,8 @@ void CubeTarget::begin(vk::CommandBuffer commands, glm::ivec2 area, std::span<co
         depth_info.resolveImageView = *depth_.view;
         depth_info.resolveImageLayout = vk::ImageLayout::eDepthAttachmentOptimal;
     }
-    commands.beginRendering({{}, rect_of({0, 0}, area), 1, 0, std::uint32_t(used.size()), colours.data(), &depth_info});
+    device_.begin_rendering(
+        commands, {{}, rect_of({0, 0}, area), 1, 0, std::uint32_t(used.size()), colours.data(), &depth_info});
 }
 
 void CubeTarget::begin_plain(vk::CommandBuffer commands, const Target& target, const glm::vec4& clear)
@@ -143,19 +147,21 @@ void CubeTarget::begin_plain(vk::CommandBuffer commands, const Target& target, c
         vk::ClearColorValue(std::array<float, 4>{clear.r, clear.g, clear.b, clear.a}));
     vk::RenderingAttachmentInfo depth(*depth_.view, vk::ImageLayout::eDepthAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eDontCare, vk::ClearDepthStencilValue(0, 0));
-    commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour, &depth});
+    device_.begin_rendering(commands, {{}, {{0, 0}, target.extent}, 1, 0, colour, &depth});
 }
 
 void CubeTarget::end(vk::CommandBuffer commands, std::span<const PlannedImage> images, int levels, bool several_rest_frames)
 {
-    commands.endRendering();
+    device_.end_rendering(commands);
     const std::span used(atlases_.data(), kind(several_rest_frames).colours.size());
     for (const Image& atlas : used)
-        if (levels > 1)
-            make_mips(commands, atlas, images, levels);
-        else
-            transition(commands, atlas, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
-                Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal, readers, Access::eShaderSampledRead);
+        transition(commands, atlas, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+            Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal, readers, Access::eShaderSampledRead);
+    // One level more than the plan needs. At its coarsest level an image is sampled together with the next level at
+    // weight 0, and 0 times unwritten memory may be NaN.
+    const std::uint32_t drawn = std::min(std::uint32_t(levels) + 1, atlases_.front().levels);
+    for (std::size_t i = 0; levels > 1 && i < used.size(); ++i)
+        make_mips(commands, *chains_[i], images, drawn);
     if (keeps_depth_)
         transition(commands, depth_, vk::ImageLayout::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
             depth_access | Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal,
@@ -163,43 +169,18 @@ void CubeTarget::end(vk::CommandBuffer commands, std::span<const PlannedImage> i
 }
 
 void CubeTarget::make_mips(
-    vk::CommandBuffer commands, const Image& atlas, std::span<const PlannedImage> images, int plan_levels)
+    vk::CommandBuffer commands, const MipChain& chain, std::span<const PlannedImage> images, std::uint32_t levels)
 {
-    auto level_barrier = [&](std::uint32_t first, std::uint32_t count, vk::ImageLayout from,
-                             vk::PipelineStageFlags2 from_stage, vk::AccessFlags2 from_access, vk::ImageLayout to,
-                             vk::PipelineStageFlags2 to_stage, vk::AccessFlags2 to_access) {
-        vk::ImageMemoryBarrier2 barrier(from_stage, from_access, to_stage, to_access, from, to, VK_QUEUE_FAMILY_IGNORED,
-            VK_QUEUE_FAMILY_IGNORED, *atlas.image, {vk::ImageAspectFlagBits::eColor, first, count, 0, 1});
-        commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
-    };
-    // One level more than the plan needs. At its coarsest level an image is sampled together with the next level at
-    // weight 0, and 0 times unwritten memory may be NaN.
-    std::uint32_t levels = std::min(std::uint32_t(plan_levels) + 1, atlas.levels);
-    level_barrier(0, 1, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
-        Access::eColorAttachmentWrite, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
-    level_barrier(1, atlas.levels - 1, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, {},
-        vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite);
     for (std::uint32_t level = 1; level < levels; ++level) {
-        blits_.clear();
+        chain.begin(commands, level);
         for (const PlannedImage& image : images)
             if (image.levels >= int(level)) {
-                auto box = [&](std::uint32_t l) {
-                    glm::ivec2 low = image.atlas >> glm::ivec2(l), high = (image.atlas + image.size) >> glm::ivec2(l);
-                    return std::array<vk::Offset3D, 2>{vk::Offset3D(low.x, low.y, 0), vk::Offset3D(high.x, high.y, 1)};
-                };
-                blits_.push_back({{vk::ImageAspectFlagBits::eColor, level - 1, 0, 1}, box(level - 1),
-                    {vk::ImageAspectFlagBits::eColor, level, 0, 1}, box(level)});
+                const glm::ivec2 low = image.atlas >> glm::ivec2(level),
+                                 high = (image.atlas + image.size) >> glm::ivec2(level);
+                chain.halve(commands, low, high - low);
             }
-        commands.blitImage(*atlas.image, vk::ImageLayout::eTransferSrcOptimal, *atlas.image,
-            vk::ImageLayout::eTransferDstOptimal, blits_, vk::Filter::eLinear);
-        level_barrier(level, 1, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite,
-            vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
+        chain.end(commands);
     }
-    level_barrier(0, levels, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, {},
-        vk::ImageLayout::eShaderReadOnlyOptimal, readers, Access::eShaderSampledRead);
-    if (atlas.levels > levels)
-        level_barrier(levels, atlas.levels - levels, vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, {},
-            vk::ImageLayout::eShaderReadOnlyOptimal, readers, Access::eShaderSampledRead);
 }
 
 vk::DeviceSize CubeTarget::memory() const

@@ -1,5 +1,6 @@
 #pragma once
 #include "gpu_world.h"
+#include "mip_chain.h"
 #include "runtime/plan/cube_map_plan.h"
 
 namespace starbow {
@@ -9,7 +10,7 @@ namespace starbow {
 class CubeTarget {
 public:
     /// The quality's samples and formats stay for the object's life. keeps_depth: shaders read the depth afterwards.
-    CubeTarget(Device& device, const GpuWorld& world, const Quality& quality, bool keeps_depth);
+    CubeTarget(Device& device, Pipelines& pipelines, const GpuWorld& world, const Quality& quality, bool keeps_depth);
 
     /// on: an atlas gets exactly the plan's size in every frame. Coordinates in it are then rounded alike, and equal
     /// shots have equal bytes. off: the atlas only grows, which takes less time.
@@ -34,15 +35,17 @@ public:
     vk::DeviceSize memory() const;
 
 private:
-    void make_mips(vk::CommandBuffer commands, const Image& atlas, std::span<const PlannedImage> images, int levels);
+    static void make_mips(
+        vk::CommandBuffer commands, const MipChain& chain, std::span<const PlannedImage> images, std::uint32_t levels);
 
     Device& device_;
+    Pipelines& pipelines_;
     Formats formats_; ///< of a world in which something moves; without the last one of others
     int samples_;
     bool in_several_rest_frames_, keeps_depth_, repeatable_ = false;
     std::vector<Image> atlases_, atlas_samples_;
     Image depth_, depth_samples_;
-    std::vector<vk::ImageBlit> blits_; ///< a member so that its memory is reused
+    std::vector<std::unique_ptr<MipChain>> chains_; ///< of the atlases; empty where they have one level
 };
 
 } // namespace starbow

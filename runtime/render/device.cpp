@@ -277,9 +277,27 @@ Device::Device(const Options& options)
     pool = device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family});
     std::vector<char> kept = read_file(pipeline_file(properties));
     cache = device.createPipelineCache({{}, kept.size(), kept.data()});
+    if (on_processor())
+        keeper = std::make_unique<SceneKeeper>(device);
     name_object(*this, queue, "queue");
     name_object(*this, pool, "command pool");
     name_object(*this, cache, "pipeline cache");
+}
+
+void Device::begin_rendering(vk::CommandBuffer commands, const vk::RenderingInfo& info) const
+{
+    if (keeper)
+        keeper->begin(commands);
+    commands.beginRendering(info);
+    if (keeper)
+        keeper->hold(commands);
+}
+
+void Device::end_rendering(vk::CommandBuffer commands) const
+{
+    if (keeper)
+        keeper->hold(commands);
+    commands.endRendering();
 }
 
 void Device::save_pipelines() const

@@ -1,4 +1,5 @@
 #pragma once
+#include "scene_keeper.h"
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,6 +38,7 @@ public:
     bool reports_presentation = false; ///< VK_KHR_present_wait
     bool debug_utils = false; ///< VK_EXT_debug_utils: objects have names, passes have labels
     Trace* trace = nullptr; ///< receives the processor's spans of each frame during a trace
+    std::unique_ptr<SceneKeeper> keeper; ///< null but on lavapipe
     FrameTimer* timer = nullptr; ///< measures each pass on the device during a trace
 
     /// Writes the compiled pipelines into the cache folder for the next start. Failures are ignored, with a lost device
@@ -45,6 +47,10 @@ public:
 
     const char* name() const { return properties.deviceName.data(); }
     bool on_processor() const { return properties.deviceType == vk::PhysicalDeviceType::eCpu; }
+
+    /// These two enclose the draws of each rendering.
+    void begin_rendering(vk::CommandBuffer commands, const vk::RenderingInfo& info) const;
+    void end_rendering(vk::CommandBuffer commands) const;
 
     /// Records, submits and waits: for loading, measuring and stills.
     template <class Record> void now(Record&& record)

@@ -121,13 +121,14 @@ void FinishPass::record(vk::CommandBuffer commands, const Target& target, bool p
     variant.dithered = !plain; // a pattern's steps are exact
     vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eStore);
-    commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
+    device_.begin_rendering(commands, {{}, {{0, 0}, target.extent}, 1, 0, colour});
     set_area(commands, {0, 0}, {int(target.extent.width), int(target.extent.height)});
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.finish(variant, target.format));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.finish_layout, 0, *set_, {});
-    commands.pushConstants<shared::FinishPush>(*pipelines_.layouts.finish_layout, vk::ShaderStageFlagBits::eFragment, 0, push_);
+    commands.pushConstants<shared::FinishPush>(
+        *pipelines_.layouts.finish_layout, vk::ShaderStageFlagBits::eFragment, 0, push_);
     commands.draw(3, 1, 0, 0);
-    commands.endRendering();
+    device_.end_rendering(commands);
 }
 
 vk::DeviceSize FinishPass::memory() const

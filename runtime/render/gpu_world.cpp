@@ -1,5 +1,6 @@
 #include "gpu_world.h"
 #include "debug.h"
+#include "mip_chain.h"
 #include "runtime/light/srgb.h"
 #include "runtime/world/instances.h"
 #include "runtime/world/moving.h"
@@ -35,7 +36,7 @@ vk::raii::Sampler make_sampler(const Device& device, const Sampler& s)
 }
 
 /// Decoding sRGB in software takes more time than linear fp16 takes memory bandwidth. GPUs decode sRGB at no cost.
-Image make_colour_texture(Device& device, const Texture& texture, MemoryArena& arena)
+Image make_level_0(Device& device, const Texture& texture, MemoryArena& arena)
 {
     bool mips = texture.sampler.mipmaps;
     if (!device.on_processor())
@@ -57,6 +58,14 @@ Image make_colour_texture(Device& device, const Texture& texture, MemoryArena& a
                 texels[i] = (i % 4 == 3 ? alpha : linear)[from[i]];
         },
         mips, &arena);
+}
+
+Image make_colour_texture(Device& device, Pipelines& pipelines, const Texture& texture, MemoryArena& arena)
+{
+    Image image = make_level_0(device, texture, arena);
+    const MipChain chain(device, pipelines, image);
+    device.now([&](vk::CommandBuffer commands) { chain.draw_all(commands); });
+    return image;
 }
 
 /// The greatest radiance that a surface of this world can send, before any lamp comes closer than its distance.
@@ -126,8 +135,8 @@ void put_stars(Device& device, GpuWorld& world, const std::vector<Star>& stars)
     name_object(device, world.stars, "world: stars");
 }
 
-GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const SceneFile& scene,
-    const std::vector<Star>& stars, std::optional<SpectralLevel> level)
+GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFile& scene, const std::vector<Star>& stars,
+    std::optional<SpectralLevel> level)
 {
     GpuWorld gpu;
     check_speeds(world, scene);
@@ -144,7 +153,7 @@ GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const S
     gpu.white = make_texture(device, vk::Format::eR8G8B8A8Unorm, {1, 1}, std::as_bytes(std::span(&white, 1)), false);
     name_object(device, gpu.white, "world: white");
     for (Texture& texture : world.textures) {
-        gpu.textures.push_back(make_colour_texture(device, texture, gpu.texture_memory));
+        gpu.textures.push_back(make_colour_texture(device, pipelines, texture, gpu.texture_memory));
         texture.rgba = {};
     }
     const auto sampler_of = [&](int texture) {

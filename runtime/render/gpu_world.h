@@ -54,7 +54,7 @@ void put_spectra(Device& device, GpuWorld& world, SpectralLevel level);
 
 /// stars: the scene's catalogue, used only if the scene has a sky of stars. level: none: as needed_level says. Throws
 /// InputError as put_spectra does.
-GpuWorld upload(Device& device, const Pipelines& pipelines, World world, const SceneFile& scene,
+GpuWorld upload(Device& device, Pipelines& pipelines, World world, const SceneFile& scene,
     const std::vector<Star>& stars = {}, std::optional<SpectralLevel> level = {});
 
 /// Replaces the stars; the list may be empty. No frame of this world may be under way, and FrameRenderers made before

@@ -11,6 +11,7 @@
 #include "spirv/lookup_frag.h"
 #include "spirv/measure_frag.h"
 #include "spirv/meter_frag.h"
+#include "spirv/mip_frag.h"
 #include "spirv/overlay_frag.h"
 #include "spirv/pattern_frag.h"
 #include "spirv/probe_frag.h"
@@ -204,6 +205,15 @@ vk::Pipeline Pipelines::overlay(const WarpVariant& v, int overlay, vk::Format ta
         .target = {{target}},
         .constants = all,
         .blend = true});
+}
+
+vk::Pipeline Pipelines::mip(vk::Format target)
+{
+    return find_or_make({.name = "mip pipeline",
+        .vertex = screen_vert,
+        .fragment = mip_frag,
+        .layout = *layouts.picture_layout,
+        .target = {{target}}});
 }
 
 vk::Pipeline Pipelines::meter(const WarpVariant& v)

@@ -137,6 +137,7 @@ public:
     vk::Pipeline probe(const WarpVariant& variant);
     /// overlay: OVERLAY_ of shared.h.
     vk::Pipeline overlay(const WarpVariant& variant, int overlay, vk::Format target);
+    vk::Pipeline mip(vk::Format target); ///< MipChain's
     vk::Pipeline meter(const WarpVariant& variant);
     vk::Pipeline star_meter(const WarpVariant& variant);
     vk::Pipeline bloom(bool up);

@@ -23,7 +23,8 @@ glm::dmat3 pixel_along(const glm::dvec3& n, double angle)
 } // namespace
 
 Probe::Probe(const Device& device, const std::vector<ProbeRay>& rays, double pixel_angle)
-    : pixel_angle_(pixel_angle)
+    : device_(device)
+    , pixel_angle_(pixel_angle)
 {
     for (const ProbeRay& ray : rays) {
         const glm::dmat3 matrix = pixel_along(ray.direction, pixel_angle);
@@ -57,10 +58,10 @@ void Probe::record(vk::CommandBuffer commands, const std::function<void(std::siz
         colours.push_back({*image.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
             vk::AttachmentStoreOp::eStore});
     }
-    commands.beginRendering({{}, {{0, 0}, images_[0].extent}, 1, 0, colours});
+    device_.begin_rendering(commands, {{}, {{0, 0}, images_[0].extent}, 1, 0, colours});
     for (std::size_t i = 0; i < pixels_.size(); ++i)
         draw(i, pixels_[i].cockpit_from_pixel);
-    commands.endRendering();
+    device_.end_rendering(commands);
     const vk::DeviceSize bytes = pixels_.size() * sizeof(glm::vec4);
     for (std::size_t k = 0; k < images_.size(); ++k) {
         transition(commands, images_[k], vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,

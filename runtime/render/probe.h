@@ -49,6 +49,7 @@ private:
         std::shared_ptr<ConeHierarchy> cones;
     };
     std::vector<Pixel> pixels_;
+    const Device& device_;
     double pixel_angle_;
     std::array<Image, 3> images_;
     Buffer back_;

@@ -159,12 +159,12 @@ Image make_texture(
 Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::size_t texel_bytes, const FillRows& fill,
     bool mips, MemoryArena* arena)
 {
-    std::uint32_t levels = mips ? std::bit_width(std::uint32_t(std::max(size.x, size.y))) : 1;
+    const std::uint32_t levels = mips ? std::bit_width(std::uint32_t(std::max(size.x, size.y))) : 1;
     Image image = make_image(device,
         {.format = format,
             .extent = {std::uint32_t(size.x), std::uint32_t(size.y)},
-            .usage
-            = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst,
+            .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst
+                | (levels > 1 ? vk::ImageUsageFlagBits::eColorAttachment : vk::ImageUsageFlags()),
             .levels = levels,
             .arena = arena});
     const std::size_t row_bytes = texel_bytes * std::size_t(size.x);
@@ -175,37 +175,21 @@ Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::size
     using Access = vk::AccessFlagBits2;
     using Layout = vk::ImageLayout;
     const auto put_strip = [&](vk::CommandBuffer commands, int first, int rows) {
-        auto level_barrier = [&](std::uint32_t level, std::uint32_t count, Layout from, Access from_access, Layout to,
-                                 Access to_access, vk::PipelineStageFlags2 to_stage) {
-            vk::ImageMemoryBarrier2 barrier(Stage::eTransfer, from_access, to_stage, to_access, from, to,
-                VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *image.image,
-                {vk::ImageAspectFlagBits::eColor, level, count, 0, 1});
-            commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
-        };
+        const auto barrier
+            = [&](Layout from, Access from_access, Layout to, Access to_access, vk::PipelineStageFlags2 to_stage) {
+                  const vk::ImageMemoryBarrier2 level(Stage::eTransfer, from_access, to_stage, to_access, from, to,
+                      VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *image.image,
+                      {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
+                  commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, level));
+              };
         if (first == 0)
-            level_barrier(
-                0, levels, Layout::eUndefined, {}, Layout::eTransferDstOptimal, Access::eTransferWrite, Stage::eTransfer);
+            barrier(Layout::eUndefined, {}, Layout::eTransferDstOptimal, Access::eTransferWrite, Stage::eTransfer);
         commands.copyBufferToImage(*staging.buffer, *image.image, Layout::eTransferDstOptimal,
             vk::BufferImageCopy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {0, first, 0},
                 {image.extent.width, std::uint32_t(rows), 1}));
-        if (first + rows < size.y)
-            return;
-        glm::ivec2 from = size;
-        for (std::uint32_t level = 1; level < levels; ++level) {
-            level_barrier(level - 1, 1, Layout::eTransferDstOptimal, Access::eTransferWrite, Layout::eTransferSrcOptimal,
-                Access::eTransferRead, Stage::eTransfer);
-            glm::ivec2 to = glm::max(from / 2, 1);
-            vk::ImageBlit blit({vk::ImageAspectFlagBits::eColor, level - 1, 0, 1}, {vk::Offset3D{}, {from.x, from.y, 1}},
-                {vk::ImageAspectFlagBits::eColor, level, 0, 1}, {vk::Offset3D{}, {to.x, to.y, 1}});
-            commands.blitImage(*image.image, Layout::eTransferSrcOptimal, *image.image, Layout::eTransferDstOptimal, blit,
-                vk::Filter::eLinear);
-            from = to;
-        }
-        if (levels > 1)
-            level_barrier(0, levels - 1, Layout::eTransferSrcOptimal, Access::eTransferRead, Layout::eShaderReadOnlyOptimal,
+        if (first + rows == size.y)
+            barrier(Layout::eTransferDstOptimal, Access::eTransferWrite, Layout::eShaderReadOnlyOptimal,
                 Access::eShaderSampledRead, Stage::eFragmentShader);
-        level_barrier(levels - 1, 1, Layout::eTransferDstOptimal, Access::eTransferWrite, Layout::eShaderReadOnlyOptimal,
-            Access::eShaderSampledRead, Stage::eFragmentShader);
     };
     for (int first = 0; first < size.y; first += strip) {
         const int rows = std::min(strip, size.y - first);

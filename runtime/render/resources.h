@@ -57,7 +57,7 @@ Image make_image(const Device& device, const ImageSpec& spec);
 
 vk::ImageAspectFlags aspect_of(vk::Format format);
 
-/// A texture; mips are made by halving. arena: as ImageSpec's.
+/// A texture. mips: it has room for all coarser levels, which MipChain draws. arena: as ImageSpec's.
 Image make_texture(Device& device, vk::Format format, glm::ivec2 size, std::span<const std::byte> pixels, bool mips,
     MemoryArena* arena = nullptr);
 /// Writes rows of one layer, from first_row on.

@@ -96,7 +96,7 @@ void StarPass::begin(vk::CommandBuffer commands, vk::Extent2D extent)
         Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
     const vk::RenderingAttachmentInfo colour(*picture_.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore, vk::ClearColorValue(std::array<float, 4>{}));
-    commands.beginRendering({{}, {{0, 0}, extent}, 1, 0, colour});
+    device_.begin_rendering(commands, {{}, {{0, 0}, extent}, 1, 0, colour});
 }
 
 void StarPass::draw(vk::CommandBuffer commands, std::size_t observer, glm::ivec2 corner, glm::ivec2 size, int instances,
@@ -122,7 +122,7 @@ void StarPass::sample(
 
 void StarPass::end(vk::CommandBuffer commands)
 {
-    commands.endRendering();
+    device_.end_rendering(commands);
     transition(commands, picture_, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
         Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader,
         Access::eShaderSampledRead);

@@ -19,7 +19,7 @@ void ViewMeter::record(vk::CommandBuffer commands)
         return;
     const Label label(device_, commands, "meter");
     const vk::RenderingAttachmentInfo picture = meter_->begin(commands);
-    commands.beginRendering({{}, {{0, 0}, meter_->extent()}, 1, 0, picture});
+    device_.begin_rendering(commands, {{}, {{0, 0}, meter_->extent()}, 1, 0, picture});
     for (std::size_t i = 0; i < views_.all.size(); ++i) {
         const ViewState& view = views_.all[i];
         if (state_.layout.outputs[view.output].preview)
@@ -33,7 +33,7 @@ void ViewMeter::record(vk::CommandBuffer commands)
         if (stars_.on())
             meter_stars(commands, view, meter_->star_cell(i));
     }
-    commands.endRendering();
+    device_.end_rendering(commands);
     meter_->end(commands);
 }
 
@@ -46,8 +46,8 @@ void ViewMeter::meter_stars(vk::CommandBuffer commands, const ViewState& view, c
     own.mips = false;
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.star_meter(own));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.star_layout, 0, *view.warp_set, {});
-    commands.pushConstants<shared::ViewPush>(
-        *pipelines_.layouts.star_layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
+    commands.pushConstants<shared::ViewPush>(*pipelines_.layouts.star_layout,
+        vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
     stars_.sample(commands, eyes_.all[view.eye].observer, cell.corner, cell.size, meter_->every(), own.channels);
 }
 

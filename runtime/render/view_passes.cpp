@@ -103,13 +103,13 @@ void ViewPasses::bloom_view(vk::CommandBuffer commands, const ViewState& view)
     view.bloom->begin(commands);
     vk::RenderingAttachmentInfo colour(light.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eStore);
-    commands.beginRendering({{}, {{0, 0}, light.extent}, 1, 0, colour});
+    device_.begin_rendering(commands, {{}, {{0, 0}, light.extent}, 1, 0, colour});
     shared::ViewPush constants = constants_.exposed_push(view, std::exp2(state_.shot.exposure_ev));
     constants.origin.x = constants.origin.y = 0;
     WarpVariant linear = constants_.variant_shown(view);
     linear.linear = true;
     draw_warp(commands, view, pipelines_.warp(linear, light.format), constants, {0, 0}, view.geometry().size);
-    commands.endRendering();
+    device_.end_rendering(commands);
     view.bloom->spread(commands);
 }
 
@@ -151,7 +151,7 @@ void ViewPasses::warp_output(vk::CommandBuffer commands, std::size_t output, con
         vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
             vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
             vk::ClearColorValue(std::array<float, 4>{0, 0, 0, 1}));
-        commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
+        device_.begin_rendering(commands, {{}, {{0, 0}, target.extent}, 1, 0, colour});
         for (const ViewState& view : views_.all) {
             if (view.output != output || view.geometry().canvas != canvas)
                 continue;
@@ -164,7 +164,7 @@ void ViewPasses::warp_output(vk::CommandBuffer commands, std::size_t output, con
                     constants_.exposed_push(view, std::exp2(state_.shot.exposure_ev)), view.geometry().corner,
                     view.geometry().size);
         }
-        commands.endRendering();
+        device_.end_rendering(commands);
     }
 }
 
@@ -180,11 +180,11 @@ void ViewPasses::lay_over(vk::CommandBuffer commands, std::size_t output, const 
         commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, after_warp));
         vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
             vk::AttachmentLoadOp::eLoad, vk::AttachmentStoreOp::eStore);
-        commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
+        device_.begin_rendering(commands, {{}, {{0, 0}, target.extent}, 1, 0, colour});
         for (std::size_t i = 0; i < views_.all.size(); ++i)
             if (views_.all[i].output == output && views_.all[i].geometry().canvas == canvas)
                 draw(i, target.format);
-        commands.endRendering();
+        device_.end_rendering(commands);
     }
 }
 
@@ -223,12 +223,12 @@ void ViewPasses::record_measured(vk::CommandBuffer commands, std::size_t output,
         colours.push_back({*image->view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
             vk::AttachmentStoreOp::eStore, vk::ClearColorValue(std::array<float, 4>{nothing, nothing, nothing, nothing})});
     }
-    commands.beginRendering({{}, {{0, 0}, target.camera.extent}, 1, 0, colours});
+    device_.begin_rendering(commands, {{}, {{0, 0}, target.camera.extent}, 1, 0, colours});
     for (const ViewState& view : views_.all)
         if (view.output == output && view.geometry().canvas == 0)
             draw_warp(commands, view, pipelines_.measure(constants_.variant_shown(view)), constants_.exposed_push(view, 1),
                 view.geometry().corner, view.geometry().size);
-    commands.endRendering();
+    device_.end_rendering(commands);
     for (const Image* image : {&target.light_and_depth, &target.camera, &target.world})
         transition(commands, *image, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
             Access::eColorAttachmentWrite, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead);
@@ -254,14 +254,14 @@ void ViewPasses::look_up(vk::CommandBuffer commands, const Target& target, vk::P
     shared::ViewPush constants = constants_.push(view, eyes_.observer_of(view).rest_frames[0].motion_from_cockpit);
     vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
         vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore);
-    commands.beginRendering({{}, {{0, 0}, target.extent}, 1, 0, colour});
+    device_.begin_rendering(commands, {{}, {{0, 0}, target.extent}, 1, 0, colour});
     set_area(commands, view.geometry().corner, view.geometry().size);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0, set, {});
     commands.pushConstants<shared::ViewPush>(
         *pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
     commands.draw(3, 1, 0, 0);
-    commands.endRendering();
+    device_.end_rendering(commands);
 }
 
 PlannedImage ViewPasses::plain_image(const Shot& shot, glm::dmat3& straight_from_world) const

@@ -1,0 +1,29 @@
+#pragma once
+#include <vulkan/vulkan_raii.hpp>
+
+namespace starbow {
+
+/// Keeps the fences of lavapipe's scenes alive until no thread uses them any more.
+///
+/// llvmpipe draws each rendering as a scene, and the last thread of its rasterizer signals the scene's fence under the
+/// fence's mutex. Mesa 22.3 reads the signal without that mutex, and may so free the fence while the rasterizer still
+/// unlocks it; the unlock then writes into memory that belongs to something else. A query holds a reference to the fence
+/// of the scene in which it ended. Each rendering therefore ends queries of a ring, and its fence lives until the ring
+/// comes round. tests/rig/early_free.c shows the fault and its absence.
+class SceneKeeper {
+public:
+    explicit SceneKeeper(const vk::raii::Device& device);
+
+    /// Before a rendering: frees the queries of the scenes of a ring ago, where there are no others left.
+    void begin(vk::CommandBuffer commands);
+    /// Within a rendering, after begin: a query takes the fence of the present scene, and so begins one where the rendering
+    /// has only cleared so far.
+    void hold(vk::CommandBuffer commands);
+
+private:
+    static constexpr std::uint32_t half = 1024; ///< scenes; a frame has some ten to two hundred
+    vk::raii::QueryPool queries_; ///< a ring of two halves
+    std::uint32_t first_ = half, held_ = half; ///< the half in use, and its queries in use
+};
+
+} // namespace starbow
