@@ -3,6 +3,7 @@
 #include "runtime/images/picture_errors.h"
 #include "runtime/reference/reference.h"
 #include "tests/support/gpu_environment.h"
+#include <set>
 
 namespace reference_gpu_test {
 
@@ -56,6 +57,10 @@ TEST(LivePicture, ConvergesToTheReferenceInEveryShippedLayout)
 {
     const Shot shot = shipped_shot("avenue-gamma4");
     for (const auto& file : starbow::testing::shipped("config/layouts")) {
+        // One of each kind of display; the others differ in places and numbers.
+        static const std::set<std::string> some = {"desk", "dome", "headset", "cave5", "mirror", "stereo"};
+        if (!starbow::testing::all_cases() && !some.contains(file.stem()))
+            continue;
         const Layout layout = small_layout(file, 128);
         std::vector<Bytes> truth;
         for (std::size_t i = 0; i < layout.outputs.size(); ++i)

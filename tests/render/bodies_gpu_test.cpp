@@ -43,7 +43,7 @@ TEST(BodiesGpuTest, EveryRayMeetsWhatIsNearest)
 {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> part(0, 1);
-    for (int round = 0; round < 6; ++round) {
+    for (int round = 0; round < (starbow::testing::all_cases() ? 6 : 3); ++round) {
         // The bodies: one at rest, three with constant velocities, and one that turns round and so has two more velocities.
         std::vector<dvec3> velocities = {{0, 0, 0}};
         for (int i = 0; i < 3; ++i)

@@ -132,6 +132,12 @@ void expect_in_range(double lamps, const std::vector<double>& gammas)
 
 TEST(Range, PicturesHoldUpToGammaAMillionAndThirtyStops)
 {
+    if (!starbow::testing::all_cases()) {
+        expect_in_range(1, {1, 4, 100, 1e6});
+        expect_in_range(1e6, {4, 1e6});
+        expect_in_range(1e9, {1.5});
+        return;
+    }
     expect_in_range(1, {1, 1.5, 4, 20, 100, 1e4, 1e6});
     expect_in_range(1e6, {1, 4, 20, 1e3, 1e6});
     expect_in_range(1e9, {1, 1.5, 4});

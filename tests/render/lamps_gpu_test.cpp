@@ -137,6 +137,8 @@ TEST(Lamps, ALampThatPassesEqualsRays)
     int compared = 0;
     for (double kelvin : {2856.0, 5772.0})
         for (double along : {-4.0, -0.5, 0.4, 3.0}) {
+            if (!starbow::testing::all_cases() && (along == -0.5 || along == 3.0))
+                continue;
             const Json scene = {{"ambient", {0, 0, 0}},
                 {"lights",
                     {{{"type", "point"}, {"body", "body"}, {"position", {along, 0.4, -1.5}}, {"distance", 2.5},
@@ -160,7 +162,7 @@ TEST(Lamps, ALampThatPassesEqualsRays)
             }
         }
     std::printf("  %d pixels, at most %.2f %% off\n", compared, 100 * worst);
-    EXPECT_GT(compared, 3000);
+    EXPECT_GT(compared, starbow::testing::all_cases() ? 3000 : 1500);
 }
 
 } // namespace starbow::gpu_test::lamps_gpu_test

@@ -56,8 +56,11 @@ bool free_of_aim(const Shot& shot, const dvec3& n)
 TEST(Overlay, TheRingLiesWhereDIsOneAndIsEvenlyWide)
 {
     const GpuWorld world = wall_world();
-    for (const Layout& layout : {window({320, 240}), dome({320, 320}), two_eyes({320, 240})})
+    const std::vector<Layout> layouts = {window({320, 240}), dome({320, 320}), two_eyes({320, 240})};
+    for (const Layout& layout : layouts)
         for (const auto& [beta, angle_deg] : {std::pair(0.5, 74.45773), std::pair(0.8, 60.0), std::pair(0.99, 29.81806)}) {
+            if (!testing::all_cases() && beta != 0.8 && &layout != &layouts.front())
+                continue;
             OffscreenRenderer offscreen = renderer(world, layout);
             const Shot shot = shot_at({0, 0, 0}, {0.8 * u_of_beta(beta), 0, -0.6 * u_of_beta(beta)}, {0.5, 0.1, -1});
             const Numbers numbers(offscreen, shot);

@@ -68,7 +68,8 @@ TEST(Sampling, StraightBackAndAheadIsAsGoodAtEverySpeed)
     OffscreenRenderer live(device(), pipelines(), gpu, layout, default_quality(device(), false), false);
     for (bool back : {true, false}) {
         double least = 1e9, most = 0;
-        for (double gamma : {2.0, 4.0, 10.0, 100.0, 1000.0}) {
+        for (double gamma :
+            starbow::testing::all_cases() ? std::vector{2.0, 4.0, 10.0, 100.0, 1000.0} : std::vector{2.0, 10.0, 1000.0}) {
             const Shot shot = shot_at({}, {0, 0, u_of_gamma(gamma)}, {0, 0, back ? -1.0 : 1.0});
             const auto truth = shown(reference({placed, scene, none}, layout, shot, 0, {.samples = 9}));
             const double dB = psnr_dB({{256, 256}, live.picture(shot)[0]}, {{256, 256}, truth});
@@ -97,7 +98,8 @@ TEST(Sampling, NoSeamOnASmoothSky)
         for (Output& output : layout.outputs)
             output.size = ivec2(320, 320 * output.size.y / output.size.x);
         OffscreenRenderer live(device(), pipelines(), world, layout, default_quality(device(), false), true);
-        for (double gamma : {1.0, 1.5, 4.0, 100.0, 1000.0}) {
+        for (double gamma :
+            starbow::testing::all_cases() ? std::vector{1.0, 1.5, 4.0, 100.0, 1000.0} : std::vector{1.5, 100.0}) {
             int all_compared = 0;
             for (const dvec3& look : {dvec3(0, 0, -1), dvec3(1, 0.2, 0.3), dvec3(0.1, 0, 1)}) {
                 const Shot shot = shot_at({}, {0, 0, -u_of_gamma(gamma)}, look);

@@ -184,12 +184,13 @@ TEST(Stars, AStarKeepsItsLightAndSizeAtEverySpeedOnEveryDisplay)
     put_stars(device(), world, {star_at(n)});
     std::mt19937 random(3);
     std::uniform_real_distribution<double> one(-1, 1);
+    const int tries = starbow::testing::all_cases() ? 6 : 3;
     for (const auto& [name, projection] : displays) {
         OffscreenRenderer offscreen = renderer(world, one_view(projection, size_for(name)));
         int drawn = 0, most = 0;
         double off = 0, low = 1e9, high = 0;
         for (double gamma : {1.0, 1.5, 4.0, 100.0})
-            for (int i = 0; i < 6; ++i) {
+            for (int i = 0; i < tries; ++i) {
                 // The cockpit is turned so that the star may be anywhere in the picture.
                 const dvec3 u = u_of_gamma(gamma) * glm::normalize(dvec3(one(random), one(random), one(random)));
                 const dvec3 expected = seen(n, u), way(0.5 * one(random), 0.4 * one(random) + 0.1, -1);
@@ -213,7 +214,7 @@ TEST(Stars, AStarKeepsItsLightAndSizeAtEverySpeedOnEveryDisplay)
             }
         std::printf("  %-16s %d drawn, off by %.3f pixels at most, light %.4f to %.4f, at most %d pixels\n", name.c_str(),
             drawn, off, low, high, most);
-        EXPECT_GE(drawn, 22);
+        EXPECT_GE(drawn, 4 * tries - 2);
         EXPECT_LT(off, 0.1);
         // 1 % is required; the spot's own error is half of it. For the lens, solid angles of green serve for all three
         // channels.

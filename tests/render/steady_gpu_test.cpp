@@ -49,9 +49,11 @@ TEST(Steady, AHeadingAtAMillionthOfLightChangesNothing)
     if (all_cases())
         layouts.insert(layouts.end(), {"headset", "stereo", "cave5"});
     for (const std::string& name : layouts)
-        for (const char* preset : {"draft", "balanced", "fine"}) {
-            const Quality quality = within(device(),
-                load_quality(starbow::testing::source_dir() / "config/qualities" / (std::string(preset) + ".json")));
+        for (const std::string preset : {"draft", "balanced", "fine"}) {
+            if (!all_cases() && name == "dome" && preset != "balanced")
+                continue;
+            const Quality quality
+                = within(device(), load_quality(starbow::testing::source_dir() / "config/qualities" / (preset + ".json")));
             OffscreenRenderer live(device(), pipelines(), avenue().world, small(name, 320), quality, false);
             std::vector<std::vector<Bytes>> pictures;
             pictures.push_back(live.picture(along({0, 0, -1}, 0)));
@@ -62,7 +64,7 @@ TEST(Steady, AHeadingAtAMillionthOfLightChangesNothing)
                 for (const std::vector<Bytes>& b : pictures)
                     for (std::size_t i = 0; i < a.size(); ++i)
                         worst = std::min(worst, psnr(a[i], b[i]));
-            std::printf("%s, %s: %.1f dB\n", name.c_str(), preset, worst);
+            std::printf("%s, %s: %.1f dB\n", name.c_str(), preset.c_str(), worst);
             // At 45 dB nobody sees a difference, even of pictures shown in turn.
             EXPECT_GT(worst, 45) << name << ", " << preset;
         }
@@ -77,6 +79,8 @@ TEST(Steady, ObliqueSlowFlightShowsWhatRaysShow)
     for (const std::string& name : layouts)
         for (double beta : {0.3, 0.5})
             for (Comparison comparison : {Comparison::none, Comparison::galilean}) {
+                if (!all_cases() && name == "dome" && (beta != 0.5 || comparison != Comparison::none))
+                    continue;
                 Shot shot = along({0.6, 0.48, 0.64}, beta);
                 shot.effects = {.aberration = true, .doppler = true, .headlight = true, .comparison = comparison};
                 const Layout layout = small(name, 160);
