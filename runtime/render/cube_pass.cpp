@@ -82,7 +82,7 @@ void CubePass::record(vk::CommandBuffer commands)
     std::array<glm::vec4, MAX_GROUPS + 1> clear{};
     for (std::size_t group = 0; group < kind.colours.size() && !several_rest_frames_; ++group)
         clear[group] = glm::vec4(world_.spectra.sky[1][group] * pre_exposure_);
-    target_.begin(commands, area_, std::span(clear).first(kind.colours.size()));
+    target_.begin(commands, area_, std::span(clear).first(kind.colours.size()), 2 + std::uint32_t(images_.size()));
     draw_images(commands, kind, false);
     target_.end(commands, images_, levels_, several_rest_frames_);
 }

@@ -90,7 +90,7 @@ void CubeTarget::fit_depth(glm::ivec2 size)
     name_object(device_, depth_, "cube pass: depth");
 }
 
-void CubeTarget::begin(vk::CommandBuffer commands, glm::ivec2 area, std::span<const glm::vec4> clear)
+void CubeTarget::begin(vk::CommandBuffer commands, glm::ivec2 area, std::span<const glm::vec4> clear, std::uint32_t scenes)
 {
     const bool sampled = samples_ > 1;
     const std::span used(atlases_.data(), clear.size());
@@ -134,7 +134,7 @@ void CubeTarget::begin(vk::CommandBuffer commands, glm::ivec2 area, std::span<co
         depth_info.resolveImageLayout = vk::ImageLayout::eDepthAttachmentOptimal;
     }
     device_.begin_rendering(
-        commands, {{}, rect_of({0, 0}, area), 1, 0, std::uint32_t(used.size()), colours.data(), &depth_info});
+        commands, {{}, rect_of({0, 0}, area), 1, 0, std::uint32_t(used.size()), colours.data(), &depth_info}, scenes);
 }
 
 void CubeTarget::begin_plain(vk::CommandBuffer commands, const Target& target, const glm::vec4& clear)

@@ -23,7 +23,8 @@ public:
     /// The images' formats and samples; several_rest_frames: something that moves is in view.
     TargetKind kind(bool several_rest_frames) const;
     /// Begins rendering into an area from the corner on. clear: the colour of each atlas; as many atlases are drawn.
-    void begin(vk::CommandBuffer commands, glm::ivec2 area, std::span<const glm::vec4> clear);
+    /// scenes: as Device::begin_rendering's.
+    void begin(vk::CommandBuffer commands, glm::ivec2 area, std::span<const glm::vec4> clear, std::uint32_t scenes);
     /// Begins rendering into a target of its own, with this object's depth.
     void begin_plain(vk::CommandBuffer commands, const Target& target, const glm::vec4& clear);
     /// Ends the rendering of begin(), and makes the mips of the images. Afterwards fragment shaders may read the atlases,

@@ -284,10 +284,10 @@ Device::Device(const Options& options)
     name_object(*this, cache, "pipeline cache");
 }
 
-void Device::begin_rendering(vk::CommandBuffer commands, const vk::RenderingInfo& info) const
+void Device::begin_rendering(vk::CommandBuffer commands, const vk::RenderingInfo& info, std::uint32_t scenes) const
 {
     if (keeper)
-        keeper->begin(commands);
+        keeper->begin(commands, scenes);
     commands.beginRendering(info);
     if (keeper)
         keeper->hold(commands);

@@ -48,8 +48,9 @@ public:
     const char* name() const { return properties.deviceName.data(); }
     bool on_processor() const { return properties.deviceType == vk::PhysicalDeviceType::eCpu; }
 
-    /// These two enclose the draws of each rendering.
-    void begin_rendering(vk::CommandBuffer commands, const vk::RenderingInfo& info) const;
+    /// These two enclose the draws of each rendering. scenes: as SceneKeeper's, where the keeper holds more than the two of
+    /// its begin and end.
+    void begin_rendering(vk::CommandBuffer commands, const vk::RenderingInfo& info, std::uint32_t scenes = 2) const;
     void end_rendering(vk::CommandBuffer commands) const;
 
     /// Records, submits and waits: for loading, measuring and stills.

@@ -1,25 +1,25 @@
 #include "scene_keeper.h"
+#include <algorithm>
 
 namespace starbow {
 
 SceneKeeper::SceneKeeper(const vk::raii::Device& device)
-    : queries_(device.createQueryPool({{}, vk::QueryType::eTimestamp, 2 * half}))
+    : queries_(device.createQueryPool({{}, vk::QueryType::eTimestamp, most}))
 {
 }
 
-void SceneKeeper::begin(vk::CommandBuffer commands)
+void SceneKeeper::begin(vk::CommandBuffer commands, std::uint32_t scenes)
 {
-    if (held_ < half / 2)
-        return;
-    held_ = 0;
-    first_ = half - first_;
-    commands.resetQueryPool(*queries_, first_, half);
+    const std::uint32_t count = std::min(scenes, most / 4);
+    next_ = end_ + count > most ? 0 : end_;
+    end_ = next_ + count;
+    commands.resetQueryPool(*queries_, next_, count);
 }
 
 void SceneKeeper::hold(vk::CommandBuffer commands)
 {
-    if (held_ < half)
-        commands.writeTimestamp2(vk::PipelineStageFlagBits2::eTopOfPipe, *queries_, first_ + held_++);
+    if (next_ < end_)
+        commands.writeTimestamp2(vk::PipelineStageFlagBits2::eTopOfPipe, *queries_, next_++);
 }
 
 } // namespace starbow

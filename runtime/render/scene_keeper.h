@@ -14,16 +14,17 @@ class SceneKeeper {
 public:
     explicit SceneKeeper(const vk::raii::Device& device);
 
-    /// Before a rendering: frees the queries of the scenes of a ring ago, where there are no others left.
-    void begin(vk::CommandBuffer commands);
+    /// Before a rendering that is so many scenes at most: frees queries from the scenes of a ring ago. The commands that
+    /// free them are in the same buffer as those that use them, because a recorded buffer may never be submitted.
+    void begin(vk::CommandBuffer commands, std::uint32_t scenes);
     /// Within a rendering, after begin: a query takes the fence of the present scene, and so begins one where the rendering
     /// has only cleared so far.
     void hold(vk::CommandBuffer commands);
 
 private:
-    static constexpr std::uint32_t half = 1024; ///< scenes; a frame has some ten to two hundred
-    vk::raii::QueryPool queries_; ///< a ring of two halves
-    std::uint32_t first_ = half, held_ = half; ///< the half in use, and its queries in use
+    static constexpr std::uint32_t most = 4096; ///< queries; a frame needs some twenty to two hundred
+    vk::raii::QueryPool queries_;
+    std::uint32_t next_ = 0, end_ = 0; ///< the queries that the present rendering may still use
 };
 
 } // namespace starbow
