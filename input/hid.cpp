@@ -81,8 +81,8 @@ struct Hid::Shared {
     void open(const hid_device_info& found);
 };
 
-/// Reads until the device is unplugged or the program ends. The queue is emptied each time, because only the last report
-/// counts.
+/// Reads until the device is unplugged or the program ends. Every report is taken: the last value of an axis counts, and
+/// each press of a button.
 void Hid::Shared::read(const std::shared_ptr<Device>& device, hid_device* handle)
 {
     std::array<unsigned char, 4096> report;
@@ -290,7 +290,7 @@ void Hid::add(double dt_s, Controls& controls)
         {
             const std::lock_guard lock(device->mutex);
             state = device->state;
-            device->state.tapped.assign(device->state.tapped.size(), false);
+            device->state.presses.assign(device->state.presses.size(), {});
         }
         const Rates others = take_rates(controls);
         mapping->add(state, now, dt_s, controls);

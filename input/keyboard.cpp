@@ -10,6 +10,13 @@ namespace {
 
 constexpr double look_rad_per_pixel = 0.003;
 
+bool is_read_elsewhere(int joystick, const std::vector<UsbId>& read_elsewhere)
+{
+    const char* guid = glfwGetJoystickGUID(joystick);
+    const std::optional<UsbId> kind = usb_id(guid ? guid : "");
+    return kind && std::find(read_elsewhere.begin(), read_elsewhere.end(), *kind) != read_elsewhere.end();
+}
+
 } // namespace
 
 const char* keyboard_help()
@@ -112,33 +119,18 @@ void Keyboard::finish(Controls& controls)
 
 void Keyboard::read_pads(Controls& controls, double dt_s, const std::vector<UsbId>& read_elsewhere)
 {
-    pad_before_ = pad_;
-    pad_.fill(false);
     for (int joystick = GLFW_JOYSTICK_1; joystick <= GLFW_JOYSTICK_LAST; ++joystick) {
         GLFWgamepadstate state;
-        if (!glfwJoystickIsGamepad(joystick) || !glfwGetGamepadState(joystick, &state))
-            continue;
-        const char* guid = glfwGetJoystickGUID(joystick);
-        const std::optional<UsbId> kind = usb_id(guid ? guid : "");
-        if (kind && std::find(read_elsewhere.begin(), read_elsewhere.end(), *kind) != read_elsewhere.end())
+        const bool read_here = glfwJoystickIsGamepad(joystick) && glfwGetGamepadState(joystick, &state)
+            && !is_read_elsewhere(joystick, read_elsewhere);
+        pads_.take(std::size_t(joystick), read_here ? &state : nullptr);
+        if (!read_here)
             continue;
         const Rates others = take_rates(controls);
         add_pad(state, dt_s, controls);
         add_rates(controls, others, dt_s);
-        for (int button = 0; button <= GLFW_GAMEPAD_BUTTON_LAST; ++button)
-            pad_[button] = pad_[button] || state.buttons[button] == GLFW_PRESS;
     }
-    auto tapped = [&](int button) { return pad_[button] && !pad_before_[button]; };
-    controls.stop |= tapped(GLFW_GAMEPAD_BUTTON_A);
-    controls.home |= tapped(GLFW_GAMEPAD_BUTTON_B);
-    controls.undo |= tapped(GLFW_GAMEPAD_BUTTON_LEFT_THUMB);
-    controls.aberration |= tapped(GLFW_GAMEPAD_BUTTON_X);
-    controls.doppler |= tapped(GLFW_GAMEPAD_BUTTON_Y);
-    controls.headlight |= tapped(GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER);
-    controls.look_ahead |= tapped(GLFW_GAMEPAD_BUTTON_LEFT_BUMPER);
-    controls.mark |= tapped(GLFW_GAMEPAD_BUTTON_RIGHT_THUMB);
-    controls.overlay |= tapped(GLFW_GAMEPAD_BUTTON_START);
-    controls.hud |= tapped(GLFW_GAMEPAD_BUTTON_BACK);
+    pads_.add(controls);
 }
 
 } // namespace starbow

@@ -28,7 +28,7 @@ public:
     }
 
 private:
-    static constexpr int keys = 512, buttons = 32;
+    static constexpr int keys = 512;
     void begin();
     void collect(GLFWwindow* window);
     void finish(Controls& controls);
@@ -40,7 +40,7 @@ private:
     /// Presses of each key that no reading has reported yet. Each reading reports one, so that quick taps in one slow frame
     /// all count, one frame after another.
     std::array<std::uint8_t, keys> presses_{};
-    std::array<bool, buttons> pad_{}, pad_before_{};
+    PadButtons pads_;
     glm::dvec2 pointer_{0}, drag_{0};
     GLFWwindow* dragging_ = nullptr;
     bool held_ = false;

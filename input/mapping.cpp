@@ -53,7 +53,9 @@ void add_role(AxisRole role, double value, double dt_s, Controls& controls)
     }
 }
 
-/// The switches of buttons, set in the frame of the press.
+constexpr std::size_t most_waiting = 255; ///< presses of one button or hat
+
+/// The switches of buttons. A frame's switch holds one press, so that a second one waits for the next frame.
 constexpr std::pair<ButtonRole, bool Controls::*> switches[]
     = {{ButtonRole::stop, &Controls::stop}, {ButtonRole::home, &Controls::home}, {ButtonRole::undo, &Controls::undo},
         {ButtonRole::next_mode, &Controls::next_mode}, {ButtonRole::freeze, &Controls::freeze},
@@ -72,14 +74,41 @@ constexpr Held held[]
     = {{ButtonRole::faster, &Controls::throttle_rate, 1}, {ButtonRole::slower, &Controls::throttle_rate, -1},
         {ButtonRole::brighter, &Controls::exposure, 1}, {ButtonRole::darker, &Controls::exposure, -1}};
 
-void press(ButtonRole role, bool pressed, bool down, Controls& controls)
+/// waiting: the button's presses; it loses the one that the controls take.
+void press(ButtonRole role, std::size_t& waiting, bool down, Controls& controls)
 {
+    const bool pressed = waiting > 0;
     for (const auto& [which, flag] : switches)
-        if (which == role)
-            controls.*flag |= pressed;
+        if (which == role && pressed && !(controls.*flag))
+            controls.*flag = true, --waiting;
     for (const Held& one : held)
-        if (one.role == role && down)
+        if (one.role == role && (down || pressed)) {
             controls.*one.value += one.by;
+            waiting -= pressed;
+        }
+}
+
+bool is_hat(const Field& field) { return field.usage == Usage{desktop, hat_switch}; }
+bool is_button(const Field& field) { return field.usage.page == button_page && field.bits == 1 && field.array.empty(); }
+
+/// False for other fields.
+bool is_down(const Field& field, std::int64_t raw)
+{
+    return (is_button(field) && raw != 0) || (is_hat(field) && hat_degrees(field, raw));
+}
+
+/// Counts a press where a button or a hat leaves its rest. A hat that is pressed to a corner may pass through a side, so
+/// that a press has its last value.
+void take_press(const Field& field, std::optional<std::int64_t> before, std::int64_t raw, std::vector<std::int64_t>& presses)
+{
+    if (!is_down(field, raw))
+        return;
+    if (before && is_down(field, *before)) {
+        if (!presses.empty())
+            presses.back() = raw;
+    } else if (presses.size() < most_waiting) {
+        presses.push_back(raw);
+    }
 }
 
 bool has(const Descriptor& descriptor, std::uint16_t page, std::uint16_t id)
@@ -104,7 +133,7 @@ bool is_axis(const Field& field)
 bool take_report(const Descriptor& descriptor, std::span<const std::uint8_t> report, std::int64_t now_ns, DeviceState& state)
 {
     state.raw.resize(descriptor.fields.size());
-    state.tapped.resize(descriptor.fields.size());
+    state.presses.resize(descriptor.fields.size());
     state.health.resize(descriptor.fields.size());
     int id = 0;
     if (descriptor.uses_report_ids) {
@@ -119,8 +148,8 @@ bool take_report(const Descriptor& descriptor, std::span<const std::uint8_t> rep
         if (field.report_id != id || std::size_t(field.bit_offset + field.bits + 7) / 8 > report.size())
             continue; // fields beyond a short report keep their values
         const std::int64_t raw = raw_value(field, report);
+        take_press(field, state.raw[i], raw, state.presses[i]);
         state.raw[i] = raw;
-        state.tapped[i] = state.tapped[i] || raw > 0;
         if (is_axis(field))
             state.health[i].take((centred(field, raw) + 1) / 2, now_ns);
         any = true;
@@ -246,9 +275,9 @@ Mapping::Mapping(Descriptor descriptor, Profile profile)
     }
     for (std::size_t i = 0; i < descriptor_.fields.size(); ++i) {
         const Field& field = descriptor_.fields[i];
-        if (field.usage == Usage{desktop, hat_switch} && !hat_)
+        if (is_hat(field) && !hat_)
             hat_ = i;
-        if (field.usage.page == button_page && field.bits == 1 && field.array.empty())
+        if (is_button(field))
             for (const ButtonUse& use : profile_.buttons)
                 if (use.button == field.usage.id)
                     buttons_.push_back({i, use.role});
@@ -276,6 +305,9 @@ void Mapping::add(const DeviceState& state, std::int64_t now_ns, double dt_s, Co
     levers_.clear();
     troubles_.clear();
     auto raw = [&](std::size_t field) { return field < state.raw.size() ? state.raw[field] : std::nullopt; };
+    auto presses = [&](std::size_t field) {
+        return field < state.presses.size() ? std::span(state.presses[field]) : std::span<const std::int64_t>();
+    };
     for (const Axis& axis : axes_) {
         const auto value = raw(axis.field);
         if (!value || axis.use.role == AxisRole::none)
@@ -294,18 +326,30 @@ void Mapping::add(const DeviceState& state, std::int64_t now_ns, double dt_s, Co
             add_role(axis.use.role, wanted, dt_s, controls);
     }
     for (Button& button : buttons_) {
-        const bool down = raw(button.field).value_or(0) != 0,
-                   tapped = button.field < state.tapped.size() && state.tapped[button.field];
-        press(button.role, (down || tapped) && !button.down, down, controls);
-        button.down = down;
+        button.waiting = std::min(button.waiting + presses(button.field).size(), most_waiting);
+        press(button.role, button.waiting, raw(button.field).value_or(0) != 0, controls);
     }
-    if (hat_)
-        if (const auto value = raw(*hat_))
-            if (const auto degrees = hat_degrees(descriptor_.fields[*hat_], *value)) {
-                const double a = *degrees * pi / 180;
-                add_role(profile_.hat_x.value_or(AxisRole::none), std::round(std::sin(a)), dt_s, controls);
-                add_role(profile_.hat_y.value_or(AxisRole::none), std::round(std::cos(a)), dt_s, controls);
-            }
+    if (hat_) {
+        for (std::int64_t value : presses(*hat_))
+            if (hat_waiting_.size() < most_waiting)
+                hat_waiting_.push_back(value);
+        std::optional<std::int64_t> value = raw(*hat_);
+        if (!hat_waiting_.empty()) {
+            value = hat_waiting_.front();
+            hat_waiting_.pop_front();
+        }
+        point_hat(value, dt_s, controls);
+    }
+}
+
+void Mapping::point_hat(std::optional<std::int64_t> value, double dt_s, Controls& controls) const
+{
+    const auto degrees = value ? hat_degrees(descriptor_.fields[*hat_], *value) : std::nullopt;
+    if (!degrees)
+        return;
+    const double a = *degrees * pi / 180;
+    add_role(profile_.hat_x.value_or(AxisRole::none), std::round(std::sin(a)), dt_s, controls);
+    add_role(profile_.hat_y.value_or(AxisRole::none), std::round(std::cos(a)), dt_s, controls);
 }
 
 } // namespace starbow

@@ -5,13 +5,15 @@
 #include "health.h"
 #include "lever.h"
 #include "report.h"
+#include <deque>
 
 namespace starbow {
 
 /// A device's present state: the raw value of each field of its descriptor, nullopt for those without a report yet.
 struct DeviceState {
     std::vector<std::optional<std::int64_t>> raw;
-    std::vector<bool> tapped; ///< fields above 0 in any report since the last reading, so that short taps count
+    /// Of each button and hat the values that it was pressed to since the last reading, oldest first.
+    std::vector<std::vector<std::int64_t>> presses;
     std::vector<AxisHealth> health;
     std::int64_t report_ns = 0; ///< arrival of the last report
 };
@@ -31,7 +33,8 @@ bool one_sided(AxisRole role);
 /// increase and reduce the speed. A hat and a second stick look around.
 Profile usual_profile(const Descriptor& descriptor);
 
-/// The controls of one device. Presses count from one reading to the next.
+/// The controls of one device. Each reading reports one press of a button or a hat, so that quick taps in one slow frame all
+/// count, one frame after another.
 class Mapping {
 public:
     Mapping(Descriptor descriptor, Profile profile);
@@ -55,13 +58,16 @@ private:
     struct Button {
         std::size_t field;
         ButtonRole role;
-        bool down = false;
+        std::size_t waiting = 0; ///< presses that no reading has reported yet
     };
+    void point_hat(std::optional<std::int64_t> value, double dt_s, Controls& controls) const;
+
     Descriptor descriptor_;
     Profile profile_;
     std::vector<Axis> axes_;
     std::vector<Button> buttons_;
     std::optional<std::size_t> hat_;
+    std::deque<std::int64_t> hat_waiting_; ///< values of presses that no reading has reported yet, oldest first
     std::vector<Lever> levers_;
     std::vector<std::string> troubles_;
 };

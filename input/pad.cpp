@@ -7,6 +7,9 @@
 #include <cmath>
 
 namespace starbow {
+
+static_assert(GLFW_JOYSTICK_LAST == 15 && GLFW_GAMEPAD_BUTTON_LAST == 14);
+
 namespace {
 
 /// A value outside its dead zone, starting from 0 there: neither sticks nor triggers rest exactly at 0.
@@ -53,6 +56,28 @@ void add_pad(const GLFWgamepadstate& state, double dt_s, Controls& controls)
     controls.look_rad.y -= look_rad_per_s * dt_s * stick(state.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y]);
     controls.exposure
         += double(state.buttons[GLFW_GAMEPAD_BUTTON_DPAD_UP]) - double(state.buttons[GLFW_GAMEPAD_BUTTON_DPAD_DOWN]);
+}
+
+void PadButtons::take(std::size_t joystick, const GLFWgamepadstate* state)
+{
+    for (std::size_t button = 0; button < buttons; ++button) {
+        const bool down = state && state->buttons[button] == GLFW_PRESS;
+        waiting_[button] += down && !down_[joystick][button];
+        down_[joystick][button] = down;
+    }
+}
+
+void PadButtons::add(Controls& controls)
+{
+    constexpr std::pair<std::size_t, bool Controls::*> switches[]
+        = {{GLFW_GAMEPAD_BUTTON_A, &Controls::stop}, {GLFW_GAMEPAD_BUTTON_B, &Controls::home},
+            {GLFW_GAMEPAD_BUTTON_LEFT_THUMB, &Controls::undo}, {GLFW_GAMEPAD_BUTTON_X, &Controls::aberration},
+            {GLFW_GAMEPAD_BUTTON_Y, &Controls::doppler}, {GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER, &Controls::headlight},
+            {GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, &Controls::look_ahead}, {GLFW_GAMEPAD_BUTTON_RIGHT_THUMB, &Controls::mark},
+            {GLFW_GAMEPAD_BUTTON_START, &Controls::overlay}, {GLFW_GAMEPAD_BUTTON_BACK, &Controls::hud}};
+    for (const auto& [button, flag] : switches)
+        if (waiting_[button] > 0 && !(controls.*flag))
+            controls.*flag = true, --waiting_[button];
 }
 
 } // namespace starbow

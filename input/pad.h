@@ -1,5 +1,6 @@
 #pragma once
 #include "controls.h"
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -17,7 +18,22 @@ struct UsbId {
 /// instead.
 std::optional<UsbId> usb_id(std::string_view guid);
 
-/// Adds the rates of a gamepad's sticks and triggers; its buttons are the caller's. dt_s: since the last reading.
+/// Adds the rates of a gamepad's sticks and triggers. dt_s: since the last reading.
 void add_pad(const GLFWgamepadstate& state, double dt_s, Controls& controls);
+
+/// The switches of all gamepads' buttons. GLFW knows a button's state at a reading alone: a button that is pressed and let
+/// go between two readings is not seen.
+class PadButtons {
+public:
+    /// state: null where no gamepad is at this number, from 0 to 15.
+    void take(std::size_t joystick, const GLFWgamepadstate* state);
+    /// Adds one press of each switch. One that another hand pressed in the same frame waits for the next frame.
+    void add(Controls& controls);
+
+private:
+    static constexpr std::size_t joysticks = 16, buttons = 15;
+    std::array<std::array<bool, buttons>, joysticks> down_{};
+    std::array<int, buttons> waiting_{}; ///< presses that no reading has reported yet
+};
 
 } // namespace starbow

@@ -69,16 +69,21 @@ float exact_distance_in(float distance, int frame, vec3 n0, float pixel_angle)
     Place place = place_in(i, n0, pixel_angle, sight, angle);
     float in_ship = ABERRATION ? from_camera(n0, view.boost.xy).D : 1.0;
     float per_depth = sight.D * view.boost.w * sqrt(1.0 + dot(place.face, place.face)) / in_ship;
-    // The surface belongs to the texel around whose depth is nearest to the shown one.
     ivec4 image = ivec4(texelFetch(tiles, place.entry + 1));
-    float shown = per_depth / distance, least = 1e30;
-    ivec2 texel = ivec2(-1);
-    for (int k = 0; k < 4; ++k) {
-        float depth = depth_within(texel_of(place, k), image), off = abs(depth - shown);
-        if (depth > 0.0 && off < least)
-            least = off, texel = texel_of(place, k);
+    // The surface is that of the nearest texel. Where this frame has nothing there, it belongs to the texel around whose
+    // depth is nearest to the shown one, which is a mean over the pixel.
+    vec2 at = place.texel - sample_place();
+    ivec2 texel = clamp(ivec2(round(at)), image.xy, image.zw);
+    if (depth_of(texel) <= 0.0) {
+        float shown = per_depth / distance, least = 1e30;
+        texel = ivec2(-1);
+        for (int k = 0; k < 4; ++k) {
+            float depth = depth_within(texel_of(place, k), image), off = abs(depth - shown);
+            if (depth > 0.0 && off < least)
+                least = off, texel = texel_of(place, k);
+        }
     }
-    return texel.x < 0 ? distance : per_depth / plane_depth(texel, place.texel - sample_place(), image);
+    return texel.x < 0 ? distance : per_depth / plane_depth(texel, at, image);
 }
 
 // The distance that the instruments read along the ship's direction of `shown`; SKY_DISTANCE for the sky. An eye beside the

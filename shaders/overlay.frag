@@ -62,15 +62,18 @@ vec4 ring(vec3 n, float pixel_angle)
     return over(line(vec3(1.0), off, 0.9, 1.0), tint) * overlay.ring.z;
 }
 
-// A distance (scene units) as a colour with contours; the picture behind stays visible.
-vec4 false_colour(float distance)
+// A distance (scene units) along n (the ship's direction, motion axes) as a colour with contours; the picture behind stays
+// visible.
+vec4 false_colour(float distance, vec3 n)
 {
     bool sky = is_sky(distance);
     float logarithm = log2(sky ? 1e30 : max(distance, 1e-30)) * 0.30103 + overlay.scale.z; // of seconds of light
     float per_pixel = max(fwidth(logarithm), 1e-7);
     float off, wide_off, room, fine_off = 1e9, fine_room = 0.0;
     if (OVERLAY == OVERLAY_EMISSION) {
-        float time = overlay.steps.y - (sky ? 0.0 : distance * overlay.steps.z), step = overlay.steps.x;
+        // Light's travel time; without light delay the lapse between the world's present and the ship's.
+        float later = overlay.ring.w > 0.0 ? overlay.steps.w * n.z : -1.0;
+        float time = overlay.steps.y + (sky ? 0.0 : distance * later * overlay.steps.z), step = overlay.steps.x;
         float footprint = max(fwidth(time), 1e-7 * step);
         off = from_multiple(time, step) / footprint;
         wide_off = from_multiple(time, 5.0 * step) / footprint;
@@ -155,7 +158,11 @@ void main()
     }
     if (OVERLAY == OVERLAY_RING)
         sum = ring(n, pixel_angle);
-    if (OVERLAY == OVERLAY_DISTANCE || OVERLAY == OVERLAY_EMISSION)
-        sum = false_colour(exact_distance(shown_along(n, pixel_angle), pixel_angle));
+    if (OVERLAY == OVERLAY_DISTANCE || OVERLAY == OVERLAY_EMISSION) {
+        Shown seen = shown_along(n, pixel_angle);
+        // Where velocities simply add, moving things have no distance in the world.
+        bool unknown = GALILEAN && seen.frame > 0.0;
+        sum = false_colour(unknown ? SKY_DISTANCE : exact_distance(seen, pixel_angle), n);
+    }
     shown = over(signs(n, pixel_angle), sum);
 }

@@ -147,11 +147,12 @@ struct StarConstants {
 // The measuring overlays of a viewport.
 struct OverlayConstants {
     vec4 world0, world1, world2; // rows of world_from_motion
-    vec4 ring; // x: cosine, y: sine of the angle from the motion where D = 1; z: 1 where there is one
+    vec4 ring; // x: cosine, y: sine of the angle from the motion where D = 1; z: 1 where there is one;
+               // w: 1 without light delay
     vec4 scale; // of the colours: x: lowest log10 of a distance in seconds of light, y: 1 over the range; z: log10 of
                 // seconds of light per scene unit
     vec4 steps; // retarded time: x: seconds between contours, y: the eye's time since a heavier one, seconds; z: seconds
-                // of light per scene unit
+                // of light per scene unit; w: the proper velocity, without light delay
     vec4 aim, right, up; // the look's axes, in motion axes; aim.w: 1: the crosshair is drawn
     vec4 marks[2]; // directions in the ship, motion axes; w: 1 where there is one
 };

@@ -30,6 +30,13 @@ void print_summary(const Session& session, const SceneFile& scene)
         std::printf("%s\n", describe(session.skew).c_str());
 }
 
+/// True if the error is a lack of memory and the governor has a level for which there may be room.
+bool leaves_level(Session& session, const std::exception& error)
+{
+    const bool no_room = dynamic_cast<const NoRoom*>(&error) || dynamic_cast<const vk::OutOfDeviceMemoryError*>(&error);
+    return no_room && session.governor && take_coarser_level(session, session.governor->level(), error.what());
+}
+
 } // namespace
 
 int fly_exhibit(const ExhibitOptions& options)
@@ -39,6 +46,7 @@ int fly_exhibit(const ExhibitOptions& options)
         const Clock::time_point opened = Clock::now();
         std::unique_ptr<RenderContext> context;
         std::string lost;
+        bool coarser = false; // the device is opened anew for a level of less memory, and nothing is wrong with it
         const char* how = "is lost";
         try {
             context = std::make_unique<RenderContext>(options.scene, device_options(true),
@@ -61,16 +69,20 @@ int fly_exhibit(const ExhibitOptions& options)
         } catch (const vk::DeviceLostError& error) {
             lost = error.what();
         } catch (const vk::SystemError& error) {
-            if (losses == 0 && session.shown == 0)
+            coarser = context && leaves_level(session, error); // else the world itself has no room
+            if (!coarser && losses == 0 && session.shown == 0)
                 throw; // it has never worked
             lost = error.what(), how = "has failed";
         } catch (const InputError& error) {
-            if (losses == 0 && session.shown == 0)
+            coarser = context && leaves_level(session, error); // else the world itself has no room
+            if (!coarser && losses == 0 && session.shown == 0)
                 throw;
             lost = error.what(); // no memory for what is to be drawn, or the driver is not back yet
         }
         session.complaints |= context && !context->device.complaints.empty();
         context.reset();
+        if (coarser)
+            continue;
         if (seconds(Clock::now() - opened) > 60)
             losses = 0;
         if (++losses > most_losses) {

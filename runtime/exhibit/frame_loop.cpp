@@ -153,27 +153,46 @@ std::optional<double> FrameLoop::await_device()
     return frame_->metered();
 }
 
+std::size_t FrameLoop::warm_up(std::unique_ptr<FrameRenderer>& frame, const Quality& quality,
+    const std::function<void(std::size_t, std::size_t)>& progress)
+{
+    if (frame)
+        frame->adopt(quality);
+    else
+        frame = std::make_unique<FrameRenderer>(device_, context_.pipelines, context_.world, session_.layout, quality);
+    frame->meter(session_.options.exposure.automatic);
+    frame->bloom(session_.options.exposure.bloom);
+    const Panel* panel = hud_.update(session_, context_.world.scene, 0, frame->views().hud_width());
+    return starbow::warm_up(device_, context_.pipelines, *frame, session_.options.start, panel, screens_.format(), progress);
+}
+
 void FrameLoop::warm_up()
 {
     const auto began = Clock::now();
-    std::vector<Quality> qualities;
-    if (session_.governor)
-        for (const PresetLevel& level : session_.governor->ladder())
-            qualities.push_back(within(device_, level.quality));
-    qualities.push_back(quality_of(session_, device_));
-    const vk::Format format = screens_.format();
-    FrameRenderer frame(device_, context_.pipelines, context_.world, session_.layout, qualities.front());
-    frame.meter(session_.options.exposure.automatic);
-    frame.bloom(session_.options.exposure.bloom);
-    const SceneFile& scene = context_.world.scene;
-    const Panel* panel = hud_.update(session_, scene, 0, frame.views().hud_width());
+    const std::size_t levels = session_.governor ? session_.governor->ladder().size() : 1;
+    std::unique_ptr<FrameRenderer> frame; // anew after a level without room
     Progress progress;
-    const std::size_t made = starbow::warm_up(device_, context_.pipelines, frame, session_.options.start, panel, format,
-        qualities, [&](std::size_t step, std::size_t steps) {
-            glfwPollEvents(); // else the window system takes the program for dead
-            progress.show("compiling pipelines of all switches: " + std::to_string(step) + " of " + std::to_string(steps),
-                double(step) / double(steps));
-        });
+    std::size_t made = 0;
+    for (std::size_t level = 0; level < levels; ++level) {
+        if (session_.governor && !session_.governor->has_room(level))
+            continue;
+        const Quality quality = session_.governor ? within(device_, session_.governor->ladder()[level].quality)
+                                                  : quality_of(session_, device_);
+        try {
+            made = warm_up(frame, quality, [&](std::size_t step, std::size_t steps) {
+                glfwPollEvents(); // else the window system takes the program for dead
+                const double part = (double(level) + double(step) / double(steps)) / double(levels);
+                progress.show("compiling pipelines of all switches: " + std::to_string(level * steps + step) + " of "
+                        + std::to_string(levels * steps),
+                    part);
+            });
+        } catch (const NoRoom& error) {
+            frame.reset();
+            if (!take_coarser_level(session_, level, error.what()))
+                throw;
+        }
+    }
+    frame_->adopt(quality_of(session_, device_));
     std::array<char, 80> text;
     std::snprintf(text.data(), text.size(), "%zu pipelines are ready after %.1f s", made, seconds(Clock::now() - began));
     log_info("pipelines", text.data());
@@ -197,6 +216,7 @@ Shot FrameLoop::set_up_frame(const Controls& controls)
     for (std::size_t i = 0; i < targets.size(); ++i)
         if (targets[i].view)
             frame_->resize(i, {targets[i].extent.width, targets[i].extent.height});
+    watch_sizes(targets);
     frame_->move_head(controls.head);
     frame_->meter(session_.options.exposure.automatic);
     frame_->bloom(session_.options.exposure.bloom);
@@ -204,6 +224,20 @@ Shot FrameLoop::set_up_frame(const Controls& controls)
     shot.exposure_ev = ev_of(session_);
     session_.lab.request(*frame_, shot, session_.flight, context_.world, hud_.typesetter);
     return shot;
+}
+
+/// Windows of another size need another amount of memory. A new start of the device alone changes no size.
+void FrameLoop::watch_sizes(const std::vector<Target>& targets)
+{
+    session_.sizes.resize(targets.size(), glm::ivec2(0));
+    for (std::size_t i = 0; i < targets.size() && session_.governor; ++i) {
+        if (!targets[i].view)
+            continue;
+        const glm::ivec2 size(targets[i].extent.width, targets[i].extent.height),
+            before = std::exchange(session_.sizes[i], size);
+        if (before != glm::ivec2(0) && before != size)
+            session_.governor->forget_refusals();
+    }
 }
 
 void FrameLoop::begin_commands()
@@ -250,6 +284,8 @@ void FrameLoop::apply_file_changes()
         session_.kept = fresh;
         session_.watch = std::move(watch);
         session_.refused.clear();
+        if (session_.governor)
+            session_.governor->forget_refusals();
         screens_.adopt(session_.layout);
         const std::size_t unkept = changes(session_.kept, session_.layout).size();
         log_info("layout",

@@ -28,6 +28,9 @@ public:
 private:
     /// Draws off-screen all states of the visitor's switches; shows the progress on a terminal.
     void warm_up();
+    std::size_t warm_up(std::unique_ptr<FrameRenderer>& frame, const Quality& quality,
+        const std::function<void(std::size_t, std::size_t)>& progress);
+    void watch_sizes(const std::vector<Target>& targets);
     /// Waits for the frame's turn and for the device. Returns the exposure for the frame before, if it was metered.
     std::optional<double> await_device();
     /// Applies a change of the layout's files. If any file is wrong, nothing changes: the old picture stays until the new

@@ -1,4 +1,5 @@
 #include "session.h"
+#include "config/json/reader.h"
 #include "config/model/scene_file.h"
 #include "runtime/flight/record_files.h"
 #include "runtime/operation/log.h"
@@ -72,6 +73,17 @@ Quality quality_of(const Session& session, const Device& device)
     if (session.governor)
         return within(device, session.governor->ladder()[session.governor->level()].quality);
     return session.options.quality ? within(device, *session.options.quality) : default_quality(device, false);
+}
+
+bool take_coarser_level(Session& session, std::size_t level, const std::string& reason)
+{
+    if (!session.governor || !session.governor->refuse(level))
+        return false;
+    log_warning("quality",
+        "level " + std::to_string(level + 1) + " of " + std::to_string(session.governor->ladder().size())
+            + " has no room on the GPU (" + one_line(reason) + "); level " + std::to_string(session.governor->level() + 1)
+            + " is drawn, and that one is not tried again before the layout or a window's size changes");
+    return true;
 }
 
 std::string notice_of(const Session& session)

@@ -43,6 +43,7 @@ struct Session {
     Lab lab;
     Skew skew{};
     std::optional<Governor> governor;
+    std::vector<glm::ivec2> sizes{}; ///< of the outputs' windows, as last drawn
     Clock::time_point began = Clock::now(), last = began;
     long shown = 0; ///< frames
     bool complaints = false; ///< the validation layers had messages on a lost device
@@ -54,6 +55,9 @@ inline double seconds(std::chrono::steady_clock::duration d) { return std::chron
 std::unique_ptr<HeadTracker> tracker_of(const Layout& layout);
 /// The quality of the next frame.
 Quality quality_of(const Session& session, const Device& device);
+/// Leaves a level of the governor's ladder for which the device has no memory, and logs that with the reason. Returns false
+/// without a governor, and where no level is left.
+bool take_coarser_level(Session& session, std::size_t level, const std::string& reason);
 /// The exposure of the next picture, EV.
 double ev_of(const Session& session);
 /// The line below the head-up display's figures.

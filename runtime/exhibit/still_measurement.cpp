@@ -120,6 +120,9 @@ StillMeasurement measure_still(OffscreenRenderer& renderer, const GpuWorld& worl
         marks[i - 1] = snapped(spot_of(i), world.world);
     const Ship ship = ship_at(shot);
     const Words english = words_in("en");
+    if (shot.effects.comparison != Comparison::none)
+        measurement.lines.push_back(
+            english(shot.effects.comparison == Comparison::galilean ? "light.galilean" : "light.no_light_delay"));
     for (std::size_t i = 0; i < probed.size(); ++i) {
         const Measured measured
             = measured_of(frame.head(i), ship, world.scene, world.world, shot.effects, spot_of(i), probed[i].light, marks);

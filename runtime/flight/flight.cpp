@@ -34,8 +34,11 @@ void press(Flight& flight, const Controls& controls, const Flying& rules, const 
         flight.ship = stopped(flight.ship);
         flight.homing.reset();
     }
-    if (controls.home) {
-        flight.homing = homing_from(flight.ship, start, rules);
+    if (controls.home && !flight.homing) { // one press is enough: the way goes on
+        FeltMotion motion = felt_motion(flight, controls, rules);
+        if (controls.stop)
+            motion.thrust = glm::dvec3(0);
+        flight.homing = homing_from(flight.ship, motion, rules);
         flight.frozen = false;
     }
     if (controls.stop || controls.home)
@@ -68,7 +71,7 @@ void tick(Flight& flight, const Controls& controls, const Flying& rules, double 
     }
     ++flight.ticks;
     if (flight.homing) {
-        fly_home(flight.ship, *flight.homing, start, rules, tick_s, seconds_per_time_unit);
+        fly_home(flight.ship, *flight.homing, start, rules, seconds_per_time_unit);
         flight.turn_rad_s = flight.turn_lead_rad_s = glm::dvec3(0);
         if (flight.homing->arrived) {
             flight.homing.reset();

@@ -140,4 +140,11 @@ Push pilot(Flight& flight, const Steering& input, const Flying& rules)
     return flight.mode == FlightMode::newtonian ? by_thrust(flight, controls, rules) : by_lever(flight, rules);
 }
 
+FeltMotion felt_motion(Flight flight, const Steering& controls, const Flying& rules)
+{
+    const glm::dvec3 turn = flight.turn_rad_s;
+    const Push push = pilot(flight, controls, rules);
+    return {push.rapidity / tick_s, turn, (flight.turn_rad_s - turn) / tick_s};
+}
+
 } // namespace starbow

@@ -16,4 +16,7 @@ void steer(Flight& flight, const Steering& controls, const Flying& rules);
 /// ship.
 Push pilot(Flight& flight, const Steering& controls, const Flying& rules);
 
+/// The ship's motion in the next tick under these controls.
+FeltMotion felt_motion(Flight flight, const Steering& controls, const Flying& rules);
+
 } // namespace starbow

@@ -326,9 +326,10 @@ std::uint64_t digest(const Flight& flight)
     all.add(flight.turn_rad_s), all.add(flight.turn_lead_rad_s);
     all.add(flight.homing.has_value());
     if (flight.homing) {
-        all.add(flight.homing->braking), all.add(flight.homing->elapsed_s), all.add(flight.homing->from);
-        all.add(flight.homing->rapidity_per_s), all.add(flight.homing->way_s), all.add(flight.homing->launch_s);
-        all.add(flight.homing->arrived);
+        const Homing& homing = *flight.homing;
+        all.add(std::int64_t(homing.leg)), all.add(homing.ticks), all.add(homing.elapsed), all.add(homing.from);
+        all.add(homing.settling.thrust), all.add(homing.settling.turn_rad_s), all.add(homing.settling.turn_gain_rad_s2);
+        all.add(homing.gain), all.add(homing.ramp_s), all.add(homing.arrived);
     }
     all.add(flight.look_rad);
     all.add(flight.effects.aberration), all.add(flight.effects.doppler), all.add(flight.effects.headlight);

@@ -11,13 +11,16 @@ struct MeasuringObserver {
     double time = 0;
     glm::dvec3 u{0}; ///< proper velocity
     glm::dquat ship_from_cockpit{1, 0, 0, 0};
-    bool aberration = true; ///< false: the effect is off, and the picture has the world's directions
+    bool aberration = true; ///< false: the effect is off, and the picture has the world's directions; true without light
+                            ///< delay
+    Comparison comparison = Comparison::none; ///< the law of the picture, by which the instruments read it
 };
 /// The measuring observer of a shot's eye, at `offset` from the ship (ship frame, scene units) and simultaneous there.
 MeasuringObserver measuring_observer_of(const Shot& shot, const glm::dvec3& offset = glm::dvec3(0));
 
 /// An incoming ray of light: unit directions towards its source, in the ship's frame and in the world's, and f_seen /
-/// f_emitted.
+/// f_emitted, by the picture's law. Without light delay things are shown where they are at the ship's present: `world` then
+/// leads to that place, and D is 1.
 struct Ray {
     glm::dvec3 ship, world;
     double D = 1;
@@ -59,10 +62,13 @@ struct SpotReading {
     std::optional<double> from_motion_rad, from_motion_world_rad; ///< angle from the motion, as seen and in the world;
                                                                   ///< nullopt at rest
     double seen_nm = example_nm; ///< the seen wavelength of example_nm
-    std::optional<double> distance_s; ///< in the world, to the retarded position; nullopt for the sky
-    std::optional<double> emitted_s; ///< the retarded time, in the world
-    std::optional<double> ship_distance_s; ///< in the ship's frame: the light's travel time there, D times the above
-    std::optional<double> clock_s; ///< the seen reading of the clock that is at the spot at its retarded time, at its
+    std::optional<double> distance_s; ///< in the world, to the retarded position; nullopt for the sky. Without light
+                                      ///< delay in the ship, to the place at its present
+    std::optional<double> emitted_s; ///< the retarded time, in the world; without light delay the world's time there at
+                                     ///< the ship's present
+    std::optional<double> ship_distance_s; ///< in the ship's frame: the light's travel time there, D times the above;
+                                           ///< nullopt where velocities simply add
+    std::optional<double> clock_s; ///< the shown reading of the clock that is at the spot at the shown time, at its
                                    ///< middle or at another part of its dial
     std::optional<double> light; ///< as in Probed
 };
@@ -72,7 +78,8 @@ SpotReading read_spot(const MeasuringObserver& observer, const Spot& spot, const
 struct PairReading {
     double angle_rad = 0; ///< between them, as seen
     std::optional<double> apparent_s; ///< apparent length: the distance, in the ship's frame, between the two retarded
-                                      ///< positions; nullopt for the sky and without aberration
+                                      ///< positions; nullopt for the sky, without aberration, and where velocities
+                                      ///< simply add
     std::optional<double> rest_s; ///< the distance between them where both rest; nullopt where they move against each other
     std::optional<double> contracted_s; ///< the distance in the ship's frame, both at one time there; nullopt as above
     std::optional<double> clocks_s; ///< the second's reading minus the first's
@@ -80,7 +87,8 @@ struct PairReading {
 PairReading read_pair(const MeasuringObserver& observer, const Spot& first, const Spot& second, const World& world,
     double seconds_per_time_unit);
 
-/// The angle from the motion at which nothing is shifted (D = 1), as seen, radians; nullopt at rest.
+/// The angle from the motion at which nothing is shifted (D = 1), as seen, radians; nullopt at rest and without light delay,
+/// where nothing is shifted anywhere.
 std::optional<double> unshifted_angle(const MeasuringObserver& observer);
 
 /// The angle between directions of any length, radians; accurate for small and for opposite ones.

@@ -65,6 +65,10 @@ WhyPage why_page(Why why, const Measured& m, const Words& words)
         page.numbers.push_back(words(key, with));
     };
     const SpotReading& aim = m.aim;
+    if (m.effects.comparison != Comparison::none) { // the picture is not what these formulas say
+        add("why.comparison");
+        return page;
+    }
     switch (why) {
     case Why::none:
         break;
@@ -123,7 +127,8 @@ std::array<std::pair<std::string, std::string>, 9> reading_fields(const Measured
         {words("lab.wavelength"), format.wavelength(aim.seen_nm)},
         {words("lab.angle"), aim.from_motion_rad ? format.angle(aim.from_motion_rad) : words("lab.at_rest")},
         {words("lab.distance"), aim.distance_s ? format.length(aim.distance_s) : sky},
-        {aim.emitted_s ? words("lab.emitted") : "", aim.emitted_s ? format.seconds(aim.emitted_s) : ""},
+        {aim.emitted_s ? words(m.effects.comparison == Comparison::no_light_delay ? "lab.shown_at" : "lab.emitted") : "",
+            aim.emitted_s ? format.seconds(aim.emitted_s) : ""},
         {words("lab.light"), aim.light ? shown_number(*aim.light, words) : "—"},
         {"", ""},
         {"", ""},

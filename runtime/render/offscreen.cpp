@@ -138,8 +138,8 @@ Channels OffscreenRenderer::numbers(const Shot& shot, std::size_t output)
 
 Quality measured_quality(Quality quality)
 {
-    quality.texels_per_pixel = std::max(quality.texels_per_pixel, 4.0);
-    quality.max_texels_per_pixel = std::max(quality.max_texels_per_pixel, 64.0);
+    quality.texels_per_pixel = std::max(quality.texels_per_pixel, 8.0);
+    quality.max_texels_per_pixel = std::max(quality.max_texels_per_pixel, 256.0);
     return quality;
 }
 

@@ -44,7 +44,7 @@ vk::raii::DeviceMemory bind(
         resource.bindMemory(*memory, 0);
         return memory;
     } catch (const vk::SystemError&) {
-        throw InputError("The GPU has no " + std::to_string(needs.size >> 20)
+        throw NoRoom("The GPU has no " + std::to_string(needs.size >> 20)
             + " MiB in one piece: use smaller outputs, a smaller world, or a GPU with more memory");
     }
 }

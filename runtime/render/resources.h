@@ -1,10 +1,16 @@
 #pragma once
+#include "config/json/error.h"
 #include "memory_arena.h"
 #include <functional>
 #include <glm/glm.hpp>
 #include <span>
 
 namespace starbow {
+
+/// The device has no memory left for what is to be drawn.
+struct NoRoom : InputError {
+    using InputError::InputError;
+};
 
 struct Buffer {
     vk::raii::DeviceMemory memory = nullptr;
@@ -52,7 +58,7 @@ struct ImageSpec {
     bool array = false; ///< its view is an array, even with one layer
     MemoryArena* arena = nullptr; ///< where its memory comes from; null: an allocation of its own
 };
-/// Throws InputError if the device can't hold it.
+/// Throws InputError if the device can't hold so large a one, NoRoom if it has no memory for it.
 Image make_image(const Device& device, const ImageSpec& spec);
 
 vk::ImageAspectFlags aspect_of(vk::Format format);

@@ -40,7 +40,7 @@ std::vector<State> states(bool combined)
 } // namespace
 
 std::size_t warm_up(Device& device, Pipelines& pipelines, FrameRenderer& frame, const Shot& shot, const Panel* hud,
-    vk::Format format, std::span<const Quality> qualities, const std::function<void(std::size_t, std::size_t)>& progress)
+    vk::Format format, const std::function<void(std::size_t, std::size_t)>& progress)
 {
     std::vector<Image> images;
     std::vector<Target> targets;
@@ -57,35 +57,32 @@ std::size_t warm_up(Device& device, Pipelines& pipelines, FrameRenderer& frame, 
     name_object(device, commands, "warm-up");
     name_object(device, done, "warm-up done");
     std::size_t step = 0;
-    for (const Quality& quality : qualities) {
-        frame.adopt(quality);
-        for (const State& state : all) {
-            progress(step++, qualities.size() * all.size());
-            Shot at = shot;
-            at.effects = state.effects;
-            at.u = at.ship_from_cockpit * state.u;
-            frame.show(state.pattern);
-            if (state.overlay != Overlay::off)
-                frame.measure(Measuring{.probes = {{glm::dvec3(0, 0, -1)}},
-                    .over = {.overlay = state.overlay},
-                    .panel = hud,
-                    .scale = {0.1, 0.1, 0.9, 0.2}});
-            const std::size_t before = pipelines.count();
-            commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-            for (const Image& image : images)
-                transition(*commands, image, vk::ImageLayout::eUndefined, vk::PipelineStageFlagBits2::eColorAttachmentOutput,
-                    {}, vk::ImageLayout::eColorAttachmentOptimal, vk::PipelineStageFlagBits2::eColorAttachmentOutput,
-                    vk::AccessFlagBits2::eColorAttachmentWrite);
-            frame.draw(*commands, at, hud, targets);
-            commands.end();
-            if (pipelines.count() > before) {
-                const vk::CommandBufferSubmitInfo buffer(*commands);
-                device.queue.submit2(vk::SubmitInfo2({}, {}, buffer, {}), *done);
-                (void)device.device.waitForFences(*done, true, UINT64_MAX);
-                device.device.resetFences(*done);
-            }
-            frame.measure({});
+    for (const State& state : all) {
+        progress(step++, all.size());
+        Shot at = shot;
+        at.effects = state.effects;
+        at.u = at.ship_from_cockpit * state.u;
+        frame.show(state.pattern);
+        if (state.overlay != Overlay::off)
+            frame.measure(Measuring{.probes = {{glm::dvec3(0, 0, -1)}},
+                .over = {.overlay = state.overlay},
+                .panel = hud,
+                .scale = {0.1, 0.1, 0.9, 0.2}});
+        const std::size_t before = pipelines.count();
+        commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+        for (const Image& image : images)
+            transition(*commands, image, vk::ImageLayout::eUndefined, vk::PipelineStageFlagBits2::eColorAttachmentOutput, {},
+                vk::ImageLayout::eColorAttachmentOptimal, vk::PipelineStageFlagBits2::eColorAttachmentOutput,
+                vk::AccessFlagBits2::eColorAttachmentWrite);
+        frame.draw(*commands, at, hud, targets);
+        commands.end();
+        if (pipelines.count() > before) {
+            const vk::CommandBufferSubmitInfo buffer(*commands);
+            device.queue.submit2(vk::SubmitInfo2({}, {}, buffer, {}), *done);
+            (void)device.device.waitForFences(*done, true, UINT64_MAX);
+            device.device.resetFences(*done);
         }
+        frame.measure({});
     }
     return pipelines.count();
 }

@@ -11,9 +11,9 @@ namespace starbow {
 /// combinations of a comparison or false colours with effects switched off; they are compiled at their first use.
 ///
 /// frame: a renderer for this purpose alone; its switches are left in any state. shot: the start, whose world is warmed
-/// up. hud: a panel, or null. format: of the outputs' targets. qualities: all that a running exhibit may use. progress:
-/// is called with the number of finished states and of all states. Returns the number of pipelines.
+/// up, in its quality. hud: a panel, or null. format: of the outputs' targets. progress: is called with the number of
+/// finished states and of all states. Returns the number of pipelines. Throws NoRoom.
 std::size_t warm_up(Device& device, Pipelines& pipelines, FrameRenderer& frame, const Shot& shot, const Panel* hud,
-    vk::Format format, std::span<const Quality> qualities, const std::function<void(std::size_t, std::size_t)>& progress);
+    vk::Format format, const std::function<void(std::size_t, std::size_t)>& progress);
 
 } // namespace starbow

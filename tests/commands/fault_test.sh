@@ -65,6 +65,14 @@ fly submit:1:OUT_OF_MEMORY
 [ "$(grep -c '^starbow: The graphics driver has failed: .*OutOfDeviceMemory' "$folder/log")" = 1 ] || fail "no memory at the start: no line says so"
 ok
 
+# A level of quality that has no room is left at once for one that has it, and is not tried again.
+STARBOW_LARGEST_KIB=12000 timeout 60 "$program" run --layout desk --scene rainbow --frame-budget-ms 1000 --frames 60 >"$folder/log" 2>&1 \
+    || fail "a level without room: exit $?"
+[ "$(grep -c '^fault: no room' "$folder/log")" = 1 ] || fail "a level without room: tried $(grep -c '^fault: no room' "$folder/log") times"
+grep -q 'quality: level 12 of 12 has no room' "$folder/log" || fail "a level without room: no line says so"
+grep -q 'is lost' "$folder/log" && fail "a level without room: a loss of the device is reported"
+ok
+
 # If the device is lost again and again, the exhibit ends with a message and exit 1.
 fly submit:20:DEVICE_LOST,submit:21:DEVICE_LOST,submit:22:DEVICE_LOST,submit:23:DEVICE_LOST,submit:24:DEVICE_LOST,submit:25:DEVICE_LOST
 [ $status = 1 ] || fail "lost again and again: exit $status"

@@ -63,8 +63,11 @@ report thrustmaster-twcs-throttle $(throttle 0080)
 wait 1
 plug thrustmaster-t16000m 0
 wait 0.5
+report thrustmaster-t16000m $(stick 0000 0020)
+$(for button in 4000 4000 4000 4000 4000 0800 0800; do # 7, the display, five times, and 4, the Doppler effect, twice
+    echo "report thrustmaster-t16000m $(stick $button 0020)"; echo "report thrustmaster-t16000m $(stick 0000 0020)"; done)
 $(for i in $(seq 40); do echo "report thrustmaster-t16000m $(stick 0000 ff3f)"; echo "report thrustmaster-t16000m $(stick 0000 0020)"; done)
-wait 1
+run $here/rig/wait_flown.py $folder/record 1
 run xdotool key Escape
 END
 play visit
@@ -104,6 +107,12 @@ print("  the throttle's axes neutral, the stick's %.2f s later, the throttle's b
 sys.exit(not (first == [False, True] and second == [False, False] and third == [True, False]
     and abs(let_go - gone - 1) < 0.25 and 0.9 < back - let_go < 3))
 END
+ok
+# Taps of 5 ms, several in a frame: the record has every one.
+for taps in hud:5 doppler:2; do
+    counted=$(grep -o "\"${taps%:*}\": *true" "$folder/record" | wc -l)
+    [ "$counted" = "${taps#*:}" ] || fail "of ${taps#*:} taps of ${taps%:*} on the stick, $counted count"
+done
 ok
 grep -q 'T.16000M.*axis X jitters and is left out' "$folder/log" || fail "a jittering axis is not reported"
 ok

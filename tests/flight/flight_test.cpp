@@ -509,6 +509,94 @@ TEST(Flight, TheWayHomeKeepsTheLimitsOfComfort)
     EXPECT_LE(most_turn, 12 * 1.02);
 }
 
+namespace {
+
+/// A vector's place after a boost with proper velocity u; its time is 0 before, and is returned in `time`.
+dvec3 boosted(const dvec3& u, const dvec3& x, double& time)
+{
+    const double gamma = std::sqrt(1 + glm::dot(u, u)), before = time;
+    time = gamma * before + glm::dot(u, x);
+    return x + u * (before + glm::dot(u, x) / (gamma + 1));
+}
+
+/// The thrust and the turn of one tick as an instrument on board feels them, in the cockpit's axes: rapidity and radians per
+/// second. The thrust is the velocity that the second instant has in the rest frame of the first. A boost across the motion
+/// turns the axes that are carried along, which nobody feels.
+struct Felt {
+    dvec3 thrust, turn;
+};
+Felt felt(const Ship& before, const Ship& after)
+{
+    const dvec3 u0 = before.u.total(), u = after.u.total();
+    const double g0 = std::sqrt(1 + glm::dot(u0, u0)), g = std::sqrt(1 + glm::dot(u, u));
+    const dvec3 relative = u + u0 * (glm::dot(u0, u) / (g0 + 1) - g);
+    const glm::dquat& q = before.ship_from_cockpit;
+    glm::dmat3 carried;
+    for (int i = 0; i < 3; ++i) {
+        dvec3 axis(0);
+        axis[i] = 1;
+        double time = 0;
+        axis = boosted(relative, q * axis, time);
+        axis = boosted(u0, axis, time);
+        carried[i] = boosted(-u, axis, time);
+    }
+    const glm::dmat3 turned = glm::transpose(carried) * glm::mat3_cast(after.ship_from_cockpit);
+    return {glm::inverse(q) * relative * 1e3,
+        500.0 * dvec3(turned[1][2] - turned[2][1], turned[2][0] - turned[0][2], turned[0][1] - turned[1][0])};
+}
+
+} // namespace
+
+// The greatest jerks of the whole way home, from its first tick to those after arrival.
+TEST(Flight, TheWayHomeKeepsTheLimitsOfJerk)
+{
+    for (const auto& [mode, shot, seconds, jerk] :
+        {std::tuple(FlightMode::guided, start(), 3.0, 2.0), {FlightMode::guided, start_in_flight(), 15.0, 2.0},
+            {FlightMode::newtonian, start(), 8.0, 2.0}, {FlightMode::newtonian, start_in_flight(), 0.1, 0.5}}) {
+        SCOPED_TRACE(std::to_string(int(mode)) + " " + std::to_string(seconds));
+        Flying rules = with(mode, 20);
+        rules.rapidity_per_s = 0.8, rules.rapidity_jerk_per_s2 = jerk; // as a dome's
+        rules.turn_deg_per_s = 15, rules.roll_deg_per_s = 10, rules.turn_jerk_deg_per_s3 = 100;
+        const Controls hand = controls_with(Steering{.lever = 0.9, .turn = {0.3, 1, 0.2}});
+        Flight flight = hold_from(shot, flight_at(shot, rules), controls_with(Steering{.lever = 0.0}), 0.1, rules);
+        flight = hold_from(shot, flight, hand, seconds, rules);
+        const Flight by_hand = step(flight, hand, ms, rules, 1, shot);
+        std::vector<Felt> ticks{felt(flight.ship, by_hand.ship)};
+        const Felt goes_on = felt(by_hand.ship, step(by_hand, hand, ms, rules, 1, shot).ship);
+        Controls home = hand;
+        home.home = true;
+        flight = step(by_hand, home, 0, rules, 1, shot);
+        while (ticks.size() < 100'000 && flight.homing) {
+            const Ship was = flight.ship;
+            flight = step(flight, {}, ms, rules, 1, shot);
+            ticks.push_back(felt(was, flight.ship));
+        }
+        ASSERT_FALSE(flight.homing);
+        EXPECT_EQ(flight.ship.position.total(), shot.position);
+        EXPECT_EQ(flight.ship.u.total(), shot.u);
+        ticks.insert(ticks.end(), 2, Felt{dvec3(0), dvec3(0)});
+        // It takes over where the hand let go. A guided ship's thrust across its motion has no limit of its own.
+        EXPECT_LT(glm::distance(ticks[1].thrust, goes_on.thrust), 1e-3 * jerk * 1.01);
+        double thrust = 0, turn = 0, most_thrust = 0, most_turn = 0;
+        for (std::size_t i = 1; i < ticks.size(); ++i) {
+            most_thrust = std::max(most_thrust, glm::length(ticks[i].thrust));
+            most_turn = std::max(most_turn, glm::length(ticks[i].turn));
+            if (i > 1) {
+                thrust = std::max(thrust, 1e3 * glm::distance(ticks[i].thrust, ticks[i - 1].thrust));
+                turn = std::max(turn, 1e6 * glm::length(ticks[i].turn - 2.0 * ticks[i - 1].turn + ticks[i - 2].turn));
+            }
+        }
+        // 1 % for a tick's length against the exact curves.
+        EXPECT_LE(thrust, jerk * 1.01);
+        EXPECT_LE(turn, 100 * M_PI / 180 * 1.01);
+        // The limits are used.
+        EXPECT_GT(most_thrust, 0.25);
+        EXPECT_GT(thrust, 0.5 * jerk);
+        EXPECT_GT(turn, 0.5);
+        EXPECT_GT(most_turn, seconds > 1 ? 0.05 : 0);
+    }
+}
+
 TEST(Flight, SwitchesToggleAndResetRestores)
 {
     const Flying rules = with(FlightMode::guided);

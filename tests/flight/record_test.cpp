@@ -186,9 +186,10 @@ TEST(Record, TheDigestDependsOnEveryBit)
     flight.lever_rest = 0.0;
     const std::uint64_t before = digest(flight);
     std::vector<double*> numbers{&flight.lever, &*flight.lever_rest, &flight.throttle_rate, &flight.exposure_ev,
-        &flight.look_rad.x, &flight.look_rad.y, &flight.homing->braking, &flight.homing->elapsed_s,
-        &flight.homing->rapidity_per_s, &flight.homing->way_s, &flight.homing->launch_s};
-    for (glm::dvec3* v : {&flight.thrust, &flight.turn_rad_s, &flight.turn_lead_rad_s})
+        &flight.look_rad.x, &flight.look_rad.y, &flight.homing->gain, &flight.homing->ramp_s};
+    FeltMotion& settling = flight.homing->settling;
+    for (glm::dvec3* v : {&flight.thrust, &flight.turn_rad_s, &flight.turn_lead_rad_s, &settling.thrust,
+             &settling.turn_rad_s, &settling.turn_gain_rad_s2})
         numbers.insert(numbers.end(), {&v->x, &v->y, &v->z});
     for (Ship* ship : {&flight.ship, &flight.homing->from}) {
         for (Sum3* s : {&ship->position, &ship->u})
@@ -199,7 +200,7 @@ TEST(Record, TheDigestDependsOnEveryBit)
         glm::dquat& q = ship->ship_from_cockpit;
         numbers.insert(numbers.end(), {&q.w, &q.x, &q.y, &q.z});
     }
-    EXPECT_EQ(numbers.size(), 11u + 9 + 2 * (12 + 6 + 4));
+    EXPECT_EQ(numbers.size(), 8u + 18 + 2 * (12 + 6 + 4));
     for (double* number : numbers) {
         const double kept = *number;
         *number = std::bit_cast<double>(std::bit_cast<std::uint64_t>(kept) ^ 1);
@@ -213,12 +214,14 @@ TEST(Record, TheDigestDependsOnEveryBit)
         EXPECT_NE(digest(flight), before);
         *flag = !*flag;
     }
-    ++flight.ticks;
+    for (std::int64_t* count : {&flight.ticks, &flight.left_ns, &flight.homing->ticks, &flight.homing->elapsed}) {
+        ++*count;
+        EXPECT_NE(digest(flight), before);
+        --*count;
+    }
+    flight.homing->leg = HomingLeg::launch;
     EXPECT_NE(digest(flight), before);
-    --flight.ticks;
-    ++flight.left_ns;
-    EXPECT_NE(digest(flight), before);
-    --flight.left_ns;
+    flight.homing->leg = HomingLeg::settling;
     EXPECT_EQ(digest(flight), before);
 }
 

@@ -256,6 +256,155 @@ TEST(Instruments, AClockOnAMovingBodyHasItsRetardedReading)
     EXPECT_TRUE(pair.apparent_s);
 }
 
+namespace {
+
+dvec3 double_of(quad::V3 v) { return {double(v.x), double(v.y), double(v.z)}; }
+
+/// A world whose middle clock rides on a body, and the picture's law for it by the tests' own boosts.
+struct Riding {
+    dvec3 u{0.9, 0.2, -0.4};
+    World world;
+    std::size_t dial = 0;
+    dvec3 middle{0}; ///< of the dial, in the body's frame
+
+    Riding()
+    {
+        SceneFile scene = load_scene_file(source_dir() / "config/scenes/clocks.json");
+        scene.bodies = {{"clock", {"dial 3"}, u, {2, {1, -1, 4}}, {}}};
+        world = load_world(scene.gltf);
+        place_bodies(world, scene);
+        sort_instances(world);
+        dial = instances_of(world, 1).first;
+        middle = snapped({.clock = dial}, world).at;
+    }
+    /// The dial's event at a time of its own, from the ship's event, in the world.
+    quad::V4 event(quad::Q tau, const MeasuringObserver& ship) const
+    {
+        const quad::V4 from = quad::boosted(quad::of(u), {tau, quad::of(middle)});
+        return {2 + from.t - ship.time, quad::V3{1, -1, 4} + from.x - quad::of(ship.place)};
+    }
+    /// The dial's own time at which `late` becomes above 0.
+    template <class Function> quad::Q when(const MeasuringObserver& ship, const Function& late) const
+    {
+        quad::Q low = -1e4, high = 1e4;
+        for (int i = 0; i < 150; ++i) {
+            const quad::Q tau = (low + high) / 2;
+            (late(event(tau, ship)) > 0 ? high : low) = tau;
+        }
+        return low;
+    }
+};
+
+/// The rate of crests of a wave from the unit direction n where velocities simply add.
+quad::Q galilean_D(quad::V3 n, quad::V3 u) { return 1 + quad::dot(n, u) / quad::gamma(u); }
+
+/// The values that must be read.
+struct Shown {
+    dvec3 ship;
+    double depth = 0; ///< the picture's, as its pixels have it
+    quad::Q clock = 0;
+    double D = 1, distance = 0, emitted = 0;
+};
+
+void expect_read(const MeasuringObserver& ship, const Riding& riding, const Shown& shown, bool moves, const Spot& at)
+{
+    const Spot spot
+        = spot_at(ship, {.ray = ray_from_ship(ship, shown.ship), .distance = shown.depth, .frame = moves}, riding.world);
+    ASSERT_TRUE(spot.clock);
+    EXPECT_EQ(*spot.clock, *at.clock);
+    EXPECT_LT(glm::distance(spot.at, at.at), 1e-8);
+    const SpotReading reading = read_spot(ship, at, riding.world, 1);
+    ASSERT_TRUE(reading.clock_s && reading.distance_s && reading.emitted_s);
+    EXPECT_NEAR(*reading.clock_s, double(shown.clock), 1e-8);
+    EXPECT_NEAR(*reading.distance_s, shown.distance, 1e-8);
+    EXPECT_NEAR(*reading.emitted_s, shown.emitted, 1e-8);
+    EXPECT_NEAR(reading.ray.D / shown.D, 1, 1e-10);
+    EXPECT_NEAR(reading.seen_nm * shown.D / 550, 1, 1e-10);
+    EXPECT_LT(angle_between(reading.ray.ship, shown.ship), 1e-9);
+}
+
+} // namespace
+
+// Pictures that are wrong on purpose: a reading is that of the same thing, clock, place and shift that the pixel shows. Of
+// each picture, the event that it shows is found here by the law in docs/physics.md, for a thing at rest and a moving one.
+TEST(Instruments, AComparisonIsReadAsItIsShown)
+{
+    const Riding riding;
+    const Spot resting = [&] {
+        for (std::size_t i = 0; i < riding.world.instances.size(); ++i)
+            if (i != riding.dial)
+                if (const Spot spot = snapped({.clock = i}, riding.world); std::abs(spot.at.x - 10) < 1e-6)
+                    return spot;
+        return Spot{};
+    }();
+    ASSERT_TRUE(resting.clock);
+    const Spot moving{.at = riding.middle, .frame = 1, .clock = riding.dial};
+    for (const dvec3& u : {dvec3(-0.3, 0.5, 1.2), dvec3(2, 0.1, -0.7), dvec3(0, 0, -0.4)}) {
+        MeasuringObserver ship{{3, 2, 20}, 40, u};
+        const quad::V3 qu = quad::of(u), v = qu * (1 / quad::gamma(qu)), to = quad::of(resting.at - ship.place);
+        const quad::Q far = quad::length(to);
+        {
+            SCOPED_TRACE("velocities simply add");
+            ship.comparison = Comparison::galilean;
+            const quad::V3 n = quad::unit(to);
+            const double delay = double(far), D = double(galilean_D(n, qu));
+            expect_read(ship, riding, {double_of(quad::unit(n + v)), delay, 40 - far, D, delay, 40 - delay}, false, resting);
+            // A moving thing's picture is made in its own frame, and turned into the ship by way of the world.
+            const quad::V3 body = quad::of(riding.u), back = body * -1;
+            const quad::V4 eye = quad::boosted(back, {quad::Q(38), quad::of(ship.place - dvec3(1, -1, 4))}),
+                           velocity = quad::boosted(back, {quad::gamma(qu), qu});
+            const quad::V3 there = quad::of(riding.middle) - eye.x, n_there = quad::unit(there),
+                           seen = quad::unit(n_there + velocity.x * (1 / velocity.t));
+            const quad::V3 on_board = quad::boosted(qu * -1, quad::boosted(body, quad::boosted(velocity.x, {0, seen}))).x;
+            // The pixel's depth is that of the world's ray in its direction, s n' - v with the length 1.
+            const quad::Q along = quad::dot(on_board, v), s = along + sqrtq(along * along + 1 - quad::dot(v, v)),
+                          D_there = galilean_D(n_there, velocity.x), D_world = galilean_D(on_board * s - v, qu);
+            const quad::V4 left = quad::boosted(body, {-quad::length(there), there});
+            expect_read(ship, riding,
+                {double_of(on_board), double(quad::length(there) * D_there / D_world), eye.t - quad::length(there),
+                    double(D_there), double(-left.t), double(40 + left.t)},
+                true, moving);
+            EXPECT_FALSE(read_spot(ship, resting, riding.world, 1).ship_distance_s);
+            const PairReading pair = read_pair(ship, resting, resting, riding.world, 1);
+            EXPECT_FALSE(pair.apparent_s || pair.contracted_s);
+            // D is 1 abeam in the world.
+            const double ring = std::atan2(1.0, double(quad::length(v)));
+            EXPECT_NEAR(*unshifted_angle(ship), ring, 1e-14);
+        }
+        {
+            SCOPED_TRACE("no light delay");
+            ship.comparison = Comparison::no_light_delay;
+            const auto simultaneous = [&](quad::V4 event) { return quad::boosted(qu * -1, event); };
+            // At rest, the event at t + v r.
+            const quad::Q later = quad::dot(v, to);
+            const quad::V4 at_rest = simultaneous({later, to});
+            EXPECT_LT(std::abs(double(at_rest.t)), 1e-20);
+            const double away = double(quad::length(at_rest.x));
+            expect_read(ship, riding, {double_of(quad::unit(at_rest.x)), away, 40 + later, 1, away, double(40 + later)},
+                false, resting);
+            const quad::Q tau = riding.when(ship, [&](quad::V4 event) { return simultaneous(event).t; });
+            const quad::V4 event = riding.event(tau, ship);
+            const quad::V3 on_board = simultaneous(event).x;
+            const double far_off = double(quad::length(on_board));
+            expect_read(ship, riding, {double_of(quad::unit(on_board)), far_off, tau, 1, far_off, double(40 + event.t)},
+                true, moving);
+            const PairReading pair = read_pair(ship, resting, moving, riding.world, 1);
+            EXPECT_NEAR(*pair.apparent_s, double(quad::length(at_rest.x - on_board)), 1e-8);
+            EXPECT_FALSE(unshifted_angle(ship));
+        }
+        {
+            SCOPED_TRACE("without aberration");
+            ship.comparison = Comparison::none, ship.aberration = false;
+            const quad::Q tau = riding.when(ship, [&](quad::V4 event) { return event.t + quad::length(event.x); });
+            const quad::V4 event = riding.event(tau, ship);
+            const quad::V3 n = quad::unit(event.x);
+            const double delay = double(-event.t);
+            const quad::Q D = quad::world_from_camera(n, qu).D / quad::camera_from_world(n, quad::of(riding.u)).D;
+            expect_read(ship, riding, {double_of(n), delay, tau, double(D), delay, 40 - delay}, true, moving);
+        }
+    }
+}
+
 // The traveller's clock lies at one place before it leaves and after it is back. The journey takes 20 s at home and 12 on
 // board, so that the same spot reads 8 seconds less afterwards, and nothing while the traveller is away.
 TEST(Instruments, AClockIsReadOnlyWhileItIsThere)
@@ -368,6 +517,20 @@ TEST(Instruments, ALogIsContinuedOrRefused)
     std::ofstream(fresh("empty.csv")).flush();
     LabLog(scratch("empty.csv")).write(some_measured(), "aim");
     EXPECT_EQ(lines_of(scratch("empty.csv")).size(), 2u);
+}
+
+TEST(Instruments, APageOfAComparisonSaysThatItsFormulaDoesNotHold)
+{
+    for (const char* language : languages) {
+        const Words& words = starbow::testing::words(language);
+        Measured m = some_measured();
+        for (const Comparison comparison : {Comparison::galilean, Comparison::no_light_delay})
+            for (std::size_t page = 1; page < why_names.size(); ++page) {
+                m.effects.comparison = comparison;
+                EXPECT_EQ(why_page(Why(page), m, words).numbers, std::vector<std::string>{words("why.comparison")});
+            }
+        EXPECT_EQ(reading_fields(m, words)[4].first, words("lab.shown_at"));
+    }
 }
 
 TEST(Instruments, EveryPageHasItsTextAndNumbers)

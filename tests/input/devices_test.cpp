@@ -39,7 +39,7 @@ struct Hand {
     {
         Controls controls;
         mapping.add(state, now_ns, 0.016, controls);
-        state.tapped.assign(state.tapped.size(), false);
+        state.presses.assign(state.presses.size(), {});
         return controls;
     }
 };
@@ -125,6 +125,80 @@ TEST(DevicesTest, NoTapIsTooShort)
     EXPECT_TRUE(hand.controls_at(7).stop);
     hand.report(128, 0, true, 8);
     EXPECT_FALSE(hand.controls_at(9).stop); // held
+}
+
+namespace {
+
+/// Two buttons and a hat that rests at 15, in one byte.
+const Descriptor grip{.fields
+    = {{.usage = {9, 1}, .bits = 1, .logical_max = 1}, {.usage = {9, 2}, .bit_offset = 1, .bits = 1, .logical_max = 1},
+        {.usage = {1, 0x39}, .bit_offset = 4, .bits = 4, .logical_max = 7, .null_state = true}},
+    .report_bits = {{0, 8}}};
+constexpr std::uint8_t let_go = 0xf0, first = 0xf1, second = 0xf2, ahead = 0x00, ahead_right = 0x10, left = 0x60;
+
+/// The controls of the `frames` readings after reports that all come within one frame.
+std::vector<Controls> frames_after(
+    Mapping& mapping, DeviceState& state, const std::vector<std::uint8_t>& reports, int frames)
+{
+    for (const std::uint8_t report : reports)
+        EXPECT_TRUE(take_report(grip, std::span(&report, 1), 1, state));
+    std::vector<Controls> all;
+    for (int i = 0; i < frames; ++i) {
+        mapping.add(state, 1, 0.1, all.emplace_back());
+        state.presses.assign(state.presses.size(), {});
+    }
+    return all;
+}
+
+} // namespace
+
+// Reports come 100 times a second and more, and a frame may take 300 ms. Each press is that of a frame of its own.
+TEST(DevicesTest, EveryPressInOneFrameCountsOnce)
+{
+    Mapping mapping(grip, {.name = "", .buttons = {{1, ButtonRole::doppler}, {2, ButtonRole::overlay}}});
+    DeviceState state;
+    const auto pressed = [&](const std::vector<std::uint8_t>& reports) {
+        std::pair<int, int> count;
+        for (const Controls& controls : frames_after(mapping, state, reports, 8))
+            count.first += controls.doppler, count.second += controls.overlay;
+        return count;
+    };
+    EXPECT_EQ(pressed({let_go}), std::pair(0, 0));
+    EXPECT_EQ(pressed({first, let_go, first, let_go}), std::pair(2, 0));
+    EXPECT_EQ(pressed({second, let_go, second, let_go, second, let_go, second, let_go, second, let_go}), std::pair(0, 5));
+    EXPECT_EQ(pressed({first, first, let_go, first}), std::pair(2, 0)); // the last one is held
+    EXPECT_EQ(pressed({first}), std::pair(0, 0));
+    EXPECT_EQ(pressed({let_go, first}), std::pair(1, 0)); // let go and pressed again between two readings
+    EXPECT_EQ(pressed({let_go}), std::pair(0, 0));
+}
+
+// A frame has one switch for both: the second press waits for the next frame.
+TEST(DevicesTest, TwoButtonsOfOneRoleInOneFrameAreTwoPresses)
+{
+    Mapping mapping(grip, {.name = "", .buttons = {{1, ButtonRole::hud}, {2, ButtonRole::hud}}});
+    DeviceState state;
+    const auto frames = frames_after(mapping, state, {let_go, first | second, let_go}, 3);
+    EXPECT_TRUE(frames[0].hud && frames[1].hud);
+    EXPECT_FALSE(frames[2].hud);
+}
+
+TEST(DevicesTest, ATapOfARateLastsAFrame)
+{
+    Mapping mapping(grip,
+        {.name = "", .buttons = {{1, ButtonRole::brighter}}, .hat_x = AxisRole::push_right, .hat_y = AxisRole::push_up});
+    DeviceState state;
+    auto frames = frames_after(mapping, state, {let_go, first, let_go, first, let_go}, 3);
+    EXPECT_EQ(frames[0].exposure, 1);
+    EXPECT_EQ(frames[1].exposure, 1);
+    EXPECT_EQ(frames[2].exposure, 0);
+    frames = frames_after(mapping, state, {ahead, let_go, left, let_go, ahead, ahead_right, let_go}, 4);
+    EXPECT_EQ(frames[0].push, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(frames[1].push, glm::dvec3(-1, 0, 0));
+    EXPECT_EQ(frames[2].push, glm::dvec3(1, 1, 0));
+    EXPECT_EQ(frames[3].push, glm::dvec3(0));
+    frames = frames_after(mapping, state, {left}, 2); // held
+    EXPECT_EQ(frames[0].push, glm::dvec3(-1, 0, 0));
+    EXPECT_EQ(frames[1].push, glm::dvec3(-1, 0, 0));
 }
 
 TEST(LeverTest, TheLeverMovedLastCounts)

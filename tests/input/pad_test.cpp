@@ -80,6 +80,29 @@ TEST(PadTest, APadAtRestDoesNothing)
     EXPECT_EQ(controls.exposure, 0);
 }
 
+TEST(PadTest, EveryPressOfAnyPadCountsOnce)
+{
+    PadButtons buttons;
+    GLFWgamepadstate held = at_rest();
+    held.buttons[GLFW_GAMEPAD_BUTTON_Y] = GLFW_PRESS;
+    const auto doppler = [&](const GLFWgamepadstate* first, const GLFWgamepadstate* second, bool by_key = false) {
+        buttons.take(0, first);
+        buttons.take(15, second);
+        Controls controls;
+        controls.doppler = by_key;
+        buttons.add(controls);
+        return controls.doppler;
+    };
+    EXPECT_TRUE(doppler(&held, nullptr));
+    EXPECT_FALSE(doppler(&held, nullptr));
+    EXPECT_TRUE(doppler(&held, &held)); // the second pad's while the first is held
+    EXPECT_FALSE(doppler(&held, &held));
+    EXPECT_FALSE(doppler(nullptr, nullptr)); // unplugged while held
+    EXPECT_TRUE(doppler(&held, nullptr, true)); // a key and a button in one frame
+    EXPECT_TRUE(doppler(&held, nullptr));
+    EXPECT_FALSE(doppler(&held, nullptr));
+}
+
 // Two hands at full rate are as fast as one; against each other they cancel. Only the keyboard's Shift is faster.
 TEST(RatesTest, HandsDoNotAddUpBeyondAFullRate)
 {

@@ -150,8 +150,10 @@ TEST(ProfileTest, AStickMovesTheShipAsTheHandMoves)
     state.raw[field(descriptor, {1, 0x36})] = 255;
     EXPECT_EQ(controls_now().lever, 0);
     // A press counts once, the hat looks around, and fields without a value do nothing.
-    state.raw[field(descriptor, {9, 1})] = 1;
+    state.presses.resize(descriptor.fields.size());
+    state.presses[field(descriptor, {9, 1})] = {1};
     EXPECT_TRUE(controls_now().stop);
+    state.presses.clear();
     EXPECT_FALSE(controls_now().stop);
     state = at_rest(descriptor);
     state.raw[field(descriptor, {1, 0x39})] = 2;

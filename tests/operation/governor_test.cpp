@@ -106,6 +106,66 @@ TEST(GovernorTest, ALoadThatIsTooHighUsesTheFirstLevel)
     EXPECT_NE(describe(governor).find("quality 1 of 8"), std::string::npos) << describe(governor);
 }
 
+namespace {
+
+/// A ladder whose levels have more texels, the finer they are.
+std::vector<PresetLevel> ladder_of_texels()
+{
+    std::vector<PresetLevel> ladder = ladder_of_times(times);
+    for (std::size_t i = 0; i < ladder.size(); ++i)
+        ladder[i].quality.texels_per_pixel = 1 + 0.1 * double(i);
+    return ladder;
+}
+
+} // namespace
+
+// A device without memory for level 6 of 8 and all finer ones, and with time for all of them. A lack of memory costs a new
+// start of the device. It happens once on the finest level, to which the governor goes at once, and once on level 6.
+TEST(GovernorTest, ALevelWithoutRoomIsNotTriedAgainUntilConditionsChange)
+{
+    Governor governor(ladder_of_texels(), 1000.0 / 60);
+    int refusals = 0;
+    const auto fly_with_room_for = [&](std::size_t levels, double seconds) {
+        double now = 5000.0 * refusals + 1;
+        for (const double end = now + seconds; now < end; now += 1.0 / 60) {
+            if (governor.level() >= levels) {
+                ++refusals;
+                ASSERT_TRUE(governor.refuse(governor.level()));
+                ASSERT_LT(governor.level(), levels) << "the level without room, or one that needs more";
+            }
+            governor.drawn(now, 0.5 * governor.ladder()[governor.level()].ms);
+        }
+    };
+    fly_with_room_for(5, 3600);
+    EXPECT_EQ(refusals, 2);
+    EXPECT_EQ(governor.level(), 4u) << "the finest that is left";
+    governor.forget_refusals();
+    fly_with_room_for(8, 600);
+    EXPECT_EQ(refusals, 2);
+    EXPECT_EQ(governor.level(), 7u);
+}
+
+TEST(GovernorTest, WithoutRoomForAnyLevelItSaysSo)
+{
+    Governor governor(ladder_of_texels(), 1000.0 / 60);
+    ASSERT_EQ(governor.level(), 4u);
+    EXPECT_TRUE(governor.refuse(6)); // in the warm-up: the present level stays
+    EXPECT_EQ(governor.level(), 4u);
+    EXPECT_TRUE(governor.has_room(5));
+    EXPECT_FALSE(governor.has_room(7));
+    EXPECT_TRUE(governor.refuse(4));
+    EXPECT_EQ(governor.level(), 3u);
+    EXPECT_FALSE(governor.refuse(0));
+    // Levels that trade one need for another are refused alone.
+    std::vector<PresetLevel> ladder = ladder_of_texels();
+    ladder[0].quality.half_floats = false;
+    Governor other(ladder, 1000.0 / 60);
+    EXPECT_TRUE(other.refuse(0));
+    EXPECT_EQ(other.level(), 4u);
+    fly(other, 10, [](double) { return 50.0; });
+    EXPECT_EQ(other.level(), 1u) << "the coarsest that is left";
+}
+
 TEST(GovernorTest, ALadderOfOneLevelNeverMoves)
 {
     Governor governor(ladder_of_times({10}), 1000.0 / 60);

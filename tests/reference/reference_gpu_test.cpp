@@ -137,6 +137,50 @@ TEST(LivePicture, EqualsTheReferenceInEveryWorld)
     }
 }
 
+/// The part of all pixels whose distance is not within a thousandth of the ray's, at the size for which docs/files.md states
+/// it.
+double distances_off(const GpuWorld& gpu, const ReferenceWorld& world, const Shot& shot)
+{
+    const Layout layout = one_view(Planar{.fov_y_deg = 60}, {400, 300});
+    OffscreenRenderer live(device(), pipelines(), gpu, layout, measured_quality(default_quality(device(), true)), true);
+    const gpu_test::Numbers numbers(live, shot);
+    const Reference truth = reference(world.input(), layout, shot, 0, {.samples = 1});
+    int off = 0;
+    for (int i = 0; i < numbers.count(); ++i) {
+        const double ray = truth.numbers[std::size_t(i)].distance;
+        off += std::isinf(ray) ? !std::isinf(numbers.depth(i)) : !(std::abs(numbers.depth(i) / ray - 1) < 1e-3);
+    }
+    return double(off) / numbers.count();
+}
+
+// The EXR's distances in every world and at any speed: 99 of 100 pixels. The street of Gamow's has the most edges.
+TEST(LivePicture, DistancesAreTheRaysInEveryWorld)
+{
+    const auto shots = starbow::testing::shipped("config/shots");
+    for (const auto& file : shots) {
+        if (!starbow::testing::all_cases() && file.stem() != "gamow-walking")
+            continue;
+        const Shot shot = load_shot(file);
+        const ReferenceWorld world
+            = open_reference_world(starbow::testing::source_dir() / "config/scenes" / (shot.scene + ".json"));
+        World again = load_world(world.scene.gltf);
+        const GpuWorld gpu = upload(device(), pipelines(), std::move(again), world.scene, world.stars);
+        std::vector<Shot> all{shot};
+        if (starbow::testing::all_cases())
+            for (const double gamma : {1.0, 2.0, 100.0}) {
+                all.push_back(shot);
+                all.back().u = std::sqrt(gamma * gamma - 1)
+                    * (shot.ship_from_cockpit * dvec3(0.2, 0.1, -1) / glm::length(dvec3(0.2, 0.1, -1)));
+            }
+        for (const Shot& one : all) {
+            const double off = distances_off(gpu, world, one);
+            std::printf(
+                "%s at gamma %.2f: %.2f %% off\n", file.stem().c_str(), std::sqrt(1 + glm::dot(one.u, one.u)), 100 * off);
+            EXPECT_LT(off, 0.01) << file.stem();
+        }
+    }
+}
+
 TEST(LivePicture, ComesCloserToTheReferenceWithHigherQuality)
 {
     const Shot shot = shipped_shot("avenue-gamma4");

@@ -3,6 +3,7 @@
 #include "config/model/angles.h"
 #include "runtime/exhibit/still_measurement.h"
 #include "runtime/flight/flight.h"
+#include "runtime/reference/reference.h"
 #include "tests/support/gpu_environment.h"
 #include "tests/support/quad.h"
 #include <fstream>
@@ -158,6 +159,71 @@ TEST(Lab, EveryMeasurementGivesTheTheorysValue)
         if (context)
             GpuEnvironment::expect_no_complaints(context->device);
     renderers.clear();
+}
+
+// A picture that compares, or leaves aberration out, past a moving train: what is read at a pixel is the D and the distance
+// of the ray there, which is traced without the instruments and the cube map.
+TEST(Lab, AComparisonIsReadAsTheRaysShowIt)
+{
+    const std::filesystem::path folder = testing::source_dir() / "config", scene = folder / "scenes/train.json";
+    const ReferenceWorld rays = open_reference_world(scene);
+    RenderContext context(scene, Device::Options{.validation = true, .name = device_options(false).name});
+    const ivec2 size(96, 72);
+    const Layout desk = one_view(Planar{60}, size);
+    OffscreenRenderer renderer(
+        context.device, context.pipelines, context.world, desk, default_quality(context.device, false), false);
+    std::vector<Point> points;
+    for (int y = 4; y < size.y - 1; y += 5)
+        for (int x = 5; x < size.x - 1; x += 6)
+            points.emplace_back(glm::dvec2(x + 0.5, y + 0.5));
+    const std::size_t moving = 1;
+    for (const auto& [comparison, aberration] :
+        {std::pair(Comparison::galilean, true), {Comparison::no_light_delay, true}, {Comparison::none, false}}) {
+        if (comparison == Comparison::none && !testing::all_cases())
+            continue;
+        SCOPED_TRACE(comparison_names[std::size_t(comparison)]);
+        Shot shot = load_shot(folder / "shots/train-tunnel.json");
+        shot.u = {0.2, 0.05, -0.3};
+        shot.effects.comparison = comparison, shot.effects.aberration = aberration;
+        const Reference truth = reference(rays.input(), desk, shot, 0, {.samples = 1});
+        const StillMeasurement measurement
+            = measure_still(renderer, context.world, shot, points, "off", "none", testing::words());
+        EXPECT_EQ(measurement.lines.front().starts_with("comparison: "), comparison != Comparison::none);
+        std::array<int, 2> read{}; // of things at rest, and of moving ones
+        int off = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const ivec2 at(std::get<glm::dvec2>(points[i]));
+            const auto numbers = [&](ivec2 p) { return truth.numbers[std::size_t(p.y * size.x + p.x)]; };
+            const Reference::Numbers ray = numbers(at);
+            // The instruments read the nearest texel, which may be a neighbour's across an edge.
+            double nearest = ray.distance, farthest = ray.distance, least_D = ray.D, most_D = ray.D;
+            for (int k = 0; k < 9; ++k) {
+                const Reference::Numbers beside = numbers(at + ivec2(k % 3 - 1, k / 3 - 1));
+                nearest = std::min(nearest, beside.distance), farthest = std::max(farthest, beside.distance);
+                least_D = std::min(least_D, beside.D), most_D = std::max(most_D, beside.D);
+            }
+            const SpotReading& aim = measurement.points[i + 1].aim;
+            if (!aim.distance_s)
+                continue;
+            EXPECT_GT(aim.ray.D, least_D * (1 - 1e-4)) << at.x << " " << at.y;
+            EXPECT_LT(aim.ray.D, most_D * (1 + 1e-4)) << at.x << " " << at.y;
+            EXPECT_LT(between(aim.ray.ship, ray.camera), 1e-6);
+            // A thing at rest: what is read in the world's own frame has the world's D, the same as its pixel's sky.
+            const MeasuringObserver& who = measurement.points[i + 1].observer;
+            const bool rests = std::abs(ray_from_ship(who, aim.ray.ship).D / aim.ray.D - 1) < 1e-6;
+            ++read[rests && comparison != Comparison::no_light_delay ? 0 : moving];
+            // Where velocities simply add, the depth of a moving thing is its order among the others, and no distance.
+            if (comparison != Comparison::galilean || rests) {
+                off += !(*aim.distance_s > nearest * (1 - 5e-3) && *aim.distance_s < farthest * (1 + 5e-3));
+            }
+        }
+        EXPECT_GT(read[moving], 5);
+        EXPECT_LE(off, 4); // of a hundred: things that are narrower than a pixel
+        if (comparison != Comparison::no_light_delay) {
+            EXPECT_GT(read[0], 5);
+        }
+    }
+    GpuEnvironment::expect_no_complaints(context.device);
 }
 
 // With the engine on: the real flight with its controls held, and the document's marks.

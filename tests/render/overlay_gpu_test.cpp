@@ -326,6 +326,54 @@ std::map<std::string, std::vector<std::filesystem::path>> shots_by_scene()
     return all;
 }
 
+// Without light delay a pixel shows the world's time at the ship's present, later ahead: the contours of time lie there.
+TEST(Overlay, WithoutLightDelayContoursAreTheWorldsTimesAtTheShipsPresent)
+{
+    const ivec2 size(240, 180);
+    OffscreenRenderer offscreen = renderer(avenue().world, one_view(Planar{60}, size), true);
+    Shot shot = load_shot(testing::source_dir() / "config/shots/avenue-gamma4.json");
+    shot.u *= 0.2;
+    shot.effects.comparison = Comparison::no_light_delay;
+    const Numbers numbers(offscreen, shot);
+    const double seconds = avenue().world.scene.seconds_per_time_unit();
+    std::vector<double> later(std::size_t(numbers.count()));
+    for (int i = 0; i < numbers.count(); ++i)
+        later[std::size_t(i)] = seconds * (shot.time + numbers.depth(i) * glm::dot(shot.u, numbers.camera(i)));
+    const auto footprint = [&](std::size_t i) {
+        return std::abs(later[i + 1] - later[i]) + std::abs(later[i + std::size_t(size.x)] - later[i]);
+    };
+    std::vector<double> all;
+    for (std::size_t i = 0; i + std::size_t(size.x) < later.size(); ++i)
+        if (std::isfinite(footprint(i)))
+            all.push_back(footprint(i));
+    ASSERT_GT(all.size(), 1000u);
+    std::sort(all.begin(), all.end());
+    const double step = 20 * all[all.size() / 2];
+    Measuring measuring;
+    measuring.over = {Overlay::emission, {}, {seconds, 1000 * seconds, step}};
+    offscreen.frame().measure(measuring);
+    const auto seen = offscreen.picture(shot)[0];
+    double on = 0, off = 0;
+    int ons = 0, offs = 0;
+    for (int y = 1; y + 1 < size.y; ++y)
+        for (int x = 1; x + 1 < size.x; ++x) {
+            const auto i = std::size_t(y * size.x + x);
+            const double wide = footprint(i);
+            if (!std::isfinite(wide) || wide > step / 12)
+                continue; // the sky, edges, and contours too close together to be drawn
+            const double beside = std::abs(later[i] - step * std::round(later[i] / step)) / wide;
+            const double bright = seen[4 * i] + seen[4 * i + 1] + seen[4 * i + 2];
+            if (beside < 0.4)
+                on += bright, ++ons;
+            else if (beside > 4)
+                off += bright, ++offs;
+        }
+    ASSERT_GT(ons, 50);
+    ASSERT_GT(offs, 50);
+    std::printf("  %d pixels on contours: %.0f bright, %d off them: %.0f\n", ons, on / ons, offs, off / offs);
+    EXPECT_LT(on / ons, 0.6 * off / offs);
+}
+
 // An overlay asks which surface a pixel shows, and so does the probe.
 TEST(Overlay, ItsColoursAreWhatTheProbeReadsInEveryLayout)
 {

@@ -11,6 +11,7 @@
 //           OUT_OF_MEMORY only this call returns it; submit alone
 //           FROZEN        the swapchain's next 100 acquires time out
 // When a swapchain is destroyed, the layer prints on stderr how many pictures it has shown.
+// STARBOW_LARGEST_KIB=N: a piece of memory of more than N KiB has no room on the device.
 // STARBOW_SHOWN_LATE_MS=MS: the layer provides VK_KHR_present_wait. Each swapchain shows its pictures MS later than the
 // swapchain made before it.
 #include <algorithm>
@@ -157,6 +158,22 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSub
             return VK_ERROR_DEVICE_LOST;
     }
     return next<PFN_vkQueueSubmit2>(queue, "vkQueueSubmit2")(queue, count, infos, fence);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL allocate_memory(
+    VkDevice device, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks* allocator, VkDeviceMemory* memory)
+{
+    const char* largest = std::getenv("STARBOW_LARGEST_KIB");
+    if (largest && info->allocationSize > 1024 * VkDeviceSize(std::atoll(largest))) {
+        std::fprintf(stderr, "fault: no room for %llu KiB\n", (unsigned long long)(info->allocationSize >> 10));
+        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    }
+    PFN_vkAllocateMemory below;
+    {
+        const std::lock_guard lock(mutex);
+        below = next<PFN_vkAllocateMemory>(device, "vkAllocateMemory");
+    }
+    return below(device, info, allocator, memory);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL wait_for_fences(
@@ -375,6 +392,7 @@ PFN_vkVoidFunction layer_function(std::string_view name)
         FUNCTION("vkAcquireNextImageKHR", acquire),
         FUNCTION("vkQueuePresentKHR", present),
         FUNCTION("vkQueueSubmit2", submit),
+        FUNCTION("vkAllocateMemory", allocate_memory),
         FUNCTION("vkWaitForFences", wait_for_fences),
         FUNCTION("vkDeviceWaitIdle", wait_idle),
 #undef FUNCTION
