@@ -25,6 +25,7 @@ install(DIRECTORY docs/ DESTINATION share/doc/starbow COMPONENT starbow
   FILES_MATCHING PATTERN *.md PATTERN *.svg PATTERN *.png)
 install(FILES README.md DESTINATION share/doc/starbow COMPONENT starbow)
 install(FILES packaging/starbow.desktop DESTINATION share/applications COMPONENT starbow)
+install(FILES packaging/starbow.metainfo.xml DESTINATION share/metainfo COMPONENT starbow)
 install(FILES config/udev/70-starbow.rules DESTINATION /lib/udev/rules.d COMPONENT starbow)
 install(FILES ${CMAKE_BINARY_DIR}/packaging/starbow.1.gz DESTINATION share/man/man1 COMPONENT starbow)
 foreach(package starbow starbow-exhibit)

@@ -151,7 +151,7 @@ void keep_crash_traces(const std::filesystem::path& folder, const std::string& v
 {
     if (folder.empty() || folder.native().size() >= sizeof folder_path)
         return;
-    keep_newest(folder, most_crash_traces - 1);
+    keep_newest(folder, most_crash_traces);
     std::strcpy(folder_path, folder.c_str());
     std::strncpy(version_line, version.c_str(), sizeof version_line - 1);
     std::array<void*, 1> first;

@@ -45,6 +45,12 @@ for file in $(cd "$(dirname "$0")/../.." && git ls-files 'config/*.json' 'scenes
 done
 grep -q '^Depends: .*libvulkan1.*' "$folder/starbow.control" && grep -q '^Depends: .*fonts-dejavu-core' "$folder/starbow.control" \
     || fail "starbow: $(grep ^Depends "$folder/starbow.control")"
+# A software centre offers the program to whoever plugs in a device of a shipped profile.
+devices=$(cd "$(dirname "$0")/../.." && for profile in config/profiles/*.json; do
+    sed -n 's/.*"vendor": "\(....\)".*/usb:v\1/p; s/.*"product": "\(....\)".*/p\1d/p' "$profile" | paste -sd ''
+done | tr a-z A-Z | sort -u)
+[ -n "$devices" ] && [ "$devices" = "$(dpkg-deb --fsys-tarfile "$folder/out/starbow.deb" | tar -xO ./usr/share/metainfo/starbow.metainfo.xml \
+    | sed -n 's/.*<modalias>\(.*\)\*<.*/\1/p' | tr a-z A-Z | sort -u)" ] || fail "starbow.metainfo.xml does not name the devices of config/profiles: $devices"
 grep -q '^Architecture: all' "$folder/starbow-exhibit.control" || fail "starbow-exhibit is not for all machines"
 ok
 
