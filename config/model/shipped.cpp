@@ -49,8 +49,8 @@ std::vector<Profile> known_profiles(const fs::path& exhibits)
         throw InputError(exhibits.string(), "", "is no folder; a folder with profiles is right");
     std::vector<Profile> all;
     const fs::path of_site = site();
-    for (const fs::path& folder : {home() / "config" / "profiles", of_site.empty() ? of_site : of_site / "profiles",
-             own_profiles(), exhibits}) {
+    for (const fs::path& folder :
+        {home() / "config" / "profiles", of_site.empty() ? of_site : of_site / "profiles", own_profiles(), exhibits}) {
         std::vector<fs::path> files;
         for (const auto& entry : fs::directory_iterator(folder, error))
             if (entry.path().extension() == ".json")
@@ -81,9 +81,9 @@ fs::path shipped_file(const std::string& kind, const std::string& name)
     std::string list;
     for (const std::string& known : names)
         list += (list.empty() ? "" : ", ") + known;
-    throw InputError(
-        "There is no " + name + ".json in config/" + kind + (folders.size() > 1 ? " or " + folders[0].string() : "")
-        + "; there are: " + list + "; or give the path of a file");
+    throw InputError("There is no " + name + ".json in config/" + kind
+        + (folders.size() > 1 ? " or " + folders[0].string() : "") + "; there are: " + list
+        + "; or give the path of a file");
 }
 
 Words words_in(const std::string& language) { return load_words(shipped_file("words", language)); }

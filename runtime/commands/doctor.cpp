@@ -347,7 +347,8 @@ void examine_files(Report& report)
     report.facts["files"] = {{"home", folder.string()}};
     std::string counts;
     const auto kind = [&](const char* name, auto load) {
-        counts += (counts.empty() ? "" : ", ") + std::to_string(examine_kind(report, config, of_site, name, load)) + " " + name;
+        counts
+            += (counts.empty() ? "" : ", ") + std::to_string(examine_kind(report, config, of_site, name, load)) + " " + name;
     };
     kind("exhibits", [](const fs::path& file) { load_exhibit(file); });
     kind("layouts", [](const fs::path& file) { load_layout(file); });

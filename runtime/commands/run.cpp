@@ -11,12 +11,12 @@
 #include "runtime/commands/options/quality.h"
 #include "runtime/exhibit/exhibit.h"
 #include "runtime/exhibit/outputs.h"
-#include "runtime/operation/ends.h"
-#include "runtime/operation/service.h"
-#include "runtime/operation/state_folder.h"
 #include "runtime/flight/record_files.h"
 #include "runtime/flight/replay.h"
+#include "runtime/operation/ends.h"
 #include "runtime/operation/log.h"
+#include "runtime/operation/service.h"
+#include "runtime/operation/state_folder.h"
 #include "runtime/operation/trace.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -39,7 +39,8 @@ int fly_exhibit(const ExhibitOptions& options)
     const WaitWatch watch(wait_limit_s(session.service), [&session] { session.record_replay.hurry(); });
     for (int losses = 0;;) {
         const Clock::time_point opened = Clock::now();
-        std::optional<LimitedWait> work(std::in_place, "the end of the exhibit's loading", loading_limit_s); // outlives context
+        std::optional<LimitedWait> work(
+            std::in_place, "the end of the exhibit's loading", loading_limit_s); // outlives context
         std::unique_ptr<RenderContext> context;
         std::string lost;
         const char* how = "is lost";
@@ -55,7 +56,8 @@ int fly_exhibit(const ExhibitOptions& options)
             if (losses == 0)
                 std::printf("%s\n", describe_light(*context).c_str());
             {
-                session.service.loads("Opens the outputs of " + session.layout.file.filename().string() + ".", loading_limit_s);
+                session.service.loads(
+                    "Opens the outputs of " + session.layout.file.filename().string() + ".", loading_limit_s);
                 FrameLoop loop(session, *context);
                 work.reset();
                 while (!is_over(session) && loop.fly_frame())
@@ -75,7 +77,7 @@ int fly_exhibit(const ExhibitOptions& options)
         } catch (const InputError& error) {
             if (losses == 0 && session.shown == 0)
                 throw;
-            lost = error.what(); // no memory for what is to be drawn, or the driver is not back yet
+            lost = error.what(), how = "has failed"; // no memory for what is to be drawn, or the driver is not back yet
         }
         work.emplace("the end of the lost device's closing", loading_limit_s);
         session.service.loads("Opens the GPU anew.", loading_limit_s);

@@ -1,5 +1,6 @@
 #include "service.h"
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
@@ -30,7 +31,7 @@ int connected(const char* name)
     return -1;
 }
 
-std::string microseconds(double seconds) { return std::to_string(std::int64_t(1e6 * seconds)); }
+std::string microseconds(double seconds) { return std::to_string(std::llround(1e6 * seconds)); }
 
 /// One line: a line's end would begin another assignment.
 std::string status_line(std::string status)
@@ -45,7 +46,7 @@ Service::Service()
     : socket_(connected(std::getenv("NOTIFY_SOCKET")))
 {
     const char *time = std::getenv("WATCHDOG_USEC"), *process = std::getenv("WATCHDOG_PID");
-    const double seconds = time ? 1e-6 * std::atof(time) : 0;
+    const double seconds = time ? std::atof(time) / 1e6 : 0;
     if (seconds > 0 && (!process || std::atol(process) == long(getpid())))
         watchdog_s_ = seconds;
 }

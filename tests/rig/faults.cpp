@@ -3,8 +3,8 @@
 //
 // STARBOW_FAULTS=CALL:NTH:RESULT[,...]
 //   CALL    acquire, present (both counted for each picture), swapchain (its creation), submit, fence (a wait for fences
-//           after the first presentation), idle (a wait for the device), or resize (an allocation of memory after a swapchain
-//           has replaced another)
+//           after the first presentation), idle (a wait for the device), or resize (an allocation of memory after a
+//           swapchain has replaced another)
 //   NTH     the call that fails first, counted from 1
 //   RESULT  OUT_OF_DATE   the swapchain fails until it is made anew
 //           SURFACE_LOST  the surface fails until it is made anew
