@@ -26,7 +26,7 @@ manage() {
     [ $# -gt 0 ] && shift
     mkdir -p "$folder/$name"
     STATE_DIRECTORY=$folder/$name timeout 120 "$rig/service_manager.py" "${options[@]}" "$folder/$name-socket" \
-        "$program" run --layout "$folder/${layout:-two}.json" "$@" >"$folder/$name-events-log" 2>"$folder/$name-log"
+        "$program" run --layout "$folder/${layout:-two}.json" --scene "${scene:-chart}" "$@" >"$folder/$name-events-log" 2>"$folder/$name-log"
 }
 # says NAME TEXT / logs NAME TEXT: an event, or the program's own line, must have the text.
 says() { grep -q -- "$2" "$folder/$1-events-log" || fail "$1: no event has '$2'"; }
@@ -35,7 +35,7 @@ at() { awk -v text="$2" 'index($0, text) { print $1; exit }' "$folder/$1-events-
 
 # A good day. READY=1 comes after loading; signs of life follow; SIGTERM ends the flight in order.
 manage good --until 'STATUS=Shows 2 of 2 outputs.'
-says good 'EXTEND_TIMEOUT_USEC=' && says good 'STATUS=Loads the world avenue.json.' && says good 'STOPPING=1' && says good 'end 0'
+says good 'EXTEND_TIMEOUT_USEC=' && says good 'STATUS=Loads the world chart.json.' && says good 'STOPPING=1' && says good 'end 0'
 awk '/EXTEND_TIMEOUT_USEC/ && !ready { extended = 1 } /READY=1/ { ready = extended } /WATCHDOG=1/ { ticks += ready } END { exit !(ticks >= 2) }' \
     "$folder/good-events-log" || fail "good: READY=1 after loading, then WATCHDOG=1 twice, in this order"
 [ -e "$folder/good/ends" ] && fail "good: an end in order is counted"
@@ -101,7 +101,7 @@ ok
 mkdir -p "$folder/care"
 now=$(date +%s)
 printf '%s\n' $((now - 700)) $((now - 590)) $((now - 50)) $((now - 40)) $((now - 30)) running >"$folder/care/ends"
-manage care --until 'STATUS=Shows 2 of 2 outputs, with care after many ends.' -- --scene train
+scene=train manage care --until 'STATUS=Shows 2 of 2 outputs, with care after many ends.'
 logs care 'warn exhibit: it has ended 5 times out of order within 10 minutes; it starts with care'
 says care 'STATUS=Loads the world chart.json.' && says care 'end 0'
 [ -e "$folder/care/ends" ] && fail "care: an end in order does not forget the others"

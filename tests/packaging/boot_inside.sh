@@ -106,7 +106,7 @@ dpkg -r starbow-exhibit >/out/dpkg.log 2>&1 || fail "remove: $(cat /out/dpkg.log
 ok "removed: /etc/starbow and /var/lib/starbow stay"
 dpkg -P starbow-exhibit starbow >/out/dpkg.log 2>&1 || fail "purge: $(cat /out/dpkg.log)"
 left=$(find / -xdev -iname '*starbow*' -not -path '/out/*' -not -path '/opt/*' -not -path '/proc/*' -not -path '/sys/*' -not -path '/tmp/*' -not -path '/work/*' \
-    -not -path '/root/*' -not -path '/home/*' -not -path '/etc/systemd/system/starbow-display.service.d*' -not -path '/var/log/*' 2>/dev/null | head)
+    -not -path '/root/*' -not -path '/home/*' -not -path '/etc/systemd/system/starbow-display.service.d*' -not -path '/var/log/*' -not -path '/var/cache/man/*' 2>/dev/null | head)
 [ -z "$left" ] || fail "purged, and left: $left"
 getent passwd starbow && fail "purged: the user is left"
 ok "purged: nothing is left"

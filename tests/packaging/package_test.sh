@@ -86,6 +86,17 @@ for case in 'Mon 0859 off' 'Mon 0900 on' 'Mon 1729 on' 'Mon 1730 off' 'Tue 0930 
     [ "$("$hours" "$folder/hours" "$day" "$time")" = "$state" ] || fail "hours: $case: $("$hours" "$folder/hours" "$day" "$time")"
 done
 [ "$("$hours" "$root/etc/starbow/hours" Mon 0300)" = on ] || fail "hours: the shipped file is not always open"
+# On a display that is on, in standby or without DPMS, only what differs is switched.
+mkdir "$folder/bin"
+printf '#!/bin/sh\n[ "$1" = q ] && echo "  $MONITOR" || echo "$@" >>"%s/switched"\n' "$folder" >"$folder/bin/xset"
+chmod +x "$folder/bin/xset"
+for case in '0800 Monitor is On:dpms force off' '0800 Monitor is Off:' '0900 Monitor is On:' '0900 Monitor is in Standby:dpms force on' '0800 none:' '0900 none:'; do
+    : >"$folder/switched"
+    monitor=${case#* }
+    MONITOR=${monitor%:*} DISPLAY=:0 PATH=$folder/bin:$PATH "$hours" "$folder/hours" Mon "${case%% *}" >"$folder/said" || fail "hours: $case: exit $?"
+    [ "$(cat "$folder/switched")" = "${case#*:}" ] || fail "hours: $case: $(cat "$folder/switched")"
+done
+grep -q 'no DPMS' "$folder/said" && fail "hours: an open exhibit without DPMS complains"
 printf 'Monday 9-17\n' >"$folder/hours"
 "$hours" "$folder/hours" Mon 0900 >"$folder/said" 2>&1 && fail "hours: a wrong line is not refused"
 grep -q "hours:1: \"Monday 9-17\"" "$folder/said" || fail "hours: $(cat "$folder/said")"
