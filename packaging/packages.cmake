@@ -40,6 +40,7 @@ install(FILES ${EXHIBIT}/sysusers.conf DESTINATION lib/sysusers.d RENAME starbow
 install(FILES ${EXHIBIT}/tmpfiles.conf DESTINATION lib/tmpfiles.d RENAME starbow.conf COMPONENT starbow-exhibit)
 install(FILES ${EXHIBIT}/71-starbow-exhibit.rules DESTINATION /lib/udev/rules.d COMPONENT starbow-exhibit)
 install(FILES ${EXHIBIT}/exhibit.json DESTINATION /etc/starbow COMPONENT starbow-exhibit)
+install(FILES ${EXHIBIT}/site.json DESTINATION /etc/starbow/layouts COMPONENT starbow-exhibit)
 install(FILES ${EXHIBIT}/hours.conf DESTINATION /etc/starbow RENAME hours COMPONENT starbow-exhibit)
 
 set(CPACK_GENERATOR DEB)

@@ -36,7 +36,7 @@ void print_summary(const Session& session, const SceneFile& scene)
 int fly_exhibit(const ExhibitOptions& options)
 {
     Session session{options};
-    const WaitWatch watch(wait_limit_s(session.service), [&session] { session.record_replay.hurry(); });
+    const WaitWatch watch(wait_limit_s(session.service));
     for (int losses = 0;;) {
         const Clock::time_point opened = Clock::now();
         std::optional<LimitedWait> work(

@@ -29,12 +29,6 @@ void RecordReplay::keep(const RecordEntry& entry, const Flight& flight)
         replay_->compare(flight);
 }
 
-void RecordReplay::hurry()
-{
-    if (recorder_)
-        recorder_->hurry();
-}
-
 bool RecordReplay::end(const Flight& flight)
 {
     if (recorder_) {

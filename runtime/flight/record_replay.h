@@ -23,8 +23,6 @@ public:
     bool play(RecordEntry& entry);
     /// Records the frame, or compares its result with the record.
     void keep(const RecordEntry& entry, const Flight& flight);
-    /// Brings the record to the disk at once, as far as a second suffices. May be called from any thread.
-    void hurry();
     /// Ends the record or the replay of a flight that ended properly; prints lines on standard output. Returns false if a
     /// replay differed in any bit.
     bool end(const Flight& flight);

@@ -91,29 +91,17 @@ void Recorder::keep(const RecordEntry& entry, const Flight& flight)
 
 void Recorder::end(const Flight& flight) { add(text_of(RecordCheck{flight.ticks, digest(flight), true})); }
 
-void Recorder::hurry()
-{
-    std::unique_lock lock(mutex_);
-    hurried_ = true;
-    changed_.notify_all();
-    changed_.wait_for(lock, std::chrono::seconds(1), [this] { return waiting_.empty() && !writing_; });
-}
-
 /// Writes the waiting entries every second, until the record ends.
 void Recorder::write()
 {
     for (std::unique_lock lock(mutex_);;) {
-        changed_.wait_for(lock, std::chrono::seconds(1), [this] { return ended_ || hurried_; });
+        changed_.wait_for(lock, std::chrono::seconds(1), [this] { return ended_; });
         const bool last = ended_;
-        hurried_ = false;
         const std::string text = std::exchange(waiting_, {});
         if (!text.empty()) {
-            writing_ = true;
             lock.unlock();
             write_out(text);
             lock.lock();
-            writing_ = false;
-            changed_.notify_all();
         }
         if (last || failed_)
             return;

@@ -23,8 +23,6 @@ public:
     void keep(const RecordEntry& entry, const Flight& flight);
     /// Writes the last line of a flight that ended properly.
     void end(const Flight& flight);
-    /// Writes at once what waits, and returns when it is on the disk or a second is over. May be called from any thread.
-    void hurry();
 
     bool failed() const; ///< true after a reported failure; nothing more is kept
     const std::filesystem::path& file() const { return file_; }
@@ -42,7 +40,7 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::string waiting_; ///< text not written yet
-    bool writing_ = false, hurried_ = false, ended_ = false, failed_ = false;
+    bool ended_ = false, failed_ = false;
     std::thread writer_;
 };
 

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 namespace starbow {
 namespace {
@@ -21,7 +22,6 @@ struct Open {
     std::mutex mutex;
     std::vector<LimitedWait*> waits;
     double limit_s = unwatched_s;
-    std::function<void()> last_words;
 };
 Open& open()
 {
@@ -83,13 +83,6 @@ void give_up(const std::string& what, double waited_s)
     log_error("hang",
         what + " has not come for " + text + " s; the program ends with " + std::to_string(exit_hung)
             + " without waiting any longer");
-    std::function<void()> last_words;
-    {
-        const std::lock_guard lock(open().mutex);
-        last_words = open().last_words;
-    }
-    if (last_words)
-        last_words();
     _exit(exit_hung);
 }
 
@@ -131,12 +124,11 @@ struct WaitWatch::Thread {
     }
 };
 
-WaitWatch::WaitWatch(double limit_s, std::function<void()> last_words)
+WaitWatch::WaitWatch(double limit_s)
 {
     {
         const std::lock_guard lock(open().mutex);
         open().limit_s = limit_s;
-        open().last_words = std::move(last_words);
     }
     thread_ = new Thread;
 }
@@ -152,7 +144,6 @@ WaitWatch::~WaitWatch()
     delete thread_;
     const std::lock_guard lock(open().mutex);
     open().limit_s = unwatched_s;
-    open().last_words = nullptr;
 }
 
 } // namespace starbow

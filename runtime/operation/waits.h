@@ -1,7 +1,5 @@
 #pragma once
-#include <functional>
 #include <string>
-#include <vector>
 
 namespace starbow {
 
@@ -31,17 +29,16 @@ private:
     bool long_; ///< waits inside it may take longer
 };
 
-/// Logs which wait had no end, calls WaitWatch's last words, and ends the process with exit_hung, without destructors: they
-/// would wait for the same device.
+/// Logs which wait had no end, and ends the process with exit_hung, without destructors: they would wait for the same
+/// device. A record and a log of readings are on the disk by then: their last lines are written within a second.
 [[noreturn]] void give_up(const std::string& what, double waited_s);
 
 /// Ends the process where a wait has no end. Only time in which this process ran counts, so that a stopped or starved
 /// program is not taken for a hung one.
 class WaitWatch {
 public:
-    /// limit_s: of a wait that names none, from here on. last_words: called once before the process ends, on another thread
-    /// than the one that draws; it must not wait for long.
-    WaitWatch(double limit_s, std::function<void()> last_words);
+    /// limit_s: of a wait that names none, from here on.
+    explicit WaitWatch(double limit_s);
     ~WaitWatch();
     WaitWatch(const WaitWatch&) = delete;
 

@@ -37,7 +37,7 @@ has starbow /usr/bin/starbow /usr/share/starbow/config/layouts/dome2/left.data /
     /usr/share/doc/starbow/copyright /lib/udev/rules.d/70-starbow.rules
 has starbow-exhibit /lib/systemd/system/starbow.service /lib/systemd/system/starbow-display.service \
     /lib/systemd/system/starbow-hours.timer /lib/systemd/system/starbow-hours.service /usr/lib/sysusers.d/starbow.conf \
-    /usr/lib/tmpfiles.d/starbow.conf /lib/udev/rules.d/71-starbow-exhibit.rules /etc/starbow/exhibit.json /etc/starbow/hours \
+    /usr/lib/tmpfiles.d/starbow.conf /lib/udev/rules.d/71-starbow-exhibit.rules /etc/starbow/exhibit.json /etc/starbow/hours /etc/starbow/layouts/site.json \
     /usr/lib/starbow/hours /usr/lib/starbow/display-ready
 grep -E '\.(cpp|h|py)$|/(build|tests|\.git)' "$folder"/starbow*.list && fail "files that nobody needs there"
 for file in $(cd "$(dirname "$0")/../.." && git ls-files 'config/*.json' 'scenes/*.glb' 'scenes/stars/*.txt'); do
@@ -58,11 +58,12 @@ ok
 root=$folder/root
 dpkg-deb -x "$folder/out/starbow.deb" "$root" && dpkg-deb -x "$folder/out/starbow-exhibit.deb" "$root" || fail "unpacking"
 export STARBOW_CACHE=$folder/cache HOME=$folder/home
-mkdir -p "$HOME" "$root/etc/starbow/layouts" && cd "$HOME" || fail "folders"
+mkdir -p "$HOME" && cd "$HOME" || fail "folders"
 "$root/usr/bin/starbow" --version | grep -q '^starbow [0-9]' || fail "no version"
 cat >"$root/etc/starbow/layouts/desk.json" <<'END2'
 { "outputs": [ { "name": "of-the-site", "size": [64, 48], "viewports": [ { "projection": { "type": "planar" } } ] } ] }
 END2
+"$root/usr/bin/starbow" check site >"$folder/said" 2>&1 || fail "the exhibit's first layout: $(cat "$folder/said")"
 said=$(env -u DISPLAY -u WAYLAND_DISPLAY "$root/usr/bin/starbow" doctor)
 [[ $said == *"files     $root/usr/share/starbow: "*" layouts, "*"read before these, are in $root/etc/starbow"* ]] \
     || fail "doctor: $said"
