@@ -56,6 +56,7 @@ int fly_exhibit(const ExhibitOptions& options)
             if (losses == 0)
                 std::printf("%s\n", describe_light(*context).c_str());
             {
+                work->restart();
                 session.service.loads(
                     "Opens the outputs of " + session.layout.file.filename().string() + ".", loading_limit_s);
                 FrameLoop loop(session, *context);

@@ -264,8 +264,10 @@ bool Window::acquire()
 {
     glm::ivec2 now;
     glfwGetFramebufferSize(window_, &now.x, &now.y);
-    if (now.x == 0 || now.y == 0 || glfwGetWindowAttrib(window_, GLFW_ICONIFIED))
+    if (now.x == 0 || now.y == 0 || glfwGetWindowAttrib(window_, GLFW_ICONIFIED)) {
+        late_ = false; // no image is awaited
         return false;
+    }
     stale_ |= now != size_;
     // The second attempt uses the new swapchain. A window that still changes waits for the next frame.
     for (int attempt = 0; attempt < 2; ++attempt) {

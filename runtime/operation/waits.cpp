@@ -18,20 +18,20 @@ constexpr double unwatched_s = 600;
 constexpr std::chrono::milliseconds look_every(100);
 
 /// The open waits of the thread that draws, the innermost last. Never destroyed, because the process may end anywhere.
-struct Open {
+struct OpenWaits {
     std::mutex mutex;
     std::vector<LimitedWait*> waits;
     double limit_s = unwatched_s;
 };
-Open& open()
+OpenWaits& open_waits()
 {
-    static auto& only = *new Open;
+    static auto& only = *new OpenWaits;
     return only;
 }
 
 double limit_inside(bool within_long)
 {
-    Open& now = open();
+    OpenWaits& now = open_waits();
     return now.limit_s * (within_long ? 4 : 1);
 }
 
@@ -40,7 +40,7 @@ double limit_inside(bool within_long)
 LimitedWait::LimitedWait(std::string what)
     : what_(std::move(what))
 {
-    Open& now = open();
+    OpenWaits& now = open_waits();
     const std::lock_guard lock(now.mutex);
     long_ = !now.waits.empty() && now.waits.back()->long_;
     limit_s_ = limit_inside(long_);
@@ -52,14 +52,14 @@ LimitedWait::LimitedWait(std::string what, double limit_s)
     , limit_s_(limit_s)
     , long_(true)
 {
-    Open& now = open();
+    OpenWaits& now = open_waits();
     const std::lock_guard lock(now.mutex);
     now.waits.push_back(this);
 }
 
 LimitedWait::~LimitedWait()
 {
-    Open& now = open();
+    OpenWaits& now = open_waits();
     const std::lock_guard lock(now.mutex);
     std::erase(now.waits, this);
     if (!now.waits.empty())
@@ -68,7 +68,7 @@ LimitedWait::~LimitedWait()
 
 void LimitedWait::restart()
 {
-    const std::lock_guard lock(open().mutex);
+    const std::lock_guard lock(open_waits().mutex);
     waited_s_ = 0;
 }
 
@@ -114,7 +114,7 @@ struct WaitWatch::Thread {
     /// Adds the time to the innermost wait. Returns its name once it is beyond its limit.
     static std::pair<std::string, double> overdue(double ran_s)
     {
-        Open& now = open();
+        OpenWaits& now = open_waits();
         const std::lock_guard lock(now.mutex);
         if (now.waits.empty())
             return {};
@@ -127,8 +127,8 @@ struct WaitWatch::Thread {
 WaitWatch::WaitWatch(double limit_s)
 {
     {
-        const std::lock_guard lock(open().mutex);
-        open().limit_s = limit_s;
+        const std::lock_guard lock(open_waits().mutex);
+        open_waits().limit_s = limit_s;
     }
     thread_ = new Thread;
 }
@@ -142,8 +142,8 @@ WaitWatch::~WaitWatch()
     thread_->changed.notify_all();
     thread_->thread.join();
     delete thread_;
-    const std::lock_guard lock(open().mutex);
-    open().limit_s = unwatched_s;
+    const std::lock_guard lock(open_waits().mutex);
+    open_waits().limit_s = unwatched_s;
 }
 
 } // namespace starbow
