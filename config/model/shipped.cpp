@@ -1,6 +1,7 @@
 #include "shipped.h"
 #include "config/json/error.h"
 #include <algorithm>
+#include <set>
 #include <vector>
 
 namespace starbow {
@@ -16,13 +17,23 @@ fs::path home()
     std::error_code error;
     for (fs::path start : {fs::read_symlink("/proc/self/exe", error).parent_path(), fs::current_path(error)})
         for (fs::path folder = start; !folder.empty(); folder = folder.parent_path()) {
-            if (fs::is_directory(folder / "config" / "layouts", error))
-                return folder;
+            for (const fs::path& place : {folder, folder / "share" / "starbow"})
+                if (fs::is_directory(place / "config" / "layouts", error))
+                    return place;
             if (folder == folder.root_path())
                 break;
         }
     throw InputError("The folder config/layouts is neither above the program nor above the current folder: "
-                     "run starbow from its own checkout");
+                     "install the package starbow, or run starbow from its own checkout");
+}
+
+fs::path site()
+{
+    const fs::path folder = home();
+    if (folder.filename() != "starbow" || folder.parent_path().filename() != "share")
+        return {};
+    const fs::path prefix = folder.parent_path().parent_path();
+    return (prefix.filename() == "usr" ? prefix.parent_path() : prefix) / "etc" / "starbow";
 }
 
 fs::path own_profiles()
@@ -37,7 +48,9 @@ std::vector<Profile> known_profiles(const fs::path& exhibits)
     if (!exhibits.empty() && !fs::is_directory(exhibits, error))
         throw InputError(exhibits.string(), "", "is no folder; a folder with profiles is right");
     std::vector<Profile> all;
-    for (const fs::path& folder : {home() / "config" / "profiles", own_profiles(), exhibits}) {
+    const fs::path of_site = site();
+    for (const fs::path& folder :
+        {home() / "config" / "profiles", of_site.empty() ? of_site : of_site / "profiles", own_profiles(), exhibits}) {
         std::vector<fs::path> files;
         for (const auto& entry : fs::directory_iterator(folder, error))
             if (entry.path().extension() == ".json")
@@ -54,19 +67,23 @@ fs::path shipped_file(const std::string& kind, const std::string& name)
     std::error_code error;
     if (is_path(name))
         return name;
-    fs::path folder = home() / "config" / kind, file = folder / (name + ".json");
-    if (fs::is_regular_file(file, error))
-        return file;
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder, error))
-        if (entry.path().extension() == ".json")
-            names.push_back(entry.path().stem());
-    std::sort(names.begin(), names.end());
+    std::vector<fs::path> folders{home() / "config" / kind};
+    if (const fs::path of_site = site(); !of_site.empty())
+        folders.insert(folders.begin(), of_site / kind);
+    std::set<std::string> names;
+    for (const fs::path& folder : folders) {
+        if (const fs::path file = folder / (name + ".json"); fs::is_regular_file(file, error))
+            return file;
+        for (const auto& entry : fs::directory_iterator(folder, error))
+            if (entry.path().extension() == ".json")
+                names.insert(entry.path().stem());
+    }
     std::string list;
     for (const std::string& known : names)
         list += (list.empty() ? "" : ", ") + known;
-    throw InputError(
-        "There is no " + name + ".json in config/" + kind + "; there are: " + list + "; or give the path of a file");
+    throw InputError("There is no " + name + ".json in config/" + kind
+        + (folders.size() > 1 ? " or " + folders[0].string() : "") + "; there are: " + list
+        + "; or give the path of a file");
 }
 
 Words words_in(const std::string& language) { return load_words(shipped_file("words", language)); }

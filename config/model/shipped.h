@@ -8,18 +8,24 @@
 
 namespace starbow {
 
-/// The folder that holds config/ and scenes/: the nearest above the program, or else above the current folder. Throws
-/// InputError.
+/// The folder that holds config/ and scenes/: the nearest above the program, or share/starbow there, where it is installed;
+/// or else the same above the current folder. Throws InputError.
 std::filesystem::path home();
+
+/// The folder of an installed program's site, /etc/starbow: its files are read before the shipped ones of the same name.
+/// Empty for a program in its checkout. It may not exist. Throws InputError as home() does.
+std::filesystem::path site();
 
 /// The folder of this person's own profiles: $XDG_CONFIG_HOME/starbow/profiles, or ~/.config/starbow/profiles.
 std::filesystem::path own_profiles();
 
-/// The shipped profiles, then the person's own, then those in the exhibit's folder if it names one. Of two for the same
-/// device the later has precedence. Throws InputError for a wrong profile, and for a missing folder of the exhibit's.
+/// The shipped profiles, then the site's, the person's own, then those in the exhibit's folder if it names one. Of two for
+/// the same device the later has precedence. Throws InputError for a wrong profile, and for a missing folder of the
+/// exhibit's.
 std::vector<Profile> known_profiles(const std::filesystem::path& exhibits = {});
 
-/// A config file by path, or by the name of a shipped one: find("layouts", "dome") is config/layouts/dome.json.
+/// A config file by path, or by the name of one of the site's or a shipped one: find("layouts", "dome") is
+/// layouts/dome.json in site(), or else config/layouts/dome.json.
 /// Throws InputError that lists the shipped names.
 std::filesystem::path shipped_file(const std::string& kind, const std::string& name);
 

@@ -306,12 +306,18 @@ void examine_disk(Report& report)
 }
 
 /// Reads every shipped file of one kind and returns their number. load: throws InputError for a wrong file.
-template <class Load> std::size_t examine_kind(Report& report, const fs::path& config, const char* kind, Load load)
+template <class Load>
+std::size_t examine_kind(Report& report, const fs::path& config, const fs::path& site, const char* kind, Load load)
 {
     std::size_t count = 0;
-    for (const fs::path& file : entries(config / kind, ""))
-        if (file.extension() == ".json") {
-            ++count;
+    std::vector<fs::path> files = entries(config / kind, "");
+    const std::size_t shipped = files.size();
+    if (!site.empty())
+        for (const fs::path& file : entries(site / kind, ""))
+            files.push_back(file);
+    for (std::size_t i = 0; i < files.size(); ++i)
+        if (const fs::path& file = files[i]; file.extension() == ".json") {
+            count += i < shipped;
             try {
                 load(file);
             } catch (const InputError& error) {
@@ -334,14 +340,15 @@ void examine_files(Report& report)
         report.line("files", "not found");
         report.problem(
             "Starbow's own files are not found: config/layouts is neither above the program nor above this folder",
-            "run starbow from its own checkout");
+            "install the package starbow, or run starbow from its own checkout");
         return;
     }
-    const fs::path config = folder / "config";
+    const fs::path config = folder / "config", of_site = site();
     report.facts["files"] = {{"home", folder.string()}};
     std::string counts;
     const auto kind = [&](const char* name, auto load) {
-        counts += (counts.empty() ? "" : ", ") + std::to_string(examine_kind(report, config, name, load)) + " " + name;
+        counts
+            += (counts.empty() ? "" : ", ") + std::to_string(examine_kind(report, config, of_site, name, load)) + " " + name;
     };
     kind("exhibits", [](const fs::path& file) { load_exhibit(file); });
     kind("layouts", [](const fs::path& file) { load_layout(file); });
@@ -365,6 +372,16 @@ void examine_files(Report& report)
     });
     kind("profiles", [](const fs::path& file) { load_profile(file); });
     report.line("files", folder.string() + ": " + counts);
+    if (!of_site.empty()) {
+        report.facts["files"]["site"] = of_site.string();
+        report.line("", "the site's own files, read before these, are in " + of_site.string());
+        if (const fs::path file = of_site / "exhibit.json"; fs::exists(file))
+            try {
+                load_exhibit(file);
+            } catch (const InputError& error) {
+                report.problem(error.what(), "mend the file, then run systemctl restart starbow");
+            }
+    }
     std::size_t own = 0;
     for (const fs::path& file : entries(own_profiles(), ""))
         if (file.extension() == ".json") {

@@ -1,5 +1,7 @@
 #include "commands.h"
 #include "config/json/error.h"
+#include "runtime/operation/crash.h"
+#include "runtime/operation/state_folder.h"
 #include "version.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -80,6 +82,8 @@ int guarded(const std::function<int()>& run)
 
 int main(int count, char** arguments)
 {
+    if (const std::filesystem::path folder = starbow::state_folder(); !folder.empty())
+        starbow::keep_crash_traces(folder / "crash", starbow::program_version);
     CLI::App app("Starbow: fly near the speed of light and see what physics says you would see.");
     app.require_subcommand(1);
     app.set_version_flag("--version", std::string("starbow ") + starbow::program_version);

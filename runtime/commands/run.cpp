@@ -13,14 +13,21 @@
 #include "runtime/exhibit/outputs.h"
 #include "runtime/flight/record_files.h"
 #include "runtime/flight/replay.h"
+#include "runtime/operation/ends.h"
 #include "runtime/operation/log.h"
+#include "runtime/operation/service.h"
+#include "runtime/operation/state_folder.h"
 #include "runtime/operation/trace.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <ctime>
 #include <memory>
 
 namespace starbow {
 namespace {
+
+/// A small world under constant light, without stars and bodies.
+constexpr const char* plain_scene = "chart";
 
 struct RunOptions {
     std::string exhibit = "desk", layout, scene, shot, pattern = "none", record, replay, language, tour, log, quality,
@@ -98,10 +105,30 @@ ExhibitOptions open(const RunOptions& options)
     return exhibit_options;
 }
 
-int run(const RunOptions& options)
+/// The options after many disorderly ends: what is drawn may be what ended them.
+RunOptions careful(RunOptions options, int ends)
 {
-    open_log({.lowest = options.verbose ? LogLevel::debug : LogLevel::info});
+    options.scene = plain_scene;
+    options.quality = "draft";
+    options.frame_budget_ms = -1; // the exhibit's ladder makes way for the quality, too
+    options.shot = options.tour = options.replay = "";
+    log_warning("exhibit",
+        "it has ended " + std::to_string(ends) + " times out of order within " + std::to_string(ends_within_s / 60)
+            + " minutes; it starts with care: the scene '" + plain_scene + "' in the quality '" + options.quality + "'");
+    return options;
+}
+
+int run(const RunOptions& given)
+{
+    open_log({.lowest = given.verbose ? LogLevel::debug : LogLevel::info});
+    // Without a service manager nobody starts the program again, and a second one may run beside it.
+    std::optional<Ends> ends;
+    if (Service().supervised())
+        ends.emplace(state_folder(), std::time(nullptr));
+    const bool care = ends && ends->lately() >= most_ends;
+    const RunOptions options = care ? careful(given, ends->lately()) : given;
     ExhibitOptions exhibit_options = open(options);
+    exhibit_options.careful = care;
     exhibit_options.frames = options.frames;
     if (options.warm_up != "auto" || options.frames > 0)
         exhibit_options.warms_up = options.warm_up == "always";
@@ -126,8 +153,14 @@ int run(const RunOptions& options)
         exhibit_options.trace = &trace.emplace(options.trace);
     catch_interrupts(); // they end the flight as Esc does
     exhibit_options.over = interrupted;
-    WindowSystem window_system;
-    return fly_exhibit(exhibit_options);
+    int status;
+    {
+        WindowSystem window_system;
+        status = fly_exhibit(exhibit_options);
+    }
+    if (ends && status == 0)
+        ends->in_order();
+    return status;
 }
 
 } // namespace

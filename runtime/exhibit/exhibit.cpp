@@ -3,6 +3,7 @@
 #include "config/model/shipped.h"
 #include "frame_loop.h"
 #include "runtime/operation/log.h"
+#include "runtime/operation/waits.h"
 #include <cstdio>
 #include <memory>
 #include <thread>
@@ -42,12 +43,16 @@ bool leaves_level(Session& session, const std::exception& error)
 int fly_exhibit(const ExhibitOptions& options)
 {
     Session session{options};
+    const WaitWatch watch(wait_limit_s(session.service));
     for (int losses = 0;;) {
         const Clock::time_point opened = Clock::now();
+        std::optional<LimitedWait> work(
+            std::in_place, "the end of the exhibit's loading", loading_limit_s); // outlives context
         std::unique_ptr<RenderContext> context;
         std::string lost;
         bool coarser = false; // the device is opened anew for a level of less memory, and nothing is wrong with it
         const char* how = "is lost";
+        session.service.loads("Loads the world " + options.scene.filename().string() + ".", loading_limit_s);
         try {
             context = std::make_unique<RenderContext>(options.scene, device_options(true),
                 options.frame_budget_ms > 0 ? options.ladder[0].quality.spectra
@@ -59,9 +64,15 @@ int fly_exhibit(const ExhibitOptions& options)
             if (losses == 0)
                 std::printf("%s\n", describe_light(*context).c_str());
             {
+                work->restart();
+                session.service.loads(
+                    "Opens the outputs of " + session.layout.file.filename().string() + ".", loading_limit_s);
                 FrameLoop loop(session, *context);
+                work.reset();
                 while (!is_over(session) && loop.fly_frame())
                     ;
+                session.service.stops();
+                work.emplace("the end of the exhibit's closing", loading_limit_s);
             }
             print_summary(session, context->world.scene);
             const bool same = session.record_replay.end(session.flight);
@@ -77,8 +88,10 @@ int fly_exhibit(const ExhibitOptions& options)
             coarser = context && leaves_level(session, error); // else the world itself has no room
             if (!coarser && losses == 0 && session.shown == 0)
                 throw;
-            lost = error.what(); // no memory for what is to be drawn, or the driver is not back yet
+            lost = error.what(), how = "has failed"; // no memory for what is to be drawn, or the driver is not back yet
         }
+        work.emplace("the end of the lost device's closing", loading_limit_s);
+        session.service.loads("Opens the GPU anew.", loading_limit_s);
         session.complaints |= context && !context->device.complaints.empty();
         context.reset();
         if (coarser)

@@ -27,6 +27,7 @@ struct ExhibitOptions {
     Exposing exposure{};
     std::vector<Profile> profiles{};
     bool tutorial = true;
+    bool careful = false; ///< the exhibit starts with care after disorderly ends; for the service manager's status
     std::optional<Quality> quality{}; ///< none: the device's default
     double frame_budget_ms = 0; ///< time of a whole frame; 0: the quality stays fixed
     std::vector<PresetLevel> ladder{}; ///< the qualities between which the governor moves

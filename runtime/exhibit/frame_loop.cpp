@@ -5,6 +5,7 @@
 #include "runtime/operation/log.h"
 #include "runtime/operation/progress.h"
 #include "runtime/operation/trace.h"
+#include "runtime/operation/waits.h"
 #include "runtime/render/debug.h"
 #include "runtime/render/warm_up.h"
 #define GLFW_INCLUDE_NONE
@@ -74,6 +75,9 @@ FrameLoop::~FrameLoop()
 
 bool FrameLoop::fly_frame()
 {
+    // The first frame is a part of loading: drivers compile shaders in it.
+    const LimitedWait working = fresh_ ? LimitedWait("the end of the first frame's work", loading_limit_s)
+                                       : LimitedWait("the end of one frame's work");
     // One frame is in flight at a time, for the least delay between a control and its picture.
     const std::optional<double> metered = await_device();
 
@@ -89,7 +93,7 @@ bool FrameLoop::fly_frame()
     if (visible)
         glfwPollEvents();
     else
-        glfwWaitEventsTimeout(0.1); // all windows are minimised, or no monitor is there
+        stand_by();
     const Clock::time_point now = Clock::now();
     RecordEntry entry{.shown = visible};
     if (!read_controls(session_, screens_.handles(), entry) || screens_.closed())
@@ -132,17 +136,41 @@ bool FrameLoop::fly_frame()
     submitted_ = true;
     const Clock::time_point handed = Clock::now();
     screens_.present(session_.skew);
+    held_since_.reset();
+    fresh_ = false;
+    session_.service.shows("Shows " + std::to_string(screens_.shown()) + " of "
+        + std::to_string(session_.layout.outputs.size()) + (session_.layout.outputs.size() == 1 ? " output" : " outputs")
+        + (session_.options.careful ? ", with care after many ends." : "."));
     if (session_.options.timed)
         session_.options.timed({controls.report_ns, steady_ns(now), steady_ns(handed), steady_ns(Clock::now())});
     ++session_.shown;
     return true;
 }
 
+void FrameLoop::stand_by()
+{
+    glfwWaitEventsTimeout(0.1); // all windows are minimised, or no monitor is there
+    const Clock::time_point now = Clock::now();
+    if (screens_.held() == 0) {
+        held_since_.reset();
+        session_.service.waits("Waits for a monitor.");
+        return;
+    }
+    // The window system gives no window an image. On a desktop this may be its way with windows that nobody sees; a
+    // supervised exhibit has its screens for itself.
+    const double held_s = seconds(now - held_since_.value_or(now));
+    if (!held_since_)
+        held_since_ = now;
+    else if (session_.service.watchdog_s() && held_s > wait_limit_s(session_.service))
+        give_up("the next picture of any output (vkAcquireNextImageKHR)", held_s);
+    session_.service.waits("Waits for the window system, which holds all pictures.");
+}
+
 std::optional<double> FrameLoop::await_device()
 {
     const Trace::Span span(device_.trace, "wait");
     pace_.wait(screens_.refresh_hz());
-    (void)device_.device.waitForFences(*done_, true, UINT64_MAX);
+    device_.await(*done_, "the end of the frame's drawing (fence)");
     // While all windows are minimised nothing is submitted, and the last frame's times are old.
     if (!std::exchange(submitted_, false))
         return {};
@@ -172,6 +200,7 @@ void FrameLoop::warm_up()
     const std::size_t levels = session_.governor ? session_.governor->ladder().size() : 1;
     std::unique_ptr<FrameRenderer> frame; // anew after a level without room
     Progress progress;
+    LimitedWait warming("the next step of the warm-up", loading_limit_s);
     std::size_t made = 0;
     for (std::size_t level = 0; level < levels; ++level) {
         if (session_.governor && !session_.governor->has_room(level))
@@ -181,6 +210,8 @@ void FrameLoop::warm_up()
         try {
             made = warm_up(frame, quality, [&](std::size_t step, std::size_t steps) {
                 glfwPollEvents(); // else the window system takes the program for dead
+                warming.restart();
+                session_.service.loads("Compiles the pipelines of all switches.", loading_limit_s);
                 const double part = (double(level) + double(step) / double(steps)) / double(levels);
                 progress.show("compiling pipelines of all switches: " + std::to_string(level * steps + step) + " of "
                         + std::to_string(levels * steps),
@@ -270,6 +301,8 @@ void FrameLoop::apply_file_changes()
 {
     if (!session_.watch.changed(Clock::now()))
         return;
+    const LimitedWait loading("the changed layout", loading_limit_s);
+    session_.service.loads("Loads the changed layout.", loading_limit_s);
     try {
         const Layout fresh = load_layout(session_.layout.file);
         Layout layout = turned_again(fresh, session_.kept, session_.layout);

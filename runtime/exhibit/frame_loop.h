@@ -26,6 +26,9 @@ public:
     bool fly_frame();
 
 private:
+    using Clock = std::chrono::steady_clock;
+    /// Waits a moment while no window has an image.
+    void stand_by();
     /// Draws off-screen all states of the visitor's switches; shows the progress on a terminal.
     void warm_up();
     std::size_t warm_up(std::unique_ptr<FrameRenderer>& frame, const Quality& quality,
@@ -53,6 +56,8 @@ private:
     std::unique_ptr<FrameRenderer> frame_;
     FrameTimer timer_;
     Screens screens_;
+    std::optional<Clock::time_point> held_since_; ///< the window system has held all images since
+    bool fresh_ = true; ///< no frame is shown yet
     bool cold_; ///< the warm-up is still to come
     HudUpdater hud_;
     Pace pace_;

@@ -1,6 +1,7 @@
 #include "outputs.h"
 #include "config/json/error.h"
 #include "desktop.h"
+#include "runtime/operation/waits.h"
 #include "runtime/render/debug.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -66,6 +67,7 @@ bool has_display()
 
 void settle(Device& device) noexcept
 {
+    const LimitedWait idling("the device's rest (vkDeviceWaitIdle)");
     try {
         device.device.waitIdle();
     } catch (const vk::SystemError&) { // a lost device is idle
@@ -224,6 +226,7 @@ bool Window::make_swapchain()
     auto alpha = limits.supportedCompositeAlpha & vk::CompositeAlphaFlagBitsKHR::eOpaque
         ? vk::CompositeAlphaFlagBitsKHR::eOpaque
         : vk::CompositeAlphaFlagBitsKHR::eInherit;
+    const LimitedWait making("the swapchain of output '" + name_ + "' (vkCreateSwapchainKHR)");
     swapchain_ = device_->device.createSwapchainKHR({{}, *surface_, count, format_, vk::ColorSpaceKHR::eSrgbNonlinear,
         extent, 1, vk::ImageUsageFlagBits::eColorAttachment, vk::SharingMode::eExclusive, {}, limits.currentTransform, alpha,
         vk::PresentModeKHR::eFifo, true, *std::exchange(swapchain_, nullptr)});
@@ -251,6 +254,7 @@ vk::Result Window::try_acquire()
         make_surface();
     if (stale_ && !make_swapchain())
         return vk::Result::eNotReady;
+    const LimitedWait acquiring("the answer for the next picture of output '" + name_ + "' (vkAcquireNextImageKHR)");
     auto [result, image] = swapchain_.acquireNextImage(late_ ? 0 : std::uint64_t(patience.count()), *acquired_);
     image_ = image;
     return result;
@@ -260,8 +264,10 @@ bool Window::acquire()
 {
     glm::ivec2 now;
     glfwGetFramebufferSize(window_, &now.x, &now.y);
-    if (now.x == 0 || now.y == 0 || glfwGetWindowAttrib(window_, GLFW_ICONIFIED))
+    if (now.x == 0 || now.y == 0 || glfwGetWindowAttrib(window_, GLFW_ICONIFIED)) {
+        late_ = false; // no image is awaited
         return false;
+    }
     stale_ |= now != size_;
     // The second attempt uses the new swapchain. A window that still changes waits for the next frame.
     for (int attempt = 0; attempt < 2; ++attempt) {

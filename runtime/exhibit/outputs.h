@@ -40,6 +40,7 @@ public:
     /// window system holds the images longer than a tenth of a second. Makes the swapchain and the surface anew where
     /// necessary; size() is then the new size.
     bool acquire();
+    bool held() const { return late_; } ///< the last acquire() timed out
     glm::ivec2 size() const { return size_; }
     Target target() const;
     vk::Format format() const { return format_; } ///< undefined until there is a swapchain

@@ -1,4 +1,5 @@
 #include "present_clock.h"
+#include "runtime/operation/waits.h"
 
 namespace starbow {
 
@@ -41,6 +42,7 @@ std::optional<PresentClock::Clock::time_point> PresentClock::shown() const
 
 void PresentClock::wait_idle() const
 {
+    const LimitedWait reporting("the report of a shown picture (vkWaitForPresentKHR)");
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return !swapchain_; });
 }

@@ -1,6 +1,7 @@
 #include "screens.h"
 #include "config/json/error.h"
 #include "runtime/operation/log.h"
+#include "runtime/operation/waits.h"
 #include "runtime/render/frame_timer.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -134,6 +135,12 @@ bool Screens::acquire()
     return !acquired_.empty();
 }
 
+std::size_t Screens::held() const
+{
+    return std::size_t(std::count_if(
+        screens_.begin(), screens_.end(), [](const Screen& screen) { return screen.window && screen.window->held(); }));
+}
+
 vk::Format Screens::format() const
 {
     for (const Screen& screen : screens_)
@@ -149,6 +156,7 @@ void Screens::submit(vk::CommandBuffer world, vk::CommandBuffer outputs, vk::Fen
         wait.push_back({window->acquired(), 0, Stage::eAllCommands});
         signal.push_back({window->drawn(), 0, Stage::eAllCommands});
     }
+    const LimitedWait submitting("the queue's taking of a frame (vkQueueSubmit2)");
     submit_frame(device_, world, outputs, wait, signal, done);
     done_ = done;
 }
@@ -172,10 +180,11 @@ void Screens::present(Skew& skew)
     if (skew.on_screen)
         present.pNext = &present_id;
     else if (several) // timed below: the hand-over alone, without the drawing that some drivers wait for in it
-        (void)device_.device.waitForFences(done_, true, UINT64_MAX);
+        device_.await(done_, "the end of the frame's drawing before it is handed over (fence)");
 
     const Clock::time_point began = Clock::now();
     vk::Result worst;
+    const LimitedWait presenting("the return of the pictures' presentation (vkQueuePresentKHR)");
     try {
         worst = device_.queue.presentKHR(present);
     } catch (const vk::OutOfDateKHRError&) {

@@ -23,6 +23,8 @@ public:
     /// is minimised or changing. Returns false if there is no image at all.
     bool acquire();
     const std::vector<Target>& targets() const { return targets_; }
+    std::size_t shown() const { return acquired_.size(); } ///< windows with an image of this frame
+    std::size_t held() const; ///< windows whose images the window system does not give back
     /// The format of the windows' images; undefined where no window has one yet.
     vk::Format format() const;
 

@@ -68,6 +68,12 @@ std::string describe(const Skew& skew)
     return text.data();
 }
 
+double wait_limit_s(const Service& service)
+{
+    // Without a watchdog nothing starts the exhibit again, and a slow frame is better than none.
+    return service.watchdog_s() ? 0.8 * *service.watchdog_s() : 20;
+}
+
 Quality quality_of(const Session& session, const Device& device)
 {
     if (session.governor)

@@ -13,6 +13,7 @@
 #include "runtime/operation/file_watch.h"
 #include "runtime/operation/governor.h"
 #include "runtime/operation/guide.h"
+#include "runtime/operation/service.h"
 #include "runtime/operation/skew.h"
 #include <chrono>
 #include <memory>
@@ -26,6 +27,7 @@ struct Session {
     explicit Session(const ExhibitOptions& options);
 
     const ExhibitOptions& options;
+    Service service{};
     Layout layout; ///< the shown layout
     Layout kept; ///< the file's layout, without a builder's unsaved changes
     FileWatch watch;
@@ -48,6 +50,11 @@ struct Session {
     long shown = 0; ///< frames
     bool complaints = false; ///< the validation layers had messages on a lost device
 };
+
+/// Limit of one step of loading, s. A world takes less than a second on a GPU, and half a minute on a busy processor.
+constexpr double loading_limit_s = 60;
+/// Limit of any other wait, s: it ends before the service manager's watchdog does, so that the log can name the wait.
+double wait_limit_s(const Service& service);
 
 inline double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
 

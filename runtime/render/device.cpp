@@ -4,6 +4,7 @@
 #include "debug.h"
 #include "displays/compile/compiled_view.h"
 #include "runtime/operation/log.h"
+#include "runtime/operation/waits.h"
 #include "shaders/shared_structs.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -348,7 +349,17 @@ void Device::finish(vk::raii::CommandBuffer& commands)
     name_object(*this, fence, "fence of a moment's commands");
     vk::CommandBufferSubmitInfo buffer(*commands);
     queue.submit2(vk::SubmitInfo2({}, {}, buffer, {}), *fence);
-    (void)device.waitForFences(*fence, true, UINT64_MAX);
+    await(*fence, "the end of a moment's commands (fence)");
+}
+
+void Device::await(vk::Fence fence, const char* what) const
+{
+    // Short waits in turn: time in which a stopped program did not run is not counted.
+    constexpr double turn_s = 0.1;
+    const LimitedWait wait(what);
+    for (double waited_s = 0; device.waitForFences(fence, true, std::uint64_t(1e9 * turn_s)) == vk::Result::eTimeout;)
+        if ((waited_s += turn_s) > wait.limit_s())
+            give_up(what, waited_s);
 }
 
 } // namespace starbow

@@ -52,6 +52,8 @@ public:
     /// its begin and end.
     void begin_rendering(vk::CommandBuffer commands, const vk::RenderingInfo& info, std::uint32_t scenes = 2) const;
     void end_rendering(vk::CommandBuffer commands) const;
+    /// Waits for a fence. what: names the wait. Where the fence does not come within LimitedWait's limit, the process ends.
+    void await(vk::Fence fence, const char* what) const;
 
     /// Records, submits and waits: for loading, measuring and stills.
     template <class Record> void now(Record&& record)

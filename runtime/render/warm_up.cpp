@@ -79,7 +79,7 @@ std::size_t warm_up(Device& device, Pipelines& pipelines, FrameRenderer& frame, 
         if (pipelines.count() > before) {
             const vk::CommandBufferSubmitInfo buffer(*commands);
             device.queue.submit2(vk::SubmitInfo2({}, {}, buffer, {}), *done);
-            (void)device.device.waitForFences(*done, true, UINT64_MAX);
+            device.await(*done, "the end of a warm-up's drawing (fence)");
             device.device.resetFences(*done);
         }
         frame.measure({});

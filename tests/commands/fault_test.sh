@@ -56,6 +56,11 @@ for call in acquire present submit; do
     ok
 done
 
+# So it does where the device is lost while the world loads.
+survives submit:1:DEVICE_LOST
+[ "$(grep -c 'it is opened anew' "$folder/log")" = 1 ] || fail "lost in loading: the new device is not reported exactly once"
+ok
+
 # A device without memory is opened anew, too. Before the first picture the program ends with one line and exit 3.
 survives submit:30:OUT_OF_MEMORY 60
 [ "$(grep -c 'OutOfDeviceMemory.*it is opened anew' "$folder/log")" = 1 ] || fail "no memory in flight: no line says so"
@@ -71,6 +76,19 @@ STARBOW_LARGEST_KIB=12000 timeout 60 "$program" run --layout desk --scene rainbo
 [ "$(grep -c '^fault: no room' "$folder/log")" = 1 ] || fail "a level without room: tried $(grep -c '^fault: no room' "$folder/log") times"
 grep -q 'quality: level 12 of 12 has no room' "$folder/log" || fail "a level without room: no line says so"
 grep -q 'is lost' "$folder/log" && fail "a level without room: a loss of the device is reported"
+ok
+
+# A window grows, and the device has no memory for its larger picture: the device is opened anew, and the flight goes on.
+sed 's/"place": \[[02]*, 0\]/"resizable": true/' "$folder/two.json" >"$folder/sizes.json"
+STARBOW_FAULTS=resize:1:OUT_OF_MEMORY timeout 60 "$program" run --layout "$folder/sizes.json" --record "$folder/flight.jsonl" >"$folder/log" 2>&1 &
+exhibit=$!
+"$rig/wait_flown.py" "$folder/flight.jsonl" 0.3 || fail "no memory for a larger window: no flight"
+xdotool windowsize "$(xdotool search --name '^Starbow a' | head -n 1)" 900 700
+until_true 30 grep -q '^fault: resize:1' "$folder/log" || fail "no memory for a larger window: it did not happen"
+"$rig/wait_flown.py" "$folder/flight.jsonl" 0.5 || fail "no memory for a larger window: the flight stands still"
+kill -INT "$(pgrep -P $exhibit)"
+wait $exhibit || fail "no memory for a larger window: exit $?"
+[ "$(grep -c 'the GPU has failed (The GPU has no [0-9]* MiB.*it is opened anew' "$folder/log")" = 1 ] || fail "no memory for a larger window: no line says so"
 ok
 
 # If the device is lost again and again, the exhibit ends with a message and exit 1.

@@ -2,14 +2,18 @@
 // object anew.
 //
 // STARBOW_FAULTS=CALL:NTH:RESULT[,...]
-//   CALL    acquire, present (both counted for each picture), swapchain (its creation) or submit
+//   CALL    acquire, present (both counted for each picture), swapchain (its creation), submit, fence (a wait for fences
+//           after the first presentation), idle (a wait for the device), or resize (an allocation of memory after a
+//           swapchain has replaced another)
 //   NTH     the call that fails first, counted from 1
 //   RESULT  OUT_OF_DATE   the swapchain fails until it is made anew
 //           SURFACE_LOST  the surface fails until it is made anew
 //           DEVICE_LOST   the device fails until it is made anew
 //           SUBOPTIMAL    only this call returns it; it succeeds
-//           OUT_OF_MEMORY only this call returns it; submit alone
+//           OUT_OF_MEMORY only this call returns it; submit and resize alone
 //           FROZEN        the swapchain's next 100 acquires time out
+//           HANG          this and all later calls of its kind time out; fence and acquire alone
+//           BLOCK         this call never returns; fence, present and idle alone
 // When a swapchain is destroyed, the layer prints on stderr how many pictures it has shown.
 // STARBOW_LARGEST_KIB=N: a piece of memory of more than N KiB has no room on the device.
 // STARBOW_SHOWN_LATE_MS=MS: the layer provides VK_KHR_present_wait. Each swapchain shows its pictures MS later than the
@@ -25,6 +29,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
@@ -47,6 +52,7 @@ std::map<VkSwapchainKHR, int> order, frozen, shown;
 std::set<VkSwapchainKHR> out_of_date;
 std::set<VkSurfaceKHR> lost;
 std::set<void*> lost_devices;
+bool fences_hang = false, replaced = false; // replaced: a swapchain has taken another one's place
 
 /// The loader's table pointer: the same for a device and its queues.
 void* key(const void* handle) { return *static_cast<void* const*>(handle); }
@@ -80,6 +86,12 @@ std::string fault(const std::string& call)
     return {};
 }
 
+[[noreturn]] void block()
+{
+    for (;;)
+        pause();
+}
+
 /// Applies the new fault `now`, and returns the swapchain's state with all earlier faults.
 VkResult state(const void* device_or_queue, VkSwapchainKHR swapchain, const std::string& now)
 {
@@ -89,8 +101,8 @@ VkResult state(const void* device_or_queue, VkSwapchainKHR swapchain, const std:
         lost.insert(surfaces[swapchain]);
     if (now == "OUT_OF_DATE")
         out_of_date.insert(swapchain);
-    if (now == "FROZEN")
-        frozen[swapchain] = 100;
+    if (now == "FROZEN" || now == "HANG")
+        frozen[swapchain] = now == "HANG" ? 1'000'000 : 100;
     if (lost_devices.count(key(device_or_queue)))
         return VK_ERROR_DEVICE_LOST;
     if (lost.count(surfaces[swapchain]))
@@ -126,6 +138,14 @@ VKAPI_ATTR VkResult VKAPI_CALL acquire(
 
 VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* info)
 {
+    std::vector<std::string> faults(info->swapchainCount);
+    for (uint32_t i = 0; i < info->swapchainCount; ++i) {
+        std::unique_lock lock(mutex);
+        faults[i] = fault("present");
+        lock.unlock();
+        if (faults[i] == "BLOCK")
+            block();
+    }
     VkPresentInfoKHR copy = *info;
     std::vector<VkResult> results(info->swapchainCount);
     copy.pResults = results.data();
@@ -133,7 +153,7 @@ VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* in
     VkResult worst = next<PFN_vkQueuePresentKHR>(queue, "vkQueuePresentKHR")(queue, &copy);
     const std::lock_guard lock(mutex);
     for (uint32_t i = 0; i < info->swapchainCount; ++i) {
-        const VkResult injected = state(queue, info->pSwapchains[i], fault("present"));
+        const VkResult injected = state(queue, info->pSwapchains[i], faults[i]);
         if (results[i] == VK_SUCCESS)
             results[i] = injected;
         shown[info->pSwapchains[i]] += results[i] >= 0;
@@ -180,17 +200,31 @@ VKAPI_ATTR VkResult VKAPI_CALL wait_for_fences(
     VkDevice device, uint32_t count, const VkFence* fences, VkBool32 all, uint64_t timeout)
 {
     {
-        const std::lock_guard lock(mutex);
+        std::unique_lock lock(mutex);
+        const std::string now = counts["present"] > 0 ? fault("fence") : "";
+        fences_hang |= now == "HANG";
         if (lost_devices.count(key(device)))
             return VK_ERROR_DEVICE_LOST;
+        lock.unlock();
+        if (now == "BLOCK")
+            block();
+    }
+    if (fences_hang) {
+        std::this_thread::sleep_for(std::chrono::nanoseconds(std::min(timeout, uint64_t(3600) * 1'000'000'000)));
+        return VK_TIMEOUT;
     }
     return next<PFN_vkWaitForFences>(device, "vkWaitForFences")(device, count, fences, all, timeout);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL wait_idle(VkDevice device)
 {
+    std::unique_lock lock(mutex);
+    const std::string now = fault("idle");
+    lock.unlock();
+    if (now == "BLOCK")
+        block();
     const VkResult result = next<PFN_vkDeviceWaitIdle>(device, "vkDeviceWaitIdle")(device);
-    const std::lock_guard lock(mutex);
+    lock.lock();
     return lost_devices.count(key(device)) ? VK_ERROR_DEVICE_LOST : result;
 }
 
@@ -207,10 +241,22 @@ VKAPI_ATTR VkResult VKAPI_CALL create_swapchain(
     const VkResult result = next<PFN_vkCreateSwapchainKHR>(device, "vkCreateSwapchainKHR")(device, info, allocator, made);
     const std::lock_guard lock(mutex);
     if (result == VK_SUCCESS) {
+        replaced |= info->oldSwapchain != VK_NULL_HANDLE;
         surfaces[*made] = info->surface;
         order[*made] = int(order.size());
     }
     return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL allocate_memory(
+    VkDevice device, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks* allocator, VkDeviceMemory* made)
+{
+    {
+        const std::lock_guard lock(mutex);
+        if (replaced && fault("resize") == "OUT_OF_MEMORY")
+            return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    }
+    return next<PFN_vkAllocateMemory>(device, "vkAllocateMemory")(device, info, allocator, made);
 }
 
 VKAPI_ATTR void VKAPI_CALL destroy_swapchain(
@@ -387,6 +433,7 @@ PFN_vkVoidFunction layer_function(std::string_view name)
         FUNCTION("vkDestroySurfaceKHR", destroy_surface),
         FUNCTION("vkEnumerateDeviceExtensionProperties", enumerate_extensions),
         FUNCTION("vkGetPhysicalDeviceFeatures2", get_features),
+        FUNCTION("vkAllocateMemory", allocate_memory),
         FUNCTION("vkCreateSwapchainKHR", create_swapchain),
         FUNCTION("vkDestroySwapchainKHR", destroy_swapchain),
         FUNCTION("vkAcquireNextImageKHR", acquire),

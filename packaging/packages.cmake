@@ -1,0 +1,89 @@
+# The Debian packages. `cpack -G DEB --config build/release/CPackConfig.cmake -B out/packages` builds them:
+# starbow, the program with its files, and starbow-exhibit, which starts it with the machine.
+include(GNUInstallDirs)
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON) # packaging needs the program alone, not its tests
+set(EXHIBIT ${CMAKE_CURRENT_LIST_DIR}/exhibit)
+
+# compressed(FILE NAME): NAME.gz in the build's folder, without time and name, so that equal sources make equal packages.
+function(compressed file name)
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/packaging)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  execute_process(COMMAND gzip -9nc ${file} OUTPUT_FILE ${CMAKE_BINARY_DIR}/packaging/${name}.gz COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+compressed(${CMAKE_CURRENT_LIST_DIR}/starbow.1 starbow.1)
+compressed(${CMAKE_CURRENT_LIST_DIR}/changelog changelog)
+file(READ ${CMAKE_CURRENT_LIST_DIR}/copyright copyright)
+file(READ ${CMAKE_SOURCE_DIR}/NOTICE notice)
+file(WRITE ${CMAKE_BINARY_DIR}/packaging/copyright "${copyright}${notice}")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/copyright NOTICE)
+
+install(TARGETS starbow DESTINATION bin COMPONENT starbow)
+install(DIRECTORY config scenes DESTINATION share/starbow COMPONENT starbow
+  PATTERN *.py EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN config/model EXCLUDE PATTERN config/json EXCLUDE
+  PATTERN config/import EXCLUDE PATTERN config/udev EXCLUDE PATTERN LICENSE* EXCLUDE PATTERN README.md EXCLUDE)
+install(DIRECTORY docs/ DESTINATION share/doc/starbow COMPONENT starbow
+  FILES_MATCHING PATTERN *.md PATTERN *.svg PATTERN *.png)
+install(FILES README.md DESTINATION share/doc/starbow COMPONENT starbow)
+install(FILES packaging/starbow.desktop DESTINATION share/applications COMPONENT starbow)
+install(FILES packaging/starbow.metainfo.xml DESTINATION share/metainfo COMPONENT starbow)
+install(FILES config/udev/70-starbow.rules DESTINATION /lib/udev/rules.d COMPONENT starbow)
+install(FILES ${CMAKE_BINARY_DIR}/packaging/starbow.1.gz DESTINATION share/man/man1 COMPONENT starbow)
+foreach(package starbow starbow-exhibit)
+  install(FILES ${CMAKE_BINARY_DIR}/packaging/copyright ${CMAKE_BINARY_DIR}/packaging/changelog.gz
+    DESTINATION share/doc/${package} COMPONENT ${package})
+endforeach()
+
+install(FILES ${EXHIBIT}/starbow.service ${EXHIBIT}/starbow-display.service ${EXHIBIT}/starbow-hours.service
+  ${EXHIBIT}/starbow-hours.timer DESTINATION /lib/systemd/system COMPONENT starbow-exhibit)
+install(PROGRAMS ${EXHIBIT}/hours ${EXHIBIT}/display-ready DESTINATION lib/starbow COMPONENT starbow-exhibit)
+install(FILES ${EXHIBIT}/sysusers.conf DESTINATION lib/sysusers.d RENAME starbow.conf COMPONENT starbow-exhibit)
+install(FILES ${EXHIBIT}/tmpfiles.conf DESTINATION lib/tmpfiles.d RENAME starbow.conf COMPONENT starbow-exhibit)
+install(FILES ${EXHIBIT}/71-starbow-exhibit.rules DESTINATION /lib/udev/rules.d COMPONENT starbow-exhibit)
+install(FILES ${EXHIBIT}/exhibit.json DESTINATION /etc/starbow COMPONENT starbow-exhibit)
+install(FILES ${EXHIBIT}/site.json DESTINATION /etc/starbow/layouts COMPONENT starbow-exhibit)
+install(FILES ${EXHIBIT}/hours.conf DESTINATION /etc/starbow RENAME hours COMPONENT starbow-exhibit)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME starbow)
+set(CPACK_PACKAGE_VENDOR "Starbow maintainers")
+set(CPACK_PACKAGE_CONTACT "Starbow maintainers <maintainers@starbow.invalid>")
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_INSTALL_PREFIX /usr)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_SET_DESTDIR ON) # files below /etc and /lib go into the package, not into this machine
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
+  WORLD_READ WORLD_EXECUTE)
+set(CPACK_COMPONENTS_ALL starbow starbow-exhibit)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_PACKAGE_COMPRESSION xz)
+
+set(CPACK_DEBIAN_STARBOW_PACKAGE_NAME starbow)
+set(CPACK_DEBIAN_STARBOW_FILE_NAME starbow.deb)
+set(CPACK_DEBIAN_STARBOW_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_STARBOW_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_STARBOW_PACKAGE_DEPENDS "fonts-dejavu-core, mesa-vulkan-drivers | vulkan-icd")
+set(CPACK_DEBIAN_STARBOW_PACKAGE_RECOMMENDS "ffmpeg")
+set(CPACK_COMPONENT_STARBOW_DESCRIPTION "flight near the speed of light
+Starbow shows what physics says you would see near the speed of light:
+aberration, the Doppler effect, the headlight effect. It draws on windows,
+planetarium domes and stereo pairs, flies by sticks and keyboard, and has
+tours, a laboratory session and reference pictures by rays.")
+
+set(CPACK_DEBIAN_STARBOW-EXHIBIT_PACKAGE_NAME starbow-exhibit)
+set(CPACK_DEBIAN_STARBOW-EXHIBIT_FILE_NAME starbow-exhibit.deb)
+set(CPACK_DEBIAN_STARBOW-EXHIBIT_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_STARBOW-EXHIBIT_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_STARBOW-EXHIBIT_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_STARBOW-EXHIBIT_PACKAGE_DEPENDS
+  "starbow (= ${PROJECT_VERSION}), systemd, udev, xserver-xorg-core, x11-xserver-utils")
+set(CPACK_DEBIAN_STARBOW-EXHIBIT_PACKAGE_RECOMMENDS "xserver-xorg-input-libinput")
+set(CPACK_DEBIAN_STARBOW-EXHIBIT_PACKAGE_CONTROL_EXTRA
+  "${EXHIBIT}/postinst;${EXHIBIT}/prerm;${EXHIBIT}/postrm;${EXHIBIT}/conffiles")
+set(CPACK_COMPONENT_STARBOW-EXHIBIT_DESCRIPTION "Starbow as an exhibit that starts with the machine
+A bare X server, and Starbow on it, as services of systemd: started with the
+machine, watched, started anew after a hang or a crash. The site's files are
+in /etc/starbow, opening hours among them.")
+include(CPack)

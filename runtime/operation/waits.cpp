@@ -1,0 +1,149 @@
+#include "waits.h"
+#include "log.h"
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <mutex>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+namespace starbow {
+namespace {
+
+/// Limit of a wait where nobody watches, s: commands such as `render` draw pictures that take minutes.
+constexpr double unwatched_s = 600;
+constexpr std::chrono::milliseconds look_every(100);
+
+/// The open waits of the thread that draws, the innermost last. Never destroyed, because the process may end anywhere.
+struct OpenWaits {
+    std::mutex mutex;
+    std::vector<LimitedWait*> waits;
+    double limit_s = unwatched_s;
+};
+OpenWaits& open_waits()
+{
+    static auto& only = *new OpenWaits;
+    return only;
+}
+
+double limit_inside(bool within_long)
+{
+    OpenWaits& now = open_waits();
+    return now.limit_s * (within_long ? 4 : 1);
+}
+
+} // namespace
+
+LimitedWait::LimitedWait(std::string what)
+    : what_(std::move(what))
+{
+    OpenWaits& now = open_waits();
+    const std::lock_guard lock(now.mutex);
+    long_ = !now.waits.empty() && now.waits.back()->long_;
+    limit_s_ = limit_inside(long_);
+    now.waits.push_back(this);
+}
+
+LimitedWait::LimitedWait(std::string what, double limit_s)
+    : what_(std::move(what))
+    , limit_s_(limit_s)
+    , long_(true)
+{
+    OpenWaits& now = open_waits();
+    const std::lock_guard lock(now.mutex);
+    now.waits.push_back(this);
+}
+
+LimitedWait::~LimitedWait()
+{
+    OpenWaits& now = open_waits();
+    const std::lock_guard lock(now.mutex);
+    std::erase(now.waits, this);
+    if (!now.waits.empty())
+        now.waits.back()->waited_s_ = 0;
+}
+
+void LimitedWait::restart()
+{
+    const std::lock_guard lock(open_waits().mutex);
+    waited_s_ = 0;
+}
+
+void give_up(const std::string& what, double waited_s)
+{
+    static std::atomic_flag given_up;
+    if (given_up.test_and_set())
+        for (;;) // another thread ends the process
+            pause();
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f", waited_s);
+    log_error("hang",
+        what + " has not come for " + text + " s; the program ends with " + std::to_string(exit_hung)
+            + " without waiting any longer");
+    _exit(exit_hung);
+}
+
+struct WaitWatch::Thread {
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool ends = false;
+    std::thread thread{[this] { look(); }};
+
+    void look()
+    {
+        using Clock = std::chrono::steady_clock;
+        for (Clock::time_point last = Clock::now();;) {
+            {
+                std::unique_lock lock(mutex);
+                if (changed.wait_for(lock, look_every, [this] { return ends; }))
+                    return;
+            }
+            const Clock::time_point now = Clock::now();
+            // A longer time since the last look means that this thread did not run either.
+            const auto ran = std::min<Clock::duration>(now - last, 2 * look_every);
+            last = now;
+            const auto [what, waited_s] = overdue(std::chrono::duration<double>(ran).count());
+            if (!what.empty())
+                give_up(what, waited_s);
+        }
+    }
+
+    /// Adds the time to the innermost wait. Returns its name once it is beyond its limit.
+    static std::pair<std::string, double> overdue(double ran_s)
+    {
+        OpenWaits& now = open_waits();
+        const std::lock_guard lock(now.mutex);
+        if (now.waits.empty())
+            return {};
+        LimitedWait& inner = *now.waits.back();
+        inner.waited_s_ += ran_s;
+        return {inner.waited_s_ > inner.limit_s_ ? inner.what_ : "", inner.waited_s_};
+    }
+};
+
+WaitWatch::WaitWatch(double limit_s)
+{
+    {
+        const std::lock_guard lock(open_waits().mutex);
+        open_waits().limit_s = limit_s;
+    }
+    thread_ = new Thread;
+}
+
+WaitWatch::~WaitWatch()
+{
+    {
+        const std::lock_guard lock(thread_->mutex);
+        thread_->ends = true;
+    }
+    thread_->changed.notify_all();
+    thread_->thread.join();
+    delete thread_;
+    const std::lock_guard lock(open_waits().mutex);
+    open_waits().limit_s = unwatched_s;
+}
+
+} // namespace starbow
