@@ -180,22 +180,6 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSub
     return next<PFN_vkQueueSubmit2>(queue, "vkQueueSubmit2")(queue, count, infos, fence);
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL allocate_memory(
-    VkDevice device, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks* allocator, VkDeviceMemory* memory)
-{
-    const char* largest = std::getenv("STARBOW_LARGEST_KIB");
-    if (largest && info->allocationSize > 1024 * VkDeviceSize(std::atoll(largest))) {
-        std::fprintf(stderr, "fault: no room for %llu KiB\n", (unsigned long long)(info->allocationSize >> 10));
-        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
-    }
-    PFN_vkAllocateMemory below;
-    {
-        const std::lock_guard lock(mutex);
-        below = next<PFN_vkAllocateMemory>(device, "vkAllocateMemory");
-    }
-    return below(device, info, allocator, memory);
-}
-
 VKAPI_ATTR VkResult VKAPI_CALL wait_for_fences(
     VkDevice device, uint32_t count, const VkFence* fences, VkBool32 all, uint64_t timeout)
 {
@@ -256,7 +240,17 @@ VKAPI_ATTR VkResult VKAPI_CALL allocate_memory(
         if (replaced && fault("resize") == "OUT_OF_MEMORY")
             return VK_ERROR_OUT_OF_DEVICE_MEMORY;
     }
-    return next<PFN_vkAllocateMemory>(device, "vkAllocateMemory")(device, info, allocator, made);
+    const char* largest = std::getenv("STARBOW_LARGEST_KIB");
+    if (largest && info->allocationSize > 1024 * VkDeviceSize(std::atoll(largest))) {
+        std::fprintf(stderr, "fault: no room for %llu KiB\n", (unsigned long long)(info->allocationSize >> 10));
+        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    }
+    PFN_vkAllocateMemory below;
+    {
+        const std::lock_guard lock(mutex);
+        below = next<PFN_vkAllocateMemory>(device, "vkAllocateMemory");
+    }
+    return below(device, info, allocator, made);
 }
 
 VKAPI_ATTR void VKAPI_CALL destroy_swapchain(
@@ -439,7 +433,6 @@ PFN_vkVoidFunction layer_function(std::string_view name)
         FUNCTION("vkAcquireNextImageKHR", acquire),
         FUNCTION("vkQueuePresentKHR", present),
         FUNCTION("vkQueueSubmit2", submit),
-        FUNCTION("vkAllocateMemory", allocate_memory),
         FUNCTION("vkWaitForFences", wait_for_fences),
         FUNCTION("vkDeviceWaitIdle", wait_idle),
 #undef FUNCTION
