@@ -130,7 +130,8 @@ Import Importer::run()
         throw InputError(document_.file, "/nodes/" + std::to_string(node_),
             "has no window of which something could be made" + one_line(reasons, 600)
                 + "; one with a PlanarProjection, TextureMappedProjection, ProjectionPlane, FisheyeProjection, "
-                  "CylindricalProjection, EquirectangularProjection, CubemapProjection or SphericalMirrorProjection is right");
+                  "CylindricalProjection, EquirectangularProjection, CubemapProjection or SphericalMirrorProjection is "
+                  "right");
     }
     Json layout;
     for (const User& each : users_)
@@ -505,8 +506,8 @@ std::vector<Json> Importer::viewport(const Place& place, glm::ivec2 window_size,
     if (eye != glm::dvec3(0))
         out["eye_m"] = json_of(eye);
     const bool one_of_two = eye_at && one_of(*eye_at, {"center", "left", "right"}) != "center";
-    const SgctView view{(high - low) * glm::dvec2(window_size), eye, packed || one_of_two,
-        double(window_size.x) / window_size.y, folder_};
+    const SgctView view{
+        (high - low) * glm::dvec2(window_size), eye, packed || one_of_two, double(window_size.x) / window_size.y, folder_};
     SgctPicture picture;
     members(place,
         {{"overlay", "nothing is drawn over the world but the head-up display"}, {"tracked", other_tracker},

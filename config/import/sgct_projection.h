@@ -23,7 +23,8 @@ struct SgctPart {
 };
 
 struct SgctPicture {
-    std::vector<SgctPart> parts; ///< one, six for a cube map's faces, four for a mirror's meshes, none for a projection that is not mapped
+    /// One, six for a cube map's faces, four for a mirror's meshes, none for a projection that is not mapped.
+    std::vector<SgctPart> parts;
     std::optional<double> front_elevation_deg; ///< of a dome: the lowest shown direction in front
 };
 

@@ -83,8 +83,8 @@ ViewportObserver read_observer(const Place& place)
 
 Viewport read_viewport(const Place& place, const Output& output, const Stereo& stereo, const std::filesystem::path& folder)
 {
-    reject_unknown_members(
-        place, {"rect", "eye", "eye_m", "projection", "warp", "alpha_mask", "black_level", "mask_gamma", "observer", "order"});
+    reject_unknown_members(place,
+        {"rect", "eye", "eye_m", "projection", "warp", "alpha_mask", "black_level", "mask_gamma", "observer", "order"});
     Viewport viewport;
     if (auto p = find_member(place, "rect"))
         viewport.rect = read_rect(*p, eye_size(output));

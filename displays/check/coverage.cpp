@@ -240,8 +240,8 @@ Picture picture_of(const Layout& layout, const Viewport& viewport, glm::ivec2 si
 
 /// True if a viewport of a higher order and without a mask hides a point of an eye's picture; null where none overlaps.
 /// A mask of its warp file is not known here.
-std::function<bool(glm::dvec2)> hides(const Layout& layout, const Output& output, const Viewport& lower, Eye eye,
-    const ViewRegion& given)
+std::function<bool(glm::dvec2)> hides(
+    const Layout& layout, const Output& output, const Viewport& lower, Eye eye, const ViewRegion& given)
 {
     std::vector<std::function<bool(glm::dvec2)>> each;
     for (const Viewport& upper : output.viewports) {
@@ -285,7 +285,8 @@ Coverage cover(const Layout& layout, int o, int v, Eye eye, const ViewRegion& gi
         coverage.looks = direction(picture, glm::dvec2(coverage.size) / 2.);
         shown = [rays = PictureRays(picture), hidden, in_output, size = glm::dvec2(picture.size)](const glm::dvec3& d) {
             const auto at = rays.pixel(d);
-            return at && at->x >= 0 && at->y >= 0 && at->x <= size.x && at->y <= size.y && !(hidden && hidden(in_output(*at)));
+            return at && at->x >= 0 && at->y >= 0 && at->x <= size.x && at->y <= size.y
+                && !(hidden && hidden(in_output(*at)));
         };
         measure_pixels(coverage, [rays = PictureRays(picture)](glm::dvec2 at) { return rays.pixel_angle(at); });
     }

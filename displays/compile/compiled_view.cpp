@@ -260,8 +260,8 @@ std::shared_ptr<const WarpMesh> MapStore::mesh(const Warp& warp, std::string& co
     const FloatMapForm& form = warp.map;
     content = warp.region + '\n' + (form.first_row_on_top ? "top" : "bottom") + (form.v_up ? " up" : "")
         + (form.edge_to_edge ? " edges" : "") + (form.offsets ? " offsets" : "")
-        + (warp.aspect ? " aspect " + std::to_string(*warp.aspect) : "") + '\n' + warp.file.filename().string()
-        + '\n' + contents(warp.file);
+        + (warp.aspect ? " aspect " + std::to_string(*warp.aspect) : "") + '\n' + warp.file.filename().string() + '\n'
+        + contents(warp.file);
     // domeprojection's second file is named or found beside the first; its content is a part of the key in both cases.
     std::filesystem::path beside = warp.frustum;
     if (beside.empty()) {

@@ -80,8 +80,8 @@ bool covers(const Layout& layout, const CompiledView& upper, const CompiledView&
 }
 
 /// A map without the pixels that other views of its output hide; the map itself where there are none.
-std::shared_ptr<const DirectionMap> uncovered(
-    const Layout& layout, const CompiledView& view, std::shared_ptr<const DirectionMap> map, std::span<const CompiledView> views)
+std::shared_ptr<const DirectionMap> uncovered(const Layout& layout, const CompiledView& view,
+    std::shared_ptr<const DirectionMap> map, std::span<const CompiledView> views)
 {
     std::shared_ptr<DirectionMap> rest;
     for (const CompiledView& upper : views) {

@@ -79,10 +79,7 @@ glm::vec3 ViewShade::mask(int x, int y) const { return alpha_ ? light_at(*alpha_
 
 glm::vec3 ViewShade::lift(int x, int y) const { return black_ ? light_at(*black_, place(view_->view, x, y)) : glm::vec3(0); }
 
-bool ViewShade::dims() const
-{
-    return alpha_ || !ramp_.empty() || (view_->map && !view_->map->intensity.empty());
-}
+bool ViewShade::dims() const { return alpha_ || !ramp_.empty() || (view_->map && !view_->map->intensity.empty()); }
 
 float ViewShade::brightness(int x, int y) const
 {
@@ -116,8 +113,7 @@ Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::s
         if (view.canvas > 0)
             continue; // the first of two canvases that share pixels represents both
         if (each.dims())
-            fill(shade.weight, view, 1,
-                [&](glm::vec3& w, int x, int y) { w *= each.mask(x, y) * each.brightness(x, y); });
+            fill(shade.weight, view, 1, [&](glm::vec3& w, int x, int y) { w *= each.mask(x, y) * each.brightness(x, y); });
         if (each.has_lift())
             fill(shade.black, view, 0, [&](glm::vec3& b, int x, int y) { b += each.lift(x, y); });
     }

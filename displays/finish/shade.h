@@ -8,10 +8,12 @@ namespace starbow {
 struct Shade {
     glm::ivec2 size{0};
     std::vector<glm::vec3> weight, black;
-    std::vector<std::vector<glm::vec4>> shares; ///< of each layer's light (View::layer), as composed() describes them:
-                                                ///< [canvas * layers + layer]; empty where no viewports overlap
+    /// Of each layer's light (View::layer), as composed() describes them: [canvas * layers + layer]; empty where no
+    /// viewports overlap.
+    std::vector<std::vector<glm::vec4>> shares;
     int layers = 1;
-    std::vector<std::uint8_t> foremost; ///< the layer with the largest part of each pixel of the first canvas; empty as shares
+    /// The layer with the largest part of each pixel of the first canvas, 255 where nothing is shown; empty as `shares`.
+    std::vector<std::uint8_t> foremost;
     bool empty() const { return weight.empty() && black.empty(); }
 };
 

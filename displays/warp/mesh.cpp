@@ -232,8 +232,7 @@ Format format_of(const WarpFile& file)
 
 } // namespace
 
-WarpMesh read_warp(
-    const WarpFile& file, const std::string& region, const FloatMapForm& form, std::optional<double> aspect)
+WarpMesh read_warp(const WarpFile& file, const std::string& region, const FloatMapForm& form, std::optional<double> aspect)
 {
     if (file.content.empty())
         refuse(file, "", "is empty; a warp file is right");
@@ -248,7 +247,8 @@ WarpMesh read_warp(
                                               : "says itself where its samples lie")
                 + "; an MPCDI or PFM file, or nothing said of it, is right");
     if (aspect && format != Format::bourke)
-        refuse(file, "", "counts in fractions of the viewport, whose aspect it does not need; a Bourke mesh, or no aspect, is right");
+        refuse(file, "",
+            "counts in fractions of the viewport, whose aspect it does not need; a Bourke mesh, or no aspect, is right");
     if (form.offsets && (form.v_up || form.edge_to_edge))
         refuse(file, "",
             "holds offsets, which are upwards and from edge to edge; places, or nothing said of v and samples, is right");

@@ -28,7 +28,8 @@ Coated laid_over(const std::vector<Coat>& coats, bool plain)
             else if (coats[i].order == order)
                 parts[i] = (coats[i].mask.r + coats[i].mask.g + coats[i].mask.b) / 3;
     }
-    const auto above = [&](std::size_t a, std::size_t b) { return std::pair(coats[a].order, a) > std::pair(coats[b].order, b); };
+    const auto above
+        = [&](std::size_t a, std::size_t b) { return std::pair(coats[a].order, a) > std::pair(coats[b].order, b); };
     for (std::size_t i = 1; i < coats.size(); ++i)
         if (parts[i] > parts[out.foremost] || (parts[i] == parts[out.foremost] && above(i, out.foremost)))
             out.foremost = i;

@@ -93,9 +93,10 @@ public:
             }
     }
 
-    /// Draws one row of the output into each canvas, and the numbers of the first. screens: empty where no viewports overlap.
-    void row(int y, std::span<glm::dvec3* const> light, std::span<glm::dvec3* const> screens,
-        Reference::Numbers* numbers) const
+    /// Draws one row of the output into each canvas, and the numbers of the first. screens: empty where no viewports
+    /// overlap.
+    void row(
+        int y, std::span<glm::dvec3* const> light, std::span<glm::dvec3* const> screens, Reference::Numbers* numbers) const
     {
         if (!screens.empty()) {
             for (std::size_t canvas = 0; canvas < light.size(); ++canvas)
@@ -373,7 +374,8 @@ Reference dark(const Output& output, std::vector<Shade> shades, std::size_t inde
 std::size_t row_bytes(const Reference& out)
 {
     return std::size_t(out.size.x)
-        * ((out.light.size() + out.screens.size()) * sizeof(glm::dvec3) + (out.numbers.empty() ? 0 : sizeof(Reference::Numbers)));
+        * ((out.light.size() + out.screens.size()) * sizeof(glm::dvec3)
+            + (out.numbers.empty() ? 0 : sizeof(Reference::Numbers)));
 }
 
 /// Draws the rows of a picture in several threads, and takes those that are finished from their file.
@@ -494,13 +496,11 @@ Reference reference(
 {
     MapStore store{std::filesystem::path()};
     const Views views = compile_views(store, layout, output);
-    const bool overlapping = std::any_of(
-        views.own.begin(), views.own.end(), [](const CompiledView& view) { return view.view.layer > 0; });
-    Reference out
-        = dark(layout.outputs[output], shades_of(layout, views), output, options.numbers, overlapping);
+    const bool overlapping
+        = std::any_of(views.own.begin(), views.own.end(), [](const CompiledView& view) { return view.view.layer > 0; });
+    Reference out = dark(layout.outputs[output], shades_of(layout, views), output, options.numbers, overlapping);
     out.exposure = std::exp2(shot.exposure_ev);
-    const Picture_ picture(
-        input, layout, shot, views.own, views.own_ramps, layout.outputs[output].preview, options.samples);
+    const Picture_ picture(input, layout, shot, views.own, views.own_ramps, layout.outputs[output].preview, options.samples);
     std::optional<KeptRows> kept;
     if (!options.kept.empty())
         kept.emplace(options.kept, key_of(input, layout, shot, output, options.samples), row_bytes(out), out.size.y);

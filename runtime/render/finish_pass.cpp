@@ -86,8 +86,7 @@ FinishPass::FinishPass(Device& device, Pipelines& pipelines, const Output& outpu
     name_object(device, sampler_, "finish pass: sampler");
     const auto layer_sets = std::uint32_t(shade.shares.size());
     vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 5 + 2 * layer_sets);
-    pool_ = device.device.createDescriptorPool(
-        {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1 + layer_sets, size});
+    pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1 + layer_sets, size});
     name_object(device, pool_, "finish pass: descriptor pool");
     set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.layouts.finish_set}).front());
     name_object(device, set_, "finish pass: descriptor set");

@@ -114,8 +114,7 @@ Channels OffscreenRenderer::numbers(const Shot& shot, std::size_t output)
 }
 
 /// Fills the channels of the pixels of which a measured layer has the largest part.
-void OffscreenRenderer::read_numbers(
-    std::size_t output, std::size_t layer, const MeasureTarget& target, Channels& channels)
+void OffscreenRenderer::read_numbers(std::size_t output, std::size_t layer, const MeasureTarget& target, Channels& channels)
 {
     const std::size_t count = channels.front().second.size();
     auto texels = [&](const Image& image) {

@@ -260,8 +260,9 @@ std::vector<ViewPasses::Axes> ViewPasses::measured_axes(std::size_t output) cons
             const Observer& observer = eyes_.observer_of(view);
             const RestFrameView& rest_frame = observer.rest_frames[0];
             const double speed = glm::length(observer.shot.u);
-            axes.push_back({std::size_t(view.geometry().layer), view.geometry().corner, view.geometry().size, glm::transpose(rest_frame.motion_from_frame),
-                glm::transpose(rest_frame.cube_from_frame), speed > 0 ? observer.shot.u / speed : glm::dvec3(0)});
+            axes.push_back({std::size_t(view.geometry().layer), view.geometry().corner, view.geometry().size,
+                glm::transpose(rest_frame.motion_from_frame), glm::transpose(rest_frame.cube_from_frame),
+                speed > 0 ? observer.shot.u / speed : glm::dvec3(0)});
         }
     return axes;
 }

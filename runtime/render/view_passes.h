@@ -31,8 +31,8 @@ public:
     /// The stars alone, the first part of warp_layer.
     void draw_stars(vk::CommandBuffer commands, std::size_t output, std::size_t layer, int canvas);
 
-    /// The rotations from a measured view's motion axes and its cube map's axes to the world's, with the view's layer, corner
-    /// and size.
+    /// The rotations from a measured view's motion axes and its cube map's axes to the world's, with the view's layer,
+    /// corner and size.
     struct Axes {
         std::size_t layer;
         glm::ivec2 corner, size;

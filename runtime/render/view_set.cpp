@@ -115,7 +115,8 @@ void ViewSet::apply_layout(Parts parts)
         outputs[output].finish.reset();
         outputs[output].foremost = std::move(parts.shades[output].foremost);
         if (needs_finish(own, parts.shades[output]) || (room != 1 && !own.preview))
-            outputs[output].finish = std::make_unique<FinishPass>(device_, pipelines_, own, parts.shades[output], own.preview ? 1 : room);
+            outputs[output].finish
+                = std::make_unique<FinishPass>(device_, pipelines_, own, parts.shades[output], own.preview ? 1 : room);
     }
 
     for (ViewState& view : all) {

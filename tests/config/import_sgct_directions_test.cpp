@@ -240,8 +240,9 @@ TEST(ImportSgctDirectionsTest, AMirrorsFourMeshesShowTheSidesThatSgctGivesThem)
         const std::vector<View> views = views_of(layout, 0, {1600, 800});
         ASSERT_EQ(views.size(), 4u);
         const glm::dmat3 tilted = about(45 - tilt, x_axis);
-        const std::pair<const char*, glm::dmat3> sides[] = {{"bottom.data", tilted}, {"left.data", tilted * about(90, y_axis)},
-            {"right.data", tilted * about(-90, y_axis)}, {"top.data", tilted * about(90, x_axis)}};
+        const std::pair<const char*, glm::dmat3> sides[]
+            = {{"bottom.data", tilted}, {"left.data", tilted * about(90, y_axis)},
+                {"right.data", tilted * about(-90, y_axis)}, {"top.data", tilted * about(90, x_axis)}};
         for (std::size_t i = 0; i < 4; ++i) {
             SCOPED_TRACE(sides[i].first);
             const Viewport& viewport = layout.outputs[0].viewports[i];
@@ -266,7 +267,8 @@ TEST(ImportSgctDirectionsTest, AMirrorsFourMeshesShowTheSidesThatSgctGivesThem)
     const double h = std::sqrt(0.5);
     const glm::dvec3 middles[] = {{0, h, -h}, {-1, 0, 0}, {1, 0, 0}, {0, h, h}};
     for (std::size_t i = 0; i < 4; ++i)
-        EXPECT_LT(glm::length(direction(views[i].picture, glm::dvec2(views[i].picture.size) / 2.).value() - middles[i]), rounding);
+        EXPECT_LT(
+            glm::length(direction(views[i].picture, glm::dvec2(views[i].picture.size) / 2.).value() - middles[i]), rounding);
 }
 
 // SGCT draws viewports in their order, without blending.

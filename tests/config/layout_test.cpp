@@ -109,8 +109,8 @@ TEST(LayoutTest, ValuesAtTheLimitsAreAccepted)
             tiled("[0, 0, 0.5, 0.5]", "[0.5, 0.5, 0.5, 0.5]"), named("\"A-z_09\""),
             std::string(R"({ "outputs": [{ "name": "a", "viewports": [{ "projection": { "type": "planar" } },
                 { "projection": { "type": "planar" }, "order": -1 }] }] })"),
-            R"({ "outputs": [{ "name": "a", "viewports": [{ "projection": { "type": "planar" }, "alpha_mask": "half.png" },
-                { "projection": { "type": "planar" }, "alpha_mask": "half.png" }] }] })"}) {
+            std::string(R"({ "outputs": [{ "name": "a", "viewports": [{ "projection": { "type": "planar" },
+                "alpha_mask": "half.png" }, { "projection": { "type": "planar" }, "alpha_mask": "half.png" }] }] })")}) {
         SCOPED_TRACE(text);
         EXPECT_NO_THROW(load_layout(write_text("right.json", text)));
     }

@@ -1,6 +1,6 @@
-#include "displays/check/lint.h"
 #include "displays/check/floor_plan.h"
 #include "displays/check/floor_plan_table.h"
+#include "displays/check/lint.h"
 #include "displays/projections/picture.h"
 #include "tests/support/sphere.h"
 #include <cstring>

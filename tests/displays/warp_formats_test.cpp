@@ -97,7 +97,9 @@ TEST(WarpFormatsTest, ALayoutMaySayABourkeMeshsAspect)
     EXPECT_EQ(ends(read("a.data", part)), glm::dvec2(0.25, 1));
     EXPECT_EQ(ends(read_warp({"a.data", part}, "", {}, 2.0)), glm::dvec2(0.375, 0.75));
     EXPECT_EQ(ends(read_warp({"a.data", part + "aspect 4\n"}, "", {}, 2.0)), glm::dvec2(0.375, 0.75));
-    EXPECT_NE(complaint([&] { read_warp({"a.obj", "v 0 0 0\n"}, "", {}, 2.0); }).find("whose aspect it does not need"),
+    EXPECT_NE(complaint([&] {
+        read_warp({"a.obj", "v 0 0 0\n"}, "", {}, 2.0);
+    }).find("whose aspect it does not need"),
         std::string::npos);
 }
 
