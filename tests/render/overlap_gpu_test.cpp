@@ -176,15 +176,21 @@ TEST(Overlap, LightIsMixedByTheRuleInEveryPixel)
 
 TEST(Overlap, EqualsTheReferenceInEveryPacking)
 {
-    const ReferenceWorld rays = open_reference_world(testing::source_dir() / "config/scenes/avenue.json");
+    Doc doc;
+    for (int i = 0; i < 40; ++i) // a wall of coloured tiles around
+        quad(doc, {12 * std::sin(0.157 * i), std::fmod(1.7 * i, 9.0) - 4, -12 * std::cos(0.157 * i)},
+            {1.4 * std::cos(0.157 * i), 0, 1.4 * std::sin(0.157 * i)}, {0, 1.8, 0},
+            unlit(doc, {std::fmod(0.31 * i, 0.7), std::fmod(0.17 * i, 0.6), std::fmod(0.23 * i, 0.5)}));
+    const GpuWorld world = open_world("tiles", doc, {{"sky", smooth_sky}});
+    const ReferenceWorld rays = open_reference_world(testing::scratch("tiles.json"));
     std::vector<Packing> packings = {Packing::rows};
     if (testing::all_cases())
         packings.insert(packings.end(), {Packing::mono, Packing::side_by_side, Packing::anaglyph_dubois});
     for (const Packing packing : packings) {
         Layout layout = four_viewports(packing);
         layout.outputs[0].colour.gamma = 2.2;
-        const Shot shot = flown();
-        OffscreenRenderer live = renderer(avenue().world, layout);
+        const Shot shot = shot_at({0, 0, 0}, {0, 0, -u_of_beta(0.3)}, {0, 0, -1});
+        OffscreenRenderer live = renderer(world, layout);
         const Bytes drawn = live.picture(shot).front();
         const Reference truth = reference(rays.input(), layout, shot, 0, {.samples = 4});
         const Bytes right = shown(truth);
