@@ -301,8 +301,8 @@ bool overlap(const Viewport& a, const Viewport& b)
 std::string unordered_overlap(std::size_t lower)
 {
     return "overlaps viewport " + std::to_string(lower)
-        + " of this output, and both have one \"order\" and not each a mask; a higher \"order\" of the one on top, or an "
-          "\"alpha_mask\" in each that gives its share, is right";
+        + " of this output, and nothing says which is on top; a higher \"order\" in one of them, or an \"alpha_mask\" in "
+          "each as its share, is right";
 }
 
 glm::ivec4 pixel_rect(const Viewport& viewport, glm::ivec2 size)

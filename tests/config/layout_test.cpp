@@ -204,8 +204,8 @@ TEST(LayoutTest, WrongLayoutsAreRefused)
             {R"({ "outputs": [{ "name": "a", "viewports": [{ "projection": { "type": "planar" }, "order": 2 },
                 { "rect": [0, 0, 1, 0.5], "projection": { "type": "planar" }, "order": 2 }] }] })",
                 "/outputs/0/viewports/1/rect", "[0,0,1,0.5]",
-                "overlaps viewport 0 of this output, and both have one \"order\" and not each a mask; a higher \"order\" of "
-                "the one on top, or an \"alpha_mask\" in each that gives its share, is right"},
+                "overlaps viewport 0 of this output, and nothing says which is on top; a higher \"order\" in one of them, "
+                "or an \"alpha_mask\" in each as its share, is right"},
             {top(R"("hud": [])"), "/hud", "[]", "is not an object"},
             {top(R"("hud": { "width_deg": 0 })"), "/hud/width_deg", "0", "is too small"},
             {top(R"("hud": { "width_deg": 121 })"), "/hud/width_deg", "121", "is too large; a number from 1 to 120"},

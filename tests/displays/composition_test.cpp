@@ -183,4 +183,17 @@ TEST(CompositionTest, OverlapsWithoutOrderAndMasksAreRefused)
     EXPECT_NO_THROW(shade(over_each_other({{.warp = warp, .alpha_mask = mask}, {.warp = warp, .alpha_mask = mask}})));
 }
 
+// An MPCDI file brings its masks: here black at the left and white at the right.
+TEST(CompositionTest, MasksOfAWarpFileAreSharesToo)
+{
+    const Viewport calibrated{.projection_given = false, .warp = Warp{.file = write_text("a.mpcdi", warp_test::mpcdi_3d())}};
+    const Shade s = shade(over_each_other({calibrated, calibrated}));
+    ASSERT_EQ(s.layers, 2);
+    for (std::size_t layer : {0, 1}) {
+        expect_share(s, layer, 0, 2, 0, layer);
+        expect_share(s, layer, 7, 2, 1, 0.5);
+    }
+    EXPECT_EQ(s.foremost[7], 1); // the later of equals
+}
+
 } // namespace composition_test
