@@ -6,6 +6,7 @@
 #include "physics/galilean.glsl"
 #include "view.glsl"
 #include "received_light.glsl"
+#include "part.glsl"
 // Samples the view's luminance for the exposure: one pixel represents zenith.z x zenith.w pixels of the viewport. Where
 // colours have directions of their own, green's is used.
 
@@ -15,9 +16,12 @@ void main()
 {
     metered = vec2(0.0);
     float pixel_angle, coarser = sqrt(view.zenith.z * view.zenith.w);
-    vec3 light = shown_at((gl_FragCoord.xy - view.origin.xy) * view.zenith.zw, CHANNELS ? 1 : 0, coarser, pixel_angle).light;
+    vec2 pixel = (gl_FragCoord.xy - view.origin.xy) * view.zenith.zw;
+    vec3 light = shown_at(pixel, CHANNELS ? 1 : 0, coarser, pixel_angle).light;
     if (MAP && pixel_angle == 0.0)
         return;
     const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
     metered = vec2(clamp(dot(light, luminance) * view.boost.z, 0.0, 1e38), pixel_angle * pixel_angle * coarser * coarser);
+    if (LAYERED)
+        metered.y *= part_of(ivec2(pixel + view.corner.xy));
 }

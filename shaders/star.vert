@@ -6,6 +6,7 @@
 #include "physics/galilean.glsl"
 #include "view.glsl"
 #include "received_light.glsl"
+#include "part.glsl"
 // One star of the sky in one viewport: its direction in the ship, its pixel, and its light. Stars are points: each goes
 // through the forward transform and has no size that could be magnified. A star has one instance, or three where colours
 // have directions of their own, one for each colour. It has as many again where a display shows a direction at more than
@@ -223,6 +224,8 @@ void main()
         gl_Position = vec4(place / view.corner.xy * 2.0 - 1.0, 0.0, 1.0);
         gl_PointSize = 1.0;
         centre = vec2(pixel_angle, 0.0);
+        if (LAYERED) // fewer pixels of the picture show this star
+            centre.x *= sqrt(part_of(ivec2(clamp(point, vec2(0.0), size - 1.0) + view.origin.xy)));
         return;
     }
     if (CHANNELS)

@@ -67,6 +67,7 @@ private:
     std::optional<Json> window(const Place& place, std::size_t index, bool alone);
     bool window_member(const std::string& name, const Place& at, glm::ivec2 size, Json& output);
     std::vector<Json> viewport(const Place& place, glm::ivec2 window_size, bool packed);
+    void lay_over(const Place& place, std::vector<Json>& made, const Json& earlier);
     std::optional<MeshView> mesh_view(const Place& viewport);
     void mesh(const Place& at, const Place& viewport, Json& out);
     void mesh_with_view(
@@ -129,7 +130,8 @@ Import Importer::run()
         throw InputError(document_.file, "/nodes/" + std::to_string(node_),
             "has no window of which something could be made" + one_line(reasons, 600)
                 + "; one with a PlanarProjection, TextureMappedProjection, ProjectionPlane, FisheyeProjection, "
-                  "CylindricalProjection, EquirectangularProjection or CubemapProjection is right");
+                  "CylindricalProjection, EquirectangularProjection, CubemapProjection or SphericalMirrorProjection is "
+                  "right");
     }
     Json layout;
     for (const User& each : users_)
@@ -303,9 +305,12 @@ std::optional<Json> Importer::window(const Place& place, std::size_t index, bool
             {"doublebuffered", sgct_choice_of_program}, {"swapinterval", sgct_choice_of_program}},
         [&](const std::string& name, const Place& at) {
             if (name == "viewports") {
-                for (const Place& each : items(at, 0, 64, "viewports"))
-                    for (Json& made : viewport(each, size, packed))
-                        viewports.push_back(std::move(made));
+                for (const Place& each : items(at, 0, 64, "viewports")) {
+                    std::vector<Json> made = viewport(each, size, packed);
+                    lay_over(each, made, viewports);
+                    for (Json& one : made)
+                        viewports.push_back(std::move(one));
+                }
                 return true;
             }
             return window_member(name, at, size, output);
@@ -392,11 +397,16 @@ std::optional<MeshView> Importer::mesh_view(const Place& viewport)
 void Importer::mesh(const Place& at, const Place& viewport, Json& out)
 {
     const std::string name = file(at);
+    const auto shown = find_member(viewport, "projection");
+    const std::string type = shown ? text(member(*shown, "type")) : "";
+    if (type == "SphericalMirrorProjection") {
+        not_mapped(at, "the picture of four meshes is not warped once more");
+        return;
+    }
     Json warp{{"file", name}};
     std::string how;
     if (std::filesystem::path(name).extension() == ".pfm") {
-        const auto shown = find_member(viewport, "projection");
-        if (!shown || text(member(*shown, "type")) != "TextureMappedProjection") {
+        if (type != "TextureMappedProjection") {
             not_mapped(at,
                 "beside this projection SGCT reads a PFM as positions for two eyes beside each other; only a "
                 "TextureMappedProjection's is read");
@@ -437,12 +447,37 @@ std::vector<Json> placed(const Json& viewport, SgctPicture& picture, const glm::
     for (SgctPart& part : picture.parts) {
         Json one = viewport;
         one["projection"] = std::move(part.projection);
+        if (!part.warp.is_null())
+            one["warp"] = std::move(part.warp);
+        if (part.order != 0)
+            one["order"] = part.order;
         if (picture.parts.size() > 1)
             one["rect"] = Json::array({within.x + part.rect.x * within.z, within.y + part.rect.y * within.w,
                 part.rect.z * within.z, part.rect.w * within.w});
         all.push_back(std::move(one));
     }
     return all;
+}
+
+/// SGCT draws a window's viewports one after the other: a later one lies over those that it overlaps.
+void Importer::lay_over(const Place& place, std::vector<Json>& made, const Json& earlier)
+{
+    const auto rect = [](const Json& viewport) {
+        Viewport out;
+        for (int i = 0; viewport.contains("rect") && i < 4; ++i)
+            out.rect[i] = viewport["rect"][std::size_t(i)];
+        return out;
+    };
+    int order = 0;
+    for (const Json& lower : earlier)
+        for (const Json& upper : made)
+            if (overlap(rect(lower), rect(upper)))
+                order = std::max(order, lower.value("order", 0) + 1);
+    if (order == 0)
+        return;
+    for (Json& one : made)
+        one["order"] = one.value("order", 0) + order;
+    became(place, "order " + std::to_string(order) + ", over the viewports before it");
 }
 
 std::vector<Json> Importer::viewport(const Place& place, glm::ivec2 window_size, bool packed)
@@ -471,7 +506,8 @@ std::vector<Json> Importer::viewport(const Place& place, glm::ivec2 window_size,
     if (eye != glm::dvec3(0))
         out["eye_m"] = json_of(eye);
     const bool one_of_two = eye_at && one_of(*eye_at, {"center", "left", "right"}) != "center";
-    const SgctView view{(high - low) * glm::dvec2(window_size), eye, packed || one_of_two};
+    const SgctView view{
+        (high - low) * glm::dvec2(window_size), eye, packed || one_of_two, double(window_size.x) / window_size.y, folder_};
     SgctPicture picture;
     members(place,
         {{"overlay", "nothing is drawn over the world but the head-up display"}, {"tracked", other_tracker},

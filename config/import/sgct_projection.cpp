@@ -320,6 +320,63 @@ std::vector<SgctPart> read_cube_map(SgctReport& report, const Place& place, cons
     return parts;
 }
 
+/// A mirror's four meshes, drawn over each other: initViewports and render of SGCT's projection/sphericalmirror.cpp. Each
+/// shows one side of a cube whose front is 45 degrees up, less the tilt; the front's mesh is called bottom. SGCT's reader
+/// of Bourke meshes divides x by the window's aspect, and the projection's matrix divides it by the viewport's once more.
+SgctPicture read_mirror_meshes(SgctReport& report, const Place& place, const SgctView& view)
+{
+    double tilt = 0;
+    if (const auto at = find_member(place, "tilt"))
+        tilt = number(*at, {-180, 180});
+    const double up = 45 - tilt, aspect = view.window_aspect * view.pixels.x / view.pixels.y;
+    struct Face {
+        const char* mesh;
+        const char* side;
+        Turn turn;
+    };
+    const std::array<Face, 4> faces{{{"bottom", "front", {0, up, 0}}, {"left", "left", {-90, 0, -up}},
+        {"right", "right", {90, 0, up}}, {"top", "top", {0, 90 + up, 0}}}};
+    SgctPicture picture{{}, -tilt};
+    const Place geometry = member(place, "geometry");
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const Place at = member(geometry, faces[i].mesh);
+        const std::filesystem::path name = text(at);
+        if (name.extension() != ".data") {
+            report.leave_out(at,
+                "is no Bourke mesh (.data), for which SGCT has this projection; its files of other kinds bring views of "
+                "their own or know no aspect");
+            return {};
+        }
+        picture.parts.push_back({.projection = as_planar({.sides = Sides{-45, 45, -45, 45}, .turn = faces[i].turn}),
+            .warp = {{"file", (view.folder / name).lexically_normal().generic_string()}, {"aspect", aspect}},
+            .order = int(i)});
+    }
+    report.members(place, {{"quality", sgct_choice_of_program}, {"background", "what no mesh shows is black"}},
+        [&](const std::string& name, const Place& at) {
+            if (name == "type")
+                report.became(at, "four viewports over each other, each planar with a warp");
+            else if (name == "tilt")
+                report.became(at, "turn_deg of the four pictures, whose front looks " + shown(up) + " degrees up");
+            else if (name == "geometry")
+                report.members(at, {}, [&](const std::string& mesh, const Place& file) {
+                    for (std::size_t i = 0; i < faces.size(); ++i)
+                        if (mesh == faces[i].mesh) {
+                            report.became(file,
+                                "a viewport of order " + std::to_string(i) + " with the cube's " + faces[i].side
+                                    + ", warp, file " + picture.parts[i].warp["file"].get<std::string>() + ", aspect "
+                                    + shown(aspect) + ", because SGCT divides x by the window's aspect and the viewport's");
+                            return true;
+                        }
+                    return false;
+                });
+            else
+                return false;
+            return true;
+        });
+    report_skew(report, place, view);
+    return picture;
+}
+
 } // namespace
 
 bool is_flat_in_sgct(const std::string& type)
@@ -348,14 +405,12 @@ SgctPicture sgct_projection(SgctReport& report, const Place& place, const SgctVi
         return whole(read_equirectangular(report, place, view));
     if (type == "CubemapProjection")
         return {read_cube_map(report, place, view), {}};
+    if (type == "SphericalMirrorProjection")
+        return read_mirror_meshes(report, place, view);
     for (const auto& [name, value] : place.json->items()) {
         const Place at{place.document, &value, place.pointer + "/" + escaped(name)};
         if (name != "type")
             report.not_mapped(at, "its projection is not mapped");
-        else if (type == "SphericalMirrorProjection")
-            report.leave_out(at,
-                "is four meshes over each other, each with a side of a cube; a layout's viewport has one mesh, and a "
-                "\"mirror\" computes it from the places of projector, mirror and dome");
         else
             report.leave_out(at, "is \"" + one_line(type, 60) + "\", no projection of SGCT's that is known here");
     }

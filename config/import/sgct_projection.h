@@ -10,16 +10,21 @@ struct SgctView {
     glm::dvec2 pixels{1}; ///< of the viewport
     glm::dvec3 eye_m{0};
     bool two_eyes = false; ///< it shows the picture of a left or right eye, or of both
+    double window_aspect = 1; ///< width over height
+    std::filesystem::path folder; ///< of the configuration, for the names of meshes
 };
 
 /// A part of a viewport with a projection of its own: x, y, width and height as fractions from its top left.
 struct SgctPart {
     glm::dvec4 rect{0, 0, 1, 1};
     nlohmann::ordered_json projection;
+    nlohmann::ordered_json warp; ///< null: none of its own
+    int order = 0;
 };
 
 struct SgctPicture {
-    std::vector<SgctPart> parts; ///< one, six for a cube map's faces, none for a projection that is not mapped
+    /// One, six for a cube map's faces, four for a mirror's meshes, none for a projection that is not mapped.
+    std::vector<SgctPart> parts;
     std::optional<double> front_elevation_deg; ///< of a dome: the lowest shown direction in front
 };
 

@@ -47,13 +47,15 @@ glm::dvec4 read_rect(const Place& place, glm::ivec2 size)
 
 Warp read_warp(const Place& place, const std::filesystem::path& folder)
 {
-    reject_unknown_members(place, {"file", "frustum", "region", "first_row", "v", "samples", "values"});
+    reject_unknown_members(place, {"file", "frustum", "region", "first_row", "v", "samples", "values", "aspect"});
     Warp warp;
     warp.file = existing_file(member(place, "file"), folder);
     if (auto p = find_member(place, "frustum"))
         warp.frustum = existing_file(*p, folder);
     if (auto p = find_member(place, "region"))
         warp.region = text(*p);
+    if (auto p = find_member(place, "aspect"))
+        warp.aspect = number(*p, {0.01, 100});
     if (auto p = find_member(place, "first_row"))
         warp.map.first_row_on_top = one_of(*p, {"top", "bottom"}) == "top";
     if (auto p = find_member(place, "v"))
@@ -81,8 +83,8 @@ ViewportObserver read_observer(const Place& place)
 
 Viewport read_viewport(const Place& place, const Output& output, const Stereo& stereo, const std::filesystem::path& folder)
 {
-    reject_unknown_members(
-        place, {"rect", "eye", "eye_m", "projection", "warp", "alpha_mask", "black_level", "mask_gamma", "observer"});
+    reject_unknown_members(place,
+        {"rect", "eye", "eye_m", "projection", "warp", "alpha_mask", "black_level", "mask_gamma", "observer", "order"});
     Viewport viewport;
     if (auto p = find_member(place, "rect"))
         viewport.rect = read_rect(*p, eye_size(output));
@@ -112,14 +114,13 @@ Viewport read_viewport(const Place& place, const Output& output, const Stereo& s
     take(place, "mask_gamma", viewport.mask_gamma, {0.1, 10});
     if (auto p = find_member(place, "observer"))
         viewport.observer = read_observer(*p);
+    if (auto p = find_member(place, "order"))
+        viewport.order = integer(*p, -1000, 1000);
     return viewport;
 }
 
-bool overlap(const glm::dvec4& a, const glm::dvec4& b)
-{
-    return std::min(a.x + a.z, b.x + b.z) - std::max(a.x, b.x) > slack
-        && std::min(a.y + a.w, b.y + b.w) - std::max(a.y, b.y) > slack;
-}
+/// True if the reader knows that a viewport has no mask; a warp file may bring one.
+bool surely_unmasked(const Viewport& viewport) { return viewport.alpha_mask.empty() && !viewport.warp; }
 
 std::string read_name(const Place& place)
 {
@@ -208,9 +209,9 @@ Output read_output(const Place& place, const Stereo& stereo, const std::filesyst
     for (const Place& at : items(member(place, "viewports"), 1, 64, "viewports")) {
         const Viewport viewport = read_viewport(at, output, stereo, folder);
         for (std::size_t i = 0; i < output.viewports.size(); ++i)
-            if (overlap(viewport.rect, output.viewports[i].rect))
-                complain(find_member(at, "rect").value_or(at),
-                    "overlaps viewport " + std::to_string(i) + " of this output; rectangles that do not overlap is right");
+            if (const Viewport& other = output.viewports[i]; overlap(viewport, other) && viewport.order == other.order
+                && (surely_unmasked(viewport) || surely_unmasked(other)))
+                complain(find_member(at, "rect").value_or(at), unordered_overlap(i));
         output.viewports.push_back(viewport);
     }
     return output;
@@ -290,6 +291,19 @@ void check_beside(const Place& place, const Output& output, const Output& earlie
 }
 
 } // namespace
+
+bool overlap(const Viewport& a, const Viewport& b)
+{
+    return std::min(a.rect.x + a.rect.z, b.rect.x + b.rect.z) - std::max(a.rect.x, b.rect.x) > slack
+        && std::min(a.rect.y + a.rect.w, b.rect.y + b.rect.w) - std::max(a.rect.y, b.rect.y) > slack;
+}
+
+std::string unordered_overlap(std::size_t lower)
+{
+    return "overlaps viewport " + std::to_string(lower)
+        + " of this output, and nothing says which is on top; a higher \"order\" in one of them, or an \"alpha_mask\" in "
+          "each as its share, is right";
+}
 
 glm::ivec4 pixel_rect(const Viewport& viewport, glm::ivec2 size)
 {

@@ -116,6 +116,7 @@ struct Warp {
     std::filesystem::path frustum; ///< domeprojection's second file; empty: NAME_frustum.csv beside NAME_mesh.csv if there
     std::string region; ///< of an MPCDI file with several
     FloatMapForm map; ///< of a PFM, also in an MPCDI file
+    std::optional<double> aspect; ///< of a Bourke mesh: the x of the viewport's right edge; empty: the file's own
 };
 
 /// The observer whose sky a viewport shows. All observers are at the ship's event.
@@ -137,6 +138,7 @@ struct Viewport {
     Eye eye = Eye::middle;
     glm::dvec3 eye_m{0}; ///< the head's place; the left and right eye are half the separation beside it
     ViewportObserver observer;
+    int order = 0; ///< covers viewports of a lower order; those of the same order add their masked light
 };
 
 /// The packing of two eyes in an output. The half forms squeeze each eye's picture. In rows and columns the first is the
@@ -226,6 +228,12 @@ struct Layout {
 
 /// The pixels of a viewport in an output of `size`: x, y, width, height. Its edges are rounded, so that neighbours meet.
 glm::ivec4 pixel_rect(const Viewport& viewport, glm::ivec2 size);
+
+/// True if the rectangles of two viewports of one output share more than a rounding error.
+bool overlap(const Viewport& a, const Viewport& b);
+
+/// The end of a message about viewport `upper`, which overlaps viewport `lower` though nothing says how they combine.
+std::string unordered_overlap(std::size_t lower);
 
 /// Reads and checks a layout. Throws InputError with file, line, JSON pointer, value and what would be right. Its paths
 /// start at the layout's folder.

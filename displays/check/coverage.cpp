@@ -10,14 +10,6 @@ namespace {
 
 using Shows = std::function<bool(const glm::dvec3&)>;
 
-Shows shows(const Picture& picture)
-{
-    return [rays = PictureRays(picture), size = glm::dvec2(picture.size)](const glm::dvec3& direction) {
-        const auto at = rays.pixel(direction);
-        return at && at->x >= 0 && at->y >= 0 && at->x <= size.x && at->y <= size.y;
-    };
-}
-
 /// The directions of a view at the points of a mesh over the picture: triangles, sorted by the cell of the sphere.
 class Patch {
 public:
@@ -240,24 +232,62 @@ glm::ivec2 eye_picture(const Output& output)
     return output.size;
 }
 
+Picture picture_of(const Layout& layout, const Viewport& viewport, glm::ivec2 size, Eye eye)
+{
+    const double side = eye == Eye::left ? -0.5 : eye == Eye::right ? 0.5 : 0;
+    return {viewport.projection, size, viewport.eye_m + glm::dvec3(side * layout.stereo.separation_m, 0, 0)};
+}
+
+/// True if a viewport of a higher order and without a mask hides a point of an eye's picture; null where none overlaps.
+/// A mask of its warp file is not known here.
+std::function<bool(glm::dvec2)> hides(
+    const Layout& layout, const Output& output, const Viewport& lower, Eye eye, const ViewRegion& given)
+{
+    std::vector<std::function<bool(glm::dvec2)>> each;
+    for (const Viewport& upper : output.viewports) {
+        const bool of_eye = upper.eye == Eye::middle || upper.eye == eye;
+        if (upper.order <= lower.order || !upper.alpha_mask.empty() || !overlap(upper, lower) || !of_eye)
+            continue;
+        const glm::ivec4 rect = pixel_rect(upper, eye_picture(output));
+        const Picture picture = picture_of(layout, upper, {rect.z, rect.w}, eye);
+        each.push_back([&output, &upper, &given, rect, rays = PictureRays(picture)](glm::dvec2 at) {
+            const glm::dvec2 own = at - glm::dvec2(rect.x, rect.y);
+            if (own.x < 0 || own.y < 0 || own.x >= rect.z || own.y >= rect.w)
+                return false;
+            return given && upper.warp ? given(output, upper, own).has_value() : rays.direction(own).has_value();
+        });
+    }
+    if (each.empty())
+        return {};
+    return [each](glm::dvec2 at) { return std::any_of(each.begin(), each.end(), [&](const auto& one) { return one(at); }); };
+}
+
 Coverage cover(const Layout& layout, int o, int v, Eye eye, const ViewRegion& given)
 {
     const Output& output = layout.outputs[o];
     const Viewport& viewport = output.viewports[v];
     const glm::ivec4 rect = pixel_rect(viewport, eye_picture(output));
     Coverage coverage{o, v, eye, layout.outputs[std::size_t(o)].viewports[std::size_t(v)].observer, {rect.z, rect.w}};
-    const double side = eye == Eye::left ? -0.5 : eye == Eye::right ? 0.5 : 0;
-    const Picture picture{
-        viewport.projection, coverage.size, viewport.eye_m + glm::dvec3(side * layout.stereo.separation_m, 0, 0)};
+    const Picture picture = picture_of(layout, viewport, coverage.size, eye);
+    const auto hidden = hides(layout, output, viewport, eye, given);
+    const auto in_output = [corner = glm::dvec2(rect.x, rect.y)](glm::dvec2 pixel) { return corner + pixel; };
     Shows shown;
     if (given && viewport.warp) {
-        const auto sight = [&](glm::dvec2 pixel) { return given(output, viewport, pixel); };
+        const auto sight = [&](glm::dvec2 pixel) -> std::optional<glm::dvec3> {
+            if (hidden && hidden(in_output(pixel)))
+                return {};
+            return given(output, viewport, pixel);
+        };
         coverage.looks = sight(glm::dvec2(coverage.size) / 2.);
         shown = [patch = Patch(sight, coverage.size)](const glm::dvec3& d) { return patch.shows(d); };
         measure_pixels(coverage, [&](glm::dvec2 at) { return sight_angle(sight, at); });
     } else {
         coverage.looks = direction(picture, glm::dvec2(coverage.size) / 2.);
-        shown = shows(picture);
+        shown = [rays = PictureRays(picture), hidden, in_output, size = glm::dvec2(picture.size)](const glm::dvec3& d) {
+            const auto at = rays.pixel(d);
+            return at && at->x >= 0 && at->y >= 0 && at->x <= size.x && at->y <= size.y
+                && !(hidden && hidden(in_output(*at)));
+        };
         measure_pixels(coverage, [rays = PictureRays(picture)](glm::dvec2 at) { return rays.pixel_angle(at); });
     }
     coverage.cells.resize(std::size_t(lattice_columns) * lattice_rows);

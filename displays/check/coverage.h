@@ -11,7 +11,7 @@ namespace starbow {
 /// nothing is shown. The projection alone lacks the warp.
 using ViewRegion = std::function<std::optional<glm::dvec3>(const Output&, const Viewport&, glm::dvec2 pixel)>;
 
-/// The part of the sky that one viewport shows to one eye.
+/// The part of the sky that one viewport shows to one eye. What viewports of a higher order hide does not count.
 struct Coverage {
     int output, viewport; ///< in the layout and in the output
     Eye eye; ///< left or right, or middle where the layout has one eye

@@ -1,5 +1,6 @@
 #include "floor_plan.h"
 #include "config/model/turn.h"
+#include "displays/projections/views.h"
 #include "floor_plan_table.h"
 #include <algorithm>
 #include <array>
@@ -330,6 +331,7 @@ double draw_output(Svg& svg, const Layout& layout, int number, const Box& box)
     const double scale = std::min(room / output.size.x, (box.to.y - y) / output.size.y);
     const glm::dvec2 corner(box.from.x, y), size = glm::max(glm::dvec2(output.size) * scale, glm::dvec2(2));
     svg.rect({corner, corner + size}, "fill=\"#f0f0ec\" stroke=\"#444\"");
+    const std::vector<int> layers = layers_of(output);
     for (const Part& part : parts(output.packing))
         for (std::size_t v = 0; v < output.viewports.size(); ++v) {
             const Viewport& viewport = output.viewports[v];
@@ -347,7 +349,8 @@ double draw_output(Svg& svg, const Layout& layout, int number, const Box& box)
                 name.append("/").append(std::to_string(v));
             if (eye != Eye::middle)
                 name.append(name.empty() ? "" : " ").append(eye_letter(eye));
-            const glm::dvec2 middle = (shown.from + shown.to) / 2., room_in = shown.to - shown.from;
+            const glm::dvec2 room_in = shown.to - shown.from;
+            const glm::dvec2 middle = (shown.from + shown.to) / 2. + glm::dvec2(0, 28 * layers[v]); // names over each other
             const glm::ivec4 pixels = pixel_rect(viewport, output.size);
             const glm::dvec2 of = part.box.to - part.box.from;
             const std::string extent_words = std::to_string(int(std::round(pixels.z * of.x))) + " x "

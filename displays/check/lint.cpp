@@ -127,6 +127,11 @@ std::vector<std::string> lint(const Layout& layout, const std::vector<Coverage>&
         const std::string name = viewport_name(layout, c.output, c.viewport);
         if (const std::string odd = odd_size(viewport); !odd.empty())
             doubt(name + ": " + odd);
+        const auto& all_of = layout.outputs[c.output].viewports;
+        if (c.share == 0 && std::any_of(all_of.begin(), all_of.end(), [&](const Viewport& other) {
+                return other.order > viewport.order && overlap(other, viewport);
+            }))
+            doubt(name + ": viewports of a higher \"order\" hide all of it");
         if (glm::length(viewport.eye_m) > far_eye_m)
             doubt(name + ": its eye is " + rounded(glm::length(viewport.eye_m))
                 + " m from the cockpit's middle; lengths are in metres");

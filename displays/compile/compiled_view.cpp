@@ -259,8 +259,9 @@ std::shared_ptr<const WarpMesh> MapStore::mesh(const Warp& warp, std::string& co
 {
     const FloatMapForm& form = warp.map;
     content = warp.region + '\n' + (form.first_row_on_top ? "top" : "bottom") + (form.v_up ? " up" : "")
-        + (form.edge_to_edge ? " edges" : "") + (form.offsets ? " offsets" : "") + '\n' + warp.file.filename().string()
-        + '\n' + contents(warp.file);
+        + (form.edge_to_edge ? " edges" : "") + (form.offsets ? " offsets" : "")
+        + (warp.aspect ? " aspect " + std::to_string(*warp.aspect) : "") + '\n' + warp.file.filename().string() + '\n'
+        + contents(warp.file);
     // domeprojection's second file is named or found beside the first; its content is a part of the key in both cases.
     std::filesystem::path beside = warp.frustum;
     if (beside.empty()) {
@@ -318,11 +319,38 @@ CompiledView MapStore::compile(const Layout& layout, const View& view)
     return compiled;
 }
 
+bool has_mask(const Layout& layout, const CompiledView& view)
+{
+    return !layout.outputs[view.view.output].viewports[view.view.viewport].alpha_mask.empty()
+        || (view.mesh && view.mesh->alpha);
+}
+
+namespace {
+
+/// Throws InputError for two viewports that overlap although nothing says how they combine. The layout's reader can't know
+/// the masks that come with a warp file.
+void reject_unordered(const Layout& layout, std::span<const CompiledView> views)
+{
+    for (const CompiledView& upper : views)
+        for (const CompiledView& lower : views) {
+            const std::vector<Viewport>& viewports = layout.outputs[upper.view.output].viewports;
+            const Viewport &a = viewports[upper.view.viewport], &b = viewports[lower.view.viewport];
+            if (lower.view.viewport < upper.view.viewport && a.order == b.order && overlap(a, b)
+                && !(has_mask(layout, upper) && has_mask(layout, lower)))
+                throw InputError(place_in(layout, viewport_pointer(upper.view.output, upper.view.viewport)), "",
+                    unordered_overlap(lower.view.viewport));
+        }
+}
+
+} // namespace
+
 std::vector<CompiledView> compile_output(MapStore& store, const Layout& layout, std::size_t output, glm::ivec2 size)
 {
     std::vector<CompiledView> compiled;
     for (const View& view : views_of(layout, output, size))
         compiled.push_back(store.compile(layout, view));
+    if (!layout.outputs[output].preview)
+        reject_unordered(layout, compiled);
     return compiled;
 }
 

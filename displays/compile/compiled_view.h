@@ -47,7 +47,10 @@ private:
     std::shared_ptr<Kept> kept_;
 };
 
-/// Compiles all views of one output.
+/// True for a view with an alpha mask, from the layout or from its warp file.
+bool has_mask(const Layout& layout, const CompiledView& view);
+
+/// Compiles all views of one output. Throws InputError also for viewports that overlap without an order and without masks.
 std::vector<CompiledView> compile_output(MapStore& store, const Layout& layout, std::size_t output, glm::ivec2 size);
 
 /// Throws InputError, with the layout's place, for a view that shows nothing at all.

@@ -64,12 +64,51 @@ struct Field {
     }
 };
 
-Field field_of(const CompiledView& view)
+/// True if two views are drawn on the same pixels, so that one covers the other. Views side by side may belong to two
+/// projectors on one desktop.
+bool share_pixels(const View& a, const View& b)
+{
+    return a.output == b.output && a.canvas == b.canvas && glm::all(glm::lessThan(a.corner, b.corner + b.size))
+        && glm::all(glm::lessThan(b.corner, a.corner + a.size));
+}
+
+/// True if `upper` hides all that `lower` shows wherever `upper` shows something.
+bool covers(const Layout& layout, const CompiledView& upper, const CompiledView& lower)
+{
+    const auto order = [&](const View& view) { return layout.outputs[view.output].viewports[view.viewport].order; };
+    return share_pixels(upper.view, lower.view) && order(upper.view) > order(lower.view) && !has_mask(layout, upper);
+}
+
+/// A map without the pixels that other views of its output hide; the map itself where there are none.
+std::shared_ptr<const DirectionMap> uncovered(const Layout& layout, const CompiledView& view,
+    std::shared_ptr<const DirectionMap> map, std::span<const CompiledView> views)
+{
+    std::shared_ptr<DirectionMap> rest;
+    for (const CompiledView& upper : views) {
+        if (!covers(layout, upper, view))
+            continue;
+        if (!rest)
+            rest = std::make_shared<DirectionMap>(*map);
+        const glm::ivec2 from = glm::max(upper.view.corner, view.view.corner),
+                         to = glm::min(upper.view.corner + upper.view.size, view.view.corner + view.view.size);
+        for (int y = from.y; y < to.y; ++y)
+            for (int x = from.x; x < to.x; ++x) {
+                const glm::ivec2 above = glm::ivec2(x, y) - upper.view.corner, p = glm::ivec2(x, y) - view.view.corner;
+                if (upper.matrix || upper.map->at(above.x, above.y).w > 0)
+                    for (int channel = 0; channel < rest->channels; ++channel)
+                        rest->texels[(std::size_t(channel) * rest->size.y + p.y) * rest->size.x + p.x] = glm::vec4(0);
+            }
+    }
+    return rest ? rest : map;
+}
+
+Field field_of(const Layout& layout, const CompiledView& view, std::span<const CompiledView> views)
 {
     Field field;
     field.view = &view;
-    field.map = view.map ? view.map : std::make_shared<DirectionMap>(compile_direction_map(view.view));
-    field.cones = view.map ? view.cones : std::make_shared<ConeHierarchy>(*field.map);
+    const auto whole = view.map ? view.map : std::make_shared<DirectionMap>(compile_direction_map(view.view));
+    field.map = uncovered(layout, view, whole, views);
+    field.cones = field.map == view.map ? view.cones : std::make_shared<ConeHierarchy>(*field.map);
     double sum = 0;
     long shown = 0;
     for (const glm::vec4& texel : std::span(field.map->texels).first(std::size_t(field.map->size.x) * field.map->size.y))
@@ -259,20 +298,6 @@ std::vector<float> ramp(const Field& own, const std::vector<const Field*>& other
     return weight;
 }
 
-bool has_mask(const Layout& layout, const CompiledView& view)
-{
-    return !layout.outputs[view.view.output].viewports[view.view.viewport].alpha_mask.empty()
-        || (view.mesh && view.mesh->alpha);
-}
-
-/// True if two views are drawn on the same pixels, so that one covers the other. Views side by side may belong to two
-/// projectors on one desktop.
-bool share_pixels(const View& a, const View& b)
-{
-    return a.output == b.output && a.canvas == b.canvas && glm::all(glm::lessThan(a.corner, b.corner + b.size))
-        && glm::all(glm::lessThan(b.corner, a.corner + a.size));
-}
-
 } // namespace
 
 std::vector<std::vector<float>> blend_ramps(const Layout& layout, std::span<const CompiledView> views, double power)
@@ -282,7 +307,7 @@ std::vector<std::vector<float>> blend_ramps(const Layout& layout, std::span<cons
     for (std::size_t i = 0; i < views.size(); ++i)
         if (!has_mask(layout, views[i])) {
             field_of_view[i] = int(fields.size());
-            fields.push_back(field_of(views[i]));
+            fields.push_back(field_of(layout, views[i], views));
         }
     std::vector<std::vector<const Field*>> others(fields.size());
     for (std::size_t i = 0; i < fields.size(); ++i) {

@@ -1,4 +1,4 @@
-#include "shade.h"
+#include "composition.h"
 #include "config/json/error.h"
 #include <algorithm>
 #include <cmath>
@@ -46,11 +46,59 @@ glm::vec3 light_at(const WarpMesh::Mask& mask, const glm::dvec2& place)
     return mask.gamma == 1 ? v : glm::pow(v, glm::vec3(float(mask.gamma)));
 }
 
+glm::dvec2 place(const View& view, int x, int y) { return (glm::dvec2(x, y) + 0.5) / glm::dvec2(view.size); }
+
 } // namespace
+
+ViewShade::ViewShade(const Layout& layout, const CompiledView& view, std::span<const float> ramp)
+    : view_(&view)
+    , ramp_(ramp)
+{
+    const std::size_t output = view.view.output;
+    const Viewport& viewport = layout.outputs[output].viewports[view.view.viewport];
+    auto read = [&](const char* member, const std::filesystem::path& file) {
+        return on_behalf_of(layout, viewport_pointer(output, view.view.viewport) + member,
+            [&] { return read_mask(file, viewport.mask_gamma); });
+    };
+    if (!viewport.alpha_mask.empty())
+        alpha_ = read("/alpha_mask", viewport.alpha_mask);
+    else if (view.mesh)
+        alpha_ = view.mesh->alpha;
+    if (!viewport.black_level.empty())
+        black_ = read("/black_level", viewport.black_level);
+    else if (view.mesh)
+        black_ = view.mesh->beta;
+}
+
+bool ViewShade::shows(int x, int y, int channel) const
+{
+    return view_->matrix || view_->map->at(x, y, view_->channels() == 3 ? channel : 0).w > 0;
+}
+
+glm::vec3 ViewShade::mask(int x, int y) const { return alpha_ ? light_at(*alpha_, place(view_->view, x, y)) : glm::vec3(1); }
+
+glm::vec3 ViewShade::lift(int x, int y) const { return black_ ? light_at(*black_, place(view_->view, x, y)) : glm::vec3(0); }
+
+bool ViewShade::dims() const { return alpha_ || !ramp_.empty() || (view_->map && !view_->map->intensity.empty()); }
+
+float ViewShade::brightness(int x, int y) const
+{
+    const std::size_t at = std::size_t(y) * std::size_t(view_->view.size.x) + std::size_t(x);
+    return (view_->map && !view_->map->intensity.empty() ? view_->map->intensity[at] : 1) * (ramp_.empty() ? 1 : ramp_[at]);
+}
 
 Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::span<const CompiledView> views,
     std::span<const std::vector<float>> ramps)
 {
+    std::vector<ViewShade> own;
+    bool overlapping = false;
+    for (std::size_t i = 0; i < views.size(); ++i)
+        if (views[i].view.output == output) {
+            own.emplace_back(layout, views[i], ramps.empty() ? std::span<const float>() : ramps[i]);
+            overlapping |= views[i].view.layer > 0;
+        }
+    if (overlapping)
+        return composed(layout, size, own, false);
     Shade shade;
     shade.size = size;
     auto fill = [&](std::vector<glm::vec3>& values, const View& view, float nothing, auto&& value) {
@@ -60,41 +108,26 @@ Shade shade_of(const Layout& layout, std::size_t output, glm::ivec2 size, std::s
             for (int x = 0; x < view.size.x; ++x)
                 value(values[std::size_t(y + view.corner.y) * size.x + x + view.corner.x], x, y);
     };
-    for (std::size_t i = 0; i < views.size(); ++i) {
-        const View& view = views[i].view;
-        // The first of two canvases that share pixels represents both; a preview shows pictures without shading.
-        if (view.output != output || view.canvas > 0)
-            continue;
-        const Viewport& viewport = layout.outputs[output].viewports[view.viewport];
-        auto read = [&](const char* member, const std::filesystem::path& file) {
-            return on_behalf_of(layout, viewport_pointer(output, view.viewport) + member,
-                [&] { return read_mask(file, viewport.mask_gamma); });
-        };
-        auto place = [&](int x, int y) { return (glm::dvec2(x, y) + 0.5) / glm::dvec2(view.size); };
-        auto multiply = [&](const WarpMesh::Mask& mask) {
-            fill(shade.weight, view, 1, [&](glm::vec3& w, int x, int y) { w *= light_at(mask, place(x, y)); });
-        };
-        auto add = [&](const WarpMesh::Mask& mask) {
-            fill(shade.black, view, 0, [&](glm::vec3& b, int x, int y) { b += light_at(mask, place(x, y)); });
-        };
-        auto scale = [&](const std::vector<float>& by) {
-            if (!by.empty())
-                fill(shade.weight, view, 1, [&](glm::vec3& w, int x, int y) { w *= by[std::size_t(y) * view.size.x + x]; });
-        };
-        if (views[i].map)
-            scale(views[i].map->intensity);
-        if (!ramps.empty())
-            scale(ramps[i]);
-        if (!viewport.alpha_mask.empty())
-            multiply(read("/alpha_mask", viewport.alpha_mask));
-        else if (views[i].mesh && views[i].mesh->alpha)
-            multiply(*views[i].mesh->alpha);
-        if (!viewport.black_level.empty())
-            add(read("/black_level", viewport.black_level));
-        else if (views[i].mesh && views[i].mesh->beta)
-            add(*views[i].mesh->beta);
+    for (const ViewShade& each : own) {
+        const View& view = each.view().view;
+        if (view.canvas > 0)
+            continue; // the first of two canvases that share pixels represents both
+        if (each.dims())
+            fill(shade.weight, view, 1, [&](glm::vec3& w, int x, int y) { w *= each.mask(x, y) * each.brightness(x, y); });
+        if (each.has_lift())
+            fill(shade.black, view, 0, [&](glm::vec3& b, int x, int y) { b += each.lift(x, y); });
     }
     return shade;
+}
+
+Shade preview_shade(const Layout& layout, glm::ivec2 size, std::span<const CompiledView> views)
+{
+    if (std::none_of(views.begin(), views.end(), [](const CompiledView& view) { return view.view.layer > 0; }))
+        return {};
+    std::vector<ViewShade> own;
+    for (const CompiledView& view : views)
+        own.emplace_back(layout, view, std::span<const float>());
+    return composed(layout, size, own, true);
 }
 
 double headroom(std::span<const Shade> shades)

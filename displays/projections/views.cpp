@@ -71,6 +71,24 @@ void add_small(std::vector<View>& all, const Layout& layout, std::size_t output,
 
 } // namespace
 
+std::vector<int> layers_of(const Output& output)
+{
+    std::vector<int> layers;
+    for (const Viewport& viewport : output.viewports) {
+        const auto taken = [&](int layer) {
+            for (std::size_t i = 0; i < layers.size(); ++i)
+                if (layers[i] == layer && overlap(viewport, output.viewports[i]))
+                    return true;
+            return false;
+        };
+        int layer = 0;
+        while (taken(layer))
+            ++layer;
+        layers.push_back(layer);
+    }
+    return layers;
+}
+
 int canvas_count(Packing packing) { return packing >= Packing::rows ? 2 : 1; }
 
 std::vector<glm::ivec4> preview_cells(const Layout& layout, std::size_t preview, glm::ivec2 size)
@@ -123,6 +141,9 @@ std::vector<View> views_of(const Layout& layout, std::size_t output, glm::ivec2 
         else
             for (Eye eye : {Eye::left, Eye::right})
                 all.push_back(make_view(layout, output, i, eye, share(own.packing, eye), size));
+    const std::vector<int> layers = layers_of(own);
+    for (View& view : all)
+        view.layer = layers[view.viewport];
     return all;
 }
 

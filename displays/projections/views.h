@@ -9,6 +9,7 @@ namespace starbow {
 /// display.
 struct View {
     std::size_t output, viewport; ///< of the layout; in a preview those of the shown output
+    int layer = 0; ///< index of the output's layer: the views of one layer share no pixels
     int canvas = 0; ///< index of the packing's canvas: 1 is the right eye's where each eye has a whole picture
     glm::ivec2 corner{0}, size{1}; ///< pixels of the canvas
     Picture picture;
@@ -18,6 +19,9 @@ struct View {
     ViewportObserver observer{};
     glm::dvec3 head_m{0}; ///< between the eyes; picture.eye_m is this eye
 };
+
+/// The layer of each viewport of an output: the first in which it overlaps none before it. All are 0 where none overlap.
+std::vector<int> layers_of(const Output& output);
 
 /// The number of a packing's canvases: 1, or 2 where each eye has a picture of the whole output's size.
 int canvas_count(Packing packing);

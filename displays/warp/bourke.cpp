@@ -10,7 +10,7 @@ constexpr Range any{-1e30, 1e30};
 
 } // namespace
 
-WarpMesh read_bourke(const WarpFile& file)
+WarpMesh read_bourke(const WarpFile& file, std::optional<double> wanted)
 {
     Lines lines(file);
     WarpMesh mesh;
@@ -52,6 +52,8 @@ WarpMesh read_bourke(const WarpFile& file)
         if (lines.next())
             lines.refuse(in_quotes(lines.text()) + " comes after the end; nothing more is right");
     }
+    if (wanted)
+        aspect = *wanted, from = "the layout";
     if (!(aspect >= 0.01))
         refuse(file, "", "has no width; x from -aspect to aspect is right");
     for (WarpVertex& vertex : mesh.vertices)

@@ -11,7 +11,8 @@ struct WarpFile {
     std::string_view content;
 };
 
-WarpMesh read_bourke(const WarpFile& file);
+/// aspect: the x of the viewport's right edge; without it the file's own.
+WarpMesh read_bourke(const WarpFile& file, std::optional<double> aspect = {});
 WarpMesh read_domeprojection(const WarpFile& file);
 WarpMesh read_simcad(const WarpFile& file);
 WarpMesh read_sciss(const WarpFile& file);
@@ -22,8 +23,9 @@ WarpMesh read_pfm(const WarpFile& file, const FloatMapForm& form);
 WarpMesh read_mpcdi(const WarpFile& file, const std::string& region, const FloatMapForm& form);
 WarpMesh read_headset(const WarpFile& file);
 
-/// Reads any of the formats, recognised by its first bytes, then by its name.
-WarpMesh read_warp(const WarpFile& file, const std::string& region, const FloatMapForm& form);
+/// Reads any of the formats, recognised by its first bytes, then by its name. aspect: as Warp's.
+WarpMesh read_warp(
+    const WarpFile& file, const std::string& region, const FloatMapForm& form, std::optional<double> aspect = {});
 
 /// domeprojection's second file.
 struct WarpFrustum {

@@ -232,7 +232,7 @@ Format format_of(const WarpFile& file)
 
 } // namespace
 
-WarpMesh read_warp(const WarpFile& file, const std::string& region, const FloatMapForm& form)
+WarpMesh read_warp(const WarpFile& file, const std::string& region, const FloatMapForm& form, std::optional<double> aspect)
 {
     if (file.content.empty())
         refuse(file, "", "is empty; a warp file is right");
@@ -246,12 +246,15 @@ WarpMesh read_warp(const WarpFile& file, const std::string& region, const FloatM
                     : form.v_up               ? "says itself whether v counts up or down"
                                               : "says itself where its samples lie")
                 + "; an MPCDI or PFM file, or nothing said of it, is right");
+    if (aspect && format != Format::bourke)
+        refuse(file, "",
+            "counts in fractions of the viewport, whose aspect it does not need; a Bourke mesh, or no aspect, is right");
     if (form.offsets && (form.v_up || form.edge_to_edge))
         refuse(file, "",
             "holds offsets, which are upwards and from edge to edge; places, or nothing said of v and samples, is right");
     switch (format) {
     case Format::bourke:
-        return read_bourke(file);
+        return read_bourke(file, aspect);
     case Format::domeprojection:
         return read_domeprojection(file);
     case Format::simcad:
@@ -290,7 +293,7 @@ WarpMesh load_warp(const Warp& warp)
 {
     const std::string bytes = contents(warp.file);
     const WarpFile file{one_line(warp.file.string()), bytes};
-    WarpMesh mesh = read_warp(file, warp.region, warp.map);
+    WarpMesh mesh = read_warp(file, warp.region, warp.map, warp.aspect);
     std::filesystem::path frustum = warp.frustum;
     if (frustum.empty() && mesh.format == "domeprojection mesh") {
         std::error_code ignored;

@@ -3,6 +3,7 @@
 #include "displays/finish/anaglyph.h"
 #include "displays/finish/blend.h"
 #include "kept_rows.h"
+#include "overlap.h"
 #include "runtime/light/colour.h"
 #include "runtime/light/srgb.h"
 #include "runtime/world/moving.h"
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <mutex>
 #include <sstream>
 #include <thread>
@@ -38,6 +40,7 @@ struct ViewAt {
     glm::dvec3 turning{0}; ///< not 0: the eye's offset from the head's middle where its baseline turns, cockpit, scene
                            ///< units
     std::size_t stars = 0;
+    ViewShade shade; ///< read only where viewports overlap
 };
 
 struct EyeAt {
@@ -48,9 +51,11 @@ struct EyeAt {
 
 class Picture_ {
 public:
+    /// ramps: of the views, or empty. plain: overlapping viewports are shown as a preview shows them.
     Picture_(const ReferenceInput& input, const Layout& layout, const Shot& shot, std::span<const CompiledView> views,
-        int samples)
+        std::span<const std::vector<float>> ramps, bool plain, int samples)
         : layout_(layout)
+        , plain_(plain)
         , samples_(sample_places(samples))
         , pictures_(input.world)
         , colours_(input.world, input.scene, shot.effects.false_colours ? false_colours() : eye())
@@ -72,7 +77,9 @@ public:
             const std::size_t index = std::size_t(same - places.begin());
             if (same == places.end())
                 places.push_back(at);
-            views_.push_back({&compiled, ViewRays(compiled, samples_), index, turns ? beside * scale : glm::dvec3(0)});
+            const std::size_t own_ramp = views_.size();
+            views_.push_back({&compiled, ViewRays(compiled, samples_), index, turns ? beside * scale : glm::dvec3(0), 0,
+                ViewShade(layout, compiled, ramps.empty() ? std::span<const float>() : ramps[own_ramp])});
         }
         eyes_.reserve(places.size());
         for (const EyeAt& at : places)
@@ -86,9 +93,16 @@ public:
             }
     }
 
-    /// Draws one row of the output into each canvas, and the numbers of the first.
-    void row(int y, std::span<glm::dvec3* const> light, Reference::Numbers* numbers) const
+    /// Draws one row of the output into each canvas, and the numbers of the first. screens: empty where no viewports
+    /// overlap.
+    void row(
+        int y, std::span<glm::dvec3* const> light, std::span<glm::dvec3* const> screens, Reference::Numbers* numbers) const
     {
+        if (!screens.empty()) {
+            for (std::size_t canvas = 0; canvas < light.size(); ++canvas)
+                layered_row(y, int(canvas), light[canvas], screens[canvas], canvas == 0 ? numbers : nullptr);
+            return;
+        }
         for (const ViewAt& view : views_) {
             const View& own = view.compiled->view;
             const int inside = y - own.corner.y;
@@ -105,6 +119,66 @@ public:
     }
 
 private:
+    /// The same for one canvas on which viewports overlap.
+    void layered_row(int y, int canvas, glm::dvec3* light, glm::dvec3* screens, Reference::Numbers* numbers) const
+    {
+        struct Here {
+            const ViewAt* view;
+            ViewRays::Row ways;
+            int y;
+        };
+        std::vector<Here> here;
+        int width = 0;
+        for (const ViewAt& view : views_) {
+            const View& own = view.compiled->view;
+            const int inside = y - own.corner.y;
+            if (own.canvas != canvas || inside < 0 || inside >= own.size.y)
+                continue;
+            here.push_back({&view, view.rays.row(inside), inside});
+            width = std::max(width, own.corner.x + own.size.x);
+        }
+        for (int x = 0; x < width; ++x) {
+            std::vector<Coat> coats;
+            std::vector<std::pair<const Here*, glm::dvec3>> lights;
+            for (const Here& each : here) {
+                const View& own = each.view->compiled->view;
+                const glm::ivec2 at(x - own.corner.x, each.y);
+                if (at.x < 0 || at.x >= own.size.x)
+                    continue;
+                const Coat coat = coat_of(*each.view, each.ways, at);
+                if (coat.order == nothing_shown)
+                    continue;
+                lights.push_back({&each, pixel(*each.view, each.ways, at) * exposure_});
+                coats.push_back(coat);
+                coats.back().screen = tone::tone_map(glm::clamp(lights.back().second, glm::dvec3(0), glm::dvec3(1e30)));
+            }
+            if (coats.empty())
+                continue;
+            const Coated together = laid_over(coats, plain_);
+            const auto& [of, foremost] = lights[together.foremost];
+            light[x] = foremost, screens[x] = together.screen;
+            if (numbers)
+                numbers[x] = numbers_at(*of->view, of->ways, x - of->view->compiled->view.corner.x);
+        }
+    }
+
+    static constexpr int nothing_shown = std::numeric_limits<int>::min();
+
+    /// A view's mask, brightness and order at one of its pixels; the order nothing_shown where it shows nothing.
+    Coat coat_of(const ViewAt& view, const ViewRays::Row& ways, const glm::ivec2& at) const
+    {
+        const View& own = view.compiled->view;
+        Coat coat;
+        bool any = false;
+        const glm::dvec3 mask = view.shade.mask(at.x, at.y);
+        for (int c = 0; c < 3; ++c)
+            if (ways.centre(at.x, view.rays.channels() == 3 ? c : 0))
+                coat.mask[c] = mask[c], any = true;
+        coat.brightness = view.shade.brightness(at.x, at.y);
+        coat.order = any ? layout_.outputs[own.output].viewports[own.viewport].order : nothing_shown;
+        return coat;
+    }
+
     /// The eye's offset from its tracing eye's place, along a direction of the cockpit.
     glm::dvec3 beside(const ViewAt& view, const glm::dvec3& way) const
     {
@@ -159,6 +233,7 @@ private:
     }
 
     const Layout& layout_;
+    bool plain_;
     std::vector<glm::dvec2> samples_;
     Pictures pictures_;
     Colours colours_;
@@ -215,9 +290,11 @@ std::uint64_t sum_of(const ReferenceInput& input, const Layout& layout)
         {std::filesystem::path("/proc/self/exe"), layout.file, std::filesystem::path(input.scene.file), input.scene.gltf})
         sum.add(file);
     for (const Output& output : layout.outputs)
-        for (const Viewport& viewport : output.viewports)
+        for (const Viewport& viewport : output.viewports) {
+            sum.add(viewport.alpha_mask);
             if (viewport.warp)
                 sum.add(viewport.warp->file), sum.add(viewport.warp->frustum);
+        }
     const World& world = input.world;
     sum.add(world.vertices.data(), world.vertices.size() * sizeof(Vertex));
     sum.add(world.indices.data(), world.indices.size() * sizeof(std::uint32_t));
@@ -242,6 +319,8 @@ std::string key_of(const ReferenceInput& input, const Layout& layout, const Shot
 struct Views {
     std::vector<CompiledView> lit; ///< of all outputs that light screens; where they overlap they share their light
     std::vector<CompiledView> own; ///< of the output that is drawn
+    std::vector<std::vector<float>> ramps; ///< of `lit`, or empty
+    std::vector<std::vector<float>> own_ramps; ///< of `own`, or empty
 };
 
 Views compile_views(MapStore& store, const Layout& layout, std::size_t output)
@@ -255,24 +334,26 @@ Views compile_views(MapStore& store, const Layout& layout, std::size_t output)
             out.own = std::move(views);
     }
     reject_empty(layout, out.lit);
+    if (layout.blend.ramps)
+        out.ramps = blend_ramps(layout, out.lit, layout.blend.power);
+    for (std::size_t i = 0; i < out.ramps.size() && !layout.outputs[output].preview; ++i)
+        if (out.lit[i].view.output == output)
+            out.own_ramps.push_back(out.ramps[i]);
     return out;
 }
 
 /// The shade of each output; that of a preview is empty.
-std::vector<Shade> shades_of(const Layout& layout, const std::vector<CompiledView>& lit)
+std::vector<Shade> shades_of(const Layout& layout, const Views& views)
 {
-    std::vector<std::vector<float>> ramps;
-    if (layout.blend.ramps)
-        ramps = blend_ramps(layout, lit, layout.blend.power);
     std::vector<Shade> shades(layout.outputs.size());
     for (std::size_t i = 0; i < layout.outputs.size(); ++i)
         if (!layout.outputs[i].preview)
-            shades[i] = shade_of(layout, i, layout.outputs[i].size, lit, ramps);
+            shades[i] = shade_of(layout, i, layout.outputs[i].size, views.lit, views.ramps);
     return shades;
 }
 
 /// A picture without light.
-Reference dark(const Output& output, std::vector<Shade> shades, std::size_t index, bool numbers)
+Reference dark(const Output& output, std::vector<Shade> shades, std::size_t index, bool numbers, bool overlapping)
 {
     Reference out;
     out.size = output.size;
@@ -282,6 +363,8 @@ Reference dark(const Output& output, std::vector<Shade> shades, std::size_t inde
     out.shade = std::move(shades[index]);
     const std::size_t pixels = std::size_t(out.size.x) * std::size_t(out.size.y);
     out.light.assign(std::size_t(canvas_count(out.packing)), std::vector<glm::dvec3>(pixels, glm::dvec3(0)));
+    if (overlapping)
+        out.screens = out.light;
     if (numbers)
         out.numbers.resize(pixels);
     return out;
@@ -291,7 +374,8 @@ Reference dark(const Output& output, std::vector<Shade> shades, std::size_t inde
 std::size_t row_bytes(const Reference& out)
 {
     return std::size_t(out.size.x)
-        * (out.light.size() * sizeof(glm::dvec3) + (out.numbers.empty() ? 0 : sizeof(Reference::Numbers)));
+        * ((out.light.size() + out.screens.size()) * sizeof(glm::dvec3)
+            + (out.numbers.empty() ? 0 : sizeof(Reference::Numbers)));
 }
 
 /// Draws the rows of a picture in several threads, and takes those that are finished from their file.
@@ -322,16 +406,18 @@ public:
 private:
     /// One row's memory in the picture.
     struct Row {
-        std::vector<glm::dvec3*> light; ///< by canvas
+        std::vector<glm::dvec3*> light, screens; ///< by canvas
         Reference::Numbers* numbers; ///< null where none are wanted
     };
 
     Row row(int y) const
     {
         const std::size_t first = std::size_t(y) * std::size_t(out_.size.x);
-        Row row{{}, out_.numbers.empty() ? nullptr : &out_.numbers[first]};
+        Row row{{}, {}, out_.numbers.empty() ? nullptr : &out_.numbers[first]};
         for (std::vector<glm::dvec3>& canvas : out_.light)
             row.light.push_back(&canvas[first]);
+        for (std::vector<glm::dvec3>& canvas : out_.screens)
+            row.screens.push_back(&canvas[first]);
         return row;
     }
 
@@ -339,8 +425,9 @@ private:
     template <typename Copy> void each_part(const Row& row, Copy copy) const
     {
         const std::size_t width = std::size_t(out_.size.x);
-        for (glm::dvec3* light : row.light)
-            copy(light, width * sizeof(glm::dvec3));
+        for (const auto& pictures : {row.light, row.screens})
+            for (glm::dvec3* picture : pictures)
+                copy(picture, width * sizeof(glm::dvec3));
         if (row.numbers)
             copy(row.numbers, width * sizeof(Reference::Numbers));
     }
@@ -356,7 +443,7 @@ private:
                 continue;
             }
             try {
-                picture_.row(y, to.light, to.numbers);
+                picture_.row(y, to.light, to.screens, to.numbers);
                 if (kept_) {
                     std::byte* at = bytes.data();
                     each_part(to, [&](const void* part, std::size_t count) { std::memcpy(at, part, count), at += count; });
@@ -409,9 +496,11 @@ Reference reference(
 {
     MapStore store{std::filesystem::path()};
     const Views views = compile_views(store, layout, output);
-    Reference out = dark(layout.outputs[output], shades_of(layout, views.lit), output, options.numbers);
+    const bool overlapping
+        = std::any_of(views.own.begin(), views.own.end(), [](const CompiledView& view) { return view.view.layer > 0; });
+    Reference out = dark(layout.outputs[output], shades_of(layout, views), output, options.numbers, overlapping);
     out.exposure = std::exp2(shot.exposure_ev);
-    const Picture_ picture(input, layout, shot, views.own, options.samples);
+    const Picture_ picture(input, layout, shot, views.own, views.own_ramps, layout.outputs[output].preview, options.samples);
     std::optional<KeptRows> kept;
     if (!options.kept.empty())
         kept.emplace(options.kept, key_of(input, layout, shot, output, options.samples), row_bytes(out), out.size.y);
@@ -427,6 +516,8 @@ std::vector<std::uint8_t> shown(const Reference& r)
     const bool masked = !r.shade.empty() || r.headroom != 1;
     for (std::size_t i = 0; i < count; ++i) {
         auto screen = [&](std::size_t picture) {
+            if (!r.screens.empty())
+                return r.screens[picture][i];
             return tone::tone_map(glm::clamp(r.light[picture][i], glm::dvec3(0), glm::dvec3(1e30)));
         };
         const int x = int(i % std::size_t(r.size.x)), y = int(i / std::size_t(r.size.x));

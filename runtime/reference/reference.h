@@ -39,7 +39,10 @@ struct Reference {
     };
     glm::ivec2 size{0};
     std::vector<std::vector<glm::dvec3>> light; ///< by picture: one, or two where eyes share pixels. Rec. 709 linear,
-                                                ///< exposed, before the tone curve; 0 where nothing is shown
+                                                ///< exposed, before the tone curve; 0 where nothing is shown.
+                                                ///< Of overlapping viewports it is that of the largest part
+    std::vector<std::vector<glm::dvec3>> screens; ///< by picture, where viewports overlap: their light together, after the
+                                                  ///< tone curve; otherwise empty
     std::vector<Numbers> numbers; ///< where options requested them
     double exposure = 1; ///< that `light` was multiplied by
     Packing packing = Packing::mono;

@@ -42,7 +42,7 @@ bool needs_finish(const Output& output, const Shade& shade)
 {
     const Colour& colour = output.colour;
     return canvas_count(output.packing) > 1 || colour.matrix != glm::dmat3(1) || colour.gamma != 0 || !colour.lut.empty()
-        || !shade.empty();
+        || !shade.empty() || !shade.shares.empty();
 }
 
 FinishPass::FinishPass(Device& device, Pipelines& pipelines, const Output& output, const Shade& shade, double headroom)
@@ -52,7 +52,9 @@ FinishPass::FinishPass(Device& device, Pipelines& pipelines, const Output& outpu
     const vk::Extent2D extent(std::uint32_t(output.size.x), std::uint32_t(output.size.y));
     using Usage = vk::ImageUsageFlagBits;
     for (int i = 0; i < starbow::canvas_count(output.packing); ++i)
-        canvases_.push_back(make_image(device, {light_format, extent, Usage::eColorAttachment | Usage::eSampled}));
+        for (std::vector<Image>* images : {&canvases_, &sums_})
+            if (images == &canvases_ || !shade.shares.empty())
+                images->push_back(make_image(device, {light_format, extent, Usage::eColorAttachment | Usage::eSampled}));
 
     const Colour& colour = output.colour;
     variant_.combine = combine_of(output.packing);
@@ -82,18 +84,47 @@ FinishPass::FinishPass(Device& device, Pipelines& pipelines, const Output& outpu
 
     sampler_ = device.device.createSampler({});
     name_object(device, sampler_, "finish pass: sampler");
-    vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 5);
-    pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size});
+    const auto layer_sets = std::uint32_t(shade.shares.size());
+    vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 5 + 2 * layer_sets);
+    pool_ = device.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1 + layer_sets, size});
     name_object(device, pool_, "finish pass: descriptor pool");
     set_ = std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.layouts.finish_set}).front());
     name_object(device, set_, "finish pass: descriptor set");
     std::vector<vk::DescriptorImageInfo> images;
-    for (const Image* image : {&canvases_.front(), &canvases_.back(), &weight_, &black_, &table_})
+    std::vector<Image>& pictures = sums_.empty() ? canvases_ : sums_;
+    for (const Image* image : {&pictures.front(), &pictures.back(), &weight_, &black_, &table_})
         images.push_back({*sampler_, *image->view, vk::ImageLayout::eShaderReadOnlyOptimal});
     std::vector<vk::WriteDescriptorSet> writes;
     for (std::uint32_t i = 0; i < images.size(); ++i)
         writes.push_back({*set_, i, 0, 1, vk::DescriptorType::eCombinedImageSampler, &images[i]});
     device.device.updateDescriptorSets(writes, {});
+    make_layers(shade);
+}
+
+void FinishPass::make_layers(const Shade& shade)
+{
+    layers_ = std::size_t(shade.layers);
+    for (std::size_t i = 0; i < shade.shares.size(); ++i) {
+        std::vector<glm::u16vec4> halves;
+        halves.reserve(shade.shares[i].size());
+        for (const glm::vec4& share : shade.shares[i])
+            halves.push_back(glm::packHalf(share));
+        shares_.push_back(make_texture(device_, light_format, shade.size, std::as_bytes(std::span(halves)), false));
+        name_object(device_, shares_.back(), "finish pass: shares");
+        layer_sets_.push_back(
+            std::move(device_.device.allocateDescriptorSets({*pool_, *pipelines_.layouts.picture_set}).front()));
+        name_object(device_, layer_sets_.back(), "finish pass: descriptor set");
+        const vk::DescriptorImageInfo images[]
+            = {{*sampler_, *canvases_[i / layers_].view, vk::ImageLayout::eShaderReadOnlyOptimal},
+                {*sampler_, *shares_.back().view, vk::ImageLayout::eShaderReadOnlyOptimal}};
+        device_.device.updateDescriptorSets(
+            vk::WriteDescriptorSet(*layer_sets_.back(), 0, 0, vk::DescriptorType::eCombinedImageSampler, images), {});
+    }
+}
+
+const Image* FinishPass::shares(const View& view) const
+{
+    return shares_.empty() ? nullptr : &shares_[std::size_t(view.canvas) * layers_ + std::size_t(view.layer)];
 }
 
 Target FinishPass::canvas(std::size_t i) const
@@ -110,9 +141,35 @@ void FinishPass::begin(vk::CommandBuffer commands)
             Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
 }
 
+void FinishPass::end(vk::CommandBuffer commands, std::size_t layer, bool plain)
+{
+    constexpr auto drawn = Access::eColorAttachmentWrite | Access::eColorAttachmentRead;
+    for (std::size_t canvas = 0; canvas < sums_.size(); ++canvas) {
+        const Image &from = canvases_[canvas], &to = sums_[canvas];
+        transition(commands, from, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, drawn,
+            vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
+        if (layer == 0)
+            transition(commands, to, vk::ImageLayout::eUndefined, Stage::eFragmentShader, {},
+                vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, drawn);
+        else
+            transition(commands, to, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, drawn,
+                vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, drawn);
+        const vk::RenderingAttachmentInfo colour(*to.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
+            layer == 0 ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eLoad, vk::AttachmentStoreOp::eStore,
+            vk::ClearColorValue(std::array<float, 4>{0, 0, 0, 1}));
+        commands.beginRendering({{}, {{0, 0}, to.extent}, 1, 0, colour});
+        set_area(commands, {0, 0}, {int(to.extent.width), int(to.extent.height)});
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.layer(plain));
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0,
+            *layer_sets_[canvas * layers_ + layer], {});
+        commands.draw(3, 1, 0, 0);
+        commands.endRendering();
+    }
+}
+
 void FinishPass::record(vk::CommandBuffer commands, const Target& target, bool plain)
 {
-    for (const Image& picture : canvases_)
+    for (const Image& picture : sums_.empty() ? canvases_ : sums_)
         transition(commands, picture, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
             Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader,
             Access::eShaderSampledRead);
@@ -134,8 +191,9 @@ void FinishPass::record(vk::CommandBuffer commands, const Target& target, bool p
 vk::DeviceSize FinishPass::memory() const
 {
     vk::DeviceSize bytes = weight_.bytes + black_.bytes + table_.bytes;
-    for (const Image& picture : canvases_)
-        bytes += picture.bytes;
+    for (const std::vector<Image>* images : {&canvases_, &sums_, &shares_})
+        for (const Image& image : *images)
+            bytes += image.bytes;
     return bytes;
 }
 

@@ -23,9 +23,12 @@ void FrameRenderer::draw(
     for (std::size_t output = 0; output < targets.size(); ++output) {
         if (!targets[output].view)
             continue; // minimised, or its monitor is away
-        passes_.warp_output(outputs, output, targets[output]); // stars and bloom included
-        measurement_.draw(outputs, output, targets[output]); // the overlay
-        passes_.draw_hud(outputs, output, targets[output]);
+        for (std::size_t layer = 0; layer < views_.outputs[output].layers(); ++layer) { // one, unless viewports overlap
+            passes_.warp_layer(outputs, output, layer, targets[output]); // stars and bloom included
+            measurement_.draw(outputs, output, layer, targets[output]); // the overlay
+            passes_.draw_hud(outputs, output, layer, targets[output]);
+            passes_.end_layer(outputs, output, layer);
+        }
         passes_.finish_output(outputs, output, targets[output]);
     }
 }
@@ -49,10 +52,11 @@ void FrameRenderer::draw_cubes(vk::CommandBuffer commands)
     eyes_.record(commands);
 }
 
-void FrameRenderer::record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target)
+void FrameRenderer::record_measured(
+    vk::CommandBuffer commands, std::size_t output, std::size_t layer, const MeasureTarget& target)
 {
     draw_cubes(commands);
-    passes_.record_measured(commands, output, target);
+    passes_.record_measured(commands, output, layer, target);
 }
 
 FrameRenderer::FrameRenderer(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout,

@@ -33,7 +33,7 @@ public:
     void draw_meter(vk::CommandBuffer commands) { meter_.record(commands); }
     void draw_probes(vk::CommandBuffer commands) { measurement_.draw_probes(commands); }
     /// One output's measured channels instead of its picture; the left eye's where both eyes share pixels.
-    void record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target);
+    void record_measured(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const MeasureTarget& target);
     ViewPasses& passes() { return passes_; }
 
     /// Sets the size of an output in pixels, if it differs from the layout's. Throws InputError where the device can't hold

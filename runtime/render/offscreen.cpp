@@ -92,6 +92,10 @@ std::vector<Probed> OffscreenRenderer::probed(const Shot& shot)
 
 Channels OffscreenRenderer::numbers(const Shot& shot, std::size_t output)
 {
+    Channels channels;
+    const std::size_t count = std::size_t(images_[output].extent.width) * images_[output].extent.height;
+    for (const char* name : number_channels)
+        channels.emplace_back(name, std::vector<float>(count, std::nanf("")));
     MeasureTarget target;
     for (Image* image : {&target.light_and_depth, &target.camera, &target.world}) {
         *image = make_image(device_,
@@ -102,28 +106,34 @@ Channels OffscreenRenderer::numbers(const Shot& shot, std::size_t output)
     Shot unexposed = shot; // numbers describe light, whatever the exposure
     unexposed.exposure_ev = -60;
     frame_.update(unexposed, nullptr);
-    device_.now([&](vk::CommandBuffer commands) { frame_.record_measured(commands, output, target); });
+    for (std::size_t layer = 0; layer < frame_.views().outputs[output].layers(); ++layer) {
+        device_.now([&](vk::CommandBuffer commands) { frame_.record_measured(commands, output, layer, target); });
+        read_numbers(output, layer, target, channels);
+    }
+    return channels;
+}
 
-    std::size_t count = std::size_t(images_[output].extent.width) * images_[output].extent.height;
+/// Fills the channels of the pixels of which a measured layer has the largest part.
+void OffscreenRenderer::read_numbers(std::size_t output, std::size_t layer, const MeasureTarget& target, Channels& channels)
+{
+    const std::size_t count = channels.front().second.size();
     auto texels = [&](const Image& image) {
         std::vector<glm::vec4> values(count);
         std::vector<std::byte> bytes = read_back(device_, image, sizeof(glm::vec4));
         std::memcpy(values.data(), bytes.data(), bytes.size());
         return values;
     };
-    std::vector<glm::vec4> light = texels(target.light_and_depth), camera = texels(target.camera),
-                           world = texels(target.world);
-    Channels channels;
-    for (const char* name : number_channels)
-        channels.emplace_back(name, std::vector<float>(count));
-    const float nothing = std::nanf("");
-    for (auto& [name, values] : channels)
-        std::fill(values.begin(), values.end(), nothing);
-    const int width = int(images_[output].extent.width);
-    for (const ViewPasses::Axes& axes : frame_.passes().measured_axes(output))
+    const std::vector<glm::vec4> light = texels(target.light_and_depth), camera = texels(target.camera),
+                                 world = texels(target.world);
+    const OutputState& of = frame_.views().outputs[output];
+    for (const ViewPasses::Axes& axes : frame_.passes().measured_axes(output)) {
+        if (axes.layer != layer)
+            continue;
         for (int y = axes.corner.y; y < axes.corner.y + axes.size.y; ++y)
             for (int x = axes.corner.x; x < axes.corner.x + axes.size.x; ++x) {
-                const std::size_t i = std::size_t(y * width + x);
+                if (!of.shows_foremost(layer, {x, y}))
+                    continue;
+                const std::size_t i = std::size_t(y * int(images_[output].extent.width) + x);
                 const float depth = distance_of(light[i].w);
                 const glm::dvec3 towards = axes.world_from_cube * glm::dvec3(world[i]);
                 const glm::vec3 c = axes.world_from_motion * glm::dvec3(camera[i]), w = towards,
@@ -133,7 +143,7 @@ Channels OffscreenRenderer::numbers(const Shot& shot, std::size_t output)
                 for (std::size_t k = 0; k < number_channels.size(); ++k)
                     channels[k].second[i] = values[k];
             }
-    return channels;
+    }
 }
 
 Quality measured_quality(Quality quality)

@@ -30,6 +30,8 @@ public:
     Target target(std::size_t output) const;
 
 private:
+    void read_numbers(std::size_t output, std::size_t layer, const MeasureTarget& target, Channels& channels);
+
     Device& device_;
     Layout layout_;
     FrameRenderer frame_;

@@ -56,7 +56,7 @@ double PassTimer::cubes(double* recording_ms)
 double PassTimer::stars()
 {
     return milliseconds(
-        [&] { device_.now([&](vk::CommandBuffer commands) { frame_.passes().draw_stars(commands, 0, 0); }); });
+        [&] { device_.now([&](vk::CommandBuffer commands) { frame_.passes().draw_stars(commands, 0, 0, 0); }); });
 }
 
 template <class Record> double PassTimer::each_output(Record&& record)
@@ -74,7 +74,10 @@ template <class Record> double PassTimer::each_output(Record&& record)
 double PassTimer::warp()
 {
     return each_output([&](vk::CommandBuffer commands, std::size_t output, const Target& target) {
-        frame_.passes().warp_output(commands, output, target);
+        for (std::size_t layer = 0; layer < frame_.views().outputs[output].layers(); ++layer) {
+            frame_.passes().warp_layer(commands, output, layer, target);
+            frame_.passes().end_layer(commands, output, layer);
+        }
     });
 }
 
@@ -90,7 +93,7 @@ double PassTimer::hud()
     return milliseconds([&] {
         device_.now([&](vk::CommandBuffer commands) {
             make_writable(commands, targets_[0]);
-            frame_.passes().draw_hud(commands, 0, targets_[0]);
+            frame_.passes().draw_hud(commands, 0, 0, targets_[0]);
         });
     });
 }

@@ -8,6 +8,7 @@
 #include "spirv/cube_vert.h"
 #include "spirv/finish_frag.h"
 #include "spirv/hud_frag.h"
+#include "spirv/layer_frag.h"
 #include "spirv/lookup_frag.h"
 #include "spirv/measure_frag.h"
 #include "spirv/meter_frag.h"
@@ -47,7 +48,7 @@ SpecializationConstants constants(const WarpVariant& v)
     return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear,
         of_the_pass, std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), v.by_table,
         v.several_rest_frames, v.galilean, v.single, std::uint32_t(v.rays), v.cut, std::uint32_t(v.cube_samples),
-        v.unaligned};
+        v.unaligned, v.layered};
 }
 
 } // namespace
@@ -279,6 +280,17 @@ vk::Pipeline Pipelines::lookup(vk::Format target)
         .layout = *layouts.picture_layout,
         .target = {{target}},
         .constants = {false}});
+}
+
+vk::Pipeline Pipelines::layer(bool plain)
+{
+    return find_or_make({.name = "layer pipeline",
+        .vertex = screen_vert,
+        .fragment = layer_frag,
+        .layout = *layouts.picture_layout,
+        .target = {{light_format}},
+        .constants = {plain},
+        .added = true});
 }
 
 vk::Pipeline Pipelines::finish(const FinishVariant& v, vk::Format target)

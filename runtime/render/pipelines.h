@@ -89,6 +89,7 @@ struct WarpVariant {
     bool cut = false; ///< tiles may have several images
     int cube_samples = 1; ///< of each texel
     bool unaligned = false; ///< some cube map has other axes than the motion's
+    bool layered = false; ///< the exposure's samples count by the view's part of each pixel
     auto operator<=>(const WarpVariant&) const = default;
 };
 
@@ -110,7 +111,7 @@ struct TargetKind {
 
 /// The specialization constants of a pass; constant_id is the index. On the stack, as Formats.
 struct SpecializationConstants {
-    std::array<std::uint32_t, 21> list{};
+    std::array<std::uint32_t, 22> list{};
     std::size_t count = 0;
 
     SpecializationConstants() = default;
@@ -145,6 +146,8 @@ public:
     /// scale: with the colours of a scale beside its letters.
     vk::Pipeline hud(bool map, vk::Format target, bool scale = false);
     vk::Pipeline lookup(vk::Format target);
+    /// plain: by the viewports' parts alone.
+    vk::Pipeline layer(bool plain);
     vk::Pipeline finish(const FinishVariant& variant, vk::Format target);
     vk::Pipeline pattern(bool map, int pattern, vk::Format target);
 

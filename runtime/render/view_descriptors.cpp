@@ -95,6 +95,9 @@ void ViewDescriptors::collect_warp_set(const ViewState& view)
     image(set, 6, views_.inverse_of(view), nearest_);
     buffer(set, 10, response.own_rows);
     image(set, 11, cube.several_rest_frames() ? atlases.back() : nothing_, filter);
+    const FinishPass* finish = views_.outputs[view.output].finish.get();
+    const Image* shares = finish ? finish->shares(view.geometry()) : nullptr;
+    image(set, 13, shares ? *shares : nothing_, nearest_);
     buffer(set, 12, reads_rest_frames(view) ? view.rest_frames : no_rest_frames_);
 }
 

@@ -102,14 +102,14 @@ std::vector<Probed> ViewMeasurement::probed() const
     return all;
 }
 
-void ViewMeasurement::draw(vk::CommandBuffer commands, std::size_t output, const Target& last)
+void ViewMeasurement::draw(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last)
 {
     if (!on_ || state_.pattern != Pattern::none || (!what_.panel && what_.over.overlay == Overlay::off))
         return;
     const Label label(device_, commands, "overlay");
     if (what_.panel)
         panel_->upload(commands);
-    passes_.lay_over(commands, output, last, [&](std::size_t i, vk::Format target) {
+    passes_.lay_over(commands, output, layer, last, [&](std::size_t i, vk::Format target) {
         const ViewState& view = views_.all[i];
         const glm::ivec2 corner = view.geometry().corner, size = view.geometry().size;
         shared::ViewPush constants = constants_.exposed_push(view, 1);

@@ -37,7 +37,7 @@ public:
     const Probe* probe();
     void prepare();
     void draw_probes(vk::CommandBuffer commands);
-    void draw(vk::CommandBuffer commands, std::size_t output, const Target& last);
+    void draw(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last);
 
     /// The last frame's light along Measuring::probes, directions in the world's axes. The device must have finished that
     /// frame.

@@ -10,6 +10,11 @@ namespace {
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 
+bool drawn_on(const ViewState& view, std::size_t output, std::size_t layer, int canvas)
+{
+    return view.output == output && std::size_t(view.geometry().layer) == layer && view.geometry().canvas == canvas;
+}
+
 } // namespace
 
 ViewPasses::ViewPasses(Device& device, Pipelines& pipelines, const FrameState& state, ViewSet& views, const EyeCubes& eyes,
@@ -73,13 +78,13 @@ void ViewPasses::draw_warp(vk::CommandBuffer commands, const ViewState& view, vk
     commands.draw(3, 1, 0, 0);
 }
 
-void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, int canvas)
+void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, std::size_t layer, int canvas)
 {
     const Label label(device_, commands, "stars");
     const glm::ivec2 size = views_.outputs[output].size;
     stars_.begin(commands, {std::uint32_t(size.x), std::uint32_t(size.y)});
     for (const ViewState& view : views_.all) {
-        if (view.output != output || view.geometry().canvas != canvas)
+        if (!drawn_on(view, output, layer, canvas))
             continue;
         const shared::ViewPush constants = constants_.star_push(view);
         WarpVariant own = constants_.variant(view);
@@ -135,25 +140,25 @@ void ViewPasses::pattern_view(vk::CommandBuffer commands, const ViewState& view,
     commands.draw(3, 1, 0, 0);
 }
 
-void ViewPasses::warp_output(vk::CommandBuffer commands, std::size_t output, const Target& last)
+void ViewPasses::warp_layer(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last)
 {
     const Label label(device_, commands, "warp");
     if (views_.outputs[output].finish)
         views_.outputs[output].finish->begin(commands);
     for (int canvas = 0; canvas < canvas_count(state_.layout.outputs[output].packing); ++canvas) {
         if (stars_.on() && state_.pattern == Pattern::none)
-            draw_stars(commands, output, canvas);
+            draw_stars(commands, output, layer, canvas);
         const Target target = views_.canvas_target(output, canvas, last);
         const bool glows = state_.bloom > 0 && state_.pattern == Pattern::none;
         for (const ViewState& view : views_.all)
-            if (glows && view.output == output && view.geometry().canvas == canvas)
+            if (glows && drawn_on(view, output, layer, canvas))
                 bloom_view(commands, view);
         vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
             vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
             vk::ClearColorValue(std::array<float, 4>{0, 0, 0, 1}));
         device_.begin_rendering(commands, {{}, {{0, 0}, target.extent}, 1, 0, colour});
         for (const ViewState& view : views_.all) {
-            if (view.output != output || view.geometry().canvas != canvas)
+            if (!drawn_on(view, output, layer, canvas))
                 continue;
             if (state_.pattern != Pattern::none)
                 pattern_view(commands, view, target.format);
@@ -168,7 +173,7 @@ void ViewPasses::warp_output(vk::CommandBuffer commands, std::size_t output, con
     }
 }
 
-void ViewPasses::lay_over(vk::CommandBuffer commands, std::size_t output, const Target& last,
+void ViewPasses::lay_over(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last,
     const std::function<void(std::size_t view, vk::Format target)>& draw) const
 {
     for (int canvas = 0; canvas < canvas_count(state_.layout.outputs[output].packing); ++canvas) {
@@ -182,23 +187,37 @@ void ViewPasses::lay_over(vk::CommandBuffer commands, std::size_t output, const 
             vk::AttachmentLoadOp::eLoad, vk::AttachmentStoreOp::eStore);
         device_.begin_rendering(commands, {{}, {{0, 0}, target.extent}, 1, 0, colour});
         for (std::size_t i = 0; i < views_.all.size(); ++i)
-            if (views_.all[i].output == output && views_.all[i].geometry().canvas == canvas)
+            if (drawn_on(views_.all[i], output, layer, canvas))
                 draw(i, target.format);
         device_.end_rendering(commands);
     }
 }
 
-void ViewPasses::draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& last)
+void ViewPasses::draw_hud(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last)
 {
     if (!hud_on_)
         return;
     const Label label(device_, commands, "HUD");
     hud_->upload(commands);
-    lay_over(commands, output, last, [&](std::size_t i, vk::Format target) {
+    lay_over(commands, output, layer, last, [&](std::size_t i, vk::Format target) {
         const ViewState& view = views_.all[i];
         hud_->draw(commands, i, view.compiled.map != nullptr, constants_.push(view, views_.hud_place.panel_from_cockpit),
             view.geometry().corner, view.geometry().size, view.hud_box, {}, target);
     });
+}
+
+/// A projector is aligned by its bare picture; the overlap of pictures is judged with blend ramps and masks.
+bool ViewPasses::plain_pattern() const
+{
+    return state_.pattern == Pattern::grid || state_.pattern == Pattern::names || state_.pattern == Pattern::wedges;
+}
+
+void ViewPasses::end_layer(vk::CommandBuffer commands, std::size_t output, std::size_t layer)
+{
+    if (views_.outputs[output].layers() == 1)
+        return;
+    const Label label(device_, commands, "layer");
+    views_.outputs[output].finish->end(commands, layer, plain_pattern());
 }
 
 void ViewPasses::finish_output(vk::CommandBuffer commands, std::size_t output, const Target& target)
@@ -206,15 +225,14 @@ void ViewPasses::finish_output(vk::CommandBuffer commands, std::size_t output, c
     if (!views_.outputs[output].finish)
         return;
     const Label label(device_, commands, "finish");
-    // A projector is aligned by its bare picture; the overlap of pictures is judged with blend ramps and masks.
-    views_.outputs[output].finish->record(commands, target,
-        state_.pattern == Pattern::grid || state_.pattern == Pattern::names || state_.pattern == Pattern::wedges);
+    views_.outputs[output].finish->record(commands, target, plain_pattern());
 }
 
-void ViewPasses::record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target)
+void ViewPasses::record_measured(
+    vk::CommandBuffer commands, std::size_t output, std::size_t layer, const MeasureTarget& target)
 {
     if (stars_.on())
-        draw_stars(commands, output, 0);
+        draw_stars(commands, output, layer, 0);
     float nothing = std::nanf("");
     std::vector<vk::RenderingAttachmentInfo> colours;
     for (const Image* image : {&target.light_and_depth, &target.camera, &target.world}) {
@@ -225,7 +243,7 @@ void ViewPasses::record_measured(vk::CommandBuffer commands, std::size_t output,
     }
     device_.begin_rendering(commands, {{}, {{0, 0}, target.camera.extent}, 1, 0, colours});
     for (const ViewState& view : views_.all)
-        if (view.output == output && view.geometry().canvas == 0)
+        if (drawn_on(view, output, layer, 0))
             draw_warp(commands, view, pipelines_.measure(constants_.variant_shown(view)), constants_.exposed_push(view, 1),
                 view.geometry().corner, view.geometry().size);
     device_.end_rendering(commands);
@@ -242,8 +260,9 @@ std::vector<ViewPasses::Axes> ViewPasses::measured_axes(std::size_t output) cons
             const Observer& observer = eyes_.observer_of(view);
             const RestFrameView& rest_frame = observer.rest_frames[0];
             const double speed = glm::length(observer.shot.u);
-            axes.push_back({view.geometry().corner, view.geometry().size, glm::transpose(rest_frame.motion_from_frame),
-                glm::transpose(rest_frame.cube_from_frame), speed > 0 ? observer.shot.u / speed : glm::dvec3(0)});
+            axes.push_back({std::size_t(view.geometry().layer), view.geometry().corner, view.geometry().size,
+                glm::transpose(rest_frame.motion_from_frame), glm::transpose(rest_frame.cube_from_frame),
+                speed > 0 ? observer.shot.u / speed : glm::dvec3(0)});
         }
     return axes;
 }

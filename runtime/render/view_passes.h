@@ -20,26 +20,29 @@ public:
     /// Makes room for the next frame: picture of the stars, bloom, labels, panel of the head-up display (null: none).
     void prepare(const Panel* hud);
 
-    /// The views of an output through the cube maps, stars and bloom included, or the test pattern.
-    void warp_output(vk::CommandBuffer commands, std::size_t output, const Target& last);
-    void draw_hud(vk::CommandBuffer commands, std::size_t output, const Target& last);
+    /// The views of one layer of an output through the cube maps, stars and bloom included, or the test pattern.
+    void warp_layer(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last);
+    void draw_hud(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last);
+    /// Adds a layer to the output's light where there are several.
+    void end_layer(vk::CommandBuffer commands, std::size_t output, std::size_t layer);
     void finish_output(vk::CommandBuffer commands, std::size_t output, const Target& target);
-    /// The measured channels of an output's first canvas.
-    void record_measured(vk::CommandBuffer commands, std::size_t output, const MeasureTarget& target);
-    /// The stars alone, the first part of warp_output.
-    void draw_stars(vk::CommandBuffer commands, std::size_t output, int canvas);
+    /// The measured channels of one layer of an output's first canvas.
+    void record_measured(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const MeasureTarget& target);
+    /// The stars alone, the first part of warp_layer.
+    void draw_stars(vk::CommandBuffer commands, std::size_t output, std::size_t layer, int canvas);
 
-    /// The rotations from a measured view's motion axes and its cube map's axes to the world's, with the view's corner and
-    /// size.
+    /// The rotations from a measured view's motion axes and its cube map's axes to the world's, with the view's layer,
+    /// corner and size.
     struct Axes {
+        std::size_t layer;
         glm::ivec2 corner, size;
         glm::dmat3 world_from_motion, world_from_cube;
         glm::dvec3 ahead; ///< the observer's direction of motion, unit; 0 at rest
     };
     std::vector<Axes> measured_axes(std::size_t output) const;
 
-    /// Calls `draw` for each view on each of an output's canvases, inside a rendering over the picture.
-    void lay_over(vk::CommandBuffer commands, std::size_t output, const Target& last,
+    /// Calls `draw` for each view of a layer on each of an output's canvases, inside a rendering over the picture.
+    void lay_over(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last,
         const std::function<void(std::size_t view, vk::Format target)>& draw) const;
     /// Draws one full-screen triangle over `size` pixels from `corner` on, with the view's descriptor set.
     void draw_warp(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline,
@@ -54,6 +57,7 @@ public:
     vk::DeviceSize memory() const { return stars_.picture().bytes + (hud_ ? hud_->memory() : 0); }
 
 private:
+    bool plain_pattern() const;
     void prepare_stars();
     void bloom_view(vk::CommandBuffer commands, const ViewState& view);
     void pattern_view(vk::CommandBuffer commands, const ViewState& view, vk::Format target);

@@ -89,8 +89,9 @@ ViewSet::Parts ViewSet::parts(bool rejects_empty)
         ramps = blend_ramps(state_.layout, lit, state_.layout.blend.power);
     parts.shades.resize(outputs.size());
     for (std::size_t output = 0; output < outputs.size(); ++output)
-        if (!state_.layout.outputs[output].preview)
-            parts.shades[output] = shade_of(state_.layout, output, outputs[output].size, lit, ramps);
+        parts.shades[output] = state_.layout.outputs[output].preview
+            ? preview_shade(state_.layout, outputs[output].size, parts.views[output])
+            : shade_of(state_.layout, output, outputs[output].size, lit, ramps);
     return parts;
 }
 
@@ -112,8 +113,10 @@ void ViewSet::apply_layout(Parts parts)
         Output own = state_.layout.outputs[output];
         own.size = outputs[output].size;
         outputs[output].finish.reset();
+        outputs[output].foremost = std::move(parts.shades[output].foremost);
         if (needs_finish(own, parts.shades[output]) || (room != 1 && !own.preview))
-            outputs[output].finish = std::make_unique<FinishPass>(device_, pipelines_, own, parts.shades[output], room);
+            outputs[output].finish
+                = std::make_unique<FinishPass>(device_, pipelines_, own, parts.shades[output], own.preview ? 1 : room);
     }
 
     for (ViewState& view : all) {
@@ -126,7 +129,7 @@ void ViewSet::apply_layout(Parts parts)
     before.clear();
     pool_ = nullptr;
     std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eUniformBuffer, 2 * count},
-        {vk::DescriptorType::eUniformTexelBuffer, 2 * count}, {vk::DescriptorType::eCombinedImageSampler, 11 * count}};
+        {vk::DescriptorType::eUniformTexelBuffer, 2 * count}, {vk::DescriptorType::eCombinedImageSampler, 12 * count}};
     pool_ = device_.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2 * count, sizes});
     name_object(device_, pool_, "views: descriptor pool");
     auto make_set = [&](const vk::raii::DescriptorSetLayout& set_layout) {
@@ -217,7 +220,8 @@ std::optional<glm::dvec3> ViewSet::direction(std::size_t output, const glm::dvec
 std::optional<std::size_t> ViewSet::view_at(std::size_t output, const glm::dvec2& pixel) const
 {
     for (std::size_t i = 0; i < all.size(); ++i)
-        if (direction(all[i], output, pixel))
+        if (direction(all[i], output, pixel)
+            && outputs[output].shows_foremost(std::size_t(all[i].geometry().layer), glm::ivec2(pixel)))
             return i;
     return {};
 }

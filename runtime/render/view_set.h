@@ -31,6 +31,13 @@ struct ViewState {
 struct OutputState {
     glm::ivec2 size{0}; ///< pixels
     std::unique_ptr<FinishPass> finish; ///< null where needs_finish is false
+    std::vector<std::uint8_t> foremost; ///< Shade::foremost
+    std::size_t layers() const { return finish ? finish->layers() : 1; }
+    /// True if the light of a pixel's numbers is that of this layer.
+    bool shows_foremost(std::size_t layer, const glm::ivec2& pixel) const
+    {
+        return foremost.empty() || foremost[std::size_t(pixel.y) * std::size_t(size.x) + std::size_t(pixel.x)] == layer;
+    }
 };
 
 /// A direction map on the device.
@@ -80,7 +87,7 @@ public:
     /// The unit direction in the cockpit that a point of an output shows in its left eye; where colours have directions of
     /// their own, green's. pixel: from the output's top left.
     std::optional<glm::dvec3> direction(std::size_t output, const glm::dvec2& pixel) const;
-    /// The index of the view that shows it there.
+    /// The index of the view that shows it there; of several the one with the largest part of the pixel.
     std::optional<std::size_t> view_at(std::size_t output, const glm::dvec2& pixel) const;
     /// The target of one of an output's canvases: the finish pass's, or `last` where the output needs no finish.
     Target canvas_target(std::size_t output, int canvas, const Target& last) const;

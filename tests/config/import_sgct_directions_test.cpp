@@ -220,6 +220,71 @@ TEST(ImportSgctDirectionsTest, ACubeMapsSixPicturesAreWhereTheShaderPutsThem)
     EXPECT_EQ(some.outputs[0].viewports.size(), 4u);
 }
 
+// SphericalMirrorProjection: initViewports turns the base plane, whose normal points backwards, by 45 degrees less the tilt
+// about x, and then each side. render draws bottom with the front's picture, then left, right and top, each over those
+// before it. A vertex is at x over the window's aspect, and over the window's aspect times the viewport's shape once more.
+TEST(ImportSgctDirectionsTest, AMirrorsFourMeshesShowTheSidesThatSgctGivesThem)
+{
+    // One cell that ends at a third of the way to the right edge, seen in the corners of its picture.
+    write_text("bottom.data", "2\n2 2\n-1 -0.8 0 0 1\n1 -0.8 1 0 1\n-1 0.6 0 1 1\n1 0.6 1 1 1\n");
+    for (const char* name : {"left.data", "right.data", "top.data"})
+        write_text(name, read_text(scratch("bottom.data")));
+    const std::string geometry
+        = R"("geometry": { "bottom": "bottom.data", "left": "left.data", "right": "right.data", "top": "top.data" })";
+    for (const double tilt : {0.0, 20.0}) {
+        SCOPED_TRACE(tilt);
+        const Layout layout = imported(R"("size": { "x": 1600, "y": 800 }, "viewports": [{ "size": { "x": 0.75, "y": 1 },
+            "projection": { "type": "SphericalMirrorProjection", "tilt": )"
+                + std::to_string(tilt) + ", " + geometry + " } }]",
+            user({0, 0, 0}));
+        const std::vector<View> views = views_of(layout, 0, {1600, 800});
+        ASSERT_EQ(views.size(), 4u);
+        const glm::dmat3 tilted = about(45 - tilt, x_axis);
+        const std::pair<const char*, glm::dmat3> sides[]
+            = {{"bottom.data", tilted}, {"left.data", tilted * about(90, y_axis)},
+                {"right.data", tilted * about(-90, y_axis)}, {"top.data", tilted * about(90, x_axis)}};
+        for (std::size_t i = 0; i < 4; ++i) {
+            SCOPED_TRACE(sides[i].first);
+            const Viewport& viewport = layout.outputs[0].viewports[i];
+            EXPECT_EQ(viewport.order, int(i));
+            EXPECT_EQ(viewport.warp.value().file.filename(), sides[i].first);
+            EXPECT_EQ(viewport.rect, glm::dvec4(0, 0, 0.75, 1));
+            const glm::dmat3& turn = sides[i].second;
+            const SgctPlane plane{turn * glm::dvec3(-1, -1, 1), turn * glm::dvec3(-1, 1, 1), turn * glm::dvec3(1, 1, 1)};
+            EXPECT_LT(
+                worst_degrees(views[i], [&](double s, double t) { return plane.direction(s, t, glm::dvec3(0)); }), rounding);
+            // x = 1 over the window's aspect 2, and over the viewport's 1.5, is a third: two thirds of the way to the right.
+            const WarpMesh mesh = load_warp(*viewport.warp);
+            EXPECT_NEAR(mesh.vertices[1].at.x, 0.5 + 1 / (2 * 1.5) / 2, rounding);
+            EXPECT_NEAR(mesh.vertices[2].at.x, 0.5 - 1 / (2 * 1.5) / 2, rounding);
+            EXPECT_NEAR(mesh.vertices[0].at.y, (1 - 0.6) / 2, rounding);
+            EXPECT_EQ(glm::dvec2(mesh.vertices[0].sees[0]), glm::dvec2(0, 0)); // the picture's upper left
+        }
+    }
+    // By hand: without a tilt the front's middle is 45 degrees up, and the top's 45 degrees up behind.
+    const Layout level = imported(window(R"({ "type": "SphericalMirrorProjection", )" + geometry + " }"), user({0, 0, 0}));
+    const std::vector<View> views = views_of(level, 0, {1280, 720});
+    const double h = std::sqrt(0.5);
+    const glm::dvec3 middles[] = {{0, h, -h}, {-1, 0, 0}, {1, 0, 0}, {0, h, h}};
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_LT(
+            glm::length(direction(views[i].picture, glm::dvec2(views[i].picture.size) / 2.).value() - middles[i]), rounding);
+}
+
+// SGCT draws viewports in their order, without blending.
+TEST(ImportSgctDirectionsTest, LaterViewportsLieOverEarlierOnes)
+{
+    const std::string flat = R"("projection": { "type": "PlanarProjection", "fov": { "hfov": 80, "vfov": 50 } })";
+    const Layout layout = imported(R"("size": { "x": 1280, "y": 720 }, "viewports": [{ )" + flat
+            + R"( }, { "pos": { "x": 0.5, "y": 0 }, "size": { "x": 0.5, "y": 1 }, )" + flat
+            + R"( }, { "pos": { "x": 0, "y": 0 }, "size": { "x": 0.25, "y": 1 }, )" + flat + " }]",
+        user({0, 0, 0}));
+    const std::vector<Viewport>& viewports = layout.outputs[0].viewports;
+    EXPECT_EQ(viewports[0].order, 0);
+    EXPECT_EQ(viewports[1].order, 1);
+    EXPECT_EQ(viewports[2].order, 1);
+}
+
 TEST(ImportSgctDirectionsTest, AMeshsOwnViewIsAPlaneTenMetresFromTheOriginToo)
 {
     const Planar frustum{.sides = Sides{-40, 45, -20, 30}, .turn = {-30, 20, 10}};

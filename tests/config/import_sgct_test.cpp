@@ -373,8 +373,8 @@ TEST(ImportSgctTest, OldXmlIsNamed)
 
 TEST(ImportSgctTest, UnsupportedMembersAreNamed)
 {
-    const std::string mirror
-        = R"({ "type": "SphericalMirrorProjection", "geometry": { "bottom": "b", "left": "l", "right": "r", "top": "t" } })";
+    const std::string mirror = R"({ "type": "SphericalMirrorProjection",
+        "geometry": { "bottom": "b.sgc", "left": "l", "right": "r", "top": "t" } })";
     const Import import = imported(config(with(mirror) + ", " + with(sphere)));
     EXPECT_EQ(import.layout["outputs"][0]["viewports"].size(), 1u);
     EXPECT_TRUE(has(import,
@@ -382,7 +382,7 @@ TEST(ImportSgctTest, UnsupportedMembersAreNamed)
         "out"));
     const std::string nothing = complaint([&] { imported(config(with(mirror))); });
     EXPECT_NE(nothing.find("/nodes/0: has no window of which something could be made: "
-                           "/nodes/0/windows/0/viewports/0/projection/type is four meshes over each other"),
+                           "/nodes/0/windows/0/viewports/0/projection/geometry/bottom is no Bourke mesh (.data)"),
         std::string::npos)
         << nothing;
     EXPECT_NE(complaint([&] { imported(R"({ "version": 2, "nodes": [{}] })"); }).find("/version: 2 is too large"),

@@ -94,6 +94,7 @@ TEST(LayoutMembersTest, MembersHaveTheirDefaults)
     EXPECT_FALSE(viewport.warp);
     EXPECT_TRUE(viewport.alpha_mask.empty() && viewport.black_level.empty());
     EXPECT_EQ(viewport.mask_gamma, 1);
+    EXPECT_EQ(viewport.order, 0);
     EXPECT_FALSE(std::get<Planar>(viewport.projection).sides);
 }
 
@@ -321,8 +322,8 @@ TEST(LayoutMembersTest, ViewportsEyesWarpsAndMasksAreRead)
     const auto warp = write_text("left.data", "x"), frustum = write_text("f.csv", "x"), mask = write_text("m.png", "x");
     std::filesystem::create_directory(scratch("folder.png"));
     const Viewport v = first(viewport(R"("eye": "right", "eye_m": [0.1, 0.2, 0.3], "warp": { "file": "left.data",
-        "frustum": "f.csv", "region": "left", "first_row": "top" }, "alpha_mask": "m.png", "black_level": "m.png",
-        "mask_gamma": 2.2)"))
+        "frustum": "f.csv", "region": "left", "first_row": "top", "aspect": 1.6 }, "alpha_mask": "m.png", "black_level": "m.png",
+        "mask_gamma": 2.2, "order": -3)"))
                            .viewports.at(0);
     EXPECT_EQ(v.eye, Eye::right);
     EXPECT_EQ(v.eye_m, glm::dvec3(0.1, 0.2, 0.3));
@@ -334,6 +335,8 @@ TEST(LayoutMembersTest, ViewportsEyesWarpsAndMasksAreRead)
     EXPECT_EQ(v.alpha_mask, mask);
     EXPECT_EQ(v.black_level, mask);
     EXPECT_EQ(v.mask_gamma, 2.2);
+    EXPECT_EQ(v.warp->aspect, 1.6);
+    EXPECT_EQ(v.order, -3);
     EXPECT_EQ(first(viewport(R"("eye": "left")")).viewports[0].eye, Eye::left);
     EXPECT_EQ(first(viewport(R"("warp": { "file": ")" + warp.string() + "\" }")).viewports[0].warp->file, warp);
     EXPECT_FALSE(first(viewport(R"("warp": { "file": "left.data", "first_row": "bottom" })"))
@@ -379,6 +382,9 @@ TEST(LayoutMembersTest, ViewportsEyesWarpsAndMasksAreRead)
             {viewport(R"("black_level": "no-such.png")"), vp + "/black_level", "\"no-such.png\"", "names no file in"},
             {viewport(R"("mask_gamma": 0)"), vp + "/mask_gamma", "0", "is too small"},
             {viewport(R"("mask_gamma": 11)"), vp + "/mask_gamma", "11", "is too large"},
+            {viewport(R"("order": 1001)"), vp + "/order", "1001", "is too large"},
+            {viewport(R"("order": 0.5)"), vp + "/order", "0.5", "is right"},
+            {viewport(R"("warp": { "file": "left.data", "aspect": 0 })"), vp + "/warp/aspect", "0", "is too small"},
         });
 }
 

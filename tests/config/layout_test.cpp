@@ -98,6 +98,7 @@ TEST(LayoutTest, TheHandbooksExamplesLoadAndItsMessageIsTrue)
 
 TEST(LayoutTest, ValuesAtTheLimitsAreAccepted)
 {
+    write_text("half.png", "x");
     for (const std::string& text :
         {projection(R"({ "type": "planar", "fov_y_deg": 0.1 })"), projection(R"({ "type": "planar", "fov_y_deg": 179 })"),
             projection(R"({ "type": "fisheye", "aperture_deg": 360, "tilt_deg": -180 })"),
@@ -105,7 +106,11 @@ TEST(LayoutTest, ValuesAtTheLimitsAreAccepted)
             viewport(R"("rect": [0.3333, 0, 0.6667, 1])"), viewport(R"("rect": [0.1, 0.2, 0.9, 0.8])"),
             viewport(R"("eye_m": [1000, -1000, 0])"), top(R"("stereo": { "hyper_stereo": 1e12 })"), top(R"("hud": {})"),
             tiled("[0, 0, 0.5, 1]", "[0.5, 0, 0.5, 1]"), tiled("[0, 0, 0.3333333, 1]", "[0.3333333, 0, 0.6666667, 1]"),
-            tiled("[0, 0, 0.5, 0.5]", "[0.5, 0.5, 0.5, 0.5]"), named("\"A-z_09\"")}) {
+            tiled("[0, 0, 0.5, 0.5]", "[0.5, 0.5, 0.5, 0.5]"), named("\"A-z_09\""),
+            std::string(R"({ "outputs": [{ "name": "a", "viewports": [{ "projection": { "type": "planar" } },
+                { "projection": { "type": "planar" }, "order": -1 }] }] })"),
+            std::string(R"({ "outputs": [{ "name": "a", "viewports": [{ "projection": { "type": "planar" },
+                "alpha_mask": "half.png" }, { "projection": { "type": "planar" }, "alpha_mask": "half.png" }] }] })")}) {
         SCOPED_TRACE(text);
         EXPECT_NO_THROW(load_layout(write_text("right.json", text)));
     }
@@ -196,6 +201,11 @@ TEST(LayoutTest, WrongLayoutsAreRefused)
             {R"({ "outputs": [{ "name": "a", "viewports": [{ "projection": { "type": "planar" } },
                 { "projection": { "type": "planar" } }] }] })",
                 "/outputs/0/viewports/1", "{\"projection\":{\"type\":\"planar\"}}", "overlaps viewport 0"},
+            {R"({ "outputs": [{ "name": "a", "viewports": [{ "projection": { "type": "planar" }, "order": 2 },
+                { "rect": [0, 0, 1, 0.5], "projection": { "type": "planar" }, "order": 2 }] }] })",
+                "/outputs/0/viewports/1/rect", "[0,0,1,0.5]",
+                "overlaps viewport 0 of this output, and nothing says which is on top; a higher \"order\" in one of them, "
+                "or an \"alpha_mask\" in each as its share, is right"},
             {top(R"("hud": [])"), "/hud", "[]", "is not an object"},
             {top(R"("hud": { "width_deg": 0 })"), "/hud/width_deg", "0", "is too small"},
             {top(R"("hud": { "width_deg": 121 })"), "/hud/width_deg", "121", "is too large; a number from 1 to 120"},

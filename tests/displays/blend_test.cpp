@@ -349,8 +349,34 @@ TEST(BlendTest, ViewportsOfOneOutputAreBlendedUnlessTheyOverlap)
     EXPECT_NEAR(apart[0][120 * 400 + int(ahead)], 0.5, 0.02);
     EXPECT_EQ(apart[0][120 * 400], 1);
     layout.outputs[0].viewports[1].rect = {0.25, 0.25, 0.5, 0.5};
+    layout.outputs[0].viewports[1].order = 1;
     for (const auto& ramp : ramps())
         EXPECT_TRUE(ramp.empty());
+}
+
+// What an inset hides of a picture is not lit: there the neighbour that lights the same place keeps all its light.
+TEST(BlendTest, APictureLightsNothingWhereAnInsetHidesIt)
+{
+    Layout layout;
+    for (double left : {-1.5, -0.5}) {
+        Output output;
+        output.size = {200, 180};
+        output.viewports = {{.projection = Wall{{left, -0.9, -2}, {left + 2, -0.9, -2}, {left, 0.9, -2}}}};
+        layout.outputs.push_back(output);
+    }
+    const auto ramps = [&] {
+        MapStore store{std::filesystem::path()};
+        std::vector<CompiledView> views;
+        for (std::size_t i = 0; i < 2; ++i)
+            for (const CompiledView& view : compile_output(store, layout, i, layout.outputs[i].size))
+                views.push_back(view);
+        return blend_ramps(layout, views, 1);
+    };
+    const std::size_t right_picture_50 = 90 * 200 + 50; // the wall at x = 0, lit by both
+    EXPECT_NEAR(ramps().back()[right_picture_50], 0.5, 0.02);
+    layout.outputs[0].viewports.push_back(
+        {.rect = {0.6, 0.3, 0.3, 0.4}, .projection = Planar{20, {}, {180, 0, 0}}, .order = 1});
+    EXPECT_EQ(ramps().back()[right_picture_50], 1);
 }
 
 TEST(BlendTest, PicturesThatOnlyTouchAreNotDimmed)

@@ -1,5 +1,6 @@
 #include "displays/check/floor_plan.h"
 #include "displays/check/floor_plan_table.h"
+#include "displays/check/lint.h"
 #include "displays/projections/picture.h"
 #include "tests/support/sphere.h"
 #include <cstring>
@@ -167,6 +168,25 @@ TEST(CoverageTest, CoverageWorksAcrossTheBackAndThePole)
     const double h = std::tan(35 * pi / 180);
     EXPECT_NEAR(all[4].elevations.x, 90 - std::atan(h * 5 / 3) * 180 / pi, 0.3); // its diagonal
     EXPECT_NEAR(all[1].share, all[0].share, 2e-3 * all[1].share); // a turn does not change the covered part
+}
+
+TEST(CoverageTest, WhatAHigherViewportHidesDoesNotCount)
+{
+    Layout layout = layout_of({output("panorama", {800, 400}, Equirectangular{{-80, 80, -40, 40}})});
+    std::vector<Viewport>& viewports = layout.outputs[0].viewports;
+    const double whole = coverages(layout)[0].share;
+    viewports.push_back({.rect = {0.5, 0, 0.5, 1}, .projection = Equirectangular{{100, 120, -40, 40}}, .order = 1});
+    std::vector<Coverage> all = coverages(layout);
+    EXPECT_NEAR(all[0].share, whole / 2, 1e-12); // edges lie between cells, so that the count is exact
+    ASSERT_TRUE(all[0].azimuths);
+    EXPECT_NEAR(all[0].azimuths->y, 0, 0.1);
+    EXPECT_NEAR(all[1].share, whole / 8, 1e-12);
+    viewports[1].rect = {0, 0, 1, 1};
+    all = coverages(layout);
+    EXPECT_EQ(all[0].share, 0);
+    const std::vector<std::string> lines = lint(layout, all);
+    EXPECT_TRUE(std::any_of(lines.begin(), lines.end(),
+        [](const std::string& line) { return line == "panorama/0: viewports of a higher \"order\" hide all of it"; }));
 }
 
 TEST(CoverageTest, OverlapsAreCountedForEachPair)

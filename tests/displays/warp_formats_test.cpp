@@ -89,6 +89,20 @@ TEST(WarpFormatsTest, BourkesNegativeIntensitiesAreHoles)
     EXPECT_EQ(outside.triangles.size(), 1u);
 }
 
+// A mesh that ends before the screen's edge: only the layout knows where that is.
+TEST(WarpFormatsTest, ALayoutMaySayABourkeMeshsAspect)
+{
+    const std::string part = "2\n2 2\n-0.5 -1 0 0 1\n1 -1 1 0 1\n-0.5 1 0 1 1\n1 1 1 1 1\n";
+    const auto ends = [](const WarpMesh& mesh) { return glm::dvec2(mesh.vertices[0].at.x, mesh.vertices[1].at.x); };
+    EXPECT_EQ(ends(read("a.data", part)), glm::dvec2(0.25, 1));
+    EXPECT_EQ(ends(read_warp({"a.data", part}, "", {}, 2.0)), glm::dvec2(0.375, 0.75));
+    EXPECT_EQ(ends(read_warp({"a.data", part + "aspect 4\n"}, "", {}, 2.0)), glm::dvec2(0.375, 0.75));
+    EXPECT_NE(complaint([&] {
+        read_warp({"a.obj", "v 0 0 0\n"}, "", {}, 2.0);
+    }).find("whose aspect it does not need"),
+        std::string::npos);
+}
+
 TEST(WarpFormatsTest, DomeprojectionMissingVerticesAreHoles)
 {
     std::string text = "x;y;u;v;column;row\n";
