@@ -232,6 +232,20 @@ TEST(House, NoCodeNamesVulkanOutsideRenderAndExhibit)
     EXPECT_GT(files, 200);
 }
 
+/// Lavapipe's fences are held where a rendering begins and ends (runtime/render/scene_keeper.h); a blit's can't be.
+TEST(House, EveryRenderingBeginsAndEndsInTheDevice)
+{
+    const std::regex rendering(R"(beginRendering|endRendering|blitImage)");
+    std::vector<std::string> found;
+    for (const auto& entry : fs::recursive_directory_iterator(source_dir() / "runtime")) {
+        std::istringstream text(entry.is_regular_file() ? read_text(entry.path()) : "");
+        for (std::string line; std::getline(text, line);)
+            if (std::regex_search(line.substr(0, line.find("//")), rendering))
+                found.push_back(entry.path().filename().string() + ": " + line.substr(line.find_first_not_of(' ')));
+    }
+    EXPECT_EQ(lines(found), "device.cpp: commands.beginRendering(info);\ndevice.cpp: commands.endRendering();\n");
+}
+
 /// Pages name tests as `Suite.Name` beside the figures that they measure.
 TEST(House, EveryTestThatAPageNamesExists)
 {

@@ -157,13 +157,13 @@ void FinishPass::end(vk::CommandBuffer commands, std::size_t layer, bool plain)
         const vk::RenderingAttachmentInfo colour(*to.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
             layer == 0 ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eLoad, vk::AttachmentStoreOp::eStore,
             vk::ClearColorValue(std::array<float, 4>{0, 0, 0, 1}));
-        commands.beginRendering({{}, {{0, 0}, to.extent}, 1, 0, colour});
+        device_.begin_rendering(commands, {{}, {{0, 0}, to.extent}, 1, 0, colour});
         set_area(commands, {0, 0}, {int(to.extent.width), int(to.extent.height)});
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.layer(plain));
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0,
             *layer_sets_[canvas * layers_ + layer], {});
         commands.draw(3, 1, 0, 0);
-        commands.endRendering();
+        device_.end_rendering(commands);
     }
 }
 

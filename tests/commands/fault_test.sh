@@ -106,12 +106,18 @@ skew=$(sed -n 's/^outputs shown together within \([0-9.]*\) ms.*/\1/p' "$folder/
 awk "BEGIN { exit !($skew >= 6.5 && $skew < 12) }" || fail "present wait: a skew of $skew ms, not 7"
 ok
 # Nothing frees a fence of lavapipe while its rasterizer still unlocks it (runtime/render/scene_keeper.h): the cube map in one
-# image and in many with coarser levels, textures, stars, bodies, glow and head-up display.
+# image and in many with coarser levels, textures, stars, bodies, glow, head-up display, and viewports over each other.
 unset VK_INSTANCE_LAYERS
-for shot in avenue-gamma4 gamma100 twins-meeting; do
-    LD_PRELOAD=$tools/libstarbow_early_free.so timeout 180 "$program" run --shot "$shot" --frames 12 >"$folder/log" 2>&1 ||
-        fail "early frees, $shot: exit $?"
-    grep -Eq '^early frees: 0 in [0-9]{4,} unlocks' "$folder/log" || fail "$shot: $(grep '^early frees' "$folder/log")"
+cat >"$folder/over.json" <<'END'
+{ "outputs": [ { "name": "a", "size": [320, 240], "viewports": [
+    { "projection": { "type": "planar" } },
+    { "rect": [0.6, 0.6, 0.3, 0.3], "order": 1, "projection": { "type": "planar" } }
+] } ] }
+END
+for flight in "--shot avenue-gamma4" "--shot gamma100" "--shot twins-meeting" "--layout $folder/over.json"; do
+    LD_PRELOAD=$tools/libstarbow_early_free.so timeout 180 "$program" run $flight --frames 12 >"$folder/log" 2>&1 ||
+        fail "early frees, $flight: exit $?"
+    grep -Eq '^early frees: 0 in [0-9]{4,} unlocks' "$folder/log" || fail "$flight: $(grep '^early frees' "$folder/log")"
     ok
 done
 echo "$passed passed, 0 failed"
