@@ -84,7 +84,8 @@ void PartList::add_light()
     const SceneFile& scene = made.scene;
     const NeededLevel needed = needed_level(context.world.world, scene);
     const int coefficients = context.world.spectra.basis.reflected;
-    add("light in more than 3 coefficients", coefficients > 3, std::to_string(coefficients) + ": " + describe(needed), describe(needed),
+    add("light in more than 3 coefficients", coefficients > 3, std::to_string(coefficients) + ": " + describe(needed),
+        describe(needed),
         [](Made& m) { m.quality.spectra = m.quality.spectra ? std::nullopt : std::optional(SpectralLevel::colours); });
     add("emissions of the scene's own", !context.world.spectra.basis.own.empty(),
         count(context.world.spectra.basis.own.size(), "lamp, glow or line", "lamps, glows or lines")
