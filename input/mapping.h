@@ -12,7 +12,7 @@ namespace starbow {
 /// A device's present state: the raw value of each field of its descriptor, nullopt for those without a report yet.
 struct DeviceState {
     std::vector<std::optional<std::int64_t>> raw;
-    /// Of each button and hat the values that it was pressed to since the last reading, oldest first.
+    /// The values to which each button and hat was pressed since the last reading, oldest first.
     std::vector<std::vector<std::int64_t>> presses;
     std::vector<AxisHealth> health;
     std::int64_t report_ns = 0; ///< arrival of the last report

@@ -160,7 +160,7 @@ void main()
         sum = ring(n, pixel_angle);
     if (OVERLAY == OVERLAY_DISTANCE || OVERLAY == OVERLAY_EMISSION) {
         Shown seen = shown_along(n, pixel_angle);
-        // Where velocities simply add, moving things have no distance in the world.
+        // Moving things have no distance in the world where velocities simply add.
         bool unknown = GALILEAN && seen.frame > 0.0;
         sum = false_colour(unknown ? SKY_DISTANCE : exact_distance(seen, pixel_angle), n);
     }

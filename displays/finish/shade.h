@@ -8,8 +8,8 @@ namespace starbow {
 struct Shade {
     glm::ivec2 size{0};
     std::vector<glm::vec3> weight, black;
-    /// Of each layer's light (View::layer), as composed() describes them: [canvas * layers + layer]; empty where no
-    /// viewports overlap.
+    /// A factor for each layer's light (View::layer), as composed() describes it: [canvas * layers + layer]. Empty where
+    /// no viewports overlap.
     std::vector<std::vector<glm::vec4>> shares;
     int layers = 1;
     /// The layer with the largest part of each pixel of the first canvas, 255 where nothing is shown; empty as `shares`.

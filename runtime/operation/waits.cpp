@@ -29,12 +29,6 @@ OpenWaits& open_waits()
     return only;
 }
 
-double limit_inside(bool within_long)
-{
-    OpenWaits& now = open_waits();
-    return now.limit_s * (within_long ? 4 : 1);
-}
-
 } // namespace
 
 LimitedWait::LimitedWait(std::string what)
@@ -43,7 +37,7 @@ LimitedWait::LimitedWait(std::string what)
     OpenWaits& now = open_waits();
     const std::lock_guard lock(now.mutex);
     long_ = !now.waits.empty() && now.waits.back()->long_;
-    limit_s_ = limit_inside(long_);
+    limit_s_ = now.limit_s * (long_ ? 4 : 1);
     now.waits.push_back(this);
 }
 
@@ -130,7 +124,7 @@ WaitWatch::WaitWatch(double limit_s)
         const std::lock_guard lock(open_waits().mutex);
         open_waits().limit_s = limit_s;
     }
-    thread_ = new Thread;
+    thread_ = std::make_unique<Thread>();
 }
 
 WaitWatch::~WaitWatch()
@@ -141,7 +135,6 @@ WaitWatch::~WaitWatch()
     }
     thread_->changed.notify_all();
     thread_->thread.join();
-    delete thread_;
     const std::lock_guard lock(open_waits().mutex);
     open_waits().limit_s = unwatched_s;
 }

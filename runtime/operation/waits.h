@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <string>
 
 namespace starbow {
@@ -29,8 +30,8 @@ private:
     bool long_; ///< waits inside it may take longer
 };
 
-/// Logs which wait had no end, and ends the process with exit_hung, without destructors: they would wait for the same
-/// device. A record and a log of readings are on the disk by then: their last lines are written within a second.
+/// Names the wait that had no end in the log, and ends the process with exit_hung, without destructors: they would wait for
+/// the same device. A record and a log of readings are on the disk by then: their last lines are written within a second.
 [[noreturn]] void give_up(const std::string& what, double waited_s);
 
 /// Ends the process where a wait has no end. Only time in which this process ran counts, so that a stopped or starved
@@ -44,7 +45,7 @@ public:
 
 private:
     struct Thread;
-    Thread* thread_;
+    std::unique_ptr<Thread> thread_;
 };
 
 } // namespace starbow

@@ -354,7 +354,7 @@ TEST(BlendTest, ViewportsOfOneOutputAreBlendedUnlessTheyOverlap)
         EXPECT_TRUE(ramp.empty());
 }
 
-// What an inset hides of a picture is not lit: there the neighbour that lights the same place keeps all its light.
+// A picture lights nothing where an inset hides it. The neighbour that lights the same place keeps all its light there.
 TEST(BlendTest, APictureLightsNothingWhereAnInsetHidesIt)
 {
     Layout layout;

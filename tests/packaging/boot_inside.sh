@@ -105,8 +105,8 @@ dpkg -r starbow-exhibit >/out/dpkg.log 2>&1 || fail "remove: $(cat /out/dpkg.log
 [ -e /etc/starbow/exhibit.json ] && [ -d /var/lib/starbow/crash ] && ! systemctl -q is-active starbow || fail "removed: not as it should be"
 ok "removed: /etc/starbow and /var/lib/starbow stay"
 dpkg -P starbow-exhibit starbow >/out/dpkg.log 2>&1 || fail "purge: $(cat /out/dpkg.log)"
-left=$(find / -xdev -iname '*starbow*' -not -path '/out/*' -not -path '/opt/*' -not -path '/proc/*' -not -path '/sys/*' -not -path '/tmp/*' -not -path '/work/*' \
-    -not -path '/root/*' -not -path '/home/*' -not -path '/etc/systemd/system/starbow-display.service.d*' -not -path '/var/log/*' -not -path '/var/cache/man/*' 2>/dev/null | head)
+left=$(find /boot /etc /srv /usr /var -xdev -iname '*starbow*' -not -path '/etc/systemd/system/starbow-display.service.d*' \
+    -not -path '/var/log/*' -not -path '/var/cache/man/*' 2>/dev/null | head)
 [ -z "$left" ] || fail "purged, and left: $left"
 getent passwd starbow && fail "purged: the user is left"
 ok "purged: nothing is left"

@@ -238,8 +238,8 @@ TEST(CubeMapPlan, ASlowMotionChangesDensitiesSlowly)
                     before = std::move(plan);
                 }
             }
-    // Where the division changes, and where a block of pixels enters another sub-tile, densities do jump: in 63 of these
-    // frames. They jump in 196 if the limit counts the images' own texels.
+    // Densities jump in 63 of these frames: there the division changes, or a block of pixels enters another sub-tile. They
+    // jump in 196 if the limit counts the images' own texels.
     std::printf("  densities jump in %d of %d frames\n", jumps, all);
     EXPECT_LT(jumps, 100);
 }

@@ -198,7 +198,7 @@ struct Rings {
         world.instances.push_back({place, 0, 0});
     }
 
-    /// Whether a ring lies along n, and how far in radii the nearest edge is.
+    /// True if a ring lies along n; the distance in radii to the nearest edge.
     std::pair<bool, double> along(const quad::V3& n) const
     {
         const quad::Q deep = quad::dot(n, quad::of(axis));

@@ -212,7 +212,7 @@ TEST(Lab, AComparisonIsReadAsTheRaysShowIt)
             const MeasuringObserver& who = measurement.points[i + 1].observer;
             const bool rests = std::abs(ray_from_ship(who, aim.ray.ship).D / aim.ray.D - 1) < 1e-6;
             ++read[rests && comparison != Comparison::no_light_delay ? 0 : moving];
-            // Where velocities simply add, the depth of a moving thing is its order among the others, and no distance.
+            // With velocities that simply add, the depth of a moving thing is its order among the others, and no distance.
             if (comparison != Comparison::galilean || rests) {
                 off += !(*aim.distance_s > nearest * (1 - 5e-3) && *aim.distance_s < farthest * (1 + 5e-3));
             }

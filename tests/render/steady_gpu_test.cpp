@@ -94,7 +94,7 @@ TEST(Steady, ObliqueSlowFlightShowsWhatRaysShow)
                                  D = quantile(errors.doppler, 0.99);
                     std::printf("%s, %g c: %.1f dB, %.1e px, D %.1e\n", name.c_str(), beta, dB, direction, D);
                     EXPECT_TRUE(errors.finite);
-                    // As in fast flight: docs/accuracy.md promises a thousandth of a pixel and a millionth.
+                    // docs/accuracy.md promises a thousandth of a pixel and a millionth, in slow flight as in fast.
                     EXPECT_LT(direction, 1e-3) << name << " " << beta;
                     EXPECT_LT(D, 1e-6) << name << " " << beta;
                     EXPECT_GT(dB, 29) << name << " " << beta; // a picture off by one pixel has at most 20
