@@ -1,0 +1,143 @@
+#include "command.h"
+#include "config/json/error.h"
+#include "config/json/reader.h"
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+namespace starbow {
+namespace {
+
+using enum CommandKind;
+using Value = CommandValue;
+
+constexpr std::array rules{CommandRule{fade, "fade", Role::docent, Value::on},
+    CommandRule{stop, "stop", Role::docent, Value::none}, CommandRule{reset, "reset", Role::docent, Value::none},
+    CommandRule{tour, "tour", Role::docent, Value::name}, CommandRule{next, "next", Role::docent, Value::none},
+    CommandRule{back, "back", Role::docent, Value::none}, CommandRule{pause, "pause", Role::docent, Value::on},
+    CommandRule{scene, "scene", Role::docent, Value::name}, CommandRule{shot, "shot", Role::docent, Value::name},
+    CommandRule{speed_limit, "speed-limit", Role::docent, Value::number},
+    CommandRule{aberration, "aberration", Role::docent, Value::on}, CommandRule{doppler, "doppler", Role::docent, Value::on},
+    CommandRule{headlight, "headlight", Role::docent, Value::on},
+    CommandRule{false_colours, "false-colours", Role::docent, Value::on},
+    CommandRule{comparison, "comparison", Role::docent, Value::name},
+    CommandRule{language, "language", Role::docent, Value::name}, CommandRule{caption, "caption", Role::docent, Value::text},
+    CommandRule{hold, "hold", Role::docent, Value::on}, CommandRule{layout, "layout", Role::engineer, Value::name},
+    CommandRule{pattern, "pattern", Role::engineer, Value::name},
+    CommandRule{quality, "quality", Role::engineer, Value::name},
+    CommandRule{restart, "restart", Role::engineer, Value::none}};
+
+constexpr bool in_order()
+{
+    for (std::size_t i = 0; i < rules.size(); ++i)
+        if (std::size_t(rules[i].kind) != i)
+            return false;
+    return rules.size() == std::size_t(restart) + 1;
+}
+static_assert(in_order());
+
+std::string form_of(const CommandRule& rule)
+{
+    const std::string name(rule.name);
+    switch (rule.value) {
+    case Value::none:
+        return name + " alone";
+    case Value::on:
+        return name + " on or " + name + " off";
+    case Value::number:
+        return name + " and a number from 1 to 1e9";
+    case Value::name:
+        return name + " and a name";
+    case Value::text:
+        break;
+    }
+    return name + " and a text of at most " + std::to_string(most_command_text) + " bytes";
+}
+
+[[noreturn]] void refuse(const CommandRule& rule, const std::string& problem)
+{
+    throw InputError("the command " + std::string(rule.name) + " " + problem + "; " + form_of(rule) + " is right");
+}
+
+/// Names of shipped files only: letters, digits, - and _. So no command leads to another folder.
+bool is_name(std::string_view text)
+{
+    return !text.empty() && text.size() <= 64 && text.front() != '.' && std::ranges::all_of(text, [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_'
+            || c == '.';
+    });
+}
+
+} // namespace
+
+std::span<const CommandRule> command_rules() { return rules; }
+const CommandRule& rule_of(CommandKind kind) { return rules[std::size_t(kind)]; }
+
+Command command_of(std::span<const std::string> words)
+{
+    if (words.empty())
+        throw InputError("a command has no name; a name such as stop is right");
+    const auto rule = std::ranges::find(rules, words[0], &CommandRule::name);
+    if (rule == rules.end()) {
+        std::string all;
+        for (const CommandRule& known : rules)
+            all += (all.empty() ? "" : ", ") + std::string(known.name);
+        throw InputError("the command " + one_line(words[0], 40) + " is not known; one of these is right: " + all);
+    }
+    if (words.size() != (rule->value == Value::none ? 1 : 2))
+        refuse(*rule, "has " + std::to_string(words.size() - 1) + " values");
+    Command command{.kind = rule->kind};
+    const std::string value = words.size() > 1 ? words[1] : "";
+    switch (rule->value) {
+    case Value::none:
+        break;
+    case Value::on:
+        if (value != "on" && value != "off")
+            refuse(*rule, "has the value " + one_line(value, 40));
+        command.on = value == "on";
+        break;
+    case Value::number: {
+        const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), command.number);
+        if (error != std::errc() || end != value.data() + value.size() || !(command.number > 1 && command.number <= 1e9))
+            refuse(*rule, "has the value " + one_line(value, 40));
+        break;
+    }
+    case Value::name:
+        if (!is_name(value))
+            refuse(*rule, "has the value " + one_line(value, 40) + ", which is no name of a shipped file");
+        command.text = value;
+        break;
+    case Value::text:
+        if (value.size() > most_command_text)
+            refuse(*rule, "has a text of " + std::to_string(value.size()) + " bytes");
+        command.text = one_line(value, most_command_text);
+        break;
+    }
+    return command;
+}
+
+std::vector<std::string> words_of(const Command& command)
+{
+    const CommandRule& rule = rule_of(command.kind);
+    std::vector<std::string> words{std::string(rule.name)};
+    switch (rule.value) {
+    case Value::none:
+        break;
+    case Value::on:
+        words.emplace_back(command.on ? "on" : "off");
+        break;
+    case Value::number: {
+        std::array<char, 32> digits;
+        const auto [end, error] = std::to_chars(digits.begin(), digits.end(), command.number);
+        words.emplace_back(digits.begin(), end);
+        break;
+    }
+    case Value::name:
+    case Value::text:
+        words.push_back(command.text);
+        break;
+    }
+    return words;
+}
+
+} // namespace starbow

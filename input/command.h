@@ -1,0 +1,72 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace starbow {
+
+/// The people at a remote: each role may do all that the ones before it may.
+enum class Role : std::uint8_t { look, docent, engineer };
+
+enum class CommandKind : std::uint8_t {
+    fade, ///< on: to black; off: back to the picture
+    stop,
+    reset, ///< to the start at once, with the exhibit's own rules, language and effects
+    tour,
+    next, ///< the tour's next step
+    back, ///< the tour's step before
+    pause, ///< on: the tour, or else the world, stands still
+    scene,
+    shot,
+    speed_limit, ///< number: greatest gamma
+    aberration,
+    doppler,
+    headlight,
+    false_colours,
+    comparison, ///< text: one of comparison_names
+    language,
+    caption, ///< text on the head-up display; empty: none
+    hold, ///< on: the visitors' devices do nothing
+    layout,
+    pattern,
+    quality,
+    restart, ///< ends the exhibit, so that the service manager starts it anew
+};
+
+/// The one value that a command has, or none.
+enum class CommandValue : std::uint8_t { none, on, number, name, text };
+
+/// A kind's name on the wire, on the command line and in records, the least role that may give it, and its value.
+struct CommandRule {
+    CommandKind kind;
+    std::string_view name;
+    Role role;
+    CommandValue value;
+};
+
+/// All kinds, in the order of CommandKind.
+std::span<const CommandRule> command_rules();
+const CommandRule& rule_of(CommandKind kind);
+
+/// A command to the running exhibit, from a remote, OSC or `starbow tell`.
+struct Command {
+    CommandKind kind{};
+    bool on = false;
+    double number = 0;
+    std::string text{}; ///< a name, or a caption
+
+    bool operator==(const Command&) const = default;
+};
+
+/// Longest text of a command in bytes: a caption of some lines.
+constexpr std::size_t most_command_text = 400;
+
+/// Reads a command from its words, as on a command line: {"scene", "avenue"}, {"doppler", "off"}, {"stop"}. Throws
+/// InputError with the right form. It does not look whether a named file exists.
+Command command_of(std::span<const std::string> words);
+/// The words of which command_of makes the same command.
+std::vector<std::string> words_of(const Command& command);
+
+} // namespace starbow
