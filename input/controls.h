@@ -1,4 +1,5 @@
 #pragma once
+#include "command.h"
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -61,7 +62,19 @@ struct AlignmentKeys {
     int choose = 0, turn_by = 0;
 };
 
+/// From a remote; applied before the frame's other controls.
+struct RemoteCommands {
+    std::vector<Command> commands;
+};
+
 /// The visitor's controls at a time. Each member belongs to one of the parts, so that a reader names only its part.
-struct Controls : ControlTimes, Steering, Looking, EffectSwitches, LabSwitches, WindowSwitches, AlignmentKeys { };
+struct Controls : ControlTimes,
+                  Steering,
+                  Looking,
+                  EffectSwitches,
+                  LabSwitches,
+                  WindowSwitches,
+                  AlignmentKeys,
+                  RemoteCommands { };
 
 } // namespace starbow

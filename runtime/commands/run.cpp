@@ -44,9 +44,8 @@ ExhibitOptions reopen(const std::filesystem::path& record, const std::string& la
 {
     const RecordHeader header = Replay(record).header();
     const Flown flown = find_flown(record, header, layout, info_log("record"));
-    return {.scene = flown.scene,
+    return {.programme = {.scene = flown.scene, .start = header.start},
         .layout = flown.layout,
-        .start = header.start,
         .words = words_in(language.empty() ? "en" : language),
         .rules = header.rules,
         .exposure = header.exposing,
@@ -71,20 +70,13 @@ ExhibitOptions open(const RunOptions& options)
         exhibit.tour = options.tour, exhibit.shot.clear();
     if (!exhibit.tour.empty() && !options.record.empty())
         throw InputError("A tour's flight can't be recorded; --record without a tour is right");
-    ExhibitOptions exhibit_options{
-        .scene = shipped_file("scenes", exhibit.scene), .layout = load_layout(shipped_file("layouts", exhibit.layout))};
-    exhibit_options.start = load_scene_file(exhibit_options.scene).start;
-    exhibit_options.words = words_in(options.language.empty() ? exhibit.language : options.language);
-    if (!exhibit.shot.empty()) {
-        const std::filesystem::path shot_file = shipped_file("shots", exhibit.shot);
-        exhibit_options.start = load_shot(shot_file);
-        exhibit_options.scene = scene_of(exhibit_options.start, shot_file);
-    }
-    if (!exhibit.tour.empty()) {
-        exhibit_options.tour = tour_in(exhibit.tour, exhibit_options.words);
-        exhibit_options.scene = scene_of(*exhibit_options.tour);
-        exhibit_options.start = std::get<Cut>(exhibit_options.tour->steps[0].motion).shot;
-    }
+    Words words = words_in(options.language.empty() ? exhibit.language : options.language);
+    Programme programme = !exhibit.tour.empty() ? programme_of_tour(exhibit.tour, words)
+        : !exhibit.shot.empty()                 ? programme_of_shot(exhibit.shot)
+                                                : programme_of_scene(exhibit.scene);
+    ExhibitOptions exhibit_options{.programme = std::move(programme),
+        .layout = load_layout(shipped_file("layouts", exhibit.layout)),
+        .words = std::move(words)};
     exhibit_options.rules = exhibit.flying;
     exhibit_options.exposure = exhibit.exposure;
     exhibit_options.profiles = known_profiles(exhibit.profiles);
@@ -146,7 +138,7 @@ int run(const RunOptions& given)
     }
     log_debug("files", "the shipped files are in " + home().string());
     log_debug("files", "the layout is " + exhibit_options.layout.file.string());
-    log_debug("files", "the scene is " + exhibit_options.scene.string());
+    log_debug("files", "the scene is " + exhibit_options.programme.scene.string());
     log_debug("files", std::to_string(exhibit_options.profiles.size()) + " profiles of devices are known");
     std::optional<Trace> trace;
     if (!options.trace.empty())

@@ -25,6 +25,7 @@ public:
     const std::string& says() const { return Clock::now() < until_ ? says_ : silent_; }
 
     void say(std::string line);
+    void show(Pattern pattern) { pattern_ = pattern; }
 
 private:
     void save(const Layout& layout);

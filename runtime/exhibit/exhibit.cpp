@@ -52,17 +52,12 @@ int fly_exhibit(const ExhibitOptions& options)
         std::string lost;
         bool coarser = false; // the device is opened anew for a level of less memory, and nothing is wrong with it
         const char* how = "is lost";
-        session.service.loads("Loads the world " + options.scene.filename().string() + ".", loading_limit_s);
+        session.service.loads("Loads the world " + session.programme.scene.filename().string() + ".", loading_limit_s);
         try {
-            context = std::make_unique<RenderContext>(options.scene, device_options(true),
-                options.frame_budget_ms > 0 ? options.ladder[0].quality.spectra
-                    : options.quality       ? options.quality->spectra
-                                            : std::nullopt);
-            for (const std::string& note : context->world.world.notes)
-                if (losses == 0)
-                    log_info("world", context->world.scene.gltf.string() + ": " + note);
+            context
+                = std::make_unique<RenderContext>(session.programme.scene, device_options(true), spectral_level_of(session));
             if (losses == 0)
-                std::printf("%s\n", describe_light(*context).c_str());
+                log_world(*context);
             {
                 work->restart();
                 session.service.loads(

@@ -3,9 +3,8 @@
 #include "config/model/flying.h"
 #include "config/model/layout.h"
 #include "config/model/profile.h"
-#include "config/model/shot.h"
-#include "config/model/tour_file.h"
 #include "config/model/words.h"
+#include "programme.h"
 #include "runtime/operation/latency.h"
 #include "runtime/render/frame_renderer.h"
 #include <filesystem>
@@ -18,11 +17,9 @@ class Trace;
 
 /// Everything that an exhibit starts with, its files read.
 struct ExhibitOptions {
-    std::filesystem::path scene;
+    Programme programme;
     Layout layout;
-    Shot start; ///< start of the visit; a reset returns here
     Words words; ///< for the visitor's texts
-    std::optional<Tour> tour{}; ///< tour to show, in its own scene
     Flying rules{};
     Exposing exposure{};
     std::vector<Profile> profiles{};

@@ -1,6 +1,8 @@
 #include "frame_loop.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
+#include "config/model/shipped.h"
+#include "obey.h"
 #include "runtime/flight/record_files.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/progress.h"
@@ -103,9 +105,12 @@ bool FrameLoop::fly_frame()
     if (session_.record_replay.replays() && !visible)
         return true; // a replay waits for a visible window
 
-    // Step the flight. From here on the controls may be a replay's.
-    if (!step(session_, entry, metered, context_.world.scene.seconds_per_time_unit()))
+    // Carry out a remote's commands and step the flight. From here on the controls may be a replay's.
+    if (!session_.record_replay.play(entry))
         return false;
+    for (const Command& command : std::vector(entry.controls.commands))
+        carry_out(command, entry.controls);
+    step(session_, entry, metered, context_.world.scene.seconds_per_time_unit());
     const Controls& controls = entry.controls;
     session_.lab.read(*frame_, controls, context_.world, 1e-9 * double(entry.dt_ns),
         [&](std::string line) { session_.alignment.say(std::move(line)); });
@@ -191,7 +196,8 @@ std::size_t FrameLoop::warm_up(std::unique_ptr<FrameRenderer>& frame, const Qual
     frame->meter(session_.options.exposure.automatic);
     frame->bloom(session_.options.exposure.bloom);
     const Panel* panel = hud_.update(session_, context_.world.scene, 0, frame->views().hud_width());
-    return starbow::warm_up(device_, context_.pipelines, *frame, session_.options.start, panel, screens_.format(), progress);
+    return starbow::warm_up(
+        device_, context_.pipelines, *frame, session_.programme.start, panel, screens_.format(), progress);
 }
 
 void FrameLoop::warm_up()
@@ -251,7 +257,8 @@ Shot FrameLoop::set_up_frame(const Controls& controls)
     frame_->move_head(controls.head);
     frame_->meter(session_.options.exposure.automatic);
     frame_->bloom(session_.options.exposure.bloom);
-    Shot shot = shot_of(session_.flight, session_.options.start.scene);
+    frame_->fade(glm::smoothstep(0.0, 1.0, session_.directions.fade));
+    Shot shot = shot_of(session_.flight, session_.programme.start.scene);
     shot.exposure_ev = ev_of(session_);
     session_.lab.request(*frame_, shot, session_.flight, context_.world, hud_.typesetter);
     return shot;
@@ -304,32 +311,103 @@ void FrameLoop::apply_file_changes()
     const LimitedWait loading("the changed layout", loading_limit_s);
     session_.service.loads("Loads the changed layout.", loading_limit_s);
     try {
-        const Layout fresh = load_layout(session_.layout.file);
-        Layout layout = turned_again(fresh, session_.kept, session_.layout);
-        FileWatch watch(files_of(layout));
-        const bool same_tracker = session_.layout.head_tracker == layout.head_tracker;
-        std::unique_ptr<HeadTracker> tracker = same_tracker ? nullptr : tracker_of(layout);
-        frame_ = std::make_unique<FrameRenderer>(
-            device_, context_.pipelines, context_.world, layout, quality_of(session_, device_));
-        if (!same_tracker)
-            session_.tracker = std::move(tracker);
-        session_.layout = std::move(layout);
-        session_.kept = fresh;
-        session_.watch = std::move(watch);
-        session_.refused.clear();
-        if (session_.governor)
-            session_.governor->forget_refusals();
-        screens_.adopt(session_.layout);
-        const std::size_t unkept = changes(session_.kept, session_.layout).size();
-        log_info("layout",
-            session_.layout.file.string() + ": applied"
-                + (unkept > 0 ? "; changes made by keys are kept (F5 saves them)" : ""));
+        show_layout(load_layout(session_.layout.file));
     } catch (const InputError& error) {
         const std::string why = one_line(error.what());
         log_warning("layout", why + "; the exhibit stays as it was");
         // On the head-up display the folder's path would take the reason's place.
         const std::string folder = session_.layout.file.parent_path().string() + "/";
         session_.refused = why.starts_with(folder) ? why.substr(folder.size()) : why;
+    }
+}
+
+/// Shows a layout, another one or the same one's changed file. Throws InputError; then the old one is still shown.
+void FrameLoop::show_layout(const Layout& fresh)
+{
+    Layout layout = fresh.file == session_.layout.file ? turned_again(fresh, session_.kept, session_.layout) : fresh;
+    FileWatch watch(files_of(layout));
+    const bool same_tracker = session_.layout.head_tracker == layout.head_tracker;
+    std::unique_ptr<HeadTracker> tracker = same_tracker ? nullptr : tracker_of(layout);
+    frame_ = std::make_unique<FrameRenderer>(
+        device_, context_.pipelines, context_.world, layout, quality_of(session_, device_));
+    if (!same_tracker)
+        session_.tracker = std::move(tracker);
+    session_.layout = std::move(layout);
+    session_.kept = fresh;
+    session_.watch = std::move(watch);
+    session_.refused.clear();
+    if (session_.governor)
+        session_.governor->forget_refusals();
+    screens_.adopt(session_.layout);
+    const std::size_t unkept = changes(session_.kept, session_.layout).size();
+    log_info("layout",
+        session_.layout.file.string() + ": applied" + (unkept > 0 ? "; changes made by keys are kept (F5 saves them)" : ""));
+}
+
+/// Shows a world and begins a visit in it. Throws InputError or vk::SystemError; then the old world is still shown.
+void FrameLoop::show_programme(Programme programme)
+{
+    if (programme.scene != session_.programme.scene) {
+        const LimitedWait loading("the world " + programme.scene.filename().string(), loading_limit_s);
+        session_.service.loads("Loads the world " + programme.scene.filename().string() + ".", loading_limit_s);
+        GpuWorld world = load_gpu_world(context_, programme.scene, spectral_level_of(session_));
+        std::swap(context_.world, world);
+        try {
+            frame_ = std::make_unique<FrameRenderer>(
+                device_, context_.pipelines, context_.world, session_.layout, quality_of(session_, device_));
+        } catch (...) {
+            std::swap(context_.world, world); // the old renderer draws the old world, in its place
+            throw;
+        }
+        log_world(context_);
+        fresh_ = true; // the first frame of a world is a part of its loading
+    }
+    begin_visit(session_, std::move(programme));
+}
+
+/// Shows a fixed quality, in the governor's place.
+void FrameLoop::show_quality(const std::string& name)
+{
+    const Quality quality = load_quality(shipped_file("qualities", name));
+    frame_->adopt(within(device_, quality));
+    session_.quality = quality;
+    session_.governor.reset();
+}
+
+void FrameLoop::carry_out(const Command& command, Controls& controls)
+{
+    std::string words;
+    for (const std::string& word : words_of(command))
+        words += (words.empty() ? "" : " ") + word;
+    Directions& directions = session_.directions;
+    const long obeyed = directions.obeyed, refused = directions.refused;
+    try {
+        switch (command.kind) {
+        case CommandKind::reset:
+            forget_directions(session_);
+            show_programme(session_.options.programme);
+            break;
+        case CommandKind::scene:
+        case CommandKind::shot:
+        case CommandKind::tour:
+            show_programme(programme_after(session_, command));
+            break;
+        case CommandKind::layout:
+            show_layout(load_layout(shipped_file("layouts", command.text)));
+            break;
+        case CommandKind::quality:
+            show_quality(command.text);
+            break;
+        default:
+            obey(session_, command, controls);
+        }
+        directions.obeyed = obeyed + 1, directions.refused = refused;
+        log_info("remote", words);
+    } catch (const vk::DeviceLostError&) {
+        throw;
+    } catch (const std::exception& error) {
+        directions.refused = refused + 1, directions.refusal = one_line(error.what());
+        log_warning("remote", words + ": " + directions.refusal + "; the exhibit stays as it was");
     }
 }
 

@@ -39,6 +39,11 @@ private:
     /// Applies a change of the layout's files. If any file is wrong, nothing changes: the old picture stays until the new
     /// one can be drawn.
     void apply_file_changes();
+    void show_layout(const Layout& fresh);
+    void show_programme(Programme programme);
+    void show_quality(const std::string& name);
+    /// Carries out a remote's command; a refused one is logged with its reason and changes nothing.
+    void carry_out(const Command& command, Controls& controls);
     /// Applies a builder's change by keyboard, or undoes it if it can't be drawn.
     void apply_alignment(const Controls& controls);
     /// Sets the frame renderer up for the session's present state and returns the shot.

@@ -12,7 +12,7 @@ const Panel* HudUpdater::update(const Session& session, const SceneFile& scene, 
         frames_ = 0, since_ = now;
     }
     if (panel_.size.x != width || seconds(now - drawn_) > 0.1) {
-        panel_ = typesetter.draw(readings_of(session, scene, exposure_ev), session.options.words, width);
+        panel_ = typesetter.draw(readings_of(session, scene, exposure_ev), session.words, width);
         drawn_ = now;
     }
     const bool covers_pattern = session.alignment.pattern() != Pattern::none && session.alignment.says().empty();
@@ -21,7 +21,7 @@ const Panel* HudUpdater::update(const Session& session, const SceneFile& scene, 
 
 Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene, double exposure_ev) const
 {
-    const Words& words = session.options.words;
+    const Words& words = session.words;
     const InputCapabilities capabilities = session.hid.capabilities();
     Readings shown = readings(session.flight.ship, scene, session.flight.effects);
     shown.frames_per_s = rate_;
@@ -31,6 +31,8 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
         shown.caption = session.guide->caption(words, capabilities);
     } else if (session.options.tutorial)
         shown.prompt = prompt(session.tutorial, capabilities, words);
+    if (!session.directions.caption.empty())
+        shown.caption = Caption{.text = session.directions.caption, .flying = !session.guide || session.guide->flies()};
     if (shown.caption && !shown.caption->flying)
         shown.lever.reset();
     shown.exposure_ev = exposure_ev, shown.exposure_locked = session.exposure.locked;

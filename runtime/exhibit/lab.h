@@ -26,6 +26,9 @@ public:
     void request(
         FrameRenderer& frame, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter);
 
+    /// Another world: its marks and readings are gone.
+    void forget() { marks_ = {}, measured_.reset(), marks_due_ = lines_due_ = 0; }
+
 private:
     bool on() const { return overlay_ != Overlay::off || why_ != Why::none; }
     void keep(const std::function<void(std::string)>& say);

@@ -16,7 +16,7 @@ RecordReplay record_replay_of(const ExhibitOptions& options)
     std::unique_ptr<Recorder> recorder;
     if (!options.record.empty())
         recorder = std::make_unique<Recorder>(options.record,
-            header_of(options.scene, options.layout, options.start, options.rules, options.exposure,
+            header_of(options.programme.scene, options.layout, options.programme.start, options.rules, options.exposure,
                 pattern_names[std::size_t(options.pattern)]),
             info_log("record"));
     return {std::move(recorder), options.replay.empty() ? nullptr : std::make_unique<Replay>(options.replay)};
@@ -29,28 +29,43 @@ std::optional<Governor> governor_of(const ExhibitOptions& options)
     return Governor(options.ladder, options.frame_budget_ms);
 }
 
-std::optional<Guide> guide_of(const ExhibitOptions& options)
+std::optional<Guide> guide_of(const Programme& programme, const Flying& rules)
 {
-    if (!options.tour)
+    if (!programme.tour)
         return {};
-    return Guide(*options.tour, options.rules, load_scene_file(options.scene).seconds_per_time_unit());
+    return Guide(*programme.tour, rules, load_scene_file(programme.scene).seconds_per_time_unit());
+}
+
+/// A visitor's hands do nothing while a docent holds the exhibit. Devices and the head tracker are read as always.
+void hold(Controls& controls)
+{
+    static_cast<Steering&>(controls) = {.lever = controls.lever};
+    const Head head = controls.head;
+    static_cast<Looking&>(controls) = {};
+    controls.head = head;
+    static_cast<EffectSwitches&>(controls) = {};
+    static_cast<LabSwitches&>(controls) = {};
 }
 
 } // namespace
 
 Session::Session(const ExhibitOptions& given)
     : options(given)
+    , programme(given.programme)
+    , words(given.words)
+    , rules(given.rules)
+    , quality(given.quality)
     , layout(given.layout)
     , kept(layout)
     , watch(files_of(layout))
-    , guide(guide_of(given))
-    , flight(flight_at(given.start, given.rules))
+    , guide(guide_of(programme, given.rules))
+    , flight(flight_at(programme.start, given.rules))
     , tutorial(tutorial_at(flight))
     , record_replay(record_replay_of(given))
     , hid(given.profiles, info_log("input"))
     , tracker(tracker_of(layout))
     , alignment(given.pattern)
-    , lab(given.log, given.log_every_s, given.words)
+    , lab(given.log, given.log_every_s, words)
     , governor(governor_of(given))
 {
 }
@@ -74,11 +89,25 @@ double wait_limit_s(const Service& service)
     return service.watchdog_s() ? 0.8 * *service.watchdog_s() : 20;
 }
 
+std::optional<SpectralLevel> spectral_level_of(const Session& session)
+{
+    if (session.governor)
+        return session.governor->ladder()[0].quality.spectra;
+    return session.quality ? session.quality->spectra : std::nullopt;
+}
+
+void log_world(const RenderContext& context)
+{
+    for (const std::string& note : context.world.world.notes)
+        log_info("world", context.world.scene.gltf.string() + ": " + note);
+    std::printf("%s\n", describe_light(context).c_str());
+}
+
 Quality quality_of(const Session& session, const Device& device)
 {
     if (session.governor)
         return within(device, session.governor->ladder()[session.governor->level()].quality);
-    return session.options.quality ? within(device, *session.options.quality) : default_quality(device, false);
+    return session.quality ? within(device, *session.quality) : default_quality(device, false);
 }
 
 bool take_coarser_level(Session& session, std::size_t level, const std::string& reason)
@@ -110,15 +139,20 @@ std::string notice_of(const Session& session)
 double ev_of(const Session& session)
 {
     const Exposing& rules = session.options.exposure;
-    return session.guide ? session.guide->shown_ev(session.exposure, rules)
-                         : shown_ev(session.exposure, rules, session.flight.exposure_ev, session.options.start.exposure_ev);
+    return session.guide
+        ? session.guide->shown_ev(session.exposure, rules)
+        : shown_ev(session.exposure, rules, session.flight.exposure_ev, session.programme.start.exposure_ev);
 }
 
 bool is_over(const Session& session)
 {
     const ExhibitOptions& options = session.options;
-    return (options.frames > 0 && session.shown >= options.frames) || (options.over && options.over());
+    return session.directions.restarts || (options.frames > 0 && session.shown >= options.frames)
+        || (options.over && options.over());
 }
+
+/// Duration of a fade to black, s.
+constexpr double to_black_s = 1.5;
 
 bool read_controls(Session& session, std::span<GLFWwindow* const> windows, RecordEntry& entry)
 {
@@ -134,29 +168,31 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
     session.hid.add(dt_s, controls);
     if (session.tracker)
         controls.head = session.tracker->read(now);
+    if (session.directions.holds)
+        hold(controls);
     session.last = now;
     return !controls.quit;
 }
 
-bool step(Session& session, RecordEntry& entry, const std::optional<double>& metered, double seconds_per_time_unit)
+void step(Session& session, RecordEntry& entry, const std::optional<double>& metered, double seconds_per_time_unit)
 {
-    if (!session.record_replay.play(entry))
-        return false;
-    const ExhibitOptions& options = session.options;
+    const Exposing& exposing = session.options.exposure;
+    const Shot& start = session.programme.start;
     const Controls& controls = entry.controls;
     const double dt_s = 1e-9 * double(entry.dt_ns);
     session.flight = session.guide
         ? session.guide->flown(controls, entry.dt_ns)
-        : flown(session.flight, session.history, controls, entry.dt_ns, options.rules, seconds_per_time_unit, options.start);
+        : flown(session.flight, session.history, controls, entry.dt_ns, session.rules, seconds_per_time_unit, start);
     session.exposure.locked ^= controls.lock_exposure;
     if (session.record_replay.replays())
-        session.exposure = adapted_to(session.exposure, entry.exposure_ev, options.exposure, options.start.exposure_ev);
+        session.exposure = adapted_to(session.exposure, entry.exposure_ev, exposing, start.exposure_ev);
     else
-        session.exposure = adapted(session.exposure, metered, dt_s, options.exposure, options.start.exposure_ev);
+        session.exposure = adapted(session.exposure, metered, dt_s, exposing, start.exposure_ev);
     entry.exposure_ev = session.exposure.ev;
     session.record_replay.keep(entry, session.flight);
     session.tutorial = advance(session.tutorial, controls, session.flight, dt_s);
-    return true;
+    Directions& directions = session.directions;
+    directions.fade = std::clamp(directions.fade + (directions.fades ? dt_s : -dt_s) / to_black_s, 0.0, 1.0);
 }
 
 } // namespace starbow

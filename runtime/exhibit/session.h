@@ -20,6 +20,19 @@
 
 namespace starbow {
 
+struct RenderContext;
+
+/// The part of a docent's directions that is no flight.
+struct Directions {
+    bool fades = false; ///< to black, and stays so
+    double fade = 0; ///< the part of black now
+    bool holds = false; ///< the visitors' devices do nothing
+    bool restarts = false; ///< the exhibit ends, so that the service manager starts it anew
+    std::string caption{}; ///< on the head-up display; empty: none
+    long obeyed = 0, refused = 0; ///< commands so far
+    std::string refusal{}; ///< the reason of the last refused one
+};
+
 /// The state of a running exhibit that outlasts the loss of a device.
 struct Session {
     using Clock = std::chrono::steady_clock;
@@ -28,6 +41,11 @@ struct Session {
 
     const ExhibitOptions& options;
     Service service{};
+    Programme programme; ///< the shown one
+    Words words; ///< for the visitors' texts
+    Flying rules; ///< of the visitors' flight
+    std::optional<Quality> quality; ///< a fixed one, where no governor chooses
+    Directions directions{};
     Layout layout; ///< the shown layout
     Layout kept; ///< the file's layout, without a builder's unsaved changes
     FileWatch watch;
@@ -60,6 +78,10 @@ inline double seconds(std::chrono::steady_clock::duration d) { return std::chron
 
 /// The head tracker of a layout; null where it has none.
 std::unique_ptr<HeadTracker> tracker_of(const Layout& layout);
+/// The spectral level that the qualities request; none: the world's own need.
+std::optional<SpectralLevel> spectral_level_of(const Session& session);
+/// Logs the remarks on a newly loaded world and its spectral level.
+void log_world(const RenderContext& context);
 /// The quality of the next frame.
 Quality quality_of(const Session& session, const Device& device);
 /// Leaves a level of the governor's ladder for which the device has no memory, and logs that with the reason. Returns false
@@ -69,14 +91,14 @@ bool take_coarser_level(Session& session, std::size_t level, const std::string& 
 double ev_of(const Session& session);
 /// The line below the head-up display's figures.
 std::string notice_of(const Session& session);
-/// True once the requested frames are shown, or the caller says so.
+/// True once the requested frames are shown, or a remote or the caller says so.
 bool is_over(const Session& session);
 std::string describe(const Skew& skew);
 
 /// Reads the visitor's devices; sets the entry's controls and times. Returns false if the visitor leaves.
 bool read_controls(Session& session, std::span<GLFWwindow* const> windows, RecordEntry& entry);
-/// Steps flight, exposure, record and tutorial by the entry. A replay first replaces the entry's controls. metered: the
-/// exposure for the frame before, EV. Returns false at the end of a replay.
-bool step(Session& session, RecordEntry& entry, const std::optional<double>& metered, double seconds_per_time_unit);
+/// Steps flight, exposure, record and tutorial by the entry, whose commands are carried out already. metered: the exposure
+/// for the frame before, EV.
+void step(Session& session, RecordEntry& entry, const std::optional<double>& metered, double seconds_per_time_unit);
 
 } // namespace starbow

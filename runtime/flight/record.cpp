@@ -16,8 +16,8 @@ template <class... Parts> constexpr bool controls_have(Parts...)
     return requires { Controls{Parts{}...}; }
     &&!requires { Controls{Parts{}..., {}}; };
 }
-static_assert(controls_have(
-    ControlTimes{}, Steering{}, Looking{}, EffectSwitches{}, LabSwitches{}, WindowSwitches{}, AlignmentKeys{}));
+static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitches{}, LabSwitches{}, WindowSwitches{},
+    AlignmentKeys{}, RemoteCommands{}));
 
 /// Compiles only while these structs have exactly the members named here, whatever their sizes. A new member belongs in
 /// the record, or in the digest, as well.
@@ -33,6 +33,7 @@ static_assert(controls_have(
     [[maybe_unused]] const auto& [hud, full_screen, quit] = static_cast<const WindowSwitches&>(c);
     [[maybe_unused]] const auto& [aberration_on, doppler_on, headlight_on, comparison_shown, false_colours_on] = s.effects;
     [[maybe_unused]] const auto& [pattern, save, choose, turn_by] = static_cast<const AlignmentKeys&>(c);
+    [[maybe_unused]] const auto& [commands] = static_cast<const RemoteCommands&>(c);
     [[maybe_unused]] const auto& [mode, max_gamma, turn_deg_per_s, roll_deg_per_s, turn_jerk_deg_per_s3, rapidity_per_s,
         rapidity_jerk_per_s2]
         = f;
@@ -143,10 +144,25 @@ Flying read_rules(const Place& place)
     return rules;
 }
 
+Command read_command(const Place& place)
+{
+    std::vector<std::string> words;
+    for (const Place& word : items(place, 1, 2, "words")) {
+        if (!word.json->is_string())
+            complain(word, "is not a text; a list of texts such as [\"doppler\", \"off\"] is right");
+        words.push_back(word.json->get<std::string>());
+    }
+    try {
+        return command_of(words);
+    } catch (const InputError& error) {
+        complain(place, std::string("is no command (") + error.what() + ")");
+    }
+}
+
 RecordEntry read_entry(const Place& top)
 {
     std::vector<std::string_view> known{"dt_ns", "skipped_ns", "unseen", "lever", "faster", "push", "turn", "look_rad",
-        "head_m", "head_turned", "exposure", "exposure_ev", "choose", "turn_by"};
+        "head_m", "head_turned", "exposure", "exposure_ev", "choose", "turn_by", "commands"};
     for (const auto& [name, flag] : switches)
         known.emplace_back(name);
     reject_unknown_members(top, known);
@@ -176,6 +192,9 @@ RecordEntry read_entry(const Place& top)
         controls.turn_by = integer(*p, -1000, 1000);
     for (const auto& [name, flag] : switches)
         take(top, name, controls.*flag);
+    if (auto p = find_member(top, "commands"))
+        for (const Place& command : items(*p, 1, 1000, "commands"))
+            controls.commands.push_back(read_command(command));
     return entry;
 }
 
@@ -262,7 +281,9 @@ std::string text_of(const RecordEntry& entry)
     for (const auto& [name, flag] : switches)
         if (controls.*flag)
             json[name] = true;
-    return json.dump() + "\n";
+    for (const Command& command : controls.commands)
+        json["commands"].push_back(words_of(command));
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string text_of(const RecordCheck& check)

@@ -9,7 +9,7 @@ const Flight& Guide::flown(const Controls& controls, std::int64_t dt_ns)
 {
     touring_ = advance(std::move(touring_), show_, controls, dt_ns);
     const double dt_s = 1e-9 * double(dt_ns);
-    automatic_ = std::clamp(automatic_ + (flies(touring_, show_) ? dt_s : -dt_s) / fade_s, 0.0, 1.0);
+    automatic_ = std::clamp(automatic_ + (flies() ? dt_s : -dt_s) / fade_s, 0.0, 1.0);
     over_s_ = touring_.over ? over_s_ + dt_s : 0;
     return touring_.flight;
 }

@@ -20,6 +20,17 @@ public:
     /// The flight dt_ns nanoseconds later, under the visitor's controls.
     const Flight& flown(const Controls& controls, std::int64_t dt_ns);
 
+    bool flies() const { return starbow::flies(touring_, show_); } ///< the visitor flies
+    bool over() const { return touring_.over; }
+    bool paused() const { return touring_.paused; }
+    std::size_t step() const { return touring_.step(); } ///< counted from 0
+    /// The tour stands still, or goes on.
+    void pause(bool on) { touring_.paused = on; }
+    /// The visitor's greatest gamma from now on.
+    void limit(double max_gamma) { show_.rules.max_gamma = max_gamma; }
+    /// The effects of the visitor's flight.
+    Effects& effects() { return touring_.flight.effects; }
+
     /// The EV: the tour's, or the adapted one where the visitor flies; it fades from one to the other.
     double shown_ev(const Exposure& adapted, const Exposing& rules) const;
 

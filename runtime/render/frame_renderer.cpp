@@ -30,6 +30,7 @@ void FrameRenderer::draw(
             passes_.end_layer(outputs, output, layer);
         }
         passes_.finish_output(outputs, output, targets[output]);
+        passes_.fade_output(outputs, targets[output]);
     }
 }
 

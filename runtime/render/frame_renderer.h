@@ -54,6 +54,8 @@ public:
     void show(Pattern pattern) { state_.pattern = pattern; }
     /// part: share of the light that glows around bright things, 0 to 1. At 0 the pass takes no time and no memory.
     void bloom(double part) { state_.bloom = part; }
+    /// part: of black over the finished picture, 0 to 1. At 0 the pass takes no time.
+    void fade(double part) { state_.fade = part; }
     void meter(bool on) { state_.meters = on; }
     /// Sets the overlay of all views and the probes from the next frame on; none: at no cost. In a world whose depth is
     /// not kept, the first call takes as long as a change of the layout.

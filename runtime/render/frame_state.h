@@ -18,6 +18,7 @@ struct FrameState {
     bool repeatable = false; ///< equal shots have equal bytes, whatever was drawn before
     Pattern pattern = Pattern::none;
     double bloom = 0; ///< the part of the light that glows around bright things, 0 to 1
+    double fade = 0; ///< the part of black over the finished picture, 0 to 1
     bool meters = false; ///< luminance is sampled beside the picture
     Shot shot; ///< the instant that is drawn
     double pre_exposure = 1; ///< every radiance in the cube map is stored times this

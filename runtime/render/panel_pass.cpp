@@ -23,7 +23,8 @@ PanelPass::PanelPass(Device& device, Pipelines& pipelines, std::size_t views)
     name_object(device, pool_, "panel pass: descriptor pool");
     for (std::size_t i = 0; i < views; ++i)
         name_object(device,
-            sets_.emplace_back(std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.layouts.picture_set}).front())),
+            sets_.emplace_back(
+                std::move(device.device.allocateDescriptorSets({*pool_, *pipelines.layouts.picture_set}).front())),
             "panel pass: descriptor set");
 }
 
@@ -75,7 +76,8 @@ void PanelPass::draw(vk::CommandBuffer commands, std::size_t view, bool map, sha
     commands.setScissor(0, box);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.hud(map, target, scale.z > scale.x));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0, *sets_[view], {});
-    commands.pushConstants<shared::ViewPush>(*pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
+    commands.pushConstants<shared::ViewPush>(
+        *pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
     commands.draw(3, 1, 0, 0);
 }
 

@@ -6,6 +6,7 @@
 #include "spirv/bloomed_frag.h"
 #include "spirv/cube_frag.h"
 #include "spirv/cube_vert.h"
+#include "spirv/fade_frag.h"
 #include "spirv/finish_frag.h"
 #include "spirv/hud_frag.h"
 #include "spirv/layer_frag.h"
@@ -301,6 +302,16 @@ vk::Pipeline Pipelines::finish(const FinishVariant& v, vk::Format target)
         .layout = *layouts.finish_layout,
         .target = {{target}},
         .constants = {std::uint32_t(v.combine), v.masked, std::uint32_t(v.curve), v.dithered}});
+}
+
+vk::Pipeline Pipelines::fade(vk::Format target)
+{
+    return find_or_make({.name = "fade pipeline",
+        .vertex = screen_vert,
+        .fragment = fade_frag,
+        .layout = *layouts.picture_layout,
+        .target = {{target}},
+        .blend = true});
 }
 
 vk::Pipeline Pipelines::pattern(bool map, int pattern, vk::Format target)

@@ -149,6 +149,7 @@ public:
     /// plain: by the viewports' parts alone.
     vk::Pipeline layer(bool plain);
     vk::Pipeline finish(const FinishVariant& variant, vk::Format target);
+    vk::Pipeline fade(vk::Format target);
     vk::Pipeline pattern(bool map, int pattern, vk::Format target);
 
     /// The number of pipelines made so far. It grows when a recorded pass needs a new one.

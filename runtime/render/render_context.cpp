@@ -35,6 +35,12 @@ RenderContext::RenderContext(LoadedScene&& loaded, const Device::Options& option
 {
 }
 
+GpuWorld load_gpu_world(RenderContext& context, const std::filesystem::path& scene, std::optional<SpectralLevel> level)
+{
+    LoadedScene loaded = load(scene);
+    return upload(context.device, context.pipelines, std::move(loaded.world), loaded.scene, loaded.stars, level);
+}
+
 std::string describe_light(const RenderContext& context)
 {
     const NeededLevel needed = needed_level(context.world.world, context.world.scene);

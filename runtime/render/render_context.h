@@ -23,6 +23,9 @@ private:
     RenderContext(struct LoadedScene&& loaded, const Device::Options& options, std::optional<SpectralLevel> level);
 };
 
+/// Another world on an open device, to take RenderContext::world's place. Throws InputError.
+GpuWorld load_gpu_world(RenderContext& context, const std::filesystem::path& scene, std::optional<SpectralLevel> level = {});
+
 /// The scene's spectral level with its reason: a line for the log.
 std::string describe_light(const RenderContext& context);
 

@@ -173,19 +173,25 @@ void ViewPasses::warp_layer(vk::CommandBuffer commands, std::size_t output, std:
     }
 }
 
+/// Begins a rendering over the target's present picture.
+void ViewPasses::begin_over(vk::CommandBuffer commands, const Target& target) const
+{
+    vk::ImageMemoryBarrier2 after_picture(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+        Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead,
+        vk::ImageLayout::eColorAttachmentOptimal, vk::ImageLayout::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED,
+        VK_QUEUE_FAMILY_IGNORED, target.image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
+    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, after_picture));
+    vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eLoad, vk::AttachmentStoreOp::eStore);
+    device_.begin_rendering(commands, {{}, {{0, 0}, target.extent}, 1, 0, colour});
+}
+
 void ViewPasses::lay_over(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const Target& last,
     const std::function<void(std::size_t view, vk::Format target)>& draw) const
 {
     for (int canvas = 0; canvas < canvas_count(state_.layout.outputs[output].packing); ++canvas) {
         const Target target = views_.canvas_target(output, canvas, last);
-        vk::ImageMemoryBarrier2 after_warp(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
-            Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead,
-            vk::ImageLayout::eColorAttachmentOptimal, vk::ImageLayout::eColorAttachmentOptimal, VK_QUEUE_FAMILY_IGNORED,
-            VK_QUEUE_FAMILY_IGNORED, target.image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
-        commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, after_warp));
-        vk::RenderingAttachmentInfo colour(target.view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
-            vk::AttachmentLoadOp::eLoad, vk::AttachmentStoreOp::eStore);
-        device_.begin_rendering(commands, {{}, {{0, 0}, target.extent}, 1, 0, colour});
+        begin_over(commands, target);
         for (std::size_t i = 0; i < views_.all.size(); ++i)
             if (drawn_on(views_.all[i], output, layer, canvas))
                 draw(i, target.format);
@@ -226,6 +232,20 @@ void ViewPasses::finish_output(vk::CommandBuffer commands, std::size_t output, c
         return;
     const Label label(device_, commands, "finish");
     views_.outputs[output].finish->record(commands, target, plain_pattern());
+}
+
+void ViewPasses::fade_output(vk::CommandBuffer commands, const Target& target)
+{
+    if (state_.fade <= 0)
+        return;
+    const Label label(device_, commands, "fade");
+    begin_over(commands, target);
+    set_area(commands, {0, 0}, {int(target.extent.width), int(target.extent.height)});
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.fade(target.format));
+    commands.pushConstants<float>(
+        *pipelines_.layouts.picture_layout, vk::ShaderStageFlagBits::eFragment, 0, float(state_.fade));
+    commands.draw(3, 1, 0, 0);
+    device_.end_rendering(commands);
 }
 
 void ViewPasses::record_measured(

@@ -26,6 +26,8 @@ public:
     /// Adds a layer to the output's light where there are several.
     void end_layer(vk::CommandBuffer commands, std::size_t output, std::size_t layer);
     void finish_output(vk::CommandBuffer commands, std::size_t output, const Target& target);
+    /// Black over the whole target, by the state's part.
+    void fade_output(vk::CommandBuffer commands, const Target& target);
     /// The measured channels of one layer of an output's first canvas.
     void record_measured(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const MeasureTarget& target);
     /// The stars alone, the first part of warp_layer.
@@ -58,6 +60,7 @@ public:
 
 private:
     bool plain_pattern() const;
+    void begin_over(vk::CommandBuffer commands, const Target& target) const;
     void prepare_stars();
     void bloom_view(vk::CommandBuffer commands, const ViewState& view);
     void pattern_view(vk::CommandBuffer commands, const ViewState& view, vk::Format target);

@@ -1,0 +1,161 @@
+#include "obey.h"
+#include "config/json/error.h"
+#include "config/model/scene_file.h"
+#include "config/model/shipped.h"
+#include <algorithm>
+
+namespace starbow {
+namespace {
+
+/// The flight whose switches a docent may set: a tour shows its own effects until the visitor flies.
+Effects& effects_of(Session& session)
+{
+    if (!session.guide)
+        return session.flight.effects;
+    if (!session.guide->flies())
+        throw InputError("a tour shows its own effects; a tour's end, or a scene, is right");
+    return session.guide->effects();
+}
+
+void set_comparison(Session& session, const std::string& name)
+{
+    const auto at = std::ranges::find(comparison_names, name);
+    if (at == comparison_names.end())
+        throw InputError("the comparison " + name + " is not known; none, galilean or no-light-delay is right");
+    effects_of(session).comparison = Comparison(at - comparison_names.begin());
+}
+
+void set_pattern(Session& session, const std::string& name)
+{
+    const auto at = std::ranges::find(pattern_names, name);
+    if (at == pattern_names.end())
+        throw InputError("the pattern " + name + " is not known; none, grid, rings, names, wedges or overlap is right");
+    session.alignment.show(Pattern(at - pattern_names.begin()));
+}
+
+/// The same tour in other words keeps its step and its time.
+void set_words(Session& session, Words words)
+{
+    if (session.programme.tour)
+        *session.programme.tour = tour_in(session.programme.tour_name, words);
+    session.words = std::move(words);
+}
+
+void step_tour(Session& session, bool& control)
+{
+    if (!session.guide || session.guide->over())
+        throw InputError("no tour is shown that has steps; the command tour is right");
+    control = true;
+}
+
+void limit_speed(Session& session, double max_gamma)
+{
+    session.rules.max_gamma = max_gamma;
+    if (session.guide)
+        session.guide->limit(max_gamma);
+}
+
+} // namespace
+
+void obey(Session& session, const Command& command, Controls& controls)
+{
+    switch (command.kind) {
+    case CommandKind::fade:
+        session.directions.fades = command.on;
+        break;
+    case CommandKind::stop:
+        if (session.guide && !session.guide->flies())
+            session.guide->pause(true);
+        else
+            controls.stop = true;
+        break;
+    case CommandKind::next:
+        step_tour(session, controls.home);
+        break;
+    case CommandKind::back:
+        step_tour(session, controls.undo);
+        break;
+    case CommandKind::pause:
+        if (session.guide && !session.guide->flies())
+            session.guide->pause(command.on);
+        else
+            controls.freeze = session.flight.frozen != command.on;
+        break;
+    case CommandKind::speed_limit:
+        limit_speed(session, command.number);
+        break;
+    case CommandKind::aberration:
+        effects_of(session).aberration = command.on;
+        break;
+    case CommandKind::doppler:
+        effects_of(session).doppler = command.on;
+        break;
+    case CommandKind::headlight:
+        effects_of(session).headlight = command.on;
+        break;
+    case CommandKind::false_colours:
+        effects_of(session).false_colours = command.on;
+        break;
+    case CommandKind::comparison:
+        set_comparison(session, command.text);
+        break;
+    case CommandKind::language:
+        set_words(session, words_in(command.text));
+        break;
+    case CommandKind::caption:
+        session.directions.caption = command.text;
+        break;
+    case CommandKind::hold:
+        session.directions.holds = command.on;
+        break;
+    case CommandKind::pattern:
+        set_pattern(session, command.text);
+        break;
+    case CommandKind::restart:
+        session.directions.restarts = true;
+        break;
+    case CommandKind::reset:
+    case CommandKind::tour:
+    case CommandKind::scene:
+    case CommandKind::shot:
+    case CommandKind::layout:
+    case CommandKind::quality:
+        break; // the frame loop's
+    }
+}
+
+Programme programme_after(const Session& session, const Command& command)
+{
+    switch (command.kind) {
+    case CommandKind::scene:
+        return programme_of_scene(command.text);
+    case CommandKind::shot:
+        return programme_of_shot(command.text);
+    case CommandKind::tour:
+        return programme_of_tour(command.text, session.words);
+    default:
+        return session.options.programme;
+    }
+}
+
+void begin_visit(Session& session, Programme programme)
+{
+    session.guide.reset(); // it refers to the programme
+    session.programme = std::move(programme);
+    if (session.programme.tour)
+        session.guide.emplace(
+            *session.programme.tour, session.rules, load_scene_file(session.programme.scene).seconds_per_time_unit());
+    session.flight = flight_at(session.programme.start, session.rules);
+    session.history = {};
+    session.tutorial = tutorial_at(session.flight);
+    session.lab.forget();
+}
+
+void forget_directions(Session& session)
+{
+    session.directions = {};
+    session.words = session.options.words;
+    session.rules = session.options.rules;
+}
+
+} // namespace starbow

@@ -1,0 +1,29 @@
+#include "programme.h"
+#include "config/model/scene_file.h"
+#include "config/model/shipped.h"
+
+namespace starbow {
+
+Programme programme_of_scene(const std::string& scene)
+{
+    const std::filesystem::path file = shipped_file("scenes", scene);
+    return {.scene = file, .start = load_scene_file(file).start};
+}
+
+Programme programme_of_shot(const std::string& shot)
+{
+    const std::filesystem::path file = shipped_file("shots", shot);
+    Shot start = load_shot(file);
+    const std::filesystem::path scene = scene_of(start, file);
+    return {.scene = scene, .start = std::move(start), .shot = shot};
+}
+
+Programme programme_of_tour(const std::string& name, const Words& words)
+{
+    Tour tour = tour_in(name, words);
+    const std::filesystem::path scene = scene_of(tour);
+    const Shot start = std::get<Cut>(tour.steps[0].motion).shot;
+    return {.scene = scene, .start = start, .tour_name = name, .tour = std::move(tour)};
+}
+
+} // namespace starbow

@@ -1,0 +1,25 @@
+#pragma once
+#include "config/model/shot.h"
+#include "config/model/tour_file.h"
+#include "config/model/words.h"
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace starbow {
+
+/// The shown part of an exhibit: a scene, the start of the visit in it, and perhaps a tour through it.
+struct Programme {
+    std::filesystem::path scene;
+    Shot start; ///< a reset returns here
+    std::string shot{}; ///< name or path of the start's shot; empty: the scene's own start, or the tour's
+    std::string tour_name{}; ///< name or path; empty: no tour
+    std::optional<Tour> tour{};
+};
+
+/// Each reads and checks the files of a programme, by the name of a shipped one or a path. Throws InputError.
+Programme programme_of_scene(const std::string& scene);
+Programme programme_of_shot(const std::string& shot); ///< in the shot's own scene
+Programme programme_of_tour(const std::string& tour, const Words& words); ///< in the tour's own scene
+
+} // namespace starbow
