@@ -306,12 +306,13 @@ void FrameLoop::end_commands()
 
 void FrameLoop::apply_file_changes()
 {
-    if (!session_.watch.changed(Clock::now()))
+    const std::optional<Layout> next = std::exchange(next_layout_, {});
+    if (!next && !session_.watch.changed(Clock::now()))
         return;
     const LimitedWait loading("the changed layout", loading_limit_s);
     session_.service.loads("Loads the changed layout.", loading_limit_s);
     try {
-        show_layout(load_layout(session_.layout.file));
+        show_layout(next ? *next : load_layout(session_.layout.file));
     } catch (const InputError& error) {
         const std::string why = one_line(error.what());
         log_warning("layout", why + "; the exhibit stays as it was");
@@ -393,7 +394,7 @@ void FrameLoop::carry_out(const Command& command, Controls& controls)
             show_programme(programme_after(session_, command));
             break;
         case CommandKind::layout:
-            show_layout(load_layout(shipped_file("layouts", command.text)));
+            next_layout_ = load_layout(shipped_file("layouts", command.text)); // the windows of this frame are acquired
             break;
         case CommandKind::quality:
             show_quality(command.text);

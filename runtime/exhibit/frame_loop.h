@@ -64,6 +64,7 @@ private:
     std::optional<Clock::time_point> held_since_; ///< the window system has held all images since
     bool fresh_ = true; ///< no frame is shown yet
     bool cold_; ///< the warm-up is still to come
+    std::optional<Layout> next_layout_; ///< requested by a remote, for the next frame
     HudUpdater hud_;
     Pace pace_;
     vk::raii::Fence done_;
