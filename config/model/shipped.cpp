@@ -62,24 +62,37 @@ std::vector<Profile> known_profiles(const fs::path& exhibits)
     return all;
 }
 
+/// The folders of a kind's files, the first one first.
+static std::vector<fs::path> folders_of(const std::string& kind)
+{
+    std::vector<fs::path> folders{home() / "config" / kind};
+    if (const fs::path of_site = site(); !of_site.empty())
+        folders.insert(folders.begin(), of_site / kind);
+    return folders;
+}
+
+std::vector<std::string> shipped_names(const std::string& kind)
+{
+    std::error_code error;
+    std::set<std::string> names;
+    for (const fs::path& folder : folders_of(kind))
+        for (const auto& entry : fs::directory_iterator(folder, error))
+            if (entry.path().extension() == ".json")
+                names.insert(entry.path().stem());
+    return {names.begin(), names.end()};
+}
+
 fs::path shipped_file(const std::string& kind, const std::string& name)
 {
     std::error_code error;
     if (is_path(name))
         return name;
-    std::vector<fs::path> folders{home() / "config" / kind};
-    if (const fs::path of_site = site(); !of_site.empty())
-        folders.insert(folders.begin(), of_site / kind);
-    std::set<std::string> names;
-    for (const fs::path& folder : folders) {
+    const std::vector<fs::path> folders = folders_of(kind);
+    for (const fs::path& folder : folders)
         if (const fs::path file = folder / (name + ".json"); fs::is_regular_file(file, error))
             return file;
-        for (const auto& entry : fs::directory_iterator(folder, error))
-            if (entry.path().extension() == ".json")
-                names.insert(entry.path().stem());
-    }
     std::string list;
-    for (const std::string& known : names)
+    for (const std::string& known : shipped_names(kind))
         list += (list.empty() ? "" : ", ") + known;
     throw InputError("There is no " + name + ".json in config/" + kind
         + (folders.size() > 1 ? " or " + folders[0].string() : "") + "; there are: " + list

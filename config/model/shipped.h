@@ -29,6 +29,9 @@ std::vector<Profile> known_profiles(const std::filesystem::path& exhibits = {});
 /// Throws InputError that lists the shipped names.
 std::filesystem::path shipped_file(const std::string& kind, const std::string& name);
 
+/// The names of the site's and the shipped files of a kind, sorted: those by which shipped_file finds them.
+std::vector<std::string> shipped_names(const std::string& kind);
+
 /// The words of a language, by the name of a shipped one or a path. Throws InputError.
 Words words_in(const std::string& language);
 

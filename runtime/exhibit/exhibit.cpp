@@ -31,6 +31,13 @@ void print_summary(const Session& session, const SceneFile& scene)
         std::printf("%s\n", describe(session.skew).c_str());
 }
 
+Device::Options device_of(const ExhibitOptions& options)
+{
+    Device::Options device = device_options(true);
+    device.counted = options.counts_driver_memory;
+    return device;
+}
+
 /// True if the error is a lack of memory and the governor has a level for which there may be room.
 bool leaves_level(Session& session, const std::exception& error)
 {
@@ -55,7 +62,7 @@ int fly_exhibit(const ExhibitOptions& options)
         session.service.loads("Loads the world " + session.programme.scene.filename().string() + ".", loading_limit_s);
         try {
             context
-                = std::make_unique<RenderContext>(session.programme.scene, device_options(true), spectral_level_of(session));
+                = std::make_unique<RenderContext>(session.programme.scene, device_of(options), spectral_level_of(session));
             if (losses == 0)
                 log_world(*context);
             {

@@ -5,6 +5,7 @@
 #include "config/model/profile.h"
 #include "config/model/words.h"
 #include "programme.h"
+#include "runtime/flight/record.h"
 #include "runtime/operation/latency.h"
 #include "runtime/render/frame_renderer.h"
 #include <filesystem>
@@ -37,6 +38,11 @@ struct ExhibitOptions {
     std::filesystem::path replay{}; ///< a record that is flown instead of the visitor's flight; empty: none
     Trace* trace = nullptr; ///< receives the spans of each frame; null: none. It must outlive the flight
     std::function<void(const FrameTimes&)> timed{}; ///< is called for each frame
+    bool paced = true; ///< frames keep the screen's rate
+    bool counts_driver_memory = false; ///< for driver_memory()
+    /// Takes the visitor's place: receives each frame's entry, its devices already read, and writes its own controls and
+    /// time.
+    std::function<void(RecordEntry&)> visitor{};
     std::function<bool()> over{}; ///< is called before each frame; true ends the flight
 };
 

@@ -174,7 +174,8 @@ void FrameLoop::stand_by()
 std::optional<double> FrameLoop::await_device()
 {
     const Trace::Span span(device_.trace, "wait");
-    pace_.wait(screens_.refresh_hz());
+    if (session_.options.paced)
+        pace_.wait(screens_.refresh_hz());
     device_.await(*done_, "the end of the frame's drawing (fence)");
     // While all windows are minimised nothing is submitted, and the last frame's times are old.
     if (!std::exchange(submitted_, false))
@@ -386,7 +387,10 @@ void FrameLoop::carry_out(const Command& command, Controls& controls)
         switch (command.kind) {
         case CommandKind::reset:
             forget_directions(session_);
+            frame_->adopt(quality_of(session_, device_));
             show_programme(session_.options.programme);
+            session_.lab.reset();
+            controls.reset = true; // the switches' own states, too
             break;
         case CommandKind::scene:
         case CommandKind::shot:

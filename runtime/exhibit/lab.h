@@ -28,6 +28,8 @@ public:
 
     /// Another world: its marks and readings are gone.
     void forget() { marks_ = {}, measured_.reset(), marks_due_ = lines_due_ = 0; }
+    /// Another visitor: the instruments are off, as at the start.
+    void reset() { forget(), overlay_ = Overlay::off, why_ = Why::none; }
 
 private:
     bool on() const { return overlay_ != Overlay::off || why_ != Why::none; }

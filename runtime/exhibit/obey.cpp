@@ -156,6 +156,10 @@ void forget_directions(Session& session)
     session.directions = {};
     session.words = session.options.words;
     session.rules = session.options.rules;
+    session.quality = session.options.quality;
+    if (!session.governor)
+        session.governor = governor_of(session.options);
+    session.exposure.locked = false;
 }
 
 } // namespace starbow

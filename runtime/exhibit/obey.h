@@ -15,7 +15,7 @@ Programme programme_after(const Session& session, const Command& command);
 /// Begins a visit of a programme, at its start.
 void begin_visit(Session& session, Programme programme);
 
-/// Everything as the exhibit's file says, but for the programme, layout and quality.
+/// Everything as the exhibit's file says, but for the programme and the layout.
 void forget_directions(Session& session);
 
 } // namespace starbow

@@ -22,13 +22,6 @@ RecordReplay record_replay_of(const ExhibitOptions& options)
     return {std::move(recorder), options.replay.empty() ? nullptr : std::make_unique<Replay>(options.replay)};
 }
 
-std::optional<Governor> governor_of(const ExhibitOptions& options)
-{
-    if (options.frame_budget_ms <= 0)
-        return {};
-    return Governor(options.ladder, options.frame_budget_ms);
-}
-
 std::optional<Guide> guide_of(const Programme& programme, const Flying& rules)
 {
     if (!programme.tour)
@@ -68,6 +61,13 @@ Session::Session(const ExhibitOptions& given)
     , lab(given.log, given.log_every_s, words)
     , governor(governor_of(given))
 {
+}
+
+std::optional<Governor> governor_of(const ExhibitOptions& options)
+{
+    if (options.frame_budget_ms <= 0)
+        return {};
+    return Governor(options.ladder, options.frame_budget_ms);
 }
 
 std::unique_ptr<HeadTracker> tracker_of(const Layout& layout)
@@ -171,6 +171,8 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
     if (session.directions.holds)
         hold(controls);
     session.last = now;
+    if (session.options.visitor)
+        session.options.visitor(entry);
     return !controls.quit;
 }
 

@@ -78,6 +78,8 @@ inline double seconds(std::chrono::steady_clock::duration d) { return std::chron
 
 /// The head tracker of a layout; null where it has none.
 std::unique_ptr<HeadTracker> tracker_of(const Layout& layout);
+/// The governor of an exhibit's frame time; none where its quality is fixed.
+std::optional<Governor> governor_of(const ExhibitOptions& options);
 /// The spectral level that the qualities request; none: the world's own need.
 std::optional<SpectralLevel> spectral_level_of(const Session& session);
 /// Logs the remarks on a newly loaded world and its spectral level.

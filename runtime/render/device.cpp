@@ -3,6 +3,7 @@
 #include "config/json/whole_file.h"
 #include "debug.h"
 #include "displays/compile/compiled_view.h"
+#include "driver_memory.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/waits.h"
 #include "shaders/shared_structs.h"
@@ -21,6 +22,13 @@ VKAPI_ATTR VkBool32 VKAPI_CALL complain(VkDebugUtilsMessageSeverityFlagBitsEXT, 
     static_cast<std::vector<std::string>*>(complaints)->push_back(data->pMessage);
     std::fprintf(stderr, "validation: %s\n", data->pMessage);
     return VK_FALSE;
+}
+
+vk::Optional<const vk::AllocationCallbacks> allocator_of(const Device::Options& options)
+{
+    if (options.counted)
+        return counting_callbacks();
+    return nullptr;
 }
 
 vk::raii::Instance make_instance(Device& device, const Device::Options& options)
@@ -56,7 +64,7 @@ vk::raii::Instance make_instance(Device& device, const Device::Options& options)
     if (options.validation)
         info.pNext = &features;
     try {
-        vk::raii::Instance instance(device.context, info);
+        vk::raii::Instance instance(device.context, info, allocator_of(options));
         if (options.validation)
             device.messenger = instance.createDebugUtilsMessengerEXT(messenger);
         return instance;
@@ -273,7 +281,7 @@ Device::Device(const Options& options)
         extensions.push_back(VK_KHR_PRESENT_WAIT_EXTENSION_NAME);
         features13.pNext = &present_wait;
     }
-    device = physical.createDevice({{}, queue_info, {}, extensions, &features, &features13});
+    device = physical.createDevice({{}, queue_info, {}, extensions, &features, &features13}, allocator_of(options));
     queue = device.getQueue(family, 0);
     pool = device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family});
     std::vector<char> kept = read_file(pipeline_file(properties));

@@ -17,6 +17,7 @@ public:
     struct Options {
         bool windows = false; ///< for windows: enables swapchains and the instance extensions that GLFW names
         bool validation = false; ///< the validation layers, synchronization included; see complaints()
+        bool counted = false; ///< driver_memory() counts the host memory of all objects
         std::string name; ///< part of a GPU's name; empty: the GPU of the fastest kind
     };
 

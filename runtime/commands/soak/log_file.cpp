@@ -1,0 +1,163 @@
+#include "log_file.h"
+#include "config/json/error.h"
+#include "config/json/whole_file.h"
+#include "runtime/commands/median.h"
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+namespace starbow {
+namespace {
+
+constexpr const char* columns
+    = "visit,frames,seconds,resident_bytes,heap_bytes,files,threads,driver_pieces,driver_bytes,temporary_files";
+
+std::string head_of(long seed) { return "# starbow soak, seed " + std::to_string(seed); }
+
+struct Quantity {
+    const char* name;
+    std::size_t SoakSample::*value;
+    double unit; ///< of the table
+    double most; ///< greatest part by which it may have grown or shrunk
+};
+
+/// A driver frees pipelines by their age, so the number of its pieces, too, is compared as memory is.
+constexpr Quantity quantities[] = {{"memory in the machine, MB", &SoakSample::resident_bytes, 1e6, 0.01},
+    {"memory in use, MB", &SoakSample::heap_bytes, 1e6, 0.01}, {"open files", &SoakSample::files, 1, 0},
+    {"threads", &SoakSample::threads, 1, 0}, {"pieces of Vulkan objects", &SoakSample::driver_pieces, 1, 0.01},
+    {"their memory, MB", &SoakSample::driver_bytes, 1e6, 0.01}, {"temporary files", &SoakSample::temporary_files, 1, 0}};
+
+double median_of(std::span<const SoakSample> samples, std::size_t SoakSample::*value)
+{
+    std::vector<double> values;
+    for (const SoakSample& sample : samples)
+        values.push_back(double(sample.*value));
+    return median(std::move(values));
+}
+
+} // namespace
+
+SoakLog::SoakLog(const std::filesystem::path& file, long seed)
+    : file_(file)
+{
+    std::ifstream stream(file);
+    std::string line;
+    if (!stream || !std::getline(stream, line)) {
+        std::error_code ignored;
+        if (file.has_parent_path())
+            std::filesystem::create_directories(file.parent_path(), ignored);
+        write_whole(file, head_of(seed) + "\n" + columns + "\n");
+        return;
+    }
+    if (line != head_of(seed))
+        throw InputError(file.string() + ":1", "",
+            line.substr(0, 60) + " is not how this soak begins; '" + head_of(seed) + "', or a new file, is right");
+    for (int number = 2; std::getline(stream, line); ++number) {
+        if (line == columns)
+            continue;
+        SoakSample s;
+        if (std::sscanf(line.c_str(), "%ld,%ld,%lf,%zu,%zu,%zu,%zu,%zu,%zu,%zu", &s.visit, &s.frames, &s.seconds,
+                &s.resident_bytes, &s.heap_bytes, &s.files, &s.threads, &s.driver_pieces, &s.driver_bytes,
+                &s.temporary_files)
+            != 10)
+            throw InputError(file.string() + ":" + std::to_string(number), "",
+                line.substr(0, 60) + " is no sample; ten numbers with commas are right");
+        before_.push_back(s);
+    }
+}
+
+long SoakLog::next_visit() const
+{
+    const std::vector<SoakSample>& all = samples_.empty() ? before_ : samples_;
+    return all.empty() ? 0 : all.back().visit + 1;
+}
+
+void SoakLog::add(const SoakSample& s)
+{
+    samples_.push_back(s);
+    std::ofstream stream(file_, std::ios::app);
+    stream << s.visit << ',' << s.frames << ',' << s.seconds << ',' << s.resident_bytes << ',' << s.heap_bytes << ','
+           << s.files << ',' << s.threads << ',' << s.driver_pieces << ',' << s.driver_bytes << ',' << s.temporary_files
+           << std::endl;
+    if (!stream)
+        refuse_writing(file_, errno);
+}
+
+SoakResult SoakLog::result(long settled) const
+{
+    const std::vector<SoakSample>& all = samples_.empty() ? before_ : samples_;
+    if (all.empty())
+        return {"no visit was sampled\n"};
+    const long first = all.front().visit, visits = all.back().visit - first;
+    const long from = first + std::min(settled, visits / 3);
+    const auto begin = std::ranges::lower_bound(all, from, {}, &SoakSample::visit);
+    const std::size_t of = std::clamp<std::size_t>(std::size_t(all.end() - begin) / 3, 1, 20);
+    const std::span<const SoakSample> early(&*begin, of), late(&all.back() - (of - 1), of);
+    SoakResult result;
+    std::array<char, 160> line;
+    std::snprintf(line.data(), line.size(), "%-28s %12s %12s  %s\n",
+        (std::to_string(all.back().frames) + " frames in " + std::to_string(std::lround(all.back().seconds)) + " s").c_str(),
+        ("visit " + std::to_string(early.front().visit)).c_str(), ("visit " + std::to_string(late.back().visit)).c_str(),
+        "growth");
+    result.text = line.data();
+    for (const Quantity& quantity : quantities) {
+        const double before = median_of(early, quantity.value), after = median_of(late, quantity.value);
+        const double growth = before > 0 ? after / before - 1 : after > 0 ? 1 : 0;
+        // A process that shrinks has lost nothing.
+        const bool steady = growth <= quantity.most;
+        result.steady = result.steady && steady;
+        std::snprintf(line.data(), line.size(), "%-28s %12.*f %12.*f  %+.2f %%%s\n", quantity.name,
+            quantity.unit > 1 ? 2 : 0, before / quantity.unit, quantity.unit > 1 ? 2 : 0, after / quantity.unit,
+            100 * growth, steady ? "" : "  has grown");
+        result.text += line.data();
+    }
+    return result;
+}
+
+void SoakLog::draw() const
+{
+    std::vector<SoakSample> all = before_;
+    all.insert(all.end(), samples_.begin(), samples_.end());
+    if (all.size() < 2)
+        return;
+    constexpr double width = 800, height = 320, left = 70, foot = 40;
+    double most = 0;
+    for (const SoakSample& sample : all)
+        most = std::max(most, double(sample.resident_bytes));
+    most = std::ceil(most / 1e8) * 1e8;
+    const double visits = std::max(1.0, double(all.back().visit));
+    const auto curve = [&](std::size_t SoakSample::*value, const char* colour) {
+        std::ostringstream points;
+        points << "<polyline fill=\"none\" stroke=\"" << colour << "\" stroke-width=\"1.5\" points=\"";
+        for (const SoakSample& sample : all)
+            points << left + (width - left - 20) * double(sample.visit) / visits << ','
+                   << height - foot - (height - foot - 30) * double(sample.*value) / most << ' ';
+        return points.str() + "\"/>\n";
+    };
+    const auto label = [](double x, double y, const std::string& text, const char* colour, const char* anchor) {
+        std::ostringstream out;
+        out << "<text x=\"" << x << "\" y=\"" << y << "\" fill=\"" << colour << "\" text-anchor=\"" << anchor << "\">"
+            << text << "</text>\n";
+        return out.str();
+    };
+    std::ostringstream out;
+    out << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << width << ' ' << height
+        << "\" font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
+    for (int i = 0; i <= 4; ++i) {
+        const double y = height - foot - (height - foot - 30) * i / 4;
+        out << "<line x1=\"" << left << "\" x2=\"" << width - 20 << "\" y1=\"" << y << "\" y2=\"" << y
+            << "\" stroke=\"#dddddd\"/>\n"
+            << label(left - 8, y + 4, std::to_string(std::lround(most / 1e6 * i / 4)) + " MB", "#333333", "end");
+    }
+    out << curve(&SoakSample::resident_bytes, "#0b5fa5") << curve(&SoakSample::heap_bytes, "#c2410c")
+        << curve(&SoakSample::driver_bytes, "#15803d") << label(left, 18, "memory in the machine", "#0b5fa5", "start")
+        << label(left + 190, 18, "in use", "#c2410c", "start") << label(left + 260, 18, "Vulkan objects", "#15803d", "start")
+        << label(width - 20, height - 12, std::to_string(all.back().visit) + " visits", "#333333", "end") << "</svg>\n";
+    std::filesystem::path picture = file_;
+    write_whole(picture.replace_extension(".svg"), out.str());
+}
+
+} // namespace starbow

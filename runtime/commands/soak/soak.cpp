@@ -1,0 +1,218 @@
+#include "config/json/error.h"
+#include "config/json/whole_file.h"
+#include "config/model/layout.h"
+#include "config/model/shipped.h"
+#include "displays/compile/compiled_view.h"
+#include "log_file.h"
+#include "runtime/commands/commands.h"
+#include "runtime/commands/interrupt.h"
+#include "runtime/commands/options/number.h"
+#include "runtime/exhibit/exhibit.h"
+#include "runtime/exhibit/outputs.h"
+#include "runtime/operation/progress.h"
+#include "runtime/operation/state_folder.h"
+#include "runtime/operation/vitals.h"
+#include "runtime/render/driver_memory.h"
+#include "visitor.h"
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct SoakOptions {
+    long visits = 300, seed = 1, settled = 1000;
+    std::string log = "out/soak.csv", exhibit = "desk";
+};
+
+constexpr double frame_s = 0.08; ///< the visitor's time of a frame: "some seconds" are some dozens of frames
+constexpr int resting_frames = 3; ///< after a reset, before a sample is taken
+constexpr long sample_every = 10, layout_every = 25; ///< visits
+
+/// A folder for the layout that the soak saves again and again.
+class SoakFolder {
+public:
+    SoakFolder()
+        : folder_(std::filesystem::temp_directory_path() / ("starbow-soak-" + std::to_string(getpid())))
+    {
+        std::filesystem::create_directory(folder_);
+        for (const std::string& name : shipped_names("layouts"))
+            if (const std::string text = small_layout(name); !text.empty())
+                layouts_.push_back(text);
+        save(0);
+    }
+    ~SoakFolder()
+    {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+    }
+    SoakFolder(const SoakFolder&) = delete;
+
+    std::filesystem::path layout() const { return folder_ / "layout.json"; }
+    void save(long visit) const { write_whole(layout(), layouts_[std::size_t(visit / layout_every) % layouts_.size()]); }
+
+    /// Files in this folder, in the cache and in the state folder.
+    std::size_t files() const
+    {
+        std::size_t count = 0;
+        std::error_code error;
+        for (const std::filesystem::path& folder : {folder_, map_cache_folder(), state_folder()})
+            if (!folder.empty())
+                for (std::filesystem::recursive_directory_iterator at(folder, error), end; !error && at != end;
+                     at.increment(error))
+                    ++count;
+        return count;
+    }
+
+private:
+    /// A shipped layout with outputs of 64 x 48 pixels; empty for one that names other files or monitors.
+    static std::string small_layout(const std::string& name)
+    {
+        std::ifstream stream(shipped_file("layouts", name));
+        nlohmann::json layout = nlohmann::json::parse(stream, nullptr, true, true);
+        layout.erase("$schema");
+        for (nlohmann::json& output : layout["outputs"]) {
+            if (output.contains("monitor") || output.dump().find("\"file\"") != std::string::npos)
+                return "";
+            output["size"] = {64, 48};
+        }
+        return layout.dump(1);
+    }
+
+    std::filesystem::path folder_;
+    std::vector<std::string> layouts_;
+};
+
+/// Plays the visitors, one after the other, and samples the process after each tenth.
+class Visitors {
+public:
+    Visitors(const SoakOptions& options, SoakLog& log, const SoakFolder& folder)
+        : options_(options)
+        , log_(log)
+        , folder_(folder)
+        , choices_{shipped_names("scenes"), shipped_names("shots"), shipped_names("tours"), shipped_names("words"),
+              shipped_names("qualities")}
+        , visit_(log.next_visit())
+    {
+        begin();
+    }
+
+    bool over() const { return visit_ >= options_.visits || interrupted(); }
+
+    void act(RecordEntry& entry)
+    {
+        ++frames_;
+        entry.dt_ns = std::int64_t(1e9 * frame_s), entry.skipped_ns = 0;
+        const Head head = entry.controls.head;
+        entry.controls = {};
+        entry.controls.head = head;
+        if (left_-- > 0)
+            return visitor_->act(entry.controls, frame_s);
+        if (left_ == -1)
+            entry.controls.commands.push_back({.kind = CommandKind::reset});
+        else if (left_ <= -1 - resting_frames)
+            end();
+    }
+
+private:
+    void begin()
+    {
+        visitor_ = std::make_unique<SeededVisitor>(std::uint64_t(options_.seed), visit_, choices_);
+        left_ = visitor_->frames();
+        if (visit_ % layout_every == 0)
+            folder_.save(visit_);
+    }
+
+    void end()
+    {
+        if (visit_ % sample_every == 0) {
+            const Vitals now = vitals();
+            const DriverMemory driver = driver_memory();
+            log_.add({visit_, frames_, std::chrono::duration<double>(Clock::now() - began_).count(), now.resident_bytes,
+                now.heap_bytes, now.files, now.threads, driver.pieces, driver.bytes, folder_.files()});
+        }
+        ++visit_;
+        progress_.show("visit " + std::to_string(visit_) + " of " + std::to_string(options_.visits),
+            double(visit_) / double(options_.visits));
+        begin();
+    }
+
+    const SoakOptions& options_;
+    SoakLog& log_;
+    const SoakFolder& folder_;
+    Choices choices_;
+    long visit_, frames_ = 0;
+    int left_ = 0;
+    std::unique_ptr<SeededVisitor> visitor_;
+    Progress progress_;
+    Clock::time_point began_ = Clock::now();
+};
+
+int soak(const SoakOptions& options)
+{
+    if (!has_display())
+        throw InputError("There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere); for a soak Xvfb will "
+                         "do: xvfb-run starbow soak");
+    SoakLog log(options.log, options.seed);
+    if (log.next_visit() >= options.visits)
+        std::printf("All %ld visits of %s are over\n", options.visits, options.log.c_str());
+    catch_interrupts();
+    int status = 0;
+    if (log.next_visit() < options.visits) {
+        const SoakFolder folder;
+        Visitors visitors(options, log, folder);
+        ExhibitOptions exhibit{.programme = programme_of_scene("avenue"),
+            .layout = load_layout(folder.layout()),
+            .words = words_in("en"),
+            .profiles = known_profiles()};
+        exhibit.quality = load_quality(shipped_file("qualities", "draft"));
+        exhibit.warms_up = false;
+        exhibit.paced = false;
+        exhibit.counts_driver_memory = true;
+        exhibit.visitor = [&](RecordEntry& entry) { visitors.act(entry); };
+        exhibit.over = [&] { return visitors.over(); };
+        WindowSystem window_system;
+        status = fly_exhibit(exhibit);
+    }
+    const SoakResult result = log.result(options.settled);
+    std::printf("%s", result.text.c_str());
+    log.draw();
+    return status != 0 ? status : result.steady ? 0 : 1;
+}
+
+} // namespace
+
+void add_soak(CLI::App& app, std::function<int()>& chosen)
+{
+    auto options = std::make_shared<SoakOptions>();
+    CLI::App* command = app.add_subcommand("soak",
+        "Show the exhibit to many visitors made of random numbers, as fast as it goes, and compare the process's memory, "
+        "files, threads and Vulkan objects at the end with those near the start. It ends with 1 where they have grown.");
+    command->add_option("--visits", options->visits, "Number of visits")
+        ->check(whole_number(1, 100000000))
+        ->capture_default_str();
+    command->add_option("--seed", options->seed, "Another seed makes other visitors")
+        ->check(whole_number(0, 1000000000))
+        ->capture_default_str();
+    command
+        ->add_option("--settled", options->settled,
+            "The first visit of the comparison; with fewer than three times as many visits, a third of them")
+        ->check(whole_number(1, 100000000))
+        ->capture_default_str();
+    command
+        ->add_option("--log", options->log,
+            "This CSV file receives a line each ten visits, and a picture beside it; a soak that was interrupted goes on "
+            "where "
+            "the file ends")
+        ->capture_default_str();
+    command->footer("Examples:\n  xvfb-run starbow soak\n  starbow soak --visits 30000 --log out/soak.csv");
+    command->callback([options, &chosen] { chosen = [options] { return soak(*options); }; });
+}
+
+} // namespace starbow

@@ -1,0 +1,124 @@
+#include "visitor.h"
+#include "config/model/shot.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+/// The switches that a visitor can press. Not among them: the end of the exhibit, the full screen, which a window of a test
+/// has no use for, and the keys that write into files.
+using Switch = bool Controls::*;
+constexpr Switch pressed[]{&Controls::stop, &Controls::home, &Controls::undo, &Controls::reset, &Controls::next_mode,
+    &Controls::freeze, &Controls::look_ahead, &Controls::lock_exposure, &Controls::aberration, &Controls::doppler,
+    &Controls::headlight, &Controls::false_colours, &Controls::comparison, &Controls::overlay, &Controls::mark,
+    &Controls::log, &Controls::why, &Controls::hud, &Controls::pattern};
+
+constexpr double key_every_s = 0.5, direction_every_s = 0.6; // on average
+
+} // namespace
+
+SeededVisitor::SeededVisitor(std::uint64_t seed, long visit, const Choices& choices)
+    : random_(seed * 0x9e3779b97f4a7c15u + std::uint64_t(visit))
+    , choices_(choices)
+    , kind_(Kind(std::discrete_distribution<int>({4, 4, 1, 3})(random_)))
+    , frames_(std::uniform_int_distribution<int>(8, 42)(random_))
+    , lever_(uniform(0, 1))
+{
+}
+
+void SeededVisitor::act(Controls& controls, double dt_s)
+{
+    switch (kind_) {
+    case Kind::keys:
+        return press_keys(controls, dt_s);
+    case Kind::stick:
+        return move_stick(controls, dt_s);
+    case Kind::watcher:
+        return;
+    case Kind::docent:
+        move_stick(controls, dt_s);
+        if (chance(dt_s / direction_every_s))
+            controls.commands.push_back(direction());
+    }
+}
+
+void SeededVisitor::press_keys(Controls& controls, double dt_s)
+{
+    for (const auto key : pressed)
+        if (chance(dt_s / key_every_s / double(std::size(pressed)) * 4))
+            controls.*key = true;
+    // Held keys: full rates, or none.
+    const auto held = [&](double now) {
+        return chance(dt_s / key_every_s) ? double(std::uniform_int_distribution<int>(-1, 1)(random_)) : now;
+    };
+    for (int axis = 0; axis < 3; ++axis)
+        turn_[axis] = held(turn_[axis]), push_[axis] = held(push_[axis]);
+    lever_ = held(lever_);
+    controls.turn = turn_, controls.push = push_;
+    controls.throttle_rate = std::clamp(lever_, -1.0, 1.0);
+    controls.look_rad = glm::dvec2(uniform(-0.05, 0.05), uniform(-0.05, 0.05));
+    controls.exposure = chance(0.1) ? uniform(-1, 1) : 0;
+}
+
+void SeededVisitor::move_stick(Controls& controls, double dt_s)
+{
+    for (int axis = 0; axis < 3; ++axis)
+        turn_[axis] = std::clamp(turn_[axis] + uniform(-4, 4) * dt_s, -1.0, 1.0);
+    lever_ = std::clamp(lever_ + uniform(-1.5, 1.5) * dt_s, 0.0, 1.0);
+    controls.turn = turn_, controls.lever = lever_;
+    for (const auto button : std::initializer_list<Switch>{
+             &Controls::stop, &Controls::home, &Controls::next_mode, &Controls::overlay, &Controls::comparison})
+        if (chance(dt_s / key_every_s / 10))
+            controls.*button = true;
+}
+
+Command SeededVisitor::direction()
+{
+    if (chance(0.3)) { // a world takes the longest
+        switch (std::uniform_int_distribution<int>(0, 2)(random_)) {
+        case 0:
+            return {.kind = CommandKind::scene, .text = any(choices_.scenes)};
+        case 1:
+            return {.kind = CommandKind::shot, .text = any(choices_.shots)};
+        default:
+            return {.kind = CommandKind::tour, .text = any(choices_.tours)};
+        }
+    }
+    const std::span<const CommandRule> rules = command_rules();
+    for (;;) {
+        Command command{.kind = rules[std::uniform_int_distribution<std::size_t>(0, rules.size() - 1)(random_)].kind};
+        command.on = chance(0.5);
+        switch (command.kind) {
+        case CommandKind::scene:
+        case CommandKind::shot:
+        case CommandKind::tour:
+        case CommandKind::layout: // the soak saves layouts in its own file
+        case CommandKind::restart:
+            continue;
+        case CommandKind::speed_limit:
+            command.number = std::exp2(uniform(0.1, 20));
+            break;
+        case CommandKind::comparison:
+            command.text = comparison_names[std::uniform_int_distribution<std::size_t>(0, 2)(random_)];
+            break;
+        case CommandKind::language:
+            command.text = any(choices_.languages);
+            break;
+        case CommandKind::caption:
+            command.text = "Nothing is faster than light: " + std::to_string(std::uniform_int_distribution<int>()(random_));
+            break;
+        case CommandKind::pattern:
+            command.text = chance(0.5) ? "none" : "grid";
+            break;
+        case CommandKind::quality:
+            command.text = any(choices_.qualities);
+            break;
+        default:
+            break;
+        }
+        return command;
+    }
+}
+
+} // namespace starbow

@@ -1,0 +1,45 @@
+#pragma once
+#include "input/controls.h"
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace starbow {
+
+/// Names of everything that a visitor or a docent may choose.
+struct Choices {
+    std::vector<std::string> scenes, shots, tours, languages, qualities;
+};
+
+/// A visitor made of random numbers: the same seed and number give the same visit on every machine. Some use keys, some a
+/// stick, some watch, and some visit with a docent at the remote.
+class SeededVisitor {
+public:
+    SeededVisitor(std::uint64_t seed, long visit, const Choices& choices);
+
+    int frames() const { return frames_; } ///< of the whole visit
+    /// The controls of the next frame, of dt_s seconds.
+    void act(Controls& controls, double dt_s);
+
+private:
+    enum class Kind { keys, stick, watcher, docent };
+    bool chance(double part) { return std::uniform_real_distribution<double>()(random_) < part; }
+    double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+    const std::string& any(const std::vector<std::string>& names)
+    {
+        return names[std::uniform_int_distribution<std::size_t>(0, names.size() - 1)(random_)];
+    }
+    void press_keys(Controls& controls, double dt_s);
+    void move_stick(Controls& controls, double dt_s);
+    Command direction();
+
+    std::mt19937_64 random_;
+    const Choices& choices_;
+    Kind kind_;
+    int frames_;
+    glm::dvec3 turn_{0}, push_{0};
+    double lever_ = 0;
+};
+
+} // namespace starbow

@@ -1,0 +1,33 @@
+#include "vitals.h"
+#include <filesystem>
+#include <fstream>
+#include <malloc.h>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+std::size_t entries_of(const char* folder)
+{
+    std::error_code error;
+    std::size_t entries = 0;
+    for (std::filesystem::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+        ++entries;
+    return entries;
+}
+
+} // namespace
+
+Vitals vitals()
+{
+    std::size_t all_pages = 0, resident_pages = 0;
+    std::ifstream("/proc/self/statm") >> all_pages >> resident_pages;
+    const struct mallinfo2 heap = mallinfo2();
+    const std::size_t files = entries_of("/proc/self/fd");
+    return {.resident_bytes = resident_pages * std::size_t(sysconf(_SC_PAGESIZE)),
+        .heap_bytes = heap.uordblks + heap.hblkhd,
+        .files = files > 0 ? files - 1 : 0, // the folder itself was open
+        .threads = entries_of("/proc/self/task")};
+}
+
+} // namespace starbow

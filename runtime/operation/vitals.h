@@ -1,0 +1,17 @@
+#pragma once
+#include <cstddef>
+
+namespace starbow {
+
+/// The size of this process, as the kernel and the C library report it.
+struct Vitals {
+    std::size_t resident_bytes = 0; ///< memory in the machine
+    std::size_t heap_bytes = 0; ///< in use of malloc's memory
+    std::size_t files = 0; ///< open file descriptors
+    std::size_t threads = 0;
+};
+
+/// A value that can't be read is 0.
+Vitals vitals();
+
+} // namespace starbow
