@@ -45,7 +45,7 @@ std::string form_of(const CommandRule& rule)
     case Value::on:
         return name + " on or " + name + " off";
     case Value::number:
-        return name + " and a number from 1 to 1e9";
+        return name + " and a number above 1 up to 1e6";
     case Value::name:
         return name + " and a name";
     case Value::text:
@@ -98,7 +98,7 @@ Command command_of(std::span<const std::string> words)
         break;
     case Value::number: {
         const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), command.number);
-        if (error != std::errc() || end != value.data() + value.size() || !(command.number > 1 && command.number <= 1e9))
+        if (error != std::errc() || end != value.data() + value.size() || !(command.number > 1 && command.number <= 1e6))
             refuse(*rule, "has the value " + one_line(value, 40));
         break;
     }

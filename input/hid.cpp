@@ -68,6 +68,7 @@ struct Hid::Shared {
     std::vector<Profile> profiles;
     std::function<void(const std::string&)> say;
     std::atomic<bool> stop = false;
+    std::atomic<std::size_t> unplugged = 0; ///< since the start
     mutable std::mutex mutex;
     std::vector<std::shared_ptr<Device>> devices;
     std::vector<DeviceInfo> missing;
@@ -100,6 +101,7 @@ void Hid::Shared::read(const std::shared_ptr<Device>& device, hid_device* handle
     if (stop)
         return;
     device->gone = true;
+    ++unplugged;
     say(describe(device->info) + " is unplugged");
     const std::lock_guard lock(mutex);
     missing.push_back(device->info);
@@ -322,6 +324,8 @@ void Hid::report_troubles(std::vector<std::string> troubles)
             shared_->say("no longer: " + trouble);
     troubles_ = std::move(troubles);
 }
+
+std::size_t Hid::unplugged() const { return shared_->unplugged; }
 
 std::string Hid::trouble() const
 {

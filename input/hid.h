@@ -45,6 +45,8 @@ public:
     /// A line for the visitors' display while a device is missing, or while a stuck or noisy axis is ignored; otherwise
     /// empty.
     std::string trouble() const;
+    std::size_t unplugged() const; ///< number of devices that have gone since the start
+    std::size_t ignored_axes() const { return troubles_.size(); } ///< stuck or noisy ones, as of the last add()
     /// The kinds of all devices that are read.
     std::vector<UsbId> kinds() const;
     /// The kinds of control of all devices together, as of the last add().

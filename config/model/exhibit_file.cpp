@@ -55,7 +55,7 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
     reject_unknown_members(top,
         {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "quality", "frame_budget_ms",
-            "ladder", "flying", "exposure"});
+            "ladder", "flying", "exposure", "textfile"});
     Exhibit exhibit;
     for (const auto& [name, value] :
         {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene}, {"shot", &exhibit.shot}, {"tour", &exhibit.tour},
@@ -67,6 +67,8 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     for (const char* other : {"scene", "shot"})
         if (auto place = find_member(top, other); place && !exhibit.tour.empty())
             complain(*place, "is one too many beside a tour, which has a scene of its own; one of them is right");
+    if (auto p = find_member(top, "textfile"))
+        exhibit.textfile = (folder / text(*p)).lexically_normal();
     if (auto p = find_member(top, "profiles"))
         exhibit.profiles = folder / text(*p);
     take(top, "tutorial", exhibit.tutorial);

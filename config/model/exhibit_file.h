@@ -18,6 +18,7 @@ struct Exhibit {
     std::string quality; ///< a path, or the name of a shipped one; empty: the device's default
     double frame_budget_ms = 0; ///< time of a whole frame, held by the ladder; 0: the quality stays
     std::string ladder = "ladder"; ///< a path, or the name of a shipped one
+    std::filesystem::path textfile; ///< receives the counts for node_exporter; empty: none
     Flying flying;
     Exposing exposure;
 };

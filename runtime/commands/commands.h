@@ -16,6 +16,7 @@ void add_calibrate(CLI::App& app, std::function<int()>& chosen);
 void add_doctor(CLI::App& app, std::function<int()>& chosen);
 void add_displays(CLI::App& app, std::function<int()>& chosen);
 void add_bench(CLI::App& app, std::function<int()>& chosen);
+void add_report(CLI::App& app, std::function<int()>& chosen);
 void add_soak(CLI::App& app, std::function<int()>& chosen);
 void add_measure(CLI::App& app, std::function<int()>& chosen);
 void add_check(CLI::App& app, std::function<int()>& chosen);

@@ -5,6 +5,7 @@
 #include "contact_sheet.h"
 #include "input/keyboard.h"
 #include "interrupt.h"
+#include "version.h"
 #include "runtime/commands/options/language.h"
 #include "runtime/commands/options/number.h"
 #include "runtime/commands/options/pattern.h"
@@ -94,6 +95,8 @@ ExhibitOptions open(const RunOptions& options)
         exhibit_options.ladder = load_ladder(shipped_file("qualities", exhibit.ladder));
     exhibit_options.pattern = pattern_of(options.pattern);
     exhibit_options.record = options.record;
+    exhibit_options.state = state_folder();
+    exhibit_options.textfile = exhibit.textfile;
     return exhibit_options;
 }
 
@@ -121,6 +124,7 @@ int run(const RunOptions& given)
     const RunOptions options = care ? careful(given, ends->lately()) : given;
     ExhibitOptions exhibit_options = open(options);
     exhibit_options.careful = care;
+    exhibit_options.version = program_version;
     exhibit_options.frames = options.frames;
     if (options.warm_up != "auto" || options.frames > 0)
         exhibit_options.warms_up = options.warm_up == "always";

@@ -98,6 +98,7 @@ int fly_exhibit(const ExhibitOptions& options)
         context.reset();
         if (coarser)
             continue;
+        session.diary.count([](Tally& tally) { ++tally.device_losses; });
         if (seconds(Clock::now() - opened) > 60)
             losses = 0;
         if (++losses > most_losses) {

@@ -38,6 +38,9 @@ struct ExhibitOptions {
     std::filesystem::path replay{}; ///< a record that is flown instead of the visitor's flight; empty: none
     Trace* trace = nullptr; ///< receives the spans of each frame; null: none. It must outlive the flight
     std::function<void(const FrameTimes&)> timed{}; ///< is called for each frame
+    std::filesystem::path state{}; ///< folder of the days' counts; empty: none are kept
+    std::filesystem::path textfile{}; ///< receives the counts for node_exporter; empty: none
+    std::string version{}; ///< the program's, for the counts
     bool paced = true; ///< frames keep the screen's rate
     bool counts_driver_memory = false; ///< for driver_memory()
     /// Takes the visitor's place: receives each frame's entry, its devices already read, and writes its own controls and

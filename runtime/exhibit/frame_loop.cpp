@@ -116,6 +116,7 @@ bool FrameLoop::fly_frame()
         [&](std::string line) { session_.alignment.say(std::move(line)); });
     apply_alignment(controls);
     frame_->show(session_.alignment.pattern());
+    turn_diary(session_, screens_.shown(), context_.pipelines.count());
     if (!visible)
         return true;
 
@@ -142,6 +143,9 @@ bool FrameLoop::fly_frame()
     const Clock::time_point handed = Clock::now();
     screens_.present(session_.skew);
     held_since_.reset();
+    if (presented_ && !fresh_)
+        count_frame(session_, seconds(Clock::now() - *presented_), screens_.refresh_hz());
+    presented_ = Clock::now();
     fresh_ = false;
     session_.service.shows("Shows " + std::to_string(screens_.shown()) + " of "
         + std::to_string(session_.layout.outputs.size()) + (session_.layout.outputs.size() == 1 ? " output" : " outputs")
@@ -154,6 +158,7 @@ bool FrameLoop::fly_frame()
 
 void FrameLoop::stand_by()
 {
+    presented_.reset(); // a time without pictures is no long frame
     glfwWaitEventsTimeout(0.1); // all windows are minimised, or no monitor is there
     const Clock::time_point now = Clock::now();
     if (screens_.held() == 0) {
@@ -341,6 +346,7 @@ void FrameLoop::show_layout(const Layout& fresh)
     if (session_.governor)
         session_.governor->forget_refusals();
     screens_.adopt(session_.layout);
+    session_.diary.count([](Tally& tally) { ++tally.layouts; });
     const std::size_t unkept = changes(session_.kept, session_.layout).size();
     log_info("layout",
         session_.layout.file.string() + ": applied" + (unkept > 0 ? "; changes made by keys are kept (F5 saves them)" : ""));
@@ -407,10 +413,12 @@ void FrameLoop::carry_out(const Command& command, Controls& controls)
             obey(session_, command, controls);
         }
         directions.obeyed = obeyed + 1, directions.refused = refused;
+        session_.diary.count([](Tally& tally) { ++tally.commands; });
         log_info("remote", words);
     } catch (const vk::DeviceLostError&) {
         throw;
     } catch (const std::exception& error) {
+        session_.diary.count([](Tally& tally) { ++tally.refused_commands; });
         directions.refused = refused + 1, directions.refusal = one_line(error.what());
         log_warning("remote", words + ": " + directions.refusal + "; the exhibit stays as it was");
     }

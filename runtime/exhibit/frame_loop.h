@@ -62,6 +62,7 @@ private:
     FrameTimer timer_;
     Screens screens_;
     std::optional<Clock::time_point> held_since_; ///< the window system has held all images since
+    std::optional<Clock::time_point> presented_; ///< the frame before
     bool fresh_ = true; ///< no frame is shown yet
     bool cold_; ///< the warm-up is still to come
     std::optional<Layout> next_layout_; ///< requested by a remote, for the next frame

@@ -3,10 +3,12 @@
 #include "config/model/scene_file.h"
 #include "runtime/flight/record_files.h"
 #include "runtime/operation/log.h"
+#include "runtime/operation/vitals.h"
 #include "runtime/render/render_context.h"
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <ctime>
 
 namespace starbow {
 namespace {
@@ -59,6 +61,7 @@ Session::Session(const ExhibitOptions& given)
     , tracker(tracker_of(layout))
     , alignment(given.pattern)
     , lab(given.log, given.log_every_s, words)
+    , diary(given.state, given.textfile)
     , governor(governor_of(given))
 {
 }
@@ -176,12 +179,58 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
     return !controls.quit;
 }
 
+static void count_visitor(Session& session, bool touched, bool reset, double dt_s)
+{
+    const double ended_s = session.visits.add(dt_s, touched, reset);
+    session.visited_s += session.visits.going_on() ? dt_s : 0;
+    if (ended_s > 0)
+        session.diary.count([&](Tally& tally) { ++tally.visits, tally.visits_s += ended_s; });
+}
+
+void count_frame(Session& session, double frame_s, double refresh_hz)
+{
+    session.diary.count([&](Tally& tally) { tally.add_frame(frame_s, frame_s * refresh_hz > 1.5); });
+}
+
+bool turn_diary(Session& session, std::size_t outputs_shown, std::size_t pipelines)
+{
+    const Session::Clock::time_point now = Session::Clock::now();
+    if (now - session.turned < std::chrono::seconds(1))
+        return false;
+    session.turned = now;
+    const Vitals own = vitals();
+    const double skew_s = session.skew.take_worst_s();
+    const std::size_t unplugged = session.hid.unplugged();
+    session.diary.count([&](Tally& tally) {
+        tally.resident_bytes = std::max<std::uint64_t>(tally.resident_bytes, own.resident_bytes);
+        tally.worst_skew_s = std::max(tally.worst_skew_s, skew_s);
+        tally.unplugged += unplugged - session.unplugged;
+        if (session.visited_s > 0)
+            tally.scenes_s[session.programme.scene.stem()] += session.visited_s;
+    });
+    session.visited_s = 0;
+    session.unplugged = unplugged;
+    return session.diary.turn(std::time(nullptr),
+        {.uptime_s = seconds(now - session.began),
+            .resident_bytes = own.resident_bytes,
+            .files = own.files,
+            .threads = own.threads,
+            .devices = session.hid.kinds().size(),
+            .worn_axes = session.hid.ignored_axes(),
+            .outputs_shown = outputs_shown,
+            .outputs = session.layout.outputs.size(),
+            .pipelines = pipelines,
+            .version = session.options.version});
+}
+
 void step(Session& session, RecordEntry& entry, const std::optional<double>& metered, double seconds_per_time_unit)
 {
     const Exposing& exposing = session.options.exposure;
     const Shot& start = session.programme.start;
     const Controls& controls = entry.controls;
     const double dt_s = 1e-9 * double(entry.dt_ns);
+    const double lever = session.flight.lever;
+    const bool toured = session.guide && !session.guide->over();
     session.flight = session.guide
         ? session.guide->flown(controls, entry.dt_ns)
         : flown(session.flight, session.history, controls, entry.dt_ns, session.rules, seconds_per_time_unit, start);
@@ -193,6 +242,9 @@ void step(Session& session, RecordEntry& entry, const std::optional<double>& met
     entry.exposure_ev = session.exposure.ev;
     session.record_replay.keep(entry, session.flight);
     session.tutorial = advance(session.tutorial, controls, session.flight, dt_s);
+    count_visitor(session, touched(controls, session.flight.lever, lever), controls.reset, dt_s);
+    if (toured && session.guide->over())
+        session.diary.count([](Tally& tally) { ++tally.tours_finished; });
     Directions& directions = session.directions;
     directions.fade = std::clamp(directions.fade + (directions.fades ? dt_s : -dt_s) / to_black_s, 0.0, 1.0);
 }

@@ -10,6 +10,7 @@
 #include "runtime/flight/record_replay.h"
 #include "runtime/flight/tutorial.h"
 #include "runtime/light/exposure.h"
+#include "runtime/operation/diary.h"
 #include "runtime/operation/file_watch.h"
 #include "runtime/operation/governor.h"
 #include "runtime/operation/guide.h"
@@ -61,10 +62,15 @@ struct Session {
     std::unique_ptr<HeadTracker> tracker;
     AlignmentMode alignment;
     Lab lab;
+    Diary diary;
+    VisitCounter visits{};
+    double visited_s = 0; ///< time with a visitor that the diary lacks
+    std::size_t unplugged = 0; ///< devices, as last counted
     Skew skew{};
     std::optional<Governor> governor;
     std::vector<glm::ivec2> sizes{}; ///< of the outputs' windows, as last drawn
     Clock::time_point began = Clock::now(), last = began;
+    Clock::time_point turned{}; ///< the diary
     long shown = 0; ///< frames
     bool complaints = false; ///< the validation layers had messages on a lost device
 };
@@ -99,6 +105,11 @@ std::string describe(const Skew& skew);
 
 /// Reads the visitor's devices; sets the entry's controls and times. Returns false if the visitor leaves.
 bool read_controls(Session& session, std::span<GLFWwindow* const> windows, RecordEntry& entry);
+/// Counts a frame. frame_s: the time since the frame before was presented.
+void count_frame(Session& session, double frame_s, double refresh_hz);
+/// Turns the diary once a second; call it each frame. Returns true when the exposition of the counts is a new one.
+bool turn_diary(Session& session, std::size_t outputs_shown, std::size_t pipelines);
+
 /// Steps flight, exposure, record and tutorial by the entry, whose commands are carried out already. metered: the exposure
 /// for the frame before, EV.
 void step(Session& session, RecordEntry& entry, const std::optional<double>& metered, double seconds_per_time_unit);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 namespace starbow {
+
 namespace {
 
 constexpr double second_ns = 1e9;
@@ -189,13 +190,6 @@ void run_question(Touring& now, const Show& show, const Controls& controls, doub
             }
     if (controls.stop)
         answer(now, show);
-}
-
-bool touched(const Controls& controls, double lever, double lever_before)
-{
-    return controls.throttle_rate != 0 || controls.push != glm::dvec3(0) || controls.turn != glm::dvec3(0)
-        || controls.look_rad != glm::dvec2(0) || std::abs(lever - lever_before) > 0.005 || controls.stop || controls.home
-        || controls.undo || controls.reset || controls.next_mode || controls.freeze;
 }
 
 /// The visitor flies; the tour's own controls do not reach the ship.

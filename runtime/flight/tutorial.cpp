@@ -8,11 +8,9 @@ Tutorial tutorial_at(const Flight& flight) { return {.begun_at = rapidity_of(fli
 
 Tutorial advance(Tutorial tutorial, const Controls& controls, const Flight& flight, double dt_s)
 {
-    const bool touched = controls.throttle_rate != 0 || controls.push != glm::dvec3(0) || controls.turn != glm::dvec3(0)
-        || controls.look_rad != glm::dvec2(0) || std::abs(flight.lever - tutorial.lever) > 0.005 || controls.stop
-        || controls.home || controls.undo || controls.reset || controls.next_mode || controls.freeze;
-    tutorial.idle_s = touched ? 0 : tutorial.idle_s + dt_s;
-    if (touched)
+    const bool hand = touched(controls, flight.lever, tutorial.lever);
+    tutorial.idle_s = hand ? 0 : tutorial.idle_s + dt_s;
+    if (hand)
         tutorial.lever = flight.lever;
     if (tutorial.idle_s > visit_over_s)
         return tutorial_at(flight);

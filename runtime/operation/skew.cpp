@@ -8,6 +8,7 @@ void Skew::add(double s)
     last_[frames_ % last_.size()] = float(s);
     ++frames_;
     worst_ = std::max(worst_, s);
+    worst_lately_ = std::max(worst_lately_, s);
 }
 
 double Skew::median_s() const

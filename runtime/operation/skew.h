@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <utility>
 
 namespace starbow {
 
@@ -12,11 +13,12 @@ public:
     std::size_t frames() const { return frames_; }
     double median_s() const; ///< median of the last 4096 frames; 0 before the first
     double worst_s() const { return worst_; } ///< worst of all frames
+    double take_worst_s() { return std::exchange(worst_lately_, 0); } ///< worst since the last call
 
 private:
     std::array<float, 4096> last_{};
     std::size_t frames_ = 0;
-    double worst_ = 0;
+    double worst_ = 0, worst_lately_ = 0;
 };
 
 } // namespace starbow

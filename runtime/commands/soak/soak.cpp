@@ -173,6 +173,7 @@ int soak(const SoakOptions& options)
             .profiles = known_profiles()};
         exhibit.quality = load_quality(shipped_file("qualities", "draft"));
         exhibit.warms_up = false;
+        exhibit.version = "soak";
         exhibit.paced = false;
         exhibit.counts_driver_memory = true;
         exhibit.visitor = [&](RecordEntry& entry) { visitors.act(entry); };

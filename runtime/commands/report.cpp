@@ -1,0 +1,164 @@
+#include "commands.h"
+#include "config/json/error.h"
+#include "config/json/whole_file.h"
+#include "runtime/operation/diary.h"
+#include "runtime/operation/state_folder.h"
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <memory>
+#include <sstream>
+
+namespace starbow {
+namespace {
+
+struct ReportOptions {
+    std::string day, state, out;
+};
+
+constexpr const char* style
+    = "body{font:16px/1.5 sans-serif;color:#1a1a1a;background:#fff;max-width:56rem;margin:2rem auto;padding:0 1rem}"
+      "h1{font-size:1.5rem}h2{font-size:1.1rem;margin-top:2rem}table{border-collapse:collapse}"
+      "td,th{padding:.2rem .8rem;text-align:right;border-bottom:1px solid "
+      "#ddd}td:first-child,th:first-child{text-align:left}"
+      "svg{width:100%;height:auto}text{font:12px sans-serif;fill:#333}";
+
+std::string escaped_html(const std::string& text)
+{
+    std::string out;
+    for (char c : text)
+        out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
+    return out;
+}
+
+std::string figure(double x, int decimals)
+{
+    std::array<char, 32> text;
+    std::snprintf(text.data(), text.size(), "%.*f", decimals, x);
+    return text.data();
+}
+
+std::string time_of(double s)
+{
+    const long whole = std::lround(s);
+    if (whole < 60)
+        return std::to_string(whole) + " s";
+    return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+}
+
+/// A bar for each hour from the first to the last one with pictures.
+template <class Value>
+std::string bars(const Day& day, int first, int last, const char* colour, int decimals, const Value& value)
+{
+    constexpr double width = 800, height = 180, foot = 24, head = 20;
+    double most = 0;
+    for (int hour = first; hour <= last; ++hour)
+        most = std::max(most, value(day.hours[std::size_t(hour)]));
+    const double pitch = width / double(last - first + 1);
+    std::ostringstream out;
+    out << "<svg viewBox=\"0 0 " << width << ' ' << height << "\" role=\"img\">\n";
+    for (int hour = first; hour <= last; ++hour) {
+        const double v = value(day.hours[std::size_t(hour)]), x = pitch * (hour - first);
+        const double tall = most > 0 ? (height - foot - head) * v / most : 0;
+        out << "<rect x=\"" << x + 0.1 * pitch << "\" y=\"" << height - foot - tall << "\" width=\"" << 0.8 * pitch
+            << "\" height=\"" << tall << "\" fill=\"" << colour << "\"/>\n";
+        out << "<text x=\"" << x + 0.5 * pitch << "\" y=\"" << height - 6 << "\" text-anchor=\"middle\">" << hour
+            << "</text>\n";
+        if (v > 0)
+            out << "<text x=\"" << x + 0.5 * pitch << "\" y=\"" << height - foot - tall - 4 << "\" text-anchor=\"middle\">"
+                << figure(v, decimals) << "</text>\n";
+    }
+    out << "<line x1=\"0\" x2=\"" << width << "\" y1=\"" << height - foot << "\" y2=\"" << height - foot
+        << "\" stroke=\"#888\"/>\n</svg>\n";
+    return out.str();
+}
+
+std::string row(const std::string& name, const std::string& value)
+{
+    return "<tr><td>" + name + "</td><td>" + value + "</td></tr>\n";
+}
+
+std::string page_of(const Day& day, int first, int last, const Tally& all)
+{
+    std::ostringstream out;
+    const std::string mean = all.visits > 0 ? time_of(all.visits_s / double(all.visits)) : "none";
+    out << "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+           "content=\"width=device-width,initial-scale=1\"><title>Starbow, "
+        << day.date << "</title><style>" << style << "</style></head><body>\n<h1>Starbow on " << day.date
+        << "</h1>\n<table>\n"
+        << row("Visits", std::to_string(all.visits)) << row("Mean length of a visit", mean)
+        << row("Tours shown to their end", std::to_string(all.tours_finished))
+        << row("Pictures", std::to_string(all.frames()))
+        << row("Half of them came within", figure(1e3 * all.percentile_s(0.5), 1) + " ms")
+        << row("99.9 % of them came within", figure(1e3 * all.percentile_s(0.999), 1) + " ms")
+        << row("The longest took", figure(1e3 * all.longest_frame_s, 1) + " ms")
+        << row("Missed refreshes", std::to_string(all.missed_refreshes))
+        << row("Worst skew of the outputs", figure(1e3 * all.worst_skew_s, 2) + " ms")
+        << row("The GPU was lost", std::to_string(all.device_losses) + " times")
+        << row("A stick went away", std::to_string(all.unplugged) + " times")
+        << row("Commands of remotes, and refused ones",
+               std::to_string(all.commands) + ", " + std::to_string(all.refused_commands))
+        << row("Greatest memory", figure(1e-6 * double(all.resident_bytes), 0) + " MB") << "</table>\n";
+    out << "<h2>Visits by the hour</h2>\n"
+        << bars(day, first, last, "#0b5fa5", 0, [](const Tally& tally) { return double(tally.visits); });
+    out << "<h2>Mean length of a visit, seconds</h2>\n"
+        << bars(day, first, last, "#15803d", 0,
+               [](const Tally& tally) { return tally.visits > 0 ? tally.visits_s / double(tally.visits) : 0; });
+    out << "<h2>Missed refreshes in 100,000 pictures</h2>\n"
+        << bars(day, first, last, "#c2410c", 1, [](const Tally& tally) {
+               return tally.frames() > 0 ? 1e5 * double(tally.missed_refreshes) / double(tally.frames()) : 0;
+           });
+    out << "<h2>Time of the visitors in each scene</h2>\n<table>\n";
+    for (const auto& [scene, s] : all.scenes_s)
+        out << row(escaped_html(scene), time_of(s));
+    out << "</table>\n<p>Counts belong to whole hours; nothing here tells who came.</p>\n</body></html>\n";
+    return out.str();
+}
+
+int report(const ReportOptions& options)
+{
+    const std::filesystem::path state = options.state.empty() ? state_folder() : std::filesystem::path(options.state);
+    const std::string date = options.day.empty() ? date_of(std::time(nullptr)) : options.day;
+    const Day day = load_day(state, date);
+    int first = 24, last = -1;
+    Tally all;
+    for (int hour = 0; hour < 24; ++hour)
+        if (const Tally& tally = day.hours[std::size_t(hour)]; tally.frames() > 0) {
+            all += tally;
+            first = std::min(first, hour), last = hour;
+        }
+    if (last < 0) {
+        std::string known;
+        for (const std::string& one : days_in(state))
+            known += (known.empty() ? "" : ", ") + one;
+        throw InputError("No picture was counted on " + date + " in " + (state / "days").string()
+            + (known.empty() ? "; no day has counts yet" : "; days with counts are " + known));
+    }
+    const std::filesystem::path out = options.out.empty() ? std::filesystem::path("out") / ("report-" + date + ".html")
+                                                          : std::filesystem::path(options.out);
+    std::error_code ignored;
+    if (out.has_parent_path())
+        std::filesystem::create_directories(out.parent_path(), ignored);
+    write_whole(out, page_of(day, first, last, all));
+    std::printf("%s: %llu visits, %llu pictures, %llu missed refreshes; the page is %s\n", date.c_str(),
+        (unsigned long long)all.visits, (unsigned long long)all.frames(), (unsigned long long)all.missed_refreshes,
+        out.c_str());
+    return 0;
+}
+
+} // namespace
+
+void add_report(CLI::App& app, std::function<int()>& chosen)
+{
+    auto options = std::make_shared<ReportOptions>();
+    CLI::App* command = app.add_subcommand("report",
+        "Draw a day of the exhibit as a page: how many came, for how long, in which scenes, and when it stuttered.");
+    command->add_option("day", options->day, "The day, such as 2026-11-23 [today]");
+    command->add_option("--state", options->state, "The exhibit's state folder, such as /var/lib/starbow [this person's]");
+    command->add_option("--out", options->out, "The page to write [out/report-DAY.html]");
+    command->footer("Examples:\n  starbow report\n  starbow report 2026-11-23 --state /var/lib/starbow --out day.html");
+    command->callback([options, &chosen] { chosen = [options] { return report(*options); }; });
+}
+
+} // namespace starbow

@@ -1,0 +1,183 @@
+#include "diary.h"
+#include "config/json/error.h"
+#include "config/json/reader.h"
+#include "config/json/whole_file.h"
+#include "log.h"
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+namespace starbow {
+namespace {
+
+constexpr std::time_t write_every_s = 60, expose_every_s = 15;
+
+struct DateAndHour {
+    std::string date;
+    int hour;
+};
+
+DateAndHour local(std::time_t time)
+{
+    std::tm parts{};
+    localtime_r(&time, &parts);
+    std::array<char, 16> date;
+    std::strftime(date.data(), date.size(), "%Y-%m-%d", &parts);
+    return {date.data(), parts.tm_hour};
+}
+
+bool is_date(const std::string& text)
+{
+    if (text.size() != 10)
+        return false;
+    for (std::size_t i = 0; i < text.size(); ++i)
+        if (i == 4 || i == 7 ? text[i] != '-' : text[i] < '0' || text[i] > '9')
+            return false;
+    return true;
+}
+
+std::string text_of(const Day& day)
+{
+    nlohmann::json hours = nlohmann::json::object();
+    for (std::size_t hour = 0; hour < day.hours.size(); ++hour)
+        if (day.hours[hour].frames() > 0)
+            hours[(hour < 10 ? "0" : "") + std::to_string(hour)] = json_of(day.hours[hour]);
+    return nlohmann::json{{"starbow_day", day.date}, {"hours", hours}}.dump(1) + "\n";
+}
+
+} // namespace
+
+std::string date_of(std::time_t time) { return local(time).date; }
+
+std::filesystem::path day_file(const std::filesystem::path& state, const std::string& date)
+{
+    return state / "days" / (date + ".json");
+}
+
+Day load_day(const std::filesystem::path& state, const std::string& date)
+{
+    if (!is_date(date))
+        throw InputError(one_line(date, 40) + " is no day; a date such as 2026-11-23 is right");
+    Day day{date};
+    const std::filesystem::path file = day_file(state, date);
+    std::error_code error;
+    if (!std::filesystem::exists(file, error))
+        return day;
+    const Document document = read_document(file);
+    const Place top = root(document);
+    if (!top.json->is_object() || !find_member(top, "starbow_day"))
+        complain(top, "is no day's counts; a file that starbow run has written is right");
+    const Place hours = member(top, "hours");
+    if (!hours.json->is_object())
+        complain(hours, "is no list of hours; an object with members such as \"09\" is right");
+    for (int hour = 0; hour < 24; ++hour)
+        if (const auto at = hours.json->find((hour < 10 ? "0" : "") + std::to_string(hour)); at != hours.json->end())
+            day.hours[std::size_t(hour)] = tally_of(*at);
+    return day;
+}
+
+std::vector<std::string> days_in(const std::filesystem::path& state)
+{
+    std::vector<std::string> days;
+    std::error_code error;
+    for (std::filesystem::directory_iterator at(state / "days", error), end; !error && at != end; at.increment(error))
+        if (const std::string name = at->path().stem(); at->path().extension() == ".json" && is_date(name))
+            days.push_back(name);
+    std::ranges::sort(days);
+    return days;
+}
+
+Diary::Diary(std::filesystem::path state, std::filesystem::path textfile)
+    : state_(std::move(state))
+    , textfile_(std::move(textfile))
+{
+}
+
+Diary::~Diary()
+{
+    if (hour_of_day_ < 0)
+        return;
+    add_hour();
+    write(true);
+}
+
+/// Adds the counts of the hour so far to the day that they belong to.
+void Diary::add_hour()
+{
+    day_.hours[std::size_t(hour_of_day_)] += hour_;
+    hour_ = {};
+}
+
+bool Diary::turn(std::time_t now, const Gauges& gauges)
+{
+    const DateAndHour local_now = local(now);
+    if (hour_of_day_ < 0 || local_now.date != day_.date) {
+        if (hour_of_day_ >= 0) {
+            add_hour();
+            write(true);
+        }
+        try {
+            day_ = state_.empty() ? Day{local_now.date} : load_day(state_, local_now.date);
+        } catch (const InputError& error) {
+            log_warning("diary", one_line(error.what()) + "; the day's counts begin anew");
+            day_ = {local_now.date};
+        }
+        hour_of_day_ = local_now.hour, written_ = now;
+    } else if (local_now.hour != hour_of_day_) {
+        add_hour();
+        hour_of_day_ = local_now.hour;
+    }
+    if (now - written_ >= write_every_s || now < written_) {
+        add_hour();
+        write(false);
+        written_ = now;
+    }
+    if (now - exposed_ < expose_every_s && now >= exposed_ && !exposition_.empty())
+        return false;
+    exposition_ = exposition_of(since_start_, gauges);
+    exposed_ = now;
+    if (!textfile_.empty())
+        write(false);
+    return true;
+}
+
+/// Writes the files on a thread of its own. waits: until they are written; otherwise a write that is still under way makes
+/// this one wait for its next turn.
+void Diary::write(bool waits)
+{
+    using namespace std::chrono_literals;
+    const auto finish = [&] {
+        if (writing_.valid()) {
+            writing_.get();
+            failed_ = false;
+        }
+    };
+    std::string failure;
+    try {
+        if (writing_.valid() && !waits && writing_.wait_for(0s) != std::future_status::ready)
+            return;
+        finish();
+        writing_ = std::async(std::launch::async,
+            [state = state_, textfile = textfile_, exposition = exposition_, date = day_.date, text = text_of(day_)] {
+                if (!state.empty()) {
+                    std::error_code ignored;
+                    std::filesystem::create_directories(state / "days", ignored);
+                    write_whole(day_file(state, date), text);
+                }
+                if (!textfile.empty() && !exposition.empty())
+                    write_whole(textfile, exposition);
+            });
+        if (waits)
+            finish();
+        return;
+    } catch (const InputError& error) {
+        failure = one_line(error.what());
+    } catch (const std::system_error& error) { // no thread can be made now
+        failure = error.what();
+    }
+    if (!std::exchange(failed_, true))
+        log_warning("diary", failure + "; the counts are kept in memory and written later");
+}
+
+} // namespace starbow

@@ -1,0 +1,204 @@
+#include "tally.h"
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace starbow {
+namespace {
+
+using Json = nlohmann::json;
+
+std::uint64_t count_in(const Json& json, const char* name)
+{
+    const auto at = json.find(name);
+    return at != json.end() && at->is_number_unsigned() ? at->get<std::uint64_t>() : 0;
+}
+
+double number_in(const Json& json, const char* name)
+{
+    const auto at = json.find(name);
+    const double value = at != json.end() && at->is_number() ? at->get<double>() : 0;
+    return std::isfinite(value) && value >= 0 ? value : 0;
+}
+
+constexpr std::pair<const char*, std::uint64_t Tally::*> counts[] = {{"missed_refreshes", &Tally::missed_refreshes},
+    {"device_losses", &Tally::device_losses}, {"unplugged", &Tally::unplugged}, {"layouts", &Tally::layouts},
+    {"commands", &Tally::commands}, {"refused_commands", &Tally::refused_commands}, {"visits", &Tally::visits},
+    {"tours_finished", &Tally::tours_finished}};
+constexpr std::pair<const char*, double Tally::*> sums[] = {{"frames_s", &Tally::frames_s}, {"visits_s", &Tally::visits_s}};
+constexpr std::pair<const char*, double Tally::*> greatest[]
+    = {{"longest_frame_s", &Tally::longest_frame_s}, {"worst_skew_s", &Tally::worst_skew_s}};
+
+/// A label's value: \, " and a line's end are escaped.
+std::string escaped_label(const std::string& value)
+{
+    std::string out;
+    for (char c : value)
+        out += c == '\\' ? "\\\\" : c == '"' ? "\\\"" : c == '\n' ? "\\n" : std::string(1, c);
+    return out;
+}
+
+class Exposition {
+public:
+    void metric(const char* name, const char* kind, const char* help)
+    {
+        text += std::string("# HELP starbow_") + name + " " + help + "\n# TYPE starbow_" + name + " " + kind + "\n";
+    }
+    void value(const std::string& name, double value)
+    {
+        std::array<char, 40> digits;
+        std::snprintf(digits.data(), digits.size(), " %.15g\n", value);
+        text += "starbow_" + name + digits.data();
+    }
+    void one(const char* name, const char* kind, const char* help, double number)
+    {
+        metric(name, kind, help);
+        value(name, number);
+    }
+    std::string text;
+};
+
+} // namespace
+
+std::uint64_t Tally::frames() const
+{
+    std::uint64_t all = 0;
+    for (const std::uint64_t frames : frames_by_time)
+        all += frames;
+    return all;
+}
+
+double Tally::percentile_s(double part) const
+{
+    const double rank = part * double(frames());
+    std::uint64_t below = 0;
+    for (std::size_t i = 0; i < frames_by_time.size(); ++i) {
+        below += frames_by_time[i];
+        if (below > 0 && double(below) >= rank)
+            return i < frame_classes_s.size() ? std::min(frame_classes_s[i], longest_frame_s) : longest_frame_s;
+    }
+    return 0;
+}
+
+void Tally::add_frame(double s, bool missed)
+{
+    const auto at = std::ranges::lower_bound(frame_classes_s, s);
+    ++frames_by_time[std::size_t(at - frame_classes_s.begin())];
+    frames_s += s;
+    longest_frame_s = std::max(longest_frame_s, s);
+    missed_refreshes += missed;
+}
+
+Tally& Tally::operator+=(const Tally& other)
+{
+    for (std::size_t i = 0; i < frames_by_time.size(); ++i)
+        frames_by_time[i] += other.frames_by_time[i];
+    for (const auto& [name, member] : counts)
+        this->*member += other.*member;
+    for (const auto& [name, member] : sums)
+        this->*member += other.*member;
+    for (const auto& [name, member] : greatest)
+        this->*member = std::max(this->*member, other.*member);
+    resident_bytes = std::max(resident_bytes, other.resident_bytes);
+    for (const auto& [scene, s] : other.scenes_s)
+        scenes_s[scene] += s;
+    return *this;
+}
+
+Json json_of(const Tally& tally)
+{
+    Json json{{"frames_by_time", tally.frames_by_time}, {"resident_bytes", tally.resident_bytes}};
+    for (const auto& [name, member] : counts)
+        json[name] = tally.*member;
+    for (const auto& [name, member] : sums)
+        json[name] = tally.*member;
+    for (const auto& [name, member] : greatest)
+        json[name] = tally.*member;
+    json["scenes_s"] = tally.scenes_s;
+    return json;
+}
+
+Tally tally_of(const Json& json)
+{
+    Tally tally;
+    if (!json.is_object())
+        return tally;
+    if (const auto classes = json.find("frames_by_time"); classes != json.end() && classes->is_array())
+        for (std::size_t i = 0; i < std::min(classes->size(), tally.frames_by_time.size()); ++i)
+            if ((*classes)[i].is_number_unsigned())
+                tally.frames_by_time[i] = (*classes)[i].get<std::uint64_t>();
+    for (const auto& [name, member] : counts)
+        tally.*member = count_in(json, name);
+    for (const auto& [name, member] : sums)
+        tally.*member = number_in(json, name);
+    for (const auto& [name, member] : greatest)
+        tally.*member = number_in(json, name);
+    tally.resident_bytes = count_in(json, "resident_bytes");
+    if (const auto scenes = json.find("scenes_s"); scenes != json.end() && scenes->is_object())
+        for (const auto& [scene, s] : scenes->items())
+            if (s.is_number() && tally.scenes_s.size() < 1000)
+                tally.scenes_s[scene] = s.get<double>();
+    return tally;
+}
+
+std::string exposition_of(const Tally& since_start, const Gauges& now)
+{
+    Exposition out;
+    out.metric("build_info", "gauge", "The program's version; the value is always 1.");
+    out.value("build_info{version=\"" + escaped_label(now.version) + "\"}", 1);
+    out.one("uptime_seconds", "gauge", "Time since the start.", now.uptime_s);
+    out.metric("frame_seconds", "histogram", "Time from one picture to the next.");
+    std::uint64_t below = 0;
+    for (std::size_t i = 0; i < frame_classes_s.size(); ++i) {
+        below += since_start.frames_by_time[i];
+        std::array<char, 16> end;
+        std::snprintf(end.data(), end.size(), "%g", frame_classes_s[i]);
+        out.value(std::string("frame_seconds_bucket{le=\"") + end.data() + "\"}", double(below));
+    }
+    out.value("frame_seconds_bucket{le=\"+Inf\"}", double(since_start.frames()));
+    out.value("frame_seconds_sum", since_start.frames_s);
+    out.value("frame_seconds_count", double(since_start.frames()));
+    out.one("missed_refreshes_total", "counter", "Frames that took longer than one and a half periods of the screen.",
+        double(since_start.missed_refreshes));
+    out.one("worst_skew_seconds", "gauge", "Greatest time between the outputs' pictures of one frame since the start.",
+        since_start.worst_skew_s);
+    out.one(
+        "device_losses_total", "counter", "Times that the GPU was lost and opened anew.", double(since_start.device_losses));
+    out.one("unplugged_total", "counter", "Times that a stick or throttle went away.", double(since_start.unplugged));
+    out.one("layouts_total", "counter", "Layouts applied in flight.", double(since_start.layouts));
+    out.one("commands_total", "counter", "Commands of remotes carried out.", double(since_start.commands));
+    out.one("refused_commands_total", "counter", "Commands of remotes refused.", double(since_start.refused_commands));
+    out.one("visits_total", "counter", "Visits that have ended.", double(since_start.visits));
+    out.one("visit_seconds_total", "counter", "Sum of their lengths.", since_start.visits_s);
+    out.one("tours_finished_total", "counter", "Tours shown to their end.", double(since_start.tours_finished));
+    out.metric("scene_seconds_total", "counter", "Time for which visitors were in each scene.");
+    for (const auto& [scene, s] : since_start.scenes_s)
+        out.value("scene_seconds_total{scene=\"" + escaped_label(scene) + "\"}", s);
+    out.one("resident_bytes", "gauge", "Memory of the process in the machine.", double(now.resident_bytes));
+    out.one("open_files", "gauge", "Open file descriptors.", double(now.files));
+    out.one("threads", "gauge", "Threads.", double(now.threads));
+    out.one("pipelines", "gauge", "Compiled pipelines.", double(now.pipelines));
+    out.one("devices", "gauge", "Sticks, throttles and pads that are read.", double(now.devices));
+    out.one("worn_axes", "gauge", "Axes that are stuck or noisy and left out.", double(now.worn_axes));
+    out.one("outputs", "gauge", "Outputs of the layout.", double(now.outputs));
+    out.one("outputs_shown", "gauge", "Outputs with a picture now.", double(now.outputs_shown));
+    return out.text;
+}
+
+double VisitCounter::add(double dt_s, bool touched, bool reset)
+{
+    double ended = 0;
+    if (going_on_) {
+        idle_s_ += dt_s;
+        if (touched)
+            length_s_ += idle_s_, idle_s_ = 0;
+        if (idle_s_ >= over_after_s || reset)
+            ended = std::max(length_s_, 1e-9), going_on_ = false;
+    } else if (touched && !reset) {
+        going_on_ = true, length_s_ = idle_s_ = 0;
+    }
+    return ended;
+}
+
+} // namespace starbow
