@@ -74,6 +74,15 @@ std::string bars(const Day& day, int first, int last, const char* colour, int de
     return out.str();
 }
 
+/// A count with a comma before each three digits.
+std::string grouped(std::uint64_t count)
+{
+    std::string digits = std::to_string(count);
+    for (std::ptrdiff_t at = std::ptrdiff_t(digits.size()) - 3; at > 0; at -= 3)
+        digits.insert(std::size_t(at), ",");
+    return digits;
+}
+
 std::string row(const std::string& name, const std::string& value)
 {
     return "<tr><td>" + name + "</td><td>" + value + "</td></tr>\n";
@@ -87,18 +96,16 @@ std::string page_of(const Day& day, int first, int last, const Tally& all)
            "content=\"width=device-width,initial-scale=1\"><title>Starbow, "
         << day.date << "</title><style>" << style << "</style></head><body>\n<h1>Starbow on " << day.date
         << "</h1>\n<table>\n"
-        << row("Visits", std::to_string(all.visits)) << row("Mean length of a visit", mean)
-        << row("Tours shown to their end", std::to_string(all.tours_finished))
-        << row("Pictures", std::to_string(all.frames()))
+        << row("Visits", grouped(all.visits)) << row("Mean length of a visit", mean)
+        << row("Tours shown to their end", grouped(all.tours_finished)) << row("Pictures", grouped(all.frames()))
         << row("Half of them came within", figure(1e3 * all.percentile_s(0.5), 1) + " ms")
         << row("99.9 % of them came within", figure(1e3 * all.percentile_s(0.999), 1) + " ms")
         << row("The longest took", figure(1e3 * all.longest_frame_s, 1) + " ms")
-        << row("Missed refreshes", std::to_string(all.missed_refreshes))
+        << row("Missed refreshes", grouped(all.missed_refreshes))
         << row("Worst skew of the outputs", figure(1e3 * all.worst_skew_s, 2) + " ms")
         << row("The GPU was lost", std::to_string(all.device_losses) + " times")
         << row("A stick went away", std::to_string(all.unplugged) + " times")
-        << row("Commands of remotes, and refused ones",
-               std::to_string(all.commands) + ", " + std::to_string(all.refused_commands))
+        << row("Commands of remotes, and refused ones", grouped(all.commands) + ", " + grouped(all.refused_commands))
         << row("Greatest memory", figure(1e-6 * double(all.resident_bytes), 0) + " MB") << "</table>\n";
     out << "<h2>Visits by the hour</h2>\n"
         << bars(day, first, last, "#0b5fa5", 0, [](const Tally& tally) { return double(tally.visits); });

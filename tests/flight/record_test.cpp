@@ -57,6 +57,10 @@ RecordEntry some_entry(std::mt19937_64& random)
     maybe3(c.turn, 1);
     maybe(c.look_rad.x, -0.1, 0.1);
     maybe(c.look_rad.y, -0.1, 0.1);
+    if (random() % 4 == 0)
+        c.commands = {{.kind = CommandKind::scene, .text = "train"}, {.kind = CommandKind::doppler, .on = random() % 2 == 0},
+            {.kind = CommandKind::speed_limit, .number = 1 + std::uniform_real_distribution<double>(0, 9)(random)},
+            {.kind = CommandKind::caption, .text = "\"Grüße\" \\ γ"}, {.kind = CommandKind::stop}};
     maybe3(c.head.moved_m, 10);
     if (random() % 3 == 0)
         c.head.turned = glm::angleAxis(some_double(random, -3, 3), glm::normalize(glm::dvec3(1, 2, 3)));
@@ -87,6 +91,10 @@ std::vector<std::uint64_t> bits(const RecordEntry& e)
         all.push_back(flag);
     all.push_back(std::uint64_t(c.choose));
     all.push_back(std::uint64_t(c.turn_by));
+    for (const Command& command : c.commands) {
+        all.insert(all.end(), {std::uint64_t(command.kind), command.on, std::bit_cast<std::uint64_t>(command.number)});
+        all.insert(all.end(), command.text.begin(), command.text.end());
+    }
     return all;
 }
 

@@ -1,0 +1,79 @@
+// Commands to a running exhibit: every kind goes through its words and back, and wrong words are refused with the right
+// form.
+#include "input/command.h"
+#include "tests/support/files.h"
+
+namespace command_test {
+
+using namespace starbow;
+using namespace starbow::testing;
+
+namespace {
+
+Command read(std::vector<std::string> words) { return command_of(words); }
+
+} // namespace
+
+TEST(Command, EveryKindComesBackFromItsWords)
+{
+    // A list of its own: what a docent types, and the command that is meant.
+    const std::vector<std::pair<std::vector<std::string>, Command>> typed{{{"fade", "on"}, {CommandKind::fade, true}},
+        {{"stop"}, {CommandKind::stop}}, {{"reset"}, {CommandKind::reset}},
+        {{"tour", "twins"}, {CommandKind::tour, false, 0, "twins"}}, {{"next"}, {CommandKind::next}},
+        {{"back"}, {CommandKind::back}}, {{"pause", "off"}, {CommandKind::pause}},
+        {{"scene", "warm-wall"}, {CommandKind::scene, false, 0, "warm-wall"}},
+        {{"shot", "chart-0.5"}, {CommandKind::shot, false, 0, "chart-0.5"}},
+        {{"speed-limit", "2.5"}, {CommandKind::speed_limit, false, 2.5}}, {{"aberration", "off"}, {CommandKind::aberration}},
+        {{"doppler", "on"}, {CommandKind::doppler, true}}, {{"headlight", "on"}, {CommandKind::headlight, true}},
+        {{"false-colours", "on"}, {CommandKind::false_colours, true}},
+        {{"comparison", "galilean"}, {CommandKind::comparison, false, 0, "galilean"}},
+        {{"language", "de"}, {CommandKind::language, false, 0, "de"}},
+        {{"caption", "Grüße an alle: γ = 4"}, {CommandKind::caption, false, 0, "Grüße an alle: γ = 4"}},
+        {{"caption", ""}, {CommandKind::caption}}, {{"hold", "on"}, {CommandKind::hold, true}},
+        {{"layout", "dome"}, {CommandKind::layout, false, 0, "dome"}},
+        {{"pattern", "grid"}, {CommandKind::pattern, false, 0, "grid"}},
+        {{"quality", "fine"}, {CommandKind::quality, false, 0, "fine"}}, {{"restart"}, {CommandKind::restart}}};
+    std::vector<bool> met(command_rules().size());
+    for (const auto& [words, command] : typed) {
+        EXPECT_EQ(read(words), command) << words[0];
+        EXPECT_EQ(words_of(command), words);
+        met[std::size_t(command.kind)] = true;
+    }
+    for (std::size_t i = 0; i < met.size(); ++i)
+        EXPECT_TRUE(met[i]) << command_rules()[i].name << " has no case here";
+}
+
+TEST(Command, WrongWordsAreRefusedWithTheRightForm)
+{
+    const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{{{}, "a name such as stop is right"},
+        {{"warp", "9"}, "is not known"}, {{"stop", "now"}, "stop alone is right"},
+        {{"fade"}, "fade on or fade off is right"}, {{"fade", "yes"}, "fade on or fade off is right"},
+        {{"doppler", "on", "off"}, "doppler on or doppler off"}, {{"speed-limit", "1"}, "a number above 1 up to 1e6"},
+        {{"speed-limit", "nan"}, "a number above 1"}, {{"speed-limit", "inf"}, "a number above 1"},
+        {{"speed-limit", "2,5"}, "a number above 1"}, {{"scene", "../../etc/passwd"}, "scene and a name is right"},
+        {{"scene", "/etc/passwd"}, "is no name"}, {{"layout", "..."}, "is no name"}, {{"layout", ".json"}, "is no name"},
+        {{"scene", std::string(65, 'a')}, "is no name"}, {{"caption", std::string(401, 'a')}, "at most 400 bytes"}};
+    for (const auto& [words, says] : wrong) {
+        const std::string message = complaint([&] { read(words); });
+        EXPECT_NE(message.find(says), std::string::npos) << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+}
+
+TEST(Command, ACaptionHasNoControlCharacters)
+{
+    const Command command = read({"caption", "a\x1b[31mb\nc"});
+    for (const unsigned char c : command.text)
+        EXPECT_GE(c, 0x20);
+}
+
+TEST(Command, OnlyAnEngineerChangesDisplaysAndTheProgram)
+{
+    for (const CommandRule& rule : command_rules()) {
+        const bool engineers
+            = rule.name == "layout" || rule.name == "pattern" || rule.name == "quality" || rule.name == "restart";
+        EXPECT_EQ(rule.role, engineers ? Role::engineer : Role::docent) << rule.name;
+    }
+}
+
+} // namespace command_test
