@@ -7,6 +7,7 @@
 #include <cstring>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <utility>
 
 namespace starbow {
 namespace {
@@ -38,8 +39,9 @@ Head held(const Head& last, double silent_s)
     return {(1 - back) * last.moved_m, glm::slerp(last.turned, glm::dquat(1, 0, 0, 0), back)};
 }
 
-HeadTracker::HeadTracker(const HeadTracking& tracking)
+HeadTracker::HeadTracker(const HeadTracking& tracking, std::function<void(const std::string&)> say)
     : tracking_(tracking)
+    , say_(std::move(say))
     , socket_(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0))
 {
     sockaddr_in at{};
@@ -65,10 +67,19 @@ Head HeadTracker::read(std::chrono::steady_clock::time_point now)
         const ssize_t size = recv(socket_, packet.data(), packet.size(), 0);
         if (size < 0)
             break;
-        if (auto head = parse_head({packet.data(), std::size_t(size)})) {
-            last_ = *head;
-            heard_ = now;
+        const auto head = parse_head({packet.data(), std::size_t(size)});
+        if (!head) {
+            if (!std::exchange(said_wrong_, true))
+                say_("the head tracker on port " + std::to_string(tracking_.port) + " sends packets that are no head ("
+                    + std::to_string(size) + " bytes, not finite, or far away); they are left out");
+            continue;
         }
+        last_ = *head;
+        last_.moved_m = glm::clamp(head->moved_m, -tracking_.room_m, tracking_.room_m);
+        heard_ = now;
+        if (last_.moved_m != head->moved_m && !std::exchange(said_outside_, true))
+            say_("the head tracker on port " + std::to_string(tracking_.port)
+                + " reports a head outside the layout's room_m; it is drawn at the room's edge");
     }
     return heard_ ? held(last_, std::chrono::duration<double>(now - *heard_).count()) : Head{};
 }

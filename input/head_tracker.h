@@ -2,6 +2,7 @@
 #include "config/model/layout.h"
 #include "controls.h"
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,12 +21,13 @@ Head held(const Head& last, double silent_s);
 /// Receives a head's packets. Never waits.
 class HeadTracker {
 public:
+    /// say: receives a line for the log when the first packet is no head, and when the first head is outside the room.
     /// Throws InputError if the address or the port is not available.
-    explicit HeadTracker(const HeadTracking& tracking);
+    HeadTracker(const HeadTracking& tracking, std::function<void(const std::string&)> say);
     HeadTracker(const HeadTracker&) = delete;
     ~HeadTracker();
 
-    /// The head at `now`, from the last packet that has arrived.
+    /// The head at `now`, from the last packet that has arrived; never outside the room of the layout.
     Head read(std::chrono::steady_clock::time_point now);
     /// True if a packet has arrived within the last three seconds.
     bool heard(std::chrono::steady_clock::time_point now) const;
@@ -33,6 +35,8 @@ public:
 
 private:
     HeadTracking tracking_;
+    std::function<void(const std::string&)> say_;
+    bool said_wrong_ = false, said_outside_ = false;
     int socket_;
     Head last_;
     std::optional<std::chrono::steady_clock::time_point> heard_;

@@ -26,6 +26,21 @@ private:
     std::size_t next_ = 0;
 };
 
+/// The health of a device's buttons and hats: it distinguishes hands from a loose plug or a broken chip, which would stop
+/// the ship, send it home and change its mode.
+class PressHealth {
+public:
+    /// started: the presses that began with one report. Returns false if no hands can have made them.
+    bool take(int started, std::int64_t now_ns);
+    /// True from such a report on until nothing has been pressed for a second.
+    bool storms(std::int64_t now_ns) const { return now_ns < until_ns_; }
+
+private:
+    double left_ = most_presses_in_a_row; ///< presses that hands may make by now
+    std::int64_t last_ns_ = 0, until_ns_ = 0;
+    static constexpr double most_presses_in_a_row = 16;
+};
+
 /// No hand keeps a stick in one place away from its middle for so long.
 constexpr std::int64_t stuck_after_ns = 60'000'000'000;
 

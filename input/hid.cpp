@@ -52,6 +52,10 @@ std::pair<DeviceInfo, Profile> identify(
 
 } // namespace
 
+/// The time that distinguishes a burst of impossible reports from a press: eight reports of a device that sends as fast as
+/// most can. It is half a frame at 60 Hz, and delays no axis.
+constexpr std::int64_t sure_after_ns = 8'000'000;
+
 /// The state that the reading thread and the visitor's frame share.
 struct Hid::Device {
     DeviceInfo info;
@@ -292,7 +296,9 @@ void Hid::add(double dt_s, Controls& controls)
         {
             const std::lock_guard lock(device->mutex);
             state = device->state;
-            device->state.presses.assign(device->state.presses.size(), {});
+            // A burst shows within a few milliseconds that it is one: the newest presses wait for the next frame.
+            auto& later = now - state.pressed_ns < sure_after_ns ? state.presses : device->state.presses;
+            later.assign(later.size(), {});
         }
         const Rates others = take_rates(controls);
         mapping->add(state, now, dt_s, controls);
@@ -302,7 +308,7 @@ void Hid::add(double dt_s, Controls& controls)
             levers.push_back(std::move(lever));
         }
         for (const std::string& trouble : mapping->troubles())
-            troubles.push_back(device->info.name + ": " + trouble + " and is left out");
+            troubles.push_back(device->info.name + ": " + trouble);
         if (state.report_ns > 0)
             controls.report_ns = std::max(controls.report_ns, state.report_ns);
     }

@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace starbow {
 namespace {
@@ -57,9 +58,14 @@ void Keyboard::collect(GLFWwindow* window)
     // States alone would take two taps in two frames for one long press: presses are counted as they come.
     glfwSetWindowUserPointer(window, this);
     glfwSetKeyCallback(window, [](GLFWwindow* of, int key, int, int action, int) {
-        if (action != GLFW_PRESS || key < 0 || key >= keys)
+        if (key < 0 || key >= keys)
             return;
-        std::uint8_t& presses = static_cast<Keyboard*>(glfwGetWindowUserPointer(of))->presses_[std::size_t(key)];
+        Keyboard& self = *static_cast<Keyboard*>(glfwGetWindowUserPointer(of));
+        // GLFW takes the first press after a grab for a repetition, as it has missed the release.
+        const bool anew = std::exchange(self.stale_[std::size_t(key)], false);
+        if (action != GLFW_PRESS && !(anew && action == GLFW_REPEAT))
+            return;
+        std::uint8_t& presses = self.presses_[std::size_t(key)];
         presses = std::uint8_t(std::min(presses + 1, 255));
     });
     for (int key = GLFW_KEY_SPACE; key < keys && key <= GLFW_KEY_LAST; ++key)
@@ -72,6 +78,14 @@ void Keyboard::collect(GLFWwindow* window)
         dragging_ = window;
         pointer_ = at;
         held_ = true;
+    }
+}
+
+void Keyboard::let_go(bool grabbed)
+{
+    for (std::size_t key = 0; key < keys; ++key) {
+        stale_[key] = now_[key] && (grabbed || stale_[key]);
+        now_[key] = now_[key] && !stale_[key];
     }
 }
 

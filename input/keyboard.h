@@ -12,16 +12,19 @@ namespace starbow {
 /// reading.
 class Keyboard {
 public:
-    /// Reads the present keys (after glfwPollEvents). windows: those whose keys and pointer count. dt_s: since the last
+    /// Reads the present keys (after glfwPollEvents). windows: those whose keys and pointer count. grabbed: another program
+    /// has the keyboard; keys that are down then are let go, and stay so until they are pressed again. dt_s: since the last
     /// reading, for looking around. read_elsewhere: the kinds of devices that Hid reads, which are left out here.
     template <class Windows>
-    Controls read(const Windows& windows, std::int64_t time_ns, double dt_s, const std::vector<UsbId>& read_elsewhere)
+    Controls read(
+        const Windows& windows, bool grabbed, std::int64_t time_ns, double dt_s, const std::vector<UsbId>& read_elsewhere)
     {
         Controls controls;
         controls.time_ns = time_ns;
         begin();
         for (GLFWwindow* window : windows)
             collect(window);
+        let_go(grabbed);
         finish(controls);
         read_pads(controls, dt_s, read_elsewhere);
         return controls;
@@ -31,11 +34,13 @@ private:
     static constexpr int keys = 512;
     void begin();
     void collect(GLFWwindow* window);
+    void let_go(bool grabbed);
     void finish(Controls& controls);
     void read_pads(Controls& controls, double dt_s, const std::vector<UsbId>& read_elsewhere);
     bool down(int key) const { return now_[key]; }
     bool pressed(int key) const { return presses_[key] > 0; }
 
+    std::array<bool, keys> stale_{}; ///< let go during a grab, of which GLFW does not know
     std::array<bool, keys> now_{}; ///< down at the reading, or for a time since the one before
     /// Presses of each key that no reading has reported yet. Each reading reports one, so that quick taps in one slow frame
     /// all count, one frame after another.

@@ -143,20 +143,28 @@ bool take_report(const Descriptor& descriptor, std::span<const std::uint8_t> rep
         report = report.subspan(1);
     }
     bool any = false;
+    int started = 0;
     for (std::size_t i = 0; i < descriptor.fields.size(); ++i) {
         const Field& field = descriptor.fields[i];
         if (field.report_id != id || std::size_t(field.bit_offset + field.bits + 7) / 8 > report.size())
             continue; // fields beyond a short report keep their values
         const std::int64_t raw = raw_value(field, report);
+        // Switches may be on from the first report on.
+        started += state.raw[i] && is_down(field, raw) && !is_down(field, *state.raw[i]);
         take_press(field, state.raw[i], raw, state.presses[i]);
         state.raw[i] = raw;
         if (is_axis(field))
             state.health[i].take((centred(field, raw) + 1) / 2, now_ns);
         any = true;
     }
-    if (any)
-        state.report_ns = now_ns;
-    return any;
+    if (!any)
+        return false;
+    state.report_ns = now_ns;
+    if (started > 0)
+        state.pressed_ns = now_ns;
+    if (!state.hands.take(started, now_ns))
+        state.presses.assign(state.presses.size(), {}); // also those that began the burst
+    return true;
 }
 
 std::string name_of(const Usage& usage)
@@ -319,11 +327,18 @@ void Mapping::add(const DeviceState& state, std::int64_t now_ns, double dt_s, Co
                    stuck = axis.use.role != AxisRole::throttle && wanted != 0 && health.still_since_ns() > 0
             && now_ns - health.still_since_ns() > stuck_after_ns;
         if (noisy || stuck)
-            troubles_.push_back("axis " + name_of(field.usage) + (noisy ? " jitters" : " is stuck"));
+            troubles_.push_back("axis " + name_of(field.usage) + (noisy ? " jitters" : " is stuck") + " and is left out");
         else if (axis.use.role == AxisRole::throttle)
             levers_.push_back({{}, int(axis.field), wanted, health.moved_ns()});
         else
             add_role(axis.use.role, wanted, dt_s, controls);
+    }
+    if (state.hands.storms(now_ns)) {
+        troubles_.push_back("presses come in a burst that no hands make and are left out");
+        for (Button& button : buttons_)
+            button.waiting = 0;
+        hat_waiting_.clear();
+        return;
     }
     for (Button& button : buttons_) {
         button.waiting = std::min(button.waiting + presses(button.field).size(), most_waiting);

@@ -15,6 +15,8 @@ struct DeviceState {
     /// The values to which each button and hat was pressed since the last reading, oldest first.
     std::vector<std::vector<std::int64_t>> presses;
     std::vector<AxisHealth> health;
+    PressHealth hands;
+    std::int64_t pressed_ns = 0; ///< beginning of the last press
     std::int64_t report_ns = 0; ///< arrival of the last report
 };
 
@@ -40,12 +42,15 @@ public:
     Mapping(Descriptor descriptor, Profile profile);
 
     /// Adds the device's controls, except the lever's place. now_ns: steady clock; dt_s: since the last reading, for
-    /// looking around. A stuck or noisy axis adds nothing.
+    /// looking around. A stuck or noisy axis adds nothing, nor do presses that no hands can have made.
     void add(const DeviceState& state, std::int64_t now_ns, double dt_s, Controls& controls);
 
     // State as of the last reading:
     const std::vector<Lever>& levers() const { return levers_; } ///< without their devices' names
-    const std::vector<std::string>& troubles() const { return troubles_; } ///< "axis Rz is stuck", for people
+    const std::vector<std::string>& troubles() const
+    {
+        return troubles_;
+    } ///< "axis Rz is stuck and is left out", for people
 
     /// The kinds of control on this device.
     InputCapabilities capabilities() const;

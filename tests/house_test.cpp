@@ -232,6 +232,26 @@ TEST(House, NoCodeNamesVulkanOutsideRenderAndExhibit)
     EXPECT_GT(files, 200);
 }
 
+/// A stream would wait for ever for a FIFO or a device; config/json/whole_file.h opens regular files alone.
+TEST(House, FilesAreOpenedInOnePlace)
+{
+    const std::regex opens(R"(\b[io]?fstream\b|\bfopen\(|\bopen(at)?\([^)]*, *O_|\bstbi?_\w*(info|load\w*)\(file)");
+    const std::set<std::string> allowed{"config/json/whole_file.cpp",
+        "runtime/operation/crash.cpp", // in a signal's handler
+        "runtime/operation/messages.cpp", // /dev/null for closed streams
+        "runtime/commands/doctor.cpp", "runtime/operation/vitals.cpp",
+        "input/hid.cpp"}; // the kernel's files and the system's own
+    for (const char* top : {"config", "displays", "input", "runtime"})
+        for (const auto& entry : fs::recursive_directory_iterator(source_dir() / top)) {
+            const std::string file = fs::relative(entry.path(), source_dir()).generic_string();
+            if (!entry.is_regular_file() || !(file.ends_with(".h") || file.ends_with(".cpp")) || allowed.contains(file))
+                continue;
+            std::istringstream text(read_text(entry.path()));
+            for (std::string line; std::getline(text, line);)
+                EXPECT_FALSE(std::regex_search(line.substr(0, line.find("//")), opens)) << file << ": " << line;
+        }
+}
+
 /// Lavapipe's fences are held where a rendering begins and ends (runtime/render/scene_keeper.h); a blit's can't be.
 TEST(House, EveryRenderingBeginsAndEndsInTheDevice)
 {

@@ -1,8 +1,9 @@
 #include "import_sgct.h"
+#include "config/json/whole_file.h"
 #include "sgct_projection.h"
 #include <algorithm>
+#include <array>
 #include <cctype>
-#include <fstream>
 #include <map>
 
 namespace starbow {
@@ -560,11 +561,11 @@ std::vector<Json> Importer::viewport(const Place& place, glm::ivec2 window_size,
 
 Document read_sgct(const std::filesystem::path& file)
 {
-    std::ifstream stream(file, std::ios::binary);
-    char first = 0;
+    std::array<char, 4096> start{};
+    RegularFile(file).read(start);
     // A byte order mark may stand before the first bracket.
-    while (stream.get(first) && (std::isspace(static_cast<unsigned char>(first)) || (first & 0x80))) { }
-    if (stream && first == '<')
+    if (*std::find_if_not(start.begin(), start.end() - 1, [](unsigned char c) { return std::isspace(c) || (c & 0x80); })
+        == '<')
         throw InputError(one_line(file.string()), "",
             "is XML, which SGCT read until its version 2; the JSON that SGCT reads since version 3 is right");
     return read_document(file);

@@ -1,10 +1,7 @@
 #include "reader.h"
+#include "whole_file.h"
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 
 namespace starbow {
 using nlohmann::json;
@@ -16,28 +13,7 @@ constexpr std::size_t most_depth = 64;
 
 std::string contents(const std::filesystem::path& path, const std::string& file)
 {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored))
-        throw InputError(file, "", "is a folder; a JSON file is right");
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(path.c_str(), "rb"), std::fclose);
-    if (!stream && errno == ENOENT)
-        throw InputError(file, "", "does not exist; the name of a JSON file is right");
-    if (!stream)
-        throw InputError(file, "", std::string("can't be opened (") + std::strerror(errno) + "); a readable file is right");
-
-    // The file is read in pieces, because a pipe has no size.
-    std::string text;
-    std::size_t got = 1;
-    while (got > 0 && text.size() <= most_bytes) {
-        const std::size_t before = text.size();
-        text.resize(before + 65536);
-        got = std::fread(text.data() + before, 1, 65536, stream.get());
-        text.resize(before + got);
-    }
-    if (std::ferror(stream.get()))
-        throw InputError(file, "", std::string("can't be read (") + std::strerror(errno) + "); a readable file is right");
-    if (text.size() > most_bytes)
-        throw InputError(file, "", "is larger than 16 MiB; a smaller file is right");
+    std::string text = read_whole(path, most_bytes, "a JSON file");
     if (text.empty())
         throw InputError(file, "", "is empty; a JSON object in { } is right");
     return text;

@@ -92,7 +92,7 @@ std::string text(const Place& place)
     const std::string value = place.json->get<std::string>();
     if (value.empty())
         complain(place, "is empty; a text with at least one letter is right");
-    if (std::any_of(value.begin(), value.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+    if (plain_text(value) != value)
         complain(place, "holds a control character; a text without them is right");
     return value;
 }
@@ -231,11 +231,56 @@ std::string shown(double number)
     return text;
 }
 
+namespace {
+
+/// The number of bytes of the UTF-8 character at `at`, and its code point (RFC 3629); 0 bytes where there is none.
+std::pair<std::size_t, std::uint32_t> character(std::string_view text, std::size_t at)
+{
+    const auto byte = [&](std::size_t i) { return std::uint32_t(static_cast<unsigned char>(text[i])); };
+    const std::uint32_t lead = byte(at);
+    const std::size_t length = lead < 0x80 ? 1 : lead < 0xc2 ? 0 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : lead < 0xf5 ? 4 : 0;
+    if (length < 2 || at + length > text.size())
+        return {length == 1 ? 1 : 0, lead};
+    std::uint32_t code = lead & (0x7f >> length);
+    for (std::size_t i = 1; i < length; ++i) {
+        if ((byte(at + i) & 0xc0) != 0x80)
+            return {0, 0};
+        code = code << 6 | (byte(at + i) & 0x3f);
+    }
+    // Longer than needed, a half of a surrogate pair, beyond Unicode.
+    if ((length == 3 && code < 0x800) || (length == 4 && code < 0x10000) || (code >= 0xd800 && code < 0xe000)
+        || code > 0x10ffff)
+        return {0, 0};
+    return {length, code};
+}
+
+/// True for a character that steers a terminal, or the direction of writing.
+bool steers(std::uint32_t code)
+{
+    return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x061c || code == 0x200e || code == 0x200f
+        || (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
+}
+
+} // namespace
+
+std::string plain_text(const std::string& text)
+{
+    std::string out;
+    out.reserve(text.size());
+    for (std::size_t at = 0; at < text.size();) {
+        const auto [length, code] = character(text, at);
+        if (length == 0 || steers(code))
+            out += '?';
+        else
+            out.append(text, at, length);
+        at += std::max<std::size_t>(length, 1);
+    }
+    return out;
+}
+
 std::string one_line(std::string text, std::size_t most)
 {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-            c = '?';
+    text = plain_text(text);
     if (text.size() > most) {
         std::size_t cut = most;
         while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xc0) == 0x80) // not inside a UTF-8 character

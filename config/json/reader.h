@@ -96,7 +96,12 @@ std::string escaped(const std::string& name);
 /// The shortest usual text of a number, for messages.
 std::string shown(double number);
 
-/// A foreign text for a one-line message: control characters replaced, cut off at `most` bytes.
+/// A foreign text as a terminal may show it: '?' for each control character (C0, DEL, C1), line and paragraph separator,
+/// character that changes the direction of writing (Unicode TR 9), and byte that is no UTF-8. None of them steers the
+/// terminal, or makes a message look like another.
+std::string plain_text(const std::string& text);
+
+/// A foreign text for a one-line message: plain_text, cut off at `most` bytes.
 std::string one_line(std::string text, std::size_t most = 400);
 
 } // namespace starbow

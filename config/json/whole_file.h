@@ -1,9 +1,37 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace starbow {
+
+/// A regular file, opened for reading. Nothing else is opened: reading a FIFO, a socket or a device may never end.
+class RegularFile {
+public:
+    explicit RegularFile(const std::filesystem::path& file);
+    ~RegularFile();
+    RegularFile(const RegularFile&) = delete;
+    RegularFile& operator=(const RegularFile&) = delete;
+
+    /// Why there is nothing more to read, as a predicate: "is a folder", "does not exist"; "" while all is well.
+    const std::string& fault() const { return fault_; }
+    std::uintmax_t size() const { return size_; } ///< when it was opened
+    /// Fills `bytes` with the next ones and returns their number: fewer at the end of the file, and after a fault.
+    std::size_t read(std::span<char> bytes);
+    /// Reads all that is left. A file of more than `most` bytes is a fault, found before the first byte is read.
+    std::string read_all(std::size_t most);
+
+private:
+    int descriptor_ = -1;
+    std::uintmax_t size_ = 0;
+    std::string fault_;
+};
+
+/// The whole file. Throws InputError "FILE: FAULT; RIGHT is right"; right: "a JSON file".
+std::string read_whole(const std::filesystem::path& file, std::size_t most, const std::string& right);
 
 /// Durability of a written file: as the system's cache allows, or safe from a power cut on return.
 enum class Lasting { as_the_system_likes, power_cut };
@@ -21,5 +49,15 @@ inline void write_whole(
 {
     write_whole(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()}, lasting);
 }
+
+/// The same for a file of the program's own, in its cache or its state folder, which is made where it is missing. A link
+/// in the file's place is replaced, not followed: whoever could write there once would choose what is overwritten.
+void write_own(const std::filesystem::path& file, std::initializer_list<std::span<const unsigned char>> parts,
+    Lasting lasting = Lasting::as_the_system_likes);
+
+/// Opens a file of the user's to write into piece by piece; returns the descriptor. flags: O_APPEND, O_TRUNC or O_EXCL. A
+/// missing file is made. Devices that are there are opened, and no write to one waits: it fails with EAGAIN. A folder, a
+/// FIFO and a socket are refused. Throws InputError "FILE: FAULT; RIGHT is right".
+int open_to_write(const std::filesystem::path& file, int flags, const std::string& right);
 
 } // namespace starbow

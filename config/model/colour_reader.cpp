@@ -1,7 +1,8 @@
+#include "config/json/whole_file.h"
 #include "layout_reader.h"
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
 namespace starbow {
 namespace {
@@ -67,7 +68,7 @@ std::string fault(const std::vector<glm::dvec3>& before, const glm::dvec3& entry
 /// A one-dimensional table in the .cube format (Adobe, Cube LUT specification 1.0, 2013).
 std::vector<glm::dvec3> load_cube(const std::filesystem::path& file)
 {
-    std::ifstream in(file, std::ios::binary);
+    std::istringstream in(read_whole(file, std::size_t(16) << 20, "a .cube file"));
     std::vector<glm::dvec3> table;
     std::size_t size = 0;
     int count = 0;
@@ -106,8 +107,8 @@ std::vector<glm::dvec3> load_cube(const std::filesystem::path& file)
             complain_line(file, count, in_quotes(line) + " " + problem);
         table.push_back(*colour);
     }
-    if (in.bad() || count == 0)
-        complain_line(file, 0, "can't be read or is empty; a .cube file with LUT_1D_SIZE is right");
+    if (count == 0)
+        complain_line(file, 0, "is empty; a .cube file with LUT_1D_SIZE is right");
     if (size == 0 || table.size() != size)
         complain_line(file, count,
             "has " + std::to_string(table.size()) + " entries; "

@@ -258,7 +258,7 @@ HudPlacement read_hud(const Place& place)
 
 HeadTracking read_head_tracker(const Place& place)
 {
-    reject_unknown_members(place, {"port", "address"});
+    reject_unknown_members(place, {"port", "address", "room_m"});
     HeadTracking tracking;
     if (auto p = find_member(place, "port"))
         tracking.port = integer(*p, 1024, 65535);
@@ -268,6 +268,7 @@ HeadTracking read_head_tracker(const Place& place)
         if (inet_pton(AF_INET, tracking.address.c_str(), &unused) != 1)
             complain(*p, "is no IPv4 address; \"127.0.0.1\" (a tracker on this computer) or \"0.0.0.0\" (on any) is right");
     }
+    take(place, "room_m", tracking.room_m, {0.1, 10});
     return tracking;
 }
 

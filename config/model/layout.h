@@ -212,6 +212,7 @@ struct HudPlacement {
 struct HeadTracking {
     int port = 4242;
     std::string address = "127.0.0.1"; ///< of this computer, on which it listens
+    glm::dvec3 room_m{2, 1, 2}; ///< how far the head may be from the layout's place, to each side along x, y and z
     bool operator==(const HeadTracking&) const = default;
 };
 

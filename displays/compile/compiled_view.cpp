@@ -1,10 +1,10 @@
 #include "compiled_view.h"
 #include "config/json/error.h"
+#include "config/json/whole_file.h"
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <map_sources.h> // MAP_SOURCES, a digest of all sources that maps depend on: CMakeLists.txt
 #include <sstream>
@@ -103,12 +103,6 @@ std::string key_of(const View& view, const std::string& warp)
     return name;
 }
 
-std::string contents(const std::filesystem::path& file)
-{
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 struct Header {
     char magic[8] = {'S', 't', 'a', 'r', 'b', 'o', 'w', 'M'};
     std::int32_t width = 0, height = 0, channels = 0, intensities = 0;
@@ -138,21 +132,24 @@ std::uint64_t content_hash(const DirectionMap& map)
 
 std::shared_ptr<DirectionMap> read_map(const std::filesystem::path& file, const View& view)
 {
-    std::ifstream stream(file, std::ios::binary);
+    RegularFile stream(file);
+    auto read = [&](void* data, std::size_t bytes) { return stream.read({static_cast<char*>(data), bytes}) == bytes; };
     Header header;
     const Header right;
-    if (!stream.read(reinterpret_cast<char*>(&header), sizeof header) || std::memcmp(header.magic, right.magic, 8) != 0
-        || header.width != view.size.x || header.height != view.size.y || (header.channels != 1 && header.channels != 3))
+    if (!read(&header, sizeof header) || std::memcmp(header.magic, right.magic, 8) != 0 || header.width != view.size.x
+        || header.height != view.size.y || (header.channels != 1 && header.channels != 3))
         return {};
     const std::size_t pixels = std::size_t(header.width) * header.height;
+    const std::size_t texels = pixels * header.channels, intensities = header.intensities ? pixels : 0;
+    if (stream.size() != sizeof header + texels * sizeof(glm::vec4) + intensities * sizeof(float))
+        return {};
     auto map = std::make_shared<DirectionMap>();
     map->size = view.size;
     map->channels = header.channels;
-    map->texels.resize(pixels * header.channels);
-    map->intensity.resize(header.intensities ? pixels : 0);
-    stream.read(reinterpret_cast<char*>(map->texels.data()), std::streamsize(map->texels.size() * sizeof(glm::vec4)));
-    stream.read(reinterpret_cast<char*>(map->intensity.data()), std::streamsize(map->intensity.size() * sizeof(float)));
-    if (!stream || content_hash(*map) != header.hash)
+    map->texels.resize(texels);
+    map->intensity.resize(intensities);
+    if (!read(map->texels.data(), texels * sizeof(glm::vec4)) || !read(map->intensity.data(), intensities * sizeof(float))
+        || content_hash(*map) != header.hash)
         return {};
     std::error_code ignored;
     std::filesystem::last_write_time(
@@ -182,7 +179,7 @@ void make_room(const std::filesystem::path& folder, std::uintmax_t most_bytes)
         if (entry.path().extension() == ".map") {
             all.push_back({read, entry.path(), bytes});
             sum += bytes;
-        } else if (entry.path().stem().extension() == ".map" && read < hour_ago) {
+        } else if (entry.path().extension() == ".part" && read < hour_ago) {
             fs::remove(entry.path(), error);
         }
     }
@@ -193,33 +190,22 @@ void make_room(const std::filesystem::path& folder, std::uintmax_t most_bytes)
     }
 }
 
-/// Writes a temporary file and renames it, so that several exhibits may share the folder. A full disk only makes starts
-/// slower.
+/// Several exhibits may share the folder. A full disk only makes starts slower.
 void write_map(const std::filesystem::path& file, const DirectionMap& map, std::uintmax_t most_bytes)
 {
-    std::error_code error;
-    std::filesystem::create_directories(file.parent_path(), error);
-    const std::filesystem::path beside = file.string() + "." + std::to_string(getpid());
-    {
-        std::ofstream stream(beside, std::ios::binary);
-        Header header;
-        header.width = map.size.x, header.height = map.size.y, header.channels = map.channels;
-        header.intensities = !map.intensity.empty();
-        header.hash = content_hash(map);
-        stream.write(reinterpret_cast<const char*>(&header), sizeof header);
-        stream.write(
-            reinterpret_cast<const char*>(map.texels.data()), std::streamsize(map.texels.size() * sizeof(glm::vec4)));
-        stream.write(
-            reinterpret_cast<const char*>(map.intensity.data()), std::streamsize(map.intensity.size() * sizeof(float)));
-        if (!stream.flush()) {
-            stream.close();
-            std::filesystem::remove(beside, error);
-            return;
-        }
+    Header header;
+    header.width = map.size.x, header.height = map.size.y, header.channels = map.channels;
+    header.intensities = !map.intensity.empty();
+    header.hash = content_hash(map);
+    auto bytes
+        = [](const void* data, std::size_t count) { return std::span(static_cast<const unsigned char*>(data), count); };
+    try {
+        write_own(file,
+            {bytes(&header, sizeof header), bytes(map.texels.data(), map.texels.size() * sizeof(glm::vec4)),
+                bytes(map.intensity.data(), map.intensity.size() * sizeof(float))});
+    } catch (const InputError&) {
+        return;
     }
-    std::filesystem::rename(beside, file, error);
-    if (error)
-        std::filesystem::remove(beside, error);
     make_room(file.parent_path(), most_bytes);
 }
 
@@ -261,7 +247,7 @@ std::shared_ptr<const WarpMesh> MapStore::mesh(const Warp& warp, std::string& co
     content = warp.region + '\n' + (form.first_row_on_top ? "top" : "bottom") + (form.v_up ? " up" : "")
         + (form.edge_to_edge ? " edges" : "") + (form.offsets ? " offsets" : "")
         + (warp.aspect ? " aspect " + std::to_string(*warp.aspect) : "") + '\n' + warp.file.filename().string() + '\n'
-        + contents(warp.file);
+        + read_warp_bytes(warp.file);
     // domeprojection's second file is named or found beside the first; its content is a part of the key in both cases.
     std::filesystem::path beside = warp.frustum;
     if (beside.empty()) {
@@ -269,7 +255,9 @@ std::shared_ptr<const WarpMesh> MapStore::mesh(const Warp& warp, std::string& co
         if (auto at = name.rfind("_mesh.csv"); at != name.npos)
             beside = name.replace(at, 9, "_frustum.csv");
     }
-    content += contents(beside);
+    std::error_code ignored;
+    if (std::filesystem::exists(beside, ignored))
+        content += read_warp_bytes(beside);
     std::weak_ptr<const WarpMesh>& kept = kept_->meshes[content];
     std::shared_ptr<const WarpMesh> mesh = kept.lock();
     if (!mesh)

@@ -1,5 +1,6 @@
 #include "composition.h"
 #include "config/json/error.h"
+#include "config/json/whole_file.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -13,14 +14,17 @@ WarpMesh::Mask read_mask(const std::filesystem::path& file, double gamma)
     WarpMesh::Mask mask;
     mask.gamma = gamma;
     int channels = 0;
-    if (!stbi_info(file.c_str(), &mask.size.x, &mask.size.y, &channels))
+    const std::string bytes = read_whole(file, std::size_t(512) << 20, "a PNG file");
+    const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+    if (!stbi_info_from_memory(data, int(bytes.size()), &mask.size.x, &mask.size.y, &channels))
         throw InputError(file.string(), "", "is no picture; a PNG file is right");
     constexpr int most = 16384;
     if (mask.size.x > most || mask.size.y > most)
         throw InputError(
             file.string(), "", "is larger than 16384 x 16384 pixels; a picture of the viewport's size is right");
     mask.channels = channels >= 3 ? 3 : 1;
-    stbi_us* values = stbi_load_16(file.c_str(), &mask.size.x, &mask.size.y, &channels, mask.channels);
+    stbi_us* values
+        = stbi_load_16_from_memory(data, int(bytes.size()), &mask.size.x, &mask.size.y, &channels, mask.channels);
     if (!values)
         throw InputError(
             file.string(), "", std::string("can't be read (") + stbi_failure_reason() + "); a whole PNG file is right");

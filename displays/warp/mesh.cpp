@@ -1,7 +1,7 @@
+#include "config/json/whole_file.h"
 #include "parts.h"
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -162,32 +162,12 @@ void check_mesh(WarpMesh& mesh, const WarpFile& file)
         mesh.warnings.push_back("every pixel shows one and the same direction");
 }
 
-namespace {
-
-constexpr std::size_t most_bytes = std::size_t(512) << 20;
-
-std::string contents(const std::filesystem::path& path)
+std::string read_warp_bytes(const std::filesystem::path& file)
 {
-    const std::string name = one_line(path.string());
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored))
-        throw InputError(name, "", "is a folder; a warp file is right");
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(path.c_str(), "rb"), std::fclose);
-    if (!stream)
-        throw InputError(
-            name, "", std::string("can't be opened (") + std::strerror(errno) + "); a readable warp file is right");
-    std::string bytes;
-    char piece[65536];
-    while (const std::size_t got = std::fread(piece, 1, sizeof piece, stream.get())) {
-        bytes.append(piece, got);
-        if (bytes.size() > most_bytes)
-            throw InputError(name, "", "is larger than 512 MiB; a smaller file is right");
-    }
-    if (std::ferror(stream.get()))
-        throw InputError(
-            name, "", std::string("can't be read (") + std::strerror(errno) + "); a readable warp file is right");
-    return bytes;
+    return read_whole(file, std::size_t(512) << 20, "a warp file");
 }
+
+namespace {
 
 enum class Format { none, bourke, domeprojection, simcad, sciss, scalable, skyskan, obj, pfm, mpcdi, headset };
 
@@ -291,7 +271,7 @@ std::filesystem::path frustum_beside(const std::filesystem::path& mesh)
 
 WarpMesh load_warp(const Warp& warp)
 {
-    const std::string bytes = contents(warp.file);
+    const std::string bytes = read_warp_bytes(warp.file);
     const WarpFile file{one_line(warp.file.string()), bytes};
     WarpMesh mesh = read_warp(file, warp.region, warp.map, warp.aspect);
     std::filesystem::path frustum = warp.frustum;
@@ -305,7 +285,7 @@ WarpMesh load_warp(const Warp& warp)
             refuse(file, "",
                 std::string(mesh.frustum ? "has a frustum of its own" : "shows no flat picture") + ", and "
                     + in_quotes(frustum.filename().string()) + " gives another; one is right");
-        const std::string text = contents(frustum);
+        const std::string text = read_warp_bytes(frustum);
         const WarpFrustum read = read_frustum({one_line(frustum.string()), text});
         mesh.frustum = read.planar;
         mesh.eye_m = read.eye_m;

@@ -45,6 +45,9 @@ struct WarpMesh {
     std::optional<Mask> alpha, beta; ///< the factor of the light, and the addend
 };
 
+/// The bytes of a calibration file, at most 512 MiB. Throws InputError.
+std::string read_warp_bytes(const std::filesystem::path& file);
+
 /// Reads any supported format, recognised by content and name. Throws InputError with the file, the place in it, the
 /// problem and what would be right. displays/warp/README.md describes each format and its reading.
 WarpMesh load_warp(const Warp& warp);

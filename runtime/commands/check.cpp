@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "config/json/error.h"
+#include "config/json/whole_file.h"
 #include "config/model/shipped.h"
 #include "displays/check/floor_plan.h"
 #include "displays/check/floor_plan_table.h"
@@ -11,7 +12,6 @@
 #include "runtime/world/worldline.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 #include <map>
 #include <memory>
 
@@ -74,11 +74,7 @@ int check(const CheckOptions& options)
             std::printf("note: %s\n", line.c_str());
     if (file.has_parent_path())
         std::filesystem::create_directories(file.parent_path());
-    std::ofstream stream(file, std::ios::binary);
-    stream << draw_floor_plan(layout, shown);
-    stream.close();
-    if (!stream)
-        throw InputError(file.string(), "", "can't be written; a folder with room and leave to write is right");
+    write_whole(file, draw_floor_plan(layout, shown));
     std::printf("%s\n", file.c_str());
     return 0;
 }

@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
+#include "config/json/whole_file.h"
 #include "config/model/shipped.h"
 #include "input/hid.h"
 #include "runtime/operation/log.h"
@@ -8,7 +9,6 @@
 #include <cctype>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -55,15 +55,9 @@ std::optional<std::vector<std::uint8_t>> from_hex(const std::string& text)
 /// Reads a descriptor: raw bytes, hexadecimal text, or JSON with a member "descriptor_hex". Throws InputError.
 std::vector<std::uint8_t> descriptor_in(const std::string& file)
 {
-    std::ifstream stream(file, std::ios::binary);
-    std::string text(most_bytes + 1, '\0');
-    if (!stream || std::filesystem::is_directory(file))
-        throw InputError(file, "", "can't be read; a file with a report descriptor is right");
-    stream.read(text.data(), std::streamsize(text.size()));
-    text.resize(std::size_t(stream.gcount()));
-    if (text.empty() || text.size() > most_bytes)
-        throw InputError(file, "",
-            text.empty() ? "is empty; a report descriptor is right" : "is larger than 1 MiB; a report descriptor is right");
+    const std::string text = read_whole(file, most_bytes, "a file with a report descriptor");
+    if (text.empty())
+        throw InputError(file, "", "is empty; a report descriptor is right");
     if (const auto first = text.find_first_not_of(" \t\r\n");
         first != text.npos && text[first] == '{' && text.find('"') != text.npos) {
         const Document document = parse_document(file, text);

@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "config/import/import_sgct.h"
+#include "config/json/whole_file.h"
 #include "config/model/layout_reader.h"
 #include "config/model/shipped.h"
 #include "displays/finish/shade.h"
@@ -7,8 +8,8 @@
 #include "runtime/images/capture.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 #include <memory>
+#include <sstream>
 
 namespace starbow {
 namespace {
@@ -85,13 +86,11 @@ int import(const ImportOptions& options)
     const HudPlacement hud;
     layout["hud"] = {{"azimuth_deg", hud.azimuth_deg}, {"elevation_deg", hud.elevation_deg}, {"width_deg", hud.width_deg}};
     layout.update(import.layout);
-    std::ofstream stream(options.out);
-    stream << "// Made of SGCT's " << one_line(options.file)
-           << " by 'starbow import sgct', which reports the new place of each member.\n"
-           << layout.dump(4) << "\n";
-    if (!stream.flush())
-        throw InputError(options.out, "", "can't be written; give a file in a folder that can be");
-    stream.close();
+    std::ostringstream text;
+    text << "// Made of SGCT's " << one_line(options.file)
+         << " by 'starbow import sgct', which reports the new place of each member.\n"
+         << layout.dump(4) << "\n";
+    write_whole(options.out, text.str());
     const std::vector<std::string> wrong = faults(options.out);
     for (const std::string& line : import.lines)
         std::printf("%s\n", one_line(line).c_str());

@@ -1,6 +1,8 @@
 #include "commands.h"
 #include "config/json/error.h"
+#include "config/json/reader.h"
 #include "runtime/operation/crash.h"
+#include "runtime/operation/messages.h"
 #include "runtime/operation/state_folder.h"
 #include "version.h"
 #include <CLI/CLI.hpp>
@@ -8,6 +10,7 @@
 #include <new>
 #include <string>
 #include <system_error>
+#include <unistd.h>
 #include <vector>
 
 namespace {
@@ -15,13 +18,10 @@ namespace {
 /// The exit status after wrong input, and after a failure of the machine: its memory, its disk, its graphics driver.
 constexpr int wrong_input = 2, machine_failed = 3;
 
-/// Prints one line on standard error. Control characters in names or arguments must not reach the terminal.
+/// Prints one line on standard error, after the log's lines.
 int complain(std::string text, int status = wrong_input)
 {
-    for (char& c : text)
-        if ((unsigned char)(c) < 0x20 || c == 0x7f)
-            c = '?';
-    std::fprintf(stderr, "starbow: %s\n", text.c_str());
+    starbow::send_message(STDERR_FILENO, "starbow: " + starbow::plain_text(std::move(text)) + "\n");
     return status;
 }
 
@@ -82,6 +82,7 @@ int guarded(const std::function<int()>& run)
 
 int main(int count, char** arguments)
 {
+    starbow::guard_streams();
     if (const std::filesystem::path folder = starbow::state_folder(); !folder.empty())
         starbow::keep_crash_traces(folder / "crash", starbow::program_version);
     CLI::App app("Starbow: fly near the speed of light and see what physics says you would see.");

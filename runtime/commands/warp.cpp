@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "config/json/reader.h"
+#include "config/json/whole_file.h"
 #include "displays/warp/formats.h"
 #include "runtime/images/capture.h"
 #include <CLI/CLI.hpp>
@@ -8,7 +9,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <set>
 
@@ -119,13 +119,10 @@ int inspect(const WarpOptions& options)
 
 void write_text(const std::filesystem::path& file, const std::string& bytes)
 {
-    std::error_code ignored; // the stream reports it
+    std::error_code ignored; // writing reports it
     if (file.has_parent_path())
         std::filesystem::create_directories(file.parent_path(), ignored);
-    std::ofstream stream(file, std::ios::binary);
-    stream << bytes;
-    if (!stream.flush())
-        throw InputError(file.string(), "", "can't be written; give a file in a folder that can be");
+    write_whole(file, bytes);
     std::printf("%s\n", file.c_str());
 }
 
@@ -202,7 +199,7 @@ int convert(const WarpOptions& options)
     } else
         write_text(options.out, write_bourke(mesh, options.file, aspect));
     for (const std::string& loss : losses(original, mesh, extension))
-        std::fprintf(stderr, "starbow: %s: %s\n", options.out.c_str(), loss.c_str());
+        std::fprintf(stderr, "starbow: %s: %s\n", one_line(options.out).c_str(), one_line(loss).c_str());
     return 0;
 }
 

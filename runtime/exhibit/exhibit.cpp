@@ -3,6 +3,7 @@
 #include "config/model/shipped.h"
 #include "frame_loop.h"
 #include "runtime/operation/log.h"
+#include "runtime/operation/messages.h"
 #include "runtime/operation/waits.h"
 #include <cstdio>
 #include <memory>
@@ -24,11 +25,12 @@ void print_summary(const Session& session, const SceneFile& scene)
     last.mode = session.flight.mode;
     last.exposure_ev = ev_of(session);
     last.exposure_locked = session.exposure.locked;
+    std::string line;
     for (const auto& [label, value] : hud_fields(last, words_in("en")))
-        std::printf("%s %s  ", label.c_str(), value.c_str());
-    std::printf("\n");
+        line += label + " " + value + "  ";
+    print_message(line);
     if (session.skew.frames() > 0)
-        std::printf("%s\n", describe(session.skew).c_str());
+        print_message(describe(session.skew));
 }
 
 Device::Options device_of(const ExhibitOptions& options)
@@ -77,7 +79,7 @@ int fly_exhibit(const ExhibitOptions& options)
                 work.emplace("the end of the exhibit's closing", loading_limit_s);
             }
             print_summary(session, context->world.scene);
-            const bool same = session.record_replay.end(session.flight);
+            const bool same = session.record_replay.end(session.flight, print_message);
             return !same || session.complaints || !context->device.complaints.empty() ? 1 : 0;
         } catch (const vk::DeviceLostError& error) {
             lost = error.what();

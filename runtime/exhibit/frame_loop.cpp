@@ -312,13 +312,23 @@ void FrameLoop::end_commands()
 
 void FrameLoop::apply_file_changes()
 {
-    const std::optional<Layout> next = std::exchange(next_layout_, {});
-    if (!next && !session_.watch.changed(Clock::now()))
+    if (session_.loader.changed()) {
+        LayoutLoader::Shown shown{.kept = session_.kept,
+            .layout = session_.layout,
+            .quality = quality_of(session_, device_),
+            .sizes = {},
+            .has_stars = context_.world.star_count > 0};
+        for (const Target& target : screens_.targets())
+            shown.sizes.push_back(target.view ? glm::ivec2(target.extent.width, target.extent.height) : glm::ivec2(0));
+        session_.loader.load(std::move(shown));
+    }
+    std::optional<LayoutLoader::Result> result = session_.loader.result();
+    if (!result)
         return;
-    const LimitedWait loading("the changed layout", loading_limit_s);
-    session_.service.loads("Loads the changed layout.", loading_limit_s);
     try {
-        show_layout(next ? *next : load_layout(session_.layout.file));
+        if (const std::string* why = std::get_if<std::string>(&*result))
+            throw InputError(*why);
+        apply(std::get<LayoutLoader::Loaded>(std::move(*result)));
     } catch (const InputError& error) {
         const std::string why = one_line(error.what());
         log_warning("layout", why + "; the exhibit stays as it was");
@@ -328,24 +338,29 @@ void FrameLoop::apply_file_changes()
     }
 }
 
-/// Shows a layout, another one or the same one's changed file. Throws InputError; then the old one is still shown.
-void FrameLoop::show_layout(const Layout& fresh)
+void FrameLoop::apply(LayoutLoader::Loaded loaded)
 {
-    Layout layout = fresh.file == session_.layout.file ? turned_again(fresh, session_.kept, session_.layout) : fresh;
-    FileWatch watch(files_of(layout));
+    const LimitedWait applying("the changed layout", loading_limit_s);
+    session_.service.loads("Applies the changed layout.", loading_limit_s);
+    Layout layout = loaded.fresh.file == session_.layout.file
+        ? turned_again(loaded.fresh, session_.kept, session_.layout)
+        : loaded.layout;
+    std::optional<PreparedLayout> prepared;
+    if (changes(loaded.layout, layout).empty()) // else a builder has turned something meanwhile
+        prepared = std::move(loaded.prepared);
     const bool same_tracker = session_.layout.head_tracker == layout.head_tracker;
     std::unique_ptr<HeadTracker> tracker = same_tracker ? nullptr : tracker_of(layout);
     frame_ = std::make_unique<FrameRenderer>(
-        device_, context_.pipelines, context_.world, layout, quality_of(session_, device_));
+        device_, context_.pipelines, context_.world, layout, quality_of(session_, device_), false, std::move(prepared));
     if (!same_tracker)
         session_.tracker = std::move(tracker);
     session_.layout = std::move(layout);
-    session_.kept = fresh;
-    session_.watch = std::move(watch);
+    session_.kept = std::move(loaded.fresh);
     session_.refused.clear();
     if (session_.governor)
         session_.governor->forget_refusals();
     screens_.adopt(session_.layout);
+    session_.diary.count([](Tally& tally) { ++tally.layouts; });
     session_.diary.count([](Tally& tally) { ++tally.layouts; });
     const std::size_t unkept = changes(session_.kept, session_.layout).size();
     log_info("layout",
@@ -404,7 +419,7 @@ void FrameLoop::carry_out(const Command& command, Controls& controls)
             show_programme(programme_after(session_, command));
             break;
         case CommandKind::layout:
-            next_layout_ = load_layout(shipped_file("layouts", command.text)); // the windows of this frame are acquired
+            session_.loader.open(load_layout(shipped_file("layouts", command.text)).file);
             break;
         case CommandKind::quality:
             show_quality(command.text);

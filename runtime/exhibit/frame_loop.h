@@ -36,10 +36,10 @@ private:
     void watch_sizes(const std::vector<Target>& targets);
     /// Waits for the frame's turn and for the device. Returns the exposure for the frame before, if it was metered.
     std::optional<double> await_device();
-    /// Applies a change of the layout's files. If any file is wrong, nothing changes: the old picture stays until the new
-    /// one can be drawn.
+    /// Has a changed layout loaded beside, and applies one that is ready. If any file is wrong, nothing changes: the old
+    /// picture stays until the new one can be drawn.
     void apply_file_changes();
-    void show_layout(const Layout& fresh);
+    void apply(LayoutLoader::Loaded loaded);
     void show_programme(Programme programme);
     void show_quality(const std::string& name);
     /// Carries out a remote's command; a refused one is logged with its reason and changes nothing.
@@ -65,7 +65,6 @@ private:
     std::optional<Clock::time_point> presented_; ///< the frame before
     bool fresh_ = true; ///< no frame is shown yet
     bool cold_; ///< the warm-up is still to come
-    std::optional<Layout> next_layout_; ///< requested by a remote, for the next frame
     HudUpdater hud_;
     Pace pace_;
     vk::raii::Fence done_;

@@ -1,4 +1,5 @@
 #include "lab.h"
+#include "runtime/operation/log.h"
 #include <algorithm>
 
 namespace starbow {
@@ -25,7 +26,7 @@ Measured measured_of(const MeasuringObserver& observer, const Ship& ship, const 
 
 Lab::Lab(const std::filesystem::path& log, double every_s, const Words& words)
     : words_(words)
-    , log_(log.empty() ? nullptr : std::make_unique<LabLog>(log))
+    , log_(log.empty() ? nullptr : std::make_unique<LabLog>(log, info_log("log")))
     , every_s_(every_s)
 {
 }

@@ -3,6 +3,7 @@
 #include "config/model/scene_file.h"
 #include "runtime/flight/record_files.h"
 #include "runtime/operation/log.h"
+#include "runtime/operation/messages.h"
 #include "runtime/operation/vitals.h"
 #include "runtime/render/render_context.h"
 #include <algorithm>
@@ -52,7 +53,7 @@ Session::Session(const ExhibitOptions& given)
     , quality(given.quality)
     , layout(given.layout)
     , kept(layout)
-    , watch(files_of(layout))
+    , loader(layout)
     , guide(guide_of(programme, given.rules))
     , flight(flight_at(programme.start, given.rules))
     , tutorial(tutorial_at(flight))
@@ -75,7 +76,7 @@ std::optional<Governor> governor_of(const ExhibitOptions& options)
 
 std::unique_ptr<HeadTracker> tracker_of(const Layout& layout)
 {
-    return layout.head_tracker ? std::make_unique<HeadTracker>(*layout.head_tracker) : nullptr;
+    return layout.head_tracker ? std::make_unique<HeadTracker>(*layout.head_tracker, info_log("input")) : nullptr;
 }
 
 std::string describe(const Skew& skew)
@@ -103,7 +104,7 @@ void log_world(const RenderContext& context)
 {
     for (const std::string& note : context.world.world.notes)
         log_info("world", context.world.scene.gltf.string() + ": " + note);
-    std::printf("%s\n", describe_light(context).c_str());
+    print_message(describe_light(context));
 }
 
 Quality quality_of(const Session& session, const Device& device)
@@ -166,8 +167,8 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
     entry.dt_ns = std::min<std::int64_t>(passed.count(), 100'000'000);
     entry.skipped_ns = passed.count() - entry.dt_ns;
     const double dt_s = 1e-9 * double(entry.dt_ns);
-    controls
-        = session.keyboard.read(windows, std::chrono::nanoseconds(now - session.began).count(), dt_s, session.hid.kinds());
+    controls = session.keyboard.read(windows, session.display.keyboard_grabbed(windows),
+        std::chrono::nanoseconds(now - session.began).count(), dt_s, session.hid.kinds());
     session.hid.add(dt_s, controls);
     if (session.tracker)
         controls.head = session.tracker->read(now);

@@ -1,17 +1,18 @@
 #pragma once
 #include "alignment_mode.h"
+#include "display_hold.h"
 #include "exhibit.h"
 #include "input/head_tracker.h"
 #include "input/hid.h"
 #include "input/keyboard.h"
 #include "lab.h"
+#include "layout_loader.h"
 #include "runtime/flight/flight.h"
 #include "runtime/flight/history.h"
 #include "runtime/flight/record_replay.h"
 #include "runtime/flight/tutorial.h"
 #include "runtime/light/exposure.h"
 #include "runtime/operation/diary.h"
-#include "runtime/operation/file_watch.h"
 #include "runtime/operation/governor.h"
 #include "runtime/operation/guide.h"
 #include "runtime/operation/service.h"
@@ -49,7 +50,7 @@ struct Session {
     Directions directions{};
     Layout layout; ///< the shown layout
     Layout kept; ///< the file's layout, without a builder's unsaved changes
-    FileWatch watch;
+    LayoutLoader loader; ///< follows the files of `layout`
     std::string refused; ///< the reason why a changed layout was not applied, for the head-up display
     std::optional<Guide> guide;
     Flight flight;
@@ -57,6 +58,7 @@ struct Session {
     Exposure exposure{};
     Tutorial tutorial;
     RecordReplay record_replay;
+    DisplayHold display{};
     Keyboard keyboard{};
     Hid hid;
     std::unique_ptr<HeadTracker> tracker;

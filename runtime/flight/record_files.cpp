@@ -1,14 +1,17 @@
 #include "record_files.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
+#include "config/json/whole_file.h"
 #include "config/model/scene_file.h"
 #include "config/model/shipped.h"
 #include <array>
-#include <fstream>
 
 namespace starbow {
 namespace fs = std::filesystem;
 namespace {
+
+/// No file of a scene or a layout may be larger (runtime/world/gltf/file.h).
+constexpr std::uintmax_t most_bytes = std::uintmax_t(1) << 30;
 
 std::uint64_t digest_of_scene(const fs::path& scene) { return digest_of({scene, load_scene_file(scene).gltf}); }
 
@@ -28,9 +31,11 @@ std::uint64_t digest_of(const std::vector<fs::path>& files)
     std::uint64_t sum = digest(std::string_view());
     std::vector<char> piece(1 << 16);
     for (const fs::path& file : files) {
-        std::ifstream stream(file, std::ios::binary);
-        while (stream.read(piece.data(), std::streamsize(piece.size())), stream.gcount() > 0)
-            sum = digest({piece.data(), std::size_t(stream.gcount())}, sum);
+        RegularFile stream(file);
+        if (stream.size() > most_bytes)
+            throw InputError(one_line(file.string()), "", "is larger than 1 GiB; a smaller file is right");
+        while (const std::size_t got = stream.read(piece))
+            sum = digest({piece.data(), got}, sum);
     }
     return sum;
 }

@@ -1,6 +1,5 @@
 #include "record_replay.h"
 #include <algorithm>
-#include <cstdio>
 #include <thread>
 
 namespace starbow {
@@ -29,20 +28,20 @@ void RecordReplay::keep(const RecordEntry& entry, const Flight& flight)
         replay_->compare(flight);
 }
 
-bool RecordReplay::end(const Flight& flight)
+bool RecordReplay::end(const Flight& flight, const std::function<void(std::string)>& say)
 {
     if (recorder_) {
         recorder_->end(flight);
         const std::string where
             = recorder_->failed() ? "not recorded to the end" : "recorded in " + recorder_->file().string();
-        std::printf("%s, flight state %s\n", where.c_str(), shown_digest(digest(flight)).c_str());
+        say(where + ", flight state " + shown_digest(digest(flight)));
     }
     if (!replay_)
         return true;
     if (played_ || replay_->differs())
-        std::printf("%s\n", replay_->verdict().c_str());
+        say(replay_->verdict());
     else
-        std::printf("left before the record's end; the same to the bit at %d checks\n", replay_->checks());
+        say("left before the record's end; the same to the bit at " + std::to_string(replay_->checks()) + " checks");
     return !replay_->differs();
 }
 

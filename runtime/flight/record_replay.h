@@ -2,6 +2,7 @@
 #include "recorder.h"
 #include "replay.h"
 #include <chrono>
+#include <functional>
 #include <memory>
 
 namespace starbow {
@@ -23,9 +24,9 @@ public:
     bool play(RecordEntry& entry);
     /// Records the frame, or compares its result with the record.
     void keep(const RecordEntry& entry, const Flight& flight);
-    /// Ends the record or the replay of a flight that ended properly; prints lines on standard output. Returns false if a
+    /// Ends the record or the replay of a flight that ended properly. say: receives lines for people. Returns false if a
     /// replay differed in any bit.
-    bool end(const Flight& flight);
+    bool end(const Flight& flight, const std::function<void(std::string)>& say);
 
 private:
     std::unique_ptr<Recorder> recorder_;

@@ -1,6 +1,5 @@
 #include "recorder.h"
-#include "config/json/error.h"
-#include "config/json/reader.h"
+#include "config/json/whole_file.h"
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -40,12 +39,7 @@ Recorder::Recorder(const fs::path& file, const RecordHeader& header, std::functi
     struct stat known { };
     const bool there = stat(file_.c_str(), &known) == 0;
     ordinary_ = !there || S_ISREG(known.st_mode);
-    stream_ = open(file_.c_str(), O_WRONLY | O_CLOEXEC | (ordinary_ ? O_CREAT | O_EXCL : 0), 0644);
-    if (stream_ < 0 && errno == EEXIST)
-        throw InputError(one_line(file_.string()), "", "is there already; the name of a new file, or a folder, is right");
-    if (stream_ < 0)
-        throw InputError(one_line(file_.string()), "",
-            std::string("can't be written (") + std::strerror(errno) + "); a new file in a folder that can be is right");
+    stream_ = open_to_write(file_, O_EXCL, "the name of a new file, or a folder,");
     add(text_of(header));
     writer_ = std::thread([this] { write(); });
 }

@@ -2,8 +2,6 @@
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 
 namespace starbow {
 namespace fs = std::filesystem;
@@ -16,17 +14,10 @@ constexpr std::size_t longest_line = 1 << 16;
 
 Replay::Replay(const fs::path& file)
     : file_(one_line(file.string()))
+    , stream_(file)
 {
-    std::error_code error;
-    if (fs::is_directory(file, error))
-        throw InputError(file_, "", "is a folder; a record of a flight is right");
-    stream_.open(file, std::ios::binary);
-    if (!stream_)
-        throw InputError(
-            file_, "", std::string("can't be opened (") + std::strerror(errno) + "); a record of a flight is right");
-    bytes_ = fs::file_size(file, error); // a pipe has none
-    if (error)
-        bytes_ = 0;
+    if (!stream_.fault().empty())
+        throw InputError(file_, "", stream_.fault() + "; a record of a flight is right");
     const auto first = line();
     if (!first && !cut_)
         throw InputError(file_, "", "is empty; a record of a flight is right");
@@ -42,13 +33,14 @@ Replay::Replay(const fs::path& file)
 std::optional<std::string> Replay::line()
 {
     std::string text;
-    for (int c; (c = stream_.rdbuf()->sbumpc()) != std::char_traits<char>::eof();) {
+    while (at_ < got_ || (at_ = 0, got_ = stream_.read(piece_)) > 0) {
+        const char c = piece_[at_++];
         ++read_;
         if (c == '\n') {
             ++line_;
             return text;
         }
-        text += char(c);
+        text += c;
         if (text.size() > longest_line)
             throw InputError(file_ + ":" + std::to_string(line_ + 1), "",
                 "is longer than " + std::to_string(longest_line) + " bytes; a line that starbow has written is right");
@@ -98,7 +90,7 @@ void Replay::compare_here(const Flight& flight)
     }
 }
 
-double Replay::part_read() const { return bytes_ > 0 ? std::min(1.0, double(read_) / double(bytes_)) : 0; }
+double Replay::part_read() const { return stream_.size() > 0 ? std::min(1.0, double(read_) / double(stream_.size())) : 0; }
 
 std::string Replay::verdict() const
 {

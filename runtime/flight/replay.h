@@ -1,7 +1,8 @@
 #pragma once
+#include "config/json/whole_file.h"
 #include "record.h"
+#include <array>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 
@@ -39,8 +40,10 @@ private:
     void compare_here(const Flight& flight);
 
     std::string file_;
-    std::ifstream stream_;
-    std::uintmax_t bytes_ = 0, read_ = 0; ///< size of the file and bytes read; bytes_ is 0 for a pipe
+    RegularFile stream_;
+    std::array<char, 65536> piece_; ///< of the file, from which lines are taken
+    std::size_t at_ = 0, got_ = 0; ///< the next byte of the piece, and how many it holds
+    std::uintmax_t read_ = 0; ///< bytes of the lines so far
     int line_ = 0; ///< the last line that was read
     RecordHeader header_;
     std::optional<std::variant<RecordEntry, RecordCheck>> ahead_;

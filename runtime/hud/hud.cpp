@@ -1,12 +1,14 @@
 #include "hud.h"
 #include "config/json/error.h"
+#include "config/json/reader.h"
+#include "config/json/whole_file.h"
 #include "shaders/physics/physics.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <map>
+#include <set>
 #include <stb/stb_truetype.h>
 
 namespace starbow {
@@ -150,7 +152,7 @@ std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& r, c
 }
 
 struct Typesetter::Font {
-    std::vector<unsigned char> file;
+    std::string file;
     stbtt_fontinfo info{};
 
     struct Glyph {
@@ -198,14 +200,47 @@ std::vector<int> code_points(const std::string& utf8)
 
 } // namespace
 
-Typesetter::Typesetter()
+std::string font_fault(std::string_view bytes)
+{
+    // OpenType specification 1.9, "Organization of an OpenType Font": numbers are big-endian, a table's record has its tag,
+    // the sum of its words, its place and its length.
+    const auto word = [&](std::size_t at) {
+        std::uint32_t value = 0;
+        for (std::size_t i = at; i < at + 4; ++i)
+            value = value << 8 | (i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0);
+        return value;
+    };
+    if (bytes.size() < 12 || word(0) != 0x00010000)
+        return "is no TrueType font";
+    const std::size_t tables = word(4) >> 16;
+    std::set<std::string_view> needed{"cmap", "glyf", "head", "hhea", "hmtx", "loca", "maxp"};
+    for (std::size_t i = 0; i < tables; ++i) {
+        const std::size_t record = 12 + 16 * i;
+        if (bytes.size() < record + 16)
+            return "is cut off in the list of its tables";
+        const std::string_view tag = bytes.substr(record, 4);
+        const std::size_t begin = word(record + 8), length = word(record + 12);
+        if (begin > bytes.size() || length > bytes.size() - begin)
+            return "is cut off in its table " + one_line(std::string(tag));
+        std::uint32_t sum = tag == "head" && length >= 12 ? 0u - word(begin + 8) : 0; // that word counts as 0
+        for (std::size_t at = begin; at < begin + length; at += 4)
+            sum += word(at);
+        if (sum != word(record + 4))
+            return "is damaged in its table " + one_line(std::string(tag));
+        needed.erase(tag);
+    }
+    return needed.empty() ? "" : "lacks the table " + std::string(*needed.begin());
+}
+
+Typesetter::Typesetter(const std::filesystem::path& file)
     : font_(std::make_unique<Font>())
 {
-    std::ifstream stream(hud_font, std::ios::binary);
-    font_->file.assign(std::istreambuf_iterator<char>(stream), {});
-    if (font_->file.empty()
-        || !stbtt_InitFont(&font_->info, font_->file.data(), stbtt_GetFontOffsetForIndex(font_->file.data(), 0)))
-        throw InputError(hud_font, "", "is not there or no font; install fonts-dejavu-core");
+    const std::string right = "DejaVu Sans, which the package fonts-dejavu-core installs,";
+    font_->file = read_whole(file, std::size_t(16) << 20, right);
+    const std::string fault = font_fault(font_->file);
+    const auto* bytes = reinterpret_cast<const unsigned char*>(font_->file.data());
+    if (!fault.empty() || !stbtt_InitFont(&font_->info, bytes, 0))
+        throw InputError(one_line(file.string()), "", (fault.empty() ? "is no font" : fault) + "; " + right + " is right");
 }
 
 Typesetter::~Typesetter() = default;

@@ -5,10 +5,12 @@
 #include "config/model/words.h"
 #include "runtime/flight/ship.h"
 #include <cstdint>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace starbow {
@@ -61,11 +63,15 @@ std::vector<std::pair<std::string, std::string>> hud_fields(const Readings& read
 /// The font file of the head-up display.
 inline constexpr const char* hud_font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
+/// The fault of a TrueType file whose tables are missing, cut off or differ from their sums, as a predicate, or "". The
+/// library that reads fonts trusts every number in them.
+std::string font_fault(std::string_view bytes);
+
 /// The display's letters (DejaVu Sans), ready to draw.
 class Typesetter {
 public:
-    /// Throws InputError if the font is not installed.
-    Typesetter();
+    /// Throws InputError if the font is not installed, or is damaged.
+    explicit Typesetter(const std::filesystem::path& file = hud_font);
     ~Typesetter();
     Panel draw(const Readings& readings, const Words& words, int width) const;
 

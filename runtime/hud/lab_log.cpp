@@ -1,15 +1,17 @@
 #include "lab_log.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
+#include "config/json/whole_file.h"
 #include "config/model/angles.h"
 #include "shaders/physics/physics.h"
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstring>
 #include <ctime>
 #include <fcntl.h>
-#include <fstream>
 #include <unistd.h>
 
 namespace starbow {
@@ -108,36 +110,29 @@ std::string log_line(const Measured& measured, const std::string& overlay, const
     return joined(columns_of(measured, overlay, utc), &Columns::value_type::second);
 }
 
-LabLog::LabLog(const std::filesystem::path& file)
+LabLog::LabLog(const std::filesystem::path& file, std::function<void(const std::string&)> say)
     : file_(file)
+    , say_(std::move(say))
 {
-    const std::string name = one_line(file.string());
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored))
-        throw InputError(name, "", "is a folder; the name of a CSV file is right");
-    std::string first, line;
-    bool cut = false; // the last line is incomplete, as after a power cut
-    if (std::ifstream stream(file, std::ios::binary); stream) {
-        while (std::getline(stream, line)) {
-            if (first.empty())
-                first = line;
-            ++lines_;
-            cut = stream.eof();
-        }
-        if (!first.empty() && first != log_header() + "\r" && first != log_header())
-            throw InputError(name, "1",
+    stream_ = open_to_write(file, O_APPEND, "a CSV file in a folder that can be written");
+    const std::string header = log_header() + line_end;
+    std::array<char, 65536> piece;
+    char last = '\n'; // of the file; another one where its last line is incomplete, as after a power cut
+    RegularFile known(file);
+    for (std::size_t got; (got = known.read(piece)) > 0; last = piece[got - 1]) {
+        if (const std::string_view begin(piece.data(), std::min(got, header.size()));
+            lines_ == 0 && begin != header && !begin.starts_with(log_header() + "\n")) {
+            close(stream_);
+            throw InputError(one_line(file.string()), "1",
                 "begins otherwise than a log of this program does; a new file, or one that starbow run --log has written, "
-                "is "
-                "right");
+                "is right");
+        }
+        lines_ += std::count(piece.data(), piece.data() + got, '\n');
     }
-    stream_ = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-    if (stream_ < 0)
-        throw InputError(name, "",
-            std::string("can't be written (") + std::strerror(errno) + "); a CSV file in a folder that can be is right");
-    if (first.empty())
-        write_out(log_header() + line_end), lines_ = 1;
-    else if (cut)
-        write_out(line_end);
+    if (lines_ == 0)
+        write_out(header), lines_ = 1;
+    else if (last != '\n')
+        write_out(line_end), ++lines_;
     --lines_;
 }
 
@@ -155,8 +150,7 @@ bool LabLog::write_out(const std::string& text)
 {
     if (!failed_ && ::write(stream_, text.data(), text.size()) != ssize_t(text.size())) {
         failed_ = true;
-        std::fprintf(stderr, "starbow: %s: can't be written (%s); the log ends here, the flight goes on\n",
-            one_line(file_.string()).c_str(), std::strerror(errno));
+        say_(file_.string() + ": can't be written (" + std::strerror(errno) + "); the log ends here, the flight goes on");
     }
     return !failed_;
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include "why.h"
 #include <filesystem>
+#include <functional>
 #include <string>
 
 namespace starbow {
@@ -11,12 +12,12 @@ class LabLog {
 public:
     /// file: a new one, or one with the same first line, which is continued. Throws InputError for any other, or where the
     /// file can't be written.
-    explicit LabLog(const std::filesystem::path& file);
+    /// say: receives the sentence about the first line that the disk refuses.
+    LabLog(const std::filesystem::path& file, std::function<void(const std::string&)> say);
     ~LabLog();
     LabLog(const LabLog&) = delete;
 
-    /// Appends a line. Returns false if the disk refuses it. The first failure is reported on standard error; later lines
-    /// are lost.
+    /// Appends a line. Returns false if the disk refuses it; later lines are lost then.
     bool write(const Measured& measured, const std::string& overlay);
     long lines() const { return lines_; } ///< in the file, without the first
     const std::filesystem::path& file() const { return file_; }
@@ -25,6 +26,7 @@ private:
     bool write_out(const std::string& text);
 
     std::filesystem::path file_;
+    std::function<void(const std::string&)> say_;
     int stream_ = -1;
     long lines_ = 0;
     bool failed_ = false;

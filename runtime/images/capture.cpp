@@ -31,22 +31,6 @@ std::size_t pixels(glm::ivec2 size)
     return std::size_t(size.x) * std::size_t(size.y);
 }
 
-Bytes read_whole(const std::filesystem::path& file)
-{
-    const Stream stream(std::fopen(file.c_str(), "rb"), std::fclose);
-    if (!stream)
-        throw InputError(
-            file.string(), "", std::string("can't be opened (") + std::strerror(errno) + "); an EXR file is right");
-    Bytes bytes;
-    unsigned char piece[65536];
-    while (const std::size_t got = std::fread(piece, 1, sizeof piece, stream.get()))
-        bytes.insert(bytes.end(), piece, piece + got);
-    if (std::ferror(stream.get()))
-        throw InputError(
-            file.string(), "", std::string("can't be read (") + std::strerror(errno) + "); an EXR file is right");
-    return bytes;
-}
-
 } // namespace
 
 void check_writable(const std::filesystem::path& file)
@@ -159,7 +143,8 @@ void write_exr(const std::filesystem::path& file, glm::ivec2 size, const Channel
 
 std::pair<glm::ivec2, Channels> read_exr(const std::filesystem::path& file)
 {
-    const Bytes bytes = read_whole(file);
+    const std::string read = starbow::read_whole(file, std::size_t(2) << 30, "an EXR file");
+    const Bytes bytes(read.begin(), read.end());
     if (const std::string fault = exr_fault(bytes); !fault.empty())
         throw InputError(file.string(), "", fault);
 

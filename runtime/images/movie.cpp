@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
-#include <fstream>
 #include <iterator>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -23,11 +22,7 @@ namespace {
 
 constexpr const char* sources_name = "made-from.json";
 
-std::string text_of(const fs::path& file)
-{
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
+std::string text_of(const fs::path& file) { return RegularFile(file).read_all(1 << 20); }
 
 bool is_frame(const fs::path& file)
 {
@@ -58,8 +53,17 @@ Ended ran(const std::vector<std::string>& arguments, const fs::path& folder)
     posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, ends[1], 2);
     posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+    // The program ignores SIGPIPE; the other one may rely on it.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t pipe_ends;
+    sigemptyset(&pipe_ends);
+    sigaddset(&pipe_ends, SIGPIPE);
+    posix_spawnattr_setsigdefault(&attributes, &pipe_ends);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
     pid_t child = 0;
-    const int error = posix_spawnp(&child, pointers[0], &actions, nullptr, pointers.data(), environ);
+    const int error = posix_spawnp(&child, pointers[0], &actions, &attributes, pointers.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     close(ends[1]);
     Ended ended{-1, error, ""};

@@ -102,7 +102,7 @@ void leave_trace(int signal, siginfo_t* info, void* context)
     path << folder_path << "/";
     path.number((unsigned long long)(now.tv_sec)) << "-";
     path.number((unsigned long long)(getpid())) << ".txt";
-    const int file = open(path.text, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0640);
+    const int file = open(path.text, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0640);
     if (file >= 0) {
         head << "Starbow " << version_line << " ended by ";
         for (std::size_t i = 0; i < crashes.size(); ++i)

@@ -160,11 +160,9 @@ void Diary::write(bool waits)
         finish();
         writing_ = std::async(std::launch::async,
             [state = state_, textfile = textfile_, exposition = exposition_, date = day_.date, text = text_of(day_)] {
-                if (!state.empty()) {
-                    std::error_code ignored;
-                    std::filesystem::create_directories(state / "days", ignored);
-                    write_whole(day_file(state, date), text);
-                }
+                if (!state.empty())
+                    write_own(day_file(state, date),
+                        {std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size())});
                 if (!textfile.empty() && !exposition.empty())
                     write_whole(textfile, exposition);
             });

@@ -3,7 +3,7 @@
 #include "config/json/whole_file.h"
 #include "log.h"
 #include <algorithm>
-#include <fstream>
+#include <sstream>
 #include <string>
 
 namespace starbow {
@@ -16,7 +16,7 @@ constexpr const char* running = "running";
 Ends::Ends(const std::filesystem::path& folder, std::int64_t now_s)
     : file_(folder / "ends")
 {
-    std::ifstream stream(file_);
+    std::istringstream stream(RegularFile(file_).read_all(1 << 16));
     for (std::string line; std::getline(stream, line) && times_.size() < 1000;)
         if (line == running)
             times_.push_back(now_s);
@@ -28,9 +28,8 @@ Ends::Ends(const std::filesystem::path& folder, std::int64_t now_s)
     for (const std::int64_t time : times_)
         text += std::to_string(time) + "\n";
     try {
-        std::error_code ignored;
-        std::filesystem::create_directories(folder, ignored);
-        write_whole(file_, text + running + "\n", Lasting::power_cut);
+        text += std::string(running) + "\n";
+        write_own(file_, {{reinterpret_cast<const unsigned char*>(text.data()), text.size()}}, Lasting::power_cut);
     } catch (const InputError& error) {
         log_warning("exhibit", std::string(error.what()) + "; crashes are not counted");
         times_.clear();

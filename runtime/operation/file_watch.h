@@ -18,6 +18,9 @@ public:
     /// most ten times a second, however often it is called.
     bool changed(Clock::time_point now);
 
+    /// True if all files are as they were when changed() last reported, or at the beginning.
+    bool same() const { return look() == known_; }
+
 private:
     struct Stamp {
         std::int64_t written_s = 0, written_ns = 0, size = 0;

@@ -1,11 +1,14 @@
 #include "log.h"
+#include "config/json/reader.h"
+#include "messages.h"
 #include <cstdlib>
 #include <memory>
 #include <mutex>
 #include <spdlog/logger.h>
 #include <spdlog/pattern_formatter.h>
-#include <spdlog/sinks/ansicolor_sink.h>
+#include <spdlog/sinks/base_sink.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 namespace starbow {
 namespace {
@@ -39,12 +42,43 @@ public:
     std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<Priority>(); }
 };
 
+/// Hands the lines to the thread that writes messages.
+class MessageSink : public spdlog::sinks::base_sink<std::mutex> {
+public:
+    MessageSink(int descriptor, bool coloured)
+        : descriptor_(descriptor)
+        , coloured_(coloured)
+    {
+    }
+
+private:
+    void sink_it_(const spdlog::details::log_msg& message) override
+    {
+        spdlog::memory_buf_t line;
+        formatter_->format(message, line);
+        std::string text(line.data(), line.size());
+        if (coloured_ && message.color_range_end > message.color_range_start) {
+            // ECMA-48, SGR: cyan, green, bold yellow, bold red.
+            const char* colour = message.level == spdlog::level::debug ? "\033[36m"
+                : message.level == spdlog::level::info                 ? "\033[32m"
+                : message.level == spdlog::level::warn                 ? "\033[33m\033[1m"
+                                                                       : "\033[31m\033[1m";
+            text.insert(message.color_range_end, "\033[m");
+            text.insert(message.color_range_start, colour);
+        }
+        send_message(descriptor_, std::move(text));
+    }
+    void flush_() override { }
+
+    int descriptor_;
+    bool coloured_;
+};
+
 std::shared_ptr<spdlog::logger> make_logger(const LogOptions& options)
 {
     std::FILE* stream = options.stream ? options.stream : stderr;
     const bool journal = is_journal(std::getenv("JOURNAL_STREAM"), stream);
-    auto sink = std::make_shared<spdlog::sinks::ansicolor_sink<spdlog::details::console_mutex>>(
-        stream, journal ? spdlog::color_mode::never : spdlog::color_mode::automatic);
+    auto sink = std::make_shared<MessageSink>(fileno(stream), !journal && isatty(fileno(stream)));
     auto formatter = std::make_unique<spdlog::pattern_formatter>();
     formatter->add_flag<LevelName>('*').add_flag<Priority>('&');
     formatter->set_pattern(journal ? "%&%v" : "%Y-%m-%d %H:%M:%S.%e %^%*%$ %v");
@@ -83,9 +117,7 @@ void log(spdlog::level::level_enum level, std::string_view part, std::string_vie
     std::string line;
     line.reserve(part.size() + 2 + text.size());
     line.append(part).append(": ").append(text);
-    for (char& c : line)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-            c = '?';
+    line = plain_text(std::move(line));
     to->log(level, spdlog::string_view_t(line.data(), line.size()));
 }
 
@@ -95,6 +127,7 @@ void open_log(const LogOptions& options)
 {
     Current& now = current();
     auto made = make_logger(options);
+    flush_messages(1); // the stream before may be closed on return
     const std::lock_guard lock(now.mutex);
     now.logger = std::move(made);
 }

@@ -20,8 +20,8 @@ struct LogOptions {
 /// Opens the log anew. Until the first call it is open with LogOptions{}.
 void open_log(const LogOptions& options);
 
-/// part: the part of the program that speaks, one word. Control characters of the text become '?', so that a message stays
-/// one line and a name can't steer the terminal.
+/// part: the part of the program that speaks, one word. The text is written as plain_text (config/json/reader.h), so that a
+/// message stays one line and a name can't steer the terminal. Nothing here waits for the stream's reader (messages.h).
 void log_debug(std::string_view part, std::string_view text);
 void log_info(std::string_view part, std::string_view text);
 void log_warning(std::string_view part, std::string_view text);

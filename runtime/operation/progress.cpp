@@ -1,4 +1,5 @@
 #include "progress.h"
+#include "messages.h"
 #include <cstdio>
 #include <unistd.h>
 
@@ -12,7 +13,7 @@ Progress::Progress()
 Progress::~Progress()
 {
     if (shown_)
-        std::fprintf(stderr, "\r\033[K");
+        send_message(STDERR_FILENO, "\r\033[K");
 }
 
 void Progress::show(const std::string& text, double part)
@@ -26,8 +27,7 @@ void Progress::show(const std::string& text, double part)
     std::string line = "\r" + text;
     if (part > first_part_)
         line += ", " + time_left(std::chrono::duration<double>(now - began_).count() / (part - first_part_) * (1 - part));
-    std::fprintf(stderr, "%s\033[K", line.c_str());
-    std::fflush(stderr);
+    send_message(STDERR_FILENO, line + "\033[K");
 }
 
 std::string time_left(double seconds)

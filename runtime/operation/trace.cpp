@@ -1,5 +1,6 @@
 #include "trace.h"
 #include "config/json/error.h"
+#include "config/json/whole_file.h"
 #include "log.h"
 #include <algorithm>
 #include <cerrno>
@@ -49,10 +50,7 @@ Trace::Trace(const std::filesystem::path& file, std::int64_t largest_bytes)
     std::error_code error;
     if (file.has_parent_path())
         std::filesystem::create_directories(file.parent_path(), error);
-    stream_ = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-    if (stream_ < 0)
-        throw InputError(file_, "",
-            std::string("can't be written (") + std::strerror(errno) + "); a JSON file in a folder that can be is right");
+    stream_ = open_to_write(file, O_TRUNC, "a JSON file in a folder that can be written");
     waiting_ = "[\n";
     add_metadata("process_name", processor, 0, "processor");
     add_metadata("process_name", gpu_process, 0, "GPU");

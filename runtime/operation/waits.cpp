@@ -1,5 +1,6 @@
 #include "waits.h"
 #include "log.h"
+#include "messages.h"
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -77,6 +78,7 @@ void give_up(const std::string& what, double waited_s)
     log_error("hang",
         what + " has not come for " + text + " s; the program ends with " + std::to_string(exit_hung)
             + " without waiting any longer");
+    flush_messages(1);
     _exit(exit_hung);
 }
 

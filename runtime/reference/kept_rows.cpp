@@ -1,9 +1,12 @@
 #include "kept_rows.h"
-#include "config/json/error.h"
+#include "config/json/whole_file.h"
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
+#include <fcntl.h>
+#include <string>
+#include <unistd.h>
 
 namespace starbow {
 
@@ -25,17 +28,16 @@ KeptRows::KeptRows(const std::filesystem::path& file, const std::string& key, st
     const std::string head = key + '\n';
     std::size_t whole = 0; // bytes of the file that count
     {
-        std::ifstream in(file, std::ios::binary);
+        RegularFile in(file);
+        const auto read = [&](void* data, std::size_t bytes) { return in.read({static_cast<char*>(data), bytes}) == bytes; };
         std::string found(head.size(), '\0');
-        if (in && in.read(found.data(), std::streamsize(found.size())) && found == head) {
+        if (read(found.data(), found.size()) && found == head) {
             whole = head.size();
             std::vector<std::byte> bytes(bytes_);
             std::uint32_t row;
             std::uint64_t sum;
-            while (in.read(reinterpret_cast<char*>(&row), sizeof row)
-                && in.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes_))
-                && in.read(reinterpret_cast<char*>(&sum), sizeof sum) && row < std::uint32_t(rows)
-                && sum == sum_of(bytes.data(), bytes_)) {
+            while (read(&row, sizeof row) && read(bytes.data(), bytes_) && read(&sum, sizeof sum)
+                && row < std::uint32_t(rows) && sum == sum_of(bytes.data(), bytes_)) {
                 rows_[row] = bytes;
                 whole += sizeof row + bytes_ + sizeof sum;
             }
@@ -45,9 +47,7 @@ KeptRows::KeptRows(const std::filesystem::path& file, const std::string& key, st
     if (whole > 0)
         std::filesystem::resize_file(file, whole, error); // an end that was cut off
     if (whole == 0 || error) {
-        std::ofstream out(file, std::ios::binary | std::ios::trunc);
-        if (!out.write(head.data(), std::streamsize(head.size())).flush())
-            throw InputError(file.string(), "", "can't be written; a folder that can be written is right");
+        write_whole(file, head);
         rows_.assign(std::size_t(rows), {});
     }
 }
@@ -62,12 +62,14 @@ void KeptRows::put(int row, const std::byte* bytes)
     const std::scoped_lock lock(mutex_);
     const std::uint32_t number = std::uint32_t(row);
     const std::uint64_t sum = sum_of(bytes, bytes_);
-    std::ofstream out(file_, std::ios::binary | std::ios::app);
-    out.write(reinterpret_cast<const char*>(&number), sizeof number);
-    out.write(reinterpret_cast<const char*>(bytes), std::streamsize(bytes_));
-    out.write(reinterpret_cast<const char*>(&sum), sizeof sum);
-    if (!out.flush())
-        throw InputError(file_.string(), "", "can't be written; a disk with room is right");
+    std::string entry(reinterpret_cast<const char*>(&number), sizeof number);
+    entry.append(reinterpret_cast<const char*>(bytes), bytes_);
+    entry.append(reinterpret_cast<const char*>(&sum), sizeof sum);
+    const int to = open_to_write(file_, O_APPEND, "a file for the rows that are finished");
+    const ssize_t wrote = ::write(to, entry.data(), entry.size());
+    const int why = wrote < 0 ? errno : ENOSPC;
+    if (::close(to) != 0 || wrote != ssize_t(entry.size()))
+        refuse_writing(file_, why);
 }
 
 } // namespace starbow

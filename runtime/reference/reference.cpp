@@ -1,4 +1,5 @@
 #include "reference.h"
+#include "config/json/whole_file.h"
 #include "config/model/angles.h"
 #include "displays/finish/anaglyph.h"
 #include "displays/finish/blend.h"
@@ -14,7 +15,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <mutex>
 #include <sstream>
@@ -269,10 +269,10 @@ public:
     }
     void add(const std::filesystem::path& file)
     {
-        std::ifstream in(file, std::ios::binary);
+        RegularFile in(file);
         std::vector<char> bytes(1 << 16);
-        while (in.read(bytes.data(), std::streamsize(bytes.size())), in.gcount() > 0)
-            add(bytes.data(), std::size_t(in.gcount()));
+        while (const std::size_t got = in.read(bytes))
+            add(bytes.data(), got);
         take(~std::uint64_t(0));
     }
     std::uint64_t value() const { return sum_; }

@@ -5,13 +5,13 @@
 #include "displays/compile/compiled_view.h"
 #include "driver_memory.h"
 #include "runtime/operation/log.h"
+#include "runtime/operation/messages.h"
 #include "runtime/operation/waits.h"
 #include "shaders/shared_structs.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 
 namespace starbow {
 namespace {
@@ -20,7 +20,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL complain(VkDebugUtilsMessageSeverityFlagBitsEXT, 
     const VkDebugUtilsMessengerCallbackDataEXT* data, void* complaints)
 {
     static_cast<std::vector<std::string>*>(complaints)->push_back(data->pMessage);
-    std::fprintf(stderr, "validation: %s\n", data->pMessage);
+    send_message(STDERR_FILENO, "validation: " + std::string(data->pMessage) + "\n");
     return VK_FALSE;
 }
 
@@ -245,12 +245,6 @@ std::filesystem::path pipeline_file(const vk::PhysicalDeviceProperties& properti
     return folder.empty() ? folder : folder / ("pipelines-" + mark + ".bin");
 }
 
-std::vector<char> read_file(const std::filesystem::path& file)
-{
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 } // namespace
 
 Device::Device(const Options& options)
@@ -284,7 +278,7 @@ Device::Device(const Options& options)
     device = physical.createDevice({{}, queue_info, {}, extensions, &features, &features13}, allocator_of(options));
     queue = device.getQueue(family, 0);
     pool = device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family});
-    std::vector<char> kept = read_file(pipeline_file(properties));
+    const std::string kept = RegularFile(pipeline_file(properties)).read_all(std::size_t(256) << 20);
     cache = device.createPipelineCache({{}, kept.size(), kept.data()});
     if (on_processor())
         keeper = std::make_unique<SceneKeeper>(device);
@@ -315,8 +309,8 @@ void Device::save_pipelines() const
     if (file.empty())
         return;
     try {
-        std::filesystem::create_directories(file.parent_path());
-        write_whole(file, cache.getData()); // a lost device may refuse
+        const std::vector<std::uint8_t> data = cache.getData(); // a lost device may refuse
+        write_own(file, {data});
     } catch (const std::exception& failed) {
         log_debug("pipelines", failed.what());
     }

@@ -61,7 +61,7 @@ void FrameRenderer::record_measured(
 }
 
 FrameRenderer::FrameRenderer(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout,
-    const Quality& quality, bool keeps_depth)
+    const Quality& quality, bool keeps_depth, std::optional<PreparedLayout> prepared)
     : device_(device)
     , world_(world)
     , state_{.quality = quality, .layout = with_stereo(layout, quality)}
@@ -75,10 +75,17 @@ FrameRenderer::FrameRenderer(Device& device, Pipelines& pipelines, const GpuWorl
     , measurement_(device, pipelines, world, state_, views_, eyes_, constants_, descriptors_, passes_)
 {
     state_.keeps_depth = keeps_depth || state_.reprojects() || world.star_count > 0 || world.several_rest_frames();
-    apply_layout(views_.parts(true));
+    if (prepared && prepared->method == state_.layout.stereo.method
+        && prepared->matrices == uses_matrices(state_.layout, quality)) {
+        for (std::size_t output = 0; output < prepared->sizes.size(); ++output)
+            views_.outputs[output].size = prepared->sizes[output];
+        apply_layout(std::move(prepared->parts));
+    } else {
+        apply_layout(views_.parts(true));
+    }
 }
 
-void FrameRenderer::apply_layout(ViewSet::Parts parts)
+void FrameRenderer::apply_layout(LayoutParts parts)
 {
     views_.apply_layout(std::move(parts));
     eyes_.assign(views_.all);
@@ -90,7 +97,7 @@ void FrameRenderer::apply_layout(ViewSet::Parts parts)
 /// state, and all views are made again as they were. Where not even that succeeds, the device must be opened anew.
 template <class Undo> void FrameRenderer::apply_layout_or(bool rejects_empty, const Undo& undo)
 {
-    std::optional<ViewSet::Parts> parts;
+    std::optional<LayoutParts> parts;
     try {
         parts = views_.parts(rejects_empty);
     } catch (...) {

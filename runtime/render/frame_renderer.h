@@ -9,9 +9,10 @@ namespace starbow {
 /// One frame at a time: the caller waits for the device before the next.
 class FrameRenderer {
 public:
-    /// keeps_depth: record_measured can then report distances. Throws InputError for a wrong layout.
+    /// keeps_depth: record_measured can then report distances. prepared: of this layout; without it, or where the quality
+    /// needs others, the parts are computed here. Throws InputError for a wrong layout.
     FrameRenderer(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality,
-        bool keeps_depth = false);
+        bool keeps_depth = false, std::optional<PreparedLayout> prepared = {});
     FrameRenderer(const FrameRenderer&) = delete; // its parts know each other by reference
     FrameRenderer& operator=(const FrameRenderer&) = delete;
 
@@ -73,7 +74,7 @@ public:
     vk::DeviceSize memory() const; ///< bytes of this object's images
 
 private:
-    void apply_layout(ViewSet::Parts parts);
+    void apply_layout(LayoutParts parts);
     template <class Undo> void apply_layout_or(bool rejects_empty, const Undo& undo);
     double pre_exposure(double most_E) const;
 

@@ -1,8 +1,6 @@
 #include "view_set.h"
 #include "config/model/angles.h"
 #include "debug.h"
-#include "displays/compile/inverse_map.h"
-#include "displays/finish/blend.h"
 #include "runtime/hud/hud_place.h"
 #include "shaders/physics/physics.h"
 #include <algorithm>
@@ -22,7 +20,7 @@ ViewSet::ViewSet(Device& device, Pipelines& pipelines, const FrameState& state, 
     name_object(device, no_map_, "views: no map");
     for (const Output& output : state.layout.outputs)
         outputs.emplace_back().size = output.size;
-    store.matrices(state.quality.matrices || state.layout.head_tracker); // a map can't follow a head
+    store.matrices(uses_matrices(state.layout, state.quality));
 }
 
 glm::ivec2 ViewSet::sent_pixels(const ViewState& view) const
@@ -73,29 +71,15 @@ const ViewState& ViewSet::probed_view(std::optional<std::size_t> view) const
     return all.front();
 }
 
-ViewSet::Parts ViewSet::parts(bool rejects_empty)
+LayoutParts ViewSet::parts(bool rejects_empty)
 {
-    Parts parts;
-    std::vector<CompiledView> lit; // without previews
-    for (std::size_t output = 0; output < outputs.size(); ++output) {
-        parts.views.push_back(compile_output(store, state_.layout, output, outputs[output].size));
-        if (!state_.layout.outputs[output].preview)
-            lit.insert(lit.end(), parts.views.back().begin(), parts.views.back().end());
-    }
-    if (rejects_empty)
-        reject_empty(state_.layout, lit);
-    std::vector<std::vector<float>> ramps;
-    if (state_.layout.blend.ramps)
-        ramps = blend_ramps(state_.layout, lit, state_.layout.blend.power);
-    parts.shades.resize(outputs.size());
-    for (std::size_t output = 0; output < outputs.size(); ++output)
-        parts.shades[output] = state_.layout.outputs[output].preview
-            ? preview_shade(state_.layout, outputs[output].size, parts.views[output])
-            : shade_of(state_.layout, output, outputs[output].size, lit, ramps);
-    return parts;
+    std::vector<glm::ivec2> sizes;
+    for (const OutputState& output : outputs)
+        sizes.push_back(output.size);
+    return layout_parts(store, state_.layout, sizes, rejects_empty);
 }
 
-void ViewSet::apply_layout(Parts parts)
+void ViewSet::apply_layout(LayoutParts parts)
 {
     hud_place = {panel_from_cockpit(state_.layout.hud, parts.views),
         std::tan(0.5 * state_.layout.hud.width_deg * degree) * glm::dvec2(1, panel_aspect)};
@@ -122,7 +106,7 @@ void ViewSet::apply_layout(Parts parts)
     for (ViewState& view : all) {
         view.cube_m = cube_place(view.geometry());
         view.beside_m = view.geometry().picture.eye_m - view.cube_m;
-        view.map = map_for(view.compiled, maps_before);
+        view.map = map_for(view.compiled, parts.inverses, maps_before);
         find_hud_box(view);
     }
     const std::uint32_t count = std::uint32_t(all.size());
@@ -143,7 +127,8 @@ void ViewSet::apply_layout(Parts parts)
     }
 }
 
-std::optional<std::size_t> ViewSet::map_for(const CompiledView& view, std::vector<MapImage>& before)
+std::optional<std::size_t> ViewSet::map_for(
+    const CompiledView& view, const std::map<const DirectionMap*, InverseMap>& inverses, std::vector<MapImage>& before)
 {
     if (!view.map)
         return {};
@@ -163,7 +148,8 @@ std::optional<std::size_t> ViewSet::map_for(const CompiledView& view, std::vecto
                     {reinterpret_cast<glm::uvec2*>(to.data()), to.size() / sizeof(glm::uvec2)});
             })});
     if (has_stars_) {
-        const InverseMap inverse = starbow::inverse(map);
+        const auto known = inverses.find(view.map.get());
+        const InverseMap inverse = known != inverses.end() ? known->second : starbow::inverse(map);
         maps.back().closes = inverse.closes;
         maps.back().inverse = make_texture_array(device_, inverse_format, glm::ivec2(inverse.side),
             std::uint32_t(inverse.channels), std::as_bytes(std::span(inverse.cells)));

@@ -1,9 +1,9 @@
 #pragma once
 #include "bloom_pass.h"
-#include "displays/compile/compiled_view.h"
 #include "finish_pass.h"
 #include "frame_state.h"
 #include "input/controls.h"
+#include "layout_parts.h"
 #include "panel_pass.h"
 #include "runtime/world/eye_event.h"
 #include <memory>
@@ -56,16 +56,11 @@ public:
     /// has_stars: direction maps get their inverse.
     ViewSet(Device& device, Pipelines& pipelines, const FrameState& state, double unit_m, bool has_stars);
 
-    /// Everything that is computed from the layout before any state changes.
-    struct Parts {
-        std::vector<std::vector<CompiledView>> views; ///< one list for each output
-        std::vector<Shade> shades;
-    };
     /// Computes the parts of FrameState's layout. Throws InputError for a wrong file and, if `rejects_empty`, for a view
     /// that shows nothing.
-    Parts parts(bool rejects_empty);
+    LayoutParts parts(bool rejects_empty);
     /// Replaces all views. Unchanged direction maps stay on the device.
-    void apply_layout(Parts parts);
+    void apply_layout(LayoutParts parts);
     void move_head(const Head& head);
 
     /// The direction map of a view, or an image without content where it has none.
@@ -108,7 +103,8 @@ public:
 private:
     std::optional<glm::dvec3> direction(const ViewState& view, std::size_t output, const glm::dvec2& pixel) const;
     glm::dvec3 cube_place(const View& view) const;
-    std::optional<std::size_t> map_for(const CompiledView& view, std::vector<MapImage>& before);
+    std::optional<std::size_t> map_for(
+        const CompiledView& view, const std::map<const DirectionMap*, InverseMap>& inverses, std::vector<MapImage>& before);
     PixelBox panel_in(const ConeHierarchy& cones) const;
     void find_hud_box(ViewState& view) const;
 

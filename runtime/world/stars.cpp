@@ -1,12 +1,13 @@
 #include "stars.h"
 #include "config/json/reader.h"
+#include "config/json/whole_file.h"
 #include "config/model/angles.h"
 #include "runtime/light/spectrum.h"
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
+#include <sstream>
 
 namespace starbow {
 namespace {
@@ -71,10 +72,7 @@ struct Line {
 std::vector<Star> load_stars(const std::filesystem::path& path)
 {
     const std::string file = one_line(path.string());
-    std::error_code ignored;
-    std::ifstream in(path, std::ios::binary);
-    if (std::filesystem::is_directory(path, ignored) || !in)
-        throw InputError(file, "", "can't be opened; a catalogue of stars, like scenes/stars/stars.txt, is right");
+    std::istringstream in(read_whole(path, std::size_t(256) << 20, "a catalogue of stars, like scenes/stars/stars.txt,"));
     std::vector<Star> stars;
     std::string text;
     for (int number = 1; std::getline(in, text); ++number) {
@@ -84,8 +82,6 @@ std::vector<Star> load_stars(const std::filesystem::path& path)
             Line{file, number}.refuse("is one star too many; at most " + std::to_string(most_stars) + " stars is right");
         stars.push_back(Line{file, number}.star(text));
     }
-    if (in.bad())
-        throw InputError(file, "", "can't be read to its end; a readable file is right");
     if (stars.empty())
         throw InputError(file, "", "holds no star; a catalogue of stars, like scenes/stars/stars.txt, is right");
     return stars;

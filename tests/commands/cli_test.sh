@@ -360,8 +360,8 @@ says() {
     if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == *"$text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not report '$text': $said"; fi
 }
 says 'is empty' devices --describe "$folder/empty.bin"
-says "can't be read" devices --describe "$folder/no-such.bin"
-says "can't be read" devices --describe "$folder"
+says "does not exist" devices --describe "$folder/no-such.bin"
+says "is a folder" devices --describe "$folder"
 says '/descriptor_hex' devices --describe "$folder/lines.json"
 printf 'hello' > "$folder/hello.bin"
 says 'declares no input' devices --describe "$folder/hello.bin"

@@ -2,9 +2,9 @@
 # The exhibit in a real window under Xvfb with validation layers: flown by the keyboard, resized, ended.
 # It bears any load under which a frame takes at most a second: it waits for pictures and lines, and its keys keep the
 # exhibit's own pace.
-# Usage: window_test.sh PROGRAM
+# Usage: window_test.sh PROGRAM FOLDER_OF_THE_RIG
 set -u
-program=$(realpath "$1") rig=$(dirname "$0")/../rig
+program=$(realpath "$1") x_client=$(realpath "$2")/x_client rig=$(dirname "$0")/../rig
 . "$rig/monitors.sh"
 serve Xvfb -noreset -screen 0 1280x800x24
 export STARBOW_VALIDATION=1
@@ -61,6 +61,42 @@ grep -q 'light false colours.*unshifted' "$folder/log" || fail "desk: 4 did not 
 ok
 grep -q 'exposure [^ ]* EV locked' "$folder/log" || fail "desk: L did not hold the exposure"
 ok
+
+# A key that is let go while another program has the keyboard, by a grab or by the focus, is let go. So is one that is held
+# meanwhile, and a new press counts. The screen saver, due after a second without input, stays off.
+fly desk --record "$folder/grab.jsonl"
+xset s 1 1
+turning() { tail -n 8 "$folder/grab.jsonl" | grep -q '"turn"'; }
+still() { "$rig/wait_flown.py" "$folder/grab.jsonl" 2 && ! turning; }
+"$rig/wait_flown.py" "$folder/grab.jsonl" 0.1
+xdotool keydown Left
+until_true 60 turning || fail "grab: the key does not turn the ship"
+"$x_client" grab 2 >"$folder/grabbed" &
+until_true 10 grep -q grabbed "$folder/grabbed" || fail "grab: the keyboard can't be grabbed"
+xdotool keyup Left
+wait $!
+still || fail "grab: the ship turns on after the key was let go"
+ok
+xdotool keydown Left
+until_true 60 turning || fail "grab: the key does not turn the ship again"
+xdotool keyup Left
+still || fail "grab: the ship turns on"
+ok
+xdotool keydown Left
+until_true 60 turning || fail "focus: the key does not turn the ship"
+"$x_client" focus
+xdotool keyup Left
+still || fail "focus: the ship turns on after the key was let go"
+ok
+[ "$("$x_client" saver)" = off ] || fail "the screen saver is $("$x_client" saver)"
+ok
+xdotool windowfocus "$window" key Escape
+wait $exhibit || fail "grab: exit $?"
+ok
+saver_is_on() { [ "$("$x_client" saver)" = on ]; }
+until_true 10 saver_is_on || fail "the screen saver stays off after the exhibit"
+ok
+xset s 0 0 s reset
 
 # The instruments: marks, log, explanation and overlays. Each K writes a line to the log.
 fly desk --scene clocks --log "$folder/lab.csv"

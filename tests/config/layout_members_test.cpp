@@ -290,7 +290,7 @@ TEST(LayoutMembersTest, CubeFilesAreRead)
     const std::vector<glm::dvec3> table{{0, 0, 0}, {0.25, 0.5, 0.1}, {1, 1, 1}};
     EXPECT_EQ(first(text).colour.lut, table);
     for (const auto& [content, says] : std::vector<std::pair<std::string, std::string>>{
-             {"", ": can't be read or is empty"},
+             {"", ": is empty"},
              {"LUT_3D_SIZE 2\n0 0 0", ":1: \"LUT_3D_SIZE 2\" begins a three-dimensional table; "},
              {"LUT_1D_SIZE 1\n", ":1: \"LUT_1D_SIZE 1\" is no size; "},
              {"LUT_1D_SIZE 2.5\n", "is no size; "},

@@ -191,14 +191,14 @@ TEST(CompiledTest, UnfinishedFilesOfDeadProcessesAreRemoved)
     const auto folder = fresh_folder("orphans");
     std::filesystem::create_directories(folder);
     const auto old = std::filesystem::file_time_type::clock::now() - std::chrono::hours(3);
-    for (const char* name : {"0123456789abcdef.map.4711", "fresh.map.4712", "notes.txt"})
+    for (const char* name : {"0123456789abcdef.map.4711.part", "fresh.map.4712.part", "notes.txt"})
         std::ofstream(folder / name) << "content";
-    for (const char* name : {"0123456789abcdef.map.4711", "notes.txt"})
+    for (const char* name : {"0123456789abcdef.map.4711.part", "notes.txt"})
         std::filesystem::last_write_time(folder / name, old);
     MapStore store(folder);
     map_of(store, one(Fisheye{180, 20}, large));
-    EXPECT_FALSE(std::filesystem::exists(folder / "0123456789abcdef.map.4711"));
-    EXPECT_TRUE(std::filesystem::exists(folder / "fresh.map.4712"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "0123456789abcdef.map.4711.part"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "fresh.map.4712.part"));
     EXPECT_TRUE(std::filesystem::exists(folder / "notes.txt"));
 }
 

@@ -6,6 +6,7 @@
 namespace hud_test {
 
 using namespace starbow;
+using namespace starbow::testing;
 
 namespace {
 
@@ -76,6 +77,32 @@ TEST(Hud, EveryPanelHasLettersInsideItsPlate)
             EXPECT_GT(letters, width * panel.size.y / 60);
             EXPECT_EQ(outside, 0);
         }
+}
+
+TEST(Hud, ADamagedFontIsRefused)
+{
+    const std::string whole = read_text(hud_font);
+    EXPECT_EQ(font_fault(whole), "");
+    const auto refusal = [](const std::string& bytes) {
+        const auto file = write_text("font.ttf", bytes);
+        const std::string said = complaint([&] { Typesetter letters(file); });
+        EXPECT_TRUE(said.starts_with(file.string() + ": ") && said.ends_with(" is right")) << said;
+        return said;
+    };
+    EXPECT_NE(refusal("").find("is no TrueType font"), std::string::npos);
+    EXPECT_NE(refusal(std::string(200'000, 'x')).find("is no TrueType font"), std::string::npos);
+    EXPECT_NE(
+        refusal(std::string("\0\1\0\0\xff\xff", 6) + std::string(200'000, '\xff')).find("is cut off"), std::string::npos);
+    EXPECT_NE(refusal(std::string("\0\1\0\0", 4) + std::string(200, '\0')).find("lacks the table cmap"), std::string::npos);
+    for (std::size_t length = 13; length < whole.size(); length = length * 3 / 2)
+        EXPECT_NE(refusal(whole.substr(0, length)).find("is cut off"), std::string::npos) << length;
+    std::mt19937 random(5);
+    for (int i = 0; i < 200; ++i) {
+        std::string bytes = whole;
+        bytes[random() % bytes.size()] ^= char(1 + random() % 255);
+        if (const std::string fault = font_fault(bytes); fault.empty())
+            ADD_FAILURE() << "a changed byte is not found, change " << i;
+    }
 }
 
 TEST(Hud, UsesTheLanguagesWordsAndDecimalSign)

@@ -87,10 +87,12 @@ std::filesystem::path fresh(const std::string& name)
     return scratch(name);
 }
 
+void ignore(const std::string&) { }
+
 std::string refusal(const std::filesystem::path& file)
 {
     try {
-        LabLog log(file);
+        LabLog log(file, ignore);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -486,14 +488,14 @@ TEST(Instruments, ALogIsContinuedOrRefused)
 {
     const std::filesystem::path file = fresh("lab.csv");
     {
-        LabLog log(file);
+        LabLog log(file, ignore);
         EXPECT_TRUE(log.write(some_measured(), "aim"));
         // The line is in the file at once, even if the program crashes.
         ASSERT_EQ(lines_of(file).size(), 2u);
         EXPECT_EQ(log.lines(), 1);
     }
     {
-        LabLog log(file);
+        LabLog log(file, ignore);
         EXPECT_TRUE(log.write(some_measured(), "grid"));
         EXPECT_EQ(log.lines(), 2);
     }
@@ -504,7 +506,7 @@ TEST(Instruments, ALogIsContinuedOrRefused)
         EXPECT_TRUE(line.ends_with('\r'));
     // A loss of power cuts a line; the next line begins on its own.
     std::filesystem::resize_file(file, std::filesystem::file_size(file) - 9);
-    LabLog(file).write(some_measured(), "ring");
+    LabLog(file, ignore).write(some_measured(), "ring");
     lines = lines_of(file);
     ASSERT_EQ(lines.size(), 4u);
     EXPECT_EQ(cells(lines[3]).size(), cells(lines[0]).size());
@@ -515,7 +517,7 @@ TEST(Instruments, ALogIsContinuedOrRefused)
     EXPECT_NE(refusal(scratch("no-such-folder") / "lab.csv").find("can't be written"), std::string::npos);
     EXPECT_NE(refusal(scratch("")).find("is a folder"), std::string::npos);
     std::ofstream(fresh("empty.csv")).flush();
-    LabLog(scratch("empty.csv")).write(some_measured(), "aim");
+    LabLog(scratch("empty.csv"), ignore).write(some_measured(), "aim");
     EXPECT_EQ(lines_of(scratch("empty.csv")).size(), 2u);
 }
 

@@ -168,8 +168,8 @@ TEST(CaptureTest, WrongCallsThrowALogicError)
 
 TEST(CaptureTest, BrokenExrFilesAreRefused)
 {
-    EXPECT_NE(complaint([] { read_exr("no/such.exr"); }).find("no/such.exr: can't be opened"), std::string::npos);
-    EXPECT_NE(complaint([] { read_exr("/usr"); }).find("can't be read"), std::string::npos);
+    EXPECT_NE(complaint([] { read_exr("no/such.exr"); }).find("no/such.exr: does not exist"), std::string::npos);
+    EXPECT_NE(complaint([] { read_exr("/usr"); }).find("is a folder"), std::string::npos);
     EXPECT_NE(complaint([] { read_exr(write_text("a.exr", "")); }).find("is not an EXR file"), std::string::npos);
     EXPECT_NE(
         complaint([] { read_exr(write_text("a.exr", "{ \"no\": 1 }")); }).find("is not an EXR file"), std::string::npos);

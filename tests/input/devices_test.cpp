@@ -78,7 +78,8 @@ TEST(AxisHealthTest, ANoisyAxisIsReportedAndIgnored)
         hand.report(i % 2 ? 255 : 128, i % 2 ? 0 : 255, false, 1 + 4 * ms * i);
     EXPECT_EQ(hand.controls_at(2 * s).turn, glm::dvec3(0));
     EXPECT_TRUE(hand.mapping.levers().empty());
-    EXPECT_EQ(hand.mapping.troubles(), (std::vector<std::string>{"axis X jitters", "axis slider jitters"}));
+    EXPECT_EQ(hand.mapping.troubles(),
+        (std::vector<std::string>{"axis X jitters and is left out", "axis slider jitters and is left out"}));
     hand.report(255, 255, false, 2 * s);
     EXPECT_EQ(hand.controls_at(6 * s).turn, glm::dvec3(0, -1, 0));
     EXPECT_EQ(hand.mapping.levers().size(), 1u);
@@ -93,7 +94,8 @@ TEST(AxisHealthTest, AStuckAxisIsReportedAndIgnoredUntilItMoves)
     hand.report(255, 200, false, 1 * s);
     EXPECT_EQ(hand.controls_at(60 * s).turn.y, -1);
     EXPECT_EQ(hand.controls_at(62 * s).turn.y, 0);
-    EXPECT_EQ(hand.mapping.troubles(), std::vector<std::string>{"axis X is stuck"}); // a lever may rest anywhere
+    EXPECT_EQ(
+        hand.mapping.troubles(), std::vector<std::string>{"axis X is stuck and is left out"}); // a lever may rest anywhere
     EXPECT_EQ(hand.mapping.levers().size(), 1u);
     hand.report(250, 200, false, 63 * s);
     EXPECT_LT(hand.controls_at(63 * s).turn.y, -0.9);
@@ -180,6 +182,74 @@ TEST(DevicesTest, TwoButtonsOfOneRoleInOneFrameAreTwoPresses)
     const auto frames = frames_after(mapping, state, {let_go, first | second, let_go}, 3);
     EXPECT_TRUE(frames[0].hud && frames[1].hud);
     EXPECT_FALSE(frames[2].hud);
+}
+
+// A loose plug or a broken chip presses everything many times a second; fingers do not.
+TEST(DevicesTest, ABurstThatNoHandsMakeIsLeftOut)
+{
+    const std::vector<std::string> said{"presses come in a burst that no hands make and are left out"};
+    const auto presses = [](const Controls& controls) { return controls.home + controls.doppler + controls.overlay; };
+    /// Eight buttons in a byte.
+    Descriptor box{.report_bits = {{0, 8}}};
+    Profile profile{.name = "", .buttons = {{1, ButtonRole::home}, {2, ButtonRole::doppler}, {3, ButtonRole::overlay}}};
+    for (int i = 0; i < 8; ++i)
+        box.fields.push_back({.usage = {9, std::uint16_t(i + 1)}, .bit_offset = i, .bits = 1, .logical_max = 1});
+    struct Player {
+        const Descriptor& box;
+        Mapping mapping;
+        DeviceState state{};
+        void report(int buttons, std::int64_t now_ns)
+        {
+            const std::uint8_t byte = std::uint8_t(buttons);
+            EXPECT_TRUE(take_report(box, std::span(&byte, 1), now_ns, state));
+        }
+        Controls read(std::int64_t now_ns)
+        {
+            Controls controls;
+            mapping.add(state, now_ns, 0.016, controls);
+            state.presses.assign(state.presses.size(), {});
+            return controls;
+        }
+    };
+
+    // All buttons at once: no finger, so nothing at all; a second later hands count again.
+    Player all{box, {box, profile}};
+    all.report(0, 1 * s);
+    all.report(0xff, 1 * s + 8 * ms);
+    EXPECT_EQ(presses(all.read(1 * s + 16 * ms)), 0);
+    EXPECT_EQ(all.mapping.troubles(), said);
+    all.report(0, 1 * s + 20 * ms);
+    all.report(1, 2 * s + 10 * ms);
+    EXPECT_TRUE(all.read(2 * s + 16 * ms).home);
+    EXPECT_TRUE(all.mapping.troubles().empty());
+
+    // One button at 500 Hz, and random bits at 125 Hz, read 60 times a second, for ten seconds.
+    std::mt19937 random(7);
+    for (const int period_ms : {2, 8}) {
+        Player one{box, {box, profile}};
+        int counted = 0;
+        std::int64_t now = 1 * s, frame = now;
+        for (one.report(0, now); now < 11 * s; now += period_ms * ms / 2) {
+            one.report(period_ms == 2 ? int(now / ms % 2) : int(random() & 0xff), now);
+            for (; frame < now; frame += 16 * ms)
+                counted += presses(one.read(now));
+        }
+        EXPECT_LE(counted, 16) << period_ms;
+        EXPECT_EQ(one.mapping.troubles(), said) << period_ms;
+    }
+
+    // Two fingers as fast as they can, and three buttons pressed together, are hands.
+    Player hands{box, {box, profile}};
+    int counted = 0;
+    hands.report(0, 1);
+    for (int i = 0; i < 1000; ++i) { // a press each 36 ms
+        hands.report(i % 4 == 0 ? 1 : i % 4 == 2 ? 2 : 0, 1 * s + i * 18 * ms);
+        counted += presses(hands.read(1 * s + i * 18 * ms));
+    }
+    EXPECT_EQ(counted, 500);
+    hands.report(0, 30 * s);
+    hands.report(7, 30 * s + 8 * ms);
+    EXPECT_EQ(presses(hands.read(30 * s + 16 * ms)), 3);
 }
 
 TEST(DevicesTest, ATapOfARateLastsAFrame)

@@ -42,12 +42,16 @@ private:
     sockaddr_in to_{};
 };
 
-/// A listener on the first free port from 42420 on.
-std::unique_ptr<HeadTracker> listener()
+/// A listener on the first free port from 42420 on. said: receives its lines.
+std::unique_ptr<HeadTracker> listener(std::vector<std::string>* said = nullptr)
 {
     for (int port = 42420;; ++port)
         try {
-            return std::make_unique<HeadTracker>(HeadTracking{port, "127.0.0.1"});
+            return std::make_unique<HeadTracker>(
+                HeadTracking{port, "127.0.0.1", {3, 1, 0.5}}, [said](const std::string& line) {
+                    if (said)
+                        said->push_back(line);
+                });
         } catch (const InputError&) {
             if (port > 42600)
                 throw;
@@ -128,11 +132,37 @@ TEST(HeadTrackerTest, TheLastOfManyPacketsCounts)
     EXPECT_FALSE(tracker->heard(now + 10s));
 }
 
+TEST(HeadTrackerTest, AHeadStaysInTheLayoutsRoom)
+{
+    std::vector<std::string> said;
+    auto tracker = listener(&said);
+    Sender sender(tracker->tracking().port);
+    const auto read_after = [&](const Packet& packet) {
+        sender.send(packet.data(), sizeof packet);
+        const auto now = std::chrono::steady_clock::now();
+        for (int i = 0; i < 200 && !tracker->heard(now); ++i)
+            std::this_thread::sleep_for(1ms), (void)tracker->read(now);
+        std::this_thread::sleep_for(20ms); // the first packet has been heard for all that follow
+        return tracker->read(now).moved_m;
+    };
+    EXPECT_EQ(read_after({-299, 100, 50, 0, 0, 0}), dvec3(-2.99, 1, 0.5));
+    EXPECT_TRUE(said.empty());
+    EXPECT_EQ(read_after({-800, 101, 49, 0, 0, 0}), dvec3(-3, 1, 0.49));
+    EXPECT_EQ(read_after({10, 20, -900, 0, 0, 0}), dvec3(0.1, 0.2, -0.5));
+    EXPECT_EQ(said.size(), 1u);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(read_after({0, nan, 0, 0, 0, 0}), dvec3(0.1, 0.2, -0.5)) << "the head before";
+    EXPECT_EQ(read_after({1e9, 0, 0, 0, 0, 0}), dvec3(0.1, 0.2, -0.5));
+    ASSERT_EQ(said.size(), 2u);
+    EXPECT_NE(said[0].find("outside the layout's room_m"), std::string::npos) << said[0];
+    EXPECT_NE(said[1].find("no head"), std::string::npos) << said[1];
+}
+
 TEST(HeadTrackerTest, APortInUseIsReported)
 {
     auto tracker = listener();
     try {
-        HeadTracker again(tracker->tracking());
+        HeadTracker again(tracker->tracking(), [](const std::string&) {});
         FAIL();
     } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find(std::to_string(tracker->tracking().port)), std::string::npos);

@@ -1,5 +1,6 @@
 // The log's lines in a terminal and in the journal.
 #include "runtime/operation/log.h"
+#include "runtime/operation/messages.h"
 #include "tests/support/files.h"
 #include <regex>
 #include <sys/stat.h>
@@ -37,6 +38,7 @@ public:
     std::FILE* stream() const { return stream_; }
     std::vector<std::string> lines() const
     {
+        EXPECT_TRUE(flush_messages(5));
         std::istringstream text(read_text(path));
         std::vector<std::string> all;
         for (std::string line; std::getline(text, line);)
@@ -94,6 +96,23 @@ TEST(Log, AMessageStaysOneLineAndSteersNoTerminal)
     log_info("input", std::string("a\nb\x1b[31mc\x7f\0d γ", 15));
     ASSERT_EQ(file.lines().size(), 1u);
     EXPECT_TRUE(file.lines()[0].ends_with("input: a?b?[31mc??d γ")) << file.lines()[0];
+}
+
+TEST(Log, NoCharacterSteersTheTerminalOrTheDirectionOfWriting)
+{
+    LogFile file("log-steering");
+    file.open();
+    // CSI as U+009B, as a byte that is no UTF-8, and in the longer form that no UTF-8 has; overrides, isolates, marks.
+    log_info("input",
+        "a\xc2\x9b"
+        "b\x9b"
+        "c\xc0\x9b"
+        "d\xe2\x80\xae"
+        "e\xe2\x81\xa6"
+        "f\xe2\x80\x8f"
+        "g\xd8\x9c"
+        "h\xe2\x80\xa8i γ€🚀\xe2\x80");
+    EXPECT_TRUE(file.lines().at(0).ends_with("input: a?b?c??d?e?f?g?h?i γ€🚀??")) << file.lines()[0];
 }
 
 TEST(Log, TheJournalGetsPrioritiesInsteadOfTimes)

@@ -1,4 +1,5 @@
 #include "layout.h"
+#include "config/json/whole_file.h"
 #include "config/model/one_view.h"
 #include "config/model/shipped.h"
 #include "runtime/commands/median.h"
@@ -7,7 +8,6 @@
 #include "runtime/render/render_context.h"
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <unistd.h>
@@ -78,7 +78,7 @@ void bench_kinds(RenderContext& context, const Shot& shot, int rounds)
     // shows something in all of them.
     const std::filesystem::path file
         = std::filesystem::temp_directory_path() / ("starbow-bench-" + std::to_string(::getpid()) + ".data");
-    std::ofstream(file) << "2\n2 2\n-1 -1 0 0 1\n1 -1 1 0 1\n-1 1 0 1 1\n1 1 1 1 1\n";
+    write_whole(file, "2\n2 2\n-1 -1 0 0 1\n1 -1 1 0 1\n-1 1 0 1 1\n1 1 1 1 1\n");
     Layout mesh = one_view(Planar{90}, size);
     mesh.outputs[0].viewports[0].warp = Warp{file};
     Lens lens;

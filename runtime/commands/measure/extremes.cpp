@@ -17,7 +17,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <functional>
 #include <optional>
 #include <unistd.h>
@@ -164,7 +163,7 @@ std::string refusal(const std::string& content, const std::function<void(const s
 {
     const std::filesystem::path file
         = std::filesystem::temp_directory_path() / ("starbow-extreme-" + std::to_string(::getpid()) + ".json");
-    std::ofstream(file) << content;
+    write_whole(file, content);
     std::string why;
     try {
         read(file);

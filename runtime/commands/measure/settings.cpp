@@ -10,7 +10,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -173,8 +172,7 @@ public:
         : file_(std::move(file))
         , key_(std::move(key))
     {
-        std::ifstream in(file_);
-        nlohmann::json before = nlohmann::json::parse(in, nullptr, false);
+        nlohmann::json before = nlohmann::json::parse(RegularFile(file_).read_all(std::size_t(16) << 20), nullptr, false);
         if (before.is_object() && before.value("key", "") == key_)
             all_ = before;
         else

@@ -1,5 +1,6 @@
 #include "reference.h"
 #include "config/json/error.h"
+#include "config/json/reader.h"
 #include "config/model/shipped.h"
 #include "runtime/commands/options/size.h"
 #include "runtime/images/capture.h"
@@ -35,7 +36,7 @@ int render_reference(const ReferenceCommand& command)
         }
     const ReferenceWorld world = open_reference_world(scene_of(shot, shot_file));
     for (const std::string& note : world.world.notes)
-        std::fprintf(stderr, "starbow: %s: %s\n", world.scene.gltf.c_str(), note.c_str());
+        std::fprintf(stderr, "starbow: %s: %s\n", one_line(world.scene.gltf.string()).c_str(), one_line(note).c_str());
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)

@@ -1,4 +1,5 @@
 #include "config/json/error.h"
+#include "config/json/reader.h"
 #include "config/model/shipped.h"
 #include "reference.h"
 #include "replay.h"
@@ -71,7 +72,8 @@ int render(const RenderOptions& options)
     const auto level = options.spectra == "needed" && quality ? quality->spectra : level_of(options.spectra);
     RenderContext context(scene_of(shot, shot_file), device_options(false), level);
     for (const std::string& note : context.world.world.notes)
-        std::fprintf(stderr, "starbow: %s: %s\n", context.world.scene.gltf.c_str(), note.c_str());
+        std::fprintf(
+            stderr, "starbow: %s: %s\n", one_line(context.world.scene.gltf.string()).c_str(), one_line(note).c_str());
     OffscreenRenderer renderer(context.device, context.pipelines, context.world, layout,
         quality ? within(context.device, *quality) : default_quality(context.device, true), options.exr);
     renderer.frame().show(pattern);

@@ -6,8 +6,9 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
+#include <fcntl.h>
 #include <sstream>
+#include <unistd.h>
 
 namespace starbow {
 namespace {
@@ -43,9 +44,9 @@ double median_of(std::span<const SoakSample> samples, std::size_t SoakSample::*v
 SoakLog::SoakLog(const std::filesystem::path& file, long seed)
     : file_(file)
 {
-    std::ifstream stream(file);
+    std::istringstream stream(RegularFile(file).read_all(std::size_t(64) << 20));
     std::string line;
-    if (!stream || !std::getline(stream, line)) {
+    if (!std::getline(stream, line)) {
         std::error_code ignored;
         if (file.has_parent_path())
             std::filesystem::create_directories(file.parent_path(), ignored);
@@ -78,11 +79,15 @@ long SoakLog::next_visit() const
 void SoakLog::add(const SoakSample& s)
 {
     samples_.push_back(s);
-    std::ofstream stream(file_, std::ios::app);
+    std::ostringstream stream;
     stream << s.visit << ',' << s.frames << ',' << s.seconds << ',' << s.resident_bytes << ',' << s.heap_bytes << ','
            << s.files << ',' << s.threads << ',' << s.driver_pieces << ',' << s.driver_bytes << ',' << s.temporary_files
-           << std::endl;
-    if (!stream)
+           << '\n';
+    const std::string text = stream.str();
+    const int to = open_to_write(file_, O_APPEND, "a file that can be written");
+    const bool whole = ::write(to, text.data(), text.size()) == ssize_t(text.size());
+    ::close(to);
+    if (!whole)
         refuse_writing(file_, errno);
 }
 

@@ -1,4 +1,5 @@
 #include "config/json/error.h"
+#include "config/json/reader.h"
 #include "config/json/whole_file.h"
 #include "config/model/layout.h"
 #include "config/model/shipped.h"
@@ -17,7 +18,6 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <unistd.h>
 
@@ -74,8 +74,7 @@ private:
     /// A shipped layout with outputs of 64 x 48 pixels; empty for one that names other files or monitors.
     static std::string small_layout(const std::string& name)
     {
-        std::ifstream stream(shipped_file("layouts", name));
-        nlohmann::json layout = nlohmann::json::parse(stream, nullptr, true, true);
+        nlohmann::json layout = read_document(shipped_file("layouts", name)).root;
         layout.erase("$schema");
         for (nlohmann::json& output : layout["outputs"]) {
             if (output.contains("monitor") || output.dump().find("\"file\"") != std::string::npos)

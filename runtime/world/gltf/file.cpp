@@ -1,40 +1,21 @@
 #include "file.h"
+#include "config/json/whole_file.h"
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace fs = std::filesystem;
 
 namespace starbow {
 namespace {
 
-/// Reads a regular file; returns "" or the problem. It never waits: a FIFO opens without a writer and is then refused.
-std::string read_regular(const fs::path& path, std::size_t limit, Bytes& bytes)
+/// Reads a file; returns "" or the problem.
+std::string read_bytes(const fs::path& path, std::size_t limit, Bytes& bytes)
 {
-    int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-    if (descriptor < 0)
-        return std::string("cannot be opened: ") + std::strerror(errno);
-    struct Closer {
-        int descriptor;
-        ~Closer() { ::close(descriptor); }
-    } closer{descriptor};
-    struct stat info { };
-    if (::fstat(descriptor, &info) != 0 || !S_ISREG(info.st_mode))
-        return "is not a file but a folder or a device; should be a file";
-    if (std::uint64_t(info.st_size) > limit)
-        return "has " + std::to_string(info.st_size) + " bytes; " + std::to_string(limit) + " are allowed here";
-    bytes.resize(std::size_t(info.st_size));
-    std::size_t done = 0;
-    while (done < bytes.size()) {
-        ssize_t got = ::read(descriptor, bytes.data() + done, bytes.size() - done);
-        if (got <= 0)
-            return "cannot be read to its end";
-        done += std::size_t(got);
-    }
-    return "";
+    RegularFile file(path);
+    const std::string read = file.read_all(limit);
+    bytes.assign(read.begin(), read.end());
+    return file.fault().empty() ? "" : file.fault() + "; should be a file of at most " + std::to_string(limit) + " bytes";
 }
 
 std::uint32_t little32(const Bytes& bytes, std::size_t at)
@@ -219,7 +200,7 @@ GltfFile read_gltf_file(const fs::path& file)
     std::replace_if(
         out.name.begin(), out.name.end(), [](unsigned char c) { return c < ' '; }, '?');
     Bytes bytes;
-    if (std::string problem = read_regular(file, out.bytes_left, bytes); !problem.empty())
+    if (std::string problem = read_bytes(file, out.bytes_left, bytes); !problem.empty())
         throw InputError(out.name, "", problem);
     out.bytes_left -= bytes.size();
     std::error_code error;
@@ -248,7 +229,7 @@ Bytes read_uri(GltfFile& file, const Spot& spot)
     }
     fs::path place = resolve_inside(file.folder, uri, spot);
     Bytes bytes;
-    if (std::string problem = read_regular(place, file.bytes_left, bytes); !problem.empty())
+    if (std::string problem = read_bytes(place, file.bytes_left, bytes); !problem.empty())
         spot.fail("names " + in_quotes(uri) + ", which " + problem);
     file.bytes_left -= bytes.size();
     return bytes;

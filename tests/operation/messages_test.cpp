@@ -1,0 +1,71 @@
+// Messages to a stream whose reader does not read.
+#include "runtime/operation/messages.h"
+#include "tests/support/files.h"
+#include <chrono>
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace messages_test {
+
+using namespace starbow;
+using namespace starbow::testing;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Pipe {
+    int ends[2];
+    Pipe() { EXPECT_EQ(pipe2(ends, O_CLOEXEC), 0); }
+    std::string read(std::size_t most)
+    {
+        std::string text(most, '\0');
+        const ssize_t got = ::read(ends[0], text.data(), text.size());
+        text.resize(std::size_t(std::max<ssize_t>(got, 0)));
+        return text;
+    }
+};
+
+} // namespace
+
+TEST(Messages, NobodyWaitsForAFullPipe)
+{
+    Pipe pipe;
+    const std::string line(999, 'x');
+    const auto began = Clock::now();
+    constexpr int sent = 2000; // 2 MB; pipe and queue together take less than a fifth
+    for (int i = 0; i < sent; ++i)
+        send_message(pipe.ends[1], line + "\n");
+    EXPECT_LT(Clock::now() - began, std::chrono::seconds(2));
+    EXPECT_FALSE(flush_messages(0.05));
+
+    // The number of lost messages comes after those that came before them, and then the next ones.
+    std::string all;
+    while (!flush_messages(0.01))
+        all += pipe.read(1 << 16);
+    send_message(pipe.ends[1], "the last\n");
+    EXPECT_TRUE(flush_messages(5));
+    while (!all.ends_with("the last\n"))
+        all += pipe.read(1 << 16);
+    const std::size_t said = all.find("starbow: ");
+    ASSERT_NE(said, std::string::npos);
+    const int dropped = std::stoi(all.substr(said + 9));
+    EXPECT_EQ(long(said), long(sent - dropped) * 1000);
+    EXPECT_GT(dropped, 1000);
+    EXPECT_EQ(
+        all.substr(all.find(' ', said + 9)), " messages are dropped here, because nobody read them in time\nthe last\n");
+}
+
+TEST(Messages, AClosedStreamTakesNoTime)
+{
+    guard_streams(); // else SIGPIPE ends this test
+    Pipe pipe;
+    close(pipe.ends[0]);
+    send_message(pipe.ends[1], "nobody there\n");
+    EXPECT_TRUE(flush_messages(5));
+    close(pipe.ends[1]);
+    send_message(pipe.ends[1], "no stream\n");
+    EXPECT_TRUE(flush_messages(5));
+}
+
+} // namespace messages_test
