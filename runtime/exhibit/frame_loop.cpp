@@ -361,7 +361,6 @@ void FrameLoop::apply(LayoutLoader::Loaded loaded)
         session_.governor->forget_refusals();
     screens_.adopt(session_.layout);
     session_.diary.count([](Tally& tally) { ++tally.layouts; });
-    session_.diary.count([](Tally& tally) { ++tally.layouts; });
     const std::size_t unkept = changes(session_.kept, session_.layout).size();
     log_info("layout",
         session_.layout.file.string() + ": applied" + (unkept > 0 ? "; changes made by keys are kept (F5 saves them)" : ""));
