@@ -1,8 +1,8 @@
 #pragma once
+#include "auth.h"
 #include "config/model/remote_file.h"
 #include "input/command.h"
 #include "snapshot.h"
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,9 +21,6 @@ struct RemoteOptions {
     std::vector<std::string> patterns; ///< names of test patterns that the page offers
     std::string version; ///< the program's
 };
-
-/// The PINs of look, docent and engineer; empty: nobody may log in for this role.
-using Pins = std::array<std::string, 3>;
 
 /// Tablets, telephones, OSC and `starbow tell` steer the exhibit: one thread serves them all. take, answer and publish are
 /// for the frame thread. They never wait, and what they allocate is the text of a command.
