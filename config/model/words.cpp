@@ -196,6 +196,7 @@ const std::vector<Known> known{
     {"remote.go"},
     {"remote.hold"},
     {"remote.speed_limit"},
+    {"remote.no_limit"},
     {"remote.language"},
     {"remote.effects"},
     {"remote.aberration"},

@@ -55,6 +55,8 @@ function choiceText(kind, name) {
 
 // A limit as a docent says it: a part of light's speed while that can be read, then γ.
 function limitText(gamma) {
+    if (gamma >= 1e6)
+        return word("remote.no_limit");
     if (gamma > 30)
         return `γ ${showNumber(gamma, 4)}`;
     return `${showNumber(Math.sqrt(1 - 1 / (gamma * gamma)), 3)} c`;
@@ -114,9 +116,9 @@ function showStatus() {
     const step = word("remote.step", { step: String(status.step), steps: String(status.steps) });
     show("tour", !status.tour ? word("remote.no_tour")
         : `${choiceText("tour", status.tour)}, ${status.paused ? word("remote.paused") : step}`);
-    show("speed", `${status.speed > 0.999 ? status.speed.toLocaleString(language, { maximumFractionDigits: 9 })
-        : showNumber(status.speed, 3)} c`);
-    show("gamma", showNumber(status.gamma, 4));
+    const digits = status.speed > 0.999 ? 9 : 3;
+    show("speed", `${status.speed.toLocaleString(language, { minimumFractionDigits: digits, maximumFractionDigits: digits })} c`);
+    show("gamma", status.gamma.toLocaleString(language, { minimumSignificantDigits: 4, maximumSignificantDigits: 4 }));
     show("visitors", word(status.fade ? "remote.dark" : status.hold ? "remote.held" : "remote.fly"));
     if (role === "engineer") {
         show("frames", word("remote.frames_value",
@@ -131,6 +133,12 @@ function showStatus() {
     for (const select of all("[data-live]"))
         if (document.activeElement !== select && !select.dataset.sent)
             showChoice(select, select.dataset.live);
+    // The choices with a button begin at what is shown, and are left alone from then on.
+    for (const select of all("[data-choose]").map((button) => find(button.dataset.choose)))
+        if (!select.dataset.begun && status[select.id]) {
+            select.value = status[select.id];
+            select.dataset.begun = "1";
+        }
     find("caption-clear").disabled = !status.caption;
 }
 

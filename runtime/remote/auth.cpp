@@ -53,9 +53,8 @@ bool is_pin(std::string_view text)
 
 bool is_token(std::string_view text)
 {
-    return text.size() == 32 && std::ranges::all_of(text, [](char c) {
-        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
-    });
+    return text.size() == 32
+        && std::ranges::all_of(text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
 }
 
 /// The text of a small regular file with no more rights than `rights`; nullopt where it can't be opened.
@@ -64,7 +63,7 @@ std::optional<std::string> private_text(const std::filesystem::path& file, mode_
     const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor < 0)
         return std::nullopt;
-    struct stat about {};
+    struct stat about { };
     fstat(descriptor, &about);
     const auto refuse = [&](const std::string& problem) {
         close(descriptor);
@@ -93,8 +92,10 @@ Pins read_pins(const std::filesystem::path& file)
 {
     const std::optional<std::string> text = private_text(file, 0640);
     if (!text)
-        throw InputError(file.string(), "", std::string("can't be read (") + std::strerror(errno) + "); a file with lines such "
-                             "as \"docent 123456\" is right");
+        throw InputError(file.string(), "",
+            std::string("can't be read (") + std::strerror(errno)
+                + "); a file with lines such "
+                  "as \"docent 123456\" is right");
     Pins pins;
     std::istringstream lines(*text);
     int number = 0;
@@ -109,7 +110,8 @@ Pins read_pins(const std::filesystem::path& file)
         // The line itself is not shown: messages go into the log, and it may hold a PIN.
         if (known == role_names.end() || !is_pin(pin) || !more.empty())
             throw InputError(file.string(), std::to_string(number),
-                "the line is no role (look, docent or engineer) with a PIN of six digits; \"docent\" and six digits is right");
+                "the line is no role (look, docent or engineer) with a PIN of six digits; \"docent\" and six digits is "
+                "right");
         std::string& place = pins[std::size_t(known - role_names.begin())];
         if (!place.empty() || std::ranges::find(pins, pin) != pins.end())
             throw InputError(file.string(), std::to_string(number),
@@ -189,13 +191,14 @@ void Logins::log_out(std::string_view token)
 
 void Logins::keep(const std::filesystem::path& file, Time now) const
 {
-    const std::chrono::seconds clock = std::chrono::duration_cast<std::chrono::seconds>(
-        std::chrono::system_clock::now().time_since_epoch());
+    const std::chrono::seconds clock
+        = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch());
     std::string text;
     for (const Token& token : tokens_)
         if (token.until > now)
             text += token.text + " " + pins_[std::size_t(token.role)] + " "
-                + std::to_string((clock + std::chrono::duration_cast<std::chrono::seconds>(token.until - now)).count()) + "\n";
+                + std::to_string((clock + std::chrono::duration_cast<std::chrono::seconds>(token.until - now)).count())
+                + "\n";
     const std::filesystem::path part = file.string() + ".part";
     std::error_code ignored;
     std::filesystem::create_directories(file.parent_path(), ignored);
@@ -218,8 +221,8 @@ void Logins::restore(const std::filesystem::path& file, Time now)
         text = private_text(file, 0600);
     } catch (const InputError&) {
     }
-    const std::int64_t clock = std::chrono::duration_cast<std::chrono::seconds>(
-        std::chrono::system_clock::now().time_since_epoch()).count();
+    const std::int64_t clock
+        = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch()).count();
     std::istringstream lines(text.value_or(""));
     std::string token, pin;
     for (std::int64_t until; lines >> token >> pin >> until && tokens_.size() < most_tokens;) {

@@ -42,7 +42,8 @@ int begin(lws* wsi, Visit& visit, HttpAnswer answer)
 {
     std::array<unsigned char, LWS_PRE + 2048> headers;
     unsigned char *const first = &headers[LWS_PRE], *at = first, *const end = headers.data() + headers.size();
-    if (lws_add_http_header_status(wsi, answer.status, &at, end) != 0 || !add_header(wsi, "content-type:", answer.type, at, end)
+    if (lws_add_http_header_status(wsi, answer.status, &at, end) != 0
+        || !add_header(wsi, "content-type:", answer.type, at, end)
         || (!answer.cookie.empty() && !add_header(wsi, "set-cookie:", answer.cookie, at, end))
         || lws_add_http_header_content_length(wsi, answer.body.size(), &at, end) != 0
         || lws_finalize_write_http_header(wsi, first, &at, end) != 0)
@@ -120,7 +121,8 @@ HttpAnswer Server::log_in(lws* wsi, const std::string& body)
             return {.status = 401, .type = "application/json", .body = "{\"wrong\":true}"};
         if (attempt.left == Logins::lock)
             log_warning("remote", "five wrong PINs at " + peer + ": logins from there are refused for five minutes");
-        return {.status = 429, .type = "application/json",
+        return {.status = 429,
+            .type = "application/json",
             .body = "{\"locked_s\":" + std::to_string(attempt.left.count()) + "}"};
     } catch (const InputError& error) {
         return {.status = 400, .body = std::string(error.what()) + "\n"};

@@ -4,6 +4,7 @@
 #include "config/json/reader.h"
 #include "config/model/quality.h"
 #include "config/model/shipped.h"
+#include "runtime/operation/log.h"
 #include <algorithm>
 #include <arpa/inet.h>
 #include <cmath>
@@ -218,8 +219,9 @@ std::string words_text()
             for (const auto& [key, text] : words.texts)
                 if (key.starts_with(prefix))
                     texts[key] = text;
-        } catch (const InputError&) {
-            all.erase(language); // the page offers the others
+        } catch (const InputError& error) {
+            log_warning("remote", std::string(error.what()) + "; the page does without this language");
+            all.erase(language);
         }
     return dump(all);
 }

@@ -50,7 +50,8 @@ Remote::Remote(RemoteOptions options)
         parts_->server.serve();
     });
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
-    log_info("remote", "the page is at " + page() + (parts_->file.empty() ? ", with PINs that the operator's window shows" : ""));
+    log_info(
+        "remote", "the page is at " + page() + (parts_->file.empty() ? ", with PINs that the operator's window shows" : ""));
 }
 
 Remote::~Remote()

@@ -144,13 +144,15 @@ Server::Server(const RemoteOptions& options, const Pins& pins, Exchange& exchang
         lws_context_destroy(context_);
         throw;
     }
-    page_ = (tls ? "https://" : "http://") + (!settings.hosts.empty() ? settings.hosts[0]
-            : is_any(settings.address)                               ? "localhost"
-            : v6                                                     ? "[" + settings.address + "]"
-                                                                     : settings.address)
+    page_ = (tls ? "https://" : "http://")
+        + (!settings.hosts.empty()         ? settings.hosts[0]
+                : is_any(settings.address) ? "localhost"
+                : v6                       ? "[" + settings.address + "]"
+                                           : settings.address)
         + ":" + std::to_string(settings.port) + "/";
     if (!tls && !is_loopback(settings.address))
-        log_warning("remote", "PINs and commands go over the network unencrypted at " + place
+        log_warning("remote",
+            "PINs and commands go over the network unencrypted at " + place
                 + "; a certificate and key in the exhibit's file makes the page https");
     tick_.server = this;
     schedule();
@@ -161,8 +163,9 @@ Server::~Server() { lws_context_destroy(context_); }
 void Server::load_files()
 {
     const std::filesystem::path folder = home() / "config" / "remote";
-    for (const auto& [path, file, type] : {std::tuple{"/", "page.html", "text/html; charset=utf-8"},
-             {"/page.css", "page.css", "text/css; charset=utf-8"}, {"/page.js", "page.js", "text/javascript; charset=utf-8"}, {"/icon.svg", "icon.svg", "image/svg+xml"}}) {
+    for (const auto& [path, file, type] :
+        {std::tuple{"/", "page.html", "text/html; charset=utf-8"}, {"/page.css", "page.css", "text/css; charset=utf-8"},
+            {"/page.js", "page.js", "text/javascript; charset=utf-8"}, {"/icon.svg", "icon.svg", "image/svg+xml"}}) {
         std::ifstream stream(folder / file, std::ios::binary);
         if (!stream)
             throw InputError((folder / file).string(), "", "can't be read; the file of the package starbow is right");
@@ -198,8 +201,9 @@ void Server::open_osc()
 
 void Server::schedule()
 {
-    lws_sul_schedule(context_, 0, &tick_.list,
-        [](lws_sorted_usec_list_t* list) { reinterpret_cast<Tick*>(list)->server->tick(); }, tick_us);
+    lws_sul_schedule(
+        context_, 0, &tick_.list, [](lws_sorted_usec_list_t* list) { reinterpret_cast<Tick*>(list)->server->tick(); },
+        tick_us);
 }
 
 void Server::serve()
@@ -262,8 +266,8 @@ std::string Server::put(const Command& command, Role role, const std::string& wh
 {
     const CommandRule& rule = rule_of(command.kind);
     if (role < rule.role)
-        return "the command " + std::string(rule.name) + " is not for the role " + role_names[std::size_t(role)] + "; the role "
-            + role_names[std::size_t(rule.role)] + " is right";
+        return "the command " + std::string(rule.name) + " is not for the role " + role_names[std::size_t(role)]
+            + "; the role " + role_names[std::size_t(rule.role)] + " is right";
     std::string words;
     for (const std::string& word : words_of(command))
         words += (words.empty() ? "" : " ") + word;

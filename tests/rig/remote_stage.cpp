@@ -1,6 +1,6 @@
 // Plays the frame thread of an exhibit for tests of the remote, without a GPU: remote_stage EXHIBIT.json [WORK_MS [SECONDS]]
-// publishes sixty times a second after WORK_MS of arithmetic, and applies commands to a state that is nothing but the snapshot.
-// At its end it prints percentiles of a frame's work: "work_ms P50 P99".
+// publishes sixty times a second after WORK_MS of arithmetic, and applies commands to a state that is nothing but the
+// snapshot. At its end it prints percentiles of a frame's work: "work_ms P50 P99".
 #include "config/json/error.h"
 #include "config/model/exhibit_file.h"
 #include "runtime/remote/remote.h"
@@ -27,36 +27,76 @@ std::string apply(const Command& command, Snapshot& now)
 {
     using enum CommandKind;
     switch (command.kind) {
-    case fade: now.fade = command.on; break;
-    case stop: now.speed = 0, now.gamma = 1; break;
-    case reset: now = {.scene = "avenue", .language = "en", .layout = "desk", .quality = "balanced", .max_gamma = 1e6}; break;
-    case tour: now.tour = command.text, now.step = 1, now.steps = 12, now.shot.clear(); break;
-    case next: now.step = std::min(now.step + 1, now.steps); break;
-    case back: now.step = std::max(now.step - 1, 1); break;
-    case pause: now.paused = command.on; break;
+    case fade:
+        now.fade = command.on;
+        break;
+    case stop:
+        now.speed = 0, now.gamma = 1;
+        break;
+    case reset:
+        now = {.scene = "avenue", .language = "en", .layout = "desk", .quality = "balanced", .max_gamma = 1e6};
+        break;
+    case tour:
+        now.tour = command.text, now.step = 1, now.steps = 12, now.shot.clear();
+        break;
+    case next:
+        now.step = std::min(now.step + 1, now.steps);
+        break;
+    case back:
+        now.step = std::max(now.step - 1, 1);
+        break;
+    case pause:
+        now.paused = command.on;
+        break;
     case scene:
         if (command.text == "gone")
             return "There is no gone.json in config/scenes";
         now.scene = command.text, now.shot.clear(), now.tour.clear();
         break;
-    case shot: now.shot = command.text, now.tour.clear(); break;
-    case speed_limit: now.max_gamma = command.number; break;
-    case aberration: now.effects.aberration = command.on; break;
-    case doppler: now.effects.doppler = command.on; break;
-    case headlight: now.effects.headlight = command.on; break;
-    case false_colours: now.effects.false_colours = command.on; break;
+    case shot:
+        now.shot = command.text, now.tour.clear();
+        break;
+    case speed_limit:
+        now.max_gamma = command.number;
+        break;
+    case aberration:
+        now.effects.aberration = command.on;
+        break;
+    case doppler:
+        now.effects.doppler = command.on;
+        break;
+    case headlight:
+        now.effects.headlight = command.on;
+        break;
+    case false_colours:
+        now.effects.false_colours = command.on;
+        break;
     case comparison:
         for (std::size_t i = 0; i < comparison_names.size(); ++i)
             if (command.text == comparison_names[i])
                 now.effects.comparison = Comparison(i);
         break;
-    case language: now.language = command.text; break;
-    case caption: now.caption = command.text; break;
-    case hold: now.hold = command.on; break;
-    case layout: now.layout = command.text; break;
-    case pattern: now.pattern = command.text; break;
-    case quality: now.quality = command.text; break;
-    case restart: ends = true; break;
+    case language:
+        now.language = command.text;
+        break;
+    case caption:
+        now.caption = command.text;
+        break;
+    case hold:
+        now.hold = command.on;
+        break;
+    case layout:
+        now.layout = command.text;
+        break;
+    case pattern:
+        now.pattern = command.text;
+        break;
+    case quality:
+        now.quality = command.text;
+        break;
+    case restart:
+        ends = true;
+        break;
     }
     return "";
 }
@@ -90,14 +130,16 @@ void print_percentiles(const char* name, std::vector<double> values)
     if (values.empty())
         return;
     std::sort(values.begin(), values.end());
-    const auto at = [&](double part) { return values[std::min(values.size() - 1, std::size_t(part * double(values.size())))]; };
+    const auto at
+        = [&](double part) { return values[std::min(values.size() - 1, std::size_t(part * double(values.size())))]; };
     std::printf("%s %.3f %.3f\n", name, at(0.5), at(0.99));
 }
 
 int play(const char* exhibit, double work_ms, double seconds)
 {
     Remote remote({.settings = load_exhibit(exhibit).remote,
-        .patterns = {"none", "grid", "rings", "names", "wedges", "overlap"}, .version = "0.9.0"});
+        .patterns = {"none", "grid", "rings", "names", "wedges", "overlap"},
+        .version = "0.9.0"});
     for (std::size_t i = 0; i < remote.drawn_pins().size(); ++i)
         std::printf("%s %s\n", role_names[i], remote.drawn_pins()[i].c_str());
     std::printf("page %s\n", remote.page().c_str());
@@ -118,13 +160,15 @@ int play(const char* exhibit, double work_ms, double seconds)
         work(rounds);
         const double time = ms_since(start) / 1000;
         const double gamma_beta = now.fade ? 0 : 1.5 + std::sin(time / 5);
-        now.gamma = std::min(std::hypot(1, gamma_beta), now.max_gamma), now.speed = std::sqrt(1 - 1 / (now.gamma * now.gamma));
+        now.gamma = std::min(std::hypot(1, gamma_beta), now.max_gamma),
+        now.speed = std::sqrt(1 - 1 / (now.gamma * now.gamma));
         now.uptime_s = time, now.frames_per_s = 60, now.frame_ms = works.empty() ? 0 : works.back();
         remote.next_snapshot() = now;
         remote.publish_snapshot();
         if (const int second = int(time); second != published_second) {
             published_second = second;
-            remote.next_condition().metrics = "# TYPE starbow_frames_total counter\nstarbow_frames_total " + std::to_string(frame) + "\n";
+            remote.next_condition().metrics
+                = "# TYPE starbow_frames_total counter\nstarbow_frames_total " + std::to_string(frame) + "\n";
             remote.next_condition().log.assign(1, "info stage: " + std::to_string(second) + " s");
             remote.publish_condition();
             if (remote.picture_wanted()) {
