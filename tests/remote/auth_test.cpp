@@ -57,8 +57,8 @@ TEST(Pins, AFileThatOthersReadOrThatIsWrongIsRefusedAndNotShown)
     EXPECT_NE(complaint([] { read_pins("/dev/zero"); }).find("is no regular file"), std::string::npos);
     mkfifo(scratch("pins-fifo").c_str(), 0600);
     EXPECT_NE(complaint([] { read_pins(scratch("pins-fifo")); }).find("is no regular file"), std::string::npos);
-    EXPECT_NE(complaint([] { read_pins(pin_file(std::string(100000, '#'))); }).find("at most 65536 are right"),
-        std::string::npos);
+    EXPECT_NE(
+        complaint([] { read_pins(pin_file(std::string(100000, '#'))); }).find("at most 65536 are right"), std::string::npos);
 }
 
 TEST(Pins, DrawnOnesHaveSixDigitsAndDiffer)
@@ -167,7 +167,7 @@ TEST(Logins, TokensOutlastARestartButNotAnotherPin)
     Logins before(pins);
     const std::string docent = token(before, "222222"), engineer = token(before, "333333");
     before.keep(file, start);
-    struct stat about {};
+    struct stat about { };
     ASSERT_EQ(stat(file.c_str(), &about), 0);
     EXPECT_EQ(about.st_mode & 0777, 0600u);
     Logins after(Pins{"111111", "222222", "444444"});

@@ -14,8 +14,13 @@ namespace {
 
 RemoteSettings settings()
 {
-    return {.port = 8080, .address = "192.168.7.20", .hosts = {"starbow.local", "[2001:db8::7]"}, .certificate = {}, .key = {},
-        .pins = {}, .osc = {}};
+    return {.port = 8080,
+        .address = "192.168.7.20",
+        .hosts = {"starbow.local", "[2001:db8::7]"},
+        .certificate = {},
+        .key = {},
+        .pins = {},
+        .osc = {}};
 }
 
 /// An OSC message, each part padded with zeros to four bytes.
@@ -106,12 +111,12 @@ TEST(Messages, TheTokenIsFoundAmongCookies)
 
 TEST(Messages, HostsAndOriginsAreOnTheList)
 {
-    for (const char* right : {"192.168.7.20:8080", "localhost:8080", "127.0.0.1:8080", "[::1]:8080", "Starbow.LOCAL:8080",
-             "[2001:db8::7]:8080"})
+    for (const char* right :
+        {"192.168.7.20:8080", "localhost:8080", "127.0.0.1:8080", "[::1]:8080", "Starbow.LOCAL:8080", "[2001:db8::7]:8080"})
         EXPECT_TRUE(host_is_listed(right, settings())) << right;
-    for (const char* wrong : {"", "starbow.local", "starbow.local:80", "starbow.local:8081", "starbow.local:8080.evil.example",
-             "evil.example:8080", "starbow.local.evil.example:8080", "192.168.7.21:8080", ":8080", "[::1]", "[::1",
-             "starbow.local:8080:8080", "starbow.local:08080"})
+    for (const char* wrong : {"", "starbow.local", "starbow.local:80", "starbow.local:8081",
+             "starbow.local:8080.evil.example", "evil.example:8080", "starbow.local.evil.example:8080", "192.168.7.21:8080",
+             ":8080", "[::1]", "[::1", "starbow.local:8080:8080", "starbow.local:08080"})
         EXPECT_FALSE(host_is_listed(wrong, settings())) << wrong;
     RemoteSettings usual = settings();
     usual.port = 80;
@@ -142,7 +147,8 @@ TEST(Messages, StatusesAndAnswersAreJson)
     now.caption = "\xff\"</script>";
     now.gamma = std::numeric_limits<double>::infinity();
     now.error = "A sentence.";
-    const json docent = json::parse(status_text(now, false))["status"], engineer = json::parse(status_text(now, true))["status"];
+    const json docent = json::parse(status_text(now, false))["status"],
+               engineer = json::parse(status_text(now, true))["status"];
     EXPECT_EQ(docent["scene"], "avenue");
     EXPECT_EQ(docent["step"], 2);
     EXPECT_EQ(docent["doppler"], false);
@@ -158,8 +164,8 @@ TEST(Messages, StatusesAndAnswersAreJson)
 TEST(Messages, ListsNameTheShippedFilesAndRoles)
 {
     const json lists = json::parse(lists_text({"none", "grid"}));
-    for (const auto& [command, folder] : {std::pair{"tour", "tours"}, {"scene", "scenes"}, {"layout", "layouts"},
-             {"shot", "shots"}, {"language", "words"}})
+    for (const auto& [command, folder] :
+        {std::pair{"tour", "tours"}, {"scene", "scenes"}, {"layout", "layouts"}, {"shot", "shots"}, {"language", "words"}})
         EXPECT_EQ(lists["names"][command].size(), shipped(std::string("config/") + folder).size()) << command;
     EXPECT_EQ(lists["names"]["quality"], (json{"balanced", "draft", "fine"})); // and not the ladder
     EXPECT_EQ(lists["names"]["pattern"], (json{"none", "grid"}));
@@ -185,13 +191,14 @@ TEST(Osc, MessagesAndBundlesAreRead)
 
 TEST(Osc, WrongMessagesAreRefusedInOneSentence)
 {
-    for (const std::string& wrong : {std::string(), std::string("/"), std::string(4, '\0'), osc("/other/stop", ""),
-             osc("/starbow/none", ""), osc("/starbow/doppler", "i", word_value(2)), osc("/starbow/scene", "ss",
-             text_value("a") + text_value("b")), osc("/starbow/scene", "i", ""), osc("/starbow/scene", "s", text_value("../x")),
-             osc("/starbow/scene", "b", word_value(0xffffffff)), osc("/starbow/doppler", "N"), osc("/starbow/stop", "i",
-             word_value(0)), bundle({bundle({osc("/starbow/stop", "")})}), bundle({""}), bundle({"x"}),
-             std::string("#bundle\0", 8) + std::string(8, '\1') + word_value(0x7fffffff),
-             bundle(std::vector<std::string>(65, osc("/starbow/stop", "")))})
+    for (const std::string& wrong :
+        {std::string(), std::string("/"), std::string(4, '\0'), osc("/other/stop", ""), osc("/starbow/none", ""),
+            osc("/starbow/doppler", "i", word_value(2)), osc("/starbow/scene", "ss", text_value("a") + text_value("b")),
+            osc("/starbow/scene", "i", ""), osc("/starbow/scene", "s", text_value("../x")),
+            osc("/starbow/scene", "b", word_value(0xffffffff)), osc("/starbow/doppler", "N"),
+            osc("/starbow/stop", "i", word_value(0)), bundle({bundle({osc("/starbow/stop", "")})}), bundle({""}),
+            bundle({"x"}), std::string("#bundle\0", 8) + std::string(8, '\1') + word_value(0x7fffffff),
+            bundle(std::vector<std::string>(65, osc("/starbow/stop", "")))})
         EXPECT_NE(refusal(wrong), "") << wrong;
 }
 
