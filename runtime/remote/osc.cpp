@@ -24,9 +24,8 @@ std::string word_of(lo_type type, lo_arg* value, bool is_switch)
     if (!lo_is_numerical_type(type)) {
         switch (type) {
         case LO_STRING:
-            return &value->s;
         case LO_SYMBOL:
-            return &value->S;
+            return reinterpret_cast<const char*>(value); // the union itself may lie at any multiple of 4 bytes
         case LO_TRUE:
             return "on";
         case LO_FALSE:
@@ -89,8 +88,8 @@ std::vector<Command> commands_of_osc(std::span<const unsigned char> bytes)
     std::vector<Command> commands;
     // Eight bytes of time follow, which is not looked at: all is done at once.
     for (std::size_t at = 16; at < bytes.size();) {
-        const std::size_t size = bytes.size() - at >= 4 ? big_endian(&bytes[at]) : SIZE_MAX;
-        if (size == 0 || size > bytes.size() - at - 4 || commands.size() == most_in_bundle)
+        const std::size_t left = bytes.size() - at, size = left > 4 ? big_endian(&bytes[at]) : 0;
+        if (size == 0 || size > left - 4 || commands.size() == most_in_bundle)
             throw InputError("an OSC bundle is cut off or has more than 64 messages; a whole one is right");
         const std::span<const unsigned char> part = bytes.subspan(at + 4, size);
         if (starts_bundle(part))

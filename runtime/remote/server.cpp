@@ -123,7 +123,8 @@ Server::Server(const RemoteOptions& options, const Pins& pins, Exchange& exchang
     info.retry_and_idle_policy = &idle;
     info.options = LWS_SERVER_OPTION_EXPLICIT_VHOSTS | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND
         | LWS_SERVER_OPTION_SKIP_SERVER_CANONICAL_NAME | LWS_SERVER_OPTION_VALIDATE_UTF8
-        | (v6 ? 0 : LWS_SERVER_OPTION_DISABLE_IPV6) | (tls ? LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT : 0);
+        | (v6 ? 0 : LWS_SERVER_OPTION_DISABLE_IPV6)
+        | (tls ? LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT | LWS_SERVER_OPTION_DISABLE_OS_CA_CERTS : 0);
     if (tls) {
         info.ssl_cert_filepath = certificate.c_str();
         info.ssl_private_key_filepath = key.c_str();

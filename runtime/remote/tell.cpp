@@ -22,7 +22,7 @@ struct Telling {
     std::string sends; ///< the message to the exhibit; empty: its state is wanted
     std::string body, partial{}, cookie{};
     unsigned login = 0; ///< the login's status; 0: none yet
-    bool closed = false, opened = false, sent = false;
+    bool login_ended = false, closed = false, opened = false, sent = false;
     std::string failure{};
     std::optional<ordered_json> answer{}, status{};
 };
@@ -33,9 +33,12 @@ std::string authority(const TellOptions& options)
         + std::to_string(options.port);
 }
 
-/// Adds a header line to a request that libwebsockets writes at `at`, with `room` left.
-int add_line(void* at, std::size_t room, const std::string& line)
+/// Adds Origin and one header more to a request that libwebsockets writes at `at`, with `room` left. Its own Origin says
+/// http where it is https.
+int add_lines(const TellOptions& options, void* at, std::size_t room, const std::string& header)
 {
+    const std::string line = "origin: " + std::string(options.certificate.empty() ? "http://" : "https://")
+        + authority(options) + "\r\n" + header + "\r\n";
     auto** to = static_cast<char**>(at);
     if (line.size() >= room)
         return -1;
@@ -61,7 +64,7 @@ int on_login(lws* wsi, lws_callback_reasons reason, void*, void* in, std::size_t
         Telling& telling = telling_of(wsi);
         lws_client_http_body_pending(wsi, 1);
         lws_callback_on_writable(wsi);
-        return add_line(in, size, "content-length: " + std::to_string(telling.body.size()) + "\r\n");
+        return add_lines(telling.options, in, size, "content-length: " + std::to_string(telling.body.size()));
     }
     case LWS_CALLBACK_CLIENT_HTTP_WRITEABLE:
         lws_client_http_body_pending(wsi, 0);
@@ -88,7 +91,7 @@ int on_login(lws* wsi, lws_callback_reasons reason, void*, void* in, std::size_t
         return 0;
     case LWS_CALLBACK_COMPLETED_CLIENT_HTTP:
     case LWS_CALLBACK_CLOSED_CLIENT_HTTP:
-        telling_of(wsi).closed = true;
+        telling_of(wsi).login_ended = true;
         return 0;
     default:
         return 0;
@@ -109,7 +112,7 @@ int on_socket_of_tell(lws* wsi, lws_callback_reasons reason, void*, void* in, st
 {
     switch (reason) {
     case LWS_CALLBACK_CLIENT_APPEND_HANDSHAKE_HEADER:
-        return add_line(in, size, "cookie: " + telling_of(wsi).cookie + "\r\n");
+        return add_lines(telling_of(wsi).options, in, size, "cookie: " + telling_of(wsi).cookie);
     case LWS_CALLBACK_CLIENT_ESTABLISHED:
         telling_of(wsi).opened = true;
         lws_callback_on_writable(wsi);
@@ -178,7 +181,6 @@ void connect(const Context& context, const Telling& telling, const char* method)
     info.address = telling.options.host.c_str();
     info.port = telling.options.port;
     info.host = host.c_str();
-    info.origin = host.c_str();
     info.path = method ? "/login" : "/";
     info.method = method;
     info.alpn = "http/1.1";
@@ -188,7 +190,7 @@ void connect(const Context& context, const Telling& telling, const char* method)
     info.ssl_connection = LCCSCF_HTTP_NO_FOLLOW_REDIRECT
         | (telling.options.certificate.empty()
                 ? 0
-                : LCCSCF_USE_SSL | LCCSCF_SKIP_SERVER_CERT_HOSTNAME_CHECK | LCCSCF_ALLOW_SELFSIGNED);
+                : LCCSCF_USE_SSL | LCCSCF_SKIP_SERVER_CERT_HOSTNAME_CHECK);
     if (!lws_client_connect_via_info(&info))
         throw InputError("no exhibit answers at " + host + "; the port of \"remote\" in the exhibit's file is right");
 }
@@ -213,7 +215,7 @@ template <class Done> bool serve_until(const Context& context, Telling& telling,
 void log_in(const Context& context, Telling& telling)
 {
     connect(context, telling, "POST");
-    serve_until(context, telling, connect_s, [&] { return telling.login && telling.closed; });
+    serve_until(context, telling, connect_s, [&] { return telling.login && telling.login_ended; });
     const std::string where = authority(telling.options);
     if (telling.login == 429)
         throw InputError("the exhibit at " + where + " refuses logins after wrong PINs; one in five minutes is right");
@@ -224,9 +226,10 @@ void log_in(const Context& context, Telling& telling)
             "the exhibit does not know the name " + telling.options.host + "; one of \"hosts\" in its file is right");
     if (telling.login != 200 || telling.cookie.empty())
         throw InputError("no exhibit answers at " + where
-            + (telling.failure.empty() ? "" : " (" + one_line(telling.failure) + ")")
+            + (telling.login                  ? " (HTTP status " + std::to_string(telling.login) + ")"
+                    : telling.failure.empty() ? ""
+                                              : " (" + one_line(telling.failure) + ")")
             + "; its host, its port and, where it has one, its certificate is right");
-    telling.closed = false;
     telling.partial.clear();
 }
 

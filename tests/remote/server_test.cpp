@@ -13,6 +13,9 @@
 #include <thread>
 #include <unistd.h>
 
+/// libwebsockets 4.1.6 leaks the TLS context for clients that each vhost with TLS has: 16 kB for each opened remote.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libwebsockets.so\nleak:libcrypto.so\nleak:libssl.so\n"; }
+
 namespace server_test {
 
 using namespace starbow;
@@ -168,6 +171,7 @@ public:
     /// Afterwards `taken` may be read.
     void end()
     {
+        std::this_thread::sleep_for(std::chrono::milliseconds(30)); // three frames more
         ends_ = true;
         if (frames_.joinable())
             frames_.join();
@@ -347,6 +351,7 @@ TEST(Server, LargeAndManyMessagesEndTheConnection)
     for (int i = 1; i <= 30; ++i)
         fast->send_frame("{\"id\":" + std::to_string(i) + R"(,"command":["stop"]})");
     EXPECT_EQ(fast->read_close(), 1008);
+    running.end();
     EXPECT_LE(running.count, 21);
     EXPECT_GE(running.count, 20);
 }
@@ -375,9 +380,11 @@ TEST(Server, ConnectionsAreBounded)
 TEST(Server, MetricsAreForThisMachineAndEngineers)
 {
     Running running;
-    const std::string metrics = running.http("GET /metrics");
-    EXPECT_NE(metrics.find("\nframes_total "), metrics.npos);
-    EXPECT_NE(metrics.find("\nstarbow_remote_connections 1\n"), metrics.npos);
+    std::string metrics;
+    for (int i = 0; i < 100 && metrics.find("frames_total ") == metrics.npos; ++i)
+        metrics = running.http("GET /metrics");
+    EXPECT_NE(metrics.find("frames_total "), metrics.npos);
+    EXPECT_NE(metrics.find("\nstarbow_remote_pages 0\n"), metrics.npos);
 }
 
 TEST(Server, OscComesFromTheListAlone)

@@ -1,6 +1,7 @@
-// Plays the frame thread of an exhibit for tests of the remote, without a GPU: remote_stage EXHIBIT.json [WORK_MS [SECONDS]]
-// publishes sixty times a second after WORK_MS of arithmetic, and applies commands to a state that is nothing but the
-// snapshot. At its end it prints percentiles of a frame's work: "work_ms P50 P99".
+// Plays the frame thread of an exhibit for tests of the remote, without a GPU: remote_stage EXHIBIT.json [WORK_MS] publishes
+// sixty times a second after WORK_MS of arithmetic, and applies commands to a state that is nothing but the snapshot. At
+// SIGUSR1 and at its end it prints, in milliseconds: a frame's time on the clock and on the processor, and the time from
+// "caption sent NS", NS on the monotonic clock, to the frame thread: "NAME P50 P99 MAX COUNT".
 #include "config/json/error.h"
 #include "config/model/exhibit_file.h"
 #include "runtime/remote/remote.h"
@@ -11,14 +12,16 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <thread>
+#include <vector>
 
 using namespace starbow;
 using Clock = std::chrono::steady_clock;
 
 namespace {
 
-std::atomic<bool> ends{false};
+std::atomic<bool> ends{false}, prints{false};
 
 double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
@@ -125,17 +128,37 @@ void draw(LivePicture& picture, double time)
         }
 }
 
-void print_percentiles(const char* name, std::vector<double> values)
+struct Times {
+    std::vector<double> wall, processor, commands;
+};
+
+void print(const char* name, std::vector<double>& values)
 {
-    if (values.empty())
-        return;
     std::sort(values.begin(), values.end());
     const auto at
         = [&](double part) { return values[std::min(values.size() - 1, std::size_t(part * double(values.size())))]; };
-    std::printf("%s %.3f %.3f\n", name, at(0.5), at(0.99));
+    if (!values.empty())
+        std::printf("%s %.3f %.3f %.3f %zu\n", name, at(0.5), at(0.99), values.back(), values.size());
 }
 
-int play(const char* exhibit, double work_ms, double seconds)
+void print(Times& times)
+{
+    print("wall_ms", times.wall);
+    print("processor_ms", times.processor);
+    print("command_ms", times.commands);
+    std::printf("end\n");
+    std::fflush(stdout);
+    times = {};
+}
+
+double clock_ms(clockid_t clock)
+{
+    timespec now{};
+    clock_gettime(clock, &now);
+    return double(now.tv_sec) * 1e3 + double(now.tv_nsec) / 1e6;
+}
+
+int play(const char* exhibit, double work_ms)
 {
     Remote remote({.settings = load_exhibit(exhibit).remote,
         .patterns = {"none", "grid", "rings", "names", "wedges", "overlap"},
@@ -147,22 +170,27 @@ int play(const char* exhibit, double work_ms, double seconds)
     Clock::time_point start = Clock::now();
     work(2000000);
     const long rounds = long(2000000 * work_ms / ms_since(start));
-    std::vector<double> works;
+    Times times;
     Snapshot now;
     apply({.kind = CommandKind::reset}, now);
     NumberedCommand command;
     int published_second = -1;
     start = Clock::now();
-    for (int frame = 0; !ends && (seconds <= 0 || ms_since(start) < seconds * 1000); ++frame) {
-        const Clock::time_point begin = Clock::now();
-        while (remote.take(command))
+    for (int frame = 0; !ends; ++frame) {
+        if (prints.exchange(false))
+            print(times);
+        const double begin = clock_ms(CLOCK_MONOTONIC), processor = clock_ms(CLOCK_THREAD_CPUTIME_ID);
+        while (remote.take(command)) {
+            if (command.command.text.starts_with("sent "))
+                times.commands.push_back(begin - std::atof(command.command.text.c_str() + 5) / 1e6);
             remote.answer(command.number, apply(command.command, now));
+        }
         work(rounds);
         const double time = ms_since(start) / 1000;
         const double gamma_beta = now.fade ? 0 : 1.5 + std::sin(time / 5);
         now.gamma = std::min(std::hypot(1, gamma_beta), now.max_gamma),
         now.speed = std::sqrt(1 - 1 / (now.gamma * now.gamma));
-        now.uptime_s = time, now.frames_per_s = 60, now.frame_ms = works.empty() ? 0 : works.back();
+        now.uptime_s = time, now.frames_per_s = 60, now.frame_ms = times.wall.empty() ? 0 : times.wall.back();
         remote.next_snapshot() = now;
         remote.publish_snapshot();
         if (const int second = int(time); second != published_second) {
@@ -176,10 +204,11 @@ int play(const char* exhibit, double work_ms, double seconds)
                 remote.publish_picture();
             }
         }
-        works.push_back(ms_since(begin));
+        times.wall.push_back(clock_ms(CLOCK_MONOTONIC) - begin);
+        times.processor.push_back(clock_ms(CLOCK_THREAD_CPUTIME_ID) - processor);
         std::this_thread::sleep_until(start + std::chrono::microseconds(16667L * (frame + 1)));
     }
-    print_percentiles("work_ms", works);
+    print(times);
     return 0;
 }
 
@@ -189,8 +218,9 @@ int main(int count, char** arguments)
 {
     for (const int signal : {SIGTERM, SIGINT})
         std::signal(signal, [](int) { ends = true; });
+    std::signal(SIGUSR1, [](int) { prints = true; });
     try {
-        return play(arguments[1], count > 2 ? std::atof(arguments[2]) : 0, count > 3 ? std::atof(arguments[3]) : 0);
+        return play(arguments[1], count > 2 ? std::atof(arguments[2]) : 0);
     } catch (const InputError& error) {
         std::fprintf(stderr, "remote_stage: %s\n", error.what());
         return 2;
