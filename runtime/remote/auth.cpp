@@ -1,9 +1,8 @@
 #include "auth.h"
 #include "config/json/error.h"
-#include "config/json/reader.h"
+#include "config/json/whole_file.h"
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <fcntl.h>
 #include <sstream>
 #include <sys/random.h>
@@ -57,32 +56,17 @@ bool is_token(std::string_view text)
         && std::ranges::all_of(text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
 }
 
-/// The text of a small regular file with no more rights than `rights`; nullopt where it can't be opened.
-std::optional<std::string> private_text(const std::filesystem::path& file, mode_t rights)
+/// The text of a small file with no more rights than `rights`. Throws InputError.
+std::string private_text(const std::filesystem::path& file, mode_t rights)
 {
-    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0)
-        return std::nullopt;
+    std::string text = read_whole(file, most_bytes, "a file with lines such as \"docent\" and six digits");
     struct stat about { };
-    fstat(descriptor, &about);
-    const auto refuse = [&](const std::string& problem) {
-        close(descriptor);
-        throw InputError(file.string(), "", problem);
-    };
-    if (!S_ISREG(about.st_mode))
-        refuse("is no regular file; one is right");
-    if (about.st_mode & 0777 & ~rights) {
+    if (stat(file.c_str(), &about) == 0 && (about.st_mode & 0777 & ~rights)) {
         std::ostringstream modes;
         modes << std::oct << (about.st_mode & 0777) << ", which opens it to more people than the exhibit's user and group; "
               << rights << " is right";
-        refuse("has the rights " + modes.str());
+        throw InputError(file.string(), "", "has the rights " + modes.str());
     }
-    if (std::size_t(about.st_size) > most_bytes)
-        refuse("has " + std::to_string(about.st_size) + " bytes; at most " + std::to_string(most_bytes) + " are right");
-    std::string text(std::size_t(about.st_size), '\0');
-    const ssize_t got = read(descriptor, text.data(), text.size());
-    text.resize(std::size_t(std::max<ssize_t>(got, 0)));
-    close(descriptor);
     return text;
 }
 
@@ -90,14 +74,8 @@ std::optional<std::string> private_text(const std::filesystem::path& file, mode_
 
 Pins read_pins(const std::filesystem::path& file)
 {
-    const std::optional<std::string> text = private_text(file, 0640);
-    if (!text)
-        throw InputError(file.string(), "",
-            std::string("can't be read (") + std::strerror(errno)
-                + "); a file with lines such "
-                  "as \"docent 123456\" is right");
+    std::istringstream lines(private_text(file, 0640));
     Pins pins;
-    std::istringstream lines(*text);
     int number = 0;
     for (std::string line; std::getline(lines, line);) {
         ++number;
@@ -216,14 +194,15 @@ void Logins::keep(const std::filesystem::path& file, Time now) const
 
 void Logins::restore(const std::filesystem::path& file, Time now)
 {
-    std::optional<std::string> text;
+    std::string text;
     try {
         text = private_text(file, 0600);
     } catch (const InputError&) {
+        return; // people log in again
     }
     const std::int64_t clock
         = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch()).count();
-    std::istringstream lines(text.value_or(""));
+    std::istringstream lines(text);
     std::string token, pin;
     for (std::int64_t until; lines >> token >> pin >> until && tokens_.size() < most_tokens;) {
         const auto role = std::ranges::find(pins_, pin);

@@ -1,6 +1,7 @@
 // The sockets' set-up, and the clock that looks at what the frame thread has published. http.cpp and pages.cpp are the rest.
 #include "server.h"
 #include "config/json/error.h"
+#include "config/json/whole_file.h"
 #include "config/model/shipped.h"
 #include "live_picture.h"
 #include "messages.h"
@@ -10,8 +11,6 @@
 #include <arpa/inet.h>
 #include <array>
 #include <fcntl.h>
-#include <fstream>
-#include <iterator>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -22,6 +21,7 @@ namespace {
 constexpr lws_usec_t tick_us = 100000; ///< of the status: ten a second
 constexpr unsigned ticks_of_login = 50; ///< between two looks whether a page's token is still valid
 constexpr std::chrono::seconds most_wait{120}; ///< for an answer of the frame thread
+constexpr std::size_t most_page_bytes = 1 << 20; ///< of each file of the page, and of a certificate
 constexpr unsigned most_files = 300; ///< descriptors of the context: the connections, and the server's own
 
 /// The last error that libwebsockets spoke of, for the message of a start that fails. Its own lines are for debugging: a
@@ -78,8 +78,8 @@ bool is_any(const std::string& address) { return address == "0.0.0.0" || address
 
 void require_readable(const std::filesystem::path& file)
 {
-    if (!file.empty() && !std::ifstream(file))
-        throw InputError(file.string(), "", "can't be read; a PEM file that the exhibit's user may read is right");
+    if (!file.empty())
+        read_whole(file, most_page_bytes, "a PEM file that the exhibit's user may read");
 }
 
 } // namespace
@@ -167,10 +167,7 @@ void Server::load_files()
     for (const auto& [path, file, type] :
         {std::tuple{"/", "page.html", "text/html; charset=utf-8"}, {"/page.css", "page.css", "text/css; charset=utf-8"},
             {"/page.js", "page.js", "text/javascript; charset=utf-8"}, {"/icon.svg", "icon.svg", "image/svg+xml"}}) {
-        std::ifstream stream(folder / file, std::ios::binary);
-        if (!stream)
-            throw InputError((folder / file).string(), "", "can't be read; the file of the package starbow is right");
-        files_[path] = {.type = type, .body = {std::istreambuf_iterator<char>(stream), {}}};
+        files_[path] = {.type = type, .body = read_whole(folder / file, most_page_bytes, "the file of the package starbow")};
     }
     files_["/words"] = {.type = "application/json", .body = words_text()};
 }

@@ -188,9 +188,7 @@ void connect(const Context& context, const Telling& telling, const char* method)
     info.local_protocol_name = method ? "login" : "starbow";
     // The one certificate that is trusted is the exhibit's own, whatever name it is reached by.
     info.ssl_connection = LCCSCF_HTTP_NO_FOLLOW_REDIRECT
-        | (telling.options.certificate.empty()
-                ? 0
-                : LCCSCF_USE_SSL | LCCSCF_SKIP_SERVER_CERT_HOSTNAME_CHECK);
+        | (telling.options.certificate.empty() ? 0 : LCCSCF_USE_SSL | LCCSCF_SKIP_SERVER_CERT_HOSTNAME_CHECK);
     if (!lws_client_connect_via_info(&info))
         throw InputError("no exhibit answers at " + host + "; the port of \"remote\" in the exhibit's file is right");
 }

@@ -159,7 +159,7 @@ public:
                     scene = command.command.kind == CommandKind::scene ? command.command.text : scene;
                     ++count;
                 }
-                remote->next_snapshot() = {.scene = scene, .uptime_s = frame / 100.};
+                remote->next_snapshot() = {.scene = scene, .step = frame, .uptime_s = frame / 100.};
                 remote->publish_snapshot();
                 remote->next_condition().metrics = "frames_total " + std::to_string(frame) + "\n";
                 remote->publish_condition();
@@ -445,8 +445,8 @@ TEST(Server, AWrongStartIsRefused)
              [&](RemoteSettings& settings) { settings.port = running.settings.port; }, "can't be opened at port"},
             {[](RemoteSettings& settings) { settings.address = "192.0.2.7"; }, "can't be opened at port"},
             {[&](RemoteSettings& settings) { settings.osc.port = running.settings.osc.port; }, "OSC can't be opened"},
-            {[](RemoteSettings& settings) { settings.pins = "/nowhere/pins"; }, "can't be read"},
-            {[](RemoteSettings& settings) { settings.certificate = settings.key = "/nowhere/pem"; }, "can't be read"},
+            {[](RemoteSettings& settings) { settings.pins = "/nowhere/pins"; }, "does not exist"},
+            {[](RemoteSettings& settings) { settings.certificate = settings.key = "/nowhere/pem"; }, "does not exist"},
             {[](RemoteSettings& settings) { settings.certificate = settings.key = settings.pins; },
                 "can't be opened at port"}}) {
         const std::string message = complaint([&] { Running another(change); });
