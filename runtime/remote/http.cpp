@@ -8,7 +8,7 @@
 namespace starbow {
 namespace {
 
-/// What one connection is doing: the body that it sends, then the one that it gets.
+/// One connection's request: its path, the body that has arrived, and the body that is sent to it.
 struct Visit {
     std::string path, received, sends;
 };

@@ -17,7 +17,7 @@ using json = nlohmann::ordered_json;
 
 constexpr int greatest_id = 1000000000;
 
-/// The object that a message is. What the parser says of damage is of no use to a visitor.
+/// The object that a message is.
 json object_of(std::string_view text)
 {
     if (text.size() > most_message_bytes)

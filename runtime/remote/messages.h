@@ -11,7 +11,7 @@
 
 namespace starbow {
 
-// What comes over the network is read here, and by command_of: pure functions of bytes that refuse all damage with an
+// All bytes from the network are read here, and by command_of: pure functions that refuse all damage with an
 // InputError, and never with another exception.
 
 constexpr std::size_t most_message_bytes = 4096;

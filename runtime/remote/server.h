@@ -10,7 +10,7 @@
 
 namespace starbow {
 
-/// What a browser gets for one request.
+/// The answer to one request of a browser.
 struct HttpAnswer {
     unsigned status = 200;
     const char* type = "text/plain; charset=utf-8";

@@ -24,7 +24,7 @@ struct Snapshot {
     double uptime_s = 0;
 };
 
-/// What changes seldom and is long: about once a second.
+/// Long texts that change seldom: about once a second.
 struct Condition {
     std::string metrics; ///< in Prometheus's text format
     std::vector<std::string> log; ///< the last lines, oldest first

@@ -5,13 +5,13 @@
 
 namespace starbow {
 
-/// The newest of many values, from one thread that writes to one that reads; neither ever waits. Of three places one is
-/// written, one is read, and the third holds what was published last.
+/// The newest of many values, from one thread that writes to one that reads; neither ever waits. One of three
+/// places is written, one is read, and the third holds the value that was published last.
 template <class T> class TripleBuffer {
 public:
     /// The place to write, for the writing thread. It holds an older value, so that texts and pixels keep their memory.
     T& next() { return places_[writes_]; }
-    /// What next() holds becomes the newest value.
+    /// The value in next() becomes the newest one.
     void publish() { writes_ = middle_.exchange(writes_ | fresh, std::memory_order_acq_rel) & place; }
     /// For the reading thread: the newest value, which stays as it is until the next call of refresh.
     const T& newest() const { return places_[reads_]; }

@@ -1,4 +1,4 @@
-// What the frame thread and the server exchange, with both threads at work.
+// The mailbox and the triple buffer between the frame thread and the server, with both threads at work.
 #include "runtime/remote/mailbox.h"
 #include "runtime/remote/triple_buffer.h"
 #include <gtest/gtest.h>

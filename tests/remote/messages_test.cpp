@@ -1,4 +1,4 @@
-// What comes over the network, whole and damaged.
+// Messages from the network, whole and damaged.
 #include "runtime/remote/messages.h"
 #include "tests/support/files.h"
 #include <gtest/gtest.h>

@@ -1,5 +1,7 @@
 // The remote from outside: HTTP, WebSocket, OSC and `starbow tell` over sockets of the test's own, with this thread as the
 // frame thread.
+#include "runtime/operation/log.h"
+#include "runtime/operation/messages.h"
 #include "runtime/remote/remote.h"
 #include "runtime/remote/tell.h"
 #include "tests/support/files.h"
@@ -435,6 +437,40 @@ TEST(Server, WithACertificateAllIsEncrypted)
     EXPECT_EQ(wire.read_head().find("HTTP/1.1 200"), std::string::npos);
     options.certificate = source_dir() / "tests/remote/other_certificate.pem";
     EXPECT_NE(complaint([&] { tell(options, {"stop"}); }).find("no exhibit answers"), std::string::npos);
+}
+
+TEST(Server, WithoutAFilePinsAreDrawnAndWork)
+{
+    Running running([](RemoteSettings& settings) { settings.pins.clear(); });
+    const Pins pins = running.remote->drawn_pins();
+    EXPECT_NE(running.cookie(pins[1]), "");
+    tell(running.tell_options(pins[2]), {"restart"});
+    EXPECT_EQ(Running().remote->drawn_pins(), Pins{});
+}
+
+TEST(Server, TheLogWarnsOfAnOpenNetworkAndHoldsNoPin)
+{
+    for (const bool open : {false, true}) {
+        const std::filesystem::path file = scratch("remote-log");
+        std::FILE* stream = std::fopen(file.c_str(), "w");
+        open_log({.stream = stream});
+        Pins pins;
+        {
+            Running running([&](RemoteSettings& settings) {
+                settings.address = open ? "0.0.0.0" : "127.0.0.1";
+                settings.pins.clear();
+            });
+            pins = running.remote->drawn_pins();
+            running.status("POST /login", running.origin(), "{\"pin\":\"" + pins[1] + "\"}");
+        }
+        flush_messages(10);
+        open_log({});
+        std::fclose(stream);
+        const std::string text = read_text(file);
+        EXPECT_EQ(text.find("unencrypted") != text.npos, open) << text;
+        for (const std::string& pin : pins)
+            EXPECT_EQ(text.find(pin), text.npos) << text;
+    }
 }
 
 TEST(Server, AWrongStartIsRefused)

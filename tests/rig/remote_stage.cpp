@@ -113,19 +113,29 @@ double work(long rounds)
     return sum;
 }
 
-/// A picture that shows the state: a sky and a moving Sun.
-void draw(LivePicture& picture, double time)
+/// The picture of a binary PPM file, as ImageMagick writes it; without a file a sky with a Sun.
+LivePicture read_picture(const char* file)
 {
-    picture.width = 480, picture.height = 270;
-    picture.rgb.resize(480 * 270 * 3);
-    const double x0 = 240 + 200 * std::sin(time), y0 = 90;
-    for (int y = 0; y < 270; ++y)
-        for (int x = 0; x < 480; ++x) {
-            const bool sun = std::hypot(x - x0, y - y0) < 24;
-            std::uint8_t* const pixel = &picture.rgb[std::size_t(y * 480 + x) * 3];
-            pixel[0] = sun ? 255 : std::uint8_t(y / 3), pixel[1] = sun ? 220 : std::uint8_t(30 + y / 4),
-            pixel[2] = sun ? 150 : std::uint8_t(90 + y / 4);
-        }
+    LivePicture picture{.width = 480, .height = 270, .rgb = {}};
+    int greatest = 255;
+    std::FILE* const stream = file ? std::fopen(file, "rb") : nullptr;
+    if (stream && std::fscanf(stream, "P6 %d %d %d%*c", &picture.width, &picture.height, &greatest) != 3)
+        throw InputError(file, "", "is no binary PPM; one is right");
+    const std::size_t width = std::size_t(picture.width), pixels = width * std::size_t(picture.height);
+    picture.rgb.resize(pixels * 3);
+    if (stream) {
+        picture.rgb.resize(std::fread(picture.rgb.data(), 1, picture.rgb.size(), stream));
+        std::fclose(stream);
+        return picture;
+    }
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const double x = double(i % width), y = double(i / width);
+        const bool sun = std::hypot(x - 340, y - 90) < 24;
+        picture.rgb[3 * i] = sun ? 255 : std::uint8_t(y / 3);
+        picture.rgb[3 * i + 1] = sun ? 220 : std::uint8_t(30 + y / 4);
+        picture.rgb[3 * i + 2] = sun ? 150 : std::uint8_t(90 + y / 4);
+    }
+    return picture;
 }
 
 struct Times {
@@ -158,8 +168,9 @@ double clock_ms(clockid_t clock)
     return double(now.tv_sec) * 1e3 + double(now.tv_nsec) / 1e6;
 }
 
-int play(const char* exhibit, double work_ms)
+int play(const char* exhibit, double work_ms, const char* file)
 {
+    const LivePicture picture = read_picture(file);
     Remote remote({.settings = load_exhibit(exhibit).remote,
         .patterns = {"none", "grid", "rings", "names", "wedges", "overlap"},
         .version = "0.9.0"});
@@ -200,7 +211,7 @@ int play(const char* exhibit, double work_ms)
             remote.next_condition().log.assign(1, "info stage: " + std::to_string(second) + " s");
             remote.publish_condition();
             if (remote.picture_wanted()) {
-                draw(remote.next_picture(), time);
+                remote.next_picture() = picture;
                 remote.publish_picture();
             }
         }
@@ -220,7 +231,7 @@ int main(int count, char** arguments)
         std::signal(signal, [](int) { ends = true; });
     std::signal(SIGUSR1, [](int) { prints = true; });
     try {
-        return play(arguments[1], count > 2 ? std::atof(arguments[2]) : 0);
+        return play(arguments[1], count > 2 ? std::atof(arguments[2]) : 0, count > 3 ? arguments[3] : nullptr);
     } catch (const InputError& error) {
         std::fprintf(stderr, "remote_stage: %s\n", error.what());
         return 2;
