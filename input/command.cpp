@@ -59,13 +59,15 @@ std::string form_of(const CommandRule& rule)
     throw InputError("the command " + std::string(rule.name) + " " + problem + "; " + form_of(rule) + " is right");
 }
 
-/// Names of shipped files only: letters, digits, - and _. So no command leads to another folder.
+/// Names of shipped files only: letters, digits, -, _ and dots within; NAME.json would be a path. So no command leads to
+/// another folder.
 bool is_name(std::string_view text)
 {
-    return !text.empty() && text.size() <= 64 && text.front() != '.' && std::ranges::all_of(text, [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_'
-            || c == '.';
-    });
+    return !text.empty() && text.size() <= 64 && text.front() != '.' && !text.ends_with(".json")
+        && std::ranges::all_of(text, [](char c) {
+               return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_'
+                   || c == '.';
+           });
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "exhibit_file.h"
 #include "exposing_reader.h"
+#include "remote_reader.h"
 
 namespace starbow {
 namespace {
@@ -55,7 +56,7 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
     reject_unknown_members(top,
         {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "quality", "frame_budget_ms",
-            "ladder", "flying", "exposure", "textfile"});
+            "ladder", "flying", "exposure", "textfile", "remote"});
     Exhibit exhibit;
     for (const auto& [name, value] :
         {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene}, {"shot", &exhibit.shot}, {"tour", &exhibit.tour},
@@ -79,6 +80,8 @@ Exhibit load_exhibit(const std::filesystem::path& file)
         exhibit.flying = read_flying(*p);
     if (auto p = find_member(top, "exposure"))
         exhibit.exposure = read_exposing(*p);
+    if (auto p = find_member(top, "remote"))
+        exhibit.remote = read_remote(*p, folder);
     return exhibit;
 }
 

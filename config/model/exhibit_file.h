@@ -1,6 +1,7 @@
 #pragma once
 #include "exposing.h"
 #include "flying.h"
+#include "remote_file.h"
 #include <filesystem>
 #include <string>
 
@@ -21,6 +22,7 @@ struct Exhibit {
     std::filesystem::path textfile; ///< receives the counts for node_exporter; empty: none
     Flying flying;
     Exposing exposure;
+    RemoteSettings remote;
 };
 
 /// Reads and checks an exhibit, without opening the files that it names. Throws InputError with file, line, JSON pointer,

@@ -22,5 +22,6 @@ void add_measure(CLI::App& app, std::function<int()>& chosen);
 void add_check(CLI::App& app, std::function<int()>& chosen);
 void add_warp(CLI::App& app, std::function<int()>& chosen);
 void add_import(CLI::App& app, std::function<int()>& chosen);
+void add_tell(CLI::App& app, std::function<int()>& chosen);
 
 } // namespace starbow

@@ -93,7 +93,7 @@ int main(int count, char** arguments)
     std::function<int()> chosen;
     for (auto add : {starbow::add_run, starbow::add_render, starbow::add_check, starbow::add_doctor, starbow::add_displays,
              starbow::add_devices, starbow::add_calibrate, starbow::add_warp, starbow::add_import, starbow::add_bench,
-             starbow::add_measure, starbow::add_report, starbow::add_soak})
+             starbow::add_measure, starbow::add_report, starbow::add_soak, starbow::add_tell})
         add(app, chosen);
     try {
         app.parse(count, arguments);

@@ -255,7 +255,7 @@ begins_with() { # TEXT ARGUMENTS...
     said=$("$program" "$@" 2>&1 >/dev/null)
     if [ $? = 2 ] && [ "$(printf '%s\n' "$said" | wc -l)" = 1 ] && [[ $said == "starbow: $text"* ]]; then passed=$((passed + 1)); else fail "'$*' does not begin with '$text': $said"; fi
 }
-begins_with 'fly is no command; run, render, check, doctor, displays, devices, calibrate, warp, import, bench and measure are' fly
+begins_with 'fly is no command; run, render, check, doctor, displays, devices, calibrate, warp, import, bench, measure, report, soak and tell are' fly
 begins_with 'look is no command; inspect and convert are' warp look
 begins_with "--ouput is no option of 'starbow render'; --help, --layout, --shot, --out," render --shot start --ouput o1
 begins_with "--sizes is no option of 'starbow warp inspect'; " warp inspect x --sizes 3
@@ -266,6 +266,15 @@ begins_with '--node: one is no whole number; ' import sgct x --out y --node one
 begins_with '--out is required' render --shot start
 refused 'no first row' warp inspect "$warps/standard_16x9.data" --first-row-on-top
 
+begins_with 'no exhibit answers at 127.0.0.1:1' tell --pin 123456 --port 1 stop
+begins_with 'no exhibit answers at 127.0.0.1:1' tell --pin 123456 --port 1 status
+begins_with 'the command jump is not known; one of these is right: fade, stop' tell --pin 123456 jump
+begins_with 'the command stop has 1 values; stop alone is right' tell --pin 123456 stop now
+begins_with 'the command scene has the value ../secret, which is no name of a shipped file' tell --pin 123456 scene ../secret
+begins_with '--port: 0 is no whole number that fits; one from 1 to 65535 is right' tell --port 0 stop
+printf 'docent 123456\n' > "$folder/pins" && chmod 644 "$folder/pins"
+begins_with "$folder/pins: has the rights 644, which opens it to more people" tell --pin-file "$folder/pins" stop
+
 printf '{ "tour": "rainbow" }\n' > "$folder/touring.json"
 begins_with "A tour's flight can't be recorded" run --exhibit "$folder/touring.json" --record "$folder/touring.jsonl"
 begins_with '--record excludes --tour' run --tour rainbow --record "$folder/touring.jsonl"
@@ -273,7 +282,7 @@ begins_with 'There is no none.json in config/tours' run --tour none
 begins_with 'There is no xx.json in config/words; there are: de, en' run --tour rainbow --language xx
 
 # Every subcommand's help ends with an example.
-for command in run render bench check warp import displays doctor measure; do
+for command in run render bench check warp import displays doctor measure tell; do
     if "$program" $command --help | grep -q "starbow $command "; then passed=$((passed + 1)); else fail "$command --help has no example"; fi
 done
 

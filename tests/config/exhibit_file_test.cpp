@@ -146,4 +146,44 @@ TEST(ExhibitFileTest, ATourIsANameOrAPath)
     EXPECT_EQ(load_exhibit(write_text("exhibit.json", R"({ "tour": "rainbow" })")).tour, "rainbow");
 }
 
+TEST(ExhibitFileTest, TheRemoteIsReadAndWithoutItsBlockThereIsNone)
+{
+    EXPECT_EQ(load_exhibit(write_text("exhibit.json", "{}")).remote.port, 0);
+    const std::string text = R"({ "remote": { "port": 8443, "address": "::", "hosts": ["Starbow.local", "[2001:db8::1]"],
+        "certificate": "tls/page.pem", "key": "tls/key.pem", "pins": "/run/pins",
+        "osc": { "port": 9000, "from": ["192.168.7.9", "2001:db8::9"], "role": "engineer" } } })";
+    EXPECT_TRUE(schema_accepts(json::parse(text)));
+    const auto file = write_text("exhibit.json", text);
+    const RemoteSettings remote = load_exhibit(file).remote;
+    EXPECT_EQ(remote.port, 8443);
+    EXPECT_EQ(remote.address, "::");
+    EXPECT_EQ(remote.hosts, (std::vector<std::string>{"starbow.local", "[2001:db8::1]"}));
+    EXPECT_EQ(remote.certificate, std::filesystem::absolute(file).parent_path() / "tls/page.pem");
+    EXPECT_EQ(remote.key, std::filesystem::absolute(file).parent_path() / "tls/key.pem");
+    EXPECT_EQ(remote.pins, "/run/pins");
+    EXPECT_EQ(remote.osc.port, 9000);
+    EXPECT_EQ(remote.osc.from, (std::vector<std::string>{"192.168.7.9", "2001:db8::9"}));
+    EXPECT_TRUE(remote.osc.engineer);
+}
+
+TEST(ExhibitFileTest, AWrongRemoteIsRefused)
+{
+    for (const auto& [text, pointer, says] :
+        {std::tuple{R"({})", "/remote", "lacks \"port\""}, {R"({"port": 0})", "/remote/port", "from 1 to 65535 is right"},
+            {R"({"port": 80.5})", "/remote/port", "whole number"}, {R"({"port": 80, "pin": 1})", "/remote/pin", "\"pins\""},
+            {R"({"port": 80, "address": "localhost"})", "/remote/address", "is no IP address"},
+            {R"({"port": 80, "hosts": ["http://starbow.local"]})", "/remote/hosts/0", "is no host's name"},
+            {R"({"port": 80, "hosts": ["starbow.local:80"]})", "/remote/hosts/0", "is no host's name"},
+            {R"({"port": 80, "hosts": ["2001:db8::1"]})", "/remote/hosts/0", "is no host's name"},
+            {R"({"port": 80, "certificate": "c.pem"})", "/remote", "only one of certificate and key"},
+            {R"({"port": 80, "osc": {"port": 1}})", "/remote/osc", "lacks \"from\""},
+            {R"({"port": 80, "osc": {"port": 1, "from": []}})", "/remote/osc/from", "1 to 64"},
+            {R"({"port": 80, "osc": {"port": 1, "from": ["*"]}})", "/remote/osc/from/0", "is no IP address"},
+            {R"({"port": 80, "osc": {"port": 1, "from": ["::1"], "role": "look"}})", "/remote/osc/role", "\"docent\""}}) {
+        const std::string message = message_for(std::string(R"({ "remote": )") + text + " }");
+        EXPECT_NE(message.find(std::string(pointer) + ":"), message.npos) << message;
+        EXPECT_NE(message.find(says), message.npos) << message;
+    }
+}
+
 } // namespace exhibit_file_test

@@ -48,13 +48,15 @@ TEST(Words, LanguagesHaveTheSameKeysAndPlaceholders)
     EXPECT_GE(languages, 2);
 }
 
-/// The sources name every key of the languages' files, except tours' texts, modes of flight and the decimal sign.
+/// The sources and the remote's page name every key of the languages' files, except tours' texts, modes of flight and the
+/// decimal sign.
 TEST(Words, EveryKeyIsUsedInTheSources)
 {
     std::string sources;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(source_dir() / "runtime"))
-        if (entry.path().extension() == ".cpp" || entry.path().extension() == ".h")
-            sources += read_text(entry.path());
+    for (const char* folder : {"runtime", "config/remote"})
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(source_dir() / folder))
+            if (entry.is_regular_file())
+                sources += read_text(entry.path());
     for (const auto& [key, text] : words().texts) {
         const bool elsewhere = key.starts_with("tour.") || key.starts_with("flight.") || key == "decimal_sign";
         EXPECT_TRUE(elsewhere || sources.find(std::string("\"").append(key).append("\"")) != sources.npos) << key;
@@ -70,15 +72,17 @@ TEST(Words, EveryKeyInTheSourcesExists)
             kinds.insert(key.substr(0, dot));
     const std::regex quoted("\"([a-z]+)\\.([a-z_]+)\"");
     int count = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(source_dir() / "runtime")) {
-        const std::string source = entry.is_regular_file() ? read_text(entry.path()) : "";
-        for (std::sregex_iterator at(source.begin(), source.end(), quoted), end; at != end; ++at)
-            if (kinds.contains((*at)[1]) && (*at)[2] != "json" && (*at)[2] != "h") {
-                EXPECT_TRUE(words().texts.contains((*at)[1].str() + "." + (*at)[2].str())) << at->str() << " in " << entry;
-                ++count;
-            }
-    }
-    EXPECT_GT(count, 30);
+    for (const char* folder : {"runtime", "config/remote"})
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(source_dir() / folder)) {
+            const std::string source = entry.is_regular_file() ? read_text(entry.path()) : "";
+            for (std::sregex_iterator at(source.begin(), source.end(), quoted), end; at != end; ++at)
+                if (kinds.contains((*at)[1]) && (*at)[2] != "json" && (*at)[2] != "h") {
+                    EXPECT_TRUE(words().texts.contains((*at)[1].str() + "." + (*at)[2].str()))
+                        << at->str() << " in " << entry;
+                    ++count;
+                }
+        }
+    EXPECT_GT(count, 120);
 }
 
 TEST(Words, WrongFilesAreRefused)

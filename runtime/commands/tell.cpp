@@ -1,0 +1,86 @@
+#include "runtime/remote/tell.h"
+#include "commands.h"
+#include "config/json/error.h"
+#include "config/model/shipped.h"
+#include "options/number.h"
+#include "runtime/remote/auth.h"
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+namespace starbow {
+namespace {
+
+struct Given {
+    TellOptions options;
+    std::string pin_file;
+    std::vector<std::string> words;
+};
+
+/// The PIN with most rights in a file such as the exhibit's own.
+std::string best_pin(const std::filesystem::path& file)
+{
+    const Pins pins = read_pins(file);
+    for (std::size_t i = pins.size(); i-- > 0;)
+        if (!pins[i].empty())
+            return pins[i];
+    return "";
+}
+
+int run_tell(Given given)
+{
+    if (given.options.pin.empty()) {
+        const std::filesystem::path file = !given.pin_file.empty() ? std::filesystem::path(given.pin_file)
+            : site().empty()                                       ? "/etc/starbow/pins"
+                                                                   : site() / "pins";
+        given.options.pin = best_pin(file);
+    }
+    if (given.words == std::vector<std::string>{"status"}) {
+        std::fputs(state_of_exhibit(given.options).c_str(), stdout);
+        return 0;
+    }
+    tell(given.options, given.words);
+    std::string line;
+    for (const std::string& word : given.words)
+        line += (line.empty() ? "" : " ") + word;
+    std::printf("applied: %s\n", line.c_str());
+    return 0;
+}
+
+std::string command_list()
+{
+    std::string list = "Commands:\n  status";
+    for (const CommandRule& rule : command_rules())
+        list += "\n  " + std::string(rule.name)
+            + (rule.value == CommandValue::none          ? ""
+                    : rule.value == CommandValue::on     ? " on|off"
+                    : rule.value == CommandValue::number ? " NUMBER"
+                    : rule.value == CommandValue::name   ? " NAME"
+                                                         : " TEXT");
+    return list;
+}
+
+} // namespace
+
+void add_tell(CLI::App& app, std::function<int()>& chosen)
+{
+    CLI::App* command = app.add_subcommand("tell", "Give a running exhibit a command, or print its state.");
+    command->footer(command_list()
+        + "\n\nExamples:\n  starbow tell status\n  starbow tell scene twins\n"
+          "  starbow tell --host starbow.local --pin-file docent.pin caption \"Closed at six\"");
+    static Given given;
+    command->add_option("COMMAND", given.words, "the command and its value, or status")->required()->expected(1, 2);
+    command->add_option("--host", given.options.host, "the exhibit's machine; a name on its list")->capture_default_str();
+    command->add_option("--port", given.options.port, "the port of \"remote\" in the exhibit's file")
+        ->capture_default_str()
+        ->check(whole_number(1, 65535));
+    command->add_option("--pin-file", given.pin_file, "a file of PINs; its best role is taken [/etc/starbow/pins]");
+    command->add_option(
+        "--pin", given.options.pin, "a PIN; other users of this machine can see it in the list of processes");
+    command->add_option("--certificate", given.options.certificate, "the exhibit's certificate, where its page is https");
+    command->add_option("--wait", given.options.wait_s, "seconds until the command must be applied")
+        ->capture_default_str()
+        ->check(whole_number(1, 3600));
+    command->callback([&chosen] { chosen = [] { return run_tell(given); }; });
+}
+
+} // namespace starbow

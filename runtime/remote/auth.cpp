@@ -1,0 +1,227 @@
+#include "auth.h"
+#include "config/json/error.h"
+#include "config/json/whole_file.h"
+#include <algorithm>
+#include <cerrno>
+#include <fcntl.h>
+#include <sstream>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+constexpr std::size_t pin_digits = 6, most_bytes = 64 * 1024;
+
+void draw(void* bytes, std::size_t count)
+{
+    for (std::size_t done = 0; done < count;) {
+        const ssize_t got = getrandom(static_cast<char*>(bytes) + done, count - done, 0);
+        if (got < 0 && errno != EINTR)
+            throw std::system_error(errno, std::generic_category(), "getrandom");
+        done += std::size_t(std::max<ssize_t>(got, 0));
+    }
+}
+
+std::string draw_pin()
+{
+    constexpr std::uint32_t pins = 1000000, whole = UINT32_MAX / pins * pins; // so that each is equally likely
+    std::uint32_t number = UINT32_MAX;
+    while (number >= whole)
+        draw(&number, sizeof number);
+    const std::string digits = std::to_string(number % pins);
+    return std::string(pin_digits - digits.size(), '0') + digits;
+}
+
+std::string draw_token()
+{
+    std::array<unsigned char, 16> bytes;
+    draw(bytes.data(), bytes.size());
+    std::string text;
+    for (const unsigned char byte : bytes)
+        for (const int half : {byte >> 4, byte & 15})
+            text += "0123456789abcdef"[half];
+    return text;
+}
+
+bool is_pin(std::string_view text)
+{
+    return text.size() == pin_digits && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+bool is_token(std::string_view text)
+{
+    return text.size() == 32
+        && std::ranges::all_of(text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
+}
+
+/// The text of a small file with no more rights than `rights`. Throws InputError.
+std::string private_text(const std::filesystem::path& file, mode_t rights)
+{
+    std::string text = read_whole(file, most_bytes, "a file with lines such as \"docent\" and six digits");
+    struct stat about { };
+    if (stat(file.c_str(), &about) == 0 && (about.st_mode & 0777 & ~rights)) {
+        std::ostringstream modes;
+        modes << std::oct << (about.st_mode & 0777) << ", which opens it to more people than the exhibit's user and group; "
+              << rights << " is right";
+        throw InputError(file.string(), "", "has the rights " + modes.str());
+    }
+    return text;
+}
+
+} // namespace
+
+Pins read_pins(const std::filesystem::path& file)
+{
+    std::istringstream lines(private_text(file, 0640));
+    Pins pins;
+    int number = 0;
+    for (std::string line; std::getline(lines, line);) {
+        ++number;
+        std::istringstream words(line.substr(0, line.find('#')));
+        std::string role, pin, more;
+        words >> role >> pin >> more;
+        if (role.empty())
+            continue;
+        const auto known = std::ranges::find(role_names, role);
+        // The line itself is not shown: messages go into the log, and it may hold a PIN.
+        if (known == role_names.end() || !is_pin(pin) || !more.empty())
+            throw InputError(file.string(), std::to_string(number),
+                "the line is no role (look, docent or engineer) with a PIN of six digits; \"docent\" and six digits is "
+                "right");
+        std::string& place = pins[std::size_t(known - role_names.begin())];
+        if (!place.empty() || std::ranges::find(pins, pin) != pins.end())
+            throw InputError(file.string(), std::to_string(number),
+                "the line has a role or a PIN for the second time; a PIN of its own for each role is right");
+        place = pin;
+    }
+    if (std::ranges::all_of(pins, &std::string::empty))
+        throw InputError(file.string(), "", "has no PIN; a line such as \"docent\" and six digits is right");
+    return pins;
+}
+
+Pins draw_pins()
+{
+    Pins pins;
+    for (std::size_t i = 0; i < pins.size(); ++i)
+        do
+            pins[i] = draw_pin();
+        while (std::find(pins.begin(), pins.begin() + std::ptrdiff_t(i), pins[i]) != pins.begin() + std::ptrdiff_t(i));
+    return pins;
+}
+
+bool same_secret(std::string_view a, std::string_view b)
+{
+    if (a.size() != b.size())
+        return false;
+    volatile unsigned char difference = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        difference = (unsigned char)(difference | (a[i] ^ b[i]));
+    return difference == 0;
+}
+
+Logins::Attempt Logins::attempt(const std::string& address, std::string_view pin, Time now)
+{
+    std::erase_if(doubts_, [&](const auto& one) { return one.second.until <= now; });
+    const auto left = [&](Time until) { return std::chrono::ceil<std::chrono::seconds>(until - now); };
+    const auto doubt = doubts_.find(address);
+    if (doubt != doubts_.end() && doubt->second.wrong >= most_wrong)
+        return {.answer = Answer::locked, .token = {}, .left = left(doubt->second.until)};
+    if (doubt == doubts_.end() && doubts_.size() >= most_doubtful) {
+        const auto first = std::ranges::min_element(doubts_, {}, [](const auto& one) { return one.second.until; });
+        return {.answer = Answer::locked, .token = {}, .left = left(first->second.until)};
+    }
+    // All PINs are compared, so that the time does not tell which one was nearly right.
+    std::optional<Role> role;
+    for (std::size_t i = 0; i < pins_.size(); ++i)
+        if (same_secret(pins_[i], pin) && !pins_[i].empty())
+            role = Role(i);
+    if (!role) {
+        // A right PIN does not forgive wrong ones: whoever knows one must not guess another in between.
+        Doubt& wrong = doubts_[address];
+        ++wrong.wrong;
+        wrong.until = now + lock;
+        return wrong.wrong < most_wrong ? Attempt{} : Attempt{.answer = Answer::locked, .token = {}, .left = lock};
+    }
+    std::erase_if(tokens_, [&](const Token& token) { return token.until <= now; });
+    if (tokens_.size() >= most_tokens)
+        tokens_.erase(tokens_.begin());
+    tokens_.push_back({draw_token(), *role, now + lifetime});
+    return {.answer = Answer::right, .role = *role, .token = tokens_.back().text};
+}
+
+std::optional<Role> Logins::role_of(std::string_view token, Time now)
+{
+    std::optional<Role> role;
+    for (Token& known : tokens_)
+        if (same_secret(known.text, token) && known.until > now) {
+            role = known.role;
+            known.until = now + lifetime;
+        }
+    return role;
+}
+
+void Logins::log_out(std::string_view token)
+{
+    std::erase_if(tokens_, [&](const Token& known) { return same_secret(known.text, token); });
+}
+
+void Logins::keep(const std::filesystem::path& file, Time now) const
+{
+    const std::chrono::seconds clock
+        = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch());
+    std::string text;
+    for (const Token& token : tokens_)
+        if (token.until > now)
+            text += token.text + " " + pins_[std::size_t(token.role)] + " "
+                + std::to_string((clock + std::chrono::duration_cast<std::chrono::seconds>(token.until - now)).count())
+                + "\n";
+    const std::filesystem::path part = file.string() + ".part";
+    std::error_code ignored;
+    std::filesystem::create_directories(file.parent_path(), ignored);
+    std::filesystem::remove(part, ignored);
+    const int descriptor = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+    if (descriptor < 0)
+        return;
+    const bool whole = write(descriptor, text.data(), text.size()) == ssize_t(text.size());
+    close(descriptor);
+    if (whole)
+        std::filesystem::rename(part, file, ignored);
+    else
+        std::filesystem::remove(part, ignored);
+}
+
+void Logins::restore(const std::filesystem::path& file, Time now)
+{
+    std::string text;
+    try {
+        text = private_text(file, 0600);
+    } catch (const InputError&) {
+        return; // people log in again
+    }
+    const std::int64_t clock
+        = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+    std::istringstream lines(text);
+    std::string token, pin;
+    for (std::int64_t until; lines >> token >> pin >> until && tokens_.size() < most_tokens;) {
+        const auto role = std::ranges::find(pins_, pin);
+        const std::int64_t left = until > clock && until < clock + 1000000 ? until - clock : 0;
+        if (is_token(token) && is_pin(pin) && role != pins_.end() && left > 0)
+            tokens_.push_back({token, Role(role - pins_.begin()),
+                now + std::min<std::chrono::seconds>(std::chrono::seconds(left), lifetime)});
+    }
+}
+
+bool Rate::take(Logins::Time now)
+{
+    if (last_)
+        left_ = std::min(per_s_, left_ + per_s_ * std::chrono::duration<double>(now - *last_).count());
+    last_ = now;
+    if (left_ < 1)
+        return false;
+    left_ -= 1;
+    return true;
+}
+
+} // namespace starbow

@@ -1,0 +1,60 @@
+#pragma once
+#include "auth.h"
+#include "config/model/remote_file.h"
+#include "input/command.h"
+#include "snapshot.h"
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace starbow {
+
+/// A command on its way to the exhibit.
+struct NumberedCommand {
+    std::uint64_t number = 0; ///< from 1, in the order of arrival
+    Command command;
+};
+
+/// Everything that a remote starts with.
+struct RemoteOptions {
+    RemoteSettings settings;
+    std::vector<std::string> patterns; ///< names of test patterns that the page offers
+    std::string version; ///< the program's
+};
+
+/// Tablets, telephones, OSC and `starbow tell` steer the exhibit: one thread serves them all. take, answer and publish are
+/// for the frame thread. They never wait, and what they allocate is the text of a command.
+class Remote {
+public:
+    /// Opens the sockets and begins to serve. Throws InputError, for example for a port that is in use.
+    explicit Remote(RemoteOptions options);
+    ~Remote();
+    Remote(const Remote&) = delete;
+
+    /// The PINs that were drawn, because no file of PINs exists; empty otherwise. They belong on the operator's window and
+    /// never into the log.
+    const Pins& drawn_pins() const;
+    /// Where a browser finds the page.
+    const std::string& page() const;
+
+    /// The next command, in the order of arrival; false: none. Each one that is taken is answered once.
+    bool take(NumberedCommand& command);
+    /// The command is applied and in the picture, or, with one sentence, refused.
+    void answer(std::uint64_t number, const std::string& refusal = {});
+
+    // The place to write, with an older value, and what makes it the newest one.
+    Snapshot& next_snapshot();
+    void publish_snapshot();
+    Condition& next_condition();
+    void publish_condition();
+    LivePicture& next_picture();
+    void publish_picture();
+    /// True if anybody looks at the live picture; otherwise none need be made.
+    bool picture_wanted() const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+} // namespace starbow

@@ -1,0 +1,316 @@
+// The sockets' set-up, and the clock that looks at what the frame thread has published. http.cpp and pages.cpp are the rest.
+#include "server.h"
+#include "config/json/error.h"
+#include "config/json/whole_file.h"
+#include "config/model/shipped.h"
+#include "live_picture.h"
+#include "messages.h"
+#include "runtime/operation/log.h"
+#include "runtime/operation/state_folder.h"
+#include <algorithm>
+#include <arpa/inet.h>
+#include <array>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace starbow {
+namespace {
+
+constexpr lws_usec_t tick_us = 100000; ///< of the status: ten a second
+constexpr unsigned ticks_of_login = 50; ///< between two looks whether a page's token is still valid
+constexpr std::chrono::seconds most_wait{120}; ///< for an answer of the frame thread
+constexpr std::size_t most_page_bytes = 1 << 20; ///< of each file of the page, and of a certificate
+constexpr unsigned most_files = 300; ///< descriptors of the context: the connections, and the server's own
+
+/// The last error that libwebsockets spoke of, for the message of a start that fails. Its own lines are for debugging: a
+/// stranger's damaged requests must not fill the log.
+std::string last_library_error;
+
+void library_speaks(int level, const char* line)
+{
+    std::string text = line;
+    while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
+        text.pop_back();
+    if (level == LLL_ERR)
+        last_library_error = text;
+    log_debug("remote", text);
+}
+
+Server& server_of(lws* wsi) { return *static_cast<Server*>(lws_context_user(lws_get_context(wsi))); }
+
+int on_http(lws* wsi, lws_callback_reasons reason, void* visit, void* in, std::size_t size)
+{
+    return server_of(wsi).http(wsi, reason, visit, in, size);
+}
+int on_socket(lws* wsi, lws_callback_reasons reason, void* client, void* in, std::size_t size)
+{
+    return server_of(wsi).socket(wsi, reason, client, in, size);
+}
+int on_datagrams(lws* wsi, lws_callback_reasons reason, void*, void*, std::size_t)
+{
+    return server_of(wsi).datagrams(reason);
+}
+
+constexpr std::size_t pointer = sizeof(void*);
+const std::array protocols{lws_protocols{"http", on_http, pointer, most_message_bytes, 0, nullptr, 0},
+    lws_protocols{"starbow", on_socket, pointer, most_message_bytes, 0, nullptr, 0},
+    lws_protocols{"osc", on_datagrams, 0, 0, 0, nullptr, 0}, lws_protocols{}};
+
+/// Headers of every answer. The page's own files alone are loaded, and no other page may show or read them.
+std::array<lws_protocol_vhost_options, 6> safe_headers{{
+    {&safe_headers[1], nullptr, "content-security-policy:",
+        "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; form-action 'none'; "
+        "frame-ancestors 'none'; base-uri 'none'"},
+    {&safe_headers[2], nullptr, "x-content-type-options:", "nosniff"},
+    {&safe_headers[3], nullptr, "referrer-policy:", "no-referrer"},
+    {&safe_headers[4], nullptr, "cross-origin-resource-policy:", "same-origin"},
+    {&safe_headers[5], nullptr, "cross-origin-opener-policy:", "same-origin"},
+    {nullptr, nullptr, "cache-control:", "no-store"},
+}};
+
+/// A page that does not answer for half a minute has gone.
+const lws_retry_bo_t idle{.secs_since_valid_ping = 15, .secs_since_valid_hangup = 30};
+
+bool is_loopback(const std::string& address) { return address.starts_with("127.") || address == "::1"; }
+bool is_any(const std::string& address) { return address == "0.0.0.0" || address == "::"; }
+
+void require_readable(const std::filesystem::path& file)
+{
+    if (!file.empty())
+        read_whole(file, most_page_bytes, "a PEM file that the exhibit's user may read");
+}
+
+} // namespace
+
+void Broadcast::set(std::string_view text)
+{
+    if (serial_ > 0 && text == message())
+        return;
+    padded_.assign(LWS_PRE, '\0');
+    padded_ += text;
+    ++serial_;
+}
+
+Server::Server(const RemoteOptions& options, const Pins& pins, Exchange& exchange)
+    : options_(options)
+    , exchange_(exchange)
+    , logins_(pins)
+{
+    const RemoteSettings& settings = options_.settings;
+    load_files();
+    if (const std::filesystem::path folder = state_folder(); !folder.empty())
+        kept_ = folder / "remote-logins";
+    logins_.restore(kept_, std::chrono::steady_clock::now());
+
+    require_readable(settings.certificate);
+    require_readable(settings.key);
+    lws_set_log_level(LLL_ERR | LLL_WARN, library_speaks);
+    lws_context_creation_info info{};
+    const std::string certificate = settings.certificate.string(), key = settings.key.string();
+    const bool tls = !certificate.empty(), v6 = settings.address.find(':') != std::string::npos;
+    info.port = settings.port;
+    info.iface = is_any(settings.address) ? nullptr : settings.address.c_str();
+    info.protocols = protocols.data();
+    info.headers = safe_headers.data();
+    info.user = this;
+    info.server_string = "starbow";
+    info.alpn = "http/1.1";
+    info.fd_limit_per_thread = most_files;
+    info.keepalive_timeout = 5;
+    info.timeout_secs = 10;
+    info.retry_and_idle_policy = &idle;
+    info.options = LWS_SERVER_OPTION_EXPLICIT_VHOSTS | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND
+        | LWS_SERVER_OPTION_SKIP_SERVER_CANONICAL_NAME | LWS_SERVER_OPTION_VALIDATE_UTF8
+        | (v6 ? 0 : LWS_SERVER_OPTION_DISABLE_IPV6)
+        | (tls ? LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT | LWS_SERVER_OPTION_DISABLE_OS_CA_CERTS : 0);
+    if (tls) {
+        info.ssl_cert_filepath = certificate.c_str();
+        info.ssl_private_key_filepath = key.c_str();
+    }
+    const std::string place = "port " + std::to_string(settings.port) + " of " + settings.address;
+    last_library_error.clear();
+    context_ = lws_create_context(&info);
+    vhost_ = context_ ? lws_create_vhost(context_, &info) : nullptr;
+    if (!vhost_) {
+        if (context_)
+            lws_context_destroy(context_);
+        throw InputError("The remote can't be opened at " + place + " (" + last_library_error
+            + "); a free port, an address of this machine and, if named, a certificate with its key is right");
+    }
+    try {
+        open_osc();
+    } catch (...) {
+        lws_context_destroy(context_);
+        throw;
+    }
+    page_ = (tls ? "https://" : "http://")
+        + (!settings.hosts.empty()         ? settings.hosts[0]
+                : is_any(settings.address) ? "localhost"
+                : v6                       ? "[" + settings.address + "]"
+                                           : settings.address)
+        + ":" + std::to_string(settings.port) + "/";
+    if (!tls && !is_loopback(settings.address))
+        log_warning("remote",
+            "PINs and commands go over the network unencrypted at " + place
+                + "; a certificate and key in the exhibit's file makes the page https");
+    tick_.server = this;
+    schedule();
+}
+
+Server::~Server() { lws_context_destroy(context_); }
+
+void Server::load_files()
+{
+    const std::filesystem::path folder = home() / "config" / "remote";
+    for (const auto& [path, file, type] :
+        {std::tuple{"/", "page.html", "text/html; charset=utf-8"}, {"/page.css", "page.css", "text/css; charset=utf-8"},
+            {"/page.js", "page.js", "text/javascript; charset=utf-8"}, {"/icon.svg", "icon.svg", "image/svg+xml"}}) {
+        files_[path] = {.type = type, .body = read_whole(folder / file, most_page_bytes, "the file of the package starbow")};
+    }
+    files_["/words"] = {.type = "application/json", .body = words_text()};
+}
+
+void Server::open_osc()
+{
+    const OscSettings& osc = options_.settings.osc;
+    if (osc.port == 0)
+        return;
+    const std::string& address = options_.settings.address;
+    const bool v6 = address.find(':') != std::string::npos;
+    sockaddr_in6 six{};
+    sockaddr_in four{};
+    six.sin6_family = AF_INET6, four.sin_family = AF_INET;
+    six.sin6_port = four.sin_port = htons(std::uint16_t(osc.port));
+    inet_pton(AF_INET6, address.c_str(), &six.sin6_addr);
+    inet_pton(AF_INET, address.c_str(), &four.sin_addr);
+    osc_ = ::socket(v6 ? AF_INET6 : AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    const int bound = v6 ? bind(osc_, reinterpret_cast<sockaddr*>(&six), sizeof six)
+                         : bind(osc_, reinterpret_cast<sockaddr*>(&four), sizeof four);
+    lws_sock_file_fd_type descriptor{};
+    descriptor.filefd = osc_;
+    if (bound != 0 || !lws_adopt_descriptor_vhost(vhost_, LWS_ADOPT_RAW_FILE_DESC, descriptor, "osc", nullptr)) {
+        close(osc_);
+        throw InputError("OSC can't be opened at UDP port " + std::to_string(osc.port) + " of " + address
+            + "; a free port and an address of this machine is right");
+    }
+}
+
+void Server::schedule()
+{
+    lws_sul_schedule(
+        context_, 0, &tick_.list, [](lws_sorted_usec_list_t* list) { reinterpret_cast<Tick*>(list)->server->tick(); },
+        tick_us);
+}
+
+void Server::serve()
+{
+    while (!exchange_.ends && lws_service(context_, 0) >= 0) { }
+}
+
+void Server::wake() { lws_cancel_service(context_); }
+
+void Server::tick()
+{
+    schedule();
+    const Logins::Time now = std::chrono::steady_clock::now();
+    hand_out_replies();
+    const bool anybody = !clients_.empty();
+    if (anybody && exchange_.snapshots.refresh()) {
+        status_.set(status_text(exchange_.snapshots.newest(), false));
+        engineer_status_.set(status_text(exchange_.snapshots.newest(), true));
+    }
+    if (anybody && exchange_.conditions.refresh())
+        log_.set(log_text(exchange_.conditions.newest().log));
+    const bool watched = std::ranges::any_of(clients_, &Client::picture);
+    exchange_.picture_wanted.store(watched, std::memory_order_relaxed);
+    if (watched && exchange_.pictures.refresh()) {
+        const std::vector<unsigned char> jpeg = jpeg_of(exchange_.pictures.newest());
+        if (!jpeg.empty())
+            picture_.set({reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
+    }
+    const bool checks = ++ticks_ % ticks_of_login == 0;
+    for (Client& client : clients_) {
+        if (checks && !logins_.role_of(client.token, now))
+            client.closes = true;
+        if (client.closes || due(client))
+            lws_callback_on_writable(client.wsi);
+    }
+}
+
+void Server::hand_out_replies()
+{
+    for (Reply reply; exchange_.replies.take(reply);) {
+        const auto found = pending_.find(reply.number);
+        if (found == pending_.end())
+            continue;
+        if (!reply.refusal.empty())
+            log_info("remote", found->second.words + " is refused: " + reply.refusal);
+        if (found->second.client)
+            say(*found->second.client, answer_text(found->second.id, reply.refusal));
+        pending_.erase(found);
+    }
+    const Logins::Time now = std::chrono::steady_clock::now();
+    std::erase_if(pending_, [&](const auto& one) {
+        const bool late = now - one.second.since > most_wait;
+        if (late && one.second.client)
+            say(*one.second.client, answer_text(one.second.id, "The exhibit has not answered for two minutes"));
+        return late;
+    });
+}
+
+std::string Server::put(const Command& command, Role role, const std::string& who, Client* client, int id)
+{
+    const CommandRule& rule = rule_of(command.kind);
+    if (role < rule.role)
+        return "the command " + std::string(rule.name) + " is not for the role " + role_names[std::size_t(role)]
+            + "; the role " + role_names[std::size_t(rule.role)] + " is right";
+    std::string words;
+    for (const std::string& word : words_of(command))
+        words += (words.empty() ? "" : " ") + word;
+    if (!exchange_.commands.put({last_number_ + 1, command})) {
+        ++refused_commands_;
+        return "the exhibit has many commands to do already; the same one somewhat later is right";
+    }
+    pending_[++last_number_] = {client, id, words, std::chrono::steady_clock::now()};
+    log_info("remote", std::string(role_names[std::size_t(role)]) + " at " + who + ": " + words);
+    return "";
+}
+
+int Server::datagrams(lws_callback_reasons reason)
+{
+    if (reason != LWS_CALLBACK_RAW_RX_FILE)
+        return 0;
+    std::array<unsigned char, most_message_bytes + 1> bytes;
+    for (int i = 0; i < 64; ++i) { // then the pages have their turn
+        sockaddr_storage from{};
+        socklen_t length = sizeof from;
+        const ssize_t size = recvfrom(osc_, bytes.data(), bytes.size(), 0, reinterpret_cast<sockaddr*>(&from), &length);
+        if (size < 0)
+            return 0;
+        std::array<char, INET6_ADDRSTRLEN> text{};
+        const void* address = from.ss_family == AF_INET6
+            ? static_cast<const void*>(&reinterpret_cast<const sockaddr_in6&>(from).sin6_addr)
+            : &reinterpret_cast<const sockaddr_in&>(from).sin_addr;
+        inet_ntop(from.ss_family, address, text.data(), text.size());
+        const std::string who = plain_address(text.data());
+        const OscSettings& osc = options_.settings.osc;
+        if (std::ranges::find(osc.from, who) == osc.from.end() || std::size_t(size) > most_message_bytes) {
+            ++refused_datagrams_;
+            continue;
+        }
+        try {
+            for (const Command& command : commands_of_osc({bytes.data(), std::size_t(size)}))
+                if (const std::string no = put(command, osc.engineer ? Role::engineer : Role::docent, who, nullptr, 0);
+                    !no.empty())
+                    throw InputError(no);
+        } catch (const InputError& error) {
+            ++refused_datagrams_;
+            log_debug("remote", "OSC from " + who + ": " + error.what());
+        }
+    }
+    return 0;
+}
+
+} // namespace starbow
