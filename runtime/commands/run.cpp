@@ -97,6 +97,8 @@ ExhibitOptions open(const RunOptions& options)
     exhibit_options.record = options.record;
     exhibit_options.state = state_folder();
     exhibit_options.textfile = exhibit.textfile;
+    exhibit_options.remote = exhibit.remote;
+    exhibit_options.quality_name = std::filesystem::path(exhibit.quality).stem();
     return exhibit_options;
 }
 

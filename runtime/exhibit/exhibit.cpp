@@ -52,6 +52,7 @@ bool leaves_level(Session& session, const std::exception& error)
 int fly_exhibit(const ExhibitOptions& options)
 {
     Session session{options};
+    RemoteControl remote(options);
     const WaitWatch watch(wait_limit_s(session.service));
     for (int losses = 0;;) {
         const Clock::time_point opened = Clock::now();
@@ -71,7 +72,7 @@ int fly_exhibit(const ExhibitOptions& options)
                 work->restart();
                 session.service.loads(
                     "Opens the outputs of " + session.layout.file.filename().string() + ".", loading_limit_s);
-                FrameLoop loop(session, *context);
+                FrameLoop loop(session, remote, *context);
                 work.reset();
                 while (!is_over(session) && loop.fly_frame())
                     ;

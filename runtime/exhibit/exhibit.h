@@ -3,6 +3,7 @@
 #include "config/model/flying.h"
 #include "config/model/layout.h"
 #include "config/model/profile.h"
+#include "config/model/remote_file.h"
 #include "config/model/words.h"
 #include "programme.h"
 #include "runtime/flight/record.h"
@@ -38,6 +39,8 @@ struct ExhibitOptions {
     std::filesystem::path replay{}; ///< a record that is flown instead of the visitor's flight; empty: none
     Trace* trace = nullptr; ///< receives the spans of each frame; null: none. It must outlive the flight
     std::function<void(const FrameTimes&)> timed{}; ///< is called for each frame
+    RemoteSettings remote{}; ///< port 0: none
+    std::string quality_name{}; ///< of quality, for the remote; empty: the ladder's, or the device's default
     std::filesystem::path state{}; ///< folder of the days' counts; empty: none are kept
     std::filesystem::path textfile{}; ///< receives the counts for node_exporter; empty: none
     std::string version{}; ///< the program's, for the counts

@@ -47,8 +47,9 @@ void Pace::wait(double refresh_hz)
     next = std::max(next + turn, Clock::now() - turn);
 }
 
-FrameLoop::FrameLoop(Session& session, RenderContext& context)
+FrameLoop::FrameLoop(Session& session, RemoteControl& remote, RenderContext& context)
     : session_(session)
+    , remote_(remote)
     , context_(context)
     , device_(context.device)
     , frame_(std::make_unique<FrameRenderer>(
@@ -57,6 +58,7 @@ FrameLoop::FrameLoop(Session& session, RenderContext& context)
     , screens_(device_, session.layout)
     , cold_(session.options.warms_up.value_or(!device_.on_processor()))
     , done_(device_.device.createFence({vk::FenceCreateFlagBits::eSignaled}))
+    , live_(device_)
     , commands_(device_.device, {*device_.pool, vk::CommandBufferLevel::ePrimary, 2})
 {
     name_object(device_, done_, "frame done");
@@ -100,6 +102,7 @@ bool FrameLoop::fly_frame()
     RecordEntry entry{.shown = visible};
     if (!read_controls(session_, screens_.handles(), entry) || screens_.closed())
         return false;
+    remote_.read(entry.controls);
     if (entry.controls.full_screen)
         screens_.switch_full_screen();
     if (session_.record_replay.replays() && !visible)
@@ -116,9 +119,12 @@ bool FrameLoop::fly_frame()
         [&](std::string line) { session_.alignment.say(std::move(line)); });
     apply_alignment(controls);
     frame_->show(session_.alignment.pattern());
-    turn_diary(session_, screens_.shown(), context_.pipelines.count());
-    if (!visible)
+    if (turn_diary(session_, screens_.shown(), context_.pipelines.count()))
+        remote_.publish_condition(session_.diary);
+    if (!visible) {
+        remote_.shown(session_); // there is no picture to wait for
         return true;
+    }
 
     span.reset();
 
@@ -146,6 +152,7 @@ bool FrameLoop::fly_frame()
     if (presented_ && !fresh_)
         count_frame(session_, seconds(Clock::now() - *presented_), screens_.refresh_hz());
     presented_ = Clock::now();
+    remote_.shown(session_);
     fresh_ = false;
     session_.service.shows("Shows " + std::to_string(screens_.shown()) + " of "
         + std::to_string(session_.layout.outputs.size()) + (session_.layout.outputs.size() == 1 ? " output" : " outputs")
@@ -186,6 +193,7 @@ std::optional<double> FrameLoop::await_device()
     if (!std::exchange(submitted_, false))
         return {};
     trace_passes();
+    remote_.publish_picture([&](std::vector<std::uint8_t>& rgb) { return live_.take(rgb); });
     if (const auto ms = timer_.ms(); ms && session_.governor)
         if (session_.governor->drawn(seconds(Clock::now() - session_.began), prepared_ms_ + *ms))
             frame_->adopt(quality_of(session_, device_));
@@ -298,11 +306,31 @@ void FrameLoop::begin_commands()
             present_barrier(*commands_[1], target, true);
 }
 
+/// Copies a finished picture for the remote on its way to the screen.
+void FrameLoop::copy_live(vk::CommandBuffer commands, const Target& target)
+{
+    const auto move
+        = [&](Stage from_stage, Access from, vk::ImageLayout before, Stage to_stage, Access to, vk::ImageLayout after) {
+              vk::ImageMemoryBarrier2 barrier(from_stage, from, to_stage, to, before, after, VK_QUEUE_FAMILY_IGNORED,
+                  VK_QUEUE_FAMILY_IGNORED, target.image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
+              commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
+          };
+    move(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, vk::ImageLayout::eColorAttachmentOptimal,
+        Stage::eTransfer, Access::eTransferRead, vk::ImageLayout::eTransferSrcOptimal);
+    live_.record(commands, target);
+    move(Stage::eTransfer, {}, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, {}, vk::ImageLayout::ePresentSrcKHR);
+}
+
 void FrameLoop::end_commands()
 {
-    for (const Target& target : screens_.targets())
-        if (target.view)
-            present_barrier(*commands_[1], target, false);
+    const std::optional<std::size_t> copied = remote_.wants_picture() ? screens_.readable() : std::nullopt;
+    for (std::size_t i = 0; i < screens_.targets().size(); ++i)
+        if (const Target& target = screens_.targets()[i]; target.view) {
+            if (copied == i)
+                copy_live(*commands_[1], target);
+            else
+                present_barrier(*commands_[1], target, false);
+        }
     device_.timer = nullptr;
     timer_.pause(*commands_[0]);
     timer_.end(*commands_[1]);
@@ -342,9 +370,8 @@ void FrameLoop::apply(LayoutLoader::Loaded loaded)
 {
     const LimitedWait applying("the changed layout", loading_limit_s);
     session_.service.loads("Applies the changed layout.", loading_limit_s);
-    Layout layout = loaded.fresh.file == session_.layout.file
-        ? turned_again(loaded.fresh, session_.kept, session_.layout)
-        : loaded.layout;
+    Layout layout = loaded.fresh.file == session_.layout.file ? turned_again(loaded.fresh, session_.kept, session_.layout)
+                                                              : loaded.layout;
     std::optional<PreparedLayout> prepared;
     if (changes(loaded.layout, layout).empty()) // else a builder has turned something meanwhile
         prepared = std::move(loaded.prepared);
@@ -392,7 +419,7 @@ void FrameLoop::show_quality(const std::string& name)
 {
     const Quality quality = load_quality(shipped_file("qualities", name));
     frame_->adopt(within(device_, quality));
-    session_.quality = quality;
+    session_.quality = quality, session_.quality_name = name;
     session_.governor.reset();
 }
 
@@ -428,12 +455,14 @@ void FrameLoop::carry_out(const Command& command, Controls& controls)
         }
         directions.obeyed = obeyed + 1, directions.refused = refused;
         session_.diary.count([](Tally& tally) { ++tally.commands; });
+        remote_.note("");
         log_info("remote", words);
     } catch (const vk::DeviceLostError&) {
         throw;
     } catch (const std::exception& error) {
         session_.diary.count([](Tally& tally) { ++tally.refused_commands; });
         directions.refused = refused + 1, directions.refusal = one_line(error.what());
+        remote_.note(directions.refusal);
         log_warning("remote", words + ": " + directions.refusal + "; the exhibit stays as it was");
     }
 }

@@ -1,6 +1,8 @@
 #pragma once
 #include "hud_updater.h"
+#include "remote_control.h"
 #include "runtime/render/frame_timer.h"
+#include "runtime/render/live_copy.h"
 #include "runtime/render/render_context.h"
 #include "screens.h"
 #include "session.h"
@@ -18,7 +20,7 @@ struct Pace {
 /// Flies a session on one device, frame after frame, until the visitor leaves. All its members are lost with the device.
 class FrameLoop {
 public:
-    FrameLoop(Session& session, RenderContext& context);
+    FrameLoop(Session& session, RemoteControl& remote, RenderContext& context);
     ~FrameLoop(); ///< waits until the device has nothing to do
 
     /// One frame from the controls to the screens; frame_loop.cpp lists its steps in order. Returns false at the end of
@@ -52,10 +54,12 @@ private:
     /// are in two buffers, of which only the second waits for the screens.
     void begin_commands();
     void end_commands();
+    void copy_live(vk::CommandBuffer commands, const Target& target);
     /// Adds the device's passes of the frame before to the trace.
     void trace_passes();
 
     Session& session_;
+    RemoteControl& remote_;
     RenderContext& context_;
     Device& device_;
     std::unique_ptr<FrameRenderer> frame_;
@@ -68,6 +72,7 @@ private:
     HudUpdater hud_;
     Pace pace_;
     vk::raii::Fence done_;
+    LiveCopy live_;
     vk::raii::CommandBuffers commands_; ///< the world's, the outputs'
     bool submitted_ = false; ///< a frame since the last wait for the device
     double prepared_ms_ = 0; ///< the processor's part of the frame before

@@ -78,8 +78,7 @@ struct LayoutLoader::State {
         try {
             const FileWatch before({file});
             Loaded loaded{.fresh = load_layout(file), .layout = {}, .prepared = {}};
-            loaded.layout
-                = file == now.layout.file ? turned_again(loaded.fresh, now.kept, now.layout) : loaded.fresh;
+            loaded.layout = file == now.layout.file ? turned_again(loaded.fresh, now.kept, now.layout) : loaded.fresh;
             watch = FileWatch(files_of(loaded.layout));
             loaded.prepared = prepare_layout(loaded.layout, now.quality, sizes_of(loaded.layout, now), now.has_stars);
             if (!before.same() || !watch.same())

@@ -156,7 +156,7 @@ void forget_directions(Session& session)
     session.directions = {};
     session.words = session.options.words;
     session.rules = session.options.rules;
-    session.quality = session.options.quality;
+    session.quality = session.options.quality, session.quality_name = session.options.quality_name;
     if (!session.governor)
         session.governor = governor_of(session.options);
     session.exposure.locked = false;

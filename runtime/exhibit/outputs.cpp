@@ -3,6 +3,7 @@
 #include "desktop.h"
 #include "runtime/operation/waits.h"
 #include "runtime/render/debug.h"
+#include "runtime/render/live_copy.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <algorithm>
@@ -226,10 +227,14 @@ bool Window::make_swapchain()
     auto alpha = limits.supportedCompositeAlpha & vk::CompositeAlphaFlagBitsKHR::eOpaque
         ? vk::CompositeAlphaFlagBitsKHR::eOpaque
         : vk::CompositeAlphaFlagBitsKHR::eInherit;
+    vk::ImageUsageFlags usage = vk::ImageUsageFlagBits::eColorAttachment;
+    readable_ = bool(limits.supportedUsageFlags & vk::ImageUsageFlagBits::eTransferSrc) && is_live_format(format_);
+    if (readable_)
+        usage |= vk::ImageUsageFlagBits::eTransferSrc;
     const LimitedWait making("the swapchain of output '" + name_ + "' (vkCreateSwapchainKHR)");
-    swapchain_ = device_->device.createSwapchainKHR({{}, *surface_, count, format_, vk::ColorSpaceKHR::eSrgbNonlinear,
-        extent, 1, vk::ImageUsageFlagBits::eColorAttachment, vk::SharingMode::eExclusive, {}, limits.currentTransform, alpha,
-        vk::PresentModeKHR::eFifo, true, *std::exchange(swapchain_, nullptr)});
+    swapchain_ = device_->device.createSwapchainKHR(
+        {{}, *surface_, count, format_, vk::ColorSpaceKHR::eSrgbNonlinear, extent, 1, usage, vk::SharingMode::eExclusive, {},
+            limits.currentTransform, alpha, vk::PresentModeKHR::eFifo, true, *std::exchange(swapchain_, nullptr)});
     name_object(*device_, swapchain_, "outputs: swapchain");
     for (VkImage image : swapchain_.getImages()) {
         images_.resize(views_.size());

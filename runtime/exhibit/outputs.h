@@ -43,6 +43,7 @@ public:
     bool held() const { return late_; } ///< the last acquire() timed out
     glm::ivec2 size() const { return size_; }
     Target target() const;
+    bool readable() const { return readable_; } ///< its pictures can be copied
     vk::Format format() const { return format_; } ///< undefined until there is a swapchain
     vk::Semaphore acquired() const { return *acquired_; }
     vk::Semaphore drawn() const { return *drawn_[image_]; }
@@ -66,6 +67,7 @@ private:
     vk::Format format_ = vk::Format::eUndefined;
     glm::ivec2 size_{0}, windowed_place_{0}, windowed_size_{0};
     bool bare_ = false;
+    bool readable_ = false;
     bool stale_ = true; ///< the swapchain
     bool lost_ = false; ///< the surface
     bool late_ = false; ///< the last acquire timed out: the other windows don't wait for this one again

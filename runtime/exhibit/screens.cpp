@@ -116,6 +116,14 @@ void Screens::list_handles()
             handles_.push_back(screen.window->handle());
 }
 
+std::optional<std::size_t> Screens::readable() const
+{
+    for (std::size_t i = 0; i < screens_.size(); ++i)
+        if (targets_[i].view && screens_[i].window && screens_[i].window->readable())
+            return i;
+    return {};
+}
+
 bool Screens::acquire()
 {
     targets_.assign(screens_.size(), {});

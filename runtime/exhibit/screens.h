@@ -25,6 +25,8 @@ public:
     const std::vector<Target>& targets() const { return targets_; }
     std::size_t shown() const { return acquired_.size(); } ///< windows with an image of this frame
     std::size_t held() const; ///< windows whose images the window system does not give back
+    /// The first target whose picture can be copied to the processor; none where the window system allows that of none.
+    std::optional<std::size_t> readable() const;
     /// The format of the windows' images; undefined where no window has one yet.
     vk::Format format() const;
 

@@ -51,6 +51,7 @@ Session::Session(const ExhibitOptions& given)
     , words(given.words)
     , rules(given.rules)
     , quality(given.quality)
+    , quality_name(given.quality_name)
     , layout(given.layout)
     , kept(layout)
     , loader(layout)
@@ -190,6 +191,7 @@ static void count_visitor(Session& session, bool touched, bool reset, double dt_
 
 void count_frame(Session& session, double frame_s, double refresh_hz)
 {
+    session.frame_s = session.frame_s > 0 ? glm::mix(session.frame_s, frame_s, 0.05) : frame_s;
     session.diary.count([&](Tally& tally) { tally.add_frame(frame_s, frame_s * refresh_hz > 1.5); });
 }
 

@@ -47,6 +47,7 @@ struct Session {
     Words words; ///< for the visitors' texts
     Flying rules; ///< of the visitors' flight
     std::optional<Quality> quality; ///< a fixed one, where no governor chooses
+    std::string quality_name;
     Directions directions{};
     Layout layout; ///< the shown layout
     Layout kept; ///< the file's layout, without a builder's unsaved changes
@@ -64,6 +65,7 @@ struct Session {
     std::unique_ptr<HeadTracker> tracker;
     AlignmentMode alignment;
     Lab lab;
+    double frame_s = 0; ///< the mean time of the last frames, s
     Diary diary;
     VisitCounter visits{};
     double visited_s = 0; ///< time with a visitor that the diary lacks

@@ -2,6 +2,7 @@
 #include "config/json/reader.h"
 #include "messages.h"
 #include <cstdlib>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <spdlog/logger.h>
@@ -91,9 +92,12 @@ std::shared_ptr<spdlog::logger> make_logger(const LogOptions& options)
     return logger;
 }
 
+constexpr std::size_t most_last_lines = 50;
+
 /// The present logger. It is never destroyed, because a thread may log while the program ends.
 struct Current {
     std::mutex mutex;
+    std::deque<std::string> last; ///< lines
     std::shared_ptr<spdlog::logger> logger = make_logger({});
 };
 Current& current()
@@ -119,6 +123,11 @@ void log(spdlog::level::level_enum level, std::string_view part, std::string_vie
     line.append(part).append(": ").append(text);
     line = plain_text(std::move(line));
     to->log(level, spdlog::string_view_t(line.data(), line.size()));
+    Current& now = current();
+    const std::lock_guard lock(now.mutex);
+    now.last.push_back(std::move(line));
+    if (now.last.size() > most_last_lines)
+        now.last.pop_front();
 }
 
 } // namespace
@@ -130,6 +139,13 @@ void open_log(const LogOptions& options)
     flush_messages(1); // the stream before may be closed on return
     const std::lock_guard lock(now.mutex);
     now.logger = std::move(made);
+}
+
+std::vector<std::string> last_lines()
+{
+    Current& now = current();
+    const std::lock_guard lock(now.mutex);
+    return {now.last.begin(), now.last.end()};
 }
 
 void log_debug(std::string_view part, std::string_view text) { log(spdlog::level::debug, part, text); }

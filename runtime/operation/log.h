@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace starbow {
 
@@ -22,6 +23,9 @@ void open_log(const LogOptions& options);
 
 /// part: the part of the program that speaks, one word. The text is written as plain_text (config/json/reader.h), so that a
 /// message stays one line and a name can't steer the terminal. Nothing here waits for the stream's reader (messages.h).
+/// The last lines of the log, oldest first, without time and level; at most fifty.
+std::vector<std::string> last_lines();
+
 void log_debug(std::string_view part, std::string_view text);
 void log_info(std::string_view part, std::string_view text);
 void log_warning(std::string_view part, std::string_view text);

@@ -72,6 +72,16 @@ Buffer make_mapped_buffer(const Device& device, vk::DeviceSize size, vk::BufferU
         device, size, usage, vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent);
 }
 
+Buffer make_read_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage)
+{
+    constexpr auto mapped = vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent;
+    constexpr auto cached = mapped | vk::MemoryPropertyFlagBits::eHostCached;
+    for (std::uint32_t type = 0; type < device.memory.memoryTypeCount; ++type)
+        if ((device.memory.memoryTypes[type].propertyFlags & cached) == cached)
+            return make_buffer(device, size, usage, cached);
+    return make_buffer(device, size, usage, mapped);
+}
+
 Buffer make_static_buffer(Device& device, std::span<const std::byte> data, vk::BufferUsageFlags usage)
 {
     Buffer staging = make_mapped_buffer(device, data.size(), vk::BufferUsageFlagBits::eTransferSrc);

@@ -33,6 +33,8 @@ struct Image {
 
 /// A host-visible, mapped buffer that the processor writes each frame or reads back.
 Buffer make_mapped_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage);
+/// The same for reading back: in the processor's cache where the device has such memory, else reads would be slow.
+Buffer make_read_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage);
 /// A device-local buffer, filled once.
 Buffer make_static_buffer(Device& device, std::span<const std::byte> data, vk::BufferUsageFlags usage);
 

@@ -1,0 +1,111 @@
+#include "remote_control.h"
+#include "runtime/flight/ship.h"
+#include "runtime/operation/log.h"
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+/// The name of a file as commands give it.
+std::string name_of(const std::filesystem::path& file) { return file.stem().string(); }
+
+void describe(const Session& session, Snapshot& out)
+{
+    const Programme& programme = session.programme;
+    out.scene = name_of(programme.scene);
+    out.shot = name_of(programme.shot);
+    out.tour = name_of(programme.tour_name);
+    out.language = session.words.language;
+    out.layout = name_of(session.layout.file);
+    out.quality = session.quality_name;
+    out.pattern = pattern_names[std::size_t(session.alignment.pattern())];
+    out.step = session.guide ? int(session.guide->step()) + 1 : 0;
+    out.steps = programme.tour ? int(programme.tour->steps.size()) : 0;
+    out.paused = session.guide && !session.guide->flies() ? session.guide->paused() : session.flight.frozen;
+    out.fade = session.directions.fades, out.hold = session.directions.holds;
+    out.effects = session.flight.effects;
+    const double rapidity = rapidity_of(session.flight.ship);
+    out.speed = std::tanh(rapidity), out.gamma = std::cosh(rapidity);
+    out.max_gamma = session.rules.max_gamma;
+    out.caption = session.directions.caption;
+    out.frame_ms = 1e3 * session.frame_s;
+    out.frames_per_s = session.frame_s > 0 ? 1 / session.frame_s : 0;
+    out.error = session.refused.empty() ? session.directions.refusal : session.refused;
+    out.uptime_s = seconds(Session::Clock::now() - session.began);
+}
+
+} // namespace
+
+RemoteControl::RemoteControl(const ExhibitOptions& options)
+{
+    if (options.remote.port == 0)
+        return;
+    RemoteOptions remote{.settings = options.remote, .version = options.version};
+    remote.patterns.assign(pattern_names.begin(), pattern_names.end());
+    remote_ = std::make_unique<Remote>(std::move(remote));
+    log_info("remote", "the page is at " + remote_->page());
+}
+
+void RemoteControl::read(Controls& controls)
+{
+    if (!remote_)
+        return;
+    for (NumberedCommand arrived; remote_->take(arrived);) {
+        pending_.push_back({arrived.number, {}});
+        controls.commands.push_back(std::move(arrived.command));
+    }
+}
+
+void RemoteControl::note(const std::string& refusal)
+{
+    if (noted_ < pending_.size())
+        pending_[noted_++].refusal = refusal;
+}
+
+void RemoteControl::shown(const Session& session)
+{
+    if (!remote_)
+        return;
+    const Clock::time_point now = Clock::now();
+    if (!pending_.empty() || now - published_ > std::chrono::milliseconds(50)) {
+        describe(session, remote_->next_snapshot());
+        remote_->publish_snapshot(); // before the answers, so that an answered command is in the state
+        published_ = now;
+    }
+    for (const Pending& command : pending_)
+        remote_->answer(command.number, command.refusal);
+    pending_.clear(), noted_ = 0;
+}
+
+void RemoteControl::publish_condition(const Diary& diary)
+{
+    if (!remote_)
+        return;
+    Condition& condition = remote_->next_condition();
+    condition.metrics = diary.exposition();
+    condition.log = last_lines();
+    remote_->publish_condition();
+}
+
+bool RemoteControl::wants_picture()
+{
+    const Clock::time_point now = Clock::now();
+    if (!remote_ || !remote_->picture_wanted() || now - pictured_ < std::chrono::milliseconds(950))
+        return false;
+    pictured_ = now;
+    return true;
+}
+
+std::string RemoteControl::drawn_pins() const
+{
+    if (!remote_)
+        return "";
+    std::string line;
+    const Pins& pins = remote_->drawn_pins();
+    for (std::size_t role = 0; role < pins.size(); ++role)
+        if (!pins[role].empty())
+            line += (line.empty() ? "PINs: " : ", ") + std::string(role_names[role]) + " " + pins[role];
+    return line;
+}
+
+} // namespace starbow
