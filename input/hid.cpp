@@ -106,9 +106,12 @@ void Hid::Shared::read(const std::shared_ptr<Device>& device, hid_device* handle
         return;
     device->gone = true;
     ++unplugged;
-    say(describe(device->info) + " is unplugged");
-    const std::lock_guard lock(mutex);
-    missing.push_back(device->info);
+    try {
+        say(describe(device->info) + " is unplugged");
+        const std::lock_guard lock(mutex);
+        missing.push_back(device->info);
+    } catch (const std::bad_alloc&) { // it is forgotten without a word
+    }
 }
 
 void Hid::Shared::open(const hid_device_info& found)
@@ -142,8 +145,14 @@ void Hid::Shared::open(const hid_device_info& found)
     });
     if (back != missing.end())
         missing.erase(back);
+    devices.reserve(devices.size() + 1); // from the thread's start on, nothing may throw until the list has it
+    try {
+        device->reader = std::thread([this, device, handle] { read(device, handle); });
+    } catch (...) {
+        hid_close(handle);
+        throw;
+    }
     devices.push_back(device);
-    device->reader = std::thread([this, device, handle] { read(device, handle); });
     say(describe(device->info) + " is plugged in at " + path + ", flown by "
         + (device->profile.file.empty() ? device->profile.name : "the profile " + device->profile.name));
 }
@@ -189,7 +198,13 @@ void Hid::Shared::watch()
         udev_monitor_filter_add_match_subsystem_devtype(monitor, "hidraw", nullptr);
         udev_monitor_enable_receiving(monitor);
     }
-    look();
+    const auto look_again = [this] {
+        try {
+            look();
+        } catch (const std::exception&) { // no memory, or no thread for a device: the next event is the next attempt
+        }
+    };
+    look_again();
     while (!stop) {
         pollfd wait{monitor ? udev_monitor_get_fd(monitor) : -1, POLLIN, 0};
         const int events = poll(&wait, 1, 100);
@@ -202,7 +217,7 @@ void Hid::Shared::watch()
             gone = std::any_of(devices.begin(), devices.end(), [](const auto& d) { return d->gone.load(); });
         }
         if (events > 0 || gone)
-            look();
+            look_again();
     }
     if (monitor)
         udev_monitor_unref(monitor);

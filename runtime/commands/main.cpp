@@ -15,14 +15,18 @@
 
 namespace {
 
-/// The exit status after wrong input, and after a failure of the machine: its memory, its disk, its graphics driver.
-constexpr int wrong_input = 2, machine_failed = 3;
+/// The exit status after wrong input and where the machine has failed: its memory, its disk, its graphics driver.
+constexpr int not_done = 2;
 
 /// Prints one line on standard error, after the log's lines.
-int complain(std::string text, int status = wrong_input)
+int complain(std::string text) noexcept
 {
-    starbow::send_message(STDERR_FILENO, "starbow: " + starbow::plain_text(std::move(text)) + "\n");
-    return status;
+    try {
+        starbow::send_message(STDERR_FILENO, "starbow: " + starbow::plain_text(std::move(text)) + "\n");
+    } catch (const std::bad_alloc&) {
+        std::fputs("starbow: The memory is used up\n", stderr);
+    }
+    return not_done;
 }
 
 /// Names joined for a sentence: "a, b and c are".
@@ -65,22 +69,19 @@ int guarded(const std::function<int()>& run)
     } catch (const starbow::InputError& error) {
         return complain(error.what());
     } catch (const std::bad_alloc&) {
-        return complain("The memory is used up; smaller outputs, a smaller world or more memory is right", machine_failed);
+        return complain("The memory is used up; smaller outputs, a smaller world or more memory is right");
     } catch (const std::system_error& error) {
         // The graphics driver's errors have a category of their own.
         const std::error_category& category = error.code().category();
         const bool driver = category != std::generic_category() && category != std::system_category();
         return complain(std::string(driver ? "The graphics driver has failed: " : "The system has failed: ") + error.what()
-                + (driver ? "; 'starbow doctor' says what may mend it" : ""),
-            machine_failed);
+            + (driver ? "; 'starbow doctor' says what may mend it" : ""));
     } catch (const std::exception& error) {
-        return complain(std::string("The program has failed: ") + error.what(), machine_failed);
+        return complain(std::string("The program has failed: ") + error.what());
     }
 }
 
-} // namespace
-
-int main(int count, char** arguments)
+int run(int count, char** arguments)
 {
     starbow::guard_streams();
     if (const std::filesystem::path folder = starbow::state_folder(); !folder.empty())
@@ -103,5 +104,12 @@ int main(int count, char** arguments)
         const std::string what = unknown(app);
         return complain((what.empty() ? error.what() : what) + "; 'starbow --help' lists commands and options");
     }
-    return guarded(chosen);
+    return chosen();
+}
+
+} // namespace
+
+int main(int count, char** arguments)
+{
+    return guarded([&] { return run(count, arguments); });
 }

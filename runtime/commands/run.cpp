@@ -151,6 +151,11 @@ int run(const RunOptions& given)
         exhibit_options.trace = &trace.emplace(options.trace);
     catch_interrupts(); // they end the flight as Esc does
     exhibit_options.over = interrupted;
+    const LastWork last([&] {
+        trace.reset();
+        if (ends)
+            ends->in_order(); // the X server's end is no fault of the exhibit
+    });
     int status;
     {
         WindowSystem window_system;

@@ -196,6 +196,8 @@ bool Desktop::look()
         return false;
     looked_ = now;
     std::vector<Monitor> seen = connection_->read();
+    if (connection_->randr && !connection_->x.answers())
+        return false; // the server has gone, not its monitors
     const bool changed = seen != monitors_;
     monitors_ = std::move(seen);
     return changed;

@@ -5,6 +5,7 @@
 #include "runtime/operation/log.h"
 #include "runtime/operation/messages.h"
 #include "runtime/operation/waits.h"
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <thread>
@@ -17,6 +18,72 @@ using Clock = std::chrono::steady_clock;
 /// A lost GPU, as after a hang of its driver, or one that has run out of memory, is opened anew and the flight goes on.
 /// After so many losses, each within a minute of the one before, the program gives up.
 constexpr int most_losses = 5;
+/// The same where no opening has led to a picture for so long, s: a driver may take its time to come back.
+constexpr double patience_s = 60;
+
+struct Loss {
+    std::string how, why;
+};
+
+Loss loss_by(const std::exception& error)
+{
+    if (dynamic_cast<const vk::DeviceLostError*>(&error))
+        return {"is lost", error.what()};
+    if (dynamic_cast<const std::bad_alloc*>(&error))
+        return {"has failed", "the memory is used up"};
+    return {"has failed", error.what()};
+}
+
+/// The losses of the GPU, or of all else that a flight needs.
+class Losses {
+public:
+    explicit Losses(const Session& session)
+        : session_(session)
+    {
+    }
+    bool none() const { return losses_ == 0 && tries_ == 0; }
+
+    /// The device is opened, for the first time or anew.
+    void opens()
+    {
+        opened_ = Clock::now();
+        shown_ = session_.shown;
+    }
+
+    /// Counts a loss, logs it, and waits a while. Returns false where the program shall give up, which is logged, too.
+    bool survives(const Loss& loss)
+    {
+        const Clock::time_point now = Clock::now();
+        if (session_.shown > shown_) {
+            losses_ = seconds(now - opened_) > 60 ? 1 : losses_ + 1;
+            tries_ = 0, away_since_ = now;
+        } else
+            ++tries_;
+        if (losses_ > most_losses || seconds(now - away_since_) > patience_s) {
+            log_error("exhibit", "the GPU " + loss.how + " again and again (" + loss.why + ")");
+            return false;
+        }
+        if (std::exchange(logged_, loss.why) != loss.why || tries_ == 0) // the reason of many openings in turn is one line
+            log_warning("exhibit", "the GPU " + loss.how + " (" + loss.why + "); it is opened anew");
+        wait(tries_ > 0 ? std::min(0.25 * std::exp2(tries_ - 1), 5.0) : losses_ - 1.0);
+        return true;
+    }
+
+private:
+    void wait(double wait_s) const
+    {
+        const Clock::time_point began = Clock::now();
+        while (seconds(Clock::now() - began) < wait_s && !is_over(session_))
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+
+    const Session& session_;
+    int losses_ = 0; ///< after a picture
+    int tries_ = 0; ///< openings in turn without a picture
+    long shown_ = 0; ///< pictures when the device was opened
+    Clock::time_point opened_{}, away_since_ = Clock::now();
+    std::string logged_;
+};
 
 /// Prints the closing lines: the flight's last readings and the skew of the screens.
 void print_summary(const Session& session, const SceneFile& scene)
@@ -54,19 +121,25 @@ int fly_exhibit(const ExhibitOptions& options)
     Session session{options};
     RemoteControl remote(options);
     const WaitWatch watch(wait_limit_s(session.service));
-    for (int losses = 0;;) {
-        const Clock::time_point opened = Clock::now();
+    const LastWork last([&] {
+        session.service.stops();
+        session.record_replay.end(session.flight, print_message);
+        session.record_replay.close();
+        session.diary.close();
+    });
+    Losses losses(session);
+    for (;;) {
+        losses.opens();
         std::optional<LimitedWait> work(
             std::in_place, "the end of the exhibit's loading", loading_limit_s); // outlives context
         std::unique_ptr<RenderContext> context;
-        std::string lost;
+        Loss loss;
         bool coarser = false; // the device is opened anew for a level of less memory, and nothing is wrong with it
-        const char* how = "is lost";
         session.service.loads("Loads the world " + session.programme.scene.filename().string() + ".", loading_limit_s);
         try {
             context
                 = std::make_unique<RenderContext>(session.programme.scene, device_of(options), spectral_level_of(session));
-            if (losses == 0)
+            if (losses.none())
                 log_world(*context);
             {
                 work->restart();
@@ -82,18 +155,12 @@ int fly_exhibit(const ExhibitOptions& options)
             print_summary(session, context->world.scene);
             const bool same = session.record_replay.end(session.flight, print_message);
             return !same || session.complaints || !context->device.complaints.empty() ? 1 : 0;
-        } catch (const vk::DeviceLostError& error) {
-            lost = error.what();
-        } catch (const vk::SystemError& error) {
+        } catch (const std::exception& error) {
             coarser = context && leaves_level(session, error); // else the world itself has no room
-            if (!coarser && losses == 0 && session.shown == 0)
-                throw; // it has never worked
-            lost = error.what(), how = "has failed";
-        } catch (const InputError& error) {
-            coarser = context && leaves_level(session, error); // else the world itself has no room
-            if (!coarser && losses == 0 && session.shown == 0)
+            // What has never worked is no loss, except where the device itself is lost while the world loads.
+            if (!coarser && session.shown == 0 && losses.none() && !dynamic_cast<const vk::DeviceLostError*>(&error))
                 throw;
-            lost = error.what(), how = "has failed"; // no memory for what is to be drawn, or the driver is not back yet
+            loss = loss_by(error);
         }
         work.emplace("the end of the lost device's closing", loading_limit_s);
         session.service.loads("Opens the GPU anew.", loading_limit_s);
@@ -102,14 +169,10 @@ int fly_exhibit(const ExhibitOptions& options)
         if (coarser)
             continue;
         session.diary.count([](Tally& tally) { ++tally.device_losses; });
-        if (seconds(Clock::now() - opened) > 60)
-            losses = 0;
-        if (++losses > most_losses) {
-            log_error("exhibit", std::string("the GPU ") + how + " again and again (" + lost + ")");
+        if (!losses.survives(loss))
             return 1;
-        }
-        log_warning("exhibit", std::string("the GPU ") + how + " (" + lost + "); it is opened anew");
-        std::this_thread::sleep_for(std::chrono::seconds(losses - 1));
+        if (is_over(session))
+            return session.record_replay.end(session.flight, print_message) && !session.complaints ? 0 : 1;
     }
 }
 

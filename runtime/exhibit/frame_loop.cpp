@@ -20,23 +20,8 @@ namespace starbow {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Stage = vk::PipelineStageFlagBits2;
-using Access = vk::AccessFlagBits2;
 
 std::int64_t steady_ns(Clock::time_point t) { return std::chrono::nanoseconds(t.time_since_epoch()).count(); }
-
-void present_barrier(vk::CommandBuffer commands, const Target& target, bool before)
-{
-    constexpr auto drawn = Stage::eColorAttachmentOutput;
-    vk::ImageMemoryBarrier2 barrier = before ? vk::ImageMemoryBarrier2(drawn, {}, drawn, Access::eColorAttachmentWrite,
-                                          vk::ImageLayout::eUndefined, vk::ImageLayout::eColorAttachmentOptimal)
-                                             : vk::ImageMemoryBarrier2(drawn, Access::eColorAttachmentWrite, drawn, {},
-                                                 vk::ImageLayout::eColorAttachmentOptimal, vk::ImageLayout::ePresentSrcKHR);
-    barrier.image = target.image;
-    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    barrier.subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1};
-    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
-}
 
 } // namespace
 
@@ -52,11 +37,11 @@ FrameLoop::FrameLoop(Session& session, RemoteControl& remote, RenderContext& con
     , remote_(remote)
     , context_(context)
     , device_(context.device)
-    , frame_(std::make_unique<FrameRenderer>(
-          device_, context.pipelines, context.world, session.layout, quality_of(session, device_)))
+    , frame_(renderer(session.layout, quality_of(session, device_)))
     , timer_(device_)
     , screens_(device_, session.layout)
     , cold_(session.options.warms_up.value_or(!device_.on_processor()))
+    , most_pipelines_(device_.on_processor() ? most_pipelines_in_software : most_pipelines)
     , done_(device_.device.createFence({vk::FenceCreateFlagBits::eSignaled}))
     , live_(device_)
     , commands_(device_.device, {*device_.pool, vk::CommandBufferLevel::ePrimary, 2})
@@ -189,6 +174,7 @@ std::optional<double> FrameLoop::await_device()
     if (session_.options.paced)
         pace_.wait(screens_.refresh_hz());
     device_.await(*done_, "the end of the frame's drawing (fence)");
+    context_.pipelines.release_old(most_pipelines_);
     // While all windows are minimised nothing is submitted, and the last frame's times are old.
     if (!std::exchange(submitted_, false))
         return {};
@@ -206,7 +192,7 @@ std::size_t FrameLoop::warm_up(std::unique_ptr<FrameRenderer>& frame, const Qual
     if (frame)
         frame->adopt(quality);
     else
-        frame = std::make_unique<FrameRenderer>(device_, context_.pipelines, context_.world, session_.layout, quality);
+        frame = renderer(session_.layout, quality);
     frame->meter(session_.options.exposure.automatic);
     frame->bloom(session_.options.exposure.bloom);
     const Panel* panel = hud_.update(session_, context_.world.scene, 0, frame->views().hud_width());
@@ -244,6 +230,7 @@ void FrameLoop::warm_up()
         }
     }
     frame_->adopt(quality_of(session_, device_));
+    most_pipelines_ += made; // else the warm-up would be in vain
     std::array<char, 80> text;
     std::snprintf(text.data(), text.size(), "%zu pipelines are ready after %.1f s", made, seconds(Clock::now() - began));
     log_info("pipelines", text.data());
@@ -266,7 +253,7 @@ Shot FrameLoop::set_up_frame(const Controls& controls)
     const std::vector<Target>& targets = screens_.targets();
     for (std::size_t i = 0; i < targets.size(); ++i)
         if (targets[i].view)
-            frame_->resize(i, {targets[i].extent.width, targets[i].extent.height});
+            fit(i);
     watch_sizes(targets);
     frame_->move_head(controls.head);
     frame_->meter(session_.options.exposure.automatic);
@@ -276,6 +263,29 @@ Shot FrameLoop::set_up_frame(const Controls& controls)
     shot.exposure_ev = ev_of(session_);
     session_.lab.request(*frame_, shot, session_.flight, context_.world, hud_.typesetter);
     return shot;
+}
+
+/// Gives an output the size of its window's picture, or half of it, or a quarter, until the device has room for it.
+void FrameLoop::fit(std::size_t output)
+{
+    const auto size = [&] {
+        const vk::Extent2D& extent = screens_.targets()[output].extent;
+        return glm::ivec2(extent.width, extent.height);
+    };
+    for (const glm::ivec2 whole = size();;) {
+        try {
+            return frame_->resize(output, size());
+        } catch (const InputError& error) {
+            constexpr int smallest_px = 32;
+            const glm::ivec2 smaller = size() / 2;
+            if (std::min(smaller.x, smaller.y) < smallest_px)
+                throw;
+            screens_.draw_smaller(context_.pipelines, output, smaller);
+            log_warning("exhibit",
+                "output '" + session_.layout.outputs[output].name + "' is drawn smaller, " + text_of(smaller)
+                    + " pixels scaled up to " + text_of(whole) + ": " + one_line(error.what()));
+        }
+    }
 }
 
 /// Windows of another size need another amount of memory. A new start of the device alone changes no size.
@@ -301,36 +311,14 @@ void FrameLoop::begin_commands()
     timer_.begin(*commands_[0]);
     timer_.resume(*commands_[1]);
     device_.timer = device_.trace ? &timer_ : nullptr; // passes are timed between begin and end only
-    for (const Target& target : screens_.targets())
-        if (target.view)
-            present_barrier(*commands_[1], target, true);
-}
-
-/// Copies a finished picture for the remote on its way to the screen.
-void FrameLoop::copy_live(vk::CommandBuffer commands, const Target& target)
-{
-    const auto move
-        = [&](Stage from_stage, Access from, vk::ImageLayout before, Stage to_stage, Access to, vk::ImageLayout after) {
-              vk::ImageMemoryBarrier2 barrier(from_stage, from, to_stage, to, before, after, VK_QUEUE_FAMILY_IGNORED,
-                  VK_QUEUE_FAMILY_IGNORED, target.image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
-              commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
-          };
-    move(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, vk::ImageLayout::eColorAttachmentOptimal,
-        Stage::eTransfer, Access::eTransferRead, vk::ImageLayout::eTransferSrcOptimal);
-    live_.record(commands, target);
-    move(Stage::eTransfer, {}, vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, {}, vk::ImageLayout::ePresentSrcKHR);
+    screens_.begin_pictures(*commands_[1]);
 }
 
 void FrameLoop::end_commands()
 {
-    const std::optional<std::size_t> copied = remote_.wants_picture() ? screens_.readable() : std::nullopt;
-    for (std::size_t i = 0; i < screens_.targets().size(); ++i)
-        if (const Target& target = screens_.targets()[i]; target.view) {
-            if (copied == i)
-                copy_live(*commands_[1], target);
-            else
-                present_barrier(*commands_[1], target, false);
-        }
+    if (const auto copied = remote_.wants_picture() ? screens_.readable() : std::nullopt)
+        live_.record(*commands_[1], screens_.targets()[*copied]);
+    screens_.end_pictures(*commands_[1]);
     device_.timer = nullptr;
     timer_.pause(*commands_[0]);
     timer_.end(*commands_[1]);
@@ -366,6 +354,20 @@ void FrameLoop::apply_file_changes()
     }
 }
 
+/// prepared: as FrameRenderer's.
+std::unique_ptr<FrameRenderer> FrameLoop::renderer(
+    const Layout& layout, const Quality& quality, std::optional<PreparedLayout> prepared)
+{
+    // Before a window's own size is known, no output may be beyond the device's limit.
+    Layout shown = layout;
+    for (Output& output : shown.outputs)
+        output.size = glm::min(output.size, int(device_.properties.limits.maxImageDimension2D));
+    return in_room([&] {
+        return std::make_unique<FrameRenderer>(
+            device_, context_.pipelines, context_.world, shown, quality, false, std::move(prepared));
+    });
+}
+
 void FrameLoop::apply(LayoutLoader::Loaded loaded)
 {
     const LimitedWait applying("the changed layout", loading_limit_s);
@@ -377,8 +379,7 @@ void FrameLoop::apply(LayoutLoader::Loaded loaded)
         prepared = std::move(loaded.prepared);
     const bool same_tracker = session_.layout.head_tracker == layout.head_tracker;
     std::unique_ptr<HeadTracker> tracker = same_tracker ? nullptr : tracker_of(layout);
-    frame_ = std::make_unique<FrameRenderer>(
-        device_, context_.pipelines, context_.world, layout, quality_of(session_, device_), false, std::move(prepared));
+    frame_ = renderer(layout, quality_of(session_, device_), std::move(prepared));
     if (!same_tracker)
         session_.tracker = std::move(tracker);
     session_.layout = std::move(layout);
@@ -393,17 +394,16 @@ void FrameLoop::apply(LayoutLoader::Loaded loaded)
         session_.layout.file.string() + ": applied" + (unkept > 0 ? "; changes made by keys are kept (F5 saves them)" : ""));
 }
 
-/// Shows a world and begins a visit in it. Throws InputError or vk::SystemError; then the old world is still shown.
+/// Shows a world and begins a visit in it. Throws InputError, for want of memory, too; then the old world is still shown.
 void FrameLoop::show_programme(Programme programme)
 {
     if (programme.scene != session_.programme.scene) {
         const LimitedWait loading("the world " + programme.scene.filename().string(), loading_limit_s);
         session_.service.loads("Loads the world " + programme.scene.filename().string() + ".", loading_limit_s);
-        GpuWorld world = load_gpu_world(context_, programme.scene, spectral_level_of(session_));
+        GpuWorld world = in_room([&] { return load_gpu_world(context_, programme.scene, spectral_level_of(session_)); });
         std::swap(context_.world, world);
         try {
-            frame_ = std::make_unique<FrameRenderer>(
-                device_, context_.pipelines, context_.world, session_.layout, quality_of(session_, device_));
+            frame_ = renderer(session_.layout, quality_of(session_, device_));
         } catch (...) {
             std::swap(context_.world, world); // the old renderer draws the old world, in its place
             throw;
@@ -457,8 +457,8 @@ void FrameLoop::carry_out(const Command& command, Controls& controls)
         session_.diary.count([](Tally& tally) { ++tally.commands; });
         remote_.note("");
         log_info("remote", words);
-    } catch (const vk::DeviceLostError&) {
-        throw;
+    } catch (const vk::SystemError&) {
+        throw; // a loss; a lack of memory is none, and a NoRoom
     } catch (const std::exception& error) {
         session_.diary.count([](Tally& tally) { ++tally.refused_commands; });
         directions.refused = refused + 1, directions.refusal = one_line(error.what());

@@ -35,6 +35,7 @@ private:
     void warm_up();
     std::size_t warm_up(std::unique_ptr<FrameRenderer>& frame, const Quality& quality,
         const std::function<void(std::size_t, std::size_t)>& progress);
+    void fit(std::size_t output);
     void watch_sizes(const std::vector<Target>& targets);
     /// Waits for the frame's turn and for the device. Returns the exposure for the frame before, if it was metered.
     std::optional<double> await_device();
@@ -42,6 +43,9 @@ private:
     /// picture stays until the new one can be drawn.
     void apply_file_changes();
     void apply(LayoutLoader::Loaded loaded);
+    /// Throws InputError where a layout is wrong, or there is no memory for it.
+    std::unique_ptr<FrameRenderer> renderer(
+        const Layout& layout, const Quality& quality, std::optional<PreparedLayout> prepared = {});
     void show_programme(Programme programme);
     void show_quality(const std::string& name);
     /// Carries out a remote's command; a refused one is logged with its reason and changes nothing.
@@ -54,7 +58,6 @@ private:
     /// are in two buffers, of which only the second waits for the screens.
     void begin_commands();
     void end_commands();
-    void copy_live(vk::CommandBuffer commands, const Target& target);
     /// Adds the device's passes of the frame before to the trace.
     void trace_passes();
 
@@ -69,6 +72,7 @@ private:
     std::optional<Clock::time_point> presented_; ///< the frame before
     bool fresh_ = true; ///< no frame is shown yet
     bool cold_; ///< the warm-up is still to come
+    std::size_t most_pipelines_; ///< that are kept
     HudUpdater hud_;
     Pace pace_;
     vk::raii::Fence done_;

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <new>
 #include <sys/resource.h>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -51,7 +52,11 @@ struct LayoutLoader::State {
         for (std::unique_lock lock(mutex); !ends;) {
             woken.wait_for(lock, std::chrono::milliseconds(100), [this] { return ends || other; });
             lock.unlock();
-            const bool settled = watch.changed(FileWatch::Clock::now());
+            bool settled = false;
+            try {
+                settled = watch.changed(FileWatch::Clock::now());
+            } catch (const std::bad_alloc&) { // the next look is the next attempt
+            }
             lock.lock();
             if (ends || (!settled && !other))
                 continue;
@@ -88,6 +93,8 @@ struct LayoutLoader::State {
             return refused(now, error.what());
         } catch (const std::bad_alloc&) {
             return refused(now, file.string() + ": needs more memory than there is; a smaller calibration is right");
+        } catch (const std::system_error& error) { // no thread for its maps
+            return refused(now, file.string() + ": can't be prepared (" + error.what() + ")");
         }
     }
 

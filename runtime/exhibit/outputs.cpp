@@ -1,12 +1,17 @@
 #include "outputs.h"
 #include "config/json/error.h"
 #include "desktop.h"
+#include "runtime/operation/log.h"
+#include "runtime/operation/messages.h"
 #include "runtime/operation/waits.h"
 #include "runtime/render/debug.h"
 #include "runtime/render/live_copy.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <algorithm>
+#include <cstdio>
+#include <dlfcn.h>
+#include <unistd.h>
 
 namespace starbow {
 namespace {
@@ -16,6 +21,42 @@ std::string glfw_says()
     const char* text = nullptr;
     glfwGetError(&text);
     return text ? text : "no reason given";
+}
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+
+void present_barrier(vk::CommandBuffer commands, const Target& target, vk::ImageMemoryBarrier2 barrier)
+{
+    barrier.image = target.image;
+    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1};
+    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
+}
+
+/// Discards a target's contents and makes it ready for drawing.
+void discard(vk::CommandBuffer commands, const Target& target)
+{
+    constexpr auto drawn = Stage::eColorAttachmentOutput;
+    present_barrier(commands, target,
+        {drawn, {}, drawn, Access::eColorAttachmentWrite, vk::ImageLayout::eUndefined,
+            vk::ImageLayout::eColorAttachmentOptimal});
+}
+
+/// Makes a drawn target ready for its presentation.
+void hand_over(vk::CommandBuffer commands, const Target& target)
+{
+    constexpr auto drawn = Stage::eColorAttachmentOutput;
+    present_barrier(commands, target,
+        {drawn, Access::eColorAttachmentWrite, drawn, {}, vk::ImageLayout::eColorAttachmentOptimal,
+            vk::ImageLayout::ePresentSrcKHR});
+}
+
+/// A size with the same shape whose sides are at most so long.
+glm::ivec2 within(glm::ivec2 size, int most)
+{
+    const double shrink = std::min(1.0, double(most) / std::max(size.x, size.y));
+    return glm::max(glm::ivec2(glm::dvec2(size) * shrink), 1);
 }
 
 /// Shrinks a window to its screen: otherwise a part of its picture would be hidden, on a dome the front.
@@ -50,12 +91,65 @@ GLFWmonitor* monitor_of(GLFWwindow* window)
 
 } // namespace
 
+std::string text_of(glm::ivec2 size) { return std::to_string(size.x) + "x" + std::to_string(size.y); }
+
+namespace {
+
+/// The innermost last. Never destroyed, because the process may end anywhere.
+std::vector<const std::function<void()>*>& last_works()
+{
+    static auto& only = *new std::vector<const std::function<void()>*>;
+    return only;
+}
+
+/// A function of GLFW or Xlib that is there where GLFW is made for X11.
+template <class Function> Function* find_function(const char* name)
+{
+    return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+}
+
+/// The process ends here: Xlib has no state for a display that has gone, and its next call may crash.
+void end_without_display(void*, void*)
+{
+    log_error("exhibit",
+        "the X server has ended; the program ends with " + std::to_string(exit_no_display)
+            + ", because its windows are gone");
+    for (auto work = last_works().rbegin(); work != last_works().rend(); ++work)
+        (**work)();
+    flush_messages(1);
+    std::fflush(nullptr);
+    _exit(exit_no_display);
+}
+
+/// Without this, Xlib ends the process by exit() once the X server has gone.
+void watch_x_server()
+{
+    const auto display_of_glfw = find_function<void*()>("glfwGetX11Display");
+    const auto on_error = find_function<void*(int (*)(void*))>("XSetIOErrorHandler");
+    const auto on_exit = find_function<void(void*, void (*)(void*, void*), void*)>("XSetIOErrorExitHandler");
+    if (!display_of_glfw || !on_error || !on_exit || !display_of_glfw())
+        return; // another window system
+    on_error([](void*) { return 0; }); // without a message of Xlib's own
+    on_exit(display_of_glfw(), end_without_display, nullptr);
+}
+
+} // namespace
+
+LastWork::LastWork(std::function<void()> work)
+    : work_(std::move(work))
+{
+    last_works().push_back(&work_);
+}
+
+LastWork::~LastWork() { last_works().pop_back(); }
+
 WindowSystem::WindowSystem()
 {
     const auto server = forget_dead_window_manager();
     if (!glfwInit())
         throw InputError("No window can be opened (" + glfw_says()
             + "): start a desktop session, or set DISPLAY, or use 'starbow render'");
+    watch_x_server();
 }
 
 WindowSystem::~WindowSystem() { glfwTerminate(); }
@@ -89,7 +183,7 @@ Window::Window(Device& device, const Output& output, const std::optional<WindowP
     glfwWindowHint(GLFW_DECORATED, !place);
     glfwWindowHint(GLFW_FLOATING, output.whole_monitor); // above the desktop's panels
     glfwWindowHint(GLFW_VISIBLE, !place); // a bare window appears only at its place
-    const glm::ivec2 size = place ? place->size : fit_to_screen(output.size);
+    const glm::ivec2 size = possible(place ? place->size : fit_to_screen(output.size));
     window_ = glfwCreateWindow(size.x, size.y, ("Starbow " + name_).c_str(), nullptr, nullptr);
     if (!window_)
         throw InputError("The window '" + name_ + "' can't be opened: " + glfw_says());
@@ -102,9 +196,9 @@ Window::Window(Device& device, const Output& output, const std::optional<WindowP
         put(*place);
     }
     size_ = size;
-    if (device.reports_presentation)
-        clock_ = std::make_unique<PresentClock>(device);
     try {
+        if (device.reports_presentation)
+            clock_ = std::make_unique<PresentClock>(device);
         make_surface();
     } catch (...) {
         surface_ = nullptr;
@@ -123,6 +217,7 @@ Window::Window(Window&& other) noexcept
     , size_(other.size_)
     , windowed_place_(other.windowed_place_)
     , windowed_size_(other.windowed_size_)
+    , refused_(other.refused_)
     , bare_(other.bare_)
     , stale_(other.stale_)
     , lost_(other.lost_)
@@ -130,6 +225,7 @@ Window::Window(Window&& other) noexcept
     , made_(other.made_)
     , images_(std::move(other.images_))
     , views_(std::move(other.views_))
+    , smaller_(std::move(other.smaller_))
     , acquired_(std::move(other.acquired_))
     , drawn_(std::move(other.drawn_))
     , image_(other.image_)
@@ -199,8 +295,8 @@ void Window::put(const WindowPlace& place)
     WindowPlace now;
     glfwGetWindowPos(window_, &now.corner.x, &now.corner.y);
     glfwGetWindowSize(window_, &now.size.x, &now.size.y);
-    if (now.size != place.size)
-        glfwSetWindowSize(window_, place.size.x, place.size.y);
+    if (const glm::ivec2 size = possible(place.size); now.size != size)
+        glfwSetWindowSize(window_, size.x, size.y);
     if (now.corner != place.corner)
         glfwSetWindowPos(window_, place.corner.x, place.corner.y);
 }
@@ -219,6 +315,11 @@ bool Window::make_swapchain()
             std::clamp(std::uint32_t(wanted.y), limits.minImageExtent.height, limits.maxImageExtent.height));
     if (extent.width == 0 || extent.height == 0)
         return false;
+    const glm::ivec2 size(extent.width, extent.height);
+    if (size != refused_ && possible(size) != size)
+        glfwSetWindowSize(window_, possible(size).x, possible(size).y);
+    if (size == refused_)
+        return false; // the window manager may insist on it
     std::uint32_t count = limits.minImageCount + 1;
     if (limits.maxImageCount > 0)
         count = std::min(count, limits.maxImageCount);
@@ -247,7 +348,9 @@ bool Window::make_swapchain()
     acquired_ = device_->device.createSemaphore({});
     name_object(*device_, acquired_, "outputs: acquired");
     made_ = Clock::now();
-    size_ = {extent.width, extent.height};
+    if (size_ != size)
+        smaller_ = nullptr;
+    size_ = size;
     stale_ = false;
     return true;
 }
@@ -278,10 +381,11 @@ bool Window::acquire()
     for (int attempt = 0; attempt < 2; ++attempt) {
         try {
             const vk::Result result = try_acquire();
-            late_ = result == vk::Result::eTimeout || result == vk::Result::eNotReady;
+            const bool none = result == vk::Result::eTimeout || result == vk::Result::eNotReady;
+            late_ = none && !stale_; // a window without a swapchain awaits no image
             if (result == vk::Result::eSuboptimalKHR)
                 presented(result);
-            return !late_;
+            return !none;
         } catch (const vk::OutOfDateKHRError&) {
             stale_ = true;
         } catch (const vk::SurfaceLostKHRError&) {
@@ -293,9 +397,43 @@ bool Window::acquire()
     return false;
 }
 
-Target Window::target() const
+/// A size within the device's limit: no swapchain has larger images. One that is cut is logged once.
+glm::ivec2 Window::possible(glm::ivec2 size)
+{
+    const auto most = int(device_->properties.limits.maxImageDimension2D);
+    const glm::ivec2 cut = within(size, most);
+    if (cut != size && std::exchange(refused_, size) != size)
+        log_warning("exhibit",
+            "the window of output '" + name_ + "' is to have " + text_of(size) + " pixels, more than the GPU's "
+                + std::to_string(most) + " on a side; it becomes " + text_of(cut));
+    return cut;
+}
+
+void Window::draw_smaller(Pipelines& pipelines, glm::ivec2 size)
+{
+    smaller_ = nullptr;
+    smaller_ = in_room([&] { return std::make_unique<ScaledPicture>(*device_, pipelines, size, format_); });
+}
+
+Target Window::window_target() const
 {
     return {images_[image_], *views_[image_], {std::uint32_t(size_.x), std::uint32_t(size_.y)}, format_};
+}
+
+Target Window::target() const { return smaller_ ? smaller_->target() : window_target(); }
+
+void Window::begin_picture(vk::CommandBuffer commands) const
+{
+    discard(commands, target());
+    if (smaller_)
+        discard(commands, window_target());
+}
+
+void Window::end_picture(vk::CommandBuffer commands) const
+{
+    if (smaller_)
+        smaller_->draw(commands, window_target());
+    hand_over(commands, window_target());
 }
 
 void Window::presented(vk::Result result)

@@ -2,6 +2,7 @@
 #include "present_clock.h"
 #include "runtime/operation/monitors.h"
 #include "runtime/render/frame_renderer.h"
+#include "runtime/render/scaled_picture.h"
 #include <chrono>
 
 struct GLFWwindow;
@@ -14,11 +15,29 @@ struct WindowSystem {
     ~WindowSystem();
     WindowSystem(const WindowSystem&) = delete;
 };
+/// Exit status of a program whose X server has ended. It logs that, does its LastWork, and ends at once, without
+/// destructors.
+constexpr int exit_no_display = 5;
+/// Work of a program that ends so, for as long as the object lives: the innermost first. Make it only on the thread that
+/// draws.
+class LastWork {
+public:
+    explicit LastWork(std::function<void()> work);
+    ~LastWork();
+    LastWork(const LastWork&) = delete;
+
+private:
+    std::function<void()> work_;
+};
+
 /// True if a window system answers. GLFW then runs from here on.
 bool has_display();
 
 /// Waits until the device has nothing to do, or is lost.
 void settle(Device& device) noexcept;
+
+/// A size in pixels for a message: "160x120".
+std::string text_of(glm::ivec2 size);
 
 /// One output of a layout on the screen.
 class Window {
@@ -40,10 +59,16 @@ public:
     /// window system holds the images longer than a tenth of a second. Makes the swapchain and the surface anew where
     /// necessary; size() is then the new size.
     bool acquire();
+    /// Draws a smaller picture from now on, until the window has another size. Throws InputError where the device has no
+    /// room even for that.
+    void draw_smaller(Pipelines& pipelines, glm::ivec2 size);
+    /// These two enclose the drawing of target() with its layout transitions. The second scales a smaller picture up.
+    void begin_picture(vk::CommandBuffer commands) const;
+    void end_picture(vk::CommandBuffer commands) const;
     bool held() const { return late_; } ///< the last acquire() timed out
     glm::ivec2 size() const { return size_; }
     Target target() const;
-    bool readable() const { return readable_; } ///< its pictures can be copied
+    bool readable() const { return readable_ && !smaller_; } ///< target() can be copied
     vk::Format format() const { return format_; } ///< undefined until there is a swapchain
     vk::Semaphore acquired() const { return *acquired_; }
     vk::Semaphore drawn() const { return *drawn_[image_]; }
@@ -56,7 +81,9 @@ private:
     using Clock = std::chrono::steady_clock;
     void let_go(); ///< releases the swapchain and the surface
     void make_surface();
+    Target window_target() const;
     bool make_swapchain();
+    glm::ivec2 possible(glm::ivec2 size);
     vk::Result try_acquire();
 
     Device* device_;
@@ -66,6 +93,7 @@ private:
     vk::raii::SwapchainKHR swapchain_ = nullptr;
     vk::Format format_ = vk::Format::eUndefined;
     glm::ivec2 size_{0}, windowed_place_{0}, windowed_size_{0};
+    glm::ivec2 refused_{0}; ///< the last size of the window that was beyond the device's limit
     bool bare_ = false;
     bool readable_ = false;
     bool stale_ = true; ///< the swapchain
@@ -74,6 +102,7 @@ private:
     Clock::time_point made_{}; ///< the swapchain
     std::vector<vk::Image> images_;
     std::vector<vk::raii::ImageView> views_;
+    std::unique_ptr<ScaledPicture> smaller_; ///< where the device has no room for a picture of the window's size
     vk::raii::Semaphore acquired_ = nullptr;
     std::vector<vk::raii::Semaphore> drawn_;
     std::uint32_t image_ = 0;

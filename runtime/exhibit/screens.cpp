@@ -143,6 +143,25 @@ bool Screens::acquire()
     return !acquired_.empty();
 }
 
+void Screens::draw_smaller(Pipelines& pipelines, std::size_t output, glm::ivec2 size)
+{
+    Window& window = *screens_[output].window;
+    window.draw_smaller(pipelines, size);
+    targets_[output] = window.target();
+}
+
+void Screens::begin_pictures(vk::CommandBuffer commands) const
+{
+    for (const Window* window : acquired_)
+        window->begin_picture(commands);
+}
+
+void Screens::end_pictures(vk::CommandBuffer commands) const
+{
+    for (const Window* window : acquired_)
+        window->end_picture(commands);
+}
+
 std::size_t Screens::held() const
 {
     return std::size_t(std::count_if(

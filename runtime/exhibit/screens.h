@@ -23,6 +23,11 @@ public:
     /// is minimised or changing. Returns false if there is no image at all.
     bool acquire();
     const std::vector<Target>& targets() const { return targets_; }
+    /// Gives an output's window a smaller picture, which is scaled up. Throws InputError, as Window's.
+    void draw_smaller(Pipelines& pipelines, std::size_t output, glm::ivec2 size);
+    /// These two enclose the drawing of all targets.
+    void begin_pictures(vk::CommandBuffer commands) const;
+    void end_pictures(vk::CommandBuffer commands) const;
     std::size_t shown() const { return acquired_.size(); } ///< windows with an image of this frame
     std::size_t held() const; ///< windows whose images the window system does not give back
     /// The first target whose picture can be copied to the processor; none where the window system allows that of none.

@@ -27,6 +27,8 @@ public:
     /// Ends the record or the replay of a flight that ended properly. say: receives lines for people. Returns false if a
     /// replay differed in any bit.
     bool end(const Flight& flight, const std::function<void(std::string)>& say);
+    /// Closes the record's file; its last entries are written.
+    void close() { recorder_.reset(); }
 
 private:
     std::unique_ptr<Recorder> recorder_;

@@ -41,7 +41,12 @@ Recorder::Recorder(const fs::path& file, const RecordHeader& header, std::functi
     ordinary_ = !there || S_ISREG(known.st_mode);
     stream_ = open_to_write(file_, O_EXCL, "the name of a new file, or a folder,");
     add(text_of(header));
-    writer_ = std::thread([this] { write(); });
+    try {
+        writer_ = std::thread([this] { write(); });
+    } catch (...) {
+        close(stream_);
+        throw;
+    }
 }
 
 Recorder::~Recorder()
@@ -85,9 +90,9 @@ void Recorder::keep(const RecordEntry& entry, const Flight& flight)
 
 void Recorder::end(const Flight& flight) { add(text_of(RecordCheck{flight.ticks, digest(flight), true})); }
 
-/// Writes the waiting entries every second, until the record ends.
-void Recorder::write()
-{
+/// Writes the waiting entries every second, until the record ends or there is no memory for it.
+void Recorder::write() noexcept
+try {
     for (std::unique_lock lock(mutex_);;) {
         changed_.wait_for(lock, std::chrono::seconds(1), [this] { return ended_; });
         const bool last = ended_;
@@ -100,6 +105,10 @@ void Recorder::write()
         if (last || failed_)
             return;
     }
+} catch (const std::bad_alloc&) {
+    const std::lock_guard lock(mutex_);
+    failed_ = true;
+    std::string().swap(waiting_);
 }
 
 void Recorder::write_out(const std::string& text)

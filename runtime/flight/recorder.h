@@ -29,7 +29,7 @@ public:
 
 private:
     void add(const std::string& text);
-    void write();
+    void write() noexcept;
     void write_out(const std::string& text);
 
     std::filesystem::path file_;

@@ -5,6 +5,7 @@
 #include "log.h"
 #include <algorithm>
 #include <chrono>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -96,10 +97,19 @@ Diary::Diary(std::filesystem::path state, std::filesystem::path textfile)
 
 Diary::~Diary()
 {
+    try {
+        close();
+    } catch (const std::bad_alloc&) { // the counts of the last minute are lost
+    }
+}
+
+void Diary::close()
+{
     if (hour_of_day_ < 0)
         return;
     add_hour();
     write(true);
+    hour_of_day_ = -1;
 }
 
 /// Adds the counts of the hour so far to the day that they belong to.

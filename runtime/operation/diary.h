@@ -29,7 +29,7 @@ class Diary {
 public:
     /// state: the state folder; empty: no file is written. textfile: receives the exposition for node_exporter; empty: none.
     explicit Diary(std::filesystem::path state, std::filesystem::path textfile = {});
-    ~Diary(); ///< writes what is left
+    ~Diary(); ///< closes it
     Diary(const Diary&) = delete;
 
     /// Calls `count` with each tally that a new event belongs to.
@@ -44,6 +44,8 @@ public:
     /// end, the day's file is written; every 15 seconds the text for node_exporter. Returns true when an exposition was
     /// made.
     bool turn(std::time_t now, const Gauges& gauges);
+    /// Writes what is left. The diary counts no more.
+    void close();
     /// The last exposition.
     const std::string& exposition() const { return exposition_; }
 

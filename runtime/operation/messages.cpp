@@ -10,6 +10,7 @@
 #include <poll.h>
 #include <pthread.h>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
 #include <utility>
@@ -44,12 +45,20 @@ public:
         sigset_t all, before;
         sigfillset(&all);
         pthread_sigmask(SIG_SETMASK, &all, &before);
-        std::thread([this] { write(); }).detach();
+        try {
+            std::thread([this] { write(); }).detach();
+        } catch (const std::system_error&) {
+            alone_ = true;
+        }
         pthread_sigmask(SIG_SETMASK, &before, nullptr);
     }
 
     void send(std::string text)
     {
+        if (alone_) {
+            write_text(descriptor_, text);
+            return;
+        }
         {
             const std::lock_guard lock(mutex_);
             if (waiting_.size() + text.size() > most_waiting_messages)
@@ -86,6 +95,7 @@ private:
     }
 
     const int descriptor_;
+    bool alone_ = false; ///< the system has no thread for this stream: the callers write
     std::mutex mutex_;
     std::condition_variable changed_;
     std::string waiting_;

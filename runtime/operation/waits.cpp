@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <cstdio>
 #include <mutex>
+#include <new>
 #include <thread>
 #include <unistd.h>
 #include <vector>
@@ -32,24 +33,30 @@ OpenWaits& open_waits()
 
 } // namespace
 
-LimitedWait::LimitedWait(std::string what)
-    : what_(std::move(what))
+LimitedWait::LimitedWait(std::string_view what) noexcept
 {
     OpenWaits& now = open_waits();
     const std::lock_guard lock(now.mutex);
     long_ = !now.waits.empty() && now.waits.back()->long_;
     limit_s_ = now.limit_s * (long_ ? 4 : 1);
-    now.waits.push_back(this);
+    begin(what);
 }
 
-LimitedWait::LimitedWait(std::string what, double limit_s)
-    : what_(std::move(what))
-    , limit_s_(limit_s)
+LimitedWait::LimitedWait(std::string_view what, double limit_s) noexcept
+    : limit_s_(limit_s)
     , long_(true)
 {
-    OpenWaits& now = open_waits();
-    const std::lock_guard lock(now.mutex);
-    now.waits.push_back(this);
+    const std::lock_guard lock(open_waits().mutex);
+    begin(what);
+}
+
+void LimitedWait::begin(std::string_view what)
+{
+    try {
+        what_ = what;
+        open_waits().waits.push_back(this);
+    } catch (const std::bad_alloc&) { // nobody watches this wait then; it may be a destructor's
+    }
 }
 
 LimitedWait::~LimitedWait()

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace starbow {
 
@@ -12,9 +13,9 @@ constexpr int exit_hung = 4;
 class LimitedWait {
 public:
     /// what: names the wait in the log: "the end of the frame's drawing (fence)".
-    explicit LimitedWait(std::string what);
+    explicit LimitedWait(std::string_view what) noexcept;
     /// Work that takes longer than a frame, as loading. Waits inside it may take four times as long as others.
-    LimitedWait(std::string what, double limit_s);
+    LimitedWait(std::string_view what, double limit_s) noexcept;
     ~LimitedWait();
     LimitedWait(const LimitedWait&) = delete;
 
@@ -24,6 +25,7 @@ public:
 
 private:
     friend class WaitWatch;
+    void begin(std::string_view what);
     std::string what_;
     double limit_s_;
     double waited_s_ = 0;

@@ -305,12 +305,13 @@ void Device::end_rendering(vk::CommandBuffer commands) const
 
 void Device::save_pipelines() const
 {
-    const std::filesystem::path file = pipeline_file(properties);
-    if (file.empty())
-        return;
     try {
+        const std::filesystem::path file = pipeline_file(properties);
+        if (file.empty())
+            return;
         const std::vector<std::uint8_t> data = cache.getData(); // a lost device may refuse
         write_own(file, {data});
+    } catch (const std::bad_alloc&) { // no message either
     } catch (const std::exception& failed) {
         log_debug("pipelines", failed.what());
     }

@@ -99,17 +99,17 @@ template <class Undo> void FrameRenderer::apply_layout_or(bool rejects_empty, co
 {
     std::optional<LayoutParts> parts;
     try {
-        parts = views_.parts(rejects_empty);
+        parts = in_room([&] { return views_.parts(rejects_empty); });
     } catch (...) {
         undo();
         throw;
     }
     try {
-        apply_layout(std::move(*parts));
+        in_room([&] { apply_layout(std::move(*parts)); });
     } catch (...) {
         undo();
         try {
-            apply_layout(views_.parts(false));
+            in_room([&] { apply_layout(views_.parts(false)); });
         } catch (const InputError& error) {
             throw vk::OutOfDeviceMemoryError(error.what());
         }

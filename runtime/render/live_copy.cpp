@@ -4,6 +4,9 @@
 namespace starbow {
 namespace {
 
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+
 bool is_blue_first(vk::Format format) { return format == vk::Format::eB8G8R8A8Srgb || format == vk::Format::eB8G8R8A8Unorm; }
 
 } // namespace
@@ -26,10 +29,17 @@ void LiveCopy::record(vk::CommandBuffer commands, const Target& target)
     for (std::uint32_t row = 0; row < rows; ++row)
         regions.push_back({row * row_bytes, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
             {0, std::int32_t(row * step_ + step_ / 2), 0}, {extent_.width, 1, 1}});
+    constexpr auto drawn = vk::ImageLayout::eColorAttachmentOptimal, copied = vk::ImageLayout::eTransferSrcOptimal;
+    vk::ImageMemoryBarrier2 barrier(Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eTransfer,
+        Access::eTransferRead, drawn, copied, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, target.image,
+        {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
+    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
     commands.copyImageToBuffer(target.image, vk::ImageLayout::eTransferSrcOptimal, *rows_.buffer, regions);
-    vk::MemoryBarrier2 to_host(vk::PipelineStageFlagBits2::eTransfer, vk::AccessFlagBits2::eTransferWrite,
-        vk::PipelineStageFlagBits2::eHost, vk::AccessFlagBits2::eHostRead);
-    commands.pipelineBarrier2(vk::DependencyInfo({}, to_host));
+    std::swap(barrier.oldLayout, barrier.newLayout);
+    barrier.srcStageMask = Stage::eTransfer, barrier.srcAccessMask = {};
+    barrier.dstStageMask = Stage::eColorAttachmentOutput, barrier.dstAccessMask = Access::eColorAttachmentWrite;
+    vk::MemoryBarrier2 to_host(Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
+    commands.pipelineBarrier2(vk::DependencyInfo({}, to_host, {}, barrier));
 }
 
 glm::ivec2 LiveCopy::take(std::vector<std::uint8_t>& rgb)

@@ -13,7 +13,7 @@ public:
         : device_(device)
     {
     }
-    /// Copies rows of a target of four bytes a pixel, whose image is in eTransferSrcOptimal and was made for transfers.
+    /// Copies rows of a finished target of a live format, whose image was made for transfers; it stays a target.
     void record(vk::CommandBuffer commands, const Target& target);
     /// The copy, three bytes a pixel, sRGB, from the top. The device must have finished the commands. Returns its size;
     /// 0 where nothing was recorded since the last call.

@@ -8,9 +8,8 @@ using Access = vk::AccessFlagBits2;
 
 MipChain::MipChain(Device& device, Pipelines& pipelines, const Image& image)
     : device_(device)
+    , pipelines_(pipelines)
     , image_(image)
-    , pipeline_(pipelines.mip(image.format))
-    , layout_(*pipelines.layouts.picture_layout)
 {
     sampler_ = device.device.createSampler({{}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eNearest,
         vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge});
@@ -56,8 +55,9 @@ void MipChain::begin(vk::CommandBuffer commands, std::uint32_t level) const
         vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eStore);
     const vk::Extent2D extent(std::max(image_.extent.width >> level, 1u), std::max(image_.extent.height >> level, 1u));
     device_.begin_rendering(commands, {{}, {{0, 0}, extent}, 1, 0, colour});
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline_);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout_, 0, *sets_[level - 1], {});
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.mip(image_.format));
+    commands.bindDescriptorSets(
+        vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.picture_layout, 0, *sets_[level - 1], {});
 }
 
 void MipChain::halve(vk::CommandBuffer commands, glm::ivec2 corner, glm::ivec2 size) const

@@ -24,9 +24,8 @@ private:
     void barrier(vk::CommandBuffer commands, vk::ImageLayout from, vk::ImageLayout to) const;
 
     Device& device_;
+    Pipelines& pipelines_;
     const Image& image_;
-    vk::Pipeline pipeline_;
-    vk::PipelineLayout layout_;
     vk::raii::Sampler sampler_ = nullptr;
     vk::raii::DescriptorPool pool_ = nullptr;
     std::vector<vk::raii::ImageView> views_; ///< a level each

@@ -17,6 +17,7 @@
 #include "spirv/overlay_frag.h"
 #include "spirv/pattern_frag.h"
 #include "spirv/probe_frag.h"
+#include "spirv/scaled_frag.h"
 #include "spirv/screen_vert.h"
 #include "spirv/sky_frag.h"
 #include "spirv/sky_vert.h"
@@ -24,6 +25,7 @@
 #include "spirv/star_meter_frag.h"
 #include "spirv/star_vert.h"
 #include "spirv/warp_frag.h"
+#include <algorithm>
 #include <cstddef>
 
 namespace starbow {
@@ -64,9 +66,24 @@ vk::Pipeline Pipelines::find_or_make(const Pass& pass)
 {
     const Key key(pass.name, pass.constants, pass.target);
     auto at = made_.find(key);
-    if (at == made_.end())
-        at = made_.emplace(key, make(pass)).first;
-    return *at->second;
+    if (at == made_.end()) {
+        at = made_.emplace(key, Made{make(pass), turn_}).first;
+        ++count_;
+    }
+    at->second.used = turn_;
+    return *at->second.pipeline;
+}
+
+void Pipelines::release_old(std::size_t most)
+{
+    while (made_.size() > most) {
+        const auto oldest = std::min_element(
+            made_.begin(), made_.end(), [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
+        if (oldest->second.used == turn_)
+            break;
+        made_.erase(oldest);
+    }
+    ++turn_;
 }
 
 vk::raii::Pipeline Pipelines::make(const Pass& pass) const
@@ -281,6 +298,15 @@ vk::Pipeline Pipelines::lookup(vk::Format target)
         .layout = *layouts.picture_layout,
         .target = {{target}},
         .constants = {false}});
+}
+
+vk::Pipeline Pipelines::scaled(vk::Format target)
+{
+    return find_or_make({.name = "scaled pipeline",
+        .vertex = screen_vert,
+        .fragment = scaled_frag,
+        .layout = *layouts.picture_layout,
+        .target = {{target}}});
 }
 
 vk::Pipeline Pipelines::layer(bool plain)

@@ -125,7 +125,13 @@ struct SpecializationConstants {
     auto operator<=>(const SpecializationConstants&) const = default;
 };
 
-/// Every pipeline of the program, each made at its first use.
+/// Pipelines that stay although no frame uses them. On lavapipe one takes 3 MB, and 0.1 s to make again from the driver's
+/// cache; a flight uses about ten at a time, a visit with all switches a hundred. On a GPU they are small, and the warm-up
+/// makes some hundreds.
+constexpr std::size_t most_pipelines_in_software = 64, most_pipelines = 1024;
+
+/// Every pipeline of the program, each made at its first use. The caller of a pipeline records it at once and does not keep
+/// it: see release_old.
 class Pipelines {
 public:
     explicit Pipelines(Device& device);
@@ -146,6 +152,7 @@ public:
     /// scale: with the colours of a scale beside its letters.
     vk::Pipeline hud(bool map, vk::Format target, bool scale = false);
     vk::Pipeline lookup(vk::Format target);
+    vk::Pipeline scaled(vk::Format target); ///< ScaledPicture's
     /// plain: by the viewports' parts alone.
     vk::Pipeline layer(bool plain);
     vk::Pipeline finish(const FinishVariant& variant, vk::Format target);
@@ -153,7 +160,11 @@ public:
     vk::Pipeline pattern(bool map, int pattern, vk::Format target);
 
     /// The number of pipelines made so far. It grows when a recorded pass needs a new one.
-    std::size_t count() const { return made_.size(); }
+    std::size_t count() const { return count_; }
+    std::size_t kept() const { return made_.size(); }
+    /// Releases the pipelines beyond `most` that were not used for longest, none of those that were used since the last
+    /// call. Call it once a frame, when the device has finished all that was recorded.
+    void release_old(std::size_t most);
 
     const PipelineLayouts layouts;
 
@@ -165,7 +176,13 @@ private:
     /// A pipeline's shaders by their name, its specialization constants and its targets tell it from all others.
     using Key = std::tuple<std::string_view, SpecializationConstants, TargetKind>;
     Device& device_;
-    std::map<Key, vk::raii::Pipeline> made_;
+    struct Made {
+        vk::raii::Pipeline pipeline;
+        std::uint64_t used; ///< turn of the last use
+    };
+    std::map<Key, Made> made_;
+    std::size_t count_ = 0;
+    std::uint64_t turn_ = 0; ///< calls of release_old
 };
 
 } // namespace starbow

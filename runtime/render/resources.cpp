@@ -43,7 +43,9 @@ vk::raii::DeviceMemory bind(
         vk::raii::DeviceMemory memory = device.device.allocateMemory({needs.size, type});
         resource.bindMemory(*memory, 0);
         return memory;
-    } catch (const vk::SystemError&) {
+    } catch (const vk::SystemError& error) {
+        if (!lacks_memory(error))
+            throw;
         throw NoRoom("The GPU has no " + std::to_string(needs.size >> 20)
             + " MiB in one piece: use smaller outputs, a smaller world, or a GPU with more memory");
     }
@@ -65,6 +67,21 @@ Buffer make_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFla
 }
 
 } // namespace
+
+bool lacks_memory(const vk::SystemError& error)
+{
+    switch (vk::Result(error.code().value())) {
+    case vk::Result::eErrorOutOfHostMemory:
+    case vk::Result::eErrorOutOfDeviceMemory:
+    case vk::Result::eErrorOutOfPoolMemory:
+    case vk::Result::eErrorFragmentedPool:
+    case vk::Result::eErrorMemoryMapFailed:
+    case vk::Result::eErrorTooManyObjects:
+        return true;
+    default:
+        return false;
+    }
+}
 
 Buffer make_mapped_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage)
 {

@@ -3,6 +3,7 @@
 #include "memory_arena.h"
 #include <functional>
 #include <glm/glm.hpp>
+#include <new>
 #include <span>
 
 namespace starbow {
@@ -11,6 +12,22 @@ namespace starbow {
 struct NoRoom : InputError {
     using InputError::InputError;
 };
+/// True if the driver has failed for want of memory or of room in its tables.
+bool lacks_memory(const vk::SystemError& error);
+
+/// Calls `make`, which makes objects on the device. A lack of memory, the device's or the processor's, is thrown as NoRoom.
+template <class Make> auto in_room(Make&& make)
+{
+    try {
+        return make();
+    } catch (const vk::SystemError& error) {
+        if (!lacks_memory(error))
+            throw;
+        throw NoRoom(std::string("The GPU's memory is used up (") + error.what() + ")");
+    } catch (const std::bad_alloc&) {
+        throw NoRoom("The memory is used up");
+    }
+}
 
 struct Buffer {
     vk::raii::DeviceMemory memory = nullptr;

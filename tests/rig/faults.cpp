@@ -1,10 +1,11 @@
 // A Vulkan layer for tests: it makes chosen calls fail as drivers do. They go on failing until the program makes the failed
 // object anew.
 //
-// STARBOW_FAULTS=CALL:NTH:RESULT[,...]
+// STARBOW_FAULTS=CALL[@WHEN]:NTH:RESULT[,...]
 //   CALL    acquire, present (both counted for each picture), swapchain (its creation), submit, fence (a wait for fences
-//           after the first presentation), idle (a wait for the device), or resize (an allocation of memory after a
-//           swapchain has replaced another)
+//           after the first presentation), idle (a wait for the device), resize (an allocation of memory after a
+//           swapchain has replaced another), or a function of the lists below by its own name: vkCreateBuffer
+//   WHEN    calls count only once so many pictures are presented, or, with `lost`, once a device is lost
 //   NTH     the call that fails first, counted from 1
 //   RESULT  OUT_OF_DATE   the swapchain fails until it is made anew
 //           SURFACE_LOST  the surface fails until it is made anew
@@ -14,23 +15,31 @@
 //           FROZEN        the swapchain's next 100 acquires time out
 //           HANG          this and all later calls of its kind time out; fence and acquire alone
 //           BLOCK         this call never returns; fence, present and idle alone
+//           A function by its own name fails once, with any error of Vulkan called without its VK_ERROR_. DEVICE_LOST
+//           lasts there, too.
 // When a swapchain is destroyed, the layer prints on stderr how many pictures it has shown.
 // STARBOW_LARGEST_KIB=N: a piece of memory of more than N KiB has no room on the device.
+// STARBOW_COUNT_CALLS=1: at the end the layer prints on stderr how often each function of the lists was called before and
+// after the first presentation.
 // STARBOW_SHOWN_LATE_MS=MS: the layer provides VK_KHR_present_wait. Each swapchain shows its pictures MS later than the
 // swapchain made before it.
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <dlfcn.h>
 #include <map>
 #include <mutex>
 #include <set>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <tuple>
 #include <unistd.h>
 #include <vector>
+#define VK_USE_PLATFORM_XCB_KHR
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 
@@ -46,7 +55,8 @@ VkInstance last_instance;
 PFN_vkEnumerateDeviceExtensionProperties next_enumerate;
 PFN_vkGetPhysicalDeviceFeatures2 next_features;
 PFN_vkDestroySurfaceKHR next_destroy_surface;
-std::map<std::string, int> counts;
+int presented = 0, losses = 0; // pictures; devices
+std::map<std::string, std::pair<int, int>> calls; // before and after the first presentation
 std::map<VkSwapchainKHR, VkSurfaceKHR> surfaces;
 std::map<VkSwapchainKHR, int> order, frozen, shown;
 std::set<VkSwapchainKHR> out_of_date;
@@ -68,22 +78,54 @@ double late_ms()
     return text ? std::atof(text) : -1;
 }
 
+struct Fault {
+    std::string text, call, when, result;
+    int left = 0; ///< calls until it happens
+};
+
+std::string cut(std::string& rest, char at)
+{
+    const std::string part = rest.substr(0, rest.find(at));
+    rest.erase(0, part.size() + 1);
+    return part;
+}
+
+std::vector<Fault> requested()
+{
+    const char* text = std::getenv("STARBOW_FAULTS");
+    std::vector<Fault> all;
+    for (std::string rest = text ? text : ""; !rest.empty();) {
+        Fault one;
+        one.text = cut(rest, ',');
+        std::string parts = one.text;
+        one.when = cut(parts, ':');
+        one.call = cut(one.when, '@');
+        one.left = std::stoi(cut(parts, ':'));
+        one.result = parts;
+        all.push_back(one);
+    }
+    return all;
+}
+
 /// Counts a call. Returns the fault that shall happen to it, or "".
 std::string fault(const std::string& call)
 {
-    const int n = ++counts[call];
-    const char* text = std::getenv("STARBOW_FAULTS");
-    std::string rest = text ? text : "";
-    while (!rest.empty()) {
-        const std::string one = rest.substr(0, rest.find(','));
-        rest.erase(0, one.size() + 1);
-        const std::string start = call + ":" + std::to_string(n) + ":";
-        if (one.starts_with(start)) {
-            std::fprintf(stderr, "fault: %s\n", one.c_str());
-            return one.substr(start.size());
+    static std::vector<Fault>& faults = *new std::vector(requested());
+    std::string result;
+    for (Fault& one : faults) {
+        const bool counts = one.when.empty() ? true : one.when == "lost" ? losses > 0 : presented >= std::stoi(one.when);
+        if (one.call == call && counts && --one.left == 0) {
+            std::fprintf(stderr, "fault: %s\n", one.text.c_str());
+            result = one.result;
         }
     }
-    return {};
+    return result;
+}
+
+void lose(void* device_key)
+{
+    ++losses;
+    lost_devices.insert(device_key);
 }
 
 [[noreturn]] void block()
@@ -96,7 +138,7 @@ std::string fault(const std::string& call)
 VkResult state(const void* device_or_queue, VkSwapchainKHR swapchain, const std::string& now)
 {
     if (now == "DEVICE_LOST")
-        lost_devices.insert(key(device_or_queue));
+        lose(key(device_or_queue));
     if (now == "SURFACE_LOST")
         lost.insert(surfaces[swapchain]);
     if (now == "OUT_OF_DATE")
@@ -138,10 +180,15 @@ VKAPI_ATTR VkResult VKAPI_CALL acquire(
 
 VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* info)
 {
+    static auto* const pictures = static_cast<std::atomic<int>*>(dlsym(RTLD_DEFAULT, "starbow_pictures")); // no_memory.cpp's
     std::vector<std::string> faults(info->swapchainCount);
     for (uint32_t i = 0; i < info->swapchainCount; ++i) {
         std::unique_lock lock(mutex);
         faults[i] = fault("present");
+        if (++presented == 10)
+            std::fprintf(stderr, "fault: 10 pictures\n");
+        if (pictures)
+            *pictures = presented;
         lock.unlock();
         if (faults[i] == "BLOCK")
             block();
@@ -173,7 +220,7 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSub
         if (now == "OUT_OF_MEMORY")
             return VK_ERROR_OUT_OF_DEVICE_MEMORY;
         if (now == "DEVICE_LOST")
-            lost_devices.insert(key(queue));
+            lose(key(queue));
         if (lost_devices.count(key(queue)))
             return VK_ERROR_DEVICE_LOST;
     }
@@ -185,7 +232,7 @@ VKAPI_ATTR VkResult VKAPI_CALL wait_for_fences(
 {
     {
         std::unique_lock lock(mutex);
-        const std::string now = counts["present"] > 0 ? fault("fence") : "";
+        const std::string now = presented > 0 ? fault("fence") : "";
         fences_hang |= now == "HANG";
         if (lost_devices.count(key(device)))
             return VK_ERROR_DEVICE_LOST;
@@ -334,6 +381,147 @@ VKAPI_ATTR void VKAPI_CALL get_features(VkPhysicalDevice physical, VkPhysicalDev
     }
 }
 
+const std::map<std::string_view, VkResult> errors = {
+#define ERROR(name)                                                                                                         \
+    {                                                                                                                       \
+#name, VK_ERROR_##name                                                                                              \
+    }
+    ERROR(OUT_OF_HOST_MEMORY),
+    ERROR(OUT_OF_DEVICE_MEMORY),
+    ERROR(INITIALIZATION_FAILED),
+    ERROR(DEVICE_LOST),
+    ERROR(MEMORY_MAP_FAILED),
+    ERROR(LAYER_NOT_PRESENT),
+    ERROR(EXTENSION_NOT_PRESENT),
+    ERROR(FEATURE_NOT_PRESENT),
+    ERROR(INCOMPATIBLE_DRIVER),
+    ERROR(TOO_MANY_OBJECTS),
+    ERROR(FRAGMENTED_POOL),
+    ERROR(OUT_OF_POOL_MEMORY),
+    ERROR(SURFACE_LOST_KHR),
+    ERROR(OUT_OF_DATE_KHR),
+    ERROR(NATIVE_WINDOW_IN_USE_KHR),
+#undef ERROR
+};
+
+/// Counts a call by its own name. Returns the error that it shall return, or VK_SUCCESS. handle: any of the device's.
+VkResult failure(const char* name, const void* handle)
+{
+    const std::lock_guard lock(mutex);
+    auto& [before, after] = calls[name];
+    ++(presented > 0 ? after : before);
+    const std::string now = fault(name);
+    if (now.empty())
+        return VK_SUCCESS;
+    if (!errors.count(now)) {
+        std::fprintf(stderr, "fault: %s is no error of Vulkan here\n", now.c_str());
+        std::abort();
+    }
+    if (now == "DEVICE_LOST" && handle)
+        lose(key(handle));
+    return errors.at(now);
+}
+
+struct Listed {
+    ~Listed()
+    {
+        if (!std::getenv("STARBOW_COUNT_CALLS"))
+            return;
+        for (const auto& [name, times] : calls)
+            std::fprintf(stderr, "call: %s %d %d\n", name.c_str(), times.first, times.second);
+    }
+} listed;
+
+/// A function's name as a template's argument.
+template <std::size_t size> struct Name {
+    char text[size];
+    constexpr Name(const char (&name)[size]) { std::copy_n(name, size, text); }
+};
+
+/// Any function of a device, one of its queues or command buffers.
+template <Name name, class Function> struct OfDevice;
+template <Name name, class Handle, class... Rest> struct OfDevice<name, VkResult (*)(Handle, Rest...)> {
+    static VKAPI_ATTR VkResult VKAPI_CALL call(Handle handle, Rest... rest)
+    {
+        if (const VkResult error = failure(name.text, handle); error != VK_SUCCESS)
+            return error;
+        VkResult (*below)(Handle, Rest...);
+        {
+            const std::lock_guard lock(mutex);
+            below = next<VkResult (*)(Handle, Rest...)>(handle, name.text);
+        }
+        return below(handle, rest...);
+    }
+};
+
+std::map<std::string_view, PFN_vkVoidFunction> next_of_instance; // of the last one, as next_enumerate
+
+/// Any function of the instance, or of a device before it is opened.
+template <Name name, class Function> struct OfInstance;
+template <Name name, class Handle, class... Rest> struct OfInstance<name, VkResult (*)(Handle, Rest...)> {
+    static VKAPI_ATTR VkResult VKAPI_CALL call(Handle handle, Rest... rest)
+    {
+        if (const VkResult error = failure(name.text, nullptr); error != VK_SUCCESS)
+            return error;
+        return reinterpret_cast<VkResult (*)(Handle, Rest...)>(next_of_instance[name.text])(handle, rest...);
+    }
+};
+
+/// A function that this layer has of its own.
+template <Name name, auto function> struct Own;
+template <Name name, class... Arguments, VkResult (*function)(Arguments...)> struct Own<name, function> {
+    static VKAPI_ATTR VkResult VKAPI_CALL call(Arguments... arguments)
+    {
+        const VkResult error = failure(name.text, std::get<0>(std::tie(arguments...)));
+        return error == VK_SUCCESS ? function(arguments...) : error;
+    }
+};
+
+#define OF_DEVICE(name)                                                                                                     \
+    {                                                                                                                       \
+#name, reinterpret_cast < PFN_vkVoidFunction>(OfDevice <#name, PFN_##name>::call)                                   \
+    }
+#define OF_INSTANCE(name)                                                                                                   \
+    {                                                                                                                       \
+#name, reinterpret_cast < PFN_vkVoidFunction>(OfInstance <#name, PFN_##name>::call)                                 \
+    }
+const std::map<std::string_view, PFN_vkVoidFunction> of_device = {
+    OF_DEVICE(vkAllocateCommandBuffers),
+    OF_DEVICE(vkAllocateDescriptorSets),
+    OF_DEVICE(vkBeginCommandBuffer),
+    OF_DEVICE(vkBindBufferMemory),
+    OF_DEVICE(vkBindImageMemory),
+    OF_DEVICE(vkCreateBuffer),
+    OF_DEVICE(vkCreateBufferView),
+    OF_DEVICE(vkCreateCommandPool),
+    OF_DEVICE(vkCreateDescriptorPool),
+    OF_DEVICE(vkCreateDescriptorSetLayout),
+    OF_DEVICE(vkCreateFence),
+    OF_DEVICE(vkCreateGraphicsPipelines),
+    OF_DEVICE(vkCreateImage),
+    OF_DEVICE(vkCreateImageView),
+    OF_DEVICE(vkCreatePipelineCache),
+    OF_DEVICE(vkCreatePipelineLayout),
+    OF_DEVICE(vkCreateQueryPool),
+    OF_DEVICE(vkCreateSampler),
+    OF_DEVICE(vkCreateSemaphore),
+    OF_DEVICE(vkCreateShaderModule),
+    OF_DEVICE(vkEndCommandBuffer),
+    OF_DEVICE(vkGetPipelineCacheData),
+    OF_DEVICE(vkGetQueryPoolResults),
+    OF_DEVICE(vkGetSwapchainImagesKHR),
+    OF_DEVICE(vkMapMemory),
+    OF_DEVICE(vkResetCommandBuffer),
+    OF_DEVICE(vkResetFences),
+};
+const std::map<std::string_view, PFN_vkVoidFunction> of_instance = {
+    OF_INSTANCE(vkCreateXcbSurfaceKHR),
+    OF_INSTANCE(vkEnumeratePhysicalDevices),
+    OF_INSTANCE(vkGetPhysicalDeviceSurfaceCapabilitiesKHR),
+    OF_INSTANCE(vkGetPhysicalDeviceSurfaceFormatsKHR),
+    OF_INSTANCE(vkGetPhysicalDeviceSurfaceSupportKHR),
+};
+
 /// The link to the next layer. Each layer moves it on for the next one.
 template <class Link> Link* link_of(const void* chain, VkStructureType type)
 {
@@ -359,6 +547,8 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(
             calls(*made, "vkEnumerateDeviceExtensionProperties"));
         next_features = reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(calls(*made, "vkGetPhysicalDeviceFeatures2"));
         next_destroy_surface = reinterpret_cast<PFN_vkDestroySurfaceKHR>(calls(*made, "vkDestroySurfaceKHR"));
+        for (const auto& [name, own] : of_instance)
+            next_of_instance[name] = calls(*made, name.data());
     }
     return result;
 }
@@ -421,26 +611,30 @@ PFN_vkVoidFunction layer_function(std::string_view name)
 #define FUNCTION(name, function) {name, reinterpret_cast<PFN_vkVoidFunction>(function)}
         FUNCTION("vkGetInstanceProcAddr", get_instance_proc),
         FUNCTION("vkGetDeviceProcAddr", get_device_proc),
-        FUNCTION("vkCreateInstance", create_instance),
-        FUNCTION("vkCreateDevice", create_device),
         FUNCTION("vkDestroyDevice", destroy_device),
         FUNCTION("vkDestroySurfaceKHR", destroy_surface),
-        FUNCTION("vkEnumerateDeviceExtensionProperties", enumerate_extensions),
         FUNCTION("vkGetPhysicalDeviceFeatures2", get_features),
-        FUNCTION("vkAllocateMemory", allocate_memory),
-        FUNCTION("vkCreateSwapchainKHR", create_swapchain),
         FUNCTION("vkDestroySwapchainKHR", destroy_swapchain),
-        FUNCTION("vkAcquireNextImageKHR", acquire),
-        FUNCTION("vkQueuePresentKHR", present),
-        FUNCTION("vkQueueSubmit2", submit),
-        FUNCTION("vkWaitForFences", wait_for_fences),
-        FUNCTION("vkDeviceWaitIdle", wait_idle),
 #undef FUNCTION
+#define OWN(name, function) {#name, reinterpret_cast<PFN_vkVoidFunction>(Own<#name, function>::call)}
+        OWN(vkCreateInstance, create_instance),
+        OWN(vkCreateDevice, create_device),
+        OWN(vkEnumerateDeviceExtensionProperties, enumerate_extensions),
+        OWN(vkAllocateMemory, allocate_memory),
+        OWN(vkCreateSwapchainKHR, create_swapchain),
+        OWN(vkAcquireNextImageKHR, acquire),
+        OWN(vkQueuePresentKHR, present),
+        OWN(vkQueueSubmit2, submit),
+        OWN(vkWaitForFences, wait_for_fences),
+        OWN(vkDeviceWaitIdle, wait_idle),
+#undef OWN
     };
     if (name == "vkWaitForPresentKHR" && late_ms() >= 0)
         return reinterpret_cast<PFN_vkVoidFunction>(wait_for_present);
-    const auto found = functions.find(name);
-    return found == functions.end() ? nullptr : found->second;
+    for (const auto* list : {&functions, &of_device, &of_instance})
+        if (const auto found = list->find(name); found != list->end())
+            return found->second;
+    return nullptr;
 }
 
 } // namespace

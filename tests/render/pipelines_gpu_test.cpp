@@ -1,0 +1,54 @@
+// Pipelines that no frame uses are released beyond a bound, and the device gives their memory back.
+#include "tests/support/small_world.h"
+#include <fstream>
+#include <unistd.h>
+
+namespace starbow::gpu_test::pipelines_gpu_test {
+namespace {
+
+/// The memory of this process that is in use, bytes.
+double resident()
+{
+    long all = 0, pages = 0;
+    std::ifstream("/proc/self/statm") >> all >> pages;
+    return double(pages) * double(sysconf(_SC_PAGESIZE));
+}
+
+/// A visitor's effects, one after another, again and again, as a loop of frames draws them. The device has no validation
+/// layers, because they have a memory of their own.
+TEST(Pipelines, StayWithinTheirBoundAndSoDoesTheMemory)
+{
+    Device quiet({.name = device_options(false).name});
+    Pipelines own(quiet);
+    Doc doc;
+    quad(doc, {0, 0, -10}, {3, 0, 0}, {0, 3, 0}, unlit(doc, {0.5, 0.5, 0.5}));
+    testing::write_text("grey.gltf", doc.text());
+    const SceneFile file = load_scene_file(
+        testing::write_text("grey.json", Json{{"gltf", "grey.gltf"}, {"unit_m", 1}, {"sky", smooth_sky}}.dump()));
+    const GpuWorld world = upload(quiet, own, load_world(file.gltf), file, {});
+    OffscreenRenderer renderer(quiet, own, world, one_view(Planar{60}, {32, 24}), default_quality(quiet, false), false);
+    Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
+    constexpr std::size_t most = 6;
+    const auto fly_round = [&] {
+        for (int off = 0; off < 8; ++off) {
+            shot.effects = {.aberration = !(off & 1), .doppler = !(off & 2), .headlight = !(off & 4)};
+            own.release_old(most);
+            renderer.picture(shot);
+            EXPECT_LE(own.kept(), most + 3) << "before the next turn the frame's new ones come on top";
+        }
+    };
+    fly_round();
+    fly_round();
+    const std::size_t made = own.count();
+    const double settled = resident();
+    for (int round = 0; round < 3; ++round)
+        fly_round();
+    // A frame uses the pipelines of the cube map and of the view; the view's are the effects'.
+    EXPECT_GE(own.count(), made + 3 * 6) << "the effects need more pipelines than are kept";
+    std::printf("%zu pipelines made, %zu kept; memory %.1f MB, then %.1f MB\n", own.count(), own.kept(), settled / 1e6,
+        resident() / 1e6);
+    EXPECT_LT(resident(), 1.01 * settled);
+}
+
+} // namespace
+} // namespace starbow::gpu_test::pipelines_gpu_test
