@@ -212,7 +212,8 @@ function command(element, name, value) {
     }
     element.setAttribute("aria-busy", "true");
     element.dataset.sent = "1";
-    waiting.set(id, { element, text: element.dataset.word ? word(element.dataset.word) : element.labels[0].textContent });
+    const choice = element.dataset.choose && find(element.dataset.choose).selectedOptions[0];
+    waiting.set(id, { element, text: choice ? choice.text : (element.labels && element.labels[0] || element).textContent });
 }
 
 function answered({ id, applied, refused }) {

@@ -184,6 +184,7 @@ async function testCommands(browser) {
     await page.selectOption("#tour", "rainbow");
     await page.click('[data-choose="tour"]');
     await shows("tour", "Rainbow, step 1 of 12");
+    await page.waitForFunction(() => document.getElementById("said").textContent === "Rainbow: done");
     await page.click('[data-do="next"]');
     await shows("tour", "step 2");
     await page.click('[data-switch="pause"]');
