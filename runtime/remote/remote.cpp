@@ -1,7 +1,6 @@
 #include "remote.h"
 #include "config/model/shipped.h"
 #include "exchange.h"
-#include "runtime/operation/log.h"
 #include "server.h"
 #include <csignal>
 #include <sys/resource.h>
@@ -50,8 +49,6 @@ Remote::Remote(RemoteOptions options)
         parts_->server.serve();
     });
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
-    log_info(
-        "remote", "the page is at " + page() + (parts_->file.empty() ? ", with PINs that the operator's window shows" : ""));
 }
 
 Remote::~Remote()
