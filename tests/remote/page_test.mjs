@@ -207,6 +207,8 @@ async function testCommands(browser) {
         return [canvas.width, canvas.getContext("2d").getImageData(240, 200, 1, 1).data[2] > 60];
     });
     check(bright[0] === 480 && bright[1], `a live picture is drawn: ${bright}`);
+    const box = await page.locator("#picture").boundingBox();
+    check(Math.abs(box.width / box.height - 480 / 270) < 0.01, "the live picture has its own shape");
     await page.click("#restart");
     await page.click("#sure-no");
     check(!await page.isVisible("#sure"), "a restart can be thought over");
