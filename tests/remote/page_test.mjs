@@ -250,7 +250,8 @@ async function testKeyboard(browser) {
         "caption-show", "log-out"])
         check(visited.includes(name), `Tab reaches ${name}`);
     check(visited.indexOf("fade") < visited.indexOf("tour") && visited.indexOf("fade") >= 0, "fade comes before the tours");
-    check((await page.textContent('[data-show="scene"]')) === "Warm wall", "Enter goes to a world");
+    await page.waitForFunction(() => document.querySelector('[data-show="scene"]').textContent === "Warm wall", undefined, { timeout: 3000 })
+        .then(() => check(true, ""), () => check(false, "Enter goes to a world"));
     await context.close();
 }
 
