@@ -48,7 +48,7 @@ struct LayoutLoader::State {
 
     void run()
     {
-        setpriority(PRIO_PROCESS, 0, 10); // of this thread and those that it starts: frames come first
+        setpriority(PRIO_PROCESS, 0, 3); // of this thread and those that it starts: frames come first, and half as much time
         for (std::unique_lock lock(mutex); !ends;) {
             woken.wait_for(lock, std::chrono::milliseconds(100), [this] { return ends || other; });
             lock.unlock();

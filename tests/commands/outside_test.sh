@@ -50,7 +50,7 @@ none 'is a FIFO and no file' devices --describe "$fifo"
 for output in log record trace; do
     none 'is a FIFO and no file' run --layout "$folder/small.json" --$output "$fifo"
 done
-none 'is there and is no' render --shot start --size 64x64 --out "$fifo"
+none 'is no folder' render --shot start --size 64x64 --out "$fifo"
 
 # A full pipe that nobody reads, and closed streams, hold no frame.
 mkfifo "$folder/pipe"
@@ -100,7 +100,7 @@ END
     ok
 fi
 
-# The clock is set back by a day in flight: no frame stalls or leaps.
+# The clock is set back by a day in flight, and right again: no frame stalls or leaps.
 LD_PRELOAD=$tools/libstarbow_clock.so fly 240 --record "$folder/clock.jsonl" --log "$folder/clock.csv" --log-every 0.1 2>"$folder/log" || fail "the clock: exit $?"
 python3 - "$folder/clock.jsonl" "$folder/clock.csv" <<'CHECK' || fail "the clock set back a day changes the flight"
 import csv, json, sys

@@ -67,11 +67,11 @@ ok
 fly desk --record "$folder/grab.jsonl"
 xset s 1 1
 turning() { tail -n 8 "$folder/grab.jsonl" | grep -q '"turn"'; }
-still() { "$rig/wait_flown.py" "$folder/grab.jsonl" 2 && ! turning; }
+still() { "$rig/wait_flown.py" "$folder/grab.jsonl" 1.5 && ! turning; } # the record is written each second
 "$rig/wait_flown.py" "$folder/grab.jsonl" 0.1
 xdotool keydown Left
 until_true 60 turning || fail "grab: the key does not turn the ship"
-"$x_client" grab 2 >"$folder/grabbed" &
+"$x_client" grab 1 >"$folder/grabbed" &
 until_true 10 grep -q grabbed "$folder/grabbed" || fail "grab: the keyboard can't be grabbed"
 xdotool keyup Left
 wait $!

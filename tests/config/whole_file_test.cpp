@@ -85,9 +85,10 @@ TEST(WholeFile, APlantedLinkIsNotFollowed)
     const auto folder = scratch("cache");
     std::filesystem::create_directory(folder);
     std::filesystem::create_symlink(victim, folder / "kept");
-    // Temporary names can be guessed: process and number.
+    // Temporary names can be guessed: process and number. Other tests may have written some files before.
+    constexpr int names = 5000;
     const auto plant = [](const std::filesystem::path& to, const std::filesystem::path& at) {
-        for (int i = 0; i < 100; ++i)
+        for (int i = 0; i < names; ++i)
             std::filesystem::create_symlink(
                 to, at.string() + "." + std::to_string(::getpid()) + "-" + std::to_string(i) + ".part");
     };
@@ -96,7 +97,7 @@ TEST(WholeFile, APlantedLinkIsNotFollowed)
     EXPECT_EQ(read_text(victim), "untouched");
     EXPECT_EQ(read_text(folder / "kept"), "own bytes");
     EXPECT_FALSE(std::filesystem::is_symlink(folder / "kept"));
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 100) << "one of the links is gone";
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), names) << "one of the links is gone";
 
     // A file of the user's may be a link, and stays one; its temporary file is planted here.
     std::filesystem::create_symlink(victim, scratch("link"));

@@ -12,12 +12,12 @@ using namespace starbow::testing;
 using Clock = std::chrono::steady_clock;
 
 /// A fisheye of so many pixels; its directions are a map. span: turns it into another map.
-std::string fisheye(int pixels, int span_deg)
+std::string fisheye(int pixels, int aperture_deg)
 {
     const std::string size = std::to_string(pixels);
     return R"({ "outputs": [{ "name": "dome", "size": [)" + size + ", " + size + R"(],
-        "viewports": [{ "projection": { "type": "fisheye", "span_deg": )"
-        + std::to_string(span_deg) + R"( } }] }] })";
+        "viewports": [{ "projection": { "type": "fisheye", "aperture_deg": )"
+        + std::to_string(aperture_deg) + R"( } }] }] })";
 }
 
 /// Plays the thread that draws until a result comes; returns it and the longest time of one step.
@@ -58,7 +58,7 @@ TEST(LayoutLoaderTest, TheNewestChangeIsOfferedAndNoFrameWaits)
     const double took_s = std::chrono::duration<double>(Clock::now() - began).count();
     ASSERT_TRUE(std::holds_alternative<LayoutLoader::Loaded>(result)) << std::get<std::string>(result);
     const auto& loaded = std::get<LayoutLoader::Loaded>(result);
-    EXPECT_EQ(std::get<Fisheye>(loaded.layout.outputs[0].viewports[0].projection).span_deg, 160);
+    EXPECT_EQ(std::get<Fisheye>(loaded.layout.outputs[0].viewports[0].projection).aperture_deg, 160);
     EXPECT_EQ(loaded.prepared.sizes, std::vector{glm::ivec2(2500)}) << "the file's, for the output's size has changed";
     ASSERT_TRUE(loaded.prepared.parts.views[0][0].map);
     EXPECT_EQ(loaded.prepared.parts.inverses.size(), 1u);
@@ -68,7 +68,8 @@ TEST(LayoutLoaderTest, TheNewestChangeIsOfferedAndNoFrameWaits)
     write_text("loaded.json", fisheye(2500, 1000));
     const auto refused = await(loader, shown).first;
     ASSERT_TRUE(std::holds_alternative<std::string>(refused));
-    EXPECT_NE(std::get<std::string>(refused).find("span_deg: 1000"), std::string::npos) << std::get<std::string>(refused);
+    EXPECT_NE(std::get<std::string>(refused).find("aperture_deg: 1000"), std::string::npos)
+        << std::get<std::string>(refused);
     write_text("loaded.json", fisheye(64, 150));
     const auto right = await(loader, shown).first;
     ASSERT_TRUE(std::holds_alternative<LayoutLoader::Loaded>(right)) << std::get<std::string>(right);
