@@ -156,6 +156,7 @@ STATE_DIRECTORY=$folder/state timeout 60 "$program" run --layout "$folder/two.js
 exhibit=$!
 "$rig/wait_flown.py" "$folder/end.jsonl" 0.3 || fail "the X server ends: no flight"
 kill -KILL "${started[0]}"
+wait "${started[0]}" 2>/dev/null
 wait $exhibit
 status=$?
 [ $status = 5 ] || fail "the X server ends: exit $status"
