@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <memory>
 #include <thread>
+#include <unistd.h>
 
 namespace starbow {
 namespace {
@@ -120,6 +121,9 @@ int fly_exhibit(const ExhibitOptions& options)
 {
     Session session{options};
     RemoteControl remote(options);
+    session.pins = remote.drawn_pins();
+    if (!session.pins.empty() && isatty(STDERR_FILENO))
+        print_message(session.pins + "\n"); // to a person at a terminal, and never into a log
     const WaitWatch watch(wait_limit_s(session.service));
     const LastWork last([&] {
         session.service.stops();

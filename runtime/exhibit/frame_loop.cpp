@@ -456,7 +456,7 @@ void FrameLoop::carry_out(const Command& command, Controls& controls)
         directions.obeyed = obeyed + 1, directions.refused = refused;
         session_.diary.count([](Tally& tally) { ++tally.commands; });
         remote_.note("");
-        log_info("remote", words);
+        log_debug("remote", words);
     } catch (const vk::SystemError&) {
         throw; // a loss; a lack of memory is none, and a NoRoom
     } catch (const std::exception& error) {

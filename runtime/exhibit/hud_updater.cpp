@@ -15,7 +15,8 @@ const Panel* HudUpdater::update(const Session& session, const SceneFile& scene, 
         panel_ = typesetter.draw(readings_of(session, scene, exposure_ev), session.words, width);
         drawn_ = now;
     }
-    const bool covers_pattern = session.alignment.pattern() != Pattern::none && session.alignment.says().empty();
+    const bool covers_pattern
+        = session.alignment.pattern() != Pattern::none && session.alignment.says().empty() && !shows_pins(session);
     return session.flight.hud && !covers_pattern ? &panel_ : nullptr;
 }
 

@@ -6,8 +6,11 @@
 namespace starbow {
 namespace {
 
-/// The name of a file as commands give it.
-std::string name_of(const std::filesystem::path& file) { return file.stem().string(); }
+/// The name of a file, or of its path, as commands give it: chart-0.5 of chart-0.5 and of shots/chart-0.5.json.
+std::string name_of(const std::filesystem::path& file)
+{
+    return (file.extension() == ".json" ? file.stem() : file.filename()).string();
+}
 
 void describe(const Session& session, Snapshot& out)
 {
@@ -43,7 +46,6 @@ RemoteControl::RemoteControl(const ExhibitOptions& options)
     RemoteOptions remote{.settings = options.remote, .version = options.version};
     remote.patterns.assign(pattern_names.begin(), pattern_names.end());
     remote_ = std::make_unique<Remote>(std::move(remote));
-    log_info("remote", "the page is at " + remote_->page());
 }
 
 void RemoteControl::read(Controls& controls)

@@ -126,8 +126,12 @@ bool take_coarser_level(Session& session, std::size_t level, const std::string& 
     return true;
 }
 
+bool shows_pins(const Session& session) { return !session.pins.empty() && session.alignment.pattern() != Pattern::none; }
+
 std::string notice_of(const Session& session)
 {
+    if (shows_pins(session))
+        return session.pins;
     if (!session.alignment.says().empty())
         return session.alignment.says();
     if (!session.refused.empty())

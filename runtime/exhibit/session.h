@@ -49,6 +49,7 @@ struct Session {
     std::optional<Quality> quality; ///< a fixed one, where no governor chooses
     std::string quality_name;
     Directions directions{};
+    std::string pins{}; ///< a line with the remote's drawn PINs, for the operator; empty: none were drawn
     Layout layout; ///< the shown layout
     Layout kept; ///< the file's layout, without a builder's unsaved changes
     LayoutLoader loader; ///< follows the files of `layout`
@@ -101,6 +102,8 @@ Quality quality_of(const Session& session, const Device& device);
 bool take_coarser_level(Session& session, std::size_t level, const std::string& reason);
 /// The exposure of the next picture, EV.
 double ev_of(const Session& session);
+/// True while a test pattern, which only a builder calls up, shows the drawn PINs.
+bool shows_pins(const Session& session);
 /// The line below the head-up display's figures.
 std::string notice_of(const Session& session);
 /// True once the requested frames are shown, or a remote or the caller says so.
