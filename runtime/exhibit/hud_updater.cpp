@@ -32,7 +32,9 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
         shown.caption = session.guide->caption(words, capabilities);
     } else if (session.options.tutorial)
         shown.prompt = prompt(session.tutorial, capabilities, words);
-    if (!session.directions.caption.empty())
+    if (shows_pins(session))
+        shown.caption = Caption{.text = session.pins};
+    else if (!session.directions.caption.empty())
         shown.caption = Caption{.text = session.directions.caption, .flying = !session.guide || session.guide->flies()};
     if (shown.caption && !shown.caption->flying)
         shown.lever.reset();

@@ -130,8 +130,6 @@ bool shows_pins(const Session& session) { return !session.pins.empty() && sessio
 
 std::string notice_of(const Session& session)
 {
-    if (shows_pins(session))
-        return session.pins;
     if (!session.alignment.says().empty())
         return session.alignment.says();
     if (!session.refused.empty())

@@ -33,7 +33,9 @@ struct SoakOptions {
 
 constexpr double frame_s = 0.08; ///< the visitor's time of a frame: "some seconds" are some dozens of frames
 constexpr int resting_frames = 3; ///< after a reset, before a sample is taken
-constexpr long sample_every = 10, layout_every = 25; ///< visits
+/// Visits. Of each turn, the first half is shown on one of the other layouts; a sample is taken at its end, on the first
+/// layout again, so that samples are of one state.
+constexpr long turn = 20;
 
 /// A folder for the layout that the soak saves again and again.
 class SoakFolder {
@@ -45,7 +47,7 @@ public:
         for (const std::string& name : shipped_names("layouts"))
             if (const std::string text = small_layout(name); !text.empty())
                 layouts_.push_back(text);
-        save(0);
+        save(turn / 2);
     }
     ~SoakFolder()
     {
@@ -55,7 +57,11 @@ public:
     SoakFolder(const SoakFolder&) = delete;
 
     std::filesystem::path layout() const { return folder_ / "layout.json"; }
-    void save(long visit) const { write_whole(layout(), layouts_[std::size_t(visit / layout_every) % layouts_.size()]); }
+    void save(long visit) const
+    {
+        const bool first = visit % turn >= turn / 2;
+        write_whole(layout(), layouts_[first ? 0 : std::size_t(visit / turn + 1) % layouts_.size()]);
+    }
 
     /// Files in this folder, in the cache and in the state folder.
     std::size_t files() const
@@ -88,7 +94,7 @@ private:
     std::vector<std::string> layouts_;
 };
 
-/// Plays the visitors, one after the other, and samples the process after each tenth.
+/// Plays the visitors, one after the other, and samples the process after each twentieth.
 class Visitors {
 public:
     Visitors(const SoakOptions& options, SoakLog& log, const SoakFolder& folder)
@@ -124,13 +130,13 @@ private:
     {
         visitor_ = std::make_unique<SeededVisitor>(std::uint64_t(options_.seed), visit_, choices_);
         left_ = visitor_->frames();
-        if (visit_ % layout_every == 0)
+        if (visit_ % (turn / 2) == 0)
             folder_.save(visit_);
     }
 
     void end()
     {
-        if (visit_ % sample_every == 0) {
+        if (visit_ % turn == turn - 1) {
             const Vitals now = vitals();
             const DriverMemory driver = driver_memory();
             log_.add({visit_, frames_, std::chrono::duration<double>(Clock::now() - began_).count(), now.resident_bytes,
@@ -207,7 +213,7 @@ void add_soak(CLI::App& app, std::function<int()>& chosen)
         ->capture_default_str();
     command
         ->add_option("--log", options->log,
-            "This CSV file receives a line each ten visits, and a picture beside it; a soak that was interrupted goes on "
+            "This CSV file receives a line each twenty visits, and a picture beside it; a soak that was interrupted goes on "
             "where "
             "the file ends")
         ->capture_default_str();

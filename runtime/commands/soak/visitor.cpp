@@ -14,7 +14,8 @@ constexpr Switch pressed[]{&Controls::stop, &Controls::home, &Controls::undo, &C
     &Controls::headlight, &Controls::false_colours, &Controls::comparison, &Controls::overlay, &Controls::mark,
     &Controls::log, &Controls::why, &Controls::hud, &Controls::pattern};
 
-constexpr double key_every_s = 0.5, direction_every_s = 0.6; // on average
+/// On average. A switch costs a driver in software some tenths of a second for new pipelines, a world as much.
+constexpr double held_key_s = 0.5, switch_every_s = 1.5, direction_every_s = 1.5;
 
 } // namespace
 
@@ -46,11 +47,11 @@ void SeededVisitor::act(Controls& controls, double dt_s)
 void SeededVisitor::press_keys(Controls& controls, double dt_s)
 {
     for (const auto key : pressed)
-        if (chance(dt_s / key_every_s / double(std::size(pressed)) * 4))
+        if (chance(dt_s / switch_every_s / double(std::size(pressed))))
             controls.*key = true;
     // Held keys: full rates, or none.
     const auto held = [&](double now) {
-        return chance(dt_s / key_every_s) ? double(std::uniform_int_distribution<int>(-1, 1)(random_)) : now;
+        return chance(dt_s / held_key_s) ? double(std::uniform_int_distribution<int>(-1, 1)(random_)) : now;
     };
     for (int axis = 0; axis < 3; ++axis)
         turn_[axis] = held(turn_[axis]), push_[axis] = held(push_[axis]);
@@ -69,7 +70,7 @@ void SeededVisitor::move_stick(Controls& controls, double dt_s)
     controls.turn = turn_, controls.lever = lever_;
     for (const auto button : std::initializer_list<Switch>{
              &Controls::stop, &Controls::home, &Controls::next_mode, &Controls::overlay, &Controls::comparison})
-        if (chance(dt_s / key_every_s / 10))
+        if (chance(dt_s / switch_every_s / 10))
             controls.*button = true;
 }
 
