@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Many visitors in a row, made of random numbers, with faults in between: the process is as large at the end as near the start.
+# Usage: soak_test.sh PROGRAM RIG [VISITS [LOG]]
+# With VISITS and LOG it is the long form: it goes on where an interrupted one ended.
+set -u
+program=$(realpath "$1") built=$(realpath "$2") visits=${3:-300} rig=$(dirname "$0")/../rig
+. "$rig/monitors.sh"
+serve Xvfb -noreset -screen 0 640x480x24
+log=${4:-$folder/soak.csv}
+# The device is lost now and then.
+export VK_LAYER_PATH=$built VK_INSTANCE_LAYERS=VK_LAYER_STARBOW_faults
+export STARBOW_FAULTS=submit:500:DEVICE_LOST,submit:2500:DEVICE_LOST
+export XDG_CACHE_HOME=$folder/cache XDG_STATE_HOME=$folder/state
+"$program" soak --visits "$visits" --log "$log" >"$folder/out" 2>"$folder/err-log"
+code=$?
+tail -n 9 "$folder/out"
+[ $code = 0 ] || fail "exit $code: $(tail -n 3 "$folder/err-log")"
+ok
+grep -q 'is lost' "$folder/err-log" || fail "the device was never lost"
+ok
+[ "$(grep -c '^[0-9]' "$log")" -ge $((visits / 20)) ] || fail "samples are missing"
+ok
+echo "$passed passed, 0 failed"
