@@ -111,14 +111,16 @@ SoakResult SoakLog::result(long settled) const
     for (const Quantity& quantity : quantities) {
         const double before = median_of(early, quantity.value), after = median_of(late, quantity.value);
         const double growth = before > 0 ? after / before - 1 : after > 0 ? 1 : 0;
-        // A process that shrinks has lost nothing.
-        const bool steady = growth <= quantity.most;
+        // A process that shrinks has lost nothing. Caches fill during the first visits, so that memory is judged after them.
+        const bool steady = growth <= quantity.most || (quantity.most > 0 && visits < settled);
         result.steady = result.steady && steady;
         std::snprintf(line.data(), line.size(), "%-28s %12.*f %12.*f  %+.2f %%%s\n", quantity.name,
             quantity.unit > 1 ? 2 : 0, before / quantity.unit, quantity.unit > 1 ? 2 : 0, after / quantity.unit,
             100 * growth, steady ? "" : "  has grown");
         result.text += line.data();
     }
+    if (visits < settled)
+        result.text += "Memory is judged from visit " + std::to_string(settled) + " on.\n";
     return result;
 }
 

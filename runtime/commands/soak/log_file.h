@@ -32,7 +32,7 @@ public:
     /// Appends a line. Throws InputError.
     void add(const SoakSample& sample);
     /// Compares the medians of this process's first samples after the settled visit with those of its last ones: memory may
-    /// differ by a hundredth, and counts not at all.
+    /// have grown by a hundredth, and counts not at all. Before the settled visit memory is not judged.
     SoakResult result(long settled) const;
     /// Draws the memory over the visits, as an SVG picture beside the file.
     void draw() const;

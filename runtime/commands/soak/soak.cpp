@@ -207,8 +207,8 @@ void add_soak(CLI::App& app, std::function<int()>& chosen)
         ->check(whole_number(0, 1000000000))
         ->capture_default_str();
     command
-        ->add_option("--settled", options->settled,
-            "The first visit of the comparison; with fewer than three times as many visits, a third of them")
+        ->add_option(
+            "--settled", options->settled, "The first visit of the comparison of memory, which caches fill until then")
         ->check(whole_number(1, 100000000))
         ->capture_default_str();
     command
