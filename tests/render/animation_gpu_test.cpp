@@ -283,4 +283,34 @@ TEST(Animated, AWorldWithoutAnyHasNoneOfItsCode)
         EXPECT_FALSE(draw.moves);
 }
 
+TEST(Blinking, AWorldOfOneSecondLooksTheSameAfterThirtyDays)
+{
+    // Everything has a period of which 2.6e6 s are a multiple: a wall that blinks each 2 s, and a bar that turns once in 100
+    // s.
+    Doc doc;
+    quad(doc, {0, 0, -8}, {20, 0, 0}, {0, 20, 0},
+        blinking(doc, {0.4, 0.3, 0.2}, {{"period_s", 2}, {"on", 0.3}, {"zero_s", 0.7}}));
+    Json node = {{"name", "bar"}, {"mesh", blobs(doc, {{{2, 0, 0}, {1, 0.2, 0.2}}, {{-2, 0, 0}, {0.2, 1, 0.2}}}, 0.4)},
+        {"translation", {0.2, 0.1, -5}}};
+    node["extras"]["starbow"]["spin"] = {{"axis", {0.2, 0.3, 1}}, {"turns_per_s", 0.01}};
+    doc.json["scenes"][0]["nodes"].push_back(doc.put("nodes", node));
+    const GpuWorld world = open_world("month", doc, slow());
+    OffscreenRenderer offscreen = renderer(world, one_view(Planar{80}, {200, 160}));
+    for (const dvec3& u : {dvec3(0), dvec3(0.7, 0.2, -0.9)})
+        for (double time : {0.0, 0.9, 33.3}) {
+            Shot shot = shot_at({0.3, -0.2, 0}, u, {0, 0, -1});
+            shot.time = time;
+            const auto before = offscreen.picture(shot);
+            shot.time = time + 2.6e6;
+            const auto after = offscreen.picture(shot);
+            long different = 0, bright = 0;
+            for (std::size_t i = 0; i < before[0].size(); ++i) {
+                different += std::abs(int(before[0][i]) - int(after[0][i])) > 1;
+                bright += i % 4 < 3 && before[0][i] > 40;
+            }
+            EXPECT_EQ(different, 0) << "at " << time << " s, u " << u.x;
+            EXPECT_GT(bright, 300) << "the picture is empty";
+        }
+}
+
 } // namespace starbow::gpu_test::animation_gpu_test

@@ -1,5 +1,6 @@
 #include "replay.h"
 #include "config/json/error.h"
+#include "config/json/reader.h"
 #include "config/model/shipped.h"
 #include "runtime/commands/options/pattern.h"
 #include "runtime/commands/options/size.h"
@@ -66,6 +67,10 @@ int render_replay(const ReplayOptions& options)
     long frame = 0, drawn = 0; // of the frames that were on a screen
     Progress progress;
     while (const auto entry = replay.next()) {
+        if (!entry->controls.commands.empty())
+            throw InputError(one_line(options.replay) + ": frame " + std::to_string(frame) + " has a remote's command, "
+                + one_line(words_of(entry->controls.commands[0])[0])
+                + ", that only an exhibit carries out; starbow run --replay is right");
         flight = flown(
             flight, history, entry->controls, entry->dt_ns, header.rules, header.seconds_per_time_unit, header.start);
         replay.compare(flight);
