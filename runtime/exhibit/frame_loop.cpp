@@ -1,8 +1,6 @@
 #include "frame_loop.h"
 #include "config/json/error.h"
 #include "config/json/reader.h"
-#include "config/model/shipped.h"
-#include "obey.h"
 #include "runtime/flight/record_files.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/progress.h"
@@ -392,79 +390,6 @@ void FrameLoop::apply(LayoutLoader::Loaded loaded)
     const std::size_t unkept = changes(session_.kept, session_.layout).size();
     log_info("layout",
         session_.layout.file.string() + ": applied" + (unkept > 0 ? "; changes made by keys are kept (F5 saves them)" : ""));
-}
-
-/// Shows a world and begins a visit in it. Throws InputError, for want of memory, too; then the old world is still shown.
-void FrameLoop::show_programme(Programme programme)
-{
-    if (programme.scene != session_.programme.scene) {
-        const LimitedWait loading("the world " + programme.scene.filename().string(), loading_limit_s);
-        session_.service.loads("Loads the world " + programme.scene.filename().string() + ".", loading_limit_s);
-        GpuWorld world = in_room([&] { return load_gpu_world(context_, programme.scene, spectral_level_of(session_)); });
-        std::swap(context_.world, world);
-        try {
-            frame_ = renderer(session_.layout, quality_of(session_, device_));
-        } catch (...) {
-            std::swap(context_.world, world); // the old renderer draws the old world, in its place
-            throw;
-        }
-        log_world(context_);
-        fresh_ = true; // the first frame of a world is a part of its loading
-    }
-    begin_visit(session_, std::move(programme));
-}
-
-/// Shows a fixed quality, in the governor's place.
-void FrameLoop::show_quality(const std::string& name)
-{
-    const Quality quality = load_quality(shipped_file("qualities", name));
-    frame_->adopt(within(device_, quality));
-    session_.quality = quality, session_.quality_name = name;
-    session_.governor.reset();
-}
-
-void FrameLoop::carry_out(const Command& command, Controls& controls)
-{
-    std::string words;
-    for (const std::string& word : words_of(command))
-        words += (words.empty() ? "" : " ") + word;
-    Directions& directions = session_.directions;
-    const long obeyed = directions.obeyed, refused = directions.refused;
-    try {
-        switch (command.kind) {
-        case CommandKind::reset:
-            forget_directions(session_);
-            frame_->adopt(quality_of(session_, device_));
-            show_programme(session_.options.programme);
-            session_.lab.reset();
-            controls.reset = true; // the switches' own states, too
-            break;
-        case CommandKind::scene:
-        case CommandKind::shot:
-        case CommandKind::tour:
-            show_programme(programme_after(session_, command));
-            break;
-        case CommandKind::layout:
-            session_.loader.open(load_layout(shipped_file("layouts", command.text)).file);
-            break;
-        case CommandKind::quality:
-            show_quality(command.text);
-            break;
-        default:
-            obey(session_, command, controls);
-        }
-        directions.obeyed = obeyed + 1, directions.refused = refused;
-        session_.diary.count([](Tally& tally) { ++tally.commands; });
-        remote_.note("");
-        log_debug("remote", words);
-    } catch (const vk::SystemError&) {
-        throw; // a loss; a lack of memory is none, and a NoRoom
-    } catch (const std::exception& error) {
-        session_.diary.count([](Tally& tally) { ++tally.refused_commands; });
-        directions.refused = refused + 1, directions.refusal = one_line(error.what());
-        remote_.note(directions.refusal);
-        log_warning("remote", words + ": " + directions.refusal + "; the exhibit stays as it was");
-    }
 }
 
 void FrameLoop::apply_alignment(const Controls& controls)

@@ -31,7 +31,6 @@ struct Directions {
     bool holds = false; ///< the visitors' devices do nothing
     bool restarts = false; ///< the exhibit ends, so that the service manager starts it anew
     std::string caption{}; ///< on the head-up display; empty: none
-    long obeyed = 0, refused = 0; ///< commands so far
     std::string refusal{}; ///< the reason of the last refused one
 };
 
