@@ -5,7 +5,6 @@
 #include "contact_sheet.h"
 #include "input/keyboard.h"
 #include "interrupt.h"
-#include "version.h"
 #include "runtime/commands/options/language.h"
 #include "runtime/commands/options/number.h"
 #include "runtime/commands/options/pattern.h"
@@ -15,11 +14,14 @@
 #include "runtime/flight/record_files.h"
 #include "runtime/flight/replay.h"
 #include "runtime/operation/ends.h"
+#include "runtime/operation/last_language.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/service.h"
 #include "runtime/operation/state_folder.h"
 #include "runtime/operation/trace.h"
+#include "version.h"
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <memory>
@@ -115,6 +117,14 @@ RunOptions careful(RunOptions options, int ends)
     return options;
 }
 
+/// The language that a docent had chosen, if there are words in it; empty: the exhibit's.
+std::string language_after_crash()
+{
+    const std::string kept = kept_language(state_folder());
+    const std::vector<std::string> known = shipped_names("words");
+    return std::ranges::find(known, kept) != known.end() ? kept : "";
+}
+
 int run(const RunOptions& given)
 {
     open_log({.lowest = given.verbose ? LogLevel::debug : LogLevel::info});
@@ -123,7 +133,11 @@ int run(const RunOptions& given)
     if (Service().supervised())
         ends.emplace(state_folder(), std::time(nullptr));
     const bool care = ends && ends->lately() >= most_ends;
-    const RunOptions options = care ? careful(given, ends->lately()) : given;
+    RunOptions options = care ? careful(given, ends->lately()) : given;
+    if (ends && ends->lately() > 0 && options.language.empty())
+        options.language = language_after_crash();
+    else if (ends)
+        forget_language(state_folder());
     ExhibitOptions exhibit_options = open(options);
     exhibit_options.careful = care;
     exhibit_options.version = program_version;

@@ -2,6 +2,7 @@
 #include "config/json/error.h"
 #include "config/model/scene_file.h"
 #include "config/model/shipped.h"
+#include "runtime/operation/last_language.h"
 #include <algorithm>
 
 namespace starbow {
@@ -101,6 +102,7 @@ void obey(Session& session, const Command& command, Controls& controls)
         break;
     case CommandKind::language:
         set_words(session, words_in(command.text));
+        keep_language(session.options.state, command.text);
         break;
     case CommandKind::caption:
         session.directions.caption = command.text;
@@ -155,6 +157,7 @@ void forget_directions(Session& session)
 {
     session.directions = {};
     session.words = session.options.words;
+    forget_language(session.options.state);
     session.rules = session.options.rules;
     session.quality = session.options.quality, session.quality_name = session.options.quality_name;
     if (!session.governor)

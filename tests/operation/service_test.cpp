@@ -1,5 +1,6 @@
 // The datagrams to a service manager, received by a socket of the test's own, and what the exhibit keeps about itself.
 #include "runtime/operation/ends.h"
+#include "runtime/operation/last_language.h"
 #include "runtime/operation/service.h"
 #include "runtime/operation/state_folder.h"
 #include "runtime/operation/waits.h"
@@ -188,6 +189,25 @@ TEST(StateFolder, TheServicesFolderComesBeforeThePersons)
     for (std::size_t i = 0; i < 3; ++i)
         if (!before[i].empty())
             setenv(names[i], before[i].c_str(), 1);
+}
+
+TEST(LastLanguage, IsKeptForAStartAfterACrashAndIsANameAlone)
+{
+    const std::filesystem::path state = scratch("language-state");
+    EXPECT_EQ(kept_language(state), "");
+    keep_language(state, "de");
+    for (int i = 0; i < 500 && kept_language(state).empty(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_EQ(kept_language(state), "de");
+    keep_language(state, "../../etc/passwd"); // no name: nothing is written
+    for (const char* wrong : {"", "de\n", "a/b", "abcdefghijklmnopqrstuvwxyzabcdefghijk"}) {
+        std::ofstream(state / "language") << wrong;
+        EXPECT_EQ(kept_language(state), "") << wrong;
+    }
+    forget_language(state);
+    EXPECT_FALSE(std::filesystem::exists(state / "language"));
+    keep_language({}, "de");
+    EXPECT_EQ(kept_language({}), "");
 }
 
 } // namespace service_test
