@@ -3,7 +3,7 @@
 # Usage: soak_test.sh PROGRAM RIG [VISITS [LOG]]
 # With VISITS and LOG it is the long form: it goes on where an interrupted one ended.
 set -u
-program=$(realpath "$1") built=$(realpath "$2") visits=${3:-60} rig=$(dirname "$0")/../rig
+program=$(realpath "$1") built=$(realpath "$2") visits=${3:-40} rig=$(dirname "$0")/../rig
 . "$rig/monitors.sh"
 serve Xvfb -noreset -screen 0 640x480x24
 log=${4:-$folder/soak.csv}
