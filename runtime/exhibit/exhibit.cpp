@@ -161,7 +161,8 @@ int fly_exhibit(const ExhibitOptions& options)
             return !same || session.complaints || !context->device.complaints.empty() ? 1 : 0;
         } catch (const std::exception& error) {
             coarser = context && leaves_level(session, error); // else the world itself has no room
-            // What has never worked is no loss, except where the device itself is lost while the world loads.
+            // An exhibit that has never worked has lost nothing, except where the device itself is lost while the world
+            // loads.
             if (!coarser && session.shown == 0 && losses.none() && !dynamic_cast<const vk::DeviceLostError*>(&error))
                 throw;
             loss = loss_by(error);

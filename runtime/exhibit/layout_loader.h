@@ -16,7 +16,7 @@ public:
     ~LayoutLoader();
     LayoutLoader(const LayoutLoader&) = delete;
 
-    /// What the frame shows now.
+    /// The frame's present layout and quality.
     struct Shown {
         Layout kept, layout; ///< the file's, and the same with a builder's changes
         Quality quality;

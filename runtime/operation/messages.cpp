@@ -81,7 +81,7 @@ private:
         for (std::unique_lock lock(mutex_);;) {
             changed_.wait(lock, [this] { return !waiting_.empty() || dropped_ > 0; });
             std::string text = std::exchange(waiting_, {});
-            // What was dropped came after all that waits.
+            // The dropped messages came after all that wait.
             if (const long dropped = std::exchange(dropped_, 0); dropped > 0)
                 text += "starbow: " + std::to_string(dropped) + (dropped == 1 ? " message is" : " messages are")
                     + " dropped here, because nobody read them in time\n";

@@ -34,7 +34,7 @@ public:
     /// The PINs that were drawn, because no file of PINs exists; empty otherwise. They belong on the operator's window and
     /// never into the log.
     const Pins& drawn_pins() const;
-    /// Where a browser finds the page.
+    /// The page's address for a browser.
     const std::string& page() const;
 
     /// The next command, in the order of arrival; false: none. Each one that is taken is answered once.

@@ -10,7 +10,7 @@ public:
     /// Throws InputError where the device has no room for it.
     ScaledPicture(Device& device, Pipelines& pipelines, glm::ivec2 size, vk::Format format);
 
-    /// What is drawn instead of the window's picture.
+    /// The picture that is drawn instead of the window's.
     Target target() const { return {*image_.image, *image_.view, image_.extent, image_.format}; }
     /// Scales it. Both pictures are in eColorAttachmentOptimal, before and afterwards.
     void draw(vk::CommandBuffer commands, const Target& window) const;
