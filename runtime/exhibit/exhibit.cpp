@@ -44,6 +44,8 @@ public:
     }
     bool none() const { return losses_ == 0 && tries_ == 0; }
 
+    bool flew() const { return session_.shown > shown_; } ///< pictures were shown since the device was opened
+
     /// The device is opened, for the first time or anew.
     void opens()
     {
@@ -55,7 +57,7 @@ public:
     bool survives(const Loss& loss)
     {
         const Clock::time_point now = Clock::now();
-        if (session_.shown > shown_) {
+        if (flew()) {
             losses_ = seconds(now - opened_) > 60 ? 1 : losses_ + 1;
             tries_ = 0, away_since_ = now;
         } else
@@ -122,8 +124,8 @@ int fly_exhibit(const ExhibitOptions& options)
     Session session{options};
     RemoteControl remote(options);
     session.pins = remote.drawn_pins();
-    if (!session.pins.empty() && isatty(STDERR_FILENO))
-        print_message(session.pins + "\n"); // to a person at a terminal, and never into a log
+    if (!session.pins.empty() && isatty(STDOUT_FILENO))
+        print_message(session.pins); // to a person at a terminal, and never into a log
     const WaitWatch watch(wait_limit_s(session.service));
     const LastWork last([&] {
         session.service.stops();
@@ -173,7 +175,8 @@ int fly_exhibit(const ExhibitOptions& options)
         context.reset();
         if (coarser)
             continue;
-        session.diary.count([](Tally& tally) { ++tally.device_losses; });
+        if (losses.flew())
+            session.diary.count([](Tally& tally) { ++tally.device_losses; });
         if (!losses.survives(loss))
             return 1;
         if (is_over(session))
