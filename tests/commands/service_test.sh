@@ -58,14 +58,14 @@ says monitors 'WATCHDOG=1' && says monitors 'EXTEND_TIMEOUT_USEC=10000000' && sa
 
 # hangs NAME WAIT: the program must end with 4 by itself, before the manager's watchdog, and name the wait.
 hangs() {
-    says "$1" 'end 4' && logs "$1" "error hang: .*$2.* has not come for ${3:-4}\.[0-4] s; the program ends with 4"
+    says "$1" 'end 4' && logs "$1" "error hang: .*$2.* has not come for ${3:-4\.[0-4]} s; the program ends with 4"
     grep -q silent "$folder/$1-events-log" && fail "$1: the watchdog was faster"
     ok
 }
 hangs fence 'the end of the frame.s drawing'
 hangs fence-blocks 'the end of the frame.s drawing'
 hangs present 'vkQueuePresentKHR'
-hangs first 'vkQueuePresentKHR' 6 # four times 1.6 s: drivers compile shaders in the first frame
+hangs first 'vkQueuePresentKHR' '6\.[4-8]' # four times 1.6 s, and as late as the others may be: drivers compile shaders in the first frame
 hangs acquire 'vkAcquireNextImageKHR'
 grep -q 'READY=1' "$folder/first-events-log" && fail "first: READY=1 before the first picture was presented"
 for name in fence present; do # 3.2 to 4.6 s from the last sign of life to the end: the limit is 4 s after the last frame
