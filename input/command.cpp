@@ -142,4 +142,12 @@ std::vector<std::string> words_of(const Command& command)
     return words;
 }
 
+std::string text_of(const Command& command)
+{
+    std::string line;
+    for (const std::string& word : words_of(command))
+        line += (line.empty() ? "" : " ") + word;
+    return line;
+}
+
 } // namespace starbow

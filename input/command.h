@@ -68,5 +68,7 @@ constexpr std::size_t most_command_text = 400;
 Command command_of(std::span<const std::string> words);
 /// The words of which command_of makes the same command.
 std::vector<std::string> words_of(const Command& command);
+/// The words as one line, for logs.
+std::string text_of(const Command& command);
 
 } // namespace starbow

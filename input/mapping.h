@@ -47,10 +47,8 @@ public:
 
     // State as of the last reading:
     const std::vector<Lever>& levers() const { return levers_; } ///< without their devices' names
-    const std::vector<std::string>& troubles() const
-    {
-        return troubles_;
-    } ///< "axis Rz is stuck and is left out", for people
+    /// For people: "axis Rz is stuck and is left out".
+    const std::vector<std::string>& troubles() const { return troubles_; }
 
     /// The kinds of control on this device.
     InputCapabilities capabilities() const;

@@ -38,15 +38,15 @@ int write_parts(int to, std::initializer_list<std::span<const unsigned char>> pa
 
 /// Writes a new file beside the target and renames it. Throws InputError about `file`, the target's name for people.
 void replace(const std::filesystem::path& file, const std::filesystem::path& target,
-    std::initializer_list<std::span<const unsigned char>> parts, Lasting lasting)
+    std::initializer_list<std::span<const unsigned char>> parts, Lasting lasting, mode_t rights)
 {
     std::filesystem::path part = target;
     static std::atomic<unsigned> count; // threads may write the same file
     part += "." + std::to_string(getpid()) + "-" + std::to_string(count++) + ".part";
     constexpr int flags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
-    int to = ::open(part.c_str(), flags, 0666);
+    int to = ::open(part.c_str(), flags, rights);
     if (to < 0 && errno == EEXIST && ::unlink(part.c_str()) == 0) // of a process that ended here, or a planted link
-        to = ::open(part.c_str(), flags, 0666);
+        to = ::open(part.c_str(), flags, rights);
     if (to < 0)
         refuse_writing(file, errno);
     int why = write_parts(to, parts);
@@ -149,15 +149,15 @@ void write_whole(const std::filesystem::path& file, std::span<const unsigned cha
         target = file;
     else if (!std::filesystem::is_regular_file(target, problem))
         throw InputError(file.string(), "", "is there and is not a file; a new name or that of a file is right");
-    replace(file, target, {bytes}, lasting);
+    replace(file, target, {bytes}, lasting, 0666);
 }
 
-void write_own(
-    const std::filesystem::path& file, std::initializer_list<std::span<const unsigned char>> parts, Lasting lasting)
+void write_own(const std::filesystem::path& file, std::initializer_list<std::span<const unsigned char>> parts,
+    Lasting lasting, unsigned rights)
 {
     std::error_code ignored; // writing reports it
     std::filesystem::create_directories(file.parent_path(), ignored);
-    replace(file, file, parts, lasting);
+    replace(file, file, parts, lasting, rights);
 }
 
 int open_to_write(const std::filesystem::path& file, int flags, const std::string& right)

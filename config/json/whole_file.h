@@ -52,8 +52,9 @@ inline void write_whole(
 
 /// The same for a file of the program's own, in its cache or its state folder, which is made where it is missing. A link
 /// in the file's place is replaced, not followed: whoever could write there once would choose what is overwritten.
+/// rights: of the new file, before the process's mask takes some.
 void write_own(const std::filesystem::path& file, std::initializer_list<std::span<const unsigned char>> parts,
-    Lasting lasting = Lasting::as_the_system_likes);
+    Lasting lasting = Lasting::as_the_system_likes, unsigned rights = 0666);
 
 /// Opens a file of the user's to write into piece by piece; returns the descriptor. flags: O_APPEND, O_TRUNC or O_EXCL. A
 /// missing file is made. Devices that are there are opened, and no write to one waits: it fails with EAGAIN. A folder, a

@@ -94,7 +94,7 @@ bool FrameLoop::fly_frame()
     // Carry out a remote's commands and step the flight. From here on the controls may be a replay's.
     if (!session_.record_replay.play(entry))
         return false;
-    for (const Command& command : std::vector(entry.controls.commands))
+    for (const Command& command : entry.controls.commands)
         carry_out(command, entry.controls);
     step(session_, entry, metered, context_.world.scene.seconds_per_time_unit());
     const Controls& controls = entry.controls;

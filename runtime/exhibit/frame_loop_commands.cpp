@@ -41,9 +41,7 @@ void FrameLoop::show_quality(const std::string& name)
 
 void FrameLoop::carry_out(const Command& command, Controls& controls)
 {
-    std::string words;
-    for (const std::string& word : words_of(command))
-        words += (words.empty() ? "" : " ") + word;
+    const std::string words = text_of(command);
     try {
         switch (command.kind) {
         case CommandKind::reset:

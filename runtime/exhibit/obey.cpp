@@ -1,6 +1,5 @@
 #include "obey.h"
 #include "config/json/error.h"
-#include "config/model/scene_file.h"
 #include "config/model/shipped.h"
 #include "runtime/operation/last_language.h"
 #include <algorithm>
@@ -144,9 +143,8 @@ void begin_visit(Session& session, Programme programme)
 {
     session.guide.reset(); // it refers to the programme
     session.programme = std::move(programme);
-    if (session.programme.tour)
-        session.guide.emplace(
-            *session.programme.tour, session.rules, load_scene_file(session.programme.scene).seconds_per_time_unit());
+    if (std::optional<Guide> guide = guide_of(session.programme, session.rules))
+        session.guide.emplace(std::move(*guide));
     session.flight = flight_at(session.programme.start, session.rules);
     session.history = {};
     session.tutorial = tutorial_at(session.flight);

@@ -25,13 +25,6 @@ RecordReplay record_replay_of(const ExhibitOptions& options)
     return {std::move(recorder), options.replay.empty() ? nullptr : std::make_unique<Replay>(options.replay)};
 }
 
-std::optional<Guide> guide_of(const Programme& programme, const Flying& rules)
-{
-    if (!programme.tour)
-        return {};
-    return Guide(*programme.tour, rules, load_scene_file(programme.scene).seconds_per_time_unit());
-}
-
 /// A visitor's hands do nothing while a docent holds the exhibit. Devices and the head tracker are read as always.
 void hold(Controls& controls)
 {
@@ -66,6 +59,13 @@ Session::Session(const ExhibitOptions& given)
     , diary(given.state, given.textfile)
     , governor(governor_of(given))
 {
+}
+
+std::optional<Guide> guide_of(const Programme& programme, const Flying& rules)
+{
+    if (!programme.tour)
+        return {};
+    return Guide(*programme.tour, rules, load_scene_file(programme.scene).seconds_per_time_unit());
 }
 
 std::optional<Governor> governor_of(const ExhibitOptions& options)

@@ -88,6 +88,8 @@ inline double seconds(std::chrono::steady_clock::duration d) { return std::chron
 
 /// The head tracker of a layout; null where it has none.
 std::unique_ptr<HeadTracker> tracker_of(const Layout& layout);
+/// The guide of a programme's tour, at its beginning; none without a tour. The programme must outlive it.
+std::optional<Guide> guide_of(const Programme& programme, const Flying& rules);
 /// The governor of an exhibit's frame time; none where its quality is fixed.
 std::optional<Governor> governor_of(const ExhibitOptions& options);
 /// The spectral level that the qualities request; none: the world's own need.

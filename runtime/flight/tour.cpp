@@ -6,7 +6,6 @@
 #include <cmath>
 
 namespace starbow {
-
 namespace {
 
 constexpr double second_ns = 1e9;

@@ -48,8 +48,8 @@ struct Readings {
     bool exposure_locked = false; ///< the visitor has locked it
     std::optional<double> lever{}; ///< the throttle's place, 0 to 1
     std::string prompt{}; ///< the tutorial's prompt, or empty
-    std::optional<Caption>
-        caption{}; ///< a tour's caption; it replaces the figures, but for the first of them where the visitor flies
+    /// A caption; it replaces the figures, but for the first of them where the visitor flies.
+    std::optional<Caption> caption{};
     std::string notice{}; ///< one line for the exhibit's operator, or empty
 };
 Readings readings(const Ship& ship, const SceneFile& scene, const Effects& effects);

@@ -1,4 +1,5 @@
 #include "tally.h"
+#include "exposition.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -29,35 +30,6 @@ constexpr std::pair<const char*, std::uint64_t Tally::*> counts[] = {{"missed_re
 constexpr std::pair<const char*, double Tally::*> sums[] = {{"frames_s", &Tally::frames_s}, {"visits_s", &Tally::visits_s}};
 constexpr std::pair<const char*, double Tally::*> greatest[]
     = {{"longest_frame_s", &Tally::longest_frame_s}, {"worst_skew_s", &Tally::worst_skew_s}};
-
-/// A label's value: \, " and a line's end are escaped.
-std::string escaped_label(const std::string& value)
-{
-    std::string out;
-    for (char c : value)
-        out += c == '\\' ? "\\\\" : c == '"' ? "\\\"" : c == '\n' ? "\\n" : std::string(1, c);
-    return out;
-}
-
-class Exposition {
-public:
-    void metric(const char* name, const char* kind, const char* help)
-    {
-        text += std::string("# HELP starbow_") + name + " " + help + "\n# TYPE starbow_" + name + " " + kind + "\n";
-    }
-    void value(const std::string& name, double value)
-    {
-        std::array<char, 40> digits;
-        std::snprintf(digits.data(), digits.size(), " %.15g\n", value);
-        text += "starbow_" + name + digits.data();
-    }
-    void one(const char* name, const char* kind, const char* help, double number)
-    {
-        metric(name, kind, help);
-        value(name, number);
-    }
-    std::string text;
-};
 
 } // namespace
 

@@ -169,6 +169,8 @@ void Logins::log_out(std::string_view token)
 
 void Logins::keep(const std::filesystem::path& file, Time now) const
 {
+    if (file.empty())
+        return;
     const std::chrono::seconds clock
         = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch());
     std::string text;
@@ -177,19 +179,11 @@ void Logins::keep(const std::filesystem::path& file, Time now) const
             text += token.text + " " + pins_[std::size_t(token.role)] + " "
                 + std::to_string((clock + std::chrono::duration_cast<std::chrono::seconds>(token.until - now)).count())
                 + "\n";
-    const std::filesystem::path part = file.string() + ".part";
-    std::error_code ignored;
-    std::filesystem::create_directories(file.parent_path(), ignored);
-    std::filesystem::remove(part, ignored);
-    const int descriptor = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
-    if (descriptor < 0)
-        return;
-    const bool whole = write(descriptor, text.data(), text.size()) == ssize_t(text.size());
-    close(descriptor);
-    if (whole)
-        std::filesystem::rename(part, file, ignored);
-    else
-        std::filesystem::remove(part, ignored);
+    try {
+        write_own(
+            file, {{reinterpret_cast<const unsigned char*>(text.data()), text.size()}}, Lasting::as_the_system_likes, 0600);
+    } catch (const InputError&) { // people log in again after a restart
+    }
 }
 
 void Logins::restore(const std::filesystem::path& file, Time now)

@@ -1,6 +1,7 @@
 // The page's files, logins and metrics: one answer a request.
 #include "config/json/error.h"
 #include "messages.h"
+#include "runtime/operation/exposition.h"
 #include "runtime/operation/log.h"
 #include "server.h"
 #include <array>
@@ -143,19 +144,16 @@ HttpAnswer Server::log_out(lws* wsi)
 std::string Server::metrics()
 {
     exchange_.conditions.refresh();
-    std::string text = exchange_.conditions.newest().metrics;
-    const auto add = [&](const char* name, const char* type, const char* help, std::uint64_t value) {
-        text += std::string("# HELP starbow_remote_") + name + " " + help + "\n# TYPE starbow_remote_" + name + " " + type
-            + "\nstarbow_remote_" + name + " " + std::to_string(value) + "\n";
-    };
-    add("connections", "gauge", "Open connections of the remote.", connections_.size());
-    add("pages", "gauge", "Open pages that are logged in.", clients_.size());
-    add("commands_total", "counter", "Commands that were handed to the exhibit.", last_number_);
-    add("refused_commands_total", "counter", "Commands for which the exhibit had no room.", refused_commands_);
-    add("refused_datagrams_total", "counter", "OSC datagrams that were damaged, unknown or from a stranger.",
-        refused_datagrams_);
-    add("wrong_pins_total", "counter", "Wrong or locked PINs.", wrong_pins_);
-    return text;
+    Exposition out(exchange_.conditions.newest().metrics);
+    out.one("remote_connections", "gauge", "Open connections of the remote.", double(connections_.size()));
+    out.one("remote_pages", "gauge", "Open pages that are logged in.", double(clients_.size()));
+    out.one("remote_commands_total", "counter", "Commands that were handed to the exhibit.", double(last_number_));
+    out.one("remote_refused_commands_total", "counter", "Commands for which the exhibit had no room.",
+        double(refused_commands_));
+    out.one("remote_refused_datagrams_total", "counter", "OSC datagrams that were damaged, unknown or from a stranger.",
+        double(refused_datagrams_));
+    out.one("remote_wrong_pins_total", "counter", "Wrong or locked PINs.", double(wrong_pins_));
+    return out.text;
 }
 
 int Server::http(lws* wsi, lws_callback_reasons reason, void* room, void* in, std::size_t size)

@@ -266,9 +266,7 @@ std::string Server::put(const Command& command, Role role, const std::string& wh
     if (role < rule.role)
         return "the command " + std::string(rule.name) + " is not for the role " + role_names[std::size_t(role)]
             + "; the role " + role_names[std::size_t(rule.role)] + " is right";
-    std::string words;
-    for (const std::string& word : words_of(command))
-        words += (words.empty() ? "" : " ") + word;
+    const std::string words = text_of(command);
     if (!exchange_.commands.put({last_number_ + 1, command})) {
         ++refused_commands_;
         return "the exhibit has many commands to do already; the same one somewhat later is right";

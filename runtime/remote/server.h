@@ -72,10 +72,6 @@ private:
         std::string words;
         Logins::Time since;
     };
-    struct Doing {
-        int id;
-        std::string text;
-    };
 
     void load_files();
     void open_osc();

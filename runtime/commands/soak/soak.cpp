@@ -28,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 
 struct SoakOptions {
     long visits = 300, seed = 1, settled = 1000;
-    std::string log = "out/soak.csv", exhibit = "desk";
+    std::string log = "out/soak.csv";
 };
 
 constexpr double frame_s = 0.08; ///< the visitor's time of a frame: "some seconds" are some dozens of frames
