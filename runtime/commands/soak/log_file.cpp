@@ -16,7 +16,10 @@ namespace {
 constexpr const char* columns
     = "visit,frames,seconds,resident_bytes,heap_bytes,files,threads,driver_pieces,driver_bytes,temporary_files";
 
-std::string head_of(long seed) { return "# starbow soak, seed " + std::to_string(seed); }
+std::string head_of(const std::string& use, long seed)
+{
+    return "# starbow soak, " + use + ", seed " + std::to_string(seed);
+}
 
 struct Quantity {
     const char* name;
@@ -41,21 +44,22 @@ double median_of(std::span<const SoakSample> samples, std::size_t SoakSample::*v
 
 } // namespace
 
-SoakLog::SoakLog(const std::filesystem::path& file, long seed)
+SoakLog::SoakLog(const std::filesystem::path& file, const std::string& use, long seed)
     : file_(file)
 {
+    const std::string head = head_of(use, seed);
     std::istringstream stream(RegularFile(file).read_all(std::size_t(64) << 20));
     std::string line;
     if (!std::getline(stream, line)) {
         std::error_code ignored;
         if (file.has_parent_path())
             std::filesystem::create_directories(file.parent_path(), ignored);
-        write_whole(file, head_of(seed) + "\n" + columns + "\n");
+        write_whole(file, head + "\n" + columns + "\n");
         return;
     }
-    if (line != head_of(seed))
+    if (line != head)
         throw InputError(file.string() + ":1", "",
-            line.substr(0, 60) + " is not how this soak begins; '" + head_of(seed) + "', or a new file, is right");
+            line.substr(0, 60) + " is not how this soak begins; '" + head + "', or a new file, is right");
     for (int number = 2; std::getline(stream, line); ++number) {
         if (line == columns)
             continue;

@@ -24,8 +24,8 @@ struct SoakResult {
 /// The samples of a soak, in a CSV file that outlives the process.
 class SoakLog {
 public:
-    /// Reads the file if it is there. Throws InputError for a file of another kind or another seed.
-    SoakLog(const std::filesystem::path& file, long seed);
+    /// Reads the file if it is there. Throws InputError for a file of another kind, another use or another seed.
+    SoakLog(const std::filesystem::path& file, const std::string& use, long seed);
 
     /// The visit after the last sample, 0 without one.
     long next_visit() const;

@@ -16,6 +16,7 @@
 #include "runtime/render/driver_memory.h"
 #include "visitor.h"
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -28,8 +29,11 @@ using Clock = std::chrono::steady_clock;
 
 struct SoakOptions {
     long visits = 300, seed = 1, settled = 1000;
+    std::string as = use_names[0], scene = "avenue", tour = "first-minute";
     std::string log = "out/soak.csv";
 };
+
+Use use_of(const std::string& name) { return Use(std::ranges::find(use_names, name) - use_names.begin()); }
 
 constexpr double frame_s = 0.08; ///< the visitor's time of a frame: "some seconds" are some dozens of frames
 constexpr int resting_frames = 3; ///< after a reset, before a sample is taken
@@ -103,6 +107,7 @@ public:
         , folder_(folder)
         , choices_{shipped_names("scenes"), shipped_names("shots"), shipped_names("tours"), shipped_names("words"),
               shipped_names("qualities")}
+        , use_(use_of(options.as))
         , visit_(log.next_visit())
     {
         begin();
@@ -119,7 +124,9 @@ public:
         entry.controls.head = head;
         if (left_-- > 0)
             return visitor_->act(entry.controls, frame_s);
-        if (left_ == -1)
+        if (use_ == Use::tour || use_ == Use::flight) // without an end
+            end();
+        else if (left_ == -1)
             entry.controls.commands.push_back({.kind = CommandKind::reset});
         else if (left_ <= -1 - resting_frames)
             end();
@@ -128,9 +135,11 @@ public:
 private:
     void begin()
     {
-        visitor_ = std::make_unique<SeededVisitor>(std::uint64_t(options_.seed), visit_, choices_);
+        visitor_ = std::make_unique<SeededVisitor>(use_, std::uint64_t(options_.seed), visit_, choices_);
         left_ = visitor_->frames();
-        if (visit_ % (turn / 2) == 0)
+        if (use_ == Use::reloads)
+            folder_.save(visit_ * (turn / 2)); // the other layouts and the first one in turn
+        else if (use_ == Use::visitors && visit_ % (turn / 2) == 0)
             folder_.save(visit_);
     }
 
@@ -152,6 +161,7 @@ private:
     SoakLog& log_;
     const SoakFolder& folder_;
     Choices choices_;
+    Use use_;
     long visit_, frames_ = 0;
     int left_ = 0;
     std::unique_ptr<SeededVisitor> visitor_;
@@ -164,7 +174,7 @@ int soak(const SoakOptions& options)
     if (!has_display())
         throw InputError("There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere); for a soak Xvfb will "
                          "do: xvfb-run starbow soak");
-    SoakLog log(options.log, options.seed);
+    SoakLog log(options.log, options.as, options.seed);
     if (log.next_visit() >= options.visits)
         std::printf("All %ld visits of %s are over\n", options.visits, options.log.c_str());
     catch_interrupts();
@@ -172,9 +182,11 @@ int soak(const SoakOptions& options)
     if (log.next_visit() < options.visits) {
         const SoakFolder folder;
         Visitors visitors(options, log, folder);
-        ExhibitOptions exhibit{.programme = programme_of_scene("avenue"),
+        const Words words = words_in("en");
+        ExhibitOptions exhibit{.programme
+            = use_of(options.as) == Use::tour ? programme_of_tour(options.tour, words) : programme_of_scene(options.scene),
             .layout = load_layout(folder.layout()),
-            .words = words_in("en"),
+            .words = words,
             .profiles = known_profiles()};
         exhibit.quality = load_quality(shipped_file("qualities", "draft"));
         exhibit.warms_up = false;
@@ -203,6 +215,15 @@ void add_soak(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--visits", options->visits, "Number of visits")
         ->check(whole_number(1, 100000000))
         ->capture_default_str();
+    command
+        ->add_option("--as", options->as,
+            "visitors of all kinds; a tour that nobody touches, or a flight with the stick, each of 50 frames a visit; or "
+            "reloads of a layout, one a visit")
+        ->check(CLI::IsMember(std::vector<std::string>(use_names.begin(), use_names.end())))
+        ->capture_default_str();
+    command->add_option("--scene", options->scene, "Name or file of the scene that it begins with; a tour has its own")
+        ->capture_default_str();
+    command->add_option("--tour", options->tour, "Name or file of the tour that nobody touches")->capture_default_str();
     command->add_option("--seed", options->seed, "Another seed makes other visitors")
         ->check(whole_number(0, 1000000000))
         ->capture_default_str();
@@ -217,7 +238,8 @@ void add_soak(CLI::App& app, std::function<int()>& chosen)
             "where "
             "the file ends")
         ->capture_default_str();
-    command->footer("Examples:\n  xvfb-run starbow soak\n  starbow soak --visits 30000 --log out/soak.csv");
+    command->footer("Examples:\n  xvfb-run starbow soak\n  starbow soak --visits 30000 --log out/soak.csv\n"
+                    "  LP_NUM_THREADS=1 xvfb-run starbow soak --as tour --visits 20000 --log out/tour.csv");
     command->callback([options, &chosen] { chosen = [options] { return soak(*options); }; });
 }
 

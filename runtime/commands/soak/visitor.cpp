@@ -17,15 +17,22 @@ constexpr Switch pressed[]{&Controls::stop, &Controls::home, &Controls::undo, &C
 /// On average. A switch costs a driver in software some tenths of a second for new pipelines, a world as much.
 constexpr double held_key_s = 0.5, switch_every_s = 1.5, direction_every_s = 1.5;
 
+/// Frames of a visit where all visitors do the same.
+constexpr int like_frames = 50, reload_frames = 10;
+
 } // namespace
 
-SeededVisitor::SeededVisitor(std::uint64_t seed, long visit, const Choices& choices)
+SeededVisitor::SeededVisitor(Use use, std::uint64_t seed, long visit, const Choices& choices)
     : random_(seed * 0x9e3779b97f4a7c15u + std::uint64_t(visit))
     , choices_(choices)
     , kind_(Kind(std::discrete_distribution<int>({4, 4, 1, 3})(random_)))
     , frames_(std::uniform_int_distribution<int>(8, 42)(random_))
     , lever_(uniform(0, 1))
 {
+    if (use == Use::visitors)
+        return;
+    kind_ = use == Use::flight ? Kind::stick : Kind::watcher;
+    frames_ = use == Use::reloads ? reload_frames : like_frames;
 }
 
 void SeededVisitor::act(Controls& controls, double dt_s)

@@ -1,5 +1,6 @@
 #pragma once
 #include "input/controls.h"
+#include <array>
 #include <cstdint>
 #include <random>
 #include <string>
@@ -12,11 +13,17 @@ struct Choices {
     std::vector<std::string> scenes, shots, tours, languages, qualities;
 };
 
+/// The use of the exhibit in a soak: visitors of all kinds; a tour that nobody touches; a stick in the hand without a rest;
+/// and a still exhibit with a layout that is saved at each visit.
+enum class Use { visitors, tour, flight, reloads };
+inline constexpr std::array use_names{"visitors", "tour", "flight", "reloads"}; ///< as Use
+
 /// A visitor made of random numbers: the same seed and number give the same visit on every machine. Some use keys, some a
-/// stick, some watch, and some visit with a docent at the remote.
+/// stick, some watch, and some visit with a docent at the remote. In a flight all use the stick; in a tour and in reloads
+/// all watch.
 class SeededVisitor {
 public:
-    SeededVisitor(std::uint64_t seed, long visit, const Choices& choices);
+    SeededVisitor(Use use, std::uint64_t seed, long visit, const Choices& choices);
 
     int frames() const { return frames_; } ///< of the whole visit
     /// The controls of the next frame, of dt_s seconds.
