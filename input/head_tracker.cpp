@@ -39,9 +39,9 @@ Head held(const Head& last, double silent_s)
     return {(1 - back) * last.moved_m, glm::slerp(last.turned, glm::dquat(1, 0, 0, 0), back)};
 }
 
-HeadTracker::HeadTracker(const HeadTracking& tracking, std::function<void(const std::string&)> say)
+HeadTracker::HeadTracker(const HeadTracking& tracking, LogTo log)
     : tracking_(tracking)
-    , say_(std::move(say))
+    , log_(std::move(log))
     , socket_(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0))
 {
     sockaddr_in at{};
@@ -70,16 +70,18 @@ Head HeadTracker::read(std::chrono::steady_clock::time_point now)
         const auto head = parse_head({packet.data(), std::size_t(size)});
         if (!head) {
             if (!std::exchange(said_wrong_, true))
-                say_("the head tracker on port " + std::to_string(tracking_.port) + " sends packets that are no head ("
-                    + std::to_string(size) + " bytes, not finite, or far away); they are left out");
+                log_(LogKind::tracker_wrong_packets,
+                    "the head tracker on port " + std::to_string(tracking_.port) + " sends packets that are no head ("
+                        + std::to_string(size) + " bytes, not finite, or far away); they are left out");
             continue;
         }
         last_ = *head;
         last_.moved_m = glm::clamp(head->moved_m, -tracking_.room_m, tracking_.room_m);
         heard_ = now;
         if (last_.moved_m != head->moved_m && !std::exchange(said_outside_, true))
-            say_("the head tracker on port " + std::to_string(tracking_.port)
-                + " reports a head outside the layout's room_m; it is drawn at the room's edge");
+            log_(LogKind::tracker_outside,
+                "the head tracker on port " + std::to_string(tracking_.port)
+                    + " reports a head outside the layout's room_m; it is drawn at the room's edge");
     }
     return heard_ ? held(last_, std::chrono::duration<double>(now - *heard_).count()) : Head{};
 }

@@ -1,8 +1,8 @@
 #pragma once
 #include "config/model/layout.h"
+#include "config/model/log_kinds.h"
 #include "controls.h"
 #include <chrono>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,9 +21,9 @@ Head held(const Head& last, double silent_s);
 /// Receives a head's packets. Never waits.
 class HeadTracker {
 public:
-    /// say: receives a line for the log when the first packet is no head, and when the first head is outside the room.
+    /// log: receives a line for the log when the first packet is no head, and when the first head is outside the room.
     /// Throws InputError if the address or the port is not available.
-    HeadTracker(const HeadTracking& tracking, std::function<void(const std::string&)> say);
+    HeadTracker(const HeadTracking& tracking, LogTo log);
     HeadTracker(const HeadTracker&) = delete;
     ~HeadTracker();
 
@@ -35,7 +35,7 @@ public:
 
 private:
     HeadTracking tracking_;
-    std::function<void(const std::string&)> say_;
+    LogTo log_;
     bool said_wrong_ = false, said_outside_ = false;
     int socket_;
     Head last_;

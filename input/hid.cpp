@@ -70,7 +70,7 @@ struct Hid::Device {
 
 struct Hid::Shared {
     std::vector<Profile> profiles;
-    std::function<void(const std::string&)> say;
+    LogTo log;
     std::atomic<bool> stop = false;
     std::atomic<std::size_t> unplugged = 0; ///< since the start
     mutable std::mutex mutex;
@@ -107,7 +107,7 @@ void Hid::Shared::read(const std::shared_ptr<Device>& device, hid_device* handle
     device->gone = true;
     ++unplugged;
     try {
-        say(describe(device->info) + " is unplugged");
+        log(LogKind::device_unplugged, describe(device->info) + " is unplugged");
         const std::lock_guard lock(mutex);
         missing.push_back(device->info);
     } catch (const std::bad_alloc&) { // it is forgotten without a word
@@ -129,10 +129,11 @@ void Hid::Shared::open(const hid_device_info& found)
         const int why = access(path.c_str(), R_OK | W_OK) == 0 ? 0 : errno;
         if (std::find(refused.begin(), refused.end(), path) == refused.end()) {
             refused.push_back(path);
-            say(describe(device->info) + " at " + path
-                + (why == EACCES
-                        ? " may not be read: copy config/udev/70-starbow.rules to /etc/udev/rules.d and plug it in again"
-                        : " can't be opened"));
+            log(LogKind::device_unreadable,
+                describe(device->info) + " at " + path
+                    + (why == EACCES
+                            ? " may not be read: copy config/udev/70-starbow.rules to /etc/udev/rules.d and plug it in again"
+                            : " can't be opened"));
         }
         return;
     }
@@ -153,8 +154,9 @@ void Hid::Shared::open(const hid_device_info& found)
         throw;
     }
     devices.push_back(device);
-    say(describe(device->info) + " is plugged in at " + path + ", flown by "
-        + (device->profile.file.empty() ? device->profile.name : "the profile " + device->profile.name));
+    log(LogKind::device_plugged,
+        describe(device->info) + " is plugged in at " + path + ", flown by "
+            + (device->profile.file.empty() ? device->profile.name : "the profile " + device->profile.name));
 }
 
 /// Opens new devices; forgets missing ones.
@@ -271,11 +273,11 @@ Profile profile_for(const std::vector<Profile>& profiles, const DeviceInfo& info
     return best ? *best : usual_profile(descriptor);
 }
 
-Hid::Hid(std::vector<Profile> profiles, std::function<void(const std::string&)> say)
+Hid::Hid(std::vector<Profile> profiles, LogTo log)
     : shared_(std::make_shared<Shared>())
 {
     shared_->profiles = std::move(profiles);
-    shared_->say = std::move(say);
+    shared_->log = std::move(log);
     hid_init();
     shared_->observer = std::thread([shared = shared_] { shared->watch(); });
 }
@@ -339,10 +341,10 @@ void Hid::report_troubles(std::vector<std::string> troubles)
         = [](const auto& all, const std::string& one) { return std::find(all.begin(), all.end(), one) != all.end(); };
     for (const std::string& trouble : troubles)
         if (!holds(troubles_, trouble))
-            shared_->say(trouble);
+            shared_->log(LogKind::device_trouble, trouble);
     for (const std::string& trouble : troubles_)
         if (!holds(troubles, trouble))
-            shared_->say("no longer: " + trouble);
+            shared_->log(LogKind::device_well, "no longer: " + trouble);
     troubles_ = std::move(troubles);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
+#include "config/model/log_kinds.h"
 #include "mapping.h"
 #include "pad.h"
-#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -34,8 +34,8 @@ bool is_controller(const Descriptor& descriptor);
 /// Reads all plugged-in sticks, throttles and pads, each on a thread of its own. No function here waits.
 class Hid {
 public:
-    /// say: is called with a line for the log, from any thread.
-    explicit Hid(std::vector<Profile> profiles, std::function<void(const std::string&)> say);
+    /// log: is called with a line for the log, from any thread.
+    explicit Hid(std::vector<Profile> profiles, LogTo log);
     Hid(const Hid&) = delete;
     ~Hid();
 

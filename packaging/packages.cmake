@@ -17,6 +17,11 @@ file(READ ${CMAKE_SOURCE_DIR}/NOTICE notice)
 file(WRITE ${CMAKE_BINARY_DIR}/packaging/copyright "${copyright}${notice}")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/copyright NOTICE)
 
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
+  ${CMAKE_CURRENT_LIST_DIR}/catalog.py ${CMAKE_SOURCE_DIR}/docs/log.md ${CMAKE_SOURCE_DIR}/config/model/log_kinds.h)
+execute_process(COMMAND python3 ${CMAKE_CURRENT_LIST_DIR}/catalog.py ${CMAKE_BINARY_DIR}/packaging/starbow.catalog
+  COMMAND_ERROR_IS_FATAL ANY)
+
 install(TARGETS starbow DESTINATION bin COMPONENT starbow)
 install(DIRECTORY config scenes DESTINATION share/starbow COMPONENT starbow
   PATTERN *.py EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN config/model EXCLUDE PATTERN config/json EXCLUDE
@@ -36,6 +41,7 @@ endforeach()
 install(FILES ${EXHIBIT}/starbow.service ${EXHIBIT}/starbow-display.service ${EXHIBIT}/starbow-hours.service
   ${EXHIBIT}/starbow-hours.timer DESTINATION /lib/systemd/system COMPONENT starbow-exhibit)
 install(PROGRAMS ${EXHIBIT}/hours ${EXHIBIT}/display-ready DESTINATION lib/starbow COMPONENT starbow-exhibit)
+install(FILES ${CMAKE_BINARY_DIR}/packaging/starbow.catalog DESTINATION lib/systemd/catalog COMPONENT starbow-exhibit)
 install(FILES ${EXHIBIT}/sysusers.conf DESTINATION lib/sysusers.d RENAME starbow.conf COMPONENT starbow-exhibit)
 install(FILES ${EXHIBIT}/tmpfiles.conf DESTINATION lib/tmpfiles.d RENAME starbow.conf COMPONENT starbow-exhibit)
 install(FILES ${EXHIBIT}/71-starbow-exhibit.rules DESTINATION /lib/udev/rules.d COMPONENT starbow-exhibit)

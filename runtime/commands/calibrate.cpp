@@ -463,7 +463,7 @@ int calibrate(const CalibrateOptions& options)
 {
     const std::vector<Profile> known = known_profiles();
     Person person;
-    const Hid hid(known, info_log("input"));
+    const Hid hid(known, write_log);
     const Watched device = choose(person, hid, options.device);
     person.always = [&] { (void)device.now(); };
     const Profile present = profile_for(known, device.info, device.descriptor);

@@ -137,7 +137,7 @@ int devices(const DevicesOptions& options)
 {
     if (!options.describe.empty())
         return print_descriptor(options.describe);
-    Hid hid(known_profiles(), info_log("input"));
+    Hid hid(known_profiles(), write_log);
     const bool live = options.seconds > 0;
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(live ? options.seconds : 0.5);
     for (;;) {

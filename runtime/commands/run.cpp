@@ -46,7 +46,7 @@ struct RunOptions {
 ExhibitOptions reopen(const std::filesystem::path& record, const std::string& layout, const std::string& language)
 {
     const RecordHeader header = Replay(record).header();
-    const Flown flown = find_flown(record, header, layout, info_log("record"));
+    const Flown flown = find_flown(record, header, layout, write_log);
     return {.programme = {.scene = flown.scene, .start = header.start},
         .layout = flown.layout,
         .words = words_in(language.empty() ? "en" : language),
@@ -111,7 +111,7 @@ RunOptions careful(RunOptions options, int ends)
     options.quality = "draft";
     options.frame_budget_ms = -1; // the exhibit's ladder makes way for the quality, too
     options.shot = options.tour = options.replay = "";
-    log_warning("exhibit",
+    write_log(LogKind::careful_start,
         "it has ended " + std::to_string(ends) + " times out of order within " + std::to_string(ends_within_s / 60)
             + " minutes; it starts with care: the scene '" + plain_scene + "' in the quality '" + options.quality + "'");
     return options;
@@ -156,10 +156,10 @@ int run(const RunOptions& given)
             "Drawing the default shots into out/ instead.\n");
         return render_contact_sheet("out");
     }
-    log_debug("files", "the shipped files are in " + home().string());
-    log_debug("files", "the layout is " + exhibit_options.layout.file.string());
-    log_debug("files", "the scene is " + exhibit_options.programme.scene.string());
-    log_debug("files", std::to_string(exhibit_options.profiles.size()) + " profiles of devices are known");
+    write_log(LogKind::files_used, "the shipped files are in " + home().string());
+    write_log(LogKind::files_used, "the layout is " + exhibit_options.layout.file.string());
+    write_log(LogKind::files_used, "the scene is " + exhibit_options.programme.scene.string());
+    write_log(LogKind::files_used, std::to_string(exhibit_options.profiles.size()) + " profiles of devices are known");
     std::optional<Trace> trace;
     if (!options.trace.empty())
         exhibit_options.trace = &trace.emplace(options.trace);

@@ -7,7 +7,7 @@ namespace starbow {
 
 void AlignmentMode::say(std::string line)
 {
-    log_info("exhibit", line);
+    write_log(LogKind::alignment_changed, line);
     says_ = std::move(line);
     until_ = Clock::now() + std::chrono::seconds(8);
 }
@@ -36,7 +36,7 @@ bool AlignmentMode::apply(const Controls& controls, Layout& layout)
         pattern_ = first_;
     if (keys.pattern) {
         pattern_ = Pattern((int(pattern_) + 1) % int(pattern_names.size()));
-        log_info("exhibit", std::string("test pattern: ") + pattern_names[std::size_t(pattern_)]);
+        write_log(LogKind::pattern_shown, std::string("test pattern: ") + pattern_names[std::size_t(pattern_)]);
     }
     if (keys.save)
         save(layout);

@@ -63,11 +63,11 @@ public:
         } else
             ++tries_;
         if (losses_ > most_losses || seconds(now - away_since_) > patience_s) {
-            log_error("exhibit", "the GPU " + loss.how + " again and again (" + loss.why + ")");
+            write_log(LogKind::gpu_given_up, "the GPU " + loss.how + " again and again (" + loss.why + ")");
             return false;
         }
         if (std::exchange(logged_, loss.why) != loss.why || tries_ == 0) // the reason of many openings in turn is one line
-            log_warning("exhibit", "the GPU " + loss.how + " (" + loss.why + "); it is opened anew");
+            write_log(LogKind::gpu_lost, "the GPU " + loss.how + " (" + loss.why + "); it is opened anew");
         wait(tries_ > 0 ? std::min(0.25 * std::exp2(tries_ - 1), 5.0) : losses_ - 1.0);
         return true;
     }

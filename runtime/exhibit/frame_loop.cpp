@@ -120,7 +120,7 @@ bool FrameLoop::fly_frame()
     frame_->draw(*commands_[0], *commands_[1], shot, panel, screens_.targets());
     end_commands();
     if (const std::size_t made = context_.pipelines.count() - pipelines; made > 0)
-        log_debug("pipelines", std::to_string(made) + " made in flight");
+        write_log(LogKind::pipelines_made, std::to_string(made) + " made in flight");
     prepared_ms_ = 1e3 * seconds(Clock::now() - begun);
 
     // Present.
@@ -231,7 +231,7 @@ void FrameLoop::warm_up()
     most_pipelines_ += made; // else the warm-up would be in vain
     std::array<char, 80> text;
     std::snprintf(text.data(), text.size(), "%zu pipelines are ready after %.1f s", made, seconds(Clock::now() - began));
-    log_info("pipelines", text.data());
+    write_log(LogKind::pipelines_ready, text.data());
     device_.save_pipelines();
     session_.last = Clock::now();
 }
@@ -279,7 +279,7 @@ void FrameLoop::fit(std::size_t output)
             if (std::min(smaller.x, smaller.y) < smallest_px)
                 throw;
             screens_.draw_smaller(context_.pipelines, output, smaller);
-            log_warning("exhibit",
+            write_log(LogKind::output_smaller,
                 "output '" + session_.layout.outputs[output].name + "' is drawn smaller, " + text_of(smaller)
                     + " pixels scaled up to " + text_of(whole) + ": " + one_line(error.what()));
         }
@@ -345,7 +345,7 @@ void FrameLoop::apply_file_changes()
         apply(std::get<LayoutLoader::Loaded>(std::move(*result)));
     } catch (const InputError& error) {
         const std::string why = one_line(error.what());
-        log_warning("layout", why + "; the exhibit stays as it was");
+        write_log(LogKind::layout_refused, why + "; the exhibit stays as it was");
         // On the head-up display the folder's path would take the reason's place.
         const std::string folder = session_.layout.file.parent_path().string() + "/";
         session_.refused = why.starts_with(folder) ? why.substr(folder.size()) : why;
@@ -388,7 +388,7 @@ void FrameLoop::apply(LayoutLoader::Loaded loaded)
     screens_.adopt(session_.layout);
     session_.diary.count([](Tally& tally) { ++tally.layouts; });
     const std::size_t unkept = changes(session_.kept, session_.layout).size();
-    log_info("layout",
+    write_log(LogKind::layout_applied,
         session_.layout.file.string() + ": applied" + (unkept > 0 ? "; changes made by keys are kept (F5 saves them)" : ""));
 }
 

@@ -67,7 +67,7 @@ void FrameLoop::carry_out(const Command& command, Controls& controls)
         }
         session_.diary.count([](Tally& tally) { ++tally.commands; });
         remote_.note("");
-        log_debug("remote", words);
+        write_log(LogKind::command_done, words);
     } catch (const vk::SystemError&) {
         remote_.note("the GPU was lost meanwhile; the same command again is right");
         throw; // a loss; a lack of memory is none, and a NoRoom
@@ -75,7 +75,7 @@ void FrameLoop::carry_out(const Command& command, Controls& controls)
         session_.diary.count([](Tally& tally) { ++tally.refused_commands; });
         session_.directions.refusal = one_line(error.what());
         remote_.note(session_.directions.refusal);
-        log_warning("remote", words + ": " + session_.directions.refusal + "; the exhibit stays as it was");
+        write_log(LogKind::command_failed, words + ": " + session_.directions.refusal + "; the exhibit stays as it was");
     }
 }
 

@@ -26,7 +26,7 @@ Measured measured_of(const MeasuringObserver& observer, const Ship& ship, const 
 
 Lab::Lab(const std::filesystem::path& log, double every_s, const Words& words)
     : words_(words)
-    , log_(log.empty() ? nullptr : std::make_unique<LabLog>(log, info_log("log")))
+    , log_(log.empty() ? nullptr : std::make_unique<LabLog>(log, write_log))
     , every_s_(every_s)
 {
 }

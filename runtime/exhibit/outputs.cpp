@@ -111,7 +111,7 @@ template <class Function> Function* find_function(const char* name)
 /// The process ends here: Xlib has no state for a display that has gone, and its next call may crash.
 void end_without_display(void*, void*)
 {
-    log_error("exhibit",
+    write_log(LogKind::display_gone,
         "the X server has ended; the program ends with " + std::to_string(exit_no_display)
             + ", because its windows are gone");
     for (auto work = last_works().rbegin(); work != last_works().rend(); ++work)
@@ -403,7 +403,7 @@ glm::ivec2 Window::possible(glm::ivec2 size)
     const auto most = int(device_->properties.limits.maxImageDimension2D);
     const glm::ivec2 cut = within(size, most);
     if (cut != size && std::exchange(refused_, size) != size)
-        log_warning("exhibit",
+        write_log(LogKind::window_too_large,
             "the window of output '" + name_ + "' is to have " + text_of(size) + " pixels, more than the GPU's "
                 + std::to_string(most) + " on a side; it becomes " + text_of(cut));
     return cut;

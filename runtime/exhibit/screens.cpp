@@ -89,7 +89,7 @@ void Screens::open(Screen& screen, const std::optional<WindowPlace>& place, bool
     try {
         screen.window.emplace(device_, screen.output, place);
         if (!screen.logged_reason.empty())
-            log_info("exhibit", "output '" + screen.output.name + "' is shown again");
+            write_log(LogKind::output_shown, "output '" + screen.output.name + "' is shown again");
         screen.logged_reason.clear();
     } catch (const InputError& error) {
         if (starting)
@@ -104,7 +104,7 @@ void Screens::close(Screen& screen, const std::string& why)
     screen.window.reset();
     const std::string short_of_it = why.substr(0, why.find(';')); // the list after the semicolon may change often
     if (screen.logged_reason != short_of_it)
-        log_warning("exhibit", "output '" + screen.output.name + "' is not shown: " + why);
+        write_log(LogKind::output_missing, "output '" + screen.output.name + "' is not shown: " + why);
     screen.logged_reason = short_of_it;
 }
 

@@ -21,7 +21,7 @@ RecordReplay record_replay_of(const ExhibitOptions& options)
         recorder = std::make_unique<Recorder>(options.record,
             header_of(options.programme.scene, options.layout, options.programme.start, options.rules, options.exposure,
                 pattern_names[std::size_t(options.pattern)]),
-            info_log("record"));
+            write_log);
     return {std::move(recorder), options.replay.empty() ? nullptr : std::make_unique<Replay>(options.replay)};
 }
 
@@ -52,7 +52,7 @@ Session::Session(const ExhibitOptions& given)
     , flight(flight_at(programme.start, given.rules))
     , tutorial(tutorial_at(flight))
     , record_replay(record_replay_of(given))
-    , hid(given.profiles, info_log("input"))
+    , hid(given.profiles, write_log)
     , tracker(tracker_of(layout))
     , alignment(given.pattern)
     , lab(given.log, given.log_every_s, words)
@@ -77,7 +77,7 @@ std::optional<Governor> governor_of(const ExhibitOptions& options)
 
 std::unique_ptr<HeadTracker> tracker_of(const Layout& layout)
 {
-    return layout.head_tracker ? std::make_unique<HeadTracker>(*layout.head_tracker, info_log("input")) : nullptr;
+    return layout.head_tracker ? std::make_unique<HeadTracker>(*layout.head_tracker, write_log) : nullptr;
 }
 
 std::string describe(const Skew& skew)
@@ -104,7 +104,7 @@ std::optional<SpectralLevel> spectral_level_of(const Session& session)
 void log_world(const RenderContext& context)
 {
     for (const std::string& note : context.world.world.notes)
-        log_info("world", context.world.scene.gltf.string() + ": " + note);
+        write_log(LogKind::world_note, context.world.scene.gltf.string() + ": " + note);
     print_message(describe_light(context));
 }
 
@@ -119,7 +119,7 @@ bool take_coarser_level(Session& session, std::size_t level, const std::string& 
 {
     if (!session.governor || !session.governor->refuse(level))
         return false;
-    log_warning("quality",
+    write_log(LogKind::level_no_room,
         "level " + std::to_string(level + 1) + " of " + std::to_string(session.governor->ladder().size())
             + " has no room on the GPU (" + one_line(reason) + "); level " + std::to_string(session.governor->level() + 1)
             + " is drawn, and that one is not tried again before the layout or a window's size changes");

@@ -74,8 +74,7 @@ RecordHeader header_of(const fs::path& scene, const Layout& layout, const Shot& 
         .exposing = exposing};
 }
 
-Flown find_flown(const fs::path& record, const RecordHeader& header, const std::string& layout,
-    const std::function<void(const std::string&)>& say)
+Flown find_flown(const fs::path& record, const RecordHeader& header, const std::string& layout, const LogTo& log)
 {
     const std::string file = one_line(record.string());
     Flown flown{
@@ -86,11 +85,13 @@ Flown find_flown(const fs::path& record, const RecordHeader& header, const std::
             shown(header.seconds_per_time_unit) + " is not the scene's any more, which has " + shown(unit) + " ("
                 + one_line(flown.scene.string()) + "); the scene as it was when it was flown is right");
     if (digest_of_scene(flown.scene) != header.scene_digest)
-        say(file + ": the scene " + header.scene
-            + " has changed since; the flight will be the same, the pictures may not be");
+        log(LogKind::record_differs,
+            file + ": the scene " + header.scene
+                + " has changed since; the flight will be the same, the pictures may not be");
     if (layout.empty() && digest_of(files_of(flown.layout)) != header.layout_digest)
-        say(file + ": the layout " + header.layout
-            + " has changed since; the flight will be the same, the pictures may not be");
+        log(LogKind::record_differs,
+            file + ": the layout " + header.layout
+                + " has changed since; the flight will be the same, the pictures may not be");
     return flown;
 }
 

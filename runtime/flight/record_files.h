@@ -1,8 +1,8 @@
 #pragma once
 #include "config/model/layout.h"
+#include "config/model/log_kinds.h"
 #include "record.h"
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,10 +24,10 @@ struct Flown {
     Layout layout;
 };
 
-/// Finds the scene and the layout of a record. layout: another one instead of the record's; empty: the record's. say: is
+/// Finds the scene and the layout of a record. layout: another one instead of the record's; empty: the record's. log: is
 /// called if files have changed since the record, because the pictures may then differ. Throws InputError if the scene
 /// now has another unit of time, because every state would differ.
-Flown find_flown(const std::filesystem::path& record, const RecordHeader& header, const std::string& layout,
-    const std::function<void(const std::string&)>& say);
+Flown find_flown(
+    const std::filesystem::path& record, const RecordHeader& header, const std::string& layout, const LogTo& log);
 
 } // namespace starbow

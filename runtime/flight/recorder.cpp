@@ -31,8 +31,8 @@ fs::path named_by_time(const fs::path& folder)
 
 } // namespace
 
-Recorder::Recorder(const fs::path& file, const RecordHeader& header, std::function<void(const std::string&)> say)
-    : say_(std::move(say))
+Recorder::Recorder(const fs::path& file, const RecordHeader& header, LogTo log)
+    : log_(std::move(log))
 {
     std::error_code ignored;
     file_ = fs::is_directory(file, ignored) ? named_by_time(file) : file;
@@ -76,7 +76,7 @@ void Recorder::add(const std::string& text)
         return;
     failed_ = true;
     waiting_.clear();
-    say_(file_.string() + ": the disk does not keep up; the record ends here, the flight goes on");
+    log_(LogKind::record_ended, file_.string() + ": the disk does not keep up; the record ends here, the flight goes on");
 }
 
 void Recorder::keep(const RecordEntry& entry, const Flight& flight)
@@ -116,7 +116,7 @@ void Recorder::write_out(const std::string& text)
     const auto fail = [this](const std::string& why) {
         const std::lock_guard lock(mutex_);
         if (!failed_)
-            say_(file_.string() + ": " + why + "; the record ends here, the flight goes on");
+            log_(LogKind::record_ended, file_.string() + ": " + why + "; the record ends here, the flight goes on");
         failed_ = true;
         waiting_.clear();
     };

@@ -1,8 +1,8 @@
 #pragma once
+#include "config/model/log_kinds.h"
 #include "record.h"
 #include <condition_variable>
 #include <filesystem>
-#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -13,9 +13,9 @@ namespace starbow {
 /// a full or missing disk the record ends with a message, and the flight goes on.
 class Recorder {
 public:
-    /// file: a new one; or a folder, where the file is named by date and time. say: is called with a line for the log, from
+    /// file: a new one; or a folder, where the file is named by date and time. log: is called with a line for the log, from
     /// any thread. Throws InputError where the file can't be made, or exists already.
-    Recorder(const std::filesystem::path& file, const RecordHeader& header, std::function<void(const std::string&)> say);
+    Recorder(const std::filesystem::path& file, const RecordHeader& header, LogTo log);
     ~Recorder(); ///< waits until everything is on the disk
     Recorder(const Recorder&) = delete;
 
@@ -33,7 +33,7 @@ private:
     void write_out(const std::string& text);
 
     std::filesystem::path file_;
-    std::function<void(const std::string&)> say_;
+    LogTo log_;
     int stream_ = -1;
     bool ordinary_ = false; ///< the file is on a disk, not a pipe
     std::int64_t checked_ticks_ = 0;

@@ -110,9 +110,9 @@ std::string log_line(const Measured& measured, const std::string& overlay, const
     return joined(columns_of(measured, overlay, utc), &Columns::value_type::second);
 }
 
-LabLog::LabLog(const std::filesystem::path& file, std::function<void(const std::string&)> say)
+LabLog::LabLog(const std::filesystem::path& file, LogTo log)
     : file_(file)
-    , say_(std::move(say))
+    , log_(std::move(log))
 {
     stream_ = open_to_write(file, O_APPEND, "a CSV file in a folder that can be written");
     const std::string header = log_header() + line_end;
@@ -150,7 +150,8 @@ bool LabLog::write_out(const std::string& text)
 {
     if (!failed_ && ::write(stream_, text.data(), text.size()) != ssize_t(text.size())) {
         failed_ = true;
-        say_(file_.string() + ": can't be written (" + std::strerror(errno) + "); the log ends here, the flight goes on");
+        log_(LogKind::lab_log_ended,
+            file_.string() + ": can't be written (" + std::strerror(errno) + "); the log ends here, the flight goes on");
     }
     return !failed_;
 }

@@ -1,7 +1,7 @@
 #pragma once
+#include "config/model/log_kinds.h"
 #include "why.h"
 #include <filesystem>
-#include <functional>
 #include <string>
 
 namespace starbow {
@@ -12,8 +12,8 @@ class LabLog {
 public:
     /// file: a new one, or one with the same first line, which is continued. Throws InputError for any other, or where the
     /// file can't be written.
-    /// say: receives the sentence about the first line that the disk refuses.
-    LabLog(const std::filesystem::path& file, std::function<void(const std::string&)> say);
+    /// log: receives the sentence about the first line that the disk refuses.
+    LabLog(const std::filesystem::path& file, LogTo log);
     ~LabLog();
     LabLog(const LabLog&) = delete;
 
@@ -26,7 +26,7 @@ private:
     bool write_out(const std::string& text);
 
     std::filesystem::path file_;
-    std::function<void(const std::string&)> say_;
+    LogTo log_;
     int stream_ = -1;
     long lines_ = 0;
     bool failed_ = false;

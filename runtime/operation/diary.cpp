@@ -130,7 +130,7 @@ bool Diary::turn(std::time_t now, const Gauges& gauges)
         try {
             day_ = state_.empty() ? Day{local_now.date} : load_day(state_, local_now.date);
         } catch (const InputError& error) {
-            log_warning("diary", one_line(error.what()) + "; the day's counts begin anew");
+            write_log(LogKind::diary_damaged, one_line(error.what()) + "; the day's counts begin anew");
             day_ = {local_now.date};
         }
         hour_of_day_ = local_now.hour, written_ = now;
@@ -185,7 +185,7 @@ void Diary::write(bool waits)
         failure = error.what();
     }
     if (!std::exchange(failed_, true))
-        log_warning("diary", failure + "; the counts are kept in memory and written later");
+        write_log(LogKind::diary_unwritten, failure + "; the counts are kept in memory and written later");
 }
 
 } // namespace starbow

@@ -31,7 +31,7 @@ Ends::Ends(const std::filesystem::path& folder, std::int64_t now_s)
         text += std::string(running) + "\n";
         write_own(file_, {{reinterpret_cast<const unsigned char*>(text.data()), text.size()}}, Lasting::power_cut);
     } catch (const InputError& error) {
-        log_warning("exhibit", std::string(error.what()) + "; crashes are not counted");
+        write_log(LogKind::ends_unwritten, std::string(error.what()) + "; crashes are not counted");
         times_.clear();
     }
 }

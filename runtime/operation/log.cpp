@@ -1,6 +1,7 @@
 #include "log.h"
 #include "config/json/reader.h"
 #include "messages.h"
+#include <algorithm>
 #include <cstdlib>
 #include <deque>
 #include <memory>
@@ -8,11 +9,30 @@
 #include <spdlog/logger.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/base_sink.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 namespace starbow {
 namespace {
+
+spdlog::level::level_enum spdlog_level(LogLevel level)
+{
+    switch (level) {
+    case LogLevel::debug:
+        return spdlog::level::debug;
+    case LogLevel::info:
+        return spdlog::level::info;
+    case LogLevel::warning:
+        return spdlog::level::warn;
+    default:
+        return spdlog::level::err;
+    }
+}
+
+/// sd-daemon(3)'s priority of a line: SD_DEBUG 7, SD_INFO 6, SD_WARNING 4, SD_ERR 3.
+char priority_of(LogLevel level) { return "7643"[std::size_t(level)]; }
 
 /// Writes "warn" for spdlog's "warning": names of at most five letters align the parts below each other.
 class LevelName : public spdlog::custom_flag_formatter {
@@ -28,16 +48,16 @@ public:
     std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<LevelName>(); }
 };
 
-/// Writes sd-daemon(3)'s priority of a line: SD_DEBUG 7, SD_INFO 6, SD_WARNING 4, SD_ERR 3.
+/// Writes the priority of a line.
 class Priority : public spdlog::custom_flag_formatter {
 public:
     void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override
     {
         out.push_back('<');
-        out.push_back(message.level == spdlog::level::debug ? '7'
-                : message.level == spdlog::level::info      ? '6'
-                : message.level == spdlog::level::warn      ? '4'
-                                                            : '3');
+        out.push_back(priority_of(message.level == spdlog::level::debug ? LogLevel::debug
+                : message.level == spdlog::level::info                  ? LogLevel::info
+                : message.level == spdlog::level::warn                  ? LogLevel::warning
+                                                                        : LogLevel::error));
         out.push_back('>');
     }
     std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<Priority>(); }
@@ -75,7 +95,50 @@ private:
     bool coloured_;
 };
 
-std::shared_ptr<spdlog::logger> make_logger(const LogOptions& options)
+/// The journal's own socket (systemd.io/JOURNAL_NATIVE_PROTOCOL): one datagram a line, fields as NAME=VALUE lines.
+class JournalSocket {
+public:
+    explicit JournalSocket(const std::string& path)
+        : socket_(socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0))
+    {
+        sockaddr_un to{};
+        to.sun_family = AF_UNIX;
+        if (socket_ < 0 || path.size() >= sizeof to.sun_path)
+            return;
+        std::ranges::copy(path, to.sun_path);
+        connected_ = connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0;
+    }
+    ~JournalSocket()
+    {
+        if (socket_ >= 0)
+            close(socket_);
+    }
+    JournalSocket(const JournalSocket&) = delete;
+
+    /// line: without line breaks. Returns false where the journal does not take it at once: it is full, away or restarted.
+    bool send(const LogRule& rule, const std::string& line) const
+    {
+        if (!connected_)
+            return false;
+        std::string fields = "MESSAGE=" + line;
+        fields.append("\nPRIORITY=").append(1, priority_of(rule.level));
+        fields.append("\nSYSLOG_IDENTIFIER=starbow\nMESSAGE_ID=").append(rule.message_id);
+        fields.append("\nSTARBOW_LINE=").append(rule.name).append("\n");
+        return ::send(socket_, fields.data(), fields.size(), MSG_NOSIGNAL) == ssize_t(fields.size());
+    }
+
+private:
+    int socket_;
+    bool connected_ = false;
+};
+
+/// Where lines go.
+struct LogOutput {
+    std::shared_ptr<spdlog::logger> stream;
+    std::unique_ptr<JournalSocket> journal; ///< null: the journal does not read the stream
+};
+
+std::shared_ptr<const LogOutput> make_output(const LogOptions& options)
 {
     std::FILE* stream = options.stream ? options.stream : stderr;
     const bool journal = is_journal(std::getenv("JOURNAL_STREAM"), stream);
@@ -85,20 +148,18 @@ std::shared_ptr<spdlog::logger> make_logger(const LogOptions& options)
     formatter->set_pattern(journal ? "%&%v" : "%Y-%m-%d %H:%M:%S.%e %^%*%$ %v");
     sink->set_formatter(std::move(formatter));
     auto logger = std::make_shared<spdlog::logger>("starbow", std::move(sink));
-    logger->set_level(options.lowest == LogLevel::debug ? spdlog::level::debug
-            : options.lowest == LogLevel::info          ? spdlog::level::info
-            : options.lowest == LogLevel::warning       ? spdlog::level::warn
-                                                        : spdlog::level::err);
-    return logger;
+    logger->set_level(spdlog_level(options.lowest));
+    return std::make_shared<LogOutput>(
+        LogOutput{std::move(logger), journal ? std::make_unique<JournalSocket>(options.journal) : nullptr});
 }
 
 constexpr std::size_t most_last_lines = 50;
 
-/// The present logger. It is never destroyed, because a thread may log while the program ends.
+/// The present output. It is never destroyed, because a thread may log while the program ends.
 struct Current {
     std::mutex mutex;
     std::deque<std::string> last; ///< lines
-    std::shared_ptr<spdlog::logger> logger = make_logger({});
+    std::shared_ptr<const LogOutput> output = make_output({});
 };
 Current& current()
 {
@@ -106,39 +167,39 @@ Current& current()
     return only;
 }
 
-std::shared_ptr<spdlog::logger> logger()
-{
-    Current& now = current();
-    const std::lock_guard lock(now.mutex);
-    return now.logger;
-}
-
-void log(spdlog::level::level_enum level, std::string_view part, std::string_view text)
-{
-    const auto to = logger();
-    if (!to->should_log(level))
-        return;
-    std::string line;
-    line.reserve(part.size() + 2 + text.size());
-    line.append(part).append(": ").append(text);
-    line = plain_text(std::move(line));
-    to->log(level, spdlog::string_view_t(line.data(), line.size()));
-    Current& now = current();
-    const std::lock_guard lock(now.mutex);
-    now.last.push_back(std::move(line));
-    if (now.last.size() > most_last_lines)
-        now.last.pop_front();
-}
-
 } // namespace
 
 void open_log(const LogOptions& options)
 {
     Current& now = current();
-    auto made = make_logger(options);
+    auto made = make_output(options);
     flush_messages(1); // the stream before may be closed on return
     const std::lock_guard lock(now.mutex);
-    now.logger = std::move(made);
+    now.output = std::move(made);
+}
+
+void write_log(LogKind kind, std::string_view text)
+{
+    const LogRule& rule = rule_of(kind);
+    Current& now = current();
+    std::shared_ptr<const LogOutput> output;
+    {
+        const std::lock_guard lock(now.mutex);
+        output = now.output;
+    }
+    const auto level = spdlog_level(rule.level);
+    if (!output->stream->should_log(level))
+        return;
+    std::string line;
+    line.reserve(rule.part.size() + 2 + text.size());
+    line.append(rule.part).append(": ").append(text);
+    line = plain_text(std::move(line));
+    if (!output->journal || !output->journal->send(rule, line))
+        output->stream->log(level, spdlog::string_view_t(line.data(), line.size()));
+    const std::lock_guard lock(now.mutex);
+    now.last.push_back(std::move(line));
+    if (now.last.size() > most_last_lines)
+        now.last.pop_front();
 }
 
 std::vector<std::string> last_lines()
@@ -146,16 +207,6 @@ std::vector<std::string> last_lines()
     Current& now = current();
     const std::lock_guard lock(now.mutex);
     return {now.last.begin(), now.last.end()};
-}
-
-void log_debug(std::string_view part, std::string_view text) { log(spdlog::level::debug, part, text); }
-void log_info(std::string_view part, std::string_view text) { log(spdlog::level::info, part, text); }
-void log_warning(std::string_view part, std::string_view text) { log(spdlog::level::warn, part, text); }
-void log_error(std::string_view part, std::string_view text) { log(spdlog::level::err, part, text); }
-
-std::function<void(const std::string&)> info_log(std::string part)
-{
-    return [part = std::move(part)](const std::string& text) { log_info(part, text); };
 }
 
 bool is_journal(const char* journal_stream, std::FILE* stream)

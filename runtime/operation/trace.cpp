@@ -131,7 +131,7 @@ void Trace::add(const std::string& event)
     constexpr std::int64_t closing = 8; // bytes that close the array
     if (bytes_ + std::int64_t(waiting_.size() + event.size()) + closing > largest_bytes_) {
         close_array();
-        log_warning("trace", file_ + ": is full; the trace ends here, the flight goes on");
+        write_log(LogKind::trace_ended, file_ + ": is full; the trace ends here, the flight goes on");
         return;
     }
     // The separator comes before each event, so that a file that ends between two events lacks only its bracket.
@@ -178,7 +178,7 @@ void Trace::give_up(const std::string& why)
     close(stream_);
     stream_ = -1;
     waiting_.clear();
-    log_warning("trace", file_ + ": can't be written (" + why + "); the trace ends here, the flight goes on");
+    write_log(LogKind::trace_ended, file_ + ": can't be written (" + why + "); the trace ends here, the flight goes on");
 }
 
 } // namespace starbow

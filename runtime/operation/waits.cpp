@@ -82,7 +82,7 @@ void give_up(const std::string& what, double waited_s)
             pause();
     char text[32];
     std::snprintf(text, sizeof text, "%.1f", waited_s);
-    log_error("hang",
+    write_log(LogKind::hung,
         what + " has not come for " + text + " s; the program ends with " + std::to_string(exit_hung)
             + " without waiting any longer");
     flush_messages(1);

@@ -109,7 +109,7 @@ HttpAnswer Server::log_in(lws* wsi, const std::string& body)
     try {
         const Logins::Attempt attempt = logins_.attempt(counted_address(peer), pin_of(body), now);
         if (attempt.answer == Logins::Answer::right) {
-            log_info("remote", std::string(role_names[std::size_t(attempt.role)]) + " logs in at " + peer);
+            write_log(LogKind::login, std::string(role_names[std::size_t(attempt.role)]) + " logs in at " + peer);
             logins_.keep(kept_, now);
             const bool tls = !options_.settings.certificate.empty();
             return {.type = "application/json",
@@ -121,7 +121,8 @@ HttpAnswer Server::log_in(lws* wsi, const std::string& body)
         if (attempt.answer == Logins::Answer::wrong)
             return {.status = 401, .type = "application/json", .body = "{\"wrong\":true}"};
         if (attempt.left == Logins::lock)
-            log_warning("remote", "five wrong PINs at " + peer + ": logins from there are refused for five minutes");
+            write_log(
+                LogKind::login_locked, "five wrong PINs at " + peer + ": logins from there are refused for five minutes");
         return {.status = 429,
             .type = "application/json",
             .body = "{\"locked_s\":" + std::to_string(attempt.left.count()) + "}"};

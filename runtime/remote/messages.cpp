@@ -220,7 +220,7 @@ std::string words_text()
                 if (key.starts_with(prefix))
                     texts[key] = text;
         } catch (const InputError& error) {
-            log_warning("remote", std::string(error.what()) + "; the page does without this language");
+            write_log(LogKind::words_unreadable, std::string(error.what()) + "; the page does without this language");
             all.erase(language);
         }
     return dump(all);

@@ -35,7 +35,7 @@ void library_speaks(int level, const char* line)
         text.pop_back();
     if (level == LLL_ERR)
         last_library_error = text;
-    log_debug("remote", text);
+    write_log(LogKind::remote_library, text);
 }
 
 Server& server_of(lws* wsi) { return *static_cast<Server*>(lws_context_user(lws_get_context(wsi))); }
@@ -152,7 +152,7 @@ Server::Server(const RemoteOptions& options, const Pins& pins, Exchange& exchang
                                            : settings.address)
         + ":" + std::to_string(settings.port) + "/";
     if (!tls && !is_loopback(settings.address))
-        log_warning("remote",
+        write_log(LogKind::remote_unencrypted,
             "PINs and commands go over the network unencrypted at " + place
                 + "; a certificate and key in the exhibit's file makes the page https");
     tick_.server = this;
@@ -246,7 +246,7 @@ void Server::hand_out_replies()
         if (found == pending_.end())
             continue;
         if (!reply.refusal.empty())
-            log_info("remote", found->second.words + " is refused: " + reply.refusal);
+            write_log(LogKind::command_refused, found->second.words + " is refused: " + reply.refusal);
         if (found->second.client)
             say(*found->second.client, answer_text(found->second.id, reply.refusal));
         pending_.erase(found);
@@ -272,7 +272,7 @@ std::string Server::put(const Command& command, Role role, const std::string& wh
         return "the exhibit has many commands to do already; the same one somewhat later is right";
     }
     pending_[++last_number_] = {client, id, words, std::chrono::steady_clock::now()};
-    log_info("remote", std::string(role_names[std::size_t(role)]) + " at " + who + ": " + words);
+    write_log(LogKind::command_taken, std::string(role_names[std::size_t(role)]) + " at " + who + ": " + words);
     return "";
 }
 
@@ -305,7 +305,7 @@ int Server::datagrams(lws_callback_reasons reason)
                     throw InputError(no);
         } catch (const InputError& error) {
             ++refused_datagrams_;
-            log_debug("remote", "OSC from " + who + ": " + error.what());
+            write_log(LogKind::osc_refused, "OSC from " + who + ": " + error.what());
         }
     }
     return 0;

@@ -313,7 +313,7 @@ void Device::save_pipelines() const
         write_own(file, {data});
     } catch (const std::bad_alloc&) { // no message either
     } catch (const std::exception& failed) {
-        log_debug("pipelines", failed.what());
+        write_log(LogKind::pipelines_unsaved, failed.what());
     }
 }
 

@@ -113,7 +113,7 @@ RecordHeader some_header()
     return header;
 }
 
-void ignore_message(const std::string&) { }
+void ignore_message(LogKind, const std::string&) { }
 
 std::filesystem::path fresh(const std::string& name)
 {
@@ -390,7 +390,7 @@ TEST(Record, AFullDiskEndsTheRecordWithOneMessage)
     std::vector<std::string> lines;
     std::mutex mutex;
     {
-        Recorder recorder("/dev/full", some_header(), [&](const std::string& line) {
+        Recorder recorder("/dev/full", some_header(), [&](LogKind, const std::string& line) {
             const std::lock_guard lock(mutex);
             lines.push_back(line);
         });
@@ -421,7 +421,7 @@ TEST(Record, FindsItsSceneAndLayoutAgain)
     std::vector<std::string> lines;
     const auto reopen = [&](const RecordHeader& h, const std::string& other = "") {
         lines.clear();
-        return find_flown("a.jsonl", h, other, [&](const std::string& line) { lines.push_back(line); });
+        return find_flown("a.jsonl", h, other, [&](LogKind, const std::string& line) { lines.push_back(line); });
     };
     EXPECT_EQ(reopen(header).scene, scene_file);
     EXPECT_TRUE(lines.empty());

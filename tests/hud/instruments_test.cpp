@@ -87,7 +87,7 @@ std::filesystem::path fresh(const std::string& name)
     return scratch(name);
 }
 
-void ignore(const std::string&) { }
+void ignore(LogKind, const std::string&) { }
 
 std::string refusal(const std::filesystem::path& file)
 {

@@ -48,7 +48,7 @@ std::unique_ptr<HeadTracker> listener(std::vector<std::string>* said = nullptr)
     for (int port = 42420;; ++port)
         try {
             return std::make_unique<HeadTracker>(
-                HeadTracking{port, "127.0.0.1", {3, 1, 0.5}}, [said](const std::string& line) {
+                HeadTracking{port, "127.0.0.1", {3, 1, 0.5}}, [said](LogKind, const std::string& line) {
                     if (said)
                         said->push_back(line);
                 });
@@ -162,7 +162,7 @@ TEST(HeadTrackerTest, APortInUseIsReported)
 {
     auto tracker = listener();
     try {
-        HeadTracker again(tracker->tracking(), [](const std::string&) {});
+        HeadTracker again(tracker->tracking(), [](LogKind, const std::string&) {});
         FAIL();
     } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find(std::to_string(tracker->tracking().port)), std::string::npos);

@@ -63,6 +63,8 @@ restarts=$(property NRestarts)
 until_true 60 eval '[ "$(property NRestarts)" -gt "$restarts" ]' || fail "hung: not started again"
 rm /run/systemd/system/starbow.service.d/hang.conf && systemctl daemon-reload
 journalctl -u starbow -o cat | grep 'hang: the end of the frame' || fail "the wait is not named"
+journalctl -u starbow STARBOW_LINE=hung -o cat | grep -q 'hang: the end of the frame' || fail "the line has no kind"
+journalctl -u starbow -x | grep -q 'A wait for the graphics driver or the window system had no end' || fail "the journal does not explain the line"
 journalctl -u starbow -o cat | grep -q 'status=4' || fail "not ended with 4"
 until_true 60 shows || fail "hung: no picture again"
 ok "hung: named, ended with 4, started again"

@@ -39,7 +39,7 @@ has starbow /usr/bin/starbow /usr/share/starbow/config/layouts/dome2/left.data /
 has starbow-exhibit /lib/systemd/system/starbow.service /lib/systemd/system/starbow-display.service \
     /lib/systemd/system/starbow-hours.timer /lib/systemd/system/starbow-hours.service /usr/lib/sysusers.d/starbow.conf \
     /usr/lib/tmpfiles.d/starbow.conf /lib/udev/rules.d/71-starbow-exhibit.rules /etc/starbow/exhibit.json /etc/starbow/hours /etc/starbow/layouts/site.json \
-    /usr/lib/starbow/hours /usr/lib/starbow/display-ready
+    /usr/lib/starbow/hours /usr/lib/starbow/display-ready /usr/lib/systemd/catalog/starbow.catalog
 grep -E '\.(cpp|h|py)$|/(build|tests|\.git)' "$folder"/starbow*.list && fail "files that nobody needs there"
 for file in $(cd "$(dirname "$0")/../.." && git ls-files 'config/*.json' 'scenes/*.glb' 'scenes/stars/*.txt'); do
     grep -q " /usr/share/starbow/$file$" "$folder/starbow.list" || fail "starbow lacks $file"
@@ -53,6 +53,19 @@ done | tr a-z A-Z | sort -u)
 [ -n "$devices" ] && [ "$devices" = "$(dpkg-deb --fsys-tarfile "$folder/out/starbow.deb" | tar -xO ./usr/share/metainfo/starbow.metainfo.xml \
     | sed -n 's/.*<modalias>\(.*\)\*<.*/\1/p' | tr a-z A-Z | sort -u)" ] || fail "starbow.metainfo.xml does not name the devices of config/profiles: $devices"
 grep -q '^Architecture: all' "$folder/starbow-exhibit.control" || fail "starbow-exhibit is not for all machines"
+ok
+
+# The journal explains each kind of line.
+dpkg-deb --fsys-tarfile "$folder/out/starbow-exhibit.deb" | tar -xO ./usr/lib/systemd/catalog/starbow.catalog >"$folder/starbow.catalog"
+[ "$(grep -Ec '^-- [0-9a-f]{32}$' "$folder/starbow.catalog")" = "$(grep -Ec '"[0-9a-f]{32}"' "$(dirname "$0")/../../config/model/log_kinds.h")" ] \
+    && [ "$(grep -c '^Subject: .' "$folder/starbow.catalog")" -ge 40 ] || fail "the catalog lacks kinds"
+if command -v journalctl >/dev/null; then
+    mkdir -p "$folder/catalog/usr/lib/systemd/catalog" "$folder/catalog/var/lib/systemd/catalog"
+    cp "$folder/starbow.catalog" "$folder/catalog/usr/lib/systemd/catalog"
+    journalctl --root="$folder/catalog" --update-catalog 2>"$folder/catalog.log" || fail "journalctl: $(cat "$folder/catalog.log")"
+    [ "$(journalctl --root="$folder/catalog" --list-catalog | wc -l)" = "$(grep -c '^-- ' "$folder/starbow.catalog")" ] \
+        || fail "journalctl does not read the whole catalog: $(cat "$folder/catalog.log")"
+fi
 ok
 
 # Without the checkout, in a root of its own and from another folder, the program finds its files, the site's first.

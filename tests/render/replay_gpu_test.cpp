@@ -43,7 +43,7 @@ TEST(ReplayFrames, AreTheSameToTheByte)
     const std::filesystem::path file = starbow::testing::scratch("frames.jsonl");
     std::vector<Pictures> live;
     {
-        Recorder recorder(file, header, [](const std::string& line) { ADD_FAILURE() << line; });
+        Recorder recorder(file, header, [](LogKind, const std::string& line) { ADD_FAILURE() << line; });
         OffscreenRenderer offscreen = renderer(avenue().world, layout, false);
         ReplayRenderer replay_renderer(offscreen, Pattern::none, header.exposing, header.start.exposure_ev);
         Flight flight = flight_at(header.start, header.rules);

@@ -45,7 +45,7 @@ int render_replay(const ReplayOptions& options)
     const auto [first, last] = parse_frames(options.frames);
     Replay replay(options.replay);
     const RecordHeader& header = replay.header();
-    Flown from = find_flown(options.replay, header, options.layout, info_log("record"));
+    Flown from = find_flown(options.replay, header, options.layout, write_log);
     if (!options.size.empty())
         for (Output& output : from.layout.outputs)
             output.size = parse_size(options.size);
