@@ -56,7 +56,7 @@ dark() { # AREA
 }
 a=320x240+0+0 b=320x240+320+0 c=320x240+640+0 d=240x180+1000+30
 expect() { # WHAT AREA PICTURE
-    until_true 15 shows "$2" "$3" || fail "$1: $2 does not show $(basename "$3"): $(psnr "$2" "$3") dB"
+    until_true "${limit:-15}" shows "$2" "$3" || fail "$1: $2 does not show $(basename "$3"): $(psnr "$2" "$3") dB"
     ok
 }
 expect_all() { # WHAT
@@ -94,7 +94,7 @@ leave() {
 
 echo "without a window manager"
 fly
-expect_all "at the start"
+limit=60 expect_all "at the start" # loading has its own time
 expect_dark "beside a window with a place" 40x240+960+0
 
 began=${EPOCHREALTIME/./}
