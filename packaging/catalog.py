@@ -4,7 +4,8 @@ From the repository's root:
 
     python3 packaging/catalog.py FILE
 
-It exits with 1 where the page and the header do not have the same kinds and levels, each once.
+It exits with 1 where the header's kinds and rules differ, or where the page and the header do not have the same kinds and
+levels, each once.
 """
 import pathlib
 import re
@@ -21,6 +22,9 @@ def plain(text):
 def main():
     header = (ROOT / "config/model/log_kinds.h").read_text()
     rules = re.findall(r'\{"([a-z-]+)", "([0-9a-f]{32})",\s*LogLevel::(\w+)', header)
+    kinds = re.findall(r"^    (\w+),$", re.search(r"enum class LogKind.*?\{(.*?)\};", header, re.S)[1], re.M)
+    if [kind.replace("_", "-") for kind in kinds] != [name for name, *_ in rules]:
+        sys.exit("config/model/log_kinds.h: LogKind and log_rules do not have the same kinds in the same order")
     page = (ROOT / "docs/log.md").read_text()
     rows = re.findall(r"^\| ([a-z-]+) \| (debug|info|warning|error) \| ([^|]*) \| ([^|]*) \| ([^|]*) \|$", page, re.M)
     differ = sorted({(name, level) for name, _, level in rules} ^ {(name, level) for name, level, *_ in rows})

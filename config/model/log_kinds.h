@@ -64,8 +64,8 @@ struct LogRule {
     std::string_view part; ///< the part of the program that speaks
 };
 
-/// As LogKind.
-inline constexpr std::array<LogRule, 43> log_rules{{
+/// One rule a kind, in the order of LogKind; packaging/catalog.py checks that the names are the same.
+inline constexpr auto log_rules = std::to_array<LogRule>({
     {"hung", "ab027c2584c24366920d1b237173236d", LogLevel::error, "hang"},
     {"diary-damaged", "ff1a1f7c9d9a43789dba8c6cbcdd8392", LogLevel::warning, "diary"},
     {"diary-unwritten", "26322efe6f4f4cddb5135bec50098ac3", LogLevel::warning, "diary"},
@@ -109,7 +109,9 @@ inline constexpr std::array<LogRule, 43> log_rules{{
     {"record-ended", "135d7259fca14b5dba915cafd04fec0b", LogLevel::warning, "record"},
     {"record-differs", "0919d1228f1b4405963596bb12e09c62", LogLevel::warning, "record"},
     {"lab-log-ended", "1623209b10c543b1956dc4cfd256c7cc", LogLevel::warning, "log"},
-}};
+});
+
+static_assert(log_rules.size() == std::size_t(LogKind::lab_log_ended) + 1);
 
 constexpr const LogRule& rule_of(LogKind kind) { return log_rules[std::size_t(kind)]; }
 

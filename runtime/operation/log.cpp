@@ -1,7 +1,7 @@
 #include "log.h"
 #include "config/json/reader.h"
+#include "local_datagrams.h"
 #include "messages.h"
-#include <algorithm>
 #include <cstdlib>
 #include <deque>
 #include <memory>
@@ -9,27 +9,24 @@
 #include <spdlog/logger.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/base_sink.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 namespace starbow {
 namespace {
 
-spdlog::level::level_enum spdlog_level(LogLevel level)
+/// spdlog's levels follow each other as the log's do.
+constexpr spdlog::level::level_enum spdlog_level(LogLevel level)
 {
-    switch (level) {
-    case LogLevel::debug:
-        return spdlog::level::debug;
-    case LogLevel::info:
-        return spdlog::level::info;
-    case LogLevel::warning:
-        return spdlog::level::warn;
-    default:
-        return spdlog::level::err;
-    }
+    return spdlog::level::level_enum(int(spdlog::level::debug) + int(level));
 }
+constexpr LogLevel level_of(const spdlog::details::log_msg& message)
+{
+    return LogLevel(int(message.level) - int(spdlog::level::debug));
+}
+static_assert(spdlog_level(LogLevel::info) == spdlog::level::info);
+static_assert(spdlog_level(LogLevel::warning) == spdlog::level::warn);
+static_assert(spdlog_level(LogLevel::error) == spdlog::level::err);
 
 /// sd-daemon(3)'s priority of a line: SD_DEBUG 7, SD_INFO 6, SD_WARNING 4, SD_ERR 3.
 char priority_of(LogLevel level) { return "7643"[std::size_t(level)]; }
@@ -39,11 +36,9 @@ class LevelName : public spdlog::custom_flag_formatter {
 public:
     void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override
     {
-        const char* name = message.level == spdlog::level::debug ? "debug"
-            : message.level == spdlog::level::info               ? "info"
-            : message.level == spdlog::level::warn               ? "warn"
-                                                                 : "error";
-        out.append(name, name + std::char_traits<char>::length(name));
+        static constexpr std::string_view names[]{"debug", "info", "warn", "error"};
+        const std::string_view name = names[std::size_t(level_of(message))];
+        out.append(name.begin(), name.end());
     }
     std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<LevelName>(); }
 };
@@ -54,10 +49,7 @@ public:
     void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override
     {
         out.push_back('<');
-        out.push_back(priority_of(message.level == spdlog::level::debug ? LogLevel::debug
-                : message.level == spdlog::level::info                  ? LogLevel::info
-                : message.level == spdlog::level::warn                  ? LogLevel::warning
-                                                                        : LogLevel::error));
+        out.push_back(priority_of(level_of(message)));
         out.push_back('>');
     }
     std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<Priority>(); }
@@ -80,12 +72,9 @@ private:
         std::string text(line.data(), line.size());
         if (coloured_ && message.color_range_end > message.color_range_start) {
             // ECMA-48, SGR: cyan, green, bold yellow, bold red.
-            const char* colour = message.level == spdlog::level::debug ? "\033[36m"
-                : message.level == spdlog::level::info                 ? "\033[32m"
-                : message.level == spdlog::level::warn                 ? "\033[33m\033[1m"
-                                                                       : "\033[31m\033[1m";
+            static constexpr const char* colours[]{"\033[36m", "\033[32m", "\033[33m\033[1m", "\033[31m\033[1m"};
             text.insert(message.color_range_end, "\033[m");
-            text.insert(message.color_range_start, colour);
+            text.insert(message.color_range_start, colours[std::size_t(level_of(message))]);
         }
         send_message(descriptor_, std::move(text));
     }
@@ -95,47 +84,21 @@ private:
     bool coloured_;
 };
 
-/// The journal's own socket (systemd.io/JOURNAL_NATIVE_PROTOCOL): one datagram a line, fields as NAME=VALUE lines.
-class JournalSocket {
-public:
-    explicit JournalSocket(const std::string& path)
-        : socket_(socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0))
-    {
-        sockaddr_un to{};
-        to.sun_family = AF_UNIX;
-        if (socket_ < 0 || path.size() >= sizeof to.sun_path)
-            return;
-        std::ranges::copy(path, to.sun_path);
-        connected_ = connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0;
-    }
-    ~JournalSocket()
-    {
-        if (socket_ >= 0)
-            close(socket_);
-    }
-    JournalSocket(const JournalSocket&) = delete;
+/// A line in the journal's own protocol (systemd.io/JOURNAL_NATIVE_PROTOCOL): one field NAME=VALUE a line. line: without
+/// line breaks.
+std::string journal_entry(const LogRule& rule, const std::string& line)
+{
+    std::string fields = "MESSAGE=" + line;
+    fields.append("\nPRIORITY=").append(1, priority_of(rule.level));
+    fields.append("\nSYSLOG_IDENTIFIER=starbow\nMESSAGE_ID=").append(rule.message_id);
+    fields.append("\nSTARBOW_LINE=").append(rule.name).append("\n");
+    return fields;
+}
 
-    /// line: without line breaks. Returns false where the journal does not take it at once: it is full, away or restarted.
-    bool send(const LogRule& rule, const std::string& line) const
-    {
-        if (!connected_)
-            return false;
-        std::string fields = "MESSAGE=" + line;
-        fields.append("\nPRIORITY=").append(1, priority_of(rule.level));
-        fields.append("\nSYSLOG_IDENTIFIER=starbow\nMESSAGE_ID=").append(rule.message_id);
-        fields.append("\nSTARBOW_LINE=").append(rule.name).append("\n");
-        return ::send(socket_, fields.data(), fields.size(), MSG_NOSIGNAL) == ssize_t(fields.size());
-    }
-
-private:
-    int socket_;
-    bool connected_ = false;
-};
-
-/// Where lines go.
+/// The destinations of the log's lines.
 struct LogOutput {
     std::shared_ptr<spdlog::logger> stream;
-    std::unique_ptr<JournalSocket> journal; ///< null: the journal does not read the stream
+    std::unique_ptr<LocalDatagrams> journal; ///< null: the journal does not read the stream
 };
 
 std::shared_ptr<const LogOutput> make_output(const LogOptions& options)
@@ -150,7 +113,7 @@ std::shared_ptr<const LogOutput> make_output(const LogOptions& options)
     auto logger = std::make_shared<spdlog::logger>("starbow", std::move(sink));
     logger->set_level(spdlog_level(options.lowest));
     return std::make_shared<LogOutput>(
-        LogOutput{std::move(logger), journal ? std::make_unique<JournalSocket>(options.journal) : nullptr});
+        LogOutput{std::move(logger), journal ? std::make_unique<LocalDatagrams>(options.journal.c_str()) : nullptr});
 }
 
 constexpr std::size_t most_last_lines = 50;
@@ -194,7 +157,7 @@ void write_log(LogKind kind, std::string_view text)
     line.reserve(rule.part.size() + 2 + text.size());
     line.append(rule.part).append(": ").append(text);
     line = plain_text(std::move(line));
-    if (!output->journal || !output->journal->send(rule, line))
+    if (!output->journal || !output->journal->send(journal_entry(rule, line)))
         output->stream->log(level, spdlog::string_view_t(line.data(), line.size()));
     const std::lock_guard lock(now.mutex);
     now.last.push_back(std::move(line));

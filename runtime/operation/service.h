@@ -1,4 +1,5 @@
 #pragma once
+#include "local_datagrams.h"
 #include <chrono>
 #include <optional>
 #include <string>
@@ -11,11 +12,9 @@ class Service {
 public:
     using Clock = std::chrono::steady_clock;
     Service(); ///< reads NOTIFY_SOCKET, and WATCHDOG_USEC unless WATCHDOG_PID names another process
-    ~Service();
-    Service(const Service&) = delete;
 
     /// True if a service manager listens.
-    bool supervised() const { return socket_ >= 0; }
+    bool supervised() const { return manager_.connected(); }
     /// The time after which the manager takes a silent exhibit for hung.
     std::optional<double> watchdog_s() const { return watchdog_s_; }
 
@@ -28,10 +27,9 @@ public:
     void stops();
 
 private:
-    bool send(const std::string& message);
     void lives(const std::string& status);
 
-    int socket_ = -1;
+    LocalDatagrams manager_;
     std::optional<double> watchdog_s_;
     bool ready_ = false; ///< READY=1 is sent
     bool extended_ = false; ///< the watchdog's time is that of loading

@@ -122,11 +122,11 @@ public:
         const Head head = entry.controls.head;
         entry.controls = {};
         entry.controls.head = head;
+        if (left_ == 0 && (use_ == Use::tour || use_ == Use::flight)) // these go on without a rest
+            end();
         if (left_-- > 0)
             return visitor_->act(entry.controls, frame_s);
-        if (use_ == Use::tour || use_ == Use::flight) // without an end
-            end();
-        else if (left_ == -1)
+        if (left_ == -1)
             entry.controls.commands.push_back({.kind = CommandKind::reset});
         else if (left_ <= -1 - resting_frames)
             end();

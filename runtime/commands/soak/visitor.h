@@ -16,7 +16,7 @@ struct Choices {
 /// The use of the exhibit in a soak: visitors of all kinds; a tour that nobody touches; a stick in the hand without a rest;
 /// and a still exhibit with a layout that is saved at each visit.
 enum class Use { visitors, tour, flight, reloads };
-inline constexpr std::array use_names{"visitors", "tour", "flight", "reloads"}; ///< as Use
+inline constexpr std::array use_names{"visitors", "tour", "flight", "reloads"}; ///< in the order of Use
 
 /// A visitor made of random numbers: the same seed and number give the same visit on every machine. Some use keys, some a
 /// stick, some watch, and some visit with a docent at the remote. In a flight all use the stick; in a tour and in reloads
