@@ -49,6 +49,7 @@ struct ExhibitOptions {
     /// Takes the visitor's place: receives each frame's entry, its devices already read, and writes its own controls and
     /// time.
     std::function<void(RecordEntry&)> visitor{};
+    std::function<void()> reloaded{}; ///< is called after each changed layout, applied or refused
     std::function<bool()> over{}; ///< is called before each frame; true ends the flight
 };
 

@@ -350,6 +350,8 @@ void FrameLoop::apply_file_changes()
         const std::string folder = session_.layout.file.parent_path().string() + "/";
         session_.refused = why.starts_with(folder) ? why.substr(folder.size()) : why;
     }
+    if (session_.options.reloaded)
+        session_.options.reloaded();
 }
 
 /// prepared: as FrameRenderer's.

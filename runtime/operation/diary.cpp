@@ -73,7 +73,8 @@ Day load_day(const std::filesystem::path& state, const std::string& date)
     if (!hours.json->is_object())
         complain(hours, "is no list of hours; an object with members such as \"09\" is right");
     for (int hour = 0; hour < 24; ++hour)
-        if (const auto at = hours.json->find((hour < 10 ? "0" : "") + std::to_string(hour)); at != hours.json->end())
+        if (const auto at = hours.json->find(std::string(hour < 10 ? "0" : "") + std::to_string(hour));
+            at != hours.json->end())
             day.hours[std::size_t(hour)] = tally_of(*at);
     return day;
 }

@@ -113,6 +113,7 @@ public:
         begin();
     }
 
+    void reloaded() { saved_ = false; }
     bool over() const { return visit_ >= options_.visits || interrupted(); }
 
     void act(RecordEntry& entry)
@@ -124,6 +125,8 @@ public:
         entry.controls.head = head;
         if (left_ == 0 && (use_ == Use::tour || use_ == Use::flight)) // these go on without a rest
             end();
+        if (left_ == 0 && saved_) // the exhibit reads it beside its frames, once the file rests
+            return;
         if (left_-- > 0)
             return visitor_->act(entry.controls, frame_s);
         if (left_ == -1)
@@ -155,6 +158,7 @@ private:
         progress_.show("visit " + std::to_string(visit_) + " of " + std::to_string(options_.visits),
             double(visit_) / double(options_.visits));
         begin();
+        saved_ = use_ == Use::reloads;
     }
 
     const SoakOptions& options_;
@@ -164,6 +168,7 @@ private:
     Use use_;
     long visit_, frames_ = 0;
     int left_ = 0;
+    bool saved_ = false; ///< a layout is saved and not yet shown
     std::unique_ptr<SeededVisitor> visitor_;
     Progress progress_;
     Clock::time_point began_ = Clock::now();
@@ -174,6 +179,10 @@ int soak(const SoakOptions& options)
     if (!has_display())
         throw InputError("There is no display server here (DISPLAY and WAYLAND_DISPLAY lead nowhere); for a soak Xvfb will "
                          "do: xvfb-run starbow soak");
+    // Whatever can be wrong is read before the first file is written.
+    const Words words = words_in("en");
+    const Programme programme
+        = use_of(options.as) == Use::tour ? programme_of_tour(options.tour, words) : programme_of_scene(options.scene);
     SoakLog log(options.log, options.as, options.seed);
     if (log.next_visit() >= options.visits)
         std::printf("All %ld visits of %s are over\n", options.visits, options.log.c_str());
@@ -182,18 +191,15 @@ int soak(const SoakOptions& options)
     if (log.next_visit() < options.visits) {
         const SoakFolder folder;
         Visitors visitors(options, log, folder);
-        const Words words = words_in("en");
-        ExhibitOptions exhibit{.programme
-            = use_of(options.as) == Use::tour ? programme_of_tour(options.tour, words) : programme_of_scene(options.scene),
-            .layout = load_layout(folder.layout()),
-            .words = words,
-            .profiles = known_profiles()};
+        ExhibitOptions exhibit{
+            .programme = programme, .layout = load_layout(folder.layout()), .words = words, .profiles = known_profiles()};
         exhibit.quality = load_quality(shipped_file("qualities", "draft"));
         exhibit.warms_up = false;
         exhibit.version = "soak";
         exhibit.paced = false;
         exhibit.counts_driver_memory = true;
         exhibit.visitor = [&](RecordEntry& entry) { visitors.act(entry); };
+        exhibit.reloaded = [&] { visitors.reloaded(); };
         exhibit.over = [&] { return visitors.over(); };
         WindowSystem window_system;
         status = fly_exhibit(exhibit);
