@@ -211,7 +211,7 @@ void main()
         light[0] = cube.ambient.rgb;
         vec3 n = normalize(gl_FrontFacing ? normal : -normal);
         for (int i = 0; i < LIGHTS; ++i)
-            add_lamp(coefficients, light, cube.lights[i], n, base.rgb);
+            add_lamp(coefficients, light, cube.lights[int(cube.first.w) + i], n, base.rgb);
     }
 
     bool own_emission = OWN > 0 && push.beyond.w >= 0.0;

@@ -62,7 +62,7 @@ float exact_distance_at(Place place)
 float exact_distance_in(float distance, int frame, vec3 n0, float pixel_angle)
 {
     int i = 0;
-    while (i + 1 < int(rest_frames.count.x) && int(rest_frames.entries[i].boost.w) != frame)
+    while (i + 1 < rest_frame_count() && int(rest_frames.entries[i].boost.w) != frame)
         ++i;
     float angle;
     AberratedRay sight;

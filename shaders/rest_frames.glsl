@@ -1,6 +1,8 @@
 // Several rest frames: each has a cube map of its own, boosted directly to the camera. Along a line of sight, the light's
 // travel distance in the ship is D times that in any frame; the frames' surfaces are ordered by it, in front of the sky.
 
+int rest_frame_count() { return int(rest_frames.count[int(rest_frames.world_up.w)].x); }
+
 RestFrameView rest_frame_of(int i)
 {
     RestFrameEntry entry = rest_frames.entries[i];
@@ -110,7 +112,7 @@ vec3 light_of_rest_frames(vec3 n0, float pixel_angle, inout AberratedRay sight, 
     // Without aberration, directions are the world's, and moving things are seen from the world's rest frame; D includes
     // the ship's own.
     float D_beside = ABERRATION ? 1.0 : sight.D, sky_D = sight.D;
-    int count = int(rest_frames.count.x);
+    int count = rest_frame_count();
     Part parts[MAX_REST_FRAMES];
     float left = 1.0; // for the sky
     int shown = 0;

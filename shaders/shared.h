@@ -1,6 +1,10 @@
 // Data that the processor writes and the shaders read, one text for both. C++ includes it through
 // shaders/shared_structs.h, which asserts the sizes. All members are 16-byte aligned, so that std140, std430 and C++
 // agree.
+//
+// A number that decides a branch must not have a constant place in a uniform buffer: there, llvmpipe (Mesa 22.3) takes it for
+// a constant, compiles the shader again whenever the buffer is bound, if that makes it much shorter, and keeps every copy. Such
+// a number is therefore in an array, and the array's index has an addend that is 0, and that only the buffer tells.
 
 // The fixed division's tiles (see tiles.h); every tile has an entry, drawn or not.
 #define TILE_FRONT 0
@@ -63,8 +67,8 @@ struct CubeConstants {
     vec4 sky_horizon[MAX_GROUPS];
     vec4 sky_nadir[MAX_GROUPS];
     vec4 world_up; // the cube map's axes
-    vec4 first; // indices of this rest frame's first x: instance, y: TimeEntry, z: pose
-    vec4 now; // w: 1 where everything is shown at the ship's present; xyz: the ship's velocity here
+    vec4 first; // indices of this rest frame's first x: instance, y: TimeEntry, z: pose; w: 0, see above
+    vec4 now[1]; // w: 1 where everything is shown at the ship's present; xyz: the ship's velocity here
     LightEntry lights[MAX_LIGHTS];
 };
 
@@ -124,8 +128,8 @@ struct RestFrameEntry {
 
 // The rest frames of one view, and the sky behind them.
 struct RestFrameConstants {
-    vec4 count; // x: number of rest frames
-    vec4 world_up; // axes of the world's cube map
+    vec4 count[1]; // x: number of rest frames
+    vec4 world_up; // axes of the world's cube map; w: 0, see above
     vec4 sky_zenith[MAX_GROUPS]; // coefficients of the light, pre-exposed
     vec4 sky_horizon[MAX_GROUPS];
     vec4 sky_nadir[MAX_GROUPS];

@@ -215,7 +215,7 @@ void main()
     if (hidden(place_of(from_place, world_rest_frame())))
         return;
     // A moving body hides the star where the body is drawn.
-    for (int i = 1; SEVERAL_REST_FRAMES && i < int(rest_frames.count.x); ++i)
+    for (int i = 1; SEVERAL_REST_FRAMES && i < rest_frame_count(); ++i)
         if (dot(part_of(i, sight.n, pixel_angle, 1.0).covers, vec4(1.0)) > 0.5)
             return;
     light = starlight(star, sight) * (view.boost.z / (pixel_angle * pixel_angle));

@@ -101,7 +101,7 @@ shared::CubeConstants CubeUploads::constants_of(const EyeEvent& eye_event, doubl
         constants.sky_nadir[0] = glm::vec4(scene.sky.nadir * scale, 0);
     }
     constants.world_up = glm::vec4(eye_event.cube_from_frame * glm::dvec3(0, 1, 0), 0);
-    constants.now = glm::vec4(0, 0, eye_event.beta, eye_event.now);
+    constants.now[0] = glm::vec4(0, 0, eye_event.beta, eye_event.now);
     for (std::size_t i = 0; i < world_.world.lamps.size(); ++i)
         constants.lights[i] = light_entry(world_, world_.world.lamps[i], eye_event, scale);
     return constants;

@@ -129,7 +129,7 @@ void ViewDescriptors::write_rest_frames(ViewState& view)
         entry.eye = views_.eye_constants(view, rest_frame);
         entry.nearest.y = float(eye.nearest[at]);
     }
-    all.count.x = float(count);
+    all.count[0].x = float(count);
     all.world_up = glm::vec4(rest_frames[0].cube_from_frame * glm::dvec3(0, 1, 0), 0);
     for (std::size_t group = 0; group < MAX_GROUPS; ++group) {
         all.sky_zenith[group] = glm::vec4(world_.spectra.sky[0][group] * state_.pre_exposure);
