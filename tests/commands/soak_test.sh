@@ -3,15 +3,61 @@
 # Usage: soak_test.sh PROGRAM RIG [VISITS [LOG]]
 # With VISITS and LOG it is the long form: it goes on where an interrupted one ended.
 set -u
-program=$(realpath "$1") built=$(realpath "$2") visits=${3:-40} rig=$(dirname "$0")/../rig
+program=$(realpath "$1") built=$(realpath "$2") visits=${3:-60} rig=$(dirname "$0")/../rig
 . "$rig/monitors.sh"
 serve Xvfb -noreset -screen 0 640x480x24
 log=${4:-$folder/soak.csv}
-# The device is lost now and then.
+# The device is lost now and then; a stick and a throttle are plugged in, unplugged and plugged in at another port; the wall
+# clock is set back by a day every other second; the disk of the counts, of the layout and of
+# the caches is full for a while.
 export VK_LAYER_PATH=$built VK_INSTANCE_LAYERS=VK_LAYER_STARBOW_faults
 export STARBOW_FAULTS=submit:500:DEVICE_LOST,submit:2500:DEVICE_LOST
-export XDG_CACHE_HOME=$folder/cache XDG_STATE_HOME=$folder/state
-"$program" soak --visits "$visits" --log "$log" >"$folder/out" 2>"$folder/err-log"
+export XDG_CONFIG_HOME=$folder/own STARBOW_CACHE=$folder/disk/cache folder
+mkdir -p "$folder/disk"
+cat >"$folder/visitor" <<END
+#!/bin/sh
+export LD_PRELOAD="\$LD_PRELOAD:$built/libstarbow_clock.so" TMPDIR=$folder/disk
+exec "$program" "\$@"
+END
+chmod +x "$folder/visitor"
+cat >"$folder/plugging" <<'END'
+plug thrustmaster-t16000m 0
+plug thrustmaster-twcs-throttle 1
+start
+wait 4
+forever
+unplug thrustmaster-twcs-throttle
+wait 1
+unplug thrustmaster-t16000m
+wait 1
+plug thrustmaster-twcs-throttle 5
+plug thrustmaster-t16000m 0
+wait 1
+unplug thrustmaster-twcs-throttle
+plug thrustmaster-twcs-throttle 1
+wait 1
+END
+cat >"$folder/filling" <<'END'
+while sleep 8; do
+    dd if=/dev/zero of="$folder/disk/rest" bs=4096 2>/dev/null
+    echo full >>"$folder/filled"
+    sleep 3
+    rm "$folder/disk/rest"
+done
+END
+cat >"$folder/inside" <<'END'
+[ $disk = no ] || mount -t tmpfs -o size=16m none "$folder/disk" || exit 3
+mkdir -p "$STARBOW_CACHE"
+[ $disk = no ] || { bash "$folder/filling" & filling=$!; }
+umockdev-wrapper "$built/fake_sticks" "$rig/../hid" "$folder/plugging" "$folder/visitor" soak --visits "$visits" --log "$log"
+code=$?
+[ $disk = no ] || kill $filling
+exit $code
+END
+export built rig visits log disk=no
+# A disk of its own needs a namespace of mounts.
+[ "$(id -u)" = 0 ] && unshare -m true 2>/dev/null && disk=yes
+if [ $disk = yes ]; then unshare -m bash "$folder/inside"; else bash "$folder/inside"; fi >"$folder/out" 2>"$folder/err-log"
 code=$?
 tail -n 9 "$folder/out"
 [ $code = 0 ] || fail "exit $code: $(tail -n 3 "$folder/err-log")"
@@ -19,6 +65,10 @@ ok
 [ "$(grep -c ': applied' "$folder/err-log")" -ge $((visits / 10 - 1)) ] || fail "layouts were not reloaded"
 ok
 grep -q 'is lost' "$folder/err-log" || fail "the device was never lost"
+ok
+[ "$(grep -c 'is unplugged' "$folder/err-log")" -ge $((visits / 10)) ] || fail "sticks were not plugged in"
+ok
+[ $disk = no ] || [ -s "$folder/filled" ] || fail "the disk was never full"
 ok
 [ "$(grep -c '^[0-9]' "$log")" -ge $((visits / 20)) ] || fail "samples are missing"
 ok

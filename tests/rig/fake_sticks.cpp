@@ -11,6 +11,7 @@
 //   type TEXT               types a line, once the program has read all reports
 //   interrupt               sends SIGINT, as Ctrl-C does
 //   wait SECONDS
+//   forever                 the lines below are repeated until the program has ended
 //   run COMMAND             runs a shell command and waits for it
 //   say TEXT                prints TEXT on standard error
 #include <algorithm>
@@ -252,7 +253,13 @@ int main(int count, char** arguments)
     pid_t program = -1;
     Dialogue dialogue;
     std::signal(SIGPIPE, SIG_IGN); // the program may end while the script still types
-    for (std::string line; std::getline(script, line);) {
+    std::streampos again = -1;
+    for (std::string line; std::getline(script, line) || (again != -1 && !has_ended(program));) {
+        if (!script) {
+            script.clear();
+            script.seekg(again);
+            continue;
+        }
         std::istringstream words(line);
         std::string verb, name, rest;
         words >> verb;
@@ -286,6 +293,8 @@ int main(int count, char** arguments)
             usleep(20000); // time from the read of a report to its evaluation
             rest += '\n';
             (void)!write(dialogue.keyboard, rest.data(), rest.size());
+        } else if (verb == "forever") {
+            again = script.tellg();
         } else if (verb == "interrupt") {
             kill(program, SIGINT);
         } else if (verb == "plug") {

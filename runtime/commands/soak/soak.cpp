@@ -11,7 +11,6 @@
 #include "runtime/exhibit/exhibit.h"
 #include "runtime/exhibit/outputs.h"
 #include "runtime/operation/progress.h"
-#include "runtime/operation/state_folder.h"
 #include "runtime/operation/vitals.h"
 #include "runtime/render/driver_memory.h"
 #include "visitor.h"
@@ -41,7 +40,8 @@ constexpr int resting_frames = 3; ///< after a reset, before a sample is taken
 /// layout again, so that samples are of one state.
 constexpr long turn = 20;
 
-/// A folder for the layout that the soak saves again and again.
+/// A folder for the layout that the soak saves again and again, and for the counts, which are none of the machine's
+/// visitors'.
 class SoakFolder {
 public:
     SoakFolder()
@@ -61,18 +61,20 @@ public:
     SoakFolder(const SoakFolder&) = delete;
 
     std::filesystem::path layout() const { return folder_ / "layout.json"; }
+    std::filesystem::path state() const { return folder_ / "state"; }
+    std::filesystem::path textfile() const { return folder_ / "starbow.prom"; }
     void save(long visit) const
     {
         const bool first = visit % turn >= turn / 2;
         write_whole(layout(), layouts_[first ? 0 : std::size_t(visit / turn + 1) % layouts_.size()]);
     }
 
-    /// Files in this folder, in the cache and in the state folder.
+    /// Files in this folder and in the cache.
     std::size_t files() const
     {
         std::size_t count = 0;
         std::error_code error;
-        for (const std::filesystem::path& folder : {folder_, map_cache_folder(), state_folder()})
+        for (const std::filesystem::path& folder : {folder_, map_cache_folder()})
             if (!folder.empty())
                 for (std::filesystem::recursive_directory_iterator at(folder, error), end; !error && at != end;
                      at.increment(error))
@@ -142,8 +144,19 @@ private:
         left_ = visitor_->frames();
         if (use_ == Use::reloads)
             folder_.save(visit_ * (turn / 2)); // the other layouts and the first one in turn
-        else if (use_ == Use::visitors && visit_ % (turn / 2) == 0)
+        else if (use_ == Use::visitors && (visit_ % (turn / 2) == 0 || unsaved_))
+            save_or_later();
+    }
+
+    /// A full disk takes no layout: the next visit saves it.
+    void save_or_later()
+    {
+        try {
+            unsaved_ = true;
             folder_.save(visit_);
+            unsaved_ = false;
+        } catch (const InputError&) {
+        }
     }
 
     void end()
@@ -169,6 +182,7 @@ private:
     long visit_, frames_ = 0;
     int left_ = 0;
     bool saved_ = false; ///< a layout is saved and not yet shown
+    bool unsaved_ = false; ///< a layout could not be saved
     std::unique_ptr<SeededVisitor> visitor_;
     Progress progress_;
     Clock::time_point began_ = Clock::now();
@@ -198,6 +212,8 @@ int soak(const SoakOptions& options)
         exhibit.version = "soak";
         exhibit.paced = false;
         exhibit.counts_driver_memory = true;
+        exhibit.state = folder.state();
+        exhibit.textfile = folder.textfile();
         exhibit.visitor = [&](RecordEntry& entry) { visitors.act(entry); };
         exhibit.reloaded = [&] { visitors.reloaded(); };
         exhibit.over = [&] { return visitors.over(); };
