@@ -119,6 +119,7 @@ int Server::socket(lws* wsi, lws_callback_reasons reason, void* room, void* in, 
             return -1;
         clients_.push_back({wsi, token, plain_address(peer.data()), *role, Rate(most_messages_per_s)});
         client_at(room) = &clients_.back();
+        take_news();
         say(clients_.back(), hello_text(*role, options_.version));
         return 0;
     }

@@ -216,13 +216,8 @@ void Server::tick()
     schedule();
     const Logins::Time now = std::chrono::steady_clock::now();
     hand_out_replies();
-    const bool anybody = !clients_.empty();
-    if (anybody && exchange_.snapshots.refresh()) {
-        status_.set(status_text(exchange_.snapshots.newest(), false));
-        engineer_status_.set(status_text(exchange_.snapshots.newest(), true));
-    }
-    if (anybody && exchange_.conditions.refresh())
-        log_.set(log_text(exchange_.conditions.newest().log));
+    if (!clients_.empty())
+        take_news();
     const bool watched = std::ranges::any_of(clients_, &Client::picture);
     exchange_.picture_wanted.store(watched, std::memory_order_relaxed);
     if (watched && exchange_.pictures.refresh()) {
@@ -237,6 +232,18 @@ void Server::tick()
         if (client.closes || due(client))
             lws_callback_on_writable(client.wsi);
     }
+}
+
+/// Takes the newest state and log. Without pages nobody takes them, so a page that comes needs them before its first
+/// message.
+void Server::take_news()
+{
+    if (exchange_.snapshots.refresh()) {
+        status_.set(status_text(exchange_.snapshots.newest(), false));
+        engineer_status_.set(status_text(exchange_.snapshots.newest(), true));
+    }
+    if (exchange_.conditions.refresh())
+        log_.set(log_text(exchange_.conditions.newest().log));
 }
 
 void Server::hand_out_replies()

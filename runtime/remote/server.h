@@ -98,6 +98,7 @@ private:
     void hand_out_replies();
     void end(Client& client);
     void schedule();
+    void take_news();
 
     RemoteOptions options_;
     Exchange& exchange_;

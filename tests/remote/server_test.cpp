@@ -421,6 +421,17 @@ TEST(Server, TellGivesACommandAndPrintsTheState)
     EXPECT_NE(complaint([&] { tell(nowhere, {"stop"}); }).find("no exhibit answers"), std::string::npos);
 }
 
+TEST(Server, WhoComesSeesWhatHappenedWhileNobodyWasThere)
+{
+    Running running;
+    EXPECT_NE(state_of_exhibit(running.tell_options()).find("scene: avenue\n"), std::string::npos);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300)); // until that connection has ended
+    running.osc("127.0.0.1", std::string("/starbow/scene\0\0,s\0\0twins\0\0\0", 28));
+    running.wait_for(1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50)); // the frame that shows it
+    EXPECT_NE(state_of_exhibit(running.tell_options()).find("scene: twins\n"), std::string::npos);
+}
+
 TEST(Server, WithACertificateAllIsEncrypted)
 {
     Running running([](RemoteSettings& settings) {
