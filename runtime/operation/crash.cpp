@@ -8,6 +8,7 @@
 #include <ctime>
 #include <execinfo.h>
 #include <fcntl.h>
+#include <functional>
 #include <sys/stat.h>
 #include <ucontext.h>
 #include <unistd.h>
@@ -140,7 +141,12 @@ void keep_newest(const std::filesystem::path& folder, std::size_t count)
     for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
         if (entry.path().extension() == ".txt")
             files.push_back(entry.path());
-    std::sort(files.begin(), files.end()); // their names begin with the time
+    // Their names begin with the time. Where the clock was set back, those of a time to come are the oldest.
+    std::sort(files.begin(), files.end());
+    const auto past = [now = std::time(nullptr)](const std::filesystem::path& file) {
+        return std::strtoll(file.filename().c_str(), nullptr, 10) <= now;
+    };
+    std::stable_partition(files.begin(), files.end(), std::not_fn(past));
     for (std::size_t i = 0; i + count < files.size(); ++i)
         std::filesystem::remove(files[i], ignored);
 }

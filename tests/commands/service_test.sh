@@ -79,6 +79,7 @@ ok
 # A crash leaves a trace, the last 20 are kept, and the next start is counted.
 mkdir -p "$folder/crash/crash"
 for i in $(seq 100 130); do : >"$folder/crash/crash/1000000$i-1.txt"; done
+for i in 1 2 3; do : >"$folder/crash/crash/900000000$i-1.txt"; done # before the clock was set back
 (manage crash --runs 2 --until 'STATUS=never') &
 manager=$!
 flying() { sed -n "/start $1/,\$p" "$folder/crash-events-log" | grep -q READY=1; }
