@@ -53,7 +53,7 @@ ExhibitOptions reopen(const std::filesystem::path& record, const std::string& la
         .rules = header.rules,
         .exposure = header.exposing,
         .tutorial = false,
-        .pattern = pattern_of(header.pattern),
+        .pattern = pattern_named(header.pattern),
         .replay = record};
 }
 
@@ -95,7 +95,7 @@ ExhibitOptions open(const RunOptions& options)
     exhibit_options.frame_budget_ms = exhibit.frame_budget_ms;
     if (exhibit_options.frame_budget_ms > 0)
         exhibit_options.ladder = load_ladder(shipped_file("qualities", exhibit.ladder));
-    exhibit_options.pattern = pattern_of(options.pattern);
+    exhibit_options.pattern = pattern_named(options.pattern);
     exhibit_options.record = options.record;
     exhibit_options.state = state_folder();
     exhibit_options.textfile = exhibit.textfile;

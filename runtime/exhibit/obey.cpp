@@ -25,14 +25,6 @@ void set_comparison(Session& session, const std::string& name)
     effects_of(session).comparison = Comparison(at - comparison_names.begin());
 }
 
-void set_pattern(Session& session, const std::string& name)
-{
-    const auto at = std::ranges::find(pattern_names, name);
-    if (at == pattern_names.end())
-        throw InputError("the pattern " + name + " is not known; none, grid, rings, names, wedges or overlap is right");
-    session.alignment.show(Pattern(at - pattern_names.begin()));
-}
-
 /// The same tour in other words keeps its step and its time.
 void set_words(Session& session, Words words)
 {
@@ -110,7 +102,7 @@ void obey(Session& session, const Command& command, Controls& controls)
         session.directions.holds = command.on;
         break;
     case CommandKind::pattern:
-        set_pattern(session, command.text);
+        session.alignment.show(pattern_named(command.text));
         break;
     case CommandKind::restart:
         session.directions.restarts = true;

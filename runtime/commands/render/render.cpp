@@ -54,7 +54,7 @@ int render(const RenderOptions& options)
     if (!options.size.empty())
         for (Output& output : layout.outputs)
             output.size = parse_size(options.size);
-    const Pattern pattern = pattern_of(options.pattern);
+    const Pattern pattern = pattern_named(options.pattern);
     std::vector<std::filesystem::path> pictures;
     for (const Output& output : layout.outputs)
         for (const Viewport& viewport : output.viewports)

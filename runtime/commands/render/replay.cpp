@@ -2,7 +2,6 @@
 #include "config/json/error.h"
 #include "config/json/reader.h"
 #include "config/model/shipped.h"
-#include "runtime/commands/options/pattern.h"
 #include "runtime/commands/options/size.h"
 #include "runtime/exhibit/replay_renderer.h"
 #include "runtime/flight/history.h"
@@ -51,7 +50,7 @@ int render_replay(const ReplayOptions& options)
             output.size = parse_size(options.size);
     const std::filesystem::path folder = options.out;
     check_writable(folder / (from.layout.outputs[0].name + ".png"));
-    const Pattern pattern = pattern_of(header.pattern);
+    const Pattern pattern = pattern_named(header.pattern);
     RenderContext context(from.scene, device_options(false));
     const SceneFile& scene = context.world.scene;
     OffscreenRenderer renderer(
