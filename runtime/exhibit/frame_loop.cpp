@@ -55,7 +55,7 @@ FrameLoop::FrameLoop(Session& session, RemoteControl& remote, RenderContext& con
 
 FrameLoop::~FrameLoop()
 {
-    settle(device_);
+    device_.settle();
     device_.trace = nullptr, device_.timer = nullptr;
     device_.save_pipelines();
 }

@@ -160,15 +160,6 @@ bool has_display()
     return glfwInit();
 }
 
-void settle(Device& device) noexcept
-{
-    const LimitedWait idling("the device's rest (vkDeviceWaitIdle)");
-    try {
-        device.device.waitIdle();
-    } catch (const vk::SystemError&) { // a lost device is idle
-    }
-}
-
 Window::Window(Device& device, const Output& output, const std::optional<WindowPlace>& place)
     : device_(&device)
     , name_(output.name)
@@ -245,7 +236,7 @@ void Window::let_go()
 {
     if (clock_)
         clock_->wait_idle();
-    settle(*device_);
+    device_->settle();
     views_.clear();
     swapchain_ = nullptr;
     surface_ = nullptr;
@@ -305,7 +296,7 @@ bool Window::make_swapchain()
 {
     if (clock_)
         clock_->wait_idle();
-    settle(*device_);
+    device_->settle();
     auto limits = device_->physical.getSurfaceCapabilitiesKHR(*surface_);
     glm::ivec2 wanted;
     glfwGetFramebufferSize(window_, &wanted.x, &wanted.y);

@@ -33,9 +33,6 @@ private:
 /// True if a window system answers. GLFW then runs from here on.
 bool has_display();
 
-/// Waits until the device has nothing to do, or is lost.
-void settle(Device& device) noexcept;
-
 /// A size in pixels for a message: "160x120".
 std::string text_of(glm::ivec2 size);
 

@@ -352,7 +352,21 @@ void Device::finish(vk::raii::CommandBuffer& commands)
     name_object(*this, fence, "fence of a moment's commands");
     vk::CommandBufferSubmitInfo buffer(*commands);
     queue.submit2(vk::SubmitInfo2({}, {}, buffer, {}), *fence);
-    await(*fence, "the end of a moment's commands (fence)");
+    try {
+        await(*fence, "the end of a moment's commands (fence)");
+    } catch (const vk::SystemError&) { // the driver may still work with what the caller destroys now
+        settle();
+        throw;
+    }
+}
+
+void Device::settle() const noexcept
+{
+    const LimitedWait idling("the device's rest (vkDeviceWaitIdle)");
+    try {
+        device.waitIdle();
+    } catch (const vk::SystemError&) { // a lost device is idle
+    }
 }
 
 void Device::await(vk::Fence fence, const char* what) const

@@ -55,6 +55,8 @@ public:
     void end_rendering(vk::CommandBuffer commands) const;
     /// Waits for a fence. what: names the wait. Where the fence does not come within LimitedWait's limit, the process ends.
     void await(vk::Fence fence, const char* what) const;
+    /// Waits until the device does nothing. Before that, or its loss, no object in use may be destroyed.
+    void settle() const noexcept;
 
     /// Records, submits and waits: for loading, measuring and stills.
     template <class Record> void now(Record&& record)
