@@ -352,12 +352,7 @@ void Device::finish(vk::raii::CommandBuffer& commands)
     name_object(*this, fence, "fence of a moment's commands");
     vk::CommandBufferSubmitInfo buffer(*commands);
     queue.submit2(vk::SubmitInfo2({}, {}, buffer, {}), *fence);
-    try {
-        await(*fence, "the end of a moment's commands (fence)");
-    } catch (const vk::SystemError&) { // the driver may still work with what the caller destroys now
-        settle();
-        throw;
-    }
+    await(*fence, "the end of a moment's commands (fence)");
 }
 
 void Device::settle() const noexcept
@@ -374,9 +369,14 @@ void Device::await(vk::Fence fence, const char* what) const
     // Short waits in turn: time in which a stopped program did not run is not counted.
     constexpr double turn_s = 0.1;
     const LimitedWait wait(what);
-    for (double waited_s = 0; device.waitForFences(fence, true, std::uint64_t(1e9 * turn_s)) == vk::Result::eTimeout;)
-        if ((waited_s += turn_s) > wait.limit_s())
-            give_up(what, waited_s);
+    try {
+        for (double waited_s = 0; device.waitForFences(fence, true, std::uint64_t(1e9 * turn_s)) == vk::Result::eTimeout;)
+            if ((waited_s += turn_s) > wait.limit_s())
+                give_up(what, waited_s);
+    } catch (const vk::SystemError&) { // the driver may still work with what the caller destroys now
+        settle();
+        throw;
+    }
 }
 
 } // namespace starbow
