@@ -8,12 +8,11 @@ program=$(realpath "$1") built=$(realpath "$2") visits=${3:-60} rig=$(dirname "$
 serve Xvfb -noreset -screen 0 640x480x24
 log=${4:-$folder/soak.csv}
 # The device is lost now and then; a stick and a throttle are plugged in, unplugged and plugged in at another port; the wall
-# clock is set back by a day every other second; the disk of the counts, of the layout and of
-# the caches is full for a while.
+# clock is set back by a day every other second; the disk of the counts, of the layout and of the caches is full for a while.
 export VK_LAYER_PATH=$built VK_INSTANCE_LAYERS=VK_LAYER_STARBOW_faults
 export STARBOW_FAULTS=submit:500:DEVICE_LOST,submit:2500:DEVICE_LOST
 export XDG_CONFIG_HOME=$folder/own STARBOW_CACHE=$folder/disk/cache folder
-mkdir -p "$folder/disk"
+mkdir "$folder/disk"
 cat >"$folder/visitor" <<END
 #!/bin/sh
 export LD_PRELOAD="\$LD_PRELOAD:$built/libstarbow_clock.so" TMPDIR=$folder/disk
@@ -37,27 +36,25 @@ unplug thrustmaster-twcs-throttle
 plug thrustmaster-twcs-throttle 1
 wait 1
 END
-cat >"$folder/filling" <<'END'
+# on_a_full_disk COMMAND...
+cat >"$folder/on_a_full_disk" <<'END'
+mount -t tmpfs -o size=16m none "$folder/disk" || exit 3
 while sleep 8; do
     dd if=/dev/zero of="$folder/disk/rest" bs=4096 2>/dev/null
     echo full >>"$folder/filled"
     sleep 3
     rm "$folder/disk/rest"
-done
-END
-cat >"$folder/inside" <<'END'
-[ $disk = no ] || mount -t tmpfs -o size=16m none "$folder/disk" || exit 3
-mkdir -p "$STARBOW_CACHE"
-[ $disk = no ] || { bash "$folder/filling" & filling=$!; }
-umockdev-wrapper "$built/fake_sticks" "$rig/../hid" "$folder/plugging" "$folder/visitor" soak --visits "$visits" --log "$log"
+done &
+"$@"
 code=$?
-[ $disk = no ] || kill $filling
+kill $!
 exit $code
 END
-export built rig visits log disk=no
+disk=()
 # A disk of its own needs a namespace of mounts.
-[ "$(id -u)" = 0 ] && unshare -m true 2>/dev/null && disk=yes
-if [ $disk = yes ]; then unshare -m bash "$folder/inside"; else bash "$folder/inside"; fi >"$folder/out" 2>"$folder/err-log"
+[ "$(id -u)" = 0 ] && unshare -m true 2>/dev/null && disk=(unshare -m bash "$folder/on_a_full_disk")
+"${disk[@]}" umockdev-wrapper "$built/fake_sticks" "$rig/../hid" "$folder/plugging" "$folder/visitor" \
+    soak --visits "$visits" --devices 2 --log "$log" >"$folder/out" 2>"$folder/err-log"
 code=$?
 tail -n 9 "$folder/out"
 [ $code = 0 ] || fail "exit $code: $(tail -n 3 "$folder/err-log")"
@@ -68,7 +65,7 @@ grep -q 'is lost' "$folder/err-log" || fail "the device was never lost"
 ok
 [ "$(grep -c 'is unplugged' "$folder/err-log")" -ge $((visits / 10)) ] || fail "sticks were not plugged in"
 ok
-[ $disk = no ] || [ -s "$folder/filled" ] || fail "the disk was never full"
+[ ${#disk[@]} = 0 ] || [ -s "$folder/filled" ] || fail "the disk was never full"
 ok
 [ "$(grep -c '^[0-9]' "$log")" -ge $((visits / 20)) ] || fail "samples are missing"
 ok

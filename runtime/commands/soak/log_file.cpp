@@ -26,13 +26,13 @@ struct Quantity {
     std::size_t SoakSample::*value;
     double unit; ///< of the table
     double most; ///< greatest part by which it may have grown
-    double sticks = 0; ///< more of them, with two sticks plugged in, than without
+    double per_device = 0; ///< number of them that a device has while it is plugged in, at most
 };
 
 /// A driver frees pipelines by their age, so the number of its pieces, too, is compared as memory is.
 constexpr Quantity quantities[] = {{"memory in the machine, MB", &SoakSample::resident_bytes, 1e6, 0.01},
-    {"memory in use, MB", &SoakSample::heap_bytes, 1e6, 0.01}, {"open files", &SoakSample::files, 1, 0, 4},
-    {"threads", &SoakSample::threads, 1, 0, 2}, {"pieces of Vulkan objects", &SoakSample::driver_pieces, 1, 0.01},
+    {"memory in use, MB", &SoakSample::heap_bytes, 1e6, 0.01}, {"open files", &SoakSample::files, 1, 0, 2},
+    {"threads", &SoakSample::threads, 1, 0, 1}, {"pieces of Vulkan objects", &SoakSample::driver_pieces, 1, 0.01},
     {"their memory, MB", &SoakSample::driver_bytes, 1e6, 0.01}, {"temporary files", &SoakSample::temporary_files, 1, 0}};
 
 double median_of(std::span<const SoakSample> samples, std::size_t SoakSample::*value)
@@ -96,7 +96,7 @@ void SoakLog::add(const SoakSample& s)
         refuse_writing(file_, errno);
 }
 
-SoakResult SoakLog::result(long settled) const
+SoakResult SoakLog::result(long settled, int devices) const
 {
     const std::vector<SoakSample>& all = samples_.empty() ? before_ : samples_;
     if (all.empty())
@@ -117,8 +117,8 @@ SoakResult SoakLog::result(long settled) const
         const double before = median_of(early, quantity.value), after = median_of(late, quantity.value);
         const double growth = before > 0 ? after / before - 1 : after > 0 ? 1 : 0;
         // A process that shrinks has lost nothing. Caches fill during the first visits, so that memory is judged after them.
-        const bool steady
-            = after - before <= quantity.most * before + quantity.sticks || (quantity.most > 0 && visits < settled);
+        const bool steady = after - before <= quantity.most * before + quantity.per_device * devices
+            || (quantity.most > 0 && visits < settled);
         result.steady = result.steady && steady;
         std::snprintf(line.data(), line.size(), "%-28s %12.*f %12.*f  %+.2f %%%s\n", quantity.name,
             quantity.unit > 1 ? 2 : 0, before / quantity.unit, quantity.unit > 1 ? 2 : 0, after / quantity.unit,

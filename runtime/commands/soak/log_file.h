@@ -32,8 +32,9 @@ public:
     /// Appends a line. Throws InputError.
     void add(const SoakSample& sample);
     /// Compares the medians of this process's first samples after the settled visit with those of its last ones: memory may
-    /// have grown by a hundredth, and counts not at all. Before the settled visit memory is not judged.
-    SoakResult result(long settled) const;
+    /// have grown by a hundredth, and counts not at all but by those of the devices, which may be plugged in at one sample
+    /// and not at another. Before the settled visit memory is not judged.
+    SoakResult result(long settled, int devices) const;
     /// Draws the memory over the visits, as an SVG picture beside the file.
     void draw() const;
 

@@ -28,6 +28,7 @@ using Clock = std::chrono::steady_clock;
 
 struct SoakOptions {
     long visits = 300, seed = 1, settled = 1000;
+    int devices = 0;
     std::string as = use_names[0], scene = "avenue", tour = "first-minute";
     std::string log = "out/soak.csv";
 };
@@ -220,7 +221,7 @@ int soak(const SoakOptions& options)
         WindowSystem window_system;
         status = fly_exhibit(exhibit);
     }
-    const SoakResult result = log.result(options.settled);
+    const SoakResult result = log.result(options.settled, options.devices);
     std::printf("%s", result.text.c_str());
     log.draw();
     return status != 0 ? status : result.steady ? 0 : 1;
@@ -253,6 +254,11 @@ void add_soak(CLI::App& app, std::function<int()>& chosen)
         ->add_option(
             "--settled", options->settled, "The first visit of the comparison of memory, which caches fill until then")
         ->check(whole_number(1, 100000000))
+        ->capture_default_str();
+    command
+        ->add_option("--devices", options->devices,
+            "Number of devices that are plugged in and unplugged meanwhile; each has up to two files and a thread")
+        ->check(whole_number(0, 100))
         ->capture_default_str();
     command
         ->add_option("--log", options->log,
