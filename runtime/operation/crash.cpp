@@ -8,10 +8,10 @@
 #include <ctime>
 #include <execinfo.h>
 #include <fcntl.h>
-#include <functional>
 #include <sys/stat.h>
 #include <ucontext.h>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace starbow {
@@ -142,11 +142,9 @@ void keep_newest(const std::filesystem::path& folder, std::size_t count)
         if (entry.path().extension() == ".txt")
             files.push_back(entry.path());
     // Their names begin with the time. Where the clock was set back, those of a time to come are the oldest.
-    std::sort(files.begin(), files.end());
-    const auto past = [now = std::time(nullptr)](const std::filesystem::path& file) {
-        return std::strtoll(file.filename().c_str(), nullptr, 10) <= now;
-    };
-    std::stable_partition(files.begin(), files.end(), std::not_fn(past));
+    std::ranges::sort(files, {}, [now = std::time(nullptr)](const std::filesystem::path& file) {
+        return std::pair(std::strtoll(file.filename().c_str(), nullptr, 10) <= now, file);
+    });
     for (std::size_t i = 0; i + count < files.size(); ++i)
         std::filesystem::remove(files[i], ignored);
 }

@@ -11,21 +11,19 @@ namespace {
 
 std::atomic<long> compilations = 0;
 
+/// The library that the driver has loaded.
 void* llvm()
 {
-    static void* const library = [] {
-        std::string path;
-        dl_iterate_phdr(
-            [](dl_phdr_info* info, std::size_t, void* to) {
-                const bool found = std::string_view(info->dlpi_name).find("/libLLVM") != std::string_view::npos;
-                if (found)
-                    *static_cast<std::string*>(to) = info->dlpi_name;
-                return int(found);
-            },
-            &path);
-        return path.empty() ? nullptr : dlopen(path.c_str(), RTLD_LAZY | RTLD_NOLOAD);
-    }();
-    return library;
+    std::string path;
+    dl_iterate_phdr(
+        [](dl_phdr_info* info, std::size_t, void* to) {
+            const bool found = std::string_view(info->dlpi_name).find("/libLLVM") != std::string_view::npos;
+            if (found)
+                *static_cast<std::string*>(to) = info->dlpi_name;
+            return int(found);
+        },
+        &path);
+    return path.empty() ? nullptr : dlopen(path.c_str(), RTLD_LAZY | RTLD_NOLOAD);
 }
 
 } // namespace
