@@ -7,8 +7,11 @@
 #include "version.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <unistd.h>
 #include <vector>
@@ -106,6 +109,29 @@ int run(int count, char** arguments)
     }
     return chosen();
 }
+
+std::terminate_handler usual_end = nullptr;
+
+/// Ends the program where memory is refused before main, or inside a destructor or a function that may not throw: nlohmann's
+/// JSON values allocate while they are destroyed, and CLI11 while it looks an option up. All other terminations are crashes.
+void end_at_once()
+{
+    try {
+        if (const std::exception_ptr error = std::current_exception())
+            std::rethrow_exception(error);
+    } catch (const std::bad_alloc&) {
+        constexpr std::string_view line
+            = "starbow: The memory is used up; smaller outputs, a smaller world or more memory is right\n";
+        [[maybe_unused]] const ssize_t wrote = ::write(STDERR_FILENO, line.data(), line.size());
+        std::_Exit(not_done);
+    } catch (...) {
+    }
+    usual_end();
+    std::abort();
+}
+
+/// Runs before the other files' static objects are made, because these allocate, too.
+[[gnu::constructor(101)]] void guard_memory() { usual_end = std::set_terminate(end_at_once); }
 
 } // namespace
 

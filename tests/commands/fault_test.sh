@@ -149,6 +149,19 @@ done
 "$(dirname "$0")/../every_fault.py" "$program" "$tools" --sample ${STARBOW_ALL_CASES:-40} >"$folder/log" || fail "Vulkan's failures"
 ok
 
+# A command that is refused memory says so in one line, also where a library asks for it inside a function that may not throw.
+refused=0
+for ((n = 1; n < 5000; n += 23)); do
+    STARBOW_FAULTS=new:$n:OUT_OF_MEMORY LD_PRELOAD=$tools/libstarbow_no_memory.so \
+        "$program" check "$rig/../../config/layouts/desk.json" --svg "$folder/plan.svg" >"$folder/out" 2>"$folder/log"
+    status=$?
+    grep -q '^fault: new' "$folder/log" || break
+    [ $status = 0 ] || { [ $status = 2 ] && [ "$(grep -c '^starbow: ' "$folder/log")" = 1 ]; } || fail "allocation $n: exit $status"
+    refused=$((refused + 1))
+done
+[ $refused -gt 100 ] || fail "only $refused allocations were refused"
+ok
+
 # The X server ends: so does the program, in order, with a status of its own, and without a crash's trace. The service manager
 # starts both anew.
 STATE_DIRECTORY=$folder/state timeout 60 "$program" run --layout "$folder/two.json" --record "$folder/end.jsonl" --trace "$folder/end.json" \
