@@ -20,8 +20,8 @@ def connection(request):
     return wire, head.decode()
 
 
-def log_in():
-    body = '{"pin":"222222"}'
+def log_in(pin="222222"):
+    body = f'{{"pin":"{pin}"}}'
     wire, head = connection(f"POST /login HTTP/1.1\r\nHost: {HOST}\r\nOrigin: http://{HOST}\r\nContent-Length: {len(body)}\r\n\r\n{body}")
     wire.close()
     return head.split("set-cookie: ")[1].split(";")[0]
@@ -108,4 +108,5 @@ def main():
           "16.67 ms, and the command is in its picture")
 
 
-main()
+if __name__ == "__main__":
+    main()
