@@ -8,7 +8,7 @@ layout(constant_id = 5) const bool CHANNELS = false; // red, green and blue have
 layout(constant_id = 6) const bool REPROJECT = false; // the eye is not where the cube map was drawn
 layout(constant_id = 7) const bool TURNING = false; // the eye's side depends on the azimuth
 layout(constant_id = 8) const bool STARS = false;
-// constant_id 9 is warp.frag's; 10 has a meaning of its own in each pass
+// constant_id 9 is warp.glsl's; 10 has a meaning of its own in each pass
 layout(constant_id = 11) const int REFLECTED = 3; // coefficients of reflected sunlight: 3 are a colour
 layout(constant_id = 12) const int OWN = 0; // coefficients of emission basis spectra
 layout(constant_id = 13) const bool BY_TABLE = true; // otherwise the coefficients are the unshifted colour
@@ -343,17 +343,18 @@ Shown shown_at(vec2 pixel, int channel, float coarser, out float pixel_angle)
     return Shown(n, AberratedRay(n, 1.0), 0.0, 0.0, vec3(0.0)); // nothing
 }
 
-// The light of a pixel: the mean along RAYS x RAYS evenly distributed directions; 0 where the angle is 0. shown_along has
-// one call here, because a driver copies it to each.
+// The light of a pixel: the mean along RAYS x RAYS evenly distributed directions. Returns a Shown, empty where the angle
+// is 0.
 vec3 light_at(vec2 pixel, int channel, out float pixel_angle)
 {
+    if (RAYS == 1)
+        return shown_at(pixel, channel, 1.0, pixel_angle).light;
     vec3 sum = vec3(0.0);
     for (int ray = 0; ray < RAYS * RAYS; ++ray) {
         vec2 offset = (vec2(ray % RAYS, ray / RAYS) + 0.5) / float(RAYS) - 0.5;
-        vec3 n = RAYS == 1 ? look(view.row0, view.row1, view.row2, pixel, channel, pixel_angle)
-                           : look_within(view.row0, view.row1, view.row2, pixel, offset, channel, pixel_angle);
+        vec3 n = look_within(view.row0, view.row1, view.row2, pixel, offset, channel, pixel_angle);
         if (MAP && pixel_angle == 0.0)
-            return vec3(0.0);
+            return sum;
         sum += shown_along(n, pixel_angle / float(RAYS)).light;
     }
     return sum / float(RAYS * RAYS);

@@ -117,6 +117,10 @@ vec3 light_of_rest_frames(vec3 n0, float pixel_angle, inout AberratedRay sight, 
     float left = 1.0; // for the sky
     int shown = 0;
     for (int i = 0; i < count; ++i) {
+        // The filter reaches some pixels beyond the surfaces; the last addend is the rounding of the dot product.
+        vec4 cap = rest_frames.entries[i].cap;
+        if (dot(n0, cap.xyz) < cap.w - 4.0 * pixel_angle - 1e-6)
+            continue;
         Part part = part_of(i, n0, pixel_angle, D_beside);
         if (is_sky(part.ways.x) && part.covers == vec4(0.0))
             continue;
@@ -138,7 +142,9 @@ vec3 light_of_rest_frames(vec3 n0, float pixel_angle, inout AberratedRay sight, 
         vec4 moving[MAX_GROUPS];
         for (int group = 0; group < GROUPS; ++group)
             moving[group] = vec4(0.0);
-        for (int k = 0; k < 4; ++k) {
+        // A part that is alone is the first.
+        int samples = parts[i].covers.y + parts[i].covers.z + parts[i].covers.w == 0.0 ? 1 : 4;
+        for (int k = 0; k < samples; ++k) {
             float part = parts[i].covers[k], way = parts[i].ways[k];
             if (part <= 0.0)
                 continue;

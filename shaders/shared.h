@@ -124,6 +124,7 @@ struct RestFrameEntry {
     vec4 boost; // E, 1/E; z: index of its first tile, w: its index among the world's frames
     vec4 eye;
     vec4 nearest; // y: as ViewPush's zenith
+    vec4 cap; // its surfaces lie in the ship's directions n with dot(n, xyz) >= w, the world's motion axes; w = -2: in any
 };
 
 // The rest frames of one view, and the sky behind them.

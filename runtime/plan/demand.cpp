@@ -88,21 +88,13 @@ struct Held {
     }
     Held(const std::vector<BoundingSphere>& bounds, int finest_clip_level)
     {
-        glm::dvec3 sum(0);
-        for (const BoundingSphere& thing : bounds)
-            if (const double distance = glm::length(thing.centre); distance > thing.radius)
-                sum += thing.centre / distance * (thing.radius / distance);
-        if (glm::length(sum) > 0)
-            axis = glm::normalize(sum);
-        radius = -1;
+        const BoundingCap cap = bounding_cap(bounds);
+        axis = cap.axis, radius = cap.radius_rad;
         for (const BoundingSphere& thing : bounds) {
             const double distance = glm::length(thing.centre);
             const bool inside = !(distance > thing.radius * 1.0001);
-            const glm::dvec3 way = inside ? axis : thing.centre / distance;
-            const double spread = inside ? pi : std::asin(thing.radius / distance);
-            radius = std::max(radius, std::min(pi, angle(axis, way) + spread));
-            each_tile(
-                way, spread, finest_clip_level, [&](int tile, const Rect& part) { rects[std::size_t(tile)].add(part); });
+            each_tile(inside ? axis : thing.centre / distance, inside ? pi : std::asin(thing.radius / distance),
+                finest_clip_level, [&](int tile, const Rect& part) { rects[std::size_t(tile)].add(part); });
         }
     }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "bounding_cap.h"
 #include "displays/compile/cone_hierarchy.h"
 #include "tiles.h"
 #include <optional>
@@ -11,12 +12,6 @@ struct ViewRequest {
     const ConeHierarchy* cones;
     glm::dmat3 motion_from_cockpit; ///< turn into the axes whose z is the direction of motion
     double parallax_rad = 0; ///< greatest angle, in the world, between a pixel's direction and the texel it reads
-};
-
-/// A bounding sphere of something drawn: centre from the eye, the cube map's axes; scene units.
-struct BoundingSphere {
-    glm::dvec3 centre;
-    double radius;
 };
 
 /// One rest frame's part of a cube map: the directions and densities that the views request, boosted by the frame's own

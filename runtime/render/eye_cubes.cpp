@@ -1,4 +1,5 @@
 #include "eye_cubes.h"
+#include "config/model/angles.h"
 #include "runtime/operation/trace.h"
 #include "runtime/plan/cull.h"
 #include <algorithm>
@@ -125,6 +126,23 @@ bool EyeCubes::can_reuse(std::size_t i) const
     return starbow::can_reuse(plans[i], eye.wanted);
 }
 
+void EyeCubes::bound(EyeCube& eye, const CubeMapPlan& plan) const
+{
+    eye.caps.assign(eye.requests.size(), {});
+    if (state_.reprojects())
+        return; // an eye beside sees the surfaces elsewhere
+    for (std::size_t at = 0; at < eye.requests.size(); ++at)
+        if (const RestFrameRequest& request = eye.requests[at]; request.bounds && !request.galilean)
+            eye.caps[at] = bounding_cap(*request.bounds);
+    constexpr double texels = 2;
+    std::vector<double> widest(eye.caps.size(), 0);
+    for (const PlannedImage& image : plan.images)
+        widest[std::size_t(image.rest_frame)]
+            = std::max(widest[std::size_t(image.rest_frame)], texels / image.texels_per_unit);
+    for (std::size_t at = 0; at < eye.caps.size(); ++at)
+        eye.caps[at].radius_rad = std::min(pi, eye.caps[at].radius_rad + widest[at]);
+}
+
 void EyeCubes::plan(double pre_exposure, const Probe* probe)
 {
     bool keep = drawn_ && shown_ < state_.quality.frames_per_cube;
@@ -145,6 +163,7 @@ void EyeCubes::plan(double pre_exposure, const Probe* probe)
             std::swap(plans[i], eye.wanted);
             eye.cube.prepare(plans[i], eye.eye_events, state_.pre_exposure);
             std::swap(eye.drawn, eye.eye_events);
+            bound(eye, plans[i]);
         }
         if (world_.star_count == 0)
             continue;

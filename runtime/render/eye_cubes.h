@@ -16,6 +16,7 @@ struct EyeCube {
     std::vector<EyeEvent> drawn{}; ///< the cube map was drawn at these events, one for each rest frame
     std::vector<StarRun> stars{}; ///< stars that the views may show
     std::vector<RestFrameRequest> requests{};
+    std::vector<BoundingCap> caps{}; ///< one for each rest frame: of the drawn surfaces and the filter around them
     std::vector<EyeEvent> eye_events{}; ///< the cube map would be drawn at these events now
     CubeMapPlan wanted{}; ///< the plan of that cube map
     std::vector<double> nearest{}; ///< one for each rest frame: a lower bound of its surfaces' distance, scene units; 1
@@ -57,6 +58,8 @@ public:
 
 private:
     std::size_t eye_for(const ViewState& view);
+    /// Bounds the surfaces of the cube map that is drawn now.
+    void bound(EyeCube& eye, const CubeMapPlan& plan) const;
     void request_views(std::size_t eye, const Probe* probe);
     bool can_reuse(std::size_t eye) const;
 

@@ -25,6 +25,7 @@
 #include "spirv/star_meter_frag.h"
 #include "spirv/star_vert.h"
 #include "spirv/warp_frag.h"
+#include "spirv/warp_rays_frag.h"
 #include <algorithm>
 #include <cstddef>
 
@@ -175,7 +176,7 @@ vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
     all[10] = target != light_format; // 8 bits need dither
     return find_or_make({.name = "warp pipeline",
         .vertex = screen_vert,
-        .fragment = warp_frag,
+        .fragment = v.rays == 1 && !v.channels ? Spirv(warp_frag) : Spirv(warp_rays_frag),
         .layout = *layouts.warp_layout,
         .target = {{target}},
         .constants = all});

@@ -128,6 +128,10 @@ void ViewDescriptors::write_rest_frames(ViewState& view)
         entry.boost = glm::vec4(rest_frame.E, 1 / rest_frame.E, at * TILE_COUNT, at);
         entry.eye = views_.eye_constants(view, rest_frame);
         entry.nearest.y = float(eye.nearest[at]);
+        BoundingCap cap = eye.caps[at];
+        cap.axis = glm::transpose(rest_frame.cube_from_motion) * cap.axis;
+        const glm::dvec4 there = cap_in_ship(cap, rest_frame.E);
+        entry.cap = glm::vec4(glm::transpose(turn) * glm::dvec3(there), there.w);
     }
     all.count[0].x = float(count);
     all.world_up = glm::vec4(rest_frames[0].cube_from_frame * glm::dvec3(0, 1, 0), 0);
