@@ -23,9 +23,9 @@ vec3 light_along(vec2 pixel, int channel, out bool shows)
     vec3 light = light_at(pixel, channel, pixel_angle);
 #endif
     shows = !MAP || pixel_angle > 0.0;
-    if (!shows)
-        return vec3(0.0);
-    return STARS ? light + texelFetch(stars_picture, ivec2(pixel + view.corner.xy), 0).rgb : light;
+    if (STARS && shows)
+        light += texelFetch(stars_picture, ivec2(pixel + view.corner.xy), 0).rgb;
+    return light;
 }
 
 void main()
