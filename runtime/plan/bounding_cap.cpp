@@ -17,7 +17,7 @@ BoundingCap bounding_cap(std::span<const BoundingSphere> spheres)
     for (const BoundingSphere& one : spheres) {
         const double distance = glm::length(one.centre);
         if (!(distance > one.radius * 1.0001))
-            return {cap.axis, pi}; // the eye is inside
+            return {.axis = cap.axis}; // the eye is inside
         const double away = 2 * std::asin(std::min(1.0, 0.5 * glm::length(cap.axis - one.centre / distance)));
         cap.radius_rad = std::max(cap.radius_rad, std::min(pi, away + std::asin(one.radius / distance)));
     }
@@ -26,9 +26,10 @@ BoundingCap bounding_cap(std::span<const BoundingSphere> spheres)
 
 glm::dvec4 cap_in_ship(const BoundingCap& cap, double E)
 {
-    if (!(cap.radius_rad < pi))
+    const double radius = cap.radius_rad + cap.filter_rad;
+    if (!(radius < pi))
         return {0, 0, 1, -2};
-    const double cosh = 0.5 * (E + 1 / E), sinh = 0.5 * (E - 1 / E), least = std::cos(cap.radius_rad);
+    const double cosh = 0.5 * (E + 1 / E), sinh = 0.5 * (E - 1 / E), least = std::cos(radius);
     const glm::dvec3 axis(cap.axis.x, cap.axis.y, cosh * cap.axis.z + sinh * least);
     const double length = glm::length(axis), part = (sinh * cap.axis.z + cosh * least) / length;
     return std::isfinite(part) && length > 0 ? glm::dvec4(axis / length, part) : glm::dvec4(0, 0, 1, -2);

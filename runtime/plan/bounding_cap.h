@@ -14,6 +14,7 @@ struct BoundingSphere {
 struct BoundingCap {
     glm::dvec3 axis{0, 0, 1}; ///< unit
     double radius_rad = 3.14159265358979323846; ///< up to pi, which is the whole sphere; below 0 there is nothing inside
+    double filter_rad = 0; ///< the reach of the texels' filter around it
 };
 
 /// A cap that encloses all spheres as the origin sees them.

@@ -1,5 +1,4 @@
 #include "eye_cubes.h"
-#include "config/model/angles.h"
 #include "runtime/operation/trace.h"
 #include "runtime/plan/cull.h"
 #include <algorithm>
@@ -134,13 +133,11 @@ void EyeCubes::bound(EyeCube& eye, const CubeMapPlan& plan) const
     for (std::size_t at = 0; at < eye.requests.size(); ++at)
         if (const RestFrameRequest& request = eye.requests[at]; request.bounds && !request.galilean)
             eye.caps[at] = bounding_cap(*request.bounds);
-    constexpr double texels = 2;
-    std::vector<double> widest(eye.caps.size(), 0);
-    for (const PlannedImage& image : plan.images)
-        widest[std::size_t(image.rest_frame)]
-            = std::max(widest[std::size_t(image.rest_frame)], texels / image.texels_per_unit);
-    for (std::size_t at = 0; at < eye.caps.size(); ++at)
-        eye.caps[at].radius_rad = std::min(pi, eye.caps[at].radius_rad + widest[at]);
+    for (const PlannedImage& image : plan.images) {
+        constexpr double texels = 2;
+        double& widest = eye.caps[std::size_t(image.rest_frame)].filter_rad;
+        widest = std::max(widest, texels / image.texels_per_unit);
+    }
 }
 
 void EyeCubes::plan(double pre_exposure, const Probe* probe)
