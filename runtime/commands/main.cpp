@@ -20,6 +20,8 @@ namespace {
 
 /// The exit status after wrong input and where the machine has failed: its memory, its disk, its graphics driver.
 constexpr int not_done = 2;
+constexpr std::string_view memory_used_up
+    = "The memory is used up; smaller outputs, a smaller world or more memory is right";
 
 /// Prints one line on standard error, after the log's lines.
 int complain(std::string text) noexcept
@@ -72,7 +74,7 @@ int guarded(const std::function<int()>& run)
     } catch (const starbow::InputError& error) {
         return complain(error.what());
     } catch (const std::bad_alloc&) {
-        return complain("The memory is used up; smaller outputs, a smaller world or more memory is right");
+        return complain(std::string(memory_used_up));
     } catch (const std::system_error& error) {
         // The graphics driver's errors have a category of their own.
         const std::error_category& category = error.code().category();
@@ -120,9 +122,8 @@ void end_at_once()
         if (const std::exception_ptr error = std::current_exception())
             std::rethrow_exception(error);
     } catch (const std::bad_alloc&) {
-        constexpr std::string_view line
-            = "starbow: The memory is used up; smaller outputs, a smaller world or more memory is right\n";
-        [[maybe_unused]] const ssize_t wrote = ::write(STDERR_FILENO, line.data(), line.size());
+        for (const std::string_view part : {std::string_view("starbow: "), memory_used_up, std::string_view("\n")})
+            [[maybe_unused]] const ssize_t wrote = ::write(STDERR_FILENO, part.data(), part.size());
         std::_Exit(not_done);
     } catch (...) {
     }

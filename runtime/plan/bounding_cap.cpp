@@ -1,5 +1,4 @@
 #include "bounding_cap.h"
-#include "config/model/angles.h"
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "config/model/angles.h"
 #include <glm/glm.hpp>
 #include <span>
 
@@ -13,7 +14,7 @@ struct BoundingSphere {
 /// A circle on the sphere of directions, with all inside it.
 struct BoundingCap {
     glm::dvec3 axis{0, 0, 1}; ///< unit
-    double radius_rad = 3.14159265358979323846; ///< up to pi, which is the whole sphere; below 0 there is nothing inside
+    double radius_rad = pi; ///< up to pi, which is the whole sphere; below 0 there is nothing inside
     double filter_rad = 0; ///< the reach of the texels' filter around it
 };
 

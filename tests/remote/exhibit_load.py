@@ -89,6 +89,8 @@ def main():
                     break
                 except OSError:
                     time.sleep(0.2)
+            else:
+                raise SystemExit("the exhibit serves no page within twenty seconds")
             time.sleep(3)  # the first pictures
             spans, states = [], []
             for _ in range(pairs):
@@ -96,7 +98,9 @@ def main():
                     pages = [open_page(cookie) for _ in range(count)]
                     phase(pages, 0.5)
                     began = time.monotonic()
-                    states += [phase(pages, PHASE_S)] if count else (phase(pages, PHASE_S), [])[1]
+                    rate = phase(pages, PHASE_S)
+                    if count:
+                        states.append(rate)
                     spans.append((count, began, time.monotonic()))
                     for page in pages:
                         page.close()
