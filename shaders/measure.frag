@@ -30,9 +30,9 @@ void main()
             continue;
         float same_angle;
         vec3 seen = RAYS == 1 ? shown.light : light_at(pixel, channel, same_angle);
+        seen *= view.boost.z;
         if (STARS)
             seen += texelFetch(stars_picture, ivec2(gl_FragCoord.xy), 0).rgb;
-        seen *= view.boost.z;
         if (CHANNELS)
             light[channel] = seen[channel];
         else

@@ -29,7 +29,7 @@ layout(set = 0, binding = 1) uniform sampler2D atlas; // four coefficients of th
 layout(set = 0, binding = 2) uniform samplerBuffer tiles; // TileTable
 layout(set = 0, binding = 3) uniform usamplerBuffer response; // Response's rows
 layout(set = 0, binding = 4) uniform sampler2D depth_atlas; // near / distance along the face's normal, 0 at infinity
-layout(set = 0, binding = 5) uniform sampler2D stars_picture; // pixel for pixel the target's; light as the atlas's
+layout(set = 0, binding = 5) uniform sampler2D stars_picture; // pixel for pixel the target's; exposed light
 layout(set = 0, binding = 7) uniform sampler2D atlas1; // four more coefficients, and so on
 layout(set = 0, binding = 8) uniform sampler2D atlas2;
 layout(set = 0, binding = 9) uniform sampler2D atlas3;

@@ -13,15 +13,20 @@ layout(constant_id = 10) const bool DITHERED = true; // the target has 8 bits
 
 layout(location = 0) out vec4 shown;
 
-// shows: false where the map shows nothing; there the light is 0.
+// Exposed. shows: false where the map shows nothing; there the light is 0.
 vec3 light_along(vec2 pixel, int channel, out bool shows)
 {
     float pixel_angle;
-#ifdef ONE_RAY
+#if defined DARK
+    vec3 light = vec3(0.0);
+    if (MAP)
+        look(view.row0, view.row1, view.row2, pixel, channel, pixel_angle);
+#elif defined ONE_RAY
     vec3 light = shown_at(pixel, channel, 1.0, pixel_angle).light;
 #else
     vec3 light = light_at(pixel, channel, pixel_angle);
 #endif
+    light *= view.boost.z;
     shows = !MAP || pixel_angle > 0.0;
     if (STARS && shows)
         light += texelFetch(stars_picture, ivec2(pixel + view.corner.xy), 0).rgb;
@@ -33,17 +38,24 @@ void main()
     vec2 pixel = gl_FragCoord.xy - view.origin.xy;
     bool shows;
     vec3 light = light_along(pixel, 0, shows);
-#ifndef ONE_RAY
+#if !defined ONE_RAY && !defined DARK
     bool also_shows;
     if (CHANNELS)
         light = vec3(light.r, light_along(pixel, 1, also_shows).g, light_along(pixel, 2, also_shows).b);
 #endif
     // Infinite D^3 is clamped to a number: the greatest light is already white.
-    light = clamp(light * view.boost.z, vec3(0.0), vec3(1e30));
+    light = clamp(light, vec3(0.0), vec3(1e30));
     if (LINEAR) {
         shown = vec4(min(light, vec3(60000.0)), shows ? 1.0 : 0.0); // fp16's greatest, nearly
         return;
     }
-    vec3 screen = tone_map(light);
-    shown = vec4(DITHERED ? dithered_srgb(screen, ivec2(gl_FragCoord.xy)) : screen, 1.0);
+#ifdef DARK
+    // Few pixels hold a star. A driver without a GPU passes by a loop, not a branch.
+    shown = vec4(0.0, 0.0, 0.0, 1.0);
+    for (int turn = 0; turn < (light == vec3(0.0) ? 0 : 1); ++turn)
+#endif
+    {
+        vec3 screen = tone_map(light);
+        shown = vec4(DITHERED ? dithered_srgb(screen, ivec2(gl_FragCoord.xy)) : screen, 1.0);
+    }
 }

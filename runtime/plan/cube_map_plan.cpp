@@ -247,6 +247,19 @@ struct Allocation {
     }
 };
 
+/// The tangent of the angle from straight behind within which the views need one density: D is nearly constant within
+/// 1 / gamma, and all may be dark. Finer nested images would repeat the last one.
+double even_behind(const RestFrameRequest& request)
+{
+    const double E = request.E;
+    double dark_D = 1e300;
+    for (const ViewRequest& view : request.views)
+        dark_D = std::min(dark_D, view.dark_D);
+    // D = E s + (1 - s) / E in the world's direction with s the square of the sine of half that angle.
+    const double s = E > 1 ? std::clamp((dark_D - 1 / E) / (E - 1 / E), 0.0, 0.14) : 0; // up to 44 degrees
+    return std::max(2 / (E + 1 / E), std::tan(2 * std::asin(std::sqrt(s))));
+}
+
 /// Packs images on shelves, tallest first, into an atlas that is about square. Corners are multiples of `align`, so that
 /// mips don't overlap.
 void pack(CubeMapPlan& plan, std::vector<std::size_t>& order, int align)
@@ -296,20 +309,22 @@ CubeMapPlan plan_cube_map(
     CubeMapPlan plan;
     std::swap(plan.images, before.images);
     std::swap(plan.finest_clip_level, before.finest_clip_level), plan.finest_clip_level.clear();
+    double dark_pixels = 0;
     std::size_t used = 0; // of room.by_tile, whose elements of 54 kB are filled in place
     if (room.demands.size() < requests.size())
         room.demands.resize(requests.size());
     for (std::size_t rest_frame = 0; rest_frame < requests.size(); ++rest_frame) {
-        const double E = requests[rest_frame].E;
-        // Behind, D is constant within 1/gamma of the axis: finer images would repeat the last one. Nested images would
-        // not be around that axis where the cube map has other axes; there D varies little.
-        const bool aligned = requests[rest_frame].cube_from_motion == glm::dmat3(1);
-        const int finest_clip_level = aligned
-            ? std::clamp(int(std::ceil(2 * std::log2(0.5 * (E + 1 / E)))), 0, std::min(quality.clip_levels, REAR_LEVELS - 1))
-            : 0;
+        // Nested images would not be around the axis behind where the cube map has other axes; there D varies little.
+        const RestFrameRequest& request = requests[rest_frame];
+        const bool aligned = request.cube_from_motion == glm::dmat3(1);
+        const int finest_clip_level = aligned ? std::clamp(int(std::ceil(-2 * std::log2(even_behind(request)))), 0,
+                                          std::min(quality.clip_levels, REAR_LEVELS - 1))
+                                              : 0;
         plan.finest_clip_level.push_back(finest_clip_level);
         room.demands[rest_frame].clear();
-        add_demands(room.demands[rest_frame], requests[rest_frame], finest_clip_level, quality.pixel_rays);
+        const double dark = add_demands(room.demands[rest_frame], request, finest_clip_level, quality.pixel_rays);
+        if (rest_frame == 0)
+            dark_pixels = dark;
         for (int tile = 0; tile < TILE_COUNT; ++tile)
             if (const Demands::Tile& demand = room.demands[rest_frame].tiles[std::size_t(tile)]; demand.any) {
                 if (used == room.by_tile.size())
@@ -331,7 +346,12 @@ CubeMapPlan plan_cube_map(
     int seen = 0;
     for (std::size_t i = 0; i < plan.images.size(); ++i)
         seen += i == 0 || plan.images[i].rest_frame != plan.images[i - 1].rest_frame;
-    const double most_texels = std::min(quality.max_texels_per_pixel * plan.pixels * std::max(seen, 1), quality.max_texels);
+    constexpr double dark_counts = 1.0 / 16;
+    const double counted = plan.pixels - (1 - dark_counts) * dark_pixels;
+    // Tiles cost time whatever their texels, and their gutters are texels: less would only be coarse.
+    const double least_texels = quality.image_cost_texels * double(used) / 16;
+    const double most_texels
+        = std::min(std::max(quality.max_texels_per_pixel * counted * std::max(seen, 1), least_texels), quality.max_texels);
     // Other divisions suit a coarser plan, and they have other texels.
     for (int i = 0; i < 3 && allocation.mean_texels(density) > (1 + 1e-6) * most_texels; ++i) {
         density = allocation.fitting(density, most_texels);

@@ -33,6 +33,13 @@ struct Frustum {
         planes[3] = glm::normalize(b - image.low.y * normal);
         planes[4] = glm::normalize(image.high.y * normal - b);
     }
+    bool sees(const glm::dvec3& centre, double radius) const
+    {
+        for (const glm::dvec3& plane : planes)
+            if (glm::dot(plane, centre) < -radius)
+                return false;
+        return true;
+    }
     bool sees(const Box& box) const
     {
         for (const glm::dvec3& plane : planes)
@@ -42,20 +49,35 @@ struct Frustum {
     }
 };
 
-/// True for a box that lies wholly in the clip-map hole, which the next finer image behind fills: no pixel reads it there.
-bool in_clip_hole(const PlannedImage& image, const Box& box)
-{
-    if (image.clip_hole <= 0)
-        return false;
-    glm::dvec3 normal = face_direction(image.face, {0, 0});
-    glm::dvec3 a = face_direction(image.face, {1, 0}) - normal, b = face_direction(image.face, {0, 1}) - normal;
-    for (const glm::dvec3& side : {a, -a, b, -b}) {
-        glm::dvec3 plane = image.clip_hole * normal - side;
-        if (glm::dot(plane, box.centre) < reach(box, plane))
-            return false;
+/// An image's clip-map hole, which the next finer image behind fills: no pixel reads it there.
+struct ClipHole {
+    bool any;
+    glm::dvec3 planes[4]; ///< unit, inwards
+    explicit ClipHole(const PlannedImage& image)
+        : any(image.clip_hole > 0)
+    {
+        const glm::dvec3 normal = face_direction(image.face, {0, 0});
+        const glm::dvec3 a = face_direction(image.face, {1, 0}) - normal, b = face_direction(image.face, {0, 1}) - normal;
+        const glm::dvec3 sides[] = {a, -a, b, -b};
+        for (int i = 0; i < 4; ++i)
+            planes[i] = glm::normalize(image.clip_hole * normal - sides[i]);
     }
-    return true;
-}
+    /// True for a sphere that lies wholly in it.
+    bool holds(const glm::dvec3& centre, double radius) const
+    {
+        for (const glm::dvec3& plane : planes)
+            if (!any || glm::dot(plane, centre) < radius)
+                return false;
+        return true;
+    }
+    bool holds(const Box& box) const
+    {
+        for (const glm::dvec3& plane : planes)
+            if (!any || glm::dot(plane, box.centre) < reach(box, plane))
+                return false;
+        return true;
+    }
+};
 
 /// The level of detail for an instance: -1 is the full surface.
 int level_of(const Primitive& primitive, const Box& box, const PlannedImage& image, const Quality& quality)
@@ -183,6 +205,57 @@ void add_poses(const World& world, std::span<const EyeEvent> eye_events, DrawLis
     }
 }
 
+/// A view of the clusters of one instance that stands still.
+struct ClusterView {
+    glm::dmat3 turn; ///< the cube map's axes, as shown, from local
+    glm::dvec3 place;
+    double scale;
+    glm::dvec3 eye; ///< local; any such map keeps the eye on its side of each triangle
+    bool one_sided;
+
+    ClusterView(const Instance& instance, const EyeEvent& eye_event, double box_scale, bool shows_one_side)
+        : scale(box_scale * std::max(1.0, eye_event.contraction))
+    {
+        const Standing at = standing(instance.frame_from_local, eye_event);
+        eye = -(glm::inverse(at.turn) * at.place);
+        // Where the map mirrors, the primitive is turned.
+        one_sided = shows_one_side && glm::determinant(at.turn) > 0;
+        turn = at.turn, place = at.place;
+        for (int i = 0; i < 3; ++i)
+            turn[i].z *= eye_event.contraction;
+        place.z *= eye_event.contraction;
+    }
+    bool sees(const Cluster& cluster, const Frustum& frustum, const ClipHole& hole) const
+    {
+        const glm::dvec3 from_eye = glm::dvec3(cluster.centre) - eye;
+        // Slightly more than the float's own bounds.
+        const double radius = 1.0001 * cluster.radius;
+        if (one_sided
+            && glm::dot(from_eye, glm::dvec3(cluster.axis)) >= (cluster.cutoff + 1e-4) * glm::length(from_eye) + radius)
+            return false;
+        const glm::dvec3 centre = turn * glm::dvec3(cluster.centre) + place;
+        return frustum.sees(centre, scale * radius) && !hole.holds(centre, scale * radius);
+    }
+};
+
+/// Adds a draw for each run of neighbouring clusters in view. draw: of the whole surface.
+void add_clusters(const World& world, const ClusterRange& clusters, const ClusterView& view, const Frustum& frustum,
+    const ClipHole& hole, Draw draw, std::vector<Draw>& draws)
+{
+    bool runs = false;
+    for (std::uint32_t i = clusters.first; i < clusters.first + clusters.count; ++i) {
+        const Cluster& cluster = world.clusters[i];
+        const bool sees = view.sees(cluster, frustum, hole);
+        if (sees && runs) {
+            draws.back().index_count += cluster.index_count;
+        } else if (sees) {
+            draw.first_index = cluster.first_index, draw.index_count = cluster.index_count;
+            draws.push_back(draw);
+        }
+        runs = sees;
+    }
+}
+
 } // namespace
 
 DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const std::vector<PlannedImage>& images,
@@ -209,6 +282,7 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
     for (std::uint32_t i = 0; i < images.size(); ++i) {
         const PlannedImage& image = images[i];
         const Frustum frustum(image);
+        const ClipHole hole(image);
         const std::uint32_t first = list.first[std::size_t(image.rest_frame)];
         const InstanceRange range = instances_of(world, eye_events[std::size_t(image.rest_frame)].frame);
         for (std::size_t at = range.first; at < range.last;) {
@@ -219,7 +293,7 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
             for (; at < range.last && world.instances[at].primitive == index && kind_of(world, world.instances[at]) == kind;
                  ++at) {
                 const std::uint32_t own = first + std::uint32_t(at - range.first);
-                if (boxes[own].shows && frustum.sees(boxes[own]) && !in_clip_hole(image, boxes[own]))
+                if (boxes[own].shows && frustum.sees(boxes[own]) && !hole.holds(boxes[own]))
                     by_level[std::size_t(level_of(primitive, boxes[own], image, quality) + 1)].push_back(own);
             }
             for (std::size_t level = 0; level < by_level.size(); ++level) {
@@ -228,11 +302,25 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
                     continue;
                 // Nearest first, so that hidden instances fail the depth test before they are shaded.
                 std::sort(seen.begin(), seen.end(), [&](auto a, auto b) { return boxes[a].distance < boxes[b].distance; });
-                DetailLevel detail = level == 0 ? DetailLevel{primitive.first_index, primitive.index_count, 0}
-                                                : primitive.coarser[level - 1];
-                list.draws.push_back({i, index, std::uint32_t(list.visible.size()), std::uint32_t(seen.size()),
-                    detail.first_index, detail.index_count, kind.first, kind.second});
+                const DetailLevel detail = level == 0
+                    ? DetailLevel{primitive.first_index, primitive.index_count, 0, 0, primitive.clusters}
+                    : primitive.coarser[level - 1];
+                Draw draw{i, index, std::uint32_t(list.visible.size()), std::uint32_t(seen.size()), detail.first_index,
+                    detail.index_count, kind.first, kind.second};
                 list.visible.insert(list.visible.end(), seen.begin(), seen.end());
+                if (detail.clusters.count == 0 || kind.second) {
+                    list.draws.push_back(draw);
+                } else {
+                    const bool one_sided = !world.materials[std::size_t(primitive.material)].double_sided;
+                    const EyeEvent& eye_event = eye_events[std::size_t(image.rest_frame)];
+                    draw.count = 1;
+                    for (std::uint32_t own : seen) {
+                        const Instance& instance = world.instances[range.first + (own - first)];
+                        add_clusters(world, detail.clusters, ClusterView(instance, eye_event, boxes[own].scale, one_sided),
+                            frustum, hole, draw, list.draws);
+                        ++draw.first;
+                    }
+                }
                 reserve_headroom(seen);
                 seen.clear();
             }

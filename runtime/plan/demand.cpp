@@ -15,6 +15,8 @@ struct Disc {
     double finest_pixel = 0, coarsest_pixel = 1e300; // the same in the ship; 0 and infinite where D does not give them
     double least_cos_half_square = 0; // of the outermost point's angle from straight ahead; 0 where that is unknown
     double times = 1; // D's ratio over its pixels
+    double most_D = 1e300; // of its pixels; infinite where that is unknown
+    double pixel = 0; // the finest in the ship, radians
 };
 
 /// The range of tan(angle) of a disc along one axis of a face, clamped to the face. Returns false if the disc misses it.
@@ -159,6 +161,7 @@ struct Walk {
     Demands& demands;
     double spread; ///< greatest distance of a pixel's rays from its centre, pixels
     int coarsest_level; ///< the coarsest level that follows the view's outline
+    double& dark_pixels;
 
     void block(int level, glm::ivec2 at) const
     {
@@ -176,13 +179,29 @@ struct Walk {
         // Few blocks are that large, so they may be divided further.
         const double most_varied = level <= coarsest_level ? 1.22 : 1.5;
         if (!last && (disc.radius > 0.25 || (!galilean && disc.coarsest > most_varied * disc.finest)))
-            split(level, at);
-        else if (disc.times > most_uneven && cap.radius < 1)
+            return split(level, at);
+        if (view.dark_D > 0)
+            dark_pixels += dark_part(disc) * pixels(level, at);
+        if (disc.times > most_uneven && cap.radius < 1)
             cut(centre, cap);
         else
             ask_for(disc);
     }
     static constexpr double most_uneven = 1.5;
+
+    double pixels(int level, glm::ivec2 at) const
+    {
+        const int side = view.cones->side(level);
+        const glm::ivec2 shown = glm::min((at + 1) * side, view.cones->size()) - at * side;
+        return double(shown.x) * shown.y;
+    }
+    /// The part of a disc that is dark, as if the logarithm of D were spread evenly.
+    double dark_part(const Disc& disc) const
+    {
+        if (disc.times <= 1 || disc.most_D < view.dark_D)
+            return disc.most_D < view.dark_D ? 1 : 0;
+        return std::clamp(1 - std::log(disc.most_D / view.dark_D) / std::log(disc.times), 0.0, 1.0);
+    }
 
     /// A boost maps circles to circles, so the world's disc follows exactly from the two ends on its meridian.
     Disc in_the_world(const glm::dvec3& centre, const BoundingCone& cap) const
@@ -217,6 +236,8 @@ struct Walk {
             const double near = doppler(std::max(turned(-own_reach), 0.0)),
                          far = doppler(std::min(turned(own_reach), 1e100));
             disc.times = near / far;
+            disc.most_D = near;
+            disc.pixel = cap.finest;
             disc.finest = far * cap.finest;
             disc.coarsest = near * cap.coarsest;
             if (view.parallax_rad == 0 && aligned) {
@@ -232,6 +253,11 @@ struct Walk {
 
     void ask_for(Disc disc) const
     {
+        if (disc.most_D < view.dark_D) {
+            disc.finest = std::max(disc.finest, view.dark_D * disc.pixel) / dark_density;
+            disc.coarsest = std::max(disc.coarsest, disc.finest);
+            disc.finest_pixel = 0, disc.coarsest_pixel = 1e300;
+        }
         disc.radius = std::min(pi, disc.radius + view.parallax_rad);
         add_disc(demands, held, disc, E, finest_clip_level);
     }
@@ -272,11 +298,12 @@ struct Walk {
 
 } // namespace
 
-void add_demands(Demands& demands, const RestFrameRequest& request, int finest_clip_level, int pixel_rays)
+double add_demands(Demands& demands, const RestFrameRequest& request, int finest_clip_level, int pixel_rays)
 {
+    double dark_pixels = 0;
     const Held held = request.bounds ? Held(*request.bounds, finest_clip_level) : Held();
     if (held.radius < 0)
-        return;
+        return dark_pixels;
     // The corners of a pixel's square, and the errors of float arithmetic.
     const double spread = 0.71 * (1 - 1.0 / pixel_rays) + 0.02;
     for (const ViewRequest& view : request.views) {
@@ -287,9 +314,10 @@ void add_demands(Demands& demands, const RestFrameRequest& request, int finest_c
         while (level + 1 < cones.levels() && cones.side(level) > wanted)
             ++level;
         Walk{view, request, request.E, request.galilean, request.cube_from_motion == glm::dmat3(1), finest_clip_level, held,
-            demands, spread, level}
+            demands, spread, level, dark_pixels}
             .block(0, {0, 0});
     }
+    return dark_pixels;
 }
 
 } // namespace starbow

@@ -12,6 +12,7 @@ struct ViewRequest {
     const ConeHierarchy* cones;
     glm::dmat3 motion_from_cockpit; ///< turn into the axes whose z is the direction of motion
     double parallax_rad = 0; ///< greatest angle, in the world, between a pixel's direction and the texel it reads
+    double dark_D = 0; ///< light of a smaller D shows nothing on the view's screen
 };
 
 /// One rest frame's part of a cube map: the directions and densities that the views request, boosted by the frame's own
@@ -52,8 +53,12 @@ struct Demands {
     }
 };
 
+/// The linear density of dark pixels' texels, as a part of the others'. They show nothing, but the exposure is metered
+/// there, one sample for about 80 pixels, and surfaces hide stars.
+constexpr double dark_density = 1.0 / 8;
+
 /// Adds the demand of a rest frame's views. finest_clip_level: of the nested tiles behind. pixel_rays: along each side of
-/// a pixel.
-void add_demands(Demands& demands, const RestFrameRequest& request, int finest_clip_level, int pixel_rays);
+/// a pixel. Returns the number of pixels that are dark; it changes smoothly as they become lit.
+double add_demands(Demands& demands, const RestFrameRequest& request, int finest_clip_level, int pixel_rays);
 
 } // namespace starbow

@@ -77,7 +77,7 @@ std::size_t EyeCubes::eye_for(const ViewState& state)
 }
 
 /// Collects the views that look into an eye's cube map, and the events at which it would be drawn.
-void EyeCubes::request_views(std::size_t i, const Probe* probe)
+void EyeCubes::request_views(std::size_t i, double pre_exposure, const Probe* probe)
 {
     EyeCube& eye = all[i];
     const std::vector<RestFrameView>& rest_frames = observers[eye.observer].rest_frames;
@@ -98,7 +98,8 @@ void EyeCubes::request_views(std::size_t i, const Probe* probe)
                 request.views.push_back({view.compiled.cones.get(), rest_frame.motion_from_cockpit,
                     state_.reprojects()
                         ? std::min(MOST_PARALLAX, glm::length(views_.eye_offset(view, rest_frame)) / eye.nearest[at])
-                        : 0});
+                        : 0,
+                    dark_D(view, pre_exposure)});
         for (std::size_t ray = 0; probe && ray < probe->count(); ++ray)
             if (views_.probed_view(probe->ray(ray).view).eye == i)
                 request.views.push_back({&probe->view(ray), rest_frame.motion_from_cockpit});
@@ -106,6 +107,22 @@ void EyeCubes::request_views(std::size_t i, const Probe* probe)
             request.bounds = bounding_spheres(world_.world, eye_event);
         eye.eye_events.push_back(eye_event);
     }
+}
+
+double EyeCubes::dark_D(const ViewState& view, double pre_exposure) const
+{
+    const Effects& on = state_.shot.effects;
+    // A body that stands out against the dark needs its exact edge.
+    if (state_.all_light || !on.aberration || on.comparison == Comparison::galilean || world_.several_rest_frames())
+        return 0;
+    // A fiftieth of the first of 255 steps, which dither never rounds up: by sRGB's curve, which is linear there, and by
+    // any gamma up to 2.3.
+    constexpr double least_srgb = 5e-6, least_gamma = 1e-9;
+    // The greatest number that a cube map holds.
+    constexpr double most_stored = 65504;
+    const double exposure = std::exp2(state_.shot.exposure_ev);
+    return dark_below(world_.response(on).greatest, on.doppler, on.headlight, most_stored * exposure / pre_exposure,
+        views_.outputs[view.output].finish ? least_gamma : least_srgb);
 }
 
 /// True if an eye's cube map may be shown once more. It was drawn elsewhere and at another speed, but it must have the same
@@ -145,7 +162,7 @@ void EyeCubes::plan(double pre_exposure, const Probe* probe)
     bool keep = drawn_ && shown_ < state_.quality.frames_per_cube;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Trace::Span span(device_.trace, "plan");
-        request_views(i, probe);
+        request_views(i, pre_exposure, probe);
         all[i].wanted = plan_cube_map(all[i].requests, state_.quality, scratch_, std::move(all[i].wanted));
         keep = keep && can_reuse(i);
     }

@@ -44,6 +44,9 @@ public:
     void plan(double pre_exposure, const Probe* probe);
     /// Draws the cube maps that are not kept from the frame before.
     void record(vk::CommandBuffer commands);
+    /// The D below which no light of the view's cube map shows on its screen; 0 where all light counts. pre_exposure: of
+    /// the cube map.
+    double dark_D(const ViewState& view, double pre_exposure) const;
     void redraw() { drawn_ = false; } ///< the next frame draws all cube maps anew
 
     const Observer& observer_of(const ViewState& view) const { return observers[all[view.eye].observer]; }
@@ -60,7 +63,7 @@ private:
     std::size_t eye_for(const ViewState& view);
     /// Bounds the surfaces of the cube map that is drawn now.
     void bound(EyeCube& eye, const CubeMapPlan& plan) const;
-    void request_views(std::size_t eye, const Probe* probe);
+    void request_views(std::size_t eye, double pre_exposure, const Probe* probe);
     bool can_reuse(std::size_t eye) const;
 
     Device& device_;

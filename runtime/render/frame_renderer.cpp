@@ -37,6 +37,7 @@ void FrameRenderer::draw(
 void FrameRenderer::update(const Shot& shot, const Panel* hud)
 {
     state_.shot = shot;
+    state_.all_light = counts_all_light_ || measurement_.overlay_on(); // whose lines follow surfaces in the dark too
     const double most_E = eyes_.observe();
     if (state_.pattern == Pattern::none)
         eyes_.plan(pre_exposure(most_E), measurement_.probe());
@@ -65,7 +66,7 @@ FrameRenderer::FrameRenderer(Device& device, Pipelines& pipelines, const GpuWorl
     : device_(device)
     , world_(world)
     , state_{.quality = quality, .layout = with_stereo(layout, quality)}
-    , stars_(device, pipelines, world)
+    , stars_(device, pipelines, world, keeps_depth)
     , views_(device, pipelines, state_, world.scene.unit_m, stars_.on())
     , eyes_(device, pipelines, world, state_, views_)
     , constants_(world, state_, views_, eyes_)

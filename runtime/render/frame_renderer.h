@@ -52,6 +52,8 @@ public:
     void move_head(const Head& head);
     /// on: equal shots have equal bytes, whatever was drawn before. It takes longer where the plan changes.
     void repeatable(bool on);
+    /// on: light counts however dim, because numbers are read. Without it no light is drawn that no screen shows.
+    void count_all_light(bool on) { counts_all_light_ = on; }
     void show(Pattern pattern) { state_.pattern = pattern; }
     /// part: share of the light that glows around bright things, 0 to 1. At 0 the pass takes no time and no memory.
     void bloom(double part) { state_.bloom = part; }
@@ -81,6 +83,7 @@ private:
     Device& device_;
     const GpuWorld& world_;
     FrameState state_;
+    bool counts_all_light_ = false;
     StarPass stars_;
     ViewSet views_;
     EyeCubes eyes_;

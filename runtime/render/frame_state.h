@@ -23,6 +23,7 @@ struct FrameState {
     double fade = 0; ///< the part of black over the finished picture, 0 to 1
     bool meters = false; ///< luminance is sampled beside the picture
     Shot shot; ///< the instant that is drawn
+    bool all_light = false; ///< light counts however dim; otherwise none is drawn that no screen shows
     double pre_exposure = 1; ///< every radiance in the cube map is stored times this
 
     bool reprojects() const { return layout.stereo.method == StereoMethod::reprojected; }

@@ -119,6 +119,7 @@ void put_spectra(Device& device, GpuWorld& world, SpectralLevel level)
         name_object(device, buffers->texels, "world: response texels");
         buffers->first_log2_D = float(response.first_log2_D), buffers->per_octave = float(response.per_octave);
         buffers->own_rows = constants(response.own_rows);
+        buffers->greatest = greatest_light(response);
         buffers->black_bodies = constants(black_body_table(*observer));
     }
 }

@@ -1,7 +1,7 @@
 #pragma once
 #include "config/model/scene_file.h"
 #include "pipelines.h"
-#include "runtime/light/response.h"
+#include "runtime/light/greatest_light.h"
 #include "runtime/plan/star_cull.h"
 #include "runtime/world/spectra.h"
 #include "runtime/world/stars.h"
@@ -17,6 +17,7 @@ struct ResponseBuffers {
     float first_log2_D = 0, per_octave = 1;
     Buffer own_rows;
     Buffer black_bodies; ///< made by black_body_table
+    GreatestLight greatest;
 };
 
 /// A world on the device. Arrays that only the device needs (vertices, indices, texels) are dropped from World.

@@ -70,6 +70,7 @@ std::vector<std::vector<std::uint8_t>> OffscreenRenderer::picture(const Shot& sh
 std::optional<double> OffscreenRenderer::metered(const Shot& shot)
 {
     frame_.meter(true);
+    frame_.count_all_light(true);
     frame_.update(shot, nullptr);
     device_.now([&](vk::CommandBuffer commands) {
         frame_.draw_cubes(commands);
@@ -77,6 +78,7 @@ std::optional<double> OffscreenRenderer::metered(const Shot& shot)
     });
     const std::optional<double> ev = frame_.metered();
     frame_.meter(false);
+    frame_.count_all_light(false);
     return ev;
 }
 
@@ -105,7 +107,9 @@ Channels OffscreenRenderer::numbers(const Shot& shot, std::size_t output)
     }
     Shot unexposed = shot; // numbers describe light, whatever the exposure
     unexposed.exposure_ev = -60;
+    frame_.count_all_light(true);
     frame_.update(unexposed, nullptr);
+    frame_.count_all_light(false); // the plan is made
     for (std::size_t layer = 0; layer < frame_.views().outputs[output].layers(); ++layer) {
         device_.now([&](vk::CommandBuffer commands) { frame_.record_measured(commands, output, layer, target); });
         read_numbers(output, layer, target, channels);

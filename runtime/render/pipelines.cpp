@@ -24,6 +24,7 @@
 #include "spirv/star_frag.h"
 #include "spirv/star_meter_frag.h"
 #include "spirv/star_vert.h"
+#include "spirv/warp_dark_frag.h"
 #include "spirv/warp_frag.h"
 #include "spirv/warp_rays_frag.h"
 #include <algorithm>
@@ -182,14 +183,30 @@ vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
         .constants = all});
 }
 
+vk::Pipeline Pipelines::dark(const WarpVariant& v, vk::Format target)
+{
+    WarpVariant own{};
+    own.map = v.map, own.stars = true;
+    SpecializationConstants all = constants(own);
+    all[10] = target != light_format;
+    return find_or_make({.name = "dark pipeline",
+        .vertex = screen_vert,
+        .fragment = warp_dark_frag,
+        .layout = *layouts.warp_layout,
+        .target = {{target}},
+        .constants = all});
+}
+
 vk::Pipeline Pipelines::stars(const WarpVariant& v, vk::Format target)
 {
+    SpecializationConstants all = constants(v);
+    all[9] = target == light_format;
     return find_or_make({.name = "stars pipeline",
         .vertex = star_vert,
         .fragment = star_frag,
         .layout = *layouts.star_layout,
         .target = {{target}},
-        .constants = constants(v),
+        .constants = all,
         .points = true,
         .added = true});
 }

@@ -139,6 +139,8 @@ public:
     vk::Pipeline surface(const SurfaceVariant& variant, const TargetKind& target);
     vk::Pipeline sky(const TargetKind& target);
     vk::Pipeline warp(const WarpVariant& variant, vk::Format target);
+    /// The stars of a view's pixels at which no light of the cube map shows.
+    vk::Pipeline dark(const WarpVariant& variant, vk::Format target);
     vk::Pipeline stars(const WarpVariant& variant, vk::Format target);
     vk::Pipeline measure(const WarpVariant& variant);
     vk::Pipeline probe(const WarpVariant& variant);

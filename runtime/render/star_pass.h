@@ -10,7 +10,8 @@ namespace starbow {
 /// search a tenth of the sky at gamma 100. Where a display is a direction map, InverseMap begins the search.
 class StarPass {
 public:
-    StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& world);
+    /// exact: measured numbers need all bits.
+    StarPass(Device& device, const Pipelines& pipelines, const GpuWorld& world, bool exact);
 
     bool on() const { return world_.star_count > 0; }
     /// Makes room for an output. The device must have finished the frame before.

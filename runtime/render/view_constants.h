@@ -25,7 +25,7 @@ public:
     /// The same in the motion axes of the view's observer, exposed.
     shared::ViewPush exposed_push(const ViewState& view, double exposure) const;
     /// The star pass's push constants: their rows lead from motion axes back to pixels.
-    shared::ViewPush star_push(const ViewState& view) const;
+    shared::ViewPush star_push(const ViewState& view, double exposure) const;
 
 private:
     glm::vec4 boost(const ViewState& view, double exposure) const;

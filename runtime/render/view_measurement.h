@@ -32,6 +32,7 @@ public:
     }
 
     void set(const std::optional<Measuring>& what);
+    bool overlay_on() const { return on_ && what_.over.overlay != Overlay::off; }
     void reset(); ///< call it when the views have changed
     /// The probes of this frame, for the plan; null without any.
     const Probe* probe();

@@ -41,8 +41,7 @@ void ViewMeter::record(vk::CommandBuffer commands)
 
 void ViewMeter::meter_stars(vk::CommandBuffer commands, const ViewState& view, const Meter::Cell& cell)
 {
-    shared::ViewPush constants = constants_.star_push(view);
-    constants.boost.z = 1;
+    shared::ViewPush constants = constants_.star_push(view, 1);
     constants.corner = glm::vec4(cell.size, meter_->every(), 0);
     WarpVariant own = constants_.variant(view);
     own.mips = false;

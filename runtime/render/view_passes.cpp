@@ -36,6 +36,8 @@ void ViewPasses::prepare(const Panel* hud)
         prepare_stars();
     const bool pattern = state_.pattern != Pattern::none;
     for (ViewState& view : views_.all) {
+        if (!pattern)
+            find_lit(view);
         if (state_.bloom == 0)
             view.bloom.reset();
         else if (!view.bloom && !pattern)
@@ -78,7 +80,30 @@ void ViewPasses::draw_warp(vk::CommandBuffer commands, const ViewState& view, vk
     commands.draw(3, 1, 0, 0);
 }
 
-void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, std::size_t layer, int canvas)
+void ViewPasses::find_lit(ViewState& view) const
+{
+    // The corners of a pixel's square, and the errors of float arithmetic.
+    const double spread = 0.71 * (1 - 1.0 / state_.quality.pixel_rays) + 0.02;
+    const Observer& observer = eyes_.observer_of(view);
+    view.pixels.find(*view.compiled.cones, observer.rest_frames[0].motion_from_cockpit, observer.E,
+        eyes_.dark_D(view, state_.pre_exposure), spread);
+}
+
+void ViewPasses::draw_lit(vk::CommandBuffer commands, const ViewState& view, vk::Format target) const
+{
+    const WarpVariant variant = constants_.variant_shown(view);
+    const shared::ViewPush constants = constants_.exposed_push(view, std::exp2(state_.shot.exposure_ev));
+    for (const PixelRect& part : view.pixels.lit)
+        draw_warp(commands, view, pipelines_.warp(variant, target), constants, view.geometry().corner + part.low,
+            part.high - part.low);
+    if (!variant.stars)
+        return;
+    for (const PixelRect& part : view.pixels.dark)
+        draw_warp(commands, view, pipelines_.dark(variant, target), constants, view.geometry().corner + part.low,
+            part.high - part.low);
+}
+
+void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, std::size_t layer, int canvas, double exposure)
 {
     const Label label(device_, commands, "stars");
     const glm::ivec2 size = views_.outputs[output].size;
@@ -86,7 +111,7 @@ void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, std:
     for (const ViewState& view : views_.all) {
         if (!drawn_on(view, output, layer, canvas))
             continue;
-        const shared::ViewPush constants = constants_.star_push(view);
+        const shared::ViewPush constants = constants_.star_push(view, exposure);
         WarpVariant own = constants_.variant(view);
         own.mips = false;
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.stars(own, stars_.format()));
@@ -147,7 +172,7 @@ void ViewPasses::warp_layer(vk::CommandBuffer commands, std::size_t output, std:
         views_.outputs[output].finish->begin(commands);
     for (int canvas = 0; canvas < canvas_count(state_.layout.outputs[output].packing); ++canvas) {
         if (stars_.on() && state_.pattern == Pattern::none)
-            draw_stars(commands, output, layer, canvas);
+            draw_stars(commands, output, layer, canvas, std::exp2(state_.shot.exposure_ev));
         const Target target = views_.canvas_target(output, canvas, last);
         const bool glows = state_.bloom > 0 && state_.pattern == Pattern::none;
         for (const ViewState& view : views_.all)
@@ -165,9 +190,7 @@ void ViewPasses::warp_layer(vk::CommandBuffer commands, std::size_t output, std:
             else if (glows)
                 view.bloom->show(commands, view.geometry().corner, state_.bloom, target.format);
             else
-                draw_warp(commands, view, pipelines_.warp(constants_.variant_shown(view), target.format),
-                    constants_.exposed_push(view, std::exp2(state_.shot.exposure_ev)), view.geometry().corner,
-                    view.geometry().size);
+                draw_lit(commands, view, target.format);
         }
         device_.end_rendering(commands);
     }
@@ -252,7 +275,7 @@ void ViewPasses::record_measured(
     vk::CommandBuffer commands, std::size_t output, std::size_t layer, const MeasureTarget& target)
 {
     if (stars_.on())
-        draw_stars(commands, output, layer, 0);
+        draw_stars(commands, output, layer, 0, 1);
     float nothing = std::nanf("");
     std::vector<vk::RenderingAttachmentInfo> colours;
     for (const Image* image : {&target.light_and_depth, &target.camera, &target.world}) {

@@ -30,8 +30,8 @@ public:
     void fade_output(vk::CommandBuffer commands, const Target& target);
     /// The measured channels of one layer of an output's first canvas.
     void record_measured(vk::CommandBuffer commands, std::size_t output, std::size_t layer, const MeasureTarget& target);
-    /// The stars alone, the first part of warp_layer.
-    void draw_stars(vk::CommandBuffer commands, std::size_t output, std::size_t layer, int canvas);
+    /// The stars alone, the first part of warp_layer. exposure: factor of their light.
+    void draw_stars(vk::CommandBuffer commands, std::size_t output, std::size_t layer, int canvas, double exposure);
 
     /// The rotations from a measured view's motion axes and its cube map's axes to the world's, with the view's layer,
     /// corner and size.
@@ -50,6 +50,9 @@ public:
     void draw_warp(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline,
         const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size) const;
 
+    /// Draws the pixels at which something may show.
+    void draw_lit(vk::CommandBuffer commands, const ViewState& view, vk::Format target) const;
+
     /// An image of the first view, which must be flat, without aberration: the image and its axes, for
     /// CubePass::prepare_plain.
     PlannedImage plain_image(const Shot& shot, glm::dmat3& straight_from_world) const;
@@ -62,6 +65,7 @@ private:
     bool plain_pattern() const;
     void begin_over(vk::CommandBuffer commands, const Target& target) const;
     void prepare_stars();
+    void find_lit(ViewState& view) const;
     void bloom_view(vk::CommandBuffer commands, const ViewState& view);
     void pattern_view(vk::CommandBuffer commands, const ViewState& view, vk::Format target);
 

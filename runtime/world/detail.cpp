@@ -1,4 +1,5 @@
 #include "detail.h"
+#include "clusters.h"
 #include <algorithm>
 #include <cmath>
 #include <meshoptimizer.h>
@@ -151,6 +152,7 @@ void add_detail_levels(World& world)
             from = level;
         }
     }
+    add_clusters(world);
 }
 
 } // namespace starbow

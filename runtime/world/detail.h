@@ -5,7 +5,7 @@ namespace starbow {
 
 /// Adds coarser levels of detail to every large enough primitive: indices are appended, vertices shared. Each level has
 /// about half the triangles of the one before, with its measured errors in shape and in shading. They pay because most of
-/// a relativistic sky is far away or seen small.
+/// a relativistic sky is far away or seen small. All large surfaces are divided into clusters.
 void add_detail_levels(World& world);
 
 } // namespace starbow

@@ -71,11 +71,27 @@ struct Material {
                                       ///< white surface. nullopt: a sunlit colour
 };
 
+/// Some neighbouring triangles of a surface, local units: inside a sphere, with all normals inside a cone. An eye sees only
+/// their backs if dot(d, axis) >= cutoff * length(d) + radius, with d from the eye to the centre.
+struct Cluster {
+    glm::vec3 centre;
+    float radius;
+    glm::vec3 axis; ///< unit
+    float cutoff; ///< 1: no eye sees only backs
+    std::uint32_t first_index, index_count;
+};
+
+/// A run of World::clusters; empty for a surface of few triangles, which is drawn as a whole.
+struct ClusterRange {
+    std::uint32_t first = 0, count = 0;
+};
+
 /// The same surface in fewer triangles.
 struct DetailLevel {
     std::uint32_t first_index, index_count;
     double error; ///< greatest distance from the full surface, local units
     double shading = 0; ///< width over which its shading differs, local units; less where it differs little
+    ClusterRange clusters{}; ///< in the order of the indices
 };
 
 /// A run of triangles (always a list) with one material, a bounding box and a bounding sphere in its own frame.
@@ -87,6 +103,7 @@ struct Primitive {
     glm::dvec3 centre;
     double radius;
     std::vector<DetailLevel> coarser; ///< finest first; empty until add_detail_levels
+    ClusterRange clusters{}; ///< of the full surface; empty until add_detail_levels
 };
 
 /// A rest frame of a part of the world. Its axes are the world's, carried by the pure boost.
@@ -134,6 +151,7 @@ struct World {
     std::vector<Texture> textures;
     std::vector<Material> materials; ///< never empty: glTF's default material stands in where none is named
     std::vector<Primitive> primitives;
+    std::vector<Cluster> clusters;
     std::vector<Instance> instances;
     std::vector<WorldNode> nodes;
     std::vector<RestFrame> frames{1}; ///< the first is the world's

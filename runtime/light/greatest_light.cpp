@@ -1,0 +1,66 @@
+#include "greatest_light.h"
+#include "shaders/shared_structs.h"
+#include <algorithm>
+#include <cmath>
+
+namespace starbow {
+namespace {
+
+/// The sum over all coefficients: none may be greater in a mixture.
+double sum_at(const Response& response, std::vector<double>& one, double D)
+{
+    double sum = 0;
+    for (double& coefficient : one) {
+        coefficient = 1;
+        const glm::dvec3 colour = glm::abs(seen(response, one, D));
+        sum += std::max({colour.x, colour.y, colour.z});
+        coefficient = 0;
+    }
+    return sum;
+}
+
+} // namespace
+
+GreatestLight greatest_light(const Response& response)
+{
+    GreatestLight greatest{response.first_log2_D, response.per_octave, {}};
+    std::vector<double> one(std::size_t(response.reflected + response.own), 0.0);
+    double most = 0;
+    for (int row = 0; row + 1 < RESPONSE_ROWS; ++row) {
+        // Within a row a colour is a geometric function times a linear one: it has no peak between these that counts.
+        constexpr int parts = 4;
+        for (int part = 0; part <= parts; ++part) {
+            const double at = row + double(part) / parts;
+            most = std::max(most, sum_at(response, one, std::exp2(response.first_log2_D + at / response.per_octave)));
+        }
+        constexpr double between = 1.01;
+        greatest.log2_of_row.push_back(std::log2(std::max(most * between, 1e-300)));
+    }
+    return greatest;
+}
+
+double dark_below(const GreatestLight& greatest, bool doppler, bool headlight, double most, double least)
+{
+    const double limit = std::log2(least) - std::log2(most);
+    const int last = int(greatest.log2_of_row.size()) - 1;
+    if (!doppler) {
+        if (!headlight)
+            return 0;
+        const double at_rest = std::clamp(-greatest.first_log2_D * greatest.per_octave, 0.0, double(last));
+        // Base colours at rest are not read from the table; their greatest coefficient is a colour's.
+        return std::exp2((limit - std::max(greatest.log2_of_row[std::size_t(at_rest)], 0.0)) / 3);
+    }
+    // The sum of two functions that never fall: the first row above the limit ends the dark.
+    const auto log2_D = [&](int row) { return greatest.first_log2_D + row / greatest.per_octave; };
+    int row = 0, end = last;
+    while (row < end) {
+        const int middle = (row + end) / 2;
+        if (greatest.log2_of_row[std::size_t(middle)] + (headlight ? 3 * log2_D(middle + 1) : 0) < limit)
+            row = middle + 1;
+        else
+            end = middle;
+    }
+    return row == 0 ? 0 : std::exp2(log2_D(row));
+}
+
+} // namespace starbow

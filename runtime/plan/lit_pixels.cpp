@@ -1,0 +1,94 @@
+#include "lit_pixels.h"
+#include "scratch.h"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace starbow {
+namespace {
+
+/// A division of a square costs a draw or some pixels; the side is a compromise, and a power of two as the hierarchy's.
+constexpr int side = 16;
+
+} // namespace
+
+double half_tangent_square(double D, double E)
+{
+    if (D * E <= 1)
+        return std::numeric_limits<double>::infinity();
+    return (E - D) / (E * (D * E - 1));
+}
+
+/// Classes the blocks of a cone hierarchy, the large ones first.
+struct LitPixels::Walk {
+    const ConeHierarchy& cones;
+    const glm::dmat3& motion_from_cockpit;
+    double lit_angle; ///< of the circle around straight ahead outside which all is dark; below 0: all is
+    double spread;
+    glm::ivec2 count; ///< of squares
+    std::vector<Square>& squares;
+
+    void block(int level, glm::ivec2 at) const
+    {
+        const BoundingCone cone = cones.cone(level, at);
+        if (cone.empty())
+            return;
+        const bool last = cones.side(level) <= side;
+        const glm::dvec3 centre = motion_from_cockpit * glm::dvec3(cone.centre);
+        const double away
+            = 2 * std::atan2(std::hypot(centre.x, centre.y), glm::length(centre) + centre.z) // stable at both ends
+            ,
+            reach = cone.radius + spread * cone.coarsest + 1e-6;
+        const bool dark = away - reach > lit_angle, lit = away + reach <= lit_angle;
+        // A map's block may have squares that show nothing.
+        if (!last && ((!dark && !lit) || !cones.flat())) {
+            const glm::ivec2 finer = cones.count(level + 1);
+            for (int y = 2 * at.y; y < std::min(2 * at.y + 2, finer.y); ++y)
+                for (int x = 2 * at.x; x < std::min(2 * at.x + 2, finer.x); ++x)
+                    block(level + 1, {x, y});
+            return;
+        }
+        const glm::ivec2 first = at * cones.side(level) / side,
+                         end = glm::min(first + std::max(cones.side(level) / side, 1), count);
+        for (int y = first.y; y < end.y; ++y)
+            for (int x = first.x; x < end.x; ++x) {
+                Square& square = squares[std::size_t(y * count.x + x)];
+                square = std::max(square, dark ? Square::dark : Square::lit);
+            }
+    }
+};
+
+void LitPixels::find(
+    const ConeHierarchy& cones, const glm::dmat3& motion_from_cockpit, double E, double dark_D, double spread)
+{
+    lit.clear(), dark.clear();
+    const glm::ivec2 size = cones.size(), count = (size + side - 1) / side;
+    squares_.assign(std::size_t(count.x) * count.y, Square::empty);
+    const double square = dark_D > 0 ? half_tangent_square(dark_D, E) : std::numeric_limits<double>::infinity();
+    const double lit_angle = square < 0 ? -1 : square < 1e30 ? 2 * std::atan(std::sqrt(square)) : 4;
+    Walk{cones, motion_from_cockpit, lit_angle, spread, count, squares_}.block(0, {0, 0});
+
+    for (int y = 0; y < count.y; ++y)
+        for (int x = 0; x < count.x;) {
+            const Square kind = squares_[std::size_t(y * count.x + x)];
+            int end = x + 1;
+            while (end < count.x && squares_[std::size_t(y * count.x + end)] == kind)
+                ++end;
+            if (kind != Square::empty) {
+                std::vector<PixelRect>& list = kind == Square::lit ? lit : dark;
+                const PixelRect run{glm::ivec2(x, y) * side, glm::min(glm::ivec2(end, y + 1) * side, size)};
+                // A run as wide as one above grows that one.
+                const auto above = std::find_if(list.rbegin(), list.rend(), [&](const PixelRect& one) {
+                    return one.high.y == run.low.y && one.low.x == run.low.x && one.high.x == run.high.x;
+                });
+                if (above != list.rend())
+                    above->high.y = run.high.y;
+                else
+                    list.push_back(run);
+            }
+            x = end;
+        }
+    reserve_headroom(lit), reserve_headroom(dark);
+}
+
+} // namespace starbow
