@@ -75,9 +75,11 @@ TEST(Cull, InstancesAreRelativeToTheEyeInDouble)
     EXPECT_EQ(list.instances[0].row1.w, 0);
 }
 
-TEST(Detail, CoarserSurfacesStayWithinTheirError)
+namespace {
+
+/// A ball of 96 x 48 faces with its levels of detail.
+World ball_world()
 {
-    // A ball of 96 x 48 faces: a level's vertices lie on it, and the middles of its triangles within the level's error.
     World world;
     world.materials.push_back({});
     constexpr int n = 48;
@@ -103,6 +105,81 @@ TEST(Detail, CoarserSurfacesStayWithinTheirError)
         .radius = 1,
         .coarser = {}});
     add_detail_levels(world);
+    return world;
+}
+
+} // namespace
+
+TEST(Cull, KeepsEveryTriangleWhoseFrontAnImagesDirectionMeets)
+{
+    // Balls of many clusters; those of each third transform are mirrored, and their triangles turned, as a loaded world's.
+    for (bool mirrored : {false, true}) {
+        World world = ball_world();
+        if (mirrored)
+            for (std::size_t i = 0; i < world.indices.size(); i += 3)
+                std::swap(world.indices[i], world.indices[i + 1]);
+        const Primitive& ball = world.primitives[0];
+        ASSERT_GE(ball.clusters.count, 20u);
+        const World placed = boxes(12, 9);
+        for (Instance instance : placed.instances) {
+            instance.frame_from_local
+                = instance.frame_from_local * glm::dmat4(glm::dmat3(mirrored ? -1 : 1, 0, 0, 0, 1, 0, 0, 0, 1));
+            world.instances.push_back(instance);
+        }
+        const glm::dvec3 eye(0.3, -0.2, 0.5);
+        const glm::dmat3 turn = glm::mat3_cast(glm::normalize(glm::dquat(0.3, -0.5, 0.2, 0.9)));
+        std::vector<PlannedImage> images;
+        for (int face = 0; face < 6; ++face)
+            images.push_back({0, face, {-0.6, -0.3}, {0.5, 1}, {64, 64}, {0, 0}, 64, 1});
+        images.push_back({TILE_REAR, 1, {-1, -1}, {1, 1}, {64, 64}, {0, 0}, 32, 1, 0.6});
+        const DrawList list = cull(world, {{EyeEvent{0, eye, 0, turn}}}, images, {.lod_error_texels = 0});
+        std::mt19937 random(2);
+        std::uniform_real_distribution<double> part(0, 1);
+        long fronts = 0, drawn = 0;
+        for (std::uint32_t i = 0; i < images.size(); ++i) {
+            std::vector<std::vector<bool>> kept(world.instances.size(), std::vector<bool>(ball.index_count / 3));
+            for (const Draw& draw : list.draws)
+                for (std::uint32_t k = 0; draw.image == i && k < draw.count; ++k)
+                    for (std::uint32_t index = 0; index < draw.index_count; index += 3, ++drawn)
+                        kept[list.visible[draw.first + k]][(draw.first_index - ball.first_index + index) / 3] = true;
+            for (int ray = 0; ray < 300; ++ray) {
+                const glm::dvec2 at
+                    = images[i].low + glm::dvec2(part(random), part(random)) * (images[i].high - images[i].low);
+                if (std::max(std::abs(at.x), std::abs(at.y)) < images[i].clip_hole)
+                    continue;
+                const glm::dvec3 way = glm::transpose(turn) * face_direction(images[i].face, at);
+                for (std::size_t k = 0; k < world.instances.size(); ++k) {
+                    const glm::dmat4 local = glm::inverse(world.instances[k].frame_from_local);
+                    const glm::dvec3 from = local * glm::dvec4(eye, 1), along = local * glm::dvec4(way, 0);
+                    if (glm::length(glm::cross(along, from)) > 1.01 * glm::length(along))
+                        continue;
+                    for (std::uint32_t t = 0; t < ball.index_count / 3; ++t) {
+                        const auto corner = [&](int c) {
+                            return glm::dvec3(world.vertices[world.indices[ball.first_index + 3 * t + c]].position) - from;
+                        };
+                        const glm::dvec3 a = corner(0), b = corner(1), c = corner(2);
+                        const double ab = glm::dot(along, glm::cross(a, b)), bc = glm::dot(along, glm::cross(b, c)),
+                                     ca = glm::dot(along, glm::cross(c, a)), least = std::min({ab, bc, ca});
+                        const double height = glm::dot(a, glm::cross(b - a, c - a)) * (mirrored ? -1 : 1);
+                        if ((least > 0 || std::max({ab, bc, ca}) < 0) && glm::dot(along, a) > 0 && height < 0) {
+                            ++fronts;
+                            ASSERT_TRUE(kept[k][t]) << "image " << i << " instance " << k << " triangle " << t;
+                        }
+                    }
+                }
+            }
+        }
+        EXPECT_GT(fronts, 200);
+        // Backs are left out, unless the instance is mirrored, and so are the parts beside the image.
+        EXPECT_LT(
+            double(drawn), (mirrored ? 0.5 : 0.3) * double(images.size() * world.instances.size() * ball.index_count / 3));
+    }
+}
+
+TEST(Detail, CoarserSurfacesStayWithinTheirError)
+{
+    // A level's vertices lie on the ball, and the middles of its triangles within the level's error.
+    const World world = ball_world();
     const Primitive& ball = world.primitives[0];
     ASSERT_GE(ball.coarser.size(), 3u);
     double last_error = 0;
