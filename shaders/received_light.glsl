@@ -21,6 +21,8 @@ layout(constant_id = 14) const bool SEVERAL_REST_FRAMES = false; // several rest
 layout(constant_id = 19) const int CUBE_SAMPLES = 1; // of each texel
 layout(constant_id = 20) const bool UNALIGNED = false; // some cube map has other axes than the motion's
 
+layout(constant_id = 22) const bool WORLD_ALONE = false; // of several rest frames only the world's is seen here
+
 const int GROUPS = (REFLECTED + OWN + 3) / 4;
 
 layout(push_constant) uniform Push { ViewPush view; };
@@ -323,12 +325,16 @@ Shown shown_along(vec3 n, float pixel_angle)
     Shown shown;
     shown.n = n;
     shown.sight = sight_of(n, pixel_angle);
-    if (SEVERAL_REST_FRAMES) {
+    if (SEVERAL_REST_FRAMES && !WORLD_ALONE) {
         shown.light = light_of_rest_frames(n, pixel_angle, shown.sight, shown.distance, shown.frame);
         return shown;
     }
     Place place = place_of(shown.sight.n, world_rest_frame());
-    shown.light = light_seen(place, shown.sight.D, world_angle(shown.sight, n, pixel_angle));
+    float angle = world_angle(shown.sight, n, pixel_angle);
+    if (WORLD_ALONE)
+        shown.light = light_over_sky(place, shown.sight, angle);
+    else
+        shown.light = light_seen(place, shown.sight.D, angle);
     shown.distance = distance_at(place);
     shown.frame = 0.0;
     return shown;

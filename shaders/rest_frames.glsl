@@ -17,6 +17,18 @@ void sky_at(vec3 n, out vec4 coefficients[MAX_GROUPS])
         coefficients[group] = mix(rest_frames.sky_horizon[group], height > 0.0 ? rest_frames.sky_zenith[group] : rest_frames.sky_nadir[group], part);
 }
 
+// The light of the world's rest frame in front of the sky. What a texel's surfaces leave free, premultiplied, is the sky's.
+vec3 light_over_sky(Place place, AberratedRay sight, float angle)
+{
+    vec4 coefficients[MAX_GROUPS], sky[MAX_GROUPS];
+    cube_map(place, angle, coefficients);
+    float left = 1.0 - min(textureLod(covered_atlas, place.texel * view.origin.zw, level_of(place, angle)).r, 1.0);
+    sky_at(sight.n, sky);
+    for (int group = 0; group < GROUPS; ++group)
+        coefficients[group] += left * sky[group];
+    return light_of(coefficients, sight.D);
+}
+
 // A rest frame's surfaces in up to four parts side by side: each one's distance in the ship, and its coverage of the
 // pixel. One part if the four texels around belong to one surface; several otherwise.
 struct Part {

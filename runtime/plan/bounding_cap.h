@@ -21,6 +21,12 @@ struct BoundingCap {
 /// A cap that encloses all spheres as the origin sees them.
 BoundingCap bounding_cap(std::span<const BoundingSphere> spheres);
 
+/// The ship's directions n with dot(n, axis) >= least_cos, cockpit's frame; least_cos is -2 where that may be any direction.
+struct ShipCap {
+    glm::dvec3 axis;
+    double least_cos;
+};
+
 /// The ship's directions towards a cap: those n with dot(n, xyz) >= w; xyz is unit, and w is -2 where that may be any
 /// direction. Aberration takes circles to circles: the cap is the set of null vectors on one side of a hyperplane, and the
 /// boost turns the hyperplane. Axes whose z is the motion; E: e^rapidity of the ship in the cap's frame.

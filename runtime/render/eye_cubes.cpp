@@ -1,6 +1,7 @@
 #include "eye_cubes.h"
 #include "runtime/operation/trace.h"
 #include "runtime/plan/cull.h"
+#include "runtime/plan/scratch.h"
 #include <algorithm>
 #include <cmath>
 
@@ -145,6 +146,7 @@ bool EyeCubes::can_reuse(std::size_t i) const
 void EyeCubes::bound(EyeCube& eye, const CubeMapPlan& plan) const
 {
     eye.caps.assign(eye.requests.size(), {});
+    eye.bodies.clear();
     if (state_.reprojects())
         return; // an eye beside sees the surfaces elsewhere
     for (std::size_t at = 0; at < eye.requests.size(); ++at)
@@ -155,6 +157,31 @@ void EyeCubes::bound(EyeCube& eye, const CubeMapPlan& plan) const
         double& widest = eye.caps[std::size_t(image.rest_frame)].filter_rad;
         widest = std::max(widest, texels / image.texels_per_unit);
     }
+    for (std::size_t at = 1; at < eye.requests.size(); ++at)
+        if (const RestFrameRequest& request = eye.requests[at]; request.bounds && !request.galilean)
+            for (const BoundingSphere& thing : *request.bounds) {
+                eye.bodies.push_back({at, bounding_cap({&thing, 1})});
+                eye.bodies.back().cap.filter_rad = eye.caps[at].filter_rad;
+            }
+    reserve_headroom(eye.bodies);
+}
+
+void EyeCubes::find_bodies(const ViewState& view, std::vector<ShipCap>& bodies) const
+{
+    bodies.clear();
+    const EyeCube& eye = all[view.eye];
+    if (!eye.cube.several_rest_frames())
+        return;
+    if (eye.bodies.empty())
+        bodies.push_back({{0, 0, 1}, -2}); // drawn, at unknown places
+    for (const EyeCube::Body& body : eye.bodies) {
+        const RestFrameView& rest_frame = observer_of(view).rest_frames[body.rest_frame];
+        BoundingCap cap = body.cap;
+        cap.axis = glm::transpose(rest_frame.cube_from_motion) * cap.axis;
+        const glm::dvec4 there = cap_in_ship(cap, rest_frame.E);
+        bodies.push_back({glm::transpose(rest_frame.motion_from_cockpit) * glm::dvec3(there), there.w});
+    }
+    reserve_headroom(bodies);
 }
 
 void EyeCubes::plan(double pre_exposure, const Probe* probe)

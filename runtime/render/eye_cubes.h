@@ -17,6 +17,11 @@ struct EyeCube {
     std::vector<StarRun> stars{}; ///< stars that the views may show
     std::vector<RestFrameRequest> requests{};
     std::vector<BoundingCap> caps{}; ///< one for each rest frame: of the drawn surfaces and the filter around them
+    struct Body {
+        std::size_t rest_frame;
+        BoundingCap cap;
+    };
+    std::vector<Body> bodies{}; ///< of the drawn moving surfaces, one by one
     std::vector<EyeEvent> eye_events{}; ///< the cube map would be drawn at these events now
     CubeMapPlan wanted{}; ///< the plan of that cube map
     std::vector<double> nearest{}; ///< one for each rest frame: a lower bound of its surfaces' distance, scene units; 1
@@ -50,6 +55,8 @@ public:
     void redraw() { drawn_ = false; } ///< the next frame draws all cube maps anew
 
     const Observer& observer_of(const ViewState& view) const { return observers[all[view.eye].observer]; }
+    /// The directions in which the view may see something that moves.
+    void find_bodies(const ViewState& view, std::vector<ShipCap>& bodies) const;
     /// True if a cube map that the view reads has other axes than the motion's.
     bool unaligned(const ViewState& view) const;
     std::size_t triangles() const; ///< sent to the device for the last frame

@@ -90,6 +90,7 @@ struct WarpVariant {
     int cube_samples = 1; ///< of each texel
     bool unaligned = false; ///< some cube map has other axes than the motion's
     bool layered = false; ///< the exposure's samples count by the view's part of each pixel
+    bool world_alone = false; ///< no body is seen in these pixels, of several rest frames
     auto operator<=>(const WarpVariant&) const = default;
 };
 
@@ -111,7 +112,7 @@ struct TargetKind {
 
 /// The specialization constants of a pass; constant_id is the index. On the stack, as Formats.
 struct SpecializationConstants {
-    std::array<std::uint32_t, 22> list{};
+    std::array<std::uint32_t, 23> list{};
     std::size_t count = 0;
 
     SpecializationConstants() = default;

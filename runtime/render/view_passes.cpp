@@ -80,27 +80,35 @@ void ViewPasses::draw_warp(vk::CommandBuffer commands, const ViewState& view, vk
     commands.draw(3, 1, 0, 0);
 }
 
-void ViewPasses::find_lit(ViewState& view) const
+void ViewPasses::find_lit(ViewState& view)
 {
     // The corners of a pixel's square, and the errors of float arithmetic.
     const double spread = 0.71 * (1 - 1.0 / state_.quality.pixel_rays) + 0.02;
     const Observer& observer = eyes_.observer_of(view);
+    eyes_.find_bodies(view, bodies_);
     view.pixels.find(*view.compiled.cones, observer.rest_frames[0].motion_from_cockpit, observer.E,
-        eyes_.dark_D(view, state_.pre_exposure), spread);
+        eyes_.dark_D(view, state_.pre_exposure), spread, bodies_);
+}
+
+void ViewPasses::draw_parts(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline,
+    const shared::ViewPush& constants, std::span<const PixelRect> parts) const
+{
+    for (const PixelRect& part : parts)
+        draw_warp(commands, view, pipeline, constants, view.geometry().corner + part.low, part.high - part.low);
 }
 
 void ViewPasses::draw_lit(vk::CommandBuffer commands, const ViewState& view, vk::Format target) const
 {
-    const WarpVariant variant = constants_.variant_shown(view);
+    WarpVariant variant = constants_.variant_shown(view);
+    const LitPixels& pixels = view.pixels;
     const shared::ViewPush constants = constants_.exposed_push(view, std::exp2(state_.shot.exposure_ev));
-    for (const PixelRect& part : view.pixels.lit)
-        draw_warp(commands, view, pipelines_.warp(variant, target), constants, view.geometry().corner + part.low,
-            part.high - part.low);
-    if (!variant.stars)
-        return;
-    for (const PixelRect& part : view.pixels.dark)
-        draw_warp(commands, view, pipelines_.dark(variant, target), constants, view.geometry().corner + part.low,
-            part.high - part.low);
+    if (!pixels.with_bodies.empty())
+        draw_parts(commands, view, pipelines_.warp(variant, target), constants, pixels.with_bodies);
+    if (variant.stars && !pixels.dark.empty())
+        draw_parts(commands, view, pipelines_.dark(variant, target), constants, pixels.dark);
+    variant.world_alone = variant.several_rest_frames;
+    if (!pixels.lit.empty())
+        draw_parts(commands, view, pipelines_.warp(variant, target), constants, pixels.lit);
 }
 
 void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, std::size_t layer, int canvas, double exposure)

@@ -65,7 +65,9 @@ private:
     bool plain_pattern() const;
     void begin_over(vk::CommandBuffer commands, const Target& target) const;
     void prepare_stars();
-    void find_lit(ViewState& view) const;
+    void find_lit(ViewState& view);
+    void draw_parts(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline,
+        const shared::ViewPush& constants, std::span<const PixelRect> parts) const;
     void bloom_view(vk::CommandBuffer commands, const ViewState& view);
     void pattern_view(vk::CommandBuffer commands, const ViewState& view, vk::Format target);
 
@@ -78,6 +80,7 @@ private:
     const ViewConstants& constants_;
     const ViewDescriptors& descriptors_;
     std::vector<glm::dmat3> star_turns_; ///< a member so that its memory is reused
+    std::vector<ShipCap> bodies_; ///< the same
     std::unique_ptr<PanelPass> hud_; ///< null before its first use
     bool hud_on_ = false;
 };
