@@ -189,6 +189,41 @@ std::vector<BoundingSphere> bounding_spheres(const World& world, const EyeEvent&
 
 namespace {
 
+/// A cone of less than half a sphere is convex: if it holds a box's corners, it holds the box.
+BoundingCap cap_of(const Box& box)
+{
+    glm::dvec3 corners[8], sum(0);
+    for (int i = 0; i < 8; ++i) {
+        corners[i] = box.centre + (i & 1 ? 1.0 : -1.0) * box.half[0] + (i & 2 ? 1.0 : -1.0) * box.half[1]
+            + (i & 4 ? 1.0 : -1.0) * box.half[2];
+        const double length = glm::length(corners[i]);
+        if (!(length > 0))
+            return {};
+        sum += corners[i] /= length;
+    }
+    if (!(box.distance > 0) || !(glm::length(sum) > 0))
+        return {}; // the eye may be inside
+    BoundingCap cap{glm::normalize(sum), 0};
+    for (const glm::dvec3& corner : corners)
+        cap.radius_rad = std::max(cap.radius_rad, 2 * std::asin(std::min(1.0, 0.5 * glm::length(cap.axis - corner))));
+    constexpr double most = 1.5;
+    return cap.radius_rad < most ? cap : BoundingCap{};
+}
+
+} // namespace
+
+void add_bounding_caps(const World& world, const EyeEvent& eye_event, std::vector<BoundingCap>& caps)
+{
+    const InstanceRange range = instances_of(world, eye_event.frame);
+    for (std::size_t i = range.first; i < range.last; ++i) {
+        const Box rests = placed(world, world.instances[i], eye_event).box;
+        if (may_show(world, world.instances[i], eye_event, rests))
+            caps.push_back(cap_of(as_shown(rests, eye_event)));
+    }
+}
+
+namespace {
+
 /// Adds the poses of animated instances around their retarded times.
 void add_poses(const World& world, std::span<const EyeEvent> eye_events, DrawList& list)
 {

@@ -44,6 +44,9 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
 /// axes, scene units.
 std::vector<BoundingSphere> bounding_spheres(const World& world, const EyeEvent& eye_event);
 
+/// Adds a cap around the bounding box of each of those instances, the cube map's axes.
+void add_bounding_caps(const World& world, const EyeEvent& eye_event, std::vector<BoundingCap>& caps);
+
 /// The distance to the nearest bounding box of the rest frame's instances, scene units: a lower bound of all seen
 /// distances.
 double nearest_box(const World& world, const EyeEvent& eye_event);

@@ -158,11 +158,15 @@ void EyeCubes::bound(EyeCube& eye, const CubeMapPlan& plan) const
         widest = std::max(widest, texels / image.texels_per_unit);
     }
     for (std::size_t at = 1; at < eye.requests.size(); ++at)
-        if (const RestFrameRequest& request = eye.requests[at]; request.bounds && !request.galilean)
-            for (const BoundingSphere& thing : *request.bounds) {
-                eye.bodies.push_back({at, bounding_cap({&thing, 1})});
-                eye.bodies.back().cap.filter_rad = eye.caps[at].filter_rad;
+        if (const RestFrameRequest& request = eye.requests[at]; request.bounds && !request.galilean) {
+            eye.body_caps.clear();
+            add_bounding_caps(world_.world, eye.drawn[at], eye.body_caps);
+            reserve_headroom(eye.body_caps);
+            for (BoundingCap& cap : eye.body_caps) {
+                cap.filter_rad = eye.caps[at].filter_rad;
+                eye.bodies.push_back({at, cap});
             }
+        }
     reserve_headroom(eye.bodies);
 }
 

@@ -22,6 +22,7 @@ struct EyeCube {
         BoundingCap cap;
     };
     std::vector<Body> bodies{}; ///< of the drawn moving surfaces, one by one
+    std::vector<BoundingCap> body_caps{}; ///< of one rest frame's
     std::vector<EyeEvent> eye_events{}; ///< the cube map would be drawn at these events now
     CubeMapPlan wanted{}; ///< the plan of that cube map
     std::vector<double> nearest{}; ///< one for each rest frame: a lower bound of its surfaces' distance, scene units; 1

@@ -1,5 +1,6 @@
 #include "bodies.h"
 #include "cubes.h"
+#include "flight.h"
 #include "frame_stages.h"
 #include "governor.h"
 #include "input.h"
@@ -18,7 +19,7 @@ struct BenchOptions {
     int rounds = 25, seconds = 60;
     bool input = false;
     std::string json, layout, shot = "avenue-gamma4";
-    bool stars = false, bodies = false, cubes = false, scaling = false, governor = false;
+    bool stars = false, bodies = false, cubes = false, flight = false, scaling = false, governor = false;
     std::string ladder = "ladder";
     double frame_budget_ms = 0;
 };
@@ -33,6 +34,8 @@ int bench(const BenchOptions& options)
         bench_stars(options.rounds);
     else if (options.bodies)
         bench_bodies(options.rounds);
+    else if (options.flight)
+        bench_flight();
     else if (options.scaling)
         bench_scaling(options.rounds);
     else if (options.cubes)
@@ -54,7 +57,8 @@ void add_bench(CLI::App& app, std::function<int()>& chosen)
     command->add_option("--rounds", options->rounds, "How often each stage is timed")
         ->check(whole_number(3, 10000))
         ->capture_default_str();
-    command->add_option("--json", options->json, "Also write the figures to this file");
+    command->add_option(
+        "--json", options->json, "Also time the dome, bodies and the flight, and write all figures to this file");
     command->add_option("--layout", options->layout,
         "Instead: this layout stage by stage, and displays compared with each other: kinds of projection, many viewports, "
         "stereo methods");
@@ -63,6 +67,8 @@ void add_bench(CLI::App& app, std::function<int()>& chosen)
     command->add_flag("--bodies", options->bodies, "Instead: what bodies that move cost, in view and out of it");
     command->add_flag("--cubes", options->cubes,
         "Instead: a dome beside a plain picture, and the planned images beside six full faces as fine");
+    command->add_flag("--flight", options->flight,
+        "Instead: the longest frame of a scripted flight through take-off, all switches, gamma 100, cuts and edits");
     command->add_flag(
         "--scaling", options->scaling, "Instead: the cost of a pixel, a triangle and an object as they grow many");
     command->add_flag("--input", options->input,

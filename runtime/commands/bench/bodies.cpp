@@ -21,7 +21,7 @@ struct BodiesCase {
 
 } // namespace
 
-void bench_bodies(int rounds)
+double bench_bodies(int rounds)
 {
     Device device(device_options(false));
     Pipelines pipelines(device);
@@ -63,6 +63,7 @@ void bench_bodies(int rounds)
         std::printf("%-16s%12.2f%12.2f%10zu%14.2f\n", c.name.c_str(), median(c.ms), median(c.ms) / median(cases[0].ms),
             plan.images.size(), plan.texels * 1e-6);
     }
+    return median(cases[1].ms) / median(cases[0].ms);
 }
 
 } // namespace starbow

@@ -1,8 +1,11 @@
 #include "frame_stages.h"
 #include "avenue.h"
+#include "bodies.h"
 #include "config/json/error.h"
 #include "config/json/whole_file.h"
 #include "config/model/shipped.h"
+#include "cubes.h"
+#include "flight.h"
 #include "runtime/commands/median.h"
 #include "runtime/hud/hud.h"
 #include "runtime/render/pass_timer.h"
@@ -173,6 +176,11 @@ void bench_frame_stages(int rounds, const std::filesystem::path& file)
     json["device"] = avenue.context.device.name();
     for (std::size_t i = 1; i < levels.size(); ++i)
         json["ratios"]["spectral_levels"][spectral_level_names[i]] = {{"cube", levels[i][0]}, {"warp", levels[i][1]}};
+    for (const auto& [name, ratio] : bench_cubes(rounds))
+        json["ratios"]["dome_over_plain"][name] = ratio;
+    json["ratios"]["first_velocity"] = bench_bodies(rounds);
+    const FlightTimes flight = bench_flight();
+    json["flight"] = {{"longest_ms", flight.longest_ms}, {"p50_ms", flight.p50_ms}, {"p99_ms", flight.p99_ms}};
     std::error_code ignored; // write_whole reports a folder that can't be made
     if (file.has_parent_path())
         std::filesystem::create_directories(file.parent_path(), ignored);
