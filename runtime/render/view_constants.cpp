@@ -46,6 +46,25 @@ WarpVariant ViewConstants::variant_shown(const ViewState& view) const
     return all;
 }
 
+WarpVariant ViewConstants::variant_of_stars(const ViewState& view) const
+{
+    WarpVariant all = variant(view);
+    all.mips = all.single = false;
+    all.cut = true;
+    return all;
+}
+
+WarpVariant ViewConstants::variant_metered(const ViewState& view) const
+{
+    WarpVariant all = variant_of_stars(view);
+    const Effects& on = state_.shot.effects;
+    all.aberration = on.aberration, all.doppler = on.doppler, all.headlight = on.headlight;
+    all.by_table = all.by_table || all.doppler;
+    all.mips = true;
+    all.layered = views_.outputs[view.output].layers() > 1;
+    return all;
+}
+
 shared::ViewPush ViewConstants::push(const ViewState& view, const glm::dmat3& axes_from_cockpit) const
 {
     const glm::dmat3 m = axes_from_cockpit * view.compiled.matrix.value_or(glm::dmat3(1));

@@ -29,9 +29,8 @@ void ViewMeter::record(vk::CommandBuffer commands)
         constants.origin.x = float(cell.corner.x), constants.origin.y = float(cell.corner.y);
         const glm::dvec2 step = glm::dvec2(view.geometry().size) / glm::dvec2(cell.size);
         constants.zenith.z = float(step.x), constants.zenith.w = float(step.y);
-        WarpVariant own = constants_.variant(view);
-        own.layered = views_.outputs[view.output].layers() > 1;
-        passes_.draw_warp(commands, view, pipelines_.meter(own), constants, cell.corner, cell.size);
+        const vk::Pipeline pipeline = pipelines_.meter(constants_.variant_metered(view));
+        passes_.draw_warp(commands, view, pipeline, constants, cell.corner, cell.size);
         if (stars_.on())
             meter_stars(commands, view, meter_->star_cell(i));
     }
@@ -43,9 +42,7 @@ void ViewMeter::meter_stars(vk::CommandBuffer commands, const ViewState& view, c
 {
     shared::ViewPush constants = constants_.star_push(view, 1);
     constants.corner = glm::vec4(cell.size, meter_->every(), 0);
-    WarpVariant own = constants_.variant(view);
-    own.mips = false;
-    own.layered = views_.outputs[view.output].layers() > 1;
+    const WarpVariant own = constants_.variant_metered(view);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.star_meter(own));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.star_layout, 0, *view.warp_set, {});
     commands.pushConstants<shared::ViewPush>(*pipelines_.layouts.star_layout,

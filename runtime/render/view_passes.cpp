@@ -120,8 +120,7 @@ void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, std:
         if (!drawn_on(view, output, layer, canvas))
             continue;
         const shared::ViewPush constants = constants_.star_push(view, exposure);
-        WarpVariant own = constants_.variant(view);
-        own.mips = false;
+        const WarpVariant own = constants_.variant_of_stars(view);
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.stars(own, stars_.format()));
         commands.bindDescriptorSets(
             vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.star_layout, 0, *view.warp_set, {});
