@@ -143,7 +143,17 @@ bool FrameLoop::fly_frame()
     if (session_.options.timed)
         session_.options.timed({controls.report_ns, steady_ns(now), steady_ns(handed), steady_ns(Clock::now())});
     ++session_.shown;
+    make_ahead(shot);
     return true;
+}
+
+/// While the ship rests, nobody sees a frame that comes late. The device draws meanwhile.
+void FrameLoop::make_ahead(const Shot& shot)
+{
+    const ExhibitOptions& options = session_.options;
+    const bool wanted = device_.on_processor() && options.paced && options.warms_up.value_or(true);
+    if (wanted && shot.u == glm::dvec3(0) && session_.alignment.pattern() == Pattern::none)
+        frame_->make_pipeline_ahead();
 }
 
 void FrameLoop::stand_by()

@@ -33,6 +33,7 @@ private:
     void stand_by();
     /// Draws off-screen all states of the visitor's switches; shows the progress on a terminal.
     void warm_up();
+    void make_ahead(const Shot& shot);
     std::size_t warm_up(std::unique_ptr<FrameRenderer>& frame, const Quality& quality,
         const std::function<void(std::size_t, std::size_t)>& progress);
     void fit(std::size_t output);

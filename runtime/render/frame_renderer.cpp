@@ -64,6 +64,7 @@ void FrameRenderer::record_measured(
 FrameRenderer::FrameRenderer(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout,
     const Quality& quality, bool keeps_depth, std::optional<PreparedLayout> prepared)
     : device_(device)
+    , pipelines_(pipelines)
     , world_(world)
     , state_{.quality = quality, .layout = with_stereo(layout, quality)}
     , stars_(device, pipelines, world, keeps_depth)

@@ -1,6 +1,6 @@
 #pragma once
+#include "pipelines_ahead.h"
 #include "view_measurement.h"
-#include "view_meter.h"
 
 namespace starbow {
 
@@ -26,6 +26,12 @@ public:
     /// The same in two parts: `world` touches no target, so that it need not wait for one; `outputs` comes after it.
     void draw(vk::CommandBuffer world, vk::CommandBuffer outputs, const Shot& shot, const Panel* hud,
         std::span<const Target> targets);
+
+    /// Makes a pipeline that a flight from here will need; see make_pipeline_ahead.
+    bool make_pipeline_ahead()
+    {
+        return starbow::make_pipeline_ahead(pipelines_, state_, views_, stars_, constants_, meter_);
+    }
 
     /// The same steps one by one, for measurements and for parts of a frame. update() comes first and is the processor's
     /// part; then any of the passes may follow.
@@ -81,6 +87,7 @@ private:
     double pre_exposure(double most_E) const;
 
     Device& device_;
+    Pipelines& pipelines_;
     const GpuWorld& world_;
     FrameState state_;
     bool counts_all_light_ = false;

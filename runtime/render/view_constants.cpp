@@ -54,13 +54,20 @@ WarpVariant ViewConstants::variant_of_stars(const ViewState& view) const
     return all;
 }
 
-WarpVariant ViewConstants::variant_metered(const ViewState& view) const
+WarpVariant ViewConstants::variant_in_flight(const ViewState& view, const Effects& on) const
 {
-    WarpVariant all = variant_of_stars(view);
-    const Effects& on = state_.shot.effects;
+    WarpVariant all = variant_shown(view);
     all.aberration = on.aberration, all.doppler = on.doppler, all.headlight = on.headlight;
     all.by_table = all.by_table || all.doppler;
-    all.mips = true;
+    return all;
+}
+
+WarpVariant ViewConstants::variant_metered(const ViewState& view, const Effects& on) const
+{
+    WarpVariant all = variant_in_flight(view, on);
+    all.rays = 1;
+    all.single = false;
+    all.cut = all.mips = true;
     all.layered = views_.outputs[view.output].layers() > 1;
     return all;
 }

@@ -29,7 +29,7 @@ void ViewMeter::record(vk::CommandBuffer commands)
         constants.origin.x = float(cell.corner.x), constants.origin.y = float(cell.corner.y);
         const glm::dvec2 step = glm::dvec2(view.geometry().size) / glm::dvec2(cell.size);
         constants.zenith.z = float(step.x), constants.zenith.w = float(step.y);
-        const vk::Pipeline pipeline = pipelines_.meter(constants_.variant_metered(view));
+        const vk::Pipeline pipeline = pipelines_.meter(constants_.variant_metered(view, state_.shot.effects));
         passes_.draw_warp(commands, view, pipeline, constants, cell.corner, cell.size);
         if (stars_.on())
             meter_stars(commands, view, meter_->star_cell(i));
@@ -42,12 +42,22 @@ void ViewMeter::meter_stars(vk::CommandBuffer commands, const ViewState& view, c
 {
     shared::ViewPush constants = constants_.star_push(view, 1);
     constants.corner = glm::vec4(cell.size, meter_->every(), 0);
-    const WarpVariant own = constants_.variant_metered(view);
+    const WarpVariant own = constants_.variant_metered(view, state_.shot.effects);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.star_meter(own));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.star_layout, 0, *view.warp_set, {});
     commands.pushConstants<shared::ViewPush>(*pipelines_.layouts.star_layout,
         vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
     stars_.sample(commands, eyes_.all[view.eye].observer, cell.corner, cell.size, meter_->every(), own.channels);
+}
+
+void ViewMeter::make_ahead(const ViewState& view, const Effects& on) const
+{
+    if (!state_.meters || state_.layout.outputs[view.output].preview)
+        return;
+    const WarpVariant variant = constants_.variant_metered(view, on);
+    pipelines_.meter(variant);
+    if (stars_.on())
+        pipelines_.star_meter(variant);
 }
 
 std::optional<double> ViewMeter::metered() const

@@ -189,7 +189,7 @@ void ViewPasses::warp_layer(vk::CommandBuffer commands, std::size_t output, std:
             vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
             vk::ClearColorValue(std::array<float, 4>{0, 0, 0, 1}));
         device_.begin_rendering(commands, {{}, {{0, 0}, target.extent}, 1, 0, colour});
-        for (const ViewState& view : views_.all) {
+        for (ViewState& view : views_.all) {
             if (!drawn_on(view, output, layer, canvas))
                 continue;
             if (state_.pattern != Pattern::none)
@@ -197,7 +197,7 @@ void ViewPasses::warp_layer(vk::CommandBuffer commands, std::size_t output, std:
             else if (glows)
                 view.bloom->show(commands, view.geometry().corner, state_.bloom, target.format);
             else
-                draw_lit(commands, view, target.format);
+                draw_lit(commands, view, view.format = target.format);
         }
         device_.end_rendering(commands);
     }

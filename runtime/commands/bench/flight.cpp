@@ -73,7 +73,7 @@ FlightTimes bench_flight()
     for (const Manoeuvre& one : all)
         seconds += one.seconds;
     std::printf(
-        "\nA flight along the avenue at 800x600, %.0f frames a second for %.0f s, all pipelines made on the way; longest "
+        "\nA flight along the avenue at 800x600, %.0f frames a second for %.0f s, from an empty list of pipelines on; longest "
         "frame, milliseconds\n",
         frames_per_s, seconds);
     Progress progress;
@@ -95,6 +95,8 @@ FlightTimes bench_flight()
             const Panel panel = typesetter.draw(readings(ship_at(shot), context.world.scene, shot.effects), words_in("en"),
                 renderer.frame().views().hud_width());
             ms.push_back(timer.frame(shot, &panel));
+            if (shot.u == glm::dvec3(0)) // as the exhibit at rest
+                ms.back() += milliseconds([&] { renderer.frame().make_pipeline_ahead(); });
         }
         std::printf("  %-22s%8.1f\n", one.name, *std::max_element(ms.begin() + std::ptrdiff_t(first), ms.end()));
     }
