@@ -66,6 +66,31 @@ TEST(Cull, KeepsEveryInstanceThatAnImagesDirectionHits)
     EXPECT_LT(drawn, long(images.size() * world.instances.size() * 2 / 3)) << "hardly anything was culled";
 }
 
+TEST(Cull, CapsHoldTheirBoxes)
+{
+    const World world = boxes(60, 5);
+    const glm::dvec3 eye(0.3, -0.2, 0.5);
+    const glm::dmat3 turn = glm::mat3_cast(glm::normalize(glm::dquat(0.3, -0.5, 0.2, 0.9)));
+    std::vector<BoundingCap> caps;
+    add_bounding_caps(world, EyeEvent{0, eye, 0, turn}, caps);
+    ASSERT_EQ(caps.size(), world.instances.size());
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> part(0, 1);
+    int narrow = 0;
+    for (std::size_t k = 0; k < caps.size(); ++k) {
+        const Primitive& primitive = world.primitives[0];
+        for (int i = 0; i < 200; ++i) {
+            const glm::dvec3 local
+                = primitive.low + glm::dvec3(part(random), part(random), part(random)) * (primitive.high - primitive.low);
+            const glm::dvec3 to = turn * (glm::dvec3(world.instances[k].frame_from_local * glm::dvec4(local, 1)) - eye);
+            EXPECT_LE(
+                std::acos(glm::clamp(glm::dot(glm::normalize(to), caps[k].axis), -1.0, 1.0)), caps[k].radius_rad + 1e-7);
+        }
+        narrow += caps[k].radius_rad < 1;
+    }
+    EXPECT_GT(narrow, 30);
+}
+
 TEST(Cull, InstancesAreRelativeToTheEyeInDouble)
 {
     World world = boxes(1, 1);

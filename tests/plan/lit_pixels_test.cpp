@@ -82,6 +82,50 @@ TEST(LitPixels, EachPixelIsInTheRectangleOfItsD)
     }
 }
 
+TEST(LitPixels, APixelThatMaySeeABodyIsAmongThoseWithBodies)
+{
+    LitPixels pixels;
+    std::mt19937 random{5};
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> part(0, 1);
+    for (const Case& c : cases) {
+        const CompiledView view = view_of(c.projection, c.size);
+        for (int turned = 0; turned < 20; ++turned) {
+            std::vector<ShipCap> bodies;
+            for (int i = 0; i < 1 + turned % 4; ++i)
+                bodies.push_back({glm::normalize(glm::dvec3(normal(random), normal(random), normal(random) - 1)),
+                    std::cos(0.3 * part(random) * part(random))});
+            pixels.find(*view.cones, glm::dmat3(1), 1, 0, 0.02, bodies);
+            const std::vector<int> lit = covered(pixels.lit, c.size), with = covered(pixels.with_bodies, c.size);
+            EXPECT_TRUE(pixels.dark.empty());
+            long missed = 0, far = 0, spared = 0;
+            for (int y = 0; y < c.size.y; ++y)
+                for (int x = 0; x < c.size.x; ++x) {
+                    const std::size_t i = std::size_t(y) * c.size.x + x;
+                    const auto n = direction(view.view.picture, {x + 0.5, y + 0.5});
+                    if (!n)
+                        continue;
+                    // The shader's own test, which passes a body by.
+                    const double angle = pixel_angle(view.view.picture, {x + 0.5, y + 0.5});
+                    bool sees = false, near = false;
+                    for (const ShipCap& body : bodies) {
+                        sees = sees || glm::dot(*n, body.axis) >= body.least_cos - 4 * angle - 1e-6;
+                        near = near
+                            || std::acos(glm::clamp(glm::dot(*n, body.axis), -1.0, 1.0)) < std::acos(body.least_cos) + 0.9;
+                    }
+                    missed += sees ? with[i] != 1 : lit[i] + with[i] != 1;
+                    far += !near, spared += !near && lit[i] == 1;
+                }
+            EXPECT_EQ(missed, 0) << turned;
+            EXPECT_GE(spared, c.size.y > 200 ? 0.8 * far : 0.0) << turned;
+        }
+    }
+    const ShipCap everywhere{{0, 0, 1}, -2};
+    const CompiledView view = view_of(Planar{60}, {64, 48});
+    pixels.find(*view.cones, glm::dmat3(1), 1, 0, 0.02, {&everywhere, 1});
+    EXPECT_TRUE(pixels.lit.empty());
+}
+
 TEST(LitPixels, ACirclesCornersAreInNeither)
 {
     LitPixels pixels;
