@@ -72,9 +72,9 @@ FlightTimes bench_flight()
     double seconds = 0, flown = 0;
     for (const Manoeuvre& one : all)
         seconds += one.seconds;
-    std::printf(
-        "\nA flight along the avenue at 800x600, %.0f frames a second for %.0f s, from an empty list of pipelines on; longest "
-        "frame, milliseconds\n",
+    std::printf("\nA flight along the avenue at 800x600, %.0f frames a second for %.0f s, from an empty list of pipelines "
+                "on; longest "
+                "frame, milliseconds\n",
         frames_per_s, seconds);
     Progress progress;
     Shot shot = along_avenue(context.world.scene.start, 1);
