@@ -304,8 +304,7 @@ double add_demands(Demands& demands, const RestFrameRequest& request, int finest
     const Held held = request.bounds ? Held(*request.bounds, finest_clip_level) : Held();
     if (held.radius < 0)
         return dark_pixels;
-    // The corners of a pixel's square, and the errors of float arithmetic.
-    const double spread = 0.71 * (1 - 1.0 / pixel_rays) + 0.02;
+    const double spread = ray_spread(pixel_rays);
     for (const ViewRequest& view : request.views) {
         const ConeHierarchy& cones = *view.cones;
         // At least 20 blocks across: coarser blocks draw too much in vain.

@@ -53,6 +53,10 @@ struct Demands {
     }
 };
 
+/// The greatest distance of a pixel's rays from its centre, pixels: towards the corners of its square, and the errors of
+/// float arithmetic.
+inline double ray_spread(int pixel_rays) { return 0.71 * (1 - 1.0 / pixel_rays) + 0.02; }
+
 /// The linear density of dark pixels' texels, as a part of the others'. They show nothing, but the exposure is metered
 /// there, one sample for about 80 pixels, and surfaces hide stars.
 constexpr double dark_density = 1.0 / 8;

@@ -82,12 +82,10 @@ void ViewPasses::draw_warp(vk::CommandBuffer commands, const ViewState& view, vk
 
 void ViewPasses::find_lit(ViewState& view)
 {
-    // The corners of a pixel's square, and the errors of float arithmetic.
-    const double spread = 0.71 * (1 - 1.0 / state_.quality.pixel_rays) + 0.02;
     const Observer& observer = eyes_.observer_of(view);
     eyes_.find_bodies(view, bodies_);
     view.pixels.find(*view.compiled.cones, observer.rest_frames[0].motion_from_cockpit, observer.E,
-        eyes_.dark_D(view, state_.pre_exposure), spread, bodies_);
+        eyes_.dark_D(view, state_.pre_exposure), ray_spread(state_.quality.pixel_rays), bodies_);
 }
 
 void ViewPasses::draw_parts(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline,
