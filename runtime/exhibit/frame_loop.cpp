@@ -143,17 +143,20 @@ bool FrameLoop::fly_frame()
     if (session_.options.timed)
         session_.options.timed({controls.report_ns, steady_ns(now), steady_ns(handed), steady_ns(Clock::now())});
     ++session_.shown;
-    make_ahead(shot);
+    constexpr std::int64_t idle_ns = 2'000'000'000; // else somebody's hand is on a device, and waits for the picture
+    if (steady_ns(now) - controls.report_ns > idle_ns)
+        make_ahead(shot);
     return true;
 }
 
-/// While the ship rests, nobody sees a frame that comes late. The device draws meanwhile.
+/// While the ship rests and nobody touches a device, nobody sees a frame that comes late. The device draws meanwhile.
 void FrameLoop::make_ahead(const Shot& shot)
 {
     const ExhibitOptions& options = session_.options;
     const bool wanted = device_.on_processor() && options.paced && options.warms_up.value_or(true);
     if (wanted && shot.u == glm::dvec3(0) && session_.alignment.pattern() == Pattern::none)
-        frame_->make_pipeline_ahead();
+        if (frame_->make_pipeline_ahead())
+            presented_.reset(); // the next picture comes late, and nothing in it moves
 }
 
 void FrameLoop::stand_by()
