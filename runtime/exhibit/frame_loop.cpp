@@ -154,9 +154,9 @@ void FrameLoop::make_ahead(const Shot& shot)
 {
     const ExhibitOptions& options = session_.options;
     const bool wanted = device_.on_processor() && options.paced && options.warms_up.value_or(true);
-    if (wanted && shot.u == glm::dvec3(0) && session_.alignment.pattern() == Pattern::none)
-        if (frame_->make_pipeline_ahead())
-            presented_.reset(); // the next picture comes late, and nothing in it moves
+    const bool rests = shot.u == glm::dvec3(0) && session_.alignment.pattern() == Pattern::none;
+    if (wanted && rests && frame_->make_pipeline_ahead())
+        presented_.reset(); // the next picture comes late, and that is no stutter
 }
 
 void FrameLoop::stand_by()

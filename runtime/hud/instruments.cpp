@@ -286,9 +286,4 @@ std::optional<double> unshifted_angle(const MeasuringObserver& observer)
     return std::acos(physics::unshifted_cosine(exp_rapidity_of(observer)));
 }
 
-double angle_between(const glm::dvec3& a, const glm::dvec3& b)
-{
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
 } // namespace starbow

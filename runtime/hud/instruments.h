@@ -91,7 +91,4 @@ PairReading read_pair(const MeasuringObserver& observer, const Spot& first, cons
 /// where nothing is shifted anywhere.
 std::optional<double> unshifted_angle(const MeasuringObserver& observer);
 
-/// The angle between directions of any length, radians; accurate for small and for opposite ones.
-double angle_between(const glm::dvec3& a, const glm::dvec3& b);
-
 } // namespace starbow

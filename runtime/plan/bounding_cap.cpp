@@ -17,7 +17,7 @@ BoundingCap bounding_cap(std::span<const BoundingSphere> spheres)
         const double distance = glm::length(one.centre);
         if (!(distance > one.radius * 1.0001))
             return {.axis = cap.axis}; // the eye is inside
-        const double away = 2 * std::asin(std::min(1.0, 0.5 * glm::length(cap.axis - one.centre / distance)));
+        const double away = angle_between(cap.axis, one.centre / distance);
         cap.radius_rad = std::max(cap.radius_rad, std::min(pi, away + std::asin(one.radius / distance)));
     }
     return cap;

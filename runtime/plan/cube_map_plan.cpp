@@ -346,6 +346,7 @@ CubeMapPlan plan_cube_map(
     int seen = 0;
     for (std::size_t i = 0; i < plan.images.size(); ++i)
         seen += i == 0 || plan.images[i].rest_frame != plan.images[i - 1].rest_frame;
+    // Dark texels are few; a little more keeps the picture's edge of light as fine as it was.
     constexpr double dark_counts = 1.0 / 16;
     const double counted = plan.pixels - (1 - dark_counts) * dark_pixels;
     // Tiles cost time whatever their texels, and their gutters are texels: less would only be coarse.

@@ -4,6 +4,7 @@
 #include "scratch.h"
 #include "shaders/physics/physics.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace starbow {
@@ -18,64 +19,50 @@ double reach(const Box& box, const glm::dvec3& n)
     return std::abs(glm::dot(n, box.half[0])) + std::abs(glm::dot(n, box.half[1])) + std::abs(glm::dot(n, box.half[2]));
 }
 
-/// An image's four sides and its face's plane as planes through the eye, normals inwards: a box is out if it is wholly
-/// behind one of them.
+double reach(const BoundingSphere& sphere, const glm::dvec3&) { return sphere.radius; }
+
+/// The planes through the eye and the sides of a rectangle on a face; unit normals inwards.
+std::array<glm::dvec3, 4> side_planes(int face, const glm::dvec2& low, const glm::dvec2& high)
+{
+    const glm::dvec3 normal = face_direction(face, {0, 0});
+    const glm::dvec3 a = face_direction(face, {1, 0}) - normal, b = face_direction(face, {0, 1}) - normal;
+    return {glm::normalize(a - low.x * normal), glm::normalize(high.x * normal - a), glm::normalize(b - low.y * normal),
+        glm::normalize(high.y * normal - b)};
+}
+
+/// An image's four sides and its face's plane: a shape is out if it is wholly behind one of them.
 struct Frustum {
-    glm::dvec3 planes[5];
+    glm::dvec3 normal;
+    std::array<glm::dvec3, 4> sides;
 
     explicit Frustum(const PlannedImage& image)
+        : normal(face_direction(image.face, {0, 0}))
+        , sides(side_planes(image.face, image.low, image.high))
     {
-        glm::dvec3 normal = face_direction(image.face, {0, 0});
-        glm::dvec3 a = face_direction(image.face, {1, 0}) - normal, b = face_direction(image.face, {0, 1}) - normal;
-        planes[0] = normal;
-        planes[1] = glm::normalize(a - image.low.x * normal);
-        planes[2] = glm::normalize(image.high.x * normal - a);
-        planes[3] = glm::normalize(b - image.low.y * normal);
-        planes[4] = glm::normalize(image.high.y * normal - b);
     }
-    bool sees(const glm::dvec3& centre, double radius) const
+    template <class Shape> bool sees(const Shape& shape) const
     {
-        for (const glm::dvec3& plane : planes)
-            if (glm::dot(plane, centre) < -radius)
-                return false;
-        return true;
-    }
-    bool sees(const Box& box) const
-    {
-        for (const glm::dvec3& plane : planes)
-            if (glm::dot(plane, box.centre) < -reach(box, plane))
-                return false;
-        return true;
+        const auto behind = [&](const glm::dvec3& plane) { return glm::dot(plane, shape.centre) < -reach(shape, plane); };
+        return !behind(normal) && std::none_of(sides.begin(), sides.end(), behind);
     }
 };
 
 /// An image's clip-map hole, which the next finer image behind fills: no pixel reads it there.
 struct ClipHole {
     bool any;
-    glm::dvec3 planes[4]; ///< unit, inwards
+    std::array<glm::dvec3, 4> sides;
+
     explicit ClipHole(const PlannedImage& image)
         : any(image.clip_hole > 0)
+        , sides(side_planes(image.face, glm::dvec2(-image.clip_hole), glm::dvec2(image.clip_hole)))
     {
-        const glm::dvec3 normal = face_direction(image.face, {0, 0});
-        const glm::dvec3 a = face_direction(image.face, {1, 0}) - normal, b = face_direction(image.face, {0, 1}) - normal;
-        const glm::dvec3 sides[] = {a, -a, b, -b};
-        for (int i = 0; i < 4; ++i)
-            planes[i] = glm::normalize(image.clip_hole * normal - sides[i]);
     }
-    /// True for a sphere that lies wholly in it.
-    bool holds(const glm::dvec3& centre, double radius) const
+    /// True for a shape that lies wholly in it.
+    template <class Shape> bool holds(const Shape& shape) const
     {
-        for (const glm::dvec3& plane : planes)
-            if (!any || glm::dot(plane, centre) < radius)
-                return false;
-        return true;
-    }
-    bool holds(const Box& box) const
-    {
-        for (const glm::dvec3& plane : planes)
-            if (!any || glm::dot(plane, box.centre) < reach(box, plane))
-                return false;
-        return true;
+        return any && std::all_of(sides.begin(), sides.end(), [&](const glm::dvec3& plane) {
+            return glm::dot(plane, shape.centre) >= reach(shape, plane);
+        });
     }
 };
 
@@ -205,21 +192,22 @@ BoundingCap cap_of(const Box& box)
         return {}; // the eye may be inside
     BoundingCap cap{glm::normalize(sum), 0};
     for (const glm::dvec3& corner : corners)
-        cap.radius_rad = std::max(cap.radius_rad, 2 * std::asin(std::min(1.0, 0.5 * glm::length(cap.axis - corner))));
+        cap.radius_rad = std::max(cap.radius_rad, angle_between(cap.axis, corner));
     constexpr double most = 1.5;
     return cap.radius_rad < most ? cap : BoundingCap{};
 }
 
 } // namespace
 
-void add_bounding_caps(const World& world, const EyeEvent& eye_event, std::vector<BoundingCap>& caps)
+void find_caps(const DrawList& list, std::size_t rest_frame, std::vector<BoundingCap>& caps)
 {
-    const InstanceRange range = instances_of(world, eye_event.frame);
-    for (std::size_t i = range.first; i < range.last; ++i) {
-        const Box rests = placed(world, world.instances[i], eye_event).box;
-        if (may_show(world, world.instances[i], eye_event, rests))
-            caps.push_back(cap_of(as_shown(rests, eye_event)));
-    }
+    caps.clear();
+    const std::size_t first = list.first[rest_frame],
+                      last = rest_frame + 1 < list.first.size() ? list.first[rest_frame + 1] : list.boxes.size();
+    for (std::size_t i = first; i < last; ++i)
+        if (list.boxes[i].shows)
+            caps.push_back(cap_of(list.boxes[i]));
+    reserve_headroom(caps);
 }
 
 namespace {
@@ -253,7 +241,7 @@ struct ClusterView {
     {
         const Standing at = standing(instance.frame_from_local, eye_event);
         eye = -(glm::inverse(at.turn) * at.place);
-        // Where the map mirrors, the primitive is turned.
+        // The primitive of a mirroring map is turned.
         one_sided = shows_one_side && glm::determinant(at.turn) > 0;
         turn = at.turn, place = at.place;
         for (int i = 0; i < 3; ++i)
@@ -268,13 +256,13 @@ struct ClusterView {
         if (one_sided
             && glm::dot(from_eye, glm::dvec3(cluster.axis)) >= (cluster.cutoff + 1e-4) * glm::length(from_eye) + radius)
             return false;
-        const glm::dvec3 centre = turn * glm::dvec3(cluster.centre) + place;
-        return frustum.sees(centre, scale * radius) && !hole.holds(centre, scale * radius);
+        const BoundingSphere sphere{turn * glm::dvec3(cluster.centre) + place, scale * radius};
+        return frustum.sees(sphere) && !hole.holds(sphere);
     }
 };
 
 /// Adds a draw for each run of neighbouring clusters in view. draw: of the whole surface.
-void add_clusters(const World& world, const ClusterRange& clusters, const ClusterView& view, const Frustum& frustum,
+void add_cluster_draws(const World& world, const ClusterRange& clusters, const ClusterView& view, const Frustum& frustum,
     const ClipHole& hole, Draw draw, std::vector<Draw>& draws)
 {
     bool runs = false;
@@ -351,8 +339,8 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
                     draw.count = 1;
                     for (std::uint32_t own : seen) {
                         const Instance& instance = world.instances[range.first + (own - first)];
-                        add_clusters(world, detail.clusters, ClusterView(instance, eye_event, boxes[own].scale, one_sided),
-                            frustum, hole, draw, list.draws);
+                        add_cluster_draws(world, detail.clusters,
+                            ClusterView(instance, eye_event, boxes[own].scale, one_sided), frustum, hole, draw, list.draws);
                         ++draw.first;
                     }
                 }

@@ -30,7 +30,7 @@ struct DrawList {
         double distance; ///< from the eye, at least
         bool shows; ///< its light may arrive
     };
-    std::vector<OrientedBox> boxes;
+    std::vector<OrientedBox> boxes; ///< as `instances`, without the poses
     std::vector<std::vector<std::uint32_t>> by_level;
 };
 
@@ -44,8 +44,8 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
 /// axes, scene units.
 std::vector<BoundingSphere> bounding_spheres(const World& world, const EyeEvent& eye_event);
 
-/// Adds a cap around the bounding box of each of those instances, the cube map's axes.
-void add_bounding_caps(const World& world, const EyeEvent& eye_event, std::vector<BoundingCap>& caps);
+/// Caps around the bounding boxes of a rest frame's instances that are listed and may show, the cube map's axes.
+void find_caps(const DrawList& list, std::size_t rest_frame, std::vector<BoundingCap>& caps);
 
 /// The distance to the nearest bounding box of the rest frame's instances, scene units: a lower bound of all seen
 /// distances.

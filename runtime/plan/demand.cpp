@@ -100,13 +100,9 @@ struct Held {
         }
     }
 
-    static double angle(const glm::dvec3& a, const glm::dvec3& b)
-    {
-        return 2 * std::asin(std::min(1.0, 0.5 * glm::length(a - b)));
-    }
     bool touches(const glm::dvec3& centre, double r) const
     {
-        return radius >= pi || (radius >= 0 && angle(axis, centre) <= radius + r);
+        return radius >= pi || (radius >= 0 && angle_between(axis, centre) <= radius + r);
     }
 };
 

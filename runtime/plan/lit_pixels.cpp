@@ -2,7 +2,6 @@
 #include "scratch.h"
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace starbow {
 namespace {
@@ -10,14 +9,20 @@ namespace {
 /// A division of a square costs a draw or some pixels; the side is a compromise, and a power of two as the hierarchy's.
 constexpr int side = 16;
 
-} // namespace
+/// An angle beyond the sphere: D is great enough everywhere.
+constexpr double everywhere = 4;
 
-double half_tangent_square(double D, double E)
+/// The angle from straight ahead at which D has a value: outside that circle all light comes with less. Below 0 where D is
+/// nowhere as great. E: e^rapidity of the ship, at least 1. From D = E (1 + t^2) / (1 + E^2 t^2), where t is the tangent of
+/// half the angle.
+double angle_of(double D, double E)
 {
     if (D * E <= 1)
-        return std::numeric_limits<double>::infinity();
-    return (E - D) / (E * (D * E - 1));
+        return everywhere;
+    return D > E ? -1 : 2 * std::atan(std::sqrt((E - D) / (E * (D * E - 1))));
 }
+
+} // namespace
 
 /// Classes the blocks of a cone hierarchy, the large ones first.
 struct LitPixels::Walk {
@@ -29,11 +34,6 @@ struct LitPixels::Walk {
     glm::ivec2 count; ///< of squares
     std::vector<Square>& squares;
 
-    static double angle(const glm::dvec3& a, const glm::dvec3& b)
-    {
-        return 2 * std::atan2(glm::length(a - b), glm::length(a + b)); // accurate at both ends
-    }
-
     void block(int level, glm::ivec2 at) const
     {
         const BoundingCone cone = cones.cone(level, at);
@@ -41,12 +41,12 @@ struct LitPixels::Walk {
             return;
         const glm::dvec3 centre = glm::normalize(glm::dvec3(cone.centre));
         const double reach = cone.radius + spread * cone.coarsest + 1e-6;
-        const double away = lit_angle < 4 ? angle(glm::normalize(motion_from_cockpit * centre), {0, 0, 1}) : 0;
+        const double away = lit_angle < everywhere ? angle_between(motion_from_cockpit * centre, {0, 0, 1}) : 0;
         const bool dark = away - reach > lit_angle, lit = away + reach <= lit_angle;
         const bool meets_bodies = !dark && std::any_of(bodies.begin(), bodies.end(), [&](const ShipCap& body) {
             // The filter reaches some pixels beyond the surfaces, as the shader's own test has it.
             const double least = body.least_cos - 4 * cone.coarsest - 2e-6;
-            return least <= -1 || angle(centre, body.axis) - reach <= std::acos(std::min(least, 1.0));
+            return least <= -1 || angle_between(centre, body.axis) - reach <= std::acos(std::min(least, 1.0));
         });
         // A map's block may have squares that show nothing.
         if (cones.side(level) > side && ((!dark && !lit) || meets_bodies || !cones.flat())) {
@@ -73,9 +73,7 @@ void LitPixels::find(const ConeHierarchy& cones, const glm::dmat3& motion_from_c
     lit.clear(), dark.clear(), with_bodies.clear();
     const glm::ivec2 size = cones.size(), count = (size + side - 1) / side;
     squares_.assign(std::size_t(count.x) * count.y, Square::empty);
-    const double square = dark_D > 0 ? half_tangent_square(dark_D, E) : std::numeric_limits<double>::infinity();
-    const double lit_angle = square < 0 ? -1 : square < 1e30 ? 2 * std::atan(std::sqrt(square)) : 4;
-    Walk{cones, motion_from_cockpit, lit_angle, spread, bodies, count, squares_}.block(0, {0, 0});
+    Walk{cones, motion_from_cockpit, angle_of(dark_D, E), spread, bodies, count, squares_}.block(0, {0, 0});
 
     for (int y = 0; y < count.y; ++y)
         for (int x = 0; x < count.x;) {

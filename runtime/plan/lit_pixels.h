@@ -10,11 +10,6 @@ struct PixelRect {
     glm::ivec2 low, high;
 };
 
-/// The square of the tangent of half the angle from straight ahead at which D has a value: of the circle outside which all
-/// light comes with less. E: e^rapidity of the ship, at least 1. Infinite where D is greater everywhere, negative where it
-/// is nowhere as great. From D = E (1 + t^2) / (1 + E^2 t^2).
-double half_tangent_square(double D, double E);
-
 /// Divides a view's pixels into rectangles on a grid of squares. lit: some pixel's light comes with at least dark_D. dark:
 /// no pixel's does. with_bodies: lit, and something that moves may be seen there. Squares that show nothing at all are in
 /// none. motion_from_cockpit: as ViewRequest's. spread: the greatest distance of a pixel's rays from its centre, pixels. The

@@ -33,6 +33,7 @@ public:
     /// texel.
     const std::vector<Image>& atlases() const { return target_.atlases(); }
     const Image& depth() const { return target_.depth(); }
+    const DrawList& list() const { return list_; } ///< of the last prepare()
     bool several_rest_frames() const { return several_rest_frames_; } ///< something that moves is in view
     vk::BufferView tiles() const { return uploads_.tiles(); } ///< TileTable, as texels
     std::uint64_t tiles_serial() const { return uploads_.tiles_serial(); }

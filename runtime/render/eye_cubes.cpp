@@ -146,7 +146,7 @@ bool EyeCubes::can_reuse(std::size_t i) const
 void EyeCubes::bound(EyeCube& eye, const CubeMapPlan& plan) const
 {
     eye.caps.assign(eye.requests.size(), {});
-    eye.bodies.clear();
+    eye.bodies.resize(eye.requests.size());
     if (state_.reprojects())
         return; // an eye beside sees the surfaces elsewhere
     for (std::size_t at = 0; at < eye.requests.size(); ++at)
@@ -157,17 +157,11 @@ void EyeCubes::bound(EyeCube& eye, const CubeMapPlan& plan) const
         double& widest = eye.caps[std::size_t(image.rest_frame)].filter_rad;
         widest = std::max(widest, texels / image.texels_per_unit);
     }
-    for (std::size_t at = 1; at < eye.requests.size(); ++at)
-        if (const RestFrameRequest& request = eye.requests[at]; request.bounds && !request.galilean) {
-            eye.body_caps.clear();
-            add_bounding_caps(world_.world, eye.drawn[at], eye.body_caps);
-            reserve_headroom(eye.body_caps);
-            for (BoundingCap& cap : eye.body_caps) {
-                cap.filter_rad = eye.caps[at].filter_rad;
-                eye.bodies.push_back({at, cap});
-            }
-        }
-    reserve_headroom(eye.bodies);
+    for (std::size_t at = 1; at < eye.requests.size(); ++at) {
+        find_caps(eye.cube.list(), at, eye.bodies[at]);
+        for (BoundingCap& cap : eye.bodies[at])
+            cap.filter_rad = eye.caps[at].filter_rad;
+    }
 }
 
 void EyeCubes::find_bodies(const ViewState& view, std::vector<ShipCap>& bodies) const
@@ -176,15 +170,16 @@ void EyeCubes::find_bodies(const ViewState& view, std::vector<ShipCap>& bodies) 
     const EyeCube& eye = all[view.eye];
     if (!eye.cube.several_rest_frames())
         return;
-    if (eye.bodies.empty())
-        bodies.push_back({{0, 0, 1}, -2}); // drawn, at unknown places
-    for (const EyeCube::Body& body : eye.bodies) {
-        const RestFrameView& rest_frame = observer_of(view).rest_frames[body.rest_frame];
-        BoundingCap cap = body.cap;
-        cap.axis = glm::transpose(rest_frame.cube_from_motion) * cap.axis;
-        const glm::dvec4 there = cap_in_ship(cap, rest_frame.E);
-        bodies.push_back({glm::transpose(rest_frame.motion_from_cockpit) * glm::dvec3(there), there.w});
-    }
+    // An eye beside sees them elsewhere, and circles do not stay circles.
+    if (state_.reprojects() || state_.shot.effects.comparison == Comparison::galilean)
+        return bodies.push_back({{0, 0, 1}, -2});
+    for (std::size_t at = 1; at < eye.bodies.size(); ++at)
+        for (BoundingCap cap : eye.bodies[at]) {
+            const RestFrameView& rest_frame = observer_of(view).rest_frames[at];
+            cap.axis = glm::transpose(rest_frame.cube_from_motion) * cap.axis;
+            const glm::dvec4 there = cap_in_ship(cap, rest_frame.E);
+            bodies.push_back({glm::transpose(rest_frame.motion_from_cockpit) * glm::dvec3(there), there.w});
+        }
     reserve_headroom(bodies);
 }
 

@@ -17,12 +17,8 @@ struct EyeCube {
     std::vector<StarRun> stars{}; ///< stars that the views may show
     std::vector<RestFrameRequest> requests{};
     std::vector<BoundingCap> caps{}; ///< one for each rest frame: of the drawn surfaces and the filter around them
-    struct Body {
-        std::size_t rest_frame;
-        BoundingCap cap;
-    };
-    std::vector<Body> bodies{}; ///< of the drawn moving surfaces, one by one
-    std::vector<BoundingCap> body_caps{}; ///< of one rest frame's
+    std::vector<std::vector<BoundingCap>>
+        bodies{}; ///< by rest frame: of its drawn surfaces one by one; none for the world's
     std::vector<EyeEvent> eye_events{}; ///< the cube map would be drawn at these events now
     CubeMapPlan wanted{}; ///< the plan of that cube map
     std::vector<double> nearest{}; ///< one for each rest frame: a lower bound of its surfaces' distance, scene units; 1

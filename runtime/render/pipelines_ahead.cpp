@@ -31,7 +31,7 @@ bool make_pipeline_ahead(Pipelines& pipelines, const FrameState& state, const Vi
     const std::array<Effects, 4> effects = effects_ahead(state.shot.effects);
     for (const ViewState& view : views.all)
         for (std::size_t i = 0; i < effects.size() && view.format != vk::Format::eUndefined; ++i) {
-            WarpVariant variant = constants.variant_in_flight(view, effects[i]);
+            WarpVariant variant = in_flight(constants.variant_shown(view), effects[i]);
             for (std::size_t kind = 0; kind < (i == 0 ? std::size(plan_kinds) : kinds_of_a_switch); ++kind) {
                 const PlanKind& plan = plan_kinds[kind];
                 variant.single = plan.single, variant.cut = plan.cut, variant.mips = plan.mips;
@@ -45,10 +45,7 @@ bool make_pipeline_ahead(Pipelines& pipelines, const FrameState& state, const Vi
                 }
             }
             if (stars.on()) {
-                WarpVariant spots = constants.variant_of_stars(view);
-                spots.aberration = effects[i].aberration, spots.doppler = effects[i].doppler;
-                spots.headlight = effects[i].headlight, spots.by_table = variant.by_table;
-                pipelines.stars(spots, stars.format());
+                pipelines.stars(in_flight(constants.variant_of_stars(view), effects[i]), stars.format());
                 pipelines.dark(variant, view.format);
             }
             if (made())

@@ -11,7 +11,7 @@ using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 
 /// A sum in 16 bits stops growing at 2,000 times a star's light, as where a million stars crowd into a few pixels, but it is
-/// drawn and read in less than half of the time. A device that can't blend 32 bits uses 16 all the same.
+/// drawn and read in three quarters of the time. A device that can't blend 32 bits uses 16 all the same.
 vk::Format summing_format(const Device& device, std::uint32_t stars, bool exact)
 {
     constexpr std::uint32_t crowd = 100'000;

@@ -11,6 +11,13 @@ double unit_of(const CompiledView& view) { return view.matrix ? std::sqrt(std::a
 
 } // namespace
 
+WarpVariant in_flight(WarpVariant variant, const Effects& on)
+{
+    variant.aberration = on.aberration, variant.doppler = on.doppler, variant.headlight = on.headlight;
+    variant.by_table = variant.by_table || variant.doppler;
+    return variant;
+}
+
 const PlannedImage* ViewConstants::single_image(const ViewState& view) const
 {
     const std::vector<PlannedImage>& images = eyes_.plans[view.eye].images;
@@ -54,20 +61,10 @@ WarpVariant ViewConstants::variant_of_stars(const ViewState& view) const
     return all;
 }
 
-WarpVariant ViewConstants::variant_in_flight(const ViewState& view, const Effects& on) const
-{
-    WarpVariant all = variant_shown(view);
-    all.aberration = on.aberration, all.doppler = on.doppler, all.headlight = on.headlight;
-    all.by_table = all.by_table || all.doppler;
-    return all;
-}
-
 WarpVariant ViewConstants::variant_metered(const ViewState& view, const Effects& on) const
 {
-    WarpVariant all = variant_in_flight(view, on);
-    all.rays = 1;
-    all.single = false;
-    all.cut = all.mips = true;
+    WarpVariant all = in_flight(variant_of_stars(view), on);
+    all.mips = true;
     all.layered = views_.outputs[view.output].layers() > 1;
     return all;
 }

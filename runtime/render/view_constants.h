@@ -3,6 +3,9 @@
 
 namespace starbow {
 
+/// A variant for flight with these effects, whatever the ship does now.
+WarpVariant in_flight(WarpVariant variant, const Effects& on);
+
 /// Computes specialization constants and push constants for a view's shaders; records no commands.
 class ViewConstants {
 public:
@@ -20,8 +23,6 @@ public:
     WarpVariant variant_shown(const ViewState& view) const;
     /// The variant of the star pass. Any plan will do, so that a change of the plan makes no new pipeline.
     WarpVariant variant_of_stars(const ViewState& view) const;
-    /// The variant of a view in flight with these effects, whatever the ship does now.
-    WarpVariant variant_in_flight(const ViewState& view, const Effects& on) const;
     /// The variant of the exposure's samples. They are few, so that it does without what the plan and rest would save.
     WarpVariant variant_metered(const ViewState& view, const Effects& on) const;
     /// The image ahead if it is the plan's only one, as often at rest; null otherwise.

@@ -36,7 +36,7 @@ void ViewPasses::prepare(const Panel* hud)
         prepare_stars();
     const bool pattern = state_.pattern != Pattern::none;
     for (ViewState& view : views_.all) {
-        if (!pattern)
+        if (!pattern && state_.bloom == 0) // light that glows is drawn everywhere
             find_lit(view);
         if (state_.bloom == 0)
             view.bloom.reset();
@@ -72,12 +72,8 @@ void ViewPasses::prepare_stars()
 void ViewPasses::draw_warp(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline,
     const shared::ViewPush& constants, glm::ivec2 corner, glm::ivec2 size) const
 {
-    set_area(commands, corner, size);
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.warp_layout, 0, *view.warp_set, {});
-    commands.pushConstants<shared::ViewPush>(
-        *pipelines_.layouts.warp_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
-    commands.draw(3, 1, 0, 0);
+    const PixelRect whole{corner, corner + size};
+    draw_parts(commands, view, pipeline, constants, {0, 0}, {&whole, 1});
 }
 
 void ViewPasses::find_lit(ViewState& view)
@@ -89,10 +85,16 @@ void ViewPasses::find_lit(ViewState& view)
 }
 
 void ViewPasses::draw_parts(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline,
-    const shared::ViewPush& constants, std::span<const PixelRect> parts) const
+    const shared::ViewPush& constants, glm::ivec2 corner, std::span<const PixelRect> parts) const
 {
-    for (const PixelRect& part : parts)
-        draw_warp(commands, view, pipeline, constants, view.geometry().corner + part.low, part.high - part.low);
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipelines_.layouts.warp_layout, 0, *view.warp_set, {});
+    commands.pushConstants<shared::ViewPush>(
+        *pipelines_.layouts.warp_layout, vk::ShaderStageFlagBits::eFragment, 0, constants);
+    for (const PixelRect& part : parts) {
+        set_area(commands, corner + part.low, part.high - part.low);
+        commands.draw(3, 1, 0, 0);
+    }
 }
 
 void ViewPasses::draw_lit(vk::CommandBuffer commands, const ViewState& view, vk::Format target) const
@@ -100,13 +102,14 @@ void ViewPasses::draw_lit(vk::CommandBuffer commands, const ViewState& view, vk:
     WarpVariant variant = constants_.variant_shown(view);
     const LitPixels& pixels = view.pixels;
     const shared::ViewPush constants = constants_.exposed_push(view, std::exp2(state_.shot.exposure_ev));
+    const glm::ivec2 corner = view.geometry().corner;
     if (!pixels.with_bodies.empty())
-        draw_parts(commands, view, pipelines_.warp(variant, target), constants, pixels.with_bodies);
+        draw_parts(commands, view, pipelines_.warp(variant, target), constants, corner, pixels.with_bodies);
     if (variant.stars && !pixels.dark.empty())
-        draw_parts(commands, view, pipelines_.dark(variant, target), constants, pixels.dark);
+        draw_parts(commands, view, pipelines_.dark(variant, target), constants, corner, pixels.dark);
     variant.world_alone = variant.several_rest_frames;
     if (!pixels.lit.empty())
-        draw_parts(commands, view, pipelines_.warp(variant, target), constants, pixels.lit);
+        draw_parts(commands, view, pipelines_.warp(variant, target), constants, corner, pixels.lit);
 }
 
 void ViewPasses::draw_stars(vk::CommandBuffer commands, std::size_t output, std::size_t layer, int canvas, double exposure)

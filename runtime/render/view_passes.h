@@ -66,8 +66,9 @@ private:
     void begin_over(vk::CommandBuffer commands, const Target& target) const;
     void prepare_stars();
     void find_lit(ViewState& view);
+    /// corner: added to each part's.
     void draw_parts(vk::CommandBuffer commands, const ViewState& view, vk::Pipeline pipeline,
-        const shared::ViewPush& constants, std::span<const PixelRect> parts) const;
+        const shared::ViewPush& constants, glm::ivec2 corner, std::span<const PixelRect> parts) const;
     void bloom_view(vk::CommandBuffer commands, const ViewState& view);
     void pattern_view(vk::CommandBuffer commands, const ViewState& view, vk::Format target);
 

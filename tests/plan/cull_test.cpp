@@ -72,7 +72,7 @@ TEST(Cull, CapsHoldTheirBoxes)
     const glm::dvec3 eye(0.3, -0.2, 0.5);
     const glm::dmat3 turn = glm::mat3_cast(glm::normalize(glm::dquat(0.3, -0.5, 0.2, 0.9)));
     std::vector<BoundingCap> caps;
-    add_bounding_caps(world, EyeEvent{0, eye, 0, turn}, caps);
+    find_caps(cull(world, {{EyeEvent{0, eye, 0, turn}}}, {}), 0, caps);
     ASSERT_EQ(caps.size(), world.instances.size());
     std::mt19937 random(2);
     std::uniform_real_distribution<double> part(0, 1);

@@ -1,5 +1,7 @@
 #pragma once
 #include "runtime/render/render_context.h"
+#include <array>
+#include <utility>
 
 namespace starbow {
 
@@ -12,6 +14,9 @@ struct Avenue {
 
 /// One plain window of a size in pixels: the layout `desk`.
 Layout window_of(glm::ivec2 size);
+
+/// The speeds that the benches compare, by their names in JSON: gamma.
+constexpr std::array<std::pair<const char*, double>, 3> bench_speeds = {{{"rest", 1}, {"gamma4", 4}, {"gamma100", 100}}};
 
 /// The avenue from its start: at rest, or from its first columns on at gamma, three stops darker.
 Shot along_avenue(const Shot& start, double gamma);

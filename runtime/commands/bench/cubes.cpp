@@ -119,7 +119,7 @@ std::map<std::string, double> bench_cubes(int rounds)
         "milliseconds\n%-10s%8s%8s%8s%26s%8s%8s%8s%26s\n",
         "", "dome", "plain", "ratio", "(with stars", "plan", "faces", "ratio", "(Mtexel");
     std::map<std::string, double> ratios;
-    for (const auto& [name, gamma] : {std::pair{"rest", 1.0}, std::pair{"gamma4", 4.0}, std::pair{"gamma100", 100.0}}) {
+    for (const auto& [name, gamma] : bench_speeds) {
         CubesCase one(avenue.context, avenue.starless, dome_layout, window_layout, quality);
         ratios[name] = time_speed(avenue, one, along_avenue(avenue.context.world.scene.start, gamma), gamma, rounds);
     }

@@ -2,6 +2,7 @@
 #include "avenue.h"
 #include "config/model/shipped.h"
 #include "runtime/hud/hud.h"
+#include "runtime/operation/latency.h"
 #include "runtime/operation/progress.h"
 #include "runtime/render/pass_timer.h"
 #include "runtime/world/worldline.h"
@@ -22,15 +23,14 @@ struct Manoeuvre {
     std::function<void(Shot&, FrameRenderer&)> begin = [](Shot&, FrameRenderer&) {};
 };
 
-void show_overlay(FrameRenderer& frame, Overlay overlay)
-{
-    frame.measure(Measuring{.probes = {{glm::dvec3(0, 0, -1)}}, .over = {.overlay = overlay}});
-}
-
 std::vector<Manoeuvre> manoeuvres(const Layout& layout)
 {
     const auto effects = [](Effects on) { return [on](Shot& shot, FrameRenderer&) { shot.effects = on; }; };
-    const auto overlay = [](Overlay which) { return [which](Shot&, FrameRenderer& frame) { show_overlay(frame, which); }; };
+    const auto overlay = [](Overlay which) {
+        return [which](Shot&, FrameRenderer& frame) {
+            frame.measure(Measuring{.probes = {{glm::dvec3(0, 0, -1)}}, .over = {.overlay = which}});
+        };
+    };
     Layout edited = layout;
     std::get<Planar>(edited.outputs[0].viewports[0].projection).fov_y_deg *= 0.9;
     std::vector<Manoeuvre> all = {{"at rest", 3, 1, 1}, {"take-off", 6, 1, 4}};
@@ -72,9 +72,9 @@ FlightTimes bench_flight()
     double seconds = 0, flown = 0;
     for (const Manoeuvre& one : all)
         seconds += one.seconds;
-    std::printf("\nA flight along the avenue at 800x600, %.0f frames a second for %.0f s, from an empty list of pipelines "
-                "on; longest "
-                "frame, milliseconds\n",
+    std::printf(
+        "\nA flight along the avenue at 800x600, %.0f frames a second for %.0f s, from an empty list of pipelines on; "
+        "longest frame, milliseconds\n",
         frames_per_s, seconds);
     Progress progress;
     Shot shot = along_avenue(context.world.scene.start, 1);
@@ -100,10 +100,8 @@ FlightTimes bench_flight()
         }
         std::printf("  %-22s%8.1f\n", one.name, *std::max_element(ms.begin() + std::ptrdiff_t(first), ms.end()));
     }
-    std::sort(ms.begin(), ms.end());
-    const auto part = [&](double p) { return ms[std::min(ms.size() - 1, std::size_t(p * double(ms.size())))]; };
-    const FlightTimes times{ms.back(), part(0.5), part(0.99)};
-    const auto slow = ms.end() - std::upper_bound(ms.begin(), ms.end(), 100.0);
+    const FlightTimes times{percentile(ms, 1), percentile(ms, 0.5), percentile(ms, 0.99)};
+    const auto slow = std::count_if(ms.begin(), ms.end(), [](double one) { return one > 100; });
     std::printf("  longest %.1f, p99 %.1f, p50 %.1f; %td of %zu frames above 100 ms\n", times.longest_ms, times.p99_ms,
         times.p50_ms, slow, ms.size());
     return times;

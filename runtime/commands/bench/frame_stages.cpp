@@ -162,7 +162,7 @@ void bench_frame_stages(int rounds, const std::filesystem::path& file)
     std::printf("%s; avenue at %dx%d, all effects on; medians of %d rounds, milliseconds\n\n", avenue.context.device.name(),
         size.x, size.y, rounds);
     std::vector<StageTimes> results;
-    for (const auto& [name, gamma] : {std::pair{"rest", 1.0}, std::pair{"gamma4", 4.0}, std::pair{"gamma100", 100.0}}) {
+    for (const auto& [name, gamma] : bench_speeds) {
         const Shot shot = along_avenue(avenue.context.world.scene.start, gamma);
         results.push_back(time_stages(avenue, lookup, layout, shot, name, rounds));
         std::fprintf(stderr, "%s measured\n", name);
