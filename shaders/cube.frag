@@ -22,9 +22,11 @@ layout(constant_id = 11) const bool SEVERAL_REST_FRAMES = false; // one of sever
                                                                  // after the coefficients
 layout(constant_id = 12) const bool LAMPS_MOVE = false;
 layout(constant_id = 13) const bool BLINK = false;
+// constant_id 14 is cube.vert's
+layout(constant_id = 15) const bool UNSHIFTED = false; // light is stored as its colour at D = 1
 
 layout(set = 0, binding = 0) uniform Constants { CubeConstants cube; };
-layout(set = 0, binding = 3) uniform Matrices { vec4 columns[MAX_MATRICES]; }; // [set][kind][group][r, g, b, uv, ir]
+layout(set = 0, binding = 3) uniform Matrices { vec4 columns[MAX_MATRICES]; }; // Spectra::columns
 layout(set = 0, binding = 4) readonly buffer Times { TimeEntry times[]; };
 layout(set = 1, binding = 0) uniform sampler2D base_texture;
 layout(set = 1, binding = 1) uniform sampler2D emissive_texture;
@@ -41,7 +43,7 @@ layout(location = 2) out vec4 coefficients2;
 layout(location = 3) out vec4 coefficients3;
 layout(location = 4) out vec4 coefficients4;
 
-const int GROUPS = (REFLECTED + OWN + 3) / 4;
+const int GROUPS = UNSHIFTED ? 1 : (REFLECTED + OWN + 3) / 4;
 const int KEPT = LAMPS_MOVE ? 1 : KINDS; // kinds of light that are summed before they illuminate
 const vec3 luminance = vec3(0.2126, 0.7152, 0.0722); // Rec. 709
 
@@ -64,7 +66,7 @@ void add_lit(inout vec4 coefficients[MAX_GROUPS + 1], int kind, vec3 base, vec3 
     vec3 lit = base * light;
     vec2 beyond = beyond_visible(lit, light) + mean(emitted);
     lit += emitted;
-    int at = (int(push.beyond.z) * KINDS + kind) * (GROUPS * 5);
+    int at = (UNSHIFTED ? OWN : 0) + (int(push.beyond.z) * KINDS + kind) * (GROUPS * 5);
     for (int group = 0; group < GROUPS; ++group) {
         int column = at + group * 5;
         coefficients[group] += columns[column] * lit.r + columns[column + 1] * lit.g + columns[column + 2] * lit.b
@@ -216,8 +218,12 @@ void main()
 
     bool own_emission = OWN > 0 && push.beyond.w >= 0.0;
     add_reflected(coefficients, light, base.rgb, own_emission ? vec3(0.0) : emitted);
-    for (int i = 0; i < OWN; ++i)
-        coefficients[(REFLECTED + i) / 4][(REFLECTED + i) % 4]
-            += push.own[i] + (int(push.beyond.w) == i ? dot(luminance, emitted) : 0.0);
+    for (int i = 0; i < OWN; ++i) {
+        float own = push.own[i] + (int(push.beyond.w) == i ? dot(luminance, emitted) : 0.0);
+        if (UNSHIFTED)
+            coefficients[0] += columns[i] * own;
+        else
+            coefficients[(REFLECTED + i) / 4][(REFLECTED + i) % 4] += own;
+    }
     write(coefficients);
 }

@@ -17,8 +17,6 @@
 namespace starbow {
 namespace {
 
-using nlohmann::json;
-
 struct DevicesOptions {
     std::string describe;
     double seconds = 0;
@@ -71,9 +69,9 @@ std::vector<std::uint8_t> descriptor_in(const std::string& file)
     return {text.begin(), text.end()};
 }
 
-json json_of(const Field& field)
+nlohmann::json json_of(const Field& field)
 {
-    json out = {{"report_id", field.report_id}, {"usage_page", field.usage.page}, {"usage", field.usage.id},
+    nlohmann::json out = {{"report_id", field.report_id}, {"usage_page", field.usage.page}, {"usage", field.usage.id},
         {"bit_offset", field.bit_offset}, {"bits", field.bits}, {"logical_min", field.logical_min},
         {"logical_max", field.logical_max}, {"signed", field.is_signed}, {"null_state", field.null_state}};
     if (field.relative)
@@ -96,8 +94,8 @@ int print_descriptor(const std::string& file)
         throw InputError(file, "",
             "declares no input" + (found.stopped.empty() ? "" : " (" + found.stopped + ")")
                 + "; a HID report descriptor is right");
-    json out = {{"uses_report_ids", found.uses_report_ids}, {"application_usages", json::array()},
-        {"input_report_bits", json::object()}, {"fields", json::array()}};
+    nlohmann::json out = {{"uses_report_ids", found.uses_report_ids}, {"application_usages", nlohmann::json::array()},
+        {"input_report_bits", nlohmann::json::object()}, {"fields", nlohmann::json::array()}};
     for (const Usage& usage : found.applications)
         out["application_usages"].push_back({usage.page, usage.id});
     for (const auto& [id, bits] : found.report_bits)

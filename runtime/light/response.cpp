@@ -49,7 +49,10 @@ template <class AnyResponse> auto& word(AnyResponse& response, int row, int k)
 Response response_of(const SpectralBasis& basis, const StandardObserver& observer)
 {
     const ColourTable table = response_table(basis, observer, RESPONSE_ROWS);
-    Response response{basis.reflected, int(basis.own.size()), table.first_log2_D, double(table.per_octave), {}, {}};
+    Response response{basis.reflected, int(basis.own.size()), table.first_log2_D, double(table.per_octave), {}, {}, {}};
+    const glm::dvec3* at_rest = table.row(int(std::lround(-table.first_log2_D * table.per_octave)));
+    for (int k = 0; k < basis.size(); ++k)
+        response.unshifted.push_back(observer.rec709 * at_rest[k]);
     response.rows.assign(std::size_t(RESPONSE_ROWS * RESPONSE_TEXELS(basis.reflected)), glm::uvec4(0));
     response.own_rows.assign(MOST_OWN_ROWS, glm::vec4(0, 0, 0, float(least_log2)));
     std::vector<ScaledRow> rows;

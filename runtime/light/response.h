@@ -13,6 +13,7 @@ struct Response {
     double first_log2_D = 0, per_octave = 1; ///< row i: log2 D = first + i / per_octave
     std::vector<glm::uvec4> rows;
     std::vector<glm::vec4> own_rows;
+    std::vector<glm::dvec3> unshifted; ///< the colour of each coefficient at D = 1, without the tables' rounding
 };
 
 Response response_of(const SpectralBasis& basis, const StandardObserver& observer);

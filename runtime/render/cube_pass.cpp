@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <optional>
 
 namespace starbow {
 namespace {
@@ -38,11 +39,11 @@ CubePass::CubePass(Device& device, Pipelines& pipelines, const GpuWorld& world, 
     sky_ = sky.zenith != sky.horizon || sky.nadir != sky.horizon;
 }
 
-void CubePass::prepare(const CubeMapPlan& plan, std::span<const EyeEvent> eye_events, double pre_exposure)
+void CubePass::prepare(const CubeMapPlan& plan, std::span<const EyeEvent> eye_events, StoredLight light, double pre_exposure)
 {
     pre_exposure_ = pre_exposure;
     images_ = plan.images;
-    several_rest_frames_ = !images_.empty() && images_.back().rest_frame > 0;
+    use_ = {!images_.empty() && images_.back().rest_frame > 0, light};
     area_ = plan.atlas_size;
     levels_ = plan.levels;
     {
@@ -54,17 +55,17 @@ void CubePass::prepare(const CubeMapPlan& plan, std::span<const EyeEvent> eye_ev
     for (const EyeEvent& eye_event : eye_events)
         contractions_.push_back(eye_event.contraction);
     target_.fit(plan.atlas_size, plan.levels);
-    uploads_.write(list_, eye_events, pre_exposure_, false);
+    uploads_.write(list_, eye_events, light, pre_exposure_);
     uploads_.write_tile_table(plan);
 }
 
 void CubePass::prepare_plain(const PlannedImage& image, const EyeEvent& eye_event)
 {
     images_ = {image};
-    several_rest_frames_ = false;
+    use_ = {false, StoredLight::plain};
     list_ = cull(world_.world, {&eye_event, 1}, images_, quality_, std::move(list_));
     contractions_ = {1};
-    uploads_.write(list_, {&eye_event, 1}, pre_exposure_, true);
+    uploads_.write(list_, {&eye_event, 1}, use_.light, pre_exposure_);
     target_.fit_depth(image.size);
 }
 
@@ -78,16 +79,45 @@ std::size_t CubePass::triangles() const
 
 void CubePass::record(vk::CommandBuffer commands)
 {
-    const TargetKind kind = target_.kind(several_rest_frames_);
+    const TargetKind kind = target_.kind(use_);
     std::array<glm::vec4, MAX_GROUPS + 1> clear{};
-    for (std::size_t group = 0; group < kind.colours.size() && !several_rest_frames_; ++group)
-        clear[group] = glm::vec4(world_.spectra.sky[1][group] * pre_exposure_);
-    target_.begin(commands, area_, std::span(clear).first(kind.colours.size()), 2 + std::uint32_t(images_.size()));
-    draw_images(commands, kind, false);
-    target_.end(commands, images_, levels_, several_rest_frames_);
+    for (std::size_t group = 0; group < kind.colours.size() && !use_.several_rest_frames; ++group)
+        clear[group] = glm::vec4(world_.spectra_of(use_.light).sky[1][group] * pre_exposure_);
+    target_.begin(commands, use_, area_, std::span(clear).first(kind.colours.size()), 2 + std::uint32_t(images_.size()));
+    draw_images(commands, kind);
+    target_.end(commands, use_, images_, levels_);
 }
 
-void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, bool plain)
+void CubePass::make_ahead(StoredLight light)
+{
+    if (light == use_.light)
+        return;
+    const TargetKind kind = target_.kind({use_.several_rest_frames, light});
+    const std::size_t before = pipelines_.count();
+    std::optional<SurfaceVariant> last;
+    for (const Draw& draw : list_.draws) {
+        const SurfaceVariant variant = variant_of(draw, light);
+        if (variant != last)
+            pipelines_.surface(variant, kind);
+        if (pipelines_.count() > before)
+            return;
+        last = variant;
+    }
+    if (sky_ && !use_.several_rest_frames)
+        pipelines_.sky(kind);
+}
+
+SurfaceVariant CubePass::variant_of(const Draw& draw, StoredLight light) const
+{
+    SurfaceVariant variant = world_.variant(world_.world.primitives[draw.primitive].material, light);
+    const bool plain = light == StoredLight::plain;
+    variant.finite_existence = draw.finite_existence && !plain;
+    variant.several_rest_frames = use_.several_rest_frames;
+    variant.moves = draw.moves && !plain;
+    return variant;
+}
+
+void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind)
 {
     const World& world = world_.world;
     commands.bindVertexBuffers(0, *world_.vertices.buffer, vk::DeviceSize(0));
@@ -125,11 +155,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
         int material = -1;
         for (; draw != list_.draws.end() && draw->image == i; ++draw) {
             const Primitive& primitive = world.primitives[draw->primitive];
-            SurfaceVariant variant = world_.variant(primitive.material, plain);
-            variant.finite_existence = draw->finite_existence && !plain;
-            variant.several_rest_frames = several_rest_frames_;
-            variant.moves = draw->moves && !plain;
-            if (vk::Pipeline pipeline = pipelines_.surface(variant, kind); pipeline != bound)
+            if (vk::Pipeline pipeline = pipelines_.surface(variant_of(*draw, use_.light), kind); pipeline != bound)
                 commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipeline);
             if (primitive.material != material) {
                 material = primitive.material;
@@ -146,7 +172,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
             }
             commands.drawIndexed(draw->index_count, draw->count, draw->first_index, primitive.vertex_offset, draw->first);
         }
-        if (sky_ && !several_rest_frames_) {
+        if (sky_ && !use_.several_rest_frames) {
             set_area(commands, image.atlas, image.size);
             commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipelines_.sky(kind));
             glm::dvec3 origin = face_direction(image.face, image.low);
@@ -164,7 +190,7 @@ void CubePass::draw_images(vk::CommandBuffer commands, const TargetKind& kind, b
 void CubePass::record_plain(vk::CommandBuffer commands, const Target& target)
 {
     target_.begin_plain(commands, target, glm::vec4(world_.scene.sky.horizon * pre_exposure_, 1));
-    draw_images(commands, {{target.format}}, true);
+    draw_images(commands, {{target.format}});
     device_.end_rendering(commands);
 }
 

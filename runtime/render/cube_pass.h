@@ -20,10 +20,13 @@ public:
 
     /// The processor's part: culls, makes room and uploads. The device must have finished the frame before. Every stored
     /// radiance is multiplied by pre_exposure. eye_events: the eye events of the plan's rest frames.
-    void prepare(const CubeMapPlan& plan, std::span<const EyeEvent> eye_events, double pre_exposure);
+    void prepare(const CubeMapPlan& plan, std::span<const EyeEvent> eye_events, StoredLight light, double pre_exposure);
     /// The device's part: one pass over all images, then their mips. Afterwards fragment shaders may read the atlas, and
     /// the depth if it is kept.
     void record(vk::CommandBuffer commands);
+
+    /// Makes a pipeline, if any is missing, that the images of the last prepare() need where light is stored so.
+    void make_ahead(StoredLight light);
 
     /// Draws the same world into a target through one single image, for comparison. Not beside prepare() and record().
     void prepare_plain(const PlannedImage& image, const EyeEvent& eye_event);
@@ -32,16 +35,18 @@ public:
     /// Each atlas holds four spectral coefficients. Where something moves, one more holds the covered share of each
     /// texel.
     const std::vector<Image>& atlases() const { return target_.atlases(); }
+    StoredLight light() const { return use_.light; } ///< of the last prepare()
     const Image& depth() const { return target_.depth(); }
     const DrawList& list() const { return list_; } ///< of the last prepare()
-    bool several_rest_frames() const { return several_rest_frames_; } ///< something that moves is in view
+    bool several_rest_frames() const { return use_.several_rest_frames; } ///< something that moves is in view
     vk::BufferView tiles() const { return uploads_.tiles(); } ///< TileTable, as texels
     std::uint64_t tiles_serial() const { return uploads_.tiles_serial(); }
     std::size_t triangles() const; ///< sent to the device, all images
     vk::DeviceSize memory() const { return target_.memory(); }
 
 private:
-    void draw_images(vk::CommandBuffer commands, const TargetKind& kind, bool plain);
+    SurfaceVariant variant_of(const Draw& draw, StoredLight light) const;
+    void draw_images(vk::CommandBuffer commands, const TargetKind& kind);
 
     Device& device_;
     Pipelines& pipelines_;
@@ -50,7 +55,7 @@ private:
     CubeTarget target_;
     CubeUploads uploads_;
     bool sky_; ///< it has a gradient, so that clearing does not draw it
-    bool several_rest_frames_ = false; ///< something that moves is in view; the warp pass then draws the sky
+    CubeTarget::Use use_; ///< where something that moves is in view, the warp pass draws the sky
     std::vector<PlannedImage> images_;
     std::vector<double> contractions_; ///< one for each rest frame
     glm::ivec2 area_{0};

@@ -27,20 +27,27 @@ constexpr auto depth_access = Access::eDepthStencilAttachmentRead | Access::eDep
 CubeTarget::CubeTarget(Device& device, Pipelines& pipelines, const GpuWorld& world, const Quality& quality, bool keeps_depth)
     : device_(device)
     , pipelines_(pipelines)
-    , formats_(world.coefficients().formats(quality.half_floats))
+    , formats_(world.coefficients(StoredLight::coefficients).formats(quality.half_floats))
     , samples_(quality.cube_samples)
     , in_several_rest_frames_(world.several_rest_frames())
     , keeps_depth_(keeps_depth)
 {
     formats_.push_back(vk::Format::eR32G32Sfloat); // the coverage; near / distance is small
-    atlases_.resize(kind(in_several_rest_frames_).colours.size());
+    atlases_.resize(kind({in_several_rest_frames_}).colours.size());
 }
 
-TargetKind CubeTarget::kind(bool several_rest_frames) const
+bool CubeTarget::uses(Use use, std::size_t atlas) const
 {
-    TargetKind kind{formats_, sample_bits(samples_)};
-    if (!several_rest_frames)
-        kind.colours.pop_back();
+    const bool coverage = atlas + 1 == formats_.size();
+    return coverage ? use.several_rest_frames : atlas == 0 || use.light == StoredLight::coefficients;
+}
+
+TargetKind CubeTarget::kind(Use use) const
+{
+    TargetKind kind{{}, sample_bits(samples_)};
+    for (std::size_t atlas = 0; atlas < formats_.size(); ++atlas)
+        if (uses(use, atlas))
+            kind.colours.push_back(formats_[atlas]);
     return kind;
 }
 
@@ -61,7 +68,7 @@ void CubeTarget::fit(glm::ivec2 size, int levels)
     for (Image& atlas : atlases_)
         atlas = {};
     depth_ = {}, atlas_samples_.clear(), depth_samples_ = {};
-    Formats formats = kind(in_several_rest_frames_).colours;
+    Formats formats = kind({in_several_rest_frames_}).colours;
     for (std::size_t i = 0; i < atlases_.size(); ++i) {
         atlases_[i] = make_image(device_, {formats[i], extent, Usage::eColorAttachment | Usage::eSampled, most});
         name_object(device_, atlases_[i], "cube pass: atlas");
@@ -90,37 +97,38 @@ void CubeTarget::fit_depth(glm::ivec2 size)
     name_object(device_, depth_, "cube pass: depth");
 }
 
-void CubeTarget::begin(vk::CommandBuffer commands, glm::ivec2 area, std::span<const glm::vec4> clear, std::uint32_t scenes)
+void CubeTarget::begin(
+    vk::CommandBuffer commands, Use use, glm::ivec2 area, std::span<const glm::vec4> clear, std::uint32_t scenes)
 {
     const bool sampled = samples_ > 1;
-    const std::span used(atlases_.data(), clear.size());
     const Image& depth = sampled ? depth_samples_ : depth_;
-    for (const Image& atlas : used)
-        transition(commands, atlas, vk::ImageLayout::eUndefined, readers, {}, vk::ImageLayout::eColorAttachmentOptimal,
-            Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
     transition(commands, depth_, vk::ImageLayout::eUndefined,
         depth_tests | Stage::eVertexShader | Stage::eFragmentShader | Stage::eColorAttachmentOutput, depth_access,
         vk::ImageLayout::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
         depth_access | Access::eColorAttachmentWrite);
-    if (sampled) {
-        for (const Image& colour : std::span(atlas_samples_.data(), used.size()))
-            transition(commands, colour, vk::ImageLayout::eUndefined, Stage::eColorAttachmentOutput,
-                Access::eColorAttachmentWrite, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
-                Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
+    if (sampled)
         transition(commands, depth, vk::ImageLayout::eUndefined, depth_tests, depth_access,
             vk::ImageLayout::eDepthAttachmentOptimal, depth_tests, depth_access);
-    }
     std::array<vk::RenderingAttachmentInfo, MAX_GROUPS + 1> colours;
-    for (std::size_t group = 0; group < used.size(); ++group) {
-        const glm::vec4& c = clear[group];
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < atlases_.size(); ++i) {
+        if (!uses(use, i))
+            continue;
+        transition(commands, atlases_[i], vk::ImageLayout::eUndefined, readers, {}, vk::ImageLayout::eColorAttachmentOptimal,
+            Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
+        if (sampled)
+            transition(commands, atlas_samples_[i], vk::ImageLayout::eUndefined, Stage::eColorAttachmentOutput,
+                Access::eColorAttachmentWrite, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+                Access::eColorAttachmentWrite | Access::eColorAttachmentRead);
+        const glm::vec4& c = clear[count];
         const vk::ClearColorValue clear_value(std::array<float, 4>{c.x, c.y, c.z, c.w});
-        vk::RenderingAttachmentInfo& colour = colours[group];
-        colour = {*(sampled ? atlas_samples_ : atlases_)[group].view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
+        vk::RenderingAttachmentInfo& colour = colours[count++];
+        colour = {*(sampled ? atlas_samples_ : atlases_)[i].view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
             vk::AttachmentLoadOp::eClear, sampled ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore,
             clear_value};
         if (sampled) {
             colour.resolveMode = vk::ResolveModeFlagBits::eAverage;
-            colour.resolveImageView = *atlases_[group].view;
+            colour.resolveImageView = *atlases_[i].view;
             colour.resolveImageLayout = vk::ImageLayout::eColorAttachmentOptimal;
         }
     }
@@ -133,8 +141,7 @@ void CubeTarget::begin(vk::CommandBuffer commands, glm::ivec2 area, std::span<co
         depth_info.resolveImageView = *depth_.view;
         depth_info.resolveImageLayout = vk::ImageLayout::eDepthAttachmentOptimal;
     }
-    device_.begin_rendering(
-        commands, {{}, rect_of({0, 0}, area), 1, 0, std::uint32_t(used.size()), colours.data(), &depth_info}, scenes);
+    device_.begin_rendering(commands, {{}, rect_of({0, 0}, area), 1, 0, count, colours.data(), &depth_info}, scenes);
 }
 
 void CubeTarget::begin_plain(vk::CommandBuffer commands, const Target& target, const glm::vec4& clear)
@@ -150,18 +157,19 @@ void CubeTarget::begin_plain(vk::CommandBuffer commands, const Target& target, c
     device_.begin_rendering(commands, {{}, {{0, 0}, target.extent}, 1, 0, colour, &depth});
 }
 
-void CubeTarget::end(vk::CommandBuffer commands, std::span<const PlannedImage> images, int levels, bool several_rest_frames)
+void CubeTarget::end(vk::CommandBuffer commands, Use use, std::span<const PlannedImage> images, int levels)
 {
     device_.end_rendering(commands);
-    const std::span used(atlases_.data(), kind(several_rest_frames).colours.size());
-    for (const Image& atlas : used)
-        transition(commands, atlas, vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
-            Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal, readers, Access::eShaderSampledRead);
+    for (std::size_t i = 0; i < atlases_.size(); ++i)
+        if (uses(use, i))
+            transition(commands, atlases_[i], vk::ImageLayout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+                Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal, readers, Access::eShaderSampledRead);
     // One level more than the plan needs. At its coarsest level an image is sampled together with the next level at
     // weight 0, and 0 times unwritten memory may be NaN.
     const std::uint32_t drawn = std::min(std::uint32_t(levels) + 1, atlases_.front().levels);
-    for (std::size_t i = 0; levels > 1 && i < used.size(); ++i)
-        make_mips(commands, *chains_[i], images, drawn);
+    for (std::size_t i = 0; levels > 1 && i < atlases_.size(); ++i)
+        if (uses(use, i))
+            make_mips(commands, *chains_[i], images, drawn);
     if (keeps_depth_)
         transition(commands, depth_, vk::ImageLayout::eDepthAttachmentOptimal, depth_tests | Stage::eColorAttachmentOutput,
             depth_access | Access::eColorAttachmentWrite, vk::ImageLayout::eShaderReadOnlyOptimal,

@@ -20,22 +20,29 @@ public:
     /// Makes room in the depth alone, for a picture without an atlas.
     void fit_depth(glm::ivec2 size);
 
-    /// The images' formats and samples; several_rest_frames: something that moves is in view.
-    TargetKind kind(bool several_rest_frames) const;
-    /// Begins rendering into an area from the corner on. clear: the colour of each atlas; as many atlases are drawn.
-    /// scenes: as Device::begin_rendering's.
-    void begin(vk::CommandBuffer commands, glm::ivec2 area, std::span<const glm::vec4> clear, std::uint32_t scenes);
+    /// The atlases that a frame draws. several_rest_frames: something that moves is in view. light: only coefficients
+    /// need more than the first atlas.
+    struct Use {
+        bool several_rest_frames = false;
+        StoredLight light = StoredLight::coefficients;
+    };
+    /// Their formats and samples.
+    TargetKind kind(Use use) const;
+    /// Begins rendering into an area from the corner on. clear: the colour of each atlas that is drawn. scenes: as
+    /// Device::begin_rendering's.
+    void begin(vk::CommandBuffer commands, Use use, glm::ivec2 area, std::span<const glm::vec4> clear, std::uint32_t scenes);
     /// Begins rendering into a target of its own, with this object's depth.
     void begin_plain(vk::CommandBuffer commands, const Target& target, const glm::vec4& clear);
     /// Ends the rendering of begin(), and makes the mips of the images. Afterwards fragment shaders may read the atlases,
     /// and the depth if it is kept.
-    void end(vk::CommandBuffer commands, std::span<const PlannedImage> images, int levels, bool several_rest_frames);
+    void end(vk::CommandBuffer commands, Use use, std::span<const PlannedImage> images, int levels);
 
     const std::vector<Image>& atlases() const { return atlases_; }
     const Image& depth() const { return depth_; }
     vk::DeviceSize memory() const;
 
 private:
+    bool uses(Use use, std::size_t atlas) const;
     static void make_mips(
         vk::CommandBuffer commands, const MipChain& chain, std::span<const PlannedImage> images, std::uint32_t levels);
 

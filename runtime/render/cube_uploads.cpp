@@ -28,7 +28,7 @@ CubeUploads::CubeUploads(Device& device, const Pipelines& pipelines, const GpuWo
     name_object(device, set_, "cube pass: descriptor set");
 }
 
-void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> eye_events, double pre_exposure, bool plain)
+void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> eye_events, StoredLight light, double pre_exposure)
 {
     auto put = [&](Buffer& buffer, const auto& data) {
         grow(device_, buffer, data.size() * sizeof(data[0]), vk::BufferUsageFlagBits::eStorageBuffer);
@@ -40,7 +40,7 @@ void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> eye_even
     std::vector<shared::TimeEntry>& times = time_writes_;
     times.clear();
     for (std::size_t rest_frame = 0; rest_frame < eye_events.size(); ++rest_frame) {
-        shared::CubeConstants constants = constants_of(eye_events[rest_frame], pre_exposure, plain);
+        shared::CubeConstants constants = constants_of(eye_events[rest_frame], light, pre_exposure);
         constants.first = glm::vec4(list.first[rest_frame], times.size(), list.first_pose[rest_frame], 0);
         std::memcpy(static_cast<std::byte*>(constants_.mapped) + rest_frame * stride_, &constants, sizeof constants);
         const auto own = time_entries(world_.world, eye_events[rest_frame], world_.scene.seconds_per_time_unit());
@@ -49,7 +49,7 @@ void CubeUploads::write(const DrawList& list, std::span<const EyeEvent> eye_even
     if (!times.empty())
         put(times_, times);
 
-    write_set();
+    write_set(light == StoredLight::unshifted ? world_.unshifted_columns : world_.columns);
 }
 
 void CubeUploads::write_tile_table(const CubeMapPlan& plan)
@@ -63,10 +63,10 @@ void CubeUploads::bind(vk::CommandBuffer commands, int rest_frame) const
         std::uint32_t(std::size_t(rest_frame) * stride_));
 }
 
-void CubeUploads::write_set()
+void CubeUploads::write_set(const Buffer& columns)
 {
     const Buffer& times = *times_.buffer ? times_ : instances_; // without finite existences the shader reads no times
-    const Buffer* held[] = {&constants_, &instances_, &visible_, &world_.columns, &times};
+    const Buffer* held[] = {&constants_, &instances_, &visible_, &columns, &times};
     std::array<std::uint64_t, 5> serials;
     std::array<vk::DescriptorBufferInfo, 5> infos;
     std::array<vk::WriteDescriptorSet, 5> writes;
@@ -83,19 +83,19 @@ void CubeUploads::write_set()
     written_ = serials;
 }
 
-shared::CubeConstants CubeUploads::constants_of(const EyeEvent& eye_event, double pre_exposure, bool plain) const
+shared::CubeConstants CubeUploads::constants_of(const EyeEvent& eye_event, StoredLight light, double pre_exposure) const
 {
     const SceneFile& scene = world_.scene;
     const double scale = pre_exposure;
     shared::CubeConstants constants{};
     constants.ambient = glm::vec4(scene.ambient * scale, scale);
-    const auto& coefficients = world_.spectra.sky;
-    for (std::size_t group = 0; group < std::size_t(world_.spectra.groups); ++group) {
-        constants.sky_zenith[group] = glm::vec4(coefficients[0][group] * scale);
-        constants.sky_horizon[group] = glm::vec4(coefficients[1][group] * scale);
-        constants.sky_nadir[group] = glm::vec4(coefficients[2][group] * scale);
+    const Spectra& stored = world_.spectra_of(light);
+    for (std::size_t group = 0; group < std::size_t(stored.groups); ++group) {
+        constants.sky_zenith[group] = glm::vec4(stored.sky[0][group] * scale);
+        constants.sky_horizon[group] = glm::vec4(stored.sky[1][group] * scale);
+        constants.sky_nadir[group] = glm::vec4(stored.sky[2][group] * scale);
     }
-    if (plain) {
+    if (light == StoredLight::plain) {
         constants.sky_zenith[0] = glm::vec4(scene.sky.zenith * scale, 0);
         constants.sky_horizon[0] = glm::vec4(scene.sky.horizon * scale, 0);
         constants.sky_nadir[0] = glm::vec4(scene.sky.nadir * scale, 0);

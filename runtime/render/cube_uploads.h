@@ -11,8 +11,8 @@ public:
     CubeUploads(Device& device, const Pipelines& pipelines, const GpuWorld& world);
 
     /// Writes the frame's data. Every stored radiance is multiplied by pre_exposure. eye_events: the eye events of the rest
-    /// frames. plain: light is a colour, whatever its spectra. The device must have finished the frame before.
-    void write(const DrawList& list, std::span<const EyeEvent> eye_events, double pre_exposure, bool plain);
+    /// frames. The device must have finished the frame before.
+    void write(const DrawList& list, std::span<const EyeEvent> eye_events, StoredLight light, double pre_exposure);
     void write_tile_table(const CubeMapPlan& plan);
 
     /// Binds the set with the constants of one rest frame.
@@ -22,8 +22,8 @@ public:
     std::uint64_t tiles_serial() const { return tiles_.serial; }
 
 private:
-    shared::CubeConstants constants_of(const EyeEvent& eye_event, double pre_exposure, bool plain) const;
-    void write_set();
+    shared::CubeConstants constants_of(const EyeEvent& eye_event, StoredLight light, double pre_exposure) const;
+    void write_set(const Buffer& columns);
 
     Device& device_;
     const Pipelines& pipelines_;

@@ -131,6 +131,8 @@ double EyeCubes::dark_D(const ViewState& view, double pre_exposure) const
 bool EyeCubes::can_reuse(std::size_t i) const
 {
     const EyeCube& eye = all[i];
+    if (eye.cube.light() != world_.stored_light(state_.shot.effects))
+        return false;
     for (std::size_t at = 0; at < eye.drawn.size(); ++at) {
         const EyeEvent &drawn = eye.drawn[at], &now = eye.eye_events[at];
         const glm::dmat3 turned = drawn.cube_from_frame - now.cube_from_frame;
@@ -201,7 +203,7 @@ void EyeCubes::plan(double pre_exposure, const Probe* probe)
         EyeCube& eye = all[i];
         if (!keep) {
             std::swap(plans[i], eye.wanted);
-            eye.cube.prepare(plans[i], eye.eye_events, state_.pre_exposure);
+            eye.cube.prepare(plans[i], eye.eye_events, world_.stored_light(state_.shot.effects), state_.pre_exposure);
             std::swap(eye.drawn, eye.eye_events);
             bound(eye, plans[i]);
         }

@@ -127,10 +127,14 @@ double FrameRenderer::pre_exposure(double most_E) const
     // Red-shifted sunlight also leaves the visible range: by Wien's law its share at 360 nm falls as exp(-6.92 (1/D -
     // 1)).
     const double leaves = effects.doppler ? std::exp(6.92 * (most_E - 1)) : 1;
+    const bool unshifted = world_.stored_light(effects) == StoredLight::unshifted;
+    const double brightest
+        = unshifted ? std::max(world_.brightest * world_.unshifted->gain, world_.unshifted->most) : world_.brightest;
     const double light
-        = starbow::pre_exposure(world_.brightest, state_.shot.exposure_ev, (gains ? most_E * most_E * most_E : 1) * leaves);
+        = starbow::pre_exposure(brightest, state_.shot.exposure_ev, (gains ? most_E * most_E * most_E : 1) * leaves);
     // A glow's coefficient may represent light of any strength, so it is limited by its size alone.
-    return world_.spectra.most > 0 ? std::min(light, starbow::pre_exposure(world_.spectra.most, -1000, 1)) : light;
+    const bool by_size = !unshifted && world_.spectra.most > 0;
+    return by_size ? std::min(light, starbow::pre_exposure(world_.spectra.most, -1000, 1)) : light;
 }
 
 void FrameRenderer::resize(std::size_t output, glm::ivec2 size)

@@ -30,7 +30,7 @@ public:
     /// Makes a pipeline that a flight from here will need; see make_pipeline_ahead.
     bool make_pipeline_ahead()
     {
-        return starbow::make_pipeline_ahead(pipelines_, state_, views_, stars_, constants_, meter_);
+        return starbow::make_pipeline_ahead(pipelines_, world_, state_, views_, eyes_, stars_, constants_, meter_);
     }
 
     /// The same steps one by one, for measurements and for parts of a frame. update() comes first and is the processor's

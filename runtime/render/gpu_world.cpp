@@ -84,33 +84,40 @@ double brightest(const World& world, const SceneFile& scene)
 
 } // namespace
 
-SurfaceVariant GpuWorld::variant(int material, bool plain) const
+SurfaceVariant GpuWorld::variant(int material, StoredLight light) const
 {
     const Material& m = world.materials[material];
     SurfaceVariant variant{
         m.base_texture >= 0, m.emissive_texture >= 0, m.alpha_cutoff > 0, m.unlit, m.unlit ? 0 : int(world.lamps.size())};
     variant.clock = m.clock.has_value();
     variant.blink = m.blink.has_value();
-    variant.several_rest_frames = several_rest_frames() && !plain;
+    if (light == StoredLight::plain)
+        return variant;
     const auto changes = [](const Lamp& lamp) { return lamp.frame > 0 || lamp.existence >= 0; };
-    variant.lamps_move = !plain && variant.lights > 0
-        && (several_rest_frames() || std::any_of(world.lamps.begin(), world.lamps.end(), changes));
-    if (!plain)
-        variant.coefficients = coefficients(), variant.kinds = spectra.kinds, variant.matrices = spectra.matrices;
+    variant.lamps_move
+        = variant.lights > 0 && (several_rest_frames() || std::any_of(world.lamps.begin(), world.lamps.end(), changes));
+    const Spectra& stored = spectra_of(light);
+    variant.coefficients = coefficients(light);
+    variant.coefficients.own = int(stored.basis.own.size());
+    variant.kinds = stored.kinds, variant.matrices = stored.matrices, variant.unshifted = stored.unshifted;
     return variant;
 }
 
 void put_spectra(Device& device, GpuWorld& world, SpectralLevel level)
 {
     world.spectra = spectra_of(world.world, world.scene, level);
-    std::vector<glm::vec4> columns = world.spectra.columns;
-    columns.resize(MAX_MATRICES); // the size of the shader's array
     auto constants = [&](const auto& values) {
         return make_static_buffer(device, std::as_bytes(std::span(values)), vk::BufferUsageFlagBits::eUniformBuffer);
     };
-    world.columns = constants(columns);
+    auto columns = [&](std::vector<glm::vec4> all) {
+        all.resize(MAX_MATRICES); // the size of the shader's array
+        return constants(all);
+    };
+    world.columns = columns(world.spectra.columns);
     for (auto [observer, buffers] : {std::pair(&eye(), &world.eye), std::pair(&false_colours(), &world.false_colours)}) {
         const Response response = response_of(world.spectra.basis, *observer);
+        if (buffers == &world.eye)
+            world.unshifted = unshifted(world.spectra, response.unshifted);
         buffers->texels = nullptr;
         buffers->rows = make_static_buffer(
             device, std::as_bytes(std::span(response.rows)), vk::BufferUsageFlagBits::eUniformTexelBuffer);
@@ -122,6 +129,7 @@ void put_spectra(Device& device, GpuWorld& world, SpectralLevel level)
         buffers->greatest = greatest_light(response);
         buffers->black_bodies = constants(black_body_table(*observer));
     }
+    world.unshifted_columns = world.unshifted ? columns(world.unshifted->columns) : Buffer{};
 }
 
 void put_stars(Device& device, GpuWorld& world, const std::vector<Star>& stars)

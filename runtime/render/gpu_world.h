@@ -20,6 +20,10 @@ struct ResponseBuffers {
     GreatestLight greatest;
 };
 
+/// The numbers that a cube map holds of a surface's light: basis coefficients, which have a colour at every D; or the colour
+/// at D = 1, which is exact where no observer shifts light; or the plain base colours, whatever the spectra.
+enum class StoredLight { coefficients, unshifted, plain };
+
 /// A world on the device. Arrays that only the device needs (vertices, indices, texels) are dropped from World.
 struct GpuWorld {
     World world; ///< instances in drawing order
@@ -39,14 +43,25 @@ struct GpuWorld {
     Buffer stars; ///< StarEntry each; null without stars
 
     Spectra spectra;
-    Buffer columns; ///< the spectra's matrix columns
+    std::optional<Spectra> unshifted; ///< the same light as colours at D = 1; see starbow::unshifted
+    Buffer columns, unshifted_columns; ///< the matrix columns of both
     ResponseBuffers eye, false_colours;
 
     const ResponseBuffers& response(const Effects& on) const { return on.false_colours ? false_colours : eye; }
     bool several_rest_frames() const { return world.frames.size() > 1; } ///< something may move
-    CoefficientCounts coefficients() const { return {spectra.basis.reflected, int(spectra.basis.own.size())}; }
-    /// plain: the material is drawn as a colour alone, whatever its spectra.
-    SurfaceVariant variant(int material, bool plain = false) const;
+    /// The least numbers that are exact under the effects.
+    StoredLight stored_light(const Effects& on) const
+    {
+        return unshifted && !on.doppler && !on.false_colours ? StoredLight::unshifted : StoredLight::coefficients;
+    }
+    const Spectra& spectra_of(StoredLight light) const { return light == StoredLight::unshifted ? *unshifted : spectra; }
+    /// The numbers that a texel of the cube map holds.
+    CoefficientCounts coefficients(StoredLight light) const
+    {
+        return light == StoredLight::coefficients ? CoefficientCounts{spectra.basis.reflected, int(spectra.basis.own.size())}
+                                                  : CoefficientCounts{};
+    }
+    SurfaceVariant variant(int material, StoredLight light) const;
 };
 
 /// Sets another spectral level. No frame of this world may be under way, and FrameRenderers made before must not draw it.

@@ -36,6 +36,7 @@ struct Formats {
     auto begin() const { return list.begin(); }
     auto end() const { return list.begin() + std::ptrdiff_t(count); }
     vk::Format& operator[](std::size_t i) { return list[i]; }
+    vk::Format operator[](std::size_t i) const { return list[i]; }
     auto operator<=>(const Formats&) const = default;
 };
 
@@ -71,6 +72,7 @@ struct SurfaceVariant {
     bool lamps_move = false;
     bool blink = false;
     bool moves = false; ///< animated
+    bool unshifted = false; ///< light is stored as its colour at D = 1
     auto operator<=>(const SurfaceVariant&) const = default;
 };
 /// A viewport's variant of the warp pass: constant_ids of view.glsl and received_light.glsl.

@@ -23,15 +23,15 @@ std::array<Effects, 4> effects_ahead(const Effects& on)
 
 } // namespace
 
-bool make_pipeline_ahead(Pipelines& pipelines, const FrameState& state, const ViewSet& views, const StarPass& stars,
-    const ViewConstants& constants, const ViewMeter& meter)
+bool make_pipeline_ahead(Pipelines& pipelines, const GpuWorld& world, const FrameState& state, const ViewSet& views,
+    EyeCubes& eyes, const StarPass& stars, const ViewConstants& constants, const ViewMeter& meter)
 {
     const std::size_t before = pipelines.count();
     const auto made = [&] { return pipelines.count() > before; };
     const std::array<Effects, 4> effects = effects_ahead(state.shot.effects);
     for (const ViewState& view : views.all)
         for (std::size_t i = 0; i < effects.size() && view.format != vk::Format::eUndefined; ++i) {
-            WarpVariant variant = in_flight(constants.variant_shown(view), effects[i]);
+            WarpVariant variant = constants.in_flight(constants.variant_shown(view), effects[i]);
             for (std::size_t kind = 0; kind < (i == 0 ? std::size(plan_kinds) : kinds_of_a_switch); ++kind) {
                 const PlanKind& plan = plan_kinds[kind];
                 variant.single = plan.single, variant.cut = plan.cut, variant.mips = plan.mips;
@@ -45,9 +45,12 @@ bool make_pipeline_ahead(Pipelines& pipelines, const FrameState& state, const Vi
                 }
             }
             if (stars.on()) {
-                pipelines.stars(in_flight(constants.variant_of_stars(view), effects[i]), stars.format());
+                pipelines.stars(constants.in_flight(constants.variant_of_stars(view), effects[i]), stars.format());
                 pipelines.dark(variant, view.format);
             }
+            if (made())
+                return true;
+            eyes.all[view.eye].cube.make_ahead(world.stored_light(effects[i]));
             if (made())
                 return true;
             meter.make_ahead(view, effects[i]);

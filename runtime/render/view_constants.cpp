@@ -11,13 +11,6 @@ double unit_of(const CompiledView& view) { return view.matrix ? std::sqrt(std::a
 
 } // namespace
 
-WarpVariant in_flight(WarpVariant variant, const Effects& on)
-{
-    variant.aberration = on.aberration, variant.doppler = on.doppler, variant.headlight = on.headlight;
-    variant.by_table = variant.by_table || variant.doppler;
-    return variant;
-}
-
 const PlannedImage* ViewConstants::single_image(const ViewState& view) const
 {
     const std::vector<PlannedImage>& images = eyes_.plans[view.eye].images;
@@ -34,15 +27,31 @@ WarpVariant ViewConstants::variant(const ViewState& view) const
     WarpVariant variant{view.compiled.map != nullptr, on.aberration && moves, on.doppler && moves, on.headlight && moves,
         eyes_.plans[view.eye].levels > 1, view.compiled.channels() == 3, beside, beside && state_.layout.stereo.turning,
         world_.star_count > 0};
-    variant.coefficients = world_.coefficients();
+    const StoredLight light = eyes_.all[view.eye].cube.light();
+    variant.coefficients = world_.coefficients(light);
     variant.several_rest_frames = eyes_.all[view.eye].cube.several_rest_frames();
     variant.single = single_image(view);
     variant.cut = eyes_.plans[view.eye].cut;
     variant.cube_samples = state_.quality.cube_samples;
     variant.unaligned = eyes_.unaligned(view);
     variant.galilean = on.comparison == Comparison::galilean;
-    variant.by_table = variant.doppler || on.false_colours || variant.coefficients != CoefficientCounts{}
-        || world_.spectra.matrices; // a base colour at rest is the shown one
+    variant.by_table = variant.doppler || needs_table(on, light);
+    return variant;
+}
+
+bool ViewConstants::needs_table(const Effects& on, StoredLight light) const
+{
+    // A base colour at rest is the shown one.
+    return light == StoredLight::coefficients
+        && (on.false_colours || world_.coefficients(light) != CoefficientCounts{} || world_.spectra.matrices);
+}
+
+WarpVariant ViewConstants::in_flight(WarpVariant variant, const Effects& on) const
+{
+    variant.aberration = on.aberration, variant.doppler = on.doppler, variant.headlight = on.headlight;
+    const StoredLight light = world_.stored_light(on);
+    variant.coefficients = world_.coefficients(light);
+    variant.by_table = on.doppler || needs_table(on, light);
     return variant;
 }
 

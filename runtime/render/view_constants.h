@@ -3,9 +3,6 @@
 
 namespace starbow {
 
-/// A variant for flight with these effects, whatever the ship does now.
-WarpVariant in_flight(WarpVariant variant, const Effects& on);
-
 /// Computes specialization constants and push constants for a view's shaders; records no commands.
 class ViewConstants {
 public:
@@ -23,6 +20,8 @@ public:
     WarpVariant variant_shown(const ViewState& view) const;
     /// The variant of the star pass. Any plan will do, so that a change of the plan makes no new pipeline.
     WarpVariant variant_of_stars(const ViewState& view) const;
+    /// A variant for flight with these effects, whatever the ship does now.
+    WarpVariant in_flight(WarpVariant variant, const Effects& on) const;
     /// The variant of the exposure's samples. They are few, so that it does without what the plan and rest would save.
     WarpVariant variant_metered(const ViewState& view, const Effects& on) const;
     /// The image ahead if it is the plan's only one, as often at rest; null otherwise.
@@ -35,6 +34,7 @@ public:
     shared::ViewPush star_push(const ViewState& view, double exposure) const;
 
 private:
+    bool needs_table(const Effects& on, StoredLight light) const; ///< at D = 1
     glm::vec4 boost(const ViewState& view, double exposure) const;
 
     const GpuWorld& world_;

@@ -84,8 +84,9 @@ void ViewDescriptors::collect_warp_set(const ViewState& view)
     const vk::raii::DescriptorSet& set = view.warp_set;
     image(set, 0, views_.map_of(view), nearest_);
     constexpr std::uint32_t atlas_bindings[MAX_GROUPS] = {1, 7, 8, 9};
+    const std::size_t groups = std::size_t(world_.spectra_of(cube.light()).groups);
     for (std::size_t group = 0; group < MAX_GROUPS; ++group)
-        image(set, atlas_bindings[group], atlases[std::min(group, std::size_t(world_.spectra.groups) - 1)], filter);
+        image(set, atlas_bindings[group], atlases[std::min(group, groups - 1)], filter);
     texel_views_ = {cube.tiles(), *response.texels};
     writes_.push_back({*set, 2, 0, 1, vk::DescriptorType::eUniformTexelBuffer, nullptr, nullptr, &texel_views_[0]});
     writes_.push_back({*set, 3, 0, 1, vk::DescriptorType::eUniformTexelBuffer, nullptr, nullptr, &texel_views_[1]});
@@ -135,10 +136,11 @@ void ViewDescriptors::write_rest_frames(ViewState& view)
     }
     all.count[0].x = float(count);
     all.world_up = glm::vec4(rest_frames[0].cube_from_frame * glm::dvec3(0, 1, 0), 0);
+    const auto& sky = world_.spectra_of(eye.cube.light()).sky;
     for (std::size_t group = 0; group < MAX_GROUPS; ++group) {
-        all.sky_zenith[group] = glm::vec4(world_.spectra.sky[0][group] * state_.pre_exposure);
-        all.sky_horizon[group] = glm::vec4(world_.spectra.sky[1][group] * state_.pre_exposure);
-        all.sky_nadir[group] = glm::vec4(world_.spectra.sky[2][group] * state_.pre_exposure);
+        all.sky_zenith[group] = glm::vec4(sky[0][group] * state_.pre_exposure);
+        all.sky_horizon[group] = glm::vec4(sky[1][group] * state_.pre_exposure);
+        all.sky_nadir[group] = glm::vec4(sky[2][group] * state_.pre_exposure);
     }
     std::memcpy(view.rest_frames.mapped, &all, sizeof all);
 }

@@ -75,7 +75,7 @@ double draw_plans_ms(Device& device, CubePass& pass, std::span<const CubeMapPlan
 {
     return milliseconds([&] {
         for (const CubeMapPlan& plan : plans) {
-            pass.prepare(plan, {&eye_event, 1}, 1);
+            pass.prepare(plan, {&eye_event, 1}, StoredLight::coefficients, 1);
             device.now([&](vk::CommandBuffer commands) { pass.record(commands); });
         }
     });

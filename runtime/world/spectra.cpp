@@ -147,4 +147,40 @@ Spectra spectra_of(const World& world, const SceneFile& scene, SpectralLevel lev
     return spectra;
 }
 
+std::optional<Spectra> unshifted(const Spectra& spectra, std::span<const glm::dvec3> colours)
+{
+    const std::size_t own = spectra.basis.own.size(), groups = std::size_t(spectra.groups);
+    const std::size_t columns = own + spectra.columns.size() / groups;
+    if ((spectra.basis.reflected == 3 && own == 0 && !spectra.matrices) || columns > MAX_MATRICES)
+        return {};
+    // Sums the coefficients of a column of groups; `step` apart in the array.
+    const auto colour_of = [&](const auto* first, std::size_t step) {
+        glm::dvec3 colour(0);
+        for (std::size_t k = 0; k < colours.size(); ++k)
+            colour += colours[k] * double(first[k / 4 * step][int(k % 4)]);
+        return colour;
+    };
+    Spectra same = spectra;
+    same.groups = 1, same.matrices = true, same.unshifted = true;
+    same.columns.clear();
+    double brightest = 0;
+    for (const glm::dvec3& colour : colours.last(own)) {
+        same.columns.push_back(glm::vec4(colour, 0));
+        brightest = std::max({brightest, colour.x, colour.y, colour.z});
+    }
+    same.most *= brightest;
+    for (std::size_t at = 0; at < spectra.columns.size(); at += groups * columns_of_a_set) {
+        glm::dvec3 white(0);
+        for (std::size_t c = 0; c < columns_of_a_set; ++c) {
+            const glm::dvec3 colour = colour_of(&spectra.columns[at + c], columns_of_a_set);
+            same.columns.push_back(glm::vec4(colour, 0));
+            white += glm::max(colour, 0.0);
+        }
+        same.gain = std::max({same.gain, white.x, white.y, white.z});
+    }
+    for (auto& sky : same.sky)
+        sky = {glm::dvec4(colour_of(sky.data(), 1), 0)};
+    return same;
+}
+
 } // namespace starbow

@@ -6,6 +6,8 @@
 #include "shaders/shared_structs.h"
 #include "world.h"
 #include <array>
+#include <optional>
+#include <span>
 #include <string>
 
 namespace starbow {
@@ -32,7 +34,10 @@ struct Spectra {
     int kinds = 1; ///< number of kinds of spectra that illuminate surfaces; the first is sunlight
     std::vector<std::vector<LampKinds>> lamps; ///< [the scene's light][World::frames]
     bool matrices = false; ///< otherwise the coefficients are the colour itself, and its parts beyond the visible
-    std::vector<glm::vec4> columns; ///< [set][kind][group][r, g, b, ultraviolet, infrared]
+    bool unshifted = false; ///< light is stored as its colour at D = 1, in one group
+    double gain = 1; ///< unshifted: the greatest channel of light of any kind on white; of sunlight it is 1
+    std::vector<glm::vec4> columns; ///< [set][kind][group][r, g, b, ultraviolet, infrared]; unshifted: after a colour for
+                                    ///< each emission spectrum of the world's own
 
     struct Surface {
         glm::vec4 beyond; ///< CubePush's member
@@ -47,5 +52,10 @@ struct Spectra {
 /// Computes a world's spectral data. world: after place_bodies. Throws InputError where a world has more emission spectra of
 /// its own than MAX_OWN. It throws too where a spectral line illuminates a surface that moves relative to it.
 Spectra spectra_of(const World& world, const SceneFile& scene, SpectralLevel level);
+
+/// The same light, stored as its colour at D = 1: three numbers are exact where no observer shifts it. colours: of the
+/// basis coefficients at D = 1 (Response::unshifted). None where the coefficients are such colours already, or the matrices
+/// have no room.
+std::optional<Spectra> unshifted(const Spectra& spectra, std::span<const glm::dvec3> colours);
 
 } // namespace starbow

@@ -273,8 +273,8 @@ TEST(Animated, AWorldWithoutAnyHasNoneOfItsCode)
     const GpuWorld& without = avenue().world;
     EXPECT_TRUE(without.world.motions.empty());
     for (std::size_t m = 0; m < without.world.materials.size(); ++m) {
-        EXPECT_FALSE(without.variant(int(m)).blink);
-        EXPECT_FALSE(without.variant(int(m)).moves);
+        EXPECT_FALSE(without.variant(int(m), StoredLight::coefficients).blink);
+        EXPECT_FALSE(without.variant(int(m), StoredLight::coefficients).moves);
     }
     const std::vector<PlannedImage> images = {{0, 0, {-1, -1}, {1, 1}, {64, 64}, {0, 0}, 64, 1}};
     const DrawList list = cull(without.world, {{EyeEvent{}}}, images);

@@ -378,11 +378,11 @@ TEST(Clocks, AWorldWithoutClocksUsesNoClockShaders)
 {
     const GpuWorld& without = avenue().world;
     for (std::size_t m = 0; m < without.world.materials.size(); ++m)
-        EXPECT_FALSE(without.variant(int(m)).clock);
+        EXPECT_FALSE(without.variant(int(m), StoredLight::coefficients).clock);
     const GpuWorld paper = clocks_world();
     int with = 0;
     for (std::size_t m = 0; m < paper.world.materials.size(); ++m)
-        with += paper.variant(int(m)).clock;
+        with += paper.variant(int(m), StoredLight::coefficients).clock;
     EXPECT_EQ(with, 1);
 }
 

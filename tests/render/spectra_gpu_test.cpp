@@ -211,6 +211,95 @@ TEST(Spectra, ALineShiftsAlongTheSpectrum)
     EXPECT_GT(found, 5);
 }
 
+namespace {
+
+/// Walls all around in every kind of spectrum that a surface sends or reflects, under a lamp of no sunlight, below a sky
+/// that glows; a body, if any, passes ahead of them.
+Doc spectral_walls(bool body)
+{
+    Doc doc;
+    const auto wall = [&](const Json& extras, const Json& emissive) {
+        Json material = extras.empty() ? Json::object() : starbow_extras(extras);
+        material["pbrMetallicRoughness"] = {{"baseColorFactor", {0.4, 0.3, 0.2, 1}}};
+        if (!emissive.empty())
+            material["emissiveFactor"] = emissive;
+        return doc.put("materials", material);
+    };
+    const int materials[] = {wall({}, {}), wall({}, {0.3, 0.2, 0.5}), wall({{"ultraviolet", 0.9}, {"infrared", 0.1}}, {}),
+        wall({{"reflectance", pigments[0].table()}}, {}), wall({{"emission", {{"line_nm", 520}}}}, {0.5, 0.5, 0.5}),
+        wall({{"emission", {{"black_body_K", 3200}}}}, {0.8, 0.6, 0.2}),
+        wall({{"temperature_K", 2400}, {"emissivity", 0.7}}, {})};
+    const int count = int(std::size(materials));
+    for (int i = 0; i < count; ++i) {
+        const double a = 6.2831853 * i / count;
+        const dvec3 place(std::sin(a), 0, std::cos(a)), right = glm::cross(dvec3(0, 1, 0), -place);
+        quad(doc, 10.0 * place, 3.0 * right, {0, 3, 0}, materials[i]);
+    }
+    if (body)
+        quad(doc, {0, 0, -4}, {1, 0, 0}, {0, 1, 0}, materials[3], {{"name", "body"}});
+    return doc;
+}
+
+GpuWorld spectral_room(bool body)
+{
+    Json scene = {{"ambient", {0.2, 0.2, 0.2}}, {"sky", {{"temperature_K", 1800}}},
+        {"lights",
+            {{{"type", "point"}, {"position", {0, 2, 0}}, {"distance", 8}, {"radiance", {1, 1, 1}},
+                {"temperature_K", 2856}}}}};
+    if (body)
+        scene["bodies"]
+            = {{{"name", "body"}, {"nodes", {"body"}}, {"velocity", {{"direction", {1, 0, 0}}, {"gamma", 1.2}}}}};
+    return open_world(body ? "room-body" : "room", spectral_walls(body), scene);
+}
+
+} // namespace
+
+TEST(Spectra, WithoutDopplerLightHasTheColoursOfRest)
+{
+    // At rest D is 1 and the coefficients' colours are those of rest; without the Doppler effect no coefficient is stored.
+    const GpuWorld world = spectral_room(false);
+    ASSERT_EQ(world.spectra.level, SpectralLevel::fine);
+    ASSERT_EQ(world.spectra.basis.own.size(), 4u);
+    ASSERT_TRUE(world.unshifted);
+    const Layout layout = one_view(Equirectangular{}, {192, 96});
+    Shot shot = shot_at({0, 0, 0}, {0, 0, 0}, {0, 0, -1});
+    shot.effects = {};
+    OffscreenRenderer with = renderer(world, layout), without = renderer(world, layout);
+    const Numbers coefficients(with, shot);
+    shot.effects.doppler = false;
+    const Numbers colours(without, shot);
+    double worst = 0;
+    for (int i = 0; i < colours.count(); ++i) {
+        const dvec3 a = coefficients.light(i), b = colours.light(i);
+        ASSERT_GT(glm::length(a), 0) << i;
+        worst = std::max(worst, glm::length(a - b) / glm::length(a));
+    }
+    std::printf("  %.4f %% off\n", 100 * worst);
+    EXPECT_GT(worst, 0) << "the same numbers are compared with themselves";
+    // Halves have eleven bits, in the cube map and in the table of responses; the coefficients' sums add some.
+    EXPECT_LT(worst, 0.005);
+}
+
+TEST(Spectra, TheDopplerSwitchLeavesNothingBehind)
+{
+    for (bool body : {false, true}) {
+        const GpuWorld world = spectral_room(body);
+        Quality quality = default_quality(device(), false);
+        quality.frames_per_cube = 3;
+        const Layout layout = one_view(Planar{.fov_y_deg = 90}, {96, 64});
+        OffscreenRenderer flown(device(), pipelines(), world, layout, quality, false);
+        Shot shot = shot_at({0, 0, 0}, {0.2, 0, -0.5}, {0, 0, -1});
+        shot.effects = {};
+        for (const auto& [doppler, false_colours] :
+            {std::pair{true, false}, {false, false}, {false, true}, {false, false}, {true, false}, {true, true}}) {
+            shot.effects.doppler = doppler, shot.effects.false_colours = false_colours;
+            OffscreenRenderer fresh(device(), pipelines(), world, layout, quality, false);
+            EXPECT_EQ(flown.picture(shot), fresh.picture(shot))
+                << "Doppler " << doppler << ", false colours " << false_colours << ", body " << body;
+        }
+    }
+}
+
 TEST(Spectra, ARoomTemperatureWallGlowsDullRedFromGammaOneAndAHalf)
 {
     Doc doc;

@@ -9,6 +9,7 @@
 #include "runtime/commands/options/number.h"
 #include "scaling.h"
 #include "stars.h"
+#include "worlds.h"
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -19,7 +20,7 @@ struct BenchOptions {
     int rounds = 25, seconds = 60;
     bool input = false;
     std::string json, layout, shot = "avenue-gamma4";
-    bool stars = false, bodies = false, cubes = false, flight = false, scaling = false, governor = false;
+    bool stars = false, bodies = false, worlds = false, cubes = false, flight = false, scaling = false, governor = false;
     std::string ladder = "ladder";
     double frame_budget_ms = 0;
 };
@@ -34,6 +35,8 @@ int bench(const BenchOptions& options)
         bench_stars(options.rounds);
     else if (options.bodies)
         bench_bodies(options.rounds);
+    else if (options.worlds)
+        bench_worlds(options.rounds);
     else if (options.flight)
         bench_flight();
     else if (options.scaling)
@@ -58,13 +61,14 @@ void add_bench(CLI::App& app, std::function<int()>& chosen)
         ->check(whole_number(3, 10000))
         ->capture_default_str();
     command->add_option(
-        "--json", options->json, "Also time the dome, bodies and the flight, and write all figures to this file");
+        "--json", options->json, "Also time the dome, bodies, worlds and the flight, and write all figures to this file");
     command->add_option("--layout", options->layout,
         "Instead: this layout stage by stage, and displays compared with each other: kinds of projection, many viewports, "
         "stereo methods");
     command->add_option("--shot", options->shot, "With --layout: the shot to time")->capture_default_str();
     command->add_flag("--stars", options->stars, "Instead: what the stars cost, the avenue's own and a million");
     command->add_flag("--bodies", options->bodies, "Instead: what bodies that move cost, in view and out of it");
+    command->add_flag("--worlds", options->worlds, "Instead: the shipped worlds in which something moves, stage by stage");
     command->add_flag("--cubes", options->cubes,
         "Instead: a dome beside a plain picture, and the planned images beside six full faces as fine");
     command->add_flag("--flight", options->flight,

@@ -11,6 +11,7 @@
 #include "runtime/render/pass_timer.h"
 #include "runtime/render/yardsticks.h"
 #include "spectra.h"
+#include "worlds.h"
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -179,6 +180,8 @@ void bench_frame_stages(int rounds, const std::filesystem::path& file)
     for (const auto& [name, ratio] : bench_cubes(rounds))
         json["ratios"]["dome_over_plain"][name] = ratio;
     json["ratios"]["first_velocity"] = bench_bodies(rounds);
+    for (const auto& [shot, ms] : bench_worlds(rounds))
+        json["worlds"][shot + "_ms"] = ms;
     const FlightTimes flight = bench_flight();
     json["flight"] = {{"longest_ms", flight.longest_ms}, {"p50_ms", flight.p50_ms}, {"p99_ms", flight.p99_ms}};
     std::error_code ignored; // write_whole reports a folder that can't be made

@@ -84,13 +84,16 @@ void PartList::add_light()
     const SceneFile& scene = made.scene;
     const NeededLevel needed = needed_level(context.world.world, scene);
     const int coefficients = context.world.spectra.basis.reflected;
-    add("light in more than 3 coefficients", coefficients > 3, std::to_string(coefficients) + ": " + describe(needed),
-        describe(needed),
+    const bool unshifted = context.world.stored_light(made.shot.effects) == StoredLight::unshifted;
+    const std::string colours = "without the Doppler effect the colours themselves are stored";
+    add("light in more than 3 coefficients", coefficients > 3 && !unshifted,
+        std::to_string(coefficients) + ": " + describe(needed), unshifted ? colours : describe(needed),
         [](Made& m) { m.quality.spectra = m.quality.spectra ? std::nullopt : std::optional(SpectralLevel::colours); });
-    add("emissions of the scene's own", !context.world.spectra.basis.own.empty(),
+    const bool own = !context.world.spectra.basis.own.empty();
+    add("emissions of the scene's own", own && !unshifted,
         count(context.world.spectra.basis.own.size(), "lamp, glow or line", "lamps, glows or lines")
             + " each a coefficient of its own",
-        "the scene has no lamp, glow or line but sunlit colours", {});
+        own ? colours : "the scene has no lamp, glow or line but sunlit colours", {});
     add("stars", context.world.star_count > 0, count(context.world.star_count, "star", "stars") + " in the scene's sky",
         "the scene names no catalogue", [](Made& m) { m.stars.clear(), m.scene.stars.reset(); });
     add("lamps", !scene.lights.empty(), count(scene.lights.size(), "light", "lights") + " in the scene",
