@@ -113,26 +113,49 @@ int run(int count, char** arguments)
 }
 
 std::terminate_handler usual_end = nullptr;
+thread_local bool memory_refused = false;
+
+void note_refused_memory()
+{
+    memory_refused = true;
+    throw std::bad_alloc();
+}
+
+/// True if the exception that ends the program is refused memory. GCC enters the terminate handler from a function that may
+/// not throw in two ways: with the exception caught, or, where objects had to be destroyed first, with it still uncaught and
+/// hence unnamed.
+bool ended_by_refused_memory()
+{
+    try {
+        if (const std::exception_ptr error = std::current_exception())
+            std::rethrow_exception(error);
+        return memory_refused && std::uncaught_exceptions() > 0;
+    } catch (const std::bad_alloc&) {
+        return true;
+    } catch (...) {
+        return false;
+    }
+}
 
 /// Ends the program where memory is refused before main, or inside a destructor or a function that may not throw: nlohmann's
 /// JSON values allocate while they are destroyed, and CLI11 while it looks an option up. All other terminations are crashes.
 void end_at_once()
 {
-    try {
-        if (const std::exception_ptr error = std::current_exception())
-            std::rethrow_exception(error);
-    } catch (const std::bad_alloc&) {
+    if (ended_by_refused_memory()) {
         for (const std::string_view part : {std::string_view("starbow: "), memory_used_up, std::string_view("\n")})
             [[maybe_unused]] const ssize_t wrote = ::write(STDERR_FILENO, part.data(), part.size());
         std::_Exit(not_done);
-    } catch (...) {
     }
     usual_end();
     std::abort();
 }
 
 /// Runs before the other files' static objects are made, because these allocate, too.
-[[gnu::constructor(101)]] void guard_memory() { usual_end = std::set_terminate(end_at_once); }
+[[gnu::constructor(101)]] void guard_memory()
+{
+    usual_end = std::set_terminate(end_at_once);
+    std::set_new_handler(note_refused_memory);
+}
 
 } // namespace
 

@@ -47,6 +47,12 @@ std::string text_of(const Day& day)
     return nlohmann::json{{"starbow_day", day.date}, {"hours", hours}}.dump(1) + "\n";
 }
 
+void write_day(const std::filesystem::path& state, const Day& day)
+{
+    const std::string text = text_of(day);
+    write_own(day_file(state, day.date), {std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size())});
+}
+
 } // namespace
 
 std::string date_of(std::time_t time) { return local(time).date; }
@@ -120,21 +126,33 @@ void Diary::add_hour()
     hour_ = {};
 }
 
+/// A day's counts so far: of a day that has ended and is not written yet (the clock was set back), or of its file.
+Day Diary::day_of(const std::string& date)
+{
+    if (const auto at = std::ranges::find(ended_, date, [](const auto& day) { return day->date; }); at != ended_.end()) {
+        const Day day = **at;
+        ended_.erase(at);
+        return day;
+    }
+    try {
+        return state_.empty() ? Day{date} : load_day(state_, date);
+    } catch (const InputError& error) {
+        write_log(LogKind::diary_damaged, one_line(error.what()) + "; the day's counts begin anew");
+        return {date};
+    }
+}
+
 bool Diary::turn(std::time_t now, const Gauges& gauges)
 {
     const DateAndHour local_now = local(now);
     if (hour_of_day_ < 0 || local_now.date != day_.date) {
         if (hour_of_day_ >= 0) {
             add_hour();
-            write(true);
+            ended_.push_back(std::make_shared<const Day>(std::move(day_)));
         }
-        try {
-            day_ = state_.empty() ? Day{local_now.date} : load_day(state_, local_now.date);
-        } catch (const InputError& error) {
-            write_log(LogKind::diary_damaged, one_line(error.what()) + "; the day's counts begin anew");
-            day_ = {local_now.date};
-        }
+        day_ = day_of(local_now.date);
         hour_of_day_ = local_now.hour, written_ = now;
+        write(false);
     } else if (local_now.hour != hour_of_day_) {
         add_hour();
         hour_of_day_ = local_now.hour;
@@ -160,7 +178,8 @@ void Diary::write(bool waits)
     using namespace std::chrono_literals;
     const auto finish = [&] {
         if (writing_.valid()) {
-            writing_.get();
+            const std::vector<EndedDay> written = writing_.get();
+            std::erase_if(ended_, [&](const EndedDay& day) { return std::ranges::find(written, day) != written.end(); });
             failed_ = false;
         }
     };
@@ -169,13 +188,16 @@ void Diary::write(bool waits)
         if (writing_.valid() && !waits && writing_.wait_for(0s) != std::future_status::ready)
             return;
         finish();
-        writing_ = std::async(std::launch::async,
-            [state = state_, textfile = textfile_, exposition = exposition_, date = day_.date, text = text_of(day_)] {
-                if (!state.empty())
-                    write_own(day_file(state, date),
-                        {std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size())});
+        writing_ = std::async(
+            std::launch::async, [state = state_, textfile = textfile_, exposition = exposition_, ended = ended_, day = day_] {
+                if (!state.empty()) {
+                    for (const EndedDay& one : ended)
+                        write_day(state, *one);
+                    write_day(state, day);
+                }
                 if (!textfile.empty() && !exposition.empty())
                     write_whole(textfile, exposition);
+                return ended;
             });
         if (waits)
             finish();

@@ -4,7 +4,9 @@
 #include <ctime>
 #include <filesystem>
 #include <future>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace starbow {
 
@@ -51,15 +53,18 @@ public:
 
 private:
     void add_hour();
+    Day day_of(const std::string& date);
     void write(bool waits);
 
+    using EndedDay = std::shared_ptr<const Day>;
     std::filesystem::path state_, textfile_;
     Tally since_start_, hour_; ///< hour_: not yet added to the day
     Day day_;
+    std::vector<EndedDay> ended_; ///< days before, of which no write has ended yet
     int hour_of_day_ = -1;
     std::time_t written_ = 0, exposed_ = 0;
     std::string exposition_;
-    std::future<void> writing_;
+    std::future<std::vector<EndedDay>> writing_; ///< gives the ended days that it has written
     bool failed_ = false; ///< logged once
 };
 

@@ -59,7 +59,8 @@ code=$?
 tail -n 9 "$folder/out"
 [ $code = 0 ] || fail "exit $code: $(tail -n 3 "$folder/err-log")"
 ok
-[ "$(grep -c ': applied' "$folder/err-log")" -ge $((visits / 10 - 1)) ] || fail "layouts were not reloaded"
+# Each tenth visit saves one. The first is there from the start, and the last may fall on the full disk.
+[ "$(grep -c ': applied' "$folder/err-log")" -ge $((visits / 10 - 2)) ] || fail "layouts were not reloaded"
 ok
 grep -q 'is lost' "$folder/err-log" || fail "the device was never lost"
 ok

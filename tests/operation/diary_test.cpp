@@ -186,6 +186,27 @@ TEST(Diary, AFolderThatCannotBeWrittenLosesNoCount)
     EXPECT_EQ(diary.since_start().frames(), 9u);
 }
 
+TEST(Diary, ADayThatCouldNotBeWrittenAtMidnightIsWrittenLater)
+{
+    const fs::path state = write_text("full-at-midnight", "a file where the folder should be");
+    const std::time_t start = before_ten();
+    {
+        Diary diary(state);
+        diary.turn(start, {});
+        add_frames(diary, 3, 0.01);
+        diary.turn(start + 86400, {});
+        add_frames(diary, 2, 0.01);
+        diary.turn(start + 2 * 86400, {});
+        add_frames(diary, 1, 0.01);
+        diary.turn(start, {}); // back in the first day, which no file holds
+        add_frames(diary, 4, 0.01);
+        fs::remove(state);
+    }
+    EXPECT_EQ(load_day(state, "2026-11-23").hours[9].frames(), 7u);
+    EXPECT_EQ(load_day(state, "2026-11-24").hours[9].frames(), 2u);
+    EXPECT_EQ(load_day(state, "2026-11-25").hours[9].frames(), 1u);
+}
+
 TEST(Diary, DamagedDaysAreRefusedInOneLineOrRead)
 {
     const fs::path state = empty_folder("damaged");

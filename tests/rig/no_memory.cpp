@@ -102,8 +102,11 @@ bool in_program(const void* address)
 
 void* allocate(std::size_t size, const void* caller)
 {
-    if (in_program(caller) && allocations.happens())
+    if (in_program(caller) && allocations.happens()) {
+        if (const std::new_handler handler = std::get_new_handler())
+            handler(); // as the standard wants it
         throw std::bad_alloc();
+    }
     if (void* memory = std::malloc(size > 0 ? size : 1))
         return memory;
     throw std::bad_alloc();

@@ -37,6 +37,9 @@ Use use_of(const std::string& name) { return Use(std::ranges::find(use_names, na
 
 constexpr double frame_s = 0.08; ///< the visitor's time of a frame: "some seconds" are some dozens of frames
 constexpr int resting_frames = 3; ///< after a reset, before a sample is taken
+/// A visitor stays until the saved layout is shown, so that each one is; not longer, for a device that is lost meanwhile is
+/// opened with the newest layout.
+constexpr int most_waiting_frames = 300;
 /// Visits. Of each turn, the first half is shown on one of the other layouts; a sample is taken at its end, on the first
 /// layout again, so that samples are of one state.
 constexpr long turn = 20;
@@ -128,7 +131,8 @@ public:
         entry.controls.head = head;
         if (left_ == 0 && (use_ == Use::tour || use_ == Use::flight)) // these go on without a rest
             end();
-        if (left_ == 0 && saved_) // the exhibit reads it beside its frames, once the file rests
+        // The exhibit reads it beside its frames, once the file rests.
+        if (left_ == 0 && saved_ && waited_++ < most_waiting_frames)
             return;
         if (left_-- > 0)
             return visitor_->act(entry.controls, frame_s);
@@ -142,7 +146,7 @@ private:
     void begin()
     {
         visitor_ = std::make_unique<SeededVisitor>(use_, std::uint64_t(options_.seed), visit_, choices_);
-        left_ = visitor_->frames();
+        left_ = visitor_->frames(), waited_ = 0;
         if (use_ == Use::reloads)
             folder_.save(visit_ * (turn / 2)); // the other layouts and the first one in turn
         else if (use_ == Use::visitors && (visit_ % (turn / 2) == 0 || unsaved_))
@@ -156,6 +160,7 @@ private:
             unsaved_ = true;
             folder_.save(visit_);
             unsaved_ = false;
+            saved_ = frames_ > 0; // the first one is there before the exhibit
         } catch (const InputError&) {
         }
     }
@@ -171,8 +176,8 @@ private:
         ++visit_;
         progress_.show("visit " + std::to_string(visit_) + " of " + std::to_string(options_.visits),
             double(visit_) / double(options_.visits));
-        begin();
         saved_ = use_ == Use::reloads;
+        begin();
     }
 
     const SoakOptions& options_;
@@ -181,7 +186,7 @@ private:
     Choices choices_;
     Use use_;
     long visit_, frames_ = 0;
-    int left_ = 0;
+    int left_ = 0, waited_ = 0; ///< frames
     bool saved_ = false; ///< a layout is saved and not yet shown
     bool unsaved_ = false; ///< a layout could not be saved
     std::unique_ptr<SeededVisitor> visitor_;
