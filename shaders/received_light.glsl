@@ -22,6 +22,7 @@ layout(constant_id = 19) const int CUBE_SAMPLES = 1; // of each texel
 layout(constant_id = 20) const bool UNALIGNED = false; // some cube map has other axes than the motion's
 
 layout(constant_id = 22) const bool WORLD_ALONE = false; // of several rest frames only the world's is seen here
+layout(constant_id = 23) const int REST_FRAMES = MAX_REST_FRAMES; // of the world
 
 const int GROUPS = (REFLECTED + OWN + 3) / 4;
 
@@ -51,12 +52,26 @@ struct RestFrameView {
 // The world's own rest frame.
 RestFrameView world_rest_frame() { return RestFrameView(0, view.boost.xy, view.eye, view.zenith.y, 0, int(view.row1.w)); }
 
+// Elements of an array are read by constant indices where they are few: a driver in software reads and writes any other
+// pixel by pixel.
+const bool FEW_REST_FRAMES = REST_FRAMES < MAX_REST_FRAMES;
+RestFrameEntry entry_of(int i)
+{
+    if (!FEW_REST_FRAMES)
+        return rest_frames.entries[i];
+    RestFrameEntry entry = rest_frames.entries[0];
+    for (int at = 1; at < REST_FRAMES; ++at)
+        if (at == i)
+            entry = rest_frames.entries[at];
+    return entry;
+}
+
 // A direction of the frame, given in motion axes, in the cube map's axes.
 vec3 in_cube_axes(vec3 n, RestFrameView rest_frame)
 {
     if (!UNALIGNED)
         return n;
-    RestFrameEntry entry = rest_frames.entries[rest_frame.entry];
+    RestFrameEntry entry = entry_of(rest_frame.entry);
     return vec3(dot(entry.cube0.xyz, n), dot(entry.cube1.xyz, n), dot(entry.cube2.xyz, n));
 }
 

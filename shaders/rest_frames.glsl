@@ -5,7 +5,7 @@ int rest_frame_count() { return int(rest_frames.count[int(rest_frames.world_up.w
 
 RestFrameView rest_frame_of(int i)
 {
-    RestFrameEntry entry = rest_frames.entries[i];
+    RestFrameEntry entry = entry_of(i);
     return RestFrameView(i, entry.boost.xy, entry.eye, entry.nearest.y, int(entry.boost.z), int(entry.row1.w));
 }
 
@@ -43,7 +43,7 @@ ivec2 texel_of(Place place, int k) { return ivec2(floor(place.texel - 0.5)) + iv
 // angle.
 Place place_in(int i, vec3 n0, float pixel_angle, out AberratedRay sight, out float world_angle)
 {
-    RestFrameEntry entry = rest_frames.entries[i];
+    RestFrameEntry entry = entry_of(i);
     RestFrameView rest_frame = rest_frame_of(i);
     vec3 n = i == 0 ? n0 : vec3(dot(entry.row0.xyz, n0), dot(entry.row1.xyz, n0), dot(entry.row2.xyz, n0));
     sight = from_camera(n, rest_frame.E);
@@ -70,27 +70,49 @@ Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
         return part;
     part.level = level_of(part.place, part.world_angle);
     float per_depth = sight.D * view.boost.w * sqrt(1.0 + dot(part.place.face, part.place.face));
-    vec2 covered = textureLod(covered_atlas, texel * view.origin.zw, part.level).rg;
-    if (covered.x <= 0.0 || covered.y <= 0.0)
-        return part;
-    part.ways.x = per_depth * covered.x / covered.y;
-    part.covers.x = min(covered.x, 1.0);
-    if (part.level >= 0.5)
-        return part;
-    vec4 depths, parts;
-    float least = SKY_DISTANCE, most = 0.0;
-    for (int k = 0; k < 4; ++k) {
-        vec2 one = texelFetch(covered_atlas, texel_of(part.place, k), 0).rg;
-        parts[k] = one.x;
-        depths[k] = one.y / max(one.x, 1e-3);
-        if (one.x > 0.0)
-            least = min(least, depths[k]), most = max(most, depths[k]);
-    }
-    if (most > 1.1 * least) {
+    vec2 covered;
+    if (part.level >= 0.5) {
+        covered = textureLod(covered_atlas, texel * view.origin.zw, part.level).rg;
+    } else {
+        vec4 depths, parts;
+        for (int k = 0; k < 4; ++k) {
+            vec2 one = texelFetch(covered_atlas, texel_of(part.place, k), 0).rg;
+            parts[k] = one.x;
+            depths[k] = one.y;
+        }
         vec2 at = fract(texel - 0.5);
-        part.covers = parts * vec4((1.0 - at.x) * (1.0 - at.y), at.x * (1.0 - at.y), (1.0 - at.x) * at.y, at.x * at.y);
-        part.ways = per_depth / max(depths, vec4(1e-30));
+        vec4 covers = parts * vec4((1.0 - at.x) * (1.0 - at.y), at.x * (1.0 - at.y), (1.0 - at.x) * at.y, at.x * at.y);
+        depths /= max(parts, vec4(1e-3));
+        vec4 nearest = mix(vec4(SKY_DISTANCE), depths, greaterThan(parts, vec4(0.0)));
+        float least = min(min(nearest.x, nearest.y), min(nearest.z, nearest.w));
+        float most = max(max(depths.x, depths.y), max(depths.z, depths.w));
+        if (most > 1.1 * least) {
+            part.covers = covers;
+            part.ways = per_depth / max(depths, vec4(1e-30));
+            return part;
+        }
+        covered = vec2(dot(covers, vec4(1.0)), dot(covers, depths));
     }
+    if (covered.x > 0.0 && covered.y > 0.0) {
+        part.ways.x = per_depth * covered.x / covered.y;
+        part.covers.x = min(covered.x, 1.0);
+    }
+    return part;
+}
+
+// parts[at], of few rest frames.
+void keep(inout Part parts[REST_FRAMES], int at, Part part)
+{
+    for (int i = 0; i < REST_FRAMES; ++i)
+        if (i == at)
+            parts[i] = part;
+}
+Part kept(Part parts[REST_FRAMES], int at)
+{
+    Part part = parts[0];
+    for (int i = 1; i < REST_FRAMES; ++i)
+        if (i == at)
+            part = parts[i];
     return part;
 }
 
@@ -125,20 +147,26 @@ vec3 light_of_rest_frames(vec3 n0, float pixel_angle, inout AberratedRay sight, 
     // the ship's own.
     float D_beside = ABERRATION ? 1.0 : sight.D, sky_D = sight.D;
     int count = rest_frame_count();
-    Part parts[MAX_REST_FRAMES];
+    Part parts[REST_FRAMES];
+    for (int i = 0; FEW_REST_FRAMES && i < REST_FRAMES; ++i)
+        parts[i].covers = vec4(0.0);
     float left = 1.0; // for the sky
     int shown = 0;
     for (int i = 0; i < count; ++i) {
         // The filter reaches some pixels beyond the surfaces; the last addend is the rounding of the dot product.
-        vec4 cap = rest_frames.entries[i].cap;
-        if (dot(n0, cap.xyz) < cap.w - 4.0 * pixel_angle - 1e-6)
+        RestFrameEntry entry = entry_of(i);
+        if (dot(n0, entry.cap.xyz) < entry.cap.w - 4.0 * pixel_angle - 1e-6)
             continue;
         Part part = part_of(i, n0, pixel_angle, D_beside);
         if (is_sky(part.ways.x) && part.covers == vec4(0.0))
             continue;
         left *= 1.0 - min(dot(part.covers, vec4(1.0)), 1.0);
-        part.level = rest_frames.entries[i].boost.w; // from here on: the index of its rest frame
-        parts[shown++] = part;
+        part.level = entry.boost.w; // from here on: the index of its rest frame
+        if (FEW_REST_FRAMES)
+            keep(parts, shown, part);
+        else
+            parts[shown] = part;
+        ++shown;
     }
     // The world's rest frame has the sky's D, so both share one table look-up; each moving frame needs one more.
     vec4 world[MAX_GROUPS];
@@ -150,39 +178,44 @@ vec3 light_of_rest_frames(vec3 n0, float pixel_angle, inout AberratedRay sight, 
     distance_ = SKY_DISTANCE;
     frame = 0.0;
     for (int i = 0; i < shown; ++i) {
-        bool rests = parts[i].level == 0.0, any_seen = false;
+        Part part;
+        if (FEW_REST_FRAMES)
+            part = kept(parts, i);
+        else
+            part = parts[i];
+        bool rests = part.level == 0.0, any_seen = false;
         vec4 moving[MAX_GROUPS];
         for (int group = 0; group < GROUPS; ++group)
             moving[group] = vec4(0.0);
         // A part that is alone is the first.
-        int samples = parts[i].covers.y + parts[i].covers.z + parts[i].covers.w == 0.0 ? 1 : 4;
+        int samples = part.covers.y + part.covers.z + part.covers.w == 0.0 ? 1 : 4;
         for (int k = 0; k < samples; ++k) {
-            float part = parts[i].covers[k], way = parts[i].ways[k];
-            if (part <= 0.0)
+            float covers = part.covers[k], way = part.ways[k];
+            if (covers <= 0.0)
                 continue;
             float seen = 1.0;
-            for (int j = 0; j < shown; ++j)
+            for (int j = 0; j < (FEW_REST_FRAMES ? REST_FRAMES : shown); ++j)
                 if (j != i)
                     seen *= 1.0 - min(before(parts[j], way), 1.0);
             if (seen < 0.002)
                 continue;
             vec4 coefficients[MAX_GROUPS];
-            coefficients_of_part(parts[i], k, coefficients);
+            coefficients_of_part(part, k, coefficients);
             any_seen = true;
             for (int group = 0; group < GROUPS; ++group)
                 moving[group] += seen * coefficients[group];
-            if (seen * part > most) {
-                most = seen * part;
+            if (seen * covers > most) {
+                most = seen * covers;
                 distance_ = way / (ABERRATION ? sky_D : 1.0);
-                sight.D = parts[i].D;
-                frame = parts[i].level;
+                sight.D = part.D;
+                frame = part.level;
             }
         }
         if (rests)
             for (int group = 0; group < GROUPS; ++group)
                 world[group] += moving[group];
         else if (any_seen)
-            light += light_of(moving, parts[i].D);
+            light += light_of(moving, part.D);
     }
     if (left > 0.5) { // the sky fills most of the pixel
         distance_ = SKY_DISTANCE;

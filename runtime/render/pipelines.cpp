@@ -53,7 +53,7 @@ SpecializationConstants constants(const WarpVariant& v)
     return {v.map, v.aberration, v.doppler, v.headlight, v.mips, v.channels, v.reproject, v.turning, v.stars, v.linear,
         of_the_pass, std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), v.by_table,
         v.several_rest_frames, v.galilean, v.single, std::uint32_t(v.rays), v.cut, std::uint32_t(v.cube_samples),
-        v.unaligned, v.layered, v.world_alone};
+        v.unaligned, v.layered, v.world_alone, std::uint32_t(v.rest_frames)};
 }
 
 } // namespace

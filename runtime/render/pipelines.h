@@ -93,6 +93,7 @@ struct WarpVariant {
     bool unaligned = false; ///< some cube map has other axes than the motion's
     bool layered = false; ///< the exposure's samples count by the view's part of each pixel
     bool world_alone = false; ///< no body is seen in these pixels, of several rest frames
+    int rest_frames = 1; ///< of the world, if something that moves is in view; MAX_REST_FRAMES: more than a few
     auto operator<=>(const WarpVariant&) const = default;
 };
 
@@ -114,7 +115,7 @@ struct TargetKind {
 
 /// The specialization constants of a pass; constant_id is the index. On the stack, as Formats.
 struct SpecializationConstants {
-    std::array<std::uint32_t, 23> list{};
+    std::array<std::uint32_t, 24> list{};
     std::size_t count = 0;
 
     SpecializationConstants() = default;
