@@ -59,6 +59,9 @@ float exact_distance_at(Place place)
 }
 
 // Makes Shown::distance exact, of a surface in one of several rest frames. n0: the ship's direction.
+#ifdef ONE_REST_FRAME
+float exact_distance_in(float distance, int frame, vec3 n0, float pixel_angle) { return distance; }
+#else
 float exact_distance_in(float distance, int frame, vec3 n0, float pixel_angle)
 {
     int i = 0;
@@ -85,6 +88,7 @@ float exact_distance_in(float distance, int frame, vec3 n0, float pixel_angle)
     }
     return texel.x < 0 ? distance : per_depth / plane_depth(texel, at, image);
 }
+#endif
 
 // The distance that the instruments read along the ship's direction of `shown`; SKY_DISTANCE for the sky. An eye beside the
 // cube map's own keeps the nearest texel's distance, by which its direction was found.

@@ -1,12 +1,20 @@
 // The light seen in a direction of the ship: aberration, the cube map's look-up, Doppler effect and headlight effect.
+//
+// A driver translates all that a shader may call before it drops what the constants below rule out. Each shader that includes
+// this is therefore built three times: whole; with OWN_EYE, for views whose cube map is drawn at their own eye; and with
+// ONE_REST_FRAME as well, for worlds where nothing moves. The last build's pipelines are made in a fifth of the time.
 
 layout(constant_id = 1) const bool ABERRATION = true;
 layout(constant_id = 2) const bool DOPPLER = true;
 layout(constant_id = 3) const bool HEADLIGHT = true;
 layout(constant_id = 4) const bool MIPS = false;
 layout(constant_id = 5) const bool CHANNELS = false; // red, green and blue have directions of their own
+#ifdef OWN_EYE
+const bool REPROJECT = false;
+#else
 layout(constant_id = 6) const bool REPROJECT = false; // the eye is not where the cube map was drawn
 layout(constant_id = 7) const bool TURNING = false; // the eye's side depends on the azimuth
+#endif
 layout(constant_id = 8) const bool STARS = false;
 // constant_id 9 is warp.glsl's; 10 has a meaning of its own in each pass
 layout(constant_id = 11) const int REFLECTED = 3; // coefficients of reflected sunlight: 3 are a colour
@@ -17,12 +25,16 @@ layout(constant_id = 16) const bool SINGLE = false; // one image of the plan, ah
                                                     // TileEntry::texel_from_face
 layout(constant_id = 17) const int RAYS = 1; // along each side of a pixel
 layout(constant_id = 18) const bool CUT = false; // some tile of the plan has more than one image
+#ifdef ONE_REST_FRAME
+const bool SEVERAL_REST_FRAMES = false, WORLD_ALONE = false;
+const int REST_FRAMES = 1;
+#else
 layout(constant_id = 14) const bool SEVERAL_REST_FRAMES = false; // several rest frames, each with its own part of the cube map
+layout(constant_id = 22) const bool WORLD_ALONE = false; // of several rest frames only the world's is seen here
+layout(constant_id = 23) const int REST_FRAMES = MAX_REST_FRAMES; // of the world; MAX_REST_FRAMES: more than a few
+#endif
 layout(constant_id = 19) const int CUBE_SAMPLES = 1; // of each texel
 layout(constant_id = 20) const bool UNALIGNED = false; // some cube map has other axes than the motion's
-
-layout(constant_id = 22) const bool WORLD_ALONE = false; // of several rest frames only the world's is seen here
-layout(constant_id = 23) const int REST_FRAMES = MAX_REST_FRAMES; // of the world
 
 const int GROUPS = (REFLECTED + OWN + 3) / 4;
 
@@ -218,77 +230,7 @@ float distance_at(Place place)
     return depth > 0.0 ? view.boost.w * sqrt(1.0 + dot(place.face, place.face)) / depth : SKY_DISTANCE;
 }
 
-// The eye's place from the cube map's, in the frame at rest, in the cube map's axes. n: the ship's direction, motion axes.
-vec3 eye_offset(vec3 n, RestFrameView rest_frame)
-{
-    if (!TURNING)
-        return rest_frame.eye.xyz;
-    vec3 right = cross(n, rest_frame.eye.xyz); // as long as the sine of the angle from the zenith
-    vec3 offset = right * (rest_frame.eye.w / max(length(right), view.zenith.x));
-    offset.z *= 0.5 * (rest_frame.E.x + rest_frame.E.y); // simultaneous in the ship: stretched by gamma in the world
-    return in_cube_axes(offset, rest_frame);
-}
-
-// Finds the place of the cube map that an eye beside the cube map's own sees along n (world). Seen from the cube map's
-// place, the eye's line of sight is an arc from the nearest possible surface to n at infinity. The eye sees the first
-// place on it where the cube map's surface is no farther than the line. The search goes in steps of about five texels
-// (even in 1 / distance, as parallax is). If a surface ends between two steps, it also tests the surface's end. It then
-// approximates P = d(m) m with P - offset along n. The cube map has no surfaces that are hidden from its place: there the
-// surface behind the edge is stretched.
-vec3 reprojected(vec3 n, vec3 offset, float texel, RestFrameView rest_frame)
-{
-    float across = length(offset - dot(offset, n) * n);
-    float arc = min(across / rest_frame.nearest, MOST_PARALLAX);
-    if (arc < 0.1 * texel)
-        return n;
-    float steps = clamp(ceil(0.2 * arc / texel), 1.0, float(REPROJECT_STEPS));
-    float nearness = arc / across, shrink = nearness / steps; // in 1 / distance
-    float far = 0.0, before = 0.0; // distance of the surface at this step, and of the last surface behind the line
-    vec3 m = n, last = n;
-    bool met = false;
-    for (float i = 0.0; i <= steps && !met; i += 1.0) {
-        bool finite = i < steps; // the last step is n itself, at infinity
-        vec3 line = finite ? offset + n / (nearness - i * shrink) : n;
-        m = normalize(line);
-        far = distance_at(place_of(m, rest_frame));
-        met = finite ? far <= length(line) : !is_sky(far);
-        if (i > 0.0 && far > 1.1 * before) {
-            // That surface ended between the steps; the line may have met it just before its end.
-            vec3 edge = normalize(offset + dot(before * last - offset, n) * n);
-            float there = distance_at(place_of(edge, rest_frame));
-            vec3 from_eye = there * edge - offset;
-            if (!is_sky(there) && length(from_eye - dot(from_eye, n) * n) < 0.3 * texel * there) {
-                m = edge;
-                far = there;
-                met = true;
-            }
-        }
-        before = far;
-        last = m;
-    }
-    if (!met)
-        return n;
-    vec3 best = m;
-    float off = 1e30;
-    for (int round = 0; round < REPROJECT_ROUNDS; ++round) {
-        vec3 from_eye = far * m - offset;
-        float along = dot(from_eye, n);
-        float miss = length(from_eye - along * n) / far;
-        if (miss < off)
-            off = miss, best = m;
-        if (along <= 0.0 || miss < 0.05 * texel)
-            break;
-        m = normalize(offset + along * n);
-        far = distance_at(place_of(m, rest_frame));
-        if (is_sky(far)) {
-            // The line passes behind its apparent hit to the sky: along n, or beside the edge that hides the sky there.
-            if (off > 0.15 * texel)
-                best = is_sky(distance_at(place_of(n, rest_frame))) ? n : m;
-            break;
-        }
-    }
-    return best;
-}
+#include "reprojection.glsl"
 
 // The angle in the world of a pixel at the ship's direction n.
 float world_angle(AberratedRay sight, vec3 n, float pixel_angle)

@@ -1,6 +1,16 @@
 // Several rest frames: each has a cube map of its own, boosted directly to the camera. Along a line of sight, the light's
 // travel distance in the ship is D times that in any frame; the frames' surfaces are ordered by it, in front of the sky.
 
+#ifdef ONE_REST_FRAME
+vec3 light_over_sky(Place place, AberratedRay sight, float angle) { return light_seen(place, sight.D, angle); }
+vec3 light_of_rest_frames(vec3 n0, float pixel_angle, inout AberratedRay sight, out float distance_, out float frame)
+{
+    distance_ = frame = 0.0;
+    return vec3(0.0);
+}
+float covered_by_bodies(vec3 n0, float pixel_angle) { return 0.0; }
+#else
+
 int rest_frame_count() { return int(rest_frames.count[int(rest_frames.world_up.w)].x); }
 
 RestFrameView rest_frame_of(int i)
@@ -224,3 +234,13 @@ vec3 light_of_rest_frames(vec3 n0, float pixel_angle, inout AberratedRay sight, 
     }
     return light + light_of(world, sky_D);
 }
+
+// The greatest part of a pixel that a moving body covers in front of the sky.
+float covered_by_bodies(vec3 n0, float pixel_angle)
+{
+    float most = 0.0;
+    for (int i = 1; i < rest_frame_count(); ++i)
+        most = max(most, dot(part_of(i, n0, pixel_angle, 1.0).covers, vec4(1.0)));
+    return most;
+}
+#endif

@@ -1,6 +1,10 @@
 // The direction of an output pixel. Planar views are linear in the pixel; every other display has a direction map.
 
+#ifdef FLAT
+const bool MAP = false;
+#else
 layout(constant_id = 0) const bool MAP = false;
+#endif
 layout(set = 0, binding = 0) uniform usampler2DArray direction_map; // all 0: shows nothing
 
 // A direction on the octahedron, 24 bits a coordinate, and the upper half of the pixel angle's float: the inverse of

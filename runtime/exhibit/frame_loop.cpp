@@ -7,7 +7,6 @@
 #include "runtime/operation/trace.h"
 #include "runtime/operation/waits.h"
 #include "runtime/render/debug.h"
-#include "runtime/render/warm_up.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <cstdio>
@@ -145,18 +144,31 @@ bool FrameLoop::fly_frame()
     ++session_.shown;
     constexpr std::int64_t idle_ns = 2'000'000'000; // else somebody's hand is on a device, and waits for the picture
     if (steady_ns(now) - controls.report_ns > idle_ns)
-        make_ahead(shot);
+        warm_up_at_rest(shot);
     return true;
 }
 
-/// While the ship rests and nobody touches a device, nobody sees a frame that comes late. The device draws meanwhile.
-void FrameLoop::make_ahead(const Shot& shot)
+void FrameLoop::warm_up_at_rest(const Shot& shot)
 {
     const ExhibitOptions& options = session_.options;
     const bool wanted = device_.on_processor() && options.paced && options.warms_up.value_or(true);
     const bool rests = shot.u == glm::dvec3(0) && session_.alignment.pattern() == Pattern::none;
-    if (wanted && rests && frame_->make_pipeline_ahead())
-        presented_.reset(); // the next picture comes late, and that is no stutter
+    if (!wanted || !rests || rested_ || (at_rest_ && !at_rest_->ready()))
+        return;
+    try {
+        if (!at_rest_)
+            at_rest_ = warm_up_in(quality_of(session_, device_));
+        // The first states matter most: later ones must not drive their pipelines out.
+        constexpr std::size_t for_the_flight = 24;
+        if (!at_rest_->step(hud_.panel()) || context_.pipelines.kept() + for_the_flight > most_pipelines_)
+            at_rest_.reset(), rested_ = true;
+        if (rested_)
+            write_log(LogKind::pipelines_ready,
+                std::to_string(context_.pipelines.kept()) + " pipelines are ready, most of them made while the ship rested");
+    } catch (const NoRoom&) { // it can do without
+        at_rest_.reset(), rested_ = true;
+    }
+    presented_.reset(); // the next picture comes late, and that is no stutter
 }
 
 void FrameLoop::stand_by()
@@ -197,49 +209,43 @@ std::optional<double> FrameLoop::await_device()
     return frame_->metered();
 }
 
-std::size_t FrameLoop::warm_up(std::unique_ptr<FrameRenderer>& frame, const Quality& quality,
-    const std::function<void(std::size_t, std::size_t)>& progress)
+std::unique_ptr<WarmUp> FrameLoop::warm_up_in(const Quality& quality)
 {
-    if (frame)
-        frame->adopt(quality);
-    else
-        frame = renderer(session_.layout, quality);
-    frame->meter(session_.options.exposure.automatic);
-    frame->bloom(session_.options.exposure.bloom);
-    const Panel* panel = hud_.update(session_, context_.world.scene, 0, frame->views().hud_width());
-    return starbow::warm_up(
-        device_, context_.pipelines, *frame, session_.programme.start, panel, screens_.format(), progress);
+    return in_room([&] {
+        return std::make_unique<WarmUp>(device_, context_.pipelines, context_.world, session_.layout, quality, session_.programme.start,
+            screens_.format(), session_.options.exposure.automatic, session_.options.exposure.bloom);
+    });
 }
 
 void FrameLoop::warm_up()
 {
     const auto began = Clock::now();
     const std::size_t levels = session_.governor ? session_.governor->ladder().size() : 1;
-    std::unique_ptr<FrameRenderer> frame; // anew after a level without room
     Progress progress;
     LimitedWait warming("the next step of the warm-up", loading_limit_s);
-    std::size_t made = 0;
     for (std::size_t level = 0; level < levels; ++level) {
         if (session_.governor && !session_.governor->has_room(level))
             continue;
         const Quality quality = session_.governor ? within(device_, session_.governor->ladder()[level].quality)
                                                   : quality_of(session_, device_);
         try {
-            made = warm_up(frame, quality, [&](std::size_t step, std::size_t steps) {
+            const std::unique_ptr<WarmUp> steps = warm_up_in(quality);
+            const Panel* panel = hud_.update(session_, context_.world.scene, 0, frame_->views().hud_width());
+            while (steps->step(panel)) {
                 glfwPollEvents(); // else the window system takes the program for dead
                 warming.restart();
                 session_.service.loads("Compiles the pipelines of all switches.", loading_limit_s);
-                const double part = (double(level) + double(step) / double(steps)) / double(levels);
-                progress.show("compiling pipelines of all switches: " + std::to_string(level * steps + step) + " of "
-                        + std::to_string(levels * steps),
-                    part);
-            });
+                progress.show("compiling pipelines of all switches: "
+                        + std::to_string(level * steps->steps() + steps->step_number()) + " of "
+                        + std::to_string(levels * steps->steps()),
+                    (double(level) + double(steps->step_number()) / double(steps->steps())) / double(levels));
+            }
         } catch (const NoRoom& error) {
-            frame.reset();
             if (!take_coarser_level(session_, level, error.what()))
                 throw;
         }
     }
+    const std::size_t made = context_.pipelines.count();
     frame_->adopt(quality_of(session_, device_));
     most_pipelines_ += made; // else the warm-up would be in vain
     std::array<char, 80> text;
@@ -393,6 +399,7 @@ void FrameLoop::apply(LayoutLoader::Loaded loaded)
     const bool same_tracker = session_.layout.head_tracker == layout.head_tracker;
     std::unique_ptr<HeadTracker> tracker = same_tracker ? nullptr : tracker_of(layout);
     frame_ = renderer(layout, quality_of(session_, device_), std::move(prepared));
+    forget_warm_up();
     if (!same_tracker)
         session_.tracker = std::move(tracker);
     session_.layout = std::move(layout);

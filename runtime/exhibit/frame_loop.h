@@ -4,6 +4,7 @@
 #include "runtime/render/frame_timer.h"
 #include "runtime/render/live_copy.h"
 #include "runtime/render/render_context.h"
+#include "runtime/render/warm_up.h"
 #include "screens.h"
 #include "session.h"
 
@@ -33,9 +34,11 @@ private:
     void stand_by();
     /// Draws off-screen all states of the visitor's switches; shows the progress on a terminal.
     void warm_up();
-    void make_ahead(const Shot& shot);
-    std::size_t warm_up(std::unique_ptr<FrameRenderer>& frame, const Quality& quality,
-        const std::function<void(std::size_t, std::size_t)>& progress);
+    /// One step of the same while nobody sees that a frame comes late.
+    void warm_up_at_rest(const Shot& shot);
+    std::unique_ptr<WarmUp> warm_up_in(const Quality& quality);
+    /// Begins the warm-up at rest anew, for another world, layout or quality.
+    void forget_warm_up() { at_rest_.reset(), rested_ = false; }
     void fit(std::size_t output);
     void watch_sizes(const std::vector<Target>& targets);
     /// Waits for the frame's turn and for the device. Returns the exposure for the frame before, if it was metered.
@@ -73,6 +76,8 @@ private:
     std::optional<Clock::time_point> presented_; ///< the frame before
     bool fresh_ = true; ///< no frame is shown yet
     bool cold_; ///< the warm-up is still to come
+    std::unique_ptr<WarmUp> at_rest_; ///< the warm-up that goes on while the ship rests; null before it and after it
+    bool rested_ = false; ///< it is over, for the present world, layout and quality
     std::size_t most_pipelines_; ///< that are kept
     HudUpdater hud_;
     Pace pace_;

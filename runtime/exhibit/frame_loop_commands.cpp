@@ -17,6 +17,7 @@ void FrameLoop::show_programme(Programme programme)
         const LimitedWait loading("the world " + programme.scene.filename().string(), loading_limit_s);
         session_.service.loads("Loads the world " + programme.scene.filename().string() + ".", loading_limit_s);
         GpuWorld world = in_room([&] { return load_gpu_world(context_, programme.scene, spectral_level_of(session_)); });
+        forget_warm_up(); // it draws the old world
         std::swap(context_.world, world);
         try {
             frame_ = renderer(session_.layout, quality_of(session_, device_));
@@ -35,6 +36,7 @@ void FrameLoop::show_quality(const std::string& name)
 {
     const Quality quality = load_quality(shipped_file("qualities", name));
     frame_->adopt(within(device_, quality));
+    forget_warm_up();
     session_.quality = quality, session_.quality_name = name;
     session_.governor.reset();
 }

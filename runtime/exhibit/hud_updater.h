@@ -11,6 +11,8 @@ public:
     /// pattern without a message to the builder.
     const Panel* update(const Session& session, const SceneFile& scene, double exposure_ev, int width);
 
+    const Panel* panel() const { return panel_.size.x > 0 ? &panel_ : nullptr; } ///< the last one, null before the first
+
     Typesetter typesetter;
 
 private:

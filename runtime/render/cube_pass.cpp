@@ -88,25 +88,6 @@ void CubePass::record(vk::CommandBuffer commands)
     target_.end(commands, use_, images_, levels_);
 }
 
-void CubePass::make_ahead(StoredLight light)
-{
-    if (light == use_.light)
-        return;
-    const TargetKind kind = target_.kind({use_.several_rest_frames, light});
-    const std::size_t before = pipelines_.count();
-    std::optional<SurfaceVariant> last;
-    for (const Draw& draw : list_.draws) {
-        const SurfaceVariant variant = variant_of(draw, light);
-        if (variant != last)
-            pipelines_.surface(variant, kind);
-        if (pipelines_.count() > before)
-            return;
-        last = variant;
-    }
-    if (sky_ && !use_.several_rest_frames)
-        pipelines_.sky(kind);
-}
-
 SurfaceVariant CubePass::variant_of(const Draw& draw, StoredLight light) const
 {
     SurfaceVariant variant = world_.variant(world_.world.primitives[draw.primitive].material, light);

@@ -25,9 +25,6 @@ public:
     /// the depth if it is kept.
     void record(vk::CommandBuffer commands);
 
-    /// Makes a pipeline, if any is missing, that the images of the last prepare() need where light is stored so.
-    void make_ahead(StoredLight light);
-
     /// Draws the same world into a target through one single image, for comparison. Not beside prepare() and record().
     void prepare_plain(const PlannedImage& image, const EyeEvent& eye_event);
     void record_plain(vk::CommandBuffer commands, const Target& target);

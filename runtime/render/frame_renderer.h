@@ -1,6 +1,6 @@
 #pragma once
-#include "pipelines_ahead.h"
 #include "view_measurement.h"
+#include "view_meter.h"
 
 namespace starbow {
 
@@ -26,12 +26,6 @@ public:
     /// The same in two parts: `world` touches no target, so that it need not wait for one; `outputs` comes after it.
     void draw(vk::CommandBuffer world, vk::CommandBuffer outputs, const Shot& shot, const Panel* hud,
         std::span<const Target> targets);
-
-    /// Makes a pipeline that a flight from here will need; see make_pipeline_ahead.
-    bool make_pipeline_ahead()
-    {
-        return starbow::make_pipeline_ahead(pipelines_, world_, state_, views_, eyes_, stars_, constants_, meter_);
-    }
 
     /// The same steps one by one, for measurements and for parts of a frame. update() comes first and is the processor's
     /// part; then any of the passes may follow.

@@ -12,21 +12,36 @@
 #include "spirv/layer_frag.h"
 #include "spirv/lookup_frag.h"
 #include "spirv/measure_frag.h"
+#include "spirv/measure_one_frame_frag.h"
+#include "spirv/measure_own_eye_frag.h"
 #include "spirv/meter_frag.h"
+#include "spirv/meter_one_frame_frag.h"
+#include "spirv/meter_own_eye_frag.h"
 #include "spirv/mip_frag.h"
 #include "spirv/overlay_frag.h"
+#include "spirv/overlay_one_frame_frag.h"
+#include "spirv/overlay_own_eye_frag.h"
 #include "spirv/pattern_frag.h"
 #include "spirv/probe_frag.h"
+#include "spirv/probe_one_frame_frag.h"
+#include "spirv/probe_own_eye_frag.h"
 #include "spirv/scaled_frag.h"
 #include "spirv/screen_vert.h"
 #include "spirv/sky_frag.h"
 #include "spirv/sky_vert.h"
+#include "spirv/star_flat_vert.h"
 #include "spirv/star_frag.h"
 #include "spirv/star_meter_frag.h"
+#include "spirv/star_one_frame_vert.h"
+#include "spirv/star_own_eye_vert.h"
 #include "spirv/star_vert.h"
 #include "spirv/warp_dark_frag.h"
 #include "spirv/warp_frag.h"
+#include "spirv/warp_one_frame_frag.h"
+#include "spirv/warp_own_eye_frag.h"
 #include "spirv/warp_rays_frag.h"
+#include "spirv/warp_rays_one_frame_frag.h"
+#include "spirv/warp_rays_own_eye_frag.h"
 #include <algorithm>
 #include <cstddef>
 
@@ -54,6 +69,26 @@ SpecializationConstants constants(const WarpVariant& v)
         of_the_pass, std::uint32_t(v.coefficients.reflected), std::uint32_t(v.coefficients.own), v.by_table,
         v.several_rest_frames, v.galilean, v.single, std::uint32_t(v.rays), v.cut, std::uint32_t(v.cube_samples),
         v.unaligned, v.layered, v.world_alone, std::uint32_t(v.rest_frames)};
+}
+
+/// A shader that reads the cube map, in its builds (received_light.glsl).
+struct Builds {
+    Spirv whole, own_eye, one_rest_frame;
+
+    /// The smallest that serves the variant.
+    Spirv of(const WarpVariant& v) const { return v.reproject ? whole : v.several_rest_frames ? own_eye : one_rest_frame; }
+};
+const Builds measure_builds{measure_frag, measure_own_eye_frag, measure_one_frame_frag},
+    meter_builds{meter_frag, meter_own_eye_frag, meter_one_frame_frag},
+    overlay_builds{overlay_frag, overlay_own_eye_frag, overlay_one_frame_frag},
+    probe_builds{probe_frag, probe_own_eye_frag, probe_one_frame_frag},
+    star_builds{star_vert, star_own_eye_vert, star_one_frame_vert},
+    warp_builds{warp_frag, warp_own_eye_frag, warp_one_frame_frag},
+    warp_rays_builds{warp_rays_frag, warp_rays_own_eye_frag, warp_rays_one_frame_frag};
+
+Spirv stars_shader(const WarpVariant& v)
+{
+    return v.map || v.reproject || v.several_rest_frames ? star_builds.of(v) : Spirv(star_flat_vert);
 }
 
 } // namespace
@@ -177,7 +212,7 @@ vk::Pipeline Pipelines::warp(const WarpVariant& v, vk::Format target)
     all[10] = target != light_format; // 8 bits need dither
     return find_or_make({.name = "warp pipeline",
         .vertex = screen_vert,
-        .fragment = v.rays == 1 && !v.channels ? Spirv(warp_frag) : Spirv(warp_rays_frag),
+        .fragment = (v.rays == 1 && !v.channels ? warp_builds : warp_rays_builds).of(v),
         .layout = *layouts.warp_layout,
         .target = {{target}},
         .constants = all});
@@ -202,7 +237,7 @@ vk::Pipeline Pipelines::stars(const WarpVariant& v, vk::Format target)
     SpecializationConstants all = constants(v);
     all[9] = target == light_format;
     return find_or_make({.name = "stars pipeline",
-        .vertex = star_vert,
+        .vertex = stars_shader(v),
         .fragment = star_frag,
         .layout = *layouts.star_layout,
         .target = {{target}},
@@ -215,7 +250,7 @@ vk::Pipeline Pipelines::measure(const WarpVariant& v)
 {
     return find_or_make({.name = "measure pipeline",
         .vertex = screen_vert,
-        .fragment = measure_frag,
+        .fragment = measure_builds.of(v),
         .layout = *layouts.warp_layout,
         .target = {{exact_format, exact_format, exact_format}},
         .constants = constants(v)});
@@ -225,7 +260,7 @@ vk::Pipeline Pipelines::probe(const WarpVariant& v)
 {
     return find_or_make({.name = "probe pipeline",
         .vertex = screen_vert,
-        .fragment = probe_frag,
+        .fragment = probe_builds.of(v),
         .layout = *layouts.warp_layout,
         .target = {{exact_format, exact_format, exact_format}},
         .constants = constants(v)});
@@ -237,7 +272,7 @@ vk::Pipeline Pipelines::overlay(const WarpVariant& v, int overlay, vk::Format ta
     all[10] = std::uint32_t(overlay);
     return find_or_make({.name = "overlay pipeline",
         .vertex = screen_vert,
-        .fragment = overlay_frag,
+        .fragment = overlay_builds.of(v),
         .layout = *layouts.overlay_layout,
         .target = {{target}},
         .constants = all,
@@ -257,7 +292,7 @@ vk::Pipeline Pipelines::meter(const WarpVariant& v)
 {
     return find_or_make({.name = "meter pipeline",
         .vertex = screen_vert,
-        .fragment = meter_frag,
+        .fragment = meter_builds.of(v),
         .layout = *layouts.warp_layout,
         .target = {{meter_format}},
         .constants = constants(v)});
@@ -268,7 +303,7 @@ vk::Pipeline Pipelines::star_meter(const WarpVariant& v)
     SpecializationConstants all = constants(v);
     all[10] = true; // the meter reads one ray for each sample
     return find_or_make({.name = "star meter pipeline",
-        .vertex = star_vert,
+        .vertex = stars_shader(v),
         .fragment = star_meter_frag,
         .layout = *layouts.star_layout,
         .target = {{meter_format}},

@@ -129,10 +129,10 @@ struct SpecializationConstants {
     auto operator<=>(const SpecializationConstants&) const = default;
 };
 
-/// Pipelines that stay although no frame uses them. On lavapipe one takes 3 MB, and 0.1 s to make again from the driver's
+/// Pipelines that stay although no frame uses them. On lavapipe one takes 3 MB, and 0.05 s to make again from the driver's
 /// cache; a flight uses about ten at a time, a visit with all switches a hundred. On a GPU they are small, and the warm-up
 /// makes some hundreds.
-constexpr std::size_t most_pipelines_in_software = 64, most_pipelines = 1024;
+constexpr std::size_t most_pipelines_in_software = 128, most_pipelines = 1024;
 
 /// Every pipeline of the program, each made at its first use. The caller of a pipeline records it at once and does not keep
 /// it: see release_old.

@@ -72,7 +72,7 @@ WarpVariant ViewConstants::variant_of_stars(const ViewState& view) const
 {
     WarpVariant all = variant(view);
     all.mips = all.single = false;
-    all.cut = true;
+    all.cut = all.unaligned = true; // no pipeline for each kind of plan
     return all;
 }
 

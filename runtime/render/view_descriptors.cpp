@@ -26,13 +26,6 @@ ViewDescriptors::ViewDescriptors(Device& device, const GpuWorld& world, const Fr
     const float zeros[4] = {};
     nothing_ = make_texture(device, exact_format, {1, 1}, std::as_bytes(std::span(zeros)), false);
     name_object(device, nothing_, "views: nothing");
-    no_rest_frames_
-        = make_mapped_buffer(device, sizeof(shared::RestFrameConstants), vk::BufferUsageFlagBits::eUniformBuffer);
-}
-
-bool ViewDescriptors::reads_rest_frames(const ViewState& view) const
-{
-    return eyes_.all[view.eye].cube.several_rest_frames() || eyes_.unaligned(view);
 }
 
 void ViewDescriptors::write()
@@ -41,8 +34,7 @@ void ViewDescriptors::write()
         writes_.clear(), serials_.clear(), images_used_ = buffers_used_ = 0;
         collect_label_set(view);
         if (state_.pattern == Pattern::none) {
-            if (reads_rest_frames(view))
-                write_rest_frames(view);
+            write_rest_frames(view);
             collect_warp_set(view);
         }
         if (serials_ == view.written)
@@ -99,7 +91,7 @@ void ViewDescriptors::collect_warp_set(const ViewState& view)
     const FinishPass* finish = views_.outputs[view.output].finish.get();
     const Image* shares = finish ? finish->shares(view.geometry()) : nullptr;
     image(set, 13, shares ? *shares : nothing_, nearest_);
-    buffer(set, 12, reads_rest_frames(view) ? view.rest_frames : no_rest_frames_);
+    buffer(set, 12, view.rest_frames);
 }
 
 void ViewDescriptors::write_rest_frames(ViewState& view)

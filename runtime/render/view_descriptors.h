@@ -17,8 +17,6 @@ public:
     vk::Sampler nearest() const { return *nearest_; } ///< for direction maps
 
 private:
-    /// Shaders read the rest frames' constants: something moves, or a cube map has other axes than the motion's.
-    bool reads_rest_frames(const ViewState& view) const;
     /// Writes the constants of the rest frames in view, and of the sky.
     void write_rest_frames(ViewState& view);
     void collect_label_set(const ViewState& view);
@@ -35,7 +33,6 @@ private:
     const StarPass& stars_;
     vk::raii::Sampler linear_ = nullptr, nearest_ = nullptr, finest_ = nullptr; ///< finest_ reads level 0 alone
     Image nothing_; ///< for views without an image
-    Buffer no_rest_frames_; ///< for views whose shaders read none
     // The content of one view's sets, collected anew for each view and frame.
     std::array<vk::DescriptorImageInfo, 16> image_infos_;
     std::array<vk::DescriptorBufferInfo, 2> buffer_infos_;

@@ -50,16 +50,6 @@ void ViewMeter::meter_stars(vk::CommandBuffer commands, const ViewState& view, c
     stars_.sample(commands, eyes_.all[view.eye].observer, cell.corner, cell.size, meter_->every(), own.channels);
 }
 
-void ViewMeter::make_ahead(const ViewState& view, const Effects& on) const
-{
-    if (!state_.meters || state_.layout.outputs[view.output].preview)
-        return;
-    const WarpVariant variant = constants_.variant_metered(view, on);
-    pipelines_.meter(variant);
-    if (stars_.on())
-        pipelines_.star_meter(variant);
-}
-
 std::optional<double> ViewMeter::metered() const
 {
     return state_.meters && meter_ ? metered_ev(meter_->view(), meter_->stars()) : std::nullopt;

@@ -24,8 +24,6 @@ public:
 
     void prepare(); ///< makes the meter's picture if FrameState::meters is set
     void record(vk::CommandBuffer commands);
-    /// Makes the pipelines that sample a view in flight with these effects.
-    void make_ahead(const ViewState& view, const Effects& on) const;
     /// The exposure for the last frame, EV; nothing where it was dark or not metered. The device must have finished that
     /// frame.
     std::optional<double> metered() const;

@@ -198,7 +198,7 @@ void ViewPasses::warp_layer(vk::CommandBuffer commands, std::size_t output, std:
             else if (glows)
                 view.bloom->show(commands, view.geometry().corner, state_.bloom, target.format);
             else
-                draw_lit(commands, view, view.format = target.format);
+                draw_lit(commands, view, target.format);
         }
         device_.end_rendering(commands);
     }

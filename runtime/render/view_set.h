@@ -25,7 +25,6 @@ struct ViewState {
     std::unique_ptr<BloomPass> bloom; ///< null without glow
     glm::dvec3 cube_m{0}; ///< place from which its cube map is drawn, cockpit frame, metres
     glm::dvec3 beside_m{0}; ///< the eye's place relative to cube_m
-    vk::Format format = vk::Format::eUndefined; ///< of the target that it was last drawn into
     LitPixels pixels; ///< at which something shows, for this frame
     Buffer rest_frames; ///< RestFrameConstants; null where no shader reads them
     const View& geometry() const { return compiled.view; }

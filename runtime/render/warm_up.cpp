@@ -1,90 +1,156 @@
 #include "warm_up.h"
 #include "debug.h"
+#include <algorithm>
 
 namespace starbow {
 namespace {
 
-/// One state of the switches.
-struct State {
-    glm::dvec3 u; ///< proper velocity, cockpit's axes
-    Effects effects;
-    Overlay overlay = Overlay::off;
-    Pattern pattern = Pattern::none;
-};
-
-/// combined: also the comparisons and false colours together with every effect switched off.
-std::vector<State> states(bool combined)
+/// The states that a visitor meets soonest come first. combined: also the comparisons and false colours together with every
+/// effect switched off.
+std::vector<WarmUp::State> states_of(bool combined)
 {
-    std::vector<State> all;
-    // Plans differ in kind with the speed: one image, several, tiles with several images. In slow flight aside the cube map
-    // has other axes than the motion's.
-    for (const glm::dvec3& u : {glm::dvec3(0), glm::dvec3(0, 0, -0.1), glm::dvec3(0.06, 0, -0.08), glm::dvec3(0, 0, -4),
-             glm::dvec3(0, 0, -100), glm::dvec3(0, 0, -1e5)}) {
-        for (int off = 0; off < 8; ++off) // the three effects, alone and together
-            all.push_back({u, {.aberration = !(off & 1), .doppler = !(off & 2), .headlight = !(off & 4)}});
-        for (Comparison comparison : {Comparison::galilean, Comparison::no_light_delay})
-            all.push_back({u, {.comparison = comparison}});
-        all.push_back({u, {.false_colours = true}});
-        for (int off = 0; combined && off < 8; ++off)
-            for (Comparison comparison : {Comparison::none, Comparison::galilean, Comparison::no_light_delay})
-                for (bool false_colours : {false, true})
-                    all.push_back({u, {!(off & 1), !(off & 2), !(off & 4), comparison, false_colours}});
-        for (Overlay overlay : {Overlay::aim, Overlay::grid, Overlay::ring, Overlay::distance, Overlay::emission})
-            all.push_back({u, {}, overlay});
-    }
+    using State = WarmUp::State;
+    // Plans differ in kind with the speed: one image, several, tiles with several images, images with coarser levels. In slow
+    // flight aside the cube map has other axes than the motion's.
+    const State rest{}, slow{.u = {0, 0, -0.1}}, aside{.u = {0.06, 0, -0.08}};
+    const State fast{.u = {0, 0, -4}, .cut = true, .mips = false}, faster{.u = {0, 0, -4}, .cut = true};
+    const State few{.u = {0, 0, -4}, .mips = false}, fewer{.u = {0, 0, -100}}, fastest{.u = {0, 0, -1e5}};
+    std::vector<Effects> effects = {{.aberration = false}, {.doppler = false}, {.headlight = false}, {false, false, false},
+        {.comparison = Comparison::galilean}, {.comparison = Comparison::no_light_delay}, {.false_colours = true},
+        {false, false, true}, {false, true, false}, {true, false, false}};
+    for (int off = 0; combined && off < 8; ++off)
+        for (Comparison comparison : {Comparison::none, Comparison::galilean, Comparison::no_light_delay})
+            for (bool false_colours : {false, true})
+                effects.push_back({!(off & 1), !(off & 2), !(off & 4), comparison, false_colours});
+    std::vector<State> states = {rest, slow, few, fast, faster, fewer, aside, fastest};
+    const auto with_effects = [&](State state) {
+        for (const Effects& on : effects) {
+            state.effects = on;
+            states.push_back(state);
+        }
+    };
+    const auto with_overlays = [&](State state) {
+        for (Overlay overlay : {Overlay::aim, Overlay::grid, Overlay::ring, Overlay::distance, Overlay::emission}) {
+            state.overlay = overlay;
+            states.push_back(state);
+        }
+    };
+    with_effects(fast);
+    with_overlays(fast);
+    states.push_back({.fade = 0.5});
+    with_effects(faster);
+    with_effects(slow);
+    with_overlays(slow);
+    for (const State& state : {rest, few, aside, fewer, fastest})
+        with_effects(state);
+    with_overlays(rest);
     for (std::size_t pattern = 1; pattern < pattern_names.size(); ++pattern)
-        all.push_back({glm::dvec3(0), {}, Overlay::off, Pattern(pattern)});
-    return all;
+        states.push_back({.pattern = Pattern(pattern)});
+    return states;
+}
+
+/// The outputs' longest side, pixels, to which a warm-up shrinks them.
+constexpr int small_side = 64;
+
+int longest_side(const Layout& layout)
+{
+    int side = small_side;
+    for (const Output& output : layout.outputs)
+        side = std::max({side, output.size.x, output.size.y});
+    return side;
+}
+
+Layout small_layout(Layout layout)
+{
+    const double part = double(small_side) / longest_side(layout);
+    for (Output& output : layout.outputs)
+        output.size = glm::max(glm::ivec2(part * glm::dvec2(output.size)), 8);
+    return layout;
+}
+
+/// The quality with which a small picture's plans are of the same kinds as the layout's.
+Quality small_quality(Quality quality, const Layout& layout)
+{
+    const double part = double(small_side) / longest_side(layout);
+    quality.image_cost_texels *= part * part;
+    return quality;
 }
 
 } // namespace
 
-std::size_t warm_up(Device& device, Pipelines& pipelines, FrameRenderer& frame, const Shot& shot, const Panel* hud,
-    vk::Format format, const std::function<void(std::size_t, std::size_t)>& progress)
+WarmUp::WarmUp(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality,
+    const Shot& start, vk::Format format, bool meters, double bloom)
+    : device_(device)
+    , pipelines_(pipelines)
+    , start_(start)
+    , quality_(small_quality(quality, layout))
+    , states_(states_of(!device.on_processor()))
+    , frame_(device, pipelines, world, small_layout(layout), quality_)
+    , commands_(std::move(
+          device.device.allocateCommandBuffers({*device.pool, vk::CommandBufferLevel::ePrimary, 1}).front()))
+    , done_(device.device.createFence({}))
 {
-    std::vector<Image> images;
-    std::vector<Target> targets;
-    for (const OutputState& output : frame.views().outputs) {
-        images.push_back(make_image(device,
+    frame_.meter(meters);
+    frame_.bloom(bloom);
+    for (const OutputState& output : frame_.views().outputs) {
+        images_.push_back(make_image(device,
             {format, {std::uint32_t(output.size.x), std::uint32_t(output.size.y)},
                 vk::ImageUsageFlagBits::eColorAttachment}));
-        targets.push_back({*images.back().image, *images.back().view, images.back().extent, format});
+        targets_.push_back({*images_.back().image, *images_.back().view, images_.back().extent, format});
     }
-    const std::vector<State> all = states(!device.on_processor());
-    vk::raii::CommandBuffer commands
-        = std::move(device.device.allocateCommandBuffers({*device.pool, vk::CommandBufferLevel::ePrimary, 1}).front());
-    const vk::raii::Fence done = device.device.createFence({});
-    name_object(device, commands, "warm-up");
-    name_object(device, done, "warm-up done");
-    std::size_t step = 0;
-    for (const State& state : all) {
-        progress(step++, all.size());
-        Shot at = shot;
-        at.effects = state.effects;
-        at.u = at.ship_from_cockpit * state.u;
-        frame.show(state.pattern);
+    name_object(device, commands_, "warm-up");
+    name_object(device, done_, "warm-up done");
+}
+
+WarmUp::~WarmUp()
+{
+    if (submitted_)
+        device_.settle();
+}
+
+bool WarmUp::ready() const { return !submitted_ || done_.getStatus() == vk::Result::eSuccess; }
+
+bool WarmUp::step(const Panel* hud)
+{
+    if (submitted_) {
+        device_.await(*done_, "the end of a warm-up's drawing (fence)");
+        device_.device.resetFences(*done_);
+        submitted_ = false;
+    }
+    constexpr std::size_t most_without = 4; // plans take the processor's time, too
+    const std::size_t before = pipelines_.count();
+    for (std::size_t i = 0; i < most_without && next_ < states_.size() && !submitted_; ++i) {
+        const State& state = states_[next_++];
+        Shot shot = start_;
+        shot.effects = state.effects;
+        shot.u = shot.ship_from_cockpit * state.u;
+        Quality quality = quality_;
+        quality.mips = quality.mips && state.mips;
+        if (state.cut)
+            quality.image_cost_texels = 0;
+        frame_.adopt(quality);
+        frame_.show(state.pattern);
+        frame_.fade(state.fade);
+        frame_.measure({}); // the device has finished the overlay before
         if (state.overlay != Overlay::off)
-            frame.measure(Measuring{.probes = {{glm::dvec3(0, 0, -1)}},
+            frame_.measure(Measuring{.probes = {{glm::dvec3(0, 0, -1)}},
                 .over = {.overlay = state.overlay},
                 .panel = hud,
                 .scale = {0.1, 0.1, 0.9, 0.2}});
-        const std::size_t before = pipelines.count();
-        commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-        for (const Image& image : images)
-            transition(*commands, image, vk::ImageLayout::eUndefined, vk::PipelineStageFlagBits2::eColorAttachmentOutput, {},
+        commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+        for (const Image& image : images_)
+            transition(*commands_, image, vk::ImageLayout::eUndefined, vk::PipelineStageFlagBits2::eColorAttachmentOutput, {},
                 vk::ImageLayout::eColorAttachmentOptimal, vk::PipelineStageFlagBits2::eColorAttachmentOutput,
                 vk::AccessFlagBits2::eColorAttachmentWrite);
-        frame.draw(*commands, at, hud, targets);
-        commands.end();
-        if (pipelines.count() > before) {
-            const vk::CommandBufferSubmitInfo buffer(*commands);
-            device.queue.submit2(vk::SubmitInfo2({}, {}, buffer, {}), *done);
-            device.await(*done, "the end of a warm-up's drawing (fence)");
-            device.device.resetFences(*done);
+        frame_.draw(*commands_, shot, hud, targets_);
+        commands_.end();
+        if (pipelines_.count() > before) {
+            const vk::CommandBufferSubmitInfo buffer(*commands_);
+            device_.queue.submit2(vk::SubmitInfo2({}, {}, buffer, {}), *done_);
+            submitted_ = true;
         }
-        frame.measure({});
     }
-    return pipelines.count();
+    return next_ < states_.size() || submitted_;
 }
 
 } // namespace starbow

@@ -1,19 +1,53 @@
 #pragma once
 #include "frame_renderer.h"
-#include <functional>
+#include <vector>
 
 namespace starbow {
 
-/// Draws, off-screen, a frame for each state of the switches that a visitor can reach, so that no frame in flight waits
-/// for a compiler. The states are effects, comparisons, false colours, overlays and test patterns, at rest and in flight.
-/// Software renderers compile when they draw, so frames are drawn and not only pipelines made. A state that needs no new
-/// pipeline is not drawn. A software renderer takes a tenth of a second for each pipeline. It therefore leaves out
-/// combinations of a comparison or false colours with effects switched off; they are compiled at their first use.
-///
-/// frame: a renderer for this purpose alone; its switches are left in any state. shot: the start, whose world is warmed
-/// up, in its quality. hud: a panel, or null. format: of the outputs' targets. progress: is called with the number of
-/// finished states and of all states. Returns the number of pipelines. Throws NoRoom.
-std::size_t warm_up(Device& device, Pipelines& pipelines, FrameRenderer& frame, const Shot& shot, const Panel* hud,
-    vk::Format format, const std::function<void(std::size_t, std::size_t)>& progress);
+/// Draws, off-screen, a small picture for each state of the switches that a visitor can reach, so that no frame in flight
+/// waits for a compiler. The states are effects, comparisons, false colours, overlays, a fade and test patterns, at rest and
+/// in flight. Software renderers compile when they draw, so pictures are drawn and not only pipelines made. They take up to
+/// a tenth of a second for each pipeline and therefore leave out combinations of a comparison or false colours with effects
+/// switched off; these are compiled at their first use.
+class WarmUp {
+public:
+    /// start: a shot in the world, which is warmed up in this quality. format: of the outputs' targets. meters: the exposure
+    /// is automatic. Throws NoRoom and InputError.
+    WarmUp(Device& device, Pipelines& pipelines, const GpuWorld& world, const Layout& layout, const Quality& quality,
+        const Shot& start, vk::Format format, bool meters, double bloom);
+    ~WarmUp(); ///< waits for the device
+
+    /// True if the device has drawn the picture before: step() will not wait.
+    bool ready() const;
+    /// Draws the next state that needs a new pipeline, or passes by a few that need none. hud: a panel, or null. Returns
+    /// false once all states are drawn.
+    bool step(const Panel* hud);
+    std::size_t steps() const { return states_.size(); }
+    std::size_t step_number() const { return next_; }
+
+    /// One state of the switches.
+    struct State {
+        glm::dvec3 u{0}; ///< proper velocity, cockpit's axes
+        Effects effects{};
+        Overlay overlay = Overlay::off;
+        Pattern pattern = Pattern::none;
+        double fade = 0;
+        bool cut = false, mips = true; ///< tiles of several images; images with coarser levels, where the quality has any
+    };
+
+private:
+    Device& device_;
+    Pipelines& pipelines_;
+    Shot start_;
+    Quality quality_;
+    std::vector<State> states_;
+    std::size_t next_ = 0;
+    FrameRenderer frame_;
+    std::vector<Image> images_;
+    std::vector<Target> targets_;
+    vk::raii::CommandBuffer commands_ = nullptr;
+    vk::raii::Fence done_;
+    bool submitted_ = false;
+};
 
 } // namespace starbow
