@@ -1,6 +1,7 @@
 #include "cube_target.h"
 #include "debug.h"
 #include <algorithm>
+#include <bit>
 
 namespace starbow {
 namespace {
@@ -54,9 +55,12 @@ TargetKind CubeTarget::kind(Use use) const
 void CubeTarget::fit(glm::ivec2 size, int levels)
 {
     const Image& first = atlases_[0];
-    // A plan is empty where no view shows anything; the texture exists all the same.
+    // A plan is empty where no view shows anything; the texture exists all the same. No side is a power of two: llvmpipe
+    // compiles each shader that reads a texture once for such sides and once for others, and a growing atlas would meet both.
     const auto grown = [&](int needed, std::uint32_t had) {
-        const std::uint32_t whole = (std::uint32_t(std::max(needed, 1)) + 255) / 256 * 256;
+        std::uint32_t whole = (std::uint32_t(std::max(needed, 1)) + 255) / 256 * 256;
+        if (std::has_single_bit(whole))
+            whole += 64;
         return repeatable_ ? whole : std::max(whole, had);
     };
     const vk::Extent2D extent(grown(size.x, first.extent.width), grown(size.y, first.extent.height));

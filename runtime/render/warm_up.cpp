@@ -1,6 +1,7 @@
 #include "warm_up.h"
 #include "debug.h"
 #include <algorithm>
+#include <bit>
 
 namespace starbow {
 namespace {
@@ -22,7 +23,7 @@ std::vector<WarmUp::State> states_of(bool combined)
         for (Comparison comparison : {Comparison::none, Comparison::galilean, Comparison::no_light_delay})
             for (bool false_colours : {false, true})
                 effects.push_back({!(off & 1), !(off & 2), !(off & 4), comparison, false_colours});
-    std::vector<State> states = {rest, slow, few, fast, faster, fewer, aside, fastest};
+    std::vector<State> states = {rest, slow, aside, few, fast};
     const auto with_effects = [&](State state) {
         for (const Effects& on : effects) {
             state.effects = on;
@@ -35,9 +36,10 @@ std::vector<WarmUp::State> states_of(bool combined)
             states.push_back(state);
         }
     };
+    // Once an image has coarser levels, llvmpipe compiles anew what reads it: states without any come first.
     with_effects(fast);
     with_overlays(fast);
-    states.push_back({.fade = 0.5});
+    states.insert(states.end(), {{.fade = 0.5}, faster, fewer, fastest});
     with_effects(faster);
     with_effects(slow);
     with_overlays(slow);
@@ -50,7 +52,14 @@ std::vector<WarmUp::State> states_of(bool combined)
 }
 
 /// The outputs' longest side, pixels, to which a warm-up shrinks them.
-constexpr int small_side = 64;
+constexpr int small_side = 72;
+
+/// A side of `whole` pixels as a part of it: a power of two if it is one, for llvmpipe compiles for either kind.
+int small_part(int whole, double part)
+{
+    const auto small = unsigned(std::max(int(part * whole), 9));
+    return int(std::has_single_bit(unsigned(whole)) ? std::bit_floor(small) : small + std::has_single_bit(small));
+}
 
 int longest_side(const Layout& layout)
 {
@@ -64,7 +73,7 @@ Layout small_layout(Layout layout)
 {
     const double part = double(small_side) / longest_side(layout);
     for (Output& output : layout.outputs)
-        output.size = glm::max(glm::ivec2(part * glm::dvec2(output.size)), 8);
+        output.size = {small_part(output.size.x, part), small_part(output.size.y, part)};
     return layout;
 }
 
