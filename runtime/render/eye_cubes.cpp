@@ -217,12 +217,6 @@ void EyeCubes::plan(double pre_exposure, const Probe* probe)
     }
 }
 
-bool EyeCubes::unaligned(const ViewState& view) const
-{
-    const std::vector<RestFrameView>& rest_frames = observer_of(view).rest_frames;
-    return std::any_of(rest_frames.begin(), rest_frames.end(), [](const RestFrameView& one) { return !one.aligned(); });
-}
-
 void EyeCubes::record(vk::CommandBuffer commands)
 {
     if (drawn_)

@@ -54,8 +54,6 @@ public:
     const Observer& observer_of(const ViewState& view) const { return observers[all[view.eye].observer]; }
     /// The directions in which the view may see something that moves.
     void find_bodies(const ViewState& view, std::vector<ShipCap>& bodies) const;
-    /// True if a cube map that the view reads has other axes than the motion's.
-    bool unaligned(const ViewState& view) const;
     std::size_t triangles() const; ///< sent to the device for the last frame
     vk::DeviceSize memory() const;
 

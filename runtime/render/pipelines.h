@@ -90,7 +90,7 @@ struct WarpVariant {
     bool single = false; ///< one image of the plan, ahead, shows all
     bool cut = false; ///< tiles may have several images
     int cube_samples = 1; ///< of each texel
-    bool unaligned = false; ///< some cube map has other axes than the motion's
+    bool unaligned = false; ///< some cube map may have other axes than the motion's
     bool layered = false; ///< the exposure's samples count by the view's part of each pixel
     bool world_alone = false; ///< no body is seen in these pixels, of several rest frames
     int rest_frames = 1; ///< of the world, if something that moves is in view; MAX_REST_FRAMES: more than a few

@@ -39,7 +39,9 @@ WarpVariant ViewConstants::variant(const ViewState& view) const
     variant.single = single_image(view);
     variant.cut = eyes_.plans[view.eye].cut;
     variant.cube_samples = state_.quality.cube_samples;
-    variant.unaligned = eyes_.unaligned(view);
+    const std::vector<RestFrameView>& read = eyes_.observer_of(view).rest_frames;
+    variant.unaligned = !std::all_of(read.begin(), variant.several_rest_frames ? read.end() : read.begin() + 1,
+        [](const RestFrameView& one) { return one.aligned(); });
     variant.galilean = on.comparison == Comparison::galilean;
     variant.by_table = variant.doppler || needs_table(on, light);
     return variant;

@@ -16,6 +16,7 @@ std::vector<WarmUp::State> states_of(bool combined)
     const State rest{}, slow{.u = {0, 0, -0.1}}, aside{.u = {0.06, 0, -0.08}};
     const State fast{.u = {0, 0, -4}, .cut = true, .mips = false}, faster{.u = {0, 0, -4}, .cut = true};
     const State few{.u = {0, 0, -4}, .mips = false}, fewer{.u = {0, 0, -100}}, fastest{.u = {0, 0, -1e5}};
+    const State brisk{.u = {0, 0, -0.66}, .mips = false};
     std::vector<Effects> effects = {{.aberration = false}, {.doppler = false}, {.headlight = false}, {false, false, false},
         {.comparison = Comparison::galilean}, {.comparison = Comparison::no_light_delay}, {.false_colours = true},
         {false, false, true}, {false, true, false}, {true, false, false}};
@@ -23,7 +24,7 @@ std::vector<WarmUp::State> states_of(bool combined)
         for (Comparison comparison : {Comparison::none, Comparison::galilean, Comparison::no_light_delay})
             for (bool false_colours : {false, true})
                 effects.push_back({!(off & 1), !(off & 2), !(off & 4), comparison, false_colours});
-    std::vector<State> states = {rest, slow, aside, few, fast};
+    std::vector<State> states = {rest, slow, aside, brisk, few, fast};
     const auto with_effects = [&](State state) {
         for (const Effects& on : effects) {
             state.effects = on;
@@ -42,7 +43,9 @@ std::vector<WarmUp::State> states_of(bool combined)
     states.insert(states.end(), {{.fade = 0.5}, faster, fewer, fastest});
     with_effects(faster);
     with_effects(slow);
+    with_effects(brisk); // after slow flight the cube map keeps its axes
     with_overlays(slow);
+    with_overlays(few);
     for (const State& state : {rest, few, aside, fewer, fastest})
         with_effects(state);
     with_overlays(rest);
@@ -52,7 +55,7 @@ std::vector<WarmUp::State> states_of(bool combined)
 }
 
 /// The outputs' longest side, pixels, to which a warm-up shrinks them.
-constexpr int small_side = 72;
+constexpr int small_side = 160;
 
 /// A side of `whole` pixels as a part of it: a power of two if it is one, for llvmpipe compiles for either kind.
 int small_part(int whole, double part)

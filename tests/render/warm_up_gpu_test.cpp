@@ -1,0 +1,65 @@
+// After a warm-up a visitor's flight finds all its pipelines. The warm-up draws small pictures, the flight large ones: the
+// test is that both have plans of the same kinds.
+#include "runtime/render/warm_up.h"
+#include "config/model/shipped.h"
+#include "runtime/world/worldline.h"
+#include "tests/support/gpu_environment.h"
+
+namespace starbow::gpu_test::warm_up_gpu_test {
+namespace {
+
+struct Place {
+    const char *scene, *layout;
+    glm::ivec2 size;
+};
+std::ostream& operator<<(std::ostream& out, const Place& place) { return out << place.scene << " on " << place.layout; }
+
+class WarmUpIn : public ::testing::TestWithParam<Place> { };
+
+TEST_P(WarmUpIn, AFlightAfterItMakesNoPipeline)
+{
+    const Place& place = GetParam();
+    const SceneFile scene = load_scene_file(shipped_file("scenes", place.scene));
+    Pipelines own(device());
+    const GpuWorld world = upload(device(), own, load_world(scene.gltf), scene, {});
+    Layout layout = load_layout(shipped_file("layouts", place.layout));
+    layout.outputs[0].size = place.size;
+    const Quality quality = within(device(), load_quality(shipped_file("qualities", "balanced")));
+    OffscreenRenderer offscreen(device(), own, world, layout, quality, false);
+    offscreen.frame().meter(true);
+    {
+        WarmUp warm_up(device(), own, world, layout, quality, scene.start, offscreen.target(0).format, true, 0);
+        std::size_t steps = 0;
+        while (warm_up.step(nullptr))
+            ASSERT_LE(++steps, warm_up.steps());
+    }
+    std::size_t before = own.count();
+    Shot shot = scene.start;
+    const auto fly = [&](double gamma, const Effects& effects, Overlay overlay) {
+        shot.u = shot.ship_from_cockpit * glm::dvec3(0, 0, -std::sqrt(gamma * gamma - 1));
+        shot.effects = effects;
+        offscreen.frame().measure({});
+        if (overlay != Overlay::off)
+            offscreen.frame().measure(Measuring{.probes = {{glm::dvec3(0, 0, -1)}}, .over = {.overlay = overlay}});
+        offscreen.picture(shot);
+        EXPECT_EQ(own.count() - std::exchange(before, own.count()), 0u)
+            << "gamma " << gamma << ", overlay " << int(overlay) << ", effects "
+                                     << effects.aberration << effects.doppler << effects.headlight
+                                     << effects.false_colours << int(effects.comparison);
+    };
+    for (double gamma : {1.0, 1.01, 1.2, 2.0, 4.0, 20.0, 100.0})
+        for (const Effects& effects : {Effects{}, Effects{.aberration = false}, Effects{.doppler = false},
+                 Effects{.headlight = false}, Effects{false, false, false}, Effects{.comparison = Comparison::galilean},
+                 Effects{.comparison = Comparison::no_light_delay}, Effects{.false_colours = true}})
+            fly(gamma, effects, Overlay::off);
+    for (double gamma : {1.0, 4.0})
+        for (Overlay overlay : {Overlay::aim, Overlay::grid, Overlay::ring, Overlay::distance, Overlay::emission})
+            fly(gamma, {}, overlay);
+}
+
+INSTANTIATE_TEST_SUITE_P(Places, WarmUpIn,
+    ::testing::Values(Place{"avenue", "desk", {480, 360}}, Place{"avenue", "dome", {256, 256}},
+        Place{"twins", "desk", {320, 240}}, Place{"avenue", "stereo", {400, 150}}));
+
+} // namespace
+} // namespace starbow::gpu_test::warm_up_gpu_test
