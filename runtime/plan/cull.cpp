@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 namespace starbow {
 namespace {
@@ -80,7 +81,7 @@ int level_of(const Primitive& primitive, const Box& box, const PlannedImage& ima
 Box box_of(const Primitive& primitive, const glm::dmat3& turn, const glm::dvec3& place)
 {
     const glm::dvec3 half = 0.5 * (primitive.high - primitive.low), middle = 0.5 * (primitive.high + primitive.low);
-    Box box{turn * middle + place, {turn[0] * half.x, turn[1] * half.y, turn[2] * half.z}, 0, 0, true};
+    Box box{turn * middle + place, {turn[0] * half.x, turn[1] * half.y, turn[2] * half.z}, 0, 0, 0, true};
     const glm::dvec3 lengths(glm::length(turn[0]), glm::length(turn[1]), glm::length(turn[2]));
     const double longest = std::max({lengths.x, lengths.y, lengths.z});
     const double skew
@@ -154,6 +155,8 @@ Box as_shown(Box box, const EyeEvent& eye_event)
     for (glm::dvec3& half : box.half)
         half.z *= eye_event.contraction;
     box.distance *= eye_event.contraction;
+    box.farthest = glm::length(box.centre)
+        + std::sqrt(glm::dot(box.half[0], box.half[0]) + glm::dot(box.half[1], box.half[1]) + glm::dot(box.half[2], box.half[2]));
     return box;
 }
 
@@ -304,6 +307,7 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
     std::vector<std::vector<std::uint32_t>>& by_level = list.by_level;
     for (std::uint32_t i = 0; i < images.size(); ++i) {
         const PlannedImage& image = images[i];
+        const std::size_t first_draw = list.draws.size();
         const Frustum frustum(image);
         const ClipHole hole(image);
         const std::uint32_t first = list.first[std::size_t(image.rest_frame)];
@@ -348,6 +352,12 @@ DrawList cull(const World& world, std::span<const EyeEvent> eye_events, const st
                 seen.clear();
             }
         }
+        // Nearest first, as the instances of a draw. What is large and around everything, such as a ground, comes last.
+        const auto order = [&](const Draw& draw) {
+            return std::tuple(boxes[list.visible[draw.first]].farthest, draw.first, draw.first_index);
+        };
+        std::sort(list.draws.begin() + std::ptrdiff_t(first_draw), list.draws.end(),
+            [&](const Draw& a, const Draw& b) { return order(a) < order(b); });
     }
     reserve_headroom(list.draws);
     reserve_headroom(list.visible);

@@ -20,14 +20,14 @@ struct DrawList {
     std::vector<std::uint32_t> first_pose; ///< by rest frame, in `instances`
     std::vector<std::uint32_t> first; ///< by rest frame, in `instances`
     std::vector<std::uint32_t> visible; ///< indices into `instances`
-    std::vector<Draw> draws; ///< by image, then by primitive
+    std::vector<Draw> draws; ///< by image, then from the nearest: hidden surfaces fail the depth test unshaded
 
     /// Memory of cull, kept from frame to frame.
     struct OrientedBox {
         glm::dvec3 centre, half[3]; ///< an instance's box relative to the eye, the cube map's axes; half: from the centre to
                                     ///< the middle of each side
         double scale; ///< world units per local unit, at most
-        double distance; ///< from the eye, at least
+        double distance, farthest; ///< from the eye: at least, at most
         bool shows; ///< its light may arrive
     };
     std::vector<OrientedBox> boxes; ///< as `instances`, without the poses
