@@ -165,7 +165,7 @@ void FrameLoop::warm_up_at_rest(const Shot& shot)
         if (rested_)
             write_log(LogKind::pipelines_ready,
                 std::to_string(context_.pipelines.kept()) + " pipelines are ready, most of them made while the ship rested");
-    } catch (const NoRoom&) { // it can do without
+    } catch (const InputError&) { // no room, or a viewport too narrow for a small picture: it can do without
         at_rest_.reset(), rested_ = true;
     }
     presented_.reset(); // the next picture comes late, and that is no stutter
@@ -212,8 +212,9 @@ std::optional<double> FrameLoop::await_device()
 std::unique_ptr<WarmUp> FrameLoop::warm_up_in(const Quality& quality)
 {
     return in_room([&] {
-        return std::make_unique<WarmUp>(device_, context_.pipelines, context_.world, session_.layout, quality, session_.programme.start,
-            screens_.format(), session_.options.exposure.automatic, session_.options.exposure.bloom);
+        return std::make_unique<WarmUp>(device_, context_.pipelines, context_.world, session_.layout, quality,
+            session_.programme.start, screens_.format(), session_.options.exposure.automatic,
+            session_.options.exposure.bloom);
     });
 }
 
@@ -235,14 +236,17 @@ void FrameLoop::warm_up()
                 glfwPollEvents(); // else the window system takes the program for dead
                 warming.restart();
                 session_.service.loads("Compiles the pipelines of all switches.", loading_limit_s);
-                progress.show("compiling pipelines of all switches: "
-                        + std::to_string(level * steps->steps() + steps->step_number()) + " of "
-                        + std::to_string(levels * steps->steps()),
+                progress.show(
+                    "compiling pipelines of all switches: " + std::to_string(level * steps->steps() + steps->step_number())
+                        + " of " + std::to_string(levels * steps->steps()),
                     (double(level) + double(steps->step_number()) / double(steps->steps())) / double(levels));
             }
         } catch (const NoRoom& error) {
             if (!take_coarser_level(session_, level, error.what()))
                 throw;
+        } catch (const InputError& error) { // a viewport too narrow for a small picture
+            write_log(LogKind::pipelines_made, one_line(error.what()) + "; no pipelines are made ahead");
+            break;
         }
     }
     const std::size_t made = context_.pipelines.count();

@@ -188,8 +188,8 @@ void Diary::write(bool waits)
         if (writing_.valid() && !waits && writing_.wait_for(0s) != std::future_status::ready)
             return;
         finish();
-        writing_ = std::async(
-            std::launch::async, [state = state_, textfile = textfile_, exposition = exposition_, ended = ended_, day = day_] {
+        writing_ = std::async(std::launch::async,
+            [state = state_, textfile = textfile_, exposition = exposition_, ended = ended_, day = day_] {
                 if (!state.empty()) {
                     for (const EndedDay& one : ended)
                         write_day(state, *one);

@@ -156,7 +156,8 @@ Box as_shown(Box box, const EyeEvent& eye_event)
         half.z *= eye_event.contraction;
     box.distance *= eye_event.contraction;
     box.farthest = glm::length(box.centre)
-        + std::sqrt(glm::dot(box.half[0], box.half[0]) + glm::dot(box.half[1], box.half[1]) + glm::dot(box.half[2], box.half[2]));
+        + std::sqrt(
+            glm::dot(box.half[0], box.half[0]) + glm::dot(box.half[1], box.half[1]) + glm::dot(box.half[2], box.half[2]));
     return box;
 }
 

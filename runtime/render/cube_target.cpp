@@ -56,7 +56,8 @@ void CubeTarget::fit(glm::ivec2 size, int levels)
 {
     const Image& first = atlases_[0];
     // A plan is empty where no view shows anything; the texture exists all the same. No side is a power of two: llvmpipe
-    // compiles each shader that reads a texture once for such sides and once for others, and a growing atlas would meet both.
+    // compiles each shader that reads a texture once for such sides and once for others, and a growing atlas would meet
+    // both.
     const auto grown = [&](int needed, std::uint32_t had) {
         std::uint32_t whole = (std::uint32_t(std::max(needed, 1)) + 255) / 256 * 256;
         if (std::has_single_bit(whole))

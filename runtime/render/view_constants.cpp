@@ -6,8 +6,8 @@
 namespace starbow {
 namespace {
 
-/// Up to so many, the warp pass keeps each rest frame's part in a variable of its own: lavapipe draws a world of two or three
-/// in 0.75 to 0.85 of the time, and one of five in 1.1 of it. More share an array, and a pipeline.
+/// Up to so many, the warp pass keeps each rest frame's part in a variable of its own: lavapipe draws a world of two or
+/// three in 0.75 to 0.85 of the time, and one of five in 1.1 of it. More share an array, and a pipeline.
 constexpr int few_rest_frames = 4;
 
 /// The square root of the determinant of a flat view's matrix M: a pixel's solid angle is det M / length^3.

@@ -11,8 +11,8 @@ namespace {
 std::vector<WarmUp::State> states_of(bool combined)
 {
     using State = WarmUp::State;
-    // Plans differ in kind with the speed: one image, several, tiles with several images, images with coarser levels. In slow
-    // flight aside the cube map has other axes than the motion's.
+    // Plans differ in kind with the speed: one image, several, tiles with several images, images with coarser levels. In
+    // slow flight aside the cube map has other axes than the motion's.
     const State rest{}, slow{.u = {0, 0, -0.1}}, aside{.u = {0.06, 0, -0.08}};
     const State fast{.u = {0, 0, -4}, .cut = true, .mips = false}, faster{.u = {0, 0, -4}, .cut = true};
     const State few{.u = {0, 0, -4}, .mips = false}, fewer{.u = {0, 0, -100}}, fastest{.u = {0, 0, -1e5}};
@@ -98,8 +98,7 @@ WarmUp::WarmUp(Device& device, Pipelines& pipelines, const GpuWorld& world, cons
     , quality_(small_quality(quality, layout))
     , states_(states_of(!device.on_processor()))
     , frame_(device, pipelines, world, small_layout(layout), quality_)
-    , commands_(std::move(
-          device.device.allocateCommandBuffers({*device.pool, vk::CommandBufferLevel::ePrimary, 1}).front()))
+    , commands_(std::move(device.device.allocateCommandBuffers({*device.pool, vk::CommandBufferLevel::ePrimary, 1}).front()))
     , done_(device.device.createFence({}))
 {
     frame_.meter(meters);
@@ -151,8 +150,8 @@ bool WarmUp::step(const Panel* hud)
                 .scale = {0.1, 0.1, 0.9, 0.2}});
         commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
         for (const Image& image : images_)
-            transition(*commands_, image, vk::ImageLayout::eUndefined, vk::PipelineStageFlagBits2::eColorAttachmentOutput, {},
-                vk::ImageLayout::eColorAttachmentOptimal, vk::PipelineStageFlagBits2::eColorAttachmentOutput,
+            transition(*commands_, image, vk::ImageLayout::eUndefined, vk::PipelineStageFlagBits2::eColorAttachmentOutput,
+                {}, vk::ImageLayout::eColorAttachmentOptimal, vk::PipelineStageFlagBits2::eColorAttachmentOutput,
                 vk::AccessFlagBits2::eColorAttachmentWrite);
         frame_.draw(*commands_, shot, hud, targets_);
         commands_.end();

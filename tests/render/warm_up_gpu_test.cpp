@@ -1,7 +1,7 @@
 // After a warm-up a visitor's flight finds all its pipelines. The warm-up draws small pictures, the flight large ones: the
 // test is that both have plans of the same kinds.
-#include "runtime/render/warm_up.h"
 #include "config/model/shipped.h"
+#include "runtime/render/warm_up.h"
 #include "runtime/world/worldline.h"
 #include "tests/support/gpu_environment.h"
 
@@ -43,9 +43,8 @@ TEST_P(WarmUpIn, AFlightAfterItMakesNoPipeline)
             offscreen.frame().measure(Measuring{.probes = {{glm::dvec3(0, 0, -1)}}, .over = {.overlay = overlay}});
         offscreen.picture(shot);
         EXPECT_EQ(own.count() - std::exchange(before, own.count()), 0u)
-            << "gamma " << gamma << ", overlay " << int(overlay) << ", effects "
-                                     << effects.aberration << effects.doppler << effects.headlight
-                                     << effects.false_colours << int(effects.comparison);
+            << "gamma " << gamma << ", overlay " << int(overlay) << ", effects " << effects.aberration << effects.doppler
+            << effects.headlight << effects.false_colours << int(effects.comparison);
     };
     for (double gamma : {1.0, 1.01, 1.2, 2.0, 4.0, 20.0, 100.0})
         for (const Effects& effects : {Effects{}, Effects{.aberration = false}, Effects{.doppler = false},

@@ -65,8 +65,7 @@ FlightTimes bench_flight()
     RenderContext context(shipped_file("scenes", "avenue"), device_options(false));
     const Layout layout = window_of({800, 600});
     const Quality quality = default_quality(context.device, false);
-    OffscreenRenderer renderer(
-        context.device, context.pipelines, context.world, layout, quality, false);
+    OffscreenRenderer renderer(context.device, context.pipelines, context.world, layout, quality, false);
     renderer.frame().meter(true);
     PassTimer timer(context.device, renderer);
     WarmUp at_rest(context.device, context.pipelines, context.world, layout, quality,
