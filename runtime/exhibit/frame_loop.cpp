@@ -252,6 +252,7 @@ void FrameLoop::warm_up()
     const std::size_t made = context_.pipelines.count();
     frame_->adopt(quality_of(session_, device_));
     most_pipelines_ += made; // else the warm-up would be in vain
+    rested_ = true;
     std::array<char, 80> text;
     std::snprintf(text.data(), text.size(), "%zu pipelines are ready after %.1f s", made, seconds(Clock::now() - began));
     write_log(LogKind::pipelines_ready, text.data());
