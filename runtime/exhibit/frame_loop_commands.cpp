@@ -5,6 +5,7 @@
 #include "frame_loop.h"
 #include "obey.h"
 #include "runtime/operation/log.h"
+#include "runtime/operation/vitals.h"
 #include "runtime/operation/waits.h"
 #include <utility>
 
@@ -29,6 +30,7 @@ void FrameLoop::show_programme(Programme programme)
         fresh_ = true; // the first frame of a world is a part of its loading
     }
     begin_visit(session_, std::move(programme));
+    return_free_memory(); // nobody sees a pause here
 }
 
 /// Shows a fixed quality, in the governor's place.

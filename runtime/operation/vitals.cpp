@@ -30,4 +30,6 @@ Vitals vitals()
         .threads = entries_of("/proc/self/task")};
 }
 
+void return_free_memory() { malloc_trim(0); }
+
 } // namespace starbow
