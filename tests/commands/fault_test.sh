@@ -87,10 +87,10 @@ ok
 # A window grows, and the device has no memory for its larger picture: a smaller one is drawn, the device stays, and the flight
 # goes on. So it is where a window is to be larger than the device's pictures can be. Where a changed layout has no room, the
 # old one stays.
-# grow NAME WxH FAULTS: flies in a window that grows, for a moment.
+# grow NAME WxH FAULTS [WARM-UP]: flies in a window that grows, for a moment. A warm-up at rest would meet the faults first.
 grow() {
     rm -f "$folder/flight.jsonl"
-    STARBOW_FAULTS=$3 timeout 60 "$program" run --layout "$folder/sizes.json" --record "$folder/flight.jsonl" >"$folder/log" 2>&1 &
+    STARBOW_FAULTS=$3 timeout 60 "$program" run --layout "$folder/sizes.json" --warm-up "${4:-never}" --record "$folder/flight.jsonl" >"$folder/log" 2>&1 &
     exhibit=$!
     "$rig/wait_flown.py" "$folder/flight.jsonl" 0.3 || fail "$1: no flight"
     xdotool windowsize "$(xdotool search --name '^Starbow a' | head -n 1)" ${2/x/ }
@@ -114,6 +114,11 @@ stays "a window of 32,000 pixels" "the window of output 'a' is to have 32000x200
 grow "no memory for a changed layout" 160x120 vkCreateImage@10:1:OUT_OF_DEVICE_MEMORY
 sed -i 's/2.2/2.1/' "$folder/sizes.json"
 stays "no memory for a changed layout" 'layout: The GPU.s memory is used up (.*OutOfDeviceMemory); the exhibit stays as it was'
+# Without room for the warm-up at rest, the flight goes on without one.
+for fault in vkCreateImage@10:1:OUT_OF_DEVICE_MEMORY vkCreateGraphicsPipelines@10:1:OUT_OF_HOST_MEMORY; do
+    grow "no memory for the warm-up" 160x120 $fault auto
+    stays "no memory for the warm-up" "fault: $fault"
+done
 
 # If the device is lost again and again, the exhibit ends with a message and exit 1.
 fly acquire:20:DEVICE_LOST,acquire:30:DEVICE_LOST,acquire:40:DEVICE_LOST,acquire:50:DEVICE_LOST,acquire:60:DEVICE_LOST,acquire:70:DEVICE_LOST

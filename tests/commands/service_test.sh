@@ -26,7 +26,7 @@ manage() {
     [ $# -gt 0 ] && shift
     mkdir -p "$folder/$name"
     STATE_DIRECTORY=$folder/$name timeout 120 "$rig/service_manager.py" "${options[@]}" "$folder/$name-socket" \
-        "$program" run --layout "$folder/${layout:-two}.json" --scene "${scene:-chart}" "$@" >"$folder/$name-events-log" 2>"$folder/$name-log"
+        "$program" run --layout "$folder/${layout:-two}.json" --scene "${scene:-chart}" --warm-up never "$@" >"$folder/$name-events-log" 2>"$folder/$name-log"
 }
 # says NAME TEXT / logs NAME TEXT: an event, or the program's own line, must have the text.
 says() { grep -q -- "$2" "$folder/$1-events-log" || fail "$1: no event has '$2'"; }
