@@ -160,8 +160,7 @@ void FrameLoop::warm_up_at_rest(const Shot& shot)
             at_rest_ = warm_up_in(quality_of(session_, device_));
         // The first states matter most: later ones must not drive their pipelines out.
         constexpr std::size_t for_the_flight = 24;
-        if (!in_room([&] { return at_rest_->step(hud_.panel()); })
-            || context_.pipelines.kept() + for_the_flight > most_pipelines_)
+        if (!in_room([&] { return at_rest_->step(hud_.panel()); }) || at_rest_->made() + for_the_flight > most_pipelines_)
             at_rest_.reset(), rested_ = true;
         if (rested_)
             write_log(LogKind::pipelines_ready,

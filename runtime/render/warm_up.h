@@ -24,6 +24,7 @@ public:
     bool step(const Panel* hud);
     std::size_t steps() const { return states_.size(); }
     std::size_t step_number() const { return next_; }
+    std::size_t made() const { return pipelines_.count() - before_; } ///< pipelines since it began
 
     /// One state of the switches.
     struct State {
@@ -41,7 +42,7 @@ private:
     Shot start_;
     Quality quality_;
     std::vector<State> states_;
-    std::size_t next_ = 0;
+    std::size_t next_ = 0, before_ = pipelines_.count();
     FrameRenderer frame_;
     std::vector<Image> images_;
     std::vector<Target> targets_;
