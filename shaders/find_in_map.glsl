@@ -78,7 +78,7 @@ bool found_from(ivec2 pixel, vec3 n, int channel, bool nearly, out vec2 point, o
             return false;
         vec2 move = vec2(dot(cross(off, down), across), dot(cross(right, off), across)) / area_square;
         point = vec2(pixel) + 0.5 + move;
-        // As in direction_map.h.
+        // The pixel angle is defined in direction_map.h.
         float longest = max(dot(right, right), dot(down, down));
         pixel_angle = sqrt(max(sqrt(area_square), 0.25 * longest));
         float far = max(abs(move.x), abs(move.y));

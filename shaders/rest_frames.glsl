@@ -110,7 +110,7 @@ Part part_of(int i, vec3 n0, float pixel_angle, float D_beside)
     return part;
 }
 
-// parts[at], of few rest frames.
+// parts[at], of few rest frames. For more, the callers index the array themselves: a function would copy all of it.
 void keep(inout Part parts[REST_FRAMES], int at, Part part)
 {
     for (int i = 0; i < REST_FRAMES; ++i)

@@ -160,13 +160,15 @@ void FrameLoop::warm_up_at_rest(const Shot& shot)
             at_rest_ = warm_up_in(quality_of(session_, device_));
         // The first states matter most: later ones must not drive their pipelines out.
         constexpr std::size_t for_the_flight = 24;
-        if (!in_room([&] { return at_rest_->step(hud_.panel()); }) || at_rest_->made() + for_the_flight > most_pipelines_)
-            at_rest_.reset(), rested_ = true;
-        if (rested_)
-            write_log(LogKind::pipelines_ready,
-                std::to_string(context_.pipelines.kept()) + " pipelines are ready, most of them made while the ship rested");
-    } catch (const InputError&) { // no room, or a viewport too narrow for a small picture: it can do without
-        at_rest_.reset(), rested_ = true;
+        rested_ = !at_rest_ || !in_room([&] { return at_rest_->step(hud_.panel()); })
+            || at_rest_->made() + for_the_flight > most_pipelines_;
+    } catch (const NoRoom&) { // the flight can do without
+        rested_ = true;
+    }
+    if (rested_) {
+        at_rest_.reset();
+        write_log(LogKind::pipelines_ready,
+            std::to_string(context_.pipelines.kept()) + " pipelines are ready, most of them made while the ship rested");
     }
     presented_.reset(); // the next picture comes late, and that is no stutter
 }
@@ -211,11 +213,17 @@ std::optional<double> FrameLoop::await_device()
 
 std::unique_ptr<WarmUp> FrameLoop::warm_up_in(const Quality& quality)
 {
-    return in_room([&] {
-        return std::make_unique<WarmUp>(device_, context_.pipelines, context_.world, session_.layout, quality,
-            session_.programme.start, screens_.format(), session_.options.exposure.automatic,
-            session_.options.exposure.bloom);
-    });
+    try {
+        return in_room([&] {
+            return std::make_unique<WarmUp>(device_, context_.pipelines, context_.world, session_.layout, quality,
+                session_.programme.start, screens_.format(), session_.options.exposure.automatic,
+                session_.options.exposure.bloom);
+        });
+    } catch (const NoRoom&) {
+        throw;
+    } catch (const InputError&) {
+        return nullptr;
+    }
 }
 
 void FrameLoop::warm_up()
@@ -231,6 +239,8 @@ void FrameLoop::warm_up()
                                                   : quality_of(session_, device_);
         try {
             const std::unique_ptr<WarmUp> steps = warm_up_in(quality);
+            if (!steps)
+                break;
             const Panel* panel = hud_.update(session_, context_.world.scene, 0, frame_->views().hud_width());
             while (steps->step(panel)) {
                 glfwPollEvents(); // else the window system takes the program for dead
@@ -244,9 +254,6 @@ void FrameLoop::warm_up()
         } catch (const NoRoom& error) {
             if (!take_coarser_level(session_, level, error.what()))
                 throw;
-        } catch (const InputError& error) { // a viewport too narrow for a small picture
-            write_log(LogKind::pipelines_made, one_line(error.what()) + "; no pipelines are made ahead");
-            break;
         }
     }
     const std::size_t made = context_.pipelines.count();

@@ -36,6 +36,7 @@ private:
     void warm_up();
     /// One step of the same while nobody sees that a frame comes late.
     void warm_up_at_rest(const Shot& shot);
+    /// Null where a viewport is too narrow for a small picture. Throws NoRoom.
     std::unique_ptr<WarmUp> warm_up_in(const Quality& quality);
     /// Begins the warm-up at rest anew, for another world, layout or quality.
     void forget_warm_up() { at_rest_.reset(), rested_ = false; }

@@ -152,7 +152,8 @@ bool Diary::turn(std::time_t now, const Gauges& gauges)
         }
         day_ = day_of(local_now.date);
         hour_of_day_ = local_now.hour, written_ = now;
-        write(false);
+        if (!ended_.empty())
+            write(false);
     } else if (local_now.hour != hour_of_day_) {
         add_hour();
         hour_of_day_ = local_now.hour;

@@ -14,8 +14,8 @@ struct Vitals {
 /// A value that can't be read is 0.
 Vitals vitals();
 
-/// Gives the heap's free pages back to the system. Worlds, pipelines and the driver's compiler leave holes of all sizes, so
-/// that a process that shows one world after another else grows although it uses no more.
+/// Gives the heap's free pages back to the system. Worlds, pipelines and the driver's compiler leave holes of all sizes.
+/// Without this call, a process that shows one world after another grows, although it uses no more memory.
 void return_free_memory();
 
 } // namespace starbow

@@ -22,6 +22,13 @@ double reach(const Box& box, const glm::dvec3& n)
 
 double reach(const BoundingSphere& sphere, const glm::dvec3&) { return sphere.radius; }
 
+/// Half of a box's diagonal.
+double half_diagonal(const Box& box)
+{
+    return std::sqrt(
+        glm::dot(box.half[0], box.half[0]) + glm::dot(box.half[1], box.half[1]) + glm::dot(box.half[2], box.half[2]));
+}
+
 /// The planes through the eye and the sides of a rectangle on a face; unit normals inwards.
 std::array<glm::dvec3, 4> side_planes(int face, const glm::dvec2& low, const glm::dvec2& high)
 {
@@ -155,9 +162,7 @@ Box as_shown(Box box, const EyeEvent& eye_event)
     for (glm::dvec3& half : box.half)
         half.z *= eye_event.contraction;
     box.distance *= eye_event.contraction;
-    box.farthest = glm::length(box.centre)
-        + std::sqrt(
-            glm::dot(box.half[0], box.half[0]) + glm::dot(box.half[1], box.half[1]) + glm::dot(box.half[2], box.half[2]));
+    box.farthest = glm::length(box.centre) + half_diagonal(box);
     return box;
 }
 
@@ -171,9 +176,7 @@ std::vector<BoundingSphere> bounding_spheres(const World& world, const EyeEvent&
         const Instance& instance = world.instances[i];
         const Box rests = placed(world, instance, eye_event).box, box = as_shown(rests, eye_event);
         if (may_show(world, instance, eye_event, rests))
-            bounding_spheres.push_back({box.centre,
-                std::sqrt(glm::dot(box.half[0], box.half[0]) + glm::dot(box.half[1], box.half[1])
-                    + glm::dot(box.half[2], box.half[2]))});
+            bounding_spheres.push_back({box.centre, half_diagonal(box)});
     }
     return bounding_spheres;
 }

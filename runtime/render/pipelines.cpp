@@ -78,7 +78,7 @@ struct Builds {
     /// The smallest that serves the variant.
     Spirv of(const WarpVariant& v) const { return v.reproject ? whole : v.several_rest_frames ? own_eye : one_rest_frame; }
 };
-const Builds measure_builds{measure_frag, measure_own_eye_frag, measure_one_frame_frag},
+constexpr Builds measure_builds{measure_frag, measure_own_eye_frag, measure_one_frame_frag},
     meter_builds{meter_frag, meter_own_eye_frag, meter_one_frame_frag},
     overlay_builds{overlay_frag, overlay_own_eye_frag, overlay_one_frame_frag},
     probe_builds{probe_frag, probe_own_eye_frag, probe_one_frame_frag},

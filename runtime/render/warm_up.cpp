@@ -64,17 +64,18 @@ int small_part(int whole, double part)
     return int(std::has_single_bit(unsigned(whole)) ? std::bit_floor(small) : small + std::has_single_bit(small));
 }
 
-int longest_side(const Layout& layout)
+/// The part of a layout's sides that its small picture has.
+double shrinking(const Layout& layout)
 {
-    int side = small_side;
+    int longest = small_side;
     for (const Output& output : layout.outputs)
-        side = std::max({side, output.size.x, output.size.y});
-    return side;
+        longest = std::max({longest, output.size.x, output.size.y});
+    return double(small_side) / longest;
 }
 
 Layout small_layout(Layout layout)
 {
-    const double part = double(small_side) / longest_side(layout);
+    const double part = shrinking(layout);
     for (Output& output : layout.outputs)
         output.size = {small_part(output.size.x, part), small_part(output.size.y, part)};
     return layout;
@@ -83,8 +84,7 @@ Layout small_layout(Layout layout)
 /// The quality with which a small picture's plans are of the same kinds as the layout's.
 Quality small_quality(Quality quality, const Layout& layout)
 {
-    const double part = double(small_side) / longest_side(layout);
-    quality.image_cost_texels *= part * part;
+    quality.image_cost_texels *= shrinking(layout) * shrinking(layout);
     return quality;
 }
 
