@@ -62,6 +62,11 @@ struct AlignmentKeys {
     int choose = 0, turn_by = 0;
 };
 
+/// For knowing whether somebody is there.
+struct Touches {
+    bool pressed = false; ///< a key, a button or a mouse button went down, whether it has a role or none
+};
+
 /// From a remote; applied before the frame's other controls.
 struct RemoteCommands {
     std::vector<Command> commands;
@@ -75,6 +80,7 @@ struct Controls : ControlTimes,
                   LabSwitches,
                   WindowSwitches,
                   AlignmentKeys,
+                  Touches,
                   RemoteCommands { };
 
 } // namespace starbow

@@ -46,6 +46,14 @@ const char* keyboard_help()
            "                start: instruments; right stick pressed: mark";
 }
 
+bool Keyboard::typed(std::string_view code)
+{
+    if (code.empty() || !typed_.ends_with(code))
+        return false;
+    typed_.clear();
+    return true;
+}
+
 void Keyboard::begin()
 {
     now_.fill(false);
@@ -67,6 +75,13 @@ void Keyboard::collect(GLFWwindow* window)
             return;
         std::uint8_t& presses = self.presses_[std::size_t(key)];
         presses = std::uint8_t(std::min(presses + 1, 255));
+    });
+    glfwSetCharCallback(window, [](GLFWwindow* of, unsigned int code) {
+        constexpr std::size_t most = 64;
+        Keyboard& self = *static_cast<Keyboard*>(glfwGetWindowUserPointer(of));
+        self.typed_ += code < 128 ? char(code) : '?';
+        if (self.typed_.size() > most)
+            self.typed_.erase(0, 1);
     });
     for (int key = GLFW_KEY_SPACE; key < keys && key <= GLFW_KEY_LAST; ++key)
         now_[key] = now_[key] || glfwGetKey(window, key) == GLFW_PRESS;
@@ -126,8 +141,12 @@ void Keyboard::finish(Controls& controls)
     controls.choose = pressed(GLFW_KEY_F3) ? (shift ? -1 : 1) : 0;
     controls.turn_by = (shift ? 10 : 1) * (pressed(GLFW_KEY_PAGE_UP) - pressed(GLFW_KEY_PAGE_DOWN));
     controls.save = pressed(GLFW_KEY_F5);
-    for (std::uint8_t& presses : presses_)
+    for (std::uint8_t& presses : presses_) {
+        controls.pressed |= presses > 0;
         presses -= presses > 0;
+    }
+    controls.pressed |= held_ && !was_held_;
+    was_held_ = held_;
     controls.turn = glm::clamp(controls.turn, -1.0, 1.0);
 }
 

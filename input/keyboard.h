@@ -2,6 +2,8 @@
 #include "pad.h"
 #include <array>
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <vector>
 
 struct GLFWwindow;
@@ -30,6 +32,9 @@ public:
         return controls;
     }
 
+    /// True once after these characters were typed in a row.
+    bool typed(std::string_view code);
+
 private:
     static constexpr int keys = 512;
     void begin();
@@ -45,10 +50,11 @@ private:
     /// Presses of each key that no reading has reported yet. Each reading reports one, so that quick taps in one slow frame
     /// all count, one frame after another.
     std::array<std::uint8_t, keys> presses_{};
+    std::string typed_; ///< the last characters
     PadButtons pads_;
     glm::dvec2 pointer_{0}, drag_{0};
     GLFWwindow* dragging_ = nullptr;
-    bool held_ = false;
+    bool held_ = false, was_held_ = false; ///< the mouse button, now and at the reading before
 };
 
 /// A line for people on each key and button.

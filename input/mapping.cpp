@@ -340,6 +340,8 @@ void Mapping::add(const DeviceState& state, std::int64_t now_ns, double dt_s, Co
         hat_waiting_.clear();
         return;
     }
+    for (const std::vector<std::int64_t>& of_field : state.presses)
+        controls.pressed |= !of_field.empty();
     for (Button& button : buttons_) {
         button.waiting = std::min(button.waiting + presses(button.field).size(), most_waiting);
         press(button.role, button.waiting, raw(button.field).value_or(0) != 0, controls);

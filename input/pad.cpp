@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace starbow {
 
@@ -62,7 +63,9 @@ void PadButtons::take(std::size_t joystick, const GLFWgamepadstate* state)
 {
     for (std::size_t button = 0; button < buttons; ++button) {
         const bool down = state && state->buttons[button] == GLFW_PRESS;
-        waiting_[button] += down && !down_[joystick][button];
+        const bool pressed = down && !down_[joystick][button];
+        pressed_ |= pressed;
+        waiting_[button] += pressed;
         down_[joystick][button] = down;
     }
 }
@@ -75,6 +78,7 @@ void PadButtons::add(Controls& controls)
             {GLFW_GAMEPAD_BUTTON_Y, &Controls::doppler}, {GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER, &Controls::headlight},
             {GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, &Controls::look_ahead}, {GLFW_GAMEPAD_BUTTON_RIGHT_THUMB, &Controls::mark},
             {GLFW_GAMEPAD_BUTTON_START, &Controls::overlay}, {GLFW_GAMEPAD_BUTTON_BACK, &Controls::hud}};
+    controls.pressed |= std::exchange(pressed_, false);
     for (const auto& [button, flag] : switches)
         if (waiting_[button] > 0 && !(controls.*flag))
             controls.*flag = true, --waiting_[button];

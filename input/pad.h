@@ -34,6 +34,7 @@ private:
     static constexpr std::size_t joysticks = 16, buttons = 15;
     std::array<std::array<bool, buttons>, joysticks> down_{};
     std::array<int, buttons> waiting_{}; ///< presses that no reading has reported yet
+    bool pressed_ = false; ///< any, since the last reading
 };
 
 } // namespace starbow

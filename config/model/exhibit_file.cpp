@@ -1,6 +1,7 @@
 #include "exhibit_file.h"
 #include "exposing_reader.h"
 #include "remote_reader.h"
+#include <algorithm>
 
 namespace starbow {
 namespace {
@@ -30,6 +31,26 @@ std::string name_or_path(const Place& place, const std::filesystem::path& folder
     return path ? (folder / name).lexically_normal().string() : name;
 }
 
+Visiting read_visiting(const Place& place, const std::filesystem::path& folder)
+{
+    reject_unknown_members(place, {"idle_s", "ask_s", "longest_s", "fade_s", "unlock", "attract"});
+    Visiting visiting;
+    take(place, "idle_s", visiting.idle_s, {5, 3600});
+    take(place, "ask_s", visiting.ask_s, {0, 300});
+    take(place, "longest_s", visiting.longest_s, {0, 86400});
+    take(place, "fade_s", visiting.fade_s, {0, 5});
+    if (auto unlock = find_member(place, "unlock")) {
+        visiting.unlock = text(*unlock);
+        const bool typeable = std::ranges::all_of(visiting.unlock, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z'); });
+        if (!typeable || visiting.unlock.size() < 4 || visiting.unlock.size() > 32)
+            complain(*unlock, "can't be typed blind; 4 to 32 small letters and digits are right");
+    }
+    if (auto attract = find_member(place, "attract"))
+        for (const Place& name : items(*attract, 0, 100, "tours"))
+            visiting.attract.push_back(name_or_path(name, folder));
+    return visiting;
+}
+
 } // namespace
 
 Exposing read_exposing(const Place& place)
@@ -56,7 +77,7 @@ Exhibit load_exhibit(const std::filesystem::path& file)
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
     reject_unknown_members(top,
         {"$schema", "layout", "scene", "shot", "tour", "language", "profiles", "tutorial", "quality", "frame_budget_ms",
-            "ladder", "flying", "exposure", "textfile", "remote"});
+            "ladder", "flying", "exposure", "textfile", "remote", "visit"});
     Exhibit exhibit;
     for (const auto& [name, value] :
         {std::pair{"layout", &exhibit.layout}, {"scene", &exhibit.scene}, {"shot", &exhibit.shot}, {"tour", &exhibit.tour},
@@ -82,6 +103,8 @@ Exhibit load_exhibit(const std::filesystem::path& file)
         exhibit.exposure = read_exposing(*p);
     if (auto p = find_member(top, "remote"))
         exhibit.remote = read_remote(*p, folder);
+    if (auto p = find_member(top, "visit"))
+        exhibit.visiting = read_visiting(*p, folder);
     return exhibit;
 }
 

@@ -2,7 +2,9 @@
 #include "exposing.h"
 #include "flying.h"
 #include "remote_file.h"
+#include "visiting.h"
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace starbow {
@@ -23,6 +25,7 @@ struct Exhibit {
     Flying flying;
     Exposing exposure;
     RemoteSettings remote;
+    std::optional<Visiting> visiting; ///< the exhibit attends to its visitors itself; none: somebody else does
 };
 
 /// Reads and checks an exhibit, without opening the files that it names. Throws InputError with file, line, JSON pointer,

@@ -55,6 +55,7 @@ enum class LogKind : std::uint8_t {
     record_ended,
     record_differs,
     lab_log_ended,
+    attraction_refused,
 };
 
 struct LogRule {
@@ -109,9 +110,10 @@ inline constexpr auto log_rules = std::to_array<LogRule>({
     {"record-ended", "135d7259fca14b5dba915cafd04fec0b", LogLevel::warning, "record"},
     {"record-differs", "0919d1228f1b4405963596bb12e09c62", LogLevel::warning, "record"},
     {"lab-log-ended", "1623209b10c543b1956dc4cfd256c7cc", LogLevel::warning, "log"},
+    {"attraction-refused", "672f0acf8a984782a9195c77537a2115", LogLevel::warning, "visit"},
 });
 
-static_assert(log_rules.size() == std::size_t(LogKind::lab_log_ended) + 1);
+static_assert(log_rules.size() == std::size_t(LogKind::attraction_refused) + 1);
 
 constexpr const LogRule& rule_of(LogKind kind) { return log_rules[std::size_t(kind)]; }
 

@@ -100,6 +100,14 @@ ExhibitOptions open(const RunOptions& options)
     exhibit_options.state = state_folder();
     exhibit_options.textfile = exhibit.textfile;
     exhibit_options.remote = exhibit.remote;
+    if (exhibit.visiting && options.tour.empty() && options.scene.empty() && options.shot.empty())
+        exhibit_options.visiting = exhibit.visiting;
+    if (exhibit_options.visiting)
+        for (std::size_t i = 0; i < exhibit.visiting->attract.size(); ++i)
+            attraction_of(exhibit_options, exhibit_options.words, i); // whatever is wrong in it is said now
+    if (exhibit_options.visiting && !options.record.empty() && !std::filesystem::is_directory(options.record))
+        throw InputError("--record " + options.record
+            + " is no folder; the exhibit records each visit in a file of its own, and a folder is right");
     exhibit_options.quality_name = std::filesystem::path(exhibit.quality).stem();
     return exhibit_options;
 }

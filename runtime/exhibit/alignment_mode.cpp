@@ -33,7 +33,7 @@ bool AlignmentMode::apply(const Controls& controls, Layout& layout)
 {
     const AlignmentKeys& keys = controls;
     if (controls.home || controls.reset)
-        pattern_ = first_;
+        show_first();
     if (keys.pattern) {
         pattern_ = Pattern((int(pattern_) + 1) % int(pattern_names.size()));
         write_log(LogKind::pattern_shown, std::string("test pattern: ") + pattern_names[std::size_t(pattern_)]);

@@ -26,6 +26,7 @@ public:
 
     void say(std::string line);
     void show(Pattern pattern) { pattern_ = pattern; }
+    void show_first() { pattern_ = first_; }
 
 private:
     void save(const Layout& layout);

@@ -4,6 +4,7 @@
 #include "config/model/layout.h"
 #include "config/model/profile.h"
 #include "config/model/remote_file.h"
+#include "config/model/visiting.h"
 #include "config/model/words.h"
 #include "programme.h"
 #include "runtime/flight/record.h"
@@ -26,6 +27,7 @@ struct ExhibitOptions {
     Exposing exposure{};
     std::vector<Profile> profiles{};
     bool tutorial = true;
+    std::optional<Visiting> visiting{}; ///< the exhibit attends to its visitors itself; none: somebody else does
     bool careful = false; ///< the exhibit starts with care after disorderly ends; for the service manager's status
     std::optional<Quality> quality{}; ///< none: the device's default
     double frame_budget_ms = 0; ///< time of a whole frame; 0: the quality stays fixed
@@ -33,7 +35,8 @@ struct ExhibitOptions {
     std::optional<bool> warms_up{}; ///< compiles all pipelines of the switches before the first frame; none: only on a GPU
     long frames = 0; ///< number of frames to show; 0: until the visitor leaves
     Pattern pattern = Pattern::none; ///< the first test pattern
-    std::filesystem::path record{}; ///< file or folder for the record; empty: no record
+    std::filesystem::path record{}; ///< file for the record, or folder, which receives one for each visit;
+                                      ///< empty: no record
     std::filesystem::path log{}; ///< CSV file of the instruments' readings; empty: none
     double log_every_s = 0; ///< interval of automatic lines; 0: only at a key
     std::filesystem::path replay{}; ///< a record that is flown instead of the visitor's flight; empty: none
@@ -49,9 +52,13 @@ struct ExhibitOptions {
     /// Takes the visitor's place: receives each frame's entry, its devices already read, and writes its own controls and
     /// time.
     std::function<void(RecordEntry&)> visitor{};
+    std::function<void(std::uint64_t)> visit_over{}; ///< receives the digest of the state that a visit's end has restored
     std::function<void()> reloaded{}; ///< is called after each changed layout, applied or refused
     std::function<bool()> over{}; ///< is called before each frame; true ends the flight
 };
+
+/// An attraction, counted on from 0: a tour, or the start of the flight where the exhibit has none. Throws InputError.
+Programme attraction_of(const ExhibitOptions& options, const Words& words, std::size_t number);
 
 /// Flies until the visitor leaves. Follows changes of the layout's files and of the monitors, and recovers from the loss
 /// of the GPU. Returns the exit status. Throws InputError or vk::SystemError for errors before

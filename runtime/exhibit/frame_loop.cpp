@@ -90,9 +90,10 @@ bool FrameLoop::fly_frame()
     if (session_.record_replay.replays() && !visible)
         return true; // a replay waits for a visible window
 
-    // Carry out a remote's commands and step the flight. From here on the controls may be a replay's.
+    // See whether somebody is there. Carry out a remote's commands and step the flight. From here on the controls may be a replay's.
     if (!session_.record_replay.play(entry))
         return false;
+    attend(entry);
     for (const Command& command : entry.controls.commands)
         carry_out(command, entry.controls);
     step(session_, entry, metered, context_.world.scene.seconds_per_time_unit());
@@ -287,7 +288,8 @@ Shot FrameLoop::set_up_frame(const Controls& controls)
     frame_->move_head(controls.head);
     frame_->meter(session_.options.exposure.automatic);
     frame_->bloom(session_.options.exposure.bloom);
-    frame_->fade(glm::smoothstep(0.0, 1.0, session_.directions.fade));
+    frame_->fade(
+        glm::smoothstep(0.0, 1.0, std::max(session_.directions.fade, blackness(session_.visit, session_.visiting))));
     Shot shot = shot_of(session_.flight, session_.programme.start.scene);
     shot.exposure_ev = ev_of(session_);
     session_.lab.request(*frame_, shot, session_.flight, context_.world, hud_.typesetter);

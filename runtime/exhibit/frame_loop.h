@@ -51,7 +51,13 @@ private:
     /// Throws InputError where a layout is wrong, or there is no memory for it.
     std::unique_ptr<FrameRenderer> renderer(
         const Layout& layout, const Quality& quality, std::optional<PreparedLayout> prepared = {});
-    void show_programme(Programme programme);
+    /// visitors: false where nobody is there to fly.
+    void show_programme(Programme programme, bool visitors = true);
+    void show_attraction(std::size_t number);
+    void record_visit();
+    /// Follows the visit by the frame's signs of somebody, and carries out what it asks for.
+    void attend(RecordEntry& entry);
+    void change_visitors(const VisitEvents& events, Controls& controls);
     void show_quality(const std::string& name);
     /// Carries out a remote's command; a refused one is logged with its reason and changes nothing.
     void carry_out(const Command& command, Controls& controls);

@@ -11,8 +11,8 @@
 
 namespace starbow {
 
-/// Shows a world and begins a visit in it. Throws InputError, for want of memory, too; then the old world is still shown.
-void FrameLoop::show_programme(Programme programme)
+/// Shows a programme, in its world, from the start. Throws InputError, for want of memory, too; then the old world is still shown.
+void FrameLoop::show_programme(Programme programme, bool visitors)
 {
     if (programme.scene != session_.programme.scene) {
         const LimitedWait loading("the world " + programme.scene.filename().string(), loading_limit_s);
@@ -29,7 +29,7 @@ void FrameLoop::show_programme(Programme programme)
         log_world(context_);
         fresh_ = true; // the first frame of a world is a part of its loading
     }
-    begin_visit(session_, std::move(programme));
+    begin_programme(session_, std::move(programme), visitors);
     return_free_memory(); // nobody sees a pause here
 }
 
@@ -54,11 +54,16 @@ void FrameLoop::carry_out(const Command& command, Controls& controls)
             show_programme(session_.options.programme);
             session_.lab.reset();
             controls.reset = true; // the switches' own states, too
+            if (session_.visit.touched_ns > 0)
+                count_visit(session_, 1e-9 * double(session_.visit.touched_ns));
+            session_.visit = begun(session_.visit);
             break;
         case CommandKind::scene:
         case CommandKind::shot:
         case CommandKind::tour:
             show_programme(programme_after(session_, command));
+            if (!in_hand(session_.visit))
+                session_.visit = begun(session_.visit); // by the docent
             break;
         case CommandKind::layout:
             session_.loader.open(load_layout(shipped_file("layouts", command.text)).file);

@@ -1,4 +1,5 @@
 #include "hud_updater.h"
+#include <cmath>
 
 namespace starbow {
 
@@ -17,7 +18,25 @@ const Panel* HudUpdater::update(const Session& session, const SceneFile& scene, 
     }
     const bool covers_pattern
         = session.alignment.pattern() != Pattern::none && session.alignment.says().empty() && !shows_pins(session);
-    return session.flight.hud && !covers_pattern ? &panel_ : nullptr;
+    const bool asks = seconds_left(session.visit, session.visiting).has_value();
+    return (session.flight.hud || asks) && !covers_pattern ? &panel_ : nullptr;
+}
+
+/// What the exhibit says of the visit, in the place of a tour's caption or below it.
+static void add_visit(const Session& session, Readings& shown)
+{
+    const Words& words = session.words;
+    if (const auto left = seconds_left(session.visit, session.visiting)) {
+        const char* key = session.visit.phase == VisitPhase::asking ? "visit.asking" : "visit.ending";
+        shown.caption = Caption{.text = words(key, {{"left", std::to_string(int(std::ceil(*left)))}})};
+    } else if (session.options.visiting && !in_hand(session.visit)) {
+        const std::string& begin = words(session.hid.capabilities().stick ? "visit.begin_stick" : "visit.begin_keys");
+        shown.prompt.clear();
+        if (shown.caption)
+            shown.caption->aside = begin;
+        else
+            shown.caption = Caption{.text = begin};
+    }
 }
 
 Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene, double exposure_ev) const
@@ -32,6 +51,7 @@ Readings HudUpdater::readings_of(const Session& session, const SceneFile& scene,
         shown.caption = session.guide->caption(words, capabilities);
     } else if (session.options.tutorial)
         shown.prompt = prompt(session.tutorial, capabilities, words);
+    add_visit(session, shown);
     if (shows_pins(session))
         shown.caption = Caption{.text = session.pins};
     else if (!session.directions.caption.empty())

@@ -26,6 +26,8 @@ public:
     void request(
         FrameRenderer& frame, const Shot& shot, const Flight& flight, const GpuWorld& world, const Typesetter& typesetter);
 
+    /// True where an instrument, a page or a mark is on.
+    bool shows_anything() const { return on() || marks_[0] || marks_[1]; }
     /// Another world: its marks and readings are gone.
     void forget() { marks_ = {}, measured_.reset(), marks_due_ = lines_due_ = 0; }
     /// Another visitor: the instruments are off, as at the start.

@@ -131,28 +131,35 @@ Programme programme_after(const Session& session, const Command& command)
     }
 }
 
-void begin_visit(Session& session, Programme programme)
+void begin_programme(Session& session, Programme programme, bool visitors)
 {
     session.guide.reset(); // it refers to the programme
     session.programme = std::move(programme);
-    if (std::optional<Guide> guide = guide_of(session.programme, session.rules))
+    if (std::optional<Guide> guide = guide_of(session.programme, session.rules, visitors))
         session.guide.emplace(std::move(*guide));
+    if (!session.options.visiting)
+        session.visiting = counted_by(session.programme);
     session.flight = flight_at(session.programme.start, session.rules);
     session.history = {};
     session.tutorial = tutorial_at(session.flight);
     session.lab.forget();
 }
 
-void forget_directions(Session& session)
+void forget_visitor(Session& session)
 {
-    session.directions = {};
     session.words = session.options.words;
     forget_language(session.options.state);
+    session.exposure = {};
+}
+
+void forget_directions(Session& session)
+{
+    forget_visitor(session);
+    session.directions = {};
     session.rules = session.options.rules;
     session.quality = session.options.quality, session.quality_name = session.options.quality_name;
     if (!session.governor)
         session.governor = governor_of(session.options);
-    session.exposure.locked = false;
 }
 
 } // namespace starbow

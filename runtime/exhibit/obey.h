@@ -12,10 +12,13 @@ void obey(Session& session, const Command& command, Controls& controls);
 /// The programme that a command leads to: scene, shot, tour, or reset to the exhibit's own. Throws InputError.
 Programme programme_after(const Session& session, const Command& command);
 
-/// Begins a visit of a programme, at its start.
-void begin_visit(Session& session, Programme programme);
+/// Shows a programme from its start. visitors: false where nobody is there to fly, and to answer a tour's questions.
+void begin_programme(Session& session, Programme programme, bool visitors = true);
 
-/// Everything as the exhibit's file says, but for the programme and the layout.
+/// Everything that a visitor can change, but for the programme and the instruments, is as the exhibit's file says.
+void forget_visitor(Session& session);
+
+/// The same of all that a docent can change, but for the layout.
 void forget_directions(Session& session);
 
 } // namespace starbow

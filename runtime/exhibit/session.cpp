@@ -16,14 +16,11 @@ namespace {
 
 RecordReplay record_replay_of(const ExhibitOptions& options)
 {
-    std::unique_ptr<Recorder> recorder;
-    if (!options.record.empty())
-        recorder = std::make_unique<Recorder>(options.record,
-            header_of(options.programme.scene, options.layout, options.programme.start, options.rules, options.exposure,
-                pattern_names[std::size_t(options.pattern)]),
-            write_log);
-    return {std::move(recorder), options.replay.empty() ? nullptr : std::make_unique<Replay>(options.replay)};
+    // Where the exhibit attends to its visitors, each of them has a record, from the visit's beginning on.
+    return {options.record.empty() || options.visiting ? nullptr : recorder_of(options),
+        options.replay.empty() ? nullptr : std::make_unique<Replay>(options.replay)};
 }
+
 
 /// A visitor's hands do nothing while a docent holds the exhibit. Devices and the head tracker are read as always.
 void hold(Controls& controls)
@@ -36,11 +33,65 @@ void hold(Controls& controls)
     static_cast<LabSwitches&>(controls) = {};
 }
 
+/// In an exhibit that nobody attends to, visitors press every key there is.
+void lock_builders_keys(Session& session, Controls& controls)
+{
+    constexpr std::chrono::minutes unlocked_for(10);
+    if (session.keyboard.typed(session.options.visiting->unlock)) {
+        session.locked_from = session.last + unlocked_for;
+        session.alignment.say("The builder's keys are unlocked for ten minutes");
+    }
+    if (session.last < session.locked_from)
+        return;
+    static_cast<AlignmentKeys&>(controls) = {};
+    controls.full_screen = controls.quit = controls.log = false;
+}
+
 } // namespace
+
+Visiting counted_by(const Programme& programme)
+{
+    return {.idle_s = programme.tour ? programme.tour->again_after_s : Visiting().idle_s, .ask_s = 0, .fade_s = 0};
+}
+
+bool knows_visitor(const Session& session)
+{
+    return in_hand(session.visit) && (session.options.visiting || session.visit.touched_ns > 0);
+}
+
+void count_visit(Session& session, double length_s)
+{
+    session.diary.count([&](Tally& tally) { ++tally.visits, tally.visits_s += length_s; });
+}
+
+Programme attraction_of(const ExhibitOptions& options, const Words& words, std::size_t number)
+{
+    const std::vector<std::string>& attract = options.visiting->attract;
+    return attract.empty() ? options.programme : programme_of_tour(attract[number % attract.size()], words);
+}
+
+std::uint64_t digest(const Session& session)
+{
+    std::string text = session.programme.scene.string() + '\n' + session.programme.tour_name + '\n'
+        + session.words("hud.speed") + '\n' + std::to_string(int(session.alignment.pattern()))
+        + std::to_string(session.tutorial.lesson) + std::to_string(session.exposure.locked)
+        + std::to_string(session.history.empty()) + std::to_string(session.lab.shows_anything());
+    return digest(text, digest(session.flight));
+}
+
+std::unique_ptr<Recorder> recorder_of(const ExhibitOptions& options)
+{
+    return std::make_unique<Recorder>(options.record,
+        header_of(options.programme.scene, options.layout, options.programme.start, options.rules, options.exposure,
+            pattern_names[std::size_t(options.pattern)]),
+        write_log);
+}
 
 Session::Session(const ExhibitOptions& given)
     : options(given)
-    , programme(given.programme)
+    , visiting(given.visiting.value_or(counted_by(given.programme)))
+    , visit(given.visiting ? Visit{} : begun({}))
+    , programme(given.visiting ? attraction_of(given, given.words, 0) : given.programme)
     , words(given.words)
     , rules(given.rules)
     , quality(given.quality)
@@ -48,7 +99,7 @@ Session::Session(const ExhibitOptions& given)
     , layout(given.layout)
     , kept(layout)
     , loader(layout)
-    , guide(guide_of(programme, given.rules))
+    , guide(guide_of(programme, given.rules, !given.visiting))
     , flight(flight_at(programme.start, given.rules))
     , tutorial(tutorial_at(flight))
     , record_replay(record_replay_of(given))
@@ -61,11 +112,11 @@ Session::Session(const ExhibitOptions& given)
 {
 }
 
-std::optional<Guide> guide_of(const Programme& programme, const Flying& rules)
+std::optional<Guide> guide_of(const Programme& programme, const Flying& rules, bool visitors)
 {
     if (!programme.tour)
         return {};
-    return Guide(*programme.tour, rules, load_scene_file(programme.scene).seconds_per_time_unit());
+    return Guide(*programme.tour, rules, load_scene_file(programme.scene).seconds_per_time_unit(), visitors);
 }
 
 std::optional<Governor> governor_of(const ExhibitOptions& options)
@@ -175,20 +226,16 @@ bool read_controls(Session& session, std::span<GLFWwindow* const> windows, Recor
     session.hid.add(dt_s, controls);
     if (session.tracker)
         controls.head = session.tracker->read(now);
-    if (session.directions.holds)
-        hold(controls);
     session.last = now;
     if (session.options.visitor)
         session.options.visitor(entry);
-    return !controls.quit;
-}
-
-static void count_visitor(Session& session, bool touched, bool reset, double dt_s)
-{
-    const double ended_s = session.visits.add(dt_s, touched, reset);
-    session.visited_s += session.visits.going_on() ? dt_s : 0;
-    if (ended_s > 0)
-        session.diary.count([&](Tally& tally) { ++tally.visits, tally.visits_s += ended_s; });
+    session.somebody = session.presence.take(controls, dt_s);
+    if (session.options.visiting)
+        lock_builders_keys(session, controls);
+    const bool quits = controls.quit;
+    if (session.directions.holds || (session.options.visiting && !in_hand(session.visit)))
+        hold(controls);
+    return !quits;
 }
 
 void count_frame(Session& session, double frame_s, double refresh_hz)
@@ -234,7 +281,6 @@ void step(Session& session, RecordEntry& entry, const std::optional<double>& met
     const Shot& start = session.programme.start;
     const Controls& controls = entry.controls;
     const double dt_s = 1e-9 * double(entry.dt_ns);
-    const double lever = session.flight.lever;
     const bool toured = session.guide && !session.guide->over();
     session.flight = session.guide
         ? session.guide->flown(controls, entry.dt_ns)
@@ -247,7 +293,6 @@ void step(Session& session, RecordEntry& entry, const std::optional<double>& met
     entry.exposure_ev = session.exposure.ev;
     session.record_replay.keep(entry, session.flight);
     session.tutorial = advance(session.tutorial, controls, session.flight, dt_s);
-    count_visitor(session, touched(controls, session.flight.lever, lever), controls.reset, dt_s);
     if (toured && session.guide->over())
         session.diary.count([](Tally& tally) { ++tally.tours_finished; });
     Directions& directions = session.directions;

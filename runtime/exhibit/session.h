@@ -5,12 +5,14 @@
 #include "input/head_tracker.h"
 #include "input/hid.h"
 #include "input/keyboard.h"
+#include "input/presence.h"
 #include "lab.h"
 #include "layout_loader.h"
 #include "runtime/flight/flight.h"
 #include "runtime/flight/history.h"
 #include "runtime/flight/record_replay.h"
 #include "runtime/flight/tutorial.h"
+#include "runtime/flight/visit.h"
 #include "runtime/light/exposure.h"
 #include "runtime/operation/diary.h"
 #include "runtime/operation/governor.h"
@@ -42,6 +44,11 @@ struct Session {
 
     const ExhibitOptions& options;
     Service service{};
+    Visiting visiting; ///< the exhibit's rules; where somebody else attends to the visitors, those that count them
+    Visit visit;
+    Presence presence{};
+    Clock::time_point locked_from{}; ///< the builder's keys, where the exhibit attends to its visitors
+    bool somebody = false; ///< has touched a control in this frame
     Programme programme; ///< the shown one
     Words words; ///< for the visitors' texts
     Flying rules; ///< of the visitors' flight
@@ -67,7 +74,6 @@ struct Session {
     Lab lab;
     double frame_s = 0; ///< the mean time of the last frames, s
     Diary diary;
-    VisitCounter visits{};
     double visited_s = 0; ///< time with a visitor that the diary lacks
     std::size_t unplugged = 0; ///< devices, as last counted
     Skew skew{};
@@ -86,10 +92,21 @@ double wait_limit_s(const Service& service);
 
 inline double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
+/// The rules by which visits are counted where somebody else attends to them.
+Visiting counted_by(const Programme& programme);
+/// True while somebody's visit goes on.
+bool knows_visitor(const Session& session);
+/// Counts a visit that has ended, from its beginning to its last touch.
+void count_visit(Session& session, double length_s);
+/// The digest of all that a visitor can change.
+std::uint64_t digest(const Session& session);
+/// A recorder of the exhibit's flight from its start on. Throws InputError as Recorder does.
+std::unique_ptr<Recorder> recorder_of(const ExhibitOptions& options);
 /// The head tracker of a layout; null where it has none.
 std::unique_ptr<HeadTracker> tracker_of(const Layout& layout);
-/// The guide of a programme's tour, at its beginning; none without a tour. The programme must outlive it.
-std::optional<Guide> guide_of(const Programme& programme, const Flying& rules);
+/// The guide of a programme's tour, at its beginning; none without a tour. The programme must outlive it. visitors: as the
+/// guide's.
+std::optional<Guide> guide_of(const Programme& programme, const Flying& rules, bool visitors);
 /// The governor of an exhibit's frame time; none where its quality is fixed.
 std::optional<Governor> governor_of(const ExhibitOptions& options);
 /// The spectral level that the qualities request; none: the world's own need.

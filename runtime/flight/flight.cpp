@@ -111,13 +111,6 @@ Flight step(Flight flight, const Controls& controls, std::int64_t dt_ns, const F
     return flight;
 }
 
-bool touched(const Controls& controls, double lever, double lever_before)
-{
-    return controls.throttle_rate != 0 || controls.push != glm::dvec3(0) || controls.turn != glm::dvec3(0)
-        || controls.look_rad != glm::dvec2(0) || std::abs(lever - lever_before) > 0.005 || controls.stop || controls.home
-        || controls.undo || controls.reset || controls.next_mode || controls.freeze;
-}
-
 Shot shot_of(const Flight& flight, const std::string& scene)
 {
     Shot shot = shot_of(flight.ship);

@@ -53,9 +53,6 @@ Flight flight_at(const Shot& start, const Flying& rules = {});
 Flight step(Flight flight, const Controls& controls, std::int64_t dt_ns, const Flying& rules, double seconds_per_time_unit,
     const Shot& start);
 
-/// True if a hand is at the controls in this frame. lever: its place after the frame's step, and before it.
-bool touched(const Controls& controls, double lever, double lever_before);
-
 /// The arguments of the picture: the flight's instant as a shot, with the head turned.
 Shot shot_of(const Flight& flight, const std::string& scene);
 

@@ -14,6 +14,8 @@ public:
     /// in between are dropped, so that a second call leads further back.
     Flight back(const Flight& now);
 
+    bool empty() const { return kept_.empty(); }
+
 private:
     std::deque<Flight> kept_;
 };

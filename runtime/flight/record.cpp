@@ -17,7 +17,7 @@ template <class... Parts> constexpr bool controls_have(Parts...)
     &&!requires { Controls{Parts{}..., {}}; };
 }
 static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitches{}, LabSwitches{}, WindowSwitches{},
-    AlignmentKeys{}, RemoteCommands{}));
+    AlignmentKeys{}, Touches{}, RemoteCommands{}));
 
 /// Compiles only while these structs have exactly the members named here, whatever their sizes. A new member belongs in
 /// the record, or in the digest, as well.
@@ -33,6 +33,7 @@ static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitche
     [[maybe_unused]] const auto& [hud, full_screen, quit] = static_cast<const WindowSwitches&>(c);
     [[maybe_unused]] const auto& [aberration_on, doppler_on, headlight_on, comparison_shown, false_colours_on] = s.effects;
     [[maybe_unused]] const auto& [pattern, save, choose, turn_by] = static_cast<const AlignmentKeys&>(c);
+    [[maybe_unused]] const auto& [key_pressed] = static_cast<const Touches&>(c); // not kept: a record is one visit
     [[maybe_unused]] const auto& [commands] = static_cast<const RemoteCommands&>(c);
     [[maybe_unused]] const auto& [mode, max_gamma, turn_deg_per_s, roll_deg_per_s, turn_jerk_deg_per_s3, rapidity_per_s,
         rapidity_jerk_per_s2]

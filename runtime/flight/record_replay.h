@@ -24,6 +24,8 @@ public:
     bool play(RecordEntry& entry);
     /// Records the frame, or compares its result with the record.
     void keep(const RecordEntry& entry, const Flight& flight);
+    /// A record begins.
+    void record(std::unique_ptr<Recorder> recorder) { recorder_ = std::move(recorder); }
     /// Ends the record or the replay of a flight that ended properly. say: receives lines for people. Returns false if a
     /// replay differed in any bit.
     bool end(const Flight& flight, const std::function<void(std::string)>& say);

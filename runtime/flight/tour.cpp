@@ -61,7 +61,6 @@ void hand_over(Touring& now, const Flying& rules)
     now.flight.throttle_rate = 0;
     now.flight.thrust = now.flight.turn_rad_s = now.flight.turn_lead_rad_s = glm::dvec3(0);
     now.flight.homing.reset();
-    now.idle_s = 0;
 }
 
 /// Begins the step of the last start, with motion, effects and exposure from `now.flight`.
@@ -194,13 +193,11 @@ void run_question(Touring& now, const Show& show, const Controls& controls, doub
 /// The visitor flies; the tour's own controls do not reach the ship.
 void fly_by_hand(Touring& now, const Show& show, Controls controls, std::int64_t dt_ns, const Flying& rules)
 {
-    const double lever = now.flight.lever;
     controls.home = controls.home && now.over;
     controls.undo = controls.reset = false;
     controls.exposure = 0; // the tour itself applies it
     now.flight = step(
         now.flight, controls, dt_ns, rules, show.seconds_per_time_unit, std::get<Cut>(show.tour.steps[0].motion).shot);
-    now.idle_s = touched(controls, now.flight.lever, lever) ? 0 : now.idle_s + double(dt_ns) / second_ns;
 }
 
 /// Applies the controls that work at any time. Returns true if they lead to another place in the tour.
@@ -292,7 +289,7 @@ Touring advance(Touring now, const Show& show, const Controls& controls, std::in
     if (now.over) {
         if (show.visitors)
             fly_by_hand(now, show, controls, dt_ns, show.rules);
-        return now.idle_s > show.tour.again_after_s ? touring_at(show) : now;
+        return now;
     }
     if (now.paused)
         return now;

@@ -27,8 +27,7 @@ struct Touring {
     Flight flight; ///< now
     double brighter_ev = 0; ///< the visitor's change of the exposure
     bool paused = false;
-    bool over = false; ///< the tour has ended: the visitor flies until nobody touches anything
-    double idle_s = 0; ///< since the last touch, where the visitor flies
+    bool over = false; ///< the tour has ended: the visitor flies
     // The question of the step.
     int chosen = -1; ///< index of the chosen answer; -1: none yet
     double number = 0; ///< the visitor's number

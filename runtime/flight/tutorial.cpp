@@ -4,22 +4,16 @@
 
 namespace starbow {
 
-Tutorial tutorial_at(const Flight& flight) { return {.begun_at = rapidity_of(flight.ship), .lever = flight.lever}; }
+Tutorial tutorial_at(const Flight& flight) { return {.begun_at = rapidity_of(flight.ship)}; }
 
 Tutorial advance(Tutorial tutorial, const Controls& controls, const Flight& flight, double dt_s)
 {
-    const bool hand = touched(controls, flight.lever, tutorial.lever);
-    tutorial.idle_s = hand ? 0 : tutorial.idle_s + dt_s;
-    if (hand)
-        tutorial.lever = flight.lever;
-    if (tutorial.idle_s > visit_over_s)
-        return tutorial_at(flight);
     tutorial.turned_rad += std::hypot(flight.turn_rad_s.x, flight.turn_rad_s.y) * dt_s;
     const double speed = rapidity_of(flight.ship);
     const bool done[] = {std::abs(speed - tutorial.begun_at) > lesson_rapidity, tutorial.turned_rad > lesson_turn_rad,
         controls.stop || controls.home};
     if (tutorial.lesson < lessons && done[tutorial.lesson])
-        tutorial = {.lesson = tutorial.lesson + 1, .begun_at = speed, .lever = flight.lever};
+        tutorial = {.lesson = tutorial.lesson + 1, .begun_at = speed};
     return tutorial;
 }
 

@@ -6,18 +6,15 @@
 
 namespace starbow {
 
-/// A visitor's first minute: go, turn, stop. Each prompt disappears when its task is done. After a while without any
-/// control the tutorial begins anew for the next visitor.
+/// A visitor's first minute: go, turn, stop. Each prompt disappears when its task is done.
 struct Tutorial {
     int lesson = 0; ///< index of the lesson; beyond the last there is no prompt
     double begun_at = 0; ///< rapidity when the lesson began
     double turned_rad = 0; ///< angle that the nose has turned since the lesson began
-    double idle_s = 0; ///< since the last control
-    double lever = 0; ///< the lever at the last step
 };
 
 constexpr int lessons = 3;
-constexpr double lesson_rapidity = 0.3, lesson_turn_rad = 0.35, visit_over_s = 90;
+constexpr double lesson_rapidity = 0.3, lesson_turn_rad = 0.35;
 
 Tutorial tutorial_at(const Flight& flight);
 

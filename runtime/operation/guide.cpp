@@ -14,6 +14,12 @@ const Flight& Guide::flown(const Controls& controls, std::int64_t dt_ns)
     return touring_.flight;
 }
 
+void Guide::again()
+{
+    touring_ = touring_at(show_);
+    automatic_ = over_s_ = 0;
+}
+
 double Guide::shown_ev(const Exposure& adapted, const Exposing& rules) const
 {
     const double tours = touring_.flight.exposure_ev, turned = std::clamp(tours + touring_.brighter_ev, -60.0, 60.0);

@@ -10,9 +10,10 @@ namespace starbow {
 /// Runs a tour in an exhibit.
 class Guide {
 public:
-    /// The tour must outlive the guide. seconds_per_time_unit: of its scene.
-    Guide(const Tour& tour, const Flying& rules, double seconds_per_time_unit)
-        : show_{tour, rules, seconds_per_time_unit, true}
+    /// The tour must outlive the guide. seconds_per_time_unit: of its scene. visitors: false where nobody is there to fly and
+    /// to answer.
+    Guide(const Tour& tour, const Flying& rules, double seconds_per_time_unit, bool visitors = true)
+        : show_{tour, rules, seconds_per_time_unit, visitors}
         , touring_(touring_at(show_))
     {
     }
@@ -24,6 +25,8 @@ public:
     bool over() const { return touring_.over; }
     bool paused() const { return touring_.paused; }
     std::size_t step() const { return touring_.step(); } ///< counted from 0
+    /// The tour begins anew.
+    void again();
     /// The tour stands still, or goes on.
     void pause(bool on) { touring_.paused = on; }
     /// The visitor's greatest gamma from now on.

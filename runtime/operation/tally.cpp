@@ -158,19 +158,4 @@ std::string exposition_of(const Tally& since_start, const Gauges& now)
     return out.text;
 }
 
-double VisitCounter::add(double dt_s, bool touched, bool reset)
-{
-    double ended = 0;
-    if (going_on_) {
-        idle_s_ += dt_s;
-        if (touched)
-            length_s_ += idle_s_, idle_s_ = 0;
-        if (idle_s_ >= over_after_s || reset)
-            ended = std::max(length_s_, 1e-9), going_on_ = false;
-    } else if (touched && !reset) {
-        going_on_ = true, length_s_ = idle_s_ = 0;
-    }
-    return ended;
-}
-
 } // namespace starbow

@@ -46,17 +46,4 @@ struct Gauges {
 /// The text of a Prometheus exposition, version 0.0.4: https://prometheus.io/docs/instrumenting/exposition_formats/
 std::string exposition_of(const Tally& since_start, const Gauges& now);
 
-/// Counts visits: one begins with a touch, and ends when nobody has touched anything for half a minute, or with a reset.
-class VisitCounter {
-public:
-    static constexpr double over_after_s = 30;
-    /// Adds a frame; dt_s: its time. Returns the length of a visit that has ended, from its first to its last touch.
-    double add(double dt_s, bool touched, bool reset);
-    bool going_on() const { return going_on_; }
-
-private:
-    bool going_on_ = false;
-    double length_s_ = 0, idle_s_ = 0;
-};
-
 } // namespace starbow

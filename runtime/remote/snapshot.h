@@ -14,6 +14,7 @@ struct Snapshot {
     std::string pattern; ///< one of pattern_names; "none" or empty: the world
     int step = 0, steps = 0; ///< of the tour, the first one 1; 0: no tour
     bool paused = false, fade = false, hold = false;
+    std::string visit; ///< one of visit_phase_names
     Effects effects;
     double speed = 0; ///< v/c
     double gamma = 1;

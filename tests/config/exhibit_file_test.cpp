@@ -40,9 +40,11 @@ TEST(ExhibitFileTest, ShippedExhibitsNameExistingFiles)
         EXPECT_NO_THROW(load_layout(shipped_file("layouts", exhibit.layout)));
         EXPECT_NO_THROW(shipped_file("scenes", exhibit.scene));
         EXPECT_NO_THROW(words_in(exhibit.language));
+        for (const std::string& tour : exhibit.visiting.value_or(Visiting()).attract)
+            EXPECT_NO_THROW(shipped_file("tours", tour));
         ++count;
     }
-    EXPECT_GE(count, 3);
+    EXPECT_GE(count, 4);
 }
 
 TEST(ExhibitFileTest, EveryMemberIsRead)
@@ -52,7 +54,8 @@ TEST(ExhibitFileTest, EveryMemberIsRead)
         "frame_budget_ms": 16.5, "ladder": "own/ladder.json",
         "flying": { "mode": "newtonian", "max_gamma": 50, "turn_deg_per_s": 11, "roll_deg_per_s": 12,
                     "turn_jerk_deg_per_s3": 13, "rapidity_per_s": 0.14, "rapidity_jerk_per_s2": 0.15 },
-        "exposure": { "automatic": false, "min_ev": -16, "max_ev": 1.7, "bloom": 0.18 } })";
+        "exposure": { "automatic": false, "min_ev": -16, "max_ev": 1.7, "bloom": 0.18 },
+        "visit": { "idle_s": 61, "ask_s": 11, "longest_s": 300, "fade_s": 0.5, "unlock": "red5", "attract": ["rainbow", "own/tour.json"] } })";
     EXPECT_TRUE(schema_accepts(json::parse(text)));
     const auto file = write_text("exhibit.json", text);
     const Exhibit exhibit = load_exhibit(file);
@@ -77,6 +80,14 @@ TEST(ExhibitFileTest, EveryMemberIsRead)
     EXPECT_EQ(exhibit.exposure.min_ev, -16);
     EXPECT_EQ(exhibit.exposure.max_ev, 1.7);
     EXPECT_EQ(exhibit.exposure.bloom, 0.18);
+    ASSERT_TRUE(exhibit.visiting);
+    EXPECT_EQ(exhibit.visiting->idle_s, 61);
+    EXPECT_EQ(exhibit.visiting->ask_s, 11);
+    EXPECT_EQ(exhibit.visiting->longest_s, 300);
+    EXPECT_EQ(exhibit.visiting->fade_s, 0.5);
+    EXPECT_EQ(exhibit.visiting->unlock, "red5");
+    EXPECT_EQ(exhibit.visiting->attract, (std::vector<std::string>{"rainbow", folder / "own/tour.json"}));
+    EXPECT_FALSE(load_exhibit(write_text("exhibit.json", "{}")).visiting);
 }
 
 TEST(ExhibitFileTest, TheSchemasDefaultsAreTheReaders)
@@ -86,9 +97,10 @@ TEST(ExhibitFileTest, TheSchemasDefaultsAreTheReaders)
     for (const auto& [name, node] : schema["properties"].items())
         if (node.contains("default"))
             defaults[name] = node["default"];
-    for (const char* part : {"flying", "exposure"})
+    for (const char* part : {"flying", "exposure", "visit"})
         for (const auto& [name, node] : schema["properties"][part]["properties"].items())
-            defaults[part][name] = node.at("default");
+            if (name != "unlock") // there is none
+                defaults[part][name] = node.at("default");
     const Exhibit from_schema = load_exhibit(write_text("exhibit.json", defaults.dump())),
                   from_reader = load_exhibit(write_text("own.json", "{}"));
     EXPECT_EQ(from_schema.layout, from_reader.layout);
@@ -107,6 +119,12 @@ TEST(ExhibitFileTest, TheSchemasDefaultsAreTheReaders)
     EXPECT_EQ(from_schema.exposure.min_ev, from_reader.exposure.min_ev);
     EXPECT_EQ(from_schema.exposure.max_ev, from_reader.exposure.max_ev);
     EXPECT_EQ(from_schema.exposure.bloom, from_reader.exposure.bloom);
+    const Visiting usual;
+    EXPECT_EQ(from_schema.visiting->idle_s, usual.idle_s);
+    EXPECT_EQ(from_schema.visiting->ask_s, usual.ask_s);
+    EXPECT_EQ(from_schema.visiting->longest_s, usual.longest_s);
+    EXPECT_EQ(from_schema.visiting->fade_s, usual.fade_s);
+    EXPECT_EQ(from_schema.visiting->attract, usual.attract);
 }
 
 TEST(ExhibitFileTest, WrongExhibitsAreRefusedByReaderAndSchema)
@@ -121,7 +139,12 @@ TEST(ExhibitFileTest, WrongExhibitsAreRefusedByReaderAndSchema)
              {R"({ "flying": { "turn_jerk_deg_per_s3": -1 } })", "/flying/turn_jerk_deg_per_s3: -1"},
              {R"({ "exposure": { "bloom": 1.5 } })", "/exposure/bloom: 1.5 is too large"},
              {R"({ "exposure": { "min_ev": -61 } })", "/exposure/min_ev: -61"},
-             {R"({ "exposure": { "ev": 0 } })", "/exposure"}}) {
+             {R"({ "exposure": { "ev": 0 } })", "/exposure"}, {R"({ "visit": { "idle_s": 4 } })", "/visit/idle_s: 4 is too small"},
+             {R"({ "visit": { "unlock": "abc" } })", "/visit/unlock: \"abc\""}, {R"({ "visit": { "unlock": "ABCD" } })", "/visit/unlock"},
+             {R"({ "visit": { "fade_s": 6 } })", "/visit/fade_s: 6 is too large"},
+             {R"({ "visit": { "attract": "rainbow" } })", "/visit/attract"},
+             {R"({ "visit": { "attract": [""] } })", "/visit/attract/0"}, {R"({ "visit": true })", "/visit"},
+             {R"({ "visit": { "ask": 1 } })", "/visit"}}) {
         EXPECT_NE(message_for(text).find(problem), std::string::npos) << message_for(text);
         EXPECT_FALSE(schema_accepts(json::parse(text))) << text;
     }

@@ -110,30 +110,6 @@ TEST(Tally, ASumIsThatOfItsPartsAndSurvivesItsFile)
     }
 }
 
-TEST(Visits, BeginWithATouchAndEndAfterHalfAMinuteOfNone)
-{
-    VisitCounter visits;
-    std::vector<double> ended;
-    const auto pass = [&](double s, bool touched, bool reset = false) {
-        for (double t = 0; t < s - 1e-9; t += 0.25)
-            if (const double length = visits.add(0.25, touched, reset); length > 0)
-                ended.push_back(length);
-    };
-    pass(100, false); // nobody
-    EXPECT_FALSE(visits.going_on());
-    pass(20, true), pass(29, false), pass(10, true); // one visitor who thinks for 29 s
-    EXPECT_TRUE(visits.going_on());
-    EXPECT_TRUE(ended.empty());
-    pass(40, false);
-    ASSERT_EQ(ended.size(), 1u);
-    EXPECT_NEAR(ended[0], 59, 0.6); // from the first touch to the last one
-    pass(5, true), pass(0.25, false, true); // a docent's reset ends a visit
-    ASSERT_EQ(ended.size(), 2u);
-    EXPECT_NEAR(ended[1], 5, 0.6);
-    pass(60, false);
-    EXPECT_EQ(ended.size(), 2u);
-}
-
 TEST(Diary, EachHourHasItsOwnCountsAndARestartContinuesThem)
 {
     const fs::path state = empty_folder("diary");

@@ -19,6 +19,7 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <unistd.h>
 
 namespace starbow {
@@ -36,7 +37,12 @@ struct SoakOptions {
 Use use_of(const std::string& name) { return Use(std::ranges::find(use_names, name) - use_names.begin()); }
 
 constexpr double frame_s = 0.08; ///< the visitor's time of a frame: "some seconds" are some dozens of frames
-constexpr int resting_frames = 3; ///< after a reset, before a sample is taken
+constexpr int resting_frames = 3; ///< after a visit, before a sample is taken
+/// Visitors are asked for, and sent away, within frames.
+const Visiting visiting{.idle_s = 2 * frame_s, .ask_s = frame_s, .fade_s = 2 * frame_s};
+constexpr int waking_frames = 3; ///< in which a visitor takes the stick, and the exhibit fades to the flight
+/// A visit does not end by itself while a docent's tour runs, or while a docent holds the exhibit: then a reset ends it.
+constexpr int most_lingering_frames = 12;
 /// A visitor stays until the saved layout is shown, so that each one is; not longer, for a device that is lost meanwhile is
 /// opened with the newest layout.
 constexpr int most_waiting_frames = 300;
@@ -120,6 +126,14 @@ public:
     }
 
     void reloaded() { saved_ = false; }
+    /// state: the digest of what the visit's end has restored.
+    void visit_over(std::uint64_t state)
+    {
+        over_ = true;
+        first_state_ = first_state_.value_or(state);
+        other_states_ += state != *first_state_;
+    }
+    long other_states() const { return other_states_; } ///< visits whose end left another state than the first one's
     bool over() const { return visit_ >= options_.visits || interrupted(); }
 
     void act(RecordEntry& entry)
@@ -134,19 +148,22 @@ public:
         // The exhibit reads it beside its frames, once the file rests.
         if (left_ == 0 && saved_ && waited_++ < most_waiting_frames)
             return;
-        if (left_-- > 0)
-            return visitor_->act(entry.controls, frame_s);
-        if (left_ == -1)
-            entry.controls.commands.push_back({.kind = CommandKind::reset});
-        else if (left_ <= -1 - resting_frames)
+        if (woken_++ < waking_frames)
+            entry.controls.pressed = true;
+        else if (left_-- > 0)
+            visitor_->act(entry.controls, frame_s);
+        else if (use_ == Use::visitors ? over_ && rested_++ >= resting_frames : left_ <= -resting_frames)
             end();
+        else if (use_ == Use::visitors ? !over_ && left_ == -most_lingering_frames : left_ == -1)
+            entry.controls.commands.push_back({.kind = CommandKind::reset});
     }
 
 private:
     void begin()
     {
         visitor_ = std::make_unique<SeededVisitor>(use_, std::uint64_t(options_.seed), visit_, choices_);
-        left_ = visitor_->frames(), waited_ = 0;
+        left_ = visitor_->frames(), waited_ = rested_ = 0, over_ = false;
+        woken_ = use_ == Use::visitors ? 0 : waking_frames;
         if (use_ == Use::reloads)
             folder_.save(visit_ * (turn / 2)); // the other layouts and the first one in turn
         else if (use_ == Use::visitors && (visit_ % (turn / 2) == 0 || unsaved_))
@@ -186,7 +203,10 @@ private:
     Choices choices_;
     Use use_;
     long visit_, frames_ = 0;
-    int left_ = 0, waited_ = 0; ///< frames
+    int left_ = 0, waited_ = 0, woken_ = 0, rested_ = 0; ///< frames
+    bool over_ = false; ///< the visit has ended
+    std::optional<std::uint64_t> first_state_;
+    long other_states_ = 0;
     bool saved_ = false; ///< a layout is saved and not yet shown
     bool unsaved_ = false; ///< a layout could not be saved
     std::unique_ptr<SeededVisitor> visitor_;
@@ -208,6 +228,7 @@ int soak(const SoakOptions& options)
         std::printf("All %ld visits of %s are over\n", options.visits, options.log.c_str());
     catch_interrupts();
     int status = 0;
+    long other_states = 0;
     if (log.next_visit() < options.visits) {
         const SoakFolder folder;
         Visitors visitors(options, log, folder);
@@ -220,16 +241,22 @@ int soak(const SoakOptions& options)
         exhibit.counts_driver_memory = true;
         exhibit.state = folder.state();
         exhibit.textfile = folder.textfile();
+        if (use_of(options.as) == Use::visitors)
+            exhibit.visiting = visiting;
+        exhibit.visit_over = [&](std::uint64_t state) { visitors.visit_over(state); };
         exhibit.visitor = [&](RecordEntry& entry) { visitors.act(entry); };
         exhibit.reloaded = [&] { visitors.reloaded(); };
         exhibit.over = [&] { return visitors.over(); };
         WindowSystem window_system;
         status = fly_exhibit(exhibit);
+        other_states = visitors.other_states();
     }
     const SoakResult result = log.result(options.settled, options.devices);
     std::printf("%s", result.text.c_str());
     log.draw();
-    return status != 0 ? status : result.steady ? 0 : 1;
+    if (other_states > 0)
+        std::printf("%ld visits left the exhibit in another state than the first one\n", other_states);
+    return status != 0 ? status : result.steady && other_states == 0 ? 0 : 1;
 }
 
 } // namespace

@@ -1,0 +1,54 @@
+// A tour in a running exhibit: it begins anew for the next visitor, and leaves out the visitor's steps while nobody is there.
+#include "runtime/operation/guide.h"
+#include "config/model/shipped.h"
+#include "tests/support/controls.h"
+#include "tests/support/files.h"
+#include <gtest/gtest.h>
+
+namespace guide_test {
+
+using namespace starbow;
+using namespace starbow::testing;
+
+namespace {
+
+Tour tour_of(const std::string& steps)
+{
+    return load_tour(write_text("guided.json", R"({ "scene": "avenue", "steps": [)" + steps + "] }"), words(),
+        [](const std::string& name) { return source_dir() / "config/shots" / (name + ".json"); });
+}
+
+void pass(Guide& guide, double seconds, const Controls& controls = {})
+{
+    for (int frame = 0; frame < 20 * seconds; ++frame)
+        guide.flown(controls, 50'000'000);
+}
+
+} // namespace
+
+TEST(GuideTest, TheTourBeginsAnewForTheNextVisitor)
+{
+    const Tour tour = tour_of(R"({ "seconds": 1, "cut": "start" }, { "seconds": 1, "thrust": { "rapidity_per_s": 0.5 } })");
+    Guide guide(tour, {}, 1);
+    pass(guide, 3);
+    EXPECT_TRUE(guide.over());
+    EXPECT_FALSE(guide.prompt(words()).empty());
+    pass(guide, 5, controls_with(Steering{.throttle_rate = 1}));
+    guide.again();
+    EXPECT_FALSE(guide.over());
+    EXPECT_EQ(guide.step(), 0u);
+    EXPECT_TRUE(guide.prompt(words()).empty());
+    EXPECT_EQ(guide.flown({}, 1).ship.u.total(), glm::dvec3(0));
+}
+
+TEST(GuideTest, WithoutVisitorsNobodyFlies)
+{
+    const Tour tour = tour_of(R"({ "seconds": 1, "cut": "start" }, { "seconds": 30, "try": {} }, { "seconds": 1 })");
+    Guide attended(tour, {}, 1), alone(tour, {}, 1, false);
+    pass(attended, 3), pass(alone, 3);
+    EXPECT_TRUE(attended.flies());
+    EXPECT_TRUE(alone.over());
+    EXPECT_FALSE(alone.flies());
+}
+
+} // namespace guide_test
