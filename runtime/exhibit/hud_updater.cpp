@@ -31,8 +31,10 @@ static void add_visit(const Session& session, Readings& shown)
         shown.caption = Caption{.text = words(key, {{"left", std::to_string(int(std::ceil(*left)))}})};
     } else if (session.options.visiting && !in_hand(session.visit)) {
         const std::string& begin = words(session.hid.capabilities().stick ? "visit.begin_stick" : "visit.begin_keys");
+        // Large for some seconds, and small beside the tour's caption, which passers-by read meanwhile.
+        constexpr std::int64_t turn_ns = 12'000'000'000, large_ns = 4'000'000'000;
         shown.prompt.clear();
-        if (shown.caption)
+        if (shown.caption && session.visit.phase_ns % turn_ns >= large_ns)
             shown.caption->aside = begin;
         else
             shown.caption = Caption{.text = begin};
