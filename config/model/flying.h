@@ -1,4 +1,6 @@
 #pragma once
+#include <glm/glm.hpp>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -13,6 +15,12 @@ inline const std::vector<std::pair<std::string_view, FlightMode>> flight_modes{
     {"guided", FlightMode::guided}, {"free", FlightMode::free}, {"newtonian", FlightMode::newtonian}};
 inline std::string_view name_of(FlightMode mode) { return flight_modes[std::size_t(mode)].first; }
 
+/// The part of a world that visitors fly in: a ball. Scene units.
+struct Boundary {
+    glm::dvec3 centre{0};
+    double radius = 0;
+};
+
 /// The rules of flight of an exhibit. Times are the visitor's seconds, which are the ship's.
 struct Flying {
     FlightMode mode = FlightMode::guided;
@@ -23,6 +31,7 @@ struct Flying {
     double turn_jerk_deg_per_s3 = 8000; ///< of any of these turns, even when a stick is thrown from end to end
     double rapidity_per_s = 1.5; ///< greatest gain or loss of speed
     double rapidity_jerk_per_s2 = 15; ///< greatest change of that gain
+    std::optional<Boundary> boundary{}; ///< the world's, where visitors shall not get lost
 };
 
 } // namespace starbow

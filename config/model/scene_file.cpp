@@ -105,7 +105,7 @@ SceneFile load_scene_file(const std::filesystem::path& file)
     const Document document = read_document(file);
     const Place top = root(document);
     reject_unknown_members(
-        top, {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "ambient", "lights", "bodies", "start"});
+        top, {"gltf", "unit_m", "light_speed_m_s", "sky", "stars", "ambient", "lights", "bodies", "boundary", "start"});
     SceneFile scene;
     scene.name = file.stem().string();
     scene.file = document.file;
@@ -125,6 +125,10 @@ SceneFile load_scene_file(const std::filesystem::path& file)
     if (auto p = find_member(top, "lights"))
         for (const Place& at : items(*p, 0, 8, "lights"))
             scene.lights.push_back(read_light(at, scene.bodies));
+    if (auto p = find_member(top, "boundary")) {
+        reject_unknown_members(*p, {"centre", "radius"});
+        scene.boundary = {vec3(member(*p, "centre"), {-1e9, 1e9}), number(member(*p, "radius"), {0, 1e9, true})};
+    }
     if (auto p = find_member(top, "start"))
         scene.start = read_shot(*p, false);
     scene.start.scene = scene.name;

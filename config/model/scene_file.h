@@ -1,6 +1,7 @@
 #pragma once
 #include "body.h"
 #include "emission.h"
+#include "flying.h"
 #include "shot.h"
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -57,6 +58,7 @@ struct SceneFile {
     glm::dvec3 ambient{0}; ///< Rec. 709 linear, a white surface's light without any lamp
     std::vector<Light> lights;
     std::vector<Body> bodies;
+    std::optional<Boundary> boundary; ///< for exhibits that nobody attends to
     Shot start; ///< the visitor's start; its `scene` is this file's name
 
     /// The factor from scene times (unit / c) to seconds.

@@ -152,6 +152,7 @@ const std::vector<Known> known{
     {"visit.begin_keys"},
     {"visit.asking", {"left"}},
     {"visit.ending", {"left"}},
+    {"visit.boundary"},
     {"remote.this_language"},
     {"remote.page_language"},
     {"remote.login"},

@@ -5,6 +5,7 @@
 #include "obey.h"
 #include "runtime/operation/log.h"
 #include "runtime/operation/messages.h"
+#include <algorithm>
 #include <utility>
 
 namespace starbow {
@@ -16,6 +17,35 @@ VisitSigns signs_of(const Session& session)
     return {.somebody = session.somebody,
         .watches = session.directions.holds || (guide && !guide->over() && !guide->paused()),
         .attraction_over = guide && guide->over()};
+}
+
+/// The longest way home that is flown, s; a longer one leads through black.
+constexpr double longest_way_home_s = 5;
+
+/// True if the ship is back at the start in time.
+bool flies_home(const Session& session, double seconds_per_time_unit)
+{
+    Controls home;
+    home.home = true;
+    const Flight later = step(session.flight, home, std::int64_t(1e9 * longest_way_home_s), session.rules,
+        seconds_per_time_unit, session.programme.start);
+    return !later.homing;
+}
+
+/// Brings a visitor home who asks for it, wherever the ship is.
+void lead_home(Session& session, Controls& controls, double dt_s, double seconds_per_time_unit)
+{
+    if (controls.home && !session.guide && !session.flight.homing && !flies_home(session, seconds_per_time_unit)) {
+        controls.home = false;
+        session.goes_home = true;
+    }
+    const double half_s = std::max(session.visiting.fade_s / 2, 1e-3);
+    session.home_black = std::clamp(session.home_black + (session.goes_home ? dt_s : -dt_s) / half_s, 0.0, 1.0);
+    if (session.goes_home && session.home_black == 1) {
+        controls.reset = true;
+        session.history = {};
+        session.goes_home = false;
+    }
 }
 
 /// Somebody else attends: only what tells a visitor where to begin begins anew.
@@ -46,7 +76,7 @@ void FrameLoop::record_visit()
     if (session_.options.record.empty())
         return;
     try {
-        session_.record_replay.record(recorder_of(session_.options));
+        session_.record_replay.record(recorder_of(session_.options, session_.rules));
     } catch (const InputError& error) {
         write_log(LogKind::record_ended, one_line(error.what()) + "; this visit is not recorded");
     }
@@ -61,9 +91,10 @@ void FrameLoop::attend(RecordEntry& entry)
     session_.visited_s += knows_visitor(session_) ? 1e-9 * double(entry.dt_ns) : 0;
     if (events.ends && (session_.options.visiting || events.length_s > 0))
         count_visit(session_, events.length_s);
-    if (session_.options.visiting)
+    if (session_.options.visiting) {
         change_visitors(events, entry.controls);
-    else if (events.ends)
+        lead_home(session_, entry.controls, 1e-9 * double(entry.dt_ns), context_.world.scene.seconds_per_time_unit());
+    } else if (events.ends)
         wait_for_visitor(session_);
 }
 
@@ -74,6 +105,7 @@ void FrameLoop::change_visitors(const VisitEvents& events, Controls& controls)
         session_.record_replay.end(session_.flight, print_message);
         session_.record_replay.close();
         forget_visitor(session_);
+        session_.goes_home = false;
         session_.lab.reset();
         session_.alignment.show_first();
         controls.reset = true; // the switches' own states, too

@@ -29,6 +29,8 @@ static void add_visit(const Session& session, Readings& shown)
     if (const auto left = seconds_left(session.visit, session.visiting)) {
         const char* key = session.visit.phase == VisitPhase::asking ? "visit.asking" : "visit.ending";
         shown.caption = Caption{.text = words(key, {{"left", std::to_string(int(std::ceil(*left)))}})};
+    } else if (session.flight.homing && session.flight.homing->from_boundary) {
+        shown.caption = Caption{.text = words("visit.boundary"), .flying = true};
     } else if (session.options.visiting && !in_hand(session.visit)) {
         const std::string& begin = words(session.hid.capabilities().stick ? "visit.begin_stick" : "visit.begin_keys");
         // Large for some seconds, and small beside the tour's caption, which passers-by read meanwhile.

@@ -135,6 +135,7 @@ void begin_programme(Session& session, Programme programme, bool visitors)
 {
     session.guide.reset(); // it refers to the programme
     session.programme = std::move(programme);
+    session.rules = rules_in(session.options, session.rules, session.programme);
     if (std::optional<Guide> guide = guide_of(session.programme, session.rules, visitors))
         session.guide.emplace(std::move(*guide));
     if (!session.options.visiting)
@@ -156,7 +157,7 @@ void forget_directions(Session& session)
 {
     forget_visitor(session);
     session.directions = {};
-    session.rules = session.options.rules;
+    session.rules = rules_in(session.options, session.options.rules, session.programme);
     session.quality = session.options.quality, session.quality_name = session.options.quality_name;
     if (!session.governor)
         session.governor = governor_of(session.options);

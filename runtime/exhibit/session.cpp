@@ -17,7 +17,7 @@ namespace {
 RecordReplay record_replay_of(const ExhibitOptions& options)
 {
     // Where the exhibit attends to its visitors, each of them has a record, from the visit's beginning on.
-    return {options.record.empty() || options.visiting ? nullptr : recorder_of(options),
+    return {options.record.empty() || options.visiting ? nullptr : recorder_of(options, options.rules),
         options.replay.empty() ? nullptr : std::make_unique<Replay>(options.replay)};
 }
 
@@ -79,10 +79,17 @@ std::uint64_t digest(const Session& session)
     return digest(text, digest(session.flight));
 }
 
-std::unique_ptr<Recorder> recorder_of(const ExhibitOptions& options)
+Flying rules_in(const ExhibitOptions& options, Flying rules, const Programme& programme)
+{
+    if (options.visiting || options.rules.boundary) // a record's rules have the one of its first world
+        rules.boundary = load_scene_file(programme.scene).boundary;
+    return rules;
+}
+
+std::unique_ptr<Recorder> recorder_of(const ExhibitOptions& options, const Flying& rules)
 {
     return std::make_unique<Recorder>(options.record,
-        header_of(options.programme.scene, options.layout, options.programme.start, options.rules, options.exposure,
+        header_of(options.programme.scene, options.layout, options.programme.start, rules, options.exposure,
             pattern_names[std::size_t(options.pattern)]),
         write_log);
 }
@@ -93,14 +100,14 @@ Session::Session(const ExhibitOptions& given)
     , visit(given.visiting ? Visit{} : begun({}))
     , programme(given.visiting ? attraction_of(given, given.words, 0) : given.programme)
     , words(given.words)
-    , rules(given.rules)
+    , rules(rules_in(given, given.rules, programme))
     , quality(given.quality)
     , quality_name(given.quality_name)
     , layout(given.layout)
     , kept(layout)
     , loader(layout)
-    , guide(guide_of(programme, given.rules, !given.visiting))
-    , flight(flight_at(programme.start, given.rules))
+    , guide(guide_of(programme, rules, !given.visiting))
+    , flight(flight_at(programme.start, rules))
     , tutorial(tutorial_at(flight))
     , record_replay(record_replay_of(given))
     , hid(given.profiles, write_log)

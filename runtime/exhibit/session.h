@@ -48,6 +48,8 @@ struct Session {
     Visit visit;
     Presence presence{};
     Clock::time_point locked_from{}; ///< the builder's keys, where the exhibit attends to its visitors
+    bool goes_home = false; ///< through black, as the way is too long to be flown
+    double home_black = 0; ///< the part of black on that way
     bool somebody = false; ///< has touched a control in this frame
     Programme programme; ///< the shown one
     Words words; ///< for the visitors' texts
@@ -101,7 +103,9 @@ void count_visit(Session& session, double length_s);
 /// The digest of all that a visitor can change.
 std::uint64_t digest(const Session& session);
 /// A recorder of the exhibit's flight from its start on. Throws InputError as Recorder does.
-std::unique_ptr<Recorder> recorder_of(const ExhibitOptions& options);
+std::unique_ptr<Recorder> recorder_of(const ExhibitOptions& options, const Flying& rules);
+/// The rules in a programme's world, which has a boundary where nobody attends to the visitors.
+Flying rules_in(const ExhibitOptions& options, Flying rules, const Programme& programme);
 /// The head tracker of a layout; null where it has none.
 std::unique_ptr<HeadTracker> tracker_of(const Layout& layout);
 /// The guide of a programme's tour, at its beginning; none without a tour. The programme must outlive it. visitors: as the

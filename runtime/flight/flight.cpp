@@ -1,15 +1,23 @@
 #include "flight.h"
+#include "boundary.h"
 #include "pilot.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace starbow {
 namespace {
 
 constexpr double half_pi = 1.57079632679489662;
 
+double most_rapidity(const Flight& flight, const Flying& rules, double seconds_per_time_unit)
+{
+    return rules.boundary ? rapidity_within(*rules.boundary, flight.ship, rules, seconds_per_time_unit)
+                          : std::numeric_limits<double>::infinity();
+}
+
 /// Applies presses, which count once however long the step is.
-void press(Flight& flight, const Controls& controls, const Flying& rules, const Shot& start)
+void press(Flight& flight, const Controls& controls, const Flying& rules, double seconds_per_time_unit, const Shot& start)
 {
     if (controls.reset) {
         const Flight before = flight;
@@ -35,7 +43,7 @@ void press(Flight& flight, const Controls& controls, const Flying& rules, const 
         flight.homing.reset();
     }
     if (controls.home && !flight.homing) { // one press is enough: the way goes on
-        FeltMotion motion = felt_motion(flight, controls, rules);
+        FeltMotion motion = felt_motion(flight, controls, rules, most_rapidity(flight, rules, seconds_per_time_unit));
         if (controls.stop)
             motion.thrust = glm::dvec3(0);
         flight.homing = homing_from(flight.ship, motion, rules);
@@ -82,7 +90,18 @@ void tick(Flight& flight, const Controls& controls, const Flying& rules, double 
         }
         return;
     }
-    const Push push = pilot(flight, controls, rules);
+    const double most = most_rapidity(flight, rules, seconds_per_time_unit);
+    if (rules.boundary && leaves(*rules.boundary, flight.ship)) {
+        flight.homing = homing_from(flight.ship, felt_motion(flight, controls, rules, most), rules);
+        flight.homing->from_boundary = true;
+        flight.coasting = flight.lever_waits = false;
+        flight.throttle_rate = 0, flight.thrust = glm::dvec3(0);
+        flight.thrust_inhibited = true; // a throttle that is still open has no effect at the start
+        if (!controls.lever)
+            flight.lever = 0;
+        return;
+    }
+    const Push push = pilot(flight, controls, rules, most);
     if (push.stop)
         flight.ship = stopped(flight.ship);
     const double dtau = tick_s / seconds_per_time_unit;
@@ -105,7 +124,7 @@ Flight flight_at(const Shot& start, const Flying& rules)
 Flight step(Flight flight, const Controls& controls, std::int64_t dt_ns, const Flying& rules, double seconds_per_time_unit,
     const Shot& start)
 {
-    press(flight, controls, rules, start);
+    press(flight, controls, rules, seconds_per_time_unit, start);
     for (flight.left_ns += dt_ns; flight.left_ns >= tick_ns; flight.left_ns -= tick_ns)
         tick(flight, controls, rules, seconds_per_time_unit, start);
     return flight;

@@ -26,6 +26,7 @@ struct Homing {
     Ship from; ///< the ship at this leg's beginning
     double gain = 0, ramp_s = 0; ///< on the way: the greatest, rapidity per second; and the time in which it is reached
     bool arrived = false;
+    bool from_boundary = false; ///< the world's end began it, and no visitor
 };
 
 /// The shortest durations; the limits that spare stomachs make them longer.

@@ -48,15 +48,18 @@ glm::dvec3 across(const glm::dvec3& way, const glm::dvec3& to)
 }
 
 /// Guided and free: the throttle's place sets the speed.
-Push by_lever(Flight& flight, const Flying& rules)
+Push by_lever(Flight& flight, const Flying& rules, double most_rapidity)
 {
     const double speed = rapidity_of(flight.ship),
                  target = flight.thrust_inhibited ? 0 : flight.lever * std::acosh(rules.max_gamma);
-    const double wanted = std::clamp((target - speed) / settle_s, -rules.rapidity_per_s, rules.rapidity_per_s);
+    // A greatest rapidity that falls must be followed more closely than a hand.
+    constexpr double closely_s = 0.25;
+    const double gain_to_target = std::min((target - speed) / settle_s, (most_rapidity - speed) / closely_s),
+                 wanted = std::clamp(gain_to_target, -rules.rapidity_per_s, rules.rapidity_per_s);
     flight.throttle_rate += gain_share(rules) * (wanted - flight.throttle_rate);
     const double gain = flight.throttle_rate * tick_s;
     Push push;
-    if (target == 0 && speed + gain < 2e-3) { // slower than anyone can see; the approach would never end
+    if (std::min(target, most_rapidity) == 0 && speed + gain < 2e-3) { // slower than anyone can see; the approach would never end
         flight.throttle_rate = 0;
         push.stop = speed > 0;
         return push;
@@ -117,7 +120,7 @@ void steer(Flight& flight, const Steering& controls, const Flying& rules)
             degree * rules.turn_jerk_deg_per_s3);
 }
 
-Push pilot(Flight& flight, const Steering& input, const Flying& rules)
+Push pilot(Flight& flight, const Steering& input, const Flying& rules, double most_rapidity)
 {
     Steering controls = input;
     watch_hands(flight, controls);
@@ -137,13 +140,13 @@ Push pilot(Flight& flight, const Steering& input, const Flying& rules)
     flight.thrust_inhibited = flight.thrust_inhibited && !let_go;
     if (flight.thrust_inhibited && !controls.lever)
         flight.lever = 0;
-    return flight.mode == FlightMode::newtonian ? by_thrust(flight, controls, rules) : by_lever(flight, rules);
+    return flight.mode == FlightMode::newtonian ? by_thrust(flight, controls, rules) : by_lever(flight, rules, most_rapidity);
 }
 
-FeltMotion felt_motion(Flight flight, const Steering& controls, const Flying& rules)
+FeltMotion felt_motion(Flight flight, const Steering& controls, const Flying& rules, double most_rapidity)
 {
     const glm::dvec3 turn = flight.turn_rad_s;
-    const Push push = pilot(flight, controls, rules);
+    const Push push = pilot(flight, controls, rules, most_rapidity);
     return {push.rapidity / tick_s, turn, (flight.turn_rad_s - turn) / tick_s};
 }
 

@@ -13,10 +13,10 @@ struct Push {
 void steer(Flight& flight, const Steering& controls, const Flying& rules);
 
 /// Advances the flight's smoothed controls (turn_rad_s, throttle_rate, thrust, lever) by a tick; it does not move the
-/// ship.
-Push pilot(Flight& flight, const Steering& controls, const Flying& rules);
+/// ship. most_rapidity: where the throttle sets the speed, it sets no greater one.
+Push pilot(Flight& flight, const Steering& controls, const Flying& rules, double most_rapidity);
 
 /// The ship's motion in the next tick under these controls.
-FeltMotion felt_motion(Flight flight, const Steering& controls, const Flying& rules);
+FeltMotion felt_motion(Flight flight, const Steering& controls, const Flying& rules, double most_rapidity);
 
 } // namespace starbow

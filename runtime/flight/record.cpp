@@ -36,7 +36,7 @@ static_assert(controls_have(ControlTimes{}, Steering{}, Looking{}, EffectSwitche
     [[maybe_unused]] const auto& [key_pressed] = static_cast<const Touches&>(c); // not kept: a record is one visit
     [[maybe_unused]] const auto& [commands] = static_cast<const RemoteCommands&>(c);
     [[maybe_unused]] const auto& [mode, max_gamma, turn_deg_per_s, roll_deg_per_s, turn_jerk_deg_per_s3, rapidity_per_s,
-        rapidity_jerk_per_s2]
+        rapidity_jerk_per_s2, boundary]
         = f;
     [[maybe_unused]] const auto& [automatic, min_ev, max_ev, bloom] = e;
     [[maybe_unused]] const auto& [ship, flight_mode, flight_lever, coasting, lever_waits, lever_rest, frozen,
@@ -132,8 +132,14 @@ Flying read_rules(const Place& place)
 {
     reject_unknown_members(place,
         {"mode", "max_gamma", "turn_deg_per_s", "roll_deg_per_s", "turn_jerk_deg_per_s3", "rapidity_per_s",
-            "rapidity_jerk_per_s2"});
+            "rapidity_jerk_per_s2", "boundary"});
     Flying rules;
+    if (auto p = find_member(place, "boundary")) {
+        reject_unknown_members(*p, {"centre", "radius"});
+        Boundary& boundary = rules.boundary.emplace();
+        take(*p, "centre", boundary.centre, any_place);
+        take(*p, "radius", boundary.radius, {0, 1e15});
+    }
     rules.mode = chosen(member(place, "mode"), flight_modes);
     constexpr Range any{0, 1e9};
     take(place, "max_gamma", rules.max_gamma, {1, 1e9, true});
@@ -249,6 +255,9 @@ std::string text_of(const RecordHeader& header)
         = {{"mode", name_of(rules.mode)}, {"max_gamma", rules.max_gamma}, {"turn_deg_per_s", rules.turn_deg_per_s},
             {"roll_deg_per_s", rules.roll_deg_per_s}, {"turn_jerk_deg_per_s3", rules.turn_jerk_deg_per_s3},
             {"rapidity_per_s", rules.rapidity_per_s}, {"rapidity_jerk_per_s2", rules.rapidity_jerk_per_s2}};
+    if (rules.boundary)
+        json["flying"]["boundary"]
+            = {{"centre", components(rules.boundary->centre)}, {"radius", rules.boundary->radius}};
     json["exposure"] = {{"automatic", header.exposing.automatic}, {"min_ev", header.exposing.min_ev},
         {"max_ev", header.exposing.max_ev}, {"bloom", header.exposing.bloom}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -352,6 +361,7 @@ std::uint64_t digest(const Flight& flight)
         all.add(std::int64_t(homing.leg)), all.add(homing.ticks), all.add(homing.elapsed), all.add(homing.from);
         all.add(homing.settling.thrust), all.add(homing.settling.turn_rad_s), all.add(homing.settling.turn_gain_rad_s2);
         all.add(homing.gain), all.add(homing.ramp_s), all.add(homing.arrived);
+        all.add(homing.from_boundary);
     }
     all.add(flight.look_rad);
     all.add(flight.effects.aberration), all.add(flight.effects.doppler), all.add(flight.effects.headlight);

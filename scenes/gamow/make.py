@@ -583,6 +583,7 @@ SCENE = """// A street where light flies at 5 metres a second (after George Gamo
     "bodies": [
 BODIES
     ],
+    "boundary": { "centre": [0, 0, -30], "radius": 220 },
     "start": { "position": [1.0, 1.7, 17], "look": [0, 0, -1], "up": [0, 1, 0] }
 }
 """

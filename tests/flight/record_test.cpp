@@ -110,6 +110,7 @@ RecordHeader some_header()
     header.start.exposure_ev = -0.7;
     header.rules.mode = FlightMode::newtonian;
     header.rules.max_gamma = 123.456;
+    header.rules.boundary = {{0.1, 0, 1.0 / 3}, 1e12};
     return header;
 }
 
@@ -175,6 +176,9 @@ TEST(Record, TheHeaderIsReadBackToTheBit)
     EXPECT_EQ(digest(flight_at(read.start, read.rules)), digest(flight_at(header.start, header.rules)));
     EXPECT_EQ(read.start.position, header.start.position);
     EXPECT_EQ(read.rules.max_gamma, header.rules.max_gamma);
+    ASSERT_TRUE(read.rules.boundary);
+    EXPECT_EQ(read.rules.boundary->centre, header.rules.boundary->centre);
+    EXPECT_EQ(read.rules.boundary->radius, header.rules.boundary->radius);
     EXPECT_EQ(text_of(read), text_of(header));
 }
 

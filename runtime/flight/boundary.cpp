@@ -1,0 +1,31 @@
+#include "boundary.h"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace starbow {
+namespace {
+
+/// The part of the radius at which the throttle's speed is 0 and the way home begins: the pilot follows a little late.
+constexpr double edge = 0.9;
+/// The part of the rules' gain with which the greatest rapidity falls, so that the late pilot has some left.
+constexpr double followed_part = 0.4;
+
+} // namespace
+
+double rapidity_within(const Boundary& boundary, const Ship& ship, const Flying& rules, double seconds_per_time_unit)
+{
+    const glm::dvec3 from = ship.position.total() - boundary.centre;
+    const double room = edge * boundary.radius - glm::length(from);
+    if (room < 0 && glm::dot(from, ship.ship_from_cockpit * glm::dvec3(0, 0, -1)) < 0)
+        return std::numeric_limits<double>::infinity();
+    return std::acosh(1 + followed_part * rules.rapidity_per_s * std::max(0.0, room) * seconds_per_time_unit);
+}
+
+bool leaves(const Boundary& boundary, const Ship& ship)
+{
+    const glm::dvec3 from = ship.position.total() - boundary.centre;
+    return glm::length(from) > edge * boundary.radius && glm::dot(from, ship.u.total()) > 0;
+}
+
+} // namespace starbow

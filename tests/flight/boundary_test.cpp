@@ -1,0 +1,133 @@
+// The end of a world: whatever the visitors do, the ship slows down before it, flies home, and is felt no more than the rules
+// allow.
+#include "runtime/flight/boundary.h"
+#include "config/model/scene_file.h"
+#include "config/model/shipped.h"
+#include "runtime/flight/flight.h"
+#include "tests/support/controls.h"
+#include "tests/support/files.h"
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace boundary_test {
+
+using namespace starbow;
+using namespace starbow::testing;
+
+namespace {
+
+struct Pilot {
+    SceneFile scene;
+    Flying rules{.max_gamma = 100};
+    Flight flight;
+    double farthest = 0; ///< of the boundary's radius
+    int homings = 0, arrivals = 0;
+
+    explicit Pilot(const std::string& name, FlightMode mode = FlightMode::guided)
+        : scene(load_scene_file(shipped_file("scenes", name)))
+    {
+        rules.mode = mode;
+        rules.boundary = scene.boundary;
+        flight = flight_at(scene.start, rules);
+    }
+    void frame(const Controls& controls)
+    {
+        const bool before = flight.homing.has_value();
+        flight = step(flight, controls, 16'000'000, rules, scene.seconds_per_time_unit(), scene.start);
+        homings += !before && flight.homing;
+        if (before && !flight.homing) {
+            ++arrivals;
+            EXPECT_LT(flight.ship.proper_time.total() * scene.seconds_per_time_unit(), 0.1) << "clocks begin anew";
+        }
+        farthest = std::max(
+            farthest, glm::distance(flight.ship.position.total(), rules.boundary->centre) / rules.boundary->radius);
+    }
+    void hold(const Controls& controls, double seconds)
+    {
+        for (int i = 0; i < seconds / 0.016; ++i)
+            frame(controls);
+    }
+};
+
+} // namespace
+
+TEST(BoundaryTest, EveryShippedWorldHasOneAroundItsStart)
+{
+    for (const std::string& name : shipped_names("scenes")) {
+        const SceneFile scene = load_scene_file(shipped_file("scenes", name));
+        ASSERT_TRUE(scene.boundary) << name;
+        EXPECT_LT(glm::distance(scene.start.position, scene.boundary->centre), 0.7 * scene.boundary->radius) << name;
+    }
+}
+
+TEST(BoundaryTest, AHeldThrottleLeadsHomeAndNotOutOfTheWorld)
+{
+    for (const std::string& name : shipped_names("scenes"))
+        for (const FlightMode mode : {FlightMode::guided, FlightMode::free}) {
+            SCOPED_TRACE(name);
+            Pilot pilot(name, mode);
+            pilot.hold(controls_with(Steering{.throttle_rate = 1}), 120);
+            EXPECT_LT(pilot.farthest, 1);
+            EXPECT_GE(pilot.homings, 1);
+            EXPECT_GE(pilot.arrivals, 1);
+            if (pilot.scene.start.u != glm::dvec3(0))
+                continue; // a start in flight goes on from there under the key, and home again
+            EXPECT_EQ(pilot.homings, 1);
+            EXPECT_EQ(rapidity_of(pilot.flight.ship), 0) << "a key that is still held has no effect";
+            pilot.hold({}, 0.1);
+            pilot.hold(controls_with(Steering{.throttle_rate = 1}), 4);
+            EXPECT_GT(rapidity_of(pilot.flight.ship), 0.5);
+        }
+}
+
+TEST(BoundaryTest, NoRandomFlightLeavesTheWorld)
+{
+    for (const std::string& name : shipped_names("scenes"))
+        for (int seed = 0; seed < (all_cases() ? 100 : 6); ++seed) {
+            std::mt19937 random{unsigned(seed)};
+            const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+            Pilot pilot(name, FlightMode(seed % 3));
+            Controls controls;
+            for (int part = 0; part < 40; ++part) {
+                controls.lever = uniform(0, 1) < 0.2 ? 0 : uniform(0, 1);
+                controls.turn = {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
+                controls.push = {uniform(-1, 1), 0, 0};
+                pilot.hold(controls, 3);
+            }
+            // Newtonian flight has no brakes but the way home.
+            EXPECT_LT(pilot.farthest, seed % 3 == int(FlightMode::newtonian) ? 100 : 1.0) << name << ", seed " << seed;
+        }
+}
+
+TEST(BoundaryTest, TheShipSlowsDownNoFasterThanTheRulesAllow)
+{
+    Pilot pilot("avenue");
+    const Controls forward = controls_with(Steering{.lever = 1.0});
+    double before = rapidity_of(pilot.flight.ship), most = 0;
+    for (int i = 0; i < 120 / 0.016; ++i) {
+        pilot.frame(forward);
+        const double now = rapidity_of(pilot.flight.ship);
+        most = std::max(most, before - now);
+        before = now;
+    }
+    EXPECT_EQ(pilot.arrivals, 1);
+    EXPECT_LE(most, 1.01 * pilot.rules.rapidity_per_s * 0.016);
+}
+
+TEST(BoundaryTest, TheGreatestRapidityIsThatOfHyperbolicMotion)
+{
+    // From gamma 2 with 0.4 of 1.5 per second a ship needs (2 - 1) / 0.6 s of light, to the edge at 0.9 of the radius.
+    const Flying rules{.rapidity_per_s = 1.5};
+    Ship ship = ship_at(Shot{});
+    const Boundary boundary{{0, 0, 0}, 1 / 0.6 / 0.9};
+    EXPECT_NEAR(rapidity_within(boundary, ship, rules, 1), std::acosh(2.0), 1e-12);
+    EXPECT_NEAR(rapidity_within({{0, 0, 0}, 2 / 0.6 / 0.9}, ship, rules, 0.5), std::acosh(2.0), 1e-12) << "other units of length";
+    Shot beyond;
+    beyond.position = {0, 0, 5}; // the nose points to -z
+    EXPECT_TRUE(std::isinf(rapidity_within(boundary, ship_at(beyond), rules, 1))) << "on the way back";
+    beyond.position = {0, 0, -5};
+    EXPECT_EQ(rapidity_within(boundary, ship_at(beyond), rules, 1), 0);
+}
+
+} // namespace boundary_test
