@@ -19,6 +19,13 @@ VisitSigns signs_of(const Session& session)
         .attraction_over = guide && guide->over()};
 }
 
+/// A throttle that is open at the start has no effect before it was at 0.
+void wait_for_throttle(const Session& session, Controls& controls)
+{
+    const bool rests = !session.guide && session.programme.start.u == glm::dvec3(0);
+    controls.stop |= rests && controls.lever.value_or(0) > lever_touched;
+}
+
 /// The longest way home that is flown, s; a longer one leads through black.
 constexpr double longest_way_home_s = 5;
 
@@ -39,11 +46,12 @@ void lead_home(Session& session, Controls& controls, double dt_s, double seconds
         controls.home = false;
         session.goes_home = true;
     }
+    if (!session.goes_home && session.home_black == 1)
+        wait_for_throttle(session, controls);
     const double half_s = std::max(session.visiting.fade_s / 2, 1e-3);
     session.home_black = std::clamp(session.home_black + (session.goes_home ? dt_s : -dt_s) / half_s, 0.0, 1.0);
     if (session.goes_home && session.home_black == 1) {
         controls.reset = true;
-        session.history = {};
         session.goes_home = false;
     }
 }
@@ -114,7 +122,9 @@ void FrameLoop::change_visitors(const VisitEvents& events, Controls& controls)
         show_attraction(session_.visit.attraction);
     if (events.begins) {
         show_programme(session_.options.programme);
+        session_.exposure = {}; // the attraction's is none of the visit's
         record_visit();
+        wait_for_throttle(session_, controls);
     }
     if (events.ends && session_.options.visit_over)
         session_.options.visit_over(digest(session_));

@@ -21,7 +21,6 @@ RecordReplay record_replay_of(const ExhibitOptions& options)
         options.replay.empty() ? nullptr : std::make_unique<Replay>(options.replay)};
 }
 
-
 /// A visitor's hands do nothing while a docent holds the exhibit. Devices and the head tracker are read as always.
 void hold(Controls& controls)
 {
@@ -300,7 +299,7 @@ void step(Session& session, RecordEntry& entry, const std::optional<double>& met
     entry.exposure_ev = session.exposure.ev;
     session.record_replay.keep(entry, session.flight);
     session.tutorial = advance(session.tutorial, controls, session.flight, dt_s);
-    if (toured && session.guide->over())
+    if (toured && session.guide->over() && in_hand(session.visit))
         session.diary.count([](Tally& tally) { ++tally.tours_finished; });
     Directions& directions = session.directions;
     directions.fade = std::clamp(directions.fade + (directions.fades ? dt_s : -dt_s) / to_black_s, 0.0, 1.0);

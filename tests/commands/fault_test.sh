@@ -74,7 +74,7 @@ ok
 STARBOW_LARGEST_KIB=12000 timeout 60 "$program" run --layout desk --scene rainbow --frame-budget-ms 1000 --frames 60 >"$folder/log" 2>&1 \
     || fail "a level without room: exit $?"
 [ "$(grep -c '^fault: no room' "$folder/log")" = 1 ] || fail "a level without room: tried $(grep -c '^fault: no room' "$folder/log") times"
-grep -q 'quality: level 12 of 12 has no room' "$folder/log" || fail "a level without room: no line says so"
+grep -q 'quality: level 16 of 16 has no room' "$folder/log" || fail "a level without room: no line says so"
 grep -q 'is lost' "$folder/log" && fail "a level without room: a loss of the device is reported"
 ok
 
