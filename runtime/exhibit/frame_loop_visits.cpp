@@ -46,8 +46,13 @@ void lead_home(Session& session, Controls& controls, double dt_s, double seconds
         controls.home = false;
         session.goes_home = true;
     }
-    if (!session.goes_home && session.home_black == 1)
+    // From the world's end the way leads backwards, and nothing is seen: it is left out, once the ship has slowed down.
+    const std::optional<Homing>& homing = session.flight.homing;
+    session.goes_home |= homing && homing->from_boundary && homing->leg == HomingLeg::way;
+    if (!session.goes_home && session.home_black == 1) {
         wait_for_throttle(session, controls);
+        controls.stop |= controls.throttle_rate > 0; // a key that is still held, too
+    }
     const double half_s = std::max(session.visiting.fade_s / 2, 1e-3);
     session.home_black = std::clamp(session.home_black + (session.goes_home ? dt_s : -dt_s) / half_s, 0.0, 1.0);
     if (session.goes_home && session.home_black == 1) {
