@@ -15,16 +15,16 @@ public:
 
 private:
     static constexpr std::size_t rates = 10;
-    // Where each last moved to:
+    // The values after each one's last move:
     std::array<double, rates> resting_{};
     std::optional<double> lever_{};
     std::optional<Head> head_{};
 };
 
-/// Of an axis that runs to 1. The sensor of a worn axis wanders by some hundredths; a hand that takes a stick moves it
-/// farther.
+/// The least move of an axis that counts; the axis runs to 1. A worn axis wanders by some hundredths, and a hand moves a
+/// stick farther.
 constexpr double least_move = 0.1;
-/// Of a head: trackers wander by some millimetres and tenths of a degree.
+/// The least move and turn of a head that count. A tracker's noise is some millimetres and tenths of a degree.
 constexpr double least_head_m = 0.02, least_head_rad = 0.05;
 
 } // namespace starbow

@@ -1,7 +1,6 @@
 #include "exhibit_file.h"
 #include "exposing_reader.h"
 #include "remote_reader.h"
-#include <algorithm>
 
 namespace starbow {
 namespace {
@@ -41,7 +40,7 @@ Visiting read_visiting(const Place& place, const std::filesystem::path& folder)
     take(place, "fade_s", visiting.fade_s, {0, 5});
     if (auto unlock = find_member(place, "unlock")) {
         visiting.unlock = text(*unlock);
-        const bool typeable = std::ranges::all_of(visiting.unlock, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z'); });
+        const bool typeable = visiting.unlock.find_first_not_of("0123456789abcdefghijklmnopqrstuvwxyz") == std::string::npos;
         if (!typeable || visiting.unlock.size() < 4 || visiting.unlock.size() > 32)
             complain(*unlock, "can't be typed blind; 4 to 32 small letters and digits are right");
     }

@@ -35,8 +35,7 @@ struct ExhibitOptions {
     std::optional<bool> warms_up{}; ///< compiles all pipelines of the switches before the first frame; none: only on a GPU
     long frames = 0; ///< number of frames to show; 0: until the visitor leaves
     Pattern pattern = Pattern::none; ///< the first test pattern
-    std::filesystem::path record{}; ///< file for the record, or folder, which receives one for each visit;
-                                      ///< empty: no record
+    std::filesystem::path record{}; ///< file or folder for the record, or folder for a record of each visit; empty: none
     std::filesystem::path log{}; ///< CSV file of the instruments' readings; empty: none
     double log_every_s = 0; ///< interval of automatic lines; 0: only at a key
     std::filesystem::path replay{}; ///< a record that is flown instead of the visitor's flight; empty: none

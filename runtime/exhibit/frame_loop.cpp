@@ -90,7 +90,7 @@ bool FrameLoop::fly_frame()
     if (session_.record_replay.replays() && !visible)
         return true; // a replay waits for a visible window
 
-    // See whether somebody is there. Carry out a remote's commands and step the flight. From here on the controls may be a replay's.
+    // Follow the visit, carry out a remote's commands, and step the flight. From here on the controls may be a replay's.
     if (!session_.record_replay.play(entry))
         return false;
     attend(entry);
@@ -288,8 +288,9 @@ Shot FrameLoop::set_up_frame(const Controls& controls)
     frame_->move_head(controls.head);
     frame_->meter(session_.options.exposure.automatic);
     frame_->bloom(session_.options.exposure.bloom);
-    frame_->fade(
-        glm::smoothstep(0.0, 1.0, std::max({session_.directions.fade, session_.home_black, blackness(session_.visit, session_.visiting)})));
+    const double black
+        = std::max({session_.directions.fade, session_.home_black, blackness(session_.visit, session_.visiting)});
+    frame_->fade(glm::smoothstep(0.0, 1.0, black));
     Shot shot = shot_of(session_.flight, session_.programme.start.scene);
     shot.exposure_ev = ev_of(session_);
     session_.lab.request(*frame_, shot, session_.flight, context_.world, hud_.typesetter);

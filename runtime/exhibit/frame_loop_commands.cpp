@@ -11,7 +11,8 @@
 
 namespace starbow {
 
-/// Shows a programme, in its world, from the start. Throws InputError, for want of memory, too; then the old world is still shown.
+/// Shows a programme, in its world, from the start. Throws InputError, for want of memory, too; then the old world is still
+/// shown.
 void FrameLoop::show_programme(Programme programme, bool visitors)
 {
     if (programme.scene != session_.programme.scene) {

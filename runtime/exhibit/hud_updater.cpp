@@ -22,7 +22,7 @@ const Panel* HudUpdater::update(const Session& session, const SceneFile& scene, 
     return (session.flight.hud || asks) && !covers_pattern ? &panel_ : nullptr;
 }
 
-/// What the exhibit says of the visit, in the place of a tour's caption or below it.
+/// Adds the visit's line, in the place of a tour's caption or below it.
 static void add_visit(const Session& session, Readings& shown)
 {
     const Words& words = session.words;

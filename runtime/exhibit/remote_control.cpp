@@ -26,9 +26,8 @@ void describe(const Session& session, Snapshot& out)
     out.steps = programme.tour ? int(programme.tour->steps.size()) : 0;
     out.paused = session.guide && !session.guide->flies() ? session.guide->paused() : session.flight.frozen;
     out.fade = session.directions.fades, out.hold = session.directions.holds;
-    out.visit = session.options.visiting || knows_visitor(session)
-        ? visit_phase_names[std::size_t(session.visit.phase)]
-        : visit_phase_names[std::size_t(VisitPhase::attract)];
+    out.visit = session.options.visiting || knows_visitor(session) ? visit_phase_names[std::size_t(session.visit.phase)]
+                                                                   : visit_phase_names[std::size_t(VisitPhase::attract)];
     out.effects = session.flight.effects;
     const double rapidity = rapidity_of(session.flight.ship);
     out.speed = std::tanh(rapidity), out.gamma = std::cosh(rapidity);

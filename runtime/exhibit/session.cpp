@@ -16,7 +16,7 @@ namespace {
 
 RecordReplay record_replay_of(const ExhibitOptions& options)
 {
-    // Where the exhibit attends to its visitors, each of them has a record, from the visit's beginning on.
+    // An exhibit that attends to its visitors has a record for each visit, which begins with it.
     return {options.record.empty() || options.visiting ? nullptr : recorder_of(options, options.rules),
         options.replay.empty() ? nullptr : std::make_unique<Replay>(options.replay)};
 }

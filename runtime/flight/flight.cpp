@@ -16,6 +16,16 @@ double most_rapidity(const Flight& flight, const Flying& rules, double seconds_p
                           : std::numeric_limits<double>::infinity();
 }
 
+/// Leaves no thrust. inhibits: the throttle has no effect before it was at 0.
+void drop_thrust(Flight& flight, const Controls& controls, bool inhibits)
+{
+    flight.throttle_rate = 0;
+    flight.thrust = glm::dvec3(0);
+    flight.thrust_inhibited = flight.thrust_inhibited || inhibits;
+    if (flight.thrust_inhibited && !controls.lever) // the keys' own lever must not keep its old place
+        flight.lever = 0;
+}
+
 /// Applies presses, which count once however long the step is.
 void press(Flight& flight, const Controls& controls, const Flying& rules, double seconds_per_time_unit, const Shot& start)
 {
@@ -51,13 +61,8 @@ void press(Flight& flight, const Controls& controls, const Flying& rules, double
     }
     if (controls.stop || controls.home)
         flight.coasting = flight.lever_waits = false;
-    if (controls.stop || controls.home || controls.next_mode) {
-        flight.throttle_rate = 0;
-        flight.thrust = glm::dvec3(0);
-        flight.thrust_inhibited = flight.thrust_inhibited || !controls.next_mode;
-        if (flight.thrust_inhibited && !controls.lever) // the keys' own lever must not keep its old place
-            flight.lever = 0;
-    }
+    if (controls.stop || controls.home || controls.next_mode)
+        drop_thrust(flight, controls, !controls.next_mode);
 }
 
 /// Keeps a flight's velocity until a hand touches the controls.
@@ -95,10 +100,7 @@ void tick(Flight& flight, const Controls& controls, const Flying& rules, double 
         flight.homing = homing_from(flight.ship, felt_motion(flight, controls, rules, most), rules);
         flight.homing->from_boundary = true;
         flight.coasting = flight.lever_waits = false;
-        flight.throttle_rate = 0, flight.thrust = glm::dvec3(0);
-        flight.thrust_inhibited = true; // a throttle that is still open has no effect at the start
-        if (!controls.lever)
-            flight.lever = 0;
+        drop_thrust(flight, controls, true);
         return;
     }
     const Push push = pilot(flight, controls, rules, most);

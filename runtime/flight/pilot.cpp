@@ -59,7 +59,8 @@ Push by_lever(Flight& flight, const Flying& rules, double most_rapidity)
     flight.throttle_rate += gain_share(rules) * (wanted - flight.throttle_rate);
     const double gain = flight.throttle_rate * tick_s;
     Push push;
-    if (std::min(target, most_rapidity) == 0 && speed + gain < 2e-3) { // slower than anyone can see; the approach would never end
+    if (std::min(target, most_rapidity) == 0
+        && speed + gain < 2e-3) { // slower than anyone can see; the approach would never end
         flight.throttle_rate = 0;
         push.stop = speed > 0;
         return push;
@@ -140,7 +141,8 @@ Push pilot(Flight& flight, const Steering& input, const Flying& rules, double mo
     flight.thrust_inhibited = flight.thrust_inhibited && !let_go;
     if (flight.thrust_inhibited && !controls.lever)
         flight.lever = 0;
-    return flight.mode == FlightMode::newtonian ? by_thrust(flight, controls, rules) : by_lever(flight, rules, most_rapidity);
+    return flight.mode == FlightMode::newtonian ? by_thrust(flight, controls, rules)
+                                                : by_lever(flight, rules, most_rapidity);
 }
 
 FeltMotion felt_motion(Flight flight, const Steering& controls, const Flying& rules, double most_rapidity)

@@ -256,8 +256,7 @@ std::string text_of(const RecordHeader& header)
             {"roll_deg_per_s", rules.roll_deg_per_s}, {"turn_jerk_deg_per_s3", rules.turn_jerk_deg_per_s3},
             {"rapidity_per_s", rules.rapidity_per_s}, {"rapidity_jerk_per_s2", rules.rapidity_jerk_per_s2}};
     if (rules.boundary)
-        json["flying"]["boundary"]
-            = {{"centre", components(rules.boundary->centre)}, {"radius", rules.boundary->radius}};
+        json["flying"]["boundary"] = {{"centre", components(rules.boundary->centre)}, {"radius", rules.boundary->radius}};
     json["exposure"] = {{"automatic", header.exposing.automatic}, {"min_ev", header.exposing.min_ev},
         {"max_ev", header.exposing.max_ev}, {"bloom", header.exposing.bloom}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -53,14 +53,17 @@ void end(Visit& visit, VisitEvents& events)
 
 } // namespace
 
-Visit begun(Visit visit) { return {.phase = VisitPhase::flying, .black_ns = visit.black_ns, .attraction = visit.attraction}; }
+Visit begun(Visit visit)
+{
+    return {.phase = VisitPhase::flying, .black_ns = visit.black_ns, .attraction = visit.attraction};
+}
 
 bool in_hand(const Visit& visit) { return visit.phase == VisitPhase::flying || visit.phase == VisitPhase::asking; }
 
 Visit advance(Visit visit, const Visiting& rules, const VisitSigns& signs, std::int64_t dt_ns, VisitEvents& events)
 {
-    visit.black_ns = std::clamp(
-        visit.black_ns + (darkens(visit.phase) ? dt_ns : -dt_ns), std::int64_t(0), to_black_ns(rules));
+    visit.black_ns
+        = std::clamp(visit.black_ns + (darkens(visit.phase) ? dt_ns : -dt_ns), std::int64_t(0), to_black_ns(rules));
     visit.phase_ns += dt_ns;
     const bool black = visit.black_ns == to_black_ns(rules);
     switch (visit.phase) {

@@ -29,14 +29,14 @@ struct Visit {
     std::size_t attraction = 0; ///< counted on from 0
 };
 
-/// What is known of a frame.
+/// The signs of a frame by which a visit advances.
 struct VisitSigns {
     bool somebody = false; ///< a hand has touched a control, or a head has moved
     bool watches = false; ///< a tour runs, in which a visitor has nothing to touch
     bool attraction_over = false;
 };
 
-/// What a frame changes. The caller carries it out.
+/// The changes that a frame brings; the caller carries them out.
 struct VisitEvents {
     bool shows_attraction = false; ///< Visit::attraction, from its beginning
     bool begins = false; ///< the visitor's own flight
@@ -44,7 +44,7 @@ struct VisitEvents {
     double length_s = 0; ///< of a visit that ends, from its beginning to the last touch
 };
 
-/// The visit dt_ns nanoseconds later. events: receives what the caller must carry out.
+/// The visit dt_ns nanoseconds later. events: receives its changes.
 Visit advance(Visit visit, const Visiting& rules, const VisitSigns& signs, std::int64_t dt_ns, VisitEvents& events);
 
 /// A visit that a docent begins: without a fade, and without a programme of its own.
@@ -56,7 +56,8 @@ bool in_hand(const Visit& visit);
 /// The part of black over the picture, from 0 to 1.
 double blackness(const Visit& visit, const Visiting& rules);
 
-/// Seconds until the visit ends by itself: while it is asked for, and before the end of the longest visit.
+/// Seconds until the visit ends by itself, while the question is shown and shortly before the longest visit's end; otherwise
+/// none.
 std::optional<double> seconds_left(const Visit& visit, const Visiting& rules);
 
 } // namespace starbow

@@ -10,8 +10,8 @@ namespace starbow {
 /// Runs a tour in an exhibit.
 class Guide {
 public:
-    /// The tour must outlive the guide. seconds_per_time_unit: of its scene. visitors: false where nobody is there to fly and
-    /// to answer.
+    /// The tour must outlive the guide. seconds_per_time_unit: of its scene. visitors: false where nobody is there to fly
+    /// and to answer.
     Guide(const Tour& tour, const Flying& rules, double seconds_per_time_unit, bool visitors = true)
         : show_{tour, rules, seconds_per_time_unit, visitors}
         , touring_(touring_at(show_))

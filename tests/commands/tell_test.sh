@@ -8,12 +8,7 @@ program=$(realpath "$1") rig=$(dirname "$0")/../rig
 serve Xvfb -noreset -screen 0 800x600x24
 export STARBOW_VALIDATION=1 XDG_STATE_HOME=$folder/state
 
-port=$((20000 + RANDOM % 20000))
-printf 'docent 271828\nengineer 314159\n' >"$folder/pins"
-chmod 640 "$folder/pins"
-cat >"$folder/small.json" <<'END'
-{ "outputs": [{ "name": "a", "size": [320, 240], "viewports": [{ "projection": { "type": "planar" } }] }] }
-END
+prepare_remote
 cat >"$folder/exhibit.json" <<END
 { "layout": "./small.json", "scene": "avenue", "quality": "draft", "textfile": "starbow.prom",
   "remote": { "port": $port, "pins": "pins" } }

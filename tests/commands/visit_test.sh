@@ -7,13 +7,8 @@ program=$(realpath "$1") rig=$(dirname "$0")/../rig
 . "$rig/monitors.sh"
 serve Xvfb -noreset -screen 0 800x600x24
 export STARBOW_VALIDATION=1 XDG_STATE_HOME=$folder/state
-port=$((20000 + RANDOM % 20000))
-printf 'docent 271828\nengineer 314159\n' >"$folder/pins"
-chmod 640 "$folder/pins"
+prepare_remote
 mkdir "$folder/visits"
-cat >"$folder/small.json" <<'END'
-{ "outputs": [{ "name": "a", "size": [320, 240], "viewports": [{ "projection": { "type": "planar" } }] }] }
-END
 tour() { # NAME Z: of some seconds, from that place
     echo "{ \"scene\": \"avenue\", \"steps\": [{ \"seconds\": 4, \"caption\": { \"en\": \"$1\" }, \"cut\": { \"position\": [0, 0, $2], \"look\": [0, 0, -1] } }] }" >"$folder/$1.json"
 }

@@ -1,8 +1,8 @@
-// The end of a world: whatever the visitors do, the ship slows down before it, flies home, and is felt no more than the rules
-// allow.
-#include "runtime/flight/boundary.h"
+// The end of a world: whatever the visitors do, the ship slows down before it, flies home, and is felt no more than the
+// rules allow.
 #include "config/model/scene_file.h"
 #include "config/model/shipped.h"
+#include "runtime/flight/boundary.h"
 #include "runtime/flight/flight.h"
 #include "tests/support/controls.h"
 #include "tests/support/files.h"
@@ -122,7 +122,8 @@ TEST(BoundaryTest, TheGreatestRapidityIsThatOfHyperbolicMotion)
     Ship ship = ship_at(Shot{});
     const Boundary boundary{{0, 0, 0}, 1 / 0.6 / 0.9};
     EXPECT_NEAR(rapidity_within(boundary, ship, rules, 1), std::acosh(2.0), 1e-12);
-    EXPECT_NEAR(rapidity_within({{0, 0, 0}, 2 / 0.6 / 0.9}, ship, rules, 0.5), std::acosh(2.0), 1e-12) << "other units of length";
+    EXPECT_NEAR(rapidity_within({{0, 0, 0}, 2 / 0.6 / 0.9}, ship, rules, 0.5), std::acosh(2.0), 1e-12)
+        << "other units of length";
     Shot beyond;
     beyond.position = {0, 0, 5}; // the nose points to -z
     EXPECT_TRUE(std::isinf(rapidity_within(boundary, ship_at(beyond), rules, 1))) << "on the way back";

@@ -31,8 +31,7 @@ Tour shipped_tour(const std::string& name)
 
 Tour tour_of(const std::string& steps)
 {
-    return load_tour(write_text("played.json", R"({ "scene": "avenue", "steps": [)" + steps + "] }"),
-        words(), shipped_shot);
+    return load_tour(write_text("played.json", R"({ "scene": "avenue", "steps": [)" + steps + "] }"), words(), shipped_shot);
 }
 
 Touring played(const Show& show, double seconds, int frames_per_s, const Controls& controls = {})

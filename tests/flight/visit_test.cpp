@@ -1,5 +1,5 @@
-// The course of a visit: from the attraction to the visitor's flight, to the question, and back. The expected times are those
-// of the rules, added by hand.
+// The course of a visit: from the attraction to the visitor's flight, to the question, and back. The expected times are
+// those of the rules, added by hand.
 #include "runtime/flight/visit.h"
 #include <gtest/gtest.h>
 #include <random>
@@ -159,7 +159,9 @@ TEST(VisitTest, WhateverTheVisitorsDoEachVisitThatBeginsEndsOnceAndNothingIsLeft
     std::mt19937 random(5);
     for (int seed = 0; seed < 200; ++seed) {
         Exhibit exhibit;
-        exhibit.rules = {.idle_s = 5.0 + seed % 7, .ask_s = double(seed % 4), .longest_s = seed % 3 ? 0.0 : 40.0,
+        exhibit.rules = {.idle_s = 5.0 + seed % 7,
+            .ask_s = double(seed % 4),
+            .longest_s = seed % 3 ? 0.0 : 40.0,
             .fade_s = 0.5 * (seed % 3)};
         for (int i = 0; i < 4000; ++i) {
             const VisitSigns signs{random() % (i / 500 % 2 ? 400 : 20) == 0, random() % 50 == 0, random() % 100 == 0};

@@ -28,10 +28,7 @@ int signs(Presence& presence, double seconds, const Controls& controls)
     return signs(presence, seconds, [&](double) { return controls; });
 }
 
-Head head_at(glm::dvec3 moved_m, double yaw_rad = 0)
-{
-    return {moved_m, glm::angleAxis(yaw_rad, glm::dvec3(0, 1, 0))};
-}
+Head head_at(glm::dvec3 moved_m, double yaw_rad = 0) { return {moved_m, glm::angleAxis(yaw_rad, glm::dvec3(0, 1, 0))}; }
 
 } // namespace
 
@@ -89,7 +86,11 @@ TEST(PresenceTest, AWornAxisThatWandersIsNobody)
     std::mt19937 random(3);
     std::normal_distribution<double> noise(0, 0.015);
     Presence presence;
-    EXPECT_EQ(signs(presence, 600, [&](double) { return controls_with(Steering{.turn = {0.02 + noise(random), 0, 0}}); }), 0);
+    EXPECT_EQ(signs(presence, 600,
+                  [&](double) {
+                      return controls_with(Steering{.turn = {0.02 + noise(random), 0, 0}});
+                  }),
+        0);
 }
 
 TEST(PresenceTest, ABookOnAKeyIsNobodyAfterItsFirstFrame)
@@ -111,7 +112,11 @@ TEST(PresenceTest, AHeadThatMovesIsSomebodyAndATrackersNoiseIsNobody)
     EXPECT_EQ(signs(presence, 60, still), 0);
     EXPECT_TRUE(presence.take(controls_with(Looking{.head = head_at({0.15, 0, 0})}), dt_s));
     EXPECT_TRUE(presence.take(controls_with(Looking{.head = head_at({0.15, 0, 0}, 0.1)}), dt_s));
-    EXPECT_GT(signs(presence, 10, [](double s) { return controls_with(Looking{.head = head_at({0.3 * std::sin(s), 0, 0})}); }), 50);
+    EXPECT_GT(signs(presence, 10,
+                  [](double s) {
+                      return controls_with(Looking{.head = head_at({0.3 * std::sin(s), 0, 0})});
+                  }),
+        50);
 }
 
 } // namespace presence_test

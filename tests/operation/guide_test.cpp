@@ -1,6 +1,7 @@
-// A tour in a running exhibit: it begins anew for the next visitor, and leaves out the visitor's steps while nobody is there.
-#include "runtime/operation/guide.h"
+// A tour in a running exhibit: it begins anew for the next visitor, and leaves out the visitor's steps while nobody is
+// there.
 #include "config/model/shipped.h"
+#include "runtime/operation/guide.h"
 #include "tests/support/controls.h"
 #include "tests/support/files.h"
 #include <gtest/gtest.h>

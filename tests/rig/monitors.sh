@@ -46,3 +46,13 @@ start_monitors() {
     done
     xrandr -q >/dev/null # without this query the server hides all but one monitor
 }
+
+# prepare_remote: sets $port, and writes the PINs of a docent and an engineer, and the layout of one small window.
+prepare_remote() {
+    port=$((20000 + RANDOM % 20000))
+    printf 'docent 271828\nengineer 314159\n' >"$folder/pins"
+    chmod 640 "$folder/pins"
+    cat >"$folder/small.json" <<'END'
+{ "outputs": [{ "name": "a", "size": [320, 240], "viewports": [{ "projection": { "type": "planar" } }] }] }
+END
+}

@@ -38,7 +38,7 @@ Use use_of(const std::string& name) { return Use(std::ranges::find(use_names, na
 
 constexpr double frame_s = 0.08; ///< the visitor's time of a frame: "some seconds" are some dozens of frames
 constexpr int resting_frames = 3; ///< after a visit, before a sample is taken
-/// Visitors are asked for, and sent away, within frames.
+/// The rules of the visits: the question and the end come within frames.
 const Visiting visiting{.idle_s = 2 * frame_s, .ask_s = frame_s, .fade_s = 2 * frame_s};
 constexpr int waking_frames = 3; ///< in which a visitor takes the stick, and the exhibit fades to the flight
 /// A visit does not end by itself while a docent's tour runs, or while a docent holds the exhibit: then a reset ends it.
@@ -152,13 +152,26 @@ public:
             entry.controls.pressed = true;
         else if (left_-- > 0)
             visitor_->act(entry.controls, frame_s);
-        else if (use_ == Use::visitors ? over_ && rested_++ >= resting_frames : left_ <= -resting_frames)
+        else if (use_ == Use::visitors)
+            see_off(entry.controls);
+        else if (left_ == -1)
+            reset(entry.controls);
+        else if (left_ <= -1 - resting_frames)
             end();
-        else if (use_ == Use::visitors ? !over_ && left_ == -most_lingering_frames : left_ == -1)
-            entry.controls.commands.push_back({.kind = CommandKind::reset});
     }
 
 private:
+    static void reset(Controls& controls) { controls.commands.push_back({.kind = CommandKind::reset}); }
+
+    /// The visitor has let go: the exhibit ends the visit.
+    void see_off(Controls& controls)
+    {
+        if (!over_ && left_ == -most_lingering_frames)
+            reset(controls);
+        if (over_ && rested_++ >= resting_frames)
+            end();
+    }
+
     void begin()
     {
         visitor_ = std::make_unique<SeededVisitor>(use_, std::uint64_t(options_.seed), visit_, choices_);
