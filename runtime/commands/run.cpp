@@ -39,6 +39,7 @@ struct RunOptions {
     double log_every_s = 0;
     long frames = 0;
     bool verbose = false;
+    bool careful = false; ///< a start with care after disorderly ends
     bool any_given = false; ///< true if any of the options above is given
 };
 
@@ -100,10 +101,12 @@ ExhibitOptions open(const RunOptions& options)
     exhibit_options.state = state_folder();
     exhibit_options.textfile = exhibit.textfile;
     exhibit_options.remote = exhibit.remote;
-    if (exhibit.visiting && options.tour.empty() && options.scene.empty() && options.shot.empty())
+    if (options.careful || (options.tour.empty() && options.scene.empty() && options.shot.empty()))
         exhibit_options.visiting = exhibit.visiting;
+    if (options.careful && exhibit.visiting)
+        exhibit_options.visiting->attract.clear(); // their worlds may be what ended it
     if (exhibit_options.visiting)
-        for (std::size_t i = 0; i < exhibit.visiting->attract.size(); ++i)
+        for (std::size_t i = 0; i < exhibit_options.visiting->attract.size(); ++i)
             attraction_of(exhibit_options, exhibit_options.words, i); // whatever is wrong in it is said now
     if (exhibit_options.visiting && !options.record.empty() && !std::filesystem::is_directory(options.record))
         throw InputError("--record " + options.record
@@ -119,6 +122,7 @@ RunOptions careful(RunOptions options, int ends)
     options.quality = "draft";
     options.frame_budget_ms = -1; // the exhibit's ladder makes way for the quality, too
     options.shot = options.tour = options.replay = "";
+    options.careful = true;
     write_log(LogKind::careful_start,
         "it has ended " + std::to_string(ends) + " times out of order within " + std::to_string(ends_within_s / 60)
             + " minutes; it starts with care: the scene '" + plain_scene + "' in the quality '" + options.quality + "'");
@@ -147,7 +151,7 @@ int run(const RunOptions& given)
     else if (ends)
         forget_language(state_folder());
     ExhibitOptions exhibit_options = open(options);
-    exhibit_options.careful = care;
+    exhibit_options.careful = options.careful;
     exhibit_options.version = program_version;
     exhibit_options.frames = options.frames;
     if (options.warm_up != "auto" || options.frames > 0)

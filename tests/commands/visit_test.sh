@@ -95,4 +95,16 @@ first=$(ls "$folder/visits"/*.jsonl | head -n 1)
 "$program" run --replay "$first" >"$folder/replay-log" 2>&1 || fail "the replay exits with $?"
 grep -q 'the same to the bit' "$folder/replay-log" || fail "the replay differs: $(tail -n 1 "$folder/replay-log")"
 ok
+# After many disorderly ends it starts with care: in a plain world, without the tours, and still by itself.
+mkdir "$folder/care"
+seconds=$(date +%s)
+printf '%s\n' $((seconds - 50)) $((seconds - 45)) $((seconds - 40)) $((seconds - 35)) $((seconds - 30)) running >"$folder/care/ends"
+STATE_DIRECTORY=$folder/care timeout 120 "$rig/service_manager.py" --watchdog 60 --until never "$folder/socket" \
+    "$program" run --exhibit "$folder/exhibit.json" --warm-up never >"$folder/events-log" 2>"$folder/care-log" &
+started+=($!)
+until_true 60 ask status || fail "with care: the exhibit does not answer: $(ask status)"
+is scene chart && is visit attract && is tour -
+press j
+is visit flying
+ok
 echo "$passed passed, 0 failed"
